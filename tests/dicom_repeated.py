@@ -157,7 +157,7 @@ REPEATED = [
         "overlap: other values",
         GROUP,
         acquired([(0, 13), (12, 24)], late=[1]),
-        ("25 slices at 24 places, of different values: IM0013.dcm and IM0014.dcm", "overlapping parts"),
+        ("25 slices at 24 positions, with different values: IM0013.dcm and IM0014.dcm", "overlapping parts"),
     ),
     Case(
         "overlap: frames of other values",
@@ -169,14 +169,14 @@ REPEATED = [
         "overlap: other values, one part asked for",
         GROUP,
         part([(0, 13), (12, 24)], 1, late=[1]),
-        notes=("phase 3 leaves out 12 of 24 places",),
+        notes=("phase 3 lacks 12 of 24 positions",),
         phase="3",
     ),
     Case(
         "overlap: one part asked for",
         GROUP,
         part(OVERLAPS["three acquisitions"], 2),
-        notes=("phase 4 leaves out 14 of 24 places",),
+        notes=("phase 4 lacks 14 of 24 positions",),
         phase="4",
     ),
     Case(
@@ -189,13 +189,13 @@ REPEATED = [
         "nothing tells slices of one place apart",
         GROUP,
         acquired([(0, 24), (0, 24)], AcquisitionNumber=1),
-        notes=("one of each is read",),
+        notes=("one slice of each position is read",),
     ),
     Case(
         "nothing tells slices of one place and other values apart",
         GROUP,
         acquired([(0, 24), (4, 7)], late=[1], AcquisitionNumber=1),
-        ("3 places|27 slices", "remove all but one slice at each place"),
+        ("3 places|27 slices", "remove all but one slice at each position"),
     ),
     Case(
         "a series for each slice", GROUP, Stack(PLAIN_STACK, change=own_series), notes=("24 series of one",)

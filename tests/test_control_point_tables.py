@@ -66,4 +66,4 @@ def test_empty_radii_are_unknown(tmp_path):
     path.write_text("\n".join(["r,a,s,radius", *rows, ""]))
     (vessel,) = read_centerlines(path)
     np.testing.assert_array_equal(vessel.radius, np.where(np.arange(len(POINTS)) % 2, 0.0, 2.5))
-    assert "10 of 20 radii are not stated: unknown there" in inspect_centerlines(path).notes
+    assert "10 of 20 radii are missing" in inspect_centerlines(path).notes

@@ -56,7 +56,7 @@ def test_tilt_is_noted(tmp_path):
     folder = write_stack(
         tmp_path / "other", coded(), AXIAL, lambda k, d: setattr(d, "GantryDetectorTilt", "5")
     )
-    assert any("GantryDetectorTilt says 5" in note for note in inspect_volume(folder).notes)
+    assert any("GantryDetectorTilt is 5" in note for note in inspect_volume(folder).notes)
 
 
 def rescaling(slopes, intercepts):
@@ -132,7 +132,7 @@ def test_single_file(tmp_path):
     affine = AXIAL.copy()
     affine[2, 3] = 4.0
     assert_maps(read_volume(path), affine, lambda i, j, k: 200 + i + 10 * j, (4, 3, 1))
-    assert "a single slice: SliceThickness 2 mm taken as its thickness" in inspect_volume(path).notes
+    assert "a single slice: SliceThickness 2 mm is used as its thickness" in inspect_volume(path).notes
     assert read_volume(path).size == (4, 3, 1)
 
 
@@ -201,7 +201,7 @@ def test_phases(tmp_path):
     for k in range(5):
         save(slice_of(coded(), AXIAL, k, TriggerTime="400"), folder / f"late{k}.dcm")
     refused(
-        folder, r"10 slices at 5 places.*TriggerTime differs \(0 in 5 slices, 400 in 5 slices\): mixed phases"
+        folder, r"10 slices at 5 positions.*TriggerTime differs \(0 in 5 slices, 400 in 5 slices\): mixed phases"
     )
 
 

@@ -60,7 +60,7 @@ def test_a_damaged_attribute_names_its_file_and_not_its_value(tmp_path, keyword,
     [
         (sets(RescaleSlope="0"), "RescaleSlope 0"),
         (sets(RescaleSlope=["1", "2"]), r"IM0001\.dcm"),
-        (sets(PixelRepresentation=None), "no word on whether its values have a sign"),
+        (sets(PixelRepresentation=None), "PixelRepresentation not stated"),
         (sets(BitsStored=None), "BitsStored not stated; expected 1 to 16"),
         (sets(BitsStored=17), "BitsStored 17"),
         (sets(NumberOfFrames=[1, 2]), r"IM0001\.dcm"),

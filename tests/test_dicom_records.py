@@ -122,7 +122,7 @@ def test_letters_that_no_text_can_have_break_nothing(tmp_path):
 def test_documents_of_another_form_are_refused():
     for answer in (judge_dicom(b"{}", b"{}"), describe_dicom(b"DOE^JOHN"), judge_dicom(b"\xff", b"")):
         error = json.loads(answer)["error"]
-        assert error["found"].startswith("headers of another form at line 1")
+        assert error["found"].startswith("headers in an unexpected form at line 1")
         assert "DOE" not in answer
 
 

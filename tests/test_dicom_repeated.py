@@ -28,7 +28,7 @@ def test_a_phase_names_the_places_that_it_leaves_out(tmp_path, caplog, phase, co
     made = acquired(OVERLAPS["three acquisitions"])(tmp_path)
     volume = read_volume(made.path, phase=phase)
     assert volume.size[2] == count
-    told = f"phase {phase} leaves out {24 - count} of 24 places"
+    told = f"phase {phase} lacks {24 - count} of 24 positions"
     assert told in warned(caplog)
     found = CliRunner().invoke(main, ["info", "--json", str(tmp_path), "--phase", str(phase)])
     (one,) = json.loads(found.stdout)["files"]
@@ -40,7 +40,7 @@ def test_a_phase_of_all_places_leaves_none_out(tmp_path, caplog):
     with pytest.raises(FormatError, match=r"AcquisitionNumber differs .*: mixed phases"):
         read_volume(made.path)
     np.testing.assert_array_equal(read_volume(made.path, phase=3).array[7], LATE_STACK[7].values)
-    assert "leaves out" not in warned(caplog)
+    assert "lacks" not in warned(caplog)
 
 
 def test_parts_of_other_values_are_phases_or_parts_and_both_mends_work(tmp_path):
@@ -65,7 +65,7 @@ def test_one_of_several_shared_places_that_differs_is_named(tmp_path):
     values[5, 7] += 1
     data.PixelData = values.tobytes()
     save(data, tmp_path / "IM0016.dcm")
-    with pytest.raises(FormatError, match=r"of different values: IM0013\.dcm and IM0016\.dcm; Acq"):
+    with pytest.raises(FormatError, match=r"with different values: IM0013\.dcm and IM0016\.dcm; Acq"):
         read_volume(tmp_path)
 
 
@@ -131,7 +131,7 @@ def test_copies_of_a_multi_frame_image_are_one(tmp_path):
     data = pydicom.dcmread(tmp_path / "again.dcm")
     data.PixelData = data.PixelData[:-2] + b"\x07\x00"
     save(data, tmp_path / "again.dcm")
-    with pytest.raises(FormatError, match=r"the SOPInstanceUID of again\.dcm, but other values"):
+    with pytest.raises(FormatError, match=r"the SOPInstanceUID of again\.dcm, but different values"):
         read_volume(tmp_path)
 
 

@@ -331,5 +331,5 @@ def test_a_line_that_leaves_its_vessel_is_measured_as_far_as_there_is_a_wall():
 def test_a_line_without_any_wall_is_refused_in_plain_numbers():
     flat = Volume(np.random.default_rng(3).normal(341.5264, 20, (60, 30, 30)).astype(np.float32))
     line = Vessel([[15.0, 15.0, z] for z in range(2, 58)])
-    with pytest.raises(lumencut.MeasuringError, match=r"found 34\d on the vessel and as much around it"):
+    with pytest.raises(lumencut.MeasuringError, match=r"found 34\d both on the vessel and around it"):
         measure(flat, line, fwhm=FWHM)

@@ -130,7 +130,7 @@ def test_a_gap_between_clicks_is_mended_by_a_bridge():
         trace(Volume(values), [(2, 10, 10), (57, 10, 10)])
     assert caught.value.mends == (Mend("bridge"),)
     assert str(caught.value).endswith(
-        "; add a point where the vessel goes on, or ask for a bridge where it is occluded"
+        "; add a point where the vessel continues, or ask for a bridge where it is occluded"
     )
 
 

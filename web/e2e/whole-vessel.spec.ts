@@ -94,7 +94,7 @@ test('where there is a vessel already, and where there is none, the page says so
   await expect(rows(viewer)).toHaveCount(1);
   await viewer.click(await at(viewer, [0.005, 0.75]), 'coronal');
   await viewer.press('w');
-  await expect(viewer.problem).toContainText('a vessel that is traced already');
+  await expect(viewer.problem).toContainText('a vessel that is already traced');
   await expect(rows(viewer)).toHaveCount(1);
   // It does not begin a vessel, which the next click would extend.
   await expect(button(viewer, 'Whole vessel')).toHaveCount(0);

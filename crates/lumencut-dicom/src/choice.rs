@@ -1,4 +1,4 @@
-//! The one series of several that is read.
+//! Chooses the series to read.
 
 use crate::describing::described;
 use crate::error::{Error, ErrorKind, Result};
@@ -7,8 +7,8 @@ use crate::report::Report;
 use crate::series::{Series, plain};
 use crate::wording::{listed, quoted};
 
-/// The series that is asked for, the only one, or the only one that can be an angiography volume.
-pub fn chosen<'s, 'a>(
+/// The requested series, the only one, or the only possible angiography volume.
+pub(crate) fn chosen<'s, 'a>(
     every: &'s [Series<'a>],
     wanted: Option<&str>,
     notes: &mut Vec<String>,
@@ -31,7 +31,6 @@ pub fn chosen<'s, 'a>(
     Ok(&every[one])
 }
 
-/// The series of this number or UID.
 fn asked_for<'s, 'a>(every: &'s [Series<'a>], wanted: &str) -> Result<&'s Series<'a>> {
     let is_meant = |one: &&Series| {
         let number = one.number();
@@ -47,10 +46,10 @@ fn asked_for<'s, 'a>(every: &'s [Series<'a>], wanted: &str) -> Result<&'s Series
 }
 
 fn not_one(series: Vec<Report>, expected: &str) -> Error {
-    // Those that can be volumes come first: they are what a reader chooses from.
+    // Possible volumes first, because users choose among them.
     let (volumes, others): (Vec<&Report>, Vec<&Report>) = series.iter().partition(|one| one.can_be_volume);
-    let told: Vec<String> = volumes.into_iter().chain(others).map(ToString::to_string).collect();
-    let error = Error::new(format!("{} series: {}", series.len(), listed(&told)), expected);
+    let reports: Vec<String> = volumes.into_iter().chain(others).map(ToString::to_string).collect();
+    let error = Error::new(format!("{} series: {}", series.len(), listed(&reports)), expected);
     let error = error.mend("give the folder of one series").mended_by(Mend::Series);
     Error { kind: ErrorKind::Series, series: series.into(), ..error }
 }

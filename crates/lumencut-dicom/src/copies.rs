@@ -1,4 +1,4 @@
-//! Files that hold one image: the first is read, and the host compares the others with it.
+//! Detects copies of an image; the host compares their values.
 
 use crate::error::{Error, Result};
 use crate::grouping::groups;
@@ -9,15 +9,12 @@ use crate::slices::{Pair, are_unlike, slices_of};
 use crate::value::Value;
 use crate::wording::{counted, listed};
 
-/// What says nothing of the image itself; patients are compared on their own.
 const OF_THE_PATIENT: [Keyword; 4] =
     [Keyword::PatientID, Keyword::IssuerOfPatientID, Keyword::PatientName, Keyword::PatientBirthDate];
 
-/// An image, and another file that has its identifier.
 type Copy<'i, 'a> = (&'i Image<'a>, &'i Image<'a>);
 
-/// The images without copies, and each copy with the image that is read.
-pub fn without_copies<'i, 'a>(images: &[&'i Image<'a>]) -> (Vec<&'i Image<'a>>, Vec<Copy<'i, 'a>>) {
+pub(crate) fn without_copies<'i, 'a>(images: &[&'i Image<'a>]) -> (Vec<&'i Image<'a>>, Vec<Copy<'i, 'a>>) {
     let identifier = |(number, image): (usize, &&Image)| match image.get(Keyword::SOPInstanceUID) {
         uid if uid.is_empty() => format!("without, {number}"),
         uid => uid.to_string(),
@@ -31,8 +28,8 @@ pub fn without_copies<'i, 'a>(images: &[&'i Image<'a>]) -> (Vec<&'i Image<'a>>, 
     (kept, copies)
 }
 
-/// The slices of copies in pairs, for the host to compare; refuses what differs and calls itself a copy.
-pub fn compared<'i>(
+/// Pairs of slices for the host to compare; rejects copies that differ.
+pub(crate) fn compared<'i>(
     copies: &[Copy<'i, 'i>],
     unlike: &[Unlike],
     notes: &mut Vec<String>,
@@ -60,12 +57,11 @@ pub fn compared<'i>(
 }
 
 fn no_copy(kept: &Image, copy: &Image, what: &str) -> Error {
-    let found = format!("the SOPInstanceUID of {}, but other {what}", kept.name);
-    let error = Error::new(found, "one identifier for each image").of(copy.file);
+    let found = format!("the SOPInstanceUID of {}, but different {what}", kept.name);
+    let error = Error::new(found, "a unique identifier for each image").of(copy.file);
     error.mend("remove the wrong one of the two, or export the series again")
 }
 
-/// The first attribute in which two images differ.
 fn differing(one: &Image, other: &Image) -> Option<Keyword> {
     let (a, b) = (one.header, other.header);
     let frames = a.frames.iter().zip(&b.frames);
@@ -86,7 +82,7 @@ fn differs(one: &Attributes, other: &Attributes) -> Option<Keyword> {
     of_image.into_iter().find(|&keyword| !is_same(keyword))
 }
 
-/// Whether two values are equal; a number may be written in several ways.
+/// Numbers may be written in several ways.
 fn is_equal(one: &Value, other: &Value) -> bool {
     one == other || one.number().is_some_and(|number| other.number() == Some(number))
 }

@@ -1,4 +1,4 @@
-//! What a series is, and whether it may be an angiography.
+//! Describes a series and whether it may be an angiography.
 
 use crate::geometry::{Mending, stacked};
 use crate::image::Image;
@@ -6,12 +6,10 @@ use crate::report::Report;
 use crate::series::Series;
 use crate::wording::counted;
 
-/// Of which a stack can be an angiography volume.
 const MODALITIES: [&str; 3] = ["CT", "MR", "XA"];
 const FEWEST_SLICES: i64 = 3;
 
-/// Describes a series, and tells whether it may be an angiography volume.
-pub fn described(series: &Series) -> Report {
+pub(crate) fn described(series: &Series) -> Report {
     let odd = why_no_angiography(series);
     let mut report = Report {
         number: series.number(),
@@ -24,7 +22,7 @@ pub fn described(series: &Series) -> Report {
         can_be_volume: odd.is_empty(),
         trouble: odd,
     };
-    // A stack with holes is a volume that one slice is missing from: it is to be named, not passed by.
+    // A stack with gaps is listed as a volume with missing slices.
     let mending = Mending { fill_gaps: true, resample_slices: false };
     let placed = series.slices(&[], &mut Vec::new());
     match placed.and_then(|placed| stacked(placed.slices, mending, &[], &mut Vec::new())) {
@@ -37,7 +35,7 @@ pub fn described(series: &Series) -> Report {
                 report.trouble = counted(missing, "missing slice");
             } else if report.can_be_volume && !stack.repeats.is_empty() {
                 let repeats = counted(stack.repeats.len() as i64, "slice");
-                report.trouble = format!("{repeats} at places of others");
+                report.trouble = format!("{repeats} at positions of others");
             }
         }
         Err(error) if report.can_be_volume => report.trouble = error.found,
@@ -46,7 +44,7 @@ pub fn described(series: &Series) -> Report {
     report
 }
 
-/// Why a series is surely none; empty if it may be one, even one that cannot be read as it is.
+/// Why a series certainly is no angiography; empty if it may be one, even if unreadable as it is.
 fn why_no_angiography(series: &Series) -> String {
     let (first, modality) = (&series.images[0], series.modality());
     if !MODALITIES.contains(&modality.as_str()) {

@@ -1,28 +1,23 @@
-//! The directions of rows and columns: cosines that were rounded are made orthonormal.
+//! Directions of rows and columns; rounded cosines are made orthonormal.
 
 use glam::DVec3;
 
-/// Cosines may be this far from those of orthogonal unit vectors.
-pub const ROUNDING: f64 = 0.01;
-/// Up to here cosines are read as they are, but for their length.
+/// Maximum deviation of cosines from orthonormal vectors.
+pub(crate) const ROUNDING: f64 = 0.01;
+/// Up to this deviation, only the length is corrected.
 const EXACT: f64 = 1e-4;
 
-/// The unit vectors along rows and columns.
 #[derive(Debug, Clone, Copy)]
-pub struct Directions {
-    /// Along a row.
+pub(crate) struct Directions {
     pub along_i: DVec3,
-    /// Along a column.
     pub along_j: DVec3,
-    /// The cosines as they are stated.
     stated: [DVec3; 2],
-    /// Whether the cosines were rounded, so that they are made orthonormal.
     pub is_rounded: bool,
 }
 
 impl Directions {
-    /// The directions that cosines state; none where they are too far from orthogonal unit vectors.
-    pub fn of(cosines: &[f64; 6]) -> Option<Self> {
+    /// None if the cosines are too far from orthonormal.
+    pub(crate) fn of(cosines: &[f64; 6]) -> Option<Self> {
         let stated = [DVec3::from_slice(&cosines[..3]), DVec3::from_slice(&cosines[3..])];
         let [along_i, along_j] = orthonormal(stated)?;
         let made = Self { along_i, along_j, stated, is_rounded: true };
@@ -37,41 +32,37 @@ impl Directions {
         })
     }
 
-    /// The directions of slices that follow each other along this unit vector: rounded ones are turned across it, where that
-    /// is within rounding.
-    pub fn along(self, line: Option<DVec3>) -> Self {
+    /// Turns rounded directions perpendicular to the line of slices, if that is within rounding.
+    pub(crate) fn along(self, line: Option<DVec3>) -> Self {
         let line = line.filter(|_| self.is_rounded);
         line.and_then(|line| self.across(line)).unwrap_or(self)
     }
 
-    /// The directions across this unit vector; none where that moves a cosine by more than rounding does.
+    /// None if a cosine moves by more than the rounding.
     fn across(&self, normal: DVec3) -> Option<Self> {
         let within = |vector: DVec3| vector - vector.dot(normal) * normal;
         let [along_i, along_j] = orthonormal([within(self.along_i), within(self.along_j)])?;
         Some(Self { along_i, along_j, ..*self }).filter(|made| made.correction() <= ROUNDING)
     }
 
-    /// How far the farthest cosine is from the stated one.
-    pub fn correction(&self) -> f64 {
+    pub(crate) fn correction(&self) -> f64 {
         let [row, column] = self.stated;
         (self.along_i - row).abs().max_element().max((self.along_j - column).abs().max_element())
     }
 
-    /// Unit normal of rows and columns.
-    pub fn normal(&self) -> DVec3 {
+    pub(crate) fn normal(&self) -> DVec3 {
         self.along_i.cross(self.along_j)
     }
 }
 
-/// Direction cosines as a stack has them whose positions go along this vector; none where they are too far from orthogonal unit
-/// vectors.
+/// Direction cosines of a stack whose positions run along `line`; None if too far from orthonormal.
 pub fn corrected(cosines: &[f64; 6], line: [f64; 3]) -> Option<[f64; 6]> {
     let made = Directions::of(cosines)?.along(DVec3::from_array(line).try_normalize());
     let ([a, b, c], [d, e, f]) = (made.along_i.to_array(), made.along_j.to_array());
     Some([a, b, c, d, e, f])
 }
 
-/// The orthogonal unit vectors nearest to two vectors; each is turned by the same angle.
+/// Nearest orthonormal vectors; both turn by the same angle.
 fn orthonormal([row, column]: [DVec3; 2]) -> Option<[DVec3; 2]> {
     let (row, column) = (row.try_normalize()?, column.try_normalize()?);
     let (sum, difference) = ((row + column).try_normalize()?, (row - column).try_normalize()?);

@@ -1,4 +1,4 @@
-//! What keeps slices from being one stack, named with the slices it concerns.
+//! Errors that keep slices from forming one stack, with the slices concerned.
 
 use crate::directions::ROUNDING;
 use crate::error::{Error, Result};
@@ -7,13 +7,12 @@ use crate::slices::Slice;
 use crate::spacing::median;
 use crate::wording::{bracketed, counted, listed, rounded};
 
-/// Spacings may differ by this part of them.
+/// Maximum relative difference of spacings.
 const RELATIVE: f64 = 1e-3;
-/// Orientations are alike within this per cosine, where none was rounded.
+/// Maximum difference of cosines, unless rounded.
 const COSINE: f64 = 1e-3;
 
-/// Refuses a series whose images differ in anything that all slices of one stack share.
-pub fn require_alike(slices: &[Slice]) -> Result<()> {
+pub(crate) fn require_alike(slices: &[Slice]) -> Result<()> {
     let size = |one: &Slice| one.size.map(|length| length as f64).to_vec();
     let along_i = |one: &Slice| one.directions.along_i.to_array().to_vec();
     let along_j = |one: &Slice| one.directions.along_j.to_array().to_vec();
@@ -25,7 +24,6 @@ pub fn require_alike(slices: &[Slice]) -> Result<()> {
     alike(slices, "orientation", along_j, |a, b| (a - b).abs() < allowed)
 }
 
-/// Compares the numbers that `value` gives of each slice with those of the first, one by one.
 fn alike(
     slices: &[Slice],
     what: &str,
@@ -47,11 +45,11 @@ fn alike(
         listed(&names),
     );
     let error = Error::new(found, "one stack of equal slices");
-    Err(error.mend("move the others to a folder of their own"))
+    Err(error.mend("move the others to a separate folder"))
 }
 
-/// Refuses a stack with holes; `steps` are the gaps in usual distances, 1 where there is no hole.
-pub fn refuse_gaps(ordered: &[Slice], gaps: &[f64], steps: &[i64]) -> Result<()> {
+/// Rejects a stack with gaps; `steps` are distances in usual ones.
+pub(crate) fn refuse_gaps(ordered: &[Slice], gaps: &[f64], steps: &[i64]) -> Result<()> {
     let missing: i64 = steps.iter().map(|step| step - 1).sum();
     if missing == 0 {
         return Ok(());
@@ -67,7 +65,7 @@ pub fn refuse_gaps(ordered: &[Slice], gaps: &[f64], steps: &[i64]) -> Result<()>
     Err(if is_mostly_missing(ordered, steps) { error } else { error.mended_by(Mend::FillGaps) })
 }
 
-/// Whether more slices are missing than there are: more made up than measured would be no mending.
-pub fn is_mostly_missing(ordered: &[Slice], steps: &[i64]) -> bool {
+/// Whether more slices are missing than present; interpolation is not offered then.
+pub(crate) fn is_mostly_missing(ordered: &[Slice], steps: &[i64]) -> bool {
     steps.iter().map(|step| step - 1).sum::<i64>() > ordered.len() as i64
 }

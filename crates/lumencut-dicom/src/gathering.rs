@@ -1,4 +1,4 @@
-//! Series of one slice each that are one scan, as anonymisers leave them.
+//! Gathers series of one slice each that form one scan, as anonymisers leave them.
 
 use crate::error::Result;
 use crate::geometry::{Mending, Stack, stacked};
@@ -8,9 +8,8 @@ use crate::keyword::Keyword;
 use crate::patients::Patient;
 use crate::series::{Series, grouped};
 
-/// So many slices make a scan.
 const FEWEST: usize = 3;
-/// What the slices of one series share beside their grid.
+/// Attributes that the slices of a series share, besides their grid.
 const SHARED: [Keyword; 6] = [
     Keyword::StudyInstanceUID,
     Keyword::FrameOfReferenceUID,
@@ -20,8 +19,7 @@ const SHARED: [Keyword; 6] = [
     Keyword::Columns,
 ];
 
-/// The series, where those of one slice each that form one stack are put together in the place of the first.
-pub fn gathered(every: Vec<Series>) -> Vec<Series> {
+pub(crate) fn gathered(every: Vec<Series>) -> Vec<Series> {
     let numbers: Vec<usize> = (0..every.len()).filter(|&n| is_single(&every[n])).collect();
     let parts = groups(numbers.iter().map(|&n| shared(&every[n].images[0])));
     let mut every: Vec<Option<Series>> = every.into_iter().map(Some).collect();
@@ -48,14 +46,12 @@ pub fn gathered(every: Vec<Series>) -> Vec<Series> {
     every.into_iter().flatten().collect()
 }
 
-/// What an image shares with the others of its series, in one text.
 fn shared(image: &Image) -> String {
     let texts = SHARED.map(|keyword| image.text(keyword));
     format!("{texts:?} {:?}", Patient::of(image))
 }
 
-/// Notes that a series was put together.
-pub fn note_parts(series: &Series, notes: &mut Vec<String>) {
+pub(crate) fn note_parts(series: &Series, notes: &mut Vec<String>) {
     if series.part_count > 1 {
         notes.push(format!(
             "{} series of one slice each are read as one scan: they share study, patient, number and grid",
@@ -64,7 +60,6 @@ pub fn note_parts(series: &Series, notes: &mut Vec<String>) {
     }
 }
 
-/// Whether a series has one slice, perhaps in several copies.
 fn is_single(series: &Series) -> bool {
     let first = &series.images[0];
     let uid = first.get(Keyword::SOPInstanceUID);
@@ -72,7 +67,6 @@ fn is_single(series: &Series) -> bool {
     first.frame_count == 1 && !first.is_localizer(0) && series.images[1..].iter().all(is_same)
 }
 
-/// Whether slices are one stack, as they are or after a mend that hosts offer.
 fn is_scan(series: &Series) -> bool {
     let stack = || -> Result<Stack> {
         let placed = series.slices(&[], &mut Vec::new())?;
@@ -84,7 +78,6 @@ fn is_scan(series: &Series) -> bool {
     }
 }
 
-/// How many different positions images state.
 fn place_count(series: &Series) -> usize {
     groups(series.images.iter().map(|image| image.get(Keyword::ImagePositionPatient).to_string())).len()
 }

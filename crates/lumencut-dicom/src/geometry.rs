@@ -1,8 +1,7 @@
-//! Where the slices of one series lie: one affine for the whole stack, shear kept, or a refusal by name.
+//! Geometry of a series: one affine for the stack, including shear, or a specific error.
 //!
-//! Tolerances: orientations alike within 1e-3 per cosine, spacings within 0.1 %, every slice within 0.01 mm or
-//! 1 % of the slice distance (whichever is larger) of its place on an evenly spaced straight line, unless the
-//! caller asks for uneven slices to be put on one.
+//! Tolerances: 1e-3 per cosine, 0.1 % of the spacing, and for each slice 0.01 mm or 1 % of the slice distance
+//! (the larger) from an evenly spaced line, unless the caller allows resampling.
 
 use glam::DVec3;
 
@@ -18,56 +17,50 @@ use crate::spacing::{has_run, median, tolerance};
 use crate::uneven::Uneven;
 use crate::wording::rounded;
 
-/// Neighbours farther apart than this many usual distances have a hole between them.
-const HOLE: f64 = 1.5;
-/// Usual distances; damaged positions may lie any distance apart.
-const FARTHEST: f64 = 1e9;
-/// A stated tilt (degrees) that counts as one.
-const TILT: f64 = 0.1;
+/// Neighbours farther apart than this many usual distances have a gap.
+const GAP_FROM: f64 = 1.5;
+/// Maximum distance in usual ones, because damaged positions may be anywhere.
+const MAX_STEPS: f64 = 1e9;
+/// Minimum stated tilt (degrees).
+const MIN_TILT_DEGREES: f64 = 0.1;
 
-/// What is mended of a stack where the caller asks for it.
 #[derive(Debug, Clone, Copy, Default)]
-pub struct Mending {
-    /// Places that no slice has are kept free instead of being refused.
+pub(crate) struct Mending {
+    /// Interpolate missing slices instead of rejecting them.
     pub fill_gaps: bool,
-    /// Uneven slices get places on a regular grid.
+    /// Put uneven slices on a regular grid.
     pub resample_slices: bool,
 }
 
-/// Slices on an even, straight grid.
 #[derive(Debug)]
-pub struct Stack<'a> {
-    /// The slices, sorted along their normal.
+pub(crate) struct Stack<'a> {
     pub slices: Vec<Slice<'a>>,
-    /// The index k of each slice; only of resampled slices it may be a fraction.
+    /// Index k of each slice; fractional only if resampled.
     pub places: Vec<f64>,
-    /// Where the middle of the first voxel lies (mm, LPS).
     pub origin: DVec3,
-    /// The vectors from voxel to voxel along i, j, k.
     pub steps: [DVec3; 3],
-    /// Whether uneven slices were put on a grid.
     pub is_resampled: bool,
-    /// Slices that are left out, each after the slice at its place that is read.
+    /// Skipped slices, each after the slice read at its position.
     pub repeats: Vec<Pair<'a>>,
 }
 
 impl Stack<'_> {
-    /// The number of voxels along i, j, k.
-    pub fn size(&self) -> [i64; 3] {
+    pub(crate) fn size(&self) -> [i64; 3] {
         let [columns, rows] = self.slices[0].size;
         [columns, rows, self.places[self.places.len() - 1] as i64 + 1]
     }
 
-    /// The indices k that have no slice.
-    pub fn missing(&self) -> Vec<i64> {
+    /// Indices k without a slice.
+    pub(crate) fn missing(&self) -> Vec<i64> {
         let mut measured = self.places.iter().filter(|place| place.fract() == 0.0).peekable();
         let is_missing = |&k: &i64| measured.next_if(|place| **place == k as f64).is_none();
         (0..self.size()[2]).filter(is_missing).collect()
     }
 }
 
-/// Sorts slices along their normal and finds the affine of the stack; `unlike` are pairs that the host found to differ.
-pub fn stacked<'a>(
+/// Sorts slices along their normal and finds the affine; `unlike` are pairs whose values the host found to
+/// differ.
+pub(crate) fn stacked<'a>(
     mut slices: Vec<Slice<'a>>,
     mending: Mending,
     unlike: &[Unlike],
@@ -77,7 +70,7 @@ pub fn stacked<'a>(
     let Some(normal) = slices.first().map(Slice::normal) else {
         return Err(Error::new("no slices", "a stack of slices"));
     };
-    // Names decide the order of slices at one place.
+    // Names decide the order at one position.
     let height = |one: &Slice| one.position.dot(normal);
     slices.sort_by_cached_key(Slice::name);
     slices.sort_by(|a, b| height(a).total_cmp(&height(b)));
@@ -92,7 +85,7 @@ pub fn stacked<'a>(
     Ok(Stack { slices, places, origin, steps, is_resampled, repeats })
 }
 
-/// Gives slices of rounded directions the same ones, across the line of their positions where that is within rounding.
+/// Gives slices the same rounded directions, perpendicular to the line of positions if within rounding.
 fn correct_directions(slices: &mut [Slice], notes: &mut Vec<String>) {
     let [first, .., last] = slices else { return note_correction(slices, notes) };
     if !first.directions.is_rounded {
@@ -100,7 +93,7 @@ fn correct_directions(slices: &mut [Slice], notes: &mut Vec<String>) {
     }
     let tilt = first.image.number(first.frame, Keyword::GantryDetectorTilt).ok().flatten();
     let line = (last.position - first.position).try_normalize();
-    let line = line.filter(|_| tilt.is_none_or(|tilt| tilt.abs() <= TILT));
+    let line = line.filter(|_| tilt.is_none_or(|tilt| tilt.abs() <= MIN_TILT_DEGREES));
     let directions = first.directions.along(line);
     slices.iter_mut().for_each(|one| one.directions = directions);
     note_correction(slices, notes);
@@ -115,7 +108,7 @@ fn note_correction(slices: &[Slice], notes: &mut Vec<String>) {
     }
 }
 
-/// The index of each slice, the vector from index to index, and whether slices are resampled.
+/// Index of each slice, vector between indices, and whether slices are resampled.
 type Places = (Vec<f64>, DVec3, bool);
 
 fn on_a_line(ordered: &[Slice], mending: Mending, notes: &mut Vec<String>) -> Result<Places> {
@@ -144,15 +137,15 @@ fn on_a_line(ordered: &[Slice], mending: Mending, notes: &mut Vec<String>) -> Re
     Ok((places, step, true))
 }
 
-/// Distances in usual ones, 1 where there is no hole.
+/// Distances in usual ones; 1 without a gap.
 fn steps(gaps: &[f64]) -> Vec<i64> {
     let usual = median(gaps);
-    let step =
-        |&gap: &f64| if gap > HOLE * usual { (gap / usual).round_ties_even().min(FARTHEST) } else { 1.0 };
+    let step = |&gap: &f64| {
+        if gap > GAP_FROM * usual { (gap / usual).round_ties_even().min(MAX_STEPS) } else { 1.0 }
+    };
     gaps.iter().map(|gap| step(gap) as i64).collect()
 }
 
-/// The indices that steps lead to.
 fn summed(steps: &[i64]) -> Vec<f64> {
     let mut place = 0;
     let after = steps.iter().map(|step| {
@@ -162,26 +155,23 @@ fn summed(steps: &[i64]) -> Vec<f64> {
     std::iter::once(0.0).chain(after).collect()
 }
 
-/// The vector from index to index of slices at these places.
 fn step(ordered: &[Slice], places: &[f64]) -> DVec3 {
     let last = ordered.len() - 1;
     (ordered[last].position - ordered[0].position) / places[last]
 }
 
-/// Whether every slice is at its place.
 fn is_line(ordered: &[Slice], places: &[f64], step: DVec3) -> bool {
     let (origin, allowed) = (ordered[0].position, tolerance(step.length()));
     let mut pairs = ordered.iter().zip(places);
     pairs.all(|(one, place)| (one.position - origin - *place * step).length() <= allowed)
 }
 
-/// A single slice, as thick as it says.
 fn alone(only: &Slice, notes: &mut Vec<String>) -> Result<Places> {
     for keyword in [Keyword::SpacingBetweenSlices, Keyword::SliceThickness] {
         let stated = only.image.number(only.frame, keyword)?;
         if let Some(thickness) = stated.filter(|thickness| thickness.is_finite() && *thickness > 0.0) {
             let (name, words) = (keyword.name(), only.get(keyword));
-            notes.push(format!("a single slice: {name} {words} mm taken as its thickness"));
+            notes.push(format!("a single slice: {name} {words} mm is used as its thickness"));
             return Ok((vec![0.0], thickness * only.normal(), false));
         }
     }
@@ -189,7 +179,7 @@ fn alone(only: &Slice, notes: &mut Vec<String>) -> Result<Places> {
     Err(error.of(only.image.file))
 }
 
-/// Notes a sheared stack (gantry tilt), read as it is, and a stated tilt that the positions lack.
+/// Notes a sheared stack (gantry tilt), which is kept, and a stated tilt that the positions lack.
 fn note_tilt(ordered: &[Slice], places: &[f64], step: DVec3, notes: &mut Vec<String>) -> Result<()> {
     let normal = ordered[0].normal();
     let along = step.dot(normal);
@@ -198,10 +188,10 @@ fn note_tilt(ordered: &[Slice], places: &[f64], step: DVec3, notes: &mut Vec<Str
     if drift * places[places.len() - 1] > tolerance(step.length()) {
         let angle = drift.atan2(along).to_degrees();
         notes.push(format!("the stack is sheared by {angle:.2} degrees (gantry tilt): kept, not resampled"));
-    } else if let Some(tilt) = stated.filter(|tilt| tilt.abs() > TILT) {
+    } else if let Some(tilt) = stated.filter(|tilt| tilt.abs() > MIN_TILT_DEGREES) {
         let tilt = rounded(tilt, 6);
         notes.push(format!(
-            "GantryDetectorTilt says {tilt} degrees, the positions show none: positions are used"
+            "GantryDetectorTilt is {tilt} degrees, but the positions show no tilt: positions are used"
         ));
     }
     Ok(())

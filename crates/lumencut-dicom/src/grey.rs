@@ -1,4 +1,4 @@
-//! Which images are slices of single numbers that can be read.
+//! Rejects images that are not readable grey slices.
 
 use crate::error::{Error, Result};
 use crate::image::Image;
@@ -6,7 +6,7 @@ use crate::keyword::Keyword;
 use crate::uids;
 use crate::value::Value;
 
-/// Kinds of colour that are told by their names; any other text may be anything.
+/// Named colour types; any other text may contain anything.
 const COLOURS: [&str; 12] = [
     "PALETTE COLOR",
     "RGB",
@@ -22,8 +22,7 @@ const COLOURS: [&str; 12] = [
     "YBR_RCT",
 ];
 
-/// Refuses every kind of image whose frames are not slices of single numbers.
-pub fn require_grey(image: &Image) -> Result<()> {
+pub(crate) fn require_grey(image: &Image) -> Result<()> {
     let refused = require_size(image)
         .and_then(|()| require_one_number(image))
         .and_then(|()| require_rescaling(image))
@@ -33,23 +32,21 @@ pub fn require_grey(image: &Image) -> Result<()> {
     refused.map_err(|error| error.of(image.file))
 }
 
-/// How the numbers of an image are shown; empty where it does not say.
-pub fn photometric(image: &Image) -> String {
+pub(crate) fn photometric(image: &Image) -> String {
     match image.get(Keyword::PhotometricInterpretation) {
         Value::Empty => String::new(),
         stated => stated.to_string(),
     }
 }
 
-/// The number of columns and rows.
-pub fn plane_size(image: &Image) -> Option<[i64; 2]> {
+pub(crate) fn plane_size(image: &Image) -> Option<[i64; 2]> {
     let length = |keyword| image.get(keyword).integer();
     Some([length(Keyword::Columns)?, length(Keyword::Rows)?])
 }
 
 fn require_size(image: &Image) -> Result<()> {
     let numbers = plane_size(image).map(|_| ());
-    numbers.ok_or_else(|| Error::new("Rows and Columns that are no numbers", "a number each"))
+    numbers.ok_or_else(|| Error::new("Rows and Columns that are not numbers", "one number each"))
 }
 
 fn require_one_number(image: &Image) -> Result<()> {
@@ -71,7 +68,7 @@ fn require_rescaling(image: &Image) -> Result<()> {
     if image.get(Keyword::ModalityLUTSequence).is_nothing() {
         return Ok(());
     }
-    Err(Error::new("values behind a modality look-up table", "RescaleSlope and RescaleIntercept"))
+    Err(Error::new("a modality look-up table", "RescaleSlope and RescaleIntercept"))
 }
 
 fn require_decoder(image: &Image) -> Result<()> {
@@ -80,32 +77,31 @@ fn require_decoder(image: &Image) -> Result<()> {
     }
     let named = uids::name(&image.header.transfer_syntax).unwrap_or("an unknown transfer syntax");
     let expected = "uncompressed, RLE, JPEG, JPEG-LS, JPEG 2000 or HTJ2K pixels";
-    let mend = "convert it to one of these, lossless where it can be";
+    let mend = "convert it to one of these, lossless if possible";
     Err(Error::new(format!("pixels in {named}"), expected).mend(mend))
 }
 
-/// Refuses pixels of which it is not known how many bits they have, and whether one is a sign.
 fn require_bits(image: &Image) -> Result<()> {
     let allocated = image.count(Keyword::BitsAllocated)?;
-    let told = |bits: Option<i64>| bits.map_or_else(|| "not stated".to_owned(), |count| count.to_string());
+    let stated = |bits: Option<i64>| bits.map_or_else(|| "not stated".to_owned(), |count| count.to_string());
     let Some(most) = allocated.filter(|bits| [8, 16, 32, 64].contains(bits)) else {
-        return Err(Error::new(format!("BitsAllocated {}", told(allocated)), "8, 16, 32 or 64"));
+        return Err(Error::new(format!("BitsAllocated {}", stated(allocated)), "8, 16, 32 or 64"));
     };
     if image.header.pixels != "PixelData" {
         return Ok(());
     }
     let stored = image.count(Keyword::BitsStored)?;
     if !stored.is_some_and(|bits| (1..=most).contains(&bits)) {
-        return Err(Error::new(format!("BitsStored {}", told(stored)), format!("1 to {most}")));
+        return Err(Error::new(format!("BitsStored {}", stated(stored)), format!("1 to {most}")));
     }
     if !matches!(image.get(Keyword::PixelRepresentation).integer(), Some(0 | 1)) {
-        let found = "no word on whether its values have a sign";
+        let found = "PixelRepresentation not stated";
         return Err(Error::new(found, "PixelRepresentation 0 or 1"));
     }
     Ok(())
 }
 
-/// Refuses several frames in one file without a description of each.
+/// Rejects several frames without a description of each.
 fn require_groups(image: &Image) -> Result<()> {
     let (count, described) = (image.frame_count, image.header.frames.len());
     if count < 1 || (count > 1 && described == 0) {

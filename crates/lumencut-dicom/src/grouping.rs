@@ -1,9 +1,8 @@
-//! Things that have one key, put together.
+//! Grouping by key.
 
 use std::collections::HashMap;
 
-/// The numbers of equal keys together, in the order in which the keys appear.
-pub fn groups(keys: impl IntoIterator<Item = String>) -> Vec<Vec<usize>> {
+pub(crate) fn groups(keys: impl IntoIterator<Item = String>) -> Vec<Vec<usize>> {
     together(keys.into_iter().collect())
 }
 

@@ -1,4 +1,4 @@
-//! The headers of all files that were looked into, as plain values: what every judgement is made of.
+//! Headers of all examined files as plain values, the input of every judgement.
 
 use std::fmt;
 
@@ -8,45 +8,45 @@ use serde::de::{Deserializer, MapAccess, Visitor};
 use crate::keyword::Keyword;
 use crate::value::Value;
 
-/// Everything that is known of a folder, an archive or a list of files.
+/// Everything known of a folder, archive or list of files.
 #[derive(Debug, Deserialize)]
 pub struct Headers {
-    /// The transfer syntaxes (their UIDs) whose pixels the host can decode.
+    /// Transfer syntaxes (UIDs) that the host can decode.
     pub transfer_syntaxes: Vec<String>,
-    /// The files in the order in which the host found them; errors and plans name a file by its number here.
+    /// Files in the host's order; errors and plans refer to their numbers.
     pub files: Vec<File>,
-    /// The pairs of [`Plan::compared`](crate::Plan::compared) whose values the host found to differ.
+    /// Pairs of [`Plan::compared`](crate::Plan::compared) whose values the host found to differ.
     #[serde(default)]
     pub unlike: Vec<Unlike>,
 }
 
-/// Two frames that a plan takes for one, and whose values differ.
+/// Two frames that a plan equates but whose values differ.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 pub struct Unlike {
-    /// The one that the plan reads.
+    /// The frame read.
     pub kept: FrameOf,
-    /// The one that it leaves out.
+    /// The frame skipped.
     pub other: FrameOf,
 }
 
 /// A frame of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 pub struct FrameOf {
-    /// The number of the file.
+    /// Number of the file.
     pub file: usize,
-    /// The number of the frame, from 0.
+    /// Number of the frame, from 0.
     pub frame: usize,
 }
 
 /// One file.
 #[derive(Debug, Deserialize)]
 pub struct File {
-    /// Its name without folders.
+    /// Name without folders.
     pub name: String,
-    /// What the file is that is no DICOM, such as `no DICOM` or `gzipped; unpack it first`.
+    /// Description of a file that is not DICOM, such as `gzipped; unpack it first`.
     #[serde(default)]
     pub kind: String,
-    /// Its header, none (null or left out) where it is no DICOM.
+    /// Header; None (null or omitted) if not DICOM.
     #[serde(default)]
     pub header: Option<Header>,
 }
@@ -54,31 +54,29 @@ pub struct File {
 /// The header of a DICOM file.
 #[derive(Debug, Deserialize)]
 pub struct Header {
-    /// The UID of its SOP class, in the dataset or else in the meta information; empty where neither states it.
+    /// SOP class UID from the dataset or the meta information; may be empty.
     pub sop_class: String,
-    /// The UID of its transfer syntax.
+    /// Transfer syntax UID.
     pub transfer_syntax: String,
-    /// The keyword of its element of pixels, such as `PixelData`; empty where there is none.
+    /// Keyword of the pixel element, such as `PixelData`; may be empty.
     pub pixels: String,
-    /// What stands at its top level.
+    /// Top-level attributes.
     pub attributes: Attributes,
-    /// What the functional groups of all frames hold; none where it has no such groups.
+    /// Shared functional groups.
     #[serde(default)]
     pub shared: Attributes,
-    /// What the functional groups of each frame hold; empty where it has no such groups.
+    /// Functional groups per frame; may be empty.
     #[serde(default)]
     pub frames: Vec<Attributes>,
 }
 
-/// Attributes of one level of a header: an object of [`Keyword`]s and [`Value`]s.
-///
-/// Other keywords are passed over. Those of functional groups stand side by side, whatever group they are in
-/// ([`Keyword::groups`]).
+/// Attributes of one header level, as an object of [`Keyword`]s and [`Value`]s; others are ignored.
+/// Functional groups are flattened ([`Keyword::groups`]).
 #[derive(Debug, Default)]
 pub struct Attributes(Vec<(Keyword, Value)>);
 
 impl Attributes {
-    /// The value of an attribute, none where it is not there at all.
+    /// None if absent.
     pub fn get(&self, keyword: Keyword) -> Option<&Value> {
         self.0.iter().find(|(own, _)| *own == keyword).map(|(_, value)| value)
     }
@@ -116,7 +114,7 @@ impl<'de> Visitor<'de> for AnyAttributes {
     }
 }
 
-/// The same value for hosts whose JSON writes 40.0 as 40.
+/// Some hosts write 40.0 as 40 in JSON.
 fn typed(keyword: Keyword, value: Value) -> Value {
     match value {
         Value::Integer(whole) if keyword.is_float() => Value::Number(whole as f64),

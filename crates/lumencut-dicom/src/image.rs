@@ -1,4 +1,4 @@
-//! One image among the files, and what can be asked of it and of its frames.
+//! One image, with access to its attributes and frames.
 
 use crate::error::{Error, Result};
 use crate::headers::{File, Header};
@@ -9,28 +9,21 @@ use crate::wording::{line, printable};
 
 static EMPTY: Value = Value::Empty;
 
-/// A DICOM file with rows and columns.
 #[derive(Debug)]
-pub struct Image<'a> {
-    /// The number of its file.
+pub(crate) struct Image<'a> {
     pub file: usize,
-    /// The name of its file, on one printable line.
     pub name: String,
-    /// What it is.
     pub kind: &'a str,
     /// Whether the host can decode its pixels.
     pub is_decodable: bool,
-    /// How many frames it states, which may be a lie.
+    /// As stated, which may be wrong.
     pub frame_count: i64,
-    /// How many numbers each of its pixels has.
     pub samples: i64,
-    /// Its header.
     pub header: &'a Header,
 }
 
 impl<'a> Image<'a> {
-    /// The image in a file.
-    pub fn new(number: usize, file: &'a File, header: &'a Header, is_decodable: bool) -> Result<Self> {
+    pub(crate) fn new(number: usize, file: &'a File, header: &'a Header, is_decodable: bool) -> Result<Self> {
         let mut image = Self {
             file: number,
             name: printable(&file.name),
@@ -45,14 +38,12 @@ impl<'a> Image<'a> {
         Ok(image)
     }
 
-    /// What stands at the top level of its header.
-    pub fn get(&self, keyword: Keyword) -> &'a Value {
+    pub(crate) fn get(&self, keyword: Keyword) -> &'a Value {
         self.header.attributes.get(keyword).unwrap_or(&EMPTY)
     }
 
-    /// The value of an attribute as it holds for a frame: in the frame's functional groups, in those of all
-    /// frames, then at the top level.
-    pub fn of_frame(&self, frame: usize, keyword: Keyword) -> &'a Value {
+    /// Attribute of a frame: from its functional groups, then the shared ones, then the top level.
+    pub(crate) fn of_frame(&self, frame: usize, keyword: Keyword) -> &'a Value {
         if keyword.groups().is_empty() {
             return self.get(keyword);
         }
@@ -60,16 +51,16 @@ impl<'a> Image<'a> {
         own.or_else(|| self.header.shared.get(keyword)).unwrap_or_else(|| self.get(keyword))
     }
 
-    /// An attribute as one printable line, empty where it is not stated.
-    pub fn text(&self, keyword: Keyword) -> String {
+    /// As one printable line; empty if not stated.
+    pub(crate) fn text(&self, keyword: Keyword) -> String {
         match self.get(keyword) {
             Value::Empty => String::new(),
             stated => line(&stated.to_string()),
         }
     }
 
-    /// A whole number of the top level; none where it is not stated, or zero.
-    pub fn count(&self, keyword: Keyword) -> Result<Option<i64>> {
+    /// Top-level integer; None if not stated or zero.
+    pub(crate) fn count(&self, keyword: Keyword) -> Result<Option<i64>> {
         let stated = self.get(keyword);
         if stated.is_nothing() {
             return Ok(None);
@@ -78,8 +69,7 @@ impl<'a> Image<'a> {
         Ok(Some(count).filter(|&count| count != 0))
     }
 
-    /// A number as it holds for a frame, none where it is not stated.
-    pub fn number(&self, frame: usize, keyword: Keyword) -> Result<Option<f64>> {
+    pub(crate) fn number(&self, frame: usize, keyword: Keyword) -> Result<Option<f64>> {
         let stated = self.of_frame(frame, keyword);
         if stated.is_empty() {
             return Ok(None);
@@ -87,40 +77,36 @@ impl<'a> Image<'a> {
         stated.number().map(Some).ok_or_else(|| damaged(keyword, "a number").of(self.file))
     }
 
-    /// The name of its file, and the number of a frame (from 1) where it has several.
-    pub fn frame_name(&self, frame: usize) -> String {
+    pub(crate) fn frame_name(&self, frame: usize) -> String {
         if self.frame_count > 1 { format!("{} frame {}", self.name, frame + 1) } else { self.name.clone() }
     }
 
-    /// Whether a frame says that it is a localiser (scout, topogram).
-    pub fn is_localizer(&self, frame: usize) -> bool {
+    pub(crate) fn is_localizer(&self, frame: usize) -> bool {
         let is = |value: &Value| matches!(value, Value::Text(text) if text == "LOCALIZER");
         let stated = [self.get(Keyword::ImageType), self.of_frame(frame, Keyword::FrameType)];
         stated.iter().any(|value| value.all().iter().any(is))
     }
 
-    /// Whether a frame says where it lies.
-    pub fn has_position(&self, frame: usize) -> bool {
+    pub(crate) fn has_position(&self, frame: usize) -> bool {
         !self.of_frame(frame, Keyword::ImagePositionPatient).is_empty()
     }
 
-    /// Whether any frame says where it lies; the count that a header states may be a lie.
-    pub fn has_positions(&self) -> bool {
+    /// Checks described frames only, because the stated count may be wrong.
+    pub(crate) fn has_positions(&self) -> bool {
         let described = self.header.frames.len().max(1);
         let frames = usize::try_from(self.frame_count.max(1)).map_or(described, |count| count.min(described));
         (0..frames).any(|frame| self.has_position(frame))
     }
 }
 
-/// What a file is, in words.
-pub fn kind(file: &File) -> &str {
+pub(crate) fn kind(file: &File) -> &str {
     match &file.header {
         Some(header) => uids::name(&header.sop_class).unwrap_or("DICOM of no known kind"),
         None => &file.kind,
     }
 }
 
-/// An attribute whose value is invalid; it may be any text, a patient's name too, and is not told.
+/// Error for an invalid value, which is not quoted because it may be a patient's name.
 fn damaged(keyword: Keyword, expected: &str) -> Error {
     Error::new(format!("damaged values in {}", keyword.name()), expected)
 }

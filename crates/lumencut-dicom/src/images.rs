@@ -1,4 +1,4 @@
-//! Which of the files are images.
+//! Selects the images among the files.
 
 use crate::error::{Error, Result};
 use crate::headers::{Header, Headers};
@@ -6,13 +6,12 @@ use crate::image::{Image, kind};
 use crate::keyword::Keyword;
 use crate::wording::{listed, printable};
 
-/// What a directory of a disc calls itself.
+/// SOP class of a disc directory.
 const DIRECTORY: &str = "Media Storage Directory";
-/// Objects that hold the shapes of structures, and no voxels.
+/// Objects with contours but no voxels.
 const SHAPES: [&str; 2] = ["RT Structure Set Storage", "Surface Segmentation Storage"];
 
-/// The images among the files; the others are noted.
-pub fn images<'a>(headers: &'a Headers, notes: &mut Vec<String>) -> Result<Vec<Image<'a>>> {
+pub(crate) fn images<'a>(headers: &'a Headers, notes: &mut Vec<String>) -> Result<Vec<Image<'a>>> {
     let (mut images, mut foreign) = (Vec::new(), Vec::new());
     for (number, file) in headers.files.iter().enumerate() {
         match &file.header {

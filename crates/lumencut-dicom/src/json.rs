@@ -1,7 +1,7 @@
-//! The same judgements with JSON in and out, for hosts of other languages.
+//! The judgements with JSON input and output, for hosts in other languages.
 //!
-//! What goes in are [`Headers`] and [`Wanted`]; what comes out is one object, `{"plan": …}` with a [`Plan`],
-//! `{"series": […]}` with [`Report`]s, or `{"error": …}` with an [`Error`].
+//! Input are [`Headers`] and [`Wanted`]; output is `{"plan": …}` with a [`Plan`], `{"series": […]}` with
+//! [`Report`]s, or `{"error": …}` with an [`Error`].
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -20,7 +20,7 @@ enum Answer<'a> {
     Error(&'a Error),
 }
 
-/// How images become one volume, or why they do not.
+/// See [`crate::judge`].
 pub fn judge(headers: &[u8], wanted: &[u8]) -> String {
     let judged = || judging::judge(&read::<Headers>(headers, "headers")?, &read::<Wanted>(wanted, "wishes")?);
     match judged() {
@@ -29,7 +29,7 @@ pub fn judge(headers: &[u8], wanted: &[u8]) -> String {
     }
 }
 
-/// Describes all series.
+/// See [`crate::describe`].
 pub fn describe(headers: &[u8]) -> String {
     match read::<Headers>(headers, "headers").and_then(|headers| judging::describe(&headers)) {
         Ok(series) => written(&Answer::Series(&series)),
@@ -37,11 +37,12 @@ pub fn describe(headers: &[u8]) -> String {
     }
 }
 
-/// Reads a document; what is wrong with it is told by its place, as the words of the parser quote values.
+/// Errors give the position only, because the parser's message quotes values.
 fn read<T: DeserializeOwned>(document: &[u8], what: &str) -> Result<T> {
     serde_json::from_slice(document).map_err(|error| {
-        let found = format!("{what} of another form at line {}, column {}", error.line(), error.column());
-        Error::new(found, "a document as lumencut-dicom describes it")
+        let found =
+            format!("{what} in an unexpected form at line {}, column {}", error.line(), error.column());
+        Error::new(found, "the JSON form of lumencut-dicom")
     })
 }
 

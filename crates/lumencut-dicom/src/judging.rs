@@ -1,4 +1,4 @@
-//! The order of the judgements, from headers to a plan.
+//! The sequence of judgements, from headers to a plan.
 
 use serde::Deserialize;
 
@@ -15,21 +15,21 @@ use crate::plan::Plan;
 use crate::report::Report;
 use crate::series::{Placed, grouped};
 
-/// What is to be read: which series and phase, and what is mended of it.
+/// What to read, and which remedies to apply.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(default)]
 pub struct Wanted {
-    /// The number or UID of a series.
+    /// Number or UID of a series.
     pub series: Option<String>,
-    /// The value of an attribute that one phase has.
+    /// Attribute value of one phase.
     pub phase: Option<String>,
-    /// Whether missing slices are interpolated instead of being refused.
+    /// Interpolate missing slices instead of rejecting them.
     pub fill_gaps: bool,
-    /// Whether uneven slices are put on a regular grid instead of being refused.
+    /// Put uneven slices on a regular grid instead of rejecting them.
     pub resample_slices: bool,
 }
 
-/// How images become one volume, or why they do not.
+/// Decides how images become one volume, or why they do not.
 pub fn judge(headers: &Headers, wanted: &Wanted) -> Result<Plan> {
     let mut notes = Vec::new();
     let every = gathered(grouped(images(headers, &mut notes)?));

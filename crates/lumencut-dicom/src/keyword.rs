@@ -1,17 +1,17 @@
-//! The attributes that a series is judged by: what a reader of headers is to look for.
+//! The attributes used in judgements, which hosts read.
 
-/// Declares the attributes: a comment and the keyword of each.
 macro_rules! keywords {
-    ($($(#[$comment:meta])+ $keyword:ident),+ $(,)?) => {
-        /// An attribute, by its keyword in the standard (PS3.6).
+    ($($(#[$comment:meta])* $keyword:ident),+ $(,)?) => {
+        /// An attribute, by its keyword in the standard (PS3.6), which defines its meaning.
+        #[allow(missing_docs)]
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-        pub enum Keyword { $($(#[$comment])+ $keyword),+ }
+        pub enum Keyword { $($(#[$comment])* $keyword),+ }
 
         impl Keyword {
-            /// All of them.
+            /// All attributes.
             pub const ALL: &[Self] = &[$(Self::$keyword),+];
 
-            /// The keyword as a text.
+            /// The keyword as text.
             pub fn name(self) -> &'static str {
                 match self { $(Self::$keyword => stringify!($keyword)),+ }
             }
@@ -20,114 +20,83 @@ macro_rules! keywords {
 }
 
 keywords! {
-    /// The identifier of the instance: two files with one are copies.
+    /// Instance identifier; equal ones are copies.
     SOPInstanceUID,
-    /// Which study the image belongs to.
     StudyInstanceUID,
-    /// The space in which positions of several series agree.
+    /// Common space of several series.
     FrameOfReferenceUID,
-    /// The identifier of the patient.
     PatientID,
-    /// Who gave that identifier.
     IssuerOfPatientID,
-    /// The name of the patient; no message shows it.
+    /// Patient name; never shown.
     PatientName,
-    /// When the patient was born; no message shows it.
+    /// Birth date; never shown.
     PatientBirthDate,
-    /// Which series the image belongs to.
     SeriesInstanceUID,
-    /// The number of the series.
     SeriesNumber,
-    /// What the series is called.
     SeriesDescription,
-    /// What made the images.
     Modality,
-    /// What kind of image it is, such as a localiser.
     ImageType,
-    /// The same of one frame.
     FrameType,
-    /// How many frames the file has.
     NumberOfFrames,
-    /// Pixels in a column.
     Rows,
-    /// Pixels in a row.
     Columns,
-    /// Numbers in a pixel.
     SamplesPerPixel,
-    /// How numbers are shown.
     PhotometricInterpretation,
-    /// Bits that a stored number takes.
     BitsAllocated,
-    /// Bits of them that are used.
     BitsStored,
-    /// The place of the highest of them.
+    /// Highest used bit.
     HighBit,
-    /// Whether stored numbers have a sign.
     PixelRepresentation,
-    /// The stored number of pixels outside the scan.
+    /// Stored number outside the scan.
     PixelPaddingValue,
-    /// A table from stored numbers to values; passed as the number of its items.
+    /// Look-up table from stored numbers to values, passed as its number of items.
     ModalityLUTSequence,
-    /// From stored numbers to values: the factor.
     RescaleSlope,
-    /// From stored numbers to values: what is added.
     RescaleIntercept,
-    /// Whether the image was compressed with loss.
     LossyImageCompression,
     /// Distance between rows, then between columns (mm).
     PixelSpacing,
-    /// Where the middle of the first pixel lies (mm, LPS).
+    /// Centre of the first pixel (mm, LPS).
     ImagePositionPatient,
-    /// Directions of a row and of a column.
     ImageOrientationPatient,
-    /// How thick the slice is (mm).
+    /// Slice thickness (mm).
     SliceThickness,
-    /// How far slices are apart, as stated (mm).
+    /// Stated slice distance (mm).
     SpacingBetweenSlices,
-    /// The tilt of the gantry (degrees).
+    /// Gantry tilt (degrees).
     GantryDetectorTilt,
-    /// The phase, by its number.
     TemporalPositionIdentifier,
-    /// The phase of a frame, by its number.
     TemporalPositionIndex,
-    /// The phase of the heart (percent).
+    /// Cardiac phase (percent).
     NominalPercentageOfCardiacPhase,
-    /// The phase of the heart (ms after the R wave).
+    /// Cardiac phase (ms after the R wave).
     NominalCardiacTriggerDelayTime,
     /// Time since the trigger (ms).
     TriggerTime,
-    /// The phase of the contrast medium.
     ContrastBolusAgentPhase,
-    /// Which echo it is.
     EchoNumbers,
-    /// The time of the echo (ms).
+    /// Echo time (ms).
     EchoTime,
-    /// The time of the echo of a frame (ms).
+    /// Echo time of a frame (ms).
     EffectiveEchoTime,
-    /// Which stack a frame belongs to.
     StackID,
-    /// The kernel of the reconstruction.
     ConvolutionKernel,
-    /// The acquisition, by its number.
     AcquisitionNumber,
-    /// The acquisition of a frame, by its number.
     FrameAcquisitionNumber,
-    /// When it was acquired.
     AcquisitionTime,
-    /// When a frame was acquired.
     FrameAcquisitionDateTime,
-    /// When the image was made.
+    /// Creation time of the image.
     ContentTime,
 }
 
 impl Keyword {
-    /// The attribute of a keyword, none for those that nothing is judged by.
+    /// The attribute of a keyword; None if unused.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|keyword| keyword.name() == name)
     }
 
-    /// The functional groups in which an enhanced multi-frame image keeps it for single frames or for all
-    /// (PS3.3 C.7.6.16), the first that has it; none for those that stand at the top level alone.
+    /// Functional groups of enhanced multi-frame images that may have it (PS3.3 C.7.6.16), in order; empty
+    /// for top-level attributes.
     pub fn groups(self) -> &'static [&'static str] {
         match self {
             Self::ImagePositionPatient => &["PlanePositionSequence"],
@@ -154,7 +123,7 @@ impl Keyword {
         }
     }
 
-    /// Whether its values are floating-point numbers, which JSON may write without their point.
+    /// Whether values are floating-point, which JSON may write without a decimal point.
     pub fn is_float(self) -> bool {
         matches!(
             self,

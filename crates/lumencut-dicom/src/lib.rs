@@ -1,15 +1,14 @@
-//! Judges DICOM series by the values of their headers.
+//! Plans how to read DICOM series, from the values of their headers.
 //!
-//! A host (the Python package, a browser) finds files and reads their headers. Which of them are images, which
-//! series is read, where its slices lie, what is missing, doubled or uneven, and how stored numbers become values
-//! is decided here, by pure functions, so that every host decides alike and says so in the same words. This crate
-//! opens no file and knows no pixels.
+//! A host (the Python package, a browser) finds files and reads headers. Pure functions here decide which
+//! files are images, which series to read, where slices lie, what is missing, repeated or uneven, and how
+//! stored numbers become values, so that every host gives the same results and messages. This crate opens no
+//! files and reads no pixels.
 //!
-//! [`Headers`] go in. [`judge`] gives a [`Plan`] by which the host reads pixels into a volume, or an [`Error`].
-//! Where a plan takes two frames for one, the host compares their values ([`Plan::compared`]) and asks again with those that
-//! differ;
-//! [`describe`] gives a [`Report`] of each series. [`json`] does the same with documents. [`Keyword::ALL`] lists the
-//! attributes that a host has to read, [`Keyword::groups`] where enhanced multi-frame images keep them.
+//! [`judge`] turns [`Headers`] into a [`Plan`] for reading pixels, or an [`Error`]. If a plan equates two
+//! frames, the host compares their values ([`Plan::compared`]) and asks again with those that differ.
+//! [`describe`] returns a [`Report`] per series. [`json`] does the same with documents. [`Keyword::ALL`]
+//! lists the attributes to read, [`Keyword::groups`] their functional groups.
 //!
 //! ```
 //! let headers = br#"{

@@ -1,26 +1,26 @@
-//! What mends a refusal, where a host can do it or says it in words of its own.
+//! Remedies that hosts can apply or word themselves.
 
-/// A step that mends an [`Error`](crate::Error). Each host words it in its own way: as arguments of Python, as options of the
-/// command line, as buttons of a page.
+/// A remedy of an [`Error`](crate::Error). Hosts word it as Python arguments, command-line options or
+/// buttons.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Mend {
     /// Name the series to read; the error describes them.
     Series,
-    /// Name the phase to read by one of these values; none where there are too many to choose among.
+    /// Name the phase by one of these values; empty if there are too many.
     Phase(Vec<String>),
     /// Interpolate missing slices.
     FillGaps,
-    /// Put slices of uneven distances on a regular grid.
+    /// Put uneven slices on a regular grid.
     ResampleSlices,
-    /// Put slices of uneven distances on a regular grid, also over the holes between them.
+    /// Put uneven slices on a regular grid, across gaps too.
     ResampleAndFill,
 }
 
 impl Mend {
-    /// The name of every mend of this crate.
+    /// All names.
     pub const NAMES: [&str; 5] = ["series", "phase", "fill_gaps", "resample_slices", "resample_and_fill"];
 
-    /// The name by which every host knows it.
+    /// The name used by every host.
     pub const fn name(&self) -> &'static str {
         match self {
             Self::Series => "series",
@@ -31,7 +31,7 @@ impl Mend {
         }
     }
 
-    /// What can be chosen among.
+    /// The choices.
     pub fn values(&self) -> &[String] {
         match self {
             Self::Phase(values) => values,

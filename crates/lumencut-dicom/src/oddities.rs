@@ -1,4 +1,4 @@
-//! What is odd about the values of a stack that is read all the same.
+//! Notes about unusual values of a readable stack.
 
 use std::collections::BTreeSet;
 
@@ -9,8 +9,7 @@ use crate::keyword::Keyword;
 use crate::value::Value;
 use crate::wording::{counted, listed, shown};
 
-/// Notes whatever a reader of the values should know.
-pub fn note_oddities(stack: &Stack, notes: &mut Vec<String>) {
+pub(crate) fn note_oddities(stack: &Stack, notes: &mut Vec<String>) {
     note_missing(stack, notes);
     note_rescaling(stack, notes);
     let images = images_of(stack);
@@ -26,8 +25,7 @@ pub fn note_oddities(stack: &Stack, notes: &mut Vec<String>) {
     note_padding(&images, notes);
 }
 
-/// The images of a stack, each once, in the order of its slices.
-pub fn images_of<'a>(stack: &Stack<'a>) -> Vec<&'a Image<'a>> {
+pub(crate) fn images_of<'a>(stack: &Stack<'a>) -> Vec<&'a Image<'a>> {
     let mut seen = BTreeSet::new();
     stack.slices.iter().map(|one| one.image).filter(|image| seen.insert(image.file)).collect()
 }
@@ -62,12 +60,12 @@ fn is_high_bit_odd(image: &Image) -> bool {
 
 fn note_padding(images: &[&Image], notes: &mut Vec<String>) {
     let stated = images.iter().filter_map(|image| image.header.attributes.get(Keyword::PixelPaddingValue));
-    // A damaged value may be any text: it is not told.
+    // A damaged value may be any text, so it is not quoted.
     let numbers = stated.filter(|value| matches!(value, Value::Integer(_) | Value::Number(_)));
-    let told: BTreeSet<String> = numbers.map(|value| shown(&value.to_string())).collect();
-    if !told.is_empty() {
-        let told: Vec<String> = told.into_iter().collect();
-        let told = listed(&told);
-        notes.push(format!("stored value {told} marks pixels outside the scan: read as they are"));
+    let values: BTreeSet<String> = numbers.map(|value| shown(&value.to_string())).collect();
+    if !values.is_empty() {
+        let values: Vec<String> = values.into_iter().collect();
+        let values = listed(&values);
+        notes.push(format!("stored value {values} marks pixels outside the scan: read as they are"));
     }
 }

@@ -1,4 +1,4 @@
-//! Which patient images name: the slices of one scan are of one patient.
+//! Rejects slices of several patients.
 
 use crate::error::{Error, Result};
 use crate::grouping::groups;
@@ -7,9 +7,8 @@ use crate::keyword::Keyword;
 use crate::value::Value;
 use crate::wording::{counted, listed, quoted, shown};
 
-/// Whom an image names; a text is empty where the image does not state it.
 #[derive(Debug)]
-pub struct Patient {
+pub(crate) struct Patient {
     id: String,
     issuer: String,
     name: String,
@@ -17,8 +16,7 @@ pub struct Patient {
 }
 
 impl Patient {
-    /// The patient that an image names.
-    pub fn of(image: &Image) -> Self {
+    pub(crate) fn of(image: &Image) -> Self {
         let stated = |keyword| unpadded(image.get(keyword));
         Self {
             id: stated(Keyword::PatientID),
@@ -28,8 +26,8 @@ impl Patient {
         }
     }
 
-    /// Whether another image surely names another patient: by the ID and its issuer, or by name and birth date where an ID is
-    /// missing.
+    /// Whether two images certainly name different patients: by ID and issuer, or by name and birth date
+    /// without an ID.
     fn differs(&self, other: &Self) -> bool {
         if differ(&self.id, &other.id) {
             return true;
@@ -40,7 +38,6 @@ impl Patient {
         differ(&self.name, &other.name) || differ(&self.birth, &other.birth)
     }
 
-    /// The ID and its issuer as a message shows them.
     fn named(&self) -> String {
         if self.id.is_empty() {
             return "no PatientID".to_owned();
@@ -51,8 +48,8 @@ impl Patient {
     }
 }
 
-/// Refuses images that name several patients; messages name them by ID alone.
-pub fn require_one_patient(images: &[Image]) -> Result<()> {
+/// Messages name patients by ID only.
+pub(crate) fn require_one_patient(images: &[Image]) -> Result<()> {
     let every: Vec<Patient> = images.iter().map(Patient::of).collect();
     let firsts: Vec<usize> =
         groups(every.iter().map(|one| format!("{one:?}"))).iter().map(|group| group[0]).collect();
@@ -64,10 +61,9 @@ pub fn require_one_patient(images: &[Image]) -> Result<()> {
     } else {
         format!("slices of several patients: PatientID is {}", ids(images, &every))
     };
-    Err(Error::new(found, "one patient").mend("move the slices of each patient to a folder of their own"))
+    Err(Error::new(found, "one patient").mend("move the slices of each patient to a separate folder"))
 }
 
-/// Which IDs images have, and how many have each.
 fn ids(images: &[Image], every: &[Patient]) -> String {
     let each = groups(every.iter().map(Patient::named)).into_iter().map(|group| {
         let count = counted(group.len() as i64, "image");
@@ -80,7 +76,7 @@ fn differ(one: &str, other: &str) -> bool {
     !one.is_empty() && !other.is_empty() && one != other
 }
 
-/// A text without the blanks around it, which mean nothing.
+/// Surrounding blanks mean nothing.
 fn unpadded(value: &Value) -> String {
     match value {
         Value::Empty | Value::Odd => String::new(),
@@ -88,7 +84,7 @@ fn unpadded(value: &Value) -> String {
     }
 }
 
-/// The first way of writing a name, without padding, empty parts at its end and case.
+/// First spelling of a name, without padding, trailing empty parts and case.
 fn plain_name(name: &str) -> String {
     let written = name.split('=').find(|group| !group.trim().is_empty()).unwrap_or_default();
     let parts: Vec<String> = written.split('^').map(|part| part.trim().to_uppercase()).collect();

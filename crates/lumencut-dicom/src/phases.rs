@@ -1,4 +1,4 @@
-//! What tells phases apart whose slices lie at the same places.
+//! Separates phases whose slices share positions.
 
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
@@ -11,7 +11,7 @@ use crate::spacing;
 use crate::value::Value;
 use crate::wording::{MENTIONED, counted, listed, quoted, shown};
 
-/// What may tell phases apart, the surest first.
+/// Attributes that may separate phases, the most reliable first.
 const PHASE_KEYWORDS: [Keyword; 17] = [
     Keyword::TemporalPositionIdentifier,
     Keyword::TemporalPositionIndex,
@@ -31,31 +31,33 @@ const PHASE_KEYWORDS: [Keyword; 17] = [
     Keyword::FrameAcquisitionDateTime,
     Keyword::ContentTime,
 ];
-/// More phases than these are too many to choose among.
+/// Maximum number of phases to choose from.
 const MOST_PHASES: usize = 40;
 
-/// Those of them that belong to a whole phase and never alternate from slice to slice within one. A
-/// two-dimensional MR acquisition may take the odd slices first: its acquisition number does not count.
+/// Attributes that never alternate within a phase. Acquisition numbers may, because 2D MR may acquire odd
+/// slices first.
 const WHOLE_PHASE: [Keyword; 3] = [
     Keyword::TemporalPositionIdentifier,
     Keyword::TemporalPositionIndex,
     Keyword::NominalPercentageOfCardiacPhase,
 ];
 
-/// The attribute that tells all of these pairs apart, the surest of them.
-pub fn telling(pairs: &[Pair]) -> Option<Keyword> {
-    let differs = |keyword| move |pair: &Pair| told(&pair.0, keyword) != told(&pair.1, keyword);
+pub(crate) fn distinguishing(pairs: &[Pair]) -> Option<Keyword> {
+    let differs = |keyword| move |pair: &Pair| value_text(&pair.0, keyword) != value_text(&pair.1, keyword);
     PHASE_KEYWORDS.into_iter().find(|&keyword| pairs.iter().all(differs(keyword)))
 }
 
-/// How many slices have which value of the attribute that tells them apart.
-pub fn mixed(ordered: &[Slice], keyword: Keyword) -> String {
+pub(crate) fn mixed(ordered: &[Slice], keyword: Keyword) -> String {
     let mixed = if keyword == Keyword::ConvolutionKernel { "kernels" } else { "phases" };
     format!("{} differs ({}): mixed {mixed}", keyword.name(), values_of(ordered, keyword))
 }
 
-/// Picks the slices of one phase, by the value of the first attribute that has it for some of them only.
-pub fn of_phase<'a>(slices: &[Slice<'a>], phase: &str, notes: &mut Vec<String>) -> Result<Vec<Slice<'a>>> {
+/// Slices of one phase, by the first attribute that has the value in some slices only.
+pub(crate) fn of_phase<'a>(
+    slices: &[Slice<'a>],
+    phase: &str,
+    notes: &mut Vec<String>,
+) -> Result<Vec<Slice<'a>>> {
     for keyword in PHASE_KEYWORDS {
         let is_of = |one: &&Slice| is_called(one.get(keyword), phase);
         let count = slices.iter().filter(is_of).count();
@@ -66,30 +68,33 @@ pub fn of_phase<'a>(slices: &[Slice<'a>], phase: &str, notes: &mut Vec<String>) 
         }
     }
     let separates = |&keyword: &Keyword| {
-        let values: BTreeSet<String> = slices.iter().map(|one| told(one, keyword)).collect();
+        let values: BTreeSet<String> = slices.iter().map(|one| value_text(one, keyword)).collect();
         1 < values.len() && values.len() < slices.len()
     };
     let is = |keyword: Keyword| format!("{} is {}", keyword.name(), values_of(slices, keyword));
-    let told: Vec<String> = PHASE_KEYWORDS.into_iter().filter(separates).map(is).take(MENTIONED).collect();
-    let told = if told.is_empty() { "nothing tells phases apart".to_owned() } else { told.join("; ") };
-    let found = format!("no phase {}: {told}", quoted(phase));
-    Err(Error::new(found, "the value of an attribute that some slices have"))
+    let attributes: Vec<String> =
+        PHASE_KEYWORDS.into_iter().filter(separates).map(is).take(MENTIONED).collect();
+    let attributes = if attributes.is_empty() {
+        "no attribute distinguishes phases".to_owned()
+    } else {
+        attributes.join("; ")
+    };
+    let found = format!("no phase {}: {attributes}", quoted(phase));
+    Err(Error::new(found, "an attribute value of some slices"))
 }
 
-/// Notes the places of a series that one phase of it does not cover.
 fn note_left_out(every: &[Slice], own: &[Slice], phase: &str, notes: &mut Vec<String>) {
     let Some(normal) = own.first().map(Slice::normal) else { return };
     let heights = |slices: &[Slice]| slices.iter().map(|one| one.position.dot(normal)).collect::<Vec<f64>>();
     let (count, places) = spacing::left_out(&heights(every), &heights(own));
     if count > 0 {
-        notes.push(format!("phase {} leaves out {count} of {places} places", shown(phase)));
+        notes.push(format!("phase {} lacks {count} of {places} positions", shown(phase)));
     }
 }
 
-/// Refuses phases whose slices lie between each other's at places of their own.
-pub fn refuse_interleaved(ordered: &[Slice]) -> Result<()> {
+pub(crate) fn refuse_interleaved(ordered: &[Slice]) -> Result<()> {
     for keyword in WHOLE_PHASE {
-        let values: Vec<String> = ordered.iter().map(|one| told(one, keyword)).collect();
+        let values: Vec<String> = ordered.iter().map(|one| value_text(one, keyword)).collect();
         let changes = values.windows(2).filter(|pair| pair[0] != pair[1]).count();
         let different = values.iter().collect::<BTreeSet<_>>().len();
         if different > 1 && changes >= different {
@@ -102,14 +107,12 @@ pub fn refuse_interleaved(ordered: &[Slice]) -> Result<()> {
     Ok(())
 }
 
-/// A value as a text, by which phases are told apart.
-pub fn told(one: &Slice, keyword: Keyword) -> String {
+pub(crate) fn value_text(one: &Slice, keyword: Keyword) -> String {
     one.get(keyword).to_string()
 }
 
-/// The choice among the phases that an attribute tells apart, by values that can be shown as they are.
-pub fn choice(slices: &[Slice], keyword: Keyword) -> Mend {
-    let different: BTreeSet<String> = slices.iter().map(|one| told(one, keyword)).collect();
+pub(crate) fn choice(slices: &[Slice], keyword: Keyword) -> Mend {
+    let different: BTreeSet<String> = slices.iter().map(|one| value_text(one, keyword)).collect();
     let mut values: Vec<String> = different.into_iter().collect();
     if values.len() > MOST_PHASES || values.iter().any(|value| shown(value) != *value) {
         return Mend::Phase(Vec::new());
@@ -118,24 +121,23 @@ pub fn choice(slices: &[Slice], keyword: Keyword) -> Mend {
     Mend::Phase(values)
 }
 
-/// The order of two values: numbers by their size before other texts.
-pub fn in_order(one: &str, other: &str) -> Ordering {
+/// Numbers by size, before other texts.
+pub(crate) fn in_order(one: &str, other: &str) -> Ordering {
     let number = |value: &str| value.parse().unwrap_or(f64::INFINITY);
     number(one).total_cmp(&number(other)).then_with(|| one.cmp(other))
 }
 
-/// Which values slices have, and how many have each.
-pub fn values_of(slices: &[Slice], keyword: Keyword) -> String {
+pub(crate) fn values_of(slices: &[Slice], keyword: Keyword) -> String {
     let mut counts = BTreeMap::new();
     for one in slices {
-        *counts.entry(told(one, keyword)).or_insert(0) += 1;
+        *counts.entry(value_text(one, keyword)).or_insert(0) += 1;
     }
     let counts =
         counts.iter().map(|(value, &count)| format!("{} in {}", shown(value), counted(count, "slice")));
     listed(&counts.collect::<Vec<_>>())
 }
 
-/// Whether a value is what somebody calls it: 400 is 400.0, as a text or a number.
+/// 400 matches 400.0, as text or number.
 fn is_called(value: &Value, phase: &str) -> bool {
     let meant: Option<f64> = phase.trim().parse().ok();
     value.to_string() == phase || meant.is_some_and(|number| value.number() == Some(number))

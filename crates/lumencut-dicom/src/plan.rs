@@ -1,4 +1,4 @@
-//! How a series becomes a volume: what a host needs to know to read its pixels.
+//! The plan by which a host reads the pixels of a volume.
 
 use std::collections::BTreeSet;
 
@@ -13,89 +13,88 @@ use crate::slices::{Pair, Slice};
 use crate::uids;
 use crate::wording::{listed, shown};
 
-/// The volume that a series becomes.
+/// The volume of a series.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Plan {
-    /// The number of voxels along i, j, k.
+    /// Voxels along i, j, k.
     pub size: [i64; 3],
-    /// The affine from voxel indices to the patient's space (mm, LPS), by its rows; shear is kept.
+    /// Affine from voxel indices to patient space (mm, LPS), by rows, including shear.
     pub world_from_index: [[f64; 4]; 4],
-    /// The type of stored numbers in NumPy's words, such as `i2` or `f4`.
+    /// NumPy type of stored numbers, such as `i2` or `f4`.
     pub stored_type: String,
-    /// The slices in the order of their places.
+    /// Slices in order.
     pub slices: Vec<PlannedSlice>,
-    /// Whether the places of slices may be fractions.
+    /// Whether slice indices may be fractional.
     pub is_resampled: bool,
-    /// The indices k at which there is no slice.
+    /// Indices k without a slice.
     pub missing: Vec<i64>,
-    /// How each of them is made of its neighbours.
+    /// Interpolation of each missing slice.
     pub fills: Vec<Fill>,
-    /// Frames that are taken for one: where values differ, the host judges again with these pairs as
+    /// Frames that the plan equates; if values differ, the host judges again with these pairs as
     /// [`Headers::unlike`](crate::Headers::unlike).
     pub compared: Vec<Compared>,
-    /// What a reader of the volume should know.
+    /// Notes for the user.
     pub notes: Vec<String>,
-    /// What else is told of the series.
+    /// Details of the series.
     pub details: Details,
-    /// How its scan was made.
+    /// How the scan was made.
     pub scan: Scan,
 }
 
-/// One slice that is read.
+/// A slice to read.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PlannedSlice {
-    /// The number of its file.
+    /// Number of its file.
     pub file: usize,
-    /// The number of its frame, from 0.
+    /// Number of its frame, from 0.
     pub frame: usize,
-    /// The index k at which it lies.
+    /// Its index k.
     pub place: f64,
-    /// The factor from stored numbers to values.
+    /// Factor from stored numbers to values.
     pub slope: f64,
-    /// What is added to them.
+    /// Offset from stored numbers to values.
     pub intercept: f64,
 }
 
-/// A slice that is read, and one that is left out if its values are the same.
+/// A slice to read, and one to skip if its values are equal.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Compared {
-    /// The one that is read.
+    /// The slice read.
     pub kept: PlannedSlice,
-    /// The one that is left out.
+    /// The slice skipped.
     pub other: PlannedSlice,
 }
 
-/// A slice that is made of two that are read: (1 - part) × before + part × after.
+/// A slice interpolated as (1 - part) × before + part × after.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Fill {
-    /// The index k at which it lies.
+    /// Its index k.
     pub k: i64,
-    /// The number of the slice before it in [`Plan::slices`].
+    /// Number of the slice before it in [`Plan::slices`].
     pub before: usize,
-    /// The number of the slice after it.
+    /// Number of the slice after it.
     pub after: usize,
-    /// How far it is from the one to the other.
+    /// Fraction of the way between them.
     pub part: f64,
 }
 
-/// What is told of a series whoever reads it.
+/// Details of a series for any reader.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Details {
-    /// Its number and description.
+    /// Number and description.
     pub series: String,
-    /// Its unique identifier.
+    /// UID.
     pub series_uid: String,
-    /// Its modality.
+    /// Modality.
     pub modality: String,
-    /// How many files it is read from.
+    /// Number of files read.
     pub files: String,
-    /// The transfer syntaxes of its pixels.
+    /// Transfer syntaxes.
     pub pixels: String,
 }
 
 impl Plan {
-    /// The plan for the stack of a series.
-    pub fn new(series: &Series, stack: &Stack, copies: &[Pair], notes: Vec<String>) -> Self {
+    pub(crate) fn new(series: &Series, stack: &Stack, copies: &[Pair], notes: Vec<String>) -> Self {
         let missing = stack.missing();
         Self {
             size: stack.size(),

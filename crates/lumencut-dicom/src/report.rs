@@ -1,4 +1,4 @@
-//! What a series is, in a few words and numbers.
+//! A short description of a series.
 
 use std::fmt;
 
@@ -7,30 +7,29 @@ use serde::ser::{SerializeStruct, Serializer};
 
 use crate::wording::{counted, rounded};
 
-/// One series, described for whoever chooses.
+/// One series, described for choosing; texts are empty where not stated.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Report {
-    /// Its number, empty where it is not stated.
+    /// Number.
     pub number: String,
-    /// Its unique identifier, empty where it is not stated.
+    /// UID.
     pub uid: String,
-    /// Its description, empty where it is not stated.
+    /// Description.
     pub description: String,
-    /// Its modality, empty where it is not stated.
+    /// Modality.
     pub modality: String,
-    /// How many images (frames) it has.
+    /// Number of images (frames).
     pub images: i64,
-    /// Number of voxels along i, j, k; none where its images form no stack.
+    /// Voxels along i, j, k; None if the images form no stack.
     pub size: Option<[i64; 3]>,
-    /// Distance between neighbouring voxels along i, j, k (mm).
+    /// Voxel distances along i, j, k (mm).
     pub spacing: Option<[f64; 3]>,
     /// Whether it may be an angiography volume.
     pub can_be_volume: bool,
-    /// Why its images form no volume, or no such volume; empty otherwise.
+    /// Why it is no (angiography) volume; otherwise empty.
     pub trouble: String,
 }
 
-/// The series on one line.
 impl fmt::Display for Report {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         let or = |text: &str, otherwise: &str| if text.is_empty() { otherwise } else { text }.to_owned();
@@ -47,7 +46,6 @@ impl fmt::Display for Report {
     }
 }
 
-/// The fields, and `shown`: the line.
 impl Serialize for Report {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut fields = serializer.serialize_struct("Report", 10)?;

@@ -1,4 +1,4 @@
-//! What a series tells of how its scan was made, as far as numbers measured in it depend on that.
+//! Scan parameters that affect measurements.
 
 use serde::Serialize;
 
@@ -8,28 +8,25 @@ use crate::slices::Slice;
 use crate::value::Value;
 use crate::wording::{line, rounded};
 
-/// Digits of a number.
 const DIGITS: usize = 6;
 
-/// How a scan was made; none of what the series does not state, or not alike for all of its slices. Nothing of it names a
-/// patient.
+/// How a scan was made, without patient data; None where not stated or not common to all slices.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Scan {
-    /// The number of the series.
+    /// Number of the series.
     pub series_number: Option<String>,
-    /// What the series is called.
+    /// Description of the series.
     pub series_description: Option<String>,
-    /// The phase of the heart, of the contrast medium and of the series, as far as they are stated.
+    /// Stated phases of heart, contrast medium and series.
     pub phase: Option<String>,
-    /// How thick slices are (mm).
+    /// Slice thickness (mm).
     pub slice_thickness_mm: Option<f64>,
-    /// The kernel of the reconstruction.
+    /// Reconstruction kernel.
     pub kernel: Option<String>,
 }
 
 impl Scan {
-    /// What is told of a series of which these slices are read.
-    pub fn of(series: &Series, slices: &[Slice]) -> Self {
+    pub(crate) fn of(series: &Series, slices: &[Slice]) -> Self {
         let thickness = common(slices, Keyword::SliceThickness).and_then(Value::number);
         Self {
             series_number: Some(series.number()).filter(|text| !text.is_empty()),
@@ -41,12 +38,11 @@ impl Scan {
     }
 }
 
-/// The phases that are stated, one of the heart, of the contrast medium and of the series each.
 fn phase(slices: &[Slice]) -> Option<String> {
     let stated = |keyword: Keyword| common(slices, keyword).and_then(text);
     let number = |keyword: Keyword| {
-        let told = common(slices, keyword).and_then(Value::number).filter(|number| number.is_finite());
-        told.map(|number| rounded(number, DIGITS))
+        let number = common(slices, keyword).and_then(Value::number).filter(|number| number.is_finite());
+        number.map(|number| rounded(number, DIGITS))
     };
     let heart = number(Keyword::NominalPercentageOfCardiacPhase)
         .map(|percent| format!("{percent} % of the cardiac cycle"))
@@ -63,13 +59,11 @@ fn phase(slices: &[Slice]) -> Option<String> {
     (!all.is_empty()).then(|| all.join(", "))
 }
 
-/// The value that all slices have; none where one has another one.
 fn common<'a>(slices: &[Slice<'a>], keyword: Keyword) -> Option<&'a Value> {
     let first = slices.first()?.get(keyword);
     slices.iter().all(|one| one.get(keyword) == first).then_some(first)
 }
 
-/// A value as one printable line; none where nothing is stated, or nothing that can be shown.
 fn text(value: &Value) -> Option<String> {
     let plain = |value: &Value| !value.is_empty() && !matches!(value, Value::Odd | Value::List(_));
     let parts: Vec<String> =

@@ -1,4 +1,4 @@
-//! Images of one series, and their slices.
+//! The images of one series, and their slices.
 
 use crate::copies::{compared, without_copies};
 use crate::error::{Error, Result};
@@ -11,54 +11,46 @@ use crate::patients::require_one_patient;
 use crate::slices::{Pair, Slice, slices_of};
 use crate::wording::{counted, listed};
 
-/// The images of one series.
 #[derive(Debug)]
-pub struct Series<'a> {
-    /// Its unique identifier, empty where it is not stated.
+pub(crate) struct Series<'a> {
+    /// May be empty.
     pub uid: String,
-    /// How many series of one slice each it is put together from; 1 of a series as it is stated.
+    /// Number of single-slice series it was gathered from; normally 1.
     pub part_count: usize,
-    /// Its images, of which there is at least one.
+    /// At least one.
     pub images: Vec<Image<'a>>,
 }
 
-/// The slices of a series.
 #[derive(Debug)]
-pub struct Placed<'a> {
-    /// Those that are read.
+pub(crate) struct Placed<'a> {
     pub slices: Vec<Slice<'a>>,
-    /// Slices of copies with those that are read in their place.
+    /// Slices of copies, each after the slice read.
     pub copies: Vec<Pair<'a>>,
 }
 
 impl Series<'_> {
-    /// Its number, empty where it is not stated.
-    pub fn number(&self) -> String {
+    pub(crate) fn number(&self) -> String {
         plain(&self.text(Keyword::SeriesNumber))
     }
 
-    /// Whether it, or a part that it is put together from, has this UID.
-    pub fn has_uid(&self, uid: &str) -> bool {
+    pub(crate) fn has_uid(&self, uid: &str) -> bool {
         self.uid == uid || self.images.iter().any(|image| image.text(Keyword::SeriesInstanceUID) == uid)
     }
 
-    /// Its description, empty where it is not stated.
-    pub fn description(&self) -> String {
+    pub(crate) fn description(&self) -> String {
         self.text(Keyword::SeriesDescription)
     }
 
-    /// Its modality, empty where it is not stated.
-    pub fn modality(&self) -> String {
+    pub(crate) fn modality(&self) -> String {
         self.text(Keyword::Modality)
     }
 
-    /// How many images (frames) it states to have.
-    pub fn image_count(&self) -> i64 {
+    pub(crate) fn image_count(&self) -> i64 {
         self.images.iter().fold(0, |sum, image| sum.saturating_add(image.frame_count))
     }
 
-    /// All slices of the series; localisers among them are left out where others are there, and so are copies.
-    pub fn slices(&self, unlike: &[Unlike], notes: &mut Vec<String>) -> Result<Placed<'_>> {
+    /// All slices, without copies, and without localisers if there are others.
+    pub(crate) fn slices(&self, unlike: &[Unlike], notes: &mut Vec<String>) -> Result<Placed<'_>> {
         require_one_patient(&self.images)?;
         let is_scout = |image: &&Image| image.frame_count == 1 && image.is_localizer(0);
         let (scouts, mut images): (Vec<&Image>, Vec<&Image>) = self.images.iter().partition(is_scout);
@@ -81,8 +73,7 @@ impl Series<'_> {
     }
 }
 
-/// Puts images of one series together, in the order in which the series appear.
-pub fn grouped(images: Vec<Image>) -> Vec<Series> {
+pub(crate) fn grouped(images: Vec<Image>) -> Vec<Series> {
     let groups = groups(images.iter().map(|image| image.text(Keyword::SeriesInstanceUID)));
     let mut images: Vec<Option<Image>> = images.into_iter().map(Some).collect();
     let series = groups.into_iter().map(|numbers| {
@@ -92,8 +83,8 @@ pub fn grouped(images: Vec<Image>) -> Vec<Series> {
     series.collect()
 }
 
-/// A number without the zeros or the plus sign before it; other texts as they are.
-pub fn plain(number: &str) -> String {
+/// Removes leading zeros and a plus sign; keeps other texts.
+pub(crate) fn plain(number: &str) -> String {
     let digits = number.strip_prefix(['+', '-']).unwrap_or(number);
     if digits.is_empty() || digits.len() > 64 || !digits.bytes().all(|digit| digit.is_ascii_digit()) {
         return number.to_owned();

@@ -1,7 +1,7 @@
-//! Several slices at one place: phases, parts of one scan that overlap, or one image twice.
+//! Several slices at one position: phases, overlapping parts of a scan, or repeated images.
 //!
-//! Parts that overlap hold the same values where they do; phases differ. Headers cannot tell: the host compares the values of
-//! the pairs that are given here.
+//! Overlapping parts have equal values there and phases differ, so the host compares the values of the
+//! returned pairs.
 
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
@@ -10,13 +10,12 @@ use crate::error::{Error, Result};
 use crate::grouping::groups;
 use crate::headers::Unlike;
 use crate::keyword::Keyword;
-use crate::phases::{choice, in_order, mixed, telling, told, values_of};
+use crate::phases::{choice, distinguishing, in_order, mixed, value_text, values_of};
 use crate::slices::{Pair, Slice, are_unlike};
 use crate::spacing::ONE_PLACE;
 use crate::wording::{counted, listed};
 
-/// One slice for each place of a sorted stack, and the pairs that are to be compared.
-pub fn one_per_place<'a>(
+pub(crate) fn one_per_place<'a>(
     ordered: Vec<Slice<'a>>,
     unlike: &[Unlike],
     notes: &mut Vec<String>,
@@ -29,11 +28,11 @@ pub fn one_per_place<'a>(
         .iter()
         .flat_map(|place| place.windows(2).map(|two| (two[0].clone(), two[1].clone())))
         .collect();
-    let found = format!("{} slices at {}", ordered.len(), counted(places.len() as i64, "place"));
-    let keyword = telling(&neighbours);
+    let found = format!("{} slices at {}", ordered.len(), counted(places.len() as i64, "position"));
+    let keyword = distinguishing(&neighbours);
     if let Some(keyword) = keyword.filter(|&keyword| !may_overlap(&places, keyword)) {
         let found = format!("{found}: {}; {}", names(&neighbours), mixed(&ordered, keyword));
-        return Err(Error::new(found, "one slice per place").mended_by(choice(&ordered, keyword)));
+        return Err(Error::new(found, "one slice per position").mended_by(choice(&ordered, keyword)));
     }
     let (kept, pairs) = firsts(&places, keyword);
     let differing: Vec<Pair> = pairs.iter().filter(|pair| are_unlike(pair, unlike)).cloned().collect();
@@ -42,39 +41,38 @@ pub fn one_per_place<'a>(
     }
     notes.push(match keyword {
         Some(keyword) => format!(
-            "{found}, with the same values at shared ones: overlapping parts are read as one scan ({} is {})",
+            "{found}, with the same values at shared positions: overlapping parts are read as one scan ({} is {})",
             keyword.name(),
             values_of(&ordered, keyword)
         ),
-        None => format!("{found}, with the same values at shared ones: one of each is read"),
+        None => format!("{found}, with the same values at shared positions: one slice of each position is read"),
     });
     Ok((kept, pairs))
 }
 
-/// The slices at each place.
 fn places<'s, 'a>(ordered: &'s [Slice<'a>]) -> Vec<&'s [Slice<'a>]> {
     let normal = ordered.first().map(Slice::normal).unwrap_or_default();
     let is_one = |a: &Slice, b: &Slice| b.position.dot(normal) - a.position.dot(normal) < ONE_PLACE;
     ordered.chunk_by(is_one).collect()
 }
 
-/// Whether slices that an attribute tells apart may be parts of one scan: some places have one slice, and the parts
-/// extend each other or share few places.
+/// Whether slices may be overlapping parts: some positions have one slice, and the parts extend each other or
+/// share few positions.
 fn may_overlap(places: &[&[Slice]], keyword: Keyword) -> bool {
     let shared = places.iter().filter(|place| place.len() > 1).count();
     let values =
-        places.iter().map(|place| place.iter().map(|one| told(one, keyword)).collect::<BTreeSet<_>>());
+        places.iter().map(|place| place.iter().map(|one| value_text(one, keyword)).collect::<BTreeSet<_>>());
     let covered = groups(values.flatten());
     let extend_each_other = covered.iter().all(|part| part.len() < places.len());
     shared < places.len() && (extend_each_other || 2 * shared <= places.len())
 }
 
-/// The first slice of each place in the order of the attribute, and the others as pairs with it.
 fn firsts<'a>(places: &[&[Slice<'a>]], keyword: Option<Keyword>) -> (Vec<Slice<'a>>, Vec<Pair<'a>>) {
     let (mut kept, mut pairs) = (Vec::new(), Vec::new());
     for place in places {
         let in_order = |a: &&Slice, b: &&Slice| {
-            keyword.map_or(Ordering::Equal, |keyword| in_order(&told(a, keyword), &told(b, keyword)))
+            keyword
+                .map_or(Ordering::Equal, |keyword| in_order(&value_text(a, keyword), &value_text(b, keyword)))
         };
         let Some(first) = place.iter().min_by(in_order) else { continue };
         let others = place.iter().filter(|other| !std::ptr::eq(*other, first));
@@ -84,17 +82,16 @@ fn firsts<'a>(places: &[&[Slice<'a>]], keyword: Option<Keyword>) -> (Vec<Slice<'
     (kept, pairs)
 }
 
-/// The refusal of slices at one place whose values differ: phases or parts where an attribute tells them apart.
 fn refused(found: &str, differing: &[Pair], apart: Option<(&[Slice], Keyword)>) -> Error {
-    let found = format!("{found}, of different values: {}", names(differing));
+    let found = format!("{found}, with different values: {}", names(differing));
     let Some((ordered, keyword)) = apart else {
-        return Error::new(found, "one slice per place").mend("remove all but one slice at each place");
+        return Error::new(found, "one slice per position").mend("remove all but one slice at each position");
     };
     let values = values_of(ordered, keyword);
     let found = format!("{found}; {} is {values}: phases, or overlapping parts of one scan", keyword.name());
-    let error = Error::new(found, "one slice per place").mend("remove one of each pair where they are parts");
-    let different: BTreeSet<String> = ordered.iter().map(|one| told(one, keyword)).collect();
-    // A value for each slice tells no phases apart.
+    let error = Error::new(found, "one slice per position").mend("remove one of each pair if they are parts");
+    let different: BTreeSet<String> = ordered.iter().map(|one| value_text(one, keyword)).collect();
+    // A value per slice does not indicate phases.
     if 2 * different.len() > ordered.len() { error } else { error.mended_by(choice(ordered, keyword)) }
 }
 

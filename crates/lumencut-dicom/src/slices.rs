@@ -1,4 +1,4 @@
-//! One image → its slices: a single-frame image is one, an enhanced multi-frame image one per frame.
+//! The slices of an image: one, or one per frame of an enhanced multi-frame image.
 
 use glam::DVec3;
 
@@ -10,55 +10,45 @@ use crate::image::Image;
 use crate::keyword::Keyword;
 use crate::value::Value;
 
-/// A slice that is read, and another one that is taken for the same.
-pub type Pair<'a> = (Slice<'a>, Slice<'a>);
+pub(crate) type Pair<'a> = (Slice<'a>, Slice<'a>);
 
-/// Whether the host found that the values of a pair differ.
-pub fn are_unlike((kept, other): &Pair, unlike: &[Unlike]) -> bool {
+pub(crate) fn are_unlike((kept, other): &Pair, unlike: &[Unlike]) -> bool {
     let is = |slice: &Slice, frame: crate::headers::FrameOf| {
         slice.image.file == frame.file && slice.frame == frame.frame
     };
     unlike.iter().any(|pair| is(kept, pair.kept) && is(other, pair.other))
 }
 
-/// One grey image and its place, in mm of LPS.
 #[derive(Debug, Clone)]
-pub struct Slice<'a> {
-    /// The image that it is a frame of.
+pub(crate) struct Slice<'a> {
     pub image: &'a Image<'a>,
-    /// The number of the frame, from 0.
     pub frame: usize,
-    /// The number of columns and rows.
     pub size: [i64; 2],
-    /// The middle of the first pixel.
     pub position: DVec3,
-    /// The unit vectors along rows and columns.
     pub directions: Directions,
-    /// The distance between columns, then between rows.
+    /// Distance between columns, then between rows.
     pub spacing: [f64; 2],
     /// Slope and intercept from stored numbers to values.
     pub scaling: (f64, f64),
 }
 
 impl<'a> Slice<'a> {
-    /// The name of its file, and the number of its frame (from 1) where the file has several.
-    pub fn name(&self) -> String {
+    pub(crate) fn name(&self) -> String {
         self.image.frame_name(self.frame)
     }
 
-    /// Unit normal of the slice; slices are sorted along it.
-    pub fn normal(&self) -> DVec3 {
+    /// Slices are sorted along it.
+    pub(crate) fn normal(&self) -> DVec3 {
         self.directions.normal()
     }
 
-    /// The value of an attribute as it holds for this frame.
-    pub fn get(&self, keyword: Keyword) -> &'a Value {
+    pub(crate) fn get(&self, keyword: Keyword) -> &'a Value {
         self.image.of_frame(self.frame, keyword)
     }
 }
 
-/// Reads where the frames of a grey image lie; localisers among them are left out if others are there.
-pub fn slices_of<'a>(image: &'a Image<'a>) -> Result<Vec<Slice<'a>>> {
+/// Skips localisers if there are other frames.
+pub(crate) fn slices_of<'a>(image: &'a Image<'a>) -> Result<Vec<Slice<'a>>> {
     let frames = 0..usize::try_from(image.frame_count).unwrap_or_default();
     let mut wanted: Vec<usize> = frames.clone().filter(|&frame| !image.is_localizer(frame)).collect();
     if wanted.is_empty() {
@@ -84,7 +74,7 @@ fn placed<'a>(image: &'a Image<'a>, frame: usize) -> Result<Slice<'a>> {
         size: plane_size(image).unwrap_or_default(),
         position,
         directions,
-        // It is stated as (between rows, between columns); i runs along a row, hence between columns.
+        // Stated as (between rows, between columns); i runs along a row, so between columns.
         spacing: [spacing[1], spacing[0]],
         scaling: scaling(image, frame)?,
     })
@@ -94,12 +84,12 @@ fn scaling(image: &Image, frame: usize) -> Result<(f64, f64)> {
     let slope = image.number(frame, Keyword::RescaleSlope)?.unwrap_or(1.0);
     let intercept = image.number(frame, Keyword::RescaleIntercept)?.unwrap_or(0.0);
     if !(slope.is_finite() && intercept.is_finite()) {
-        let told = |number: f64| format!("{number:?}").replace("NaN", "nan");
-        let found = format!("slope and intercept ({}, {})", told(slope), told(intercept));
+        let text = |number: f64| format!("{number:?}").replace("NaN", "nan");
+        let found = format!("slope and intercept ({}, {})", text(slope), text(intercept));
         return Err(Error::new(found, "finite numbers"));
     }
     if slope == 0.0 {
-        let error = Error::new("RescaleSlope 0, which makes all values one", "any other slope");
+        let error = Error::new("RescaleSlope 0, which makes all values equal", "a slope other than 0");
         return Err(error.mend("export the series again"));
     }
     Ok((slope, intercept))
@@ -110,7 +100,7 @@ fn numbers<const COUNT: usize>(image: &Image, frame: usize, keyword: Keyword) ->
     let read: Vec<Option<f64>> = stated.all().iter().map(Value::number).collect();
     let values: Option<Vec<f64>> =
         read.iter().map(|value| value.filter(|number| number.is_finite())).collect();
-    // A damaged value may be any text, a patient's name too: it is not told.
+    // A damaged value may be a patient's name, so it is not quoted.
     let odd =
         values.as_ref().map_or_else(|| "damaged values".to_owned(), |all| format!("{} numbers", all.len()));
     values.and_then(|all| all.try_into().ok()).ok_or_else(|| {

@@ -1,24 +1,23 @@
-//! Distances between slices, and how far slices may be off their places.
+//! Distances between slices, and position tolerances.
 
 use crate::wording::rounded;
 
-/// Slices may be this far (mm) off their places, or this part of the distance between them.
+/// Position tolerance: mm, and share of the slice distance.
 const MILLIMETRE: f64 = 0.01;
 const OF_STEP: f64 = 0.01;
-/// Slices closer than this (mm) are at one place.
-pub const ONE_PLACE: f64 = 0.01;
-/// So many wide distances in a row are those of a part of the scan.
-const RUN: usize = 3;
-/// How many different distances are told one by one.
-const TOLD: usize = 4;
+/// Slices closer than this (mm) share a position.
+pub(crate) const ONE_PLACE: f64 = 0.01;
+/// This many equal wide distances in a row are intended.
+const INTENDED_RUN: usize = 3;
+/// Maximum number of distances listed individually.
+const MAX_LISTED: usize = 4;
 
-/// How far a slice may be off its place (mm).
-pub fn tolerance(step: f64) -> f64 {
+pub(crate) fn tolerance(step: f64) -> f64 {
     MILLIMETRE.max(OF_STEP * step)
 }
 
-/// The middle of some numbers, the mean of the middle two where they are even; NaN if any number is.
-pub fn median(numbers: &[f64]) -> f64 {
+/// NaN if any number is.
+pub(crate) fn median(numbers: &[f64]) -> f64 {
     let mut sorted = numbers.to_vec();
     sorted.sort_by(f64::total_cmp);
     let middle = sorted.len() / 2;
@@ -30,18 +29,16 @@ pub fn median(numbers: &[f64]) -> f64 {
     }
 }
 
-/// The smallest and the largest of some numbers.
-pub fn ends(numbers: &[f64]) -> (f64, f64) {
+pub(crate) fn ends(numbers: &[f64]) -> (f64, f64) {
     numbers.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &n| (low.min(n), high.max(n)))
 }
 
-/// Whether wide steps of one length follow each other: a part scanned so, with nothing missing.
-pub fn has_run(steps: &[i64]) -> bool {
-    steps.windows(RUN).any(|run| run[0] > 1 && run.iter().all(|step| *step == run[0]))
+/// Whether wide steps of equal length follow each other, as in a part scanned more coarsely.
+pub(crate) fn has_run(steps: &[i64]) -> bool {
+    steps.windows(INTENDED_RUN).any(|run| run[0] > 1 && run.iter().all(|step| *step == run[0]))
 }
 
-/// How many of all places those of a part leave out, and how many places there are.
-pub fn left_out(every: &[f64], part: &[f64]) -> (usize, usize) {
+pub(crate) fn left_out(every: &[f64], part: &[f64]) -> (usize, usize) {
     let (every, own) = (places(every), places(part));
     let has = |place: f64| {
         let after = own.partition_point(|one| *one < place - ONE_PLACE);
@@ -50,7 +47,6 @@ pub fn left_out(every: &[f64], part: &[f64]) -> (usize, usize) {
     (every.iter().filter(|&&place| !has(place)).count(), every.len())
 }
 
-/// Heights in their order, each place once.
 fn places(heights: &[f64]) -> Vec<f64> {
     let mut sorted = heights.to_vec();
     sorted.sort_by(f64::total_cmp);
@@ -58,8 +54,7 @@ fn places(heights: &[f64]) -> Vec<f64> {
     sorted
 }
 
-/// Distances as words: each with its count where they are few, in the order in which they come.
-pub fn told(gaps: &[f64]) -> String {
+pub(crate) fn described(gaps: &[f64]) -> String {
     let allowed = tolerance(median(gaps));
     let mut groups: Vec<(f64, usize)> = Vec::new();
     for &gap in gaps {
@@ -67,7 +62,7 @@ pub fn told(gaps: &[f64]) -> String {
             Some((_, count)) => *count += 1,
             None => groups.push((gap, 1)),
         }
-        if groups.len() > TOLD {
+        if groups.len() > MAX_LISTED {
             let (smallest, largest) = ends(gaps);
             return format!("{} to {} mm", rounded(smallest, 4), rounded(largest, 4));
         }
@@ -108,7 +103,7 @@ mod tests {
 
     #[test]
     fn distances_are_told_in_their_order() {
-        assert_eq!(told(&[4.0, 4.01, 1.08, 7.0, 4.0]), "3 of 4 mm, 1 of 1.08 mm, 1 of 7 mm");
-        assert_eq!(told(&[2.0, 2.2, 2.5, 2.9, 3.4, 4.0]), "2 to 4 mm");
+        assert_eq!(described(&[4.0, 4.01, 1.08, 7.0, 4.0]), "3 of 4 mm, 1 of 1.08 mm, 1 of 7 mm");
+        assert_eq!(described(&[2.0, 2.2, 2.5, 2.9, 3.4, 4.0]), "2 to 4 mm");
     }
 }

@@ -1,14 +1,12 @@
-//! Names of SOP classes and transfer syntaxes, as the standard lists them (PS3.6, table A-1).
+//! Names of SOP classes and transfer syntaxes (PS3.6, table A-1).
 
 use std::collections::HashMap;
 use std::sync::LazyLock;
 
-/// Lines of a UID, a space and its name.
 static NAMES: LazyLock<HashMap<&str, &str>> =
     LazyLock::new(|| include_str!("uids.txt").lines().filter_map(|line| line.split_once(' ')).collect());
 
-/// The name of a UID, none for one that the standard does not list.
-pub fn name(uid: &str) -> Option<&'static str> {
+pub(crate) fn name(uid: &str) -> Option<&'static str> {
     NAMES.get(uid).copied()
 }
 

@@ -1,34 +1,30 @@
-//! Uneven distances between slices: named, or put on a regular grid where the caller asks for it.
+//! Uneven slice distances: an error, or resampling to a regular grid on request.
 //!
-//! The grid has the largest distance of which all distances are multiples, where that makes no more than four
-//! times as many slices as there are: each slice then keeps its place. Otherwise it has the smallest distance, or
-//! what makes four times as many slices.
+//! The grid uses the largest distance that divides all others, if that gives at most four times as many
+//! slices; each slice then keeps its position. Otherwise it uses the smallest distance, within the same
+//! limit.
 
 use crate::error::{Error, Result};
 use crate::mend::Mend;
 use crate::slices::Slice;
-use crate::spacing::{ends, median, told, tolerance};
+use crate::spacing::{described, ends, median, tolerance};
 use crate::wording::{counted, rounded};
 
-/// A grid has at most this many times as many slices as the series.
-const MOST_SLICES: usize = 4;
-/// A distance more than this many times as long as those beside it is a hole.
-const HOLE: f64 = 3.0;
-/// What rounding leaves of a whole number of steps, or of equal distances (mm).
+/// Maximum number of grid slices, relative to the series.
+const MAX_GRID_RATIO: usize = 4;
+/// A distance this much longer than its neighbours is a gap.
+const GAP_RATIO: f64 = 3.0;
+/// Rounding tolerance of step counts and equal distances (mm).
 const ROUNDING: f64 = 1e-6;
 
-/// Slices at uneven distances, sorted along their normal.
 #[derive(Debug)]
-pub struct Uneven<'s, 'a> {
-    /// The slices.
+pub(crate) struct Uneven<'s, 'a> {
     pub ordered: &'s [Slice<'a>],
-    /// The distances between them along their normal (mm).
     pub gaps: Vec<f64>,
 }
 
 impl Uneven<'_, '_> {
-    /// The error for whoever did not ask for a grid.
-    pub fn refused(&self) -> Error {
+    pub(crate) fn refused(&self) -> Error {
         if let Err(error) = self.require_line() {
             return error;
         }
@@ -36,21 +32,19 @@ impl Uneven<'_, '_> {
         match self.hole() {
             None => error.mended_by(Mend::ResampleSlices),
             Some(hole) => {
-                let error = error.mend(format!("add what is missing {hole}"));
+                let error = error.mend(format!("add the missing slices {hole}"));
                 if self.is_mostly_measured() { error.mended_by(Mend::ResampleAndFill) } else { error }
             }
         }
     }
 
-    /// The index of each slice on a regular grid, whole where it is measured there.
-    ///
-    /// Refused are slices beside a straight line, and holes unless they may be filled and the slices hold most of
-    /// the stack.
-    pub fn places(&self, fill_gaps: bool) -> Result<Vec<f64>> {
+    /// Grid index of each slice, an integer where measured. Rejects slices off a straight line, and gaps
+    /// unless they may be filled and most of the stack is measured.
+    pub(crate) fn places(&self, fill_gaps: bool) -> Result<Vec<f64>> {
         self.require_line()?;
         if let Some(hole) = self.hole().filter(|_| !(fill_gaps && self.is_mostly_measured())) {
-            let found = format!("{}, with a hole {hole}", self.found());
-            let error = Error::new(found, "a series without holes").mend("add the missing files");
+            let found = format!("{}, with a gap {hole}", self.found());
+            let error = Error::new(found, "a series without gaps").mend("add the missing files");
             return Err(if fill_gaps { error } else { error.mended_by(Mend::FillGaps) });
         }
         if self.gaps.len() < 2 {
@@ -59,8 +53,7 @@ impl Uneven<'_, '_> {
         Ok(places_on_grid(&self.heights(), ends(&self.gaps).0))
     }
 
-    /// What became of the slices.
-    pub fn note(&self, places: &[f64]) -> String {
+    pub(crate) fn note(&self, places: &[f64]) -> String {
         let last = places.last().copied().unwrap_or_default();
         let kept = places.iter().filter(|place| place.fract() == 0.0).count();
         let whole =
@@ -76,10 +69,10 @@ impl Uneven<'_, '_> {
     }
 
     fn found(&self) -> String {
-        format!("uneven slices at mixed distances ({})", told(&self.gaps))
+        format!("uneven slices at mixed distances ({})", described(&self.gaps))
     }
 
-    /// Refuses slices that are shifted against each other: no distance along their normal mends that.
+    /// Rejects laterally shifted slices, which resampling along the normal cannot correct.
     fn require_line(&self) -> Result<()> {
         let (heights, first) = (self.heights(), self.ordered[0].position);
         let way = self.ordered[self.ordered.len() - 1].position - first;
@@ -89,12 +82,12 @@ impl Uneven<'_, '_> {
             .collect();
         let worst = largest(&off);
         let allowed = tolerance(median(&self.gaps));
-        // Positions that are too large to be compared are off as well.
+        // NaN, from huge positions, is off too.
         if off[worst] <= allowed {
             return Ok(());
         }
         let (name, by) = (self.ordered[worst].name(), rounded(off[worst], 3));
-        let found = format!("uneven slices: {name} is {by} mm off the line of the others");
+        let found = format!("uneven slices: {name} is {by} mm off the line through the others");
         Err(Error::new(found, format!("slices on a straight line within {} mm", rounded(allowed, 3))))
     }
 
@@ -107,10 +100,10 @@ impl Uneven<'_, '_> {
         std::iter::once(0.0).chain(above).collect()
     }
 
-    /// The distances that are much longer than those beside them.
     fn wide(&self) -> Vec<usize> {
         let beside = |n: Option<usize>| n.and_then(|n| self.gaps.get(n)).copied().unwrap_or_default();
-        let is_wide = |&n: &usize| self.gaps[n] > HOLE * beside(n.checked_sub(1)).max(beside(Some(n + 1)));
+        let is_wide =
+            |&n: &usize| self.gaps[n] > GAP_RATIO * beside(n.checked_sub(1)).max(beside(Some(n + 1)));
         if self.gaps.len() > 1 { (0..self.gaps.len()).filter(is_wide).collect() } else { Vec::new() }
     }
 
@@ -119,16 +112,14 @@ impl Uneven<'_, '_> {
         wide < self.gaps.iter().sum::<f64>() / 2.0
     }
 
-    /// The first hole, and how many more there are.
     fn hole(&self) -> Option<String> {
         let wide = self.wide();
         let first = self.gap(*wide.first()?);
         let others = wide.len() as i64 - 1;
-        let more = if others > 0 { format!(" and {}", counted(others, "more hole")) } else { String::new() };
+        let more = if others > 0 { format!(" and {}", counted(others, "more gap")) } else { String::new() };
         Some(format!("of {first}{more}"))
     }
 
-    /// The first of the widest distances, which may be equal but for rounding.
     fn widest(&self) -> usize {
         let widest = ends(&self.gaps).1;
         self.gaps.iter().position(|gap| gap + ROUNDING >= widest).unwrap_or_default()
@@ -140,7 +131,6 @@ impl Uneven<'_, '_> {
     }
 }
 
-/// The place of the first of the largest numbers; NaN is larger than all.
 fn largest(numbers: &[f64]) -> usize {
     let mut largest = 0;
     for (n, number) in numbers.iter().enumerate() {
@@ -151,9 +141,9 @@ fn largest(numbers: &[f64]) -> usize {
     largest
 }
 
-/// Indices on the grid that the module describes; the first and last slice are its ends.
+/// Grid indices; the first and last slice are the ends.
 fn places_on_grid(heights: &[f64], smallest: f64) -> Vec<f64> {
-    let (total, most) = (heights[heights.len() - 1], (MOST_SLICES * heights.len() - 1) as f64);
+    let (total, most) = (heights[heights.len() - 1], (MAX_GRID_RATIO * heights.len() - 1) as f64);
     let mut parts = 1.0;
     while parts <= most {
         let steps = (total * parts / smallest).round_ties_even();
@@ -175,7 +165,6 @@ fn places_on_grid(heights: &[f64], smallest: f64) -> Vec<f64> {
     heights.iter().map(|height| whole_where_rounded(height / total * steps)).collect()
 }
 
-/// Whether every slice is at a place of its own on a grid of this distance.
 fn holds(places: &[f64], heights: &[f64], step: f64) -> bool {
     let is_there = |(place, height): (&f64, &f64)| (height - place * step).abs() <= tolerance(step);
     places.windows(2).all(|pair| pair[0] < pair[1]) && places.iter().zip(heights).all(is_there)

@@ -1,7 +1,5 @@
-//! A value of a header as its reader gives it, and what it can be read as.
-//!
-//! Headers say odd things: a text where a number should be, three numbers where there should be one. A value is
-//! therefore taken as it comes, and whoever needs it as a number asks whether it is one.
+//! A header value as read, with conversions. Headers may have a text or several numbers where one number
+//! belongs, so callers check on use.
 
 use std::fmt;
 
@@ -9,18 +7,15 @@ use serde::de::{Deserialize, Deserializer, IgnoredAny, MapAccess, SeqAccess, Vis
 
 use crate::wording::quoted;
 
-/// The value of one attribute.
-///
-/// In JSON it is `null`, a number, a text without the padding at its end, or a list of these where there are
-/// several. Decimal and integer strings (DS and IS) are passed as the texts that stand in the file, numbers that
-/// JSON cannot write as the texts `nan`, `inf` and `-inf`. A sequence is the number of its items. Whatever has no
-/// such form, such as bytes or a name of a person, is `true`: stated, but damaged.
+/// The value of one attribute. In JSON: `null`, a number, a text without trailing padding, or a list of
+/// these. DS and IS are passed as their texts, non-finite numbers as `nan`, `inf` and `-inf`, a sequence as
+/// its number of items, anything else as `true`.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub enum Value {
-    /// There is none: the attribute is empty or not stated.
+    /// Empty or not stated.
     #[default]
     Empty,
-    /// A whole number.
+    /// An integer.
     Integer(i64),
     /// Any other number.
     Number(f64),
@@ -28,7 +23,7 @@ pub enum Value {
     Text(String),
     /// Several values.
     List(Vec<Value>),
-    /// Something is stated that has no plain value.
+    /// A value without a plain form.
     Odd,
 }
 
@@ -43,14 +38,14 @@ impl Value {
         }
     }
 
-    /// Whether nothing is stated, or zero.
+    /// Whether nothing or zero is stated.
     pub fn is_nothing(&self) -> bool {
         self.is_empty()
             || matches!(self, Self::Integer(0))
             || matches!(self, Self::Number(zero) if *zero == 0.0)
     }
 
-    /// The one number that it is, also one written as a text; it may be infinite or none (NaN).
+    /// The single number, possibly written as text; may be infinite or NaN.
     pub fn number(&self) -> Option<f64> {
         match self {
             Self::Integer(number) => Some(*number as f64),
@@ -60,7 +55,7 @@ impl Value {
         }
     }
 
-    /// The one whole number that it is, also one written as a text.
+    /// The single integer, possibly written as text.
     pub fn integer(&self) -> Option<i64> {
         match self {
             Self::Integer(number) => Some(*number),
@@ -70,7 +65,7 @@ impl Value {
         }
     }
 
-    /// All values of a list, or the only one; none where nothing is stated.
+    /// All values of a list, or the single one; empty if not stated.
     pub fn all(&self) -> &[Self] {
         match self {
             Self::List(values) => values,
@@ -80,7 +75,7 @@ impl Value {
     }
 }
 
-/// Values are written as Python writes them.
+/// As Python writes values.
 impl fmt::Display for Value {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -107,7 +102,7 @@ impl<'de> Deserialize<'de> for Value {
     }
 }
 
-/// Takes whatever JSON has: no value of a header is a mistake of the document.
+/// Accepts any JSON, because no header value makes the document invalid.
 struct AnyValue;
 
 impl<'de> Visitor<'de> for AnyValue {

@@ -1,26 +1,21 @@
-//! Counts, lists of names and numbers as messages tell them.
+//! Formats counts, lists and numbers for messages.
 
-/// How many names of a list are told.
-pub const MENTIONED: usize = 4;
-/// Letters of a value that are told.
+pub(crate) const MENTIONED: usize = 4;
 const SHOWN: usize = 60;
-/// Letters of a text that a series states of itself.
 const LINE: usize = 64;
 
-/// A count and what is counted, in the plural where there are several.
-pub fn counted(count: i64, what: &str) -> String {
+pub(crate) fn counted(count: i64, what: &str) -> String {
     format!("{count} {what}{}", if count == 1 { "" } else { "s" })
 }
 
-/// The first few names, and how many more there are.
-pub fn listed<S: AsRef<str>>(names: &[S]) -> String {
+pub(crate) fn listed<S: AsRef<str>>(names: &[S]) -> String {
     let first: Vec<&str> = names.iter().take(MENTIONED).map(AsRef::as_ref).collect();
     let more = names.len().saturating_sub(MENTIONED);
     first.join(", ") + &if more > 0 { format!(" and {more} more") } else { String::new() }
 }
 
-/// A number rounded to `digits` significant digits, without zeros at its end, such as `0.5` or `1e+06`.
-pub fn rounded(number: f64, digits: usize) -> String {
+/// Rounds to `digits` significant digits without trailing zeros, such as `0.5` or `1e+06`.
+pub(crate) fn rounded(number: f64, digits: usize) -> String {
     if !number.is_finite() {
         let name = if number.is_nan() { "nan" } else { "inf" };
         return format!("{}{name}", if number < 0.0 { "-" } else { "" });
@@ -40,28 +35,27 @@ fn without_zeros(number: &str) -> &str {
     if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { number }
 }
 
-/// Numbers in brackets, such as `(0, 0, 4)`.
-pub fn bracketed(numbers: &[f64]) -> String {
+/// Such as `(0, 0, 4)`.
+pub(crate) fn bracketed(numbers: &[f64]) -> String {
     let numbers: Vec<String> = numbers.iter().map(|&number| rounded(number, 6)).collect();
     format!("({})", numbers.join(", "))
 }
 
-/// A text in quotation marks, as Python writes it.
-pub fn quoted(text: &str) -> String {
+pub(crate) fn quoted(text: &str) -> String {
     let mark = if text.contains('\'') && !text.contains('"') { '"' } else { '\'' };
-    let mut told = String::from(mark);
+    let mut out = String::from(mark);
     for letter in text.chars() {
         match letter {
-            '\n' => told.push_str("\\n"),
-            '\r' => told.push_str("\\r"),
-            '\t' => told.push_str("\\t"),
-            _ if letter == mark || letter == '\\' => told.extend(['\\', letter]),
-            _ if is_printable(letter) => told.push(letter),
-            _ => told.push_str(&escaped(u32::from(letter))),
+            '\n' => out.push_str("\\n"),
+            '\r' => out.push_str("\\r"),
+            '\t' => out.push_str("\\t"),
+            _ if letter == mark || letter == '\\' => out.extend(['\\', letter]),
+            _ if is_printable(letter) => out.push(letter),
+            _ => out.push_str(&escaped(u32::from(letter))),
         }
     }
-    told.push(mark);
-    told
+    out.push(mark);
+    out
 }
 
 fn escaped(code: u32) -> String {
@@ -72,13 +66,12 @@ fn escaped(code: u32) -> String {
     }
 }
 
-/// A text with nothing in it that breaks a line or steers a terminal.
-pub fn printable(text: &str) -> String {
+/// Removes line breaks and terminal controls.
+pub(crate) fn printable(text: &str) -> String {
     text.chars().map(|letter| if is_printable(letter) { letter } else { '\u{fffd}' }).collect()
 }
 
-/// A value of a header's field that is no free text, as one short printable line.
-pub fn shown(value: &str) -> String {
+pub(crate) fn shown(value: &str) -> String {
     let text = printable(value);
     if text.chars().count() <= SHOWN {
         return text.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -86,18 +79,17 @@ pub fn shown(value: &str) -> String {
     text.chars().take(SHOWN - 1).chain(['…']).collect()
 }
 
-/// A text that a series states of itself, as one short printable line.
-pub fn line(text: &str) -> String {
+pub(crate) fn line(text: &str) -> String {
     let words: Vec<&str> = text.split_whitespace().collect();
     words.join(" ").chars().filter(|&letter| is_printable(letter)).take(LINE).collect()
 }
 
-/// Whether a letter shows something: the rest are controls, unassigned letters and spaces other than the usual one.
+/// False for controls, unassigned characters and unusual spaces.
 fn is_printable(letter: char) -> bool {
     if letter.is_ascii() {
         return !letter.is_ascii_control();
     }
-    // Rust escapes exactly those. Combining marks are escaped only where no letter stands before them.
+    // Rust escapes exactly those; combining marks only at the start of a text.
     let mut bytes = [b'a'; 5];
     let length = 1 + letter.encode_utf8(&mut bytes[1..]).len();
     std::str::from_utf8(&bytes[..length]).is_ok_and(|pair| pair.escape_debug().count() == 2)

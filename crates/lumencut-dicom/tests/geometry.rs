@@ -1,4 +1,4 @@
-//! Where slices lie: order, affine, tilt, gaps, duplicates, phases, uneven distances.
+//! Tests of order, affine, tilt, gaps, duplicates, phases and uneven distances.
 
 mod made;
 
@@ -8,7 +8,7 @@ use lumencut_dicom::Mend;
 use made::{as_they_are, even, judged, plan, refused, stack, with};
 use serde_json::{Value, json};
 
-/// Positions of a gantry that leans by some degrees while the table moves along z.
+/// Positions of a gantry tilted by `degrees` while the table moves along z.
 fn tilted(degrees: f64) -> impl Fn(usize, &mut Value) {
     let angle = degrees.to_radians();
     move |_, attributes| {
@@ -41,7 +41,7 @@ fn a_tilted_gantry_shears_the_stack() {
     let stated = plan(&stack(&even(6), with("GantryDetectorTilt", "5.0")));
     assert_eq!(
         stated.notes,
-        ["GantryDetectorTilt says 5 degrees, the positions show none: positions are used"]
+        ["GantryDetectorTilt is 5 degrees, but the positions show no tilt: positions are used"]
     );
 }
 
@@ -134,21 +134,20 @@ fn holes_between_uneven_slices_are_filled_only_where_that_is_asked_for() {
     let heights = [0.0, 4.0, 8.0, 12.0, 28.0, 31.1, 34.2, 37.3, 40.4];
     let files = stack(&heights, as_they_are);
     let error = refused(&files);
-    assert_eq!(error.advice, "add what is missing of 16 mm between IM3 and IM4");
+    assert_eq!(error.advice, "add the missing slices of 16 mm between IM3 and IM4");
     assert_eq!(error.mended_by.as_deref(), Some(&Mend::ResampleAndFill));
     let error = judged(&files, json!({"resample_slices": true})).expect_err("a hole");
-    assert!(error.found.ends_with("with a hole of 16 mm between IM3 and IM4"), "{}", error.found);
+    assert!(error.found.ends_with("with a gap of 16 mm between IM3 and IM4"), "{}", error.found);
     assert_eq!(error.mended_by.as_deref(), Some(&Mend::FillGaps));
     let wanted = json!({"resample_slices": true, "fill_gaps": true});
     assert!(judged(&files, wanted.clone()).expect("a grid").is_resampled);
     let far = heights.map(|height| if height > 20.0 { height + 40.0 } else { height });
     let error = judged(&stack(&far, as_they_are), wanted).expect_err("mostly a hole");
     assert_eq!((error.advice.as_str(), error.mended_by), ("add the missing files", None));
-    // What would be refused is not offered.
     let error = refused(&stack(&far, as_they_are));
     assert_eq!(
         (error.advice.as_str(), error.mended_by),
-        ("add what is missing of 56 mm between IM3 and IM4", None)
+        ("add the missing slices of 56 mm between IM3 and IM4", None)
     );
 }
 
@@ -174,7 +173,7 @@ fn slices_beside_their_line_are_refused() {
     };
     let error =
         judged(&stack(&even(5), shifted), json!({"resample_slices": true})).expect_err("beside the line");
-    assert_eq!(error.found, "uneven slices: IM2 is 0.3 mm off the line of the others");
+    assert_eq!(error.found, "uneven slices: IM2 is 0.3 mm off the line through the others");
 }
 
 #[test]
@@ -185,7 +184,7 @@ fn positions_too_large_to_be_compared_are_refused() {
     };
     for wanted in [json!({}), json!({"fill_gaps": true, "resample_slices": true})] {
         let error = judged(&stack(&even(4), huge), wanted).expect_err("beside the line");
-        assert!(error.found.ends_with("mm off the line of the others"), "{}", error.found);
+        assert!(error.found.ends_with("mm off the line through the others"), "{}", error.found);
     }
 }
 
@@ -214,7 +213,7 @@ fn slices_that_differ_are_named() {
 fn a_single_slice_is_as_thick_as_it_says() {
     let plan = plan(&stack(&[3.0], as_they_are));
     assert_eq!((plan.world_from_index[2][2], plan.size), (2.0, [4, 3, 1]));
-    assert_eq!(plan.notes, ["a single slice: SliceThickness 2 mm taken as its thickness"]);
+    assert_eq!(plan.notes, ["a single slice: SliceThickness 2 mm is used as its thickness"]);
     let error = refused(&stack(&[3.0], with("SliceThickness", Value::Null)));
     assert_eq!((error.found.as_str(), error.file), ("a single slice without SliceThickness", Some(0)));
 }

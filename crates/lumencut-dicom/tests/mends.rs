@@ -1,4 +1,4 @@
-//! What mends a refusal is a name with values, in Rust as in the documents for hosts of other languages.
+//! Tests: a remedy is a name with values, in Rust and in JSON.
 
 mod made;
 
@@ -6,14 +6,12 @@ use lumencut_dicom::{Mend, json};
 use made::{SYNTAX, as_they_are, even, refused, stack};
 use serde_json::{Value, json};
 
-/// The refusal of files as hosts of other languages get it.
 fn document(files: &[Value]) -> Value {
     let headers = json!({"transfer_syntaxes": [SYNTAX], "files": files}).to_string();
     let answer: Value = serde_json::from_str(&json::judge(headers.as_bytes(), b"{}")).expect("JSON");
     answer["error"].clone()
 }
 
-/// Slices at five places in each of these phases.
 fn phases(times: &[&str]) -> Vec<Value> {
     let of = |time: &&str| {
         stack(&even(5), |k, attributes| {

@@ -1,4 +1,4 @@
-//! Places, images, series and patients that headers name more than once; the host compares values where headers cannot tell.
+//! Tests of repeated positions, images, series and patients.
 
 mod made;
 
@@ -6,7 +6,6 @@ use lumencut_dicom::{Error, Mend, Plan, json};
 use made::{SYNTAX, as_they_are, even, judged, plan, refused, stack};
 use serde_json::{Value, json};
 
-/// Acquisitions of stretches of 40 places, 2 mm apart.
 fn acquired(parts: &[std::ops::Range<usize>]) -> Vec<Value> {
     let of = |(n, part): (usize, &std::ops::Range<usize>)| {
         let heights: Vec<f64> = part.clone().map(|k| 2.0 * k as f64).collect();
@@ -18,7 +17,6 @@ fn acquired(parts: &[std::ops::Range<usize>]) -> Vec<Value> {
     parts.iter().enumerate().flat_map(of).collect()
 }
 
-/// What is made of files of which these pairs were found to differ.
 fn with_unlike(files: &[Value], unlike: &[[usize; 2]]) -> Value {
     let frame = |file: usize| json!({"file": file, "frame": 0});
     let pairs: Vec<Value> =
@@ -54,12 +52,12 @@ fn overlapping_parts_are_to_be_compared() {
 fn parts_that_differ_have_two_meanings() {
     let files = acquired(&[0..21, 20..40]);
     let error = &with_unlike(&files, &[[20, 21]])["error"];
-    let words = "41 slices at 40 places, of different values: IM20 and IM0; AcquisitionNumber is 0 in 21 slices, \
+    let words = "41 slices at 40 positions, with different values: IM20 and IM0; AcquisitionNumber is 0 in 21 slices, \
                  1 in 20 slices: phases, or overlapping parts of one scan";
     assert_eq!(error["found"], words);
     assert_eq!(error["mends"], json!([{"name": "phase", "values": ["0", "1"]}]));
     let plan = judged(&files, json!({"phase": "1"})).expect("one part");
-    assert_eq!((plan.size[2], plan.notes[0].as_str()), (20, "phase 1 leaves out 20 of 40 places"));
+    assert_eq!((plan.size[2], plan.notes[0].as_str()), (20, "phase 1 lacks 20 of 40 positions"));
 }
 
 #[test]
@@ -81,16 +79,15 @@ fn copies_are_compared_and_what_differs_is_refused() {
     let error = &with_unlike(&files, &[[2, 5]])["error"];
     assert_eq!(
         (&error["file"], &error["found"]),
-        (&json!(5), &json!("the SOPInstanceUID of IM2, but other values"))
+        (&json!(5), &json!("the SOPInstanceUID of IM2, but different values"))
     );
     files[5]["header"]["attributes"]["RescaleIntercept"] = "-1000".into();
     let error = refused(&files);
-    assert_eq!(error.found, "the SOPInstanceUID of IM2, but other RescaleIntercept");
+    assert_eq!(error.found, "the SOPInstanceUID of IM2, but different RescaleIntercept");
     files[5]["header"]["attributes"]["RescaleIntercept"] = "-1024.0".into();
     assert_eq!(plan(&files).slices.len(), 4);
 }
 
-/// A series of its own for each slice.
 fn own_series(k: usize, attributes: &mut Value) {
     attributes["SeriesInstanceUID"] = format!("1.5.{k}").into();
 }

@@ -1,4 +1,4 @@
-//! What is told of how a scan was made: series, phase, thickness of slices and kernel, and nothing of the patient.
+//! Tests of scan parameters, which contain no patient data.
 
 mod made;
 

@@ -1,4 +1,4 @@
-//! Which files are images, which series is read, and which images are no slices.
+//! Tests: which files are images, which series is read, and which images are rejected.
 
 mod made;
 
@@ -6,7 +6,6 @@ use lumencut_dicom::{ErrorKind, describe, json};
 use made::{SYNTAX, as_they_are, even, headers, judged, plan, refused, stack, with};
 use serde_json::{Value, json};
 
-/// A series of its own.
 fn series(number: &str, description: &str, change: impl Fn(usize, &mut Value)) -> Vec<Value> {
     stack(&even(5), |k, attributes| {
         attributes["SeriesInstanceUID"] = format!("1.2.{number}").into();
@@ -115,12 +114,12 @@ fn images_that_are_no_grey_slices_are_refused() {
             "a colour image (PhotometricInterpretation unknown)",
         ),
         ("SamplesPerPixel", json!(3), "a colour image (PhotometricInterpretation unknown)"),
-        ("ModalityLUTSequence", json!(1), "values behind a modality look-up table"),
+        ("ModalityLUTSequence", json!(1), "a modality look-up table"),
         ("BitsAllocated", json!(12), "BitsAllocated 12"),
         ("BitsStored", Value::Null, "BitsStored not stated"),
-        ("PixelRepresentation", Value::Null, "no word on whether its values have a sign"),
+        ("PixelRepresentation", Value::Null, "PixelRepresentation not stated"),
         ("NumberOfFrames", json!("3"), "a multi-frame image of 3 frames without a position for each"),
-        ("RescaleSlope", json!("0"), "RescaleSlope 0, which makes all values one"),
+        ("RescaleSlope", json!("0"), "RescaleSlope 0, which makes all values equal"),
         ("RescaleSlope", json!("nan"), "slope and intercept (nan, -1024.0)"),
         ("PixelSpacing", json!(["0", "1"]), "PixelSpacing [0.0, 1.0]"),
         (
@@ -168,7 +167,7 @@ fn odd_values_are_noted() {
     );
 }
 
-/// One file with functional groups: frames at these heights, the rest shared.
+/// One file with functional groups: frames at these heights, other attributes shared.
 fn enhanced(heights: &[f64]) -> Value {
     let mut attributes = made::axial(0.0);
     attributes["NumberOfFrames"] = heights.len().to_string().into();
@@ -196,7 +195,6 @@ fn frames_come_before_what_they_share_before_the_top_level() {
     assert_eq!(refused(&[one]).found, "2000000000 frames and functional groups for 3");
 }
 
-/// Attributes whose texts are told, as series and phases are called by them.
 const TOLD: [&str; 19] = [
     "SeriesInstanceUID",
     "SeriesNumber",
@@ -263,7 +261,9 @@ fn documents_of_another_form_are_refused_without_their_values() {
     {
         let answer = json::judge(document.as_bytes(), b"{}");
         assert!(
-            answer.starts_with(r#"{"error":{"kind":"format","file":null,"found":"headers of another form"#)
+            answer.starts_with(
+                r#"{"error":{"kind":"format","file":null,"found":"headers in an unexpected form"#
+            )
         );
         assert!(!answer.contains("DOE"), "{answer}");
     }

@@ -1,4 +1,4 @@
-//! What a centerline file holds, and what is tidied before it is handed on.
+//! The content of a centerline file, and its checks.
 
 use glam::DVec3;
 
@@ -9,55 +9,54 @@ use crate::unit::Unit;
 /// One polyline of a file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Line {
-    /// The points in the file's own space and unit; at least two, finite, no two neighbours equal.
+    /// Points in the file's space and unit: at least two, finite, no equal neighbours.
     pub points: Vec<DVec3>,
-    /// The radius at each point in the unit of the points, finite and ≥ 0, where the file has one; 0 where it states none.
+    /// Radius per point in the unit of the points, finite and ≥ 0; 0 where not stated. None if the file has
+    /// none.
     pub radius: Option<Vec<f64>>,
-    /// The group that a branch splitter gave this line; lines of one group run along the same vessel.
+    /// Group from a branch splitter; lines of one group run along the same vessel.
     pub group: Option<i64>,
-    /// The name that the file gives this line.
+    /// Name in the file.
     pub name: Option<String>,
-    /// How sure each point is, 0 to 1, where the line was traced; it is written and not read.
+    /// Confidence per point (0 to 1) of a traced line; written, not read.
     pub confidence: Option<Vec<f64>>,
-    /// The number of the list of points that was parted into this line and others at its long steps.
+    /// Number of the point list that was split into this line and others at its jumps.
     pub list: Option<usize>,
 }
 
 /// The lines of one file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Centerlines {
-    /// The lines in the order of the file, at least one.
+    /// Lines in file order, at least one.
     pub lines: Vec<Line>,
-    /// The space that the file states; `None` where it states none.
+    /// Space stated by the file.
     pub space: Option<Space>,
-    /// The unit in which the file gives its lengths, where it or the definition of its format states one. It
-    /// stays what the file states when the lines are [`scaled`](Self::scaled).
+    /// Unit stated by the file or its format, unchanged by [`scaled`](Self::scaled).
     pub unit: Option<Unit>,
-    /// The unit that files of this format usually have.
+    /// Usual unit of the format.
     pub conventional_unit: Option<Unit>,
-    /// The name of the format, such as "VTK XML PolyData".
+    /// Name of the format, such as "VTK XML PolyData".
     pub format: &'static str,
-    /// Whether the file says that its lines are vessels already, so that none is joined to another.
+    /// Whether the file states that its lines are separate vessels, so that none are joined.
     pub joined: bool,
-    /// What a user should know about how the file was read, one sentence each.
+    /// Notes for the user, one sentence each.
     pub notes: Vec<String>,
 }
 
-/// What a file of this crate carries, to say that its lines are vessels already.
+/// Mark in files of this crate whose lines are already vessels.
 pub(crate) const JOINED_MARK: &str = "LumencutVessels";
 
-/// Beyond this no coordinate or radius (mm) belongs to a patient: a damaged file, or binary data read the
-/// wrong way. The core draws the same line.
+/// Largest plausible coordinate or radius (mm); anything larger is damaged or misread data. The core uses the
+/// same limit.
 const LARGEST_COORDINATE: f64 = 1e6;
 
-/// The largest coordinate that is believed, in the unit of the lines.
 pub(crate) struct Limit {
     largest: f64,
     unit: &'static str,
 }
 
 impl Limit {
-    /// The limit where the lines are in `unit`; where none is known, that of the smallest unit.
+    /// Without a known unit, the limit of the smallest unit.
     pub(crate) fn of(unit: Option<Unit>) -> Self {
         let assumed = unit.unwrap_or(Unit::Micrometre);
         Self { largest: LARGEST_COORDINATE / assumed.in_mm(), unit: unit.map_or("", Unit::name) }
@@ -69,19 +68,18 @@ impl Limit {
 }
 
 impl Centerlines {
-    /// No lines yet, of a format whose files usually are in mm.
+    /// Empty, in mm.
     pub(crate) fn of(format: &'static str) -> Self {
         Self { format, conventional_unit: Some(Unit::Millimetre), ..Self::default() }
     }
 
-    /// Adds a note that several lines may give, once.
     pub(crate) fn note_once(&mut self, note: String) {
         if !self.notes.contains(&note) {
             self.notes.push(note);
         }
     }
 
-    /// Takes radii that are NaN as unknown, and notes how many: a line without any radius has none, and 0 stands for single ones.
+    /// Treats NaN radii as unknown and notes their number: 0 for single points, None for a whole line.
     fn without_nan_radii(mut self) -> Self {
         let (mut unknown, mut all) = (0, 0);
         for line in &mut self.lines {
@@ -93,12 +91,12 @@ impl Centerlines {
             radius.iter_mut().filter(|radius| radius.is_nan()).for_each(|radius| *radius = 0.0);
         }
         if unknown > 0 {
-            self.notes.push(format!("{unknown} of {all} radii are not stated: unknown there"));
+            self.notes.push(format!("{unknown} of {all} radii are missing"));
         }
         self
     }
 
-    /// Takes radii that are 0 everywhere as missing, as programs write them that know none, and notes it.
+    /// Treats radii that are all 0 as missing, because some programs write them so.
     pub(crate) fn without_zero_radii(self) -> Self {
         let mut zero = self.without_nan_radii();
         zero.drop_zero_radii();
@@ -113,27 +111,21 @@ impl Centerlines {
         }
     }
 
-    /// Notes what numbers that nothing names may be instead: indices of voxels, or a fourth column that is no
-    /// radius.
+    /// Notes that unnamed numbers may be voxel indices, or something other than a radius.
     pub(crate) fn doubt_unnamed_columns(&mut self) {
         let mut numbers = self.lines.iter().flat_map(|line| &line.points).flat_map(|p| p.to_array());
         if numbers.all(|number| number.fract() == 0.0) {
-            self.note_once(
-                "all coordinates are whole numbers: perhaps indices of voxels, which are not mm".into(),
-            );
+            self.note_once("all coordinates are integers: these may be voxel indices instead of mm".into());
         }
         let mut radii = self.lines.iter().filter_map(|line| line.radius.as_ref()).flatten();
         if let Some(first) = radii.next() {
             let same =
                 if radii.all(|r| r == first) { format!(" ({first} everywhere)") } else { String::new() };
-            self.note_once(format!("radius from the fourth column, which nothing names{same}"));
+            self.note_once(format!("radius from the unnamed fourth column{same}"));
         }
     }
 
-    /// Checks every line, drops repeated points and lines that are no lines, and notes both.
-    ///
-    /// # Errors
-    /// For points or radii that are no places and sizes, and where no line is left.
+    /// Checks every line; drops and notes repeated points and lines of one point.
     pub(crate) fn tidy(self) -> Result<Self> {
         let limit = Limit::of(self.unit);
         let mut out = self.without_nan_radii().checked(&limit)?;
@@ -145,12 +137,9 @@ impl Centerlines {
         Ok(out)
     }
 
-    /// The same lines with points and radii multiplied by `factor`, which brings them to mm.
-    ///
-    /// [`junctions::vessels`](crate::junctions::vessels) wants them so, because its limits are in mm.
-    ///
-    /// # Errors
-    /// Where the factor is not above 0 and finite, or a coordinate or radius is then beyond 1e6 mm.
+    /// Multiplies points and radii by `factor`, which converts them to mm as
+    /// [`junctions::vessels`](crate::junctions::vessels) requires. Fails for an invalid factor, or a result
+    /// beyond 1e6 mm.
     pub fn scaled(mut self, factor: f64) -> Result<Self> {
         if !(factor > 0.0 && factor.is_finite()) {
             return Err(Error::new("scale", format!("{factor}"), "a finite factor above 0"));
@@ -173,7 +162,7 @@ impl Centerlines {
         if self.lines.is_empty() {
             let found = match found {
                 0 => "no line".into(),
-                n => format!("{n} line(s) of a single place each"),
+                n => format!("{n} line(s) with a single distinct point"),
             };
             return Err(Error::new("lines", found, "at least one line of two or more points"));
         }
@@ -188,10 +177,6 @@ impl Centerlines {
     }
 }
 
-/// Checks that the points and radii of a line are places and sizes.
-///
-/// # Errors
-/// Naming the line by its `index`.
 pub(crate) fn check(line: &Line, index: usize, limit: &Limit) -> Result<()> {
     let is_far = |p: &DVec3| p.is_nan() || p.abs().max_element() > limit.largest;
     if let Some(i) = line.points.iter().position(is_far) {
@@ -210,7 +195,6 @@ pub(crate) fn check(line: &Line, index: usize, limit: &Limit) -> Result<()> {
     }
 }
 
-/// Drops points that equal their predecessor; returns how many.
 fn drop_repeated_points(line: &mut Line) -> usize {
     let count = line.points.len();
     if let Some(radius) = &mut line.radius {

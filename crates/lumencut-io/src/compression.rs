@@ -1,24 +1,19 @@
-//! The three compressors of VTK XML files, and the budget that keeps a small file from unpacking without end.
+//! The compressors of VTK XML files, and the budget against decompression bombs.
 
 use std::io::Read;
 
 use crate::error::{Error, Result};
 use crate::xz;
 
-/// A `compressor` attribute.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Compressor {
+pub(crate) enum Compressor {
     Zlib,
     Lz4,
     Lzma,
 }
 
 impl Compressor {
-    /// The compressor with the class name that VTK writes.
-    ///
-    /// # Errors
-    /// For any other name.
-    pub fn of_name(name: &str) -> Result<Self> {
+    pub(crate) fn of_name(name: &str) -> Result<Self> {
         match name {
             "vtkZLibDataCompressor" => Ok(Self::Zlib),
             "vtkLZ4DataCompressor" => Ok(Self::Lz4),
@@ -30,21 +25,17 @@ impl Compressor {
         }
     }
 
-    /// How many bytes one byte of a block unpacks to at most.
     fn largest_ratio(self) -> usize {
         match self {
             Self::Zlib => 1032,
             Self::Lz4 => 255,
-            // A match of 273 bytes takes a third of a bit at least: 7000 bytes from one.
+            // A match of 273 bytes takes at least a third of a bit: 7000 bytes from one.
             Self::Lzma => 1 << 14,
         }
     }
 
-    /// Unpacks one block of exactly `size` bytes onto `out`. The caller has charged `size` to its budget.
-    ///
-    /// # Errors
-    /// Naming `subject` where the block is damaged or of another size.
-    pub fn unpack(self, subject: &str, block: &[u8], size: usize, out: &mut Vec<u8>) -> Result<()> {
+    /// Unpacks a block of exactly `size` bytes, which the caller charged to its budget, onto `out`.
+    pub(crate) fn unpack(self, subject: &str, block: &[u8], size: usize, out: &mut Vec<u8>) -> Result<()> {
         let before = out.len();
         let most = block.len().saturating_mul(self.largest_ratio());
         if size > most {
@@ -70,42 +61,33 @@ impl Compressor {
         if out.len() - before == size {
             return Ok(());
         }
-        Err(Error::new(
-            subject,
-            format!("a block that unpacks to another size than {size} bytes"),
-            expected(),
-        ))
+        Err(Error::new(subject, format!("a block that does not unpack to {size} bytes"), expected()))
     }
 }
 
-/// Reads at most one byte more than `size`, enough to tell a block that is too long.
+/// Reads at most one byte more than `size`, enough to detect an oversized block.
 fn read_up_to(reader: impl Read, size: usize, out: &mut Vec<u8>) -> std::result::Result<(), String> {
     let limit = u64::try_from(size).unwrap_or(u64::MAX).saturating_add(1);
     reader.take(limit).read_to_end(out).map(|_| ()).map_err(|error| error.to_string())
 }
 
-/// How many bytes the arrays of one file may still take, as they stand in it and as numbers.
 #[derive(Debug)]
-pub struct Budget {
+pub(crate) struct Budget {
     left: u64,
 }
 
 impl Budget {
-    /// 1 MiB and 16 times the size of the file. A point with its radius and its place in a line takes about
-    /// 66 bytes, and in a compressed file seldom less than 8; decompression bombs take thousands per byte.
-    pub fn of_file(size: usize) -> Self {
+    /// 1 MiB plus 16 file sizes. A point with radius and line entry takes 66 bytes, compressed rarely below
+    /// 8; decompression bombs take thousands per byte.
+    pub(crate) fn of_file(size: usize) -> Self {
         Self { left: (size as u64).saturating_mul(16).saturating_add(1 << 20) }
     }
 
-    /// Takes `size` bytes, as a length that fits the machine.
-    ///
-    /// # Errors
-    /// Naming `subject` where that is more than is left.
-    pub fn take(&mut self, subject: &str, size: u64) -> Result<usize> {
+    pub(crate) fn take(&mut self, subject: &str, size: u64) -> Result<usize> {
         let too_much = || {
             let found = format!("{size} bytes to unpack");
             Error::new(subject, found, format!("at most {} bytes from a file of this size", self.left))
-                .mend("the file is damaged, or no centerline file")
+                .mend("the file is damaged or not a centerline file")
         };
         let left = self.left.checked_sub(size).ok_or_else(too_much)?;
         let length = usize::try_from(size).map_err(|_| too_much())?;

@@ -1,10 +1,9 @@
-//! Number types of VTK files, and numbers from bytes and from text.
+//! Number types of VTK files, decoded from bytes and text.
 
 use crate::error::{Error, Result, excerpt};
 
-/// A number type as VTK stores it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NumberType {
+pub(crate) enum NumberType {
     I8,
     U8,
     I16,
@@ -17,16 +16,14 @@ pub enum NumberType {
     F64,
 }
 
-/// Which byte of a number comes first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ByteOrder {
+pub(crate) enum ByteOrder {
     Little,
     Big,
 }
 
 impl NumberType {
-    /// Bytes per number.
-    pub fn size(self) -> usize {
+    pub(crate) fn size(self) -> usize {
         match self {
             Self::I8 | Self::U8 => 1,
             Self::I16 | Self::U16 => 2,
@@ -35,9 +32,9 @@ impl NumberType {
         }
     }
 
-    /// The numbers in `bytes`; bytes beyond the last whole number are ignored. Integers beyond 2⁵³ are
-    /// rounded, which no index or coordinate of a readable file needs.
-    pub fn numbers(self, bytes: &[u8], order: ByteOrder) -> Vec<f64> {
+    /// Numbers in `bytes`, ignoring a partial last one. Integers beyond 2⁵³ are rounded; no readable file
+    /// needs them.
+    pub(crate) fn numbers(self, bytes: &[u8], order: ByteOrder) -> Vec<f64> {
         match self {
             Self::I8 => bytes.iter().map(|b| f64::from(b.cast_signed())).collect(),
             Self::U8 => bytes.iter().map(|b| f64::from(*b)).collect(),
@@ -67,20 +64,12 @@ fn each<const N: usize>(bytes: &[u8], order: ByteOrder, number: impl Fn([u8; N])
         .collect()
 }
 
-/// The numbers of a text, separated by white space.
-///
-/// # Errors
-/// Naming `subject` where a word is no number.
-pub fn numbers_of_text(subject: &str, text: &str, kind: NumberType) -> Result<Vec<f64>> {
+pub(crate) fn numbers_of_text(subject: &str, text: &str, kind: NumberType) -> Result<Vec<f64>> {
     text.split_ascii_whitespace().map(|word| number_of_word(subject, word, kind)).collect()
 }
 
-/// The number that `word` writes. A 32-bit float is rounded to one, so that text and binary files give the
-/// same.
-///
-/// # Errors
-/// Naming `subject` where it is invalid.
-pub fn number_of_word(subject: &str, word: &str, kind: NumberType) -> Result<f64> {
+/// Rounds 32-bit floats, so that text and binary files give the same numbers.
+pub(crate) fn number_of_word(subject: &str, word: &str, kind: NumberType) -> Result<f64> {
     let number = match kind {
         NumberType::F32 => word.parse::<f32>().map(f64::from),
         _ => word.parse::<f64>(),
@@ -88,11 +77,7 @@ pub fn number_of_word(subject: &str, word: &str, kind: NumberType) -> Result<f64
     number.map_err(|_| Error::new(subject, excerpt(word), "a number"))
 }
 
-/// `number` as an index or count below `limit`.
-///
-/// # Errors
-/// Naming `subject` where it is negative, fractional or too large.
-pub fn index(subject: &str, number: f64, limit: usize) -> Result<usize> {
+pub(crate) fn index(subject: &str, number: f64, limit: usize) -> Result<usize> {
     if number >= 0.0 && number < limit as f64 && number.fract() == 0.0 {
         Ok(number as usize)
     } else {

@@ -1,23 +1,21 @@
-//! Binary data of VTK XML files: raw or base64, with a length in front, in one piece or in compressed blocks.
+//! Binary data of VTK XML files: raw or base64, with a length header, whole or in compressed blocks.
 
 use crate::compression::{Budget, Compressor};
 use crate::data_array::ByteOrder;
 use crate::error::{Error, Result};
 
-/// How the whole file writes its binary data.
 #[derive(Clone, Copy, Debug)]
-pub struct Layout {
+pub(crate) struct Layout {
     pub order: ByteOrder,
     /// Bytes of a header number: 4 or 8.
     pub header_size: usize,
     pub compressor: Option<Compressor>,
 }
 
-/// Bytes in the file, read from front to back.
-pub enum Bytes<'a> {
+pub(crate) enum Bytes<'a> {
     Raw(&'a [u8]),
-    /// Base64 text and the bytes decoded ahead of the reader. Writers may end the header with padding of its
-    /// own; groups of four characters are decoded one by one, so padding may stand anywhere between groups.
+    /// Base64 text, and bytes decoded ahead. Padding may follow any group, because writers may pad the header
+    /// separately.
     Base64 {
         text: &'a [u8],
         ahead: Vec<u8>,
@@ -25,19 +23,15 @@ pub enum Bytes<'a> {
 }
 
 impl<'a> Bytes<'a> {
-    pub fn raw(bytes: &'a [u8]) -> Self {
+    pub(crate) fn raw(bytes: &'a [u8]) -> Self {
         Self::Raw(bytes)
     }
 
-    pub fn base64(text: &'a [u8]) -> Self {
+    pub(crate) fn base64(text: &'a [u8]) -> Self {
         Self::Base64 { text, ahead: Vec::new() }
     }
 
-    /// The next `count` bytes.
-    ///
-    /// # Errors
-    /// Naming `subject` where fewer are left, or the text is no base64.
-    pub fn take(&mut self, subject: &str, count: u64) -> Result<Vec<u8>> {
+    pub(crate) fn take(&mut self, subject: &str, count: u64) -> Result<Vec<u8>> {
         let short = |left: usize| {
             Error::truncated(subject, format!("at most {left} bytes"), format!("{count} bytes of data"))
         };
@@ -62,7 +56,6 @@ impl<'a> Bytes<'a> {
     }
 }
 
-/// The next four characters that are no white space.
 fn next_group(text: &mut &[u8]) -> Option<[u8; 4]> {
     let mut group = [0; 4];
     let mut filled = 0;
@@ -99,11 +92,13 @@ fn decode_group(subject: &str, group: [u8; 4], out: &mut Vec<u8>) -> Result<()> 
     Ok(())
 }
 
-/// The content of one array: the header is read, and compressed blocks are unpacked.
-///
-/// # Errors
-/// Naming `subject` where the data ends early, is damaged, or unpacks to more than the budget allows.
-pub fn content(subject: &str, mut bytes: Bytes, layout: Layout, budget: &mut Budget) -> Result<Vec<u8>> {
+/// Content of one array: reads the header and unpacks blocks within the budget.
+pub(crate) fn content(
+    subject: &str,
+    mut bytes: Bytes,
+    layout: Layout,
+    budget: &mut Budget,
+) -> Result<Vec<u8>> {
     let Some(compressor) = layout.compressor else {
         let size = header_number(subject, &mut bytes, layout)?;
         budget.take(subject, size)?;

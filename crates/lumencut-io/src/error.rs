@@ -1,5 +1,4 @@
-//! What can be wrong with a file: every error names the file and place, what was found, what was expected and
-//! what would mend it.
+//! Errors that name the file and place, what was found, what was expected, and a remedy.
 
 use std::fmt;
 
@@ -8,40 +7,40 @@ use crate::mend::Mend;
 /// An error in one line: `subject: found …; expected …; advice, or mend`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Error {
-    /// The file, and the place in it that is wrong.
+    /// File and place.
     pub subject: String,
     /// What was found.
     pub found: String,
-    /// What was expected instead.
+    /// What was expected.
     pub expected: String,
-    /// Advice that no host acts on; empty where `expected` already says so.
+    /// Advice in words; may be empty.
     pub mend: String,
-    /// What mends it beside the advice, for hosts to offer in their own words.
+    /// Remedy that hosts can offer in their own words.
     pub mended_by: Option<Box<Mend>>,
 }
 
 impl Error {
-    /// An error about the place `subject` of a file.
+    /// An error at the place `subject`.
     pub fn new(subject: impl Into<String>, found: impl Into<String>, expected: impl Into<String>) -> Self {
         let (subject, found, expected) = (subject.into(), found.into(), expected.into());
         Self { subject, found, expected, mend: String::new(), mended_by: None }
     }
 
-    /// The same error with advice that no host acts on.
+    /// Adds advice in words.
     #[must_use]
     pub fn mend(mut self, mend: impl Into<String>) -> Self {
         self.mend = mend.into();
         self
     }
 
-    /// The same error with a mend that hosts offer in their own words.
+    /// Adds a remedy for hosts.
     #[must_use]
     pub fn mended_by(mut self, mend: Mend) -> Self {
         self.mended_by = Some(Box::new(mend));
         self
     }
 
-    /// The same error with the file's name in front of the place.
+    /// Prefixes the file name.
     #[must_use]
     pub fn in_file(mut self, file_name: &str) -> Self {
         self.subject =
@@ -49,7 +48,6 @@ impl Error {
         self
     }
 
-    /// A file that ends before `subject` is complete.
     pub(crate) fn truncated(
         subject: impl Into<String>,
         found: impl Into<String>,
@@ -73,10 +71,10 @@ impl fmt::Display for Error {
 
 impl std::error::Error for Error {}
 
-/// A result of this crate.
+/// Result of this crate.
 pub type Result<T> = std::result::Result<T, Error>;
 
-/// At most the first 40 characters of a foreign text, for an error message.
+/// At most 40 characters of foreign text.
 pub(crate) fn excerpt(text: &str) -> String {
     let short: String = text.chars().take(40).flat_map(char::escape_debug).collect();
     if text.chars().nth(40).is_some() { format!("'{short}…'") } else { format!("'{short}'") }

@@ -7,14 +7,11 @@ use crate::space::Space;
 use crate::text::{self, Separator};
 use crate::unit::Unit;
 
-/// The columns where the file names none.
+/// Default columns.
 const COLUMNS: &str = "id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID";
 
-/// The points of a fiducial list as one line, in mm by definition of the format.
-///
-/// # Errors
-/// Naming the line of the file where a row is invalid, and for coordinates in voxels.
-pub fn read(bytes: &[u8]) -> Result<Centerlines> {
+/// The fiducials as one line, in mm by definition of the format. Coordinates in voxels are rejected.
+pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     let mut out = Centerlines::of("3D Slicer fiducials");
     out.unit = Some(Unit::Millimetre);
     let mut columns = Columns::of(COLUMNS)?;
@@ -44,7 +41,7 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
                 "the columns of the header",
             ));
         };
-        // 3D Slicer writes the status of a point behind the named columns.
+        // 3D Slicer writes the status after the named columns.
         let status = fields.get(columns.count).copied().unwrap_or_default();
         if !has_place(status).map_err(|e| e.in_file(&format!("line {number}: positionStatus")))? {
             without_place += 1;
@@ -54,16 +51,16 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
         hidden += usize::from(visible.is_some_and(|visible| *visible == "0"));
         line.points.push(text::point(number, [x, y, z])?);
     }
-    out.notes.push(format!("a list of {} fiducials is taken as one line, in its order", line.points.len()));
+    out.notes.push(format!("the {} fiducials are read as one line, in file order", line.points.len()));
     out.lines.push(line);
-    note_left_out(&mut out, without_place, "fiducial(s) without a place", "with one")?;
+    note_left_out(&mut out, without_place, "fiducial(s) without a position", "with one")?;
     if hidden > 0 {
-        out.notes.push(format!("{hidden} fiducial(s) that are hidden in 3D Slicer are part of the line"));
+        out.notes.push(format!("{hidden} fiducial(s) hidden in 3D Slicer are included"));
     }
     out.tidy()
 }
 
-/// The space by its name, or by the number of the versions before 4.11.
+/// By name, or by number before version 4.11.
 fn space(text: &str) -> Result<Space> {
     match text.split(',').next().unwrap_or_default().trim() {
         "RAS" | "0" => Ok(Space::Ras),

@@ -1,4 +1,4 @@
-//! Tubes of ITK and TubeTK (`.tre`): MetaIO scenes, with points as text or binary.
+//! Tubes of ITK and TubeTK (`.tre`): MetaIO scenes with text or binary points.
 
 use std::collections::HashMap;
 
@@ -12,17 +12,12 @@ use crate::space::Space;
 use crate::unit::Unit;
 use crate::vtk_cursor::Cursor;
 
-/// How deep objects may be nested; deeper scenes are refused.
+/// Maximum nesting of objects.
 const MOST_PARENTS: usize = 64;
 
-/// The tubes of a `.tre` file, one line each, in world space: LPS and mm by definition of the format.
-///
-/// Points are in steps of `ElementSpacing`, radii in steps of its first number; then the transform of the
-/// tube and those of its parents apply.
-///
-/// # Errors
-/// Where a field or point is damaged or cut off, the tubes are not in space, or there is none.
-pub fn read(bytes: &[u8]) -> Result<Centerlines> {
+/// One line per tube, in LPS and mm by definition of the format. Points are in `ElementSpacing`, radii in its
+/// first component; then the transforms of the tube and its parents apply.
+pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     let mut out = Centerlines::of("ITK tube");
     (out.space, out.unit) = (Some(Space::Lps), Some(Unit::Millimetre));
     let objects = objects(bytes, &mut out)?;
@@ -35,12 +30,12 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
         }
     }
     if out.lines.is_empty() {
-        return Err(Error::new("", format!("{} object(s) and no tube", objects.len()), "a scene with tubes"));
+        return Err(Error::new("", format!("{} object(s) but no tube", objects.len()), "a scene with tubes"));
     }
     out.without_zero_radii().tidy()
 }
 
-/// All objects of the file, tubes with their lines, which are not yet placed.
+/// All objects; lines are not yet placed.
 fn objects(bytes: &[u8], out: &mut Centerlines) -> Result<Vec<MetaObject>> {
     let mut cursor = Cursor::new(bytes.trim_ascii_start());
     let mut objects: Vec<MetaObject> = Vec::new();
@@ -61,11 +56,11 @@ fn objects(bytes: &[u8], out: &mut Centerlines) -> Result<Vec<MetaObject>> {
                 object.line = Some(line);
             }
             ("Points", Some(_)) => {
-                out.note_once("objects that are no tubes were left out".into());
+                out.note_once("objects other than tubes were ignored".into());
                 cursor.skip_to(b"ObjectType");
             }
             (_, Some(object)) => object.set(key, value),
-            // A comment in front of the scene.
+            // A comment before the scene.
             (_, None) => {}
         }
     }
@@ -73,7 +68,6 @@ fn objects(bytes: &[u8], out: &mut Centerlines) -> Result<Vec<MetaObject>> {
     Ok(objects)
 }
 
-/// The points of a tube, in units of the object.
 fn points(object: &MetaObject, cursor: &mut Cursor) -> Result<Line> {
     let dimensions = object.get("NDims").unwrap_or_default();
     if dimensions != "3" {
@@ -97,7 +91,6 @@ fn points(object: &MetaObject, cursor: &mut Cursor) -> Result<Line> {
     })
 }
 
-/// All numbers of the points, `columns` for each.
 fn values(object: &MetaObject, cursor: &mut Cursor, columns: usize) -> Result<Vec<f64>> {
     let count = object.get("NPoints").unwrap_or_default();
     let count: usize =
@@ -123,12 +116,11 @@ fn values(object: &MetaObject, cursor: &mut Cursor, columns: usize) -> Result<Ve
     let msb = object.is_true("BinaryDataByteOrderMSB") || object.is_true("ElementByteOrderMSB");
     let order = if msb { ByteOrder::Big } else { ByteOrder::Little };
     let bytes = cursor.bytes("Points", count.saturating_mul(NumberType::F32.size()))?;
-    // Older writers leave unused bytes behind the points.
+    // Older writers leave unused bytes after the points.
     cursor.skip_to(b"ObjectType");
     Ok(NumberType::F32.numbers(bytes, order))
 }
 
-/// The objects by their ids, to find parents.
 struct Scene<'a> {
     objects: &'a [MetaObject],
     by_id: HashMap<i64, usize>,
@@ -145,14 +137,15 @@ impl<'a> Scene<'a> {
         Self { objects, by_id }
     }
 
-    /// The transform of an object, then those of its parents.
     fn world_from_object(&self, object: &MetaObject, out: &mut Centerlines) -> Result<DAffine3> {
         let mut world = object.parent_from_object()?;
         let mut at = object;
         for _ in 0..MOST_PARENTS {
             let Some(id) = at.id("ParentID") else { return Ok(world) };
             let Some(parent) = self.by_id.get(&id) else {
-                out.note_once("objects whose parent is not in the file are taken as its first level".into());
+                out.note_once(
+                    "objects whose parent is not in the file are treated as top-level objects".into(),
+                );
                 return Ok(world);
             };
             at = &self.objects[*parent];
@@ -162,12 +155,11 @@ impl<'a> Scene<'a> {
             }
             world = transform * world;
         }
-        let found = format!("more than {MOST_PARENTS} parents, or parents in a circle");
-        Err(Error::new(object.title(), found, "parents that end at -1"))
+        let found = format!("more than {MOST_PARENTS} parents, or a cycle of parents");
+        Err(Error::new(object.title(), found, "a chain of parents that ends at -1"))
     }
 }
 
-/// A line in world space. A transform that scales does so with the radius too.
 fn placed(mut line: Line, world: DAffine3, out: &mut Centerlines) -> Line {
     if world == DAffine3::IDENTITY {
         return line;
@@ -176,7 +168,7 @@ fn placed(mut line: Line, world: DAffine3, out: &mut Centerlines) -> Line {
     let scale = DMat3::determinant(&world.matrix3).abs().cbrt();
     if (scale - 1.0).abs() > 1e-6 {
         line.radius.iter_mut().flatten().for_each(|r| *r *= scale);
-        out.note_once("a transform that scales was applied to the radius too".into());
+        out.note_once("the scaling of a transform was also applied to the radius".into());
     }
     line
 }

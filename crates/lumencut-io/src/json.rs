@@ -1,4 +1,4 @@
-//! JSON that stays text: what is wanted of a value is looked up in it, and nothing else is kept.
+//! Reads fields of JSON without building a tree.
 
 use std::fmt;
 
@@ -8,48 +8,38 @@ use serde_json::value::RawValue;
 
 use crate::error::Result;
 
-/// A value of a sound JSON text.
 #[derive(Clone, Copy)]
-pub struct Json<'a>(&'a RawValue);
+pub(crate) struct Json<'a>(&'a RawValue);
 
 impl<'a> Json<'a> {
-    /// The value that a whole file is.
-    ///
-    /// # Errors
-    /// Where the file is no JSON.
-    pub fn of(bytes: &'a [u8]) -> serde_json::Result<Self> {
+    pub(crate) fn of(bytes: &'a [u8]) -> serde_json::Result<Self> {
         serde_json::from_slice(bytes).map(Self)
     }
 
-    /// The text that stands in the file.
-    pub fn raw(self) -> &'a str {
+    pub(crate) fn raw(self) -> &'a str {
         self.0.get()
     }
 
-    /// The text of a string.
-    pub fn text(self) -> Option<String> {
+    pub(crate) fn text(self) -> Option<String> {
         serde_json::from_str(self.raw()).ok()
     }
 
-    pub fn number(self) -> Option<f64> {
+    pub(crate) fn number(self) -> Option<f64> {
         serde_json::from_str(self.raw()).ok()
     }
 
-    /// The numbers of a list of just three.
-    pub fn three_numbers(self) -> Option<[f64; 3]> {
+    pub(crate) fn three_numbers(self) -> Option<[f64; 3]> {
         serde_json::from_str(self.raw()).ok()
     }
 
-    /// The fields of an object by their names, of each the last; `None` for those that are null or missing, and
-    /// of values that are no objects.
-    pub fn fields<const N: usize>(self, names: [&str; N]) -> [Option<Self>; N] {
+    /// Fields of an object by name (the last of duplicates); None if null, missing, or not an object.
+    pub(crate) fn fields<const N: usize>(self, names: [&str; N]) -> [Option<Self>; N] {
         let fields = serde_json::Deserializer::from_str(self.raw()).deserialize_map(Fields(names));
         fields.unwrap_or([None; N]).map(|field| field.filter(|value| value.raw() != "null"))
     }
 
-    /// Calls `take` with every element of a list and its index up to the first error; gives the number of
-    /// elements, `None` for values that are no lists.
-    pub fn each(self, take: impl FnMut(usize, Self) -> Result<()>) -> Option<Result<usize>> {
+    /// Calls `take` per list element until the first error; returns the count, or None if not a list.
+    pub(crate) fn each(self, take: impl FnMut(usize, Self) -> Result<()>) -> Option<Result<usize>> {
         serde_json::Deserializer::from_str(self.raw()).deserialize_seq(Each(take)).ok()
     }
 }
@@ -86,7 +76,7 @@ impl<'a, F: FnMut(usize, Json<'a>) -> Result<()>> Visitor<'a> for Each<F> {
 
     fn visit_seq<A: SeqAccess<'a>>(mut self, mut list: A) -> std::result::Result<Self::Value, A::Error> {
         let mut count = Ok(0);
-        // The parser wants the list to its end, errors or not.
+        // The parser must reach the end of the list.
         while let Some(element) = list.next_element()? {
             count = count.and_then(|i| (self.0)(i, Json(element)).map(|()| i + 1));
         }

@@ -1,17 +1,16 @@
-//! Lists of points that hold several lines one behind the other, with nothing between them.
+//! Splits point lists that contain several lines without separators.
 
 use crate::centerlines::{Centerlines, Line};
 
-/// A step this many times as long as the median may lead to the next line: no vessel runs there.
+/// Minimum length of a jump, in median steps.
 const JUMP: f64 = 20.0;
-/// It does so where it also is this many times as long as the steps before and behind it; else the points
-/// stand further apart there.
+/// Minimum length relative to both neighbouring steps; otherwise the points are just sparse there.
 const LOCAL_JUMP: f64 = 5.0;
-/// Fewer points do not tell what step is usual.
+/// Minimum number of points for a median step.
 const FEWEST_POINTS: usize = 8;
 
 impl Centerlines {
-    /// Parts every line where it jumps, and notes it, and the long steps that are no jumps.
+    /// Splits lines at jumps and notes it, as well as long steps that are not jumps.
     pub(crate) fn parted_at_jumps(mut self) -> Self {
         let count = self.lines.len();
         let lines = std::mem::take(&mut self.lines);
@@ -21,24 +20,22 @@ impl Centerlines {
             self.lines.extend(parted(line, list, ends));
         }
         let parts = self.lines.len();
-        let kind = format!("steps more than {JUMP} times as long as the usual one");
+        let kind = format!("steps longer than {JUMP} times the median");
         if parts > count {
-            self.notes
-                .push(format!("{count} list(s) of points with {kind}: parted into {parts} lines there"));
+            self.notes.push(format!("{count} point list(s) with {kind}: split into {parts} lines there"));
         }
         if kept > 0 {
-            self.notes
-                .push(format!("{kept} {kind} at an end or beside other long ones were kept in their line"));
+            self.notes.push(format!("{kept} {kind} at an end or next to other long steps were not split"));
         }
         self
     }
 }
 
-/// Where the parts of a line end; the last one ends with the line. Counts long steps that are no jumps.
+/// End index of each part; counts long steps that are not jumps.
 fn ends_at_jumps(line: &Line, kept: &mut usize) -> Vec<usize> {
     let whole = vec![line.points.len()];
     let steps: Vec<f64> = line.points.windows(2).map(|pair| pair[0].distance(pair[1])).collect();
-    // Repeated points are no steps.
+    // Repeated points are not steps.
     let moved: Vec<usize> = (0..steps.len()).filter(|i| steps[*i] > 0.0).collect();
     if moved.len() < FEWEST_POINTS - 1 || !steps.iter().all(|step| step.is_finite()) {
         return whole;

@@ -1,13 +1,12 @@
-//! Which format a file has: told by its content, and by the ending of its name only where that does not tell.
+//! Detects the format by content, and by file name only if that is ambiguous.
 
 use crate::error::{Error, Result, excerpt};
 use crate::table;
 use crate::text;
 use crate::{npy, rotterdam, swc, xml};
 
-/// A format with a room of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub(crate) enum Kind {
     VtkXml,
     VtkLegacy,
     Markups,
@@ -20,14 +19,11 @@ pub enum Kind {
     Npy,
 }
 
-/// Bytes in which content that is no text shows itself.
+/// Bytes checked for binary content.
 const BEGINNING: usize = 4096;
 
-/// The format of `content`, from which a byte order mark was taken.
-///
-/// # Errors
-/// For formats that are not read, by name where they are known.
-pub fn of(content: &[u8], file_name: &str) -> Result<Kind> {
+/// `content` has no byte order mark.
+pub(crate) fn of(content: &[u8], file_name: &str) -> Result<Kind> {
     let name = file_name.to_ascii_lowercase();
     let begins = content.trim_ascii_start();
     packed(content, &name)?;
@@ -49,7 +45,7 @@ pub fn of(content: &[u8], file_name: &str) -> Result<Kind> {
     }
 }
 
-/// Refuses archives and UTF-16 by name.
+/// Rejects archives and UTF-16 by name.
 fn packed(content: &[u8], name: &str) -> Result<()> {
     let (found, mend) = match content {
         [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => ("text in UTF-16", "save it as UTF-8"),
@@ -57,13 +53,12 @@ fn packed(content: &[u8], name: &str) -> Result<()> {
             ("an archive of NumPy arrays (.npz)", "save one array with numpy.save")
         }
         [b'P', b'K', 3, 4, ..] => ("a ZIP archive", "unpack it first"),
-        [0x1f, 0x8b, ..] => ("a file packed by gzip", "unpack it first"),
+        [0x1f, 0x8b, ..] => ("a gzip file", "unpack it first"),
         _ => return Ok(()),
     };
     Err(Error::new("", found, "a centerline file").mend(mend))
 }
 
-/// Whether the first line is a field that MetaIO objects begin with.
 fn is_meta_io(content: &[u8]) -> bool {
     let key = content.split(|b| *b == b'=').next().unwrap_or_default().trim_ascii();
     key.len() < content.len() && [&b"ObjectType"[..], b"Comment", b"NDims", b"FormTypeName"].contains(&key)
@@ -94,10 +89,10 @@ fn text_kind(content: &[u8], name: &str) -> Result<Option<Kind>> {
 
 fn unknown(name: &str) -> Error {
     let known: [(&str, &str, &str); 6] = [
-        (".vtp", "content that is no XML", "a VTK XML file that begins with '<VTKFile'"),
+        (".vtp", "content that is not XML", "a VTK XML file that begins with '<VTKFile'"),
         (".vtk", "another first line", "a legacy VTK file that begins with '# vtk DataFile Version'"),
-        (".json", "content that is no JSON object", "a 3D Slicer markups file that begins with '{'"),
-        (".pth", "content that is no XML", "a SimVascular path file that begins with '<'"),
+        (".json", "content that is not a JSON object", "a 3D Slicer markups file that begins with '{'"),
+        (".pth", "content that is not XML", "a SimVascular path file that begins with '<'"),
         (".tre", "another first line", "an ITK tube file that begins with 'ObjectType = '"),
         (".npy", "another beginning", "a NumPy array that begins with '\\x93NUMPY'"),
     ];

@@ -1,10 +1,9 @@
-//! Readers and writers of centerline files: one room per format.
+//! Readers and writers of centerline files, one module per format.
 //!
-//! [`read`] turns the bytes of a file into the [`Centerlines`] that stand in it, in the file's own space and
-//! unit; [`Centerlines::scaled`] brings them to mm; [`junctions::vessels`] turns lines that repeat a trunk, or
-//! that are single segments, into vessels that meet at shared end points.
+//! [`read`] returns the [`Centerlines`] of a file in its own space and unit; [`Centerlines::scaled`] converts
+//! them to mm; [`junctions::vessels`] turns repeated trunks and single segments into vessels that meet.
 //!
-//! | format | told by | unit and space | radius |
+//! | format | recognized by | unit and space | radius |
 //! |---|---|---|---|
 //! | VTK XML poly data, `.vtp` | `<VTKFile` | none; `SPACE` | a point array |
 //! | legacy VTK, `.vtk` | `# vtk` | none; `SPACE=` in the title | a point array |
@@ -17,9 +16,8 @@
 //! | text table, `.csv`, `.tsv`, `.txt` | numbers or a header | the header's | the header's, or a fourth column |
 //! | NumPy array, `.npy` | `\x93NUMPY` | none; none | a fourth column |
 //!
-//! Every reader is bounded by its input: no count or offset that a file states is believed before the bytes
-//! that it speaks of are there, and what is unpacked stays within a budget that grows with the size of the
-//! file.
+//! Readers trust no stated count or offset before its bytes exist, and unpack within a budget that grows with
+//! the file.
 
 mod centerlines;
 mod compression;
@@ -67,16 +65,11 @@ pub use write::{marked_cell, write_csv, write_mrk_json, write_swc, write_vtk, wr
 
 use kind::Kind;
 
-/// The centerlines of a file, in its own unit and space.
+/// Reads the centerlines of a file, in its own unit and space.
 ///
-/// The lines are for [`Centerlines::scaled`], which holds them to the limit of 1e6 mm that cannot be checked
-/// where the unit is not known; its factor may be 1.
-///
-/// The format is told by the content; the ending of `file_name` decides only where the content does not tell.
-///
-/// # Errors
-/// An [`Error`] that names the file and place: an unknown format, content that is not what the format
-/// promises, or a file without lines.
+/// Pass the result to [`Centerlines::scaled`] (factor 1 for mm), which enforces the limit of 1e6 mm. The
+/// content decides the format; `file_name` only if that is ambiguous. Fails with the file and place for an
+/// unknown format, damaged content, or a file without lines.
 pub fn read(bytes: &[u8], file_name: &str) -> Result<Centerlines> {
     read_unnamed(bytes, file_name).map_err(|error| error.in_file(file_name))
 }

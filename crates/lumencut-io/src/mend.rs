@@ -1,37 +1,37 @@
-//! What mends an error about a file, where a host can do it or says it in words of its own.
+//! Remedies for file errors that hosts can apply or word themselves.
 
 use std::fmt;
 
 use crate::space::Space;
 use crate::unit::Unit;
 
-/// A step that mends an [`Error`](crate::Error). Each host words it in its own way: as arguments of Python, as options of the
-/// command line, as buttons of a page. The words of [`fmt::Display`] are for programs in Rust.
+/// A remedy of an [`Error`](crate::Error). Hosts word it as Python arguments, command-line options or
+/// buttons; [`fmt::Display`] is for Rust programs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Mend {
-    /// State the space of the coordinates, LPS or RAS: the volume does not tell.
+    /// State the space of the coordinates, LPS or RAS; the volume does not decide it.
     Coordinates,
-    /// State the unit of the coordinates, one of these: the volume does not tell.
+    /// State the unit, one of these; the volume does not decide it.
     Unit(Vec<Unit>),
-    /// State space and unit of the coordinates, which fit the volume in none.
+    /// State space and unit; no combination fits the volume.
     Place,
-    /// Put the points of each line into their order along the vessel.
+    /// Sort the points of each line along the vessel.
     Reorder,
-    /// State space and unit of the coordinates, one of these pairs: the volume does not tell.
+    /// State space and unit, one of these pairs; the volume does not decide it.
     Reading(Vec<(Space, Unit)>),
 }
 
-/// The names of readings: a row for each space, a column for each unit.
+/// Rows are spaces, columns units.
 const READINGS: [[&str; 5]; 2] = [
     ["lps in um", "lps in mm", "lps in cm", "lps in dm", "lps in m"],
     ["ras in um", "ras in mm", "ras in cm", "ras in dm", "ras in m"],
 ];
 
 impl Mend {
-    /// The name of every mend of this crate.
+    /// All names.
     pub const NAMES: [&str; 5] = ["coordinates", "unit", "place", "reading", "reorder"];
 
-    /// The name by which every host knows it.
+    /// The name used by every host.
     #[must_use]
     pub const fn name(&self) -> &'static str {
         match self {
@@ -43,7 +43,7 @@ impl Mend {
         }
     }
 
-    /// What can be chosen among: names of spaces or units, or of both as in `lps in cm`.
+    /// The choices: spaces, units, or both as in `lps in cm`.
     #[must_use]
     pub fn values(&self) -> Vec<&'static str> {
         match self {
@@ -67,7 +67,7 @@ impl fmt::Display for Mend {
             Self::Place => {
                 write!(f, "state the space, {values}, and the unit if the file belongs to this volume")
             }
-            Self::Reorder => f.write_str("put the points in order along the vessel"),
+            Self::Reorder => f.write_str("sort the points along the vessel"),
         }
     }
 }

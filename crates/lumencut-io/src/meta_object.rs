@@ -1,11 +1,11 @@
-//! The fields of one object of a MetaIO file, and its transform.
+//! The fields of a MetaIO object, and its transform.
 
 use glam::{DAffine3, DMat3, DVec3};
 
 use crate::centerlines::Line;
 use crate::error::{Error, Result, excerpt};
 
-/// The fields that are read; others are not kept.
+/// Fields to read.
 const KNOWN: [&str; 18] = [
     "NDims",
     "ID",
@@ -27,67 +27,58 @@ const KNOWN: [&str; 18] = [
     "Origin",
 ];
 
-/// One object of a scene: its type and its fields.
-pub struct MetaObject {
+pub(crate) struct MetaObject {
     kind: String,
     fields: Vec<(&'static str, String)>,
-    /// The points of a tube, in units of the object.
+    /// In units of the object.
     pub line: Option<Line>,
 }
 
-/// Whether `name` is one of `wanted`, in capitals or not.
-pub fn one_of(name: &str, wanted: &[&str]) -> bool {
+pub(crate) fn one_of(name: &str, wanted: &[&str]) -> bool {
     wanted.iter().any(|wanted| name.eq_ignore_ascii_case(wanted))
 }
 
 impl MetaObject {
-    pub fn new(kind: &str) -> Self {
+    pub(crate) fn new(kind: &str) -> Self {
         Self { kind: kind.to_owned(), fields: Vec::new(), line: None }
     }
 
-    pub fn is_tube(&self) -> bool {
+    pub(crate) fn is_tube(&self) -> bool {
         one_of(&self.kind, &["Tube", "VesselTube", "DTITube"])
     }
 
-    /// # Errors
-    /// For a tube whose points were not met.
-    pub fn check_points(&self) -> Result<()> {
+    /// Fails for a tube without points.
+    pub(crate) fn check_points(&self) -> Result<()> {
         if self.is_tube() && self.line.is_none() {
             return Err(Error::truncated(self.title(), "no Points", "the points of the tube"));
         }
         Ok(())
     }
 
-    /// Keeps a field, of several with one name the first.
-    pub fn set(&mut self, key: &str, value: &str) {
+    pub(crate) fn set(&mut self, key: &str, value: &str) {
         if let Some(key) = KNOWN.iter().find(|known| **known == key).filter(|key| self.get(key).is_none()) {
             self.fields.push((key, value.to_owned()));
         }
     }
 
-    pub fn get(&self, key: &str) -> Option<&str> {
+    pub(crate) fn get(&self, key: &str) -> Option<&str> {
         self.fields.iter().find(|(known, _)| *known == key).map(|(_, value)| value.as_str())
     }
 
-    pub fn is_true(&self, key: &str) -> bool {
+    pub(crate) fn is_true(&self, key: &str) -> bool {
         self.get(key).is_some_and(|value| one_of(value, &["True", "T", "1"]))
     }
 
-    /// The id of this object or its parent; `None` where it has none.
-    pub fn id(&self, key: &str) -> Option<i64> {
+    pub(crate) fn id(&self, key: &str) -> Option<i64> {
         self.get(key)?.parse().ok().filter(|id| *id >= 0)
     }
 
-    /// What errors and notes call this object.
-    pub fn title(&self) -> String {
+    pub(crate) fn title(&self) -> String {
         format!("{} {}", self.kind, self.get("ID").unwrap_or("without ID"))
     }
 
-    /// The size of a step of the points along each axis; 1 where none is stated.
-    ///
-    /// # Errors
-    /// Where it is not above 0.
-    pub fn spacing(&self) -> Result<DVec3> {
+    /// Point spacing per axis; 1 if not stated.
+    pub(crate) fn spacing(&self) -> Result<DVec3> {
         let Some(spacing) = self.numbers::<3>(&["ElementSpacing"])? else { return Ok(DVec3::ONE) };
         if spacing.iter().all(|size| *size > 0.0) {
             return Ok(DVec3::from(spacing));
@@ -95,19 +86,14 @@ impl MetaObject {
         Err(Error::new("ElementSpacing", format!("{spacing:?}"), "3 numbers above 0"))
     }
 
-    /// The transform to the parent: the matrix, row by row, then the offset, which already holds what the
-    /// centre of rotation adds.
-    ///
-    /// # Errors
-    /// Where the fields are no numbers.
-    pub fn parent_from_object(&self) -> Result<DAffine3> {
+    /// Transform to the parent: row-major matrix, then the offset, which includes the centre of rotation.
+    pub(crate) fn parent_from_object(&self) -> Result<DAffine3> {
         let matrix = self.numbers::<9>(&["TransformMatrix", "Rotation", "Orientation"])?;
         let matrix = matrix.map_or(DMat3::IDENTITY, |rows| DMat3::from_cols_array(&rows).transpose());
         let offset = self.numbers::<3>(&["Offset", "Position", "Origin"])?;
         Ok(DAffine3::from_mat3_translation(matrix, offset.map_or(DVec3::ZERO, DVec3::from)))
     }
 
-    /// The numbers of the first of these fields that is there.
     fn numbers<const N: usize>(&self, keys: &[&str]) -> Result<Option<[f64; N]>> {
         let Some(text) = keys.iter().find_map(|key| self.get(key)) else { return Ok(None) };
         let numbers: Option<Vec<f64>> = text

@@ -9,15 +9,11 @@ use crate::placed_points::{has_place, note_left_out};
 use crate::space::Space;
 use crate::unit::Unit;
 
-/// Types of other markups that a message names, and then only counts.
+/// Number of other markup types that a message names.
 const MOST_NAMED: usize = 8;
 
-/// The curves and lines of a `.mrk.json` file, one line each through the control points, in the unit of the
-/// first.
-///
-/// # Errors
-/// Where the JSON is damaged, a point or unit is invalid, or no markup is a curve or line.
-pub fn read(bytes: &[u8]) -> Result<Centerlines> {
+/// One line per curve or line through its control points, in the unit of the first.
+pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     let root = Json::of(bytes).map_err(|error| {
         Error::truncated("", format!("damaged JSON ({error})"), "a 3D Slicer markups file")
     })?;
@@ -47,15 +43,14 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
         let expected = "a markup of type Curve, ClosedCurve or Line";
         return Err(Error::new("markups", others.text(), expected));
     }
-    note_left_out(&mut out, unplaced, "control point(s) without a place", "with one")?;
+    note_left_out(&mut out, unplaced, "control point(s) without a position", "with one")?;
     if others.count > 0 {
-        out.notes.push(format!("markups that are no curves were left out: {}", others.text()));
+        out.notes.push(format!("markups other than curves were ignored: {}", others.text()));
     }
-    // What this crate wrote comes back as it was.
+    // Files of this crate are read back unchanged.
     if out.joined { out.tidy() } else { out.without_zero_radii().tidy() }
 }
 
-/// The types of markups that are no curves.
 #[derive(Default)]
 struct Others {
     named: Vec<String>,
@@ -79,7 +74,6 @@ impl Others {
     }
 }
 
-/// The fields of a markup that are read.
 struct Markup<'a> {
     kind: Option<Json<'a>>,
     name: Option<Json<'a>>,
@@ -97,14 +91,14 @@ impl<'a> Markup<'a> {
     }
 }
 
-/// Adds the line of a markup; gives how many of its control points have no place.
+/// Adds the line of a markup; returns the number of points without a position.
 fn markup_line(markup: &Markup, kind: &str, out: &mut Centerlines) -> Result<usize> {
     let space = space(markup.space)?;
     let own = unit_of("coordinateUnits", markup.unit)?;
     let unit = *out.unit.get_or_insert(own);
     if unit != own {
         out.note_once(format!(
-            "markups in different units were brought into {}, that of the first",
+            "markups in different units were converted to {}, the unit of the first",
             unit.name()
         ));
     }
@@ -113,9 +107,9 @@ fn markup_line(markup: &Markup, kind: &str, out: &mut Centerlines) -> Result<usi
     if out.lines.is_empty() {
         out.space = space;
     } else if space.unwrap_or(Space::Lps) != out.space.unwrap_or(Space::Lps) {
-        // LPS and RAS differ in the signs of x and y, whichever of the two the first markup has.
+        // LPS and RAS differ in the signs of x and y.
         points.iter_mut().for_each(|p| *p *= DVec3::new(-1.0, -1.0, 1.0));
-        out.note_once("markups in different spaces were brought into the space of the first".into());
+        out.note_once("markups in different coordinate systems were converted to that of the first".into());
     }
     let mut radius = radius(markup.measurements, &placed, [own, unit])?;
     if radius.is_some() {
@@ -127,21 +121,20 @@ fn markup_line(markup: &Markup, kind: &str, out: &mut Centerlines) -> Result<usi
     }
     if kind != "Line" && !out.joined && points.windows(3).any(is_corner) {
         out.note_once(
-            "control points far apart were joined by straight lines, where 3D Slicer may show a smooth curve"
-                .into(),
+            "distant control points were joined by straight lines; 3D Slicer may show a smooth curve".into(),
         );
     }
     out.lines.push(Line { points, radius, name: markup.name.and_then(Json::text), ..Line::default() });
     Ok(unplaced)
 }
 
-/// Whether a line through three points turns by more than 30° at the second.
+/// Whether the line turns by more than 30°.
 fn is_corner(points: &[DVec3]) -> bool {
     let [before, behind] = [points[1] - points[0], points[2] - points[1]];
     before.dot(behind) < 0.75_f64.sqrt() * before.length() * behind.length()
 }
 
-/// The stated space, by name or by the number that 3D Slicer gives it.
+/// By name, or by 3D Slicer's number.
 fn space(stated: Option<Json>) -> Result<Option<Space>> {
     let Some(stated) = stated else { return Ok(None) };
     let text = stated.text().unwrap_or_else(|| stated.raw().to_owned());
@@ -152,8 +145,7 @@ fn space(stated: Option<Json>) -> Result<Option<Space>> {
     }
 }
 
-/// The stated unit; one name, one equal name per axis, or a code of UCUM, such as `["mm", "UCUM",
-/// "millimeter"]`. Millimetres where none is stated.
+/// One name, equal names per axis, or a UCUM code such as `["mm", "UCUM", "millimeter"]`; mm if not stated.
 fn unit_of(subject: &str, stated: Option<Json>) -> Result<Unit> {
     let Some(stated) = stated else { return Ok(Unit::Millimetre) };
     let (mut first, mut alike, mut coded) = (None, true, false);
@@ -170,17 +162,14 @@ fn unit_of(subject: &str, stated: Option<Json>) -> Result<Unit> {
     .ok_or_else(|| Error::new(subject, excerpt(name.raw()), "one of um, mm, cm, dm, m"))
 }
 
-/// The control points of a markup.
 #[derive(Default)]
 struct Controls {
-    /// The points that have a place.
     points: Vec<DVec3>,
-    /// Which have one: those that are being placed, or whose place was taken away, do not.
+    /// Whether each point has a position.
     placed: Vec<bool>,
 }
 
 impl Controls {
-    /// The points of a list, their places multiplied by `factor`.
     fn of(list: Option<Json>, factor: f64) -> Result<Self> {
         let mut out = Self::default();
         let take = |i, control: Json| {
@@ -207,8 +196,7 @@ fn position_of(place: Json, index: usize) -> Result<DVec3> {
     })
 }
 
-/// The `Radius` measurement of the control points that are `placed`. Of the two units the first is the
-/// markup's own, the second the one that is wanted. A value that is null is NaN.
+/// The `Radius` measurement of the `placed` points, converted from unit `own` to `wanted`; null is NaN.
 fn radius(measurements: Option<Json>, placed: &[bool], [own, wanted]: [Unit; 2]) -> Result<Option<Vec<f64>>> {
     let Some([values, stated]) = measurements.and_then(measured_radius) else { return Ok(None) };
     let Some(count) = values.and_then(|values| values.each(|_, _| Ok(()))).transpose()? else {
@@ -241,7 +229,6 @@ fn radius(measurements: Option<Json>, placed: &[bool], [own, wanted]: [Unit; 2])
     Ok(Some(out))
 }
 
-/// The values of the first measurement that is a radius, and their unit.
 fn measured_radius(measurements: Json) -> Option<[Option<Json>; 2]> {
     let mut found = None;
     measurements.each(|_, measurement| {

@@ -6,18 +6,13 @@ use crate::centerlines::{Centerlines, Line};
 use crate::data_array::{ByteOrder, NumberType};
 use crate::error::{Error, Result, excerpt};
 
-/// How every `.npy` file begins.
-pub const MAGIC: &[u8] = b"\x93NUMPY";
+pub(crate) const MAGIC: &[u8] = b"\x93NUMPY";
 
-/// The longest header (bytes) that is read; NumPy itself draws the line at 10 000 characters.
+/// Maximum header length (bytes); NumPy's own limit is 10,000 characters.
 const LONGEST_HEADER: usize = 1 << 16;
 
-/// The array of a `.npy` file as one line, or several where it jumps: a row per point, of x, y, z and, where
-/// there is a fourth column, the radius.
-///
-/// # Errors
-/// Where the header is damaged or states another shape or type, or the data ends early.
-pub fn read(bytes: &[u8]) -> Result<Centerlines> {
+/// The array as one line, or several at jumps: rows of x, y, z and an optional radius.
+pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     let (header, data) = split(bytes)?;
     let (kind, order) = number_type(header)?;
     let (rows, columns) = shape(header)?;
@@ -46,9 +41,9 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
     out.parted_at_jumps().without_zero_radii().tidy()
 }
 
-/// The header and the data behind it.
 fn split(bytes: &[u8]) -> Result<(&str, &[u8])> {
-    let broken = || Error::truncated("header", "fewer bytes than the header has", "a whole NumPy header");
+    let broken =
+        || Error::truncated("header", "fewer bytes than the header states", "a complete NumPy header");
     let rest = bytes.get(MAGIC.len()..).ok_or_else(broken)?;
     let ([major, _], rest) = rest.split_first_chunk::<2>().ok_or_else(broken)?;
     let (length, rest) = match major {
@@ -63,11 +58,11 @@ fn split(bytes: &[u8]) -> Result<(&str, &[u8])> {
     }
     let (header, data) = rest.split_at_checked(length).ok_or_else(broken)?;
     let header = std::str::from_utf8(header)
-        .map_err(|_| Error::new("header", "bytes that are no text", "a NumPy header"))?;
+        .map_err(|_| Error::new("header", "bytes that are not text", "a NumPy header"))?;
     Ok((header, data))
 }
 
-/// What stands behind a key of the header, which is a Python dictionary with three keys.
+/// Text after a key of the header, a Python dictionary with three keys.
 fn value_of<'a>(header: &'a str, key: &str) -> Result<&'a str> {
     let quoted = [format!("'{key}'"), format!("\"{key}\"")];
     let behind = quoted.iter().find_map(|key| header.split_once(key.as_str()));
@@ -99,7 +94,6 @@ fn number_type(header: &str) -> Result<(NumberType, ByteOrder)> {
     Ok((kind, order))
 }
 
-/// Rows and columns.
 fn shape(header: &str) -> Result<(usize, usize)> {
     let text = value_of(header, "shape")?;
     let inside = text.strip_prefix('(').and_then(|rest| rest.split_once(')')).map(|(inside, _)| inside);

@@ -1,34 +1,28 @@
-//! Which control points of 3D Slicer have a place: those that are being placed, or that lost it, have none.
+//! Positions of 3D Slicer's control points, which may be undefined.
 
 use crate::centerlines::Centerlines;
 use crate::error::{Error, Result, excerpt};
 
-/// The fewest points of a line.
 const FEWEST: usize = 2;
 
-/// What a column of a table says of its points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PlacedBy {
-    /// Whether they are defined, 0 or 1.
+pub(crate) enum PlacedBy {
+    /// Defined, 0 or 1.
     Flag,
-    /// Their `positionStatus`.
+    /// `positionStatus`.
     Status,
 }
 
 impl PlacedBy {
-    /// The name of such a column.
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Flag => "defined",
             Self::Status => "positionStatus",
         }
     }
 
-    /// Whether the point of the `field` has a place; one of an empty field has.
-    ///
-    /// # Errors
-    /// For a word that says neither.
-    pub fn is_placed(self, field: &str) -> Result<bool> {
+    /// An empty field counts as defined.
+    pub(crate) fn is_placed(self, field: &str) -> Result<bool> {
         match self {
             Self::Flag => is_defined(field),
             Self::Status => has_place(field),
@@ -47,11 +41,8 @@ fn is_defined(flag: &str) -> Result<bool> {
     }
 }
 
-/// Whether a `positionStatus` of 3D Slicer, its name or its number, is that of a point with a place.
-///
-/// # Errors
-/// For another word or number.
-pub fn has_place(status: &str) -> Result<bool> {
+/// Whether a `positionStatus`, by name or number, means a defined position.
+pub(crate) fn has_place(status: &str) -> Result<bool> {
     match status.to_ascii_lowercase().as_str() {
         "" | "defined" | "2" => Ok(true),
         "undefined" | "preview" | "missing" | "0" | "1" | "3" => Ok(false),
@@ -59,11 +50,8 @@ pub fn has_place(status: &str) -> Result<bool> {
     }
 }
 
-/// Notes how many points without a place were left out of the lines; `points` and `kept` name both kinds.
-///
-/// # Errors
-/// Where too few are left for a line.
-pub fn note_left_out(out: &mut Centerlines, count: usize, points: &str, kept: &str) -> Result<()> {
+/// Notes the number of skipped points; fails if too few remain.
+pub(crate) fn note_left_out(out: &mut Centerlines, count: usize, points: &str, kept: &str) -> Result<()> {
     if count == 0 {
         return Ok(());
     }

@@ -1,4 +1,4 @@
-//! Points, lines and arrays of one VTK poly data, and the centerlines that they are.
+//! One VTK poly data, and its conversion to centerlines.
 
 use glam::DVec3;
 
@@ -7,57 +7,51 @@ use crate::data_array;
 use crate::error::{Error, Result};
 use crate::space::Space;
 
-/// One array of point, cell or field data.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Array {
+pub(crate) struct Array {
     pub name: String,
     /// Numbers per point or cell.
     pub components: usize,
     pub values: Vec<f64>,
 }
 
-/// The part of a poly data that centerlines are made of.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct PolyData {
-    /// x, y, z of every point.
+pub(crate) struct PolyData {
+    /// x, y, z per point.
     pub points: Vec<f64>,
-    /// The point ids of all lines, one line after the other.
+    /// Point ids of all lines.
     pub connectivity: Vec<f64>,
-    /// Where each line ends in `connectivity`.
+    /// End of each line in `connectivity`.
     pub ends: Vec<f64>,
-    /// Cells that come before the lines in the cell data.
     pub cells_before_lines: usize,
-    /// Cells that are no lines.
     pub other_cells: usize,
     pub point_arrays: Vec<Array>,
     pub cell_arrays: Vec<Array>,
-    /// The name of each cell.
     pub names: Option<Vec<String>>,
 }
 
-/// The string array of cells that names them.
-pub const NAMES: &str = "Name";
-/// The array of cells that is 0 where a cell has no name; the name is empty there.
-pub const HAS_NAME: &str = "HasName";
-/// The array of cells that is 0 where the radii, which are 0 there, are none.
-pub const HAS_RADIUS: &str = "HasRadius";
-/// The arrays of points that hold radii, by how plainly their name says so.
-pub const RADIUS_NAMES: [&str; 4] = ["MaximumInscribedSphereRadius", "Radius", "Radii", "VesselRadius"];
+/// Cell array of names.
+pub(crate) const NAMES: &str = "Name";
+/// Cell array that is 0 for cells without a name.
+pub(crate) const HAS_NAME: &str = "HasName";
+/// Cell array that is 0 for lines without radii.
+pub(crate) const HAS_RADIUS: &str = "HasRadius";
+/// Point arrays of radii, the most specific first.
+pub(crate) const RADIUS_NAMES: [&str; 4] =
+    ["MaximumInscribedSphereRadius", "Radius", "Radii", "VesselRadius"];
 const GROUP_NAME: &str = "GroupIds";
 
-/// Whether the array of this name is read from point or cell data.
-pub fn wanted(name: &str) -> bool {
+pub(crate) fn wanted(name: &str) -> bool {
     name == GROUP_NAME || [HAS_NAME, HAS_RADIUS].contains(&name) || names_radius(name) || names_diameter(name)
 }
 
-/// Whether a name holds the word radius, and names neither a curvature nor a gradient.
-pub fn names_radius(name: &str) -> bool {
+/// Excludes radii of curvature.
+pub(crate) fn names_radius(name: &str) -> bool {
     let name = name.to_ascii_lowercase();
     ["radius", "radii"].iter().any(|word| name.contains(word)) && !name.contains("curvature")
 }
 
-/// The space that the text `LPS` or `RAS` names.
-pub fn space_of(text: &str) -> Option<Space> {
+pub(crate) fn space_of(text: &str) -> Option<Space> {
     match text.trim().trim_matches('\0').to_ascii_uppercase().as_str() {
         "LPS" => Some(Space::Lps),
         "RAS" => Some(Space::Ras),
@@ -70,17 +64,13 @@ fn names_diameter(name: &str) -> bool {
 }
 
 impl PolyData {
-    /// Adds the lines of this poly data to `out`.
-    ///
-    /// # Errors
-    /// Where indices, counts or arrays do not fit each other, or points have no lines.
-    pub fn into_centerlines(self, out: &mut Centerlines) -> Result<()> {
+    pub(crate) fn into_centerlines(self, out: &mut Centerlines) -> Result<()> {
         let (points, rest) = self.points.as_chunks::<3>();
         if !rest.is_empty() {
             return Err(Error::new("points", format!("{} coordinates", self.points.len()), "3 per point"));
         }
         if self.ends.is_empty() && !points.is_empty() {
-            let found = format!("{} point(s), {} other cell(s) and no line", points.len(), self.other_cells);
+            let found = format!("{} point(s), {} other cell(s) but no line", points.len(), self.other_cells);
             return Err(Error::new("lines", found, "at least one line through the points")
                 .mend("give a file of centerlines, not of points or surfaces"));
         }
@@ -95,7 +85,11 @@ impl PolyData {
         for (cell, end) in self.ends.iter().enumerate() {
             let end = data_array::index("offsets of the lines", *end, self.connectivity.len() + 1)?;
             let ids = self.connectivity.get(start..end).ok_or_else(|| {
-                Error::new("offsets of the lines", format!("{end} after {start}"), "offsets that never fall")
+                Error::new(
+                    "offsets of the lines",
+                    format!("{end} after {start}"),
+                    "offsets that never decrease",
+                )
             })?;
             start = end;
             let index = |id: &f64| data_array::index("point ids of the lines", *id, points.len());
@@ -119,8 +113,7 @@ impl PolyData {
         Ok(())
     }
 
-    /// The values of every point from the array whose name says radius most plainly, else diameter, and what
-    /// part of them is the radius.
+    /// Values of the best radius array, otherwise diameter, and the factor to the radius.
     fn radius(&self, points: usize, notes: &mut Vec<String>) -> Result<Option<(&[f64], f64)>> {
         let scalar = |array: &&Array| array.components == 1;
         let named = RADIUS_NAMES.iter().find_map(|name| {
@@ -151,13 +144,11 @@ impl PolyData {
         Ok(Groups::OfPoints(&array.values))
     }
 
-    /// The values that the array of cells with this name has for the lines.
     fn of_lines(&self, name: &str) -> Result<Option<&[f64]>> {
         let array = self.cell_arrays.iter().find(|array| array.name == name && array.components == 1);
         array.map(|array| self.lines_of(name, &array.values)).transpose()
     }
 
-    /// The part of one value per cell that is of lines.
     fn lines_of<'a, T>(&self, name: &str, values: &'a [T]) -> Result<&'a [T]> {
         let range = self.cells_before_lines..self.cells_before_lines.saturating_add(self.ends.len());
         values.get(range).ok_or_else(|| {
@@ -182,8 +173,7 @@ fn one_value_each(array: &Array, count: usize, of: &str) -> Result<()> {
     Err(Error::new(format!("{of} array '{}'", array.name), found, format!("one value per {of}")))
 }
 
-/// The stretches of a line that lie in one group each; a stretch begins with the last point of the one
-/// before.
+/// Runs of one group; each starts with the last point of the previous one.
 fn runs<'a>(ids: &'a [usize], groups: &'a [f64]) -> impl Iterator<Item = (&'a [usize], i64)> {
     let mut start = 0;
     std::iter::from_fn(move || {

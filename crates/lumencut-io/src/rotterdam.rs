@@ -5,14 +5,11 @@ use crate::error::{Error, Result, excerpt};
 use crate::table;
 use crate::text::{self, Separator};
 
-/// Columns of a row: x, y, z, radius and, in most files, the variance between observers.
+/// x, y, z, radius and usually the variance between observers.
 const COLUMNS: [usize; 2] = [4, 5];
 
-/// The vessel of a reference file, one line. It states neither space nor unit.
-///
-/// # Errors
-/// Naming the line of the file where a row is not 4 or 5 numbers, and where the first only counts the rows.
-pub fn read(bytes: &[u8]) -> Result<Centerlines> {
+/// One line, without stated space or unit. Rejects a first column that only counts rows.
+pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     let (mut points, mut radius) = (Vec::new(), Vec::new());
     for (number, row) in text::data_lines(bytes) {
         let fields = text::fields(&row, Separator::Blanks);
@@ -32,9 +29,8 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
     out.without_zero_radii().tidy()
 }
 
-/// Whether a file that begins with this row is a reference: `reference.txt` in the evaluation's own layout,
-/// or five columns without a header under any name.
-pub fn is_row(row: &str, file_name: &str) -> bool {
+/// Recognizes `reference.txt` with four or five columns, or five columns without a header.
+pub(crate) fn is_row(row: &str, file_name: &str) -> bool {
     let fields = text::fields(row, Separator::Blanks);
     let named = file_name.ends_with("reference.txt");
     COLUMNS.contains(&fields.len())

@@ -1,8 +1,7 @@
-//! Session files: all that a reader made of a scan, to go on later.
+//! Session files: the state of a reading, to continue later.
 //!
-//! A session file is a 3D Slicer markups file (`.mrk.json`) whose curves are the vessels, so that whatever reads markups has the
-//! centerlines; the field [`FIELD`] beside them holds the rest. It names no file and nothing of the patient. Points are in LPS,
-//! lengths in mm.
+//! A session file is a 3D Slicer markups file (`.mrk.json`) whose curves are the vessels; the field [`FIELD`]
+//! has the rest. It contains no file names and no patient data. Points are in LPS, lengths in mm.
 
 use std::collections::BTreeMap;
 
@@ -16,14 +15,13 @@ use crate::read;
 use crate::write::check_all;
 use crate::write::mrk_json::markups;
 
-/// The field of the file that holds what markups have no place for.
+/// Name of the additional field.
 pub const FIELD: &str = "LumencutSession";
 
-/// The versions of that field: the first one, and the one that can say that 1 mm is assumed between voxels, and which diameters a
-/// reader noted. A file has the first one that says all of it, so that older readers refuse what they cannot tell, and nothing else.
+/// Versions of that field. Version 2 adds the assumed voxel spacing of 1 mm and noted diameters. Files use
+/// the lowest sufficient version, so that older readers reject only what they cannot read.
 const FORMATS: [u32; 2] = [1, 2];
 
-/// What every session file says of the software.
 const NOTICE: &str = "Lumencut is not a medical device.";
 
 type Point = [f64; 3];
@@ -31,55 +29,51 @@ type Point = [f64; 3];
 /// A saved session.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SessionFile {
-    /// The vessels (mm, LPS), one for each of [`Session::vessels`].
+    /// Vessels (mm, LPS), one per [`Session::vessels`].
     pub lines: Vec<Line>,
-    /// All but their lines.
+    /// Everything else.
     pub session: Session,
 }
 
-/// What a session file holds beside the lines of its vessels.
+/// The content of a session file besides the lines.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Session {
-    /// The version of this structure.
+    /// Version of this structure.
     pub format: u32,
-    /// The program that wrote it, with its version.
+    /// Program and version that wrote it.
     pub software: String,
-    /// That it is not a medical device.
+    /// Statement that it is not a medical device.
     pub notice: String,
-    /// The grid of the scan, to tell another one; none where there was no scan.
+    /// Grid of the scan, to recognize it; None without a scan.
     pub scan: Option<Scan>,
-    /// One for each vessel.
+    /// One per vessel.
     pub vessels: Vec<VesselState>,
-    /// Branches that a seed reached and that nobody has accepted yet.
+    /// Seeded branches not yet accepted.
     pub doubtful: Vec<DoubtfulBranch>,
     /// Balls that no vessel may pass.
     pub stoppers: Vec<Stopper>,
-    /// Whether vessels are traced on where no lumen is seen.
+    /// Whether tracing bridges stretches without lumen.
     pub bridge: bool,
     /// Straight distances.
     pub rulers: Vec<Ruler>,
-    /// The full width at half maximum of the point spread that the reader gave (mm); none where it is estimated.
+    /// FWHM of the point spread given by the reader (mm); None if estimated.
     pub fwhm_mm: Option<f64>,
-    /// How the scan is looked at.
+    /// The view.
     pub view: Option<View>,
-    /// Whether the reader took the voxels of a scan that does not say how far they lie apart for 1 mm apart; from format 2 on.
+    /// Whether a voxel spacing of 1 mm was assumed; since format 2.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub one_millimetre_assumed: bool,
 }
 
 impl Session {
-    /// The first version of the structure that says all of it.
     fn least_format(&self) -> u32 {
         let has_diameters = |marks: &Marks| !marks.diameters_mm.is_empty();
         let marks = self.vessels.iter().filter_map(|vessel| vessel.marks.as_ref());
         FORMATS[usize::from(self.one_millimetre_assumed || marks.into_iter().any(has_diameters))]
     }
 
-    /// The whole of it as JSON.
-    ///
-    /// # Errors
-    /// For numbers that JSON cannot hold, which no session file has.
+    /// As JSON.
     pub fn json(&self) -> Result<String> {
         let expected = "numbers and texts that JSON can hold";
         serde_json::to_string(self).map_err(|error| Error::new(FIELD, error.to_string(), expected))
@@ -90,70 +84,70 @@ impl Session {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scan {
-    /// The number of voxels along (i, j, k).
+    /// Voxels along (i, j, k).
     pub size: [usize; 3],
     /// World position (LPS, mm) of a continuous index, row by row.
     pub world_from_index: [[f64; 4]; 4],
 }
 
-/// What belongs to a vessel beside its line.
+/// The state of a vessel besides its line.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct VesselState {
     /// `#rrggbb`.
     pub color: String,
-    /// Whether the views leave it out.
+    /// Whether views omit it.
     pub hidden: bool,
-    /// Where it was clicked, in order along it; none where it was not traced from clicks.
+    /// Clicks in order; None if not traced from clicks.
     pub clicks: Option<Vec<Point>>,
-    /// How sure each of its points is, 0 to 1.
+    /// Confidence per point, 0 to 1.
     pub confidence: Option<Vec<f64>>,
-    /// Which of its points lie on a stretch without lumen that was bridged.
+    /// Whether each point lies on a bridged stretch.
     pub bridged: Option<Vec<bool>>,
-    /// What a reader marked on it.
+    /// The reader's marks.
     pub marks: Option<Marks>,
 }
 
-/// What a reader marked on a vessel: arc lengths and diameters in mm.
+/// The reader's marks on a vessel: arc lengths and diameters in mm.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Marks {
-    /// The place of a stenosis.
+    /// Place of a stenosis.
     pub at_mm: Option<f64>,
-    /// The places that it is compared with.
+    /// Reference places.
     pub references_mm: Vec<f64>,
     /// `nascet`, `ecst` or `area`.
     pub method: String,
-    /// The assumed original diameter, for ECST.
+    /// Assumed original diameter, for ECST.
     pub original_mm: Option<f64>,
-    /// The diameter of a vessel like the normal one.
+    /// Diameter of a comparable normal vessel.
     pub comparison_mm: Option<f64>,
     /// `carotid` or `coronary`.
     pub group: Option<String>,
-    /// The ends of a stretch.
+    /// Ends of a segment.
     pub stretch_mm: Option<[f64; 2]>,
-    /// The ends of another stretch.
+    /// Ends of a second segment.
     pub second_stretch_mm: Option<[f64; 2]>,
-    /// Places whose diameters a reader noted; from format 2 on.
+    /// Places of noted diameters; since format 2.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub diameters_mm: Vec<f64>,
 }
 
-/// A branch from a seed that is not sure.
+/// An uncertain branch from a seed.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DoubtfulBranch {
-    /// Its name; empty where it has none.
+    /// Name; may be empty.
     pub name: String,
     /// `#rrggbb`.
     pub color: String,
-    /// Why it is doubtful.
+    /// Reason for doubt.
     pub doubt: String,
-    /// Its points.
+    /// Points.
     pub points: Vec<Point>,
-    /// Its radius at each point (mm).
+    /// Radius per point (mm).
     pub radius: Option<Vec<f64>>,
-    /// How sure each of its points is, 0 to 1.
+    /// Confidence per point, 0 to 1.
     pub confidence: Option<Vec<f64>>,
 }
 
@@ -161,9 +155,9 @@ pub struct DoubtfulBranch {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Stopper {
-    /// Its middle.
+    /// Centre.
     pub center: Point,
-    /// Its radius.
+    /// Radius.
     pub radius_mm: f64,
 }
 
@@ -177,21 +171,21 @@ pub struct Ruler {
     pub to: Point,
 }
 
-/// How a scan is looked at.
+/// The view of a scan.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct View {
-    /// The camera of the turning view.
+    /// Camera of the 3D view.
     pub camera: Camera,
     /// `csr`, `csr-paper`, `mpcpr` or `cr`.
     pub method: String,
     /// Settings that differ from their defaults, by name; a window is level and width.
     pub settings: BTreeMap<String, Value>,
-    /// How the page arranges its views.
+    /// Layout of the page.
     pub layout: String,
-    /// Where the cross-hair stands.
+    /// Position of the cross-hair.
     pub cross_hair: Option<Point>,
-    /// The vessel of the straightened CPR, and the place of the section on it (mm).
+    /// Vessel of the straightened CPR, and the place of its section (mm).
     pub picked: Option<Picked>,
 }
 
@@ -199,42 +193,39 @@ pub struct View {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Picked {
-    /// The number of the vessel in the file, counted from 0.
+    /// Number of the vessel, from 0.
     pub vessel: usize,
-    /// The arc length on it.
+    /// Arc length.
     pub at_mm: f64,
 }
 
-/// An orthographic camera; its axes are unit vectors.
+/// An orthographic camera; axes are unit vectors.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Camera {
-    /// What is in the middle of the picture.
+    /// Centre of the image.
     pub center: Point,
     /// From the viewer into the scene.
     pub direction: Point,
-    /// Upwards in the picture.
+    /// Up in the image.
     pub up: Point,
     /// Columns and rows.
     pub size: [usize; 2],
-    /// The side of a pixel (mm).
+    /// Side of a pixel (mm).
     pub pixel_spacing: f64,
 }
 
-/// Whether the content of a file is that of a session file.
+/// Whether the content is a session file.
 #[must_use]
 pub fn is_session(content: &[u8]) -> bool {
     content.trim_ascii_start().starts_with(b"{")
         && Json::of(content).is_ok_and(|root| root.fields([FIELD])[0].is_some())
 }
 
-/// Reads the content of the session file `name`.
-///
-/// # Errors
-/// For a file that is no session, that another version wrote, or whose parts do not go together.
+/// Reads the session file `name`. Fails if it is no session, of an unknown version, or inconsistent.
 pub fn read_session(content: &[u8], name: &str) -> Result<SessionFile> {
     read_unnamed(content, name).map_err(|error| {
-        // What reads the curves names the file already.
+        // The curve reader already adds the name.
         if error.subject.starts_with(name) { error } else { error.in_file(name) }
     })
 }
@@ -254,10 +245,7 @@ fn read_unnamed(content: &[u8], name: &str) -> Result<SessionFile> {
     Ok(SessionFile { lines, session })
 }
 
-/// The bytes of a session file; it states the version of the structure and the notice itself.
-///
-/// # Errors
-/// For parts that do not go together, and lines that are none.
+/// Writes a session file with version and notice. Fails if its parts are inconsistent.
 pub fn write_session(file: &SessionFile, software: &str) -> Result<Vec<u8>> {
     let session = Session {
         format: file.session.least_format(),
@@ -272,7 +260,6 @@ pub fn write_session(file: &SessionFile, software: &str) -> Result<Vec<u8>> {
     Ok(markups(&file.lines, &format!("\"{FIELD}\": {},\n", session.json()?)).into_bytes())
 }
 
-/// Checks that this version of the software reads a version of the structure.
 fn check_format(version: Option<f64>) -> Result<()> {
     if FORMATS.iter().any(|format| version == Some(f64::from(*format))) {
         return Ok(());
@@ -285,7 +272,6 @@ fn check_format(version: Option<f64>) -> Result<()> {
     Err(error.mend(format!("{mend}the curves in it can still be read as centerlines")))
 }
 
-/// Checks that all parts go together.
 fn check(lines: &[Line], session: &Session) -> Result<()> {
     if session.format < session.least_format() {
         let what = if session.one_millimetre_assumed { "an assumed millimetre" } else { "noted diameters" };

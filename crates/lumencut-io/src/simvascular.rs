@@ -11,14 +11,9 @@ use crate::xml::{self, Attributes};
 
 const EXPECTED: &str = "a SimVascular path file";
 
-/// The paths of a `.pth` file, one line each, at the first time step. Older files have two root elements,
-/// `format` and `path`.
-///
-/// No file states its unit; SimVascular's models usually are in cm, whatever their other files say.
-///
-/// # Errors
-/// Where the XML is damaged or cut off, a point is invalid, or there is no path.
-pub fn read(bytes: &[u8]) -> Result<Centerlines> {
+/// One line per path, at the first time step; older files have two root elements, `format` and `path`. No
+/// file states its unit; SimVascular models usually are in cm.
+pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     let text = String::from_utf8_lossy(bytes);
     let mut reader = Reader::from_str(&text);
     let mut walk = Walk::default();
@@ -42,7 +37,6 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
     walk.centerlines()
 }
 
-/// One `path_element`.
 #[derive(Default)]
 struct Path {
     points: Vec<DVec3>,
@@ -51,10 +45,10 @@ struct Path {
 
 #[derive(Default)]
 struct Walk {
-    /// The elements around the current place.
+    /// Enclosing elements.
     open: Vec<String>,
     paths: Vec<Path>,
-    /// Time steps met in the current root element.
+    /// Time steps in the current root element.
     time_steps: usize,
     later_time_steps: usize,
 }
@@ -106,7 +100,7 @@ impl Walk {
         }
         if self.later_time_steps > 0 {
             let count = self.later_time_steps;
-            out.notes.push(format!("{count} time step(s) behind the first were left out"));
+            out.notes.push(format!("{count} time step(s) after the first were ignored"));
         }
         for path in self.paths {
             let points = if path.points.is_empty() {

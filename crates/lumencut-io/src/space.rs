@@ -1,6 +1,6 @@
-//! Patient spaces that files state.
+//! Patient spaces of files.
 
-/// The patient space of a file's coordinates.
+/// The patient space of coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Space {
     /// x to the left, y to the back, z to the head.
@@ -13,7 +13,7 @@ impl Space {
     /// Every space.
     pub const ALL: [Self; 2] = [Self::Lps, Self::Ras];
 
-    /// The short name: `lps` or `ras`.
+    /// `lps` or `ras`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

@@ -8,20 +8,16 @@ use crate::text::{self, Separator};
 
 const COLUMNS: &str = "7 numbers: id type x y z radius parent";
 
-/// The branches of an SWC file: a line from each root or branching to the next branching or leaf, which share
-/// their end points to the last bit. The types of nodes are not used.
-///
-/// # Errors
-/// Naming the line of the file where a node is invalid, repeats an id, has a parent that is not there or leads
-/// back to itself.
-pub fn read(bytes: &[u8]) -> Result<Centerlines> {
+/// One line from each root or branching to the next branching or leaf, sharing end points to the bit. Node
+/// types are ignored.
+pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     let nodes =
         text::data_lines(bytes).map(|(number, line)| node(number, &line)).collect::<Result<Vec<_>>>()?;
     if nodes.is_empty() {
         return Err(Error::new("", "no node", "an SWC file with a node per line"));
     }
     let tree = Tree::new(&nodes)?;
-    // Which node follows which is stated: nothing is to be guessed from places.
+    // The parents are stated, so nothing is joined by position.
     let mut out = Centerlines { joined: true, ..Centerlines::of("SWC") };
     out.lines = tree.branches(&nodes)?;
     if let Some(scale) = unused_scale(bytes) {
@@ -30,8 +26,7 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
     out.without_zero_radii().tidy()
 }
 
-/// A comment `SCALE` in front of the nodes that is not 1 along all axes. Programs differ in whether the
-/// nodes already hold it.
+/// A leading `SCALE` comment other than 1; programs differ in whether nodes already include it.
 fn unused_scale(bytes: &[u8]) -> Option<String> {
     let comments = text::lines(bytes).map_while(|(_, line)| Some(line.strip_prefix('#')?.trim().to_owned()));
     let is_one = |word: &str| word.parse() == Ok(1.0);
@@ -41,19 +36,18 @@ fn unused_scale(bytes: &[u8]) -> Option<String> {
     })
 }
 
-/// Whether a line of text is a node.
-pub fn is_node(line: &str) -> bool {
+pub(crate) fn is_node(line: &str) -> bool {
     let fields = text::fields(line, Separator::Blanks);
     fields.len() == 7 && whole(0, fields[1]).is_ok() && node(0, line).is_ok()
 }
 
 struct Node {
-    /// The line of the file.
+    /// Line number.
     line: usize,
     id: i64,
     point: DVec3,
     radius: f64,
-    /// `None` for a root.
+    /// None for a root.
     parent: Option<i64>,
 }
 
@@ -67,7 +61,7 @@ fn node(line: usize, content: &str) -> Result<Node> {
     Ok(Node { line, id, point: text::point(line, [x, y, z])?, radius: text::number(line, radius)?, parent })
 }
 
-/// An id, which some programs write as `1.0`.
+/// An integer, which some programs write as `1.0`.
 fn whole(line: usize, field: &str) -> Result<i64> {
     let of_float = || {
         let number = field.parse::<f64>().ok()?;
@@ -80,29 +74,28 @@ fn whole(line: usize, field: &str) -> Result<i64> {
         .ok_or_else(|| Error::new(format!("line {line}"), excerpt(field), "a whole number as id or parent"))
 }
 
-/// The children of every node, one node's after the other's.
 struct Tree {
     roots: Vec<usize>,
     children: Vec<usize>,
-    /// Where the children of each node begin, and where the last one's end.
+    /// Start index per node, plus the end.
     begins: Vec<usize>,
 }
 
 impl Tree {
     fn new(nodes: &[Node]) -> Result<Self> {
-        // The nodes in the order of their ids, in which they usually stand in the file.
+        // Sorted by id, which is the usual file order.
         let mut order: Vec<(i64, usize)> = nodes.iter().enumerate().map(|(i, node)| (node.id, i)).collect();
         order.sort_unstable();
         if let Some(pair) = order.windows(2).find(|pair| pair[0].0 == pair[1].0) {
             let [first, again] = [pair[0].1, pair[1].1].map(|i| nodes[i].line);
-            let found = format!("the id {} once more, first in line {first}", pair[0].0);
-            return Err(Error::new(format!("line {again}"), found, "every id once"));
+            let found = format!("the id {} again, first used in line {first}", pair[0].0);
+            return Err(Error::new(format!("line {again}"), found, "unique ids"));
         }
         let index = |id: i64| order.binary_search_by_key(&id, |(id, _)| *id).ok().map(|at| order[at].1);
         let parent = |node: &Node| match node.parent {
             None => Ok(None),
             Some(id) => index(id).map(Some).ok_or_else(|| {
-                let found = format!("the parent {id}, which is no node of the file");
+                let found = format!("the parent {id}, which is not a node of the file");
                 let expected = "the id of a node, or -1 for a root";
                 let error = Error::truncated(format!("line {}", node.line), found, expected);
                 if id == 0 { error.mend("write -1 as the parent of roots") } else { error }
@@ -137,7 +130,6 @@ impl Tree {
         &self.children[self.begins[node]..self.begins[node + 1]]
     }
 
-    /// The branches, each behind the one that it comes from.
     fn branches(&self, nodes: &[Node]) -> Result<Vec<Line>> {
         let mut lines = Vec::new();
         let mut reached = vec![false; nodes.len()];
@@ -163,8 +155,8 @@ impl Tree {
         match reached.iter().position(|reached| !reached) {
             None => Ok(lines),
             Some(i) => {
-                let found = format!("the node {}, whose parents lead around in a circle", nodes[i].id);
-                let expected = "parents that lead to a root, whose parent is -1";
+                let found = format!("the node {}, whose parents form a cycle", nodes[i].id);
+                let expected = "parents that lead to a root (parent -1)";
                 Err(Error::new(format!("line {}", nodes[i].line), found, expected))
             }
         }

@@ -1,4 +1,4 @@
-//! Tables of numbers as text (`.csv`, `.tsv`, `.txt`), with a header or without.
+//! Tables of numbers as text (`.csv`, `.tsv`, `.txt`), with or without a header.
 
 use std::borrow::Cow;
 use std::collections::HashSet;
@@ -10,14 +10,10 @@ use crate::table_columns::{Columns, name_coordinates};
 use crate::text::{self, Separator};
 use crate::unit::Unit;
 
-/// The lines of a table with a point per row. A first row `sep=;`, as spreadsheets want it, is passed over. Blank rows part lines, and so do changes of a column such as
-/// `line`, `vessel`, `CenterlineId` or `GroupId`; without such a column, jumps do.
-///
-/// Numbers may have a decimal comma where semicolons part the columns.
-///
-/// # Errors
-/// Naming the line of the file where a row is damaged, or it is not clear what the columns hold.
-pub fn read(bytes: &[u8]) -> Result<Centerlines> {
+/// One point per row. A first row `sep=;` is skipped. Blank rows separate lines, as does a change in a column
+/// such as `line` or `GroupId`; without such a column, jumps do. Decimal commas are allowed with semicolons.
+/// Fails for damaged rows or unclear columns.
+pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     let Some((first, row)) = text::data_lines(bytes).find(|(_, row)| !names_separator(row)) else {
         return Err(Error::new("", "no row", "a table with a point per row"));
     };
@@ -41,31 +37,31 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
         if line.trim_start().starts_with('#') {
             continue;
         }
-        // A spreadsheet writes a blank row as separators.
+        // Spreadsheets write blank rows as separators.
         match line.trim_matches([' ', '\t', ',', ';']) {
             "" => rows.finish_line(),
             _ => rows.add(number, &line)?,
         }
     }
     rows.finish_line();
-    note_left_out(&mut rows.out, rows.undefined, "point(s) that are not defined", "defined points")?;
+    note_left_out(&mut rows.out, rows.undefined, "undefined point(s)", "defined points")?;
     if guessed {
         rows.out.doubt_unnamed_columns();
         refuse_counter(&rows.out.lines)?;
     }
-    // Where a column tells lines apart, a gap in a line stays one.
+    // With a line column, gaps within a line stay.
     let whole = rows.columns.key.is_some();
     let out = if whole { rows.out } else { rows.out.parted_at_jumps() };
     out.without_zero_radii().tidy()
 }
 
-/// Whether a row only tells a spreadsheet what parts the columns.
+/// Whether a row only states the separator for spreadsheets.
 fn names_separator(row: &str) -> bool {
     let named = row.trim().trim_matches('"').strip_prefix("sep=");
     named.is_some_and(|separator| separator.chars().count() <= 1)
 }
 
-/// A header without the blanks in front of units, such as `x(mm)` for `x (mm)`, where blanks part columns.
+/// Removes blanks before units (`x (mm)` to `x(mm)`) if blanks separate columns.
 fn closed_up(header: &str, separator: Separator) -> Cow<'_, str> {
     if separator != Separator::Blanks {
         return Cow::Borrowed(header);
@@ -73,14 +69,14 @@ fn closed_up(header: &str, separator: Separator) -> Cow<'_, str> {
     Cow::Owned(header.replace(" (", "(").replace(" [", "["))
 }
 
-/// Takes the unit from a comment such as `units: cm` in front of the rows; else notes the first unit there.
+/// Takes the unit from a leading comment such as `units: cm`; otherwise notes the first unit there.
 fn unit_in_comments(bytes: &[u8], first: usize, columns: &mut Columns) {
     let mut other = None;
     for (_, line) in text::lines(bytes).take(first - 1).filter(|(_, line)| line.starts_with('#')) {
         let comment = line.to_lowercase();
         let signs = |c: char| c.is_whitespace() || "#()[],;:=.".contains(c);
         let mut words = comment.split(signs).filter(|word| !word.is_empty());
-        // A single m may mean anything.
+        // A single m is ambiguous.
         let known = |word: &str| Unit::of_name(word).filter(|unit| *unit != Unit::Metre);
         let Some(unit) = words.clone().find_map(known) else { continue };
         let said = [words.next(), words.next(), words.next()];
@@ -98,15 +94,15 @@ fn unit_in_comments(bytes: &[u8], first: usize, columns: &mut Columns) {
     }
 }
 
-/// Whether a line of text can begin a table: a row of three or more numbers, or a header with coordinates.
-pub fn is_first_row(line: &str) -> bool {
+/// Whether a line can start a table: at least three numbers, or a header with coordinates.
+pub(crate) fn is_first_row(line: &str) -> bool {
     let separator = separator_of(line);
     let fields = fields_of(line, separator);
     let numbers = fields.len() >= 3 && all_numbers(&fields, separator);
     numbers || name_coordinates(&fields)
 }
 
-/// What parts the columns of a row. Blanks beside tabs part too, where no name holds blanks.
+/// Separator of a row. Blanks besides tabs separate too, unless names contain blanks.
 fn separator_of(row: &str) -> Separator {
     if let Some(separator) = [';', ','].into_iter().find(|separator| row.contains(*separator)) {
         return Separator::Character(separator);
@@ -119,7 +115,6 @@ fn separator_of(row: &str) -> Separator {
     }
 }
 
-/// The fields of a row; a separator at its end begins no further one.
 fn fields_of(row: &str, separator: Separator) -> Vec<&str> {
     let mut fields = text::fields(row, separator);
     if fields.len() > 1 && fields.last() == Some(&"") {
@@ -128,14 +123,14 @@ fn fields_of(row: &str, separator: Separator) -> Vec<&str> {
     fields
 }
 
-/// Whether the last field of the first row, of which nothing names the columns, is empty, and not so in every row.
+/// Whether the last field is empty in the first row but not in all.
 fn has_empty_last(bytes: &[u8], first: &str, separator: Separator) -> bool {
     let count = text::fields(first, separator).len();
     count > fields_of(first, separator).len()
         && text::data_lines(bytes).any(|(_, row)| fields_of(&row, separator).len() == count)
 }
 
-/// A number of a radius, NaN where it is not stated.
+/// NaN if not stated.
 fn radius_of(number: usize, field: &str) -> Result<f64> {
     let is_unknown = ["", "nan", "na", "n/a"].into_iter().any(|name| field.eq_ignore_ascii_case(name));
     if is_unknown { Ok(f64::NAN) } else { text::number(number, field) }
@@ -145,7 +140,7 @@ fn all_numbers(fields: &[&str], separator: Separator) -> bool {
     fields.iter().all(|field| with_point(field, separator).parse::<f64>().is_ok())
 }
 
-/// A number with a decimal point: only semicolons leave the comma free to be one.
+/// Converts a decimal comma, which only semicolon tables can have.
 fn with_point(field: &str, separator: Separator) -> Cow<'_, str> {
     if separator == Separator::Character(';') && field.contains(',') {
         Cow::Owned(field.replace(',', "."))
@@ -154,7 +149,7 @@ fn with_point(field: &str, separator: Separator) -> Cow<'_, str> {
     }
 }
 
-/// The columns that the last comment in front of the rows names, where it names as many as there are.
+/// Columns named by the last leading comment, if their number fits.
 fn header_in_comment(bytes: &[u8], first: usize, count: usize) -> Result<Option<Columns>> {
     let comment = text::lines(bytes).take(first - 1).filter(|(_, line)| line.starts_with('#')).last();
     let Some((number, line)) = comment else { return Ok(None) };
@@ -168,31 +163,28 @@ fn header_in_comment(bytes: &[u8], first: usize, count: usize) -> Result<Option<
     Columns::of_header(number, names, &fields).map(Some)
 }
 
-/// Refuses lines whose columns nobody named and whose x only counts the rows: then y is x, and z the radius.
-///
-/// # Errors
-/// Where a radius follows such an x.
-pub fn refuse_counter(lines: &[Line]) -> Result<()> {
+/// Rejects unnamed columns whose x only counts rows, if a radius follows: then y would be x, and z the
+/// radius.
+pub(crate) fn refuse_counter(lines: &[Line]) -> Result<()> {
     let mut x = lines.iter().flat_map(|line| &line.points).map(|p| p.x).enumerate();
     let begins = x.next().map(|(_, first)| first).filter(|first| *first == 0.0 || *first == 1.0);
     let counts = begins.is_some_and(|first| x.all(|(i, x)| x == first + i as f64));
     if !counts || lines.iter().all(|line| line.radius.is_none()) {
         return Ok(());
     }
-    Err(Error::new("column 1", "a number that counts the rows", "columns x, y, z, radius")
-        .mend("name the columns in the first line, or leave the counter out"))
+    Err(Error::new("column 1", "a row number", "columns x, y, z, radius")
+        .mend("name the columns in the first line, or remove the row number"))
 }
 
-/// The lines so far.
 struct Rows {
     columns: Columns,
     separator: Separator,
     out: Centerlines,
     line: Line,
-    /// What the column that tells lines apart says of the current line.
+    /// Value of the line column.
     key: Option<String>,
     known_keys: HashSet<String>,
-    /// Points without a place.
+    /// Points without a position.
     undefined: usize,
 }
 
@@ -207,7 +199,7 @@ impl Rows {
 
     fn add(&mut self, number: usize, row: &str) -> Result<()> {
         let mut fields = text::fields(row, self.separator);
-        // Separators behind the last column part nothing.
+        // Ignores trailing separators.
         while fields.len() > self.columns.count && fields.last() == Some(&"") {
             fields.pop();
         }
@@ -236,21 +228,21 @@ impl Rows {
         Ok(())
     }
 
-    /// Whether the point of a row has a place.
     fn is_placed(&self, number: usize, fields: &[&str]) -> Result<bool> {
         let Some((column, placed)) = self.columns.placed else { return Ok(true) };
         let subject = format!("line {number}: column '{}'", placed.name());
         placed.is_placed(fields[column]).map_err(|error| error.in_file(&subject))
     }
 
-    /// Begins a line where the column that tells them apart has changed.
     fn begin_line(&mut self, key: &str) {
         if self.key.as_deref() == Some(key) {
             return;
         }
         self.finish_line();
         if !self.known_keys.insert(key.to_owned()) {
-            self.out.note_once("rows of one line stand apart: each stretch is a line of its own".into());
+            self.out.note_once(
+                "rows of one line are not consecutive: each run of rows is a separate line".into(),
+            );
         }
         self.key = Some(key.to_owned());
     }

@@ -1,4 +1,4 @@
-//! Which column of a table holds what: from its header, or from the number of its columns.
+//! The meaning of table columns, from the header or their number.
 
 use crate::error::{Error, Result, excerpt};
 use crate::placed_points::PlacedBy;
@@ -6,17 +6,15 @@ use crate::poly_data::names_radius;
 use crate::space::Space;
 use crate::unit::Unit;
 
-/// The columns that a line is made of.
 #[derive(Debug, PartialEq)]
-pub struct Columns {
-    /// How many fields every row has.
+pub(crate) struct Columns {
     pub count: usize,
     pub xyz: [usize; 3],
-    /// The column of the radius, and what to multiply its numbers by.
+    /// Column and factor of the radius.
     pub radius: Option<(usize, f64)>,
-    /// The column that tells the lines apart, and whether it holds the groups of a branch splitter.
+    /// Column that separates lines, and whether it has branch-splitter groups.
     pub key: Option<(usize, bool)>,
-    /// The column that tells which points have a place.
+    /// Column that states which points have a position.
     pub placed: Option<(usize, PlacedBy)>,
     pub unit: Option<Unit>,
     pub space: Option<Space>,
@@ -25,8 +23,7 @@ pub struct Columns {
 
 const RADIUS_NAMES: [&str; 4] = ["maximuminscribedsphereradius", "radius", "radii", "r"];
 const DIAMETER_NAMES: [&str; 2] = ["diameter", "diam"];
-/// Names of the column that tells lines apart, the plainest first; blanks and signs between words count for
-/// nothing.
+/// Names of the line column, the most specific first; blanks and signs between words are ignored.
 const KEY_NAMES: [&str; 11] = [
     "line",
     "lineid",
@@ -40,16 +37,14 @@ const KEY_NAMES: [&str; 11] = [
     "groupid",
     "groupids",
 ];
-/// Names of the column that tells which points have a place, as 3D Slicer calls it.
+/// Names of the status column, as in 3D Slicer.
 const PLACED_NAMES: [(&str, PlacedBy); 2] =
     [("positionstatus", PlacedBy::Status), ("defined", PlacedBy::Flag)];
-/// What may stand in front of the name or number of an axis.
+/// Prefixes of an axis name or number.
 const POINT_PREFIXES: [&str; 6] = ["points:", "points_", "point_", "position_", "pos_", "coordinate_"];
-/// What a header without coordinates is told.
 const EXPECTED: &str =
     "numbers, or a header that names x, y, z (or L, P, S; R, A, S; Points:0, Points:1, Points:2)";
 
-/// A column's name in small letters, and the unit that stands behind it.
 struct Name {
     base: String,
     unit: Option<String>,
@@ -64,7 +59,7 @@ impl Name {
             return Self { base: base.trim().into(), unit: (!unit.is_empty()).then(|| unit.into()) };
         }
         match field.rsplit_once(['_', ' ']) {
-            // `_m` may mean anything.
+            // `_m` is ambiguous.
             Some((base, unit)) if unit.len() > 1 && Unit::of_name(unit).is_some() => {
                 Self { base: base.trim().into(), unit: Some(unit.into()) }
             }
@@ -72,7 +67,7 @@ impl Name {
         }
     }
 
-    /// The name without a word that says that a point is meant, such as `0` for `points:0`.
+    /// Name without prefix, such as x for `points:0`.
     fn axis(&self) -> &str {
         let stripped = POINT_PREFIXES.iter().find_map(|prefix| self.base.strip_prefix(prefix));
         match stripped.unwrap_or(&self.base) {
@@ -83,18 +78,13 @@ impl Name {
         }
     }
 
-    /// The name without anything between its words.
     fn joined(&self) -> String {
         self.base.replace(['_', ' ', '-', '.'], "")
     }
 }
 
 impl Columns {
-    /// The columns that the fields of a header name.
-    ///
-    /// # Errors
-    /// Naming the line where it names no coordinates, or units that are none or differ.
-    pub fn of_header(line: usize, header: &str, fields: &[&str]) -> Result<Self> {
+    pub(crate) fn of_header(line: usize, header: &str, fields: &[&str]) -> Result<Self> {
         let at = |error: Error| error.in_file(&format!("line {line}"));
         let names: Vec<Name> = fields.iter().map(|field| Name::of(field)).collect();
         let Some((xyz, space)) = coordinates(&names) else {
@@ -103,7 +93,7 @@ impl Columns {
         if let Some(axis) = ["x", "y", "z"].into_iter().find(|axis| is_twice(&names, axis)) {
             let found = format!("more than one column {axis}, {}", excerpt(header));
             let error = Error::new(format!("line {line}"), found, "one column each for x, y and z");
-            return Err(error.mend("leave out the columns that are not meant"));
+            return Err(error.mend("remove the columns that are not coordinates"));
         }
         let units = xyz.map(|column| unit(fields[column], &names[column]));
         let [x, y, z] = units;
@@ -125,11 +115,7 @@ impl Columns {
         Ok(out)
     }
 
-    /// x, y, z, or with a fourth column the radius.
-    ///
-    /// # Errors
-    /// Naming the line where there are fewer or more columns.
-    pub fn of_count(line: usize, count: usize) -> Result<Self> {
+    pub(crate) fn of_count(line: usize, count: usize) -> Result<Self> {
         if !matches!(count, 3 | 4) {
             let found = format!("{count} column(s) of numbers without a header");
             return Err(Error::new(format!("line {line}"), found, "3 columns x, y, z, or 4 with the radius")
@@ -140,7 +126,7 @@ impl Columns {
         Ok(Self { count, xyz, radius, key: None, placed: None, unit: None, space: None, notes })
     }
 
-    /// The column of the radius, else of the diameter, in the unit of the coordinates.
+    /// Finds the radius column, otherwise the diameter, in the unit of the coordinates.
     fn find_radius(&mut self, fields: &[&str], names: &[Name]) -> Result<()> {
         let free = |column: &usize| !self.xyz.contains(column);
         let find = |fits: &dyn Fn(&str) -> bool| {
@@ -175,8 +161,7 @@ impl Columns {
     }
 }
 
-/// Whether the fields of a row name coordinates.
-pub fn name_coordinates(fields: &[&str]) -> bool {
+pub(crate) fn name_coordinates(fields: &[&str]) -> bool {
     coordinates(&fields.iter().map(|field| Name::of(field)).collect::<Vec<_>>()).is_some()
 }
 
@@ -184,7 +169,6 @@ fn is_twice(names: &[Name], axis: &str) -> bool {
     names.iter().filter(|name| name.axis() == axis).nth(1).is_some()
 }
 
-/// The columns of the three coordinates, and the space that their names state.
 fn coordinates(names: &[Name]) -> Option<([usize; 3], Option<Space>)> {
     let of = |axes: [&str; 3]| {
         let [x, y, z] = axes.map(|axis| names.iter().position(|name| name.axis() == axis));
@@ -196,7 +180,6 @@ fn coordinates(names: &[Name]) -> Option<([usize; 3], Option<Space>)> {
         .or_else(|| of(["r", "a", "s"]).map(|xyz| (xyz, Some(Space::Ras))))
 }
 
-/// The unit that a column states.
 fn unit(field: &str, name: &Name) -> Result<Option<Unit>> {
     let Some(text) = &name.unit else { return Ok(None) };
     let unit = Unit::of_name(text);

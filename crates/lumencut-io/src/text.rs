@@ -6,37 +6,32 @@ use glam::DVec3;
 
 use crate::error::{Error, Result, excerpt};
 
-/// Numbered lines of a text.
 type Numbered<'t> = (usize, Cow<'t, str>);
 
-/// Fields of a line beyond which it is no row of a table.
+/// Maximum number of fields in a table row.
 const MOST_FIELDS: usize = 1024;
 
-/// What stands between the fields of a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Separator {
+pub(crate) enum Separator {
     Character(char),
     Blanks,
 }
 
-/// The lines of a text with their numbers, from 1. They end in LF or CR LF, or in CR where there is no LF.
-pub fn lines(text: &[u8]) -> impl Iterator<Item = Numbered<'_>> {
+/// Numbered lines from 1, ending in LF or CR LF, or in CR if there is no LF.
+pub(crate) fn lines(text: &[u8]) -> impl Iterator<Item = Numbered<'_>> {
     let end = if text.contains(&b'\n') { b'\n' } else { b'\r' };
     text.split(move |b| *b == end)
         .enumerate()
         .map(|(i, line)| (i + 1, String::from_utf8_lossy(line.strip_suffix(b"\r").unwrap_or(line))))
 }
 
-/// The lines that are neither blank nor comments behind `#`.
-pub fn data_lines(text: &[u8]) -> impl Iterator<Item = Numbered<'_>> {
+/// Lines that are neither blank nor `#` comments.
+pub(crate) fn data_lines(text: &[u8]) -> impl Iterator<Item = Numbered<'_>> {
     lines(text).filter(|(_, line)| !line.trim_start().is_empty() && !line.trim_start().starts_with('#'))
 }
 
-/// The rows that lines form, each with the number of its first line: what stands in quotes may go on in further lines.
-///
-/// # Errors
-/// Naming the line where a quotation has no end.
-pub fn rows<'t>(
+/// Rows with the number of their first line; quoted text may span lines.
+pub(crate) fn rows<'t>(
     mut lines: impl Iterator<Item = Numbered<'t>>,
     separator: Separator,
 ) -> impl Iterator<Item = Result<Numbered<'t>>> {
@@ -49,8 +44,8 @@ pub fn rows<'t>(
         let mut at = At::Begin.behind(&row, separator);
         while at == At::Quoted {
             let Some((_, more)) = lines.next() else {
-                let found = "a quotation mark without its end";
-                return Some(Err(Error::new(format!("line {number}"), found, "one at the end of the field")));
+                let found = "an unclosed quotation mark";
+                return Some(Err(Error::new(format!("line {number}"), found, "a closing quotation mark")));
             };
             at = at.behind(&more, separator);
             row = Cow::Owned(row.into_owned() + "\n" + &more);
@@ -59,14 +54,13 @@ pub fn rows<'t>(
     })
 }
 
-/// Where in a row a character stands. A field is quoted where its first character is a quotation mark; a doubled one in it
-/// ends nothing.
+/// Parser state. A field is quoted if it starts with a quotation mark; a doubled mark does not end it.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum At {
     Begin,
     Plain,
     Quoted,
-    /// Behind a quotation mark that ends the field, or is the first of two.
+    /// After a quotation mark that ends the field or is the first of two.
     Closed,
 }
 
@@ -87,9 +81,8 @@ impl At {
     }
 }
 
-/// The fields of a line without blanks and quotes around them; separators inside quotes are part of a field.
-/// Never many more than a table can have.
-pub fn fields(line: &str, separator: Separator) -> Vec<&str> {
+/// Fields without surrounding blanks and quotes; separators in quotes belong to the field. Bounded in number.
+pub(crate) fn fields(line: &str, separator: Separator) -> Vec<&str> {
     match separator {
         Separator::Blanks => line.split_ascii_whitespace().take(MOST_FIELDS + 1).map(unquoted).collect(),
         Separator::Character(separator) => {
@@ -108,19 +101,11 @@ fn unquoted(field: &str) -> &str {
     field.strip_prefix('"').and_then(|rest| rest.strip_suffix('"')).map_or(field, str::trim)
 }
 
-/// The finite number that `field` writes.
-///
-/// # Errors
-/// Naming the line where it is invalid.
-pub fn number(line: usize, field: &str) -> Result<f64> {
+pub(crate) fn number(line: usize, field: &str) -> Result<f64> {
     let number = field.parse::<f64>().ok().filter(|number| number.is_finite());
     number.ok_or_else(|| Error::new(format!("line {line}"), excerpt(field), "a finite number"))
 }
 
-/// The place that three fields write.
-///
-/// # Errors
-/// Naming the line where one is no finite number.
-pub fn point(line: usize, [x, y, z]: [&str; 3]) -> Result<DVec3> {
+pub(crate) fn point(line: usize, [x, y, z]: [&str; 3]) -> Result<DVec3> {
     Ok(DVec3::new(number(line, x)?, number(line, y)?, number(line, z)?))
 }

@@ -1,11 +1,11 @@
-//! Units of length that files state.
+//! Units of length in files.
 
 /// A unit of length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
     /// 1/1000 mm.
     Micrometre,
-    /// The unit of everything behind the readers.
+    /// The unit after reading.
     Millimetre,
     /// 10 mm.
     Centimetre,
@@ -32,7 +32,7 @@ impl Unit {
         }
     }
 
-    /// The short name: `um`, `mm`, `cm`, `dm` or `m`.
+    /// `um`, `mm`, `cm`, `dm` or `m`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -44,13 +44,13 @@ impl Unit {
         }
     }
 
-    /// The unit of this short name, whose µ may also be one of the two characters that look like it.
+    /// By short name; accepts both characters for µ.
     pub(crate) fn of_name(name: &str) -> Option<Self> {
         let name = name.replace(['\u{b5}', '\u{3bc}'], "u");
         Self::ALL.into_iter().find(|unit| unit.name() == name)
     }
 
-    /// What to multiply lengths in this unit by to have them in `other`; exactly 1 for the same unit.
+    /// Conversion factor to `other`; exactly 1 for the same unit.
     pub(crate) fn in_units_of(self, other: Self) -> f64 {
         self.in_mm() / other.in_mm()
     }

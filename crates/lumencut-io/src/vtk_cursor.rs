@@ -1,22 +1,17 @@
-//! Words, lines and blocks of numbers of a legacy VTK or MetaIO file, from front to back.
+//! Reads words, lines and number blocks of legacy VTK and MetaIO files.
 
 use crate::data_array::{ByteOrder, NumberType, number_of_word};
 use crate::error::{Error, Result, excerpt};
 
-/// How a legacy file stores the values of an array.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ValueType {
+pub(crate) enum ValueType {
     Bits,
     Text,
     Number(NumberType),
 }
 
 impl ValueType {
-    /// The type with the name that legacy files use.
-    ///
-    /// # Errors
-    /// Naming `subject` for any other name.
-    pub fn of_name(subject: &str, name: &str) -> Result<Self> {
+    pub(crate) fn of_name(subject: &str, name: &str) -> Result<Self> {
         Ok(match name.to_ascii_lowercase().as_str() {
             "bit" => Self::Bits,
             "string" => Self::Text,
@@ -24,7 +19,7 @@ impl ValueType {
             "unsigned_char" | "vtktypeuint8" => Self::Number(NumberType::U8),
             "short" | "vtktypeint16" => Self::Number(NumberType::I16),
             "unsigned_short" | "vtktypeuint16" => Self::Number(NumberType::U16),
-            // Ids are 32 bits wide in a legacy file, whatever the machine that wrote it.
+            // Legacy ids are 32 bits wide on every machine.
             "int" | "vtkidtype" | "vtktypeint32" => Self::Number(NumberType::I32),
             "unsigned_int" | "vtktypeuint32" => Self::Number(NumberType::U32),
             "long" | "long_long" | "vtktypeint64" => Self::Number(NumberType::I64),
@@ -36,20 +31,18 @@ impl ValueType {
     }
 }
 
-/// A place in the file.
-pub struct Cursor<'a> {
+pub(crate) struct Cursor<'a> {
     rest: &'a [u8],
-    /// Whether numbers stand as big-endian bytes instead of text.
+    /// Big-endian bytes instead of text.
     pub binary: bool,
 }
 
 impl<'a> Cursor<'a> {
-    pub fn new(bytes: &'a [u8]) -> Self {
+    pub(crate) fn new(bytes: &'a [u8]) -> Self {
         Self { rest: bytes, binary: false }
     }
 
-    /// The rest of the current line without its end; `None` at the end of the file.
-    pub fn line(&mut self) -> Option<String> {
+    pub(crate) fn line(&mut self) -> Option<String> {
         if self.rest.is_empty() {
             return None;
         }
@@ -59,8 +52,7 @@ impl<'a> Cursor<'a> {
         Some(line)
     }
 
-    /// The next word; `None` at the end of the file.
-    pub fn next_word(&mut self) -> Option<String> {
+    pub(crate) fn next_word(&mut self) -> Option<String> {
         self.rest = self.rest.trim_ascii_start();
         let end = self.rest.iter().position(u8::is_ascii_whitespace).unwrap_or(self.rest.len());
         let (word, rest) = self.rest.split_at(end);
@@ -68,34 +60,22 @@ impl<'a> Cursor<'a> {
         (end > 0).then(|| String::from_utf8_lossy(word).into_owned())
     }
 
-    /// The next word.
-    ///
-    /// # Errors
-    /// Naming `subject` at the end of the file.
-    pub fn word(&mut self, subject: &str) -> Result<String> {
-        self.next_word().ok_or_else(|| Error::truncated(subject, "the end of the file", "one more word"))
+    pub(crate) fn word(&mut self, subject: &str) -> Result<String> {
+        self.next_word().ok_or_else(|| Error::truncated(subject, "the end of the file", "another word"))
     }
 
-    /// The next word as a count.
-    ///
-    /// # Errors
-    /// Naming `subject` where it is invalid.
-    pub fn count(&mut self, subject: &str) -> Result<usize> {
+    pub(crate) fn count(&mut self, subject: &str) -> Result<usize> {
         let word = self.word(subject)?;
         word.parse().map_err(|_| Error::new(subject, excerpt(&word), "a whole number from 0"))
     }
 
-    /// Whether the next word is `word`.
-    pub fn is_next(&self, word: &str) -> bool {
+    pub(crate) fn is_next(&self, word: &str) -> bool {
         let next = self.rest.trim_ascii_start();
         next.get(..word.len()).is_some_and(|begin| begin.eq_ignore_ascii_case(word.as_bytes()))
     }
 
-    /// The next `count` values, which begin on the next line. Of a text the codes of all its characters.
-    ///
-    /// # Errors
-    /// Naming `subject` where fewer are left or a word is no number.
-    pub fn values(&mut self, subject: &str, kind: ValueType, count: usize) -> Result<Vec<f64>> {
+    /// The next `count` values, from the next line; for text, its character codes.
+    pub(crate) fn values(&mut self, subject: &str, kind: ValueType, count: usize) -> Result<Vec<f64>> {
         self.line();
         match kind {
             ValueType::Text => self.texts(subject, count),
@@ -123,11 +103,7 @@ impl<'a> Cursor<'a> {
         Ok(out)
     }
 
-    /// The next `count` bytes as they are.
-    ///
-    /// # Errors
-    /// Naming `subject` where fewer are left.
-    pub fn bytes(&mut self, subject: &str, count: usize) -> Result<&'a [u8]> {
+    pub(crate) fn bytes(&mut self, subject: &str, count: usize) -> Result<&'a [u8]> {
         let (taken, rest) = self.rest.split_at_checked(count).ok_or_else(|| {
             let found = format!("{} bytes to the end of the file", self.rest.len());
             Error::truncated(subject, found, format!("{count} bytes"))
@@ -136,13 +112,12 @@ impl<'a> Cursor<'a> {
         Ok(taken)
     }
 
-    /// Goes on to where `word` stands next, or to the end.
-    pub fn skip_to(&mut self, word: &[u8]) {
+    pub(crate) fn skip_to(&mut self, word: &[u8]) {
         let at = self.rest.windows(word.len()).position(|window| window == word);
         self.rest = at.map_or(&[], |at| &self.rest[at..]);
     }
 
-    /// Texts: one per line, or each behind its length, whose first two bits tell how wide the length is.
+    /// One text per line, or length-prefixed; the first two bits give the width of the length.
     fn texts(&mut self, subject: &str, count: usize) -> Result<Vec<f64>> {
         let mut out = Vec::new();
         for _ in 0..count {

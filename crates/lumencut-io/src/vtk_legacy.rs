@@ -1,4 +1,4 @@
-//! Legacy VTK poly data (`.vtk`), versions 1.0 to 5.1, ascii and binary.
+//! Legacy VTK poly data (`.vtk`), versions 1.0 to 5.1, ASCII and binary.
 
 use crate::centerlines::{Centerlines, JOINED_MARK};
 use crate::data_array::{NumberType, index};
@@ -7,11 +7,7 @@ use crate::poly_data::{self, Array, PolyData};
 use crate::unit::Unit;
 use crate::vtk_cursor::{Cursor, ValueType};
 
-/// The centerlines of a legacy `.vtk` file.
-///
-/// # Errors
-/// Where a section is damaged, unknown or cut off, or the file holds another kind of data.
-pub fn read(bytes: &[u8]) -> Result<Centerlines> {
+pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     let mut cursor = Cursor::new(bytes.trim_ascii_start());
     cursor.line();
     let title = cursor.line().unwrap_or_default();
@@ -23,7 +19,7 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
     };
     let mut out = Centerlines { space: space_of_title(&title), ..Centerlines::of("legacy VTK") };
     if title.contains(JOINED_MARK) {
-        // Our own files: vessels already, in mm.
+        // Files of this crate: vessels in mm.
         out.joined = true;
         out.unit = Some(Unit::Millimetre);
     }
@@ -33,7 +29,7 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
     }
     out.space = out.space.or(sections.space);
     sections.data.into_centerlines(&mut out)?;
-    // What this crate wrote comes back as it was.
+    // Files of this crate are read back unchanged.
     if out.joined { out.tidy() } else { out.without_zero_radii().tidy() }
 }
 
@@ -43,7 +39,6 @@ fn space_of_title(title: &str) -> Option<crate::Space> {
     poly_data::space_of(stated.get(..3)?)
 }
 
-/// What the arrays that follow belong to, with the number of points or cells.
 #[derive(Clone, Copy)]
 enum At {
     File,
@@ -90,7 +85,7 @@ impl Sections<'_> {
         ValueType::of_name(subject, &name)
     }
 
-    /// The type of ids. Bits are none: eight of them in a byte become far more than the file is large.
+    /// Bits are not accepted as ids: eight per byte would inflate the file.
     fn id_type(&mut self, subject: &str) -> Result<ValueType> {
         match self.value_type(subject)? {
             kind @ ValueType::Number(_) => Ok(kind),
@@ -117,7 +112,7 @@ impl Sections<'_> {
         Ok(())
     }
 
-    /// Since version 5.0: where each cell begins and the last one ends, then all point ids.
+    /// Since version 5.0: offsets, then all point ids.
     fn cells_by_offsets(
         &mut self,
         keyword: &str,
@@ -139,7 +134,6 @@ impl Sections<'_> {
         Ok((offsets.drain(..).skip(1).collect(), connectivity))
     }
 
-    /// Arrays of any name, type and size: of points, of cells, or of the file.
     fn field(&mut self) -> Result<()> {
         self.cursor.word("FIELD")?;
         for _ in 0..self.cursor.count("FIELD")? {
@@ -164,7 +158,6 @@ impl Sections<'_> {
         Ok(())
     }
 
-    /// An array of points or cells in one of the old fixed forms.
     fn attribute(&mut self, keyword: &str) -> Result<()> {
         let (At::Points(count) | At::Cells(count)) = self.at else {
             return Err(unknown(keyword));
@@ -231,7 +224,7 @@ fn unknown(keyword: &str) -> Error {
     Error::new("", format!("the word {}", excerpt(keyword)), "a section of a legacy VTK poly data file")
 }
 
-/// Before version 5.0: each cell as its number of points and their ids. Gives ends and connectivity.
+/// Before version 5.0: each cell as its count and ids. Returns ends and connectivity.
 fn cells_by_counts(keyword: &str, numbers: &[f64], cells: usize) -> Result<(Vec<f64>, Vec<f64>)> {
     let (mut ends, mut connectivity) = (Vec::new(), Vec::new());
     let mut rest = numbers;

@@ -1,4 +1,4 @@
-//! VTK XML poly data (`.vtp`): ascii, inline base64 and appended data, compressed or not.
+//! VTK XML poly data (`.vtp`): ASCII, inline base64 and appended data, compressed or not.
 
 use crate::centerlines::{Centerlines, JOINED_MARK, Line};
 use crate::compression::{Budget, Compressor};
@@ -10,11 +10,7 @@ use crate::unit::Unit;
 use crate::vtp_xml::{self, Declared, Piece};
 use crate::xml::Attributes;
 
-/// The centerlines of a `.vtp` file.
-///
-/// # Errors
-/// Where the XML, an array or the poly data is damaged or of another kind.
-pub fn read(bytes: &[u8]) -> Result<Centerlines> {
+pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     let (head, appended) = split(bytes)?;
     let text = String::from_utf8_lossy(head);
     let document = vtp_xml::document(&text)?;
@@ -30,7 +26,7 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
     let field = |name| document.field_arrays.iter().find(|array| array.attributes.get("Name") == Some(name));
     let mut out = Centerlines::of("VTK XML PolyData");
     if field(JOINED_MARK).is_some() {
-        // Our own files: vessels already, in mm.
+        // Files of this crate: vessels in mm.
         out.joined = true;
         out.unit = Some(Unit::Millimetre);
     }
@@ -41,11 +37,10 @@ pub fn read(bytes: &[u8]) -> Result<Centerlines> {
     for piece in &document.pieces {
         arrays.poly_data(piece)?.into_centerlines(&mut out)?;
     }
-    // What this crate wrote comes back as it was.
+    // Files of this crate are read back unchanged.
     if out.joined { out.tidy() } else { out.without_zero_radii().tidy() }
 }
 
-/// The XML in front of the appended data, and the appended data behind its `_`.
 fn split(bytes: &[u8]) -> Result<(&[u8], Option<Appended<'_>>)> {
     const TAG: &[u8] = b"<AppendedData";
     let Some(start) = bytes.windows(TAG.len()).position(|window| window == TAG) else {
@@ -83,7 +78,6 @@ struct Appended<'a> {
     data: &'a [u8],
 }
 
-/// What is needed to decode any array of the file.
 struct Arrays<'a> {
     layout: Layout,
     appended: Option<Appended<'a>>,
@@ -105,7 +99,7 @@ impl Arrays<'_> {
             let Some(array) = array else {
                 return match expected {
                     Some(0) => Ok(Vec::new()),
-                    _ => Err(Error::new(what, "no such array", "the array that the counts speak of")),
+                    _ => Err(Error::new(what, "no such array", "the array that the counts refer to")),
                 };
             };
             let values = self.numbers(array)?;
@@ -138,21 +132,19 @@ impl Arrays<'_> {
         })
     }
 
-    /// The texts of the string array of cells that names them; each ends with a zero.
     fn names(&mut self, piece: &Piece) -> Result<Option<Vec<String>>> {
         let is_name = |array: &&Declared| {
             let has = |key, value| array.attributes.get(key) == Some(value);
             array.section == "CellData" && has("type", "String") && has("Name", poly_data::NAMES)
         };
         let Some(array) = piece.arrays.iter().find(is_name) else { return Ok(None) };
-        // VTK writes the bytes of a text as signed numbers.
+        // VTK writes text bytes as signed numbers.
         let codes: Vec<u8> =
             self.numbers(array)?.into_iter().map(|code| code.rem_euclid(256.0) as u8).collect();
         let texts = codes.strip_suffix(&[0]).unwrap_or(&codes).split(|code| *code == 0);
         Ok(Some(texts.map(|text| String::from_utf8_lossy(text).into_owned()).collect()))
     }
 
-    /// The arrays of a section that the poly data reads, each name once.
     fn data_of(&mut self, piece: &Piece, section: &str) -> Result<Vec<Array>> {
         let mut out: Vec<Array> = Vec::new();
         for array in piece.arrays.iter().filter(|array| array.section == section) {

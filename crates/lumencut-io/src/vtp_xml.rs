@@ -1,5 +1,4 @@
-//! The elements of a VTK XML file: what arrays it declares and where their content stands. No content is
-//! decoded.
+//! The elements of a VTK XML file: declared arrays and their locations, without decoding.
 
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
@@ -7,41 +6,33 @@ use quick_xml::events::{BytesStart, Event};
 use crate::error::{Error, Result};
 use crate::xml::{self, Attributes};
 
-/// One `DataArray` or `Array`.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Declared {
-    /// The element that it stands in, such as `Points` or `FieldData`.
+pub(crate) struct Declared {
+    /// Enclosing element, such as `Points` or `FieldData`.
     pub section: String,
     pub attributes: Attributes,
-    /// The text inside, for inline data.
+    /// Inline data.
     pub text: String,
 }
 
-/// One `Piece` of a poly data.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Piece {
+pub(crate) struct Piece {
     pub attributes: Attributes,
     pub arrays: Vec<Declared>,
 }
 
-/// A VTK XML file without its appended data.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Document {
-    /// The attributes of `VTKFile`.
+pub(crate) struct Document {
     pub file: Attributes,
     pub field_arrays: Vec<Declared>,
     pub pieces: Vec<Piece>,
-    /// Whether the end of `VTKFile` was met.
     pub complete: bool,
 }
 
 const EXPECTED: &str = "a VTK XML file";
 
-/// The elements of `text`, which may end at its appended data.
-///
-/// # Errors
-/// Where the text is no XML, nests without end or is no VTK XML file.
-pub fn document(text: &str) -> Result<Document> {
+/// `text` may end at its appended data.
+pub(crate) fn document(text: &str) -> Result<Document> {
     let mut reader = Reader::from_str(text);
     let mut walk = Walk::default();
     loop {
@@ -103,7 +94,7 @@ impl Walk {
         self.open.last().is_some_and(|name| name == "DataArray" || name == "Array")
     }
 
-    /// Keeps text that stands directly in an array; information keys inside it have text of their own.
+    /// Keeps text directly in an array; nested information keys have their own.
     fn text(&mut self, content: &str) {
         if !self.inside_array() {
             return;

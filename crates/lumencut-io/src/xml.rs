@@ -1,38 +1,30 @@
-//! What the readers of XML files share.
+//! Shared parts of the XML readers.
 
 use quick_xml::Reader;
 use quick_xml::events::BytesStart;
 
 use crate::error::{Error, Result, excerpt};
 
-/// The attributes of an element.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Attributes(Vec<(String, String)>);
+pub(crate) struct Attributes(Vec<(String, String)>);
 
 impl Attributes {
-    /// The value of the attribute `name`.
-    pub fn get(&self, name: &str) -> Option<&str> {
+    pub(crate) fn get(&self, name: &str) -> Option<&str> {
         self.0.iter().find(|(key, _)| key == name).map(|(_, value)| value.trim())
     }
 
-    /// The value of the attribute `name` as a count; 0 where it is missing.
-    ///
-    /// # Errors
-    /// Where the value is no count.
-    pub fn count(&self, name: &str) -> Result<usize> {
+    /// The attribute `name` as a count; 0 if missing.
+    pub(crate) fn count(&self, name: &str) -> Result<usize> {
         let text = self.get(name).unwrap_or("0");
         text.parse().map_err(|_| Error::new(name, excerpt(text), "a whole number from 0"))
     }
 }
 
-/// How deep elements may be nested; deeper files are refused. Those that are read nest 6 deep.
+/// Maximum nesting; valid files nest 6 deep.
 const DEEPEST: usize = 32;
 
-/// The attributes of `element`; no entity but the five of XML itself is known.
-///
-/// # Errors
-/// Naming what was `expected` where they are damaged.
-pub fn attributes(element: &BytesStart, expected: &str) -> Result<Attributes> {
+/// Only the five predefined XML entities are accepted.
+pub(crate) fn attributes(element: &BytesStart, expected: &str) -> Result<Attributes> {
     let wrong = |cause: String| Error::new("", format!("damaged XML attributes ({cause})"), expected);
     element
         .attributes()
@@ -47,30 +39,25 @@ pub fn attributes(element: &BytesStart, expected: &str) -> Result<Attributes> {
         .map(Attributes)
 }
 
-/// The name of an element inside `depth` others.
-///
-/// # Errors
-/// Naming what was `expected` where they nest without end.
-pub fn name_at_depth(element: &BytesStart, depth: usize, expected: &str) -> Result<String> {
+pub(crate) fn name_at_depth(element: &BytesStart, depth: usize, expected: &str) -> Result<String> {
     if depth == DEEPEST {
         return Err(Error::new("", format!("elements nested deeper than {DEEPEST}"), expected));
     }
     Ok(element.name().as_ref().to_owned())
 }
 
-/// The error for XML that the parser refuses.
-pub fn damaged(reader: &Reader<&[u8]>, cause: &quick_xml::Error, expected: &str) -> Error {
+pub(crate) fn damaged(reader: &Reader<&[u8]>, cause: &quick_xml::Error, expected: &str) -> Error {
     let found = format!("damaged XML near byte {} ({cause})", reader.error_position());
     Error::truncated("", found, expected)
 }
 
-/// The error for a document type, which could define entities that grow without end.
-pub fn document_type(expected: &str) -> Error {
-    Error::new("", "a document type (<!DOCTYPE)", format!("{expected}, which has none"))
+/// A document type could define entities of unlimited size.
+pub(crate) fn document_type(expected: &str) -> Error {
+    Error::new("", "a document type (<!DOCTYPE)", format!("{expected}, which has no document type"))
 }
 
-/// The name of the first element of `text`, behind declarations and comments.
-pub fn first_element(mut text: &[u8]) -> Option<&[u8]> {
+/// Name of the first element after declarations and comments.
+pub(crate) fn first_element(mut text: &[u8]) -> Option<&[u8]> {
     loop {
         text = text.trim_ascii_start().strip_prefix(b"<")?;
         let end: &[u8] = match text {

@@ -1,20 +1,19 @@
-//! The dictionary of an LZMA block, which its reader reserves as large as the block claims.
+//! Reduces the dictionary of an LZMA block, because its reader allocates the stated size.
 
 use std::borrow::Cow;
 
-/// The header of the stream: magic bytes, flags and their check sum.
+/// Stream header: magic bytes, flags, checksum.
 const STREAM_HEADER: usize = 12;
-/// What the reader takes beside the dictionary (KiB), with some room.
+/// Reader memory besides the dictionary (KiB), with a margin.
 const READER_KIB: u32 = 256;
-/// The dictionary sizes of the format, by the code that stands for them.
 const CODES: std::ops::Range<u8> = 0..40;
 
-/// The block with a dictionary no larger than its content of `size` bytes can use, and the memory (KiB) that
-/// reading it may take. A block of another shape than writers of VTK make comes back as it is.
-pub fn with_small_dictionary(block: &[u8], size: usize) -> (Cow<'_, [u8]>, u32) {
+/// The block with a dictionary no larger than its content of `size` bytes needs, and the memory limit (KiB).
+/// Unusual blocks are returned unchanged.
+pub(crate) fn with_small_dictionary(block: &[u8], size: usize) -> (Cow<'_, [u8]>, u32) {
     let code = CODES.into_iter().find(|code| dictionary(*code) >= size as u64).unwrap_or(CODES.end);
     let memory = READER_KIB.saturating_add(u32::try_from(dictionary(code) >> 10).unwrap_or(u32::MAX));
-    let smaller = dictionary_place(block).filter(|place| block[place.code] > code).map(|place| {
+    let smaller = dictionary_field(block).filter(|place| block[place.code] > code).map(|place| {
         let mut changed = block.to_vec();
         changed[place.code] = code;
         let mut sum = flate2::Crc::new();
@@ -25,29 +24,27 @@ pub fn with_small_dictionary(block: &[u8], size: usize) -> (Cow<'_, [u8]>, u32) 
     (smaller.unwrap_or(Cow::Borrowed(block)), memory)
 }
 
-/// The bytes of a dictionary with this code.
 fn dictionary(code: u8) -> u64 {
     u64::from(2 | code & 1) << (code / 2 + 11)
 }
 
-/// Where the header of a block has the code of its dictionary and its check sum.
-struct Place {
+struct DictionaryField {
     code: usize,
     sum: usize,
 }
 
-fn dictionary_place(block: &[u8]) -> Option<Place> {
+fn dictionary_field(block: &[u8]) -> Option<DictionaryField> {
     let [size, flags, fields @ ..] = block.get(STREAM_HEADER..)? else { return None };
     let sum = STREAM_HEADER + usize::from(*size) * 4;
     if block.len() < sum + 4 || flags & 0x3f != 0 {
         return None;
     }
-    // The sizes of the block, where they stand, are numbers whose last byte is below 128.
+    // Block sizes are variable-length numbers whose last byte is below 128.
     let mut at = 0;
     for _ in 0..(flags >> 6).count_ones() {
         at += 1 + fields[at..].iter().position(|byte| *byte < 128)?;
     }
     let is_lzma2 = fields.get(at..at + 2)? == [0x21, 1];
     let code = STREAM_HEADER + 2 + at + 2;
-    (is_lzma2 && code < sum).then_some(Place { code, sum })
+    (is_lzma2 && code < sum).then_some(DictionaryField { code, sum })
 }

@@ -1,4 +1,4 @@
-//! What reading takes at its peak, for the files that make most of few bytes.
+//! Peak memory of reading files that expand the most.
 #![allow(unsafe_code, clippy::unwrap_used)]
 
 #[path = "../fuzz/src/memory.rs"]
@@ -8,7 +8,7 @@ use std::io::Write;
 
 use lumencut_io::{junctions, read};
 
-/// The most memory that reading may take: this many times the size of the file, or of 1 MiB.
+/// Maximum memory, in sizes of the file or of 1 MiB.
 const MOST: usize = 10 << 20;
 const FILE: usize = 64 << 10;
 
@@ -22,7 +22,7 @@ fn lz4(content: &[u8]) -> Vec<u8> {
     lz4_flex::block::compress(content)
 }
 
-/// With the dictionary of the strongest preset, 64 MiB.
+/// With the 64 MiB dictionary of the strongest preset.
 fn lzma(content: &[u8]) -> Vec<u8> {
     let mut encoder = lzma_rust2::XzWriter::new(Vec::new(), lzma_rust2::XzOptions::with_preset(9)).unwrap();
     encoder.write_all(content).unwrap();
@@ -31,7 +31,7 @@ fn lzma(content: &[u8]) -> Vec<u8> {
 
 type Packer = fn(&[u8]) -> Vec<u8>;
 
-/// A `.vtp` of three points and one line through them in turns, in `FILE` bytes.
+/// A `.vtp` of three points and a line through them in turns, in `FILE` bytes.
 fn turns(compressor: &str, pack: Packer, ids: usize) -> Vec<u8> {
     let block = |content: &[u8], claimed: usize| {
         let packed = pack(content);
@@ -64,7 +64,7 @@ fn assert_small(what: &str, bytes: &[u8], name: &str, expected: &str) {
     assert!(bytes.len() <= FILE && peak <= MOST, "{what}: {peak} bytes for {}", bytes.len());
 }
 
-/// One test: the memory of tests that run at once would add up.
+/// One test, because concurrent tests would add up their memory.
 #[test]
 fn no_small_file_takes_more_than_ten_times_a_mebibyte() {
     let packers: [(&str, Packer); 3] =
@@ -73,7 +73,7 @@ fn no_small_file_takes_more_than_ten_times_a_mebibyte() {
         assert_small(compressor, &turns(compressor, pack, 225_000), "a.vtp", "1 vessel(s)");
         assert_small(compressor, &turns(compressor, pack, 8_000_000), "a.vtp", "bytes to unpack");
     }
-    // What is claimed and not there: nothing is set aside for it.
+    // Claimed content that is missing must not be allocated.
     let claim = |content: &[u8]| lz4(&content[..content.len().min(9)]);
     assert_small(
         "lz4",
@@ -96,7 +96,7 @@ fn no_small_file_takes_more_than_ten_times_a_mebibyte() {
     assert_small("bits", &legacy("bit", (FILE - 1000) * 8), "a.vtk", "ids of the type Bits");
 }
 
-/// A legacy file of one line through 256 points in no order, its ids of the given type.
+/// A legacy file of one line through 256 shuffled points, with ids of a given type.
 fn legacy(kind: &str, ids: usize) -> Vec<u8> {
     let mut out = b"# vtk DataFile Version 5.1\nt\nBINARY\nDATASET POLYDATA\nPOINTS 256 char\n".to_vec();
     out.extend((0..=255u8).flat_map(|i| [i, i.wrapping_mul(i), 3]));
@@ -111,7 +111,7 @@ fn legacy(kind: &str, ids: usize) -> Vec<u8> {
     out
 }
 
-/// A `.vtp` of one line and many that have no point.
+/// A `.vtp` of one line and many without points.
 fn empty_lines(count: usize) -> Vec<u8> {
     let block = |content: &[u8]| {
         let packed = zlib(content);

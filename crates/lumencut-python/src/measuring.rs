@@ -14,7 +14,7 @@ use lumencut::measure::radii;
 use lumencut::measure::request::MeasureRequest;
 use lumencut::measure::stenosis::{self, Compared, Method};
 use lumencut::measure::suggestions::Spot;
-use lumencut::measure::watched::watched as counted;
+use lumencut::measure::with_progress::with_progress as counted;
 use lumencut::measure_words;
 use lumencut::named::Named;
 use lumencut::scan_details::ScanDetails;
@@ -85,7 +85,7 @@ pub(crate) fn measure<'py>(
         let measured = |stop: Stop<'_>| {
             let request = MeasureRequest { step, fwhm, wall, tree: &others, stop };
             match &told {
-                Some(told) => measuring::measure_under(told.get().0.clone(), &volume, &vessel, &request),
+                Some(told) => measuring::measure_with(told.get().0.clone(), &volume, &vessel, &request),
                 None => measuring::measure(&volume, &vessel, &request),
             }
         };

@@ -12,7 +12,7 @@ use crate::wall_request::wall_request;
 use crate::watching::interruptible;
 
 #[pyclass(frozen, module = "lumencut._lumencut")]
-pub(crate) struct ToldByTree(pub lumencut::measure::told_by_tree::ToldByTree);
+pub(crate) struct ToldByTree(pub lumencut::measure::tree_findings::TreeFindings);
 
 #[pyfunction]
 #[pyo3(signature = (volume, tree, step, fwhm=None, wall=None))]
@@ -30,7 +30,7 @@ pub(crate) fn told_by_tree<'py>(
     let tree = tree.iter().map(vessel_of).collect::<PyResult<Vec<_>>>()?;
     interruptible(py, None, |stop| {
         let request = MeasureRequest { step, fwhm, wall: wall_request(wall), tree: &tree, stop };
-        pool::install(|| measuring::told_by_tree(&volume, &request))?.map_err(to_python)
+        pool::install(|| measuring::tree_findings(&volume, &request))?.map_err(to_python)
     })
     .map(ToldByTree)
 }

@@ -1,7 +1,6 @@
-//! From a volume to centerlines and numbers: vessels are traced in a volume or a mask, and measured along their centerlines.
+//! Traces vessels in a volume or a mask and measures them.
 //!
-//! Points are in world space (LPS, mm). Of the method's crate this one uses what every scene is made of (volume, vessel tree)
-//! and the arithmetic, and nothing that makes pictures.
+//! Points are in world space (LPS, mm).
 
 pub mod measure;
 pub mod trace;

@@ -1,8 +1,7 @@
-//! Centerlines from a volume or a mask, and how alike two centerlines are.
+//! Traces centerlines in a volume or a mask. Described in `docs/method/tracing.md`.
 //!
-//! The rooms, of which each needs only those before it: [`lines`] is arithmetic of points along a line; [`lumen`] says what
-//! lumen looks like across a line; [`ways`] finds ways through voxels of lumen; [`skeleton`] thins voxels of lumen to lines.
-//! [`clicks`], [`find`] and [`mask`] are what a caller asks for; they do not need each other.
+//! Each module needs only those before it: [`lines`], [`lumen`], [`ways`], [`skeleton`]; then the entry
+//! points [`clicks`], [`find`] and [`mask`].
 
 pub mod clicks;
 pub mod find;

@@ -1,4 +1,4 @@
-//! The voxels of a volume as numbers, whatever their type and wherever their grid lies.
+//! The voxels of a volume as numbers, for any voxel type and any grid.
 
 use std::sync::OnceLock;
 
@@ -9,48 +9,43 @@ use lumencut_core::math::sampling::Grid;
 use lumencut_core::volume::{Real, Volume, Voxel};
 use lumencut_core::with_voxels;
 
-/// What tracing reads of a volume.
-pub trait VoxelSource: Sync {
-    /// The values of a cube of voxels, i fastest, from its first voxel on; NaN outside the volume.
+pub(crate) trait VoxelSource: Sync {
     fn cube(&self, first: [i32; 3], side: usize, values: &mut [f32]);
-    /// The value at a continuous index, trilinear; NaN more than half a voxel beyond the outermost centres.
+    /// Trilinear value at a continuous index; NaN more than half a voxel beyond the outermost centres.
     fn at(&self, index: DVec3) -> f32;
-    /// The value of a voxel that is there.
+    /// Value of a voxel, which must exist.
     fn voxel(&self, voxel: [i32; 3]) -> f32;
-    /// Appends sixteen values at steps of `stride` from `start` on, counted on from those that are there.
     fn along(&self, start: DVec3, stride: DVec3, values: &mut Vec<f32>);
-    /// Whether a value of every so many rows along i, the first one among them, is below a limit.
+    /// Whether a value in every `every`-th row along i, from the first, is below `limit`.
     fn goes_below(&self, limit: f32, every: usize) -> bool;
 }
 
-/// A volume as tracing reads it: its voxels and the way from them to the world and back.
+/// A volume with the transforms between index and world space.
 pub struct Voxels<'a> {
     source: Box<dyn VoxelSource + 'a>,
-    /// The number of voxels along (i, j, k).
+    /// Number of voxels along (i, j, k).
     pub size: [usize; 3],
     /// World position (LPS, mm) of a continuous index.
     pub world_from_index: DAffine3,
     /// Continuous index of a world position.
     pub index_from_world: DAffine3,
-    /// The smallest side of a voxel (mm).
+    /// Smallest voxel side (mm).
     pub smallest_side: f64,
-    /// What distances of samples are told in: the smallest side, but at least a quarter of the middle one (mm). So the number of
-    /// samples does not grow with how uneven voxels are.
+    /// Unit of sampling distances (mm): the smallest voxel side, but at least a quarter of the middle one, so
+    /// that very uneven voxels do not multiply the samples.
     pub sampling_side: f64,
-    /// Whether anything is negative as in CT, where that was asked.
     negative: OnceLock<bool>,
 }
 
-/// A volume in HU has values below this one: fat or air.
+/// Values below this mean that the volume is in HU and shows fat or air.
 const NEGATIVE: f32 = -20.0;
 
-/// About the most voxels that are looked at for that.
+/// Maximum number of voxels read to find negative values.
 const MOST_VOXELS: usize = 400_000;
 
-/// The least distance of samples, as a share of the middle one of the three sides of a voxel.
+/// Minimum sampling distance, as a share of the middle voxel side.
 const LEAST_OF_MIDDLE: f64 = 0.25;
 
-/// The middle one of the three sides of a voxel (mm).
 fn middle_side(world_from_index: DAffine3) -> f64 {
     let sides = world_from_index.matrix3;
     let mut lengths = [sides.x_axis, sides.y_axis, sides.z_axis].map(DVec3::length);
@@ -59,7 +54,7 @@ fn middle_side(world_from_index: DAffine3) -> f64 {
 }
 
 impl<'a> Voxels<'a> {
-    /// The voxels of `volume`.
+    /// Wraps `volume`.
     pub fn new(volume: &Volume<'a>) -> Self {
         let (size, strides) = (volume.size(), volume.strides());
         let source: Box<dyn VoxelSource + 'a> = with_voxels!(volume.voxels(), voxels => Box::new(Typed { voxels, grid: Grid::new(volume), size, strides }));
@@ -76,53 +71,53 @@ impl<'a> Voxels<'a> {
         }
     }
 
-    /// The values of a cube of voxels, as [`VoxelSource::cube`] gives them.
+    /// Values of a cube of voxels, i fastest; NaN outside the volume.
     pub fn cube(&self, first: [i32; 3], side: usize, values: &mut [f32]) {
         self.source.cube(first, side, values);
     }
 
-    /// The value at a world position (LPS, mm), trilinear; NaN outside.
+    /// Trilinear value at a world position (LPS, mm); NaN outside.
     pub fn at(&self, place: DVec3) -> f32 {
         self.source.at(self.index_from_world.transform_point3(place))
     }
 
-    /// The value of a voxel, which must be there.
+    /// Value of a voxel, which must exist.
     pub fn voxel(&self, voxel: [i32; 3]) -> f32 {
         self.source.voxel(voxel)
     }
 
-    /// The value at a continuous index, trilinear; NaN outside.
-    pub fn at_index(&self, index: DVec3) -> f32 {
+    /// Trilinear value at a continuous index; NaN outside.
+    pub(crate) fn at_index(&self, index: DVec3) -> f32 {
         self.source.at(index)
     }
 
-    /// Appends values along a line in index space, as [`VoxelSource::along`] does.
+    /// Appends sixteen values in steps of `stride` from `start`, continuing after the values already present.
     pub fn along(&self, start: DVec3, stride: DVec3, values: &mut Vec<f32>) {
         self.source.along(start, stride, values);
     }
 
-    /// Whether the volume has values that are as negative as fat and air are in HU, in rows evenly over it.
-    pub fn has_negative(&self) -> bool {
+    /// Whether the volume has values as negative as fat and air in HU; reads a subset of the rows.
+    pub(crate) fn has_negative(&self) -> bool {
         let voxels: usize = self.size.iter().product();
         *self.negative.get_or_init(|| self.source.goes_below(NEGATIVE, voxels.div_ceil(MOST_VOXELS).max(1)))
     }
 
-    /// The voxel nearest to a world position, where one is there.
+    /// Voxel nearest to a world position; None outside.
     pub fn voxel_at(&self, place: DVec3) -> Option<[i32; 3]> {
         let voxel = self.index_from_world.transform_point3(place).round();
         let is_inside = (0..3).all(|a| voxel[a] >= 0.0 && voxel[a] < self.size[a] as f64);
         is_inside.then(|| voxel.to_array().map(|c| c as i32))
     }
 
-    /// The world position (LPS, mm) of the centre of a voxel.
+    /// World position (LPS, mm) of a voxel centre.
     pub fn center(&self, voxel: [i32; 3]) -> DVec3 {
         self.world_from_index.transform_point3(DVec3::from_array(voxel.map(f64::from)))
     }
 
-    /// The voxels whose centres lie in a box around a ball, as the first one and the number along each axis.
+    /// Box of voxels around a ball: the first voxel, and the number along each axis.
     pub fn around(&self, center: DVec3, radius: f64) -> ([i32; 3], [i32; 3]) {
         let index = self.index_from_world.transform_point3(center);
-        // The rows of the inverse say how far along each axis a ball reaches.
+        // The row lengths of the inverse matrix give the extent of a ball along each index axis.
         let rows = self.index_from_world.matrix3.transpose();
         let reach = DVec3::new(rows.x_axis.length(), rows.y_axis.length(), rows.z_axis.length()) * radius;
         let low = (index - reach).ceil();
@@ -132,7 +127,7 @@ impl<'a> Voxels<'a> {
         (first, std::array::from_fn(|a| (last[a] - first[a] + 1).max(0)))
     }
 
-    /// The centres and values of the voxels within a ball.
+    /// Centres and values of the voxels within a ball.
     pub fn ball(&self, center: DVec3, radius: f64) -> Vec<(DVec3, f32)> {
         let (first, count) = self.around(center, radius);
         let mut found = Vec::new();
@@ -151,7 +146,6 @@ impl<'a> Voxels<'a> {
     }
 }
 
-/// Voxels of one type.
 struct Typed<'a, T> {
     voxels: &'a [T],
     grid: Grid,
@@ -185,7 +179,7 @@ impl<T: Voxel> VoxelSource for Typed<'_, T> {
 
     #[inline]
     fn at(&self, index: DVec3) -> f32 {
-        // The same scan in another type of voxels is traced and measured alike.
+        // Single precision, so that the same scan in another voxel type gives the same result.
         self.grid.trilinear_single(self.voxels, index)
     }
 
@@ -196,7 +190,7 @@ impl<T: Voxel> VoxelSource for Typed<'_, T> {
 
     fn along(&self, start: DVec3, stride: DVec3, values: &mut Vec<f32>) {
         let first = values.len();
-        // Lanes for each type of voxels are more than a page should load.
+        // On the web, lanes for each voxel type would enlarge the download.
         let is_number = start.is_finite() && stride.is_finite();
         if cfg!(target_arch = "wasm32") || !is_number {
             values.extend((first..first + FAN).map(|n| self.at(start + stride * n as f64)));
@@ -215,13 +209,12 @@ impl<T: Voxel> VoxelSource for Typed<'_, T> {
     }
 }
 
-/// Sixteen values along a line, as a kernel.
+/// Kernel: sixteen values along a line.
 struct Along<'a, T> {
     voxels: &'a [T],
     grid: &'a Grid,
     start: DVec3,
     stride: DVec3,
-    /// The number of the first one.
     first: usize,
 }
 

@@ -1,4 +1,4 @@
-//! Which of the vessels that were found a seed chooses, in trees whose answer is known in closed form.
+//! Vessels chosen by a seed, in trees with a known answer.
 #![allow(clippy::unwrap_used)]
 
 use glam::{DAffine3, DVec3};
@@ -11,7 +11,7 @@ use lumencut_vessels::trace::find::found::{FoundVessel, Trees};
 use lumencut_vessels::trace::find::track::TrackDoubt;
 use lumencut_vessels::trace::lines::centerline::Centerline;
 
-/// A straight vessel along z through a point of the plane, from 0 to 20 mm.
+/// A straight vessel along z, from 0 to 20 mm.
 fn straight(x: f64, radius: f64, part: usize, doubt: Option<TrackDoubt>) -> FoundVessel {
     let points: Vec<DVec3> = (0..=20).map(|z| DVec3::new(x, 0.0, f64::from(z))).collect();
     let line = Centerline { radius: vec![radius; points.len()], confidence: vec![1.0; points.len()], points };
@@ -29,7 +29,7 @@ fn the_nearest_part_in_units_of_radius_is_chosen() {
         straight(14.0, 1.0, 1, None),
         straight(-40.0, 10.0, 0, Some(TrackDoubt::Short)),
     ]);
-    // 8 mm from the wide one is 0.8 radii, though the narrow one is nearer; between the points of a line too.
+    // 8 mm from the wide one is 0.8 radii, though the narrow one is nearer.
     for (x, part) in [(8.0, 0), (12.4, 0), (12.9, 1), (15.4, 1), (-40.0, 0), (-14.9, 0)] {
         assert_eq!(part_at(&trees, DVec3::new(x, 0.0, 7.5), 0.5), Ok(part), "{x}");
     }
@@ -41,7 +41,7 @@ fn a_seed_beyond_its_reach_is_told_where_the_nearest_vessel_is() {
     assert_eq!(part_at(&trees, DVec3::new(2.99, 0.0, 10.0), 0.5), Ok(0));
     let (nearest, distance) = part_at(&trees, DVec3::new(3.01, 0.0, 10.0), 0.5).unwrap_err();
     assert_eq!((nearest, distance), (DVec3::new(0.0, 0.0, 10.0), 3.01));
-    // A voxel is reach enough for a vessel that is narrower.
+    // A narrower vessel is reached within a voxel.
     assert_eq!(part_at(&trees, DVec3::new(51.9, 0.0, 10.0), 2.0), Ok(1));
     assert!(part_at(&trees, DVec3::new(52.1, 0.0, 10.0), 2.0).is_err());
 }
@@ -81,7 +81,7 @@ fn every_seed_in_one_tree_gives_the_same_vessels_to_the_bit() {
     };
     let first = lines(DVec3::new(0.0, 0.0, -20.0));
     assert!(first.len() >= 2);
-    // In the trunk off its middle, in both branches, and in their very ends.
+    // In the trunk off its centre, in both branches, and at their ends.
     for seed in [[2.9, 0.0, -10.0], [-12.0, 1.5, 20.0], [13.0, -1.0, 20.0], [-20.0, 0.0, 30.0]] {
         assert_eq!(lines(DVec3::from_array(seed)), first);
     }

@@ -1,4 +1,4 @@
-//! The vessel of one click, in trees whose answer is known in closed form.
+//! The vessel of one click, in trees with a known answer.
 #![allow(clippy::unwrap_used)]
 
 use glam::DVec3;
@@ -7,7 +7,6 @@ use lumencut_vessels::trace::find::one_vessel::one_vessel;
 use lumencut_vessels::trace::find::track::TrackDoubt;
 use lumencut_vessels::trace::lines::centerline::Centerline;
 
-/// The points of a straight line, 1 mm apart.
 fn line(from: DVec3, to: DVec3, radius: f64) -> Centerline {
     let count = from.distance(to).round() as usize;
     let points: Vec<DVec3> = (0..=count).map(|n| from.lerp(to, n as f64 / count as f64)).collect();
@@ -18,7 +17,7 @@ fn found(line: Centerline, part: usize) -> FoundVessel {
     FoundVessel { line, part, confidence: 0.9, doubt: None }
 }
 
-/// A trunk along z of radius 10 mm, an artery that leaves it at z = 50 along x, and a branch of that at x = 30 along y.
+/// A trunk along z (radius 10 mm), an artery from z = 50 along x, and its branch from x = 30 along y.
 fn tree() -> Trees {
     let trunk = line(DVec3::ZERO, DVec3::Z * 100.0, 10.0);
     let artery = line(DVec3::Z * 50.0, DVec3::new(60.0, 0.0, 50.0), 3.0);
@@ -48,7 +47,7 @@ fn a_click_gives_the_whole_vessel_that_it_lies_in() {
 fn the_line_leads_back_to_the_vessel_that_there_is() {
     let tree = tree();
     let all = lines(&tree);
-    // The artery between trunk and branch is not there yet: the way to the branch goes through it.
+    // Without the artery, the path to the branch goes through it.
     let way = one_vessel(&tree, IN_BRANCH, 0.5, &all[..1]).unwrap();
     assert_eq!(way.points[0], DVec3::new(0.0, 0.0, 50.0));
     assert_eq!(way.points.last(), all[2].points.last());
@@ -57,7 +56,7 @@ fn the_line_leads_back_to_the_vessel_that_there_is() {
     assert!(through.contains(&DVec3::new(29.0, 0.0, 50.0)));
     assert_eq!(way.radius.len(), way.points.len());
     assert_eq!(way.confidence.len(), way.points.len());
-    // With the artery there it is the branch alone, which begins at a point of the artery to the bit.
+    // With the artery, only the branch, starting on a point of the artery to the bit.
     let branch = one_vessel(&tree, IN_BRANCH, 0.5, &all[..2]).unwrap();
     assert_eq!(branch.points[0], DVec3::new(30.0, 0.0, 50.0));
     assert!((branch.points.len() as f64 - 40.0).abs() < 3.0);
@@ -73,7 +72,7 @@ fn a_trunk_does_not_end_where_a_branch_that_there_is_hangs_on_it() {
 #[test]
 fn a_line_ends_where_it_enters_a_vessel_that_there_is() {
     let tree = tree();
-    // Somebody traced the last part of the artery and a vessel behind it.
+    // The last part of the artery and a vessel after it exist.
     let traced = line(DVec3::new(50.0, -20.0, 50.0), DVec3::new(50.0, 20.0, 50.0), 2.0);
     let artery = one_vessel(&tree, IN_ARTERY, 0.5, &[traced]).unwrap();
     assert_eq!(artery.points[0], DVec3::new(0.0, 0.0, 50.0));
@@ -106,7 +105,7 @@ fn a_click_in_no_vessel_and_one_in_a_vessel_that_there_is_are_refused() {
 #[test]
 fn a_click_behind_the_end_of_a_vessel_that_ends_in_another_one_adds_nothing() {
     let tree = tree();
-    // It crosses the last point of the artery; the click lies beyond that and outside of it.
+    // The click lies beyond the last point of the artery, outside it.
     let traced = line(DVec3::new(60.0, -20.0, 50.0), DVec3::new(60.0, 20.0, 50.0), 1.0);
     assert_eq!(one_vessel(&tree, DVec3::new(62.0, 0.0, 50.0), 0.5, &[traced]), Err(NoVessel::Already));
 }

@@ -1,4 +1,4 @@
-//! Finding vessels stops where it is asked to, in every one of its stages.
+//! Finding vessels stops on request in each of its stages.
 #![allow(clippy::unwrap_used)]
 
 use std::sync::Mutex;
@@ -12,13 +12,12 @@ use lumencut_phantom::y_junction;
 use lumencut_vessels::trace::find::found::Trees;
 use lumencut_vessels::trace::find::{FindRequest, find_vessels};
 
-/// The share of the work at which each stage begins: levels, first pass, candidates, tracks, judgement, links, whole vessels.
+/// Share of the work at which each stage begins.
 const BEGIN: [f64; 7] = [0.0, 0.04, 0.22, 0.50, 0.88, 0.95, 0.97];
 
-/// What threads have in hand when one of them is told to stop: they ask no more than so often until all have stopped.
+/// Maximum number of further calls of `stop` until all threads have stopped.
 const IN_HAND: usize = 100;
 
-/// What is found in a fork of three tubes.
 fn found(stop: Stop, progress: &Progress) -> lumencut_core::error::Result<Trees> {
     let made = y_junction().unwrap();
     let strides = [1, made.size[0], made.size[0] * made.size[1]];
@@ -26,7 +25,7 @@ fn found(stop: Stop, progress: &Progress) -> lumencut_core::error::Result<Trees>
     find_vessels(&volume, &FindRequest { smallest_radius: 1.0, stop, progress: Some(progress) })
 }
 
-/// How far the work is at each question whether to stop.
+/// Progress at each call of `stop`.
 fn shares() -> Vec<f64> {
     let (told, progress) = (Mutex::new(Vec::new()), Progress::default());
     let stop = || {

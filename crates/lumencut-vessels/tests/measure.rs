@@ -1,4 +1,4 @@
-//! Vessels whose blurred image has a closed form are measured as they are, and long work stops where it is asked to.
+//! Measures vessels whose blurred image has a closed form, and stops long work on request.
 #![allow(clippy::unwrap_used)]
 
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -11,7 +11,7 @@ use lumencut_core::volume::{Volume, Voxels};
 use lumencut_vessels::measure::blur::variance_of;
 use lumencut_vessels::measure::ellipse::{Boundary, Ellipse, Whitening};
 use lumencut_vessels::measure::flags::RECENTERED;
-use lumencut_vessels::measure::measuring::{TreeMeasuring, measure, told_by_tree};
+use lumencut_vessels::measure::measuring::{TreeMeasuring, measure, tree_findings};
 use lumencut_vessels::measure::profile::{Profile, Source};
 use lumencut_vessels::measure::request::MeasureRequest;
 use lumencut_vessels::measure::stenosis::{Compared, Method};
@@ -21,7 +21,7 @@ const SIZE: usize = 36;
 const SIDE: f64 = 0.5;
 const FWHM: f64 = 0.9;
 
-/// A vessel along z: an ellipse, blurred by the point spread and by voxels, which the values of a slice are.
+/// A vessel along z: a blurred ellipse.
 fn slices(ellipse: &Ellipse) -> Vec<f32> {
     let variance = variance_of(FWHM) + SIDE * SIDE / 12.0;
     let boundary = Boundary::new(ellipse, Whitening::new(DMat2::from_diagonal(DVec2::splat(variance))));
@@ -79,13 +79,13 @@ fn a_point_spread_that_nobody_waited_for_is_not_told() {
     let volume = Volume::new(Voxels::F32(&values), [SIZE; 3], [1, SIZE, SIZE * SIZE], affine).unwrap();
     let tree =
         [Vessel::new([2.0, 15.0].map(|z| DVec3::new(9.2, 8.9, z)).to_vec(), Some(vec![2.0; 2])).unwrap()];
-    // It is stopped at each of the first questions: before, and while, the only vessel is looked at.
+    // Stopped before and during the first look at the only vessel.
     for questions in 0..40 {
         let asked = AtomicUsize::new(0);
         let stop = || asked.fetch_add(1, Ordering::Relaxed) >= questions;
         let request =
             MeasureRequest { step: 0.5, fwhm: None, wall: WallRequest::Automatic, tree: &tree, stop: &stop };
-        let told = told_by_tree(&volume, &request);
+        let told = tree_findings(&volume, &request);
         assert_eq!(told.map_err(|error| error.kind), Err(ErrorKind::Interrupted), "{questions} questions");
     }
 }
@@ -103,8 +103,8 @@ fn vessels_of_a_tree_are_measured_as_by_themselves() {
     for wall in [WallRequest::Automatic, WallRequest::Level([30.0, 10.0]), WallRequest::Off] {
         let request = MeasureRequest { step: 0.5, fwhm: None, wall, tree: &tree, stop: &|| false };
         let measuring = TreeMeasuring::new(&volume, &request).unwrap();
-        let told = measuring.told(&|| false).unwrap();
-        assert_eq!(told, told_by_tree(&volume, &request).unwrap());
+        let told = measuring.findings(&|| false).unwrap();
+        assert_eq!(told, tree_findings(&volume, &request).unwrap());
         for (n, vessel) in tree.iter().enumerate() {
             let alone = measure(&volume, vessel, &request).unwrap();
             let among = measuring.profile(n, told.clone(), &|| false).unwrap();
@@ -128,7 +128,7 @@ fn a_lumen_beside_the_line_does_not_count() {
     let values = slices(&Ellipse::circle(DVec2::new(9.0, 9.0), 2.0));
     let affine = DAffine3::from_scale(DVec3::splat(SIDE));
     let volume = Volume::new(Voxels::F32(&values), [SIZE; 3], [1, SIZE, SIZE * SIZE], affine).unwrap();
-    // From its middle on the line leaves the lumen, whose wall is at 11 mm, slowly.
+    // The second half of the line slowly leaves the lumen, whose wall is at 11 mm.
     let points = [(9.0, 2.0), (9.0, 8.0), (11.6, 15.0)].map(|(x, z)| DVec3::new(x, 9.0, z));
     let vessel = Vessel::new(points.to_vec(), Some(vec![2.0; 3])).unwrap();
     let wall = WallRequest::Automatic;

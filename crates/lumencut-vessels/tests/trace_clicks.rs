@@ -1,4 +1,4 @@
-//! Clicks that are taken although they lie beside lumen, or where hardly anything but lumen is around them.
+//! Clicks next to lumen, or in nothing but lumen, are accepted.
 #![allow(clippy::unwrap_used)]
 
 use glam::{DAffine3, DVec3};
@@ -9,8 +9,8 @@ use lumencut_vessels::trace::clicks::traced::Traced;
 use lumencut_vessels::trace::clicks::tracer::Tracer;
 use lumencut_vessels::trace::lines::centerline::Centerline;
 use lumencut_vessels::trace::lines::wander::wandering;
-use lumencut_vessels::trace::lumen::calm::calmed;
 use lumencut_vessels::trace::lumen::surroundings::Surroundings;
+use lumencut_vessels::trace::lumen::wander_removal::without_wander;
 use lumencut_vessels::voxels;
 
 fn traced(volume: &Volume, clicks: &[DVec3]) -> lumencut_core::error::Result<Traced> {
@@ -18,8 +18,7 @@ fn traced(volume: &Volume, clicks: &[DVec3]) -> lumencut_core::error::Result<Tra
     Tracer::default().trace(volume, &clicks, &|| false, None).map(|mut lines| lines.remove(0))
 }
 
-/// A chamber of blood (470 HU, noise of 40) of radius 48 mm in fat, whose voxels are cubes of 1.5 mm: within 30 mm of its middle
-/// there is nothing but blood.
+/// A chamber of blood (470 HU, noise 40, radius 48 mm) in fat: only blood within 30 mm of its centre.
 fn chamber() -> (Vec<i16>, [usize; 3], DAffine3) {
     let side = 72;
     let mut seed = 7u32;
@@ -30,7 +29,7 @@ fn chamber() -> (Vec<i16>, [usize; 3], DAffine3) {
     let value = |n: usize| {
         let index = DVec3::new((n % side) as f64, (n / side % side) as f64, (n / (side * side)) as f64);
         let is_blood = (index - DVec3::splat(35.5)).length() * 1.5 < 48.0;
-        // Twelve even deviates have about the distribution of a normal one.
+        // Nearly normal: the sum of twelve uniform numbers.
         let deviate: f64 = (0..12).map(|_| noise()).sum();
         (if is_blood { 470.0 } else { -90.0 } + 40.0 * deviate).round() as i16
     };
@@ -54,7 +53,7 @@ fn a_click_next_to_lumen_means_the_lumen_and_one_farther_away_is_refused() {
     let phantom = straight_tube().unwrap();
     let volume = phantom.volume().unwrap();
     let (from, to) = (DVec3::Z * -15.0, DVec3::new(0.3, 0.2, 15.0));
-    // The tube has a radius of 4 mm; a place that looks like lumen on all sides lies about 3 mm from its middle.
+    // Radius 4 mm; a place with lumen on all sides is about 3 mm from the centre.
     for first in [DVec3::new(4.6, 0.0, -15.0), DVec3::new(0.0, -4.6, -15.0)] {
         let line = traced(&volume, &[first, to]).unwrap().line;
         assert!(line.points[0].truncate().length() < 1.0, "{}", line.points[0]);
@@ -62,7 +61,7 @@ fn a_click_next_to_lumen_means_the_lumen_and_one_farther_away_is_refused() {
     }
     let refused = traced(&volume, &[from, DVec3::new(7.0, 0.0, 15.0)]).unwrap_err();
     assert!(refused.mend.contains("the nearest place that looks like lumen"), "{refused}");
-    // What is refused before a second click, and what is not, is the same.
+    // The check of a first click agrees.
     let tracer = Tracer::default();
     assert!(tracer.check_click(&volume, DVec3::new(4.6, 0.0, -15.0)).is_ok());
     assert!(tracer.check_click(&volume, DVec3::new(7.0, 0.0, -15.0)).is_err());
@@ -88,8 +87,8 @@ fn a_line_that_folds_back_within_a_lumen_is_made_calm_and_a_straight_one_stays()
     let [from, to] = [-12.0, 12.0].map(|z| DVec3::Z * z);
     let folded = line(&[from, DVec3::new(1.0, 0.0, 3.0), DVec3::new(-1.0, 0.5, -3.0), to]);
     assert!(wanders(&folded) && length(&folded) > 34.0);
-    let calm = calmed(&voxels, &model, folded, &|| false).unwrap();
+    let calm = without_wander(&voxels, &model, folded, &|| false).unwrap();
     assert!(!wanders(&calm) && length(&calm) < 27.0, "{}", length(&calm));
     let straight = line(&[from, to]);
-    assert_eq!(calmed(&voxels, &model, straight.clone(), &|| false).unwrap(), straight);
+    assert_eq!(without_wander(&voxels, &model, straight.clone(), &|| false).unwrap(), straight);
 }

@@ -1,4 +1,4 @@
-//! The parts of tracing a mask against brute force.
+//! Parts of mask tracing against brute force.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -12,7 +12,6 @@ use lumencut_vessels::trace::skeleton::foreground::{Foreground, LUMEN};
 
 const SIZE: [usize; 3] = [14, 11, 9];
 
-/// Random voxels, most of them lumen.
 fn voxels(seed: u32) -> Vec<u8> {
     let mut state = seed;
     let next = || {
@@ -38,9 +37,8 @@ fn distances_are_those_to_the_nearest_background() {
     let grids = [
         columns([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]),
         columns([0.4, 0.0, 0.0], [0.0, 0.7, 0.0], [0.0, 0.0, 2.1]),
-        // Turned and left-handed, but rectangular.
+        // Rotated and left-handed, but rectangular.
         columns([0.6, 0.8, 0.0], [0.8, -0.6, 0.0], [0.0, 0.0, 1.5]),
-        // Sheared.
         columns([0.8, 0.0, 0.0], [0.0, 0.8, 0.3], [0.0, 0.0, 1.0]),
         columns([0.5, 0.1, 0.0], [-0.2, 0.6, 0.0], [0.3, 0.1, 0.9]),
     ];
@@ -62,7 +60,6 @@ fn distances_are_those_to_the_nearest_background() {
     }
 }
 
-/// A bar along x in a grid of 1 mm.
 fn bar(voxels: &mut Vec<u8>) -> Volume<'_> {
     voxels.resize(40 * 12 * 12, 0);
     for k in 4..8 {

@@ -6,10 +6,10 @@ use lumencut_core::error::Result;
 use lumencut_core::stop::Stop;
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::Volume;
-use lumencut_vessels::measure::measuring::{measure_under, told_by_tree};
+use lumencut_vessels::measure::measuring::{measure_with, tree_findings};
 use lumencut_vessels::measure::profile::Profile;
 use lumencut_vessels::measure::request::MeasureRequest;
-use lumencut_vessels::measure::told_by_tree::ToldByTree;
+use lumencut_vessels::measure::tree_findings::TreeFindings;
 use lumencut_vessels::measure::wall_level::WallRequest;
 
 /// A volume and its tree; a cache is valid for one pair only.
@@ -37,7 +37,7 @@ pub struct MeasureParameters<'a> {
 /// The cached profiles, by the host's key of a vessel.
 pub struct KeptProfiles<K> {
     /// Tree-wide estimates, by wall level and point spread.
-    estimates: Vec<((WallRequest, Option<f64>), ToldByTree)>,
+    estimates: Vec<((WallRequest, Option<f64>), TreeFindings)>,
     kept: Vec<Kept<K>>,
 }
 
@@ -73,7 +73,7 @@ impl<K: PartialEq> KeptProfiles<K> {
         }
         let request = MeasureRequest { step, fwhm, wall, tree: scan.tree, stop };
         let estimates = self.estimates(scan.volume, &request)?;
-        let profile = Arc::new(measure_under(estimates, scan.volume, vessel, &request)?);
+        let profile = Arc::new(measure_with(estimates, scan.volume, vessel, &request)?);
         self.kept.push(Kept { of: key, step, fwhm, wall, profile });
         Ok(self.kept.len() - 1)
     }
@@ -87,12 +87,12 @@ impl<K: PartialEq> KeptProfiles<K> {
         self.kept.iter().find(|kept| kept.of == *key).map(|kept| &*kept.profile)
     }
 
-    fn estimates(&mut self, volume: &Volume, request: &MeasureRequest) -> Result<ToldByTree> {
+    fn estimates(&mut self, volume: &Volume, request: &MeasureRequest) -> Result<TreeFindings> {
         let asked = (request.wall, request.fwhm);
         if let Some((_, estimates)) = self.estimates.iter().find(|(other, _)| *other == asked) {
             return Ok(estimates.clone());
         }
-        let estimates = told_by_tree(volume, request)?;
+        let estimates = tree_findings(volume, request)?;
         self.estimates.push((asked, estimates.clone()));
         Ok(estimates)
     }

@@ -1,4 +1,4 @@
-//! How much memory a call takes at its peak: every allocation of Rust is counted.
+//! Peak memory of a call, from all Rust allocations.
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
@@ -12,7 +12,7 @@ fn grown(bytes: usize) {
     PEAK.fetch_max(LIVE.fetch_add(bytes, Relaxed) + bytes, Relaxed);
 }
 
-// SAFETY: every call is handed on to the allocator of the system as it came; only sizes are added up.
+// SAFETY: every call is forwarded unchanged to the system allocator; only sizes are counted.
 unsafe impl GlobalAlloc for Counting {
     unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
         grown(layout.size());
@@ -30,7 +30,7 @@ unsafe impl GlobalAlloc for Counting {
     }
 
     unsafe fn realloc(&self, place: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        // What is moved is there twice for a moment.
+        // Both copies exist for a moment.
         grown(size);
         LIVE.fetch_sub(layout.size(), Relaxed);
         unsafe { System.realloc(place, layout, size) }
@@ -40,7 +40,7 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-/// What `call` gives, and the most bytes that it had allocated at once.
+/// Result of `call` and its peak allocation in bytes.
 pub fn peak_of<T>(call: impl FnOnce() -> T) -> (T, usize) {
     let before = LIVE.load(Relaxed);
     PEAK.store(before, Relaxed);

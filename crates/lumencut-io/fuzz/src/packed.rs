@@ -1,26 +1,22 @@
-//! Compressed `.vtp` files around made-up content: no mutation of a packed block gets its check sum right.
+//! Builds compressed `.vtp` files, because mutating a packed block breaks its checksum.
 
 use std::io::Write;
 
 use flate2::{Compression, write::ZlibEncoder};
 use lzma_rust2::{XzOptions, XzWriter};
 
-/// How the file is written, by the first bytes of the input.
 struct Style {
     compressor: u8,
     big: bool,
     wide: bool,
     floats: bool,
-    /// Bytes per block, from 1.
     block: usize,
-    /// How many bytes more the last block claims than it has.
+    /// Bytes that the last block claims in excess.
     lie: i8,
 }
 
-/// A `.vtp` whose arrays hold what `data` says; `None` where that is too short to say anything.
-///
-/// Five bytes say how it is written and how many points and lines it has; the points follow, then their radii,
-/// the groups and offsets of the lines, and the point ids.
+/// A `.vtp` whose arrays come from `data`: five bytes of options and counts, then points, radii, groups,
+/// offsets and point ids. None if `data` is too short.
 pub fn vtp(data: &[u8]) -> Option<Vec<u8>> {
     let ([choice, block, lie, points, lines], mut rest) = data.split_first_chunk::<5>()?;
     let bit = |i: u8| choice >> i & 1 == 1;
@@ -73,7 +69,6 @@ impl Style {
         format!("byte_order=\"{order}\" header_type=\"{header}\" compressor=\"{compressor}\"")
     }
 
-    /// The content of one array: the header with the sizes of its blocks, then the blocks.
     fn packed(&self, content: &[u8]) -> Vec<u8> {
         let blocks: Vec<Vec<u8>> = content.chunks(self.block).map(|block| self.block(block)).collect();
         let last = (content.len() % self.block).wrapping_add_signed(isize::from(self.lie));

@@ -1,4 +1,4 @@
-//! Lines that run along another line without sharing its points take its points.
+//! Lines that run along another line, without shared points, take its points.
 
 use std::cell::Cell;
 
@@ -7,33 +7,30 @@ use glam::DVec3;
 use super::Path;
 use super::ids::Id;
 
-/// How far beside another line a line may run, as a part of the radius there.
+/// Maximum lateral distance, as a share of the radius.
 const PART_OF_RADIUS: f64 = 0.1;
 /// The same for lines of one group.
 const PART_OF_RADIUS_IN_GROUP: f64 = 0.5;
-/// The same where no radius is known, as a part of the median spacing.
+/// Without radius, as a share of the median spacing.
 const PART_OF_SPACING: f64 = 0.5;
-/// The most of the latter (mm), so that coarse control points do not reach over to a neighbour.
+/// Upper limit of that (mm), so that sparse control points do not reach a neighbour.
 const MOST_BY_SPACING: f64 = 0.5;
-/// How long the shared stretch must be, as a multiple of the distance allowed beside it.
+/// Minimum shared stretch, in maximum lateral distances.
 const SHORTEST_STRETCH: f64 = 10.0;
-/// How many times a point may be compared with a segment, a second's work. Lines of a patient take a small
-/// part; radii as wide as the whole tree make every point near every segment.
+/// Maximum point-segment comparisons (about one second); huge radii would compare everything.
 const MOST_COMPARISONS: usize = 1 << 26;
 
-/// What came of following.
-pub struct Followed {
-    /// How many ends of paths follow another path.
+pub(super) struct Followed {
+    /// Number of path ends that follow another path.
     pub ends: usize,
-    /// Whether all was compared that there is to compare.
+    /// Whether the comparison limit was not reached.
     pub whole: bool,
 }
 
-/// Lets the ends of paths follow earlier paths.
-pub fn follow(points: &[DVec3], paths: &mut [Path], spacing: f64) -> Followed {
+pub(super) fn follow(points: &[DVec3], paths: &mut [Path], spacing: f64) -> Followed {
     let mut followed = 0;
     let left = Cell::new(MOST_COMPARISONS);
-    // A path that follows another one leaves its own end behind, where a third path may begin.
+    // A path that follows another leaves its old end, where a third path may begin.
     let mut moved: Vec<(Id, Id)> = Vec::new();
     for i in 1..paths.len() {
         let (earlier, rest) = paths.split_at_mut(i);
@@ -55,21 +52,17 @@ pub fn follow(points: &[DVec3], paths: &mut [Path], spacing: f64) -> Followed {
     Followed { ends: followed, whole: left.get() > 0 }
 }
 
-/// A stretch at the beginning of a path that runs along another one.
 struct Shared {
     other: usize,
-    /// Whether the other path is walked from its last point.
     backwards: bool,
-    /// The last point of the path that is beside the other.
     last: usize,
-    /// The last point of the other that is beside the path, in the direction of walking.
+    /// In the direction of walking.
     other_last: usize,
     length: f64,
 }
 
-/// The longest stretch at the beginning of `path` beside one of the `earlier` paths. None where the path
-/// shares its first step with one of them: points that coincide say where lines part better than any
-/// tolerance does.
+/// Longest stretch at the start of `path` along an `earlier` path. None if they share the first step, because
+/// equal points are better evidence than any tolerance.
 fn longest(
     points: &[DVec3],
     path: &Path,
@@ -104,20 +97,17 @@ fn longest(
     best
 }
 
-/// Whether `other` begins or ends with this step, in either direction.
 fn shares_end(other: &Path, step: &[Id]) -> bool {
     let is_step = |pair: &[Id]| pair == step || [pair[1], pair[0]] == step;
     is_step(&other.nodes[..2]) || is_step(&other.nodes[other.nodes.len() - 2..])
 }
 
-/// A path and another one that it may run along, both from one end.
 struct Walk<'a> {
     points: &'a [DVec3],
     path: &'a Path,
     other: &'a Path,
     backwards: bool,
     spacing: f64,
-    /// The comparisons that are left.
     left: &'a Cell<usize>,
 }
 
@@ -130,7 +120,7 @@ impl Walk<'_> {
         self.points[self.other.nodes[self.other_index(i)] as usize]
     }
 
-    /// How far the path may run beside point `i` of the other (mm).
+    /// Maximum lateral distance at point `i` (mm).
     fn tolerance(&self, i: usize, in_group: bool) -> f64 {
         let part = if in_group { PART_OF_RADIUS_IN_GROUP } else { PART_OF_RADIUS };
         let radius = self.other.radius.as_ref().map(|radius| radius[self.other_index(i)]);
@@ -140,8 +130,7 @@ impl Walk<'_> {
         }
     }
 
-    /// The last point beside the other path, the other's last point, and the length (mm) of the stretch. None
-    /// where the path is beside the other nowhere, or no comparison is left.
+    /// Last point along the other path, the other's last point, and the length (mm).
     fn along(&self) -> Option<(usize, usize, f64)> {
         let in_group = self.path.group.is_some() && self.path.group == self.other.group;
         let first = self.points[self.path.nodes[0] as usize];
@@ -164,8 +153,7 @@ impl Walk<'_> {
             (at, last, length, before) = (segment, i, length + step, point);
         }
         let shortest = SHORTEST_STRETCH * self.tolerance(0, false);
-        // A whole path ends where the other's nearest point is, else it leaves behind the segment it is
-        // beside.
+        // A whole path ends at the other's nearest point; otherwise it leaves after the current segment.
         let whole = last + 1 == self.path.nodes.len();
         let nearer_end = whole && at + 1 < self.other.nodes.len() && {
             before.distance(self.other_point(at + 1)) < before.distance(self.other_point(at))
@@ -174,8 +162,7 @@ impl Walk<'_> {
         (last > 0 && other_last > 0 && length >= shortest).then_some((last, other_last, length))
     }
 
-    /// The segment nearest to `point` and its distance, at most `reach` (mm) further along than segment
-    /// `from`.
+    /// Segment nearest to `point` and its distance, at most `reach` mm beyond segment `from`.
     fn nearest_segment(&self, from: usize, point: DVec3, reach: f64) -> (usize, f64) {
         let mut best = (from, f64::INFINITY);
         let mut travelled = 0.0;
@@ -198,7 +185,7 @@ impl Walk<'_> {
 }
 
 impl Shared {
-    /// Gives `path` the other's points; returns the ends of the path that were replaced, and by what.
+    /// Gives `path` the other's points; returns the replaced ends.
     fn replace(self, path: &mut Path, earlier: &[Path]) -> Vec<(Id, Id)> {
         let other = &earlier[self.other];
         let count = other.nodes.len();

@@ -1,4 +1,4 @@
-//! Paths as a graph: shared stretches are the same edges, and chains between junctions are vessels.
+//! The graph of paths: shared stretches are shared edges, and chains between junctions are vessels.
 
 use glam::DVec3;
 
@@ -6,7 +6,6 @@ use super::Path;
 use super::ids::{Id, Incidence, Table, id, make_room};
 use crate::centerlines::Line;
 
-/// What an edge goes on as at one of its ends.
 #[derive(Clone, Copy, PartialEq)]
 enum Partner {
     None,
@@ -14,15 +13,13 @@ enum Partner {
     Many,
 }
 
-/// A step between two places that at least one path makes.
 struct Edge {
-    /// The two places, the smaller id first.
+    /// Smaller id first.
     nodes: [Id; 2],
-    /// The first path along it that has a radius, and the step that it is there.
+    /// First path with a radius, and its step.
     radius: Option<[Id; 2]>,
-    /// How the edge goes on at either place.
     partners: [Partner; 2],
-    /// Whether every path along it has a group.
+    /// Whether all its paths have a group.
     grouped: bool,
 }
 
@@ -35,7 +32,6 @@ impl Edge {
         self.nodes[1 - self.side(node)]
     }
 
-    /// The radius (mm) at one of the two places.
     fn radius_at(&self, node: Id, paths: &[Path]) -> Option<f64> {
         let [path, step] = self.radius?;
         let (path, step) = (&paths[path as usize], step as usize);
@@ -44,8 +40,7 @@ impl Edge {
     }
 }
 
-/// The chains of edges between junctions, as lines, in the order of the paths they come from.
-pub fn chains(points: &[DVec3], paths: &[Path]) -> Vec<Line> {
+pub(super) fn chains(points: &[DVec3], paths: &[Path]) -> Vec<Line> {
     let (mut graph, steps) = Graph::of(points.len(), paths);
     for (path, steps) in paths.iter().zip(&steps) {
         for (i, pair) in steps.windows(2).enumerate() {
@@ -76,12 +71,10 @@ pub fn chains(points: &[DVec3], paths: &[Path]) -> Vec<Line> {
 
 struct Graph {
     edges: Vec<Edge>,
-    /// How many steps are still to come.
     left: usize,
 }
 
 impl Graph {
-    /// The edges of all paths, and the edge of every step of each.
     fn of(places: usize, paths: &[Path]) -> (Self, Vec<Vec<Id>>) {
         // A tree has about as many edges as places.
         let expected = places + places / 16;
@@ -92,7 +85,6 @@ impl Graph {
         (graph, steps)
     }
 
-    /// The edges of path number `number`, new ones added.
     fn add(&mut self, path: &Path, number: Id, known: &mut Table) -> Vec<Id> {
         let step = |(i, pair): (usize, &[Id])| {
             let nodes = [pair[0].min(pair[1]), pair[0].max(pair[1])];
@@ -112,7 +104,6 @@ impl Graph {
         path.nodes.windows(2).enumerate().map(step).collect()
     }
 
-    /// Notes that a path goes from edge `a` to edge `b` at `node`, in either direction.
     fn pair(&mut self, node: Id, a: Id, b: Id) {
         if a == b {
             return;
@@ -128,8 +119,7 @@ impl Graph {
         }
     }
 
-    /// Pairs the edges of places where just two edges of lines with groups end at each other, and forbids to
-    /// pass places where an edge ends or goes on in several ways.
+    /// Pairs two grouped edges that end at each other; blocks places where an edge ends or branches.
     fn join_groups(&mut self, places: usize) {
         let incidence = Incidence::new(places, self.edges.len(), |edge| self.edges[edge].nodes);
         for place in 0..places {
@@ -159,7 +149,6 @@ impl Graph {
         }
     }
 
-    /// Where the chain through `edge`, which is walked from `node`, begins: its first place and edge.
     fn beginning(&self, node: Id, edge: Id) -> (Id, Id) {
         let (mut at, mut current) = (node, edge);
         while let Some(before) = self.next(at, current) {
@@ -172,7 +161,6 @@ impl Graph {
         (at, current)
     }
 
-    /// The edges from the place `start` along `first` to the next junction, or around to the first edge.
     fn chain(&self, start: Id, first: Id, done: &mut [bool]) -> Vec<Id> {
         let mut out = Vec::new();
         let (mut at, mut current) = (start, Some(first));
@@ -185,7 +173,6 @@ impl Graph {
         out
     }
 
-    /// The points along a chain that begins at the place `start`, and the radius there where every edge has one.
     fn along(
         &self,
         start: Id,
@@ -201,7 +188,7 @@ impl Graph {
             Some(*at)
         }));
         let points = nodes.iter().map(|node| places[*node as usize]).collect();
-        // The first place has the radius of the first edge, every other one that of the edge to it.
+        // The first place has the radius of the first edge, others that of the edge before.
         let edges = chain.iter().take(1).chain(chain).map(edge);
         let radius = chain.iter().all(|id| edge(id).radius.is_some()).then(|| {
             let mut out = Vec::with_capacity(nodes.len());

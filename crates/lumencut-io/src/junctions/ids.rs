@@ -1,25 +1,23 @@
-//! Ids of places, steps and edges, and tables of them that take few bytes each: beside the points of a large
-//! file little else has room.
+//! Compact ids and tables, because large files leave little memory besides their points.
 
 use std::hash::{BuildHasher, Hash, RandomState};
 
-/// The id of a place, a path, a step or an edge. [`MOST_POINTS`] keeps twice their number below the largest.
-pub type Id = u32;
+/// [`MOST_POINTS`] keeps twice their number below the largest id.
+pub(super) type Id = u32;
 
-/// The most points of all lines that ids can tell apart.
-pub const MOST_POINTS: usize = 1 << 30;
+/// Maximum number of points of all lines.
+pub(super) const MOST_POINTS: usize = 1 << 30;
 
 const NONE: Id = Id::MAX;
 
-/// The id of the `i`th of at most [`MOST_POINTS`].
-pub fn id(i: usize) -> Id {
+pub(super) fn id(i: usize) -> Id {
     i as Id
 }
 
-/// Ids from 0, found by keys that stay with the caller: a hash table with linear probing.
+/// Hash table with linear probing; keys stay with the caller.
 #[derive(Default)]
-pub struct Table {
-    /// As many as a power of two, at most three quarters of them taken; none before the first key.
+pub(super) struct Table {
+    /// A power of two, at most three quarters full.
     slots: Vec<Slot>,
     count: usize,
     state: RandomState,
@@ -32,14 +30,12 @@ struct Slot {
 }
 
 impl Table {
-    /// The ids whose key may be this one.
-    pub fn like(&self, key: &impl Hash) -> impl Iterator<Item = Id> {
+    pub(super) fn like(&self, key: &impl Hash) -> impl Iterator<Item = Id> {
         let hash = self.hash(key);
         self.from(hash).take_while(|slot| slot.id != NONE).filter(move |slot| slot.hash == hash).map(|s| s.id)
     }
 
-    /// Gives this key the next id.
-    pub fn push(&mut self, key: &impl Hash) -> Id {
+    pub(super) fn push(&mut self, key: &impl Hash) -> Id {
         if 4 * self.count >= 3 * self.slots.len() {
             let empty = vec![Slot { hash: 0, id: NONE }; (2 * self.slots.len()).max(4)];
             let known = std::mem::replace(&mut self.slots, empty);
@@ -60,7 +56,6 @@ impl Table {
         self.slots[at] = slot;
     }
 
-    /// All slots, from the one where this hash belongs.
     fn from(&self, hash: u32) -> impl Iterator<Item = &Slot> {
         let begin = hash as usize & self.slots.len().saturating_sub(1);
         self.slots[begin..].iter().chain(&self.slots[..begin])
@@ -71,23 +66,21 @@ impl Table {
     }
 }
 
-/// Makes room for one more element: for as many as there are, but for no more than the `most` to come.
-pub fn make_room<T>(all: &mut Vec<T>, most: usize) {
+/// Grows by doubling, but by no more than the `most` still to come.
+pub(super) fn make_room<T>(all: &mut Vec<T>, most: usize) {
     if all.len() == all.capacity() {
         all.reserve_exact(all.len().max(16).min(most.max(1)));
     }
 }
 
-/// The edges at every place, one place's after the other's, each place's by their ids.
-pub struct Incidence {
-    /// Where the edges of each place begin, and where the last one's end.
+pub(super) struct Incidence {
+    /// Start index per place, plus the end.
     begins: Vec<Id>,
     edges: Vec<Id>,
 }
 
 impl Incidence {
-    /// Of `edges` whose two places `ends` gives.
-    pub fn new(places: usize, edges: usize, ends: impl Fn(usize) -> [Id; 2]) -> Self {
+    pub(super) fn new(places: usize, edges: usize, ends: impl Fn(usize) -> [Id; 2]) -> Self {
         let mut begins = vec![0; places + 1];
         (0..edges).flat_map(&ends).for_each(|place| begins[place as usize] += 1);
         let mut sum = 0;
@@ -106,7 +99,7 @@ impl Incidence {
         Self { begins, edges: out }
     }
 
-    pub fn at(&self, place: usize) -> &[Id] {
+    pub(super) fn at(&self, place: usize) -> &[Id] {
         &self.edges[self.begins[place] as usize..self.begins[place + 1] as usize]
     }
 }

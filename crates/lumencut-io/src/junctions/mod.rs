@@ -1,25 +1,20 @@
-//! Lines that repeat a trunk become vessels that meet at shared end points.
+//! Turns lines that repeat a trunk into vessels that meet at shared end points.
 //!
-//! Centerline tools write one line from the source to each outlet, so that the lines repeat their common
-//! trunk; others write every segment as a line of its own. Here every stretch becomes one vessel, in five
-//! steps:
+//! Tools write one line per outlet, which repeats the trunk, or every segment separately. Five steps make
+//! each stretch one vessel:
 //!
-//! 1. *Weld* (`weld.rs`): points closer than 1/1000 of the median spacing are one point.
-//! 2. *Segments* (`segments.rs`): where most lines are single segments, they are joined to chains.
-//! 3. *Follow* (`follow.rs`): a line that begins or ends beside another line's end, without sharing points
-//!    with it, and runs along it, takes that line's points as far as it stays within a tenth of the radius.
-//!    For lines of one group, which their file says are one vessel, it is half the radius; where no radius is
-//!    known, half the spacing and at most 0.5 mm. The stretch must be long: vessels that part at more than 6°
-//!    are never merged.
-//! 4. *Graph* (`graph.rs`): shared stretches are the same edges. A point is a junction where its edges do not
-//!    pair off: three lines meet, one ends on another, or two end at each other. Lines that carry groups are
-//!    cut at places that are no branchings; there they are joined. Two lines that cross at a point pair off
-//!    and stay whole.
-//! 5. Chains of edges between junctions are the vessels, in the order and direction of the lines they come
-//!    from.
+//! 1. *Weld* (`weld.rs`): points closer than 1/1000 of the median spacing are merged.
+//! 2. *Segments* (`segments.rs`): if most lines are single segments, they are joined to chains.
+//! 3. *Follow* (`follow.rs`): a line that runs along another without shared points takes its points, within a
+//!    tenth of the radius (half of it within a group; without radius half the spacing, at most 0.5 mm). The
+//!    stretch must be long: vessels that diverge by more than 6° are never merged.
+//! 4. *Graph* (`graph.rs`): shared stretches are shared edges. A point is a junction where edges do not pair
+//!    off. Grouped lines, which are cut at other places too, are joined there. Lines that cross at a point
+//!    pair off and stay whole.
+//! 5. Chains between junctions are the vessels, in the order and direction of their lines.
 //!
-//! Only step 3 moves points by more than the weld distance; a tree whose vessels meet at shared points stays
-//! as it is.
+//! Only step 3 moves points by more than the weld distance; a tree that meets at shared points stays
+//! unchanged.
 
 mod follow;
 mod graph;
@@ -30,10 +25,9 @@ mod weld;
 use crate::centerlines::{Centerlines, Line};
 use ids::{Id, MOST_POINTS};
 
-/// Beyond this many lines step 3 is left out: it compares each line with all before it.
+/// More lines skip step 3, which compares all pairs.
 const MOST_LINES_TO_FOLLOW: usize = 1024;
 
-/// A line as ids of welded points, with the radius at each.
 struct Path {
     nodes: Vec<Id>,
     radius: Option<Vec<f64>>,
@@ -42,7 +36,6 @@ struct Path {
 }
 
 impl Path {
-    /// Drops nodes that equal the one before.
     fn drop_repeats(&mut self) {
         if let Some(radius) = &mut self.radius {
             let mut at = 0..self.nodes.len();
@@ -52,12 +45,9 @@ impl Path {
     }
 }
 
-/// The vessels that the lines (mm) of `centerlines` form, in place of the lines; end points that vessels share are
-/// equal to the last bit. A note tells how many lines became how many vessels where that changed anything.
-///
-/// Lines that their file says are vessels already stay as they are.
-///
-/// Vessels keep the name of the first line they come from; several vessels may have one name.
+/// Vessels formed by the lines (mm), with end points equal to the bit, and a note of any change. Lines that
+/// the file declares as vessels stay unchanged. A vessel takes the name of its first line, so names may
+/// repeat.
 #[must_use]
 pub fn vessels(centerlines: Centerlines) -> Centerlines {
     if centerlines.joined {
@@ -80,12 +70,11 @@ pub fn vessels(centerlines: Centerlines) -> Centerlines {
     let followed = if paths.len() <= MOST_LINES_TO_FOLLOW {
         let followed = follow::follow(&points, &mut paths, spacing);
         if !followed.whole {
-            notes.push("lines near too many others were joined only at points that coincide".into());
+            notes.push("lines near too many others were joined only at coincident points".into());
         }
         followed.ends
     } else {
-        notes
-            .push(format!("of more than {MOST_LINES_TO_FOLLOW} lines only points that coincide were joined"));
+        notes.push(format!("more than {MOST_LINES_TO_FOLLOW} lines: only coincident points were joined"));
         0
     };
     let vessels = graph::chains(&points, &paths);
@@ -99,7 +88,6 @@ pub fn vessels(centerlines: Centerlines) -> Centerlines {
     Centerlines { lines: vessels, notes, ..centerlines }
 }
 
-/// The median distance between neighbouring points (mm).
 fn median_spacing(lines: &[Line]) -> f64 {
     let mut steps = Vec::with_capacity(lines.iter().map(|line| line.points.len() - 1).sum());
     for line in lines {

@@ -1,4 +1,4 @@
-//! Clouds of segments, each a line of its own in any order and direction, become the chains that they form.
+//! Joins clouds of segments, in any order and direction, to chains.
 
 use std::collections::{HashSet, VecDeque};
 
@@ -7,12 +7,11 @@ use glam::DVec3;
 use super::Path;
 use super::ids::{Id, Incidence, id};
 
-/// Where most paths are single segments: joins them at places where just two of them meet. Other paths
-/// stay as they are; where one ends on a chain the graph cuts it. Notes what was done.
+/// If most paths are single segments, joins them where exactly two meet.
 ///
-/// Chains go the way of their segments where those follow each other throughout. Otherwise they run away from
-/// the open end with the largest radius, or the highest where no radius is known.
-pub fn join(points: &[DVec3], mut paths: Vec<Path>, notes: &mut Vec<String>) -> Vec<Path> {
+/// Chains keep the direction of their segments if those agree. Otherwise they run away from the open end with
+/// the largest radius, or the highest.
+pub(super) fn join(points: &[DVec3], mut paths: Vec<Path>, notes: &mut Vec<String>) -> Vec<Path> {
     let is_segment = |path: &Path| path.nodes.len() == 2;
     let count = paths.iter().filter(|path| is_segment(path)).count();
     if count < 2 || count <= paths.len() / 2 {
@@ -26,21 +25,19 @@ pub fn join(points: &[DVec3], mut paths: Vec<Path>, notes: &mut Vec<String>) -> 
         if !cloud.directed {
             chains = Orientation::new(points, chains).away_from_roots();
             let end = if cloud.has_radius() { "with the largest radius" } else { "that is highest" };
-            notes.push(format!("the segments have no common direction: vessels run away from the end {end}"));
+            notes.push(format!("the segments have no common direction: vessels start at the end {end}"));
         }
     }
     chains.extend(others);
     chains
 }
 
-/// Segments by the places where they meet.
 struct Cloud {
     segments: Vec<Path>,
-    /// The segments that end at each place.
     at: Incidence,
-    /// Whether chains pass each place.
+    /// Whether chains pass through each place.
     open: Vec<bool>,
-    /// Whether the segments follow each other at all places that chains pass.
+    /// Whether the segments agree in direction.
     directed: bool,
 }
 
@@ -65,7 +62,6 @@ impl Cloud {
         self.segments.iter().any(|segment| segment.radius.is_some())
     }
 
-    /// The other segment at a place that chains pass.
     fn next(&self, node: Id, segment: Id) -> Option<Id> {
         let at = self.at.at(node as usize);
         self.open[node as usize].then(|| if at[0] == segment { at[1] } else { at[0] })
@@ -76,7 +72,6 @@ impl Cloud {
         if nodes[0] == node { nodes[1] } else { nodes[0] }
     }
 
-    /// Every segment in one chain, in the order in which they come in the file.
     fn chains(&self) -> Vec<Path> {
         let mut done = vec![false; self.segments.len()];
         let mut out = Vec::new();
@@ -89,7 +84,7 @@ impl Cloud {
         out
     }
 
-    /// The place and segment where the chain through `first` begins; around a loop `first` itself.
+    /// Start of the chain through `first`; in a loop, `first`.
     fn beginning(&self, first: Id) -> (Id, Id) {
         let start = self.segments[first as usize].nodes[0];
         let (mut node, mut segment) = (start, first);
@@ -127,7 +122,6 @@ impl Cloud {
     }
 }
 
-/// The first of all segments between the same places.
 fn distinct(mut segments: Vec<Path>) -> Vec<Path> {
     let mut known = HashSet::new();
     segments.retain(|path| {
@@ -137,11 +131,9 @@ fn distinct(mut segments: Vec<Path>) -> Vec<Path> {
     segments
 }
 
-/// Gives chains without a direction one that does not depend on the order of the file.
 struct Orientation<'a> {
     points: &'a [DVec3],
     chains: Vec<Option<Path>>,
-    /// The chains that end at each place.
     ends: Incidence,
 }
 
@@ -152,7 +144,7 @@ impl<'a> Orientation<'a> {
         Self { points, chains: chains.into_iter().map(Some).collect(), ends }
     }
 
-    /// Where a vessel is likelier to come from than from another place: an open end, wide, high.
+    /// Likelihood of being a root: open, wide, high.
     fn rank(&self, node: Id) -> [f64; 5] {
         let chains = self.ends.at(node as usize);
         let radius = chains.iter().filter_map(|i| self.chains[*i as usize].as_ref()).filter_map(|chain| {
@@ -163,7 +155,6 @@ impl<'a> Orientation<'a> {
         [f64::from(u8::from(chains.len() == 1)), radius.copied().fold(0.0, f64::max), z, y, x]
     }
 
-    /// All chains, each directed away from the root of its tree, the trees with the widest roots first.
     fn away_from_roots(mut self) -> Vec<Path> {
         let ends = (0..self.points.len()).filter(|place| !self.ends.at(*place).is_empty()).map(id);
         let mut roots: Vec<([f64; 5], Id)> = ends.map(|node| (self.rank(node), node)).collect();

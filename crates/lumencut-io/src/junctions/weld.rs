@@ -1,4 +1,4 @@
-//! Points of lines that are the same place become one point.
+//! Merges equal points of lines.
 
 use glam::DVec3;
 
@@ -6,20 +6,19 @@ use super::Path;
 use super::ids::{Id, Table, make_room};
 use crate::centerlines::Line;
 
-/// Weld distance as a part of the median spacing of the points.
+/// Weld distance as a share of the median spacing.
 const PART_OF_SPACING: f64 = 1e-3;
-/// The smallest spacing as a part of the largest coordinate: the cells of the grid stay countable.
+/// Minimum spacing relative to the largest coordinate, which keeps grid cells countable.
 const PART_OF_COORDINATE: f64 = 1e-9;
 
-/// Whether the spacing is wide enough to tell places apart.
-pub fn resolves(lines: &[Line], spacing: f64) -> bool {
+pub(super) fn resolves(lines: &[Line], spacing: f64) -> bool {
     let largest = lines.iter().flat_map(|l| &l.points).map(|p| p.abs().max_element()).fold(0.0, f64::max);
     spacing > largest * PART_OF_COORDINATE
 }
 
-/// The places that the points of all lines are, and the lines as paths through them. A place has the
-/// coordinates of the first point that was found there. The spacing [`resolves`] the lines.
-pub fn weld(lines: Vec<Line>, spacing: f64) -> (Vec<DVec3>, Vec<Path>) {
+/// Distinct places (with the coordinates of their first point), and the lines as paths. The spacing must pass
+/// [`resolves`].
+pub(super) fn weld(lines: Vec<Line>, spacing: f64) -> (Vec<DVec3>, Vec<Path>) {
     let distance = spacing * PART_OF_SPACING;
     let count = lines.iter().map(|line| line.points.len()).sum();
     let mut grid = Grid { distance, left: count, points: Vec::new(), cells: Table::default() };
@@ -27,7 +26,7 @@ pub fn weld(lines: Vec<Line>, spacing: f64) -> (Vec<DVec3>, Vec<Path>) {
     (grid.points, paths)
 }
 
-/// The path of a line; `None` where all its points are one place.
+/// None if all points are one place.
 fn path(line: Line, grid: &mut Grid) -> Option<Path> {
     let nodes = line.points.iter().map(|p| grid.place(*p)).collect();
     let mut path = Path { nodes, radius: line.radius, group: line.group, name: line.name };
@@ -35,17 +34,15 @@ fn path(line: Line, grid: &mut Grid) -> Option<Path> {
     (path.nodes.len() >= 2).then_some(path)
 }
 
-/// Points in cubic cells as wide as the weld distance, which may hold only a few points each.
+/// Cells as wide as the weld distance, which hold only a few points.
 struct Grid {
     distance: f64,
-    /// How many points are still to come.
     left: usize,
     points: Vec<DVec3>,
     cells: Table,
 }
 
 impl Grid {
-    /// The id of the place at `point`.
     fn place(&mut self, point: DVec3) -> Id {
         let cell = self.cell(point);
         self.left -= 1;

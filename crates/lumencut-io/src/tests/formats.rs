@@ -1,4 +1,4 @@
-//! Every encoding of every format gives the same lines; what is odd is noted, what is wrong is named.
+//! Tests: every encoding of every format gives the same lines, notes and errors.
 
 use glam::DVec3;
 
@@ -72,7 +72,6 @@ fn markups_are_read_in_their_space_and_unit() {
     assert!(message(&sample::mrk_json("LPS", "inch", 1.0), "a.json").contains("coordinateUnits"));
 }
 
-/// The first markup of one file with the second of another.
 fn mixed(first: Vec<u8>, second: Vec<u8>) -> Vec<u8> {
     let [first, second] = [first, second].map(|bytes| String::from_utf8(bytes).unwrap());
     let at = |text: &str| text.find("{\"type\": \"Curve\", \"name\": \"curve 3\"").unwrap();
@@ -87,7 +86,7 @@ fn markups_in_two_units_are_brought_into_the_first() {
     assert_eq!(read.lines[0].points, sample::line(0));
     assert_eq!(read.lines[1].points, sample::line(1).iter().map(|p| *p * 1.25).collect::<Vec<_>>());
     assert_eq!(read.lines[1].radius.as_deref(), Some(&RADIUS[3..]));
-    assert!(read.notes.iter().any(|note| note.contains("different units were brought into mm")));
+    assert!(read.notes.iter().any(|note| note.contains("different units were converted to mm")));
 }
 
 #[test]
@@ -121,7 +120,7 @@ fn markups_in_two_spaces_are_brought_into_the_first() {
     let bytes = mixed(sample::mrk_json("RAS", "mm", 1.0), sample::mrk_json("LPS", "mm", 1.0));
     let read = read(&bytes, "a.mrk.json").unwrap();
     assert_is_sample(&read, "second markup in LPS");
-    assert!(read.notes.iter().any(|note| note.contains("different spaces")));
+    assert!(read.notes.iter().any(|note| note.contains("different coordinate systems")));
 }
 
 #[test]
@@ -164,7 +163,7 @@ fn points_without_lines_are_named() {
     let bytes = replaced(ascii_vtp(), "NumberOfLines=\"2\"", "NumberOfLines=\"0\" NumberOfVerts=\"1\"");
     let text = message(&bytes, "frame.vtp");
     assert!(
-        text.starts_with("frame.vtp: lines: found 7 point(s), 1 other cell(s) and no line; expected"),
+        text.starts_with("frame.vtp: lines: found 7 point(s), 1 other cell(s) but no line; expected"),
         "{text}"
     );
 }
@@ -172,7 +171,7 @@ fn points_without_lines_are_named() {
 #[test]
 fn a_cloud_of_points_and_a_document_type_are_refused_by_name() {
     let cloud = b"# vtk DataFile Version 3.0\nx\nASCII\nDATASET POLYDATA\nPOINTS 2 float\n0 0 0 1 1 1\nVERTICES 2 4\n1 0 1 1\n";
-    let expected = "a.vtk: lines: found 2 point(s), 2 other cell(s) and no line; expected at least one line \
+    let expected = "a.vtk: lines: found 2 point(s), 2 other cell(s) but no line; expected at least one line \
                     through the points; give a file of centerlines, not of points or surfaces";
     assert_eq!(message(cloud, "a.vtk"), expected);
     let bomb = replaced(ascii_vtp(), "<VTKFile", "<!DOCTYPE a [<!ENTITY b \"c\">]><VTKFile");
@@ -216,7 +215,7 @@ fn a_bomb_is_refused_by_its_size() {
     let packed = sample::pack(Compressor::Zlib, &zeros);
     let mut out = Vec::new();
     let error = Compressor::Zlib.unpack("array", &packed, 1000, &mut out).unwrap_err();
-    assert!(error.to_string().contains("another size than 1000 bytes") && out.len() <= 1001);
+    assert!(error.to_string().contains("does not unpack to 1000 bytes") && out.len() <= 1001);
     let mut budget = Budget::of_file(packed.len());
     assert!(budget.take("array", 1 << 20).is_ok());
     let error = budget.take("array", 1 << 40).unwrap_err();

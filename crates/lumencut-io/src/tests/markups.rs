@@ -1,4 +1,4 @@
-//! Markups of 3D Slicer: what is looked up in them, and what is passed over.
+//! Tests: 3D Slicer markups.
 
 use glam::DVec3;
 
@@ -12,7 +12,6 @@ fn message(markups: &str) -> String {
     read(markups.as_bytes(), "a.mrk.json").unwrap_err().to_string()
 }
 
-/// A file of one curve with these fields more.
 fn curve(fields: &str) -> String {
     let points = r#"{"position": [1, 2, 3]}, {"position": [1e0, -0.0, 18446744073709551615e-19]}"#;
     format!(r#"{{"markups": [{{"type": "Curve", "controlPoints": [{points}]{fields}}}]}}"#)
@@ -112,7 +111,6 @@ fn an_empty_unit_of_a_radius_is_that_of_its_curve() {
     assert_eq!(of(r#""units": ["mm", "UCUM", "millimeter"],"#).unwrap()[1], 0.05);
 }
 
-/// A file of one curve whose points have these values of `positionStatus`.
 fn with_statuses(statuses: &[&str]) -> String {
     let point =
         |(i, status): (usize, &&str)| format!(r#"{{"position": [{i}, 0, 0], "positionStatus": {status}}}"#);
@@ -131,13 +129,13 @@ fn the_status_of_a_point_means_what_it_says() {
     ]));
     assert_eq!(read.lines[0].points.iter().map(|p| p.x).collect::<Vec<_>>(), [0.0, 4.0]);
     assert!(
-        read.notes.contains(&"3 control point(s) without a place were left out".into()),
+        read.notes.contains(&"3 control point(s) without a position were left out".into()),
         "{:?}",
         read.notes
     );
     assert_eq!(ok(&with_statuses(&["2", "0", "null", "3", "1"])).lines[0].points.len(), 2, "by numbers");
     let none = message(&with_statuses(&[r#""undefined""#, r#""preview""#]));
-    assert!(none.contains("2 control point(s) without a place; expected at least 2 with one"), "{none}");
+    assert!(none.contains("2 control point(s) without a position; expected at least 2 with one"), "{none}");
     let unknown = message(&with_statuses(&[r#""defined""#, r#""placed""#, r#""defined""#]));
     assert!(unknown.contains("positionStatus of control point 1: found 'placed'"), "{unknown}");
 }
@@ -147,5 +145,5 @@ fn a_radius_that_is_null_is_unknown() {
     let radius = r#", "measurements": [{"name": "Radius", "controlPointValues": [null, 1.5]}]"#;
     let read = ok(&curve(radius));
     assert_eq!(read.lines[0].radius.as_deref(), Some(&[0.0, 1.5][..]));
-    assert!(read.notes.contains(&"1 of 2 radii are not stated: unknown there".into()), "{:?}", read.notes);
+    assert!(read.notes.contains(&"1 of 2 radii are missing".into()), "{:?}", read.notes);
 }

@@ -1,4 +1,4 @@
-//! Tests on small files that are written here, in every encoding, and on the shared samples where they are.
+//! Tests on generated files in every encoding, and on the shared samples if present.
 
 mod formats;
 mod hostile;

@@ -1,5 +1,4 @@
-//! SimVascular, SWC, ITK tubes, fiducials, Rotterdam references and NumPy arrays: what is read, what is
-//! noted, what is named.
+//! Tests: SimVascular, SWC, ITK tubes, fiducials, Rotterdam references and NumPy arrays.
 
 use glam::DVec3;
 
@@ -47,7 +46,7 @@ fn simvascular_paths_come_with_one_root_or_two() {
     let later = one.replacen("</path>", "<timestep id=\"1\"><path_element><path_points><path_point id=\"0\"><pos x=\"9\" y=\"9\" z=\"9\"/></path_point></path_points></path_element></timestep></path>", 1);
     let read_later = ok(&later, "a.pth");
     assert_eq!(read_later.lines, read.lines);
-    assert!(read_later.notes.contains(&"1 time step(s) behind the first were left out".to_owned()));
+    assert!(read_later.notes.contains(&"1 time step(s) after the first were ignored".to_owned()));
 }
 
 #[test]
@@ -90,19 +89,19 @@ fn swc_branches_share_their_ends_whatever_the_order_of_nodes() {
     let zero = ok("1 1 0 0 0 0 -1\n2 1 0 0 1 0 1\n", "a.swc");
     assert!(zero.lines[0].radius.is_none() && zero.notes[0].contains("every radius is 0"));
     let unnamed = ok(sample::npy(&[[1.5, 2.0, 3.0, 1.0], [1.5, 2.0, 4.0, 1.0]], 4, "<f8", false, 1), "a.npy");
-    assert_eq!(unnamed.notes, ["radius from the fourth column, which nothing names (1 everywhere)"]);
+    assert_eq!(unnamed.notes, ["radius from the unnamed fourth column (1 everywhere)"]);
     assert_eq!(ok("1.0 1 0 0 0 2 -1.0\n2.0 1 0 0 1 2 1.0", "a.swc").lines.len(), 1);
 }
 
 #[test]
 fn swc_errors_name_the_line() {
     let swc = |nodes: &str| message(format!("1 0 0 0 0 1 -1\n{nodes}\n"), "a.swc");
-    assert!(swc("2 0 0 0 1 1 7").contains("line 2: found the parent 7, which is no node"));
-    assert!(swc("1 0 0 0 1 1 -1").contains("line 2: found the id 1 once more, first in line 1"));
+    assert!(swc("2 0 0 0 1 1 7").contains("line 2: found the parent 7, which is not a node"));
+    assert!(swc("1 0 0 0 1 1 -1").contains("line 2: found the id 1 again, first used in line 1"));
     assert!(
-        swc("2 0 0 0 1 1 3\n3 0 0 0 2 1 2").contains("line 2: found the node 2, whose parents lead around")
+        swc("2 0 0 0 1 1 3\n3 0 0 0 2 1 2").contains("line 2: found the node 2, whose parents form a cycle")
     );
-    assert!(swc("2 0 0 0 1 1 2").contains("around in a circle"));
+    assert!(swc("2 0 0 0 1 1 2").contains("form a cycle"));
     assert!(swc("2 0 0 0 1 1").contains("line 2: found '2 0 0 0 1 1'; expected 7 numbers"));
     assert!(swc("2 0 0 nan 1 1 1").contains("line 2: found 'nan'; expected a finite number"));
     assert!(swc("2 0 0 1e400 1 1 1").contains("line 2: found '1e400'"));
@@ -111,7 +110,6 @@ fn swc_errors_name_the_line() {
     assert!(message("# nothing\n", "a.swc").contains("no node"));
 }
 
-/// A tube with fields in front of its points.
 fn tube(fields: &str, points: &str) -> String {
     format!(
         "ObjectType = Scene\nNDims = 3\nNObjects = 1\nObjectType = Tube\nObjectSubType = Vessel\nNDims = 3\n{fields}\n\
@@ -142,7 +140,7 @@ fn transforms_of_parents_apply_and_circles_are_refused() {
     let read_child = ok(child.clone() + &group(-1), "a.tre");
     assert_eq!(read_child.lines[0].points[0], DVec3::new(1.0, 2.0, 103.0));
     assert!(read_child.notes.iter().any(|note| note.contains("transforms of parent objects")));
-    assert!(message(child.clone() + &group(3), "a.tre").contains("parents in a circle"));
+    assert!(message(child.clone() + &group(3), "a.tre").contains("a cycle of parents"));
     let alone = ok(child, "a.tre");
     assert!(alone.notes.iter().any(|note| note.contains("whose parent is not in the file")));
 }
@@ -183,7 +181,7 @@ fn odd_tubes_are_named() {
     assert!(with("Points = \n", "Point = \n").contains("a MetaIO field"));
     let compressed = with("ObjectSubType = Vessel", "BinaryData = True\nCompressedData = True");
     assert!(compressed.contains("compressed points"));
-    assert!(message("ObjectType = Scene\nNDims = 3\n", "a.tre").contains("1 object(s) and no tube"));
+    assert!(message("ObjectType = Scene\nNDims = 3\n", "a.tre").contains("1 object(s) but no tube"));
     assert!(message("ObjectType = Tube\nNDims = 3\n", "a.tre").contains("no Points"));
 }
 
@@ -197,10 +195,8 @@ fn fiducials_are_one_line_in_their_space() {
     assert_eq!(read.lines[0].points, [DVec3::new(1.0, 2.0, 3.0), DVec3::new(4.0, 5.0, 6.0)]);
     assert_eq!((read.space, read.unit), (Some(Space::Ras), Some(Unit::Millimetre)));
     let notes = read.notes.join("; ");
-    assert!(notes.contains("a list of 2 fiducials is taken as one line"), "{notes}");
-    assert!(
-        notes.contains("1 fiducial(s) without a place") && notes.contains("1 fiducial(s) that are hidden")
-    );
+    assert!(notes.contains("the 2 fiducials are read as one line"), "{notes}");
+    assert!(notes.contains("1 fiducial(s) without a position") && notes.contains("1 fiducial(s) hidden"));
     let lps = head.replace("= 0", "= LPS") + rows;
     assert_eq!(ok(lps, "a.csv").space, Some(Space::Lps), "told by its content");
     assert!(
@@ -213,7 +209,7 @@ fn fiducials_are_one_line_in_their_space() {
         head.to_owned() + "c,0,0,0,0,0,0,1,1,1,0,F-3,,,0,0\nb,4,5,6,0,0,0,1,0,1,0,F-2,,,1,0\n",
         "a.fcsv",
     );
-    assert!(none.contains("2 fiducial(s) without a place; expected at least 2 with one"), "{none}");
+    assert!(none.contains("2 fiducial(s) without a position; expected at least 2 with one"), "{none}");
     let described = rows.replace("F-2,,", "F-2,\"two\nlines, quoted\",");
     assert_eq!(ok(head.to_owned() + &described, "a.fcsv").lines[0].points.len(), 2);
     let old = "# columns = label,x,y,z,sel,visibility\nF,1,2,3,1,1\nF,1,2,4,1,1\n";

@@ -1,4 +1,4 @@
-//! Damaged files give an error or lines, and nothing else.
+//! Tests: damaged files give an error or sound lines.
 
 use glam::DVec3;
 
@@ -6,7 +6,6 @@ use super::sample;
 use crate::junctions::vessels;
 use crate::{Centerlines, Line, read};
 
-/// What is read must be sound whatever the bytes were.
 fn read_and_check(bytes: &[u8], name: &str) -> bool {
     let Ok(read) = read(bytes, name) else { return false };
     for line in read.lines.iter().chain(&vessels(read.clone()).lines) {
@@ -25,12 +24,11 @@ fn a_file_cut_anywhere_is_an_error_or_gives_all_its_lines() {
             if !read_and_check(&bytes[..length], name) {
                 continue;
             }
-            // Rows of text may end anywhere.
+            // Text rows may end anywhere.
             if text.contains(&name) {
                 continue;
             }
-            // Nothing tells that a legacy file ends too early between two sections; the end of appended data
-            // is not needed.
+            // A legacy file may end between sections unnoticed; the end of appended data is optional.
             let lines = read(&bytes[..length], name).unwrap().lines;
             let appended = bytes.windows(13).any(|w| w == b"<AppendedData") && bytes.len() - length < 64;
             assert!(name == "a.vtk" || appended, "{name} cut at {length} of {}", bytes.len());
@@ -45,7 +43,7 @@ fn a_file_cut_anywhere_is_an_error_or_gives_all_its_lines() {
     }
 }
 
-/// A small generator with a fixed seed (xorshift), so that a failure repeats.
+/// Seeded generator (xorshift), so that failures repeat.
 pub struct Random(pub u64);
 
 impl Random {
@@ -75,7 +73,7 @@ const NASTY: [&[u8]; 12] = [
 #[test]
 fn mutated_files_never_panic() {
     let mut files = sample::files();
-    // As often as the many forms of `.vtp`.
+    // In proportion to the variants of `.vtp`.
     let others: Vec<_> =
         sample::other_files().into_iter().map(|(content, name, _)| (content, name)).collect();
     files.extend(others.iter().cycle().take(64).cloned());
@@ -99,7 +97,7 @@ fn mutated_files_never_panic() {
     assert!((1..20_000).contains(&read_whole), "{read_whole} of the mutated files were read");
 }
 
-/// Every point is near every segment: comparing them all would take the square of their number.
+/// Every point is near every segment: comparing all would be quadratic.
 #[test]
 fn radii_as_wide_as_the_tree_end_in_time() {
     const COUNT: usize = 30_000;
@@ -109,13 +107,11 @@ fn radii_as_wide_as_the_tree_end_in_time() {
         ..Line::default()
     };
     let found = vessels(Centerlines { lines: vec![line(0.0), line(5.0)], ..Centerlines::default() });
-    assert!(
-        found.notes.contains(&"lines near too many others were joined only at points that coincide".into())
-    );
+    assert!(found.notes.contains(&"lines near too many others were joined only at coincident points".into()));
     assert_eq!(found.lines.len(), 2);
 }
 
-/// Lines so short that welding makes each of them one place stay lines.
+/// Lines that weld to a single place stay lines.
 #[test]
 fn lines_shorter_than_the_weld_distance_stay() {
     for (at, step) in [(0.0, 1e-310), (1e6, 1e-7), (1e-200, 1e-205)] {

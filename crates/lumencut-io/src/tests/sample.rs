@@ -1,11 +1,11 @@
-//! A small Y of two lines, written in every encoding of every format.
+//! Test data: a small Y of two lines in every encoding of every format.
 
 use glam::DVec3;
 
 use crate::compression::Compressor;
 use crate::data_array::ByteOrder;
 
-/// Points of two lines that share their first two points; eighths are exact in every number type and in text.
+/// Two lines that share their first two points; eighths are exact in all number types and in text.
 pub const POINTS: [[f64; 3]; 7] = [
     [-1.5, 2.25, 0.0],
     [-1.5, 2.25, 4.0],
@@ -18,13 +18,12 @@ pub const POINTS: [[f64; 3]; 7] = [
 pub const RADIUS: [f64; 7] = [2.0, 1.5, 1.0, 2.0, 1.5, 0.75, 0.5];
 pub const ENDS: [usize; 2] = [3, 7];
 
-/// The points of line `i`.
 pub fn line(i: usize) -> Vec<DVec3> {
     let range = if i == 0 { 0..ENDS[0] } else { ENDS[0]..ENDS[1] };
     POINTS[range].iter().map(|p| DVec3::from(*p)).collect()
 }
 
-/// How a `.vtp` stands on disk.
+/// Encoding of a `.vtp`.
 #[derive(Clone, Copy, Debug)]
 pub struct Style {
     /// `ascii`, `binary` (inline base64), `base64` or `raw` (both appended).
@@ -36,7 +35,6 @@ pub struct Style {
     pub wide: bool,
 }
 
-/// Every combination of format, compressor, byte order and widths.
 pub fn styles() -> Vec<Style> {
     let mut out = Vec::new();
     for format in ["ascii", "binary", "base64", "raw"] {
@@ -102,7 +100,7 @@ pub fn pack(compressor: Compressor, block: &[u8]) -> Vec<u8> {
     }
 }
 
-/// The header and the data of one array, in blocks of 32 bytes where compressed.
+/// Header and data of an array, in blocks of 32 bytes if compressed.
 fn blocks(style: Style, content: &[u8]) -> (Vec<u8>, Vec<u8>) {
     let word = |n: usize| match style.wide_header {
         true => ordered(&(n as u64).to_le_bytes(), style.order),
@@ -115,7 +113,7 @@ fn blocks(style: Style, content: &[u8]) -> (Vec<u8>, Vec<u8>) {
     (header, packed.concat())
 }
 
-/// The arrays of the sample by section, name, whether integers, components, and values.
+/// Arrays by section, name, integer or not, components, and values.
 type Arrays = Vec<(&'static str, &'static str, bool, usize, Vec<f64>)>;
 
 fn arrays() -> Arrays {
@@ -130,7 +128,6 @@ fn arrays() -> Arrays {
     ]
 }
 
-/// The sample as `.vtp`.
 pub fn vtp(style: Style) -> Vec<u8> {
     let mut appended = Vec::new();
     let mut elements = std::collections::BTreeMap::<&str, String>::new();
@@ -193,7 +190,7 @@ pub fn vtp(style: Style) -> Vec<u8> {
     out
 }
 
-/// The sample as legacy `.vtk`; `offsets` is the form of version 5.
+/// `offsets` is the form of version 5.
 pub fn vtk(binary: bool, offsets: bool) -> Vec<u8> {
     let version = if offsets { "5.1" } else { "3.0" };
     let encoding = if binary { "BINARY" } else { "ASCII" };
@@ -236,7 +233,6 @@ pub fn vtk(binary: bool, offsets: bool) -> Vec<u8> {
     out
 }
 
-/// The sample as `.mrk.json` in a space and unit, with `per_mm` units per millimetre.
 pub fn mrk_json(space: &str, unit: &str, per_mm: f64) -> Vec<u8> {
     let sign = if space.contains('R') || space == "0" { 1.0 } else { -1.0 };
     let curve = |begin: usize, end: usize| {
@@ -256,7 +252,7 @@ pub fn mrk_json(space: &str, unit: &str, per_mm: f64) -> Vec<u8> {
     format!("{{\"markups\": [{}, {}]}}", curve(0, ENDS[0]), curve(ENDS[0], ENDS[1])).into_bytes()
 }
 
-/// The sample as a SimVascular path file of two roots, a path for each line.
+/// Two root elements, one path per line.
 pub fn pth() -> Vec<u8> {
     let mut out = "<?xml version=\"1.0\" encoding=\"UTF-8\" ?>\n<format version=\"1.0\"/>\n".to_owned();
     for i in 0..2 {
@@ -278,13 +274,12 @@ pub fn pth() -> Vec<u8> {
     out.into_bytes()
 }
 
-/// The rows of line `i`: x, y, z, radius.
 fn rows(i: usize) -> Vec<[f64; 4]> {
     let begin = if i == 0 { 0 } else { ENDS[0] };
     line(i).iter().zip(&RADIUS[begin..]).map(|(p, r)| [p.x, p.y, p.z, *r]).collect()
 }
 
-/// Line 0 as a NumPy array, or any other rows.
+/// Line 0, or other rows, as a NumPy array.
 pub fn npy(rows: &[[f64; 4]], columns: usize, kind: &str, fortran: bool, version: u8) -> Vec<u8> {
     let order = if kind.starts_with('>') { ByteOrder::Big } else { ByteOrder::Little };
     let header = format!(
@@ -307,7 +302,7 @@ pub fn npy(rows: &[[f64; 4]], columns: usize, kind: &str, fortran: bool, version
     out
 }
 
-/// The sample in the formats that hold all of it or its first line, with a name and the name of the format.
+/// The sample, or its first line, in each format, with file and format names.
 pub fn other_files() -> Vec<(Vec<u8>, &'static str, &'static str)> {
     let row =
         |separator: &str, [x, y, z, r]: [f64; 4]| format!("{x}{separator}{y}{separator}{z}{separator}{r}\n");
@@ -348,7 +343,7 @@ pub fn other_files() -> Vec<(Vec<u8>, &'static str, &'static str)> {
     ]
 }
 
-/// One small file of each kind, with the name to read it under.
+/// One small file of each kind, with its name.
 pub fn files() -> Vec<(Vec<u8>, &'static str)> {
     let mut out: Vec<_> = styles().into_iter().map(|style| (vtp(style), "a.vtp")).collect();
     for binary in [false, true] {

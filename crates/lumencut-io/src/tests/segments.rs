@@ -1,4 +1,4 @@
-//! Clouds of single segments give the vessels of the polylines that they were cut from.
+//! Tests: clouds of single segments give the vessels of their polylines.
 
 use glam::DVec3;
 
@@ -6,7 +6,7 @@ use super::robust::Random;
 use crate::junctions::vessels;
 use crate::{Centerlines, Line};
 
-/// A line of `count` steps from one place to another, with a radius that falls from `radius[0]`.
+/// A line of `count` steps whose radius falls from `radius[0]`.
 fn polyline(from: DVec3, to: DVec3, count: usize, radius: [f64; 2]) -> Line {
     let part = |i: usize| i as f64 / count as f64;
     let sway = |i: usize| DVec3::new((part(i) * std::f64::consts::PI).sin() * 3.0, 0.0, 0.0);
@@ -27,7 +27,6 @@ fn polyline(from: DVec3, to: DVec3, count: usize, radius: [f64; 2]) -> Line {
     }
 }
 
-/// A trunk that goes up and forks twice.
 fn tree(steps: usize) -> Vec<Line> {
     let places = [
         [0.0; 3],
@@ -48,7 +47,6 @@ fn tree(steps: usize) -> Vec<Line> {
     ]
 }
 
-/// Every segment of the lines as a line of its own.
 fn cut(lines: &[Line]) -> Vec<Line> {
     let of_line = |line: &Line| -> Vec<Line> {
         let radius = line.radius.clone();
@@ -63,7 +61,6 @@ fn cut(lines: &[Line]) -> Vec<Line> {
     lines.iter().flat_map(of_line).collect()
 }
 
-/// In any order and direction, and some segments twice.
 fn shuffled(mut segments: Vec<Line>, seed: u64) -> Vec<Line> {
     let mut random = Random(seed);
     segments.push(segments[0].clone());
@@ -82,7 +79,6 @@ fn join(lines: Vec<Line>) -> Centerlines {
     vessels(Centerlines { lines, ..Centerlines::default() })
 }
 
-/// The lines in an order of their own.
 fn sorted(mut lines: Vec<Line>) -> Vec<Line> {
     let key = |line: &Line| (line.points[0] + line.points[1] * 1e-3).to_array().map(|c| (c * 1e6) as i64);
     lines.sort_by_key(key);
@@ -103,7 +99,7 @@ fn shuffled_segments_give_the_same_vessels_away_from_the_widest_end() {
     let first = join(shuffled(cut(&tree(20)), 7));
     assert_eq!(sorted(first.lines.clone()), expected);
     assert_eq!(first.lines[0], tree(20)[0], "the root comes first");
-    assert!(first.notes.iter().any(|note| note.contains("away from the end with the largest radius")));
+    assert!(first.notes.iter().any(|note| note.contains("start at the end with the largest radius")));
     for seed in 8..20 {
         assert_eq!(join(shuffled(cut(&tree(20)), seed)).lines, first.lines, "whatever the order");
     }

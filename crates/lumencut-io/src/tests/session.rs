@@ -1,4 +1,4 @@
-//! Session files come back as they were, are centerlines to every reader, and are refused where they are damaged.
+//! Tests: session files round-trip, are centerlines to every reader, and are rejected when damaged.
 
 use glam::DVec3;
 
@@ -70,7 +70,6 @@ fn written(file: &SessionFile) -> String {
     String::from_utf8(write_session(file, "lumencut 0").unwrap()).unwrap()
 }
 
-/// Why a text is refused.
 fn refused(text: &str) -> String {
     read_session(text.as_bytes(), "saved.mrk.json").unwrap_err().to_string()
 }
@@ -89,7 +88,7 @@ fn an_assumed_millimetre_comes_back_and_is_of_format_2() {
     let text = written(&file);
     file.session.format = 2;
     assert_eq!(read_session(text.as_bytes(), "saved.mrk.json").unwrap(), file);
-    // What says no more than the first format can is written in it, whichever it was read in.
+    // Content of the first format is written in it, whatever it was read from.
     file.session.one_millimetre_assumed = false;
     assert_eq!(written(&file), written(&sample()));
     let early = text.replace("\"format\":2", "\"format\":1");

@@ -1,11 +1,10 @@
-//! The samples of other programs, where the data folder stands beside the repository.
+//! Tests on samples of other programs, if the data folder exists.
 
 use std::path::PathBuf;
 
 use crate::junctions::vessels;
 use crate::{Centerlines, Line, Space, Unit, read};
 
-/// The data folder; `None`, and a message, where it is not there.
 fn folder() -> Option<PathBuf> {
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
     if !folder.is_dir() {
@@ -39,7 +38,7 @@ fn simvascular_paths_are_whole() {
 #[test]
 fn coronary_tables_are_whole_and_agree_with_their_poly_data() {
     let Some(folder) = folder() else { return };
-    // The coronary trees stand in one column of points each, their branches one behind the other.
+    // Each coronary tree is one list of points, branch after branch.
     let files: [(&str, &[usize]); 5] = [
         ("aorta", &[75]),
         ("lca", &[385, 91, 123, 124, 365, 4]),
@@ -85,7 +84,7 @@ fn all_poly_data_variants_are_equal() {
     }
 }
 
-/// The farthest that a point of `lines` is from a point of `others`, and how much their radii differ there.
+/// Largest distance from points of `lines` to those of `others`, and the difference of radii there.
 fn farthest(lines: &[Line], others: &[Line]) -> [f64; 2] {
     let all: Vec<_> =
         others.iter().flat_map(|line| line.points.iter().zip(line.radius.as_deref().unwrap())).collect();

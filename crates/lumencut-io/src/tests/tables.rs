@@ -1,4 +1,4 @@
-//! Tables: separators, headers, units, lines; what is not clear is refused.
+//! Tests: separators, headers, units and lines of tables; ambiguous ones are rejected.
 
 use glam::DVec3;
 
@@ -67,7 +67,7 @@ fn blank_rows_and_columns_part_lines() {
         ok("vessel;x;y;z\nLAD;1;2;3\nLAD;1;2;4\n\"R;CA\";0;0;0\n\"R;CA\";0;0;1\nLAD;9;9;9\nLAD;9;9;8\n");
     let names: Vec<_> = read.lines.iter().map(|line| line.name.as_deref().unwrap()).collect();
     assert_eq!(names, ["LAD", "R;CA", "LAD"]);
-    assert!(read.notes.iter().any(|note| note.starts_with("rows of one line stand apart")));
+    assert!(read.notes.iter().any(|note| note.starts_with("rows of one line are not consecutive")));
     let read = ok("x,y,z,GroupIds\n1,2,3,4\n1,2,4,4\n1,2,5,6\n1,2,6,6\n");
     assert_eq!(read.lines.iter().map(|line| line.group).collect::<Vec<_>>(), [Some(4), Some(6)]);
     let read = ok("x,y,z,CenterlineIds,GroupIds\n1,2,3,0,4\n1,2,4,0,5\n1,2,5,1,4\n1,2,6,1,6\n");
@@ -78,7 +78,7 @@ fn blank_rows_and_columns_part_lines() {
 fn what_is_not_clear_is_refused() {
     assert!(message("1,2\n3,4\n").contains("line 1: found 2 column(s) of numbers without a header"));
     assert!(message("1,2,3,4,5\n").contains("5 column(s) of numbers without a header"));
-    assert!(message("0,1,2,3\n1,1,2,4\n2,1,2,5\n").contains("a number that counts the rows"));
+    assert!(message("0,1,2,3\n1,1,2,4\n2,1,2,5\n").contains("a row number"));
     assert!(message("x,y\n1,2\n").contains("line 1: found 'x,y'; expected numbers, or a header"));
     assert!(message("x_m,y_m,z_m\n1,2,3\n").contains("a header that names x, y, z"));
     assert!(message("hello world\n").contains("line 1: found 'hello world'"));
@@ -92,7 +92,7 @@ fn what_is_not_clear_is_refused() {
         message("x (px),y (px),z (px)\n1,2,3\n").contains("line 1: unit of the column 'x (px)': found 'px'")
     );
     assert!(message("# x (px),y (px),z (px)\n1,2,3\n").contains("line 1: unit of the column"));
-    assert!(message("1 8 2 3 0\n2 8 2 3 0\n").contains("a number that counts the rows"), "five columns");
+    assert!(message("1 8 2 3 0\n2 8 2 3 0\n").contains("a row number"), "five columns");
     assert!(message("x (cm),y (mm),z (mm)\n1,2,3\n").contains("one unit for all three"));
     assert!(message("1,5 2,5 3,5\n1,5 2,5 4,5\n").contains("line 1"));
     assert!(message("1,2,3,4\n1,2,4,-1\n").contains("radius of line 0: found -1 at point 1"));
@@ -110,7 +110,7 @@ fn a_list_of_points_that_jumps_is_parted_where_no_column_tells_lines_apart() {
         (0..12).map(|i| row(f64::from(i), 0.0)).chain((0..9).map(|i| row(40.0, f64::from(i)))).collect();
     let parted = ok(&far);
     assert_eq!(parted.lines.iter().map(|line| line.points.len()).collect::<Vec<_>>(), [12, 9]);
-    assert!(parted.notes.iter().any(|note| note.contains("parted into 2 lines")), "{:?}", parted.notes);
+    assert!(parted.notes.iter().any(|note| note.contains("split into 2 lines")), "{:?}", parted.notes);
     let named =
         "line,x,y,z\n".to_owned() + &far.lines().map(|line| format!("a,{line}\n")).collect::<String>();
     assert_eq!(ok(&named).lines.len(), 1, "the column says that it is one line");
@@ -127,7 +127,7 @@ fn a_line_whose_points_stand_further_apart_in_a_part_stays_one() {
         let read = ok(&list(further));
         let last = read.lines[0].points.last().map(|p| p.x);
         assert_eq!((read.lines.len(), last), (1, further.last().copied()));
-        assert!(read.notes.iter().any(|note| note.contains("were kept in their line")), "{:?}", read.notes);
+        assert!(read.notes.iter().any(|note| note.contains("were not split")), "{:?}", read.notes);
     }
     let parted = ok(&list(&[50.0, 50.1, 50.2]));
     assert_eq!(parted.lines.iter().map(|line| line.points.len()).collect::<Vec<_>>(), [100, 3]);
@@ -157,9 +157,9 @@ fn only_a_column_that_names_a_radius_is_one() {
 #[test]
 fn what_numbers_without_names_may_be_is_noted() {
     let notes = |content: &str| ok(content).notes.join("; ");
-    assert!(notes("1.5 2 3 4\n1.5 2 4 5\n").contains("radius from the fourth column, which nothing names"));
-    assert!(notes("1.5 2 3 1\n1.5 2 4 1\n").contains("names (1 everywhere)"));
-    assert!(notes("1 2 3\n1 2 4\n").contains("perhaps indices of voxels"));
+    assert!(notes("1.5 2 3 4\n1.5 2 4 5\n").contains("radius from the unnamed fourth column"));
+    assert!(notes("1.5 2 3 1\n1.5 2 4 1\n").contains("fourth column (1 everywhere)"));
+    assert!(notes("1 2 3\n1 2 4\n").contains("may be voxel indices"));
     assert_eq!(notes("x,y,z,r\n1,2,3,1\n1,2,4,1\n"), "radius from the column 'r'");
 }
 
@@ -189,7 +189,7 @@ fn the_first_row_of_a_spreadsheet_may_name_its_separator() {
     }
 }
 
-/// The header of a table of control points as 3D Slicer writes it.
+/// Header of 3D Slicer's table of control points.
 const SLICER: &str = "label,r,a,s,defined,selected,visible,locked,description";
 
 #[test]
@@ -212,7 +212,7 @@ fn empty_last_fields_are_fields() {
             }
         }
     }
-    // Separators behind the last column are none of a field that is missing.
+    // Trailing separators are not missing fields.
     assert_eq!(ok("x,y,z\n1,2,3,,,\n1,2,4,,,\n").lines[0].points.len(), 2);
     assert!(
         message("x,y,z,name\n1,2,3\n").contains("line 2: found 3 column(s), '1,2,3'; expected 4 columns")
@@ -231,10 +231,10 @@ fn points_that_are_not_defined_are_left_out_and_counted() {
     };
     let read = ok(&rows(["1", "0", "0", "1"]));
     assert_eq!(read.lines[0].points, [DVec3::new(0.0, 2.0, 3.0), DVec3::new(3.0, 2.0, 3.0)]);
-    assert!(read.notes.contains(&"2 point(s) that are not defined were left out".into()), "{:?}", read.notes);
+    assert!(read.notes.contains(&"2 undefined point(s) were left out".into()), "{:?}", read.notes);
     assert_eq!(ok(&rows(["0", "False", "1", "1"]).replace("2,2,3,1", "2,2,3,TRUE")).lines[0].points.len(), 2);
     for few in [["0"; 4], ["0", "0", "0", "1"]] {
-        let expected = "point(s) that are not defined; expected at least 2 defined points";
+        let expected = "undefined point(s); expected at least 2 defined points";
         assert!(message(&rows(few)).contains(expected), "{}", message(&rows(few)));
     }
     assert!(message(&rows(["1", "1", "perhaps", "1"])).contains("line 4: column 'defined': found 'perhaps'"));
@@ -251,11 +251,7 @@ fn empty_radii_are_unknown() {
         let text = format!("x,y,z,radius\n1,2,3,{missing}\n1,2,4,2.5\n1,2,5,{missing}\n1,2,6,1\n");
         let read = ok(&text);
         assert_eq!(read.lines[0].radius.as_deref(), Some(&[0.0, 2.5, 0.0, 1.0][..]), "0 is unknown");
-        assert!(
-            read.notes.contains(&"2 of 4 radii are not stated: unknown there".into()),
-            "{:?}",
-            read.notes
-        );
+        assert!(read.notes.contains(&"2 of 4 radii are missing".into()), "{:?}", read.notes);
         let read =
             ok(&format!("line,x,y,z,diameter\na,1,2,3,{missing}\na,1,2,4,{missing}\nb,5,2,3,2\nb,5,2,4,2\n"));
         assert_eq!((&read.lines[0].radius, read.lines[1].radius.as_deref()), (&None, Some(&[1.0, 1.0][..])));
@@ -278,8 +274,8 @@ fn quoted_fields_hold_separators_quotes_and_line_ends() {
         let z: Vec<f64> = read.lines[0].points.iter().map(|p| p.z).collect();
         assert_eq!(z, [1.5, 2.5, 3.5], "{description:?}");
     }
-    // Inches within a field begin no quotation.
+    // Inch marks within a field do not start a quotation.
     assert_eq!(ok("name,x,y,z\n5\" wire,1,2,3\n5\" wire,1,2,4\n").lines[0].points.len(), 2);
     let open = message("x,y,z,name\n1,2,3,\"a\n1,2,4,b\n");
-    assert!(open.contains("line 2: found a quotation mark without its end"), "{open}");
+    assert!(open.contains("line 2: found an unclosed quotation mark"), "{open}");
 }

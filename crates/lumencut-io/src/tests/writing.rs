@@ -1,4 +1,4 @@
-//! What is written is read back to the bit: count, order, direction, names, points and radii.
+//! Tests: written files are read back to the bit.
 
 use glam::DVec3;
 
@@ -11,7 +11,6 @@ type Writer = fn(&[Line]) -> Result<Vec<u8>, Error>;
 
 const FORMATS: [(Writer, &str); 2] = [(write_vtp, "a.vtp"), (write_mrk_json, "a.mrk.json")];
 
-/// Text that tells every bit of the lines, zeros of either sign too.
 fn bits(lines: &[Line]) -> String {
     format!("{lines:?}")
 }
@@ -29,7 +28,7 @@ fn assert_round_trip(lines: &[Line]) {
     }
 }
 
-/// Legacy VTK gives all back but names.
+/// Legacy VTK keeps everything but names.
 #[test]
 fn legacy_vtk_comes_back_but_for_names() {
     let mut random = Random(0x5851_f42d_4c95_7f2d);
@@ -49,7 +48,6 @@ fn straight(from: [f64; 3], to: [f64; 3], radius: Option<f64>) -> Line {
     Line { points, radius, ..Line::default() }
 }
 
-/// A trunk with two branches that begin at its end.
 fn fork(radius: Option<f64>) -> Vec<Line> {
     let end = [0.0, 0.0, 20.0];
     [([0.0; 3], end), (end, [9.0, 0.0, 30.0]), (end, [-9.0, 0.0, 31.0])]
@@ -69,7 +67,7 @@ fn a_fork_comes_back_from_tables_and_nodes() {
     assert_eq!((table.space, table.unit), (Some(Space::Lps), Some(Unit::Millimetre)));
 }
 
-/// Branches before their trunk, and vessels in a circle: every node has a parent in front of it.
+/// Branches before their trunk, and vessels in a loop: every node follows its parent.
 #[test]
 fn nodes_follow_their_parents() {
     let mut lines = fork(Some(2.0));
@@ -107,7 +105,7 @@ fn names_stand_in_tables_and_in_legacy_vtk() {
     assert!(error.contains("name of line 0: found a line break"), "{error}");
 }
 
-/// Numbers at the ends of what a coordinate can be, and some that decimals cannot give exactly.
+/// Extreme numbers, and some that decimals cannot represent exactly.
 const EXTREMES: [f64; 10] = [0.0, -0.0, 1e-300, 5e-324, -1e6, 1e6, 0.1, 1.0 / 3.0, -2.225e-308, 1e-5];
 
 fn number(random: &mut Random) -> f64 {
@@ -121,7 +119,7 @@ fn number(random: &mut Random) -> f64 {
 const NAMES: [&str; 8] =
     ["", "LAD", "a \"quoted\" <b> & c", "línea 静脈 🩸", "two\nlines\r\n\ttab", " ", "]]>", "\\u0041"];
 
-/// A tree whose vessels mostly begin where another one ends or bends, run beside one another, or cross.
+/// A tree whose vessels mostly start on others, run along them, or cross.
 fn tree(random: &mut Random) -> Vec<Line> {
     let mut out: Vec<Line> = Vec::new();
     for _ in 0..=random.below(6) {
@@ -171,7 +169,7 @@ fn vessels_of_a_file_come_back_to_the_bit() {
     assert!(forks > 5, "{forks} files of a tree that forks");
 }
 
-/// A file that says nothing of vessels has its lines joined, the same file written here has not.
+/// A foreign file has its lines joined; the same file written here does not.
 #[test]
 fn the_mark_of_vessels_keeps_lines_apart() {
     let lines: Vec<Line> =

@@ -1,12 +1,12 @@
-//! Cells of tables: texts as spreadsheets show them, and do not run them.
+//! Table cells that spreadsheets show but do not execute.
 
 use std::borrow::Cow;
 
-/// How a cell begins that spreadsheets run as a formula.
+/// Characters that start a formula.
 const FORMULA: [char; 6] = ['=', '+', '-', '@', '\t', '\r'];
 
-/// The text of a cell. One that begins as a formula does and is no number stands behind an apostrophe. So does one that begins with
-/// apostrophes before such a sign: each cell is read back as the text that it was.
+/// The text of a cell. A formula-like cell that is no number gets an apostrophe, as does one with apostrophes
+/// before such a sign, so that reading restores each text.
 pub fn marked_cell(text: &str) -> Cow<'_, str> {
     if text.trim_start_matches('\'').starts_with(FORMULA) && !is_number(text) {
         return Cow::Owned(format!("'{text}"));
@@ -14,7 +14,6 @@ pub fn marked_cell(text: &str) -> Cow<'_, str> {
     Cow::Borrowed(text)
 }
 
-/// Whether a text is a decimal number.
 fn is_number(text: &str) -> bool {
     text.chars().all(|c| c.is_ascii_digit() || "+-.eE".contains(c)) && text.parse::<f64>().is_ok()
 }

@@ -1,20 +1,15 @@
-//! Tables (`.csv`): a row per point.
+//! Writes tables (`.csv`), one row per point.
 
 use super::{check_all, confidences, marked_cell};
 use crate::centerlines::Line;
 use crate::error::{Error, Result};
 
-/// A `.csv` file of vessels (mm, LPS): the columns `line`, which counts the vessels from 0, `name` where any
-/// vessel has one, `l (mm)`, `p (mm)`, `s (mm)`, `radius (mm)` where any vessel has radii, and
-/// `confidence`, 0 to 1, where any vessel was traced.
+/// Writes a `.csv` of vessels (mm, LPS) with the columns `line` (from 0), `name`, `l (mm)`, `p (mm)`, `s
+/// (mm)`, `radius (mm)` and `confidence`; name, radius and confidence only if any vessel has them.
 ///
-/// A name that a spreadsheet would run as a formula stands behind an apostrophe.
-///
-/// Where only some vessels have radii, those of the others are 0. Coordinates and radii are read back to the
-/// bit; names are not read, and lines that meet are joined anew as those of any table.
-///
-/// # Errors
-/// Where there is no vessel, one is not what a [`Line`] is, or a name does not fit into one line.
+/// Names that look like formulas get an apostrophe. Missing radii are 0. Coordinates and radii are read back
+/// to the bit; names are not read, and meeting lines are joined again. Fails without a valid vessel, or for a
+/// name with a line break.
 pub fn write_csv(vessels: &[Line]) -> Result<Vec<u8>> {
     check_all(vessels)?;
     let is_long = |vessel: &Line| vessel.name.as_ref().is_some_and(|name| name.contains(char::is_control));
@@ -50,7 +45,6 @@ pub fn write_csv(vessels: &[Line]) -> Result<Vec<u8>> {
     Ok(out.into_bytes())
 }
 
-/// A field in quotation marks where it needs them.
 fn quoted(field: &str) -> String {
     let plain = field.trim() == field && !field.contains([',', ';', '"']);
     if plain { field.to_owned() } else { format!("\"{}\"", field.replace('"', "\"\"")) }

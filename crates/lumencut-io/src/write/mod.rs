@@ -1,9 +1,8 @@
-//! Writers of vessels. What `.vtp` and `.mrk.json` hold is read back to the bit, with nothing joined or left
-//! out; `.vtk` keeps all but names, `.csv` and `.swc` what tables and nodes can hold.
+//! Writers of vessels. `.vtp` and `.mrk.json` are read back to the bit; `.vtk` keeps all but names, `.csv`
+//! and `.swc` what their format can hold.
 //!
-//! Coordinates and radii stand in the shortest decimals that give the same numbers back. The first three
-//! are marked as vessels already (`LumencutVessels`), so that no reader of this crate joins their lines anew;
-//! other programs pass over the mark. Groups are not written: they tell which lines are one vessel.
+//! Numbers are the shortest decimals that restore them. The first three formats carry the mark
+//! `LumencutVessels`, so that this crate does not join their lines again. Groups are not written.
 
 mod cell;
 mod csv;
@@ -23,11 +22,10 @@ use crate::centerlines::{Limit, Line, check};
 use crate::error::{Error, Result};
 use crate::unit::Unit;
 
-/// The array, column or measurement of how sure the points are.
+/// Name of the confidence array, column or measurement.
 const CONFIDENCE: &str = "Confidence";
 
-/// The confidence of all points, one vessel after the other; none where no vessel was traced, and 1 for the points of
-/// vessels that were not.
+/// Confidence of all points; empty if no vessel was traced, 1 for untraced vessels.
 fn confidences(vessels: &[Line]) -> Option<Vec<f64>> {
     vessels.iter().any(|vessel| vessel.confidence.is_some()).then(|| {
         let of = |vessel: &Line| vessel.confidence.clone().unwrap_or_else(|| vec![1.0; vessel.points.len()]);
@@ -35,10 +33,6 @@ fn confidences(vessels: &[Line]) -> Option<Vec<f64>> {
     })
 }
 
-/// Checks that reading gives every vessel back.
-///
-/// # Errors
-/// Where there is no vessel, or one is not what a [`Line`] is.
 pub(crate) fn check_all(vessels: &[Line]) -> Result<()> {
     if vessels.is_empty() {
         return Err(Error::new("vessels", "none", "at least one vessel"));

@@ -1,4 +1,4 @@
-//! 3D Slicer markups (`.mrk.json`): one Curve per vessel.
+//! Writes 3D Slicer markups (`.mrk.json`), one Curve per vessel.
 
 use serde_json::Value;
 
@@ -6,20 +6,18 @@ use super::{CONFIDENCE, check_all};
 use crate::centerlines::{JOINED_MARK, Line};
 use crate::error::Result;
 
-/// The schema that 3D Slicer states in the markups it writes.
+/// Schema stated by 3D Slicer.
 const SCHEMA: &str = "https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/Resources/Schema/markups-schema-v1.0.3.json#";
 
-/// A `.mrk.json` file of vessels (mm, LPS): one Curve each, radii as its measurement `Radius`.
-///
-/// # Errors
-/// Where there is no vessel, or one is not what a [`Line`] is.
+/// Writes a `.mrk.json` of vessels (mm, LPS), with radii as the measurement `Radius`. Fails without a valid
+/// vessel.
 pub fn write_mrk_json(vessels: &[Line]) -> Result<Vec<u8>> {
     check_all(vessels)?;
     Ok(markups(vessels, "").into_bytes())
 }
 
-/// The text of the file; `beside` are further fields, each with a comma behind it, which 3D Slicer passes over.
-pub fn markups(vessels: &[Line], beside: &str) -> String {
+/// `beside` has additional fields, each with a trailing comma, which 3D Slicer ignores.
+pub(crate) fn markups(vessels: &[Line], beside: &str) -> String {
     let curves: Vec<String> = vessels.iter().map(curve).collect();
     let head = format!("\"@schema\": \"{SCHEMA}\",\n\"{JOINED_MARK}\": true");
     format!("{{\n{head},\n{beside}\"markups\": [{}]\n}}\n", curves.join(", "))
@@ -45,7 +43,6 @@ fn control_point((i, point): (usize, &glam::DVec3)) -> String {
     )
 }
 
-/// Radii in mm, and how sure the points of a traced vessel are.
 fn measurements(vessel: &Line) -> String {
     let radius = vessel.radius.as_deref().map(|radius| measurement("Radius", "mm", radius));
     let confidence = vessel.confidence.as_deref().map(|numbers| measurement(CONFIDENCE, "", numbers));

@@ -1,4 +1,4 @@
-//! SWC trees: a node per point, each behind its parent.
+//! Writes SWC trees: a node per point, after its parent.
 
 use std::collections::{HashMap, HashSet};
 
@@ -8,18 +8,13 @@ use super::check_all;
 use crate::centerlines::Line;
 use crate::error::Result;
 
-/// What two points share that are the same place.
 type Place = [u64; 3];
 
-/// A `.swc` file of vessels (mm, LPS), which the format cannot state.
+/// Writes a `.swc` of vessels (mm, LPS; the format cannot state this).
 ///
-/// A vessel that begins at a point of another one continues from its node, whose radius stays that of the
-/// other vessel. The format has no names, and no vessels: a reader has a branch from each forking to the next.
-/// A vessel that ends at a point of another one ends at a node of its own there, because a node has only one
-/// parent. Radii that are not known are 0.
-///
-/// # Errors
-/// Where there is no vessel, or one is not what a [`Line`] is.
+/// A vessel that starts on another continues from its node, with that node's radius. One that ends on another
+/// gets its own node there, because a node has one parent. Names and vessel boundaries are lost, and unknown
+/// radii are 0. Fails without a valid vessel.
 pub fn write_swc(vessels: &[Line]) -> Result<Vec<u8>> {
     check_all(vessels)?;
     let mut out = String::from("# vessels in mm, LPS\n# id type x y z radius parent\n");
@@ -41,12 +36,12 @@ pub fn write_swc(vessels: &[Line]) -> Result<Vec<u8>> {
     Ok(out.into_bytes())
 }
 
-/// The bits of the coordinates; zeros of either sign are one place.
+/// Coordinate bits; zeros of either sign are equal.
 fn place(point: DVec3) -> Place {
     (point + DVec3::ZERO).to_array().map(f64::to_bits)
 }
 
-/// The vessels, each behind one that holds its first point; where they go around in a circle, one begins.
+/// Vessels, each after one that contains its first point; loops start anywhere.
 fn parents_first(vessels: &[Line]) -> Vec<usize> {
     let mut starting: HashMap<Place, Vec<usize>> = HashMap::new();
     for (index, vessel) in vessels.iter().enumerate() {
@@ -66,7 +61,7 @@ fn parents_first(vessels: &[Line]) -> Vec<usize> {
             }
             out.push(index);
             for point in vessels[index].points.iter().rev() {
-                // Each place hands its vessels over once.
+                // Each place releases its vessels once.
                 waiting.extend(starting.remove(&place(*point)).unwrap_or_default().into_iter().rev());
             }
         }

@@ -1,20 +1,15 @@
-//! Legacy VTK poly data (`.vtk`): one polyline per vessel, in text.
+//! Writes legacy VTK poly data (`.vtk`), one polyline per vessel, as text.
 
 use super::{CONFIDENCE, check_all, confidences};
 use crate::centerlines::{JOINED_MARK, Line};
 use crate::error::Result;
 use crate::poly_data::{HAS_RADIUS, NAMES, RADIUS_NAMES};
 
-/// A `.vtk` file of vessels (mm, LPS): each with points of its own, so that vessels that meet repeat their
-/// shared end point.
+/// Writes a `.vtk` of vessels (mm, LPS); shared end points are repeated.
 ///
-/// Radii are the array of points `MaximumInscribedSphereRadius`; where only some vessels have radii, those of
-/// the others are 0 and the array of cells `HasRadius` tells them apart by 1 and 0. Names are the string array
-/// of cells `Name`, empty where there is none; VTK reads them, the reader of this crate does not. All else is
-/// read back to the bit.
-///
-/// # Errors
-/// Where there is no vessel, or one is not what a [`Line`] is.
+/// Radii are the point array `MaximumInscribedSphereRadius`; if only some vessels have radii, others are 0
+/// and the cell array `HasRadius` marks them. Names are the cell array `Name`, which VTK reads and this crate
+/// does not. Everything else is read back to the bit. Fails without a valid vessel.
 pub fn write_vtk(vessels: &[Line]) -> Result<Vec<u8>> {
     check_all(vessels)?;
     let points: usize = vessels.iter().map(|vessel| vessel.points.len()).sum();
@@ -38,7 +33,6 @@ pub fn write_vtk(vessels: &[Line]) -> Result<Vec<u8>> {
     Ok(out.into_bytes())
 }
 
-/// Radii and confidence, where any vessel has them.
 fn point_data(vessels: &[Line], points: usize) -> String {
     let mut arrays = Vec::new();
     if vessels.iter().any(|vessel| vessel.radius.is_some()) {
@@ -59,7 +53,6 @@ fn point_data(vessels: &[Line], points: usize) -> String {
     out
 }
 
-/// The names, where any vessel has one, and which vessels have radii, where that are some and not all.
 fn cell_data(vessels: &[Line]) -> String {
     let count = vessels.len();
     let mut arrays = Vec::new();
@@ -78,7 +71,6 @@ fn cell_data(vessels: &[Line]) -> String {
     format!("CELL_DATA {count}\nFIELD FieldData {}\n{}", arrays.len(), arrays.concat())
 }
 
-/// A text as VTK writes it on a line of its own: what is not plain stands as `%` and its code.
 fn encoded(text: &str) -> String {
     text.bytes()
         .map(|byte| match byte {

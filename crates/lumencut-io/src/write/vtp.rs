@@ -1,21 +1,15 @@
-//! VTK XML poly data (`.vtp`): one polyline per vessel, in text.
+//! Writes VTK XML poly data (`.vtp`), one polyline per vessel, as text.
 
 use super::{CONFIDENCE, check_all, confidences};
 use crate::centerlines::{JOINED_MARK, Line};
 use crate::error::{Error, Result};
 use crate::poly_data::{HAS_NAME, HAS_RADIUS, NAMES, RADIUS_NAMES};
 
-/// A `.vtp` file of vessels (mm, LPS): each with points of its own, so that vessels that meet repeat their
-/// shared end point.
+/// Writes a `.vtp` of vessels (mm, LPS); shared end points are repeated.
 ///
-/// Radii are the array of points `MaximumInscribedSphereRadius`, names the string array of cells `Name`. How sure the
-/// points of traced vessels are is the array of points `Confidence`.
-/// Where only some vessels have radii, those of the others are 0 and the array of cells `HasRadius` tells
-/// them apart by 1 and 0; `HasName` does the same where only some have a name.
-///
-/// # Errors
-/// Where there is no vessel, one is not what a [`Line`] is, or a name has a null character, which ends a
-/// text of VTK.
+/// Radii are the point array `MaximumInscribedSphereRadius`, names the cell array `Name`, confidences the
+/// point array `Confidence`. If only some vessels have radii or names, `HasRadius` and `HasName` mark them.
+/// Fails without a valid vessel, or for a name with a null character, which ends VTK text.
 pub fn write_vtp(vessels: &[Line]) -> Result<Vec<u8>> {
     check_all(vessels)?;
     let with_null = |vessel: &Line| vessel.name.as_ref().is_some_and(|name| name.contains('\0'));
@@ -42,14 +36,13 @@ pub fn write_vtp(vessels: &[Line]) -> Result<Vec<u8>> {
     .into_bytes())
 }
 
-/// One array, with a row of text per point or cell.
 fn element(tag: &str, kind: &str, name: &str, more: &str, rows: impl IntoIterator<Item = String>) -> String {
     let rows: Vec<String> = rows.into_iter().collect();
     let rows = rows.join("\n");
     format!("<{tag} type=\"{kind}\" Name=\"{name}\"{more} format=\"ascii\">\n{rows}\n</{tag}>\n")
 }
 
-/// A text of a string array: the codes of its bytes and a zero.
+/// Byte codes and a final zero.
 fn text(text: &str) -> String {
     text.bytes().map(|byte| format!("{byte} ")).collect::<String>() + "0"
 }
@@ -79,7 +72,6 @@ fn names(vessels: &[Line]) -> String {
         + &which_have(HAS_NAME, vessels, |vessel| vessel.name.is_some())
 }
 
-/// An array of cells that tells which vessels have something, where that are some and not all.
 fn which_have(name: &str, vessels: &[Line], has: impl Fn(&Line) -> bool) -> String {
     let count = vessels.iter().filter(|vessel| has(vessel)).count();
     if count == 0 || count == vessels.len() {

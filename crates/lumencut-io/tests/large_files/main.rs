@@ -1,4 +1,4 @@
-//! What reading large files of the usual shape takes at its peak: at most ten times the file, in all formats.
+//! Peak memory of reading large files of the usual shape: at most ten file sizes in all formats.
 #![allow(unsafe_code, clippy::unwrap_used)]
 
 #[path = "../../fuzz/src/memory.rs"]
@@ -13,10 +13,9 @@ use rows::{npy, pth, slicer, swc, text, tre};
 const MOST_TIMES: usize = 10;
 const BRANCHES: usize = 20;
 
-/// A point and its radius.
 type Row = [f64; 4];
 
-/// Branches of a tree, each from a point of the one before, with the digits that programs compute.
+/// Branches of a tree, each from a point of the previous one, with realistic digits.
 fn branches(points: usize) -> Vec<Vec<Row>> {
     let mut random = 0x2545_f491_4f6c_dd1d_u64;
     let mut noise = || {
@@ -38,7 +37,6 @@ fn branches(points: usize) -> Vec<Vec<Row>> {
     out
 }
 
-/// Every line from the root on, as tools write them that go to every outlet.
 fn with_trunks(tree: &[Vec<Row>]) -> Vec<Vec<Row>> {
     let mut out: Vec<Vec<Row>> = Vec::new();
     for rows in tree {

@@ -1,11 +1,10 @@
-//! A tree in the formats of VTK.
+//! Test data: a tree in the VTK formats.
 
 use std::fmt::Write as _;
 use std::io::Write as _;
 
 use crate::Row;
 
-/// One array of a poly data: its numbers as text and as bytes.
 struct Numbers {
     name: &'static str,
     kind: &'static str,
@@ -31,7 +30,6 @@ impl Numbers {
     }
 }
 
-/// Points, radii, offsets and point ids.
 fn arrays(tree: &[Vec<Row>]) -> [Numbers; 4] {
     let rows: Vec<&Row> = tree.iter().flatten().collect();
     let ends = tree
@@ -77,7 +75,7 @@ pub fn vtk(tree: &[Vec<Row>], binary: bool) -> Vec<u8> {
     out
 }
 
-/// Every segment a line of its own.
+/// Every segment as a separate line.
 pub fn segments(tree: &[Vec<Row>]) -> Vec<u8> {
     let rows: Vec<&Row> = tree.iter().flatten().collect();
     let mut out =

@@ -1,4 +1,4 @@
-//! A tree in the formats of rows.
+//! Test data: a tree in row-based formats.
 
 use std::fmt::Write as _;
 use std::io::Write as _;

@@ -1,35 +1,34 @@
-//! What the blur along a vessel does to its width, undone.
+//! Corrects areas for the blur along the vessel.
 //!
-//! Where the width changes along the vessel, the blur mixes a section with its neighbours: to first order the measured area is the
-//! true one and half of the variance of the blur times the second derivative of the area. At the throat of a short stenosis
-//! that is some percent.
+//! Where the width changes, blur mixes a section with its neighbours. To first order, the measured area is
+//! the true area plus half of the blur variance times the second derivative of the area.
 
 use super::sections::Section;
 use lumencut_core::math::same_place::REPEATED_POINT;
 
-/// The second derivative is that of the parabola that fits the areas within this distance (mm), of at least this number of sections.
-const AROUND: (f64, usize) = (2.0, 5);
+/// Distance (mm) and minimum number of sections for the parabola that gives the second derivative.
+const PARABOLA: (f64, usize) = (2.0, 5);
 
-/// An area changes by this share at most.
-const MOST: f64 = 0.25;
+/// Maximum relative correction of an area, because the formula is of first order only.
+const MAX_CORRECTION: f64 = 0.25;
 
-/// Corrects the lumens of sections at arc lengths (mm) under a blur along the vessel of such variances (mm²).
-pub fn sharpen(sections: &mut [Section], at: &[f64], variance: &[f64]) {
+/// Corrects sections at arc lengths `at` (mm) for blur variances along the vessel (mm²).
+pub(crate) fn sharpen(sections: &mut [Section], at: &[f64], variance: &[f64]) {
     let areas: Vec<f64> =
         sections.iter().map(|section| section.fit.map_or(f64::NAN, |fit| fit.ellipse.area())).collect();
     for n in 0..sections.len() {
         let Some(bend) = second_derivative(at, &areas, n) else { continue };
         let change = -0.5 * variance[n] * bend / areas[n];
-        sections[n].scale((1.0 + change.clamp(-MOST, MOST)).sqrt());
+        sections[n].scale((1.0 + change.clamp(-MAX_CORRECTION, MAX_CORRECTION)).sqrt());
     }
 }
 
-/// The second derivative of the areas at a section; None where too few around it are known, or only on one side.
+/// Second derivative of the areas at section `n`; None if too few sections are known, or only on one side.
 fn second_derivative(at: &[f64], areas: &[f64], n: usize) -> Option<f64> {
-    let (reach, least) = AROUND;
+    let (reach, least) = PARABOLA;
     let first = at.partition_point(|there| *there < at[n] - reach - REPEATED_POINT);
     let last = at.partition_point(|there| *there <= at[n] + reach + REPEATED_POINT);
-    // As far to one side as to the other.
+    // Symmetric, so that a slope does not enter.
     let side = (n - first).min(last - 1 - n);
     let around = n - side..=n + side;
     if 2 * side + 1 < least || around.clone().any(|m| areas[m].is_nan()) {

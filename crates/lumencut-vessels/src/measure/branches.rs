@@ -1,32 +1,31 @@
-//! Where the lumen of a vessel is that of another one, too.
+//! Finds sections inside the lumen of another vessel.
 
 use glam::DVec3;
 
-use super::place::Place;
+use super::section_plane::SectionPlane;
 use lumencut_core::vessel_tree::Vessel;
 
-/// Vessels whose points all lie this near (mm) to those of the measured one are parts of it.
+/// Points this close (mm) are the same point.
 const SAME_PLACE: f64 = 1e-3;
 
-/// Lines are followed in steps of at most this (mm).
+/// Sampling step along a line (mm).
 const STEP: f64 = 0.5;
 
-/// Whether a section, a disc of this radius (mm), meets the lumen of any other vessel.
-pub fn meets(place: &Place, center: DVec3, radius: f64, others: &[Lumen]) -> bool {
+/// Whether a disc of `radius` mm meets the lumen of any other vessel.
+pub(crate) fn meets(place: &SectionPlane, center: DVec3, radius: f64, others: &[Lumen]) -> bool {
     others.iter().any(|other| other.meets(place, center, radius))
 }
 
-/// The lumen of another vessel: balls along its line, and a ball around all of them.
+/// Lumen of another vessel: balls along its line, and a bounding ball.
 #[derive(Clone, Debug)]
-pub struct Lumen {
+pub(crate) struct Lumen {
     balls: Vec<(DVec3, f64)>,
     around: (DVec3, f64),
 }
 
 impl Lumen {
-    /// The lumens of the vessels of a tree but of those that a measured vessel is made of. A vessel without radii has none
-    /// but its line.
-    pub fn of_others(tree: &[Vessel], measured: &Vessel) -> Vec<Self> {
+    /// Lumens of the vessels of `tree` that are not part of `measured`.
+    pub(crate) fn of_others(tree: &[Vessel], measured: &Vessel) -> Vec<Self> {
         tree.iter().filter(|vessel| !is_part(vessel, measured)).map(Self::new).collect()
     }
 
@@ -46,7 +45,7 @@ impl Lumen {
         Self { balls, around: (middle, reach) }
     }
 
-    fn meets(&self, place: &Place, center: DVec3, radius: f64) -> bool {
+    fn meets(&self, place: &SectionPlane, center: DVec3, radius: f64) -> bool {
         if self.around.0.distance(center) > self.around.1 + radius {
             return false;
         }
@@ -59,13 +58,11 @@ impl Lumen {
     }
 }
 
-/// Whether two vessels have a part of their lines in common: more than the one point in which vessels meet.
-pub fn shares_line(one: &Vessel, other: &Vessel) -> bool {
+pub(crate) fn shares_line(one: &Vessel, other: &Vessel) -> bool {
     let is_there = |point: &&DVec3| other.points().iter().any(|there| there.distance(**point) < SAME_PLACE);
     one.points().iter().filter(is_there).nth(1).is_some()
 }
 
-/// Whether a vessel is a part of another one: each of its points is a point of that.
 fn is_part(vessel: &Vessel, whole: &Vessel) -> bool {
     let is_there = |point: &DVec3| whole.points().iter().any(|other| other.distance(*point) < SAME_PLACE);
     vessel.points().iter().all(is_there)

@@ -1,20 +1,18 @@
-//! The wall along rays, corrected for what the blur moves it by, and what follows from it.
+//! The contour of a lumen along rays, corrected for the shift caused by blur.
 
 use glam::{DVec2, DVec3};
 
 use super::ellipse::{Boundary, Ellipse};
 use super::model::{Model, ThreeLevels};
-use super::place::Place;
 use super::rays::{RAYS, Ray, direction};
+use super::section_plane::SectionPlane;
 use lumencut_core::math::lanes::{FAN, Isa, Kernel, dispatch};
 use lumencut_core::math::statistics::median;
 
-/// A ray tells the wall where it is off the ellipse by no more than this share of the way there, or by this length (mm).
-const FARTHEST: (f64, f64) = (0.5, 0.5);
+/// Maximum distance of the wall from the ellipse (share of the radius, or mm); farther, it is not the wall.
+const MAX_OFFSET: (f64, f64) = (0.5, 0.5);
 
-/// What a fit says of places.
-pub trait Shares: Sync {
-    /// The shares at sixteen places (mm), for kernels.
+pub(crate) trait Shares: Sync {
     fn shares(&self, x: &[f32; FAN], y: &[f32; FAN]) -> [f32; FAN];
 }
 
@@ -32,7 +30,6 @@ impl Shares for ThreeLevels {
     }
 }
 
-/// What a fit says of sixteen places (mm), as a kernel.
 struct SharesAt<'a, S> {
     shares: &'a S,
     x: &'a [f32; FAN],
@@ -48,26 +45,26 @@ impl<S: Shares> Kernel for SharesAt<'_, S> {
     }
 }
 
-/// The wall at each ray (mm from the centre of the ellipse): where the volume crosses a level along a ray, less what `values`, what
-/// the fit says of places, cross it off the boundary of the ellipse. Where a ray does not tell, it is that of the ellipse.
-pub fn wall(ellipse: &Ellipse, values: &impl Shares, rays: &[Ray], level: f64) -> Vec<f64> {
+/// Wall at each ray (mm from the centre): where the volume crosses `level`, minus the distance by which the
+/// blurred model crosses it away from its own boundary. Rays without a plausible crossing use the ellipse.
+pub(crate) fn wall(ellipse: &Ellipse, values: &impl Shares, rays: &[Ray], level: f64) -> Vec<f64> {
     let walls: Vec<f64> = (0..RAYS)
         .map(|n| {
             let own = ellipse.radius_towards(direction(n));
             let ray = &rays[n];
-            let told = ray.edge.filter(|edge| *edge < ray.limit).and_then(|edge| {
+            let seen = ray.edge.filter(|edge| *edge < ray.limit).and_then(|edge| {
                 let blurred = crossing(values, ellipse.center, direction(n), level, own)?;
                 Some(own + edge - blurred)
             });
-            let most = (FARTHEST.0 * own).max(FARTHEST.1);
-            told.filter(|wall| (wall - own).abs() <= most && *wall > 0.0).unwrap_or(own)
+            let most = (MAX_OFFSET.0 * own).max(MAX_OFFSET.1);
+            seen.filter(|wall| (wall - own).abs() <= most && *wall > 0.0).unwrap_or(own)
         })
         .collect();
-    quiet(&walls, |n| ellipse.radius_towards(direction(n)))
+    without_spikes(&walls, |n| ellipse.radius_towards(direction(n)))
 }
 
-/// Walls without spikes of one ray or two: the median of five neighbours, in shares of a radius that is known.
-fn quiet(walls: &[f64], own: impl Fn(usize) -> f64) -> Vec<f64> {
+/// Removes spikes of one or two rays: a median of five neighbours, relative to `own`.
+fn without_spikes(walls: &[f64], own: impl Fn(usize) -> f64) -> Vec<f64> {
     let shares: Vec<f64> = walls.iter().enumerate().map(|(n, wall)| wall / own(n)).collect();
     (0..RAYS)
         .map(|n| {
@@ -77,28 +74,27 @@ fn quiet(walls: &[f64], own: impl Fn(usize) -> f64) -> Vec<f64> {
         .collect()
 }
 
-/// The walls by where rays end alone, under a blur of this width (mm); None where fewer than half of them do.
-pub fn wall_by_rays(rays: &[Ray], width: f64) -> Option<Vec<f64>> {
+/// Wall from ray ends alone, under a blur of `width` mm; None if fewer than half of the rays end.
+pub(crate) fn wall_by_rays(rays: &[Ray], width: f64) -> Option<Vec<f64>> {
     let end = |ray: &Ray| ray.edge.or_else(|| ray.bright_at.map(|_| within_rim(ray.rim, width)));
     let mut ends: Vec<f64> = rays.iter().filter_map(end).collect();
     if ends.len() < RAYS / 2 {
         return None;
     }
     let middle = median(&mut ends)?;
-    // Between the struts of a stent rays leave it.
+    // Between the struts of a stent, rays leave it.
     let walls: Vec<f64> = rays.iter().map(|ray| end(ray).unwrap_or(middle).min(1.5 * middle)).collect();
-    Some(quiet(&quiet(&walls, |_| middle), |_| middle))
+    Some(without_spikes(&without_spikes(&walls, |_| middle), |_| middle))
 }
 
-/// Where a bright rim begins whose blurred one lies above half of its brightest share from one place to another: a strut of a
-/// stent is thinner than it looks.
+/// Inner edge of a bright rim; a strut is thinner than its blurred image, so the blur is subtracted.
 fn within_rim([begins, ends]: [f64; 2], width: f64) -> f64 {
     let seen = ends - begins;
     let true_width = (seen * seen - width * width).max(0.0).sqrt();
     f64::midpoint(begins, ends) - 0.5 * true_width
 }
 
-/// Where the blurred ellipse crosses a level along a ray (mm), looked for around its boundary.
+/// Where the blurred model crosses `level` along a ray (mm), searched around its boundary.
 fn crossing(shares: &impl Shares, center: DVec2, direction: DVec2, level: f64, own: f64) -> Option<f64> {
     let reach = 0.6 * own + 0.4;
     let first = (own - reach).max(0.0);
@@ -112,19 +108,18 @@ fn crossing(shares: &impl Shares, center: DVec2, direction: DVec2, level: f64, o
     Some(at(n) - step * (level - values[n]) / (values[n - 1] - values[n]))
 }
 
-/// How far walls lie from an ellipse, as a root of the mean square of their shares.
-pub fn irregularity(ellipse: &Ellipse, wall: &[f64]) -> f64 {
+/// Root mean square of the relative distances between wall and ellipse.
+pub(crate) fn irregularity(ellipse: &Ellipse, wall: &[f64]) -> f64 {
     let off = |n: usize| (wall[n] / ellipse.radius_towards(direction(n)) - 1.0).powi(2);
     ((0..RAYS).map(off).sum::<f64>() / RAYS as f64).sqrt()
 }
 
-/// The points of the wall (mm, LPS).
-pub fn points(place: &Place, center: DVec2, wall: &[f64]) -> Vec<DVec3> {
+pub(crate) fn points(place: &SectionPlane, center: DVec2, wall: &[f64]) -> Vec<DVec3> {
     (0..RAYS).map(|n| place.point(center + direction(n) * wall[n])).collect()
 }
 
-/// The ellipse with the area, the centre and the second moments of what walls enclose around a point; None of nothing.
-pub fn ellipse_within(center: DVec2, wall: &[f64]) -> Option<Ellipse> {
+/// Ellipse with the area, centre and second moments of the polygon; None if it is degenerate.
+pub(crate) fn ellipse_within(center: DVec2, wall: &[f64]) -> Option<Ellipse> {
     let corner = |n: usize| direction(n % RAYS) * wall[n % RAYS];
     let (mut area, mut first, mut xx, mut xy, mut yy) = (0.0, DVec2::ZERO, 0.0, 0.0, 0.0);
     for n in 0..RAYS {
@@ -139,7 +134,7 @@ pub fn ellipse_within(center: DVec2, wall: &[f64]) -> Option<Ellipse> {
     let middle = first / area;
     let [xx, yy, xy] =
         [xx / area - middle.x * middle.x, yy / area - middle.y * middle.y, xy / area - middle.x * middle.y];
-    // The covariance of a filled ellipse is a quarter of S S.
+    // The covariance of a filled ellipse is S S / 4.
     let root = (xx * yy - xy * xy).max(0.0).sqrt();
     let scale = 2.0 / (xx + yy + 2.0 * root).sqrt();
     let ellipse = Ellipse {
@@ -151,16 +146,16 @@ pub fn ellipse_within(center: DVec2, wall: &[f64]) -> Option<Ellipse> {
     is_one.then_some(ellipse)
 }
 
-/// For each centre the distance to the nearest wall, of its own section and of those around it: the radius of a ball within
-/// the lumen (mm). NaN where a section has no wall.
-pub fn inscribed(at: &[f64], centers: &[DVec3], contours: &[Vec<DVec3>]) -> Vec<f64> {
+/// Distance from each centre to the nearest wall of its own and neighbouring sections: the radius of an
+/// inscribed ball (mm). NaN without a wall.
+pub(crate) fn inscribed(at: &[f64], centers: &[DVec3], contours: &[Vec<DVec3>]) -> Vec<f64> {
     (0..at.len())
         .map(|n| {
             let mut nearest = distance(centers[n], &contours[n]);
             for step in [-1, 1] {
                 let mut m = n;
                 while let Some(next) = m.checked_add_signed(step).filter(|next| *next < at.len()) {
-                    // Walls at a section that far away along the vessel are farther away than the nearest one.
+                    // Sections farther away along the vessel cannot have a nearer wall.
                     if nearest.is_nan() || (at[next] - at[n]).abs() > nearest {
                         break;
                     }

@@ -1,9 +1,9 @@
-//! The picture of a section: the volume in a plane across a vessel.
+//! The image of a section: the volume in a plane across a vessel.
 
 use glam::{DVec2, DVec3};
 
-use super::place::{Place, Track, known_radius};
 use super::profile::Profile;
+use super::section_plane::{SectionPlane, Track, known_radius};
 use crate::voxels::Voxels;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::limits::Limits;
@@ -13,28 +13,25 @@ use lumencut_core::volume::Volume;
 
 const SIDE: Limits = Limits::new(1e-3, 1e3, "mm");
 
-/// The most pixels along a side.
+/// Maximum number of pixels along a side.
 const MOST_PIXELS: f64 = 4096.0;
 
-/// A section as an image of square pixels, its middle on the vessel.
+/// A section as an image of square pixels, centred on the vessel.
 #[derive(Clone, Debug)]
 pub struct CrossSection {
     /// The plane.
-    pub place: Place,
+    pub place: SectionPlane,
     /// Pixels along each side.
     pub pixels: usize,
-    /// The side of a pixel (mm).
+    /// Side of a pixel (mm).
     pub pixel_spacing: f64,
-    /// The volume, row by row from the top; NaN outside.
+    /// Values, row by row from the top; NaN outside the volume.
     pub value: Vec<f32>,
 }
 
 impl CrossSection {
-    /// The section in the plane of a place, of a side of `size` mm.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Settings`] for an invalid size or pixel spacing.
-    pub fn new(volume: &Volume, place: Place, size: f64, pixel_spacing: f64) -> Result<Self> {
+    /// Samples a square of `size` mm. [`ErrorKind::Settings`] for an invalid size or pixel spacing.
+    pub fn new(volume: &Volume, place: SectionPlane, size: f64, pixel_spacing: f64) -> Result<Self> {
         SIDE.check("size of the cross-section", size)?;
         SIDE.check("pixel_spacing of the cross-section", pixel_spacing)?;
         let pixels = (size / pixel_spacing).round().max(1.0);
@@ -49,7 +46,7 @@ impl CrossSection {
         Ok(section)
     }
 
-    /// The place of each pixel (mm, LPS), row by row from the top.
+    /// Position of each pixel (mm, LPS), row by row from the top.
     pub fn positions(&self) -> Vec<DVec3> {
         let n = self.pixels;
         let away = |i: usize| (i as f64 + 0.5 - n as f64 / 2.0) * self.pixel_spacing;
@@ -57,14 +54,10 @@ impl CrossSection {
     }
 }
 
-/// Where the section of a vessel at an arc length (mm) lies. With the profile of the vessel it is the measured section that is
-/// nearest, in whose plane the contour lies, the first of two; without one it lies across the vessel by the rule of [`Track`],
-/// with the radius that its points have.
-///
-/// # Errors
-/// [`ErrorKind::Measuring`] for a place beyond the vessel, or the profile of another vessel; [`ErrorKind::VesselTree`] for a
-/// vessel without length.
-pub fn section_place(vessel: &Vessel, at: f64, profile: Option<&Profile>) -> Result<Place> {
+/// Plane of a section at an arc length (mm): with `profile` the plane of the nearest measured section,
+/// otherwise that of the centerline. [`ErrorKind::Measuring`] for a wrong arc length or profile;
+/// [`ErrorKind::VesselTree`] for a vessel without length.
+pub fn section_place(vessel: &Vessel, at: f64, profile: Option<&Profile>) -> Result<SectionPlane> {
     let length = vessel.arc_length().last().copied().unwrap_or(0.0);
     if !(0.0..=length).contains(&at) {
         let expected = format!("an arc length from 0 to {length:.3} mm");

@@ -1,9 +1,10 @@
-//! An ellipse blurred by a Gaussian: what a scanner shows of a lumen whose wall is sharp.
+//! An ellipse blurred by a Gaussian: the image of a lumen with a sharp wall.
 //!
-//! The integral of the Gaussian over the ellipse is one along its boundary, by Green's theorem: with r the way from a place to
-//! the boundary, the field r (1 - exp(-r²/2)) / (2 π r²) has the Gaussian of standard deviation 1 as its divergence. What is
-//! integrated along the boundary is periodic and smooth, so that the trapezoidal rule converges exponentially (Trefethen and
-//! Weideman 2014, doi:10.1137/130932132). The derivatives by the shape are Gaussians along the same boundary.
+//! Green's theorem turns the integral of the Gaussian over the ellipse into one along its boundary: with r
+//! the vector from a point to the boundary, the field r (1 - exp(-r²/2)) / (2 π r²) has the Gaussian of
+//! standard deviation 1 as its divergence. The integrand is periodic and smooth, so the trapezoidal rule
+//! converges exponentially (Trefethen and Weideman 2014, doi:10.1137/130932132). Shape derivatives are
+//! Gaussians along the same boundary.
 
 use std::f64::consts::{PI, TAU};
 use std::sync::OnceLock;
@@ -12,31 +13,29 @@ use glam::{DMat2, DVec2};
 
 use lumencut_core::math::lanes::FAN;
 
-/// The parameters of an ellipse: its centre, the mean of its semi-axes, and what makes it longer one way than the other.
-pub const SHAPE: usize = 5;
+/// Number of shape parameters: centre (2), mean semi-axis, stretch (2).
+pub(crate) const SHAPE: usize = 5;
 
-/// The largest distance of nodes along the boundary, in standard deviations of the blur: what the rule leaves out is then
-/// below a thousandth of a percent.
+/// Maximum distance of nodes in blur standard deviations; keeps the error below 0.001 %.
 const NODE_DISTANCE: f64 = 1.3;
 
 const FEWEST_NODES: usize = 12;
 
-/// The square of the distance from which on a node moves nothing (standard deviations of the blur): its bell is then 1e-14, far
-/// below what a number in single precision holds beside those of nearer nodes.
+/// Squared distance (blur standard deviations) from which exp, 1e-14, vanishes in single precision.
 const FAR_AWAY: f32 = 64.0;
 
-/// More nodes are never needed for a lumen (its radius is then 40 times the blur).
+/// Enough for a lumen whose radius is 40 times the blur.
 const MOST_NODES: usize = 400;
 
-/// The points centre + S (cos t, sin t), where the symmetric matrix S has the elements mean ± `stretch.x` on its diagonal and
-/// `stretch.y` beside it. So a circle is nothing special, and its direction need not be known.
+/// The points centre + S (cos t, sin t) with the symmetric matrix S = [[mean + x, y], [y, mean - x]] and (x,
+/// y) = `stretch`. This form has no singularity at a circle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ellipse {
-    /// The centre (mm).
+    /// Centre (mm).
     pub center: DVec2,
-    /// The mean of the semi-axes (mm).
+    /// Mean of the semi-axes (mm).
     pub mean: f64,
-    /// Half of their difference as a vector at twice the angle of the longer one (mm).
+    /// Half of the difference of the semi-axes, as a vector at twice the angle of the longer one (mm).
     pub stretch: DVec2,
 }
 
@@ -46,13 +45,12 @@ impl Ellipse {
         Self { center, mean: radius, stretch: DVec2::ZERO }
     }
 
-    /// The ellipse with these parameters; None where a semi-axis is not above 0.
-    pub fn from_parameters(p: &[f64]) -> Option<Self> {
+    pub(crate) fn from_parameters(p: &[f64]) -> Option<Self> {
         let ellipse = Self { center: DVec2::new(p[0], p[1]), mean: p[2], stretch: DVec2::new(p[3], p[4]) };
         (ellipse.semi_axes()[0] > 0.0).then_some(ellipse)
     }
 
-    /// Its parameters, in the order of the derivatives.
+    /// In the order of the derivatives.
     pub fn parameters(&self) -> [f64; SHAPE] {
         [self.center.x, self.center.y, self.mean, self.stretch.x, self.stretch.y]
     }
@@ -63,30 +61,29 @@ impl Ellipse {
         [self.mean - half, self.mean + half]
     }
 
-    /// From the centre to the ends of the shorter and of the longer axis (mm); those of a circle are one as good as another.
+    /// From the centre to the ends of the shorter and of the longer axis (mm).
     pub fn half_axes(&self) -> [DVec2; 2] {
         let [short, long] = self.semi_axes();
         let direction = DVec2::from_angle(0.5 * self.stretch.y.atan2(self.stretch.x));
         [direction.perp() * short, direction * long]
     }
 
-    /// The area (mm²).
+    /// Area (mm²).
     pub fn area(&self) -> f64 {
         PI * (self.mean * self.mean - self.stretch.length_squared())
     }
 
-    /// The diameter of a circle of the same area (mm).
-    pub fn equivalent_diameter(&self) -> f64 {
+    pub(crate) fn equivalent_diameter(&self) -> f64 {
         2.0 * (self.area() / PI).max(0.0).sqrt()
     }
 
-    /// The same ellipse, made wider by a factor.
+    /// The ellipse with its semi-axes times a factor.
     #[must_use]
     pub fn scaled(&self, by: f64) -> Self {
         Self { center: self.center, mean: self.mean * by, stretch: self.stretch * by }
     }
 
-    /// An ellipse between this one and another one, by the share of the way to that.
+    /// Interpolates between this ellipse and `other`.
     #[must_use]
     pub fn towards(&self, other: &Self, share: f64) -> Self {
         Self {
@@ -96,7 +93,7 @@ impl Ellipse {
         }
     }
 
-    /// The most by which a parameter is another one (mm).
+    /// Largest difference of a parameter (mm).
     pub fn differs(&self, other: &Self) -> f64 {
         let [own, others] = [self, other].map(Self::parameters);
         own.iter().zip(&others).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
@@ -107,21 +104,21 @@ impl Ellipse {
         DMat2::from_cols(DVec2::new(self.mean + x, y), DVec2::new(y, self.mean - x))
     }
 
-    /// The distance from the centre to the boundary along a unit vector (mm).
+    /// Distance from the centre to the boundary along a unit vector (mm).
     pub fn radius_towards(&self, direction: DVec2) -> f64 {
         1.0 / (self.matrix().inverse() * direction).length().max(1e-12)
     }
 }
 
-/// A Gaussian blur in a plane, by the matrix that makes it one of standard deviation 1 in all directions.
+/// A Gaussian blur in a plane, as the matrix that maps it to standard deviation 1 in all directions.
 #[derive(Clone, Copy, Debug)]
 pub struct Whitening(pub DMat2);
 
 impl Whitening {
-    /// The whitening of a blur with this covariance (mm²), which must be positive definite: its inverse square root.
+    /// Inverse square root of a positive definite covariance (mm²).
     pub fn new(covariance: DMat2) -> Self {
         let (a, b, d) = (covariance.x_axis.x, covariance.x_axis.y, covariance.y_axis.y);
-        // The square root of a matrix of two by two: (C + √det) / √(trace + 2 √det).
+        // Square root of a 2 × 2 matrix: (C + √det) / √(trace + 2 √det).
         let root = (a * d - b * b).max(0.0).sqrt();
         let scale = (a + d + 2.0 * root).sqrt();
         let square_root = DMat2::from_cols(DVec2::new(a + root, b), DVec2::new(b, d + root)) * (1.0 / scale);
@@ -129,8 +126,7 @@ impl Whitening {
     }
 }
 
-/// A place on the boundary of a whitened ellipse: where it is, its tangent, and how far the boundary moves outwards there
-/// with each parameter. Tangent and ways are those of the node's share of the boundary, over 2 π.
+/// A node of the whitened boundary; vectors include the node's share of the boundary, over 2 π.
 #[derive(Clone, Copy, Debug)]
 struct Node {
     place: [f32; 2],
@@ -146,17 +142,16 @@ pub struct Boundary {
     center: [f32; 2],
 }
 
-/// The blurred ellipse at some places, and its derivatives by the parameters.
 #[derive(Clone, Copy, Debug)]
-pub struct Blurred {
+pub(crate) struct Blurred {
     /// From 0 outside to 1 inside.
     pub value: [f32; FAN],
-    /// Derivatives of the value (1/mm), in the order of [`Ellipse::parameters`].
+    /// Derivatives (1/mm), in the order of [`Ellipse::parameters`].
     pub slopes: [[f32; FAN]; SHAPE],
 }
 
 impl Boundary {
-    /// The boundary of an ellipse under a blur.
+    /// The boundary of `ellipse` under the blur `whitening`.
     pub fn new(ellipse: &Ellipse, Whitening(whitening): Whitening) -> Self {
         let matrix = ellipse.matrix();
         let needed = TAU * longest(whitening * matrix).max(1e-9) / NODE_DISTANCE;
@@ -186,11 +181,10 @@ impl Boundary {
         }
     }
 
-    /// The blurred ellipse at sixteen places (mm). A page loads it once, as it has one instruction set; elsewhere it is compiled
-    /// into each kernel.
+    /// Value and derivatives at sixteen points (mm); not inlined on the web, to save code size.
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     #[cfg_attr(target_arch = "wasm32", inline(never))]
-    pub fn blurred(&self, x: &[f32; FAN], y: &[f32; FAN]) -> Blurred {
+    pub(crate) fn blurred(&self, x: &[f32; FAN], y: &[f32; FAN]) -> Blurred {
         let [xx, xy, yy] = self.whitening;
         let mut place = [[0.0; FAN]; 2];
         for l in 0..FAN {
@@ -209,7 +203,7 @@ impl Boundary {
                 is_near |= squares[l] < FAR_AWAY;
             }
             if !is_near {
-                // The bell is nothing beside 1.
+                // The exponential is negligible next to 1.
                 for l in 0..FAN {
                     let dx = node.place[0] - place[0][l];
                     let dy = node.place[1] - place[1][l];
@@ -236,23 +230,21 @@ impl Boundary {
         sum
     }
 
-    /// The blurred ellipse at one place (mm), 0 to 1.
+    /// Value at one point (mm), 0 to 1.
     pub fn value(&self, place: DVec2) -> f64 {
         f64::from(self.blurred(&[place.x as f32; FAN], &[place.y as f32; FAN]).value[0])
     }
 }
 
-/// The sine and the cosine at places around a circle.
 type Circle = Box<[(f64, f64)]>;
 
-/// The sine and the cosine at a number of places evenly around a circle, at most [`MOST_NODES`]: found once for each number of them.
+/// Sine and cosine at `count` even steps around a circle, cached per count.
 fn circle(count: usize) -> &'static [(f64, f64)] {
     static CIRCLES: [OnceLock<Circle>; MOST_NODES + 1] = [const { OnceLock::new() }; MOST_NODES + 1];
     let share = 1.0 / count as f64;
     CIRCLES[count].get_or_init(|| (0..count).map(|n| (TAU * n as f64 * share).sin_cos()).collect())
 }
 
-/// By how much a matrix makes vectors longer, at most: its larger singular value.
 fn longest(matrix: DMat2) -> f64 {
     let (x, y) = (matrix.x_axis, matrix.y_axis);
     let half = 0.5 * (x.length_squared() + y.length_squared());
@@ -260,19 +252,19 @@ fn longest(matrix: DMat2) -> f64 {
     (half + difference.hypot(x.dot(y))).sqrt()
 }
 
-/// exp(x) of a number up to 0, to two millionths: a power of two by its bits, and a polynomial.
+/// exp(x) for x ≤ 0 with a relative error of 2e-6: a power of two by bits, and a polynomial.
 #[inline(always)]
 fn exponential(x: f32) -> f32 {
-    /// From here on the last bit of a float counts ones.
+    /// 1.5 · 2²³: above it, the last bit of a float has the value 1, so adding it rounds to an integer.
     const ONES: f32 = 12_582_912.0;
     const LN_2: f32 = std::f32::consts::LN_2;
     let power = if x > -80.0 { x } else { -80.0 } * std::f32::consts::LOG2_E;
     let rounded = power + ONES;
     let f = power - (rounded - ONES);
-    // The Taylor series of 2^f, |f| ≤ 1/2.
+    // Taylor series of 2^f, |f| ≤ 1/2.
     let tail = 0.009_618_13 + f * 0.001_333_36;
     let part = 1.0 + f * (LN_2 + f * (0.240_226_5 + f * (0.055_504_11 + f * tail)));
-    // 2 to the whole part: its bits moved to where a float keeps its exponent.
+    // 2 to the integer part, by its exponent bits.
     part * f32::from_bits(rounded.to_bits().wrapping_add(127) << 23)
 }
 

@@ -1,8 +1,8 @@
-//! The ellipse that, blurred as the volume is, comes nearest to the voxels of a section.
+//! Fits a blurred ellipse to the voxels of a section.
 
 use std::marker::PhantomData;
 
-use super::ellipse::{Boundary, Ellipse, SHAPE, Whitening};
+use super::ellipse::{Ellipse, SHAPE, Whitening};
 use super::least_squares::{Minimum, Normal, minimum, solved, variance};
 use super::model::{Model, ThreeLevels, TwoLevels};
 use super::parameters::{BACKGROUND, HARMONICS, LUMEN, PLAIN, SECTORS, THICKNESS, WALL, WALLED};
@@ -15,77 +15,67 @@ use super::wall::{KnownWall, Wall};
 use lumencut_core::math::lanes::{FAN, Isa, dispatch};
 use lumencut_core::math::statistics::median;
 
-/// Samples that miss by more than this number of standard deviations do not count (Tukey's weights).
+/// Residuals above this many standard deviations get weight 0 (Tukey's biweight).
 const TUKEY: f64 = 5.0;
 
-/// Steps before and after samples are weighed by how much they miss.
+/// Maximum steps before and after reweighting.
 const STEPS: [usize; 2] = [12, 8];
 
-/// Weights fall evenly with the distance from the plane: the noise of the weighted mean is smaller than the weights say by this factor.
+/// Linear weights reduce the noise of the weighted mean by this factor below what they imply.
 const EVENLY_FALLING: f64 = 2.0 / 3.0;
 
-/// What is known beforehand: means and standard deviations.
+/// Prior knowledge, as means and standard deviations; levels are shares.
 #[derive(Clone, Copy, Debug)]
-pub struct Expected<'a> {
-    /// The level of the lumen, as a share.
+pub(crate) struct Expected<'a> {
     pub lumen: [f64; 2],
-    /// The level of its background, as a share.
     pub background: [f64; 2],
-    /// By how much semi-axes differ from their mean, as a share of it: the standard deviation alone, around 0.
+    /// Standard deviation of the relative difference of the semi-axes, around 0.
     pub stretch: f64,
-    /// The noise of a voxel, as a share.
     pub noise: f64,
-    /// Whether that is a guess: samples are then weighed by what they miss by and large.
-    pub is_guessed: bool,
-    /// The wall, where it is told apart from the surroundings.
+    /// Whether `noise` is a guess; the typical residual may then replace it.
+    pub(crate) is_guessed: bool,
+    /// None where the wall cannot be separated from the surroundings.
     pub wall: Option<KnownWall>,
-    /// What else makes a diameter unsure, where that is asked.
+    /// Set if the uncertainty of the diameter is wanted.
     pub unsure: Option<&'a Unsure<'a>>,
 }
 
-/// What makes a diameter unsure besides what a section tells itself.
 #[derive(Clone, Copy, Debug)]
-pub struct Unsure<'a> {
-    /// The texture of the noise.
+pub(crate) struct Unsure<'a> {
     pub texture: &'a Texture,
-    /// The blur of a point spread that is wider by its standard deviation; None where it is known.
+    /// Blur with the point spread wider by its standard deviation; None if it is known.
     pub wider: Option<Whitening>,
-    /// The wall that may be there where it is not told apart from the surroundings.
+    /// A possible wall where none can be separated from the surroundings.
     pub wall: Option<KnownWall>,
 }
 
-/// Surroundings differ from side to side by these shares (standard deviations), in the order of the harmonics.
+/// Standard deviations of the surroundings per harmonic, as shares: tissue differs from side to side.
 const SIDES: [f64; HARMONICS] = [0.3, 0.3, 0.15, 0.15, 0.1, 0.1];
 
-/// The centre stays within this number of radii of where it began, and the size within these shares of that.
+/// Limits: the centre moves at most this many radii, and the size stays within these factors.
 const TRUSTED: (f64, [f64; 2]) = (1.0, [0.15, 2.0]);
 
-/// A fitted section.
 #[derive(Clone, Copy, Debug)]
-pub struct Fit {
-    /// The lumen.
+pub(crate) struct Fit {
     pub ellipse: Ellipse,
-    /// Its level, as a share, and the standard deviation of that.
+    /// Mean and standard deviation, as shares.
     pub lumen: [f64; 2],
-    /// The level of its background, as a share.
     pub background: f64,
-    /// Its wall, where that is told apart.
     pub wall: Option<Wall>,
-    /// What the samples miss, as a root of the mean square and as a share: the noise, where the lumen is an ellipse.
-    pub missed: f64,
-    /// The standard deviation of the diameter of a circle of the same area (mm); NaN where it was not asked.
+    /// Root mean square of the residuals, as a share: the noise, if the lumen is an ellipse.
+    pub(crate) missed: f64,
+    /// Standard deviation of the equivalent diameter (mm); NaN if not requested.
     pub uncertainty: f64,
-    /// What that is made of.
     pub parts: Parts,
-    /// The share of all directions in which nothing was in the way of the wall.
+    /// Share of directions in which the wall is unobstructed.
     pub free: f64,
-    /// What it was last begun from, where begun from what it ended at it would not stay there: the lumen may be the one or the other.
+    /// Second solution: set when restarting the fit from its own result leads elsewhere (ambiguous lumen).
     pub other: Option<Ellipse>,
 }
 
 impl Fit {
-    /// The fit that begins with an ellipse; None where there are too few samples or no ellipse fits.
-    pub fn new(
+    /// Fits from `start`; None if there are too few samples or no ellipse fits.
+    pub(crate) fn new(
         samples: &Samples,
         whitening: Whitening,
         start: &Ellipse,
@@ -118,8 +108,8 @@ impl Fit {
         })
     }
 
-    /// What samples miss under the fit that begins with an ellipse, as [`Fit::missed`]; None where [`Fit::new`] has none.
-    pub fn missed_by(
+    /// [`Fit::missed`] of the fit from `start`, without the second weighting.
+    pub(crate) fn missed_by(
         samples: &Samples,
         whitening: Whitening,
         start: &Ellipse,
@@ -138,8 +128,7 @@ impl Fit {
         }
     }
 
-    /// What samples miss under a blur.
-    pub fn missing(&self, samples: &Samples, whitening: Whitening) -> Vec<[f32; FAN]> {
+    pub(crate) fn missing(&self, samples: &Samples, whitening: Whitening) -> Vec<[f32; FAN]> {
         let levels = [self.lumen[0], self.background];
         match &self.wall {
             Some(wall) => missing(samples, &ThreeLevels::of(&self.ellipse, wall, levels, whitening)),
@@ -147,27 +136,21 @@ impl Fit {
         }
     }
 
-    /// The same fit where another one may be right as well: the diameter is then as unsure as both differ.
+    /// Adds the difference of the diameters of two equally plausible fits to the uncertainty.
     #[must_use]
-    pub fn or(mut self, other: &Self) -> Self {
+    pub(crate) fn or(mut self, other: &Self) -> Self {
         let apart = self.ellipse.equivalent_diameter() - other.ellipse.equivalent_diameter();
         self.parts.surroundings = self.parts.surroundings.hypot(apart);
         self.uncertainty = self.parts.total();
         self
     }
-
-    /// The blurred ellipse of a fit.
-    pub fn boundary(&self, whitening: Whitening) -> Boundary {
-        Boundary::new(&self.ellipse, whitening)
-    }
 }
 
-/// What is expected of the levels of a lumen in even surroundings.
 fn plain<const N: usize>(expected: &Expected) -> Vec<Term<N>> {
     vec![Term::one(LUMEN, expected.lumen), Term::one(BACKGROUND, expected.background)]
 }
 
-/// The same of a lumen with a wall, in surroundings that differ from side to side.
+/// Priors with a wall, in surroundings that differ from side to side.
 fn walled(expected: &Expected, known: &KnownWall, start: &Ellipse) -> Vec<Term<WALLED>> {
     let mut terms = plain(expected);
     terms.push(Term::one(WALL, known.level));
@@ -177,18 +160,15 @@ fn walled(expected: &Expected, known: &KnownWall, start: &Ellipse) -> Vec<Term<W
     terms
 }
 
-/// What samples miss of a model.
 fn missing<M: Model<N>, const N: usize>(samples: &Samples, model: &M) -> Vec<[f32; FAN]> {
     dispatch(Isa::widest(), Missing { samples, model })
 }
 
-/// The standard deviation of a combination of parameters.
 fn deviation<const N: usize>(minimum: &Minimum<N>, by: &[f64; N]) -> Option<f64> {
     let square = variance(&minimum.normal.matrix, by)?;
     square.is_finite().then(|| (square * EVENLY_FALLING).sqrt())
 }
 
-/// The derivatives of the diameter of a circle of the same area.
 fn diameter_by<const N: usize>(ellipse: &Ellipse) -> [f64; N] {
     let diameter = ellipse.equivalent_diameter();
     let mut by = [0.0; N];
@@ -198,15 +178,13 @@ fn diameter_by<const N: usize>(ellipse: &Ellipse) -> [f64; N] {
     by
 }
 
-/// Samples and what is fitted to them.
 struct Work<'a, M, const N: usize> {
     samples: &'a Samples,
     whitening: Whitening,
     expected: &'a Expected<'a>,
     start: &'a Ellipse,
-    /// What is expected of the parameters.
     terms: Vec<Term<N>>,
-    /// How much each sample counts.
+    /// Weight of each sample.
     kept: Vec<[f32; FAN]>,
     model: PhantomData<M>,
 }
@@ -222,8 +200,7 @@ impl<'a, M: Model<N>, const N: usize> Work<'a, M, N> {
         Self { samples, whitening, expected, start, terms, kept: samples.weight.clone(), model: PhantomData }
     }
 
-    /// The parameters that fit best before samples are weighed by how much they miss, and how much they miss then; None where
-    /// there are too few samples.
+    /// Best parameters before reweighting, and the residual; None if there are too few samples.
     fn weighed(&mut self) -> Option<([f64; N], f64)> {
         if self.samples.count < 2 * N {
             return None;
@@ -238,7 +215,7 @@ impl<'a, M: Model<N>, const N: usize> Work<'a, M, N> {
         Some((first.at, missed))
     }
 
-    /// The parameters that fit best, what the samples miss then, and what the diameter is unsure by, where that is asked.
+    /// Best parameters, residual, and the parts of the uncertainty if requested.
     fn done(mut self) -> Option<(Minimum<N>, f64, Parts)> {
         let (first, missed) = self.weighed()?;
         let last = minimum(first, STEPS[1], |at| self.evaluate(at))?;
@@ -249,7 +226,8 @@ impl<'a, M: Model<N>, const N: usize> Work<'a, M, N> {
         Some((last, missed, parts))
     }
 
-    /// What makes the diameter unsure: each sample moves it by its noise, and each expectation by how wrong it may be.
+    /// Parts of the uncertainty: a = A⁻¹ c gives the shift of the diameter per sample and per prior, with A
+    /// the normal matrix and c the derivatives of the diameter.
     fn parts(&self, minimum: &Minimum<N>, missed: f64, unsure: &Unsure) -> Option<Parts> {
         let ellipse = Ellipse::from_parameters(&minimum.at)?;
         let towards = solved(&minimum.normal.matrix, &diameter_by(&ellipse))?;
@@ -261,7 +239,7 @@ impl<'a, M: Model<N>, const N: usize> Work<'a, M, N> {
             Moves { samples: self.samples, kept: &self.kept, model: &model, towards: towards_shares };
         let moves = dispatch(Isa::widest(), kernel);
         let noise = expected.noise * unsure.texture.variance(self.samples, &moves).sqrt();
-        // What misses more than noise does says that the lumen is no ellipse, or the surroundings are not even.
+        // Residuals above the noise show that the lumen is no ellipse or the surroundings are uneven.
         let excess = (missed / expected.noise).max(1.0);
         let wall = match unsure.wall {
             Some(hidden) => self.moved(&moves, &model, &self.with_wall(&minimum.at, &ellipse, &hidden)),
@@ -281,14 +259,14 @@ impl<'a, M: Model<N>, const N: usize> Work<'a, M, N> {
         parts.total().is_finite().then_some(parts)
     }
 
-    /// By how much the diameter is wrong (mm) as what is expected of some parameters is, by its standard deviations.
+    /// Error of the diameter (mm) caused by errors of some priors of one standard deviation.
     fn expectations(&self, towards: &[f64; N], of: impl Fn(usize) -> bool) -> f64 {
         let own = self.terms.iter().filter(|term| of(term.parameter));
         let moved = |term: &Term<N>| (0..N).map(|n| term.by[n] * towards[n]).sum::<f64>() / term.level[1];
         own.map(|term| moved(term).powi(2)).sum::<f64>().sqrt()
     }
 
-    /// The section with a wall that is brighter than its surroundings by what it may be.
+    /// The model with a wall that is brighter than its surroundings by a plausible amount.
     fn with_wall(&self, at: &[f64; N], ellipse: &Ellipse, hidden: &KnownWall) -> ThreeLevels {
         let [level, deviation] = hidden.level;
         let brighter = at[BACKGROUND] + deviation.hypot(level - at[BACKGROUND]);
@@ -296,7 +274,7 @@ impl<'a, M: Model<N>, const N: usize> Work<'a, M, N> {
         ThreeLevels::of(ellipse, &wall, [at[LUMEN], at[BACKGROUND]], self.whitening)
     }
 
-    /// By how much a diameter is another one (mm) where the samples are not as one model has them but as another one has.
+    /// Shift of the diameter (mm) if the samples followed `other` instead of `model`.
     fn moved<O: Model<P>, const P: usize>(&self, moves: &[[f32; FAN]], model: &M, other: &O) -> f64 {
         let (own, others) = (missing(self.samples, model), missing(self.samples, other));
         let mut sum = 0.0;
@@ -330,7 +308,7 @@ impl<'a, M: Model<N>, const N: usize> Work<'a, M, N> {
         Some(normal)
     }
 
-    /// What samples miss by and large, as the standard deviation of a normal distribution with their median.
+    /// Standard deviation of a normal distribution with the same median absolute residual.
     fn typical(&self, missing: &[[f32; FAN]]) -> Option<f64> {
         let weights = self.samples.weight.iter().flatten();
         let mut all: Vec<f64> = missing
@@ -343,7 +321,6 @@ impl<'a, M: Model<N>, const N: usize> Work<'a, M, N> {
         median(&mut all).map(|middle| 1.4826 * middle)
     }
 
-    /// Whether an ellipse is still one of this section.
     fn trusts(&self, ellipse: &Ellipse) -> bool {
         let (far, [small, large]) = TRUSTED;
         let size = ellipse.mean / self.start.mean;
@@ -351,7 +328,7 @@ impl<'a, M: Model<N>, const N: usize> Work<'a, M, N> {
             && (small..=large).contains(&size)
     }
 
-    /// Weighs the samples by how much they miss; gives the root of the mean square of that over those that count.
+    /// Reweights the samples by their residuals; returns the root mean square of those that count.
     fn weigh(&mut self, at: &[f64; N]) -> Option<f64> {
         let model = self.model(at, &Ellipse::from_parameters(at)?);
         let missing = missing(self.samples, &model);

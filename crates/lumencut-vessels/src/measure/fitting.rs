@@ -1,4 +1,4 @@
-//! The fit of a section: which voxels count, and what is expected of them.
+//! Prepares the fit of a section: which voxels count, and the priors.
 
 use glam::DVec2;
 
@@ -6,57 +6,54 @@ use super::blur::Blur;
 use super::ellipse::{Boundary, Ellipse, Whitening};
 use super::fit::{Expected, Fit, Unsure};
 use super::obstacles::Obstacles;
-use super::place::Place;
 use super::pooled::Level;
 use super::rays::{RAYS, direction};
+use super::section_plane::SectionPlane;
 use super::sections::{Bench, Known};
 use super::slab::{Samples, Window};
 use super::texture::Pairs;
 use super::wall::KnownWall;
 use lumencut_core::math::statistics::median;
 
-/// How far beyond the wall voxels count, in widths of the blur.
+/// Voxels count up to this many blur widths beyond the wall.
 const BEYOND: f64 = 1.5;
 
-/// Semi-axes differ by this share of their mean, by and large; in lumens as narrow as the blur, whose shape cannot be seen,
-/// by less.
+/// Prior of the relative difference of the semi-axes: wide lumens, and those as narrow as the blur.
 const STRETCH: (f64, f64) = (0.4, 0.06);
 
-/// The wall must be free in this share of all directions, or else it is not fitted.
+/// Minimum share of directions with an unobstructed wall.
 const LEAST_FREE: f64 = 0.35;
 
-/// The level of a lumen is seen within this share of its radius, where the blur leaves this share of its peak.
+/// The lumen level is read within this share of the radius, if blur leaves this share of the peak.
 const MIDDLE: f64 = 1.0 / 3.0;
 const LEAST_PEAK: f64 = 0.95;
 
-/// How far that lies from the level (standard deviation): as a share, and as a share of the noise of a voxel.
+/// Standard deviation of that level: a share of the contrast, and a share of the voxel noise.
 const SEEN: (f64, f64) = (0.02, 0.33);
 
-/// The voxels of a section without what is in the way.
+/// Voxels of a section without obstacles.
 struct Cleared {
     samples: Samples,
     obstacles: Obstacles,
 }
 
-/// A section that is ready to be fitted under one blur or another.
-pub struct Ready {
-    place: Place,
+pub(crate) struct Ready {
+    place: SectionPlane,
     start: Ellipse,
     cleared: Cleared,
     expected: Expected<'static>,
 }
 
 impl Ready {
-    /// What the voxels of the section miss of its fit under a blur, as [`Fit::missed`]; None where no ellipse fits.
-    pub fn missed(&self, blur: &Blur) -> Option<f64> {
+    pub(crate) fn missed(&self, blur: &Blur) -> Option<f64> {
         let whitening = Whitening::new(blur.of_voxels(&self.place));
         Fit::missed_by(&self.cleared.samples, whitening, &self.start, &self.expected)
     }
 }
 
 impl Bench<'_, '_> {
-    /// The fit of a section, without what is in its way; None where too much is, or no ellipse fits.
-    pub fn fit(&self, place: &Place, known: &Known) -> Option<Fit> {
+    /// Fits a section; None if it is too obstructed or no ellipse fits.
+    pub(crate) fn fit(&self, place: &SectionPlane, known: &Known) -> Option<Fit> {
         let ready = self.ready(place, known)?;
         let wider = self.doubt.as_ref().and_then(|doubt| doubt.wider);
         let unsure = self.doubt.as_ref().map(|doubt| Unsure {
@@ -70,12 +67,11 @@ impl Bench<'_, '_> {
         Some(Fit { free: ready.cleared.obstacles.free, ..fit })
     }
 
-    /// What makes a section ready to be fitted; None where too much is in its way.
-    pub fn ready(&self, place: &Place, known: &Known) -> Option<Ready> {
+    pub(crate) fn ready(&self, place: &SectionPlane, known: &Known) -> Option<Ready> {
         let cleared = self.cleared(place, known)?;
         let seen = self.level_seen(place, known, |point| cleared.obstacles.keeps(point));
         let expected = Expected {
-            // Where a wall is sharp an ellipse too small and a level too high may fit it as well: what is seen decides.
+            // For a sharp wall, a smaller ellipse with a higher level fits as well.
             lumen: seen.filter(|seen| seen[1] < known.lumen[1]).unwrap_or(known.lumen),
             background: [0.0, 0.5],
             stretch: stretch(2.0 * known.ellipse.mean, self.blur.width(place)),
@@ -87,8 +83,7 @@ impl Bench<'_, '_> {
         Some(Ready { place: *place, start: known.ellipse, cleared, expected })
     }
 
-    /// The pairs of voxels of a section whose fit is known, by what they miss.
-    pub fn pairs(&self, place: &Place, known: &Known, fit: &Fit) -> Option<Pairs> {
+    pub(crate) fn pairs(&self, place: &SectionPlane, known: &Known, fit: &Fit) -> Option<Pairs> {
         let samples = self.cleared(place, known)?.samples;
         let missing = fit.missing(&samples, Whitening::new(self.blur.of_voxels(place)));
         Some(Pairs::new(&samples, &missing, known.noise() as f32))
@@ -98,8 +93,8 @@ impl Bench<'_, '_> {
         self.wall.map(|wall| known.wall.unwrap_or(wall))
     }
 
-    /// The voxels of a section without what is in the way; None where too much is.
-    fn cleared(&self, place: &Place, known: &Known) -> Option<Cleared> {
+    /// Voxels of a section without obstacles; None if too few directions are free.
+    fn cleared(&self, place: &SectionPlane, known: &Known) -> Option<Cleared> {
         let width = self.blur.width(place);
         let ellipse = &known.ellipse;
         let rays = self.rays.all(place, ellipse.center, &self.look(place, known));
@@ -119,8 +114,7 @@ impl Bench<'_, '_> {
         Some(Cleared { samples, obstacles })
     }
 
-    /// The level that is seen in the middle of a lumen, where it is wide enough to show it, of the points that may be kept.
-    fn level_seen(&self, place: &Place, known: &Known, keep: impl Fn(DVec2) -> bool) -> Option<Level> {
+    fn level_seen(&self, place: &SectionPlane, known: &Known, keep: impl Fn(DVec2) -> bool) -> Option<Level> {
         let ellipse = &known.ellipse;
         let peak =
             Boundary::new(ellipse, Whitening::new(self.blur.interpolated(place))).value(ellipse.center);
@@ -144,7 +138,6 @@ impl Bench<'_, '_> {
     }
 }
 
-/// How far semi-axes differ from their mean by and large, as a share of it.
 fn stretch(diameter: f64, width: f64) -> f64 {
     let seen = ((diameter / width - 1.0) / 1.0).clamp(0.0, 1.0);
     STRETCH.1 + seen * (STRETCH.0 - STRETCH.1)

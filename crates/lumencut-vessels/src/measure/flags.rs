@@ -1,25 +1,25 @@
-//! What there is to know of a section beside its numbers, as bits. The facade has their words and colours.
+//! Flags of a section, as bits. The facade has their words and colours.
 
-/// The diameter is below 1.5 times the full width at half maximum of the point spread.
+/// The diameter is below 1.5 times the FWHM of the point spread.
 pub const AT_LIMIT: u32 = 1;
-/// Another vessel begins here, or lumen goes on sideways.
+/// Another vessel begins here, or the lumen continues sideways.
 pub const BRANCH: u32 = 1 << 1;
 /// Something in the wall is brighter than lumen.
 pub const CALCIUM: u32 = 1 << 2;
-/// Something brighter than lumen goes around it, or is brighter than calcium.
+/// Something brighter than lumen surrounds it, or is brighter than calcium.
 pub const METAL: u32 = 1 << 3;
-/// Another lumen, or bone, is beside the wall.
+/// Another lumen, or bone, touches the wall.
 pub const NEIGHBOR: u32 = 1 << 4;
 /// The section reaches beyond the volume.
 pub const OUTSIDE: u32 = 1 << 5;
-/// No wall was found, or what it encloses is no lumen.
+/// No wall was found, or the contour does not enclose lumen.
 pub const NO_EDGE: u32 = 1 << 6;
-/// The vessel's point lies outside of the lumen that was measured.
+/// The centerline lies outside the measured lumen.
 pub const RECENTERED: u32 = 1 << 7;
 /// The lumen is far from an ellipse.
 pub const IRREGULAR: u32 = 1 << 8;
-/// The line turns more sharply than a vessel does.
+/// The line turns more sharply than a vessel.
 pub const RESTLESS_LINE: u32 = 1 << 9;
 
-/// Sections with any of these are left out of what is largest, narrowest or suggested.
+/// Sections with any of these are ignored for the largest, narrowest or suggested places.
 pub const LEFT_OUT: u32 = BRANCH | OUTSIDE | NO_EDGE | RECENTERED | RESTLESS_LINE;

@@ -1,12 +1,9 @@
-//! Where a function of one valley is least: the golden section (Kiefer 1953, doi:10.2307/2032161).
+//! Minimum of a unimodal function by golden-section search (Kiefer 1953, doi:10.2307/2032161).
 
 const GOLDEN: f64 = 0.618_033_988_749_895;
 
-/// Where the function is least between two places, after a number of rounds, each of which leaves 0.62 of the range.
-///
-/// # Errors
-/// What the function fails with.
-pub fn least<E>(
+/// Argument of the minimum in a range; each round leaves 0.62 of it. Returns the function's error.
+pub(crate) fn least<E>(
     [mut low, mut high]: [f64; 2],
     rounds: usize,
     mut function: impl FnMut(f64) -> Result<f64, E>,

@@ -1,15 +1,15 @@
-//! The groups that the field sorts stenoses into, as text with their source.
+//! Grades of stenoses used in the field, as text with their source.
 
 use super::stenosis::{Method, Stenosis};
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::named::Named;
 
-/// A vessel whose stenoses have groups.
+/// A vessel territory with defined grades.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Territory {
-    /// The internal carotid artery.
+    /// Internal carotid artery.
     Carotid,
-    /// A coronary artery.
+    /// Coronary artery.
     Coronary,
 }
 
@@ -19,17 +19,14 @@ impl Named for Territory {
 }
 
 impl Stenosis {
-    /// The group of a stenosis and where groups are from.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Measuring`] where the method is not that of the groups.
+    /// Grade of the stenosis, with its source. [`ErrorKind::Measuring`] for a method without grades.
     pub fn group(&self, territory: Territory) -> Result<String> {
         if self.method != Method::Nascet {
             let found = format!("'{}'", self.method.name());
-            let expected = "'nascet': the groups are those of diameters beside a normal reference";
+            let expected = "'nascet', because the groups refer to a normal diameter";
             return Err(Error::new(ErrorKind::Measuring, "method of the stenosis", found, expected));
         }
-        // Groups are of whole percents.
+        // Grades are defined for whole percents.
         let percent = self.percent.round();
         Ok(match territory {
             Territory::Carotid => carotid(percent),

@@ -1,33 +1,31 @@
-//! What keeps a section from being suggested as the narrowest place or as a reference, beside what it is flagged for.
+//! Reasons, besides flags, not to suggest a section as the narrowest place or as a reference.
 
 use std::f64::consts::PI;
 
 use super::flags::{CALCIUM, IRREGULAR, LEFT_OUT, METAL, NEIGHBOR};
 use super::profile::Profile;
 
-/// The lumen that was measured is another one than a little before or behind: it lies elsewhere, or has another level and width.
+/// The lumen differs from that of the previous section in position, level or width.
 pub const CHANGE_OF_LUMEN: u32 = 1 << 16;
-/// Another lumen lies beside an irregular wall, as at the flap of a dissection.
+/// Another lumen lies next to an irregular wall, as at the flap of a dissection.
 pub const FLAP: u32 = 1 << 17;
-/// The standard deviation of the diameter is more than a third of it.
+/// The standard deviation of the diameter exceeds a third of it.
 pub const UNSURE: u32 = 1 << 18;
 
-/// The flags that keep a section from being suggested.
 const FLAGGED: u32 = LEFT_OUT | METAL | CALCIUM;
 
-/// A diameter is not sure where its standard deviation is more than this share of it.
+/// Maximum relative standard deviation of a suggested diameter.
 const UNSURE_SHARE: f64 = 1.0 / 3.0;
 
-/// The middle of a lumen jumps where it moves sideways by more than this share of the radius, and by more than the way between
-/// both sections, as it would in a vessel that runs at 45° to its line.
+/// Sideways movement of the centre that counts as a jump, as a share of the radius. It must also exceed the
+/// distance of the sections, which allows a vessel at 45° to its line.
 const JUMP: f64 = 0.5;
 
-/// Half of such a jump is one where the diameter changes by this factor, or the level by this share of the contrast.
+/// Half of that suffices if the diameter changes by this factor, or the level by this share of the contrast.
 const OTHER: (f64, f64) = (1.4, 0.25);
 
 impl Profile {
-    /// What keeps each section from being suggested, as bits: those flags that do, and the bits of this file; 0 where nothing
-    /// does. It reaches one diameter beyond a change of lumen and a flap.
+    /// Reasons not to suggest each section, as bits. Changes of lumen and flaps extend by one diameter.
     pub fn hindrances(&self) -> Vec<u32> {
         let mut found: Vec<u32> = (0..self.len()).map(|n| self.flags[n] & FLAGGED | self.unsure(n)).collect();
         let measured: Vec<usize> = (0..self.len()).filter(|n| self.area[*n].is_finite()).collect();
@@ -49,12 +47,10 @@ impl Profile {
         if self.uncertainty[n] <= UNSURE_SHARE * self.width(n) { 0 } else { UNSURE }
     }
 
-    /// The diameter of a circle of the same area (mm).
     fn width(&self, n: usize) -> f64 {
         2.0 * (self.area[n] / PI).sqrt()
     }
 
-    /// Whether two sections that follow each other show two lumens.
     fn is_change(&self, before: usize, n: usize) -> bool {
         let [a, b] = [self.width(before), self.width(n)];
         let way = self.center[n] - self.center[before];
@@ -66,7 +62,6 @@ impl Profile {
         sideways > if is_other { 0.5 * jump } else { jump }
     }
 
-    /// Sets a bit from one section to another and so far (mm) to both sides of them.
     fn spread(&self, found: &mut [u32], [from, to]: [usize; 2], reach: f64, bit: u32) {
         let [low, high] = [self.arc_length[from] - reach, self.arc_length[to] + reach];
         let first = self.arc_length.partition_point(|at| *at < low);

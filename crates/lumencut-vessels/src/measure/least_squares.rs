@@ -1,24 +1,22 @@
-//! Least squares with a few parameters: the method of Levenberg and Marquardt (Marquardt 1963, doi:10.1137/0111030).
+//! Nonlinear least squares with few parameters (Levenberg-Marquardt; Marquardt 1963, doi:10.1137/0111030).
 
-/// The sum of squares at some parameters, near which it is a parabola.
 #[derive(Clone, Copy, Debug)]
-pub struct Normal<const N: usize> {
-    /// The sum of squares.
+pub(crate) struct Normal<const N: usize> {
     pub cost: f64,
-    /// The products of the derivatives by each pair of parameters.
+    /// Products of the derivatives by each pair of parameters.
     pub matrix: [[f64; N]; N],
-    /// The products of the derivatives and of what is missing.
+    /// Products of derivatives and residuals.
     pub slope: [f64; N],
 }
 
 impl<const N: usize> Normal<N> {
-    /// No terms yet.
-    pub fn zero() -> Self {
+    #[cfg(test)]
+    pub(crate) fn zero() -> Self {
         Self { cost: 0.0, matrix: [[0.0; N]; N], slope: [0.0; N] }
     }
 
-    /// Adds the square of by how much a combination of parameters misses what is expected of it, in standard deviations.
-    pub fn expect(&mut self, by: &[f64; N], missing: f64, deviation: f64) {
+    /// Adds a prior: the squared residual of a linear combination, in standard deviations.
+    pub(crate) fn expect(&mut self, by: &[f64; N], missing: f64, deviation: f64) {
         let weight = 1.0 / (deviation * deviation);
         self.cost += weight * missing * missing;
         for a in (0..N).filter(|a| by[*a] != 0.0) {
@@ -30,23 +28,19 @@ impl<const N: usize> Normal<N> {
     }
 }
 
-/// The parameters where the sum of squares is least, and the sum there.
 #[derive(Clone, Copy, Debug)]
-pub struct Minimum<const N: usize> {
-    /// The parameters.
+pub(crate) struct Minimum<const N: usize> {
     pub at: [f64; N],
-    /// The sum there.
     pub normal: Normal<N>,
 }
 
-/// From `start` down to the least sum of squares, in at most `steps` steps. `evaluate` gives None for parameters that are not
-/// allowed; None comes back where `start` is not.
-pub fn minimum<const N: usize>(
+/// Minimizes from `start` in at most `steps` steps; `evaluate` returns None for invalid parameters.
+pub(crate) fn minimum<const N: usize>(
     start: [f64; N],
     steps: usize,
     mut evaluate: impl FnMut(&[f64; N]) -> Option<Normal<N>>,
 ) -> Option<Minimum<N>> {
-    /// What the sum must fall by to go on, as a share of itself.
+    /// Relative decrease below which the iteration stops.
     const ENOUGH: f64 = 1e-4;
     let mut best = Minimum { at: start, normal: evaluate(&start)? };
     let mut damping = 1e-3;
@@ -75,7 +69,7 @@ pub fn minimum<const N: usize>(
     Some(best)
 }
 
-/// The lower triangle whose product with its transpose is a matrix; None where the matrix is not positive definite.
+/// Cholesky factor; None if the matrix is not positive definite.
 fn cholesky<const N: usize>(matrix: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
     let mut lower = [[0.0; N]; N];
     for i in 0..N {
@@ -96,8 +90,8 @@ fn cholesky<const N: usize>(matrix: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
     Some(lower)
 }
 
-/// The solution of a symmetric system; None where it has none.
-pub fn solved<const N: usize>(matrix: &[[f64; N]; N], right: &[f64; N]) -> Option<[f64; N]> {
+/// Solution of a symmetric positive definite system; None otherwise.
+pub(crate) fn solved<const N: usize>(matrix: &[[f64; N]; N], right: &[f64; N]) -> Option<[f64; N]> {
     let lower = cholesky(matrix)?;
     let mut solution = *right;
     for i in 0..N {
@@ -111,8 +105,8 @@ pub fn solved<const N: usize>(matrix: &[[f64; N]; N], right: &[f64; N]) -> Optio
     Some(solution)
 }
 
-/// The variance of a combination of parameters whose sum of squares has this matrix.
-pub fn variance<const N: usize>(matrix: &[[f64; N]; N], combination: &[f64; N]) -> Option<f64> {
+/// Variance of a linear combination of parameters, from the normal matrix.
+pub(crate) fn variance<const N: usize>(matrix: &[[f64; N]; N], combination: &[f64; N]) -> Option<f64> {
     let solution = solved(matrix, combination)?;
     Some((0..N).map(|n| solution[n] * combination[n]).sum())
 }

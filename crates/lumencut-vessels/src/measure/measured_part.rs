@@ -1,35 +1,28 @@
-//! The part of a vessel that can be measured: all of it, or the longest stretch that has a wall where the whole has none.
+//! The measurable part of a vessel: all of it, or the longest stretch with a wall.
 
-use super::place::Place;
 use super::scale::Scale;
+use super::section_plane::SectionPlane;
 use crate::voxels::Voxels;
 use lumencut_core::error::Result;
 
-/// A vessel without a wall is looked at in pieces of this length (mm), or longer ones where they would be more than so many.
+/// Length of a piece (mm), and the maximum number of pieces.
 const PIECE: f64 = 10.0;
 const MOST_PIECES: usize = 40;
 
-/// A shorter stretch (pieces) does not tell what a lumen looks like.
+/// Shorter stretches (in pieces) do not show the lumen reliably.
 const LEAST_PIECES: usize = 2;
 
-/// Where a vessel is measured, and what its lumen looks like there.
 #[derive(Clone, Copy, Debug)]
-pub struct MeasuredPart {
-    /// What lumen and surroundings look like.
+pub(crate) struct MeasuredPart {
     pub scale: Scale,
-    /// Where it begins and ends (arc lengths, mm).
+    /// Start and end (arc lengths, mm).
     pub ends: [f64; 2],
 }
 
 impl MeasuredPart {
-    /// The part of a vessel whose lumen differs from its surroundings. `radius` is about that of the vessel (mm), where known.
-    ///
-    /// Where the vessel as a whole has a wall that is all of it. A line that runs on where nothing tells lumen from tissue has none
-    /// as a whole, though much of it may: then it is the longest stretch of pieces each of which has a wall, and that has one itself.
-    ///
-    /// # Errors
-    /// That of the whole vessel ([`Scale::of`]) where no stretch of 20 mm has a wall either.
-    pub fn of(voxels: &Voxels, places: &[Place], radius: Option<f64>) -> Result<Self> {
+    /// The measurable part; `radius` is the approximate radius (mm), if known. If the whole vessel has no
+    /// wall, it is the longest run of pieces of 10 mm with a wall.
+    pub(crate) fn of(voxels: &Voxels, places: &[SectionPlane], radius: Option<f64>) -> Result<Self> {
         let whole = Scale::of(voxels, places, radius);
         match whole {
             Ok(scale) => Ok(Self { scale, ends: ends(places) }),
@@ -37,27 +30,26 @@ impl MeasuredPart {
         }
     }
 
-    /// Whether a place lies in it.
-    pub fn holds(&self, place: &Place) -> bool {
+    pub(crate) fn holds(&self, place: &SectionPlane) -> bool {
         (self.ends[0]..=self.ends[1]).contains(&place.at)
     }
 
-    /// The stretches of these places that lie before and behind it (arc lengths, mm).
-    pub fn left_out(&self, places: &[Place]) -> Vec<[f64; 2]> {
+    /// Stretches before and after it (arc lengths, mm).
+    pub(crate) fn left_out(&self, places: &[SectionPlane]) -> Vec<[f64; 2]> {
         let [first, last] = ends(places);
         let beside = [[first, self.ends[0]], [self.ends[1], last]];
         beside.into_iter().filter(|[from, to]| from < to).collect()
     }
 }
 
-fn ends(places: &[Place]) -> [f64; 2] {
+fn ends(places: &[SectionPlane]) -> [f64; 2] {
     [places.first(), places.last()].map(|place| place.map_or(0.0, |place| place.at))
 }
 
-fn longest(voxels: &Voxels, places: &[Place], radius: Option<f64>) -> Option<MeasuredPart> {
+fn longest(voxels: &Voxels, places: &[SectionPlane], radius: Option<f64>) -> Option<MeasuredPart> {
     let [first, last] = ends(places);
     let count = (((last - first) / PIECE).round() as usize).clamp(1, MOST_PIECES);
-    let pieces: Vec<&[Place]> = places.chunks(places.len().div_ceil(count)).collect();
+    let pieces: Vec<&[SectionPlane]> = places.chunks(places.len().div_ceil(count)).collect();
     let has_wall: Vec<bool> = pieces.iter().map(|piece| Scale::of(voxels, piece, radius).is_ok()).collect();
     (LEAST_PIECES..=pieces.len()).rev().find_map(|length| {
         let mut begins =

@@ -1,4 +1,4 @@
-//! How a vessel is measured: with what its tree tells of the point spread and of walls, or the vessel itself.
+//! Entry points of measuring: a vessel alone, or with the point spread and walls found on its tree.
 
 use std::cmp::Ordering;
 use std::sync::OnceLock;
@@ -6,13 +6,13 @@ use std::sync::OnceLock;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::looked::{DEFAULT_FWHM, Looked, assumed};
-use super::place::known_radius;
-use super::point_spread::{NARROW, SharpEdges, Told};
+use super::point_spread::{SharpEdges, SpreadEstimate, TOO_NARROW};
+use super::prepared::{DEFAULT_FWHM, PreparedVessel, assumed};
 use super::profile::{PointSpread, Profile, Source};
 use super::request::MeasureRequest;
-use super::told_by_tree::ToldByTree;
-use super::tree_walls::ToldWall;
+use super::section_plane::known_radius;
+use super::tree_findings::TreeFindings;
+use super::tree_walls::VesselWall;
 use super::wall_level::WallRequest;
 use crate::voxels::Voxels;
 use lumencut_core::error::{ErrorKind, Result};
@@ -20,162 +20,144 @@ use lumencut_core::stop::{Stop, go_on};
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::Volume;
 
-/// The distance of sections unless somebody asks for another one (mm), at most.
+/// Default distance of sections (mm), at most.
 pub const STEP: f64 = 0.5;
 
-/// The standard deviation of a point spread that is assumed, as a share of it.
-const ASSUMED: f64 = 0.2;
+/// Relative standard deviation of an assumed point spread.
+const ASSUMED_DEVIATION: f64 = 0.2;
 
-/// The point spread and the level of walls are told by at most this number of vessels of a tree, the widest ones.
-const MOST_ASKED: usize = 8;
+/// Maximum number of vessels, the widest ones, that estimate point spread and wall level.
+const MAX_CONTRIBUTING: usize = 8;
 
-/// The profile of a vessel.
-///
-/// # Errors
-/// [`ErrorKind::Measuring`] for a vessel outside the volume or without a lumen, [`ErrorKind::Settings`] for a step or a width of
-/// the point spread that is invalid, [`ErrorKind::VesselTree`] for a vessel without length, [`ErrorKind::Interrupted`].
+/// Measures the profile of a vessel. Errors: [`ErrorKind::Measuring`] for a vessel outside the volume or
+/// without a lumen, [`ErrorKind::Settings`] for an invalid step or point spread, [`ErrorKind::VesselTree`]
+/// for a vessel without length, [`ErrorKind::Interrupted`].
 pub fn measure(volume: &Volume, vessel: &Vessel, request: &MeasureRequest) -> Result<Profile> {
     request.check()?;
     let voxels = Voxels::new(volume);
-    let looked = Looked::new(&voxels, vessel, request)?;
+    let prepared = PreparedVessel::new(&voxels, vessel, request)?;
     let found = match request.fwhm {
         None if request.tree.is_empty() => {
-            let spread = match looked.point_spread(&voxels, request.stop)? {
-                Told::Width(found) => told(&found, found.on()),
-                Told::Nothing(reason) => default(&voxels, reason),
+            let spread = match prepared.point_spread(&voxels, request.stop)? {
+                SpreadEstimate::Width(found) => spread_of(&found, found.on()),
+                SpreadEstimate::Nothing(reason) => default(&voxels, reason),
             };
-            ToldByTree { spread, walls: Vec::new() }
+            TreeFindings { spread, walls: Vec::new() }
         }
-        // As it is given, or as the tree tells it for all that is measured in its scan.
-        _ => told_by_tree(volume, request)?,
+        _ => tree_findings(volume, request)?,
     };
-    looked.profile(&voxels, vessel, request, found)
+    prepared.profile(&voxels, vessel, request, found)
 }
 
-/// The profile of a vessel with what [`told_by_tree`] found for its tree: the same as that of [`measure`], which finds it anew.
-///
-/// # Errors
-/// As [`measure`].
-pub fn measure_under(
-    told: ToldByTree,
+/// As [`measure`], with the result of [`tree_findings`] instead of computing it again. Errors: As [`measure`].
+pub fn measure_with(
+    findings: TreeFindings,
     volume: &Volume,
     vessel: &Vessel,
     request: &MeasureRequest,
 ) -> Result<Profile> {
     let voxels = Voxels::new(volume);
-    Looked::new(&voxels, vessel, request)?.profile(&voxels, vessel, request, told)
+    PreparedVessel::new(&voxels, vessel, request)?.profile(&voxels, vessel, request, findings)
 }
 
-/// What a tree tells of all that is measured along it, its vessels and paths through several of them: the point spread of the scan,
-/// as it is given or as the widest vessels tell it, and what these tell of the level of walls.
-///
-/// # Errors
+/// Estimates the point spread (unless given) and the wall levels on the widest vessels of a tree. Errors:
 /// [`ErrorKind::Settings`] for an invalid width, [`ErrorKind::Interrupted`].
-pub fn told_by_tree(volume: &Volume, request: &MeasureRequest) -> Result<ToldByTree> {
-    TreeMeasuring::new(volume, request)?.told(request.stop)
+pub fn tree_findings(volume: &Volume, request: &MeasureRequest) -> Result<TreeFindings> {
+    TreeMeasuring::new(volume, request)?.findings(request.stop)
 }
 
-/// The vessels of a tree in a volume. Those that told something are not looked at again where they are measured.
+/// The vessels of a tree in a volume, with their intermediate results cached.
 pub struct TreeMeasuring<'a, 'v> {
     voxels: Voxels<'v>,
     request: MeasureRequest<'a>,
-    looked: Vec<OnceLock<Looked>>,
+    prepared: Vec<OnceLock<PreparedVessel>>,
 }
 
 impl<'a, 'v> TreeMeasuring<'a, 'v> {
-    /// The vessels of the tree that is asked for.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Settings`] for a point spread or a wall that is invalid.
+    /// Errors: [`ErrorKind::Settings`] for an invalid point spread or wall.
     pub fn new(volume: &Volume<'v>, request: &MeasureRequest<'a>) -> Result<Self> {
         request.check()?;
-        let looked = request.tree.iter().map(|_| OnceLock::new()).collect();
-        Ok(Self { voxels: Voxels::new(volume), request: *request, looked })
+        let prepared = request.tree.iter().map(|_| OnceLock::new()).collect();
+        Ok(Self { voxels: Voxels::new(volume), request: *request, prepared })
     }
 
-    /// What the tree tells, as [`told_by_tree`]; `stop` is asked whether to stop.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Interrupted`].
-    pub fn told(&self, stop: Stop) -> Result<ToldByTree> {
+    /// See [`tree_findings`].
+    pub fn findings(&self, stop: Stop) -> Result<TreeFindings> {
         let request = MeasureRequest { stop, ..self.request };
         let spread = match request.fwhm {
             Some(fwhm) => given(fwhm),
-            None => self.told_spread(&request)?,
+            None => self.estimated_spread(&request)?,
         };
-        let walls = self.told_walls(spread.fwhm, &request)?;
-        Ok(ToldByTree { spread, walls })
+        let walls = self.wall_levels(spread.fwhm, &request)?;
+        Ok(TreeFindings { spread, walls })
     }
 
-    /// The profile of a vessel of the tree, by its number, with what the tree told; `stop` is asked whether to stop.
-    ///
-    /// # Errors
-    /// As [`measure`].
-    pub fn profile(&self, n: usize, told: ToldByTree, stop: Stop) -> Result<Profile> {
+    /// Measures vessel number `n` of the tree. Errors: As [`measure`].
+    pub fn profile(&self, n: usize, findings: TreeFindings, stop: Stop) -> Result<Profile> {
         let request = MeasureRequest { stop, ..self.request };
-        self.looked(n, &request)?.profile(&self.voxels, &request.tree[n], &request, told)
+        self.prepared(n, &request)?.profile(&self.voxels, &request.tree[n], &request, findings)
     }
 
-    /// The numbers of the vessels that are asked, from the widest on, whatever their order in the tree.
-    fn asked(&self) -> Vec<usize> {
+    /// Numbers of the widest vessels, independent of their order in the tree.
+    fn widest_vessels(&self) -> Vec<usize> {
         let tree = self.request.tree;
         let mut order: Vec<usize> = (0..tree.len()).collect();
         order.sort_by(|a, b| wider(&tree[*a], &tree[*b]).then(a.cmp(b)));
-        order.truncate(MOST_ASKED);
+        order.truncate(MAX_CONTRIBUTING);
         order
     }
 
-    /// What the widest vessels tell of the level of their walls under a point spread (FWHM, mm). One vessel alone tells nobody.
-    fn told_walls(&self, fwhm: f64, request: &MeasureRequest) -> Result<Vec<ToldWall>> {
+    /// Wall levels of the widest vessels under a point spread (FWHM, mm). Needs at least two vessels.
+    fn wall_levels(&self, fwhm: f64, request: &MeasureRequest) -> Result<Vec<VesselWall>> {
         if request.tree.len() < 2 || request.wall == WallRequest::Off {
             return Ok(Vec::new());
         }
-        let wall = |n: usize| -> Result<Option<ToldWall>> {
-            let Some(looked) = self.looked_or_none(n, request)? else { return Ok(None) };
-            let level = looked.wall_level(&self.voxels, fwhm, request.stop)?;
-            Ok(level.map(|level| ToldWall { vessel: n, level }))
+        let wall = |n: usize| -> Result<Option<VesselWall>> {
+            let Some(prepared) = self.prepared_or_none(n, request)? else { return Ok(None) };
+            let level = prepared.wall_level(&self.voxels, fwhm, request.stop)?;
+            Ok(level.map(|level| VesselWall { vessel: n, level }))
         };
-        let found: Vec<Option<ToldWall>> = self.asked().into_par_iter().map(wall).collect::<Result<_>>()?;
+        let found: Vec<Option<VesselWall>> =
+            self.widest_vessels().into_par_iter().map(wall).collect::<Result<_>>()?;
         Ok(found.into_iter().flatten().collect())
     }
 
-    /// The point spread that the widest vessels tell.
-    fn told_spread(&self, request: &MeasureRequest) -> Result<PointSpread> {
-        let mut why = NARROW;
-        for n in self.asked() {
+    fn estimated_spread(&self, request: &MeasureRequest) -> Result<PointSpread> {
+        let mut why = TOO_NARROW;
+        for n in self.widest_vessels() {
             go_on(request.stop)?;
-            let Some(wide) = self.looked_or_none(n, request)? else { continue };
+            let Some(wide) = self.prepared_or_none(n, request)? else { continue };
             match wide.point_spread(&self.voxels, request.stop)? {
-                Told::Width(found) => {
+                SpreadEstimate::Width(found) => {
                     let on = format!("{} of vessel {n} of the tree", found.on());
-                    return Ok(told(&found, on));
+                    return Ok(spread_of(&found, on));
                 }
-                Told::Nothing(NARROW) => {}
-                Told::Nothing(reason) => why = reason,
+                SpreadEstimate::Nothing(TOO_NARROW) => {}
+                SpreadEstimate::Nothing(reason) => why = reason,
             }
         }
         Ok(default(&self.voxels, why))
     }
 
-    /// A vessel that was looked at, or none where it cannot be measured: it tells nothing.
-    fn looked_or_none(&self, n: usize, request: &MeasureRequest) -> Result<Option<&Looked>> {
-        match self.looked(n, request) {
-            Ok(looked) => Ok(Some(looked)),
+    /// None if the vessel cannot be measured.
+    fn prepared_or_none(&self, n: usize, request: &MeasureRequest) -> Result<Option<&PreparedVessel>> {
+        match self.prepared(n, request) {
+            Ok(prepared) => Ok(Some(prepared)),
             Err(error) if error.kind == ErrorKind::Interrupted => Err(error),
             Err(_) => Ok(None),
         }
     }
 
-    fn looked(&self, n: usize, request: &MeasureRequest) -> Result<&Looked> {
-        if let Some(looked) = self.looked[n].get() {
-            return Ok(looked);
+    fn prepared(&self, n: usize, request: &MeasureRequest) -> Result<&PreparedVessel> {
+        if let Some(prepared) = self.prepared[n].get() {
+            return Ok(prepared);
         }
-        let looked = Looked::new(&self.voxels, &request.tree[n], request)?;
-        Ok(self.looked[n].get_or_init(|| looked))
+        let prepared = PreparedVessel::new(&self.voxels, &request.tree[n], request)?;
+        Ok(self.prepared[n].get_or_init(|| prepared))
     }
 }
 
-/// Which of two vessels comes first: the wider one, else the longer one, else the one whose points are first.
+/// Order of vessels: wider, then longer, then by coordinates.
 fn wider(one: &Vessel, other: &Vessel) -> Ordering {
     let radius = |vessel: &Vessel| known_radius(vessel).unwrap_or(0.0);
     let length = |vessel: &Vessel| vessel.arc_length().last().copied().unwrap_or(0.0);
@@ -191,12 +173,12 @@ fn given(fwhm: f64) -> PointSpread {
     PointSpread { fwhm, deviation: 0.0, source: Source::Given }
 }
 
-fn told(found: &SharpEdges, on: String) -> PointSpread {
+fn spread_of(found: &SharpEdges, on: String) -> PointSpread {
     PointSpread { fwhm: found.fwhm, deviation: found.deviation, source: Source::Estimated { on } }
 }
 
 fn default(voxels: &Voxels, reason: &str) -> PointSpread {
     let from = format!("{DEFAULT_FWHM} sides of a voxel, as {reason}");
     let fwhm = assumed(voxels);
-    PointSpread { fwhm, deviation: ASSUMED * fwhm, source: Source::Assumed { from } }
+    PointSpread { fwhm, deviation: ASSUMED_DEVIATION * fwhm, source: Source::Assumed { from } }
 }

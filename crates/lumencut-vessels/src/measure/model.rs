@@ -1,4 +1,4 @@
-//! What a scanner shows of a section: the lumen, its wall where it is told apart, and the surroundings, each of its own level.
+//! Models of a section: lumen, optional wall, and surroundings, each with its own level.
 
 use glam::DVec2;
 
@@ -7,42 +7,36 @@ use super::parameters::{BACKGROUND, HARMONICS, LUMEN, PLAIN, SECTORS, THICKNESS,
 use super::wall::Wall;
 use lumencut_core::math::lanes::FAN;
 
-/// Walls are this thin and this thick (mm): what is thicker is no wall, but a thrombus or another tissue.
+/// Range of wall thickness (mm): anything thicker is thrombus or other tissue.
 const THINNEST: f64 = 0.2;
 const THICKEST: f64 = 3.3;
 
-/// The shares of a section at sixteen places, and their derivatives by the parameters.
-pub struct Modelled<const N: usize> {
-    /// The shares.
+/// Model values (shares) at sixteen points, and their derivatives.
+pub(crate) struct Modelled<const N: usize> {
     pub share: [f32; FAN],
-    /// The derivatives, in the order of the parameters.
+    /// In the order of the parameters.
     pub by: [[f32; FAN]; N],
 }
 
-/// A section with `N` parameters under a blur.
-pub trait Model<const N: usize>: Sized + Sync {
-    /// The section with these parameters. Directions are those from `origin` (mm).
+pub(crate) trait Model<const N: usize>: Sized + Sync {
+    /// Directions are measured from `origin` (mm).
     fn new(at: &[f64; N], ellipse: &Ellipse, whitening: Whitening, origin: DVec2) -> Self;
 
-    /// Whether a section may have these parameters.
     fn allows(_: &[f64; N]) -> bool {
         true
     }
 
-    /// Its shares at sixteen places (mm).
     fn modelled(&self, x: &[f32; FAN], y: &[f32; FAN]) -> Modelled<N>;
 }
 
-/// A lumen of one level in surroundings of another one.
-pub struct TwoLevels {
+pub(crate) struct TwoLevels {
     boundary: Boundary,
     lumen: f32,
     background: f32,
 }
 
 impl TwoLevels {
-    /// The section of a lumen, of these levels of lumen and surroundings.
-    pub fn of(ellipse: &Ellipse, [lumen, background]: [f64; 2], whitening: Whitening) -> Self {
+    pub(crate) fn of(ellipse: &Ellipse, [lumen, background]: [f64; 2], whitening: Whitening) -> Self {
         let [lumen, background] = [lumen, background].map(|level| level as f32);
         Self { boundary: Boundary::new(ellipse, whitening), lumen, background }
     }
@@ -72,8 +66,8 @@ impl Model<PLAIN> for TwoLevels {
     }
 }
 
-/// A lumen and a wall around it, which is as thick all around, in surroundings that differ from side to side.
-pub struct ThreeLevels {
+/// A lumen with a wall of constant thickness, in surroundings that differ from side to side.
+pub(crate) struct ThreeLevels {
     inner: Boundary,
     outer: Boundary,
     origin: [f32; 2],
@@ -85,8 +79,12 @@ pub struct ThreeLevels {
 }
 
 impl ThreeLevels {
-    /// The section of a lumen with a wall, of these levels of lumen and surroundings.
-    pub fn of(ellipse: &Ellipse, wall: &Wall, [lumen, background]: [f64; 2], whitening: Whitening) -> Self {
+    pub(crate) fn of(
+        ellipse: &Ellipse,
+        wall: &Wall,
+        [lumen, background]: [f64; 2],
+        whitening: Whitening,
+    ) -> Self {
         let mut at = [0.0; WALLED];
         at[..SHAPE].copy_from_slice(&ellipse.parameters());
         (at[LUMEN], at[BACKGROUND]) = (lumen, background);
@@ -95,11 +93,10 @@ impl ThreeLevels {
         Self::new(&at, ellipse, whitening, wall.origin)
     }
 
-    /// By how much the surroundings differ at a place from what they are by and large, for a share of 1 in each harmonic.
     #[inline(always)]
     fn harmonics(&self, x: f32, y: f32) -> [f32; HARMONICS] {
         let (dx, dy) = (x - self.origin[0], y - self.origin[1]);
-        // In the very middle, where nothing is seen of the surroundings, there is no direction.
+        // 1e-6 avoids division by 0 at the centre, where the surroundings do not show.
         let length = (dx * dx + dy * dy + 1e-6).sqrt();
         let (cos, sin) = (dx / length, dy / length);
         let (cos_2, sin_2) = (cos * cos - sin * sin, 2.0 * cos * sin);
@@ -153,7 +150,7 @@ impl Model<WALLED> for ThreeLevels {
             all.by[LUMEN][l] = within[l];
             all.by[WALL][l] = enclosed[l] - within[l];
             all.by[BACKGROUND][l] = 1.0 - enclosed[l];
-            // The mean of the semi-axes grows as the thickness does.
+            // The mean outer semi-axis grows with the thickness.
             all.by[THICKNESS][l] = (self.wall - background[l]) * outwards[2][l] * self.thickness;
             all.share[l] = self.lumen * within[l]
                 + self.wall * (enclosed[l] - within[l])

@@ -1,4 +1,4 @@
-//! What lies in the way across a section, and which voxels it spoils.
+//! Finds obstacles across a section, and the voxels they affect.
 
 use std::f64::consts::TAU;
 
@@ -8,40 +8,38 @@ use super::flags::{BRANCH, CALCIUM, METAL, NEIGHBOR, OUTSIDE};
 use super::rays::{RAYS, Ray};
 use lumencut_core::math::statistics::median;
 
-/// Calcium spoils what is nearer to it than this, in widths of the blur.
+/// Margin around bright obstacles, in blur widths.
 const BRIGHT_MARGIN: f64 = 0.8;
 
-/// Calcium belongs to the wall, and a neighbour is beside it, up to this distance (mm).
-const BESIDE: f64 = 1.5;
+/// Calcium up to this distance (mm) belongs to the wall; other structures are neighbours.
+const WALL_CALCIUM_MM: f64 = 1.5;
 
-/// The number of rays that must meet something for it to be there, and the number all around for a stent.
+/// Minimum number of rays for any obstacle, and for a stent that surrounds the lumen.
 const LEAST_RAYS: usize = 3;
 const ALL_AROUND: usize = RAYS * 3 / 5;
 
-/// Struts that stand apart are a stent too where so many rays of all meet something bright, and so many in each quarter of them:
-/// calcium lies to one side, or to two.
+/// Struts are a stent if this many rays in all, and per quarter, are bright; calcium lies on one or two
+/// sides.
 const LATTICE: [usize; 2] = [RAYS * 2 / 5, RAYS / 16];
 
-/// Above this share there is metal: four times the contrast of the lumen above its level.
+/// Share above which bright material is metal: four times the contrast above the lumen level.
 const METAL_SHARE: f64 = 5.0;
 
-/// Lumen goes on sideways where rays stay in it farther than others by this factor.
+/// The lumen continues sideways if rays stay in it farther than others by this factor.
 const OPEN: f64 = 1.6;
 
-/// How far from the centre voxels count in each direction.
+/// Radius per direction within which voxels count.
 #[derive(Clone, Debug)]
-pub struct Obstacles {
+pub(crate) struct Obstacles {
     center: DVec2,
     limit: [f64; RAYS],
-    /// The least of these.
     nearest: f64,
-    /// The share of all directions in which nothing is in the way of the wall.
+    /// Share of directions with an unobstructed wall.
     pub free: f64,
 }
 
 impl Obstacles {
-    /// What rays from a centre met, under a blur of this width (mm).
-    pub fn new(rays: &[Ray], center: DVec2, width: f64) -> Self {
+    pub(crate) fn new(rays: &[Ray], center: DVec2, width: f64) -> Self {
         let mut edges: Vec<f64> = rays.iter().filter_map(|ray| ray.edge).collect();
         let middle = median(&mut edges).unwrap_or(f64::INFINITY);
         let own: Vec<f64> = rays.iter().map(|ray| limit(ray, middle, width)).collect();
@@ -50,7 +48,7 @@ impl Obstacles {
             if !limit.is_finite() {
                 continue;
             }
-            // The blur of what is in the way reaches sideways too.
+            // Blur spreads obstacles to the neighbouring directions.
             let beside = (0.5 * width / limit.max(0.5 * width)).asin();
             let count = ((beside / TAU * RAYS as f64).ceil() as usize).min(RAYS / 4);
             for m in n + RAYS - count..=n + RAYS + count {
@@ -64,8 +62,7 @@ impl Obstacles {
         all
     }
 
-    /// Whether a voxel counts.
-    pub fn keeps(&self, point: DVec2) -> bool {
+    pub(crate) fn keeps(&self, point: DVec2) -> bool {
         let away = point - self.center;
         let length = away.length();
         if length <= self.nearest {
@@ -77,7 +74,6 @@ impl Obstacles {
     }
 }
 
-/// How far a ray's voxels count.
 fn limit(ray: &Ray, middle: f64, width: f64) -> f64 {
     let is_open = ray.edge.is_none_or(|edge| edge > OPEN * middle + 0.5 * width);
     match ray.bright_at {
@@ -87,12 +83,11 @@ fn limit(ray: &Ray, middle: f64, width: f64) -> f64 {
     }
 }
 
-/// Whether a ray meets calcium or metal at a wall (mm from where it begins), under a blur of this width (mm).
-pub fn is_bright(ray: &Ray, wall: f64, width: f64) -> bool {
-    ray.bright_at.is_some_and(|at| at < wall + BESIDE.max(width))
+/// Whether a ray meets calcium or metal at a wall (mm from its start), under a blur of `width` mm.
+pub(crate) fn is_bright(ray: &Ray, wall: f64, width: f64) -> bool {
+    ray.bright_at.is_some_and(|at| at < wall + WALL_CALCIUM_MM.max(width))
 }
 
-/// Whether bright rays go around as the struts of a stent do.
 fn is_lattice(is_bright: impl Fn(usize) -> bool) -> bool {
     let quarter = RAYS / 4;
     let counts: Vec<usize> =
@@ -101,11 +96,10 @@ fn is_lattice(is_bright: impl Fn(usize) -> bool) -> bool {
     counts.iter().sum::<usize>() >= all && counts.iter().all(|count| *count >= each)
 }
 
-/// What is said of a section whose rays met this, with the wall so far away in each direction (mm), under a blur of this
-/// width (mm).
-pub fn flags_of(rays: &[Ray], wall: impl Fn(usize) -> f64, width: f64) -> u32 {
+/// Flags of a section from its rays, with the wall per ray (mm), under a blur of `width` mm.
+pub(crate) fn flags_of(rays: &[Ray], wall: impl Fn(usize) -> f64, width: f64) -> u32 {
     let count = |is: &dyn Fn(usize, &Ray) -> bool| rays.iter().enumerate().filter(|(n, r)| is(*n, r)).count();
-    let beside = BESIDE.max(width);
+    let beside = WALL_CALCIUM_MM.max(width);
     let is_bright = |n: usize, ray: &Ray| is_bright(ray, wall(n), width);
     let bright = count(&is_bright);
     let is_metal = |n: usize, ray: &Ray| is_bright(n, ray) && ray.brightest > METAL_SHARE;
@@ -139,7 +133,7 @@ mod tests {
     fn struts_all_around_are_a_stent_and_calcium_on_one_or_two_sides_is_none() {
         // Struts of four rays with gaps of five.
         assert!(is_lattice(|n| n % 9 < 4));
-        // Half of the wall; two quarters that lie across from each other; few struts.
+        // Half of the wall; two opposite quarters; few struts.
         assert!(!is_lattice(|n| n < 32));
         assert!(!is_lattice(|n| n % 32 < 16));
         assert!(!is_lattice(|n| n % 9 < 3));

@@ -1,24 +1,21 @@
-//! The parameters of a section, with and without a wall, by where they stand.
+//! Indices of the fit parameters, with and without a wall.
 
 use super::ellipse::SHAPE;
 
-/// Where the levels of the lumen and of its surroundings stand among the parameters, after those of the ellipse.
-pub const LUMEN: usize = SHAPE;
-/// See [`LUMEN`].
-pub const BACKGROUND: usize = SHAPE + 1;
+pub(crate) const LUMEN: usize = SHAPE;
+pub(crate) const BACKGROUND: usize = SHAPE + 1;
 
-/// The number of parameters without a wall.
-pub const PLAIN: usize = SHAPE + 2;
+/// Number of parameters without a wall.
+pub(crate) const PLAIN: usize = SHAPE + 2;
 
-/// Where the logarithm of the wall's thickness (mm), its level, and the shares of the surroundings by direction stand.
-pub const THICKNESS: usize = PLAIN;
-/// See [`THICKNESS`].
-pub const WALL: usize = PLAIN + 1;
-/// See [`THICKNESS`].
-pub const SECTORS: usize = PLAIN + 2;
+/// Index of the logarithm of the wall thickness (mm).
+pub(crate) const THICKNESS: usize = PLAIN;
+pub(crate) const WALL: usize = PLAIN + 1;
+/// Index of the first harmonic of the surroundings.
+pub(crate) const SECTORS: usize = PLAIN + 2;
 
-/// The cosine and the sine of the direction, of twice and of three times it: surroundings differ from side to side.
-pub const HARMONICS: usize = 6;
+/// Cosine and sine of one, two and three times the direction.
+pub(crate) const HARMONICS: usize = 6;
 
-/// The number of parameters with a wall.
-pub const WALLED: usize = SECTORS + HARMONICS;
+/// Number of parameters with a wall.
+pub(crate) const WALLED: usize = SECTORS + HARMONICS;

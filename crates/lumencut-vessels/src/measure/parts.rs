@@ -1,29 +1,27 @@
-//! What the standard deviation of a diameter is made of.
+//! The parts of a diameter's standard deviation.
 
-/// What the standard deviation of a diameter is made of (mm). The sum of the squares is the square of that.
+/// Parts of the standard deviation of a diameter (mm), added as squares.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Parts {
-    /// The noise.
+    /// Noise.
     pub noise: f64,
-    /// The width of the point spread; with the sign by which a wider one changes the diameter.
+    /// Width of the point spread; signed by the effect of a wider one.
     pub point_spread: f64,
-    /// The level and the thickness of the wall.
+    /// Level and thickness of the wall.
     pub wall: f64,
-    /// The level of the lumen.
+    /// Level of the lumen.
     pub lumen: f64,
-    /// What is not as the model has it: uneven surroundings, and lumens that are no ellipses.
+    /// Model errors: uneven surroundings and lumens that are no ellipses.
     pub surroundings: f64,
 }
 
 impl Parts {
-    /// Those of a diameter that is not known.
-    pub fn unknown() -> Self {
+    pub(crate) fn unknown() -> Self {
         Self::default().map(|_| f64::NAN)
     }
 
-    /// Each part together with that of another diameter.
     #[must_use]
-    pub fn with(&self, other: &Self, both: impl Fn(f64, f64) -> f64) -> Self {
+    pub(crate) fn with(&self, other: &Self, both: impl Fn(f64, f64) -> f64) -> Self {
         Self {
             noise: both(self.noise, other.noise),
             point_spread: both(self.point_spread, other.point_spread),
@@ -33,15 +31,14 @@ impl Parts {
         }
     }
 
-    /// All of them together.
+    /// Root of the sum of squares.
     pub fn total(&self) -> f64 {
         let Self { noise, point_spread, wall, lumen, surroundings } = self;
         [noise, point_spread, wall, lumen, surroundings].map(|part| part * part).iter().sum::<f64>().sqrt()
     }
 
-    /// The parts of a diameter that is larger by this factor.
     #[must_use]
-    pub fn scaled(&self, by: f64) -> Self {
+    pub(crate) fn scaled(&self, by: f64) -> Self {
         self.map(|part| part * by)
     }
 
@@ -56,7 +53,7 @@ impl Parts {
     }
 }
 
-/// One of the parts of a standard deviation.
+/// Names a part of [`Parts`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
     /// [`Parts::noise`].
@@ -72,7 +69,7 @@ pub enum Part {
 }
 
 impl Part {
-    /// All of them, in the order of tables.
+    /// All, in the order of tables.
     pub const ALL: [Self; 5] = [Self::Noise, Self::PointSpread, Self::Wall, Self::Lumen, Self::Surroundings];
 
     /// The name in files and programs.
@@ -86,7 +83,7 @@ impl Part {
         }
     }
 
-    /// This one of some parts (mm, with its sign).
+    /// The value of this part (mm, signed).
     pub fn of(self, parts: &Parts) -> f64 {
         match self {
             Self::Noise => parts.noise,
@@ -98,9 +95,9 @@ impl Part {
     }
 }
 
-/// The standard deviation of a sum of diameters of one vessel, each times a weight. Its point spread, its wall and the level of its
-/// lumen are the same everywhere, so that what is wrong of them is wrong at all places together; noise and surroundings are not.
-pub fn deviation_of_sum(diameters: &[(f64, Parts)]) -> f64 {
+/// Standard deviation of a weighted sum of diameters of one vessel. Errors of point spread, wall and lumen
+/// level are common to all places and add with their signs; noise and surroundings are independent.
+pub(crate) fn deviation_of_sum(diameters: &[(f64, Parts)]) -> f64 {
     let together =
         |part: Part| diameters.iter().map(|(weight, parts)| weight * part.of(parts)).sum::<f64>().powi(2);
     let apart =

@@ -1,4 +1,4 @@
-//! The point spread of the scanner, estimated where the vessel is wide.
+//! Estimates the point spread of the scanner on wide sections.
 
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
@@ -6,98 +6,84 @@ use rayon::prelude::*;
 use super::blur::Blur;
 use super::fit::Fit;
 use super::golden::least;
-use super::place::Place;
 use super::pooled::Level;
+use super::section_plane::SectionPlane;
 use super::sections::{Bench, Known, noise};
 use lumencut_core::error::Result;
 use lumencut_core::math::statistics::median;
 use lumencut_core::stop::{Stop, go_on};
 
-/// The point spread is estimated from at most this number of sections, and from at least that one.
+/// Maximum and minimum number of sections.
 const SECTIONS: (usize, usize) = (16, 3);
 
-/// The point spread is estimated from sections that are at least this number of times as wide as it.
-const WIDE: f64 = 3.0;
+/// Minimum width of a section, in point spreads.
+const MIN_WIDTH: f64 = 3.0;
 
-/// Such a section is free of other things in this share of all directions, its fit misses at most by this factor more than
-/// those of others, and its longer axis is at most this number of times the shorter one.
+/// Limits of suitable sections: free share of directions, residual relative to the others, ratio of the axes.
 const FREE: f64 = 0.95;
 const LEAST_MISSED: f64 = 1.5;
 const ROUND: f64 = 1.35;
 
-/// The range of widths that are tried: from this number of the smallest sides of a voxel to that of its largest ones, and
-/// at most this share of the width of a section.
-const RANGE: [f64; 2] = [0.3, 3.0];
+/// Search range: multiples of the smallest and largest voxel side; maximum share of a section's width.
+const SEARCH_RANGE: [f64; 2] = [0.3, 3.0];
 const SHARE: f64 = 0.5;
 
-/// The middle half of all estimates lies within this share of their median, or else they tell nothing.
+/// Half of the estimates must lie within this share of their median.
 const AGREED: f64 = 0.15;
 
-/// Estimates are at least as unsure as this share of them.
+/// Minimum relative standard deviation: sections share walls and noise.
 const LEAST_SPREAD: f64 = 0.03;
 
-/// They are of one stretch of this number of widths or more: what lies nearer to each other sees the same voxels and agrees for that.
-const STRETCH: f64 = 3.0;
+/// Minimum extent of the sections in point spreads, because neighbours share voxels.
+const MIN_EXTENT: f64 = 3.0;
 
-/// How often the range is narrowed.
+/// Rounds of the search.
 const ROUNDS: usize = 14;
 
-/// A point spread and what it was estimated on.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SharpEdges {
-    /// Its full width at half maximum (mm).
+pub(crate) struct SharpEdges {
     pub fwhm: f64,
-    /// The standard deviation of that (mm).
     pub deviation: f64,
-    /// How many sections told it.
     pub count: usize,
-    /// The arc lengths of the first and the last of them (mm).
+    /// Arc lengths of the first and last section (mm).
     pub ends: [f64; 2],
 }
 
 impl SharpEdges {
-    /// What it was estimated on, in words.
-    pub fn on(&self) -> String {
+    pub(crate) fn on(&self) -> String {
         let [low, high] = self.ends;
         format!("{} wide sections from {low:.0} to {high:.0} mm", self.count)
     }
 }
 
-/// What sections tell of the point spread.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Told {
-    /// A point spread.
+pub(crate) enum SpreadEstimate {
     Width(SharpEdges),
-    /// Nothing, for this reason.
     Nothing(&'static str),
 }
 
-/// The reason why a vessel tells nothing that is too narrow.
-pub const NARROW: &str = "no vessel is wide enough to tell it";
+/// Reason if the vessel is too narrow.
+pub(crate) const TOO_NARROW: &str = "no vessel is wide enough to estimate it";
 
-/// The reason why a vessel tells nothing that is wide along a short stretch alone.
-const SHORT: &str = "wide vessels are free and round along too short a stretch to tell it";
+/// Reason if the wide stretch is too short.
+const TOO_SHORT: &str = "free, round stretches of wide vessels are too short to estimate it";
 
-/// The point spread with which the widest of the sections fit best while the level of the lumen stays as it is seen, and what
-/// it was estimated on.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn estimated(
+/// Point spread with which the widest sections fit best at their visible lumen level.
+pub(crate) fn estimated(
     bench: &Bench,
     sides: DMat3,
-    places: &[Place],
+    places: &[SectionPlane],
     fits: &[Option<Fit>],
     stop: Stop,
-) -> Result<Told> {
+) -> Result<SpreadEstimate> {
     let noise = noise(fits);
     let wide = wide_sections(bench, fits, noise);
     if wide.len() < SECTIONS.1 {
-        return Ok(Told::Nothing(NARROW));
+        return Ok(SpreadEstimate::Nothing(TOO_NARROW));
     }
     let largest =
         [sides.x_axis, sides.y_axis, sides.z_axis].map(DVec3::length).into_iter().fold(0.0, f64::max);
-    let [low, high] = [RANGE[0] * bench.rays.voxels.smallest_side, RANGE[1] * largest];
+    let [low, high] = [SEARCH_RANGE[0] * bench.rays.voxels.smallest_side, SEARCH_RANGE[1] * largest];
     let found: Vec<Result<Option<f64>>> = wide
         .par_iter()
         .map(|n| {
@@ -117,33 +103,32 @@ pub fn estimated(
     }
     let [fwhm, deviation] = match agreed(&mut best, [low, high]) {
         Ok(agreed) => agreed,
-        Err(reason) => return Ok(Told::Nothing(reason)),
+        Err(reason) => return Ok(SpreadEstimate::Nothing(reason)),
     };
     let [first, last] = [wide.iter().min(), wide.iter().max()].map(|n| n.map_or(0.0, |n| places[*n].at));
-    if last - first < STRETCH * fwhm {
-        return Ok(Told::Nothing(SHORT));
+    if last - first < MIN_EXTENT * fwhm {
+        return Ok(SpreadEstimate::Nothing(TOO_SHORT));
     }
-    Ok(Told::Width(SharpEdges { fwhm, deviation, count: best.len(), ends: [first, last] }))
+    Ok(SpreadEstimate::Width(SharpEdges { fwhm, deviation, count: best.len(), ends: [first, last] }))
 }
 
-/// The median of estimates that agree and lie within a range, and its standard deviation; else the reason why there is none.
+/// Median and standard deviation of consistent estimates within a range, or the reason for rejecting them.
 fn agreed(best: &mut [f64], [low, high]: [f64; 2]) -> std::result::Result<Level, &'static str> {
-    let Some(fwhm) = median(best).filter(|_| best.len() >= SECTIONS.1) else { return Err(NARROW) };
+    let Some(fwhm) = median(best).filter(|_| best.len() >= SECTIONS.1) else { return Err(TOO_NARROW) };
     let margin = 0.02 * (high - low);
     if fwhm < low + margin {
-        return Err("the walls of wide vessels are sharper than voxels tell");
+        return Err("the walls of wide vessels are sharper than the voxels can show");
     }
     let away: Vec<f64> = best.iter().map(|one| (one - fwhm).abs()).collect();
     match median(&mut { away }) {
         Some(away) if fwhm <= high - margin && away <= AGREED * fwhm => {
-            // Sections share walls and noise, so that more of them do not make the median as much surer.
+            // Not divided by √n, because sections share walls and noise.
             Ok([fwhm, (1.4826 * away).max(LEAST_SPREAD * fwhm)])
         }
-        _ => Err("the walls of wide vessels do not agree on it"),
+        _ => Err("the walls of wide vessels give different widths"),
     }
 }
 
-/// Round, free sections that are wide, evenly along the vessel.
 fn wide_sections(bench: &Bench, fits: &[Option<Fit>], noise: f64) -> Vec<usize> {
     let side = bench.rays.voxels.smallest_side;
     let mut wide: Vec<(f64, usize)> = (0..fits.len())
@@ -151,11 +136,11 @@ fn wide_sections(bench: &Bench, fits: &[Option<Fit>], noise: f64) -> Vec<usize> 
             let fit = fits[n]?;
             let [short, long] = fit.ellipse.semi_axes();
             let is_good = fit.free > FREE && fit.missed <= LEAST_MISSED * noise && long < ROUND * short;
-            (is_good && 2.0 * short > WIDE * bench.fwhm.max(1.2 * side)).then_some((2.0 * short, n))
+            (is_good && 2.0 * short > MIN_WIDTH * bench.fwhm.max(1.2 * side)).then_some((2.0 * short, n))
         })
         .collect();
     wide.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-    // The wider half of what is wide, evenly along the vessel.
+    // The wider half, spread evenly.
     wide.truncate(wide.len().div_ceil(2).max(SECTIONS.0));
     let every = wide.len().div_ceil(SECTIONS.0).max(1);
     wide.into_iter().step_by(every).map(|(_, n)| n).collect()

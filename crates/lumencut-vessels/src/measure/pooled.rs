@@ -1,35 +1,32 @@
-//! The level of the lumen along a vessel, from the sections that tell it well.
+//! Pools the lumen level along a vessel, from the sections that show it well.
 //!
-//! Where a lumen is narrower than two blurs its peak is lower than its level, and neither the level nor the width can be told
-//! from the section alone. Contrast medium mixes: what the lumen's level is there is told by wider sections around.
+//! Contrast medium mixes, so the pooling is local.
 
-/// How far along the vessel levels count (mm): by 1/e less with each.
+/// Distance (mm) over which the weight falls by 1/e.
 const DISTANCE: f64 = 25.0;
 
-/// The least uncertainty of a level, as a share, and the largest difference from the pooled level.
+/// Minimum and maximum standard deviation of the pooled level, as shares.
 const DEVIATION: [f64; 2] = [0.01, 0.08];
 
-/// A level as far off as that is wrong, as a share.
-const WRONG: f64 = 0.3;
+/// Deviations are clipped to this share.
+const MAX_DEVIATION: f64 = 0.3;
 
-/// The largest number of sections that are pooled.
-const MOST: usize = 500;
+/// Maximum number of sections.
+const MAX_SECTIONS: usize = 500;
 
-/// A level and its standard deviation, as shares.
-pub type Level = [f64; 2];
+pub(crate) type Level = [f64; 2];
 
-/// The level of the lumen at each section, from those of all sections by their arc lengths (mm).
-pub fn pooled(at: &[f64], levels: &[Option<Level>]) -> Vec<Level> {
-    let every = levels.len().div_ceil(MOST).max(1);
-    let mut told: Vec<(f64, Level)> =
+pub(crate) fn pooled(at: &[f64], levels: &[Option<Level>]) -> Vec<Level> {
+    let every = levels.len().div_ceil(MAX_SECTIONS).max(1);
+    let mut levels: Vec<(f64, Level)> =
         at.iter().zip(levels).step_by(every).filter_map(|(at, level)| level.map(|l| (*at, l))).collect();
-    told.sort_by(|a, b| a.1[0].total_cmp(&b.1[0]).then(a.0.total_cmp(&b.0)));
-    at.iter().map(|at| level(*at, &told)).collect()
+    levels.sort_by(|a, b| a.1[0].total_cmp(&b.1[0]).then(a.0.total_cmp(&b.0)));
+    at.iter().map(|at| level(*at, &levels)).collect()
 }
 
-/// The weighted median of levels that are sorted, and how far those around it differ beyond what they are unsure by.
-fn level(at: f64, told: &[(f64, Level)]) -> Level {
-    let weights: Vec<f64> = told
+/// Weighted median of the sorted levels, with the excess scatter of nearby ones as its standard deviation.
+fn level(at: f64, levels: &[(f64, Level)]) -> Level {
+    let weights: Vec<f64> = levels
         .iter()
         .map(|(there, [_, deviation])| {
             (-(there - at).abs() / DISTANCE).exp() / (deviation * deviation + DEVIATION[0].powi(2))
@@ -41,10 +38,10 @@ fn level(at: f64, told: &[(f64, Level)]) -> Level {
         below += weight;
         below >= 0.5 * all
     });
-    let Some(level) = middle.map(|n| told[n].1[0]) else { return [1.0, WRONG] };
+    let Some(level) = middle.map(|n| levels[n].1[0]) else { return [1.0, MAX_DEVIATION] };
     let mut excess = 0.0;
-    for (weight, (_, [there, deviation])) in weights.iter().zip(told) {
-        let off = (there - level).abs().min(WRONG);
+    for (weight, (_, [there, deviation])) in weights.iter().zip(levels) {
+        let off = (there - level).abs().min(MAX_DEVIATION);
         excess += weight / all * (off * off - deviation * deviation);
     }
     let deviation = (DEVIATION[0].powi(2) + excess.max(0.0)).sqrt();

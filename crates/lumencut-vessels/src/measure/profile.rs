@@ -8,25 +8,25 @@ use super::ellipse::Ellipse;
 use super::fit::Fit;
 use super::flags::{CALCIUM, LEFT_OUT, METAL};
 use super::parts::Parts;
-use super::place::Place;
 use super::scale::Scale;
+use super::section_plane::SectionPlane;
 use super::sections::{Section, center};
 use super::wall::Wall;
 use super::wall_level::WallSource;
 
-/// Where the width of the point spread is from.
+/// Source of the point spread width.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Source {
-    /// The caller gave it.
+    /// Given by the caller.
     Given,
-    /// It was estimated on wide stretches of the vessel.
+    /// Estimated on wide stretches of the vessel.
     Estimated {
-        /// What it was estimated on.
+        /// The sections used.
         on: String,
     },
-    /// Nothing told it.
+    /// Assumed.
     Assumed {
-        /// From what it was assumed.
+        /// The basis of the assumption.
         from: String,
     },
 }
@@ -34,73 +34,70 @@ pub enum Source {
 /// The point spread of a scanner.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PointSpread {
-    /// Its full width at half maximum (mm).
+    /// FWHM (mm).
     pub fwhm: f64,
-    /// The standard deviation of that (mm); 0 where it was given.
+    /// Standard deviation of the FWHM (mm); 0 if given.
     pub deviation: f64,
-    /// Where it is from.
+    /// Where it comes from.
     pub source: Source,
 }
 
-/// The lumen of a vessel by arc length. What could not be measured is NaN.
+/// The lumen of a vessel by arc length. NaN where not measured.
 #[derive(Clone, Debug)]
 pub struct Profile {
-    /// Arc length on the vessel (mm).
+    /// Arc length (mm).
     pub arc_length: Vec<f64>,
-    /// The shortest diameter (mm).
+    /// Shortest diameter (mm).
     pub diameter_min: Vec<f64>,
-    /// The longest diameter (mm).
+    /// Longest diameter (mm).
     pub diameter_max: Vec<f64>,
-    /// The area (mm²).
+    /// Area (mm²).
     pub area: Vec<f64>,
-    /// The standard deviation of the diameter of a circle of the same area (mm).
+    /// Standard deviation of the equivalent diameter (mm).
     pub uncertainty: Vec<f64>,
-    /// What that is made of (mm).
+    /// Parts of that (mm).
     pub uncertainty_parts: Vec<Parts>,
-    /// The thickness of the wall and its standard deviation (mm); NaN where it is not told apart.
+    /// Wall thickness and its standard deviation (mm); NaN if the wall is not visible.
     pub wall: Vec<[f64; 2]>,
-    /// The diameter of a circle of the area that the wall encloses, and its standard deviation (mm); NaN where the wall is.
+    /// Equivalent diameter of the outer wall and its standard deviation (mm); NaN like `wall`.
     pub diameter_outer: Vec<[f64; 2]>,
-    /// The diameter of a circle of the same area (mm) if nothing that is brighter than lumen at its wall is lumen, and if all of it is;
-    /// NaN where nothing is brighter.
+    /// Equivalent diameter (mm) without, and with, everything at the wall brighter than lumen; otherwise NaN.
     pub bounds: Vec<[f64; 2]>,
-    /// What there is to know of each section; see [`super::flags`].
+    /// Flags; see [`super::flags`].
     pub flags: Vec<u32>,
-    /// The middle of the lumen (mm, LPS); the vessel's point where there is none.
+    /// Lumen centre (mm, LPS); the centerline point if there is none.
     pub center: Vec<DVec3>,
-    /// The unit vector along the vessel, across which the section lies.
+    /// Unit vector along the vessel, normal to the section.
     pub normal: Vec<DVec3>,
-    /// Two unit vectors in the plane of each section (LPS): to the right and downwards in a picture of it.
+    /// In-plane unit vectors (LPS): right and down in the image.
     pub axes: Vec<[DVec3; 2]>,
-    /// The points of the wall (mm, LPS), one for each ray.
+    /// Wall points (mm, LPS), one per ray.
     pub contour: Vec<Vec<DVec3>>,
-    /// From the middle to the ends of the shortest and of the longest diameter (mm, LPS).
+    /// From the centre to the ends of the shortest and the longest diameter (mm, LPS).
     pub half_axes: Vec<[DVec3; 2]>,
-    /// The radius of the largest ball around the middle within the lumen (mm).
+    /// Radius of the largest ball around the centre within the lumen (mm).
     pub inscribed_radius: Vec<f64>,
-    /// The level of the lumen and that of its background, in the volume's unit.
+    /// Levels of lumen and background, in the volume's unit.
     pub levels: Vec<[f64; 2]>,
-    /// The noise of a voxel, in the volume's unit.
+    /// Noise of a voxel, in the volume's unit.
     pub noise: f64,
-    /// The full width at half maximum of the point spread (mm).
+    /// FWHM of the point spread (mm).
     pub fwhm: f64,
-    /// The standard deviation of that (mm); 0 where it was given.
+    /// Its standard deviation (mm); 0 if given.
     pub fwhm_deviation: f64,
-    /// Where that is from.
+    /// Its source.
     pub fwhm_source: Source,
-    /// Whether walls were told apart from what surrounds the vessel, and by which level.
+    /// Whether walls were modelled, and with which level.
     pub wall_source: WallSource,
-    /// The points of the vessel's places (mm, LPS).
+    /// Centerline points of the sections (mm, LPS).
     pub on_vessel: Vec<DVec3>,
-    /// Stretches at the ends of the vessel that were not measured, as nothing tells lumen from its surroundings there (arc lengths,
-    /// mm); none of most vessels. See [`super::measured_part`].
+    /// Unmeasured stretches at the ends, where lumen and surroundings look alike (arc lengths, mm).
     pub without_wall: Vec<[f64; 2]>,
 }
 
 impl Profile {
-    /// The profile of sections at places; the noise is in the volume's unit.
-    pub fn new(
-        places: &[Place],
+    pub(crate) fn new(
+        places: &[SectionPlane],
         sections: &[Section],
         scale: &Scale,
         noise: f64,
@@ -155,35 +152,35 @@ impl Profile {
         }
     }
 
-    /// How many sections there are.
+    /// Number of sections.
     pub fn len(&self) -> usize {
         self.arc_length.len()
     }
 
-    /// Whether there are none, which never is.
+    /// Always false.
     pub fn is_empty(&self) -> bool {
         self.arc_length.is_empty()
     }
 
-    /// The diameter of a circle of the same area (mm).
+    /// Diameter of a circle of the same area (mm).
     pub fn diameter_equivalent(&self) -> Vec<f64> {
         self.area.iter().map(|area| 2.0 * (area / std::f64::consts::PI).sqrt()).collect()
     }
 
-    /// The mean of the shortest and the longest diameter (mm).
+    /// Mean of the shortest and the longest diameter (mm).
     pub fn diameter_mean(&self) -> Vec<f64> {
         self.diameter_min.iter().zip(&self.diameter_max).map(|(a, b)| f64::midpoint(*a, *b)).collect()
     }
 
-    /// The number of the section that is nearest to an arc length (mm), the first of two.
+    /// Number of the section nearest to an arc length (mm), the first of two.
     pub fn nearest_section(&self, at: f64) -> usize {
         let away = |n: &usize| (self.arc_length[*n] - at).abs();
         (0..self.len()).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(0)
     }
 
-    /// The plane in which a section was measured.
-    pub fn place(&self, n: usize) -> Place {
-        Place {
+    /// Plane of section `n`.
+    pub fn place(&self, n: usize) -> SectionPlane {
+        SectionPlane {
             at: self.arc_length[n],
             origin: self.on_vessel[n],
             axes: self.axes[n],
@@ -191,47 +188,45 @@ impl Profile {
         }
     }
 
-    /// The length of the vessel (mm).
+    /// Length of the vessel (mm).
     pub fn length(&self) -> f64 {
         self.arc_length.last().copied().unwrap_or(0.0)
     }
 
-    /// Whether a section counts for what is largest, narrowest or suggested.
+    /// Whether a section counts for the largest, narrowest or suggested places.
     pub fn counts(&self, n: usize) -> bool {
         self.flags[n] & LEFT_OUT == 0 && self.area[n].is_finite()
     }
 }
 
-/// A wall is told where the standard deviation of the logarithm of its thickness is at most this.
-const WALL_TOLD: f64 = 0.35;
+/// Maximum standard deviation of the log thickness of a reported wall.
+const MAX_WALL_DEVIATION: f64 = 0.35;
 
-/// What is thicker (mm) is no wall, but a thrombus or another tissue.
-const THICKEST_TOLD: f64 = 3.0;
+/// Anything thicker (mm) is thrombus or other tissue.
+const THICKEST_WALL: f64 = 3.0;
 
-/// Beside these the thickness of the wall is not told.
+/// No wall is reported in sections with these flags.
 const WALL_HIDDEN: u32 = LEFT_OUT | CALCIUM | METAL;
 
-/// The thickness of the wall of a section and its standard deviation (mm).
 fn wall((section, flags): (&Section, &u32)) -> [f64; 2] {
-    let told = section.fit.and_then(|fit| fit.wall);
-    let is_told = |wall: &Wall| wall.log_thickness[1] <= WALL_TOLD && wall.thickness() < THICKEST_TOLD;
-    let told = told.filter(|wall| is_told(wall) && flags & WALL_HIDDEN == 0);
-    told.map_or([f64::NAN; 2], |wall| [wall.thickness(), wall.thickness() * wall.log_thickness[1]])
+    let wall = section.fit.and_then(|fit| fit.wall);
+    let is_measured_wall =
+        |wall: &Wall| wall.log_thickness[1] <= MAX_WALL_DEVIATION && wall.thickness() < THICKEST_WALL;
+    let wall = wall.filter(|wall| is_measured_wall(wall) && flags & WALL_HIDDEN == 0);
+    wall.map_or([f64::NAN; 2], |wall| [wall.thickness(), wall.thickness() * wall.log_thickness[1]])
 }
 
-/// The diameter of a circle of the area within the wall of a section, and its standard deviation (mm).
 fn outer((section, flags): (&Section, &u32)) -> [f64; 2] {
     let [thickness, unsure] = wall((section, flags));
     section.fit.map_or([f64::NAN; 2], |fit| {
         let around = Ellipse { mean: fit.ellipse.mean + thickness, ..fit.ellipse };
-        let is_told = thickness.is_finite();
-        let diameter = if is_told { around.equivalent_diameter() } else { f64::NAN };
+        let is_measured_wall = thickness.is_finite();
+        let diameter = if is_measured_wall { around.equivalent_diameter() } else { f64::NAN };
         [diameter, (2.0 * unsure).hypot(fit.uncertainty)]
     })
 }
 
-/// The shorter and the longer half axis of a lumen (mm, LPS).
-fn half_axes(place: &Place, fit: Option<&Fit>) -> [DVec3; 2] {
+fn half_axes(place: &SectionPlane, fit: Option<&Fit>) -> [DVec3; 2] {
     let in_world = |axis: DVec2| place.axes[0] * axis.x + place.axes[1] * axis.y;
     fit.map_or([DVec3::NAN; 2], |fit| fit.ellipse.half_axes().map(in_world))
 }

@@ -8,36 +8,32 @@ use super::flags::LEFT_OUT;
 use super::measuring::TreeMeasuring;
 use super::profile::Profile;
 use super::request::MeasureRequest;
-use super::watched::watched;
+use super::with_progress::with_progress;
 use lumencut_core::error::{ErrorKind, Result};
 use lumencut_core::math::same_place::REPEATED_POINT;
 use lumencut_core::progress::Progress;
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::Volume;
 
-/// Between measured sections no farther apart than this (mm) radii are interpolated.
+/// Maximum gap (mm) over which radii are interpolated.
 const GAP: f64 = 10.0;
 
-/// A section whose diameter is unsure by this share of it or more tells none.
-const UNSURE: f64 = 0.25;
+/// Sections with this relative standard deviation or more are skipped.
+const MAX_DEVIATION: f64 = 0.25;
 
 /// The radii of one vessel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Radii {
-    /// A radius for each point (mm); None where nothing was measured and none was known.
+    /// Radius per point (mm); None if nothing was measured or known.
     pub radius: Option<Vec<f64>>,
-    /// How many points have the radius of a section that was measured, or of two that it lies between.
+    /// Number of points whose radius was measured, or interpolated between two measured sections.
     pub measured: usize,
-    /// How many points kept the radius that they had, or were given that of the nearest measured section.
+    /// Number of points that kept their radius or took that of the nearest measured section.
     pub kept: usize,
 }
 
-/// The measured radii of all vessels of a tree, and how far that is. The widest vessels tell the level of
-/// walls for all, and the point spread where it is not given.
-///
-/// # Errors
-/// [`ErrorKind::Settings`] for an invalid step, wall or point spread, [`ErrorKind::Interrupted`]. A vessel that cannot be measured
-/// keeps its radii.
+/// Measures all radii of a tree; a vessel that cannot be measured keeps its radii. [`ErrorKind::Settings`]
+/// for an invalid step, wall or point spread, [`ErrorKind::Interrupted`].
 pub fn measured_radii(
     volume: &Volume,
     request: &MeasureRequest,
@@ -48,9 +44,9 @@ pub fn measured_radii(
     }
     let MeasureRequest { step, tree, stop, .. } = *request;
     let measuring = TreeMeasuring::new(volume, request)?;
-    watched(progress, (tree, step), stop, |stop| {
-        let told = measuring.told(stop)?;
-        let radii = |(n, vessel): (usize, &Vessel)| match measuring.profile(n, told.clone(), stop) {
+    with_progress(progress, (tree, step), stop, |stop| {
+        let findings = measuring.findings(stop)?;
+        let radii = |(n, vessel): (usize, &Vessel)| match measuring.profile(n, findings.clone(), stop) {
             Ok(profile) => Ok(of_profile(vessel, &profile)),
             Err(error) if matches!(error.kind, ErrorKind::Measuring | ErrorKind::VesselTree) => {
                 let kept = vessel.points().len();
@@ -62,46 +58,45 @@ pub fn measured_radii(
     })
 }
 
-/// The radii at the points of a vessel, of circles with the measured areas.
 fn of_profile(vessel: &Vessel, profile: &Profile) -> Radii {
-    let is_told = |n: &usize| {
+    let is_measured = |n: &usize| {
         let diameter = 2.0 * (profile.area[*n] / PI).sqrt();
-        profile.flags[*n] & LEFT_OUT == 0 && profile.uncertainty[*n] < UNSURE * diameter
+        profile.flags[*n] & LEFT_OUT == 0 && profile.uncertainty[*n] < MAX_DEVIATION * diameter
     };
-    let told: Vec<(f64, f64)> = (0..profile.len())
-        .filter(is_told)
+    let known: Vec<(f64, f64)> = (0..profile.len())
+        .filter(is_measured)
         .map(|n| (profile.arc_length[n], (profile.area[n] / PI).sqrt()))
         .collect();
     let (mut measured, mut kept) = (0, 0);
     let mut radius = Vec::with_capacity(vessel.points().len());
     for (n, at) in vessel.arc_length().iter().enumerate() {
-        let here = between(&told, *at);
+        let here = between(&known, *at);
         measured += usize::from(here.is_some());
         kept += usize::from(here.is_none());
         radius.push(
-            here.or_else(|| vessel.radius().map(|radii| radii[n])).or_else(|| nearest_radius(&told, *at)),
+            here.or_else(|| vessel.radius().map(|radii| radii[n])).or_else(|| nearest_radius(&known, *at)),
         );
     }
     Radii { radius: radius.into_iter().collect(), measured, kept }
 }
 
-/// The radius at an arc length between two sections that are not far apart.
-fn between(told: &[(f64, f64)], at: f64) -> Option<f64> {
-    let after = told.partition_point(|(there, _)| *there < at);
-    let next = told.get(after);
+/// Radius interpolated between two sections that are close enough.
+fn between(known: &[(f64, f64)], at: f64) -> Option<f64> {
+    let after = known.partition_point(|(there, _)| *there < at);
+    let next = known.get(after);
     if let Some((there, radius)) = next
         && *there - at <= REPEATED_POINT
     {
         return Some(*radius);
     }
-    let (before, next) = (told.get(after.checked_sub(1)?)?, next?);
+    let (before, next) = (known.get(after.checked_sub(1)?)?, next?);
     let apart = next.0 - before.0;
     (apart <= GAP).then(|| before.1 + (next.1 - before.1) * (at - before.0) / apart)
 }
 
-fn nearest_radius(told: &[(f64, f64)], at: f64) -> Option<f64> {
+fn nearest_radius(known: &[(f64, f64)], at: f64) -> Option<f64> {
     let away = |one: &&(f64, f64)| (one.0 - at).abs();
-    told.iter().min_by(|a, b| away(a).total_cmp(&away(b))).map(|(_, radius)| *radius)
+    known.iter().min_by(|a, b| away(a).total_cmp(&away(b))).map(|(_, radius)| *radius)
 }
 
 #[cfg(test)]

@@ -1,88 +1,81 @@
-//! The lumen along rays across a vessel: where it ends, and what is in the way.
+//! Intensities along rays across a vessel: the edge of the lumen, and obstacles.
 
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
 use glam::{DVec2, DVec3};
 
-use super::place::Place;
 use super::scale::Scale;
+use super::section_plane::SectionPlane;
 use crate::voxels::Voxels;
 use lumencut_core::math::lanes::FAN;
 
-/// The rays of a section, each the point of a contour.
-pub const RAYS: usize = 64;
+/// Rays per section, and points per contour.
+pub(crate) const RAYS: usize = 64;
 
-/// The distance of samples along a ray, in the sides that [`Voxels::sampling_side`] tells.
+/// Sampling distance along a ray, in [`Voxels::sampling_side`].
 const SAMPLE: f64 = 0.4;
 
-/// What a ray meets.
+/// What a ray meets; distances in mm from its start.
 #[derive(Clone, Copy, Debug)]
-pub struct Ray {
-    /// Where the lumen ends (mm from where the ray begins), where it does.
+pub(crate) struct Ray {
+    /// Edge of the lumen.
     pub edge: Option<f64>,
-    /// From here on (mm) something else is met: a neighbour, calcium, metal. Infinite where nothing is.
+    /// Start of anything else (neighbour, calcium, metal); infinite if none.
     pub limit: f64,
-    /// Where it is too bright for a lumen (mm), where it is.
-    pub bright_at: Option<f64>,
-    /// The largest share within a millimetre of that; 0 where nothing is too bright.
+    /// Start of material too bright for lumen.
+    pub(crate) bright_at: Option<f64>,
+    /// Largest share within a millimetre of that; 0 if none.
     pub brightest: f64,
-    /// Where that begins and ends to be nearer to its brightest share than to the lumen's (mm); equal where nothing is.
+    /// Where the profile crosses midway between lumen level and `brightest`, going up and coming down.
     pub rim: [f64; 2],
-    /// Where the ray leaves the volume (mm), where it does.
-    pub outside_at: Option<f64>,
+    /// Where the ray leaves the volume.
+    pub(crate) outside_at: Option<f64>,
 }
 
 impl Ray {
-    /// Where the lumen ends (mm): at its edge, or where it is too bright before.
-    pub fn end(&self) -> Option<f64> {
+    pub(crate) fn end(&self) -> Option<f64> {
         self.edge.or(self.bright_at)
     }
 }
 
-/// What rays are told.
+/// Parameters of a ray search; levels are shares.
 #[derive(Clone, Copy, Debug)]
-pub struct Look {
-    /// The lumen's level and that of its surroundings, as shares.
+pub(crate) struct Look {
+    /// Levels of lumen and surroundings.
     pub levels: [f64; 2],
-    /// Above this share there is no lumen.
+    /// Above this, there is no lumen.
     pub bright: f64,
-    /// By which share values rise again where a neighbour begins.
+    /// Rise that marks the start of a neighbour.
     pub rise: f64,
-    /// How far an edge is looked for (mm).
+    /// Search distance for the edge (mm).
     pub reach: f64,
-    /// How far beyond the edge something else is looked for (mm).
+    /// Search distance for obstacles beyond the edge (mm).
     pub beyond: f64,
 }
 
-/// The direction of a ray in the plane.
-pub fn direction(ray: usize) -> DVec2 {
+pub(crate) fn direction(ray: usize) -> DVec2 {
     static ALL: LazyLock<[DVec2; RAYS]> =
         LazyLock::new(|| std::array::from_fn(|n| DVec2::from_angle(TAU * n as f64 / RAYS as f64)));
     ALL[ray]
 }
 
-/// The volume as shares along lines.
-pub struct Rays<'a, 'v> {
-    /// The volume.
+pub(crate) struct Rays<'a, 'v> {
     pub voxels: &'a Voxels<'v>,
-    /// What lumen looks like.
     pub scale: Scale,
 }
 
 impl Rays<'_, '_> {
-    /// The share at a point of a plane; NaN outside the volume.
-    pub fn at(&self, place: &Place, point: DVec2) -> f64 {
+    /// Share at a point of a plane; NaN outside the volume.
+    pub(crate) fn at(&self, place: &SectionPlane, point: DVec2) -> f64 {
         self.scale.share(f64::from(self.voxels.at(place.point(point))))
     }
 
-    /// The distance of samples along rays (mm).
-    pub fn step(&self) -> f64 {
+    pub(crate) fn step(&self) -> f64 {
         SAMPLE * self.voxels.sampling_side
     }
 
-    /// What a ray meets.
-    pub fn ray(&self, place: &Place, center: DVec2, direction: DVec2, look: &Look) -> Ray {
+    pub(crate) fn ray(&self, place: &SectionPlane, center: DVec2, direction: DVec2, look: &Look) -> Ray {
         let mut samples = Samples::new(self, place, center, direction);
         let half = f64::midpoint(look.levels[0], look.levels[1]);
         let mut ray = Ray {
@@ -104,7 +97,7 @@ impl Rays<'_, '_> {
                 ray.outside_at = Some(here);
                 break;
             }
-            // Noise does not reach that far twice in a row.
+            // Two samples in a row, because noise alone does not reach that far twice.
             if value > look.bright && samples.at(n + 1) > look.bright {
                 ray.bright_at = Some(here);
                 let last = n + (1.0 / self.step()).ceil() as usize;
@@ -130,15 +123,14 @@ impl Rays<'_, '_> {
         ray
     }
 
-    /// What all rays of a section meet.
-    pub fn all(&self, place: &Place, center: DVec2, look: &Look) -> Vec<Ray> {
+    pub(crate) fn all(&self, place: &SectionPlane, center: DVec2, look: &Look) -> Vec<Ray> {
         (0..RAYS).map(|n| self.ray(place, center, direction(n), look)).collect()
     }
 }
 
-/// From where to where a ray is above a level (mm), from one of its samples on.
+/// Where a ray rises above `level` and falls below it again (mm), from sample `first`.
 fn rim(samples: &mut Samples, first: usize, level: f64) -> [f64; 2] {
-    /// The number of samples that it is followed.
+    /// Maximum number of samples.
     const FAR: usize = 24;
     let mut crossing = |from: usize, rises: bool| {
         let is_beyond = |value: f64| (value > level) == rises;
@@ -151,7 +143,7 @@ fn rim(samples: &mut Samples, first: usize, level: f64) -> [f64; 2] {
     [begins.max(0.0), crossing(inner, false).1]
 }
 
-/// The samples of a ray as shares, taken where they are first needed; NaN outside the volume.
+/// Samples of a ray as shares, read on demand; NaN outside the volume.
 struct Samples<'a, 'v> {
     rays: &'a Rays<'a, 'v>,
     start: DVec3,
@@ -160,7 +152,7 @@ struct Samples<'a, 'v> {
 }
 
 impl<'a, 'v> Samples<'a, 'v> {
-    fn new(rays: &'a Rays<'a, 'v>, place: &Place, center: DVec2, direction: DVec2) -> Self {
+    fn new(rays: &'a Rays<'a, 'v>, place: &SectionPlane, center: DVec2, direction: DVec2) -> Self {
         let index = &rays.voxels.index_from_world;
         let start = index.transform_point3(place.point(center));
         let stride = index.transform_vector3(place.point(direction) - place.origin) * rays.step();

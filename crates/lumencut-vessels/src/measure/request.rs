@@ -1,4 +1,4 @@
-//! How a vessel is asked to be measured.
+//! The request to measure a vessel.
 
 use super::wall_level::WallRequest;
 use lumencut_core::error::{Error, ErrorKind, Result};
@@ -8,26 +8,23 @@ use lumencut_core::vessel_tree::Vessel;
 
 const FWHM: Limits = Limits::new(0.0, 20.0, "mm");
 
-/// How a vessel is measured.
+/// How to measure a vessel.
 #[derive(Clone, Copy)]
 pub struct MeasureRequest<'a> {
-    /// The distance of sections (mm), at most.
+    /// Maximum distance of sections (mm).
     pub step: f64,
-    /// The full width at half maximum of the scanner's point spread (mm), where known.
+    /// FWHM of the scanner's point spread (mm), if known.
     pub fwhm: Option<f64>,
-    /// The level of walls.
+    /// Level of walls.
     pub wall: WallRequest,
-    /// The vessels of the tree that the vessel is of; it may be one of them.
+    /// The tree of the vessel; may contain the vessel.
     pub tree: &'a [Vessel],
     /// Asked whether to stop.
     pub stop: Stop<'a>,
 }
 
 impl MeasureRequest<'_> {
-    /// Checks the wall and the point spread that are asked for.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Settings`] for one that is invalid.
+    /// Errors: [`ErrorKind::Settings`] for an invalid wall or point spread.
     pub fn check(&self) -> Result<()> {
         self.wall.check()?;
         let Some(fwhm) = self.fwhm else { return Ok(()) };

@@ -1,59 +1,53 @@
-//! What a vessel's lumen and its surroundings look like, by and large.
+//! The intensity scale of a vessel: levels of the lumen and of the surroundings.
 
 use glam::DVec2;
 
-use super::place::Place;
+use super::section_plane::SectionPlane;
 use crate::voxels::Voxels;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::math::statistics::median;
 
-/// Directions that are looked into at each place.
+/// Directions sampled at each section.
 const DIRECTIONS: usize = 16;
 
-/// The largest number of places that are looked at.
+/// Maximum number of sections.
 const MOST_PLACES: usize = 150;
 
-/// How far around a vessel whose radius is not known (mm).
-const REACH: f64 = 30.0;
+/// Search radius for a vessel of unknown radius (mm).
+const SEARCH_RADIUS_MM: f64 = 30.0;
 
-/// The wall is the first place where values change by this share of what they change by anywhere.
+/// The wall is the first slope of at least this share of the steepest one.
 const STEEP: f64 = 0.4;
 
-/// What lies outside of the wall is looked for so far beyond it (mm).
+/// The surroundings are searched up to this distance beyond the wall (mm).
 const BEYOND: f64 = 1.5;
 
-/// A rim is at most so wide (mm), and beyond it values are below that of the lumen by this share of what they are above it.
-const RIM: f64 = 4.0;
+/// Maximum width of a rim (mm), and minimum depth beyond it as a share of its excess over lumen.
+const MAX_RIM_MM: f64 = 4.0;
 const RIM_SHARE: f64 = 0.1;
 
-/// Values of a volume as shares: 0 outside of the vessel, 1 in its lumen.
+/// Maps values of a volume to shares: 0 outside the vessel, 1 in its lumen.
 #[derive(Clone, Copy, Debug)]
-pub struct Scale {
-    /// What the volume shows outside of the vessel.
+pub(crate) struct Scale {
+    /// Level outside the vessel.
     pub outside: f64,
-    /// What it shows in the lumen, less what it shows outside; negative for dark lumens.
+    /// Lumen level minus outside level; negative for dark lumens.
     pub contrast: f64,
 }
 
 impl Scale {
-    /// A value of the volume as a share.
-    pub fn share(&self, value: f64) -> f64 {
+    pub(crate) fn share(&self, value: f64) -> f64 {
         (value - self.outside) / self.contrast
     }
 
-    /// A share as a value of the volume.
-    pub fn value(&self, share: f64) -> f64 {
+    pub(crate) fn value(&self, share: f64) -> f64 {
         self.outside + share * self.contrast
     }
 
-    /// The scale of a vessel, from the medians of rings around all of its places. `radius` is about that of the vessel (mm),
-    /// where known.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Measuring`] where the lumen differs in nothing from what is around it.
-    pub fn of(voxels: &Voxels, places: &[Place], radius: Option<f64>) -> Result<Self> {
+    /// Scale from the medians of rings around all sections; `radius` (mm) is approximate.
+    pub(crate) fn of(voxels: &Voxels, places: &[SectionPlane], radius: Option<f64>) -> Result<Self> {
         let step = 0.5 * voxels.sampling_side;
-        let reach = radius.map_or(REACH, |radius| 2.5 * radius + 3.0);
+        let reach = radius.map_or(SEARCH_RADIUS_MM, |radius| 2.5 * radius + 3.0);
         let rings = rings(voxels, places, step, (reach / step).ceil() as usize);
         let [Some(lumen), ..] = rings[..] else {
             let expected = "a vessel within the volume";
@@ -65,28 +59,27 @@ impl Scale {
             ));
         };
         let rings: Vec<f64> = rings.into_iter().flatten().collect();
-        // A slope over two rings, which is a voxel.
+        // Slope over two rings, which is one voxel.
         let slopes: Vec<f64> = rings.windows(3).map(|three| three[2] - three[0]).collect();
         let steepest = slopes.iter().map(|slope| slope.abs()).fold(0.0, f64::max);
         let none = || {
-            let found = format!("{} on the vessel and as much around it", in_words(lumen));
-            let expected = "a lumen that is brighter or darker than what is around it";
+            let found = format!("{} both on the vessel and around it", in_words(lumen));
+            let expected = "a lumen that is brighter or darker than its surroundings";
             Error::new(ErrorKind::Measuring, "lumen of the vessel", found, expected)
         };
         let mut wall = slopes.iter().position(|slope| slope.abs() >= STEEP * steepest).ok_or_else(none)?;
-        // On to the steepest place of this wall.
         while wall + 1 < slopes.len() && slopes[wall + 1].abs() > slopes[wall].abs() {
             wall += 1;
         }
         let within = |mm: f64| wall + 1..rings.len().min(wall + 2 + (mm / step).ceil() as usize);
         let lowest = |mm: f64| rings[within(mm)].iter().copied().fold(f64::MAX, f64::min);
         let highest = rings[within(BEYOND)].iter().copied().fold(f64::MIN, f64::max);
-        // What is brighter than the lumen around it is a rim, such as a stent, where it is darker beyond.
-        let is_rim = slopes[wall] > 0.0 && lowest(RIM) < lumen - RIM_SHARE * (highest - lumen);
+        // A bright ring that is darker beyond is a rim, such as a stent.
+        let is_rim = slopes[wall] > 0.0 && lowest(MAX_RIM_MM) < lumen - RIM_SHARE * (highest - lumen);
         let outside = if slopes[wall] < 0.0 {
             lowest(BEYOND)
         } else if is_rim {
-            lowest(RIM)
+            lowest(MAX_RIM_MM)
         } else {
             highest
         };
@@ -97,21 +90,19 @@ impl Scale {
     }
 }
 
-/// A value of the volume as messages have it: no reader needs more than three digits of it.
-pub fn in_words(value: f64) -> String {
+pub(crate) fn in_words(value: f64) -> String {
     let decimals = (2.0 - value.abs().log10().floor()).clamp(0.0, 6.0);
     format!("{value:.*}", if value == 0.0 { 0 } else { decimals as usize })
 }
 
-/// How far the values on a vessel lie from its lumen by and large, as the standard deviation of a normal distribution.
-fn scatter(voxels: &Voxels, places: &[Place], lumen: f64) -> f64 {
+fn scatter(voxels: &Voxels, places: &[SectionPlane], lumen: f64) -> f64 {
     let values = places.iter().map(|place| f64::from(voxels.at(place.origin)));
     let mut off: Vec<f64> = values.filter(|value| value.is_finite()).map(|v| (v - lumen).abs()).collect();
     1.4826 * median(&mut off).unwrap_or(f64::INFINITY)
 }
 
-/// The median at each distance from the vessel, of all places and directions, as far as there are values.
-fn rings(voxels: &Voxels, places: &[Place], step: f64, count: usize) -> Vec<Option<f64>> {
+/// Median at each distance from the vessel, over all sections and directions.
+fn rings(voxels: &Voxels, places: &[SectionPlane], step: f64, count: usize) -> Vec<Option<f64>> {
     let every = places.len().div_ceil(MOST_PLACES);
     (0..=count)
         .map(|n| {

@@ -1,117 +1,106 @@
-//! The sections of a vessel: looked at, fitted, and fitted again with what all of them tell of each other.
+//! The sections of a vessel: first fits, then fits with what all sections share.
 
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::believed::{encloses_lumen, lumen_shares};
 use super::blooming;
 use super::blur::Blur;
 use super::contour::{ellipse_within, irregularity, points, wall, wall_by_rays};
+use super::contour_check::{encloses_lumen, lumen_shares};
 use super::ellipse::{Boundary, Ellipse, Whitening};
 use super::fit::Fit;
 use super::flags::{AT_LIMIT, CALCIUM, IRREGULAR, METAL, NO_EDGE, RECENTERED};
+use super::lumen_estimate::LumenEstimate;
 use super::model::ThreeLevels;
 use super::obstacles::flags_of;
 use super::parts::Parts;
-use super::place::Place;
 use super::pooled::Level;
 use super::rays::{Look, Rays, direction};
-use super::rough::Rough;
+use super::section_plane::SectionPlane;
 use super::texture::Texture;
 use super::wall::KnownWall;
 use lumencut_core::error::Result;
 use lumencut_core::math::statistics::median;
 use lumencut_core::stop::{Stop, go_on};
 
-/// What is brighter than lumen by this share of the contrast, and by this multiple of the noise, is not lumen.
-pub const BRIGHT: (f64, f64) = (0.15, 5.0);
+/// Excess over the lumen level that is not lumen: a share of the contrast (mixing contrast medium and
+/// enhanced edges stay below it), and a multiple of the noise.
+pub(crate) const BRIGHT: (f64, f64) = (0.15, 5.0);
 
-/// Values rise by this share of the contrast, and by this multiple of the noise, where a neighbour begins.
+/// Rise at the start of a neighbour: a share of the contrast, and a multiple of the noise.
 const RISE: (f64, f64) = (0.2, 4.0);
 
-/// How far beyond the wall rays are followed (mm, and widths of the blur).
+/// Rays continue beyond the wall by this many mm plus blur widths.
 const RAY_BEYOND: (f64, f64) = (2.0, 1.5);
 
 /// Diameters below this multiple of the point spread are at the limit.
-pub const LIMIT: f64 = 1.5;
+pub(crate) const LIMIT: f64 = 1.5;
 
-/// Walls that lie off the ellipse by this share are irregular.
+/// Relative deviation from the ellipse that counts as irregular.
 const ROUGH_WALL: f64 = 0.12;
 
-/// Below this multiple of the noise there is no contrast.
-pub const LEAST_CONTRAST: f64 = 2.0;
+/// Minimum contrast, in multiples of the noise.
+pub(crate) const LEAST_CONTRAST: f64 = 2.0;
 
-/// Where the blur is not taken into account diameters are unsure by this share of its width.
-const UNSURE: f64 = 0.5;
+/// Uncertainty of diameters without a blur model, in blur widths.
+const UNMODELLED_WIDTHS: f64 = 0.5;
 
-/// The noise before it is known, as a share.
+/// Initial noise, as a share.
 const FIRST_NOISE: f64 = 0.1;
 
-/// What sections are looked at with.
-pub struct Bench<'a, 'v> {
-    /// The volume along rays.
+pub(crate) struct Bench<'a, 'v> {
     pub rays: Rays<'a, 'v>,
-    /// Its blur.
     pub blur: Blur,
-    /// The point spread alone (FWHM, mm).
+    /// Point spread alone (FWHM, mm).
     pub fwhm: f64,
-    /// The wall, where it is told apart from the surroundings.
+    /// None where walls are not visible.
     pub wall: Option<KnownWall>,
-    /// What makes diameters unsure besides what sections tell themselves, where that is asked.
+    /// Set if uncertainties are wanted.
     pub doubt: Option<Doubt>,
 }
 
-/// What makes all diameters of a scan unsure.
-pub struct Doubt {
-    /// The texture of its noise.
+pub(crate) struct Doubt {
     pub texture: Texture,
-    /// Its blur with a point spread that is wider by its standard deviation; None where it is known.
+    /// Blur with the point spread wider by its standard deviation; None if it is known.
     pub wider: Option<Blur>,
-    /// The wall that may be there where it is not told apart from the surroundings.
+    /// A possible wall where none is visible.
     pub wall: Option<KnownWall>,
 }
 
-/// What is known of a section before it is fitted.
 #[derive(Clone, Copy, Debug)]
-pub struct Known {
-    /// About where the lumen is.
+pub(crate) struct Known {
     pub ellipse: Ellipse,
-    /// The level of the lumen and its standard deviation, as shares.
+    /// As a share.
     pub lumen: Level,
-    /// The noise of a voxel, as a share, where it is known.
+    /// As a share; None before it is estimated.
     pub noise: Option<f64>,
-    /// The wall, where the other sections tell more of it than is known of all walls.
+    /// The pooled wall; None to use the general prior.
     pub wall: Option<KnownWall>,
 }
 
 impl Known {
-    /// The noise of a voxel, as a share, or what it is taken for.
-    pub fn noise(&self) -> f64 {
+    pub(crate) fn noise(&self) -> f64 {
         self.noise.unwrap_or(FIRST_NOISE)
     }
 }
 
-/// A section as it was measured.
 #[derive(Clone, Debug)]
-pub struct Section {
-    /// The fit; None where no lumen was found.
-    pub fit: Option<Fit>,
-    /// The points of the wall (mm, LPS), one for each ray; none where no lumen was found.
+pub(crate) struct Section {
+    /// None if no lumen was found.
+    pub(crate) fit: Option<Fit>,
+    /// Wall points (mm, LPS), one per ray; empty without a lumen.
     pub contour: Vec<DVec3>,
-    /// What there is to know of it.
     pub flags: u32,
-    /// The diameter (mm) if what is brighter than lumen at its wall is none, and if it is; NaN where nothing is.
+    /// See [`super::profile::Profile::bounds`].
     pub bounds: [f64; 2],
 }
 
 impl Section {
-    /// A section without lumen.
-    pub fn none() -> Self {
+    pub(crate) fn none() -> Self {
         Self { fit: None, contour: Vec::new(), flags: NO_EDGE, bounds: [f64::NAN; 2] }
     }
 
-    /// Makes the lumen wider by a factor.
-    pub fn scale(&mut self, by: f64) {
+    pub(crate) fn scale(&mut self, by: f64) {
         let middle = self.contour.iter().sum::<DVec3>() / self.contour.len().max(1) as f64;
         for point in &mut self.contour {
             *point = middle + (*point - middle) * by;
@@ -126,53 +115,47 @@ impl Section {
 }
 
 impl Bench<'_, '_> {
-    /// About where the lumen is at each place.
-    ///
-    /// # Errors
-    /// [`lumencut_core::error::ErrorKind::Interrupted`].
-    pub fn rough(
+    pub(crate) fn estimates(
         &self,
-        places: &[Place],
+        places: &[SectionPlane],
         search: f64,
         widest: f64,
         stop: Stop,
-    ) -> Result<Vec<Option<Rough>>> {
-        let look = |place: &Place| go_on(stop).map(|()| Rough::find(&self.rays, place, search, widest));
+    ) -> Result<Vec<Option<LumenEstimate>>> {
+        let look = |place: &SectionPlane| {
+            go_on(stop).map(|()| LumenEstimate::find(&self.rays, place, search, widest))
+        };
         places.par_iter().map(look).collect()
     }
 
-    /// The fits of sections by themselves, from where their lumens are about.
-    ///
-    /// # Errors
-    /// [`lumencut_core::error::ErrorKind::Interrupted`].
-    pub fn first_fits(
+    pub(crate) fn first_fits(
         &self,
-        places: &[Place],
-        rough: &[Option<Rough>],
+        places: &[SectionPlane],
+        estimates: &[Option<LumenEstimate>],
         stop: Stop,
     ) -> Result<Vec<Option<Fit>>> {
-        let fit = |(place, rough): (&Place, &Option<Rough>)| {
+        let fit = |(place, estimate): (&SectionPlane, &Option<LumenEstimate>)| {
             go_on(stop)?;
-            let Some(rough) = rough else { return Ok(None) };
+            let Some(estimate) = estimate else { return Ok(None) };
             let known = Known {
-                ellipse: Ellipse::circle(rough.center, rough.radius),
-                lumen: [rough.lumen.max(0.8), 0.5],
+                ellipse: Ellipse::circle(estimate.center, estimate.radius),
+                lumen: [estimate.lumen.max(0.8), 0.5],
                 noise: None,
                 wall: None,
             };
-            Ok(self.settled(place, &known))
+            Ok(self.stable_fit(place, &known))
         };
-        places.par_iter().zip(rough).map(fit).collect()
+        places.par_iter().zip(estimates).map(fit).collect()
     }
 
-    pub(super) fn look(&self, place: &Place, known: &Known) -> Look {
+    pub(super) fn look(&self, place: &SectionPlane, known: &Known) -> Look {
         let width = self.blur.width(place);
         let noise = known.noise();
         let is_bright_lumen = self.rays.scale.contrast > 0.0;
         let bright = known.lumen[0].max(0.5) + BRIGHT.0.max(BRIGHT.1 * noise);
         Look {
             levels: [known.lumen[0], 0.0],
-            // What is darker than a dark lumen is no calcium.
+            // Dark lumens have no calcium rule.
             bright: if is_bright_lumen { bright } else { f64::INFINITY },
             rise: RISE.0.max(RISE.1 * noise),
             reach: known.ellipse.semi_axes()[1] * 2.0 + RAY_BEYOND.0 + RAY_BEYOND.1 * width,
@@ -180,8 +163,8 @@ impl Bench<'_, '_> {
         }
     }
 
-    /// A section measured with what is known of it from all sections; `other` is where else its lumen may be, see [`Fit::other`].
-    pub fn section(&self, place: &Place, known: &Known, other: Option<Ellipse>) -> Section {
+    /// Measures a section with prior knowledge; `other` is its second solution ([`Fit::other`]).
+    pub(crate) fn section(&self, place: &SectionPlane, known: &Known, other: Option<Ellipse>) -> Section {
         let fitted = self.fit_of_either(place, known, other).map(|fit| self.fitted(place, known, fit));
         match fitted {
             Some(section) if section.flags & METAL == 0 => section,
@@ -189,11 +172,10 @@ impl Bench<'_, '_> {
         }
     }
 
-    /// A section with the wall along rays, and what there is to know of it.
-    fn fitted(&self, place: &Place, known: &Known, fit: Fit) -> Section {
+    fn fitted(&self, place: &SectionPlane, known: &Known, fit: Fit) -> Section {
         let (ellipse, width) = (fit.ellipse, self.blur.width(place));
         let boundary = Boundary::new(&ellipse, Whitening::new(self.blur.interpolated(place)));
-        // Where the lumen is narrow its peak is lower than its level.
+        // A narrow lumen peaks below its level.
         let level = 0.5 * boundary.value(ellipse.center);
         let beside = fit.wall.map_or(fit.background, |wall| wall.level[0]);
         let half = beside + level * (fit.lumen[0] - beside);
@@ -227,15 +209,14 @@ impl Bench<'_, '_> {
         Section { contour, fit: Some(fit), flags: flags | self.place_flags(&ellipse), bounds }
     }
 
-    /// A section whose wall is where rays end, as within a stent.
-    fn by_rays(&self, place: &Place, known: &Known) -> Option<Section> {
+    fn by_rays(&self, place: &SectionPlane, known: &Known) -> Option<Section> {
         let width = self.blur.width(place);
         let rays = self.rays.all(place, known.ellipse.center, &self.look(place, known));
         let walls = wall_by_rays(&rays, width)?;
         let ellipse = ellipse_within(known.ellipse.center, &walls)?;
         let mut flags = flags_of(&rays, |n| walls[n], width);
         let bounds = bounds(flags, &ellipse, || blooming::bounds(&rays, |n| walls[n], width));
-        // Struts within may be as bright as they are.
+        // Struts inside may have any brightness.
         let shares = [lumen_shares(known.lumen[0], 0.0)[0], f64::INFINITY];
         let is_lumen = encloses_lumen(&self.rays, place, known.ellipse.center, &walls, width, shares);
         if known.lumen[0] < LEAST_CONTRAST * known.noise() || !is_lumen {
@@ -247,8 +228,8 @@ impl Bench<'_, '_> {
             background: 0.0,
             wall: None,
             missed: f64::NAN,
-            uncertainty: UNSURE * width,
-            parts: Parts { point_spread: UNSURE * width, ..Parts::default() },
+            uncertainty: UNMODELLED_WIDTHS * width,
+            parts: Parts { point_spread: UNMODELLED_WIDTHS * width, ..Parts::default() },
             free: 0.0,
             other: None,
         };
@@ -256,7 +237,6 @@ impl Bench<'_, '_> {
         Some(Section { contour, fit: Some(fit), flags: flags | self.place_flags(&ellipse), bounds })
     }
 
-    /// What the place and the size of a lumen say.
     fn place_flags(&self, ellipse: &Ellipse) -> u32 {
         let towards = -ellipse.center;
         let reach = towards.try_normalize().map_or(f64::INFINITY, |d| ellipse.radius_towards(d));
@@ -266,7 +246,7 @@ impl Bench<'_, '_> {
     }
 }
 
-/// The bounds of the diameter of a lumen (mm) by factors of it, where the flags of its section ask for them.
+/// Bounds of the diameter (mm), only with calcium or metal.
 fn bounds(flags: u32, ellipse: &Ellipse, factors: impl FnOnce() -> [f64; 2]) -> [f64; 2] {
     if flags & (CALCIUM | METAL) == 0 {
         return [f64::NAN; 2];
@@ -274,13 +254,11 @@ fn bounds(flags: u32, ellipse: &Ellipse, factors: impl FnOnce() -> [f64; 2]) -> 
     factors().map(|factor| factor * ellipse.equivalent_diameter())
 }
 
-/// The noise of a voxel as a share: the median of what fits miss.
-pub fn noise(fits: &[Option<Fit>]) -> f64 {
+pub(crate) fn noise(fits: &[Option<Fit>]) -> f64 {
     let mut missed: Vec<f64> = fits.iter().flatten().map(|fit| fit.missed).collect();
     median(&mut missed).unwrap_or(FIRST_NOISE).max(1e-4)
 }
 
-/// The middle of a section (mm, LPS).
-pub fn center(place: &Place, fit: &Fit) -> DVec3 {
+pub(crate) fn center(place: &SectionPlane, fit: &Fit) -> DVec3 {
     place.point(fit.ellipse.center)
 }

@@ -1,61 +1,55 @@
-//! The voxels around the plane of a section, by where they lie in it.
+//! The voxels near the plane of a section, projected onto it.
 //!
-//! A vessel that goes straight on looks the same everywhere along itself, so that each voxel shows the blurred section at its
-//! own place: nothing is interpolated, and the noise of neighbours stays independent.
+//! A straight vessel looks the same along its axis, so every voxel shows the blurred section at its own
+//! position. Nothing is interpolated, and noise stays independent.
 
 use glam::DVec2;
 
-use super::place::Place;
 use super::scale::Scale;
+use super::section_plane::SectionPlane;
 use crate::voxels::Voxels;
 use lumencut_core::math::lanes::FAN;
 
-/// The most voxels around the wall, and the most elsewhere.
-const MOST: [usize; 2] = [448, 160];
+/// Maximum number of voxels near the wall, and elsewhere.
+const MAX_VOXELS: [usize; 2] = [448, 160];
 
-/// Which voxels are taken.
 #[derive(Clone, Copy, Debug)]
-pub struct Window {
-    /// The middle (mm in the plane).
+pub(crate) struct Window {
+    /// Centre (mm in the plane).
     pub center: DVec2,
-    /// How far they reach (mm).
+    /// Radius (mm).
     pub reach: f64,
-    /// Where the wall is, by and large, and how far from it is near (mm from the middle).
+    /// Approximate radius of the wall, and the distance from it that counts as near (mm).
     pub wall: [f64; 2],
 }
 
-/// Voxels in the plane of a section, sixteen together; those that fill the last sixteen weigh nothing.
+/// Voxels in groups of sixteen; padding has weight 0.
 #[derive(Clone, Debug, Default)]
-pub struct Samples {
-    /// Where they lie (mm).
+pub(crate) struct Samples {
+    /// In-plane position (mm).
     pub x: Vec<[f32; FAN]>,
-    /// Where they lie (mm).
     pub y: Vec<[f32; FAN]>,
-    /// Their values as shares.
     pub share: Vec<[f32; FAN]>,
-    /// How much they count: the more, the nearer to the plane.
+    /// Falls linearly with the distance from the plane.
     pub weight: Vec<[f32; FAN]>,
-    /// The voxels that they are, counted from the first one of the window.
+    /// Voxel indices relative to the first voxel of the window.
     pub voxel: Vec<[[i16; 3]; FAN]>,
-    /// How many they are.
     pub count: usize,
 }
 
-/// A voxel: its place, share and weight, and which it is.
 #[derive(Clone, Copy, Default)]
 struct Sample {
     numbers: [f32; 4],
     voxel: [i16; 3],
-    /// A number without any pattern that the voxel has in each window.
+    /// Pseudo-random number of the voxel, the same in every window.
     key: u32,
 }
 
 impl Samples {
-    /// The voxels of a window that may be kept.
-    pub fn gather(
+    pub(crate) fn gather(
         voxels: &Voxels,
         scale: &Scale,
-        place: &Place,
+        place: &SectionPlane,
         window: &Window,
         keep: impl Fn(DVec2) -> bool,
     ) -> Self {
@@ -96,8 +90,8 @@ impl Samples {
     }
 
     fn new([near, far]: [Vec<Sample>; 2]) -> Self {
-        let mut all = thinned(near, MOST[0]);
-        all.append(&mut thinned(far, MOST[1]));
+        let mut all = thinned(near, MAX_VOXELS[0]);
+        all.append(&mut thinned(far, MAX_VOXELS[1]));
         let count = all.len();
         all.resize(count.next_multiple_of(FAN), Sample::default());
         let column = |part: usize| {
@@ -108,14 +102,13 @@ impl Samples {
     }
 }
 
-/// How far from the plane voxels count (mm): as far as interpolation reaches.
-pub fn thickness(voxels: &Voxels, place: &Place) -> f64 {
+/// Distance from the plane up to which voxels count (mm): the reach of linear interpolation.
+pub(crate) fn thickness(voxels: &Voxels, place: &SectionPlane) -> f64 {
     let sides = voxels.world_from_index.matrix3;
     [sides.x_axis, sides.y_axis, sides.z_axis].iter().map(|side| side.dot(place.normal).abs()).sum()
 }
 
-/// The voxels of a row within a distance of the plane, where there are any: `z` is the distance of its first one, which grows
-/// by `dz`.
+/// Voxels of a row within `thickness` of the plane; the distance starts at `z` and grows by `dz`.
 fn within(z: f64, dz: f64, thickness: f64, count: i32) -> Option<(i32, i32)> {
     let last = f64::from(count - 1);
     if dz.abs() < 1e-9 {
@@ -126,8 +119,7 @@ fn within(z: f64, dz: f64, thickness: f64, count: i32) -> Option<(i32, i32)> {
     (low <= high).then_some((low as i32, high as i32))
 }
 
-/// About this number of samples, picked without any pattern: by their voxels alone, so that hardly others are picked where a
-/// window is a little another one.
+/// Keeps about `most` samples, nearly the same ones for a slightly different window.
 fn thinned(samples: Vec<Sample>, most: usize) -> Vec<Sample> {
     if samples.len() <= most {
         return samples;
@@ -136,8 +128,7 @@ fn thinned(samples: Vec<Sample>, most: usize) -> Vec<Sample> {
     samples.into_iter().filter(|sample| sample.key <= limit).collect()
 }
 
-/// A number without any pattern for a voxel: its indices times large primes (Teschner et al. 2003), mixed by the last steps of
-/// MurmurHash3.
+/// Pseudo-random number of a voxel (primes of Teschner et al. 2003, final mix of MurmurHash3).
 fn key([i, j, k]: [i32; 3]) -> u32 {
     let [i, j, k] =
         [(i, 73_856_093), (j, 19_349_663), (k, 83_492_791)].map(|(n, by)| (n as u32).wrapping_mul(by));

@@ -1,12 +1,9 @@
-//! Stenoses at places that the caller names, by the rules of the field.
+//! Stenoses at places named by the caller.
 //!
-//! * NASCET: 1 - narrowest / normal distal diameter (NASCET 1991, doi:10.1056/NEJM199108153250701).
-//! * ECST: 1 - narrowest / original diameter at the stenosis, which must be assumed (ECST 1998,
-//!   doi:10.1016/S0140-6736(97)09292-1).
-//! * Area: 1 - narrowest / normal area.
-//!
-//! Behind a near-occlusion the distal vessel is narrowed itself and NASCET's percentage makes no sense (Fox et al. 2005,
-//! AJNR 26:2086).
+//! - NASCET: 1 - narrowest / normal distal diameter (NASCET 1991, doi:10.1056/NEJM199108153250701). It does
+//!   not apply beyond a near-occlusion, where the distal vessel is narrowed (Fox et al. 2005, AJNR 26:2086).
+//! - ECST: 1 - narrowest / assumed original diameter (ECST 1998, doi:10.1016/S0140-6736(97)09292-1).
+//! - Area: 1 - narrowest / normal area.
 
 use std::f64::consts::PI;
 
@@ -19,23 +16,22 @@ use lumencut_core::math::same_place::ALONG_LINE;
 use lumencut_core::math::statistics::median;
 use lumencut_core::named::Named;
 
-/// A reference is the median of the sections so far around its place (mm).
-pub const REFERENCE_REACH: f64 = 1.5;
+/// A reference is the median of the sections within this distance (mm).
+pub(crate) const REFERENCE_REACH: f64 = 1.5;
 
-/// A distal vessel below this share of the same vessel on the other side of the stenosis is narrowed itself.
-pub const NARROWED: f64 = 0.5;
+/// A distal vessel below this share of the vessel on the other side of the stenosis is itself narrowed.
+pub(crate) const NARROWED: f64 = 0.5;
 
-/// A distal vessel at or below this share of the one it is compared with, such as that of the other side of the body, is narrowed
-/// itself (Bartlett et al. 2006, AJNR 27:632).
-pub const NARROWED_BESIDE: f64 = 0.87;
+/// The same limit for a comparison vessel, such as the contralateral one (Bartlett et al. 2006, AJNR 27:632).
+pub(crate) const NARROWED_BESIDE: f64 = 0.87;
 
-/// The other side of a stenosis: from so far on to so far away from it (mm).
+/// Range of the other side of a stenosis (mm from it).
 const OTHER_SIDE: [f64; 2] = [3.0, 50.0];
 
-/// A place is at a section from this share of the way to the next one on.
+/// Tolerance for being at a section, as a share of the section distance.
 const AT_SECTION: f64 = 1e-6;
 
-/// How a stenosis is graded.
+/// Grading method of a stenosis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
     /// By the diameter of the normal vessel.
@@ -54,53 +50,50 @@ impl Named for Method {
 /// What a stenosis is compared with.
 #[derive(Clone, Debug, Default)]
 pub struct Compared {
-    /// Arc lengths of one normal place, or of one on each side of the stenosis (mm).
+    /// Arc lengths of one normal place, or of one on each side (mm).
     pub reference: Vec<f64>,
-    /// The assumed original diameter at the stenosis (mm), for ECST.
+    /// Assumed original diameter (mm), for ECST.
     pub original: Option<f64>,
-    /// The diameter of a vessel that is like the normal one, such as that of the other side of the body (mm), for NASCET.
+    /// Diameter of a comparable normal vessel, such as the contralateral one (mm), for NASCET.
     pub comparison: Option<f64>,
 }
 
-/// What makes a percentage doubtful; a reader is told it beside the percentage.
+/// Reasons to doubt a percentage, shown with it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Doubts {
-    /// The flags of the sections at the places that the percentage comes from; see [`super::flags`].
+    /// Flags of the sections used; see [`super::flags`].
     pub flags: u32,
-    /// Whether a branch lies between the place and a reference: beyond it a vessel may be of another width.
+    /// Whether a branch lies between the place and a reference; the calibre may change there.
     pub is_branch_between: bool,
 }
 
 /// A graded stenosis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stenosis {
-    /// By how much it is narrower, 0 to 100: of the diameter, or of the area.
+    /// Narrowing of diameter or area, 0 to 100.
     pub percent: f64,
-    /// The standard deviation of that.
+    /// Standard deviation of the percentage.
     pub percent_uncertainty: f64,
-    /// Its place, an arc length (mm).
+    /// Arc length (mm).
     pub at: f64,
-    /// Its diameter, of a circle of the same area (mm).
+    /// Equivalent diameter (mm).
     pub diameter: f64,
-    /// The standard deviation of that (mm).
+    /// Standard deviation of the diameter (mm).
     pub uncertainty: f64,
-    /// What it was compared with: a diameter (mm); where areas are compared that of a circle of the same area.
+    /// Reference diameter (mm); for areas, of a circle of that area.
     pub reference: f64,
-    /// The places of the references, and the diameter at each (mm).
+    /// Arc length and diameter of each reference (mm).
     pub references: Vec<[f64; 2]>,
-    /// How it was graded.
+    /// Grading method.
     pub method: Method,
-    /// What makes the percentage doubtful.
+    /// Reasons to doubt the percentage.
     pub doubts: Doubts,
 }
 
 impl Profile {
-    /// The stenosis at an arc length (mm).
-    ///
-    /// # Errors
-    /// [`ErrorKind::Measuring`] for places beyond the vessel or where nothing was measured, references that are narrower than
-    /// the stenosis, on one side of it or within one diameter of it, a missing original diameter, and NASCET at a
-    /// near-occlusion.
+    /// Grades the stenosis at an arc length (mm). Errors: [`ErrorKind::Measuring`] for places beyond the
+    /// vessel or not measured; references that are narrower than the stenosis, both on one side, or within
+    /// one diameter; a missing original diameter; NASCET at a near-occlusion.
     pub fn stenosis(&self, at: f64, method: Method, compared: &Compared) -> Result<Stenosis> {
         let (diameter, uncertainty) = self.diameter_at(at)?;
         let references = compared
@@ -117,7 +110,7 @@ impl Profile {
         };
         if reference < diameter {
             let found =
-                format!("{reference:.2} mm, where the stenosis at {at:.1} mm measures {diameter:.2} mm");
+                format!("{reference:.2} mm, but the stenosis at {at:.1} mm measures {diameter:.2} mm");
             let expected = "a diameter that is not below that of the stenosis";
             return Err(measuring("reference of the stenosis", found, expected));
         }
@@ -142,11 +135,8 @@ impl Profile {
         })
     }
 
-    /// The diameter at an arc length (mm), between sections, and its standard deviation (mm). Between one that counts and one that
-    /// does not it is that of the first.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Measuring`] for a place beyond the vessel or where nothing was measured.
+    /// Diameter and standard deviation at an arc length (mm), interpolated between sections that count.
+    /// [`ErrorKind::Measuring`] for a place beyond the vessel or not measured.
     pub fn diameter_at(&self, at: f64) -> Result<(f64, f64)> {
         self.check_place("place on the vessel", at)?;
         let (place, ends) = self.sections_around(at);
@@ -161,15 +151,15 @@ impl Profile {
         Ok((diameter, place.between(ends.map(|n| self.uncertainty[n]))))
     }
 
-    /// What the standard deviation of the diameter at an arc length (mm) is made of, between sections.
-    pub fn uncertainty_at(&self, at: f64) -> Parts {
+    /// Parts of the standard deviation at an arc length (mm), interpolated.
+    pub(crate) fn uncertainty_at(&self, at: f64) -> Parts {
         let (place, ends) = self.sections_around(at);
         let [a, b] = ends.map(|n| &self.uncertainty_parts[n]);
         a.with(b, |a, b| place.between([a, b]))
     }
 
-    /// An arc length (mm) between sections, and those before and behind it; where one alone of them counts, that twice. A place at a
-    /// section is at that one, whether it counts or not.
+    /// The sections before and after an arc length (mm); twice the same if only one of them counts. A place
+    /// at a section uses that section in any case.
     fn sections_around(&self, at: f64) -> (LinePlace, [usize; 2]) {
         let place = LinePlace::at(&self.arc_length, at);
         let ends = [place.segment, (place.segment + 1).min(self.len() - 1)];
@@ -182,7 +172,7 @@ impl Profile {
         (place, ends)
     }
 
-    /// The standard deviation of a percentage, times the diameter of the reference (mm): `share` is what is left of that.
+    /// Standard deviation of a percentage times the reference diameter (mm); `share` is the remaining lumen.
     fn percent_uncertainty(&self, at: f64, method: Method, share: f64, references: &[[f64; 2]]) -> f64 {
         let place = self.uncertainty_at(at);
         let known: Vec<(f64, Parts)> = match (method, references) {
@@ -199,27 +189,23 @@ impl Profile {
         100.0 * by_area * deviation_of_sum(&all)
     }
 
-    /// The median diameter around an arc length (mm), of the sections that count.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Measuring`] for a place beyond the vessel or where nothing was measured that counts.
-    pub fn reference_at(&self, at: f64) -> Result<f64> {
+    /// Median diameter around an arc length (mm), of the sections that count.
+    pub(crate) fn reference_at(&self, at: f64) -> Result<f64> {
         self.check_place("reference of the stenosis", at)?;
         let around = |n: &usize| (self.arc_length[*n] - at).abs() <= REFERENCE_REACH;
         let mut widths = self.widths((0..self.len()).filter(around));
         if widths.is_empty() {
-            // Sections may lie farther apart.
+            // The sections may be farther apart than the window.
             return self.diameter_at(at).map(|(diameter, _)| diameter);
         }
         median(&mut widths)
             .ok_or_else(|| measuring("reference of the stenosis", format!("nothing at {at:.1} mm"), MEASURED))
     }
 
-    /// What makes a percentage doubtful that compares one arc length with references (mm) by a method. The sections are those
-    /// that are nearest to these places.
+    /// Reasons to doubt a percentage at an arc length with references (mm), from the nearest sections.
     pub fn doubts(&self, at: f64, method: Method, references: &[f64]) -> Doubts {
         let place = self.nearest_section(at);
-        // Where the original diameter is assumed, no other place tells anything.
+        // ECST uses no reference place.
         let told_by = if method == Method::Ecst { &[] } else { references };
         let others: Vec<usize> = told_by.iter().map(|reference| self.nearest_section(*reference)).collect();
         let between = |other: usize| (place.min(other) + 1)..place.max(other);
@@ -230,18 +216,13 @@ impl Profile {
         }
     }
 
-    /// The diameters of the sections that count among some (mm).
     pub(super) fn widths(&self, sections: impl Iterator<Item = usize>) -> Vec<f64> {
         sections.filter(|n| self.counts(*n)).map(|n| 2.0 * (self.area[n] / PI).sqrt()).collect()
     }
 
-    /// Checks that an arc length lies on the vessel.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Measuring`].
-    pub fn check_place(&self, subject: &str, at: f64) -> Result<()> {
+    pub(crate) fn check_place(&self, subject: &str, at: f64) -> Result<()> {
         let length = self.arc_length[self.len() - 1];
-        // Lengths of the same line differ by rounding.
+        // Tolerates rounding of lengths.
         if at >= -ALONG_LINE && at <= length + ALONG_LINE {
             return Ok(());
         }
@@ -253,7 +234,7 @@ impl Profile {
             if let Some(beside) = comparison
                 && *diameter <= NARROWED_BESIDE * beside
             {
-                let found = format!("{diameter:.2} mm at {place:.1} mm, beside {beside:.2} mm");
+                let found = format!("{diameter:.2} mm at {place:.1} mm, next to a vessel of {beside:.2} mm");
                 return Err(near_occlusion(found, NARROWED_BESIDE, "the vessel it is compared with"));
             }
         }
@@ -280,8 +261,8 @@ fn measuring(subject: &str, found: String, expected: &str) -> Error {
 }
 
 fn near_occlusion(found: String, share: f64, of: &str) -> Error {
-    let expected = format!("a reference above {share} of {of}: behind a near-occlusion no place is normal");
-    measuring("reference of the stenosis", found, &expected).mend("state the diameter in mm alone")
+    let expected = format!("a reference above {share} of {of}: no place beyond a near-occlusion is normal");
+    measuring("reference of the stenosis", found, &expected).mend("state only the diameter in mm")
 }
 
 fn original(diameter: Option<f64>) -> Result<f64> {
@@ -293,11 +274,10 @@ fn original(diameter: Option<f64>) -> Result<f64> {
     Err(measuring("original diameter of the stenosis", found, "the assumed diameter (mm), for ECST"))
 }
 
-/// Refuses a reference (its place and diameter, mm) that lies within its own diameter of the stenosis: so near the vessel is a part
-/// of the stenosis, and at the same place it would be compared with itself.
+/// Rejects a reference within its own diameter of the stenosis, because it still belongs to the narrowing.
 fn refuse_near(at: f64, [place, diameter]: [f64; 2]) -> Result<()> {
     let away = (place - at).abs();
-    // Lengths of the same line differ by rounding.
+    // Tolerates rounding of lengths.
     if away + ALONG_LINE >= diameter {
         return Ok(());
     }
@@ -307,7 +287,7 @@ fn refuse_near(at: f64, [place, diameter]: [f64; 2]) -> Result<()> {
     Err(measuring("reference of the stenosis", found, &expected).mend(mend))
 }
 
-/// The reference at a stenosis: the one there is, or what lies between two by their distances.
+/// The reference at a stenosis, interpolated between two by distance.
 fn at_stenosis(at: f64, references: &[[f64; 2]]) -> Result<f64> {
     match references {
         [[_, diameter]] => Ok(*diameter),

@@ -1,4 +1,4 @@
-//! Lengths along a vessel, directions of its stretches, and how a C-arm sees them.
+//! Lengths and directions of vessel segments, and C-arm angles.
 
 use glam::DVec3;
 
@@ -6,47 +6,41 @@ use super::profile::Profile;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::math::arc_length::point_at;
 
-/// The length of a stretch.
+/// The length of a segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stretch {
     /// Along the vessel (mm).
     pub length: f64,
-    /// Straight from one end to the other (mm).
+    /// Straight distance of the ends (mm).
     pub straight: f64,
 }
 
 impl Stretch {
-    /// The length along the vessel in straight distances: 1 for a straight stretch, infinite for one that ends where it begins.
+    /// Length over straight distance; infinite if both ends coincide.
     pub fn tortuosity(&self) -> f64 {
         if self.straight > 0.0 { self.length / self.straight } else { f64::INFINITY }
     }
 }
 
-/// How a C-arm is turned (radians).
+/// C-arm angles (radians).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CArm {
-    /// To the patient's left (LAO); to the right (RAO) below 0.
+    /// Left anterior oblique; negative for RAO.
     pub lao: f64,
-    /// To the head (cranial); to the feet (caudal) below 0.
+    /// Cranial; negative for caudal.
     pub cranial: f64,
 }
 
 impl Profile {
-    /// The length between two places by their arc lengths (mm).
-    ///
-    /// # Errors
-    /// [`ErrorKind::Measuring`] for places beyond the vessel, or one place twice.
+    /// Length between two arc lengths (mm). [`ErrorKind::Measuring`] for wrong or equal places.
     pub fn stretch(&self, [from, to]: [f64; 2]) -> Result<Stretch> {
         self.check_stretch([from, to])?;
         let straight = self.point_at(from).distance(self.point_at(to));
         Ok(Stretch { length: (to - from).abs(), straight })
     }
 
-    /// The direction of a stretch from one arc length to another (mm): that of the line that fits the middles of its sections
-    /// best.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Measuring`] for places beyond the vessel, or one place twice.
+    /// Direction from one arc length to another (mm): that of the line fitted to the section centres. Errors:
+    /// [`ErrorKind::Measuring`] for places beyond the vessel, or the same place twice.
     pub fn direction(&self, [from, to]: [f64; 2]) -> Result<DVec3> {
         self.check_stretch([from, to])?;
         let [low, high] = [from.min(to), from.max(to)];
@@ -57,28 +51,27 @@ impl Profile {
         }
         let count = line.len() as f64;
         let middle = line.iter().map(|(at, _)| at).sum::<f64>() / count;
-        // The slope of the line by arc length.
+        // Least-squares slope by arc length.
         let slope: DVec3 = line.iter().map(|(at, point)| *point * (at - middle)).sum();
         let direction = (slope * (to - from).signum()).try_normalize();
         direction.ok_or_else(|| {
             let found = format!("a stretch from {from:.1} to {to:.1} mm without direction");
-            Error::new(ErrorKind::Measuring, "stretch of the vessel", found, "one that leads somewhere")
+            Error::new(
+                ErrorKind::Measuring,
+                "stretch of the vessel",
+                found,
+                "a stretch between two different positions",
+            )
         })
     }
 
-    /// The angle between two stretches (radians): 0 where the second goes on in the direction of the first.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Measuring`] as for [`Profile::direction`].
+    /// Angle between two segments (radians); 0 for the same direction.
     pub fn angle_between(&self, first: [f64; 2], second: [f64; 2]) -> Result<f64> {
         Ok(self.direction(first)?.angle_between(self.direction(second)?))
     }
 
-    /// How a C-arm is turned that sees a stretch in its whole length; with `lao` (radians) at that rotation, else as little as
-    /// possible.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Measuring`] as for [`Profile::direction`], and for a rotation at which no angulation does.
+    /// C-arm angles that show a segment in full length: at rotation `lao` (radians) if given, otherwise with
+    /// the smallest turn. Errors: As [`Profile::direction`], and for a rotation at which no angulation does.
     pub fn c_arm(&self, stretch: [f64; 2], lao: Option<f64>) -> Result<CArm> {
         let along = self.direction(stretch)?;
         match lao {
@@ -87,7 +80,7 @@ impl Profile {
         }
     }
 
-    /// The vessel's point at an arc length (mm, LPS).
+    /// Centerline point at an arc length (mm, LPS).
     pub fn point_at(&self, at: f64) -> DVec3 {
         point_at(&self.on_vessel, &self.arc_length, at)
     }
@@ -109,31 +102,30 @@ impl Profile {
     }
 }
 
-/// From the patient to the detector of a C-arm (LPS): in front of the patient at 0, 0.
+/// Direction to the detector (LPS): (sin α cos β, -cos α cos β, sin β) for LAO α and cranial β.
 pub fn towards_detector(CArm { lao, cranial }: CArm) -> DVec3 {
     DVec3::new(lao.sin() * cranial.cos(), -lao.cos() * cranial.cos(), cranial.sin())
 }
 
-/// What is up in the image of a C-arm (LPS): the patient's head, as far as the image shows its direction. Seen from above the head
-/// or from below the feet it is what the head becomes while the C-arm is turned there: the back from above, the front from below.
+/// Up in the C-arm image (LPS): towards the head. From directly above or below, the limit of turning there
+/// applies: the back from above, the front from below.
 pub fn up_at_detector(CArm { lao, cranial }: CArm) -> DVec3 {
     DVec3::new(-lao.sin() * cranial.sin(), lao.cos() * cranial.sin(), cranial.cos())
 }
 
-/// The view across a direction that is nearest to the one from the front.
 fn least_turned(along: DVec3) -> CArm {
     let front = DVec3::NEG_Y;
-    // What runs towards the viewer is seen from the patient's left.
+    // A vessel along the frontal view is seen from the patient's left.
     let view = front.reject_from_normalized(along).try_normalize().unwrap_or(DVec3::X);
     let view = if (front.dot(along).abs() - 1.0).abs() < 1e-9 { DVec3::X } else { view };
     CArm { lao: view.x.atan2(-view.y), cranial: view.z.clamp(-1.0, 1.0).asin() }
 }
 
-/// The angulation at a rotation from which a direction is seen in its whole length.
+/// Angulation at a rotation that shows a direction in full length.
 fn angulated(along: DVec3, lao: f64) -> Result<CArm> {
     let flat = along.x * lao.sin() - along.y * lao.cos();
     if !lao.is_finite() || (along.z.abs() < 1e-9 && flat.abs() > 1e-9) {
-        let found = format!("{:.1}° for a stretch that lies flat", lao.to_degrees());
+        let found = format!("{:.1}° for a stretch within the plane of rotation", lao.to_degrees());
         return Err(Error::new(ErrorKind::Measuring, "rotation of the C-arm", found, "another rotation"));
     }
     let cranial = if flat.abs() < 1e-9 { 0.0 } else { (-flat / along.z).atan() };

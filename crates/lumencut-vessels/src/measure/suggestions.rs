@@ -1,5 +1,4 @@
-//! What is offered to the reader of a profile: the narrowest and the widest place, and places to compare with. These are
-//! suggestions: nothing of it finds a stenosis.
+//! Suggestions for the reader: narrowest and widest place, and references. They do not detect stenoses.
 
 use std::cmp::Ordering;
 
@@ -9,47 +8,45 @@ use super::stenosis::REFERENCE_REACH;
 use lumencut_core::error::Result;
 use lumencut_core::math::statistics::{median, quantile};
 
-/// Walls are parallel where diameters within this distance (mm) to both sides differ by no more than this share.
+/// Walls are parallel if diameters within this distance (mm) on both sides differ by at most this share.
 const PARALLEL: (f64, f64) = (2.5, 0.06);
 
-/// References are looked for from so far on to so far from a place (mm).
-const AWAY: [f64; 2] = [3.0, 50.0];
+/// Distance range of references (mm).
+const REFERENCE_DISTANCE_MM: [f64; 2] = [3.0, 50.0];
 
-/// A reference is at least this share of what most of the vessel on its side is.
+/// Minimum diameter of a reference, as a share of the typical diameter on its side.
 const NORMAL: f64 = 0.92;
 
-/// The calibre steps where neighbouring places with parallel walls differ by this factor.
+/// Ratio of neighbouring normal places that counts as a step of the calibre.
 const CALIBRE_STEP: f64 = 1.25;
 
-/// A longest diameter is not offered where a section within this distance (mm) of it is irregular or lies in a branch.
-const BESIDE: f64 = 1.0;
+/// The longest diameter is not suggested within this distance (mm) of an irregular section or a branch.
+const MIN_DISTANCE_MM: f64 = 1.0;
 
-/// A section is round where its longest diameter is at most this many times its shortest one. One that is longer is believed, up to
-/// the second factor, where it is like its neighbours: of those within this distance (mm) so many are not shorter by more than this
-/// share.
+/// Maximum ratio of the axes of a section: alone, and with similar neighbours, defined as at least this many
+/// within this distance (mm) that are at most this share shorter. Excludes isolated outliers of the fit.
 const ROUND: [f64; 2] = [1.3, 2.0];
 const NEIGHBOURS: (f64, usize, f64) = (2.5, 4, 0.1);
 
-/// A place is the thin end of a vessel where the vessel is wider than it by the first factor on one side, and on the other one
-/// nowhere by the second: most vessels get thinner along their way.
+/// A tapering end: the vessel is wider by the first factor on one side, and nowhere by the second on the
+/// other.
 const THIN_END: [f64; 2] = [1.25, 1.1];
 
-/// Sections to both sides whose median tells how wide the vessel is about a place: single ones may be spikes.
-const AROUND: usize = 2;
+/// Sections on each side for a median width, because single ones may be outliers.
+const MEDIAN_SECTIONS: usize = 2;
 
 /// A place on a vessel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spot {
-    /// Its arc length (mm).
+    /// Arc length (mm).
     pub at: f64,
-    /// The diameter there (mm).
+    /// Diameter (mm).
     pub diameter: f64,
 }
 
 impl Profile {
-    /// Where the vessel is narrowest, by the median of three, of the sections that nothing keeps from being suggested
-    /// ([`Profile::hindrances`]) and that are no thin end of the vessel. None where none is safe ([`Profile::none_safe`] says why), and
-    /// where the vessel only gets thinner ([`Profile::thin_end`]).
+    /// Narrowest place (median of three sections) without [`Profile::hindrances`], except a tapering end.
+    /// None if there is none ([`Profile::none_safe`], [`Profile::thin_end`]).
     pub fn narrowest(&self) -> Option<Spot> {
         let spots = self.safe_spots();
         let narrowest = spots.iter().copied().min_by(thinner)?;
@@ -59,18 +56,18 @@ impl Profile {
         if before.max(after) < THIN_END[0] || before.min(after) >= THIN_END[1] {
             return Some(narrowest.1);
         }
-        // Of a vessel that gets thinner a narrowing is what is thinner than both of its sides.
+        // In a tapering vessel, a narrowing is thinner than both sides.
         let is_narrowing = |one: &(usize, Spot)| wider(one).iter().all(|factor| *factor >= THIN_END[1]);
         spots.into_iter().filter(is_narrowing).min_by(thinner).map(|(_, spot)| spot)
     }
 
-    /// The narrowest safe place of a vessel that has no narrowing, but gets thinner towards one of its ends; None of others.
+    /// Narrowest place of a vessel that only tapers towards an end; None otherwise.
     pub fn thin_end(&self) -> Option<Spot> {
         let narrowest = self.safe_spots().into_iter().min_by(thinner);
         narrowest.map(|(_, spot)| spot).filter(|_| self.narrowest().is_none())
     }
 
-    /// The sections that nothing keeps from being suggested, each with its number and the median diameter of three.
+    /// Sections without hindrances, with the median diameter of three.
     fn safe_spots(&self) -> Vec<(usize, Spot)> {
         let hindrances = self.hindrances();
         let spot = |n: usize| {
@@ -80,9 +77,9 @@ impl Profile {
         (0..self.len()).filter(|n| self.counts(*n) && hindrances[*n] == 0).filter_map(spot).collect()
     }
 
-    /// How wide the vessel is before and behind each section at its widest, by medians of five sections; 0 where none counts.
+    /// Largest width before and after each section, by medians of five; 0 if none counts.
     fn widest_beside(&self) -> Vec<[f64; 2]> {
-        let width = |n: usize| median(&mut self.widths(self.around(n, AROUND))).unwrap_or(0.0);
+        let width = |n: usize| median(&mut self.widths(self.around(n, MEDIAN_SECTIONS))).unwrap_or(0.0);
         let widths: Vec<f64> = (0..self.len()).map(width).collect();
         let mut found = vec![[0.0_f64; 2]; self.len()];
         for n in 1..self.len() {
@@ -94,12 +91,11 @@ impl Profile {
         found
     }
 
-    /// The numbers of a section and of so many to both sides of it.
     fn around(&self, n: usize, count: usize) -> std::ops::Range<usize> {
         n.saturating_sub(count)..(n + count + 1).min(self.len())
     }
 
-    /// What keeps all sections from being suggested, as bits of all of their hindrances; None where one is safe.
+    /// All hindrances of the vessel as bits, if no section is free of them; None otherwise.
     pub fn none_safe(&self) -> Option<u32> {
         let hindrances = self.hindrances();
         let is_safe = |n: usize| self.counts(n) && hindrances[n] == 0;
@@ -107,32 +103,29 @@ impl Profile {
         (!(0..self.len()).any(is_safe)).then_some(all)
     }
 
-    /// The longest diameter of all sections that count, whatever else their flags say, and its place; None where none counts.
+    /// Longest diameter of the sections that count.
     pub fn widest(&self) -> Option<Spot> {
         let spot = |n| Spot { at: self.arc_length[n], diameter: self.diameter_max[n] };
         let spots = (0..self.len()).filter(|n| self.counts(*n)).map(spot);
         spots.reduce(|a, b| if b.diameter > a.diameter { b } else { a })
     }
 
-    /// The longest diameter as it is offered to readers. Where the longest one is a spike of the fit, in a section that is neither
-    /// round nor like its neighbours, it is that of the section with the largest area. None where that is such a spike too, and
-    /// where an odd outline or a branch, at its place or beside it, may be what makes it the longest one. [`Profile::widest`] has it
-    /// all the same.
+    /// Longest diameter to suggest: [`Profile::widest`], or the section of largest area if that is an
+    /// outlier. None if both are outliers, or next to an irregular section or a branch.
     pub fn offered_widest(&self) -> Option<Spot> {
         let largest = (0..self.len())
             .filter(|n| self.counts(*n))
             .max_by(|a, b| self.area[*a].total_cmp(&self.area[*b]));
         let longest = self.widest().map(|spot| self.nearest_section(spot.at));
-        let believed = longest.into_iter().chain(largest).find(|n| self.is_believed(*n))?;
-        let at = self.arc_length[believed];
-        let is_beside = |n: &usize| (self.arc_length[*n] - at).abs() <= BESIDE;
+        let plausible = longest.into_iter().chain(largest).find(|n| self.is_plausible(*n))?;
+        let at = self.arc_length[plausible];
+        let is_beside = |n: &usize| (self.arc_length[*n] - at).abs() <= MIN_DISTANCE_MM;
         let is_odd = |n: usize| self.flags[n] & (BRANCH | IRREGULAR) != 0;
         let is_plain = !(0..self.len()).filter(is_beside).any(is_odd);
-        is_plain.then_some(Spot { at, diameter: self.diameter_max[believed] })
+        is_plain.then_some(Spot { at, diameter: self.diameter_max[plausible] })
     }
 
-    /// Whether a section is round, or as long as its neighbours.
-    fn is_believed(&self, n: usize) -> bool {
+    fn is_plausible(&self, n: usize) -> bool {
         let (reach, least, share) = NEIGHBOURS;
         let longest = self.diameter_max[n];
         let is_near = |m: &usize| *m != n && (self.arc_length[*m] - self.arc_length[n]).abs() <= reach;
@@ -141,14 +134,10 @@ impl Profile {
         longest <= ROUND[usize::from(agree)] * self.diameter_min[n]
     }
 
-    /// Places before and after an arc length (mm) that it could be compared with: the nearest ones, at least their own diameter
-    /// away, whose walls are parallel, that are as wide as most of the vessel on that side, not narrower than the place, and that
-    /// nothing keeps from being suggested ([`Profile::hindrances`]). No branch and no step of the calibre lies between a place and
-    /// its reference, as beyond it the vessel is of another width; only where that leaves neither side one, they are passed. None
-    /// on a side without such a place.
-    ///
-    /// # Errors
-    /// [`lumencut_core::error::ErrorKind::Measuring`] for a place beyond the vessel.
+    /// Suggested references before and after an arc length (mm): the nearest places at least their own
+    /// diameter away, with parallel walls, typical width, not narrower than the place, and without
+    /// [`Profile::hindrances`]. They lie before the next branch or step of the calibre, unless neither side
+    /// has such a place. Errors: `ErrorKind::Measuring` for a place beyond the vessel.
     pub fn suggested_references(&self, at: f64) -> Result<[Option<Spot>; 2]> {
         self.check_place("place on the vessel", at)?;
         let normal = self.normal_places(at);
@@ -156,7 +145,7 @@ impl Profile {
             [(0, -1.0), (1, 1.0)].map(|(n, side)| self.suggested_on((at, side), reach[n], &normal))
         };
         let place = self.diameter_at(at).map_or(0.0, |(diameter, _)| diameter);
-        // What is about as wide as the place is a part of the narrowing.
+        // Places about as wide as this one belong to the narrowing.
         let wider = normal.iter().filter(|spot| spot.diameter > CALIBRE_STEP * place);
         let wider: Vec<Spot> = wider.copied().collect();
         let end = |side: f64| self.nearest_branch(at, side).min(calibre_step((at, side), &wider));
@@ -164,7 +153,7 @@ impl Profile {
         Ok(if segment == [None, None] { within([f64::INFINITY; 2]) } else { segment })
     }
 
-    /// All places, rising, that could be compared with an arc length (mm): safe, with parallel walls, and not narrower.
+    /// All possible references, in order: safe, with parallel walls, not narrower.
     fn normal_places(&self, at: f64) -> Vec<Spot> {
         let hindrances = self.hindrances();
         let least = self.diameter_at(at).map_or(0.0, |(diameter, _)| diameter);
@@ -180,20 +169,23 @@ impl Profile {
         (0..self.len()).filter_map(spot).collect()
     }
 
-    /// How far from a place the nearest branch on a side begins (mm); a place within a branch is not beside it.
+    /// Distance (mm) to the nearest branch on a side, ignoring one at the place itself.
     fn nearest_branch(&self, at: f64, side: f64) -> f64 {
         let away = (0..self.len()).filter(|n| self.flags[*n] & BRANCH != 0);
-        let away = away.map(|n| (self.arc_length[n] - at) * side).filter(|away| *away >= AWAY[0]);
+        let away =
+            away.map(|n| (self.arc_length[n] - at) * side).filter(|away| *away >= REFERENCE_DISTANCE_MM[0]);
         away.fold(f64::INFINITY, f64::min)
     }
 
     fn suggested_on(&self, (at, side): (f64, f64), reach: f64, normal: &[Spot]) -> Option<Spot> {
         let away = |there: f64| (there - at) * side;
-        let is_there = |there: f64| (AWAY[0]..=AWAY[1].min(reach)).contains(&away(there));
+        let is_there = |there: f64| {
+            (REFERENCE_DISTANCE_MM[0]..=REFERENCE_DISTANCE_MM[1].min(reach)).contains(&away(there))
+        };
         let mut widths = self.widths((0..self.len()).filter(|n| is_there(self.arc_length[*n])));
         let most = quantile(&mut widths, 0.75)?;
         let is_offered = |spot: &&Spot| {
-            // Nearer than its own diameter it would be refused.
+            // Closer references would be rejected.
             let is_apart = self.reference_at(spot.at).is_ok_and(|reference| away(spot.at) >= reference);
             is_there(spot.at) && is_apart && spot.diameter >= NORMAL * most
         };
@@ -201,8 +193,7 @@ impl Profile {
         offered.min_by(|a, b| away(a.at).total_cmp(&away(b.at))).copied()
     }
 
-    /// The median diameter around a section where all of them count and the walls are parallel; no section around reaches the
-    /// place `but`.
+    /// Median diameter around a section with parallel walls; None if `but` is among them.
     fn parallel(&self, n: usize, but: f64) -> Option<f64> {
         let here = self.arc_length[n];
         let (reach, share) = PARALLEL;
@@ -222,9 +213,9 @@ fn thinner(a: &(usize, Spot), b: &(usize, Spot)) -> Ordering {
     a.1.diameter.total_cmp(&b.1.diameter)
 }
 
-/// How far from a place the calibre of the vessel steps on a side (mm): from one normal place to the next one behind it.
 fn calibre_step((at, side): (f64, f64), normal: &[Spot]) -> f64 {
-    let mut there: Vec<&Spot> = normal.iter().filter(|spot| (spot.at - at) * side >= AWAY[0]).collect();
+    let mut there: Vec<&Spot> =
+        normal.iter().filter(|spot| (spot.at - at) * side >= REFERENCE_DISTANCE_MM[0]).collect();
     there.sort_by(|a, b| ((a.at - at) * side).total_cmp(&((b.at - at) * side)));
     let is_step = |two: &&[&Spot]| {
         let [a, b] = [two[0].diameter, two[1].diameter];

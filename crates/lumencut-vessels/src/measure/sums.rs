@@ -1,17 +1,14 @@
-//! What a model misses at samples, and the sums that its fit needs, as kernels.
+//! Kernels that sum residuals and normal equations over the samples.
 
 use super::least_squares::Normal;
 use super::model::{Model, Modelled};
 use super::slab::Samples;
 use lumencut_core::math::lanes::{FAN, Kernel};
 
-/// The sums over all samples as a kernel.
-pub struct Sums<'a, M, const N: usize> {
-    /// The samples.
+/// Kernel: normal equations over all samples.
+pub(crate) struct Sums<'a, M, const N: usize> {
     pub samples: &'a Samples,
-    /// How much each of them counts.
     pub kept: &'a [[f32; FAN]],
-    /// What they are compared with.
     pub model: &'a M,
 }
 
@@ -55,11 +52,9 @@ impl<M: Model<N>, const N: usize> Kernel for Sums<'_, M, N> {
     }
 }
 
-/// What each sample misses, as a kernel.
-pub struct Missing<'a, M, const N: usize> {
-    /// The samples.
+/// Kernel: residual of each sample.
+pub(crate) struct Missing<'a, M, const N: usize> {
     pub samples: &'a Samples,
-    /// What they are compared with.
     pub model: &'a M,
 }
 
@@ -78,15 +73,12 @@ impl<M: Model<N>, const N: usize> Kernel for Missing<'_, M, N> {
     }
 }
 
-/// How much each sample moves a combination of the parameters, as a kernel.
-pub struct Moves<'a, M, const N: usize> {
-    /// The samples.
+/// Kernel: shift of a combination of parameters per sample.
+pub(crate) struct Moves<'a, M, const N: usize> {
     pub samples: &'a Samples,
-    /// How much each of them counts.
     pub kept: &'a [[f32; FAN]],
-    /// What they are compared with.
     pub model: &'a M,
-    /// The combination's share in each of the products of the derivatives.
+    /// The combination's factor for each derivative.
     pub towards: [f32; N],
 }
 

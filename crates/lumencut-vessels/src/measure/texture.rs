@@ -1,40 +1,37 @@
-//! The noise of a scan: how alike it is in voxels near each other.
+//! The spatial correlation of image noise.
 //!
-//! Every kernel of a CT correlates the noise of neighbours. A mean of correlated values is less sure than one of independent
-//! values: what a diameter is unsure by is the sum over all pairs of samples, by how much each of them moves it.
+//! CT kernels correlate neighbouring voxels, so a mean is less certain than with independent noise.
 
 use glam::{DMat3, DVec3};
 
 use super::slab::Samples;
 use lumencut_core::math::lanes::{FAN, Isa, Kernel, dispatch};
 
-/// Noise is taken as independent from this number of voxels on.
-const FAR: usize = 5;
+/// Distance (voxels) from which noise counts as independent.
+const CORRELATED_VOXELS: usize = 5;
 
-/// A correlation is told by at least this number of pairs, and counts from this number of its standard deviations on.
-const LEAST: (f64, f64) = (100.0, 2.0);
+/// Minimum number of pairs, and minimum significance in standard deviations, of a correlation.
+const MIN_EVIDENCE: (f64, f64) = (100.0, 2.0);
 
-/// What misses by more than this multiple of the typical value is not noise.
+/// Residuals above this multiple of the typical value are not noise.
 const LARGEST: f32 = 4.0;
 
-/// The autocorrelation of the noise by the distances of two voxels along the axes of the grid, whatever their signs.
+/// Autocorrelation of the noise by the absolute offsets along the grid axes.
 #[derive(Clone, Debug)]
-pub struct Texture {
-    correlation: [[[f32; FAR]; FAR]; FAR],
+pub(crate) struct Texture {
+    correlation: [[[f32; CORRELATED_VOXELS]; CORRELATED_VOXELS]; CORRELATED_VOXELS],
 }
 
-/// The products of what pairs of samples miss, by their distances.
 #[derive(Clone, Debug)]
-pub struct Pairs {
-    products: [[[f64; FAR]; FAR]; FAR],
-    count: [[[f64; FAR]; FAR]; FAR],
-    /// The sum of the products of those that are far apart, and their number.
+pub(crate) struct Pairs {
+    products: [[[f64; CORRELATED_VOXELS]; CORRELATED_VOXELS]; CORRELATED_VOXELS],
+    count: [[[f64; CORRELATED_VOXELS]; CORRELATED_VOXELS]; CORRELATED_VOXELS],
+    /// Sum and number of the products of distant pairs.
     far: [f64; 2],
 }
 
 impl Pairs {
-    /// The pairs of a section whose samples miss by this much, with a noise of about `noise`.
-    pub fn new(samples: &Samples, missing: &[[f32; FAN]], noise: f32) -> Self {
+    pub(crate) fn new(samples: &Samples, missing: &[[f32; FAN]], noise: f32) -> Self {
         let mut all = Self { products: Default::default(), count: Default::default(), far: [0.0; 2] };
         let mut each = Vec::with_capacity(samples.count);
         for (n, misses) in missing.iter().enumerate() {
@@ -56,19 +53,18 @@ impl Pairs {
             all.count[i][j][k] += 1.0;
             near = [near[0] + miss * beside, near[1] + 1.0];
         });
-        // All pairs of two are half of what the square of the sum has beyond the squares; those that are not near are far.
+        // All pairs are half of (squared sum - sum of squares); the rest after the near ones is far.
         let number = each.len() as f64;
         all.far = [(sum * sum - squares) / 2.0 - near[0], number * (number - 1.0) / 2.0 - near[1]];
         all
     }
 
-    /// With the pairs of another section.
     #[must_use]
-    pub fn with(mut self, other: &Self) -> Self {
+    pub(crate) fn with(mut self, other: &Self) -> Self {
         self.far = [self.far[0] + other.far[0], self.far[1] + other.far[1]];
-        for i in 0..FAR {
-            for j in 0..FAR {
-                for k in 0..FAR {
+        for i in 0..CORRELATED_VOXELS {
+            for j in 0..CORRELATED_VOXELS {
+                for k in 0..CORRELATED_VOXELS {
                     self.products[i][j][k] += other.products[i][j][k];
                     self.count[i][j][k] += other.count[i][j][k];
                 }
@@ -78,14 +74,13 @@ impl Pairs {
     }
 }
 
-/// Visits every two of some samples in voxels that are not far apart, each pair once: how far they are apart along each axis, and
-/// what belongs to either. Along the axis on which they lie farthest apart the samples are put in order, so that most of those
-/// that are far apart are never looked at.
+/// Visits each pair of near voxels with their offset; sorting along the longest axis skips most others.
 fn for_near_pairs<T: Copy>(samples: &mut [([i16; 3], T)], mut visit: impl FnMut([usize; 3], T, T)) {
     let axis = put_in_order(samples);
     for (n, (voxel, value)) in samples.iter().enumerate() {
         let after = &samples[n + 1..];
-        let near = after.partition_point(|(other, _)| usize::from(other[axis].abs_diff(voxel[axis])) < FAR);
+        let near = after
+            .partition_point(|(other, _)| usize::from(other[axis].abs_diff(voxel[axis])) < CORRELATED_VOXELS);
         for (other, beside) in &after[..near] {
             if let Some(apart) = apart(*voxel, *other) {
                 visit(apart, *value, *beside);
@@ -94,7 +89,7 @@ fn for_near_pairs<T: Copy>(samples: &mut [([i16; 3], T)], mut visit: impl FnMut(
     }
 }
 
-/// Puts samples in order along the axis on which they lie farthest apart, which is told.
+/// Sorts samples along the axis of largest extent and returns that axis.
 fn put_in_order<T: Copy>(samples: &mut [([i16; 3], T)]) -> usize {
     let extent = |axis: usize| {
         let along = || samples.iter().map(move |(voxel, _)| voxel[axis]);
@@ -105,22 +100,23 @@ fn put_in_order<T: Copy>(samples: &mut [([i16; 3], T)]) -> usize {
     axis
 }
 
-/// How far two voxels are apart along each axis; None where that is far.
+/// Absolute offset of two voxels; None if far.
 #[inline(always)]
 fn apart(a: [i16; 3], b: [i16; 3]) -> Option<[usize; 3]> {
     let apart: [usize; 3] = std::array::from_fn(|n| usize::from(a[n].abs_diff(b[n])));
-    (apart[0] < FAR && apart[1] < FAR && apart[2] < FAR).then_some(apart)
+    (apart[0] < CORRELATED_VOXELS && apart[1] < CORRELATED_VOXELS && apart[2] < CORRELATED_VOXELS)
+        .then_some(apart)
 }
 
-/// The cells of a texture in one row, filled up to a power of two.
+/// Cells of the correlation in one row, padded to a power of two.
 const CELLS: usize = 128;
 
-/// Where pairs find that they are far apart: behind the cells of the texture.
-const FAR_CELL: i32 = (FAR * FAR * FAR) as i32;
+/// Cell of far pairs, whose value is 0.
+const FAR_CELL: i32 = (CORRELATED_VOXELS * CORRELATED_VOXELS * CORRELATED_VOXELS) as i32;
 
-/// The sum over all near pairs of the product of their weights and of how alike their noise is, as a kernel.
+/// Kernel of the noise variance: Σᵢⱼ wᵢ wⱼ ρ(i - j) over near pairs.
 struct NearProducts {
-    /// The samples in order along the first of their axes, and sixteen that are far from all of them.
+    /// Sorted along the first axis, then sixteen far ones as padding.
     voxel: [Vec<i32>; 3],
     weight: Vec<f32>,
     correlation: [f32; CELLS],
@@ -128,20 +124,24 @@ struct NearProducts {
 }
 
 impl NearProducts {
-    fn new(samples: &mut [([i16; 3], f32)], correlation: &[[[f32; FAR]; FAR]; FAR]) -> Self {
-        const AWAY: i32 = 1 << 20;
+    fn new(
+        samples: &mut [([i16; 3], f32)],
+        correlation: &[[[f32; CORRELATED_VOXELS]; CORRELATED_VOXELS]; CORRELATED_VOXELS],
+    ) -> Self {
+        const FAR_INDEX: i32 = 1 << 20;
         let axis = put_in_order(samples);
         let axes = [axis, (axis + 1) % 3, (axis + 2) % 3];
-        let behind = || std::iter::repeat_n(AWAY, FAN);
+        let behind = || std::iter::repeat_n(FAR_INDEX, FAN);
         let voxel = axes
             .map(|axis| samples.iter().map(|(voxel, _)| i32::from(voxel[axis])).chain(behind()).collect());
         let weight = samples.iter().map(|(_, weight)| *weight).chain([0.0; FAN]).collect();
         let mut cells = [0.0; CELLS];
-        for i in 0..FAR {
-            for j in 0..FAR {
-                for k in 0..FAR {
+        for i in 0..CORRELATED_VOXELS {
+            for j in 0..CORRELATED_VOXELS {
+                for k in 0..CORRELATED_VOXELS {
                     let steps = [i, j, k];
-                    cells[axes.iter().fold(0, |cell, axis| cell * FAR + steps[*axis])] = correlation[i][j][k];
+                    cells[axes.iter().fold(0, |cell, axis| cell * CORRELATED_VOXELS + steps[*axis])] =
+                        correlation[i][j][k];
                 }
             }
         }
@@ -154,21 +154,21 @@ impl Kernel for NearProducts {
 
     #[inline(always)]
     fn run(self) -> f64 {
-        const FARTHEST: i32 = FAR as i32 - 1;
+        const LAST_VOXEL: i32 = CORRELATED_VOXELS as i32 - 1;
         let Self { voxel, weight, correlation, count } = self;
         let mut sum = [0.0; FAN];
         for n in 0..count {
             let here = [0, 1, 2].map(|axis| voxel[axis][n]);
             let mut first = n + 1;
-            while voxel[0][first] - here[0] <= FARTHEST {
+            while voxel[0][first] - here[0] <= LAST_VOXEL {
                 let mut cell = [0; FAN];
                 let mut is_far = [false; FAN];
                 for axis in 0..3 {
                     let there = &voxel[axis][first..first + FAN];
                     for l in 0..FAN {
                         let apart = (there[l] - here[axis]).abs();
-                        is_far[l] |= apart > FARTHEST;
-                        cell[l] = cell[l] * FAR as i32 + apart;
+                        is_far[l] |= apart > LAST_VOXEL;
+                        cell[l] = cell[l] * CORRELATED_VOXELS as i32 + apart;
                     }
                 }
                 let beside = &weight[first..first + FAN];
@@ -187,36 +187,33 @@ impl Kernel for NearProducts {
     }
 }
 
-/// The variance of the sum of independent noise of variance 1, each sample weighed by `weights`.
-pub fn independent_variance(weights: &[[f32; FAN]]) -> f64 {
+pub(crate) fn independent_variance(weights: &[[f32; FAN]]) -> f64 {
     weights.iter().flatten().map(|weight| f64::from(weight * weight)).sum()
 }
 
 impl Texture {
-    /// Noise that is independent in all voxels.
-    pub fn white() -> Self {
-        let mut correlation = [[[0.0; FAR]; FAR]; FAR];
+    pub(crate) fn white() -> Self {
+        let mut correlation = [[[0.0; CORRELATED_VOXELS]; CORRELATED_VOXELS]; CORRELATED_VOXELS];
         correlation[0][0][0] = 1.0;
         Self { correlation }
     }
 
-    /// The texture that pairs tell.
-    pub fn of(pairs: &Pairs) -> Self {
+    pub(crate) fn of(pairs: &Pairs) -> Self {
         let mut all = Self::white();
-        // The fit takes the slowest part of the noise for the section, so that what is left is too low by this everywhere. Far apart
-        // noise is independent: what is seen there is that alone.
+        // The fit absorbs the slowest noise of a section, which lowers all correlations equally. Far pairs
+        // are independent, so they show that offset.
         let taken = -(pairs.far[0] / pairs.far[1].max(1.0)).min(0.0);
         let variance = pairs.products[0][0][0] / pairs.count[0][0][0].max(1.0) + taken;
-        for i in 0..FAR {
-            for j in 0..FAR {
-                for k in 0..FAR {
+        for i in 0..CORRELATED_VOXELS {
+            for j in 0..CORRELATED_VOXELS {
+                for k in 0..CORRELATED_VOXELS {
                     let count = pairs.count[i][j][k];
-                    if i + j + k == 0 || count < LEAST.0 || variance <= 0.0 {
+                    if i + j + k == 0 || count < MIN_EVIDENCE.0 || variance <= 0.0 {
                         continue;
                     }
-                    let told = (pairs.products[i][j][k] / count + taken) / variance;
-                    if told.abs() * count.sqrt() >= LEAST.1 {
-                        all.correlation[i][j][k] = told.clamp(-1.0, 1.0) as f32;
+                    let correlation = (pairs.products[i][j][k] / count + taken) / variance;
+                    if correlation.abs() * count.sqrt() >= MIN_EVIDENCE.1 {
+                        all.correlation[i][j][k] = correlation.clamp(-1.0, 1.0) as f32;
                     }
                 }
             }
@@ -224,16 +221,15 @@ impl Texture {
         all
     }
 
-    /// By how much the variance of what walls tell is larger than with independent noise: a wall is seen over the width of the
-    /// blur (mm) in voxels with these sides.
-    pub fn inflation(&self, sides: DMat3, width: f64) -> f64 {
+    /// Factor by which correlation raises the variance of wall estimates over the width of the blur (mm).
+    pub(crate) fn inflation(&self, sides: DMat3, width: f64) -> f64 {
         const SIGNS: [f64; 2] = [1.0, -1.0];
         let mut sum = 0.0;
-        for i in 0..FAR {
-            for j in 0..FAR {
-                for k in 0..FAR {
+        for i in 0..CORRELATED_VOXELS {
+            for j in 0..CORRELATED_VOXELS {
+                for k in 0..CORRELATED_VOXELS {
                     let steps = [i, j, k];
-                    // Each distance stands for both signs along each axis; along an axis without distance there is one.
+                    // Each offset stands for both signs of every nonzero component.
                     let count = steps.iter().filter(|n| **n > 0).count();
                     let far = |signs: [f64; 3]| {
                         (0..3)
@@ -253,9 +249,8 @@ impl Texture {
         sum.max(1.0)
     }
 
-    /// The variance of the sum of noise of variance 1, each sample weighed by `weights`; at least that of independent noise
-    /// times a tenth.
-    pub fn variance(&self, samples: &Samples, weights: &[[f32; FAN]]) -> f64 {
+    /// Variance of a weighted sum of noise of variance 1; at least a tenth of the independent one.
+    pub(crate) fn variance(&self, samples: &Samples, weights: &[[f32; FAN]]) -> f64 {
         let mut each: Vec<([i16; 3], f32)> = weights
             .iter()
             .zip(&samples.voxel)

@@ -1,56 +1,54 @@
-//! What the vessels of a tree tell of each other's walls: they are of one patient in one scan, so that their levels are alike, but
-//! not the same.
+//! Shares wall levels between the vessels of a tree.
 //!
-//! The level of a vessel is that of the tree plus a difference of its own. How large these differences are is not known: several
-//! standard deviations of them are tried, and each counts by how likely it makes what the vessels told.
+//! The level of a vessel is that of the tree plus its own difference. The size of these differences is
+//! unknown, so several standard deviations are tried, each weighted by its likelihood.
 
 use super::branches::shares_line;
 use super::pooled::Level;
 use lumencut_core::vessel_tree::Vessel;
 
-/// By how much vessels of a tree may differ from each other, as shares of the standard deviation that is expected beforehand.
-const APART: [f64; 6] = [0.16, 0.32, 0.48, 0.64, 0.8, 0.96];
+/// Tried standard deviations of the differences, as shares of the prior standard deviation.
+const TRIED_DEVIATIONS: [f64; 6] = [0.16, 0.32, 0.48, 0.64, 0.8, 0.96];
 
-/// What the sections of a vessel tell of the level of its wall, without what is expected beforehand.
+/// Wall level from the sections of a vessel, without the prior.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct ToldWall {
-    /// The number of the vessel in its tree.
+pub(crate) struct VesselWall {
+    /// Number of the vessel in its tree.
     pub vessel: usize,
-    /// The level and its standard deviation, in the volume's unit.
+    /// Level and standard deviation, in the volume's unit.
     pub level: Level,
 }
 
-/// The level of the wall of a vessel that other vessels let expect.
+/// Wall level expected from other vessels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PooledWall {
-    /// The level and its standard deviation, in the volume's unit.
+    /// Level and standard deviation, in the volume's unit.
     pub level: Level,
-    /// How many other vessels told it.
+    /// Number of other vessels used.
     pub vessels: usize,
 }
 
-/// The level that the other vessels of a tree let expect of a vessel's wall, where any of them tells something: those that share a
-/// part of its line are not asked, as they are of the same voxels.
-pub fn wall_beside(
-    walls: &[ToldWall],
+/// Wall level expected from other vessels, except those that share voxels.
+pub(crate) fn wall_beside(
+    walls: &[VesselWall],
     tree: &[Vessel],
     vessel: &Vessel,
     expected: Level,
 ) -> Option<PooledWall> {
-    let told: Vec<Level> = walls
+    let levels: Vec<Level> = walls
         .iter()
         .filter(|wall| tree.get(wall.vessel).is_some_and(|other| !shares_line(other, vessel)))
         .map(|wall| wall.level)
         .collect();
-    (!told.is_empty()).then(|| PooledWall { level: by_others(expected, &told), vessels: told.len() })
+    (!levels.is_empty()).then(|| PooledWall { level: by_others(expected, &levels), vessels: levels.len() })
 }
 
-/// The level of a wall that is expected, and its standard deviation, by what is expected beforehand and what others told.
-fn by_others(expected: Level, told: &[Level]) -> Level {
-    let mut told = told.to_vec();
-    // The last digit would else depend on the order of the vessels.
-    told.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-    let tried = APART.map(|share| by_others_apart(expected, share * expected[1], &told));
+fn by_others(expected: Level, levels: &[Level]) -> Level {
+    let mut levels = levels.to_vec();
+    // Makes the result independent of the order of the vessels.
+    levels.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    let tried =
+        TRIED_DEVIATIONS.map(|share| by_others_with_deviation(expected, share * expected[1], &levels));
     let likeliest = tried.iter().map(|(likely, _)| *likely).fold(f64::NEG_INFINITY, f64::max);
     let weights = tried.map(|(likely, _)| (likely - likeliest).exp());
     let mean_of = |of: &dyn Fn(&Level) -> f64| {
@@ -61,12 +59,11 @@ fn by_others(expected: Level, told: &[Level]) -> Level {
     [mean, mean_of(&|level| level[1].powi(2) + (level[0] - mean).powi(2)).sqrt()]
 }
 
-/// The same where vessels differ by a standard deviation `apart` from their tree, and the logarithm of how likely what the others
-/// told is then.
-fn by_others_apart([mean, deviation]: Level, apart: f64, told: &[Level]) -> (f64, Level) {
+/// Level if vessels differ from their tree by a standard deviation `apart`, and the log-likelihood.
+fn by_others_with_deviation([mean, deviation]: Level, apart: f64, levels: &[Level]) -> (f64, Level) {
     let between = apart.powi(2);
     let (mut level, mut variance, mut likely) = (mean, deviation.powi(2) - between, 0.0);
-    for [there, unsure] in told {
+    for [there, unsure] in levels {
         let all = variance + between + unsure.powi(2);
         likely -= 0.5 * (all.ln() + (there - level).powi(2) / all);
         let gain = variance / all;

@@ -1,4 +1,4 @@
-//! The level that walls are expected to have in a volume, and where that is from.
+//! The expected wall level of a volume, and its source.
 
 use super::pooled::Level;
 use super::scale::Scale;
@@ -8,37 +8,34 @@ use crate::voxels::Voxels;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::limits::Limits;
 
-/// The level of a wall in CT (HU) and its standard deviation: that of soft tissue, in arteries with and without plaque.
+/// Wall level in CT (HU) and standard deviation: soft tissue, in arteries with and without plaque.
 pub const CT_WALL: Level = [45.0, 25.0];
 
-/// In HU contrast medium lies above the first of these, and what surrounds a vessel between the other two.
+/// In HU, contrast medium is above the first value and surroundings are between the other two.
 const LUMEN: f64 = 80.0;
 const AROUND: [f64; 2] = [-400.0, 400.0];
 
-/// A wall lies this share of the contrast below its lumen, at least.
+/// A wall is at least this share of the contrast below its lumen.
 const BELOW_LUMEN: f64 = 0.1;
 
 const DEVIATION: Limits =
     Limits::new(0.1, 1000.0, "(the standard deviation of the wall's level, in the volume's unit)");
 const LEVEL: Limits = Limits::new(-2000.0, 1e5, "(the wall's level, in the volume's unit)");
 
-/// What a caller says of walls.
+/// The caller's choice of wall level.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum WallRequest {
-    /// In CT a wall of [`CT_WALL`], elsewhere none.
+    /// [`CT_WALL`] in CT, otherwise no wall.
     #[default]
     Automatic,
-    /// None is told apart from what surrounds the vessel.
+    /// No wall.
     Off,
-    /// A level and its standard deviation, in the volume's unit.
+    /// Level and standard deviation, in the volume's unit.
     Level(Level),
 }
 
 impl WallRequest {
-    /// Checks what a caller says.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Settings`] for a level or a standard deviation that is invalid.
+    /// Errors: [`ErrorKind::Settings`] for an invalid level or standard deviation.
     pub fn check(&self) -> Result<()> {
         let Self::Level([level, deviation]) = self else { return Ok(()) };
         LEVEL.check("wall", *level)?;
@@ -46,32 +43,32 @@ impl WallRequest {
     }
 }
 
-/// Whether walls were told apart, and by which level.
+/// Whether walls were modelled, and the source of their level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum WallSource {
     /// The volume is in HU.
     Hounsfield,
-    /// The caller gave it.
+    /// Given by the caller.
     Given(Level),
-    /// Other vessels of the tree told more of what is expected in HU, or of what the caller gave.
+    /// Refined by other vessels of the tree.
     Pooled {
-        /// What the caller gave, if anything.
+        /// The caller's level, if any.
         given: Option<Level>,
-        /// What the others let expect instead.
+        /// The level from the other vessels.
         by_others: PooledWall,
     },
-    /// The caller asked for none.
+    /// Turned off by the caller.
     NotAsked,
-    /// The lumen is darker than what is around it.
+    /// The lumen is darker than its surroundings.
     DarkLumen,
-    /// Nothing says that the volume is in HU.
+    /// Nothing shows that the volume is in HU.
     OtherUnit,
-    /// What surrounds the vessel is as bright as walls are.
+    /// The surroundings are as bright as walls.
     AsBright,
 }
 
 impl WallSource {
-    /// The level that is expected beforehand, in the volume's unit, where walls are told apart.
+    /// Prior level in the volume's unit, if walls are modelled.
     pub fn expected(&self) -> Option<Level> {
         match self {
             Self::Hounsfield => Some(CT_WALL),
@@ -80,24 +77,19 @@ impl WallSource {
         }
     }
 
-    /// The same where other vessels of the tree told more.
     #[must_use]
-    pub fn pooled(self, by_others: PooledWall) -> Self {
+    pub(crate) fn pooled(self, by_others: PooledWall) -> Self {
         let given = if let Self::Given(level) = self { Some(level) } else { None };
         Self::Pooled { given, by_others }
     }
 }
 
-/// Whether a level that others told can be that of a wall in a lumen of this scale.
-pub fn is_below_lumen(wall: &PooledWall, scale: &Scale) -> bool {
+/// Whether a level from other vessels is plausible for a wall here.
+pub(crate) fn is_below_lumen(wall: &PooledWall, scale: &Scale) -> bool {
     scale.share(wall.level[0]) <= 1.0 - BELOW_LUMEN
 }
 
-/// The wall of a vessel that is expected, and where that is from.
-///
-/// # Errors
-/// [`ErrorKind::Settings`] for a level that is as bright as the lumen.
-pub fn expected(
+pub(crate) fn expected(
     voxels: &Voxels,
     scale: &Scale,
     request: WallRequest,
@@ -121,8 +113,7 @@ pub fn expected(
     }
 }
 
-/// Whether the values of a volume are those of HU: only there is anything negative, and contrast medium and tissue are where they
-/// are in CT.
+/// Whether a volume is in HU: it has negative values, and contrast medium and tissue have CT levels.
 fn is_hounsfield(voxels: &Voxels, scale: &Scale) -> bool {
     let around = (AROUND[0]..=AROUND[1]).contains(&scale.outside);
     around

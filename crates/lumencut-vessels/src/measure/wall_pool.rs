@@ -1,114 +1,120 @@
-//! The walls of a vessel by all of its sections: one level, and a thickness that is even along the vessel.
+//! Pools the wall of a vessel over its sections: one level, and a thickness that varies slowly.
 
 use super::ellipse::Ellipse;
 use super::fit::Fit;
 use super::pooled::Level;
 use super::wall::{KnownWall, Wall, beforehand};
 
-/// Thickness is even along the vessel over about this distance (mm), and differs by this (a logarithm) all the same.
+/// Distance (mm) over which weights fall by 1/e, and the minimum standard deviation of the log thickness.
 const EVEN: (f64, f64) = (10.0, 0.1);
 
-/// The level differs by this share of the contrast along the vessel, however well it is known.
+/// Minimum standard deviation of the level, as a share of the contrast.
 const LEAST_LEVEL: f64 = 0.01;
 
-/// Sections up to these distances (mm) from each other tell one thing, not several: of the level, as what the model does not know
-/// of a wall is alike along a stretch of it, and of the thickness, as they share voxels.
-const SHARED: [f64; 2] = [5.0, 2.0];
+/// Sections within these distances (mm) count as one: for the level, because model errors persist along a
+/// stretch; for the thickness, because they share voxels.
+const SHARED_WIDTHS: [f64; 2] = [5.0, 2.0];
 
-/// Walls are told apart where they are in this share of the sections.
-const APART: f64 = 1.0 / 3.0;
+/// Minimum share of sections with a visible wall.
+const MIN_VISIBLE_WALLS: f64 = 1.0 / 3.0;
 
-/// What all sections tell of the wall at each of them, by their arc lengths (mm). What they tell has a variance that is larger
-/// by `inflation` than that of independent noise. They were fitted with what was `known`; what is `expected` of the level is that,
-/// or sharper where other vessels told it.
-pub fn pooled(
+/// Pooled wall at each section. `inflation` is the variance factor of correlated noise; `known` is the prior
+/// used in the fits, and `expected` the prior level now, which other vessels may have refined.
+pub(crate) fn pooled(
     at: &[f64],
     fits: &[Option<Fit>],
     known: &KnownWall,
     expected: Level,
     inflation: f64,
 ) -> Vec<KnownWall> {
-    let apart = independent(at, SHARED[1]) / inflation;
+    let apart = independent(at, SHARED_WIDTHS[1]) / inflation;
     let walls: Vec<(f64, Ellipse, Wall)> = at
         .iter()
         .zip(fits)
         .filter_map(|(at, fit)| fit.and_then(|fit| Some((*at, fit.ellipse, fit.wall?))))
         .collect();
-    let [mean, deviation] = level_by(at, fits, known, Told::new(expected), inflation).level();
+    let [mean, deviation] = level_by(at, fits, known, WeightedLevel::new(expected), inflation).level();
     let level = [mean, deviation.max(LEAST_LEVEL)];
     let thickness = |here: f64, lumen: &Ellipse| {
         let first = beforehand(lumen);
-        let mut told = Told::new(first);
+        let mut weighted = WeightedLevel::new(first);
         let (mut slopes, mut shares) = (0.0, f64::MIN_POSITIVE);
         for (there, other, wall) in &walls {
             let weight = (-(there - here).abs() / EVEN.0).exp() * apart;
-            // What is told is by how much the wall is thicker than the width of its own lumen says.
+            // Pools the excess over the thickness expected from the lumen width.
             let [mean, deviation] = wall.log_thickness_at(level[0]);
-            told.add([mean - beforehand(other)[0] + first[0], deviation], first, weight);
+            weighted.add([mean - beforehand(other)[0] + first[0], deviation], first, weight);
             let share = weight / deviation.powi(2);
             (slopes, shares) = (slopes + share * wall.slope, shares + share);
         }
-        let [mean, deviation] = told.level();
+        let [mean, deviation] = weighted.level();
         ([mean, deviation.max(EVEN.1)], slopes / shares)
     };
     at.iter()
         .zip(fits)
         .map(|(at, fit)| {
-            let told = fit.map(|fit| thickness(*at, &fit.ellipse));
-            let slope = told.map_or(0.0, |(_, slope)| slope);
-            KnownWall { level, log_thickness: told.map(|(thickness, _)| thickness), slope }
+            let thickness = fit.map(|fit| thickness(*at, &fit.ellipse));
+            let slope = thickness.map_or(0.0, |(_, slope)| slope);
+            KnownWall { level, log_thickness: thickness.map(|(thickness, _)| thickness), slope }
         })
         .collect()
 }
 
-/// What the sections of a vessel tell of the level of its wall, as a share, without what was `known` before they were fitted. None
-/// where that is nothing.
-pub fn told_level(at: &[f64], fits: &[Option<Fit>], known: &KnownWall, inflation: f64) -> Option<Level> {
-    let told = level_by(at, fits, known, Told { precision: 0.0, weighted: 0.0 }, inflation);
-    let [mean, deviation] = told.level();
-    (told.precision > 0.0).then_some([mean, deviation.max(LEAST_LEVEL)])
+/// Wall level as a share without the prior `known`; None without information.
+pub(crate) fn unpooled_level(
+    at: &[f64],
+    fits: &[Option<Fit>],
+    known: &KnownWall,
+    inflation: f64,
+) -> Option<Level> {
+    let weighted = level_by(at, fits, known, WeightedLevel { precision: 0.0, weighted: 0.0 }, inflation);
+    let [mean, deviation] = weighted.level();
+    (weighted.precision > 0.0).then_some([mean, deviation.max(LEAST_LEVEL)])
 }
 
-/// What is told of the level at first, and by the sections of a vessel.
-fn level_by(at: &[f64], fits: &[Option<Fit>], known: &KnownWall, mut first: Told, inflation: f64) -> Told {
-    let apart = independent(at, SHARED[0]) / inflation;
+fn level_by(
+    at: &[f64],
+    fits: &[Option<Fit>],
+    known: &KnownWall,
+    mut first: WeightedLevel,
+    inflation: f64,
+) -> WeightedLevel {
+    let apart = independent(at, SHARED_WIDTHS[0]) / inflation;
     for wall in fits.iter().flatten().filter_map(|fit| fit.wall) {
         first.add(wall.level, known.level, apart);
     }
     first
 }
 
-/// Whether a wall is told apart from what surrounds the vessel: where it is as bright, nothing shows where it ends.
-pub fn is_apart(known: &KnownWall, pooled: &[KnownWall], fits: &[Option<Fit>]) -> bool {
+pub(crate) fn is_apart(known: &KnownWall, pooled: &[KnownWall], fits: &[Option<Fit>]) -> bool {
     let is_apart = |(wall, fit): (&KnownWall, &Option<Fit>)| {
         fit.map(|fit| (wall.level[0] - fit.background).abs() > known.level[1])
     };
     let all: Vec<bool> = pooled.iter().zip(fits).filter_map(is_apart).collect();
-    all.iter().filter(|is| **is).count() as f64 >= APART * all.len() as f64
+    all.iter().filter(|is| **is).count() as f64 >= MIN_VISIBLE_WALLS * all.len() as f64
 }
 
-/// The share of a section that its neighbours do not tell as well.
+/// Share of a section's information that its neighbours do not repeat.
 fn independent(at: &[f64], shared: f64) -> f64 {
     let length = at.last().zip(at.first()).map_or(0.0, |(last, first)| last - first);
     let step = length / (at.len().max(2) - 1) as f64;
     (step / shared).min(1.0)
 }
 
-/// Means and precisions that are added up.
-struct Told {
+struct WeightedLevel {
     precision: f64,
     weighted: f64,
 }
 
-impl Told {
+impl WeightedLevel {
     fn new([mean, deviation]: Level) -> Self {
         let precision = 1.0 / (deviation * deviation);
         Self { precision, weighted: mean * precision }
     }
 
-    /// Adds what a section told beyond what was known before, as the share `weight`.
-    fn add(&mut self, told: Level, before: Level, weight: f64) {
-        let [after, prior] = [told, before].map(Self::new);
+    /// Adds what a section says beyond its prior, with weight `weight`.
+    fn add(&mut self, level: Level, before: Level, weight: f64) {
+        let [after, prior] = [level, before].map(Self::new);
         let precision = (after.precision - prior.precision).max(0.0);
         if precision > 0.0 {
             self.precision += weight * precision;

@@ -1,9 +1,9 @@
-//! Centerlines between clicks.
+//! Traces centerlines between clicks.
 
 pub mod checks;
-pub mod gaps;
-pub mod junctions;
+pub(crate) mod gaps;
+pub(crate) mod junctions;
 pub mod preview;
 pub mod traced;
 pub mod tracer;
-pub mod way;
+pub(crate) mod way;

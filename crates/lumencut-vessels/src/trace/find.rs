@@ -1,32 +1,32 @@
-//! All vessels of an angiography, without a seed: tubes are found first, judged, linked into trees, and ranked.
+//! Finds all vessels of an angiography without a seed. The thresholds are the same for all scans.
 
-pub mod bone;
-pub mod candidates;
+pub(crate) mod bone;
+pub(crate) mod candidates;
 pub mod choose;
-pub mod confidence;
-pub mod flux;
+pub(crate) mod confidence;
+pub(crate) mod flux;
 pub mod found;
-pub mod from_seed;
-pub mod grid;
-pub mod hidden;
-pub mod links;
+pub(crate) mod from_seed;
+pub(crate) mod grid;
+pub(crate) mod hidden;
+pub(crate) mod links;
 pub mod one_vessel;
-pub mod paint;
-pub mod point_grid;
-pub mod pyramid;
-pub mod quantiles;
+pub(crate) mod paint;
+pub(crate) mod point_grid;
+pub(crate) mod pyramid;
+pub(crate) mod quantiles;
 pub mod refusals;
-pub mod scan;
-pub mod scarce;
-pub mod section;
-pub mod side_by_side;
-pub mod stages;
+pub(crate) mod scan;
+pub(crate) mod scarce;
+pub(crate) mod section;
+pub(crate) mod side_by_side;
+pub(crate) mod stages;
 pub mod track;
-pub mod tracker;
-pub mod tracking;
-pub mod tubes;
-pub mod vessel_level;
-pub mod whole_vessels;
+pub(crate) mod tracker;
+pub(crate) mod tracking;
+pub(crate) mod tubes;
+pub(crate) mod vessel_level;
+pub(crate) mod whole_vessels;
 
 use crate::trace::find::found::Trees;
 use crate::trace::find::scan::Scan;
@@ -39,33 +39,27 @@ use lumencut_core::progress::Progress;
 use lumencut_core::stop::Stop;
 use lumencut_core::volume::Volume;
 
-/// Where vessels end unless somebody asks for another radius (mm).
+/// Default radius at which vessels end (mm).
 pub const SMALLEST_RADIUS: f64 = 1.0;
 
-/// What is found, and how.
+/// What to find.
 pub struct FindRequest<'a> {
-    /// Vessels end where they are narrower from there on (mm).
+    /// Vessels end where they stay narrower (mm).
     pub smallest_radius: f64,
     /// Asked whether to stop.
     pub stop: Stop<'a>,
-    /// Told how far the work is.
+    /// Receives the progress.
     pub progress: Option<&'a Progress>,
 }
 
-/// All vessels of a volume: those that hang together are a part, the most important part first.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`].
+/// All vessels of a volume in connected parts, the most important first.
 pub fn find_vessels(volume: &Volume, request: &FindRequest) -> Result<Trees> {
     let voxels = &Voxels::new(volume);
     let trees = trees(voxels, None, request)?;
     Ok(Trees { vessels: doubted_where_scarce(voxels, trees.vessels, trees.is_angiography), ..trees })
 }
 
-/// All vessels of a volume; around a seed (mm, LPS) that lies in none of them fainter ones are found too.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`].
+/// All vessels of a volume; around a seed (mm, LPS) outside all of them, fainter ones are found too.
 pub fn trees(voxels: &Voxels, seed: Option<DVec3>, request: &FindRequest) -> Result<Trees> {
     let stages = Stages::begin(request.progress);
     let Some(tubes::Tubes { scan, tracks, shapes }) = tubes::tubes(voxels, seed, request, stages)? else {

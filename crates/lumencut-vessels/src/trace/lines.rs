@@ -1,4 +1,4 @@
-//! Points along a line: steps, directions, frames, smoothing, and which points of two lines belong together.
+//! Arithmetic along lines: steps, directions, frames, smoothing and correspondence.
 
 pub mod centerline;
 pub mod correspondence;

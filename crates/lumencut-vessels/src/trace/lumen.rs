@@ -1,15 +1,15 @@
-//! What lumen looks like: its values, its cross-sections along a line, and lines moved to its middle.
+//! Recognizes lumen: values, cross-sections along a line, and centring.
 
 pub mod across;
-pub mod calm;
 pub mod cross_section;
-pub mod directions;
+pub(crate) mod directions;
 pub mod level_change;
-pub mod lumen_model;
+pub(crate) mod lumen_model;
 pub mod on_ray;
 pub mod own_axis;
-pub mod ray;
+pub(crate) mod ray;
 pub mod refine;
 pub mod seen;
 pub mod surroundings;
-pub mod within;
+pub mod wander_removal;
+pub(crate) mod within;

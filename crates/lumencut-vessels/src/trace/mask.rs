@@ -1,8 +1,8 @@
-//! Centerlines of a mask: from its voxels to vessels that meet in common points.
+//! Traces centerlines of a mask, as vessels that meet in common points.
 
 pub mod grey_values;
-pub mod labels;
-pub mod mask_gaps;
+pub(crate) mod labels;
+pub(crate) mod mask_gaps;
 
 use crate::trace::mask::labels::parted;
 use crate::trace::mask::mask_gaps::{Gap, bridge, gaps};
@@ -15,41 +15,38 @@ use lumencut_core::progress::Progress;
 use lumencut_core::stop::Stop;
 use lumencut_core::volume::Volume;
 
-/// What is traced, and how.
+/// What to trace, and how.
 pub struct MaskRequest<'a> {
-    /// The values that stand for lumen; without them every value but 0.
+    /// Values of lumen; None for every value but 0.
     pub labels: Option<&'a [i64]>,
-    /// How long a branch must be to stay, in radii of its parent.
+    /// Minimum length of a branch, in radii of its parent.
     pub parent_radii: f64,
-    /// The largest distance between neighbouring points (mm).
+    /// Maximum distance between neighbouring points (mm).
     pub step: f64,
-    /// The widest gap that is bridged (mm).
+    /// Widest gap to bridge (mm).
     pub bridge: f64,
-    /// What moves each vessel into the middle of what the volume shows, and measures its radius there.
+    /// Optional refinement of each vessel in a volume.
     pub refine: Option<Refine<'a>>,
     /// Asked whether to stop.
     pub stop: Stop<'a>,
-    /// Told how far the work is.
+    /// Receives the progress.
     pub progress: Option<&'a Progress>,
 }
 
-/// The vessels of a mask, and what was found on the way.
+/// The vessels of a mask and findings about it.
 pub struct TracedMask {
-    /// The vessels; those that meet share their end points to the bit.
+    /// Vessels; those that meet share end points, equal to the bit.
     pub vessels: Vec<MaskVessel>,
-    /// Between which vessels lumen is missing, the narrowest gap first.
+    /// Gaps in the lumen, narrowest first.
     pub gaps: Vec<Gap>,
-    /// How many cavities were filled, and how many voxels they had.
+    /// Number of filled cavities, and of their voxels.
     pub filled: [usize; 2],
-    /// How many pieces the lumen has, whose voxels touch nowhere.
+    /// Number of connected components of the lumen.
     pub pieces: usize,
 }
 
-/// The centerlines of the lumen of a mask.
-///
-/// # Errors
-/// [`ErrorKind::Volume`] for a mask without lumen or background, of floats, of one slice, or whose lumen has no
-/// part that is longer than wide; [`ErrorKind::Interrupted`] where the caller asks to stop.
+/// Traces the lumen of a mask. Errors: [`ErrorKind::Volume`] for a mask without lumen or background, with
+/// fractional values, of one slice, or with no part longer than wide; [`ErrorKind::Interrupted`].
 pub fn trace_mask(mask: &Volume, request: &MaskRequest) -> Result<TracedMask> {
     let begin = |step: usize| {
         if let Some(progress) = request.progress {
@@ -73,7 +70,7 @@ pub fn trace_mask(mask: &Volume, request: &MaskRequest) -> Result<TracedMask> {
         progress.end_view();
     }
     if vessels.is_empty() {
-        let found = format!("lumen of {voxels} voxels that is nowhere longer than wide");
+        let found = format!("lumen of {voxels} voxels that is never longer than wide");
         return Err(Error::new(ErrorKind::Volume, "mask", found, "a vessel"));
     }
     Ok(TracedMask { vessels, gaps, filled, pieces })

@@ -1,19 +1,19 @@
-//! From the voxels of lumen to vessels that meet in common points: thinned to lines, which move to the middle.
+//! Thins lumen voxels to centred vessels that meet in common points.
 
-pub mod centering;
+pub(crate) mod centering;
 pub mod distance_transform;
 pub mod foreground;
-pub mod graph;
-pub mod label_value;
-pub mod mask_lumen;
+pub(crate) mod graph;
+pub(crate) mod label_value;
+pub(crate) mod mask_lumen;
 pub mod mask_refinement;
 pub mod mask_vessels;
 mod nearest_background;
-pub mod pruning;
-pub mod runs;
-pub mod simple_point;
-pub mod thinning;
-pub mod through_lines;
+pub(crate) mod pruning;
+pub(crate) mod runs;
+pub(crate) mod simple_point;
+pub(crate) mod thinning;
+pub(crate) mod through_lines;
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -37,50 +37,43 @@ use lumencut_core::math::arc_length::{arc_lengths, point_at};
 use lumencut_core::math::same_place::ALONG_LINE;
 use lumencut_core::stop::{Stop, go_on};
 
-/// The most cells in the box around the lumen: their numbers have 32 bits.
+/// Maximum number of cells, which are numbered with 32 bits.
 const MOST_CELLS: usize = u32::MAX as usize;
 
-/// How long a branch must be to stay where nobody asks for another length, in radii of its parent.
+/// Default minimum length of a branch, in radii of its parent.
 pub const PARENT_RADII: f64 = 2.0;
 
-/// How voxels of lumen become vessels.
-pub struct Skeletonization<'a> {
-    /// How long a branch must be to stay, in radii of its parent.
+pub(crate) struct Skeletonization<'a> {
+    /// Minimum length of a branch, in radii of its parent.
     pub parent_radii: f64,
-    /// The largest distance between neighbouring points (mm).
+    /// Maximum distance between neighbouring points (mm).
     pub step: f64,
-    /// What moves each vessel into the middle of what a volume shows, and measures its radius there.
+    /// Optional refinement of each vessel in a volume.
     pub refine: Option<Refine<'a>>,
     /// Asked whether to stop.
     pub stop: Stop<'a>,
-    /// Told that a step of [`COSTS`] begins.
+    /// Called when a step of [`COSTS`] begins.
     pub begin: &'a (dyn Fn(usize) + Sync),
 }
 
-/// The steps of the work, and how long each takes for each voxel of lumen in comparison: cavities and pieces, distances,
-/// thinning, lines.
-pub const COSTS: [usize; 4] = [2, 3, 6, 4];
+/// Relative duration per lumen voxel of the steps: cavities and components, distances, thinning, lines.
+pub(crate) const COSTS: [usize; 4] = [2, 3, 6, 4];
 
-/// The vessels of some voxels of lumen, and what was found on the way.
-pub struct Skeleton {
-    /// The vessels; those that meet share their end points to the bit. None where no part is longer than wide.
+pub(crate) struct Skeleton {
+    /// Vessels; those that meet share end points, equal to the bit. Empty if no part is longer than wide.
     pub vessels: Vec<MaskVessel>,
-    /// How many cavities were filled, and how many voxels they had.
+    /// Number of filled cavities, and of their voxels.
     pub filled: [usize; 2],
-    /// How many pieces the lumen has, whose voxels touch nowhere.
+    /// Number of connected components.
     pub pieces: usize,
-    /// How many voxels of lumen there are, those of the cavities included.
+    /// Number of lumen voxels, including filled cavities.
     pub voxels: usize,
 }
 
-/// Where an end is moved to another line, the line moves with it over this many radii.
+/// A moved end takes the line along over this many radii.
 const JOINED: f64 = 1.5;
 
-/// The vessels of voxels of lumen.
-///
-/// # Errors
-/// [`ErrorKind::Volume`] for a box that is too large; [`ErrorKind::Interrupted`] where the caller asks to stop.
-pub fn skeleton(mut foreground: Foreground, skeleton: &Skeletonization) -> Result<Skeleton> {
+pub(crate) fn skeleton(mut foreground: Foreground, skeleton: &Skeletonization) -> Result<Skeleton> {
     let stop = skeleton.stop;
     if foreground.cells.len() > MOST_CELLS {
         let found = format!("{:?} voxels in the box around the lumen", foreground.size);
@@ -104,7 +97,6 @@ pub fn skeleton(mut foreground: Foreground, skeleton: &Skeletonization) -> Resul
     Ok(Skeleton { vessels, filled, pieces, voxels: lumen_cells.len() })
 }
 
-/// The branches of a graph as vessels.
 fn vessels(graph: &Graph, lumen: &Lumen, skeleton: &Skeletonization) -> Result<Vec<MaskVessel>> {
     let mut lines = through_lines(graph, lumen);
     let passes = |line: &ThroughLine, n: usize| line.is_closed || (n > 0 && n + 1 < line.knots.len());
@@ -138,7 +130,7 @@ fn vessels(graph: &Graph, lumen: &Lumen, skeleton: &Skeletonization) -> Result<V
     Ok(made.into_iter().flatten().collect())
 }
 
-/// Brings the ends of a line that lie on other lines to where those pass, and all that is near them part of the way.
+/// Moves ends that lie on other lines to where those pass, fading along the line.
 fn attach(line: &mut ThroughLine, node_place: &[Option<DVec3>], on_other: [Option<f64>; 2]) {
     let ways = arc_lengths(&line.points);
     let whole = ways[ways.len() - 1];
@@ -160,8 +152,7 @@ fn attach(line: &mut ThroughLine, node_place: &[Option<DVec3>], on_other: [Optio
     }
 }
 
-/// Leads a line from where it leaves the lumen of another one, `radius` (mm) from `place`, straight on and in one bend to
-/// that place, which is its end. Before point `next` it stays as it is.
+/// Leads a line from its exit of another lumen, `radius` mm from `place`, in one bend to `place`.
 fn lead_in(points: &mut [DVec3], end: usize, place: DVec3, radius: f64, next: usize) {
     let last = points.len() - 1;
     let from_end = |n: usize| if end == 0 { n } else { last - n };
@@ -170,7 +161,7 @@ fn lead_in(points: &mut [DVec3], end: usize, place: DVec3, radius: f64, next: us
     let outside = points[from_end((exit + 3).min(most))] - points[from_end(exit)];
     let direction = outside.normalize_or_zero();
     let from = points[from_end(exit)];
-    // A parabola whose direction at the exit is that of the line.
+    // Quadratic Bézier curve tangent to the line at the exit.
     let control = from - direction * (from.distance(place) / 2.0);
     for n in 1..exit {
         let t = n as f64 / exit as f64;
@@ -178,7 +169,6 @@ fn lead_in(points: &mut [DVec3], end: usize, place: DVec3, radius: f64, next: us
     }
 }
 
-/// The vessels of a line: its parts between nodes.
 fn split(
     line: &ThroughLine,
     graph: &Graph,
@@ -209,7 +199,6 @@ fn split(
     Ok(made)
 }
 
-/// Moves an end of a line, and what is within `length` (mm) of it part of the way.
 fn bring_back(points: &mut [DVec3], ways: &[f64], end: usize, delta: DVec3, length: f64) {
     let whole = ways[ways.len() - 1];
     for (point, way) in points.iter_mut().zip(ways) {
@@ -219,9 +208,8 @@ fn bring_back(points: &mut [DVec3], ways: &[f64], end: usize, delta: DVec3, leng
     }
 }
 
-/// The radius of the lumen at each point: that of a circle with the area of the cross-section, but no more than half a
-/// voxel beyond the nearest wall. Within a voxel of an end of the lumen, whose cross-section is lost there, it is that
-/// of one voxel before.
+/// Radius at each point: equivalent radius of the section, at most half a voxel beyond the nearest wall.
+/// Within a voxel of a cap, where the section degenerates, the last good value.
 fn radii(points: &[DVec3], is_free: [bool; 2], lumen: &Lumen) -> Vec<f64> {
     let side = lumen.side();
     let reach = vec![2.0 * side; points.len()];

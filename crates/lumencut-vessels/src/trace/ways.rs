@@ -1,7 +1,7 @@
-//! Ways through the voxels of a volume: what a step costs, the cheapest ways from a voxel.
+//! Cheapest paths through the voxels of a volume.
 
-pub mod blocks;
-pub mod buckets;
+pub(crate) mod blocks;
+pub(crate) mod buckets;
 pub mod front;
 pub mod region;
-pub mod shape;
+pub(crate) mod shape;

@@ -41,7 +41,7 @@ fn a_section_between_two_that_were_fitted_has_the_lumen_between_theirs() {
 fn a_section_beside_one_without_a_fit_begins_where_its_lumen_looked_to_be() {
     let all = sections(vec![fit(2.0, None), None]);
     assert!(all.known(1, 2, None).is_none());
-    let rough = Ellipse::circle(DVec2::ONE, 1.5);
-    let (known, _) = all.known(1, 2, Some(rough)).unwrap();
-    assert_eq!(known.ellipse, rough);
+    let estimate = Ellipse::circle(DVec2::ONE, 1.5);
+    let (known, _) = all.known(1, 2, Some(estimate)).unwrap();
+    assert_eq!(known.ellipse, estimate);
 }

@@ -1,14 +1,14 @@
 use super::*;
 use glam::DVec3;
 
-fn across(axes: [DVec3; 2]) -> Place {
-    Place { at: 0.0, origin: DVec3::ZERO, axes, normal: axes[0].cross(axes[1]) }
+fn across(axes: [DVec3; 2]) -> SectionPlane {
+    SectionPlane { at: 0.0, origin: DVec3::ZERO, axes, normal: axes[0].cross(axes[1]) }
 }
 
 #[test]
 fn widths_and_variances_belong_together() {
     assert!((fwhm_of(variance_of(0.8)) - 0.8).abs() < 1e-15);
-    // Half of the maximum at half of the width.
+    // Half maximum at half width.
     assert!(((-0.4_f64.powi(2) / (2.0 * variance_of(0.8))).exp() - 0.5).abs() < 1e-12);
 }
 
@@ -26,7 +26,7 @@ fn uneven_voxels_blur_by_their_sides() {
 
 #[test]
 fn sheared_voxels_blur_as_their_corners_lie() {
-    // The variance of a cell is a twelfth of the sum of the squares of its sides along a direction.
+    // The variance of a cell is a twelfth of the sum of its squared sides along a direction.
     let sides = DMat3::from_cols(DVec3::X, DVec3::Y, DVec3::new(0.0, 0.5, 2.0));
     let found = Blur::new(1e-9, sides).of_voxels(&across([DVec3::Y, DVec3::Z]));
     assert!((found.x_axis.x - 1.25 / 12.0).abs() < 1e-12);

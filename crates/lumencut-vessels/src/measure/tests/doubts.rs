@@ -2,7 +2,6 @@ use super::super::flags::{CALCIUM, METAL, NO_EDGE};
 use super::super::made_profile::profile;
 use super::*;
 
-/// A vessel of 30 mm with flags at some arc lengths (mm).
 fn flagged(flags: &[(f64, u32)]) -> Profile {
     let mut made = profile(&[[4.0, 0.1]; 61]);
     for (at, flags) in flags {
@@ -17,7 +16,6 @@ fn the_flags_are_those_of_all_places_that_are_compared() {
     assert_eq!(made.doubts(5.0, Method::Nascet, &[25.0]), Doubts::default());
     assert_eq!(made.doubts(10.2, Method::Nascet, &[25.0]).flags, CALCIUM);
     assert_eq!(made.doubts(10.0, Method::Nascet, &[20.1, 25.0]).flags, CALCIUM | METAL);
-    // Without a reference the place alone.
     assert_eq!(made.doubts(20.0, Method::Nascet, &[]), Doubts { flags: METAL, is_branch_between: false });
 }
 
@@ -51,7 +49,7 @@ fn a_section_that_does_not_count_tells_nothing_between_it_and_one_that_does() {
     made.uncertainty[20] = 2.8;
     assert_eq!(made.diameter_at(9.9).expect("a diameter"), (4.0, 0.1));
     assert_eq!(made.diameter_at(10.4).expect("a diameter"), (4.0, 0.1));
-    // At the section itself its own numbers are told, with its flags.
+    // At the section itself, its own values apply.
     assert_eq!(made.diameter_at(10.0).expect("a diameter"), (8.0, 2.8));
     assert_eq!(made.doubts(9.9, Method::Nascet, &[]).flags, NO_EDGE);
 }

@@ -11,7 +11,6 @@ fn tilted() -> Ellipse {
     Ellipse { center: DVec2::new(0.3, -0.2), mean: 1.1, stretch: DVec2::new(0.25, 0.3) }
 }
 
-/// The Gaussian summed over a fine grid of places within the ellipse.
 fn by_area(ellipse: &Ellipse, place: DVec2) -> f64 {
     let [xx, xy, yy] = BLUR;
     let determinant = xx * yy - xy * xy;
@@ -128,13 +127,13 @@ fn half_axes_end_where_the_boundary_is_nearest_and_farthest() {
 
 #[test]
 fn nodes_far_away_count_as_much_as_those_of_one_place_alone() {
-    // Sixteen places near one side of a wide lumen, so that its other side is far from all of them.
+    // Sixteen points near one side of a wide lumen, far from the other side.
     let boundary = Boundary::new(&Ellipse::circle(DVec2::ZERO, 9.0), whitening());
     let x: [f32; FAN] = std::array::from_fn(|n| 8.0 + 0.15 * n as f32);
     let together = boundary.blurred(&x, &[0.2; FAN]);
     for l in 0..FAN {
         let mut beside = x;
-        // With a place on the other side its nodes are near to one of the sixteen.
+        // One point on the other side.
         beside[(l + 1) % FAN] = -9.0;
         let apart = boundary.blurred(&beside, &[0.2; FAN]);
         assert_eq!(together.value[l], apart.value[l]);

@@ -4,7 +4,7 @@ use super::*;
 use crate::measure::flags::RECENTERED;
 use glam::DVec3;
 
-/// A vessel of 8 mm over 40 mm whose middle runs along z.
+/// A vessel of 8 mm over 40 mm along z.
 fn vessel() -> Profile {
     let mut made = profile(&[[8.0, 0.1]; 81]);
     for n in 0..made.len() {
@@ -13,7 +13,6 @@ fn vessel() -> Profile {
     made
 }
 
-/// From where to where (mm) sections have a hindrance.
 fn where_is(profile: &Profile, bit: u32) -> Option<[f64; 2]> {
     let found = profile.hindrances();
     let mut there = (0..profile.len()).filter(|n| found[*n] & bit != 0).map(|n| profile.arc_length[n]);
@@ -51,7 +50,7 @@ fn where_the_middle_jumps_there_is_another_lumen_one_diameter_around() {
         *center += DVec3::X * 2.6;
     }
     assert_eq!(where_is(&made, CHANGE_OF_LUMEN), Some([11.5, 28.0]));
-    // A lumen that runs at 45° to its line does not change, nor does one that lies a little aside.
+    // A lumen at 45° to its line, or slightly aside, does not change.
     let mut made = vessel();
     for n in 0..made.len() {
         made.center[n].x = made.arc_length[n] + if n < 40 { 0.0 } else { 1.0 };
@@ -72,7 +71,7 @@ fn half_of_a_jump_is_a_change_where_level_or_width_step_too() {
     assert!(!aside(&|_| {}));
     assert!(aside(&|made| made.levels[40..].fill([400.0, 50.0])));
     assert!(aside(&|made| made.area[40..].fill(PI * 36.0)));
-    // Contrast medium that mixes changes the level by less.
+    // Mixing contrast medium changes the level less.
     assert!(!aside(&|made| made.levels[40..].fill([350.0, 50.0])));
 }
 

@@ -1,6 +1,6 @@
 use super::*;
 
-/// y = a exp(-b x) at some places: the sum of squares, and its derivatives.
+/// y = a exp(-b x): sum of squares and derivatives.
 fn decay(at: &[f64; 2]) -> Option<Normal<2>> {
     let [a, b] = *at;
     if a <= 0.0 {
@@ -37,7 +37,7 @@ fn what_is_not_allowed_is_no_start() {
 
 #[test]
 fn what_is_expected_pulls_by_its_weight() {
-    // 4 (x - 1)² + (x - 6)² / 0.5² is least in the middle.
+    // 4 (x - 1)² + 4 (x - 6)² has its minimum in the middle.
     let found = minimum([0.0], 20, |[x]: &[f64; 1]| {
         let mut normal = Normal::zero();
         normal.expect(&[1.0], 1.0 - x, 0.5);
@@ -57,6 +57,5 @@ fn systems_are_solved_and_singular_ones_refused() {
         assert!((product - right[i]).abs() < 1e-12);
     }
     assert!(solved(&[[1.0, 1.0], [1.0, 1.0]], &[1.0, 2.0]).is_none());
-    // The inverse of a diagonal matrix.
     assert!((variance(&[[4.0, 0.0], [0.0, 9.0]], &[1.0, 3.0]).unwrap() - 1.25).abs() < 1e-12);
 }

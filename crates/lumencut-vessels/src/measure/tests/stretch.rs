@@ -14,7 +14,7 @@ fn every_view_lies_across_the_stretch() {
                 continue;
             };
             assert!(towards_detector(turned).dot(along).abs() < 1e-9);
-            // No other view across the stretch is nearer to the front.
+            // No other perpendicular view is nearer to the frontal one.
             let cosine = |arm| -towards_detector(arm).y;
             assert!(cosine(turned) <= cosine(least) + 1e-9);
         }
@@ -23,11 +23,11 @@ fn every_view_lies_across_the_stretch() {
 
 #[test]
 fn signs_are_those_of_the_field() {
-    // The detector on the patient's left, and towards the head.
+    // Detector on the patient's left, and towards the head.
     assert!(towards_detector(CArm { lao: FRAC_PI_2, cranial: 0.0 }).abs_diff_eq(DVec3::X, 1e-12));
     assert!(towards_detector(CArm { lao: 0.3, cranial: FRAC_PI_2 }).abs_diff_eq(DVec3::Z, 1e-12));
     assert!(towards_detector(CArm { lao: 0.0, cranial: 0.0 }).abs_diff_eq(DVec3::NEG_Y, 1e-12));
-    // A vessel that runs to the feet and the front is seen best from below.
+    // A vessel towards the feet and the front is best seen from below.
     let neck = DVec3::new(0.0, -1.0, -1.0).normalize();
     let arm = least_turned(neck);
     assert!(arm.lao.abs() < 1e-12 && (arm.cranial.abs() - FRAC_PI_2 / 2.0).abs() < 1e-12);
@@ -50,7 +50,6 @@ fn the_head_is_up_at_the_detector() {
         assert!(up.is_normalized() && up.dot(view).abs() < 1e-12);
         assert!(up.abs_diff_eq(DVec3::Z.reject_from_normalized(view).normalize(), 1e-9));
     }
-    // From above the head the patient's back is up, from below the feet the front.
     assert!(up_at_detector(CArm { lao: 0.0, cranial: FRAC_PI_2 }).abs_diff_eq(DVec3::Y, 1e-12));
     assert!(up_at_detector(CArm { lao: 0.0, cranial: -FRAC_PI_2 }).abs_diff_eq(DVec3::NEG_Y, 1e-12));
 }

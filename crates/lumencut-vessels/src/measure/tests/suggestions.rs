@@ -50,7 +50,7 @@ fn the_narrowest_place_is_never_one_that_is_flagged_or_unsafe() {
     }
 }
 
-/// A vessel of 12 mm that becomes one of 8 mm at a branch 20 mm from its beginning, with a narrowing at 35 mm.
+/// A vessel of 12 mm that becomes 8 mm at a branch at 20 mm, narrowed at 35 mm.
 fn branched(sections: usize) -> Profile {
     let width = |n: usize| match n {
         0..40 => 12.0,
@@ -71,14 +71,14 @@ fn no_branch_lies_between_a_place_and_its_reference() {
 
 #[test]
 fn where_no_reference_lies_before_a_branch_it_is_passed() {
-    // The vessel ends behind the narrowing, and the branch is just before it.
+    // The vessel ends after the narrowing, and the branch is just before it.
     let mut profile = branched(74);
     profile.flags[38..60].fill(BRANCH);
     let [before, after] = profile.suggested_references(35.0).expect("a place on it");
     assert_eq!((before.map(|spot| spot.diameter), after), (Some(12.0), None));
 }
 
-/// A vessel of 8 mm with a narrowing of 4 mm at 30 mm, that is `beyond` mm wide from 45 mm on.
+/// A vessel of 8 mm, narrowed to 4 mm at 30 mm, and `beyond` mm wide from 45 mm.
 fn stepped(beyond: f64) -> Profile {
     let width = |n: usize| match n {
         58..63 => 4.0,
@@ -94,9 +94,8 @@ fn diameters(profile: &Profile, at: f64) -> [Option<f64>; 2] {
 
 #[test]
 fn no_step_of_the_calibre_lies_between_a_place_and_its_reference() {
-    // Most of the vessel on that side is wider: it was offered before.
     assert_eq!(diameters(&stepped(12.0), 30.0), [Some(8.0), Some(8.0)]);
-    // Where there is no other place, the step is passed.
+    // Without another place, the step is ignored.
     let mut made = stepped(12.0);
     made.flags[..88].fill(CALCIUM);
     assert_eq!(diameters(&made, 30.0), [None, Some(12.0)]);
@@ -117,7 +116,7 @@ fn no_reference_is_offered_where_something_hinders() {
     }
 }
 
-/// The place of the longest diameter that is offered, where that of 9 mm is at 10 mm and a section at `at` mm has `flags`.
+/// Suggested longest diameter, when 9 mm is at 10 mm and the section at `at` mm has `flags`.
 fn offered(at: f64, flags: u32) -> Option<f64> {
     let mut sections = vec![[8.0, 0.1]; 60];
     sections[20][0] = 9.0;
@@ -132,7 +131,6 @@ fn an_odd_longest_diameter_is_not_offered() {
         for at in [9.0, 10.5, 11.0] {
             assert_eq!(offered(at, flags), None, "{flags} at {at} mm");
         }
-        // Farther away it tells nothing.
         assert_eq!((offered(8.5, flags), offered(11.5, flags)), (Some(10.0), Some(10.0)));
     }
     assert_eq!(offered(10.0, IRREGULAR), None);
@@ -149,7 +147,7 @@ fn the_longest_diameter_that_is_not_offered_is_known_all_the_same() {
     assert_eq!(profile(&[[f64::NAN; 2]; 4]).offered_widest(), None);
 }
 
-/// A vessel of 24 mm with one longest diameter and, in the same section, one shortest diameter that are made otherwise.
+/// A vessel of 24 mm with different diameters in some sections.
 fn spiked(longest: f64, shortest: f64, sections: std::ops::Range<usize>) -> Profile {
     let mut profile = profile(&[[24.0, 0.2]; 60]);
     for n in sections {
@@ -176,7 +174,6 @@ fn a_spike_of_the_fit_is_not_offered_as_the_longest_diameter() {
 fn a_long_lumen_is_offered_where_its_neighbours_agree() {
     assert_eq!(spiked(36.0, 24.0, 25..35).offered_widest().map(|spot| spot.diameter), Some(36.0));
     assert_eq!(spiked(60.0, 24.0, 25..35).offered_widest(), None, "no lumen is so long");
-    // A round section needs no neighbours.
     assert_eq!(spiked(30.0, 24.0, 30..31).offered_widest().map(|spot| spot.diameter), Some(30.0));
 }
 

@@ -1,6 +1,5 @@
 use super::*;
 
-/// Whole numbers below a limit, the same ones each time.
 fn random(mut state: u32) -> impl FnMut(u32) -> u32 {
     move |most| {
         state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
@@ -14,7 +13,7 @@ fn products_of_near_pairs_are_those_of_a_visit_of_each_pair() {
     for (count, extent) in
         [(0, [1, 1, 1]), (1, [4, 4, 4]), (17, [3, 2, 9]), (300, [25, 4, 9]), (40, [1, 1, 200])]
     {
-        let mut correlation = [[[0.0; FAR]; FAR]; FAR];
+        let mut correlation = [[[0.0; CORRELATED_VOXELS]; CORRELATED_VOXELS]; CORRELATED_VOXELS];
         for cell in correlation.as_flattened_mut().as_flattened_mut() {
             *cell = next(1000) as f32 / 1000.0 - 0.5;
         }

@@ -18,7 +18,7 @@ fn vessels_that_agree_make_the_level_surer_and_never_sure() {
     let six = by_others(CT, &[[20.0, 5.0], [22.0, 5.0], [18.0, 5.0], [21.0, 5.0], [19.0, 5.0], [20.0, 5.0]]);
     assert!(one[0] < 37.0 && one[1] < CT[1], "{one:?}");
     assert!((six[0] - 20.0).abs() < 2.0 && six[1] < one[1], "{six:?}");
-    assert!(six[1] > APART[0] * CT[1], "{six:?}");
+    assert!(six[1] > TRIED_DEVIATIONS[0] * CT[1], "{six:?}");
 }
 
 #[test]
@@ -35,9 +35,9 @@ fn what_is_told_vaguely_changes_nothing() {
 
 #[test]
 fn the_order_of_vessels_does_not_matter() {
-    let told = [[31.7, 5.3], [48.2, 7.1], [12.9, 11.7], [31.7, 4.9]];
-    let turned = [told[2], told[0], told[3], told[1]];
-    assert_eq!(by_others(CT, &told), by_others(CT, &turned));
+    let walls = [[31.7, 5.3], [48.2, 7.1], [12.9, 11.7], [31.7, 4.9]];
+    let turned = [walls[2], walls[0], walls[3], walls[1]];
+    assert_eq!(by_others(CT, &walls), by_others(CT, &turned));
 }
 
 #[test]
@@ -46,14 +46,14 @@ fn vessels_on_the_same_line_are_not_asked() {
         let points = (0..=10).map(|n| DVec3::new(0.0, 0.0, from + (to - from) * f64::from(n) / 10.0));
         Vessel::new(points.collect(), None).unwrap()
     };
-    // The second begins where the first one ends; a path leads through both of them.
+    // The second vessel begins where the first ends; a path leads through both.
     let tree = [vessel(0.0, 10.0), vessel(10.0, 20.0)];
     let path = Vessel::new((0..=20).map(|z| DVec3::new(0.0, 0.0, f64::from(z))).collect(), None).unwrap();
     let walls = [[30.0, 5.0], [60.0, 5.0]];
-    let told: Vec<ToldWall> =
-        walls.into_iter().enumerate().map(|(vessel, level)| ToldWall { vessel, level }).collect();
-    let of_first = wall_beside(&told, &tree, &tree[0], CT).unwrap();
+    let walls: Vec<VesselWall> =
+        walls.into_iter().enumerate().map(|(vessel, level)| VesselWall { vessel, level }).collect();
+    let of_first = wall_beside(&walls, &tree, &tree[0], CT).unwrap();
     assert_eq!(of_first, PooledWall { level: by_others(CT, &[[60.0, 5.0]]), vessels: 1 });
-    assert_eq!(wall_beside(&told, &tree, &path, CT), None);
-    assert_eq!(wall_beside(&told, &tree, &vessel(30.0, 40.0), CT).unwrap().vessels, 2);
+    assert_eq!(wall_beside(&walls, &tree, &path, CT), None);
+    assert_eq!(wall_beside(&walls, &tree, &vessel(30.0, 40.0), CT).unwrap().vessels, 2);
 }

@@ -1,4 +1,4 @@
-//! What a user asks to be traced by clicks, and what of it is refused whatever the volume holds.
+//! The request to trace clicks, and checks that do not need voxel values.
 
 use glam::DVec3;
 
@@ -8,21 +8,20 @@ use crate::trace::ways::region::Stopper;
 use crate::voxels::Voxels;
 use lumencut_core::error::{Clicked, Error, ErrorKind, Result};
 
-/// What is to be traced.
+/// What to trace.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Clicks {
-    /// For each vessel at least two points in order along it (mm, LPS).
+    /// At least two points per vessel, in order (mm, LPS).
     pub vessels: Vec<Vec<DVec3>>,
     /// Places that no vessel may pass.
     pub stoppers: Vec<Stopper>,
-    /// Whether stretches without lumen are bridged, however long.
+    /// Whether to bridge stretches without lumen of any length.
     pub bridge: bool,
-    /// Vessels that are there already and stay as they are: one that meets them ends at a point of them. Their confidence
-    /// does not matter.
+    /// Existing vessels, which stay unchanged: new ones end at their points. Confidence is not used.
     pub beside: Vec<Centerline>,
 }
 
-/// Refuses clicks that no vessel can run through, whatever the volume holds.
+/// Rejects clicks that are invalid in any volume of this size.
 pub fn check(voxels: &Voxels, clicks: &Clicks) -> Result<()> {
     let wrong = |vessel: usize, found: String, expected: &str| {
         let error = Error::new(ErrorKind::Tracing, format!("points of vessel {vessel}"), found, expected);
@@ -54,8 +53,11 @@ pub fn check(voxels: &Voxels, clicks: &Clicks) -> Result<()> {
     Ok(())
 }
 
-/// Refuses a click that is no place in the volume.
-pub fn check_place(voxels: &Voxels, point: DVec3, subject: impl Fn() -> (String, Clicked)) -> Result<()> {
+pub(crate) fn check_place(
+    voxels: &Voxels,
+    point: DVec3,
+    subject: impl Fn() -> (String, Clicked),
+) -> Result<()> {
     let wrong = |found: String, expected: String| {
         let (subject, clicked) = subject();
         Err(Error::new(ErrorKind::Tracing, subject, found, expected).about(clicked))

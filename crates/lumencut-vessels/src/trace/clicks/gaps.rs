@@ -1,4 +1,4 @@
-//! Stretches of a way that show no lumen: short ones are passed, others refused or bridged.
+//! Handles stretches of a path without lumen: short ones are accepted, others rejected or bridged.
 
 use std::ops::Range;
 
@@ -10,42 +10,36 @@ use crate::voxels::Voxels;
 use lumencut_core::error::{Error, ErrorKind, Mend};
 use lumencut_core::math::arc_length::arc_lengths;
 
-/// A stretch without lumen that is passed (mm): where the vessel goes on in the same direction, and elsewhere.
-pub const LONGEST_GAP: f64 = 5.0;
+/// Longest accepted stretch without lumen (mm): where the vessel continues straight, and elsewhere.
+pub(crate) const LONGEST_GAP: f64 = 5.0;
 const LONGEST_TURN: f64 = 1.2;
 
-/// The thickest wall between two vessels that a way might cross unseen (mm).
+/// Thickest wall between two vessels that a path might cross (mm).
 const LONGEST_WALL: f64 = 5.0;
 
-/// What is a turn: how far from a gap the direction of the vessel is looked at (mm), and the cosine of the least turn.
+/// A turn: distances from a gap between which the direction is taken (mm), and the cosine limit.
 struct Turn {
     beside: [f64; 2],
     least: f64,
 }
 
-/// A turn at a gap, and one from one vessel into another: the line goes from the middle of the one to that of the other, so
-/// that next to the wall its direction is that of the crossing.
+/// At a wall crossing the line runs from centre to centre, so the direction next to the wall is ignored.
 const TURN: Turn = Turn { beside: [0.0, 5.0], least: 0.6 };
 const CROSSING: Turn = Turn { beside: [3.0, 8.0], least: 0.7 };
 
-/// A stretch of a way that shows no lumen.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Gap {
-    /// Its points of the way.
+pub(crate) struct Gap {
     pub points: Range<usize>,
-    /// Its length (mm).
     pub length: f64,
-    /// Where it shows least.
+    /// Position of the lowest membership.
     pub place: DVec3,
-    /// What the volume has there.
     pub value: f32,
-    /// Whether it is too long to be passed.
+    /// Whether it is too long to accept.
     pub is_open: bool,
 }
 
 impl Gap {
-    /// Whether the straight line over the gap passes a stopper.
-    pub fn passes(&self, way: &[DVec3], stopper: &Stopper) -> bool {
+    pub(crate) fn passes(&self, way: &[DVec3], stopper: &Stopper) -> bool {
         let (from, to) = (way[self.points.start.saturating_sub(1)], way[self.points.end.min(way.len() - 1)]);
         let across = to - from;
         let share =
@@ -54,8 +48,7 @@ impl Gap {
     }
 }
 
-/// A way, to look for gaps in it.
-pub struct Line<'a, 'v> {
+pub(crate) struct Line<'a, 'v> {
     voxels: &'a Voxels<'v>,
     model: &'a LumenModel,
     way: &'a [DVec3],
@@ -63,20 +56,19 @@ pub struct Line<'a, 'v> {
 }
 
 impl<'a, 'v> Line<'a, 'v> {
-    /// A way through a volume.
-    pub fn new(voxels: &'a Voxels<'v>, model: &'a LumenModel, way: &'a [DVec3]) -> Self {
+    pub(crate) fn new(voxels: &'a Voxels<'v>, model: &'a LumenModel, way: &'a [DVec3]) -> Self {
         Self { voxels, model, way, lengths: arc_lengths(way) }
     }
 
-    /// The gaps; `weak` says which points show no lumen.
-    pub fn gaps(&self, weak: &[bool]) -> Vec<Gap> {
+    /// `weak` marks the points without lumen.
+    pub(crate) fn gaps(&self, weak: &[bool]) -> Vec<Gap> {
         stretches(weak).into_iter().map(|points| self.gap(points)).collect()
     }
 
-    /// Where a centerline crosses from one vessel to another through the wall between them: it turns on both sides of a
-    /// short stretch that looks less like lumen than what is just before and after.
-    pub fn crossing(&self) -> Option<Gap> {
-        // Walls are darker than lumen; calcium and stents in them are brighter and say nothing of a crossing.
+    /// Finds a crossing through the wall into another vessel: the line turns on both sides of a short stretch
+    /// that looks less like lumen than its surroundings.
+    pub(crate) fn crossing(&self) -> Option<Gap> {
+        // Walls are darker than lumen; brighter calcium and stents do not indicate a crossing.
         let value = |place: &DVec3| self.voxels.at(*place).min(self.model.high as f32);
         let shares: Vec<f32> = self.way.iter().map(|place| self.model.membership(value(place))).collect();
         let below = |limit: f64| shares.iter().map(|share| f64::from(*share) < limit).collect::<Vec<_>>();
@@ -108,12 +100,11 @@ impl<'a, 'v> Line<'a, 'v> {
         gap
     }
 
-    /// The points before and after a stretch.
     fn beside(&self, points: &Range<usize>) -> (usize, usize) {
         (points.start.saturating_sub(1), points.end.min(self.way.len() - 1))
     }
 
-    /// Whether the vessel runs in another direction than the gap, before it and after it.
+    /// Whether the vessel runs in another direction than the gap, before and after it.
     fn turns(&self, gap: &Gap, turn: &Turn) -> [bool; 2] {
         let (way, lengths) = (self.way, &self.lengths);
         let (before, after) = self.beside(&gap.points);
@@ -129,7 +120,6 @@ impl<'a, 'v> Line<'a, 'v> {
     }
 }
 
-/// The stretches of points that are marked.
 fn stretches(marked: &[bool]) -> Vec<Range<usize>> {
     let mut found = Vec::new();
     let mut i = 0;
@@ -143,8 +133,7 @@ fn stretches(marked: &[bool]) -> Vec<Range<usize>> {
     found
 }
 
-/// The error for a gap that is too long.
-pub fn no_lumen(between: [DVec3; 2], gap: &Gap, model: &LumenModel) -> Error {
+pub(crate) fn no_lumen(between: [DVec3; 2], gap: &Gap, model: &LumenModel) -> Error {
     let found = format!(
         "{:.1} mm between them that do not look like lumen, least at {}, where the volume has {:.0}",
         gap.length,
@@ -152,16 +141,15 @@ pub fn no_lumen(between: [DVec3; 2], gap: &Gap, model: &LumenModel) -> Error {
         gap.value
     );
     Error::new(ErrorKind::Tracing, subject(between), found, expected(model))
-        .mend("add a point where the vessel goes on")
+        .mend("add a point where the vessel continues")
         .mended_by(Mend::Bridge)
         .at(gap.place, f64::from(gap.value))
 }
 
-/// The error for two points between which nothing was found at all.
-pub fn no_way(between: [DVec3; 2], model: &LumenModel) -> Error {
-    let found = "no way between them that leaves out what is forbidden and stays within reach";
+pub(crate) fn no_way(between: [DVec3; 2], model: &LumenModel) -> Error {
+    let found = "no path between them within reach that avoids forbidden places";
     Error::new(ErrorKind::Tracing, subject(between), found, expected(model))
-        .mend("add points along the vessel, or take stoppers away")
+        .mend("add points along the vessel, or remove stoppers")
 }
 
 fn subject([from, to]: [DVec3; 2]) -> String {
@@ -169,7 +157,7 @@ fn subject([from, to]: [DVec3; 2]) -> String {
 }
 
 fn expected(model: &LumenModel) -> String {
-    format!("lumen of about {} all the way", range(model))
+    format!("lumen of about {} between them", range(model))
 }
 
 fn range(model: &LumenModel) -> String {

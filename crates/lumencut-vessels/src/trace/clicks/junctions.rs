@@ -1,4 +1,4 @@
-//! Vessels that meet: a later line that runs into an earlier vessel begins or ends at a point of that.
+//! Joins vessels: a later line that runs into an earlier vessel starts or ends at one of its points.
 
 use glam::DVec3;
 
@@ -10,29 +10,26 @@ use crate::trace::lumen::within::holds;
 use lumencut_core::error::{Clicked, Error, ErrorKind, Result};
 use lumencut_core::math::arc_length::arc_lengths;
 
-/// How far from an earlier vessel's end a later one may begin to go on from there: in radii, and at least this length (mm).
+/// Maximum distance from an earlier vessel's end to continue it: in radii, and minimum (mm).
 const END_TO_END: f64 = 0.7;
 const NEAREST_END: f64 = 1.0;
 
-/// How much of a line tells in which direction it has left a vessel (mm).
+/// Length of the line that gives its direction after leaving a vessel (mm).
 const LEAVING: f64 = 4.0;
 
-/// A line leaves a vessel at once where it runs less than this number of radii within it.
+/// A line leaves at once if it runs less than this many radii within a vessel.
 const AT_ONCE: f64 = 2.5;
 
-/// A junction: the point of an earlier vessel, its radius there, and the first point of the line that is kept.
+/// Point and radius of the earlier vessel, and the first point of the line to keep.
 struct Junction {
     place: DVec3,
     radius: f64,
     leaves: usize,
 }
 
-/// The vessels, each of them cut where it leaves or enters an earlier one, and joined to a point of it: the shared points
-/// are equal to the bit. Those `beside` them are earlier than all, and stay as they are.
-///
-/// # Errors
-/// [`ErrorKind::Tracing`] for a vessel that runs within an earlier one from end to end.
-pub fn joined(beside: &[Centerline], lines: Vec<Traced>) -> Result<Vec<Traced>> {
+/// Cuts each vessel where it leaves or enters an earlier one and joins it to one of its points, equal to the
+/// bit. Vessels in `beside` are earlier than all.
+pub(crate) fn joined(beside: &[Centerline], lines: Vec<Traced>) -> Result<Vec<Traced>> {
     let mut whole: Vec<Traced> = Vec::with_capacity(lines.len());
     for (n, line) in lines.into_iter().enumerate() {
         let earlier: Vec<&Centerline> =
@@ -49,10 +46,10 @@ fn joined_at_start(earlier: &[&Centerline], line: Traced, n: usize) -> Result<Tr
     let inside =
         points.iter().take_while(|point| earlier.iter().any(|vessel| holds(vessel, **point))).count();
     if inside + 1 >= points.len() {
-        let found = "clicks whose vessel runs within earlier ones from end to end";
+        let found = "points whose vessel lies entirely within earlier vessels";
         let error =
-            Error::new(ErrorKind::Tracing, format!("points of vessel {n}"), found, "a vessel of its own");
-        let error = error.mend("leave these points out, or click where the vessel is not the other one");
+            Error::new(ErrorKind::Tracing, format!("points of vessel {n}"), found, "a separate vessel");
+        let error = error.mend("remove these points, or click outside the other vessels");
         return Err(error.about(Clicked::Vessel(n)));
     }
     let junction = if inside > 0 {
@@ -67,8 +64,8 @@ fn joined_at_start(earlier: &[&Centerline], line: Traced, n: usize) -> Result<Tr
     })
 }
 
-/// The junction with a line that has left all earlier vessels at its point `leaves`: one that leaves at once begins where
-/// it was clicked, one that follows a vessel first where it comes nearest to that when followed straight backwards.
+/// Junction of a line that leaves all earlier vessels at point `leaves`: nearest to the click if it leaves at
+/// once; otherwise nearest to its straight backward extension.
 fn left(earlier: &[&Centerline], line: &Traced, leaves: usize) -> Junction {
     let points = &line.line.points;
     let (click, from) = (line.ends[0], points[leaves]);
@@ -95,7 +92,6 @@ fn place_of((vessel, n): (&Centerline, usize)) -> DVec3 {
 }
 
 impl Centerline {
-    /// The junction with a line that begins near one of the ends.
     fn continued_at(&self, start: DVec3) -> Option<Junction> {
         let last = self.points.len() - 1;
         [0, last].into_iter().find_map(|end| {
@@ -114,7 +110,6 @@ impl Traced {
         self
     }
 
-    /// The line from a junction with the side of a vessel on.
     fn leaving(self, junction: &Junction) -> Self {
         let from = junction.leaves;
         let tail = |values: &[f64]| [&values[from..=from], &values[from..]].concat();
@@ -127,7 +122,7 @@ impl Traced {
         Self { line, bridged, ..self }.in_even_steps()
     }
 
-    /// The line drawn to the end of a vessel: its first points move with its end, less and less over one radius.
+    /// Moves the start of the line to the end of a vessel, fading over one radius.
     fn drawn_to(mut self, junction: &Junction) -> Self {
         let points = &mut self.line.points;
         let lengths = arc_lengths(points);
@@ -140,7 +135,6 @@ impl Traced {
         self.in_even_steps()
     }
 
-    /// The same line with even steps, and its ends where they were.
     fn in_even_steps(self) -> Self {
         let line = self.line.resampled(STEP);
         let bridged =

@@ -1,5 +1,4 @@
-//! The way that a vessel would take to where a pointer is: quick enough to follow it, and neither in the middle of the lumen
-//! yet nor always the cheapest one.
+//! A quick path to the pointer: not centred, and not always the cheapest.
 
 use glam::DVec3;
 
@@ -11,39 +10,37 @@ use crate::trace::ways::region::{FORBIDDEN, Region, Stopper, Strictness, WEAK};
 use crate::voxels::Voxels;
 use lumencut_core::stop::Stop;
 
-/// How many voxels a front may come to: it is kept while the pointer moves.
+/// Maximum voxels of a front; fronts are kept while the pointer moves.
 const MOST_VOXELS: usize = 4_000_000;
 
-/// How much the fronts are pulled to the pointer. The first one hurries; where it comes through the wall of a vessel instead of
-/// around, the second one says what the cheapest way is.
+/// Factors of the straight distance: a fast search, and the exact one for when it crosses a wall. Between aorta
+/// and iliac artery (290 mm) 1.5 visits 65,000 voxels instead of 101,000; more saves little and swings.
 const PULLS: [f32; 2] = [1.5, 1.0];
 
-/// How often each point moves to the middle of its neighbours, so that no step from voxel to voxel is seen.
+/// Smoothing rounds that hide the steps between voxels.
 const ROUNDS: usize = 6;
 
-/// A way that is looked for.
+/// The path to find.
 #[derive(Clone, Copy, Debug)]
 pub struct Sought<'a> {
-    /// From a click to where the pointer is (mm, LPS).
+    /// From a click to the pointer (mm, LPS).
     pub between: [DVec3; 2],
-    /// Places that no way may pass.
+    /// Places that no path may pass.
     pub stoppers: &'a [Stopper],
-    /// Whether a way over a stretch without lumen counts too.
+    /// Whether stretches without lumen are allowed.
     pub bridge: bool,
 }
 
-/// The fronts of a click from which ways are looked for.
 #[derive(Debug)]
-pub struct Live {
+pub(crate) struct Live {
     click: DVec3,
     region: Region,
     fronts: [Front; 2],
 }
 
 impl Live {
-    /// The fronts of the click from which a way is sought, with what is known of the volume already where that fits the
-    /// click; none where the click lies in no lumen.
-    pub fn new(
+    /// Reuses the known region if it fits the click; None if the click is not in lumen.
+    pub(crate) fn new(
         voxels: &Voxels,
         sought: &Sought,
         surroundings: Option<Surroundings>,
@@ -65,13 +62,11 @@ impl Live {
         Some(Self { click, region, fronts })
     }
 
-    /// Whether they are the fronts of the click from which a way is sought.
-    pub fn is_from(&self, sought: &Sought) -> bool {
+    pub(crate) fn is_from(&self, sought: &Sought) -> bool {
         self.click == sought.between[0] && self.region.stoppers == sought.stoppers
     }
 
-    /// The way that is sought, where there is one before `stop` says so.
-    pub fn way(&mut self, voxels: &Voxels, sought: &Sought, stop: Stop) -> Option<Vec<DVec3>> {
+    pub(crate) fn way(&mut self, voxels: &Voxels, sought: &Sought, stop: Stop) -> Option<Vec<DVec3>> {
         let Self { region, fronts, .. } = self;
         voxels.voxel_at(sought.between[1])?;
         let target = start(voxels, region, sought.between[1]);
@@ -80,7 +75,7 @@ impl Live {
             return None;
         }
         for front in fronts {
-            // A way that the front has come to already is as good to look at as the cheapest one.
+            // For a preview, any path already reached is good enough.
             let is_found = front.has_come_to(target)
                 || matches!(front.grow(voxels, region, target, stop, &|_| ()), Ok(Found::Target));
             let way = is_found.then(|| Way::of(voxels, region, &front.way_to(target)))?;
@@ -92,7 +87,6 @@ impl Live {
     }
 }
 
-/// The points of a way between two places, each moved towards its neighbours.
 fn eased(way: &Way, [from, to]: [DVec3; 2]) -> Vec<DVec3> {
     let mut points = way.straightened();
     if points.len() < 2 {

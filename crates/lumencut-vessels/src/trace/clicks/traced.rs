@@ -1,4 +1,4 @@
-//! What tracing gives back of one vessel.
+//! The result of tracing one vessel.
 
 use glam::DVec3;
 
@@ -7,10 +7,10 @@ use crate::trace::lines::centerline::Centerline;
 /// A centerline between clicks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Traced {
-    /// Its points, radii and confidence.
+    /// Points, radii and confidence.
     pub line: Centerline,
-    /// Which points lie on a stretch without lumen that was bridged.
+    /// Whether each point lies on a bridged stretch without lumen.
     pub bridged: Vec<bool>,
-    /// The first and the last click.
+    /// First and last click.
     pub ends: [DVec3; 2],
 }

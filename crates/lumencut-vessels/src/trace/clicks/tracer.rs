@@ -1,4 +1,4 @@
-//! Centerlines between clicks, with what is kept so that a change re-routes only what lies next to it.
+//! Traces centerlines between clicks, with caches so that a change re-routes only its neighbours.
 
 use std::collections::HashMap;
 
@@ -11,10 +11,10 @@ use crate::trace::clicks::preview::{Live, Sought};
 use crate::trace::clicks::traced::Traced;
 use crate::trace::clicks::way::{Way, start};
 use crate::trace::lines::nearest_point::nearest_point;
-use crate::trace::lumen::calm::calmed;
 use crate::trace::lumen::lumen_model::{LumenModel, in_words};
 use crate::trace::lumen::refine::refined;
 use crate::trace::lumen::surroundings::Surroundings;
+use crate::trace::lumen::wander_removal::without_wander;
 use crate::trace::ways::front::{Found, Front, Reach};
 use crate::trace::ways::region::{Region, Stopper, Strictness};
 use crate::voxels::Voxels;
@@ -23,17 +23,16 @@ use lumencut_core::progress::Progress;
 use lumencut_core::stop::Stop;
 use lumencut_core::volume::Volume;
 
-/// How many voxels a front may come to (7 bytes each), and one that looks for what to say of a way that is not there.
+/// Maximum voxels of a front (7 bytes each), and of a search that only explains a missing path.
 const MOST_VOXELS: usize = 40_000_000;
 const MOST_VOXELS_OF_DOUBT: usize = 4_000_000;
 
-/// How many fronts follow the pointer: those of both neighbours of a point that is dragged.
+/// Number of fronts for the pointer: one per neighbour of a dragged point.
 const MOST_LIVE: usize = 2;
 
-/// Two voxels, from the first to the second.
 type Ends = [[i32; 3]; 2];
 
-/// What is kept of one volume between calls: the fronts of clicks, and the ways between them.
+/// Cached fronts of clicks and paths between them, for one volume.
 #[derive(Debug, Default)]
 pub struct Tracer {
     surroundings: Option<Surroundings>,
@@ -41,11 +40,10 @@ pub struct Tracer {
     fronts: HashMap<[i32; 3], Front>,
     ways: HashMap<Ends, Way>,
     lines: Vec<(Vec<DVec3>, Traced)>,
-    /// What follows the pointer, the last one used first.
+    /// Fronts for the pointer, most recently used first.
     live: Vec<Live>,
 }
 
-/// Everything that a search reads.
 struct Search<'a, 'v> {
     voxels: &'a Voxels<'v>,
     clicks: &'a Clicks,
@@ -54,12 +52,9 @@ struct Search<'a, 'v> {
 }
 
 impl Tracer {
-    /// The centerlines of all vessels of `clicks`, in their order; a later one that meets an earlier one ends at a point of
-    /// it. Every call must be of the same volume.
-    ///
-    /// # Errors
-    /// [`lumencut_core::error::ErrorKind::Tracing`] for clicks that lie in no lumen, or between which there is none;
-    /// [`lumencut_core::error::ErrorKind::Interrupted`].
+    /// Traces all vessels of `clicks`, in order; a later vessel that meets an earlier one ends at one of its
+    /// points. Every call must use the same volume. Errors: `ErrorKind::Tracing` for clicks outside lumen,
+    /// or without lumen between them; `ErrorKind::Interrupted`.
     pub fn trace(
         &mut self,
         volume: &Volume,
@@ -89,9 +84,8 @@ impl Tracer {
         joined(&clicks.beside, self.lines.iter().map(|(_, line)| line.clone()).collect())
     }
 
-    /// The way through the lumen that a vessel would take, quick enough to follow a pointer: none where it is not found before
-    /// `stop` says so, and where [`Tracer::trace`] would refuse it at once. What was learnt is kept for the last
-    /// two clicks, so that the next call from one of them goes on from there. Every call must be of the volume that is traced.
+    /// Quick path through the lumen for a pointer; None if it is not found before `stop`, or if
+    /// [`Tracer::trace`] would reject it. Caches the last two clicks. Every call must use the traced volume.
     pub fn preview(&mut self, volume: &Volume, sought: &Sought, stop: Stop) -> Option<Vec<DVec3>> {
         let voxels = &Voxels::new(volume);
         let known = self.live.iter().position(|live| live.is_from(sought));
@@ -104,11 +98,8 @@ impl Tracer {
         way
     }
 
-    /// Refuses a click that no vessel can begin at, before there is a second one: what it refuses, [`Tracer::trace`] refuses
-    /// too. A click that is no lumen only beside others is not refused. Every call must be of the volume that is traced.
-    ///
-    /// # Errors
-    /// [`lumencut_core::error::ErrorKind::Tracing`] for a click outside of the volume, and for one whose value alone shows that it is no lumen.
+    /// Checks a first click alone, as [`Tracer::trace`] would in the same volume. `ErrorKind::Tracing` for
+    /// a click outside the volume, or whose value excludes lumen.
     pub fn check_click(&self, volume: &Volume, click: DVec3) -> Result<()> {
         let voxels = &Voxels::new(volume);
         check_place(voxels, click, || (format!("point {}", in_words(click)), Clicked::Single))?;
@@ -117,15 +108,14 @@ impl Tracer {
         surroundings.check_alone(voxels, taken[0])
     }
 
-    /// What surrounds the clicks: what was known of them before, where there were some.
     fn surroundings_of(&self, voxels: &Voxels, clicks: &[DVec3]) -> Surroundings {
         self.surroundings.unwrap_or_else(|| Surroundings::of(voxels, clicks))
     }
 
-    /// Makes the model of the lumen fit the clicks; what was kept under another model is forgotten.
+    /// Fits the lumen model to the clicks; drops caches of another model.
     fn prepare(&mut self, voxels: &Voxels, surroundings: Surroundings, clicks: &Clicks) -> Result<()> {
         let model = surroundings.model(voxels, &all_of(clicks))?;
-        // Those of clicks that were refused would mislead the next ones.
+        // Stored only now, because rejected clicks would mislead the next ones.
         self.surroundings = Some(surroundings);
         let fits = |region: &Region| region.model.covers(&model);
         if !self.region.as_ref().is_some_and(fits) {
@@ -136,7 +126,6 @@ impl Tracer {
         Ok(())
     }
 
-    /// Forgets what stoppers that came or went have changed.
     fn heed(&mut self, voxels: &Voxels, stoppers: &[Stopper]) {
         let Some(region) = &mut self.region else { return };
         let before = std::mem::replace(&mut region.stoppers, stoppers.to_vec());
@@ -154,7 +143,6 @@ impl Tracer {
         }
     }
 
-    /// Forgets what belongs to clicks that are gone.
     fn tidy(&mut self, voxels: &Voxels, clicks: &Clicks) {
         let known: Vec<[i32; 3]> =
             clicks.vessels.iter().flatten().filter_map(|click| voxels.voxel_at(*click)).collect();
@@ -177,7 +165,7 @@ impl Tracer {
         }
         let Some(region) = &self.region else { return Err(Error::interrupted()) };
         let line = refined(search.voxels, &region.model, &points, search.stop)?;
-        let mut line = calmed(search.voxels, &region.model, line, search.stop)?;
+        let mut line = without_wander(search.voxels, &region.model, line, search.stop)?;
         let bridged: Vec<bool> =
             line.points.iter().map(|point| open[nearest_point(&points, *point)]).collect();
         for (confidence, is_bridged) in line.confidence.iter_mut().zip(&bridged) {
@@ -193,7 +181,6 @@ impl Tracer {
         Ok(Traced { line, bridged, ends })
     }
 
-    /// The way between two clicks, as it was or found anew.
     fn way(&mut self, search: &Search, between: [DVec3; 2]) -> Result<Way> {
         let Some(region) = &mut self.region else { return Err(Error::interrupted()) };
         let ends = between.map(|click| start(search.voxels, region, click));
@@ -226,18 +213,17 @@ impl Tracer {
 }
 
 impl Search<'_, '_> {
-    /// Grows a front, and tells how far it is.
     fn grow(&self, front: &mut Front, region: &mut Region, target: [i32; 3]) -> Result<Found> {
         let whole = self.voxels.center(front.source()).distance(self.voxels.center(target)).max(1.0);
         if let Some(progress) = self.progress {
             progress.begin_view(std::iter::once(1), PARTS);
             progress.begin_stage(1);
         }
-        let told = std::cell::Cell::new(0);
+        let reported = std::cell::Cell::new(0);
         let found = front.grow(self.voxels, region, target, self.stop, &|left| {
             let parts = ((1.0 - left / whole).clamp(0.0, 1.0) * PARTS as f64) as usize;
             if let Some(progress) = self.progress {
-                progress.begin_pixels(parts.saturating_sub(told.replace(parts.max(told.get()))));
+                progress.begin_pixels(parts.saturating_sub(reported.replace(parts.max(reported.get()))));
             }
         });
         if let Some(progress) = self.progress {
@@ -246,7 +232,7 @@ impl Search<'_, '_> {
         found
     }
 
-    /// The way through what is no lumen, where a bridge was asked for; else the error that says where there is no lumen.
+    /// Bridges non-lumen if requested; otherwise returns the error that locates it.
     fn bridge(&self, region: &Region, between: [DVec3; 2], ends: Ends) -> Result<Way> {
         let model = region.model;
         let stoppers = self.clicks.stoppers.clone();
@@ -262,21 +248,18 @@ impl Search<'_, '_> {
     }
 }
 
-/// Into how many parts the progress of a way is divided.
+/// Progress steps of a path.
 const PARTS: usize = 1000;
 
-/// The error for a way with its longest gap.
 fn refusal(between: [DVec3; 2], way: &Way, model: &LumenModel) -> Error {
     let longest = way.gaps.iter().max_by(|a, b| a.length.total_cmp(&b.length));
     longest.map_or_else(|| no_way(between, model), |gap| no_lumen(between, gap, model))
 }
 
-/// The points of all vessels.
 fn all_of(clicks: &Clicks) -> Vec<DVec3> {
     clicks.vessels.iter().flatten().copied().collect()
 }
 
-/// The clicks, those beside lumen moved into it.
 fn snapped(voxels: &Voxels, surroundings: Surroundings, clicks: &Clicks) -> Clicks {
     let mut places = surroundings.snapped(voxels, &all_of(clicks)).into_iter();
     let vessels = clicks.vessels.iter().map(|points| places.by_ref().take(points.len()).collect());

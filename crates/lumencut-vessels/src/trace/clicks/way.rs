@@ -1,4 +1,4 @@
-//! The way between two clicks through voxels.
+//! The voxel path between two clicks.
 
 use glam::DVec3;
 
@@ -6,18 +6,16 @@ use crate::trace::clicks::gaps::{Gap, Line};
 use crate::trace::ways::region::{FORBIDDEN, Region, THIN, WEAK};
 use crate::voxels::Voxels;
 
-/// The way between two clicks through voxels.
 #[derive(Clone, Debug)]
-pub struct Way {
-    /// The middles of its voxels (mm, LPS).
+pub(crate) struct Way {
+    /// Voxel centres (mm, LPS).
     pub points: Vec<DVec3>,
-    /// Its stretches without lumen.
+    /// Stretches without lumen.
     pub gaps: Vec<Gap>,
 }
 
 impl Way {
-    /// A way through voxels with its gaps.
-    pub fn of(voxels: &Voxels, region: &mut Region, steps: &[[i32; 3]]) -> Self {
+    pub(crate) fn of(voxels: &Voxels, region: &mut Region, steps: &[[i32; 3]]) -> Self {
         let points: Vec<DVec3> = steps.iter().map(|voxel| voxels.center(*voxel)).collect();
         let codes: Vec<u8> = steps.iter().map(|voxel| region.code_of(voxels, *voxel)).collect();
         let below =
@@ -26,14 +24,14 @@ impl Way {
         let line = Line::new(voxels, &region.model, &points);
         let mut gaps = line.gaps(&weak);
         for gap in &mut gaps {
-            // A way around a stopper through tissue does not count.
+            // A detour around a stopper through tissue is not acceptable.
             gap.is_open |= region.stoppers.iter().any(|stopper| gap.passes(&points, stopper));
         }
         Self { points, gaps }
     }
 
-    /// Its points, those of gaps put on a straight line: nothing is seen there that could lead it.
-    pub fn straightened(&self) -> Vec<DVec3> {
+    /// Points with gaps replaced by straight lines, because nothing guides the path there.
+    pub(crate) fn straightened(&self) -> Vec<DVec3> {
         let mut points = self.points.clone();
         for gap in &self.gaps {
             let (first, last) = (gap.points.start.saturating_sub(1), gap.points.end.min(points.len() - 1));
@@ -46,8 +44,8 @@ impl Way {
     }
 }
 
-/// The voxel where the front of a click starts: its own, or where that is at the wall the neighbour that costs least.
-pub fn start(voxels: &Voxels, region: &mut Region, click: DVec3) -> [i32; 3] {
+/// Start voxel of a click: its own, or at a wall the cheapest neighbour.
+pub(crate) fn start(voxels: &Voxels, region: &mut Region, click: DVec3) -> [i32; 3] {
     let middle = voxels.voxel_at(click).unwrap_or([0; 3]);
     let mut best = (region.code_of(voxels, middle), middle);
     if best.0 != FORBIDDEN && best.0 < region.code_below(THIN) {

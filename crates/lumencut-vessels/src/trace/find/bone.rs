@@ -1,10 +1,10 @@
-//! Bone, marrow and organs among the tracks, told from vessels on the raw voxels.
+//! Separates bone, marrow and organs from vessels, on the raw voxels.
 //!
-//! Tracked bone is mostly a plate: its cross-section at half level is long, and so are those of the tracks around. What is
-//! round bone is uneven inside, by its marrow. Both make a track doubtful, as do wide tracks that are paler than vessels.
+//! Tracked bone is mostly a plate with an elongated cross-section, like the tracks around it; round bone
+//! contains uneven marrow. Both make a track doubtful, as do wide tracks paler than vessels.
 
-pub mod neighbourhood;
-pub mod raw_section;
+pub(crate) mod neighbourhood;
+pub(crate) mod raw_section;
 
 use rayon::prelude::*;
 
@@ -19,99 +19,92 @@ use crate::trace::find::vessel_level::vessel_level;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// The share of a track's sections that are less elongated than the track: a low one, as junctions and veins that touch lengthen
-/// single sections.
+/// Quantile of a track's elongations: low, because junctions and touching veins lengthen single sections.
 const ELONGATION_SHARE: f64 = 0.3;
 
-/// A track counts in its neighbourhood by its length, up to so much (mm), and doubly for itself; others count from this confidence
-/// on.
+/// Weights in a neighbourhood: maximum length (mm), factor of the track itself, minimum confidence.
 const LONGEST: f64 = 40.0;
 const ITSELF: f64 = 2.0;
 const LEAST_COUNTED: f64 = 0.3;
 
-/// Flat neighbours make a track no more elongated than this, and so many times what it is itself beyond 1: an artery passes beside
-/// and through bone.
+/// Neighbours raise an elongation e to at most 1.5 + 2 (e - 1): round arteries next to bone stay.
 const NEIGHBOURS: [f64; 2] = [1.5, 2.0];
 
-/// Doubts by elongation and by spread begin at the first value and are whole after the second one more; each is at most the third.
+/// Start and width of the doubts by elongation and by spread, and their maximum.
 const ELONGATED: [f64; 2] = [1.2, 0.7];
 const UNEVEN: [f64; 2] = [0.14, 0.10];
 const MOST_DOUBT: f64 = 3.0;
 
-/// From the first doubt on a track loses confidence, from the second one on nothing is left.
+/// Total doubt at which confidence starts to fall, and at which none is left.
 const DOUBTS: [f64; 2] = [1.2, 1.7];
 
-/// An organ is paler than the vessels by these parts of their contrast: perhaps one from the first on, surely one from the second on. It
-/// has at least this radius (mm). Where the radius is that of a vertebra less will do.
+/// An organ is paler than vessels by these shares of the contrast (possibly, surely), with a minimum radius
+/// (mm). For a vertebra's radius, less suffices.
 const PALE: [f64; 2] = [0.45, 0.55];
-const WIDE: f64 = 5.0;
+const WIDE_MM: f64 = 5.0;
 const PALE_AND_VERY_WIDE: [f64; 2] = [0.2, 0.3];
 const VERY_WIDE: f64 = 14.0;
 
-/// A wide track has good sections nearly everywhere: at the first share of them it is broken wholly, from the second one on not at
-/// all. It is wide from the first radius on (voxels), and wholly from the second one.
+/// Share of good sections at which a wide track counts as fully broken, and as unbroken: noise hides no wall
+/// of a wide lumen. Range of radii (voxels) over which a track counts as wide.
 const UNBROKEN: [f64; 2] = [0.75, 0.95];
 const BROAD: [f64; 2] = [2.5, 5.5];
 
-/// How much confidence is left to an organ, and to marrow in a cortex.
+/// Confidence factor of organs and of marrow in a cortex.
 const LEFT: f64 = 0.15;
 
-/// A flat track that is otherwise the tube of a large vessel may be a lumen beside another one, as in a dissection: it keeps so much
-/// confidence and remains doubtful. Before its flatness counts it has at least this confidence, length and radius (mm), and it is even inside.
+/// A flat track that is otherwise the tube of a large vessel may be the false lumen of a dissection and keeps
+/// this confidence. Minimum confidence, length and radius (mm) for that.
 const FLAT_LUMEN_LEFT: f64 = 0.35;
 const FLAT_LUMEN: f64 = 0.85;
 const FLAT_LUMEN_LENGTH: f64 = 40.0;
 const FLAT_LUMEN_RADIUS: f64 = 3.0;
 
-/// Bone is hardly anywhere both even and as bright as the vessels. Inside a lumen the spread is below the first limits (as a share of
-/// the usual contrast), the level is no farther from the usual one than the second ones (the same), and it is wider than the third
-/// ones (voxels), as finer tubes are too small to be judged so: wholly at the last of each two, not at all at the first.
+/// Bone is hardly ever both even and as bright as vessels. Ranges of a lumen's spread and level difference
+/// (shares of the contrast), and of the radius (voxels) that allows this test.
 const EVEN: [f64; 2] = [0.10, 0.06];
 const ALIKE: [f64; 2] = [0.18, 0.10];
 const SEEN: [f64; 2] = [2.0, 4.0];
 
-/// Beyond this radius (mm) such a lumen is not flat, as bodies of even tissue are: its elongation is below these, wholly so at the
-/// last one.
+/// Above this radius (mm) such a lumen must be round, unlike bodies of even tissue.
 const ROUND: f64 = 7.0;
 const ELONGATED_BODY: [f64; 2] = [1.9, 1.5];
 
-/// What tells the usual level once more: at least so sure, no more elongated, and no less even.
+/// Limits of tracks that refine the vessel level.
 const LUMEN_CONFIDENCE: f64 = 0.85;
 const LUMEN_ELONGATION: f64 = 1.25;
 const LUMEN_SPREAD: f64 = 0.1;
 
-/// How much of what else speaks against a track that is such a lumen does not count, but that it is short.
+/// Share of other doubts forgiven for such a lumen, except shortness.
 const EXCUSED: f64 = 0.5;
 
-/// A track with less confidence is left out.
-const LEAST: f64 = 0.05;
+/// Tracks with less confidence are dropped.
+const MIN_CONFIDENCE: f64 = 0.05;
 
-/// What the raw voxels show of a track.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shape {
-    /// The level inside, in the unit of the volume.
+pub(crate) struct Shape {
     level: f64,
-    /// The greatest diameter at half level as a multiple of the least one.
-    pub elongation: f64,
-    /// The spread of the values inside, as a share of the usual contrast of vessels.
+    /// Longest over shortest diameter at half level.
+    pub(crate) elongation: f64,
+    /// Spread inside, as a share of the vessel contrast.
     spread: f64,
-    /// Whether it is marrow in a cortex.
     is_marrow: bool,
 }
 
 #[cfg(test)]
 impl Shape {
-    /// That of an even tube.
     pub fn even(elongation: f64) -> Self {
         Self { level: 300.0, elongation, spread: 0.0, is_marrow: false }
     }
 }
 
-/// What the raw voxels show of each track; none where no section of it can be seen.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn shapes(scan: &Scan, tracks: &[Track], stop: Stop, stages: Stages) -> Result<Vec<Option<Shape>>> {
+/// Shape of each track; None if no section is visible.
+pub(crate) fn shapes(
+    scan: &Scan,
+    tracks: &[Track],
+    stop: Stop,
+    stages: Stages,
+) -> Result<Vec<Option<Shape>>> {
     let pieces = stages.stage(Stage::Judgement, tracks.len());
     let of_track = |track| {
         let shape = shape(scan, track, stop)?;
@@ -121,9 +114,8 @@ pub fn shapes(scan: &Scan, tracks: &[Track], stop: Stop, stages: Stages) -> Resu
     tracks.par_iter().map(of_track).collect()
 }
 
-/// The usual level and contrast once more, from sure, round and even tracks alone: the first pass sees bone too. None without
-/// such tracks.
-pub fn lumen_level(scan: &Scan, tracks: &[Track], shapes: &[Option<Shape>]) -> Option<[f64; 2]> {
+/// Refines vessel level and contrast from sure, round, even tracks: the first pass includes bone.
+pub(crate) fn lumen_level(scan: &Scan, tracks: &[Track], shapes: &[Option<Shape>]) -> Option<[f64; 2]> {
     let is_lumen = |track: &Track, shape: &Shape| {
         let is_even = !shape.is_marrow && shape.spread <= LUMEN_SPREAD;
         track.confidence >= LUMEN_CONFIDENCE && shape.elongation <= LUMEN_ELONGATION && is_even
@@ -141,11 +133,12 @@ pub fn lumen_level(scan: &Scan, tracks: &[Track], shapes: &[Option<Shape>]) -> O
     vessel_level(&lumens.map(|(track, _)| points(track)).collect::<Vec<_>>(), scan.noise)
 }
 
-/// The tracks with the confidence that is left to each.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn judged(scan: &Scan, tracks: Vec<Track>, shapes: &[Option<Shape>], stop: Stop) -> Result<Vec<Track>> {
+pub(crate) fn judged(
+    scan: &Scan,
+    tracks: Vec<Track>,
+    shapes: &[Option<Shape>],
+    stop: Stop,
+) -> Result<Vec<Track>> {
     let counts: Vec<bool> =
         tracks.iter().zip(shapes).map(|(t, s)| s.is_some() && t.confidence >= LEAST_COUNTED).collect();
     let neighbours = beside(&tracks, &counts, stop)?;
@@ -162,12 +155,10 @@ pub fn judged(scan: &Scan, tracks: Vec<Track>, shapes: &[Option<Shape>], stop: S
     Ok(judged.collect())
 }
 
-/// The tracks to which some confidence is left.
-pub fn left(tracks: Vec<Track>) -> Vec<Track> {
-    tracks.into_iter().filter(|track| track.confidence >= LEAST).collect()
+pub(crate) fn left(tracks: Vec<Track>) -> Vec<Track> {
+    tracks.into_iter().filter(|track| track.confidence >= MIN_CONFIDENCE).collect()
 }
 
-/// What the raw voxels show of a track; none where no section of it can be seen.
 fn shape(scan: &Scan, track: &Track, stop: Stop) -> Result<Option<Shape>> {
     let section = |point| {
         go_on(stop)?;
@@ -185,7 +176,6 @@ fn shape(scan: &Scan, track: &Track, stop: Stop) -> Result<Option<Shape>> {
     }))
 }
 
-/// The mean elongation of a track and those beside it.
 fn elongation_around(tracks: &[Track], shapes: &[Option<Shape>], number: usize, beside: &[usize]) -> f64 {
     let with_weight = |n: usize, times: f64| {
         let shape = shapes[n]?;
@@ -198,13 +188,12 @@ fn elongation_around(tracks: &[Track], shapes: &[Option<Shape>], number: usize, 
     if weights > 0.0 { sum / weights } else { 1.0 }
 }
 
-/// Takes from a track the confidence that it has not as a vessel.
 fn judge(scan: &Scan, track: &mut Track, shape: Shape) {
     let by = |value: f64, [from, over]: [f64; 2]| ((value - from) / over).clamp(0.0, MOST_DOUBT);
     let inside = lumen_inside(scan, track, &shape);
     let [flat, uneven] = [by(shape.elongation, ELONGATED) * (1.0 - inside), by(shape.spread, UNEVEN)];
     let lost = ((flat + uneven - DOUBTS[0]) / (DOUBTS[1] - DOUBTS[0])).clamp(0.0, 1.0);
-    let limits = [(VERY_WIDE, PALE_AND_VERY_WIDE), (WIDE, PALE)];
+    let limits = [(VERY_WIDE, PALE_AND_VERY_WIDE), (WIDE_MM, PALE)];
     let limits = limits.into_iter().find(|(radius, _)| track.radius() > *radius);
     let pale = limits
         .map_or(0.0, |(_, limits)| ramp((scan.level - shape.level) / scan.contrast, limits[0], limits[1]));
@@ -229,14 +218,13 @@ fn judge(scan: &Scan, track: &mut Track, shape: Shape) {
     track.confidence = (track.confidence * (1.0 - lost)).max(if is_lumen { FLAT_LUMEN_LEFT } else { 0.0 });
 }
 
-/// How much a wide track is broken by sections that are not those of a tube, 0 to 1: in a wide lumen noise leaves no wall unseen,
-/// and the bodies of the spine and of even tissue are no tubes where they meet.
+/// How much a wide track is interrupted, 0 to 1: vertebral bodies are no tubes where they meet.
 fn broken(scan: &Scan, track: &Track) -> f64 {
     let good = track.points.iter().filter(|point| point.is_good).count() as f64 / track.points.len() as f64;
     ramp(-good, -UNBROKEN[1], -UNBROKEN[0]) * ramp(track.radius() / scan.side, BROAD[0], BROAD[1])
 }
 
-/// How much the inside of a track is that of a vessel, 0 to 1: even, as bright as vessels are, and wide enough to be seen.
+/// Degree to which the inside is that of a vessel, 0 to 1: even, as bright as vessels, wide enough to judge.
 fn lumen_inside(scan: &Scan, track: &Track, shape: &Shape) -> f64 {
     if shape.is_marrow || track.doubt == Some(TrackDoubt::Faint) {
         return 0.0;

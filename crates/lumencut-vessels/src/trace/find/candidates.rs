@@ -1,4 +1,4 @@
-//! Candidates: places where the flux of the gradient and a cross-section both show a tube.
+//! Finds candidates: places where both the gradient flux and a cross-section show a tube.
 
 use std::ops::Range;
 
@@ -12,101 +12,92 @@ use crate::trace::find::stages::{Stage, Stages};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// The size of the boxes of voxels whose flux is found together.
+/// Voxels per tile.
 const TILE: [usize; 3] = [64, 24, 24];
 
-/// A response is at least this many times the noise, and this part of the usual contrast of vessels.
+/// Minimum response: multiple of the noise, and share of the vessel contrast.
 const NOISES: f64 = 3.5;
 const OF_CONTRAST: f64 = 0.15;
 
-/// The contrast of a section is at least this many times the noise, and this part of the usual contrast of vessels.
+/// The same for the contrast of a section.
 const SECTION_NOISES: f64 = 3.0;
 const SECTION_OF_CONTRAST: f64 = 0.2;
 
-/// What a section of a candidate must show: more closure and more rays with contrast than this, and a radius within these times
-/// that of the flux.
+/// Minimum closure and share of contrasting rays, and the range of the radius relative to that of the flux.
 const LEAST_CLOSURE: f64 = 0.65;
 const LEAST_CONTRAST_SHARE: f64 = 0.6;
 const RADIUS_RATIO: [f64; 2] = [0.5, 1.9];
 
-/// A section moves less than this many radii towards its middle, or this many where it is wider than two voxels.
+/// Maximum movement to the centre in radii, and for tubes wider than two voxels.
 const MOST_SHIFT: f64 = 1.0;
 const MOST_WIDE_SHIFT: f64 = 1.5;
-const WIDE: f64 = 2.0;
+const WIDE_RADIUS: f64 = 2.0;
 
-/// How often a section moves to its middle, and how narrow it may become (voxels of the finest level).
+/// Centring rounds, and minimum radius (finest voxels).
 const ROUNDS: usize = 3;
 const LEAST_RADIUS: f64 = 0.5;
 
-/// A candidate is near a place within so many of its radii.
-const NEAR: f64 = 2.0;
+/// Search distance around a place, in radii.
+const SEARCH_RADII: f64 = 2.0;
 
-/// About how many voxels are looked at for the noise, and what share of them is the brightest. The spread of 27 voxels that this share
-/// of those does not reach is that of noise alone, times the last number where the noise is white; elsewhere there are edges.
+/// Noise estimate: number of samples, share of bright ones, quantile of the local spread (higher ones contain
+/// edges), and its expected value for white noise.
 const NOISE_SAMPLES: usize = 60_000;
 const BRIGHTEST: f64 = 0.4;
 const EVENEST: f64 = 0.15;
 const EVENEST_OF_NOISE: f64 = 0.855;
 
-/// A place where a tube may begin. Lengths are in voxels of the finest level.
+/// A possible tube. Lengths in finest voxels.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Candidate {
-    /// The middle of its section.
+pub(crate) struct Candidate {
     pub place: DVec3,
-    /// Its direction (unit vector).
     pub direction: DVec3,
-    /// Its radius.
     pub radius: f64,
-    /// The response of the flux, a contrast in the unit of the volume.
-    pub response: f64,
-    /// The radius of the ball of that response.
-    pub flux_radius: f64,
-    /// The share of rays of its section that meet a wall about one radius away, and that lose half of the contrast.
+    /// Flux response, a contrast in the unit of the volume.
+    pub(crate) response: f64,
+    /// Ball radius of that response.
+    pub(crate) flux_radius: f64,
+    /// Shares of rays with a wall about one radius away, and with half of the contrast lost.
     pub closure: f64,
-    /// See `closure`.
-    pub contrast_share: f64,
+    pub(crate) contrast_share: f64,
 }
 
-/// The least that a tube must have, in the unit of the volume.
 #[derive(Clone, Copy, Debug)]
-pub struct Floors {
-    /// The noise of the finest level that is looked at.
+pub(crate) struct Floors {
     pub noise: f64,
-    /// The usual contrast of vessels; in the first pass a part of the range of values.
+    /// Vessel contrast; in the first pass a share of the value range.
     pub contrast: f64,
 }
 
 impl Floors {
-    /// The least contrast of a section.
-    pub fn of_section(&self) -> f64 {
+    pub(crate) fn of_section(&self) -> f64 {
         (SECTION_NOISES * self.noise).max(SECTION_OF_CONTRAST * self.contrast)
     }
 }
 
-/// The candidates of the levels that are looked at, the most promising first.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn candidates(
+pub(crate) fn candidates(
     pyramid: &Pyramid,
-    looked_at: &Range<usize>,
+    levels_examined: &Range<usize>,
     floors: &Floors,
     stop: Stop,
     stages: Stages,
 ) -> Result<Vec<Candidate>> {
     let mut found = Vec::new();
-    let all = looked_at.clone().map(|number| tiles(pyramid.levels[number].size).len()).sum();
+    let all = levels_examined.clone().map(|number| tiles(pyramid.levels[number].size).len()).sum();
     let pieces = stages.stage(Stage::Candidates, all);
-    for number in looked_at.clone() {
+    for number in levels_examined.clone() {
         let level = &pyramid.levels[number];
-        let limits = limits(level, number, looked_at, floors);
+        let limits = limits(level, number, levels_examined, floors);
         let of_level: Vec<Vec<Candidate>> = tiles(level.size)
             .into_par_iter()
             .map(|tile| {
                 go_on(stop)?;
                 pieces.done(1);
                 let seen = peaks(level, tile, &limits);
-                Ok(seen.into_iter().filter_map(|peak| judged(pyramid, looked_at, peak, floors)).collect())
+                Ok(seen
+                    .into_iter()
+                    .filter_map(|peak| judged(pyramid, levels_examined, peak, floors))
+                    .collect())
             })
             .collect::<Result<_>>()?;
         found.extend(of_level.into_iter().flatten());
@@ -114,36 +105,40 @@ pub fn candidates(
     Ok(in_order(found, floors))
 }
 
-/// The candidates within two radii of a place (voxels of the finest level), the most promising first.
-pub fn candidates_near(
+/// Candidates within two radii of a place (finest voxels).
+pub(crate) fn candidates_near(
     pyramid: &Pyramid,
-    looked_at: &Range<usize>,
+    levels_examined: &Range<usize>,
     floors: &Floors,
     place: DVec3,
 ) -> Vec<Candidate> {
     let of_level = |number: usize| {
         let level = &pyramid.levels[number];
-        let limits = limits(level, number, looked_at, floors);
+        let limits = limits(level, number, levels_examined, floors);
         let voxel = (place / level.side).round().to_array().map(|c| c.max(0.0) as usize);
         let first = std::array::from_fn(|a| voxel[a].saturating_sub(TILE[a] / 2));
         let seen =
             if (0..3).all(|a| first[a] < level.size[a]) { peaks(level, first, &limits) } else { Vec::new() };
-        seen.into_iter().filter_map(|peak| judged(pyramid, looked_at, peak, floors)).collect::<Vec<_>>()
+        seen.into_iter().filter_map(|peak| judged(pyramid, levels_examined, peak, floors)).collect::<Vec<_>>()
     };
-    let found = looked_at.clone().flat_map(of_level);
-    in_order(found.filter(|c| c.place.distance(place) <= NEAR * c.radius.max(1.0)).collect(), floors)
+    let found = levels_examined.clone().flat_map(of_level);
+    in_order(found.filter(|c| c.place.distance(place) <= SEARCH_RADII * c.radius.max(1.0)).collect(), floors)
 }
 
-/// Candidates, the most promising first.
 fn in_order(mut candidates: Vec<Candidate>, floors: &Floors) -> Vec<Candidate> {
     let promise = |c: &Candidate| c.response.min(floors.contrast) * c.flux_radius.sqrt();
     candidates.sort_by(|a, b| promise(b).total_cmp(&promise(a)));
     candidates
 }
 
-/// The radii whose flux is found in a level, each with the factor of its response and the least response.
-fn limits(level: &Level, number: usize, looked_at: &Range<usize>, floors: &Floors) -> Vec<(usize, f32, f32)> {
-    let (first, last) = (looked_at.start, looked_at.end - 1);
+/// Flux radii of a level, each with response factor and threshold.
+fn limits(
+    level: &Level,
+    number: usize,
+    levels_examined: &Range<usize>,
+    floors: &Floors,
+) -> Vec<(usize, f32, f32)> {
+    let (first, last) = (levels_examined.start, levels_examined.end - 1);
     let radii: &[usize] = match () {
         () if number == first && number == last => &[0, 1, 2, 3],
         () if number == first => &[0, 1, 2],
@@ -154,14 +149,13 @@ fn limits(level: &Level, number: usize, looked_at: &Range<usize>, floors: &Floor
     let limit = |&radius: &usize| {
         let gain = gains()[radius];
         let least = (NOISES * noise * f64::from(gain.noise)).max(OF_CONTRAST * floors.contrast);
-        // A step of the voxels' numbers is the least that can be seen at all.
+        // One quantization step is the least visible response.
         (radius, gain.factor, (least as f32 / level.unit).max(1.0))
     };
     radii.iter().map(limit).collect()
 }
 
-/// The standard deviation of the noise of a level, from the spread of its brighter voxels where they are evenest.
-pub fn noise(level: &Level) -> f64 {
+pub(crate) fn noise(level: &Level) -> f64 {
     let [nx, ny, nz] = level.size;
     if level.size.iter().any(|n| *n < 3) {
         return 0.0;
@@ -180,7 +174,7 @@ pub fn noise(level: &Level) -> f64 {
             (sum / 27.0, ((squares - sum * sum / 27.0).max(0.0) / 26.0).sqrt())
         })
         .collect();
-    // Voxels at the lowest value are clamped: they show no noise.
+    // Clamped voxels show no noise.
     samples.retain(|sample| sample.0 > 0.5);
     if samples.is_empty() {
         return 0.0;
@@ -192,7 +186,6 @@ pub fn noise(level: &Level) -> f64 {
     *spread.select_nth_unstable_by(even, f64::total_cmp).1 / EVENEST_OF_NOISE * f64::from(level.unit)
 }
 
-/// The first voxels of the boxes of a level.
 fn tiles(size: [usize; 3]) -> Vec<[usize; 3]> {
     let counts: [usize; 3] = std::array::from_fn(|a| size[a].div_ceil(TILE[a]));
     (0..counts.iter().product())
@@ -203,7 +196,7 @@ fn tiles(size: [usize; 3]) -> Vec<[usize; 3]> {
         .collect()
 }
 
-/// The voxels of a box whose response is the greatest across their direction.
+/// Voxels of a tile with the greatest response across their direction.
 fn peaks(level: &Level, first: [usize; 3], radii: &[(usize, f32, f32)]) -> Vec<Candidate> {
     let size: [usize; 3] = std::array::from_fn(|a| TILE[a].min(level.size[a] - first[a]));
     let least = radii.iter().map(|(_, _, least)| *least).fold(f32::MAX, f32::min);
@@ -213,7 +206,7 @@ fn peaks(level: &Level, first: [usize; 3], radii: &[(usize, f32, f32)]) -> Vec<C
     for k in 0..size[2] {
         for j in 0..size[1] {
             for i in 0..size[0] {
-                // The box of the responses has one voxel more on each side.
+                // Responses have a border of one voxel.
                 let voxel = [i + 1, j + 1, k + 1];
                 let number = responses.number(voxel);
                 if responses.strongest[number] <= 0.0 {
@@ -241,7 +234,7 @@ fn peaks(level: &Level, first: [usize; 3], radii: &[(usize, f32, f32)]) -> Vec<C
     found
 }
 
-/// The values of a box, those beyond the level being the nearest in it; none where no two of them differ by the least response.
+/// Values of a tile, clamped at the edge; None if their range is below the threshold.
 fn values(level: &Level, first: [usize; 3], size: [usize; 3], least: f32) -> Option<Vec<f32>> {
     let [nx, ny, nz] = level.size;
     let at = |n: usize, first: usize, count: usize| (first + n).saturating_sub(HALO).min(count - 1);
@@ -260,7 +253,7 @@ fn values(level: &Level, first: [usize; 3], size: [usize; 3], least: f32) -> Opt
     (f32::from(high.saturating_sub(low)) >= least).then_some(values)
 }
 
-/// Whether no neighbour across the direction has a greater response; of equal ones the first voxel is the peak.
+/// Non-maximum suppression across the direction; on ties the first voxel wins.
 fn is_peak(responses: &Responses, voxel: [usize; 3], direction: DVec3) -> bool {
     let own = responses.number(voxel);
     let strength = responses.strongest[own];
@@ -275,16 +268,15 @@ fn is_peak(responses: &Responses, voxel: [usize; 3], direction: DVec3) -> bool {
     })
 }
 
-/// A peak whose section is that of a tube, moved to its middle.
 fn judged(
     pyramid: &Pyramid,
-    looked_at: &Range<usize>,
+    levels_examined: &Range<usize>,
     peak: Candidate,
     floors: &Floors,
 ) -> Option<Candidate> {
-    let most = if peak.radius >= WIDE { MOST_WIDE_SHIFT } else { MOST_SHIFT } * peak.radius;
+    let most = if peak.radius >= WIDE_RADIUS { MOST_WIDE_SHIFT } else { MOST_SHIFT } * peak.radius;
     let look = |place: DVec3, radius: f64| {
-        Section::look(pyramid.level_for(radius, looked_at), place, peak.direction, radius)
+        Section::look(pyramid.level_for(radius, levels_examined), place, peak.direction, radius)
     };
     let (mut place, mut radius) = (peak.place, peak.radius);
     let mut section = look(place, radius);

@@ -1,4 +1,4 @@
-//! The vessels of one seed: a seed teaches nothing, it chooses among the parts that were found without it.
+//! Chooses the vessels of a seed among those found without it.
 
 use glam::DVec3;
 
@@ -8,28 +8,20 @@ use crate::voxels::Voxels;
 use lumencut_core::error::Result;
 use lumencut_core::volume::Volume;
 
-/// A seed chooses a part up to so many radii from the middle of one of its vessels, or up to a voxel where that is more.
-pub const REACH: f64 = 1.5;
+/// Distance (in radii, at least a voxel) up to which a seed selects a vessel.
+pub const SELECT_RADII: f64 = 1.5;
 
-/// A point of a vessel that is near a seed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Near {
-    /// The number of the vessel.
     vessel: usize,
-    /// The point (mm, LPS).
     point: DVec3,
-    /// How far the seed is from it (mm).
     distance: f64,
-    /// The same in radii of the vessel there.
     radii: f64,
 }
 
-/// The vessels of the part that a seed (mm, LPS) lies in, found as without a seed; where it lies in none of them fainter ones are
-/// looked for around it.
-///
-/// # Errors
-/// Those of [`trees`]; [`lumencut_core::error::ErrorKind::Tracing`] for a seed outside the volume, in no vessel, or in a part
-/// without a sure vessel.
+/// Vessels of the part that contains a seed (mm, LPS), found as without it; outside all of them, fainter ones
+/// around it are found too. Errors: Those of [`trees`]; `ErrorKind::Tracing` for a seed outside the volume,
+/// in no vessel, or in a part without a sure vessel.
 pub fn find_from(volume: &Volume, seed: DVec3, request: &FindRequest) -> Result<Trees> {
     let voxels = Voxels::new(volume);
     if !seed.is_finite() || voxels.voxel_at(seed).is_none() {
@@ -47,11 +39,8 @@ pub fn find_from(volume: &Volume, seed: DVec3, request: &FindRequest) -> Result<
     }
 }
 
-/// The part whose vessel lies nearest to a seed in units of its radius, those with a sure vessel before the others; a radius
-/// counts as one voxel (mm) over the reach of a seed at least.
-///
-/// # Errors
-/// The nearest point of any vessel, and how far it is from the seed (mm), where no vessel is within reach.
+/// The part with the vessel nearest to a seed in radii, preferring parts with a sure vessel. `voxel` (mm) is
+/// the minimum reach of a seed. Errors: The nearest vessel point and its distance (mm) if none is in reach.
 pub fn part_at(trees: &Trees, seed: DVec3, voxel: f64) -> std::result::Result<usize, (DVec3, f64)> {
     let sure_parts: Vec<usize> =
         trees.vessels.iter().filter(|vessel| vessel.doubt.is_none()).map(|vessel| vessel.part).collect();
@@ -59,11 +48,8 @@ pub fn part_at(trees: &Trees, seed: DVec3, voxel: f64) -> std::result::Result<us
     Ok(trees.vessels[vessel].part)
 }
 
-/// The vessel nearest to a place (mm, LPS) in units of its radius, those that come first before the others; a radius counts as one
-/// voxel (mm) over the reach of a seed at least.
-///
-/// # Errors
-/// The nearest point of any vessel, and how far it is from the place (mm), where no vessel is within reach.
+/// The vessel nearest to a place in radii, preferring those accepted by `comes_first`. `voxel` (mm) is the
+/// minimum reach. Errors: The nearest vessel point and its distance (mm) if none is in reach.
 pub fn vessel_at(
     trees: &Trees,
     place: DVec3,
@@ -74,11 +60,11 @@ pub fn vessel_at(
         .vessels
         .iter()
         .enumerate()
-        .map(|(number, vessel)| near(number, vessel, place, voxel / REACH))
+        .map(|(number, vessel)| near(number, vessel, place, voxel / SELECT_RADII))
         .collect();
     let within = |is_first: bool| {
         near.iter()
-            .filter(|near| near.radii <= REACH && comes_first(&trees.vessels[near.vessel]) == is_first)
+            .filter(|near| near.radii <= SELECT_RADII && comes_first(&trees.vessels[near.vessel]) == is_first)
             .min_by(|a, b| a.radii.total_cmp(&b.radii))
     };
     within(true).or_else(|| within(false)).map(|near| near.vessel).ok_or_else(|| {
@@ -87,7 +73,7 @@ pub fn vessel_at(
     })
 }
 
-/// The point of a vessel that is nearest to a seed in units of the radius, which counts as `least` (mm) at least.
+/// Nearest point of a vessel in radii, which are at least `least` mm.
 fn near(vessel: usize, found: &FoundVessel, seed: DVec3, least: f64) -> Near {
     let line = &found.line;
     let of = |n: usize| {
@@ -105,13 +91,11 @@ fn near(vessel: usize, found: &FoundVessel, seed: DVec3, least: f64) -> Near {
     (0..line.points.len().saturating_sub(1)).map(of).fold(none, nearer)
 }
 
-/// The vessels of one part.
 fn only(trees: Trees, part: usize) -> Trees {
     let vessels = trees.vessels.into_iter().filter(|vessel| vessel.part == part);
     Trees { vessels: vessels.map(|vessel| FoundVessel { part: 0, ..vessel }).collect(), ..trees }
 }
 
-/// The vessels of a part of which one is sure; else why the first one is doubtful.
 fn sure(trees: Trees) -> std::result::Result<Trees, &'static str> {
     let doubts: Vec<_> = trees.vessels.iter().map(|vessel| vessel.doubt).collect();
     match doubts.first() {

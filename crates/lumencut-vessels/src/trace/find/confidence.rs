@@ -1,4 +1,4 @@
-//! How sure a track is to be a vessel: parts that each speak for or against one, weighed together.
+//! Confidence that a track is a vessel: a weighted product of criteria.
 
 use std::f64::consts::TAU;
 
@@ -10,60 +10,56 @@ use crate::trace::find::section::{TOUCHED, across};
 use crate::trace::find::track::{TrackDoubt, TrackPoint, length, usual};
 use crate::voxels::Voxels;
 
-/// What the usual vessels of a scan are like, in the unit of the volume.
+/// Typical level and contrast of the vessels, in the unit of the volume.
 #[derive(Clone, Copy, Debug)]
-pub struct UsualVessels {
-    /// Their level.
+pub(crate) struct UsualVessels {
     pub level: f64,
-    /// Their contrast.
     pub contrast: f64,
 }
 
-/// The exponent of the whole, and the least that a part counts.
+/// Exponent of the product, and minimum of a factor.
 const POWER: f64 = 0.6;
-const LEAST: f64 = 0.02;
+const MIN_FACTOR: f64 = 0.02;
 
-/// The ring around the lumen: from so many radii and voxels to so many.
+/// Ring around the lumen, in radii plus voxels.
 const RING_FROM: [f64; 2] = [1.25, 0.7];
 const RING_TO: [f64; 2] = [2.05, 2.0];
 const RAYS: usize = 16;
-/// Around a tube that bone may touch rays that meet bone tell nothing of the tissue around, if so many others are left.
+/// Around narrow tubes, rays that meet bone are ignored if this many others remain.
 const LEAST_LEFT: usize = 6;
 const SAMPLES: usize = 4;
 
-/// The most sections of a track that are looked at.
+/// Maximum number of sections.
 const MOST_SECTIONS: usize = 60;
 
-/// A tube counts as wide from so many voxels of radius on, and wholly from so many.
-const WIDE: [f64; 2] = [2.5, 5.5];
+/// Range of radii (voxels) over which a tube counts as wide.
+const WIDE_VOXELS: [f64; 2] = [2.5, 5.5];
 
-/// How far rays look for bone: so many radii and voxels; what is brighter than the usual level by this part of the contrast.
+/// Search distance for bone (radii plus voxels); its excess over the vessel level (share of the contrast).
 const BONE_REACH: [f64; 2] = [1.5, 1.5];
 const BONE: f64 = 0.4;
 const BRIGHT_INSIDE: f64 = 0.5;
-/// A wide tube whose inside lies within these parts of the contrast of the usual level may have bright walls: stents.
+/// Range of level differences (shares of the contrast) that excuses bright walls, as in a stent.
 const STENT_INSIDE: [f64; 2] = [0.25, 0.55];
 
-/// What is known of a track beside its points.
 struct Around {
-    /// The share of directions that are dark, and the quartile range of their means over the contrast, in the median.
+    /// Share of dark directions, and median interquartile range over contrast.
     dark: f64,
     even: f64,
-    /// The contrast to the ring's median over the usual one.
+    /// Contrast to the ring over vessel contrast.
     contrast: f64,
-    /// The share of rays that meet bone.
+    /// Share of rays that meet bone.
     bone: f64,
-    /// The raw level inside.
     inside: f64,
 }
 
-/// A value between 0 and 1 as it passes from one limit to another.
-pub fn ramp(value: f64, from: f64, to: f64) -> f64 {
+/// Linear from 0 to 1 between two limits.
+pub(crate) fn ramp(value: f64, from: f64, to: f64) -> f64 {
     ((value - from) / (to - from)).clamp(0.0, 1.0)
 }
 
-/// How sure a track is, 0 to 1, and what speaks against it most. Its points are in voxels of the finest level.
-pub fn confidence(
+/// Confidence (0 to 1) and the main doubt. Points are in finest voxels.
+pub(crate) fn confidence(
     pyramid: &Pyramid,
     voxels: &Voxels,
     points: &[TrackPoint],
@@ -75,7 +71,7 @@ pub fn confidence(
     }
     let radius = usual(good.iter().copied(), |point| point.radius);
     let around = around(pyramid, voxels, &good, vessels);
-    let wide = ramp(radius, WIDE[0], WIDE[1]);
+    let wide = ramp(radius, WIDE_VOXELS[0], WIDE_VOXELS[1]);
     let closure = good.iter().map(|point| point.closure).sum::<f64>() / good.len() as f64;
     let share = good.len() as f64 / points.len() as f64;
     let parts = [
@@ -84,18 +80,17 @@ pub fn confidence(
         (ramp(closure, 0.75, 0.90), 0.7, TrackDoubt::Open),
         (ramp(around.contrast, 0.12, 0.37), 0.7, TrackDoubt::Faint),
         (ramp(length(points) / radius, 2.0, 8.0), 0.5, TrackDoubt::Short),
-        (ramp(-rough(&good, radius), -0.25, -0.15), 0.7, TrackDoubt::Rough),
+        (ramp(-radius_roughness(&good, radius), -0.25, -0.15), 0.7, TrackDoubt::Rough),
         (no_bone(&around, wide, vessels), 1.0, TrackDoubt::BrightSides),
         (ramp(share, 0.5, 0.8), 0.5, TrackDoubt::Open),
     ];
-    let weighed = parts.map(|(part, weight, doubt)| (weight * part.max(LEAST).ln(), doubt));
+    let weighed = parts.map(|(part, weight, doubt)| (weight * part.max(MIN_FACTOR).ln(), doubt));
     let sum: f64 = weighed.iter().map(|(part, _)| part).sum();
     let worst = weighed.into_iter().min_by(|a, b| a.0.total_cmp(&b.0)).filter(|(part, _)| *part < 0.0);
     ((POWER * sum).exp(), worst.map(|(_, doubt)| doubt))
 }
 
-/// The standard deviation of the steps of the radius, over the radius.
-fn rough(good: &[&TrackPoint], radius: f64) -> f64 {
+fn radius_roughness(good: &[&TrackPoint], radius: f64) -> f64 {
     let steps: Vec<f64> = good.windows(2).map(|pair| pair[1].radius - pair[0].radius).collect();
     if steps.is_empty() {
         return 0.0;
@@ -105,7 +100,7 @@ fn rough(good: &[&TrackPoint], radius: f64) -> f64 {
     square.sqrt() / radius
 }
 
-/// How much speaks against bone, whose inside or walls are brighter than vessels.
+/// 1 if neither the inside nor the walls are as bright as bone.
 fn no_bone(around: &Around, wide: f64, usual: &UsualVessels) -> f64 {
     let bright = ramp(-around.bone, -0.75, -0.40);
     let away = (around.inside - usual.level).abs() / usual.contrast;
@@ -115,7 +110,6 @@ fn no_bone(around: &Around, wide: f64, usual: &UsualVessels) -> f64 {
     inside * bright.max(excused)
 }
 
-/// What is around a track, in the median of some of its sections.
 fn around(pyramid: &Pyramid, voxels: &Voxels, good: &[&TrackPoint], usual: &UsualVessels) -> Around {
     let step = good.len().div_ceil(MOST_SECTIONS);
     let mut parts: [Vec<f64>; 5] = std::array::from_fn(|_| Vec::with_capacity(MOST_SECTIONS));
@@ -131,7 +125,6 @@ fn around(pyramid: &Pyramid, voxels: &Voxels, good: &[&TrackPoint], usual: &Usua
     Around { dark, even, contrast, bone, inside }
 }
 
-/// The five numbers of [`Around`] at one section.
 fn of_section(pyramid: &Pyramid, voxels: &Voxels, point: &TrackPoint, usual: &UsualVessels) -> [f64; 5] {
     let level = pyramid.level_for(point.radius, &pyramid.all());
     let plane = across(point.direction);

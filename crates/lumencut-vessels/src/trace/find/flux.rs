@@ -1,61 +1,53 @@
-//! Optimally oriented flux: how much the gradient flows inwards through balls of several radii, and across which direction.
+//! Optimally oriented flux: inward gradient flow through balls of several radii.
 //!
-//! Law and Chung, "Three dimensional curvilinear structure detection using optimally oriented flux", ECCV 2008,
-//! doi:10.1007/978-3-540-88693-8_27. The flux through a ball is the integral of the second derivatives within it; so the
-//! volume is averaged over the ball, and its second derivatives are taken.
+//! Law and Chung, "Three dimensional curvilinear structure detection using optimally oriented flux", ECCV
+//! 2008, doi:10.1007/978-3-540-88693-8_27. The flux through a ball is the integral of the second derivatives
+//! inside, so the volume is averaged over the ball and then differentiated.
 
 use std::sync::OnceLock;
 
 use lumencut_core::math::lanes::{Isa, Kernel, dispatch};
 
-/// The radii of the balls (voxels of the level): the finest level has the first three, others the second and the third, and the
-/// coarsest one the last two as well.
-pub const RADII: [f64; 4] = [1.0, 1.5, 2.1, 3.0];
+/// Ball radii (voxels): the first three on the finest level, the last three on the coarsest, else the middle.
+pub(crate) const RADII: [f64; 4] = [1.0, 1.5, 2.1, 3.0];
 
-/// The smoothing before: a Gaussian of 0.7 voxels.
+/// Gaussian of 0.7 voxels.
 const SMOOTHING: [f32; 3] = [0.561_8, 0.202_5, 0.016_6];
 
-/// The blur of the cylinder whose response is made to be 1 (voxels).
+/// Blur of the calibration cylinder (voxels).
 const BLUR: f64 = 0.6;
 
-/// How far a ball reaches (voxels), and how far beyond a tile voxels are needed.
-const REACH: usize = 3;
-/// See `REACH`.
-pub const HALO: usize = 2 + REACH + 2;
+/// Extent of the largest ball, and border of a tile (voxels).
+const TILE_BORDER: usize = 3;
+pub(crate) const HALO: usize = 2 + TILE_BORDER + 2;
 
-/// A tube's weaker inflow is at least this share of the sum of its flows: less needs no eigenvalues.
+/// The weaker inflow of a tube is at least this share of the trace, which skips most eigenvalues.
 const LEAST_TRACE: f32 = 1.2;
 
-/// What each radius needs beside the ball.
 #[derive(Clone, Copy, Debug)]
-pub struct Gain {
-    /// The response of a cylinder of the radius and of contrast 1 becomes 1 by this factor.
+pub(crate) struct Gain {
+    /// Scales the response of a cylinder of contrast 1 to 1.
     pub factor: f32,
-    /// The standard deviation of the response in noise of 1.
+    /// Response to unit noise.
     pub noise: f32,
 }
 
-/// The responses in a box of voxels: the strongest of all radii.
-pub struct Responses {
-    /// The number of voxels along each axis.
+pub(crate) struct Responses {
     pub size: [usize; 3],
-    /// The response of each voxel, a contrast; 0 where there is none.
+    /// A contrast; 0 for none.
     pub strongest: Vec<f32>,
-    /// The number of its radius.
     pub radius: Vec<u8>,
-    /// The volume averaged over each ball, with its number.
+    /// Ball averages with their radius numbers.
     averages: Vec<(usize, Vec<f32>)>,
-    /// The number of voxels of those along each axis.
     average_size: [usize; 3],
 }
 
-/// The responses of a box of voxels with radii of some numbers. Each of them is looked for above its own threshold.
-pub struct FluxOf<'a> {
-    /// The values, with `HALO` voxels more on each side than there are responses.
+/// Kernel: responses of a tile.
+pub(crate) struct FluxOf<'a> {
+    /// With a border of `HALO` voxels.
     pub values: Vec<f32>,
-    /// The number of values along each axis.
     pub size: [usize; 3],
-    /// The numbers of the radii, with the factor of the response and its threshold.
+    /// Radius numbers with factor and threshold.
     pub radii: &'a [(usize, f32, f32)],
 }
 
@@ -66,7 +58,7 @@ impl Kernel for FluxOf<'_> {
     fn run(self) -> Responses {
         let smooth = smoothed(&self.values, self.size);
         let smooth_size = self.size.map(|n| n - 4);
-        let average_size = smooth_size.map(|n| n - 2 * REACH);
+        let average_size = smooth_size.map(|n| n - 2 * TILE_BORDER);
         let size = average_size.map(|n| n - 2);
         let count = size.iter().product();
         let mut found = Responses {
@@ -86,15 +78,13 @@ impl Kernel for FluxOf<'_> {
 }
 
 impl FluxOf<'_> {
-    /// The responses, by the widest instruction set there is.
-    pub fn responses(self) -> Responses {
+    pub(crate) fn responses(self) -> Responses {
         dispatch(Isa::widest(), self)
     }
 }
 
 impl Responses {
-    /// The direction of the tube at a voxel: that in which the gradient flows inwards least.
-    pub fn direction(&self, voxel: [usize; 3]) -> [f64; 3] {
+    pub(crate) fn direction(&self, voxel: [usize; 3]) -> [f64; 3] {
         let radius = usize::from(self.radius[self.number(voxel)]);
         let average = self.averages.iter().find(|(number, _)| *number == radius);
         let Some((_, average)) = average else { return [0.0, 0.0, 1.0] };
@@ -104,13 +94,12 @@ impl Responses {
         along(flows, eigenvalues(flows)[2])
     }
 
-    /// The number of a voxel of the box.
-    pub fn number(&self, [i, j, k]: [usize; 3]) -> usize {
+    pub(crate) fn number(&self, [i, j, k]: [usize; 3]) -> usize {
         i + self.size[0] * (j + self.size[1] * k)
     }
 }
 
-/// Values smoothed by five weights along each axis; two voxels on each side are gone.
+/// Separable smoothing; loses two voxels per side.
 #[inline(always)]
 fn smoothed(values: &[f32], size: [usize; 3]) -> Vec<f32> {
     let mut made = values.to_vec();
@@ -134,9 +123,8 @@ fn smoothed(values: &[f32], size: [usize; 3]) -> Vec<f32> {
     made
 }
 
-/// The voxels of a ball with their weights, whose sum is 1: the share of each that lies within.
 fn ball(radius: f64) -> Vec<([i32; 3], f32)> {
-    let reach = REACH as i32;
+    let reach = TILE_BORDER as i32;
     let mut found = Vec::new();
     for k in -reach..=reach {
         for j in -reach..=reach {
@@ -155,7 +143,6 @@ fn ball(radius: f64) -> Vec<([i32; 3], f32)> {
     found
 }
 
-/// The share of a voxel that lies within a ball about the origin.
 fn share_within(voxel: [i32; 3], radius: f64) -> f32 {
     const PARTS: i32 = 5;
     let mut inside = 0;
@@ -170,11 +157,11 @@ fn share_within(voxel: [i32; 3], radius: f64) -> f32 {
     inside as f32 / (PARTS * PARTS * PARTS) as f32
 }
 
-/// Values averaged over a ball; `REACH` voxels on each side are gone.
+/// Ball average; loses `TILE_BORDER` voxels per side.
 #[inline(always)]
 fn averaged(values: &[f32], size: [usize; 3], ball: &[([i32; 3], f32)]) -> Vec<f32> {
-    let next = size.map(|n| n - 2 * REACH);
-    let reach = REACH as i32;
+    let next = size.map(|n| n - 2 * TILE_BORDER);
+    let reach = TILE_BORDER as i32;
     let offsets: Vec<(usize, f32)> = ball
         .iter()
         .map(|(voxel, weight)| {
@@ -194,7 +181,6 @@ fn averaged(values: &[f32], size: [usize; 3], ball: &[([i32; 3], f32)]) -> Vec<f
     made
 }
 
-/// Takes the responses of one radius where they are stronger than those before and reach the threshold.
 #[inline(always)]
 fn respond(found: &mut Responses, average: &[f32], number: usize, [factor, threshold]: [f32; 2]) {
     let (size, wide) = (found.size, found.average_size);
@@ -222,7 +208,6 @@ fn respond(found: &mut Responses, average: &[f32], number: usize, [factor, thres
     }
 }
 
-/// The second derivatives at a voxel: xx, yy, zz, xy, xz, yz.
 #[inline(always)]
 fn flows(average: &[f32], n: usize, strides: [usize; 3]) -> [f32; 6] {
     let [x, y, z] = strides;
@@ -234,7 +219,6 @@ fn flows(average: &[f32], n: usize, strides: [usize; 3]) -> [f32; 6] {
     [pure(x), pure(y), pure(z), mixed(x, y), mixed(x, z), mixed(y, z)]
 }
 
-/// The eigenvalues of a symmetric matrix, rising.
 #[inline(always)]
 fn eigenvalues([xx, yy, zz, xy, xz, yz]: [f32; 6]) -> [f32; 3] {
     let mean = (xx + yy + zz) / 3.0;
@@ -250,7 +234,6 @@ fn eigenvalues([xx, yy, zz, xy, xz, yz]: [f32; 6]) -> [f32; 3] {
     [smallest, 3.0 * mean - largest - smallest, largest]
 }
 
-/// The unit eigenvector of a symmetric matrix for one of its eigenvalues.
 fn along([xx, yy, zz, xy, xz, yz]: [f32; 6], value: f32) -> [f64; 3] {
     let rows = [[xx - value, xy, xz], [xy, yy - value, yz], [xz, yz, zz - value]]
         .map(|row| glam::DVec3::from_array(row.map(f64::from)));
@@ -259,13 +242,11 @@ fn along([xx, yy, zz, xy, xz, yz]: [f32; 6], value: f32) -> [f64; 3] {
     longest.and_then(glam::DVec3::try_normalize).unwrap_or(glam::DVec3::Z).to_array()
 }
 
-/// The gains of all radii.
-pub fn gains() -> &'static [Gain; 4] {
+pub(crate) fn gains() -> &'static [Gain; 4] {
     static GAINS: OnceLock<[Gain; 4]> = OnceLock::new();
     GAINS.get_or_init(|| std::array::from_fn(gain))
 }
 
-/// The gain of one radius: from a cylinder, and from noise.
 fn gain(number: usize) -> Gain {
     let middle = HALO as f64;
     let side = 2 * HALO + 1;
@@ -283,20 +264,18 @@ fn gain(number: usize) -> Gain {
     let wide = 2 * HALO + 24;
     let noise = response(noise(wide * wide * wide), [wide; 3]);
     let square: f32 = noise.strongest.iter().map(|r| r * r).sum();
-    // The response of noise is as often negative as not, and half of it is looked at here.
+    // Only positive responses, half of them, are recorded.
     let spread = (2.0 * square / noise.strongest.len() as f32).sqrt();
     Gain { factor: 1.0 / peak, noise: spread / peak }
 }
 
-/// A disc of a radius, blurred, at a place in its plane.
 fn blurred_disc(x: f64, y: f64, radius: f64) -> f32 {
     let distance = x.hypot(y);
-    // The edge of a disc, as that of a half-plane: good enough for radii over a standard deviation of the blur.
+    // Half-plane approximation, good for radii above one standard deviation of the blur.
     let edge = (radius - distance) / (BLUR * std::f64::consts::SQRT_2);
     (0.5 * (1.0 + (std::f64::consts::FRAC_2_SQRT_PI * edge * (1.0 + 0.089 * edge * edge)).tanh())) as f32
 }
 
-/// Numbers of a normal distribution nearly: sums of twelve even ones, always the same.
 fn noise(count: usize) -> Vec<f32> {
     let mut state = 0x9E37_79B9_7F4A_7C15_u64;
     let mut even = || {

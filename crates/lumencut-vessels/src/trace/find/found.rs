@@ -1,4 +1,4 @@
-//! What has been found: vessels in parts that hang together, with what makes them doubtful.
+//! Results of finding vessels.
 
 use crate::trace::find::track::TrackDoubt;
 use crate::trace::lines::centerline::Centerline;
@@ -6,42 +6,42 @@ use crate::trace::lines::centerline::Centerline;
 /// The vessels of a scan.
 #[derive(Clone, Debug)]
 pub struct Trees {
-    /// The vessels, part by part, the most important part first; within a part the root first.
+    /// Vessels by part, the most important part first, its root first.
     pub vessels: Vec<FoundVessel>,
-    /// The usual level of vessels, how far that lies above their surroundings, and the noise, in the unit of the volume.
+    /// Typical vessel level, in the unit of the volume.
     pub level: f64,
-    /// See `level`.
+    /// Typical contrast to the surroundings, in the unit of the volume.
     pub contrast: f64,
-    /// See `level`.
+    /// Noise, in the unit of the volume.
     pub noise: f64,
-    /// Whether the scan shows vessels as an angiography does; else none of them is sure unless a seed says that there is one.
+    /// Whether the scan looks like an angiography; otherwise no vessel is sure without a seed.
     pub is_angiography: bool,
 }
 
-/// A vessel that was found.
+/// A found vessel.
 #[derive(Clone, Debug)]
 pub struct FoundVessel {
-    /// Its points, radii and confidence, from the root outwards.
+    /// Points, radii and confidence, from the root outwards.
     pub line: Centerline,
-    /// Which part it belongs to, 0 for the most important one.
+    /// Number of its part; 0 is the most important.
     pub part: usize,
-    /// How sure it is that this is a vessel, 0 to 1.
+    /// Confidence that it is a vessel, 0 to 1.
     pub confidence: f64,
-    /// Why it is doubtful; none where it is sure.
+    /// Reason for doubt; None if sure.
     pub doubt: Option<TrackDoubt>,
 }
 
 /// Why a click gives no vessel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NoVessel {
-    /// None was found there: how far the nearest one is (mm); infinitely far where none was found at all.
+    /// None was found there; distance of the nearest (mm), infinite if there is none at all.
     NotHere(f64),
-    /// The click lies within a vessel that there is already, or all that it would add does.
+    /// The click, or everything it would add, lies in an existing vessel.
     Already,
 }
 
-/// From this confidence on a vessel is sure.
-pub const SURE: f64 = 0.7;
+/// Minimum confidence of a sure vessel.
+pub(crate) const SURE: f64 = 0.7;
 
 impl TrackDoubt {
     /// Every reason.
@@ -58,7 +58,7 @@ impl TrackDoubt {
         Self::Scarce,
     ];
 
-    /// The doubt in words.
+    /// The reason as a phrase.
     pub fn words(self) -> &'static str {
         match self {
             Self::Scarce => {
@@ -76,19 +76,19 @@ impl TrackDoubt {
         }
     }
 
-    /// The doubt in a word or two, for a row of a list and for counts.
+    /// The reason in a word or two, for lists and counts.
     pub fn short(self) -> &'static str {
         match self {
-            Self::Scarce => "no contrast?",
-            Self::BrightSides => "beside bone",
-            Self::Flat => "flat",
-            Self::Uneven => "uneven inside",
-            Self::PaleAndWide => "like an organ",
+            Self::Scarce => "no contrast agent?",
+            Self::BrightSides => "near bone",
+            Self::Flat => "flat, like bone",
+            Self::Uneven => "marrow-like",
+            Self::PaleAndWide => "wide and pale",
             Self::Short => "short",
             Self::Rough => "uneven width",
             Self::Faint => "faint",
-            Self::Open => "few walls",
-            Self::Gap => "across a gap",
+            Self::Open => "open contour",
+            Self::Gap => "bridges a gap",
         }
     }
 }

@@ -1,33 +1,30 @@
-//! The isotropic grid in which tubes are found: cubes along the axes of the volume, made square where those are sheared.
+//! The isotropic grid for finding tubes: cubes along the volume's axes, orthogonal if those are sheared.
 
 use glam::{DAffine3, DMat3, DVec3};
 
 use crate::voxels::Voxels;
 
-/// How wide the narrowest vessel is at least, in voxels of the grid: finer voxels would show nothing more of it. They are no larger
-/// than this where only wide vessels are asked for (mm): what is a tube is told by its surroundings too.
+/// Voxels per smallest radius, since finer ones show nothing more; the maximum side (mm) keeps the
+/// surroundings visible when only wide vessels are wanted.
 const VOXELS_PER_RADIUS: f64 = 1.25;
 const LARGEST_FOR_RADIUS: f64 = 0.8;
 
-/// The most voxels of the grid; of larger volumes the voxels are larger.
+/// Maximum number of voxels; larger volumes get larger voxels.
 const MOST_VOXELS: f64 = 160e6;
 
-/// Where the voxels of the grid lie.
 #[derive(Clone, Debug)]
-pub struct Grid {
-    /// The number of voxels along each axis.
+pub(crate) struct Grid {
     pub size: [usize; 3],
-    /// The side of a voxel (mm).
+    /// Voxel side (mm).
     pub side: f64,
-    /// World position (LPS, mm) of a place in the grid; the centre of the first voxel is (0, 0, 0).
-    pub world_from_grid: DAffine3,
-    /// A place in the grid of a world position.
-    pub grid_from_world: DAffine3,
+    /// World position (LPS, mm) of a grid position; (0, 0, 0) is the first voxel centre.
+    pub(crate) world_from_grid: DAffine3,
+    pub(crate) grid_from_world: DAffine3,
 }
 
 impl Grid {
-    /// A grid over a volume, whose voxels have its mean side, or what the narrowest vessel (mm) needs where that is more.
-    pub fn over(voxels: &Voxels, smallest_radius: f64) -> Self {
+    /// Voxels have the mean side of the volume's, or what the smallest radius (mm) needs if larger.
+    pub(crate) fn over(voxels: &Voxels, smallest_radius: f64) -> Self {
         let matrix = voxels.world_from_index.matrix3;
         let axes = square(matrix);
         let corners = corners(voxels, axes);
@@ -36,25 +33,23 @@ impl Grid {
         let least = (extent.max(DVec3::splat(mean)).element_product() / MOST_VOXELS).cbrt();
         let side = mean.max((smallest_radius / VOXELS_PER_RADIUS).min(LARGEST_FOR_RADIUS)).max(least);
         let size = extent.to_array().map(|length| (length / side + 1e-6).floor() as usize + 1);
-        // What is left over beyond the last voxel is shared by both sides.
+        // Centres the grid in the volume.
         let spare = extent - DVec3::from_array(size.map(|n| (n - 1) as f64 * side));
         let origin = axes * (corners[0] + spare.max(DVec3::ZERO) / 2.0);
         let world_from_grid = DAffine3 { matrix3: axes * side, translation: origin };
         Self { size, side, world_from_grid, grid_from_world: world_from_grid.inverse() }
     }
 
-    /// The world position (mm, LPS) of a place in the grid.
-    pub fn world(&self, place: DVec3) -> DVec3 {
+    pub(crate) fn world(&self, place: DVec3) -> DVec3 {
         self.world_from_grid.transform_point3(place)
     }
 
-    /// Whether a place lies in some voxel of the grid.
-    pub fn holds(&self, place: DVec3) -> bool {
+    pub(crate) fn holds(&self, place: DVec3) -> bool {
         (0..3).all(|a| place[a] >= -0.5 && place[a] <= self.size[a] as f64 - 0.5)
     }
 }
 
-/// Three square unit axes: the first along the first axis of a grid, the second in the plane of its first two.
+/// Orthonormal axes: the first along the grid's first axis, the second in the plane of its first two.
 fn square(matrix: DMat3) -> DMat3 {
     let x = matrix.x_axis.normalize_or(DVec3::X);
     let y = (matrix.y_axis - x * matrix.y_axis.dot(x)).normalize_or(x.any_orthonormal_vector());
@@ -62,7 +57,6 @@ fn square(matrix: DMat3) -> DMat3 {
     DMat3::from_cols(x, y, if z.dot(matrix.z_axis) < 0.0 { -z } else { z })
 }
 
-/// The lowest and the highest coordinates of the voxels' centres along some axes (mm).
 fn corners(voxels: &Voxels, axes: DMat3) -> [DVec3; 2] {
     let last = voxels.size.map(|n| (n - 1) as f64);
     let mut box_of = [DVec3::MAX, DVec3::MIN];

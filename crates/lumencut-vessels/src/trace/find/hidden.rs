@@ -1,4 +1,4 @@
-//! Tubes hidden in wide tracks that are no vessels: a track through bone is wider than the arteries that touch it.
+//! Tracks narrow tubes hidden in wide tracks that are no vessels, such as arteries at bone.
 
 use glam::DVec3;
 
@@ -9,18 +9,14 @@ use crate::trace::find::track::{Track, TrackPoint};
 use crate::trace::find::tracking::Tracking;
 use lumencut_core::error::Result;
 
-/// A track with less confidence, once it was judged, hides nothing.
+/// Tracks judged below this confidence hide nothing.
 const DISMISSED: f64 = 0.3;
 
-/// What it hides is narrower than this part of its radius.
+/// Maximum radius of a hidden tube, relative to the track.
 const NARROWER: f64 = 0.5;
 
-/// The tubes in the lumens of tracks that were dismissed, in voxels of the finest level as `tracks` are; `judged` are the same tracks
-/// with the confidence that was left to them.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn hidden(
+/// Tubes inside dismissed tracks. `judged` are the `tracks` (finest voxels) with their final confidence.
+pub(crate) fn hidden(
     tracking: &Tracking,
     candidates: &[Candidate],
     tracks: &[Track],
@@ -35,7 +31,7 @@ pub fn hidden(
     let dismissed = those(true);
     let radii: Vec<f64> = dismissed.iter().map(Track::radius).collect();
     let paint = tracking.painted(&dismissed);
-    // How wide a tube may be that is hidden at a place; none where nothing hides it.
+    // Maximum radius of a hidden tube at a place; None if nothing hides it.
     let most = |place: DVec3| match paint.at(place) {
         Painted::Lumen(number) => Some(NARROWER * radii[number as usize]),
         Painted::Empty | Painted::Rejected => None,
@@ -45,13 +41,13 @@ pub fn hidden(
     let within: Vec<Candidate> = candidates.iter().filter(is_hidden).copied().collect();
     let judge = |points: Vec<TrackPoint>| {
         let is_wide = |point: &&TrackPoint| most(point.place).is_some_and(|most| point.radius >= most);
-        // What hid the tubes is not to be found once more.
+        // Does not find the dismissed track again.
         let is_known = 2 * points.iter().filter(is_wide).count() > points.len();
         let track = (tracking.judge)(points);
         if is_known { Track { confidence: 0.0, ..track } } else { track }
     };
-    let looked_at = tracking.looked_at.clone();
-    Tracking { judge: &judge, looked_at, stages: Stages::default(), ..*tracking }
+    let levels_examined = tracking.levels_examined.clone();
+    Tracking { judge: &judge, levels_examined, stages: Stages::default(), ..*tracking }
         .tracks_beside(&those(false), &within)
 }
 

@@ -1,15 +1,15 @@
-//! Links from the open ends of tracks to other tracks, so that they become trees.
+//! Links open ends of tracks to other tracks, which joins them into trees.
 //!
-//! Each end is linked with the cheapest place of another track ahead. Then ends and sides are linked with other trees alone, and
-//! with stricter limits: where two trees come from one short trunk their nearest ends belong to themselves.
+//! Each end is linked to the cheapest place ahead. Then ends and sides are linked to other trees only, with
+//! stricter limits: where two trees leave one short trunk, their nearest ends belong together.
 
-pub mod bridges;
-pub mod ends;
-pub mod groups;
-pub mod landings;
-pub mod link;
-pub mod sides;
-pub mod way_level;
+pub(crate) mod bridges;
+pub(crate) mod ends;
+pub(crate) mod groups;
+pub(crate) mod landings;
+pub(crate) mod link;
+pub(crate) mod sides;
+pub(crate) mod way_level;
 
 use rayon::prelude::*;
 
@@ -25,17 +25,13 @@ use crate::trace::find::track::Track;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// How often the ends look for other trees.
+/// Rounds of linking ends to other trees.
 const ROUNDS: usize = 2;
 
-/// The links between tracks.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn between(scan: &Scan, tracks: &[Track], stop: Stop, stages: Stages) -> Result<Vec<Link>> {
+pub(crate) fn between(scan: &Scan, tracks: &[Track], stop: Stop, stages: Stages) -> Result<Vec<Link>> {
     let landings = Landings::new(scan, tracks);
     let ends = ends(tracks);
-    // Ends are looked at three times, and the sides of tracks once.
+    // Ends are processed three times, sides once.
     let pieces = stages.stage(Stage::Links, 3 * ends.len() + tracks.len());
     let stop = &|| {
         pieces.done(1);
@@ -70,7 +66,6 @@ pub fn between(scan: &Scan, tracks: &[Track], stop: Stop, stages: Stages) -> Res
     Ok(groups.links)
 }
 
-/// Links, the cheapest one first.
 fn in_order(mut links: Vec<Link>) -> Vec<Link> {
     links.sort_unstable_by(Link::order);
     links

@@ -1,4 +1,4 @@
-//! The whole vessel of one click, among those that were found: back to the nearest vessel that there is already, and on to its end.
+//! Extracts the whole vessel of one click: back to the nearest existing vessel, and on to its end.
 
 use glam::DVec3;
 
@@ -8,15 +8,13 @@ use crate::trace::lines::centerline::Centerline;
 use crate::trace::lines::nearest_point::nearest_point;
 use crate::trace::lumen::within::holds;
 
-/// Nearer than this the end of a branch is a point of the vessel that it hangs on (mm); they are equal but for rounding.
-const SAME: f64 = 1e-6;
+/// Distance (mm) of points equal but for rounding.
+const SAME_POINT_MM: f64 = 1e-6;
 
-/// The vessel in whose lumen a click (mm, LPS) lies, the nearest in units of the radius, a sure one before a doubtful one. Where one of
-/// the vessels it hangs on leads to one that is there already (`beside`), its line begins at a point of that one; else it begins
-/// where it leaves the vessel that it hangs on. It ends with the vessel that was found, or where it enters one that is there already.
-///
-/// # Errors
-/// [`NoVessel`] for a click that lies in no vessel, or in one that is there already. `voxel` is the side of one (mm).
+/// The vessel that contains a click (mm, LPS), nearest in radii, sure before doubtful. It starts on an
+/// existing vessel (`beside`) if its ancestors lead to one, otherwise where it leaves its parent. It ends at
+/// its own end or where it enters an existing vessel. `voxel` is the voxel side (mm). Errors: [`NoVessel`]
+/// for a click in no vessel, or in an existing one.
 pub fn one_vessel(
     trees: &Trees,
     click: DVec3,
@@ -41,7 +39,7 @@ pub fn one_vessel(
         confidence: whole.confidence[range].to_vec(),
     };
     let end = line.points.len() - 1;
-    // All that is left of it lies in the other one.
+    // The rest lies in an existing vessel.
     if end == 0 {
         return Err(NoVessel::Already);
     }
@@ -53,7 +51,7 @@ pub fn one_vessel(
     Ok(line)
 }
 
-/// The line of a vessel behind those of the vessels that it hangs on, up to where each is left; and how many points these have.
+/// The vessel prefixed with its ancestors, and the number of their points.
 fn with_ancestors(trees: &Trees, number: usize) -> (usize, Centerline) {
     let mut whole = trees.vessels[number].line.clone();
     let (mut before, mut of) = (0, number);
@@ -73,7 +71,6 @@ fn with_ancestors(trees: &Trees, number: usize) -> (usize, Centerline) {
     (before, whole)
 }
 
-/// The vessel that one hangs on, and which of its points is the first one of that.
 fn parent(trees: &Trees, number: usize) -> Option<(usize, usize)> {
     let child = &trees.vessels[number];
     let start = child.line.points[0];
@@ -81,23 +78,21 @@ fn parent(trees: &Trees, number: usize) -> Option<(usize, usize)> {
     others.filter(|(n, other)| *n != number && other.part == child.part).find_map(|(n, other)| {
         let points = &other.line.points;
         let at = nearest_point(points, start);
-        // Two that begin at one point hang on each other; neither is the way to the other.
-        (at > 0 && points[at].distance(start) <= SAME).then_some((n, at))
+        // Vessels that start at one point are not each other's parent.
+        (at > 0 && points[at].distance(start) <= SAME_POINT_MM).then_some((n, at))
     })
 }
 
-/// Whether a place lies within one of some vessels or on its line, but for the ends of these: there a vessel hangs on another one,
-/// which does not end for that.
+/// Whether a place lies in or on a vessel, except at its ends, where another vessel may continue.
 fn meets(beside: &[Centerline], place: DVec3) -> bool {
     beside.iter().any(|vessel| {
         let (points, last) = (&vessel.points, vessel.points.len() - 1);
         let near = points[nearest_point(points, place)];
-        let is_at = |end: usize| near.distance(points[end]) <= vessel.radius[end].max(SAME);
-        (near.distance(place) <= SAME || holds(vessel, place)) && !is_at(0) && !is_at(last)
+        let is_at = |end: usize| near.distance(points[end]) <= vessel.radius[end].max(SAME_POINT_MM);
+        (near.distance(place) <= SAME_POINT_MM || holds(vessel, place)) && !is_at(0) && !is_at(last)
     })
 }
 
-/// The nearest point of the vessels that hold a place.
 fn nearest_of(beside: &[Centerline], place: DVec3) -> DVec3 {
     let points = beside.iter().map(|vessel| vessel.points[nearest_point(&vessel.points, place)]);
     points.min_by(|a, b| a.distance(place).total_cmp(&b.distance(place))).unwrap_or(place)

@@ -1,37 +1,32 @@
-//! The lumens of the tracks as they are painted into voxels: where a track ends in another one, and what needs no new one.
+//! Painted lumens of tracks, which show where a track meets another and what is already tracked.
 
 use std::collections::HashMap;
 
 use glam::DVec3;
 
-/// The side of a block of voxels.
+/// Block side (voxels) and its bits.
 const SIDE: i32 = 16;
 const BITS: u32 = 4;
 
-/// What is painted in a voxel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Painted {
-    /// Nothing.
+pub(crate) enum Painted {
     Empty,
-    /// The lumen of a track.
     Lumen(u32),
-    /// The middle of a track that is no vessel.
+    /// Centre of a track that is no vessel.
     Rejected,
 }
 
-/// The number of a voxel that holds nothing, and of one that holds the middle of a rejected track.
 const EMPTY: u32 = u32::MAX;
 const REJECTED: u32 = u32::MAX - 1;
 
-/// The voxels of the finest level that are painted.
+/// Painted voxels of the finest level.
 #[derive(Default)]
-pub struct Paint {
+pub(crate) struct Paint {
     blocks: HashMap<[i32; 3], Box<[u32]>>,
 }
 
 impl Paint {
-    /// What is painted at a place (voxels of the finest level).
-    pub fn at(&self, place: DVec3) -> Painted {
+    pub(crate) fn at(&self, place: DVec3) -> Painted {
         let voxel = place.round().to_array().map(|c| c as i32);
         let number = self.blocks.get(&voxel.map(|c| c >> BITS)).map_or(EMPTY, |block| block[inside(voxel)]);
         match number {
@@ -41,8 +36,8 @@ impl Paint {
         }
     }
 
-    /// Paints the lumen of a track around one of its points, over whatever `gives_way` allows.
-    pub fn lumen(&mut self, track: u32, center: DVec3, radius: f64, gives_way: &dyn Fn(u32) -> bool) {
+    /// Paints over empty or rejected voxels, and lumens that `gives_way` allows.
+    pub(crate) fn lumen(&mut self, track: u32, center: DVec3, radius: f64, gives_way: &dyn Fn(u32) -> bool) {
         self.ball(center, radius, &mut |number| {
             if *number >= REJECTED || (*number != track && gives_way(*number)) {
                 *number = track;
@@ -50,8 +45,7 @@ impl Paint {
         });
     }
 
-    /// Paints the middle of a track that is no vessel.
-    pub fn rejected(&mut self, center: DVec3, radius: f64) {
+    pub(crate) fn rejected(&mut self, center: DVec3, radius: f64) {
         self.ball(center, radius, &mut |number| {
             if *number == EMPTY {
                 *number = REJECTED;
@@ -59,7 +53,6 @@ impl Paint {
         });
     }
 
-    /// Changes the voxels of a ball; the one at its centre is always among them.
     fn ball(&mut self, center: DVec3, radius: f64, change: &mut dyn FnMut(&mut u32)) {
         let low = (center - radius).round().to_array().map(|c| c as i32);
         let high = (center + radius).round().to_array().map(|c| c as i32);
@@ -82,7 +75,6 @@ impl Paint {
     }
 }
 
-/// The number of a voxel in its block.
 fn inside(voxel: [i32; 3]) -> usize {
     let [i, j, k] = voxel.map(|c| (c & (SIDE - 1)) as usize);
     i + (j << BITS) + (k << (2 * BITS))

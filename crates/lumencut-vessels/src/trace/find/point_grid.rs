@@ -1,15 +1,14 @@
-//! Points in cells, so that those near a place are found without a look at all others.
+//! Spatial index of points in cubic cells.
 
 use glam::DVec3;
 
-/// How many bits of a cell's number each of its three coordinates has.
+/// Bits per cell coordinate.
 const BITS: u32 = 21;
-const MOST: f64 = ((1_u64 << BITS) - 1) as f64;
+const MAX_CELL: f64 = ((1_u64 << BITS) - 1) as f64;
 
-/// Points in cubes of one size.
-pub struct PointGrid {
+pub(crate) struct PointGrid {
     places: Vec<DVec3>,
-    /// The cell of each point and its number, in the order of the cells; points of a cell in their own order.
+    /// Sorted pairs of cell number and point.
     cells: Vec<(u64, u32)>,
     low: DVec3,
     high: DVec3,
@@ -17,8 +16,7 @@ pub struct PointGrid {
 }
 
 impl PointGrid {
-    /// Points in cells with sides of `side` (mm).
-    pub fn new(places: Vec<DVec3>, side: f64) -> Self {
+    pub(crate) fn new(places: Vec<DVec3>, side: f64) -> Self {
         let first = places.first().copied().unwrap_or_default();
         let low = places.iter().copied().fold(first, DVec3::min);
         let high = places.iter().copied().fold(first, DVec3::max);
@@ -29,8 +27,7 @@ impl PointGrid {
         grid
     }
 
-    /// Tells of each point at most `reach` (mm) from a place, always in the same order.
-    pub fn near(&self, place: DVec3, reach: f64, mut told: impl FnMut(usize)) {
+    pub(crate) fn near(&self, place: DVec3, reach: f64, mut visit: impl FnMut(usize)) {
         let [first, last] = [-reach, reach].map(|way| self.cell(place + way));
         for z in first[2]..=last[2] {
             for y in first[1]..=last[1] {
@@ -38,21 +35,19 @@ impl PointGrid {
                 let begin = self.cells.partition_point(|(cell, _)| *cell < from);
                 for (_, point) in self.cells[begin..].iter().take_while(|(cell, _)| *cell <= to) {
                     if self.places[*point as usize].distance_squared(place) <= reach * reach {
-                        told(*point as usize);
+                        visit(*point as usize);
                     }
                 }
             }
         }
     }
 
-    /// The cell of a place, the nearest one for a place before or behind all points.
     fn cell(&self, place: DVec3) -> [u64; 3] {
         let inside = place.clamp(self.low, self.high);
-        ((inside - self.low) / self.side).to_array().map(|c| c.min(MOST) as u64)
+        ((inside - self.low) / self.side).to_array().map(|c| c.min(MAX_CELL) as u64)
     }
 }
 
-/// The number of a cell: neighbours along x follow each other.
 fn number([x, y, z]: [u64; 3]) -> u64 {
     (z << (2 * BITS)) | (y << BITS) | x
 }

@@ -1,5 +1,4 @@
-//! The volume in isotropic voxels, clamped, at full size, half of it, a quarter and so on: vessels of all widths are a few
-//! voxels wide somewhere in it.
+//! The clamped volume at several resolutions, so that every vessel is a few voxels wide somewhere.
 
 use std::ops::Range;
 
@@ -12,46 +11,39 @@ use lumencut_core::error::Result;
 use lumencut_core::math::lanes::{FAN, larger, smaller};
 use lumencut_core::stop::{Stop, go_on};
 
-/// Voxels are halved while a vessel of this many of them is narrower than the widest one (mm), and while the volume has so many
-/// along each axis.
+/// Halving stops at the width (voxels) of the widest vessel (mm), or at the minimum size per axis.
 const VOXELS_OF_WIDEST: f64 = 3.2;
 const WIDEST: f64 = 18.0;
 const LEAST_SIZE: usize = 10;
 
-/// A Gaussian of 0.8 voxels, before every second voxel is taken.
+/// Gaussian of 0.8 voxels.
 const HALVING: [f32; 3] = [0.495_4, 0.226_7, 0.025_6];
 
-/// The largest number that a voxel of a level holds.
+/// Largest stored number.
 const FULL: f32 = 65_535.0;
 
-/// The volume at one size.
 #[derive(Clone, Debug)]
-pub struct Level {
-    /// The number of voxels along each axis.
+pub(crate) struct Level {
     pub size: [usize; 3],
-    /// The side of its voxels, in voxels of the finest level.
+    /// In finest voxels.
     pub side: f64,
-    /// The values, from 0 for the lowest to 65535 for the highest one, the first axis fastest.
+    /// 0 to 65535 over the value range, the first axis fastest.
     pub voxels: Vec<u16>,
-    /// What 0 stands for, and what each step of 1 adds, in the unit of the volume.
+    /// Value of 0, and of each step, in the unit of the volume.
     pub lowest: f32,
-    /// See `lowest`.
     pub unit: f32,
 }
 
-/// The levels, the finest first.
 #[derive(Debug)]
-pub struct Pyramid {
-    /// Where the voxels of the finest level lie.
+pub(crate) struct Pyramid {
     pub grid: Grid,
-    /// The levels.
     pub levels: Vec<Level>,
 }
 
 impl Level {
-    /// The value at a place in the grid of the finest level, trilinear; beyond the outermost voxels theirs.
+    /// Trilinear value at a position in the finest grid, clamped at the edge.
     #[inline]
-    pub fn at(&self, place: DVec3) -> f32 {
+    pub(crate) fn at(&self, place: DVec3) -> f32 {
         let scale = 1.0 / self.side;
         let (mut first, mut share) = ([0_usize; 3], [0.0_f32; 3]);
         for a in 0..3 {
@@ -77,14 +69,14 @@ impl Level {
         self.lowest + self.unit * (a + (b - a) * share[2])
     }
 
-    /// The values at some places in voxels of this level, trilinear; beyond the outermost voxels theirs.
+    /// Trilinear values at positions in this level, clamped at the edge.
     #[inline(always)]
-    pub fn at_lanes<const N: usize>(&self, places: &[[f32; N]; 3]) -> [f32; N] {
+    pub(crate) fn at_lanes<const N: usize>(&self, places: &[[f32; N]; 3]) -> [f32; N] {
         let (mut first, mut share) = ([0_u32; N], [[0.0_f32; N]; 3]);
         let strides = [1, self.size[0], self.size[0] * self.size[1]];
         for a in 0..3 {
             let last = (self.size[a] - 1) as f32;
-            // The last voxel but one has one beside it; a level of one voxel has none, and is held twice in `steps`.
+            // Levels of one voxel use it twice (`steps`).
             let most = last.max(1.0) - 1.0;
             for n in 0..N {
                 let along = larger(smaller(places[a][n], last), 0.0);
@@ -112,13 +104,11 @@ impl Level {
         made
     }
 
-    /// The same level with no value above `highest`.
     fn clamp(&mut self, highest: f64) {
         let most = ((highest as f32 - self.lowest) / self.unit).clamp(0.0, FULL) as u16;
         self.voxels.par_iter_mut().for_each(|voxel| *voxel = (*voxel).min(most));
     }
 
-    /// The level of half its size.
     fn halved(&self) -> Self {
         let [nx, ny, nz] = self.size;
         let [mx, my, mz] = self.size.map(|n| n.div_ceil(2));
@@ -152,7 +142,6 @@ impl Level {
     }
 }
 
-/// What lies between two numbers, lane by lane.
 #[inline(always)]
 fn between<const N: usize>(from: &[f32; N], to: &[f32; N], share: &[f32; N]) -> [f32; N] {
     let mut made = [0.0; N];
@@ -162,7 +151,6 @@ fn between<const N: usize>(from: &[f32; N], to: &[f32; N], share: &[f32; N]) -> 
     made
 }
 
-/// The weights of the five voxels around one, and where they lie; those at the edge stand for what is beyond it.
 fn taps(center: usize, count: usize) -> [(f32, usize); 5] {
     let at = |shift: isize| center.saturating_add_signed(shift).min(count - 1);
     [
@@ -175,28 +163,19 @@ fn taps(center: usize, count: usize) -> [(f32, usize); 5] {
 }
 
 impl Pyramid {
-    /// The levels of a volume over a grid, whose values are clamped to a range.
-    ///
-    /// # Errors
-    /// [`lumencut_core::error::ErrorKind::Interrupted`].
-    pub fn new(voxels: &Voxels, grid: Grid, range: [f64; 2], stop: Stop) -> Result<Self> {
+    pub(crate) fn new(voxels: &Voxels, grid: Grid, range: [f64; 2], stop: Stop) -> Result<Self> {
         let finest = finest(voxels, &grid, range, stop)?;
         let mut pyramid = Self { grid, levels: vec![finest] };
         pyramid.halve(stop)?;
         Ok(pyramid)
     }
 
-    /// The same levels with no value above `highest`.
-    ///
-    /// # Errors
-    /// [`lumencut_core::error::ErrorKind::Interrupted`].
-    pub fn clamp(&mut self, highest: f64, stop: Stop) -> Result<()> {
+    pub(crate) fn clamp(&mut self, highest: f64, stop: Stop) -> Result<()> {
         self.levels.truncate(1);
         self.levels[0].clamp(highest);
         self.halve(stop)
     }
 
-    /// Makes the coarser levels from the finest one.
     fn halve(&mut self, stop: Stop) -> Result<()> {
         loop {
             go_on(stop)?;
@@ -210,24 +189,24 @@ impl Pyramid {
         }
     }
 
-    /// The level at which a tube of a radius (voxels of the finest level) is looked at, of those that are looked at: the finest
-    /// where it is narrower than four voxels.
-    pub fn level_for(&self, radius: f64, looked_at: &Range<usize>) -> &Level {
-        let last = looked_at.end - 1;
-        let number = (looked_at.start..last).find(|n| radius < WIDE * self.levels[*n].side).unwrap_or(last);
+    /// Level for a tube of a radius (finest voxels): the finest where it is narrower than four voxels.
+    pub(crate) fn level_for(&self, radius: f64, levels_examined: &Range<usize>) -> &Level {
+        let last = levels_examined.end - 1;
+        let number = (levels_examined.start..last)
+            .find(|n| radius < NEXT_LEVEL_RADIUS * self.levels[*n].side)
+            .unwrap_or(last);
         &self.levels[number]
     }
 
-    /// All levels.
-    pub fn all(&self) -> Range<usize> {
+    pub(crate) fn all(&self) -> Range<usize> {
         0..self.levels.len()
     }
 }
 
-/// A tube of this radius (voxels) is looked at on the next level.
-const WIDE: f64 = 4.0;
+/// Radius (voxels) from which a tube is examined on the next level.
+const NEXT_LEVEL_RADIUS: f64 = 4.0;
 
-/// The volume over the grid, clamped to a range; what is no number is the lowest value.
+/// Resamples the volume; NaN becomes the lowest value.
 fn finest(voxels: &Voxels, grid: &Grid, [lowest, highest]: [f64; 2], stop: Stop) -> Result<Level> {
     let [nx, ny, nz] = grid.size;
     let unit = ((highest - lowest) as f32 / FULL).max(f32::MIN_POSITIVE);
@@ -244,7 +223,7 @@ fn finest(voxels: &Voxels, grid: &Grid, [lowest, highest]: [f64; 2], stop: Stop)
             voxels.along(start, stride, &mut samples);
         }
         for (value, sample) in values.iter_mut().zip(&samples) {
-            // What is no number becomes 0.
+            // The cast maps NaN to 0.
             *value = ((sample - lowest) / unit).round() as u16;
         }
         Ok(())

@@ -1,22 +1,21 @@
-//! Medians and quantiles that are one of the values, as finding vessels was tried with.
+//! Medians and quantiles that are members of the values.
 //!
-//! Those of the core lie between the values. With them the dissection of a patient falls into other trees: what is found there hangs
-//! on less than it should, and METHOD.md says so.
+//! With the core's interpolating versions, the dissection of one test patient falls into other trees.
 
-/// The value at a share of the way from the least to the greatest one, the nearest in rank; none of no values.
-pub fn quantile(values: &mut [f64], share: f64) -> Option<f64> {
+/// Nearest-rank quantile; None if empty.
+pub(crate) fn quantile(values: &mut [f64], share: f64) -> Option<f64> {
     let last = values.len().checked_sub(1)?;
     let rank = (last as f64 * share).round() as usize;
     Some(*values.select_nth_unstable_by(rank, f64::total_cmp).1)
 }
 
-/// The median, of an even number of values the upper one of the middle; none of no values.
-pub fn median(values: &mut [f64]) -> Option<f64> {
+/// Upper median; None if empty.
+pub(crate) fn median(values: &mut [f64]) -> Option<f64> {
     quantile(values, 0.5)
 }
 
-/// The median, of an even number of values the lower one of the middle; none of no values.
-pub fn lower_median(values: &mut [f64]) -> Option<f64> {
+/// Lower median; None if empty.
+pub(crate) fn lower_median(values: &mut [f64]) -> Option<f64> {
     let last = values.len().checked_sub(1)?;
     Some(*values.select_nth_unstable_by(last / 2, f64::total_cmp).1)
 }

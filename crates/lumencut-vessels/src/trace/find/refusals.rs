@@ -1,4 +1,4 @@
-//! The errors of finding vessels, each in one place.
+//! Error messages of finding vessels.
 
 use glam::DVec3;
 
@@ -6,12 +6,12 @@ use crate::trace::find::found::NoVessel;
 use crate::trace::lumen::lumen_model::in_words;
 use lumencut_core::error::{Error, ErrorKind, Mend};
 
-/// The error for a scan in which no vessel is sure; `doubtful` of them were found that are not, `smallest_radius` is in mm.
+/// Error if no vessel is sure, with the number of doubtful ones; `smallest_radius` in mm.
 pub fn no_vessel(doubtful: usize, smallest_radius: f64) -> Error {
     let found = match doubtful {
         0 => format!("none whose radius is {smallest_radius} mm or more"),
-        1 => "none that is sure, but one that is doubtful".to_owned(),
-        several => format!("none that is sure, but {several} that are doubtful"),
+        1 => "no certain vessel, but one doubtful vessel".to_owned(),
+        several => format!("no certain vessel, but {several} doubtful vessels"),
     };
     let expected = "an angiography, whose vessels are brighter than the tissue around them";
     let error = Error::new(ErrorKind::Tracing, "no vessel found", found, expected);
@@ -19,44 +19,42 @@ pub fn no_vessel(doubtful: usize, smallest_radius: f64) -> Error {
     error.mend("trace between two points along a vessel").mended_by(mend)
 }
 
-/// The error for a seed outside the volume.
+/// Error for a seed outside the volume.
 pub fn outside(seed: DVec3) -> Error {
     let found = format!("{}, outside the volume", in_words(seed));
     Error::new(ErrorKind::Tracing, "seed", found, "a point within the volume")
 }
 
-/// The error for a seed that lies in no vessel: the value there, and the nearest point of a vessel and how far that is (mm).
-pub fn not_here(seed: DVec3, value: f64, nearest: DVec3, distance: f64) -> Error {
+/// Error for a seed in no vessel, with its value, the nearest vessel point, and its distance (mm).
+pub(crate) fn not_here(seed: DVec3, value: f64, nearest: DVec3, distance: f64) -> Error {
     let found = format!("no vessel here; the nearest one is {distance:.1} mm away, at {}", in_words(nearest));
     let expected = "a point within a vessel";
     let error = Error::new(ErrorKind::Tracing, format!("seed {}", in_words(seed)), found, expected);
     error.mend("put the seed into a vessel, or trace between two points along it").at(seed, value)
 }
 
-/// The error for a click (mm, LPS) that gives no whole vessel, with the value there.
+/// Error for a click (mm, LPS) without a whole vessel, with its value.
 pub fn no_whole_vessel(click: DVec3, value: f64, reason: NoVessel) -> Error {
     let (found, expected) = match reason {
         NoVessel::NotHere(distance) if distance.is_infinite() => {
-            ("no vessel in all of this scan".to_owned(), "a point within a vessel")
+            ("no vessel in this scan".to_owned(), "a point within a vessel")
         }
         NoVessel::NotHere(distance) => (
-            format!("none of the vessels that were found; the nearest one is {distance:.1} mm away"),
+            format!("none of the vessels found; the nearest one is {distance:.1} mm away"),
             "a point within a vessel",
         ),
-        NoVessel::Already => ("a vessel that is traced already".to_owned(), "one that is not"),
+        NoVessel::Already => ("a vessel that is already traced".to_owned(), "one that is not"),
     };
     let error = Error::new(ErrorKind::Tracing, "this point", found, expected).at(click, value);
     match reason {
-        NoVessel::NotHere(_) => {
-            error.mend("click the vessel at a second place: the way between both is traced")
-        }
+        NoVessel::NotHere(_) => error.mend("click the vessel at a second point to trace between both"),
         NoVessel::Already => error,
     }
 }
 
-/// The error for a seed whose part has doubtful vessels alone; `doubt` is why the first one is doubtful, in words.
-pub fn only_doubtful(seed: DVec3, value: f64, doubt: &str) -> Error {
-    let found = format!("a vessel there that is doubtful: {doubt}");
+/// Error for a seed whose part has only doubtful vessels; `doubt` is the reason of the first.
+pub(crate) fn only_doubtful(seed: DVec3, value: f64, doubt: &str) -> Error {
+    let found = format!("a doubtful vessel there: {doubt}");
     let error = Error::new(ErrorKind::Tracing, format!("seed {}", in_words(seed)), found, "one that is sure");
     error.mend("trace between two points along it").at(seed, value)
 }

@@ -1,4 +1,4 @@
-//! Parts that are short, and scans that show no vessels: what looks like some there is doubtful as a whole.
+//! Doubts short parts, and all vessels of a scan that is no angiography.
 
 use crate::trace::find::bone::Shape;
 use crate::trace::find::found::{FoundVessel, SURE};
@@ -8,27 +8,25 @@ use crate::voxels::Voxels;
 use glam::DVec3;
 use lumencut_core::math::arc_length::arc_lengths;
 
-/// Some part of an angiography has sure vessels of this length (mm), or of this share of the diagonal of a smaller volume.
+/// Minimum length (mm, or share of the diagonal if less) of sure vessels in some part of an angiography.
 const LEAST_LENGTH: f64 = 100.0;
 const OF_DIAGONAL: f64 = 0.3;
 
-/// A part whose sure vessels are shorter together is a speck of calcium as often as a vessel: the same two numbers.
+/// The same for any part; shorter ones are as often specks of calcium as vessels.
 const LEAST_PART: f64 = 15.0;
 const PART_OF_DIAGONAL: f64 = 0.15;
 
-/// Tubes of an angiography are long and round: so many radii with an elongation of no more than this; those that are rounder may be
-/// shorter. Bodies of tissue are one or the other.
+/// Pairs of minimum length (radii) and maximum elongation of tubes. Tissue bodies meet one, not both.
 const LONG_AND_ROUND: [[f64; 2]; 2] = [[10.0, 1.5], [6.0, 1.25]];
 
-/// What is so long as a share of the diagonal of the volume is long however wide it is: a small volume has no more of it.
+/// Share of the diagonal that counts as long for any width, because a small volume shows no more.
 const LONG_OF_DIAGONAL: f64 = 0.5;
 
-/// Blood without contrast medium is no brighter, and neither is muscle (HU).
+/// Upper level (HU) of plain blood and muscle; 120 HU would lose CTs with arteries of 115 HU.
 const BLOOD: f64 = 75.0;
 
-/// Whether a scan shows vessels as an angiography does: its sure tracks that are long and round have together the length of an
-/// angiography, and as a CT its vessels are brighter than blood without contrast medium.
-pub fn is_angiography(scan: &Scan, tracks: &[Track], shapes: &[Option<Shape>]) -> bool {
+/// Whether sure, long, round tracks reach the minimum length and, in CT, exceed plain blood.
+pub(crate) fn is_angiography(scan: &Scan, tracks: &[Track], shapes: &[Option<Shape>]) -> bool {
     let diagonal = diagonal(scan.voxels);
     let length = |(track, shape): (&Track, &Option<Shape>)| {
         let length = track.length();
@@ -45,9 +43,7 @@ pub fn is_angiography(scan: &Scan, tracks: &[Track], shapes: &[Option<Shape>]) -
     is_bright && all >= LEAST_LENGTH.min(OF_DIAGONAL * diagonal)
 }
 
-/// The same vessels: those of short parts doubtful, and all where the scan is no angiography or no part of them has
-/// sure vessels as long as those of one.
-pub fn doubted_where_scarce(
+pub(crate) fn doubted_where_scarce(
     voxels: &Voxels,
     mut vessels: Vec<FoundVessel>,
     is_angiography: bool,
@@ -67,7 +63,6 @@ pub fn doubted_where_scarce(
     vessels
 }
 
-/// The length of the diagonal of a volume (mm).
 fn diagonal(voxels: &Voxels) -> f64 {
     let sides = DVec3::from_array(voxels.size.map(|count| count as f64));
     let of_axis = |a: usize| voxels.world_from_index.matrix3.col(a).length() * sides[a];
@@ -80,7 +75,7 @@ mod tests {
     use crate::trace::find::made::{straight_track, with_scan};
     use crate::trace::lines::centerline::Centerline;
 
-    /// The doubts of vessels of some lengths (mm) in one part each, in a cube of 40 mm, whose diagonal is 69.3 mm.
+    /// Doubts of vessels with these lengths (mm), one per part, in a cube with a diagonal of 69.3 mm.
     fn doubts(lengths: &[f64]) -> Vec<Option<TrackDoubt>> {
         let vessel = |(part, length): (usize, &f64)| {
             let points = vec![DVec3::ZERO, DVec3::X * *length];
@@ -96,13 +91,12 @@ mod tests {
     fn all_is_doubtful_where_no_part_is_long_and_else_what_is_very_short() {
         assert_eq!(doubts(&[20.7, 10.0]), [Some(TrackDoubt::Scarce); 2]);
         assert_eq!(doubts(&[20.9, 10.5]), [None; 2]);
-        // 0.15 of the diagonal are 10.4 mm.
+        // 0.15 of the diagonal is 10.4 mm.
         assert_eq!(doubts(&[20.9, 10.3]), [None, Some(TrackDoubt::Short)]);
         assert!(doubts(&[]).is_empty());
     }
 
-    /// Whether a scan with the value range of a CT or not is an angiography by a single track of a length and a radius (mm), with an
-    /// elongation, in a cube of 120 mm, whose diagonal is 207.8 mm.
+    /// Whether one track makes a scan an angiography, in a cube with a diagonal of 207.8 mm.
     fn shows(length: f64, radius: f64, elongation: f64, level_in_hounsfield: Option<f64>) -> bool {
         let track = straight_track(DVec3::ZERO, DVec3::X * length, radius);
         with_scan(
@@ -119,12 +113,12 @@ mod tests {
 
     #[test]
     fn an_angiography_has_tubes_that_are_long_and_round_and_in_a_ct_brighter_than_plain_blood() {
-        // 0.3 of the diagonal are 62.4 mm.
+        // 0.3 of the diagonal is 62.4 mm.
         assert!(shows(65.0, 6.0, 1.4, None) && !shows(60.0, 6.0, 1.4, None));
         assert!(!shows(65.0, 7.0, 1.4, None) && !shows(65.0, 6.0, 1.6, None));
         // Rounder tubes may be shorter.
         assert!(shows(65.0, 10.5, 1.2, None) && !shows(65.0, 11.5, 1.2, None));
-        // What passes through half of the diagonal is long, however wide it is.
+        // Half of the diagonal is long for any width.
         assert!(shows(104.5, 12.0, 1.4, None) && !shows(103.0, 12.0, 1.4, None));
         assert!(shows(65.0, 6.0, 1.4, Some(80.0)) && !shows(65.0, 6.0, 1.4, Some(70.0)));
     }

@@ -1,4 +1,4 @@
-//! A cross-section of a tube with its own level: where the lumen ends along rays, and where its middle lies.
+//! Cross-section of a tube with its own level: walls along rays, and centre.
 
 use std::f64::consts::TAU;
 
@@ -8,80 +8,75 @@ use crate::trace::find::pyramid::Level;
 use crate::trace::find::quantiles::lower_median;
 use lumencut_core::math::lanes::{Isa, Kernel, dispatch};
 
-/// The number of rays; opposite ones make pairs.
+/// Opposite rays form pairs.
 const RAYS: usize = 24;
 
-/// How far apart samples along a ray are (voxels of the level).
+/// Sampling distance (voxels of the level).
 const STEP: f64 = 0.5;
 
-/// Rays reach so many radii and so many voxels more.
+/// Ray length: radii plus voxels.
 const REACH_RADII: f64 = 1.6;
 const REACH_VOXELS: f64 = 2.0;
 
-/// A wall lies where half of the contrast of its ray is lost, or half of this part of the whole contrast where that is more.
+/// The wall is at half of the ray's contrast, which is at least this share of the whole contrast.
 const LEAST_OF_CONTRAST: f64 = 0.4;
 
-/// A wall counts between this many radii less a quarter of a voxel, and this many radii more half a voxel.
+/// Range of valid walls: radii, less a quarter voxel and plus half a voxel.
 const NEAR_WALL: f64 = 0.55;
 const FAR_WALL: f64 = 1.6;
 
-/// A wall that is farther than so many radii is taken to be there: a branch or a missing wall moves the middle no farther.
-const FARTHEST: f64 = 1.5;
+/// Farther walls are clamped to this many radii, so that a branch cannot move the centre.
+const MAX_WALL_RADII: f64 = 1.5;
 
-/// Bone may touch a tube that is no wider (voxels of the finest level).
-pub const TOUCHED: f64 = 3.0;
+/// Maximum radius (finest voxels) of a tube whose rays may end at bone.
+pub(crate) const TOUCHED: f64 = 3.0;
 
-/// Beside bone a ray ends where it is darkest before it is brighter than the lumen by this part of the contrast: a wall between lumen
-/// and bone is too thin to be seen whole. Up to so many rays of that kind are not asked for contrast.
+/// Excess of bone over lumen (share of the contrast): such rays end at the darkest place before it, because
+/// the wall between is too thin to resolve. Up to this many are exempt from the contrast test.
 const ABOVE: f64 = 0.15;
 const MOST_BONE: usize = 4;
 
-/// What a cross-section shows. Lengths are in voxels of the finest level, values in the unit of the volume.
+/// Lengths in finest voxels, values in the unit of the volume.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Section {
-    /// The level of the lumen.
+pub(crate) struct Section {
     pub level: f64,
-    /// How far it lies above the tissue around it.
+    /// Contrast to the surrounding tissue.
     pub contrast: f64,
-    /// The median distance of its walls.
+    /// Median wall distance.
     pub radius: f64,
-    /// The way from the place that was looked at to the middle of the lumen.
+    /// From the given place to the centre.
     pub shift: DVec3,
-    /// The share of rays with a wall about one radius away.
+    /// Share of rays with a wall about one radius away.
     pub closure: f64,
-    /// The share of rays along which at least half of the contrast is lost.
-    pub contrast_share: f64,
+    /// Share of rays that lose at least half of the contrast.
+    pub(crate) contrast_share: f64,
 }
 
-/// Two unit vectors across a direction.
-pub fn across(direction: DVec3) -> [DVec3; 2] {
+pub(crate) fn across(direction: DVec3) -> [DVec3; 2] {
     let first = direction.any_orthonormal_vector();
     [first, direction.cross(first)]
 }
 
 impl Section {
-    /// Looks at a tube of about a radius across its direction.
-    pub fn look(level: &Level, place: DVec3, direction: DVec3, radius: f64) -> Self {
+    pub(crate) fn look(level: &Level, place: DVec3, direction: DVec3, radius: f64) -> Self {
         Walls::seen(level, place, direction, radius).section()
     }
 
-    /// The same of a tube that bone may touch: what is brighter than the lumen ends it as well.
-    pub fn beside_bone(level: &Level, place: DVec3, direction: DVec3, radius: f64) -> Self {
+    /// Also ends rays at material brighter than the lumen.
+    pub(crate) fn beside_bone(level: &Level, place: DVec3, direction: DVec3, radius: f64) -> Self {
         Walls::seen(level, place, direction, radius).ending_at_bone().section()
     }
 }
 
-/// The walls around a place.
 struct Walls {
     rays: Rays,
     plane: [DVec3; 2],
-    /// About how wide the tube is, and the side of a voxel of the level (voxels of the finest level).
+    /// Approximate radius, and voxel side of the level (finest voxels).
     radius: f64,
     side: f64,
-    /// The level of the lumen, and how far it lies above the tissue around.
     lumen: f64,
     contrast: f64,
-    /// How far each ray runs to its wall, and whether that is bone.
+    /// Wall distance per ray, and whether it is bone.
     walls: [f64; RAYS],
     is_bone: [bool; RAYS],
 }
@@ -101,18 +96,16 @@ impl Walls {
         Self { rays, plane, radius, side: level.side, lumen, contrast, walls, is_bone: [false; RAYS] }
     }
 
-    /// The usual distance of a wall.
     fn usual(&self) -> f64 {
         lower_median(&mut self.walls.clone()).unwrap_or(0.0)
     }
 
-    /// How near and how far a wall lies that counts.
     fn counted(&self) -> [f64; 2] {
         let usual = self.usual();
         [NEAR_WALL * usual - 0.25 * self.side, FAR_WALL * usual + 0.5 * self.side]
     }
 
-    /// Lets rays that meet no wall that counts, but bone, end there.
+    /// Ends rays without a valid wall at bone.
     fn ending_at_bone(mut self) -> Self {
         let [_, far] = self.counted();
         let above = self.lumen + ABOVE * self.contrast;
@@ -129,19 +122,18 @@ impl Walls {
         let count = |holds: &dyn Fn(usize) -> bool| (0..RAYS).filter(|n| holds(*n)).count() as f64;
         let wall = |n: usize| self.walls[n];
         let loses = |n: usize| !self.is_bone[n] && self.lumen - self.rays.darkest[n] >= 0.5 * self.contrast;
-        let told = RAYS - self.is_bone.iter().filter(|is| **is).count().min(MOST_BONE);
+        let free_rays = RAYS - self.is_bone.iter().filter(|is| **is).count().min(MOST_BONE);
         Section {
             level: self.lumen,
             contrast: self.contrast,
             radius: found,
-            shift: shift(&self.walls.map(|wall| wall.min(FARTHEST * found)), self.plane, self.radius),
+            shift: shift(&self.walls.map(|wall| wall.min(MAX_WALL_RADII * found)), self.plane, self.radius),
             closure: count(&|n| wall(n) >= near && wall(n) <= far && wall(n) < self.rays.reach) / RAYS as f64,
-            contrast_share: count(&loses) / told as f64,
+            contrast_share: count(&loses) / free_rays as f64,
         }
     }
 }
 
-/// The median of samples within half a radius.
 fn lumen(level: &Level, place: DVec3, plane: [DVec3; 2], radius: f64) -> f64 {
     let mut values = [f64::from(level.at(place)); 13];
     for n in 0..12 {
@@ -152,14 +144,13 @@ fn lumen(level: &Level, place: DVec3, plane: [DVec3; 2], radius: f64) -> f64 {
     lower_median(&mut values).unwrap_or(values[0])
 }
 
-/// The values along all rays.
 struct Rays {
-    /// The values, the rays side by side, step by step.
+    /// Values by step, then ray.
     values: Vec<[f32; RAYS]>,
-    /// How far apart samples are, and how far rays reach (voxels of the finest level).
+    /// Sampling distance and ray length (finest voxels).
     step: f64,
     reach: f64,
-    /// The smallest value along each ray.
+    /// Minimum of each ray.
     darkest: [f64; RAYS],
 }
 
@@ -185,7 +176,7 @@ impl Rays {
         Self { values, step, reach: step * count as f64, darkest: darkest.map(f64::from) }
     }
 
-    /// Where a ray that begins at `start` first falls below a value; its reach where it nowhere does.
+    /// Distance at which a ray first falls below a value, or the ray length.
     fn wall(&self, ray: usize, start: f64, below: f64) -> f64 {
         let is_below = |row: &[f32; RAYS]| f64::from(row[ray]) < below;
         let Some(n) = self.values.iter().position(is_below) else { return self.reach };
@@ -195,20 +186,20 @@ impl Rays {
         (n as f64 + share) * self.step
     }
 
-    /// Where a ray is darkest before it first rises above a value; none where it does not.
+    /// Darkest place before a ray first rises above a value; None if it does not.
     fn wall_at_bone(&self, ray: usize, above: f64) -> Option<f64> {
         let value = |n: &usize| self.values[*n][ray];
         let bone = (0..self.values.len()).find(|n| f64::from(value(n)) > above)?;
-        // Of the outer half of the way, and of places that are alike the last one: where there is no wall at all bone is the end.
+        // In the outer half; the last of equals, so that without a wall the ray ends at bone.
         let darkest = (bone / 2..bone).rev().min_by(|a, b| value(a).total_cmp(&value(b))).unwrap_or(bone);
         Some((darkest + 1) as f64 * self.step)
     }
 }
 
-/// Samples of a level along rays, all rays abreast.
+/// Kernel: samples along all rays.
 struct Sampled<'a> {
     level: &'a Level,
-    /// Where the rays begin, and the steps of each, in voxels of the level.
+    /// In voxels of the level.
     start: [f32; 3],
     strides: [[f32; RAYS]; 3],
     count: usize,
@@ -233,7 +224,7 @@ impl Kernel for Sampled<'_> {
     }
 }
 
-/// The way to the middle: the mean of the differences of opposite walls, at most half a radius.
+/// Mean difference of opposite walls, at most half a radius.
 fn shift(walls: &[f64; RAYS], plane: [DVec3; 2], radius: f64) -> DVec3 {
     let pairs = RAYS / 2;
     let mut sum = DVec3::ZERO;
@@ -241,7 +232,7 @@ fn shift(walls: &[f64; RAYS], plane: [DVec3; 2], radius: f64) -> DVec3 {
         let (sin, cos) = (TAU * n as f64 / RAYS as f64).sin_cos();
         sum += (plane[0] * cos + plane[1] * sin) * (walls[n] - walls[n + pairs]);
     }
-    // Directions over half a circle see half of a shift each, on the average.
+    // The average over a half circle gives half of the shift.
     (sum / pairs as f64).clamp_length_max(0.5 * radius)
 }
 

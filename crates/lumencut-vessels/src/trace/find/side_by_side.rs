@@ -1,4 +1,4 @@
-//! Lumens side by side within what looks like one wide tube: the limbs of a stent graft, true and false lumen.
+//! Separates lumens side by side within a wide tube: limbs of a stent graft, true and false lumen.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -10,40 +10,45 @@ use crate::trace::find::tracking::Tracking;
 use lumencut_core::error::Result;
 use lumencut_core::stop::go_on;
 
-/// A tube is wide from this radius on (voxels of the finest level).
-const WIDE: f64 = 4.0;
+/// Minimum radius of a wide tube (finest voxels).
+const MIN_WIDE_RADIUS: f64 = 4.0;
 
-/// Where candidates within a wide tube lie, in its radii from its middle, and their radius in its radii.
+/// Ranges of distance from the axis, and of the radius, in radii of the wide tube.
 const OFF_AXIS: [f64; 2] = [0.3, 1.2];
 const NARROWER: [f64; 2] = [0.25, 0.7];
 
-/// Their closure and share of rays with contrast is more than this, and their response more than this part of the contrast.
+/// Minimum closure and contrast share, and minimum response as a share of the contrast.
 const LEAST_CLOSURE: f64 = 0.8;
 const LEAST_RESPONSE: f64 = 0.5;
 
-/// They are looked at without the coarsest levels, in which lumens side by side are one.
+/// Coarsest levels to skip, because they merge adjacent lumens.
 const COARSE_LEVELS: usize = 2;
 
-/// How sure their tracks are at least.
+/// Minimum confidence.
 const LEAST_CONFIDENCE: f64 = 0.5;
 
-/// What is new of a track: runs farther than this many radii of the wide tube from its middle, at least so many of their own radii
-/// long, of which at least this share lies within so many radii of it.
-const BESIDE: f64 = 0.33;
+/// New parts: minimum distance from the wide axis (its radii), minimum length (own radii), share within.
+const MIN_AXIS_DISTANCE: f64 = 0.33;
 const LEAST_RADII: f64 = 3.0;
 const LEAST_WITHIN: f64 = 0.3;
 const WITHIN: f64 = 1.15;
 
-/// The tracks of lumens that lie side by side in wide tracks, in voxels of the finest level.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn side_by_side(tracking: &Tracking, candidates: &[Candidate], tracks: &[Track]) -> Result<Vec<Track>> {
-    let end = tracking.looked_at.end.saturating_sub(COARSE_LEVELS).max(tracking.looked_at.start + 1);
-    let fine = Tracking { looked_at: tracking.looked_at.start..end, stages: Stages::default(), ..*tracking };
+/// Tracks of adjacent lumens in wide tracks, in finest voxels.
+pub(crate) fn side_by_side(
+    tracking: &Tracking,
+    candidates: &[Candidate],
+    tracks: &[Track],
+) -> Result<Vec<Track>> {
+    let end =
+        tracking.levels_examined.end.saturating_sub(COARSE_LEVELS).max(tracking.levels_examined.start + 1);
+    let fine = Tracking {
+        levels_examined: tracking.levels_examined.start..end,
+        stages: Stages::default(),
+        ..*tracking
+    };
     let wide: Vec<TrackPoint> = tracks
         .iter()
-        .flat_map(|track| track.points.iter().filter(|point| point.is_good && point.radius > WIDE))
+        .flat_map(|track| track.points.iter().filter(|point| point.is_good && point.radius > MIN_WIDE_RADIUS))
         .copied()
         .collect();
     let is_inner = |candidate: &Candidate| {
@@ -66,7 +71,6 @@ pub fn side_by_side(tracking: &Tracking, candidates: &[Candidate], tracks: &[Tra
     Ok(runs.into_iter().flatten().collect())
 }
 
-/// Whether a candidate lies beside the middle of a wide tube, and is narrower.
 fn is_beside(candidate: &Candidate, point: &TrackPoint) -> bool {
     let off = off_axis(candidate.place, point) / point.radius;
     (OFF_AXIS[0]..OFF_AXIS[1]).contains(&off)
@@ -74,16 +78,15 @@ fn is_beside(candidate: &Candidate, point: &TrackPoint) -> bool {
         && candidate.response > LEAST_RESPONSE * point.contrast
 }
 
-/// How far a place lies from the middle of a tube, across it; far where it lies in another section.
+/// Distance from the axis; maximal in another section.
 fn off_axis(place: DVec3, point: &TrackPoint) -> f64 {
     let way = place - point.place;
     let along = way.dot(point.direction);
     if along.abs() > point.radius { f64::MAX } else { (way - point.direction * along).length() }
 }
 
-/// The runs of a track that the wide tubes do not have.
 fn new_runs(track: &Track, wide: &[TrackPoint]) -> Vec<Track> {
-    // How far each point lies from the middle of the nearest wide tube, in its radii.
+    // Distance to the nearest wide axis, in its radii.
     let off: Vec<f64> = track
         .points
         .iter()
@@ -95,8 +98,8 @@ fn new_runs(track: &Track, wide: &[TrackPoint]) -> Vec<Track> {
     let mut runs = Vec::new();
     let mut first = 0;
     while first < off.len() {
-        let Some(start) = (first..off.len()).find(|n| off[*n] > BESIDE) else { break };
-        let end = (start..off.len()).find(|n| off[*n] <= BESIDE).unwrap_or(off.len());
+        let Some(start) = (first..off.len()).find(|n| off[*n] > MIN_AXIS_DISTANCE) else { break };
+        let end = (start..off.len()).find(|n| off[*n] <= MIN_AXIS_DISTANCE).unwrap_or(off.len());
         let within = off[start..end].iter().filter(|off| **off <= WITHIN).count() as f64;
         let run = Track { points: track.points[start..end].to_vec(), ..track.clone() };
         let is_new = run.points.len() > 1

@@ -1,41 +1,33 @@
-//! How far finding vessels is, stage by stage.
+//! Progress of finding vessels.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use lumencut_core::progress::Progress;
 
-/// A stage of finding vessels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stage {
-    /// The levels of detail are made.
+pub(crate) enum Stage {
+    /// Pyramid levels.
     Levels,
-    /// A first pass tells the usual level of vessels.
+    /// First pass for the vessel level.
     FirstPass,
-    /// Places that look like a tube.
     Candidates,
-    /// They are tracked.
     Tracks,
-    /// Tracks are judged.
     Judgement,
-    /// They are linked.
     Links,
-    /// They become whole vessels.
     Vessels,
 }
 
-/// About how long each stage takes in comparison.
+/// Relative durations.
 const COSTS: [usize; 7] = [4, 18, 28, 38, 7, 2, 3];
 
-/// In how many parts a stage is told.
+/// Progress steps per stage.
 const PARTS: usize = 1000;
 
-/// Tells how far the work is, where anybody asks.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Stages<'a>(Option<&'a Progress>);
+pub(crate) struct Stages<'a>(Option<&'a Progress>);
 
 impl<'a> Stages<'a> {
-    /// Nothing is done yet.
-    pub fn begin(progress: Option<&'a Progress>) -> Self {
+    pub(crate) fn begin(progress: Option<&'a Progress>) -> Self {
         if let Some(progress) = progress {
             progress.expect_views(1);
             progress.begin_view(COSTS.into_iter(), PARTS);
@@ -43,36 +35,32 @@ impl<'a> Stages<'a> {
         Self(progress)
     }
 
-    /// A stage of so many equal pieces of work begins.
-    pub fn stage(self, stage: Stage, pieces: usize) -> Pieces<'a> {
+    pub(crate) fn stage(self, stage: Stage, pieces: usize) -> Pieces<'a> {
         if let Some(progress) = self.0 {
             progress.begin_stage(COSTS[stage as usize]);
         }
-        Pieces { told: self, all: pieces.max(1), done: AtomicUsize::new(0) }
+        Pieces { stages: self, all: pieces.max(1), done: AtomicUsize::new(0) }
     }
 
-    /// All is done.
-    pub fn end(self) {
+    pub(crate) fn end(self) {
         if let Some(progress) = self.0 {
             progress.end_view();
         }
     }
 }
 
-/// The pieces of work of a stage.
 #[derive(Debug)]
-pub struct Pieces<'a> {
-    told: Stages<'a>,
+pub(crate) struct Pieces<'a> {
+    stages: Stages<'a>,
     all: usize,
     done: AtomicUsize,
 }
 
 impl Pieces<'_> {
-    /// So many further pieces are done.
-    pub fn done(&self, count: usize) {
+    pub(crate) fn done(&self, count: usize) {
         let before = self.done.fetch_add(count, Ordering::Relaxed);
         let parts = |pieces: usize| PARTS * pieces.min(self.all) / self.all;
-        if let Some(progress) = self.told.0 {
+        if let Some(progress) = self.stages.0 {
             progress.begin_pixels(parts(before + count) - parts(before));
         }
     }

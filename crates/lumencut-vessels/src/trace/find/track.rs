@@ -1,82 +1,77 @@
-//! Tubes as they are tracked: points along the middle, each with its local lumen.
+//! Tracked tubes: centre points, each with its local lumen.
 
 use glam::DVec3;
 
 use crate::trace::find::quantiles::{lower_median, median};
 
-/// A point of a track.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TrackPoint {
-    /// Where the middle of the lumen lies (mm, LPS).
+pub(crate) struct TrackPoint {
+    /// Centre (mm, LPS).
     pub place: DVec3,
-    /// Where the tube leads to (unit vector).
+    /// Unit vector along the tube.
     pub direction: DVec3,
-    /// The radius of the lumen (mm).
+    /// Radius (mm).
     pub radius: f64,
-    /// The level of the lumen and how far that lies above the tissue around it, in the unit of the volume.
+    /// Lumen level, in the unit of the volume.
     pub level: f64,
-    /// See `level`.
+    /// Contrast to the surrounding tissue, in the unit of the volume.
     pub contrast: f64,
-    /// The share of rays across the tube that meet a wall about one radius away.
+    /// Share of rays with a wall about one radius away.
     pub closure: f64,
-    /// Whether its cross-section is that of a tube that goes on.
-    pub is_good: bool,
+    /// Whether its section is that of a tube.
+    pub(crate) is_good: bool,
 }
 
-/// A tube.
 #[derive(Clone, Debug)]
-pub struct Track {
-    /// Its points, at least two.
+pub(crate) struct Track {
+    /// At least two.
     pub points: Vec<TrackPoint>,
-    /// How sure it is that this is a vessel, 0 to 1.
+    /// Confidence that it is a vessel, 0 to 1.
     pub confidence: f64,
-    /// What speaks against a vessel most; none where nothing does.
+    /// Main doubt, if any.
     pub doubt: Option<TrackDoubt>,
 }
 
-/// Why a track may be no vessel.
+/// Why a track may not be a vessel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TrackDoubt {
-    /// Its surroundings are bright on most sides, as in bone.
+    /// Bright surroundings on most sides, as in bone.
     BrightSides,
-    /// Its cross-section is flat, as a plate of bone is.
+    /// Flat section, as of a plate of bone.
     Flat,
-    /// Its inside is uneven, as marrow is.
+    /// Uneven inside, like marrow.
     Uneven,
-    /// It is pale and wide, as organs are.
+    /// Pale and wide, like an organ.
     PaleAndWide,
-    /// It is short.
+    /// Short.
     Short,
-    /// Its radius changes from section to section.
+    /// Radius varies between sections.
     Rough,
-    /// Its contrast is low.
+    /// Low contrast.
     Faint,
-    /// Few of its walls are seen.
+    /// Few visible walls.
     Open,
-    /// It bridges a gap between others.
+    /// Bridges a gap.
     Gap,
-    /// No part of the scan has sure vessels as long as an angiography has.
+    /// No part of the scan has sure vessels as long as in an angiography.
     Scarce,
 }
 
 impl Track {
-    /// The length, in the unit of its places.
-    pub fn length(&self) -> f64 {
+    pub(crate) fn length(&self) -> f64 {
         length(&self.points)
     }
 
-    /// The median radius.
-    pub fn radius(&self) -> f64 {
+    pub(crate) fn radius(&self) -> f64 {
         median(&mut self.points.iter().map(|point| point.radius).collect::<Vec<_>>()).unwrap_or(0.0)
     }
 }
 
-/// The length of a line of points, in the unit of their places.
-pub fn length(points: &[TrackPoint]) -> f64 {
+pub(crate) fn length(points: &[TrackPoint]) -> f64 {
     points.windows(2).map(|pair| pair[0].place.distance(pair[1].place)).sum()
 }
 
-/// What some points have as a rule: the lower median; 0 of no points.
-pub fn usual<'p>(points: impl IntoIterator<Item = &'p TrackPoint>, of: fn(&TrackPoint) -> f64) -> f64 {
+/// Lower median; 0 if empty.
+pub(crate) fn usual<'p>(points: impl IntoIterator<Item = &'p TrackPoint>, of: fn(&TrackPoint) -> f64) -> f64 {
     lower_median(&mut points.into_iter().map(of).collect::<Vec<_>>()).unwrap_or(0.0)
 }

@@ -1,4 +1,4 @@
-//! The tracker: from a candidate both ways along the tube, with a lumen whose level, contrast and radius run along.
+//! Follows a tube both ways from a candidate, with running level, contrast and radius.
 
 use std::ops::Range;
 
@@ -10,69 +10,62 @@ use crate::trace::find::pyramid::{Level, Pyramid};
 use crate::trace::find::section::{Section, TOUCHED};
 use crate::trace::find::track::TrackPoint;
 
-/// A step is this part of the radius, at most so many voxels of the level and at least half a voxel of the finest one.
+/// Step: share of the radius, at most this many voxels of the level, at least this many finest voxels.
 const STEP: f64 = 0.45;
 const LONGEST_STEP: f64 = 1.5;
 const SHORTEST_STEP: f64 = 0.5;
 
-/// How often a section moves to its middle at each step.
+/// Centring rounds per step.
 const ROUNDS: usize = 2;
 
-/// What a good section has: closure and rays with contrast at least so much, a radius within these factors of the one before (and
-/// so many voxels more or less), and a shift of at most so many radii and voxels.
+/// Requirements of a good section: closure, share of contrasting rays, radius relative to the previous one
+/// (factor and voxels), and shift (radii plus voxels).
 const LEAST_CLOSURE: f64 = 0.6;
 const LEAST_CONTRAST_SHARE: f64 = 0.6;
 const NARROWER: [f64; 2] = [0.6, 0.3];
 const WIDER: [f64; 2] = [1.5, 0.3];
 const MOST_SHIFT: [f64; 2] = [0.6, 0.4];
 
-/// The widest lumen (mm).
+/// Maximum radius (mm).
 const WIDEST: f64 = 22.0;
 
-/// The level of a good section differs by less than this part of the running contrast, and its contrast is more than this part
-/// of it, and more than so many times the noise.
+/// Maximum level difference and minimum contrast (running contrast); minimum contrast (noise).
 const LEVEL: f64 = 0.45;
 const CONTRAST: f64 = 0.45;
 const NOISES: f64 = 3.0;
 
-/// How much a section changes the running level and contrast, and the running radius.
+/// Weights of a section in the running level and contrast, and in the running radius.
 const OF_LEVEL: f64 = 0.15;
 const OF_RADIUS: f64 = 0.3;
 
-/// The direction is that of the chord of so many radii and voxels.
+/// Chord that gives the direction: radii plus voxels.
 const CHORD: [f64; 2] = [1.2, 1.0];
 
-/// A gap is at most so many radii, or so many voxels where that is more; it counts twice where the value is darker than the
-/// running level by more than this part of the contrast.
+/// Maximum gap: radii or voxels. Steps darker than this share of the contrast count twice.
 const GAP_RADII: f64 = 2.2;
 const GAP_VOXELS: f64 = 3.0;
 const DARK: f64 = 0.6;
 
-/// A track ends in one that is not darker by more than this part of its contrast.
-pub const DARKER: f64 = 0.35;
+/// A track ends in another that is darker by at most this share of its contrast.
+pub(crate) const DARKER: f64 = 0.35;
 
-/// The most steps each way.
-pub const MOST_STEPS: usize = 20_000;
+/// Maximum steps per direction.
+pub(crate) const MOST_STEPS: usize = 20_000;
 
-/// A track has come back to itself where it is within this many radii of a point that lies so many radii behind along it.
+/// A track returned to itself within this many radii of a point this many radii back.
 const RETURNED: f64 = 0.8;
 const BEHIND: f64 = 4.0;
 
-/// What a track is followed in. Lengths are in voxels of the finest level.
-pub struct Tracker<'a> {
-    /// The levels.
-    pub pyramid: &'a Pyramid,
-    /// The levels that are looked at.
-    pub looked_at: Range<usize>,
-    /// What is painted.
+/// Data for tracking. Lengths in finest voxels.
+pub(crate) struct Tracker<'a> {
+    pub(crate) pyramid: &'a Pyramid,
+    pub levels_examined: Range<usize>,
     pub paint: &'a Paint,
-    /// The levels of the tracks that are painted.
+    /// Levels of the painted tracks.
     pub levels: &'a [f64],
-    /// The least that a tube must have.
-    pub floors: Floors,
+    pub(crate) floors: Floors,
 }
 
-/// What runs along a track.
 #[derive(Clone, Copy)]
 struct Running {
     place: DVec3,
@@ -82,25 +75,19 @@ struct Running {
     contrast: f64,
 }
 
-/// What a section shows.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Seen {
-    /// A tube that goes on.
     Tube,
-    /// A tube that bone touches.
     BesideBone,
-    /// None.
     Nothing,
 }
 
-/// How a section is looked at: in a level, at a place, across a direction, as one of about a radius.
 type Look = fn(&Level, DVec3, DVec3, f64) -> Section;
 
 impl Tracker<'_> {
-    /// The points of the track through a candidate, in voxels of the finest level; none where its section is not good.
-    /// It has at most `most_steps` steps each way.
-    pub fn track(&self, from: &Candidate, most_steps: usize) -> Option<Vec<TrackPoint>> {
-        let level = self.pyramid.level_for(from.radius, &self.looked_at);
+    /// Track points through a candidate (finest voxels), at most `most_steps` per direction.
+    pub(crate) fn track(&self, from: &Candidate, most_steps: usize) -> Option<Vec<TrackPoint>> {
+        let level = self.pyramid.level_for(from.radius, &self.levels_examined);
         let section = Section::look(level, from.place, from.direction, from.radius);
         let contrast = section.contrast;
         if contrast <= self.floors.of_section() || section.closure < LEAST_CLOSURE {
@@ -126,23 +113,20 @@ impl Tracker<'_> {
         Some(points)
     }
 
-    /// The side of the finest voxels that are looked at.
     fn side(&self) -> f64 {
-        self.pyramid.levels[self.looked_at.start].side
+        self.pyramid.levels[self.levels_examined.start].side
     }
 
-    /// How far a step leads in a tube of a radius.
     fn step(&self, radius: f64) -> f64 {
-        let level = self.pyramid.level_for(radius, &self.looked_at);
+        let level = self.pyramid.level_for(radius, &self.levels_examined);
         (STEP * radius).min(LONGEST_STEP * level.side).max(SHORTEST_STEP * self.side())
     }
 
-    /// The points of a track one way, the first one being a step from where it begins.
     fn follow(&self, mut running: Running, before: &[DVec3], most_steps: usize) -> Vec<TrackPoint> {
         let mut points: Vec<TrackPoint> = Vec::new();
         let mut way: Vec<DVec3> = before.to_vec();
         way.push(running.place);
-        // What bone touches counts where the tube leads on from there, or to another track.
+        // Sections at bone count only if the tube continues or meets another track.
         let (mut gap, mut sure, mut last) = (0.0, 0, 0);
         for _ in 0..most_steps {
             let step = self.step(running.radius);
@@ -180,7 +164,6 @@ impl Tracker<'_> {
         points
     }
 
-    /// Whether a place lies in the lumen of another track that is not darker.
     fn ends_in(&self, place: DVec3, running: &Running) -> bool {
         match self.paint.at(place) {
             Painted::Lumen(track) => self.levels[track as usize] >= running.level - DARKER * running.contrast,
@@ -188,8 +171,7 @@ impl Tracker<'_> {
         }
     }
 
-    /// The section at a place, moved to its middle, and what is seen there. Where that is no tube it is looked at as a small artery that
-    /// bone touches.
+    /// Centred section and its kind; if it is no tube, tries it as a small artery touched by bone.
     fn best(&self, ahead: DVec3, running: &Running) -> (DVec3, Section, Seen) {
         let good = |look: Look, seen: Seen| {
             let (place, section) = self.centered(ahead, running, look);
@@ -203,10 +185,9 @@ impl Tracker<'_> {
         good(Section::beside_bone, Seen::BesideBone)
     }
 
-    /// The section at a place, moved to its middle.
     fn centered(&self, ahead: DVec3, running: &Running, look: Look) -> (DVec3, Section) {
         let at = |place: DVec3, radius: f64| {
-            look(self.pyramid.level_for(radius, &self.looked_at), place, running.direction, radius)
+            look(self.pyramid.level_for(radius, &self.levels_examined), place, running.direction, radius)
         };
         let mut place = ahead;
         let mut section = at(place, running.radius);
@@ -230,12 +211,11 @@ impl Tracker<'_> {
             && section.contrast > (CONTRAST * running.contrast).max(NOISES * self.floors.noise)
     }
 
-    /// What runs along, after a good section.
     fn moved(&self, running: Running, place: DVec3, section: &Section, way: &[DVec3]) -> Running {
         let reach = CHORD[0] * running.radius + CHORD[1] * self.side();
         let from = way.iter().rev().find(|point| point.distance(place) >= reach).or(way.first());
         let chord = from.map_or(DVec3::ZERO, |from| (place - *from).normalize_or_zero());
-        // What was seen behind a first point, where the track came the other way, says nothing of what is ahead.
+        // Points behind the start, tracked the other way, give no direction ahead.
         let chord = if chord.dot(running.direction) > 0.0 { chord } else { DVec3::ZERO };
         let toward = |old: f64, new: f64, share: f64| old + share * (new - old);
         Running {
@@ -248,7 +228,6 @@ impl Tracker<'_> {
     }
 }
 
-/// A point of a track.
 fn point(running: &Running, section: &Section, is_good: bool) -> TrackPoint {
     TrackPoint {
         place: running.place,
@@ -261,7 +240,6 @@ fn point(running: &Running, section: &Section, is_good: bool) -> TrackPoint {
     }
 }
 
-/// Whether a track has come back to where it has been.
 fn has_returned(way: &[DVec3], running: &Running, step: f64) -> bool {
     let near = (BEHIND * running.radius / step).ceil() as usize + 4;
     let far = way.len().saturating_sub(near);

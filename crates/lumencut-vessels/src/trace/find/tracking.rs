@@ -1,4 +1,4 @@
-//! From candidates to tracks, the most promising first: each is followed, judged and painted, so that no tube is found twice.
+//! Tracks candidates, the most promising first, and paints them, so that no tube is found twice.
 
 use std::collections::VecDeque;
 use std::ops::Range;
@@ -15,118 +15,90 @@ use crate::trace::find::tracker::{DARKER, MOST_STEPS, Tracker};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// A track is at least so many radii and so many voxels long, and this share of its sections is good.
+/// Minimum length in radii and voxels, and minimum share of good sections.
 const LEAST_RADII: f64 = 3.0;
 const LEAST_VOXELS: f64 = 5.0;
 const LEAST_GOOD: f64 = 0.6;
 
-/// Tracks of less confidence are left out.
+/// Minimum confidence.
 const LEAST_CONFIDENCE: f64 = 0.3;
 
-/// So many steps each way are looked at before a track is followed to its ends; they are as sure as this share of what is asked of a
-/// whole track.
+/// Steps of a first look, and its minimum confidence relative to a whole track.
 const FIRST_STEPS: usize = 16;
 const LEAST_OF_FIRST: f64 = 0.5;
 
-/// How far from its middle a track is painted, in its radii: where it is narrower than the first limit (voxels), wider than the
-/// second one, and between them.
+/// Painted radius in radii for narrow, wide and other tracks, and the two limits (voxels).
 const PAINTED: [f64; 3] = [0.9, 1.1, 1.0];
-const NARROW: f64 = 2.0;
-const WIDE: f64 = 4.0;
+const NARROW_RADIUS: f64 = 2.0;
+const WIDE_RADIUS: f64 = 4.0;
 
-/// How far from its middle a rejected track is painted (voxels).
+/// Painted radius of a rejected track (voxels).
 const THIN: f64 = 1.0;
 
-/// A candidate in the lumen of a darker track is tried where its contrast is at least this part of the usual one, and its radius
-/// less than so many voxels.
+/// Minimum contrast (share) and maximum radius (voxels) of a candidate inside a darker track.
 const OVER_CONTRAST: f64 = 0.5;
 const OVER_RADIUS: f64 = 5.0;
 
-/// How many candidates are tracked beside each other before what they found is painted.
+/// Candidates tracked in parallel before painting.
 const BATCH: usize = 32;
 
-/// Candidates are tracked one after the other where they are nearer than so many times the sum of their radii and so many voxels more;
-/// so many others are looked at for those that are not.
+/// Candidates closer than this (radii, voxels) are tracked in sequence; maximum searched for others.
 const NEAR_RADII: f64 = 4.0;
 const NEAR_VOXELS: f64 = 8.0;
-const MOST_LOOKED_AT: usize = 128;
+const MAX_EXAMINED: usize = 128;
 
-/// How candidates become tracks.
-pub struct Tracking<'a> {
-    /// The levels.
-    pub pyramid: &'a Pyramid,
-    /// The numbers of those that are looked at.
-    pub looked_at: Range<usize>,
-    /// The least that a tube must have.
-    pub floors: Floors,
-    /// Asked whether to stop.
+pub(crate) struct Tracking<'a> {
+    pub(crate) pyramid: &'a Pyramid,
+    /// Level range.
+    pub levels_examined: Range<usize>,
+    pub(crate) floors: Floors,
     pub stop: Stop<'a>,
-    /// How sure a track is.
     pub judge: &'a (dyn Fn(Vec<TrackPoint>) -> Track + Sync),
-    /// Told how far it is.
     pub stages: Stages<'a>,
 }
 
-/// Candidates that are tracked beside each other.
 struct Batch {
     candidates: Vec<Candidate>,
-    /// How many of the others were looked at for them.
-    looked_at: usize,
+    /// Number of candidates consumed.
+    levels_examined: usize,
 }
 
-/// The tracks that are known, their levels, and their lumens.
 struct Known {
     paint: Paint,
     found: Vec<Track>,
     levels: Vec<f64>,
 }
 
-/// What became of a candidate.
 enum Tried {
-    /// No track begins there.
     Nothing,
-    /// A track that is no vessel.
     Rejected(Vec<TrackPoint>),
-    /// A tube.
     Kept(Track),
 }
 
 impl Tracking<'_> {
-    /// The candidates, the most promising first.
-    ///
-    /// # Errors
-    /// [`lumencut_core::error::ErrorKind::Interrupted`].
-    pub fn candidates(&self) -> Result<Vec<Candidate>> {
-        candidates(self.pyramid, &self.looked_at, &self.floors, self.stop, self.stages)
+    pub(crate) fn candidates(&self) -> Result<Vec<Candidate>> {
+        candidates(self.pyramid, &self.levels_examined, &self.floors, self.stop, self.stages)
     }
 
-    /// The side of the finest voxels that are looked at.
     fn side(&self) -> f64 {
-        self.pyramid.levels[self.looked_at.start].side
+        self.pyramid.levels[self.levels_examined.start].side
     }
 
-    /// The tracks, in voxels of the finest level. Candidates are tracked in batches, each as if it were alone; they are painted in
-    /// their order, and who runs into what was painted meanwhile is tracked anew. So threads change nothing.
-    ///
-    /// # Errors
-    /// [`lumencut_core::error::ErrorKind::Interrupted`].
-    pub fn tracks(&self, candidates: &[Candidate]) -> Result<Vec<Track>> {
+    /// Tracks in finest voxels. Candidates are tracked in independent batches and painted in order; those
+    /// that meet new paint are tracked again, so the result does not depend on threads.
+    pub(crate) fn tracks(&self, candidates: &[Candidate]) -> Result<Vec<Track>> {
         self.tracks_beside(&[], candidates)
     }
 
-    /// The same, where some tracks are known already: those that are found besides.
-    ///
-    /// # Errors
-    /// [`lumencut_core::error::ErrorKind::Interrupted`].
-    pub fn tracks_beside(&self, known: &[Track], candidates: &[Candidate]) -> Result<Vec<Track>> {
+    pub(crate) fn tracks_beside(&self, known: &[Track], candidates: &[Candidate]) -> Result<Vec<Track>> {
         let Known { mut paint, mut found, mut levels } = self.known(known);
         let (mut next, mut waiting) = (0, VecDeque::new());
         let pieces = self.stages.stage(Stage::Tracks, candidates.len());
         while next < candidates.len() || !waiting.is_empty() {
             go_on(self.stop)?;
-            let Batch { candidates: batch, looked_at } =
+            let Batch { candidates: batch, levels_examined } =
                 self.batch(&paint, &levels, &candidates[next..], &mut waiting);
-            next += looked_at;
+            next += levels_examined;
             let tried: Vec<Tried> =
                 batch.par_iter().map(|candidate| self.tried(&paint, &levels, candidate)).collect();
             let before = found.len();
@@ -141,18 +113,16 @@ impl Tracking<'_> {
                 };
                 self.commit(tried, &mut paint, &mut found, &mut levels);
             }
-            pieces.done(looked_at);
+            pieces.done(levels_examined);
         }
         found.drain(..known.len());
         Ok(found)
     }
 
-    /// The lumens of some tracks.
-    pub fn painted(&self, tracks: &[Track]) -> Paint {
+    pub(crate) fn painted(&self, tracks: &[Track]) -> Paint {
         self.known(tracks).paint
     }
 
-    /// What is known where some tracks are.
     fn known(&self, tracks: &[Track]) -> Known {
         let mut known = Known { paint: Paint::default(), found: Vec::new(), levels: Vec::new() };
         for track in tracks {
@@ -161,8 +131,7 @@ impl Tracking<'_> {
         known
     }
 
-    /// The next candidates that are tried beside each other: those that wait, then others. Who lies near one of them waits, as it
-    /// may well lie in the same tube.
+    /// Next independent candidates. Those near another one wait, because they may lie in the same tube.
     fn batch(
         &self,
         paint: &Paint,
@@ -170,7 +139,7 @@ impl Tracking<'_> {
         others: &[Candidate],
         waiting: &mut VecDeque<Candidate>,
     ) -> Batch {
-        let mut batch = Batch { candidates: Vec::with_capacity(BATCH), looked_at: 0 };
+        let mut batch = Batch { candidates: Vec::with_capacity(BATCH), levels_examined: 0 };
         let mut still = VecDeque::new();
         let mut take = |batch: &mut Batch, candidate: Candidate| {
             let is_near = |other: &Candidate| {
@@ -191,9 +160,9 @@ impl Tracking<'_> {
         {
             take(&mut batch, candidate);
         }
-        while batch.candidates.len() < BATCH && batch.looked_at < others.len().min(MOST_LOOKED_AT) {
-            let candidate = others[batch.looked_at];
-            batch.looked_at += 1;
+        while batch.candidates.len() < BATCH && batch.levels_examined < others.len().min(MAX_EXAMINED) {
+            let candidate = others[batch.levels_examined];
+            batch.levels_examined += 1;
             take(&mut batch, candidate);
         }
         still.append(waiting);
@@ -201,13 +170,14 @@ impl Tracking<'_> {
         batch
     }
 
-    /// Whether a candidate is tried: nothing is painted there, or a darker and narrower lumen.
+    /// Whether nothing is painted there, or a darker lumen around a narrow candidate.
     fn is_open(&self, paint: &Paint, levels: &[f64], candidate: &Candidate) -> bool {
         match paint.at(candidate.place) {
             Painted::Empty => true,
             Painted::Rejected => false,
             Painted::Lumen(track) => {
-                let level = self.pyramid.level_for(candidate.radius, &self.looked_at).at(candidate.place);
+                let level =
+                    self.pyramid.level_for(candidate.radius, &self.levels_examined).at(candidate.place);
                 let contrast = candidate.response;
                 let is_darker = levels[track as usize] < f64::from(level) - DARKER * contrast;
                 is_darker
@@ -217,15 +187,14 @@ impl Tracking<'_> {
         }
     }
 
-    /// What becomes of a candidate.
     fn tried(&self, paint: &Paint, levels: &[f64], candidate: &Candidate) -> Tried {
-        let (looked_at, floors) = (self.looked_at.clone(), self.floors);
-        let tracker = Tracker { pyramid: self.pyramid, looked_at, paint, levels, floors };
-        // Most candidates are no vessel, which their first steps show.
+        let (levels_examined, floors) = (self.levels_examined.clone(), self.floors);
+        let tracker = Tracker { pyramid: self.pyramid, levels_examined, paint, levels, floors };
+        // The first steps reveal most non-vessels.
         let Some(points) = tracker.track(candidate, FIRST_STEPS) else { return Tried::Nothing };
         let Some(first) = self.kept(&points, LEAST_OF_FIRST) else { return Tried::Rejected(points) };
         if points.len() <= FIRST_STEPS {
-            // It ended both ways before so many steps: it is whole.
+            // It ended early, so it is complete.
             let is_sure = first.confidence >= LEAST_CONFIDENCE;
             return if is_sure { Tried::Kept(first) } else { Tried::Rejected(points) };
         }
@@ -233,7 +202,7 @@ impl Tracking<'_> {
         self.kept(&points, 1.0).map_or(Tried::Rejected(points), Tried::Kept)
     }
 
-    /// The track of some points, where they are long enough, good, and sure: as sure as `share` of what is asked of a whole track.
+    /// The track, if long, good and confident enough (`share` of the usual minimum).
     fn kept(&self, points: &[TrackPoint], share: f64) -> Option<Track> {
         let radius = usual(points, |point| point.radius);
         let good = points.iter().filter(|point| point.is_good).count() as f64;
@@ -246,7 +215,7 @@ impl Tracking<'_> {
         (track.confidence >= share * LEAST_CONFIDENCE).then_some(track)
     }
 
-    /// Paints a track and keeps it, or paints the middle of what is no vessel.
+    /// Paints a track and stores it, or paints the centre of a rejected one.
     fn commit(&self, tried: Tried, paint: &mut Paint, found: &mut Vec<Track>, levels: &mut Vec<f64>) {
         match tried {
             Tried::Nothing => (),
@@ -270,17 +239,15 @@ impl Tracking<'_> {
     }
 }
 
-/// How far from its middle a track is painted.
 fn painted(radius: f64) -> f64 {
     radius
         * match () {
-            () if radius < NARROW => PAINTED[0],
-            () if radius >= WIDE => PAINTED[1],
+            () if radius < NARROW_RADIUS => PAINTED[0],
+            () if radius >= WIDE_RADIUS => PAINTED[1],
             () => PAINTED[2],
         }
 }
 
-/// Whether a track lies in the lumen of one that was found after the first `known` ones.
 fn meets_new(paint: &Paint, known: usize, tried: &Tried) -> bool {
     let points = match tried {
         Tried::Nothing => return false,

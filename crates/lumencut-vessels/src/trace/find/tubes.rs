@@ -1,4 +1,4 @@
-//! The tubes of a scan: in a first pass those that tell the usual level of its vessels, in a second one all of them.
+//! Finds the tubes of a scan: a first pass estimates the vessel level, a second finds all.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -21,36 +21,29 @@ use crate::voxels::Voxels;
 use lumencut_core::error::Result;
 use lumencut_core::stop::Stop;
 
-/// In scans with values below the first one those below the second one tell nothing of vessels: fat, lung and air (HU).
+/// Scans with values below the first limit (HU) are clamped at the second: fat, lung and air.
 const AIR: f64 = -200.0;
 const WATER: f64 = 0.0;
 
-/// The share of the voxels that is not brighter than what is looked at in the first pass, and about how many are looked at for it.
+/// Upper clamp of the first pass (quantile), and number of samples for it.
 const BRIGHTEST: f64 = 0.999;
 const SAMPLES: usize = 400_000;
 
-/// In the second pass nothing is brighter than the usual level by more than this part of the contrast: struts, calcium and bone
-/// are no brighter than a vessel can be.
+/// Upper clamp of the second pass above the vessel level (share), against struts, calcium and bone.
 const ABOVE: f64 = 0.25;
 
-/// In the first pass the usual contrast is taken to be this part of the range of values.
+/// Assumed contrast of the first pass, as a share of the value range.
 const FIRST_CONTRAST: f64 = 0.3;
 
-/// The tubes of a scan, and what is known of its vessels.
-pub struct Tubes<'v> {
-    /// What is known of the scan.
+pub(crate) struct Tubes<'v> {
     pub scan: Scan<'v>,
-    /// Its tubes as tracks.
     pub tracks: Vec<Track>,
-    /// What the raw voxels show of each.
+    /// Raw-voxel properties of each track.
     pub shapes: Vec<Option<Shape>>,
 }
 
-/// The tubes of a scan; none where nothing is a tube. Around a seed (mm, LPS) that lies in none of them fainter ones are looked for.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn tubes<'v>(
+/// None if there is no tube. Around a seed (mm, LPS) in no track, fainter tubes are found too.
+pub(crate) fn tubes<'v>(
     voxels: &'v Voxels<'v>,
     seed: Option<DVec3>,
     request: &FindRequest,
@@ -75,11 +68,12 @@ pub fn tubes<'v>(
         let (confidence, doubt) = confidence(&pyramid, voxels, &points, &vessels);
         Track { points, confidence, doubt }
     };
-    let pass = Tracking { pyramid: &pyramid, looked_at: pyramid.all(), floors, stop, judge: &judge, stages };
+    let pass =
+        Tracking { pyramid: &pyramid, levels_examined: pyramid.all(), floors, stop, judge: &judge, stages };
     of_pass(&pass, scan, seed.map(|seed| pyramid.grid.grid_from_world.transform_point3(seed))).map(Some)
 }
 
-/// The tubes that a pass finds, around a seed (voxels of the finest level) fainter ones too.
+/// Tubes of the second pass; `seed` in finest voxels.
 fn of_pass<'v>(pass: &Tracking, scan: Scan<'v>, seed: Option<DVec3>) -> Result<Tubes<'v>> {
     let candidates = pass.candidates()?;
     let mut tracks = pass.tracks(&candidates)?;
@@ -100,7 +94,6 @@ fn of_pass<'v>(pass: &Tracking, scan: Scan<'v>, seed: Option<DVec3>) -> Result<T
 }
 
 impl Tubes<'_> {
-    /// Adds tracks of a pass.
     fn add(&mut self, pass: &Tracking, tracks: &[Track], stages: Stages) -> Result<()> {
         let tracks: Vec<Track> =
             tracks.iter().map(|track| in_world(&pass.pyramid.grid, track.clone())).collect();
@@ -110,15 +103,12 @@ impl Tubes<'_> {
     }
 }
 
-/// The values that tell something of vessels.
 struct Range {
-    /// The least and the greatest one.
     values: [f64; 2],
-    /// Whether they are Hounsfield units: there are values of air.
+    /// Whether there are values of air.
     is_hounsfield: bool,
 }
 
-/// The range of values that tell something of vessels.
 fn range(voxels: &Voxels) -> Range {
     let count: usize = voxels.size.iter().product();
     let step = count.div_ceil(SAMPLES) | 1;
@@ -138,20 +128,19 @@ fn range(voxels: &Voxels) -> Range {
     Range { values: [if is_hounsfield { WATER } else { lowest }, highest], is_hounsfield }
 }
 
-/// The usual level and contrast of the vessels, from the tubes at half the resolution.
 fn usual(pyramid: &Pyramid, range: f64, stop: Stop) -> Result<Option<[f64; 2]>> {
     let first = usize::from(pyramid.levels.len() > 1);
     let noise = noise(&pyramid.levels[first]);
     let floors = Floors { noise, contrast: FIRST_CONTRAST * range };
     let judge = |points: Vec<TrackPoint>| Track { points, confidence: 1.0, doubt: None };
-    let looked_at = first..pyramid.levels.len();
-    let pass = Tracking { pyramid, looked_at, floors, stop, judge: &judge, stages: Stages::default() };
+    let levels_examined = first..pyramid.levels.len();
+    let pass = Tracking { pyramid, levels_examined, floors, stop, judge: &judge, stages: Stages::default() };
     let found = pass.tracks(&pass.candidates()?)?;
     let tracks: Vec<Vec<TrackPoint>> = found.into_iter().map(|track| track.points).collect();
     Ok(vessel_level(&tracks, noise))
 }
 
-/// A track whose lengths are mm and whose places are those of the world.
+/// Converts finest voxels to mm and world positions.
 fn in_world(grid: &Grid, mut track: Track) -> Track {
     for point in &mut track.points {
         point.place = grid.world(point.place);

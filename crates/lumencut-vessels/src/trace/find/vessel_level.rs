@@ -1,21 +1,20 @@
-//! The usual level and contrast of the vessels of a scan, from tubes that are found without knowing it.
+//! Estimates the typical level and contrast of vessels from tubes.
 
 use crate::trace::find::track::{TrackPoint, length, usual};
 
-/// Tubes that tell the level: at least so wide (voxels of the finest level), so closed, with a contrast of so many times the noise,
-/// and so many radii long. Where there is none such, the narrower and shorter ones tell it.
+/// Requirements of a tube: radius (finest voxels), closure, contrast in multiples of the noise, length in
+/// radii. Without such tubes, others are used.
 const LEAST_RADIUS: f64 = 2.0;
 const LEAST_CLOSURE: f64 = 0.85;
 const NOISES: f64 = 6.0;
 const LEAST_LENGTH: f64 = 4.0;
 
-/// Levels are alike within this part of the contrast.
+/// Similar levels differ by this share of the contrast.
 const KERNEL: f64 = 0.2;
 
-/// Tubes wider than this count no more (voxels of the finest level).
+/// Maximum radius in the weight (finest voxels).
 const WIDEST: f64 = 10.0;
 
-/// A tube as it tells the level.
 #[derive(Clone, Copy, Debug)]
 struct Tube {
     level: f64,
@@ -23,9 +22,8 @@ struct Tube {
     weight: f64,
 }
 
-/// The usual level of vessels and their contrast: the most frequent ones of the tubes, by length, width and contrast. None
-/// without tubes.
-pub fn vessel_level(tracks: &[Vec<TrackPoint>], noise: f64) -> Option<[f64; 2]> {
+/// Most frequent level and contrast, weighted by length, width and contrast; None without tubes.
+pub(crate) fn vessel_level(tracks: &[Vec<TrackPoint>], noise: f64) -> Option<[f64; 2]> {
     let strict: Vec<Tube> = tracks.iter().filter_map(|points| tube(points, noise, true)).collect();
     let tubes = if strict.is_empty() {
         tracks.iter().filter_map(|points| tube(points, noise, false)).collect()
@@ -48,7 +46,7 @@ pub fn vessel_level(tracks: &[Vec<TrackPoint>], noise: f64) -> Option<[f64; 2]> 
     Some([mean(|tube| tube.level), mean(|tube| tube.contrast)])
 }
 
-/// What the points of a track tell of the level; none where they are too short, narrow or open for it.
+/// None if the track is too short, narrow or open.
 fn tube(points: &[TrackPoint], noise: f64, is_strict: bool) -> Option<Tube> {
     let good = || points.iter().filter(|point| point.is_good);
     good().next()?;

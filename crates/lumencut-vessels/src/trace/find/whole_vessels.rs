@@ -1,19 +1,19 @@
-//! From linked tracks to whole vessels, from the root outwards, in parts that are ranked.
+//! Turns linked tracks into whole vessels from the root outwards, in ranked parts.
 //!
-//! Tracks and links are a graph. From the root of each part runs go on with what is straightest and widest; each moves to the
-//! middle of its lumen, and begins and ends on points of the runs that it meets.
+//! Tracks and links form a graph. From each root, runs follow the straightest and widest edges, are centred,
+//! and start and end on points of the runs they meet.
 
-pub mod attached;
-pub mod centered;
-pub mod closed;
-pub mod graph;
-pub mod outlook;
-pub mod roots;
-pub mod runs;
-pub mod stubs;
-pub mod sure;
-pub mod trimmed;
-pub mod way;
+pub(crate) mod attached;
+pub(crate) mod centered;
+pub(crate) mod closed;
+pub(crate) mod graph;
+pub(crate) mod outlook;
+pub(crate) mod roots;
+pub(crate) mod runs;
+pub(crate) mod stubs;
+pub(crate) mod sure;
+pub(crate) mod trimmed;
+pub(crate) mod way;
 
 use rayon::prelude::*;
 
@@ -34,11 +34,7 @@ use crate::trace::find::whole_vessels::trimmed::trimmed;
 use lumencut_core::error::Result;
 use lumencut_core::stop::go_on;
 
-/// The vessels of linked tracks.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn of(
+pub(crate) fn of(
     scan: &Scan,
     tracks: &[Track],
     links: &[Link],
@@ -71,7 +67,7 @@ pub fn of(
         let rank = part_of_root[of_node[run.knots[0].0]];
         stays[rank].extend(line.iter().map(|line| &line.points));
     }
-    // Parts of which nothing stays have no number.
+    // Empty parts get no number.
     stays.retain(|lines| !lines.is_empty());
     let lines = stays.iter().enumerate().flat_map(|(part, lines)| lines.iter().map(move |line| (part, line)));
     Ok(lines.flat_map(|(part, line)| sure::vessels(tracks, line, part)).collect())

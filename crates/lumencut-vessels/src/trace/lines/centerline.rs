@@ -1,22 +1,22 @@
-//! A centerline with its radii, and how sure each of its points is.
+//! A centerline with radii and confidence per point.
 
 use glam::DVec3;
 
 use crate::trace::lines::even_steps::even_places;
 
-/// A centerline, and what is known at each of its points.
+/// A centerline with values per point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Centerline {
-    /// The points (mm, LPS).
+    /// Points (mm, LPS).
     pub points: Vec<DVec3>,
-    /// The radius of the lumen (mm).
+    /// Lumen radius (mm).
     pub radius: Vec<f64>,
-    /// How sure the point is, 0 to 1.
+    /// Confidence, 0 to 1.
     pub confidence: Vec<f64>,
 }
 
 impl Centerline {
-    /// The same line in even steps of at most `step` (mm); its ends stay to the bit.
+    /// Resamples in even steps of at most `step` mm; the ends stay equal to the bit.
     pub fn resampled(&self, step: f64) -> Self {
         let places = even_places(&self.points, step);
         let between = |values: &[f64]| places.iter().map(|place| place.value(values)).collect();
@@ -26,7 +26,7 @@ impl Centerline {
         Self { points, radius: between(&self.radius), confidence: between(&self.confidence) }
     }
 
-    /// The same line from its end to its start.
+    /// Reverses the direction.
     #[must_use]
     pub fn reversed(mut self) -> Self {
         self.points.reverse();
@@ -35,7 +35,7 @@ impl Centerline {
         self
     }
 
-    /// Goes on with the points of another line.
+    /// Appends another line.
     pub fn append(&mut self, mut other: Self) {
         self.points.append(&mut other.points);
         self.radius.append(&mut other.radius);

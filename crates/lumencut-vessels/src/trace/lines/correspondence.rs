@@ -1,28 +1,23 @@
-//! Which points of two centerlines belong together: the cheapest connections from their starts to their ends.
+//! Finds corresponding points of two centerlines.
 //!
 //! Schaap et al., "Standardized evaluation methodology and reference database for evaluating coronary artery
 //! centerline extraction algorithms", Medical Image Analysis 13(5), 2009, doi:10.1016/j.media.2009.06.003. A
-//! connection joins one point of each line. The first joins both starts and the last both ends; from one to the next
-//! either line advances by one point, never both. Of all such chains the one whose connections have the smallest sum
-//! of lengths is wanted. The order of the steps makes dynamic programming find what Dijkstra's search finds.
+//! connection joins one point of each line, from both starts to both ends; each step advances one line by one
+//! point. The chain with the smallest sum of lengths is found by dynamic programming.
 
 use glam::DVec3;
 
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::stop::{Stop, go_on};
 
-/// The most pairs of points that are compared; one bit is kept for each, 512 MiB in all.
-/// Machines of 32 bits can count them.
+/// Maximum number of point pairs: one bit each, 512 MiB in all; countable on 32-bit machines.
 const MOST_PAIRS: usize = usize::MAX >> (usize::BITS - 32);
 
-/// After how many pairs the caller is asked whether to stop.
+/// Pairs between two checks of `stop`.
 const PAIRS_BETWEEN_STOPS: usize = 1 << 24;
 
-/// The connections between two lines as indices of their points, from the starts to the ends.
-///
-/// # Errors
-/// [`ErrorKind::VesselTree`] for a line without points, or lines with too many of them;
-/// [`ErrorKind::Interrupted`] where `stop` says so.
+/// Connections between two lines as point indices, from the starts to the ends. Errors:
+/// [`ErrorKind::VesselTree`] for a line without points or too many pairs; [`ErrorKind::Interrupted`].
 pub fn correspondence(first: &[DVec3], second: &[DVec3], stop: Stop) -> Result<Vec<[usize; 2]>> {
     let (rows, columns) = (first.len(), second.len());
     if rows == 0 || columns == 0 || rows.saturating_mul(columns) > MOST_PAIRS {
@@ -35,7 +30,6 @@ pub fn correspondence(first: &[DVec3], second: &[DVec3], stop: Stop) -> Result<V
     Ok(walked_back(&steps, rows, columns))
 }
 
-/// One bit for each pair of points: whether the first line advanced to reach it.
 struct Steps {
     bits: Vec<u64>,
     columns: usize,
@@ -53,7 +47,7 @@ impl Steps {
     }
 }
 
-/// How each pair of points is reached at the smallest sum of lengths; of equal sums the first line advances.
+/// On equal sums the first line advances.
 fn cheapest_steps(first: &[DVec3], second: &[DVec3], stop: Stop) -> Result<Steps> {
     let columns = second.len();
     let mut steps = Steps { bits: vec![0; (first.len() * columns).div_ceil(64)], columns };

@@ -1,10 +1,10 @@
-//! The directions of a line at its points.
+//! Directions of a line at its points.
 
 use glam::DVec3;
 
 use lumencut_core::math::arc_length::{arc_lengths, point_at};
 
-/// The direction of the line at each point: that from the first to the last of its points up to `reach` (mm) before and after.
+/// Direction at each point, from the first to the last point within `reach` mm.
 pub fn point_directions(points: &[DVec3], reach: f64) -> Vec<DVec3> {
     let lengths = arc_lengths(points);
     let last = points.len() - 1;
@@ -19,8 +19,8 @@ pub fn point_directions(points: &[DVec3], reach: f64) -> Vec<DVec3> {
     found
 }
 
-/// The direction of the line at each point: that of the chord from `reach` (mm) before it to as much after it, between the
-/// points of the line. A closed line, whose last point is its first one, goes on beyond both.
+/// Direction at each point: the chord from `reach` mm before to `reach` mm after, interpolated between
+/// points. A closed line (last point equals the first) wraps around.
 pub fn chord_directions(points: &[DVec3], reach: &[f64], is_closed: bool) -> Vec<DVec3> {
     let ways = arc_lengths(points);
     let whole = ways[ways.len() - 1];

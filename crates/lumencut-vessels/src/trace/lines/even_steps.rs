@@ -1,29 +1,28 @@
-//! Points at even steps along a line: straight between its points, or on a smooth curve through them.
+//! Points at even steps along a line: straight between its points, or on a smooth curve.
 
 use glam::DVec3;
 
 use lumencut_core::math::arc_length::{LinePlace, arc_lengths, point_at};
 
-/// A share of a step that rounding can make: it adds no point.
+/// Share of a step that rounding may cause; adds no point.
 const TINY: f64 = 1e-6;
 
-/// The places at even steps of at most `step` (mm) along a line, from its start to its end: at least two.
-pub fn even_places(points: &[DVec3], step: f64) -> Vec<LinePlace> {
+/// Positions at even steps of at most `step` mm from start to end, at least two.
+pub(crate) fn even_places(points: &[DVec3], step: f64) -> Vec<LinePlace> {
     let lengths = arc_lengths(points);
     let total = lengths[lengths.len() - 1];
     let parts = (total / step).ceil().max(1.0) as usize;
     (0..=parts).map(|n| LinePlace::at(&lengths, total * n as f64 / parts as f64)).collect()
 }
 
-/// The same line in even steps of at most `step` (mm), straight between its points: at least two points.
+/// The line in even steps of at most `step` mm, straight between its points; at least two points.
 pub fn in_even_steps(points: &[DVec3], step: f64) -> Vec<DVec3> {
     even_places(points, step).into_iter().map(|place| place.point(points)).collect()
 }
 
-/// The points of a smooth curve through `points` at equal distances of at most `step` (mm), with both ends as they are.
+/// A smooth curve through `points` in even steps of at most `step` mm, with both ends kept.
 ///
-/// Between two points the curve is a cubic whose slopes are those of the circles, nearly, through three neighbours
-/// (Catmull-Rom with its parameter along the line).
+/// Catmull-Rom by arc length: the slopes are nearly those of circles through three neighbours.
 pub fn curve_in_even_steps(points: &[DVec3], step: f64) -> Vec<DVec3> {
     let mut fine = vec![points[0]];
     for n in 1..points.len() {
@@ -43,7 +42,7 @@ pub fn curve_in_even_steps(points: &[DVec3], step: f64) -> Vec<DVec3> {
     made
 }
 
-/// The curve between point `n` - 1 and point `n`.
+/// The curve between points `n` - 1 and `n`.
 fn curve(points: &[DVec3], n: usize, t: f64) -> DVec3 {
     let [a, b] = [points[n - 1], points[n]];
     if t >= 1.0 {

@@ -1,4 +1,4 @@
-//! Two directions across a line at each of its points.
+//! Frames across a line.
 
 use glam::DVec3;
 

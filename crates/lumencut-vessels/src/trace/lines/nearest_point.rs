@@ -1,8 +1,8 @@
-//! The point of a line nearest to a place.
+//! The nearest point of a line.
 
 use glam::DVec3;
 
-/// The number of the point of a line that is nearest to a place, the first of several; 0 for a line without points.
+/// Index of the point nearest to a position, the first of several; 0 for an empty line.
 pub fn nearest_point(points: &[DVec3], place: DVec3) -> usize {
     let distance = |i: &usize| points[*i].distance_squared(place);
     (0..points.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0)

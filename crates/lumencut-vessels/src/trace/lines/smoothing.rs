@@ -4,12 +4,11 @@ use glam::DVec3;
 
 use lumencut_core::math::arc_length::arc_lengths;
 
-/// How many standard deviations a Gaussian reaches.
-const REACH: f64 = 3.0;
+/// Cut-off of the Gaussian in standard deviations.
+const CUTOFF_SIGMAS: f64 = 3.0;
 
-/// Values along a line, smoothed: at each place the parabola that fits best to those around it, which count by their
-/// weights and by a Gaussian of `width` (mm). Unlike an average it does not cut bends. Where next to nothing counts the
-/// values stay.
+/// Smooths by local parabolas weighted by `weights` and a Gaussian of `width` mm. Unlike an average this does
+/// not cut bends. Values with almost no weight stay unchanged.
 pub fn smoothed_by_parabolas<const N: usize>(
     lengths: &[f64],
     values: &[[f64; N]],
@@ -19,8 +18,8 @@ pub fn smoothed_by_parabolas<const N: usize>(
     (0..values.len())
         .map(|i| {
             let width = width(i);
-            let first = lengths.partition_point(|l| *l < lengths[i] - REACH * width);
-            let end = lengths.partition_point(|l| *l <= lengths[i] + REACH * width);
+            let first = lengths.partition_point(|l| *l < lengths[i] - CUTOFF_SIGMAS * width);
+            let end = lengths.partition_point(|l| *l <= lengths[i] + CUTOFF_SIGMAS * width);
             let mut fit = Parabola::<N>::default();
             for j in first..end {
                 let s = (lengths[j] - lengths[i]) / width;
@@ -31,7 +30,6 @@ pub fn smoothed_by_parabolas<const N: usize>(
         .collect()
 }
 
-/// Sums of a weighted fit of a parabola to N values.
 struct Parabola<const N: usize> {
     powers: [f64; 5],
     values: [[f64; N]; 3],
@@ -57,7 +55,7 @@ impl<const N: usize> Parabola<N> {
         }
     }
 
-    /// The parabola at 0; none where too few values count.
+    /// Value at 0; None if the weight is too small.
     fn middle(&self) -> Option<[f64; N]> {
         let [m0, m1, m2, m3, m4] = self.powers;
         if m0 < 0.3 {
@@ -65,7 +63,7 @@ impl<const N: usize> Parabola<N> {
         }
         let matrix =
             glam::DMat3::from_cols(DVec3::new(m0, m1, m2), DVec3::new(m1, m2, m3), DVec3::new(m2, m3, m4));
-        // Values on one side alone tell too little of a bend.
+        // Values on one side only do not define a bend.
         if matrix.determinant() < 1e-2 * m0 * m0 * m0 {
             return None;
         }
@@ -74,8 +72,8 @@ impl<const N: usize> Parabola<N> {
     }
 }
 
-/// The points smoothed along the line by a Gaussian whose standard deviation at each point is `sigma` (mm), or a third of the
-/// way to the nearer end where that is less: ends stay. A closed line, whose last point is its first one, has no ends.
+/// Smooths points by a Gaussian of standard deviation `sigma` mm, or a third of the distance to the nearer
+/// end if less, so ends stay. A closed line (last point equals the first) has no ends.
 pub fn smoothed_by_gaussian(points: &[DVec3], sigma: &[f64], is_closed: bool) -> Vec<DVec3> {
     let ways = arc_lengths(points);
     let whole = ways[ways.len() - 1];
@@ -83,7 +81,7 @@ pub fn smoothed_by_gaussian(points: &[DVec3], sigma: &[f64], is_closed: bool) ->
     let mut made: Vec<DVec3> = (0..count)
         .map(|n| {
             let to_end = ways[n].min(whole - ways[n]);
-            let most = if is_closed { whole / 6.0 } else { to_end / REACH };
+            let most = if is_closed { whole / 6.0 } else { to_end / CUTOFF_SIGMAS };
             let sigma = sigma[n].min(most);
             if sigma <= 0.0 {
                 return points[n];
@@ -91,13 +89,13 @@ pub fn smoothed_by_gaussian(points: &[DVec3], sigma: &[f64], is_closed: bool) ->
             let (mut sum, mut weights) = (DVec3::ZERO, 0.0);
             for turn in if is_closed { -1..=1 } else { 0..=0 } {
                 let center = ways[n] - f64::from(turn) * whole;
-                let first = ways.partition_point(|way| *way < center - REACH * sigma);
+                let first = ways.partition_point(|way| *way < center - CUTOFF_SIGMAS * sigma);
                 for m in first..count {
                     let away = (ways[m] - center) / sigma;
-                    if away > REACH {
+                    if away > CUTOFF_SIGMAS {
                         break;
                     }
-                    // A point stands for half the way to each of its neighbours.
+                    // Each point represents half of the distance between its neighbours.
                     let share = (ways[(m + 1).min(count - 1)] - ways[m.saturating_sub(1)]) / 2.0;
                     let weight = share * (-away * away / 2.0).exp();
                     sum += weight * points[m];

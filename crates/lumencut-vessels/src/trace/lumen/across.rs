@@ -1,4 +1,4 @@
-//! Whether the way between two clicks runs across a lumen and not along it.
+//! Whether the path between two clicks runs across a lumen instead of along it.
 
 use glam::DVec3;
 
@@ -6,19 +6,18 @@ use crate::trace::lumen::directions::half_sphere;
 use crate::trace::lumen::own_axis::{DIRECTIONS, OwnLumen};
 use crate::voxels::Voxels;
 
-/// A way runs across where the lumen reaches at most this many times its width along it, and less than this part of its length.
+/// A path runs across if its lumen is at most this many widths and less than this share of the length.
 const MOST_WIDTHS: f64 = 1.3;
 const LEAST_SHARE: f64 = 0.6;
 
-/// How far is looked on each side: along the way (mm), and elsewhere in what the lumen reaches along it.
-const REACH: f64 = 60.0;
+/// Search distance on each side: along the path (mm), and elsewhere in lengths along it.
+const SEARCH_MM: f64 = 60.0;
 const REACH_WIDTHS: f64 = 3.0;
 
-/// Whether the straight way between two clicks (mm, LPS) lies within one lumen and runs across it: the lumen reaches hardly farther
-/// along it than where it is narrowest, and much farther in another direction.
+/// Whether the straight path between two clicks (mm, LPS) lies within one lumen and runs across it.
 pub fn runs_across(voxels: &Voxels, [from, to]: [DVec3; 2]) -> bool {
     let lumen = OwnLumen::around(voxels, from.midpoint(to));
-    let along = lumen.extent((to - from).normalize_or_zero(), REACH);
+    let along = lumen.extent((to - from).normalize_or_zero(), SEARCH_MM);
     if along < from.distance(to) {
         return false;
     }

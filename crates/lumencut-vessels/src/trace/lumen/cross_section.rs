@@ -1,4 +1,4 @@
-//! The lumen in a plane across the line: where it ends along rays, and the circle that fits best.
+//! The lumen in a plane across the line: wall along rays, and the best circle.
 
 use std::f64::consts::TAU;
 
@@ -8,48 +8,46 @@ use crate::trace::lumen::lumen_model::LumenModel;
 use crate::trace::lumen::ray::Ray;
 use crate::voxels::Voxels;
 
-/// How far beyond the wall its outside is looked for (mm).
+/// Search distance beyond the wall for the outside value (mm).
 const OUTSIDE: f64 = 1.5;
 
-/// The widest lumen (mm from a point within it to the wall).
+/// Maximum radius of a lumen (mm).
 pub const WIDEST: f64 = 45.0;
 
-/// The smaller eigenvalue of the directions in which the wall was seen: at most the first where it was seen on two sides
-/// alone, about the second where a quarter is missing.
+/// Smaller eigenvalue of the wall directions if the wall shows on two sides only, and if a quarter lacks.
 const TWO_SIDED: f64 = 0.25;
 const ROUND: f64 = 0.38;
 
-/// At least this share of the rays must meet a wall.
+/// Minimum share of rays that meet a wall.
 const LEAST_SEEN: f64 = 0.375;
 
-/// The lumen around a point of the line.
+/// The lumen around a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LumenSection {
-    /// The middle of the lumen (mm, LPS).
+    /// Centre (mm, LPS).
     pub center: DVec3,
-    /// Its radius (mm).
+    /// Radius (mm).
     pub radius: f64,
-    /// How well it was seen, 0 to 1.
-    pub trust: f64,
-    /// The median of the values in its middle.
+    /// Quality, 0 to 1.
+    pub(crate) trust: f64,
+    /// Median value near the centre.
     pub value: f64,
-    /// The share of the walls seen that are brighter than the lumen, as bone and stents are.
+    /// Share of walls brighter than the lumen, such as bone and stents.
     pub bright: f64,
 }
 
-/// What a cross-section is looked at with.
+/// Volume and model for cross-sections.
 pub struct Probe<'a, 'v> {
     /// The volume.
     pub voxels: &'a Voxels<'v>,
-    /// What lumen looks like.
+    /// The lumen model.
     pub model: &'a LumenModel,
-    /// The number of rays of a cross-section.
+    /// Number of rays.
     pub rays: usize,
 }
 
 impl Probe<'_, '_> {
-    /// The lumen around `center` in the plane of two directions; `guess` is about its radius (mm) where that is known.
-    /// None where there is no lumen to be seen.
+    /// Lumen around `center` in the plane of two directions; `guess` is about its radius (mm).
     pub fn look(&self, center: DVec3, across: [DVec3; 2], guess: Option<f64>) -> Option<LumenSection> {
         let step = self.step(guess);
         let lumen = self.local_lumen(center, across, guess)?;
@@ -68,8 +66,8 @@ impl Probe<'_, '_> {
             return None;
         }
         let circle = Circle::around(&wall);
-        let rough = circle.spread / circle.radius;
-        let trust = seen * (-(rough / 0.25).powi(2)).exp() * circle.roundness(&wall);
+        let roughness = circle.spread / circle.radius;
+        let trust = seen * (-(roughness / 0.25).powi(2)).exp() * circle.roundness(&wall);
         let [x, y] = circle.center;
         let is_odd = !(trust > 0.0 && circle.radius > 0.0) || x.hypot(y) > reach;
         (!is_odd).then(|| LumenSection {
@@ -81,20 +79,19 @@ impl Probe<'_, '_> {
         })
     }
 
-    /// How far the walls on both sides of a place lie apart along a direction (mm), each at most `reach` away; none where one is not seen.
+    /// Wall-to-wall distance along a direction (mm), at most `reach` per side; None if a wall is missing.
     pub fn chord(&self, place: DVec3, direction: DVec3, reach: f64) -> Option<f64> {
         let lumen = f64::from(self.voxels.at(place));
         let side = |way| self.wall(place, way, lumen, self.step(None), reach).map(|(length, _)| length);
         Some(side(direction)? + side(-direction)?)
     }
 
-    /// The distance of samples along a ray (mm).
     fn step(&self, guess: Option<f64>) -> f64 {
         let fine = 0.3 * self.voxels.smallest_side;
         guess.map_or(fine.max(0.15), |radius| fine.max(radius / 40.0)).clamp(0.03, 0.5)
     }
 
-    /// The median of the lumen near a point; none where that is no lumen.
+    /// Local lumen value; None outside lumen.
     fn local_lumen(&self, center: DVec3, across: [DVec3; 2], guess: Option<f64>) -> Option<f64> {
         let near = guess.map_or(0.0, |radius| 0.35 * radius).max(0.35 * self.voxels.smallest_side);
         let mut values = vec![self.voxels.at(center)];
@@ -110,8 +107,7 @@ impl Probe<'_, '_> {
         is_lumen.then_some(f64::from(median))
     }
 
-    /// The distance to the wall along a ray, and whether that is brighter than the lumen: where the value is half way
-    /// between the lumen here and what lies outside, be that darker or brighter.
+    /// Distance to the wall (midway between lumen and outside) and whether that is brighter.
     fn wall(
         &self,
         center: DVec3,
@@ -126,7 +122,7 @@ impl Probe<'_, '_> {
         let contrast = lumen - self.model.tissue;
         let dark = lumen - 0.5 * contrast;
         let bright = lumen + (0.5 * contrast).max(4.0 * self.model.noise);
-        // The ray has left the lumen where two samples say so; beyond the volume there is none.
+        // Two samples are needed to leave the lumen; NaN outside the volume counts as having left.
         let leaves = |v: f64| !(v >= dark && v <= bright);
         let last = (reach / step) as usize;
         let out = (1..=last).find(|n| leaves(ray.value(*n)) && leaves(ray.value(n - 1)))? - 1;
@@ -139,7 +135,7 @@ impl Probe<'_, '_> {
         let outside = ray.extreme(out, beyond, is_dark);
         let half = f64::midpoint(lumen, outside);
         let is_out = |v: f64| if is_dark { v < half } else { v > half };
-        // From within the lumen outwards: the last sample inside, and the first one outside.
+        // Last sample inside and first outside.
         let mut n = (0..=out).rev().find(|n| !is_out(ray.value(*n)))?;
         while n < beyond && !is_out(ray.value(n + 1)) {
             n += 1;
@@ -151,17 +147,15 @@ impl Probe<'_, '_> {
     }
 }
 
-/// A circle among points of a plane.
 struct Circle {
     center: [f64; 2],
     radius: f64,
-    /// How far the points lie from it, as a rule.
+    /// Robust standard deviation of the distances to it.
     spread: f64,
 }
 
 impl Circle {
-    /// The circle that fits best: points far from it count for little (Tukey's weights), so that a branch or a
-    /// neighbour does not pull at it.
+    /// Best circle with Tukey's weights, so that a branch or neighbour does not pull it.
     fn around(points: &[[f64; 2]]) -> Self {
         let count = points.len() as f64;
         let mean = [0, 1].map(|a| points.iter().map(|p| p[a]).sum::<f64>() / count);
@@ -185,8 +179,7 @@ impl Circle {
         1.4826 * away[away.len() / 2]
     }
 
-    /// Whether the points that count lie on all sides, 0 to 1: those of a vessel cut lengthwise lie on two sides alone and
-    /// say nothing of where along it the middle should be.
+    /// Whether points lie on all sides, 0 to 1; a vessel cut lengthwise shows two sides only.
     fn roundness(&self, points: &[[f64; 2]]) -> f64 {
         let [mut xx, mut xy, mut yy, mut all] = [0.0; 4];
         for p in points {
@@ -202,14 +195,12 @@ impl Circle {
         ((least - TWO_SIDED) / (ROUND - TWO_SIDED)).clamp(0.0, 1.0)
     }
 
-    /// How much a point counts that lies so far from the circle.
     fn weight(&self, miss: f64) -> f64 {
         let scale = 4.0 * self.spread.max(0.03 * self.radius).max(1e-6);
         let share = (miss / scale).abs().min(1.0);
         (1.0 - share * share).powi(2)
     }
 
-    /// One step of Gauss and Newton.
     fn step(&mut self, points: &[[f64; 2]]) {
         let (mut matrix, mut right) = (glam::DMat3::ZERO, DVec3::ZERO);
         for p in points {

@@ -1,14 +1,14 @@
-//! Directions in space: spread evenly over half a sphere, and the axis in which weighted ones lie.
+//! Directions spread over half a sphere, and the principal axis of weighted directions.
 
 use std::f64::consts::PI;
 
 use glam::{DMat3, DVec3};
 
-/// How often an axis is turned towards the one of the largest spread.
+/// Power iterations.
 const ROUNDS: usize = 50;
 
-/// So many unit vectors, spread evenly over half a sphere by the golden angle.
-pub fn half_sphere(count: u32) -> impl Iterator<Item = DVec3> {
+/// Unit vectors spread evenly over half a sphere by the golden angle.
+pub(crate) fn half_sphere(count: u32) -> impl Iterator<Item = DVec3> {
     let golden = PI * (3.0 - 5.0_f64.sqrt());
     (0..count).map(move |n| {
         let z = (f64::from(n) + 0.5) / f64::from(count);
@@ -18,9 +18,8 @@ pub fn half_sphere(count: u32) -> impl Iterator<Item = DVec3> {
     })
 }
 
-/// The axis along which weighted directions are spread most (a unit vector), found by power iteration from `start`; none where all
-/// weights are 0.
-pub fn longest_axis(weighted: impl Iterator<Item = (DVec3, f64)>, start: DVec3) -> Option<DVec3> {
+/// Principal axis of weighted directions by power iteration from `start`; None if all weights are 0.
+pub(crate) fn longest_axis(weighted: impl Iterator<Item = (DVec3, f64)>, start: DVec3) -> Option<DVec3> {
     let spread = weighted.fold(DMat3::ZERO, |sum, (way, weight)| {
         sum + DMat3::from_cols(way * way.x, way * way.y, way * way.z) * weight
     });
@@ -44,7 +43,7 @@ mod tests {
     fn the_directions_are_unit_vectors_and_lie_on_all_sides() {
         let mean = half_sphere(200).sum::<DVec3>() / 200.0;
         assert!(half_sphere(200).all(|way| way.is_normalized()));
-        // Of an even half sphere the mean is half a radius above its middle.
+        // An even half sphere has its mean half a radius above its centre.
         assert!(mean.distance(DVec3::Z / 2.0) < 0.02, "{mean}");
     }
 }

@@ -1,4 +1,4 @@
-//! Where the lumen along a line changes its brightness for good, as where the line has got from one lumen into another one.
+//! Detects a lasting change of brightness along a line, as when it enters another lumen.
 
 use lumencut_core::math::arc_length::arc_lengths;
 
@@ -7,63 +7,58 @@ use crate::trace::lumen::lumen_model::quantile;
 use crate::trace::lumen::surroundings::Surroundings;
 use crate::voxels::Voxels;
 
-/// How much of the line before and after a place is compared (mm, and in radii), and how far from the place it begins.
-const STRETCH: f64 = 15.0;
+/// Compared stretch before and after a place, and its distance from the place (mm, and radii).
+const STRETCH_MM: f64 = 15.0;
 const STRETCH_RADII: f64 = 2.0;
-const APART: f64 = 3.0;
+const GAP_MM: f64 = 3.0;
 const APART_RADII: f64 = 0.5;
 
-/// A change counts from this part of the contrast on, and from so many times the noise on each side.
+/// Minimum change: share of the contrast, and multiple of the noise on each side.
 const LEAST_CHANGE: f64 = 0.25;
 const LEAST_NOISES: f64 = 3.0;
 
-/// Values farther from the median than so many times the noise, as those of struts and calcium, are left out of a fit.
+/// Values farther from the median, in multiples of the noise, are left out (struts, calcium).
 const OUTLIER: f64 = 3.0;
 
-/// Steps of this part of the largest one are as large but for noise.
+/// Steps of at least this share of the largest count as equal.
 const NEARLY: f64 = 0.9;
 
-/// In lumens of fewer voxels across (radii in voxels) the tissue beside them is seen in the middle too.
+/// Minimum radius in voxels; narrower lumens show surrounding tissue at the centre.
 const LEAST_VOXELS: f64 = 2.0;
 
-/// The point of a line at which its lumen changes its brightness, for good and at once; none where it does not, or little by little
-/// as contrast medium fades.
-///
-/// # Source
-/// Ours: two straight lines of one slope are fitted to the values along 15 mm (or two radii) before and after a place. The step between
-/// them is a quarter of the contrast with the tissue at least, and three times the noise.
+/// Index of a lasting, sudden change of lumen brightness. Own method: two lines of common slope are fitted to
+/// the values along 15 mm (or two radii) before and after a place. The step must be at least a quarter of the
+/// contrast and three times the noise.
 pub fn level_change(voxels: &Voxels, line: &Centerline) -> Option<usize> {
     let along = Along::new(voxels, line);
     let steps = (0..line.points.len()).filter_map(|n| Some((n, along.step_at(n)?)));
     let mut steps: Vec<(usize, Step)> = steps.collect();
     let largest = steps.iter().map(|(_, step)| step.size).fold(0.0, f64::max);
-    // On both sides of the place the step is seen as large: the place lies in the middle of where it is.
+    // The step looks equally large on both sides of its place, so the middle is taken.
     steps.retain(|(_, step)| step.size >= NEARLY * largest);
     let (at, step) = *steps.get(steps.len() / 2)?;
     let tissue = Surroundings::of(voxels, &[line.points[at]]).tissue();
     (step.size >= LEAST_CHANGE * (step.brighter - tissue)).then_some(at)
 }
 
-/// A step of the values along a line, and the level on its brighter side.
 #[derive(Clone, Copy, Debug)]
 struct Step {
     size: f64,
     brighter: f64,
 }
 
-/// The values along a stretch of a line: median and noise, and the sums of a fit, of which outliers are left out.
+/// Values along a stretch: statistics and fit sums without outliers.
 #[derive(Clone, Copy, Debug)]
 struct Side {
     median: f64,
     noise: f64,
     mean: f64,
-    /// The mean of the arc lengths (mm).
+    /// Mean arc length (mm).
     middle: f64,
-    /// The sums of the products of arc length and value, and of the squares of arc length, from their means.
+    /// Centred sums: arc length × value, and arc length squared.
     products: [f64; 2],
 }
 
-/// A line with the values on it.
 struct Along<'a> {
     line: &'a Centerline,
     lengths: Vec<f64>,
@@ -83,10 +78,9 @@ impl<'a> Along<'a> {
         }
     }
 
-    /// The step at a point where it is more than noise and not the slope on both sides.
     fn step_at(&self, n: usize) -> Option<Step> {
         let radius = self.line.radius[n];
-        let (apart, stretch) = (APART.max(APART_RADII * radius), STRETCH.max(STRETCH_RADII * radius));
+        let (apart, stretch) = (GAP_MM.max(APART_RADII * radius), STRETCH_MM.max(STRETCH_RADII * radius));
         let at = self.lengths[n];
         let before = self.side(at - apart - stretch, at - apart)?;
         let after = self.side(at + apart, at + apart + stretch)?;
@@ -99,7 +93,7 @@ impl<'a> Along<'a> {
         is_seen.then(|| Step { size, brighter: before.median.max(after.median) })
     }
 
-    /// What is seen from one arc length to another; none where the line ends before or is thin there.
+    /// None if the line ends before, or is thin there.
     fn side(&self, from: f64, to: f64) -> Option<Side> {
         if from < 0.0 || to > self.lengths[self.lengths.len() - 1] {
             return None;

@@ -1,29 +1,30 @@
-//! What lumen looks like: a soft membership of values with a lower and an upper bound, and the tissue below it.
+//! Model of lumen values: a soft membership with bounds, and the tissue below.
 
 use glam::DVec3;
 
-/// The values of lumen and of what surrounds it.
+/// Values of lumen and its surroundings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LumenModel {
-    /// The values of the tissue around the lumen, without fat and air.
+    /// Level of the surrounding tissue, without fat and air.
     pub tissue: f64,
-    /// The smallest and the largest median of lumen that was seen.
+    /// Smallest median of lumen at the clicks.
     pub low: f64,
-    /// See `low`.
+    /// Largest median of lumen at the clicks.
     pub high: f64,
-    /// The standard deviation of the values within the lumen.
+    /// Standard deviation within the lumen.
     pub noise: f64,
-    /// Whether the values are Hounsfield units.
+    /// Whether values are Hounsfield units.
     pub is_hounsfield: bool,
 }
 
 impl LumenModel {
-    /// The smallest distance of lumen from tissue.
+    /// Smallest contrast between lumen and tissue.
     pub fn contrast(&self) -> f64 {
         self.low - self.tissue
     }
 
-    /// How much a value is that of lumen, 0 to 1. Bone, stents and calcium lie above: they keep a little.
+    /// Membership of a value in lumen, 0 to 1: 0 at a fifth of the contrast, 1 at three quarters. Brighter
+    /// values (bone, stents, calcium) keep 0.12, so that they can be crossed.
     pub fn membership(&self, value: f32) -> f32 {
         let (contrast, value) = (self.contrast(), f64::from(value));
         let (empty, full) = (self.tissue + 0.2 * contrast, self.tissue + 0.75 * contrast);
@@ -33,57 +34,55 @@ impl LumenModel {
         } else {
             ((value - empty) / (full - empty)).clamp(0.0, 1.0)
         };
-        // What is no number is no lumen.
+        // NaN is not lumen.
         if share.is_finite() { share as f32 } else { 0.0 }
     }
 
-    /// From here on a value is that of bone, calcium or metal.
     fn far_above(&self) -> f64 {
         self.high + (0.9 * self.contrast()).max(6.0 * self.noise)
     }
 
-    /// Whether a value is that of bone, calcium or metal.
-    pub fn is_far_above(&self, value: f32) -> bool {
+    pub(crate) fn is_far_above(&self, value: f32) -> bool {
         f64::from(value) >= self.far_above()
     }
 
-    /// The standard deviation that noise gives the membership of values between tissue and lumen.
-    pub fn noise_of_membership(&self) -> f64 {
+    /// Standard deviation of the membership due to noise, between tissue and lumen.
+    pub(crate) fn noise_of_membership(&self) -> f64 {
         self.noise / (0.55 * self.contrast())
     }
 
-    /// The brightest value that lumen has for sure; bone, stents and calcium may lie above.
+    /// Upper bound of certain lumen values.
     pub fn brightest(&self) -> f64 {
         self.high + (0.35 * self.contrast()).max(3.0 * self.noise)
     }
 
-    /// Whether a median of lumen lies within what the model already takes for lumen.
+    /// Whether another model's lumen lies within this one.
     pub fn covers(&self, other: &Self) -> bool {
         let slack = 0.15 * self.contrast();
         other.low >= self.low - slack && other.high <= self.high + slack
     }
 }
 
-/// How much membership values far above the lumen lose.
+/// Membership lost by values far above the lumen.
 const ABOVE_IS_NOT: f64 = 0.88;
 
-/// The value below which a share of some values lies, which are sorted; no number of none.
-pub fn quantile(sorted: &[f32], share: f64) -> f64 {
+/// Quantile of sorted values; NaN if empty.
+pub(crate) fn quantile(sorted: &[f32], share: f64) -> f64 {
     let last = sorted.len().saturating_sub(1) as f64;
     sorted.get((last * share).round() as usize).map_or(f64::NAN, |value| f64::from(*value))
 }
 
-/// The noise of values beside each other, as neighbours differ where they differ little: most are not at the edge of a vessel.
-pub fn noise_of(neighbours: &[f32]) -> f64 {
+/// Noise from small differences of neighbours, because most are not at an edge.
+pub(crate) fn noise_of(neighbours: &[f32]) -> f64 {
     let mut steps: Vec<f32> = neighbours.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
     steps.retain(|step| step.is_finite());
     steps.sort_unstable_by(f32::total_cmp);
-    // A quarter of the differences of two normal deviates is below this part of the standard deviation of one.
+    // A quarter of the absolute differences of two normal deviates is below 0.451 standard deviations.
     if steps.is_empty() { 0.0 } else { quantile(&steps, 0.25) / 0.451 }
 }
 
-/// The tissue around the lumen: bright for what is not lumen. Its values are sorted.
-pub fn tissue_level(tissue: &[f32], clicks: &[f64]) -> f64 {
+/// Upper quartile of the sorted values darker than midway between their median and the lumen.
+pub(crate) fn tissue_level(tissue: &[f32], clicks: &[f64]) -> f64 {
     let median = quantile(tissue, 0.5);
     let values: Vec<f64> = clicks.iter().copied().filter(|value| value.is_finite()).collect();
     let lumen = if values.is_empty() { median } else { lower_median(values) };
@@ -92,13 +91,12 @@ pub fn tissue_level(tissue: &[f32], clicks: &[f64]) -> f64 {
     if below == 0 { quantile(tissue, 0.01) } else { quantile(&tissue[..below], 0.75) }
 }
 
-/// The median, of an even number of values the lower one of the middle; not of none.
-pub fn lower_median(mut values: Vec<f64>) -> f64 {
+/// Median, the lower one of an even number; must not be empty.
+pub(crate) fn lower_median(mut values: Vec<f64>) -> f64 {
     values.sort_unstable_by(f64::total_cmp);
     values[(values.len() - 1) / 2]
 }
 
-/// A position in words.
-pub fn in_words(place: DVec3) -> String {
+pub(crate) fn in_words(place: DVec3) -> String {
     format!("({:.1}, {:.1}, {:.1}) mm", place.x, place.y, place.z)
 }

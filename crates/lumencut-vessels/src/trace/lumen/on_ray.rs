@@ -1,4 +1,4 @@
-//! The lumens that a ray through a volume meets, the nearest one first.
+//! Finds the lumens along a ray through a volume.
 
 use glam::DVec3;
 
@@ -8,24 +8,23 @@ use crate::trace::lumen::surroundings::Surroundings;
 use crate::voxels::Voxels;
 use lumencut_core::volume::Volume;
 
-/// How far apart the places are that are looked at, in the smallest side of a voxel.
+/// Sampling distance in smallest voxel sides.
 const STEP: f64 = 0.5;
 
-/// A bright stretch stands out by so many times the noise of the ray at least.
+/// Minimum height of a bright stretch, in multiples of the noise.
 const TIMES_NOISE: f64 = 6.0;
 
-/// At most so many bright stretches are looked at, those that stand out most: more are noise or a stent's struts.
-const MOST: usize = 16;
+/// Maximum number of bright stretches, highest first; more are noise or stent struts.
+const MAX_STRETCHES: usize = 16;
 
-/// A bright stretch of a ray: where it begins and ends, as numbers of samples, and how far it stands out.
 struct Bright {
     first: usize,
     last: usize,
     height: f32,
 }
 
-/// The lumens on the ray from a place (mm, LPS) in the direction of a unit vector and against it, as far as the volume reaches, in the
-/// order along it. Ours: each bright stretch of the ray is one if the values around its middle are those of a lumen.
+/// Lumens on the line through a position (mm, LPS) along a unit vector, in order. Own method: each bright
+/// stretch is tested as lumen at its middle.
 pub fn lumens_on_ray(volume: &Volume, from: DVec3, along: DVec3) -> Vec<SeenLumen> {
     let voxels = &Voxels::new(volume);
     let step = STEP * voxels.smallest_side;
@@ -49,7 +48,7 @@ pub fn lumens_on_ray(volume: &Volume, from: DVec3, along: DVec3) -> Vec<SeenLume
 }
 
 impl SeenLumen {
-    /// The place on a ray that is nearest to the middle.
+    /// Point of a ray nearest to the centre.
     pub fn on_ray(&self, from: DVec3, along: DVec3) -> DVec3 {
         from + along * (self.center - from).dot(along)
     }
@@ -58,13 +57,12 @@ impl SeenLumen {
         self.on_ray(from, along).distance(self.center) <= self.radius
     }
 
-    /// Whether both are one lumen that was met twice, as where a stent or noise parts the ray in it.
     fn is_same(&self, other: &Self) -> bool {
         self.center.distance(other.center) < self.radius.max(other.radius)
     }
 }
 
-/// The depths (mm along the ray) between which it runs inside the volume, by the ball around that; none where it misses it.
+/// Range along the ray (mm) that can be inside the volume; None if it misses.
 fn depths(volume: &Volume, from: DVec3, along: DVec3) -> Option<(f64, f64)> {
     let corners = volume.corners();
     let depth = corners.map(|corner| (corner - from).dot(along));
@@ -72,8 +70,7 @@ fn depths(volume: &Volume, from: DVec3, along: DVec3) -> Option<(f64, f64)> {
     (near < far).then_some((near, far))
 }
 
-/// The stretches of a ray that are brighter than what lies before and behind them, those that stand out most, in the order along it.
-/// A stretch ends half way down to the lower of both sides' lowest values before something brighter comes.
+/// Highest bright stretches of a ray, in order, down to half of their height.
 fn bright(values: &[f32]) -> Vec<Bright> {
     let least = (TIMES_NOISE * noise_of(values)) as f32;
     let mut found: Vec<Bright> = (0..values.len())
@@ -92,12 +89,11 @@ fn bright(values: &[f32]) -> Vec<Bright> {
         .filter(|one| one.height > least)
         .collect();
     found.sort_by(|a, b| b.height.total_cmp(&a.height));
-    found.truncate(MOST);
+    found.truncate(MAX_STRETCHES);
     found.sort_by_key(|one| one.first);
     found
 }
 
-/// Whether a sample is no darker than the one before it, and brighter than the one behind it.
 fn is_top(values: &[f32], n: usize) -> bool {
     let beside = |n: Option<usize>| n.and_then(|n| values.get(n)).copied().filter(|v| v.is_finite());
     let (before, after) = (beside(n.checked_sub(1)), beside(Some(n + 1)));
@@ -106,7 +102,6 @@ fn is_top(values: &[f32], n: usize) -> bool {
         && after.is_none_or(|after| after < values[n])
 }
 
-/// The lowest value to one side of a top, until something brighter comes; beyond the volume there is nothing lower.
 fn lowest_side<'a>(side: impl Iterator<Item = &'a f32>, top: f32) -> f32 {
     side.copied().take_while(|value| *value <= top).fold(top, f32::min)
 }

@@ -1,5 +1,4 @@
-//! The axis of the lumen that a place lies in, and how far the lumen reaches along it: for vessels that are hardly longer than wide in
-//! a scan of few slices, where no tube is found.
+//! Axis and extent of a lumen hardly longer than wide, in a scan of few slices.
 
 use std::f64::consts::PI;
 
@@ -10,27 +9,27 @@ use crate::trace::lumen::lumen_model::quantile;
 use crate::trace::lumen::surroundings::Surroundings;
 use crate::voxels::Voxels;
 
-/// How many directions are looked along, spread evenly over half a sphere.
+/// Number of directions over half a sphere.
 pub const DIRECTIONS: u32 = 200;
 
-/// How far a lumen is followed (mm).
-const REACH: f64 = 60.0;
+/// Search distance (mm).
+const SEARCH_MM: f64 = 60.0;
 
-/// In how many directions across the axis the width is looked at.
+/// Directions across the axis for the width.
 const TURNS: u32 = 12;
 
-/// The lumen around a place, as the values tell it.
+/// The lumen around a place, by its values.
 pub struct OwnLumen<'a, 'v> {
     voxels: &'a Voxels<'v>,
     place: DVec3,
     value: f64,
-    /// Values of the lumen are at most so far from that of the place.
+    /// Maximum difference of a lumen value.
     most_away: f64,
     step: f64,
 }
 
 impl<'a, 'v> OwnLumen<'a, 'v> {
-    /// The lumen around a place (mm, LPS).
+    /// From a position (mm, LPS).
     pub fn around(voxels: &'a Voxels<'v>, place: DVec3) -> Self {
         let tissue = Surroundings::of(voxels, &[place]).tissue();
         let near = voxels.ball(place, 1.75 * voxels.smallest_side);
@@ -40,40 +39,38 @@ impl<'a, 'v> OwnLumen<'a, 'v> {
         Self { voxels, place, value, most_away: 0.5 * (value - tissue), step: 0.5 * voxels.smallest_side }
     }
 
-    /// How far the lumen reaches from the place in a direction (mm), as far as it is followed.
+    /// Extent of the lumen in a direction (mm), at most `most`.
     pub fn reach(&self, direction: DVec3, most: f64) -> f64 {
         let value = |n: u32| f64::from(self.voxels.at(self.place + direction * (self.step * f64::from(n))));
         let is_lumen = |n: &u32| (value(*n) - self.value).abs() < self.most_away;
         self.step * (1..=(most / self.step) as u32).take_while(is_lumen).count() as f64
     }
 
-    /// How far it reaches to both sides (mm), up to `most` to each.
+    /// Extent to both sides (mm), at most `most` each.
     pub fn extent(&self, direction: DVec3, most: f64) -> f64 {
         self.reach(direction, most) + self.reach(-direction, most)
     }
 
-    /// Both ends of a lumen that the scan cuts off there, along its axis, which is the direction in which most of it lies; none where
-    /// it is hardly longer than wide, so that its axis is not known, and where it ends within the scan.
+    /// Ends of a lumen cut off by the scan, along its axis; None if it is not longer than wide.
     pub fn cut_ends(&self) -> Option<[DVec3; 2]> {
         let axis = self.axis();
-        let reaches = [-1.0, 1.0].map(|side| self.reach(axis * side, REACH));
+        let reaches = [-1.0, 1.0].map(|side| self.reach(axis * side, SEARCH_MM));
         let place = |side: f64, way: f64| self.place + axis * (side * way);
         let is_cut =
             |side: f64, reach: f64| self.voxels.voxel_at(place(side, reach + 2.0 * self.step)).is_none();
         let across = axis.any_orthonormal_vector();
         let turned =
             (0..TURNS).map(|n| DQuat::from_axis_angle(axis, PI * f64::from(n) / f64::from(TURNS)) * across);
-        let width = turned.map(|direction| self.extent(direction, REACH)).fold(0.0, f64::max);
+        let width = turned.map(|direction| self.extent(direction, SEARCH_MM)).fold(0.0, f64::max);
         let is_known = reaches[0] + reaches[1] > width;
         let within = |reach: f64| (reach - 2.0 * self.voxels.smallest_side).max(0.0);
         (is_known && is_cut(-1.0, reaches[0]) && is_cut(1.0, reaches[1]))
             .then(|| [place(-1.0, within(reaches[0])), place(1.0, within(reaches[1]))])
     }
 
-    /// The direction in which most of the lumen lies.
     fn axis(&self) -> DVec3 {
-        let weighted = half_sphere(DIRECTIONS).map(|way| (way, self.extent(way, REACH).powi(3)));
-        // Of no symmetry that the sums might have.
+        let weighted = half_sphere(DIRECTIONS).map(|way| (way, self.extent(way, SEARCH_MM).powi(3)));
+        // The start must not be symmetric to the sum.
         longest_axis(weighted, DVec3::new(0.6, 0.5, 0.7)).unwrap_or_default()
     }
 }

@@ -1,4 +1,4 @@
-//! From a way through voxels to a centerline: cross-sections are fitted, the line moves to their middles and is smoothed.
+//! Refines a voxel path to a centerline: fits cross-sections, moves to their centres, and smooths.
 
 use glam::DVec3;
 
@@ -15,42 +15,36 @@ use lumencut_core::math::arc_length::arc_lengths;
 use lumencut_core::stop::{Stop, go_on};
 use rayon::prelude::*;
 
-/// Points of the result are at most so far apart (mm).
+/// Maximum distance of result points (mm).
 pub const STEP: f64 = 0.5;
 
-/// The rounds in which the line moves to the middle: how far its points are apart (mm), and with how many rays each looks.
+/// Rounds: point distance (mm) and rays per section.
 const ROUNDS: [(f64, usize); 4] = [(1.0, 16), (1.0, 16), (STEP, 24), (STEP, 24)];
 
-/// The width of the smoothing along the line (mm): as much as an average over 1 mm takes of noise.
+/// Smoothing width (mm): as effective against noise as a mean over 1 mm.
 const SMOOTHING: f64 = 1.5;
 
-/// How far before and after a cross-section others are that should have about its radius (mm).
-const BESIDE: f64 = 1.75;
+/// Window of sections with similar radius (mm).
+const RADIUS_WINDOW_MM: f64 = 1.75;
 
-/// A cross-section that is trusted less was not seen.
+/// Minimum quality of a section.
 const LEAST_TRUST: f64 = 0.1;
 
-/// Over how much of the line its middles must go on (mm).
-const STRETCH: f64 = 2.0;
+/// Window over which centres must advance (mm).
+const ADVANCE_WINDOW_MM: f64 = 2.0;
 
-/// How much a point counts at which no lumen was seen.
+/// Weight of points without a section.
 const UNSEEN: f64 = 0.1;
 
-/// The line in the middle of the lumen that a way runs through.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`].
+/// Centres a path in its lumen.
 pub fn refined(voxels: &Voxels, model: &LumenModel, way: &[DVec3], stop: Stop) -> Result<Centerline> {
     let points = in_even_steps(way, 2.0 * STEP);
     let line = Centerline { radius: vec![0.0; points.len()], confidence: vec![0.0; points.len()], points };
     in_rounds(voxels, model, line, &[0, 1, 2, 3], stop)
 }
 
-/// The line in the middle of the lumen near one whose radii are known: with half the work.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn refined_near(
+/// Centres a line whose radii are known, in half of the rounds.
+pub(crate) fn refined_near(
     voxels: &Voxels,
     model: &LumenModel,
     line: &Centerline,
@@ -59,7 +53,6 @@ pub fn refined_near(
     in_rounds(voxels, model, line.clone(), &[1, 3], stop)
 }
 
-/// A line moved to the middle in some of the rounds.
 fn in_rounds(
     voxels: &Voxels,
     model: &LumenModel,
@@ -75,7 +68,6 @@ fn in_rounds(
     Ok(line.resampled(STEP))
 }
 
-/// The line one round nearer to the middle.
 fn moved(probe: &Probe, line: &Centerline, round: usize) -> Centerline {
     let points = &line.points;
     let lengths = arc_lengths(points);
@@ -101,7 +93,7 @@ fn moved(probe: &Probe, line: &Centerline, round: usize) -> Centerline {
         })
         .collect();
     let wide = if round == 0 { 0.5 } else { 0.15 };
-    // Where nothing was seen the line holds on to where it is, so that no end of what was seen swings out.
+    // Points without a section keep some weight, so that the ends of visible parts do not swing out.
     let weights: Vec<f64> = trust.iter().map(|trust| trust.max(UNSEEN)).collect();
     let smooth = smoothed_by_parabolas(&lengths, &values, &weights, |i| SMOOTHING.max(wide * values[i][3]));
     let moved: Vec<DVec3> = smooth.iter().map(|v| DVec3::new(v[0], v[1], v[2])).collect();
@@ -109,12 +101,12 @@ fn moved(probe: &Probe, line: &Centerline, round: usize) -> Centerline {
     Centerline { points: moved, radius, confidence: trust }
 }
 
-/// The trust of the sections, none for those whose middles do not go on along the line: such a line would fold back, as it
-/// does where a branch begins within a wider vessel.
+/// Rejects sections whose centres do not advance; the line would fold back, as at a branch.
 fn unfolded(points: &[DVec3], sections: &[Option<LumenSection>], trust: &[f64], lengths: &[f64]) -> Vec<f64> {
     let mut left = trust.to_vec();
     for i in 0..points.len() {
-        let j = lengths.partition_point(|length| *length < lengths[i] + STRETCH).min(points.len() - 1);
+        let j =
+            lengths.partition_point(|length| *length < lengths[i] + ADVANCE_WINDOW_MM).min(points.len() - 1);
         let (Some(from), Some(to)) = (sections[i], sections[j]) else { continue };
         let way = points[j] - points[i];
         let progress = (to.center - from.center).dot(way) / way.length_squared().max(1e-12);
@@ -125,19 +117,18 @@ fn unfolded(points: &[DVec3], sections: &[Option<LumenSection>], trust: &[f64], 
     left
 }
 
-/// How much a cross-section counts: little where its radius is far from those around it.
+/// Quality of a section, reduced if its radius differs from its neighbours.
 fn trust_of(section: &Option<LumenSection>, median: Option<f64>) -> f64 {
     let (Some(section), Some(median)) = (section, median) else { return 0.0 };
     let odd = (section.radius / median).ln() / 0.3;
     section.trust * (-odd * odd).exp()
 }
 
-/// The median radius of the sections around each, where any was seen well.
 fn medians(sections: &[Option<LumenSection>], lengths: &[f64]) -> Vec<Option<f64>> {
     (0..sections.len())
         .map(|i| {
-            let first = lengths.partition_point(|length| *length < lengths[i] - BESIDE);
-            let end = lengths.partition_point(|length| *length <= lengths[i] + BESIDE);
+            let first = lengths.partition_point(|length| *length < lengths[i] - RADIUS_WINDOW_MM);
+            let end = lengths.partition_point(|length| *length <= lengths[i] + RADIUS_WINDOW_MM);
             let around = &sections[first..end];
             let seen = around.iter().flatten().filter(|section| section.trust > LEAST_TRUST);
             let mut radii: Vec<f64> = seen.map(|section| section.radius).collect();
@@ -147,7 +138,6 @@ fn medians(sections: &[Option<LumenSection>], lengths: &[f64]) -> Vec<Option<f64
         .collect()
 }
 
-/// The radius of each section that was seen well, and between them what lies between their radii.
 fn filled(sections: &[Option<LumenSection>], trust: &[f64], lengths: &[f64]) -> Vec<f64> {
     let seen: Vec<(f64, f64)> = (0..sections.len())
         .filter(|i| trust[*i] > LEAST_TRUST)

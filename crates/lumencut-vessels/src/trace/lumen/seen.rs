@@ -1,4 +1,4 @@
-//! The lumen around one place: which way it runs, its middle and its radius, seen by nothing but the values around it.
+//! Finds the lumen around one place from its values alone: direction, centre and radius.
 
 use glam::DVec3;
 
@@ -8,42 +8,41 @@ use crate::trace::lumen::surroundings::Surroundings;
 use crate::voxels::Voxels;
 use lumencut_core::volume::Volume;
 
-/// In how many directions of a half sphere the walls are looked for, and with how many rays in a cross-section.
+/// Search directions over half a sphere, and rays per section.
 const DIRECTIONS: u32 = 60;
 const RAYS: usize = 32;
 
-/// A lumen is followed lengthwise so many times as far as it is narrow: enough to tell along from across.
+/// Lengths are capped at this multiple of the narrowest chord, enough to separate along from across.
 const LENGTHWISE: f64 = 3.0;
 
-/// How often its direction is looked for again from the middle that was found.
+/// Rounds of searching from the new centre.
 const ROUNDS: usize = 2;
 
-/// A cross-section that is trusted less is no lumen to be offered.
+/// Minimum quality of an offered lumen.
 const LEAST_TRUST: f64 = 0.4;
 
 /// The lumen around a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SeenLumen {
-    /// Its middle (mm, LPS).
+    /// Centre (mm, LPS).
     pub center: DVec3,
-    /// Its radius (mm).
+    /// Radius (mm).
     pub radius: f64,
-    /// Which way it runs (a unit vector; as well the other way).
+    /// Direction (unit vector, sign arbitrary).
     pub along: DVec3,
-    /// The median of the values in its middle.
+    /// Median value near the centre.
     pub value: f64,
 }
 
-/// The lumen that a place (mm, LPS) lies in; none where the values around it look like none. Ours: the direction is that along which
-/// the walls are farthest away on both sides, and the circle across it is the one that traced lines are centred by.
+/// Lumen around a position (mm, LPS); None if it does not look like lumen. Own method: the direction has the
+/// longest wall-to-wall chords; the circle across is that of traced lines.
 pub fn lumen_at(volume: &Volume, place: DVec3) -> Option<SeenLumen> {
     let voxels = &Voxels::new(volume);
     voxels.voxel_at(place)?;
     lumen_in(voxels, &Surroundings::of(voxels, &[place]), place)
 }
 
-/// The same where it is known what surrounds the place.
-pub fn lumen_in(voxels: &Voxels, surroundings: &Surroundings, place: DVec3) -> Option<SeenLumen> {
+pub(crate) fn lumen_in(voxels: &Voxels, surroundings: &Surroundings, place: DVec3) -> Option<SeenLumen> {
     let model = surroundings.model_at(voxels, place)?;
     let probe = Probe { voxels, model: &model, rays: RAYS };
     let mut seen: Option<(LumenSection, DVec3)> = None;
@@ -63,13 +62,12 @@ pub fn lumen_in(voxels: &Voxels, surroundings: &Surroundings, place: DVec3) -> O
     })
 }
 
-/// Two unit vectors across a direction.
 fn across(along: DVec3) -> [DVec3; 2] {
     let first = along.any_orthonormal_vector();
     [first, along.cross(first)]
 }
 
-/// The direction along which the walls around a place are farthest away; none where hardly a wall is seen.
+/// Direction of the longest chords; None if hardly any wall is visible.
 fn direction(probe: &Probe, place: DVec3) -> Option<DVec3> {
     let chords: Vec<(DVec3, f64)> = half_sphere(DIRECTIONS)
         .map(|way| (way, probe.chord(place, way, WIDEST).unwrap_or(f64::INFINITY)))

@@ -1,4 +1,4 @@
-//! What surrounds the clicks of a user: the model of the lumen that they lie in, or what a click hit instead.
+//! Derives the lumen model from the surroundings of the clicks, or explains what a click hit instead.
 
 use glam::DVec3;
 
@@ -8,52 +8,48 @@ use crate::trace::lumen::lumen_model::{
 use crate::voxels::Voxels;
 use lumencut_core::error::{Clicked, Error, ErrorKind, Result};
 
-/// A volume with at least this share of voxels below the limit is taken to hold Hounsfield units: fat and air are negative
-/// there, and nothing of a magnetic resonance image is.
+/// A volume is in HU if this share of voxels is below the limit: fat and air are negative in CT only.
 const HOUNSFIELD_SHARE: f64 = 0.01;
 const HOUNSFIELD_LIMIT: f64 = -50.0;
 
-/// Hounsfield units below which there is air, fat, and tissue or blood without contrast medium; above the last one bone,
-/// metal or calcium.
+/// HU below which there is air, fat, tissue or plain blood; above the last, bone, metal or calcium.
 const AIR: f64 = -400.0;
 const FAT: f64 = -20.0;
 const SOFT_TISSUE: f64 = 100.0;
 const BONE: f64 = 900.0;
 
-/// By which factor the contrast of one click may exceed that of another one, as contrast medium fades.
+/// Maximum ratio of the contrasts at two clicks, because contrast medium fades.
 const MOST_TIMES: f64 = 3.5;
 
-/// The lumen of a model has at least this part of the contrast that the clicks have as a rule.
+/// Minimum lumen contrast of a model, as a share of the typical click.
 const LEAST_PART: f64 = 0.6;
 
-/// What muscle, wall and blood without contrast medium have at least (HU).
+/// Minimum level of muscle, wall and blood without contrast medium (HU).
 const LEAST_TISSUE: f64 = 50.0;
 
-/// How far around the clicks the tissue is looked at (mm), and how many voxels of it at most.
+/// Radius around the clicks (mm), and maximum number of voxels.
 const SURROUNDINGS: f64 = 30.0;
 const MOST_SAMPLES: f64 = 200_000.0;
 
-/// A click that is no lumen means the lumen that is as near as this (mm); its surroundings look like lumen too, so that it lies well
-/// within a vessel.
+/// A rejected click moves to lumen within this distance (mm).
 const SNAP: f64 = 2.0;
 
-/// Most of what surrounds lumen is darker: at least this share.
+/// Minimum share of surroundings darker than lumen.
 const DARKER: f64 = 0.75;
 
-/// What a click hit instead of lumen, and what was expected.
 type Mistake = (&'static str, String);
 
-/// What surrounds the lumen, before any click is judged.
+/// Values around the clicks, before any is judged.
 #[derive(Clone, Copy, Debug)]
 pub struct Surroundings {
     tissue: f64,
-    /// What most of the values around are below, and what nearly all are below.
+    /// Quantiles of the values: 0.75 and 0.995.
     most: f64,
     bright: f64,
     is_hounsfield: bool,
 }
 
-/// What there is around a click: its own value, the median of its lumen and the spread of that, and the noise.
+/// Values at a click: its own, median and spread of its lumen, and noise.
 #[derive(Clone, Copy, Debug)]
 struct Hit {
     value: f64,
@@ -63,15 +59,15 @@ struct Hit {
 }
 
 impl Surroundings {
-    /// What surrounds the clicks.
+    /// Samples the surroundings of the clicks.
     pub fn of(voxels: &Voxels, clicks: &[DVec3]) -> Self {
         Self::within(voxels, clicks, SURROUNDINGS)
     }
 
-    /// What lies up to `reach` (mm) around the clicks.
+    /// Samples up to `reach` mm around the clicks.
     pub fn within(voxels: &Voxels, clicks: &[DVec3], reach: f64) -> Self {
         let samples = samples_around(voxels, clicks, reach);
-        // Within the heart there is neither fat nor air: what the values are is told by all of the scan.
+        // Uses the whole scan, because the heart contains neither fat nor air.
         let is_hounsfield = are_hounsfield(voxels);
         let first = if is_hounsfield { samples.partition_point(|v| f64::from(*v) < AIR) } else { 0 };
         let values: Vec<f64> = clicks.iter().map(|click| value_at(voxels, *click)).collect();
@@ -83,16 +79,13 @@ impl Surroundings {
         Self { tissue, most, bright, is_hounsfield }
     }
 
-    /// The value of the tissue around the lumen.
+    /// Level of the tissue around the lumen.
     pub fn tissue(&self) -> f64 {
         self.tissue
     }
 
-    /// The model of the lumen that the clicks lie in.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Tracing`] for a click that lies in no lumen: of those that are unlike each other the one that looks least
-    /// like lumen, and in doubt the later one.
+    /// Lumen model of the clicks. Errors: [`ErrorKind::Tracing`] for a click outside lumen: of inconsistent
+    /// clicks the least lumen-like, in doubt the later one.
     pub fn model(&self, voxels: &Voxels, clicks: &[DVec3]) -> Result<LumenModel> {
         for click in clicks {
             self.check_alone(voxels, *click)?;
@@ -101,8 +94,8 @@ impl Surroundings {
         let hits: Vec<Hit> = clicks.iter().map(hit).collect();
         let usual = lower_median(hits.iter().map(|hit| hit.lumen).collect());
         if hits.iter().any(|hit| self.unlike(hit, usual).is_some()) {
-            // Where the usual one is itself no lumen, it is not what the others are blamed by.
-            for expected in [self.believed(&hits), usual] {
+            // If the typical lumen is itself implausible, it must not be the reference.
+            for expected in [self.reference_lumen(&hits), usual] {
                 for (click, hit) in clicks.iter().zip(&hits) {
                     self.check(voxels, *click, hit.value, self.unlike(hit, expected))?;
                 }
@@ -111,38 +104,31 @@ impl Surroundings {
         Ok(self.model_of(&hits, usual))
     }
 
-    /// The model of the lumen that one place lies in; none where [`Surroundings::model`] refuses it, found without looking for what
-    /// would mend that.
-    pub fn model_at(&self, voxels: &Voxels, place: DVec3) -> Option<LumenModel> {
+    /// Model at one place; None where [`Surroundings::model`] rejects it.
+    pub(crate) fn model_at(&self, voxels: &Voxels, place: DVec3) -> Option<LumenModel> {
         let value = value_at(voxels, place);
         let hit = self.hit(voxels, place, value);
         let is_lumen = self.mistaken(value).is_none() && self.unlike(&hit, hit.lumen).is_none();
         is_lumen.then(|| self.model_of(&[hit], hit.lumen))
     }
 
-    /// Refuses a click whose value alone shows that it lies in no lumen, whatever the others hit.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Tracing`] for air, fat, soft tissue and bone in Hounsfield units, and for what is no number.
-    pub fn check_alone(&self, voxels: &Voxels, click: DVec3) -> Result<()> {
+    pub(crate) fn check_alone(&self, voxels: &Voxels, click: DVec3) -> Result<()> {
         let value = value_at(voxels, click);
         self.check(voxels, click, value, self.mistaken(value))
     }
 
-    /// The clicks, each that would be refused moved to the nearest place that looks like lumen where that is next to it: it is
-    /// what the reader meant. Others stay, also those that are refused.
-    pub fn snapped(&self, voxels: &Voxels, clicks: &[DVec3]) -> Vec<DVec3> {
+    /// Moves rejected clicks to adjacent lumen, which the user meant. Other clicks stay, even if rejected.
+    pub(crate) fn snapped(&self, voxels: &Voxels, clicks: &[DVec3]) -> Vec<DVec3> {
         let is_taken = |place: DVec3| self.mistaken(value_at(voxels, place)).is_none();
         let moved = clicks.iter().map(|click| self.taken(voxels, *click, is_taken));
         let hit = |place: DVec3| self.hit(voxels, place, value_at(voxels, place));
         let (moved, hits): (Vec<DVec3>, Vec<Hit>) = moved.map(|click| (click, hit(click))).unzip();
         let lumens: Vec<Hit> = hits.into_iter().filter(|hit| self.mistaken(hit.value).is_none()).collect();
-        let usual = self.believed(&lumens);
+        let usual = self.reference_lumen(&lumens);
         let is_like = |place: DVec3| self.unlike(&hit(place), usual).is_none();
         moved.into_iter().map(|click| self.taken(voxels, click, is_like)).collect()
     }
 
-    /// A click where it is taken, else the nearest place that looks like lumen where that is next to it and taken, else the click.
     fn taken(&self, voxels: &Voxels, click: DVec3, is_taken: impl Fn(DVec3) -> bool) -> DVec3 {
         let near = if is_taken(click) { None } else { self.nearest_lumen(voxels, click) };
         near.filter(|near| near.distance(click) <= SNAP && is_taken(*near)).unwrap_or(click)
@@ -153,20 +139,20 @@ impl Surroundings {
         Hit { value, lumen, spread, noise: noise(voxels, click) }
     }
 
-    /// The lumen to judge clicks by that are unlike each other: of those brighter than most of what is around the one that most
-    /// others are like, and in doubt the earliest, for a user begins in the vessel.
-    fn believed(&self, hits: &[Hit]) -> f64 {
+    /// Reference lumen for inconsistent clicks: brighter than most surroundings and similar to most others,
+    /// in doubt the earliest, because users begin in the vessel.
+    fn reference_lumen(&self, hits: &[Hit]) -> f64 {
         let worth = |hit: &Hit| {
             let alike = hits.iter().filter(|other| self.unlike(other, hit.lumen).is_none()).count();
             (hit.lumen > self.most && self.unlike(hit, hit.lumen).is_none(), alike)
         };
-        // Of several with the same worth the last one wins, which is the earliest here.
+        // `max_by_key` returns the last maximum, here the earliest click.
         hits.iter().rev().max_by_key(|hit| worth(hit)).map_or(f64::NAN, |hit| hit.lumen)
     }
 
     fn model_of(&self, hits: &[Hit], usual: f64) -> LumenModel {
         let lumens = || hits.iter().map(|hit| hit.lumen);
-        // A click into the throat of a stenosis hits the tissue beside it too.
+        // A click into the throat of a stenosis also hits tissue.
         let least = self.tissue + LEAST_PART * (usual - self.tissue);
         LumenModel {
             tissue: self.tissue,
@@ -177,7 +163,6 @@ impl Surroundings {
         }
     }
 
-    /// Refuses a click that lies in no lumen, and says what it lies in.
     fn check(&self, voxels: &Voxels, click: DVec3, value: f64, mistake: Option<Mistake>) -> Result<()> {
         let Some((tissue, expected)) = mistake else { return Ok(()) };
         let found = format!("{tissue}: the volume has {value:.0} there");
@@ -193,7 +178,6 @@ impl Surroundings {
         })
     }
 
-    /// What a click hit whose value alone shows that it is no lumen.
     fn mistaken(&self, value: f64) -> Option<Mistake> {
         if !value.is_finite() {
             return Some(("no number", "a finite value".to_owned()));
@@ -209,7 +193,7 @@ impl Surroundings {
         Some((tissue, format!("lumen with contrast medium, from {SOFT_TISSUE:.0} to {BONE:.0} HU")))
     }
 
-    /// What a click hit that is unlike the lumen that the others hit as a rule, or no brighter than tissue.
+    /// Reports a click unlike the typical lumen, or no brighter than tissue.
     fn unlike(&self, hit: &Hit, usual: f64) -> Option<Mistake> {
         let contrast = usual - self.tissue;
         let least = self.tissue + (0.3 * contrast).max(1.5 * hit.noise);
@@ -219,13 +203,13 @@ impl Surroundings {
                 format!("lumen of about {usual:.0}, as at another point"),
             ));
         }
-        // What is no number is not brighter either.
+        // False for NaN too.
         let is_bright = hit.lumen > least;
         (!is_bright)
             .then(|| ("tissue, or blood without contrast medium", format!("lumen, brighter than {least:.0}")))
     }
 
-    /// The nearest place within 10 mm whose surroundings have the values of lumen.
+    /// Nearest place within 10 mm whose surroundings have lumen values.
     fn nearest_lumen(&self, voxels: &Voxels, click: DVec3) -> Option<DVec3> {
         let (least, most) = if self.is_hounsfield {
             (SOFT_TISSUE * 1.5, BONE)
@@ -250,8 +234,7 @@ pub fn are_hounsfield(voxels: &Voxels) -> bool {
     dark > 0 && dark as f64 >= HOUNSFIELD_SHARE * samples.len() as f64
 }
 
-/// What of some rising values (HU) is no blood with contrast medium: in and beside the heart most of what is around a click is such
-/// blood, whose noise would be taken for the tissue beside it.
+/// Drops contrast-filled blood from sorted values (HU), whose noise would pass for tissue.
 fn without_blood<'a>(around: &'a [f32], clicks: &[f64]) -> &'a [f32] {
     let lumen = clicks.iter().copied().filter(|value| value.is_finite()).fold(f64::MAX, f64::min);
     let is_mostly_blood = quantile(around, 0.5) > SOFT_TISSUE && lumen < f64::MAX;
@@ -259,7 +242,6 @@ fn without_blood<'a>(around: &'a [f32], clicks: &[f64]) -> &'a [f32] {
     if is_mostly_blood && end > 0 { &around[..end] } else { around }
 }
 
-/// Values of voxels within a box around the clicks, rising; it reaches so far (mm).
 fn samples_around(voxels: &Voxels, clicks: &[DVec3], reach: f64) -> Vec<f32> {
     let (mut first, mut last) = (voxels.size.map(|n| n as i32 - 1), [0; 3]);
     for click in clicks {
@@ -274,7 +256,6 @@ fn samples_around(voxels: &Voxels, clicks: &[DVec3], reach: f64) -> Vec<f32> {
     values
 }
 
-/// Values of voxels within a box, by the indices of its corners.
 fn samples_between(voxels: &Voxels, first: [i32; 3], last: [i32; 3]) -> Vec<f32> {
     let count: f64 = (0..3).map(|a| f64::from(last[a] - first[a] + 1).max(1.0)).product();
     let step = (count / MOST_SAMPLES).cbrt().ceil().max(1.0) as usize;
@@ -292,7 +273,6 @@ fn samples_between(voxels: &Voxels, first: [i32; 3], last: [i32; 3]) -> Vec<f32>
     values
 }
 
-/// The median of the voxels next to a place: what a click hits.
 fn value_at(voxels: &Voxels, click: DVec3) -> f64 {
     let near = voxels.smallest_side * 1.05;
     let mut values: Vec<f32> =
@@ -301,17 +281,15 @@ fn value_at(voxels: &Voxels, click: DVec3) -> f64 {
         return f64::from(voxels.at(click));
     }
     values.sort_unstable_by(f32::total_cmp);
-    // A click may lie at the wall: the brighter half of its neighbours is what it means.
+    // A click may lie at the wall, so the brighter neighbours count.
     quantile(&values, 0.6)
 }
 
-/// The noise around a click.
 fn noise(voxels: &Voxels, click: DVec3) -> f64 {
     let near = voxels.ball(click, (4.0 * voxels.smallest_side).max(3.0));
     noise_of(&near.into_iter().map(|(_, value)| value).collect::<Vec<f32>>())
 }
 
-/// The median of the lumen around a click, and its spread.
 fn local_lumen(voxels: &Voxels, click: DVec3, value: f64, tissue: f64) -> [f64; 2] {
     let near = voxels.ball(click, (2.5 * voxels.smallest_side).max(1.5));
     let mut lumen = value;

@@ -1,4 +1,4 @@
-//! Whether a place lies within the lumen of a vessel whose line is known.
+//! Whether a place lies within the lumen of a known vessel.
 
 use glam::DVec3;
 
@@ -6,11 +6,10 @@ use crate::trace::lines::centerline::Centerline;
 use crate::trace::lines::nearest_point::nearest_point;
 use crate::trace::lumen::refine::STEP;
 
-/// How far beyond an end a vessel still holds what is next to it: in radii.
+/// Extension of the lumen beyond an end, in radii.
 const ENDS: f64 = 0.3;
 
-/// Whether a place (mm, LPS) lies within the lumen of a vessel; beyond its ends there is no lumen.
-pub fn holds(vessel: &Centerline, place: DVec3) -> bool {
+pub(crate) fn holds(vessel: &Centerline, place: DVec3) -> bool {
     let points = &vessel.points;
     let near = nearest_point(points, place);
     let across = place - points[near];

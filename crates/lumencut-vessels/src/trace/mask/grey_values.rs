@@ -1,4 +1,4 @@
-//! Middle and radius of a vessel of a mask from the grey values of its volume: a mask tells both to about half a voxel only.
+//! Refines a mask vessel from grey values, because a mask is exact only to half a voxel.
 
 use std::f64::consts::TAU;
 
@@ -14,24 +14,23 @@ use lumencut_core::error::Result;
 use lumencut_core::math::arc_length::arc_lengths;
 use lumencut_core::stop::Stop;
 
-/// How far beyond the wall of the mask the tissue begins and ends that is compared with the lumen (mm, and in voxels where
-/// those are larger).
+/// Distance range of compared tissue beyond the mask wall (mm; voxels if larger).
 const TISSUE: [f64; 2] = [1.0, 4.0];
 
-/// In how many directions, and at how many distances between these, the tissue is looked at.
+/// Directions and distances at which tissue is sampled.
 const DIRECTIONS: usize = 12;
 const DISTANCES: usize = 3;
 
-/// Over how much of the vessel a median of the lumen is taken (mm).
-const STRETCH: f64 = 5.0;
+/// Window of the lumen median along the vessel (mm).
+const WINDOW_MM: f64 = 5.0;
 
-/// Lumen is this many standard deviations of its noise brighter than tissue where it can be seen at all.
+/// Minimum contrast in standard deviations of the lumen noise.
 const LEAST_CONTRAST: f64 = 2.0;
 
-/// At least this share of the points must have been seen.
+/// Minimum share of points with a visible lumen.
 const LEAST_SEEN: f64 = 0.5;
 
-/// A volume that shows the lumen of a mask.
+/// The volume that shows the lumen of a mask.
 pub struct GreyValues<'a, 'v> {
     /// The volume.
     pub voxels: &'a Voxels<'v>,
@@ -40,11 +39,7 @@ pub struct GreyValues<'a, 'v> {
 }
 
 impl GreyValues<'_, '_> {
-    /// The vessel with these points (mm, LPS) and radii (mm) as the volume shows it. None where the volume does not show it: no
-    /// brighter than what is around it, or somewhere else than the mask has it.
-    ///
-    /// # Errors
-    /// [`lumencut_core::error::ErrorKind::Interrupted`].
+    /// Refines a vessel (mm, LPS); None if the volume does not show it there.
     pub fn refined(&self, points: &[DVec3], radius: &[f64]) -> Result<Option<Centerline>> {
         let Some(model) = self.model(points, radius) else { return Ok(None) };
         let line = refined(self.voxels, &model, points, self.stop)?;
@@ -59,7 +54,7 @@ impl GreyValues<'_, '_> {
         Ok((is_seen && is_here && has_radius).then_some(line))
     }
 
-    /// What lumen looks like along the vessel; none where it is no brighter than the tissue around it.
+    /// Lumen model along the vessel; None without contrast.
     fn model(&self, points: &[DVec3], radius: &[f64]) -> Option<LumenModel> {
         let lumen: Vec<(f64, f32)> = arc_lengths(points)
             .into_iter()
@@ -89,7 +84,6 @@ impl GreyValues<'_, '_> {
         (model.contrast() > LEAST_CONTRAST * model.noise && model.contrast() > 0.0).then_some(model)
     }
 
-    /// Values of what lies around the vessel, numbers alone.
     fn tissue(&self, points: &[DVec3], radius: &[f64]) -> Vec<f32> {
         let across = frames(points, &point_directions(points, 1.5));
         let [near, far] = TISSUE.map(|distance| distance.max(distance * self.voxels.smallest_side));
@@ -107,11 +101,10 @@ impl GreyValues<'_, '_> {
     }
 }
 
-/// The median of the values around each, which have their arc lengths (mm) with them.
 fn medians(values: &[(f64, f32)]) -> Vec<f32> {
     let median = |&(at, _): &(f64, f32)| {
-        let first = values.partition_point(|(length, _)| *length < at - STRETCH / 2.0);
-        let end = values.partition_point(|(length, _)| *length <= at + STRETCH / 2.0);
+        let first = values.partition_point(|(length, _)| *length < at - WINDOW_MM / 2.0);
+        let end = values.partition_point(|(length, _)| *length <= at + WINDOW_MM / 2.0);
         let mut around: Vec<f32> = values[first..end].iter().map(|(_, value)| *value).collect();
         around.sort_unstable_by(f32::total_cmp);
         around[around.len() / 2]

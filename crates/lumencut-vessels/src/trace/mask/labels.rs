@@ -1,14 +1,13 @@
-//! The labels of a label map along a vessel, which part it where one label ends and another begins.
+//! Splits vessels where the label of a label map changes.
 
 use crate::trace::skeleton::label_value::label_at;
 use crate::trace::skeleton::mask_vessels::MaskVessel;
 use lumencut_core::math::arc_length::arc_lengths;
 use lumencut_core::volume::Volume;
 
-/// A stretch with a label of its own is a vessel of its own where it is at least this many radii long.
+/// Minimum length of a separate label, in radii.
 const SHORTEST: f64 = 2.0;
 
-/// Points `from` to `to`, both included, which have one label.
 #[derive(Clone, Copy)]
 struct LabelRun {
     from: usize,
@@ -16,8 +15,8 @@ struct LabelRun {
     label: i64,
 }
 
-/// A vessel in parts of one label each; parts that follow each other share a point.
-pub fn parted(vessel: &MaskVessel, mask: &Volume, labels: Option<&[i64]>) -> Vec<MaskVessel> {
+/// Splits a vessel into parts of one label; consecutive parts share a point.
+pub(crate) fn parted(vessel: &MaskVessel, mask: &Volume, labels: Option<&[i64]>) -> Vec<MaskVessel> {
     let ways = arc_lengths(&vessel.points);
     let mut runs = runs(vessel, mask, labels);
     let shortest = SHORTEST * vessel.mean_radius();
@@ -52,8 +51,7 @@ pub fn parted(vessel: &MaskVessel, mask: &Volume, labels: Option<&[i64]>) -> Vec
     runs.into_iter().enumerate().map(part).collect()
 }
 
-/// The runs of one label along a vessel, at least one, each of which begins with the last point of the one before.
-/// A point outside the lumen, as in a cavity that was filled, has the label of the point before.
+/// Runs of one label that share end points. Points outside the lumen take the previous label.
 fn runs(vessel: &MaskVessel, mask: &Volume, labels: Option<&[i64]>) -> Vec<LabelRun> {
     let is_lumen = |label: &i64| *label != 0 && labels.is_none_or(|labels| labels.contains(label));
     let at = |n: usize| {

@@ -1,4 +1,4 @@
-//! Gaps between the pieces of a mask: how wide they are, and vessels that bridge them where they are asked for.
+//! Gaps between the components of a mask, and their bridges.
 
 use std::collections::HashMap;
 
@@ -9,27 +9,22 @@ use lumencut_core::error::Result;
 use lumencut_core::math::arc_length::arc_lengths;
 use lumencut_core::stop::{Stop, go_on};
 
-/// A gap between two pieces of lumen.
+/// A gap between two components.
 #[derive(Clone, Debug)]
 pub struct Gap {
-    /// How far apart the pieces are there (mm).
+    /// Width (mm).
     pub width: f64,
-    /// The vessels on both sides.
+    /// Vessels on both sides.
     pub vessels: [usize; 2],
-    /// The points of their centerlines on both sides (mm, LPS).
+    /// Centerline points on both sides (mm, LPS).
     pub points: [DVec3; 2],
-    /// The radii there (mm).
     radii: [f64; 2],
     /// Whether it was bridged.
     pub is_bridged: bool,
 }
 
-/// The gaps that join all pieces with the smallest sum of widths, the narrowest first: one less than there are
-/// pieces. A gap leads from the end of a piece to the end of another one or to its wall.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`] where `stop` says so.
-pub fn gaps(vessels: &[MaskVessel], stop: Stop) -> Result<Vec<Gap>> {
+/// Minimum spanning set of gaps between all components, each from an end to an end or a wall.
+pub(crate) fn gaps(vessels: &[MaskVessel], stop: Stop) -> Result<Vec<Gap>> {
     let piece_of = piece_of(vessels);
     let mut narrowest: HashMap<[usize; 2], Gap> = HashMap::new();
     for (number, vessel) in vessels.iter().enumerate() {
@@ -61,8 +56,8 @@ pub fn gaps(vessels: &[MaskVessel], stop: Stop) -> Result<Vec<Gap>> {
     Ok(kept)
 }
 
-/// Adds a straight vessel over each gap that is no wider than `widest` (mm), with points at most `step` (mm) apart.
-pub fn bridge(vessels: &mut Vec<MaskVessel>, gaps: &mut [Gap], widest: f64, step: f64) {
+/// Adds straight vessels over gaps up to `widest` mm, with points at most `step` mm apart.
+pub(crate) fn bridge(vessels: &mut Vec<MaskVessel>, gaps: &mut [Gap], widest: f64, step: f64) {
     for gap in gaps.iter_mut().filter(|gap| gap.width <= widest) {
         let [from, to] = gap.points;
         let count = (from.distance(to) / step).ceil().max(1.0) as usize;
@@ -80,7 +75,6 @@ pub fn bridge(vessels: &mut Vec<MaskVessel>, gaps: &mut [Gap], widest: f64, step
     }
 }
 
-/// The points of a vessel from which a gap can lead: its free ends, or every point of a ring.
 fn starts(vessel: &MaskVessel) -> Vec<usize> {
     let last = vessel.points.len() - 1;
     if vessel.nodes[0] == vessel.nodes[1] {
@@ -89,13 +83,12 @@ fn starts(vessel: &MaskVessel) -> Vec<usize> {
     [0, last].into_iter().zip(vessel.is_free).filter_map(|(n, is_free)| is_free.then_some(n)).collect()
 }
 
-/// The gap from a point of a vessel to where another one is nearest.
 fn gap(numbers: [usize; 2], vessel: &MaskVessel, from: usize, target: &MaskVessel) -> Gap {
     let point = vessel.points[from];
     let start = to_wall(vessel)[from];
     let inside = to_wall(target);
     let width = |n: usize| (point.distance(target.points[n]) - start - inside[n]).max(0.0);
-    // Of places that are equally near, but for rounding, an end comes first.
+    // Rounded, so that of equally near places an end comes first.
     let rank = |n: usize| ((width(n) * 1e6).round() as u64, inside[n] > 0.0);
     let nearest = (0..target.points.len()).min_by_key(|&n| rank(n)).unwrap_or(0);
     Gap {
@@ -107,7 +100,6 @@ fn gap(numbers: [usize; 2], vessel: &MaskVessel, from: usize, target: &MaskVesse
     }
 }
 
-/// The piece that each vessel belongs to, by the points that their ends share.
 fn piece_of(vessels: &[MaskVessel]) -> Vec<usize> {
     let mut parent: Vec<usize> = (0..vessels.len()).collect();
     let mut first_at: HashMap<[u64; 3], usize> = HashMap::new();
@@ -129,8 +121,7 @@ fn root(parent: &mut [usize], mut place: usize) -> usize {
     place
 }
 
-/// How far the lumen reaches beyond each point of a vessel towards another piece (mm): to the wall, but no farther than
-/// to a free end of the vessel.
+/// Extent of the lumen beyond each point (mm): to the wall, but not past a free end.
 fn to_wall(vessel: &MaskVessel) -> Vec<f64> {
     let ways = arc_lengths(&vessel.points);
     let whole = ways[ways.len() - 1];

@@ -1,4 +1,4 @@
-//! Lines of voxels moved into the middle of the lumen, smoothed, and led out to the caps of its ends.
+//! Centres and smooths voxel lines, and extends them to the caps.
 
 use glam::DVec3;
 
@@ -11,30 +11,25 @@ use lumencut_core::math::arc_length::{arc_lengths, point_at};
 use lumencut_core::math::same_place::ALONG_LINE;
 use lumencut_core::stop::{Stop, go_on};
 
-/// How often the line is moved to the centres of its cross-sections.
+/// Rounds of centring.
 const ROUNDS: usize = 3;
 
-/// The standard deviation of the smoothing, in radii and at least in voxels.
+/// Standard deviation of the smoothing: radii, and minimum in voxels.
 const SMOOTHING: f64 = 0.5;
 const SMOOTHING_VOXELS: f64 = 1.0;
 
-/// How far on either side the direction of a line is taken from, in radii and at least in voxels.
-const REACH: f64 = 0.75;
+/// Half-length of the chord that gives the direction: radii, and minimum in voxels.
+const CHORD_RADII: f64 = 0.75;
 const REACH_VOXELS: f64 = 1.5;
 
-/// A point may move to a place whose distance to the wall is at least this share of its own.
+/// Minimum wall distance after a move, relative to before; keeps the line of a crescent inside.
 const LEAST_ROOM: f64 = 0.8;
 
-/// Whether the first and the last point of a line end on another line, within whose lumen the branch has no
-/// cross-sections of its own.
-pub type OnOther = [Option<f64>; 2];
+/// For each end on another line, the radius there; within that lumen a branch has no sections of its own.
+pub(crate) type OnOther = [Option<f64>; 2];
 
-/// Moves a line into the middle of the lumen. `on_other` holds, for each end that lies on another line, the radius
-/// there.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`] where `stop` says so.
-pub fn center(line: &mut ThroughLine, lumen: &Lumen, on_other: OnOther, stop: Stop) -> Result<()> {
+/// Centres a line in the lumen. Returns [`lumencut_core::error::ErrorKind::Interrupted`] if stopped.
+pub(crate) fn center(line: &mut ThroughLine, lumen: &Lumen, on_other: OnOther, stop: Stop) -> Result<()> {
     let closed = line.is_closed;
     let radii: Vec<f64> =
         line.points.iter().map(|point| lumen.radius(*point).max(lumen.side() / 2.0)).collect();
@@ -42,7 +37,7 @@ pub fn center(line: &mut ThroughLine, lumen: &Lumen, on_other: OnOther, stop: St
         radii.iter().map(|radius| (share * radius).max(voxels * lumen.side())).collect()
     };
     let sigma = scaled(SMOOTHING, SMOOTHING_VOXELS);
-    let reach = scaled(REACH, REACH_VOXELS);
+    let reach = scaled(CHORD_RADII, REACH_VOXELS);
     line.points = smoothed_by_gaussian(&line.points, &sigma, closed);
     for _ in 0..ROUNDS {
         go_on(stop)?;
@@ -63,7 +58,6 @@ pub fn center(line: &mut ThroughLine, lumen: &Lumen, on_other: OnOther, stop: St
     Ok(())
 }
 
-/// The way from a point to the centre of its cross-section, as far as there is room.
 fn shift(lumen: &Lumen, point: DVec3, direction: DVec3) -> DVec3 {
     let Some(section) = lumen.cross_section(point, direction) else { return DVec3::ZERO };
     let whole = section.center - point;
@@ -73,7 +67,7 @@ fn shift(lumen: &Lumen, point: DVec3, direction: DVec3) -> DVec3 {
     fits.unwrap_or(DVec3::ZERO)
 }
 
-/// How much each point is moved: not within the lumen of another line, wholly from one and a half of its radii on.
+/// Weight of each move: 0 within another line's lumen, 1 from 1.5 of its radii.
 fn weights(points: &[DVec3], on_other: OnOther) -> Vec<f64> {
     let ways = arc_lengths(points);
     let whole = ways[ways.len() - 1];
@@ -83,7 +77,7 @@ fn weights(points: &[DVec3], on_other: OnOther) -> Vec<f64> {
     ways.iter().map(|way| weight(*way, on_other[0]).min(weight(whole - *way, on_other[1]))).collect()
 }
 
-/// How far from an end (mm) the end is no nearer than the wall, at most `limit`; `radius` gives the way to the wall.
+/// Distance from an end (mm) at which the end is no nearer than the wall, at most `limit`.
 fn way_inwards(radius: impl Fn(f64) -> f64, step: f64, limit: f64) -> f64 {
     let (mut way, mut missing) = (0.0, radius(0.0));
     while missing > ALONG_LINE && way < limit {
@@ -97,9 +91,8 @@ fn way_inwards(radius: impl Fn(f64) -> f64, step: f64, limit: f64) -> f64 {
     way.min(limit)
 }
 
-/// Leads the first point of a line out to the wall, straight on from one radius before it. `most` is how much of the line
-/// may be given up for that (mm).
-pub fn lead_to_cap(points: &mut Vec<DVec3>, lumen: &Lumen, most: f64) {
+/// Extends the first point to the wall, straight from one radius before, giving up at most `most` mm.
+pub(crate) fn lead_to_cap(points: &mut Vec<DVec3>, lumen: &Lumen, most: f64) {
     let ways = arc_lengths(points);
     let whole = ways[ways.len() - 1];
     let inner = |way: f64| lumen.radius(point_at(points, &ways, way));
@@ -113,7 +106,7 @@ pub fn lead_to_cap(points: &mut Vec<DVec3>, lumen: &Lumen, most: f64) {
     let (from, direction, way) = if kept > 0.0 {
         (from, direction, way)
     } else {
-        // The end bends: it goes on from where it is.
+        // The end bends, so it continues from its own position.
         let behind = point_at(points, &ways, radius.min(whole));
         let direction = (points[0] - behind).normalize_or_zero();
         (points[0], direction, lumen.way_to_wall(points[0], direction, 4.0 * radius))
@@ -123,7 +116,7 @@ pub fn lead_to_cap(points: &mut Vec<DVec3>, lumen: &Lumen, most: f64) {
     let mut led: Vec<DVec3> =
         (0..=count).rev().map(|n| from + way * (n as f64 / count as f64) * direction).collect();
     let tail = points.split_off(removed);
-    // The point itself and one that lies in the same place.
+    // Also drops a coincident point.
     let tail: Vec<DVec3> =
         tail.into_iter().skip_while(|point| point.distance(from) < lumen.side() / 2.0 - ALONG_LINE).collect();
     led.extend(tail.iter().copied());

@@ -1,30 +1,22 @@
-//! The distance of each voxel of lumen to the nearest voxel of background, exact on anisotropic grids.
+//! Exact distance from lumen voxels to the nearest background voxel, on anisotropic grids.
 //!
 //! Felzenszwalb and Huttenlocher, "Distance Transforms of Sampled Functions", Theory of Computing 8, 2012,
-//! doi:10.4086/toc.2012.v008a019: one pass along each axis, each the lower envelope of parabolas. Between two voxels
-//! of background only the parabolas of the lumen between them and the two at its ends can be lowest, so each run of
-//! lumen is a problem of its own, and background is never looked at.
+//! doi:10.4086/toc.2012.v008a019: one pass per axis, each a lower envelope of parabolas. Each run of lumen is
+//! independent, so background is never visited.
 
 use crate::trace::skeleton::foreground::{Foreground, LUMEN};
 use crate::trace::skeleton::nearest_background::NearestBackground;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// How much the cosine of the angle between two axes may differ from 0 in a grid that counts as rectangular: over
-/// 1000 voxels it shifts the last one by a thousandth of a voxel.
+/// Maximum cosine between axes of a rectangular grid: a shift of a thousandth of a voxel over 1000 voxels.
 const RIGHT_ANGLE: f64 = 1e-6;
 
-/// After how many cells the caller is asked whether to stop.
+/// Cells between two checks of `stop`.
 const CELLS_BETWEEN_STOPS: usize = 1 << 16;
 
-/// The squared distance (mm²) from the centre of each cell of `lumen` to the nearest centre of background, in a
-/// grid as large as `foreground`, 0 in background. `lumen` lists the cells of lumen, rising.
-///
-/// On sheared grids the distances along the axes do not add up: there the nearest voxel of background is searched for
-/// each cell in a k-d tree of the voxels of background that touch lumen.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`] where `stop` says so.
+/// Squared distance (mm²) from each cell of `lumen` (sorted) to the nearest background centre; 0 in
+/// background. Sheared grids, where axis distances do not add up, use a k-d tree.
 pub fn squared_distances(foreground: &Foreground, lumen: &[u32], stop: Stop) -> Result<Vec<f32>> {
     let mut squares = vec![0.0; foreground.cells.len()];
     if is_sheared(foreground) {
@@ -58,15 +50,14 @@ fn is_sheared(foreground: &Foreground) -> bool {
     [x.dot(y), y.dot(z), z.dot(x)].into_iter().any(|cosine| cosine.abs() > RIGHT_ANGLE)
 }
 
-/// The pass along one axis.
 struct Pass {
     axis: usize,
     stride: usize,
-    /// The side of a voxel along the axis (mm).
+    /// Voxel side along the axis (mm).
     side: f64,
-    /// What the passes before left along the run, with a 0 of background at both ends.
+    /// Results of previous passes along the run, with 0 at both ends.
     values: Vec<f64>,
-    /// The parabolas of the lower envelope: where their lowest points are, and from where on each is the lowest.
+    /// Lower envelope: apex of each parabola, and where it starts to be lowest.
     lowest: Vec<usize>,
     from: Vec<f64>,
 }
@@ -77,7 +68,6 @@ impl Pass {
         Self { axis, stride, side, values: Vec::new(), lowest: Vec::new(), from: Vec::new() }
     }
 
-    /// The run of lumen that begins at a cell.
     fn run(&mut self, foreground: &Foreground, first: usize, squares: &mut [f32]) {
         let lumen = |n: usize| foreground.cells[first + n * self.stride] == LUMEN;
         let length = (1..).find(|&n| !lumen(n)).unwrap_or(1);
@@ -102,7 +92,6 @@ impl Pass {
         }
     }
 
-    /// The parabola over `lowest` at `n`.
     fn at(&self, lowest: usize, n: usize) -> f64 {
         let distance = (n as f64 - lowest as f64) * self.side;
         distance.mul_add(distance, self.values[lowest])
@@ -127,7 +116,6 @@ impl Pass {
         }
     }
 
-    /// Where the parabola over `after` begins to be lower than the one over `before`.
     fn crossing(&self, before: usize, after: usize) -> f64 {
         let [p, q] = [before as f64, after as f64];
         let square = self.side * self.side;

@@ -1,5 +1,4 @@
-//! The lumen of a mask as a grid of its own: the box around its voxels with a border of background, in one order
-//! of the axes whichever way the mask is stored.
+//! The lumen of a mask in its own grid with a border, independent of the storage order.
 
 use std::ops::Range;
 
@@ -10,31 +9,27 @@ use lumencut_core::error::{Error, ErrorKind, Mend, Result};
 use lumencut_core::stop::{Stop, go_on};
 use lumencut_core::volume::{Volume, Voxels};
 
-/// The value of background in [`Foreground::cells`].
-pub const BACKGROUND: u8 = 0;
-/// The value of lumen in [`Foreground::cells`].
+/// Background in [`Foreground::cells`].
+pub(crate) const BACKGROUND: u8 = 0;
+/// Lumen in [`Foreground::cells`].
 pub const LUMEN: u8 = 1;
 
-/// The box around the lumen of a mask, one voxel of background around it.
+/// The lumen box of a mask.
 pub struct Foreground {
-    /// Lumen or background; i runs fastest, then j, then k.
+    /// Lumen or background per voxel; i fastest, then j, then k.
     pub cells: Vec<u8>,
-    /// The number of cells along (i, j, k), the border included.
+    /// Cells along (i, j, k), including the border.
     pub size: [usize; 3],
     /// World position (LPS, mm) of a continuous index of this grid.
     pub world_from_index: DAffine3,
 }
 
 impl Foreground {
-    /// The voxels of `mask` whose value is one of `labels`, or any but 0 where there are none.
+    /// Voxels of `mask` with a value in `labels`, or any but 0 without labels.
     ///
-    /// An axis is turned over where the lumen lies nearer to its beginning, or where it lies in the middle and the axis
-    /// points to the right, to the front or to the feet. A mask that is stored the other way round gives the
-    /// same grid, and so the same centerlines.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Volume`] for voxels that are no whole numbers, for a single slice, and where no voxel or every voxel is
-    /// lumen.
+    /// Each axis is flipped so that the lumen's centroid lies in its second half (on a tie: left, back,
+    /// head), so a mirrored storage order gives the same result. [`ErrorKind::Volume`] for fractional values,
+    /// a single slice, or if no voxel or every voxel is lumen.
     pub fn new(mask: &Volume, labels: Option<&[i64]>, stop: Stop) -> Result<Self> {
         if mask.size().contains(&1) {
             let found = format!("{:?} voxels along i, j, k", mask.size());
@@ -85,41 +80,41 @@ impl Foreground {
         Err(error.mend("give the values that stand for lumen"))
     }
 
-    /// The distance between neighbours along j and k in cells.
+    /// Distance of neighbours along each axis, in cells.
     pub fn strides(&self) -> [usize; 3] {
         [1, self.size[0], self.size[0] * self.size[1]]
     }
 
-    /// The index (i, j, k) of a cell.
+    /// Index (i, j, k) of a cell.
     pub fn index(&self, cell: usize) -> [usize; 3] {
         let [ni, nj, _] = self.size;
         [cell % ni, cell / ni % nj, cell / (ni * nj)]
     }
 
-    /// The world position (LPS, mm) of the centre of a cell.
+    /// World position (LPS, mm) of a cell centre.
     pub fn position(&self, cell: usize) -> DVec3 {
         let index = self.index(cell).map(|n| n as f64);
         self.world_from_index.transform_point3(DVec3::from_array(index))
     }
 
-    /// The sides of a voxel (mm).
+    /// Voxel sides (mm).
     pub fn sides(&self) -> [f64; 3] {
         let DMat3 { x_axis, y_axis, z_axis } = self.world_from_index.matrix3;
         [x_axis.length(), y_axis.length(), z_axis.length()]
     }
 
-    /// The smallest side of a voxel (mm).
+    /// Smallest voxel side (mm).
     pub fn smallest_side(&self) -> f64 {
         self.sides().into_iter().fold(f64::INFINITY, f64::min)
     }
 
-    /// The cells of row `row` of those along i.
+    /// Cells of a row along i.
     pub fn row(&self, row: usize) -> Range<usize> {
         row * self.size[0]..(row + 1) * self.size[0]
     }
 }
 
-/// Refuses floats that are no whole numbers: parts of lumen, or the values of a scan.
+/// Rejects fractional values: partial lumen, or the values of a scan.
 fn check_whole<T: Copy + LabelValue>(rows: &Rows<T>, stop: Stop) -> Result<()> {
     if T::IS_WHOLE {
         return Ok(());
@@ -138,7 +133,6 @@ fn check_whole<T: Copy + LabelValue>(rows: &Rows<T>, stop: Stop) -> Result<()> {
     Ok(())
 }
 
-/// The voxels of a mask row by row.
 struct Rows<'a, T> {
     voxels: &'a [T],
     size: [usize; 3],
@@ -150,14 +144,13 @@ impl<T: Copy> Rows<'_, T> {
         self.size.iter().product()
     }
 
-    /// The voxels of a row along the axis whose neighbours lie side by side, where there is such an axis.
     fn values(&self, along: usize, place: usize) -> impl Iterator<Item = T> {
         let stride = self.strides[along].max(1);
         let end = place + (self.size[along] - 1) * stride + 1;
         self.voxels[place..end].iter().step_by(stride).copied()
     }
 
-    /// Whether a row holds nothing but zeros, as most rows of most masks do: without a branch for each voxel.
+    /// Branch-free test for all zeros, true for most rows.
     fn is_empty(&self, along: usize, place: usize) -> bool
     where
         T: Default + PartialEq,
@@ -169,12 +162,10 @@ impl<T: Copy> Rows<'_, T> {
         !self.values(along, place).fold(false, |filled, value| is_filled(filled, &value))
     }
 
-    /// The axis with the smallest stride.
     fn along(&self) -> usize {
         (0..3).min_by_key(|&a| self.strides[a]).unwrap_or(0)
     }
 
-    /// The other two axes, and the index of every row along both.
     fn starts(&self, along: usize) -> impl Iterator<Item = [usize; 3]> {
         let [near, far] = [(along + 1) % 3, (along + 2) % 3];
         let size = self.size;
@@ -192,7 +183,6 @@ impl<T: Copy> Rows<'_, T> {
     }
 }
 
-/// Where the lumen of a mask lies.
 struct Extent {
     low: [usize; 3],
     high: [usize; 3],
@@ -236,7 +226,6 @@ impl Extent {
         self.count += 1;
     }
 
-    /// Which axes are turned over.
     fn turned(&self, world_from_index: DAffine3) -> [bool; 3] {
         let axes = world_from_index.matrix3.to_cols_array_2d();
         std::array::from_fn(|a| {
@@ -280,7 +269,6 @@ impl Extent {
         Foreground { cells, size, world_from_index: self.placed(mask.world_from_index(), turned) }
     }
 
-    /// The affine of the new grid.
     fn placed(&self, world_from_index: DAffine3, turned: [bool; 3]) -> DAffine3 {
         let scale = DVec3::from_array(turned.map(|turned| if turned { -1.0 } else { 1.0 }));
         let first = DVec3::from_array(std::array::from_fn(|a| {

@@ -1,35 +1,31 @@
-//! The graph of a skeleton: branches of voxels between ends and junctions, with as many cycles as the mask has.
+//! The skeleton as a graph of branches with as many cycles as the mask.
 //!
-//! Voxels that touch are joined by edges. Three that touch each other in pairs bound no hole, so of all edges a
-//! spanning forest stays and, for each cycle that no such triangles fill, one edge more. The cubes of
-//! voxels and the triangles of their edges have the same topology, since cubes that touch in pairs share a point.
+//! Touching voxels are joined by edges. Three mutually touching voxels bound no hole, so a spanning forest
+//! stays, plus one edge for each cycle that such triangles do not fill. Voxel cubes and these triangles have
+//! the same topology, because cubes that touch in pairs share a point.
 
 use std::collections::HashMap;
 
 use crate::trace::skeleton::foreground::Foreground;
 
-/// A line of voxels between two nodes, which may be the same one.
 #[derive(Clone, Debug)]
-pub struct Branch {
-    /// The nodes at its start and its end.
+pub(crate) struct Branch {
     pub nodes: [usize; 2],
-    /// The cells from its start to its end, both included; at least two.
+    /// From start to end, inclusive; at least two.
     pub cells: Vec<u32>,
 }
 
-/// Branches and the nodes in which they end.
-pub struct Graph {
-    /// The cell of each node.
+pub(crate) struct Graph {
     pub nodes: Vec<u32>,
-    /// The branches; `None` for one that was removed.
+    /// None if removed.
     pub branches: Vec<Option<Branch>>,
-    /// The branches that end in each node, once for each of their ends.
-    pub incident: Vec<Vec<usize>>,
+    /// Branches at each node, once per end.
+    pub(crate) incident: Vec<Vec<usize>>,
 }
 
 impl Graph {
-    /// The graph of the lines of voxels that [`crate::trace::skeleton::thinning::thin`] left; `skeleton` lists their cells.
-    pub fn new(foreground: &Foreground, skeleton: &[u32]) -> Self {
+    /// `skeleton` has the cells left by [`crate::trace::skeleton::thinning::thin`].
+    pub(crate) fn new(foreground: &Foreground, skeleton: &[u32]) -> Self {
         let mut cells = skeleton.to_vec();
         cells.sort_unstable();
         let links = links(foreground, &cells);
@@ -41,7 +37,7 @@ impl Graph {
                 graph.branches_from(place, &cells, &links, &mut node_of, &mut passed);
             }
         }
-        // What is left are rings without a junction.
+        // The rest are rings without a junction.
         for place in 0..cells.len() {
             if links[place].len() == 2 && !passed[place] {
                 graph.branches_from(place, &cells, &links, &mut node_of, &mut passed);
@@ -50,7 +46,6 @@ impl Graph {
         graph
     }
 
-    /// The branches that start at a place and were not walked along yet.
     fn branches_from(
         &mut self,
         start: usize,
@@ -70,7 +65,7 @@ impl Graph {
                 (before, place) = (place, next);
                 line.push(cells[place]);
             }
-            // A line that was walked from its other end stops at once; two nodes side by side are joined once.
+            // Skips lines visited from the other end, and adjacent nodes already joined.
             let walked = links[place].len() == 2 && place != start;
             if walked || (line.len() == 2 && place < start) {
                 continue;
@@ -88,16 +83,14 @@ impl Graph {
         })
     }
 
-    /// Adds a branch.
-    pub fn add(&mut self, branch: Branch) {
+    pub(crate) fn add(&mut self, branch: Branch) {
         for node in branch.nodes {
             self.incident[node].push(self.branches.len());
         }
         self.branches.push(Some(branch));
     }
 
-    /// Takes a branch out of the graph.
-    pub fn remove(&mut self, number: usize) -> Option<Branch> {
+    pub(crate) fn remove(&mut self, number: usize) -> Option<Branch> {
         let branch = self.branches[number].take()?;
         for node in branch.nodes {
             self.incident[node].retain(|&other| other != number);
@@ -105,8 +98,8 @@ impl Graph {
         Some(branch)
     }
 
-    /// Makes one branch of the two that meet in a node where nothing else ends.
-    pub fn join_at(&mut self, node: usize) {
+    /// Merges the two branches of a node without others.
+    pub(crate) fn join_at(&mut self, node: usize) {
         let [a, b] = self.incident[node][..] else { return };
         if a == b {
             return;
@@ -121,29 +114,15 @@ impl Graph {
         a.cells.extend_from_slice(&b.cells[1..]);
         self.add(Branch { nodes: [a.nodes[0], b.nodes[1]], cells: a.cells });
     }
-
-    /// The number of independent cycles.
-    pub fn cycles(&self) -> usize {
-        let mut parent: Vec<usize> = (0..self.nodes.len()).collect();
-        let mut cycles = 0;
-        for branch in self.branches.iter().flatten() {
-            let [a, b] = branch.nodes.map(|node| root(&mut parent, node));
-            cycles += usize::from(a == b);
-            parent[a] = b;
-        }
-        cycles
-    }
 }
 
 impl Branch {
-    /// Turns the branch round.
-    pub fn reverse(&mut self) {
+    pub(crate) fn reverse(&mut self) {
         self.nodes.reverse();
         self.cells.reverse();
     }
 }
 
-/// The places that each of `cells`, which rise, is joined to.
 fn links(foreground: &Foreground, cells: &[u32]) -> Vec<Vec<usize>> {
     let edges = edges(foreground, cells);
     let mut parent: Vec<usize> = (0..cells.len()).collect();
@@ -166,10 +145,9 @@ fn links(foreground: &Foreground, cells: &[u32]) -> Vec<Vec<usize>> {
     links
 }
 
-/// The pairs of places that touch, the shortest first.
 fn edges(foreground: &Foreground, cells: &[u32]) -> Vec<[usize; 2]> {
     let [_, j, k] = foreground.strides();
-    // The half of the 26 neighbours whose cells come later, with their distances.
+    // The later half of the 26 neighbours.
     let sides = foreground.world_from_index.matrix3;
     let mut edges = Vec::new();
     for step in 14..27_usize {
@@ -186,7 +164,7 @@ fn edges(foreground: &Foreground, cells: &[u32]) -> Vec<[usize; 2]> {
     edges.into_iter().map(|(_, edge)| edge).collect()
 }
 
-/// Of the edges that close a cycle of the forest one for each hole: those whose cycle is no sum of triangles.
+/// One closing edge per hole: those whose cycle is no sum of triangles.
 fn around_holes(edges: &[[usize; 2]], closing: &[[usize; 2]], places: usize) -> Vec<[usize; 2]> {
     let number_of: HashMap<[usize; 2], usize> =
         closing.iter().enumerate().map(|(n, &edge)| (edge, n)).collect();
@@ -195,7 +173,7 @@ fn around_holes(edges: &[[usize; 2]], closing: &[[usize; 2]], places: usize) -> 
         touching[a].push(b);
         touching[b].push(a);
     }
-    // Gaussian elimination over the edges that close cycles, with two as zero.
+    // Gaussian elimination modulo 2.
     let mut triangles: HashMap<usize, Vec<usize>> = HashMap::new();
     for &[a, b] in closing {
         for &c in touching[a].iter().filter(|c| touching[b].contains(c)) {
@@ -214,7 +192,6 @@ fn around_holes(edges: &[[usize; 2]], closing: &[[usize; 2]], places: usize) -> 
     holes.map(|number| closing[number]).collect()
 }
 
-/// What is in one of two falling lists but not in both.
 fn difference(one: &[usize], other: &[usize]) -> Vec<usize> {
     let mut all: Vec<usize> = one.iter().filter(|n| !other.contains(n)).copied().collect();
     all.extend(other.iter().filter(|n| !one.contains(n)));

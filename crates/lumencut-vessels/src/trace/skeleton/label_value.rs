@@ -1,19 +1,15 @@
-//! The values of a mask's voxels as labels, whatever type they are stored in.
+//! Mask values as labels, for any voxel type.
 
 use lumencut_core::volume::{Volume, Voxels};
 
-/// Floats beyond this do not hold every whole number.
+/// Largest float up to which all integers are exact (2²⁴).
 const LARGEST_FLOAT: f64 = 16_777_216.0;
 
-/// Values that stand for labels.
-pub trait LabelValue: Sized {
-    /// Whether every value is a whole number.
+pub(crate) trait LabelValue: Sized {
     const IS_WHOLE: bool;
 
-    /// The label that it is.
     fn label(self) -> i64;
 
-    /// A value that is no label.
     fn odd(self) -> Option<f64> {
         None
     }
@@ -52,8 +48,7 @@ macro_rules! float_label_values {
 }
 float_label_values!(f32, f64);
 
-/// The value of the voxel at an index.
-pub fn label_at(mask: &Volume, index: [usize; 3]) -> i64 {
+pub(crate) fn label_at(mask: &Volume, index: [usize; 3]) -> i64 {
     let place: usize = (0..3).map(|a| index[a] * mask.strides()[a]).sum();
     match mask.voxels() {
         #[cfg(not(target_arch = "wasm32"))]

@@ -1,5 +1,4 @@
-//! What a mask tells of a place: whether it is lumen, how far the wall is in every direction, and how wide the
-//! cross-section is.
+//! Geometry of a mask at a place: lumen, wall distance and cross-section.
 
 use std::f64::consts::TAU;
 
@@ -8,18 +7,16 @@ use glam::{DAffine3, DVec3};
 use crate::trace::skeleton::foreground::Foreground;
 use lumencut_core::math::sampling::interpolate;
 
-/// How many directions a cross-section is measured in.
+/// Rays per section.
 const RAYS: usize = 24;
 
-/// A ray ends at this many times the median of all rays, as where a branch leaves the vessel.
+/// Maximum ray in medians of all rays, where a branch leaves.
 const LONGEST_RAY: f64 = 1.5;
 
-/// The share of lumen at the wall: a half, but for as little that no place between voxels has it by symmetry, where
-/// rounding would decide on which side of the wall it is.
+/// Lumen share at the wall; below a half, so that symmetric points do not depend on rounding.
 const WALL: f64 = 0.499;
 
-/// A mask with its distances to the background.
-pub struct Lumen<'a> {
+pub(crate) struct Lumen<'a> {
     squares: &'a [f32],
     size: [usize; 3],
     world_from_index: DAffine3,
@@ -28,20 +25,17 @@ pub struct Lumen<'a> {
     half_diagonal: f64,
 }
 
-/// A cross-section: its centre of gravity, and the radius of the circle with the same area (mm).
 #[derive(Clone, Copy, Debug)]
-pub struct MaskSection {
-    /// The centre of gravity.
+pub(crate) struct MaskSection {
+    /// Centroid (mm, LPS).
     pub center: DVec3,
-    /// The radius of a circle of the same area.
+    /// Radius of a circle of the same area (mm).
     pub radius: f64,
-    /// The shortest ray.
     pub shortest: f64,
 }
 
 impl<'a> Lumen<'a> {
-    /// The lumen of a grid with its squared distances.
-    pub fn new(foreground: &Foreground, squares: &'a [f32]) -> Self {
+    pub(crate) fn new(foreground: &Foreground, squares: &'a [f32]) -> Self {
         let world_from_index = foreground.world_from_index;
         let diagonals = [[1.0, 1.0, 1.0], [-1.0, 1.0, 1.0], [1.0, -1.0, 1.0], [1.0, 1.0, -1.0]]
             .map(|d| world_from_index.transform_vector3(DVec3::from_array(d)).length());
@@ -55,13 +49,11 @@ impl<'a> Lumen<'a> {
         }
     }
 
-    /// The smallest side of a voxel (mm).
-    pub fn side(&self) -> f64 {
+    pub(crate) fn side(&self) -> f64 {
         self.side
     }
 
-    /// The centres of cells (mm, LPS).
-    pub fn positions(&self, cells: &[u32]) -> Vec<DVec3> {
+    pub(crate) fn positions(&self, cells: &[u32]) -> Vec<DVec3> {
         let [ni, nj, _] = self.size;
         let position = |cell: usize| {
             let index = [cell % ni, cell / ni % nj, cell / (ni * nj)].map(|n| n as f64);
@@ -70,22 +62,21 @@ impl<'a> Lumen<'a> {
         cells.iter().map(|&cell| position(cell as usize)).collect()
     }
 
-    /// The distance from the centre of a cell to the wall (mm), which lies half a voxel before the next background.
-    pub fn radius_at_cell(&self, cell: u32) -> f64 {
+    /// Wall distance at a cell centre (mm); the wall lies half a voxel before background.
+    pub(crate) fn radius_at_cell(&self, cell: u32) -> f64 {
         (f64::from(self.squares[cell as usize]).sqrt() - self.side / 2.0).max(0.0)
     }
 
-    /// The distance from a place to the wall (mm), interpolated between voxels.
-    pub fn radius(&self, place: DVec3) -> f64 {
+    pub(crate) fn radius(&self, place: DVec3) -> f64 {
         (self.interpolated(place, |square| f64::from(square).sqrt()) - self.side / 2.0).max(0.0)
     }
 
-    /// The share of lumen among the voxels around a place, 0 to 1; the wall is where it is a half.
-    pub fn share(&self, place: DVec3) -> f64 {
+    /// Lumen share around a place, 0 to 1.
+    pub(crate) fn share(&self, place: DVec3) -> f64 {
         self.interpolated(place, |square| f64::from(u8::from(square > 0.0)))
     }
 
-    /// A value of voxels, trilinear; 0 outside the grid.
+    /// Trilinear value; 0 outside the grid.
     fn interpolated(&self, place: DVec3, value: impl Fn(f32) -> f64) -> f64 {
         let index = self.index_from_world.transform_point3(place);
         let base = index.floor();
@@ -100,15 +91,15 @@ impl<'a> Lumen<'a> {
         interpolate(|r| [0, 1].map(|step| value(self.squares[first + rows[r] + step])), t.to_array())
     }
 
-    /// The way from a place along a unit vector to the wall (mm), at most `most`; 0 outside the lumen.
-    pub fn way_to_wall(&self, place: DVec3, direction: DVec3, most: f64) -> f64 {
+    /// Distance to the wall along a unit vector (mm), at most `most`; 0 outside the lumen.
+    pub(crate) fn way_to_wall(&self, place: DVec3, direction: DVec3, most: f64) -> f64 {
         let (mut way, mut before) = (0.0, self.share(place));
         if before < WALL {
             return 0.0;
         }
         let smallest = self.side / 2.0;
         while way < most {
-            // Nearer than the nearest background all is lumen; what is interpolated is off by half a diagonal.
+            // Safe step: everything nearer than background is lumen, minus the interpolation error.
             let free = self.radius(place + way * direction) - 3.0 * self.half_diagonal;
             let step = free.max(smallest);
             let share = self.share(place + (way + step) * direction);
@@ -120,8 +111,8 @@ impl<'a> Lumen<'a> {
         most
     }
 
-    /// The cross-section at a place across a direction; `None` outside the lumen.
-    pub fn cross_section(&self, place: DVec3, direction: DVec3) -> Option<MaskSection> {
+    /// Cross-section perpendicular to a direction; None outside the lumen.
+    pub(crate) fn cross_section(&self, place: DVec3, direction: DVec3) -> Option<MaskSection> {
         let [u, v] = across(direction);
         let most = 4.0 * (self.radius(place) + self.side);
         let mut ways = [0.0; RAYS];
@@ -143,16 +134,15 @@ impl<'a> Lumen<'a> {
             area += triangle;
             moment += triangle * (a + b) / 3.0;
         }
-        // The corners lie on the wall: a circle is wider than the polygon within it.
+        // Converts the area of the inscribed polygon to that of the circle.
         let circle = area * (TAU / RAYS as f64) / (TAU / RAYS as f64).sin();
         let radius = (2.0 * circle / TAU).sqrt();
         (area > 0.0).then(|| MaskSection { center: place + moment / area, radius, shortest: sorted[0] })
     }
 }
 
-/// Two unit vectors across a direction and across each other.
 fn across(direction: DVec3) -> [DVec3; 2] {
-    // Without the digits that rounding may change: in grids many directions are as near to one axis as to another.
+    // Rounded, because in grids many directions are equally near to two axes.
     let size = (direction.abs() * 1e6).round();
     let axis = if size.x <= size.y && size.x <= size.z {
         DVec3::X

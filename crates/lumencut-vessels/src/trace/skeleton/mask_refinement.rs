@@ -1,4 +1,4 @@
-//! Better middles and radii for a vessel of a mask, but for where it lies within another one.
+//! Applies a refinement to a mask vessel outside the vessels it meets.
 
 use std::ops::Range;
 
@@ -9,22 +9,18 @@ use crate::trace::skeleton::mask_lumen::Lumen;
 use lumencut_core::error::Result;
 use lumencut_core::math::arc_length::{LinePlace, arc_lengths};
 
-/// Finds a better centerline from the points of one (mm, LPS) and their radii (mm); `None` where it finds none.
+/// Finds a better centerline from points (mm, LPS) and radii (mm).
 pub type Refine<'a> = &'a (dyn Fn(&[DVec3], &[f64]) -> Result<Option<Centerline>> + Sync);
 
-/// A vessel has left another one where, over a radius, it gets narrower by no more than this part of the radius.
+/// A vessel has left another where it narrows by at most this share over a radius.
 const NARROWER: f64 = 0.2;
 
-/// A vessel that has fewer points of its own stays as it is.
+/// Minimum number of points to refine.
 const FEWEST: usize = 5;
 
-/// The vessel with the better middles and radii of `refine`. Near an end that is not free a vessel lies within another one, and
-/// its cross-sections would show that one: there its line stays as it is. Over one radius from where it has left the other
-/// vessel its line goes over to the better one. The points of a better line are at most `step` (mm) apart.
-///
-/// # Errors
-/// Those of `refine`.
-pub fn refined(
+/// Refines the vessel. Near ends in other vessels the line stays; over one radius it blends into the refined
+/// line. Points are at most `step` mm apart.
+pub(crate) fn refined(
     line: Centerline,
     is_free: [bool; 2],
     lumen: &Lumen,
@@ -62,7 +58,7 @@ pub fn refined(
     Ok(joined.resampled(step))
 }
 
-/// The better line, which over `reaches` (mm) from its ends comes from the old one.
+/// Blends the ends of the better line with the old one over `reaches` mm.
 fn blended(old: &Centerline, mut better: Centerline, reaches: [f64; 2]) -> Centerline {
     let [before, after] = [&old.points, &better.points].map(|points| arc_lengths(points));
     let [old_length, length] = [&before, &after].map(|lengths| lengths[lengths.len() - 1]);
@@ -85,7 +81,6 @@ fn blended(old: &Centerline, mut better: Centerline, reaches: [f64; 2]) -> Cente
     better
 }
 
-/// The points of a line between those within the vessels that it meets.
 fn own_points(points: &[DVec3], is_free: [bool; 2], lumen: &Lumen) -> Range<usize> {
     let radius: Vec<f64> = points.iter().map(|point| lumen.radius(*point)).collect();
     let lengths = arc_lengths(points);
@@ -102,7 +97,7 @@ fn own_points(points: &[DVec3], is_free: [bool; 2], lumen: &Lumen) -> Range<usiz
     first..points.len().saturating_sub(last).max(first)
 }
 
-/// The first point from which on a line gets no narrower.
+/// First point from which the line no longer narrows.
 fn leaves(radius: &[f64], lengths: &[f64]) -> usize {
     let stays = |n: usize| {
         let end = lengths.partition_point(|length| *length <= lengths[n] + radius[n]);

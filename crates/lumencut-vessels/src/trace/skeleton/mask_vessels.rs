@@ -1,4 +1,4 @@
-//! Vessels that were found, in the order and direction in which a reader follows them.
+//! Orders and orients mask vessels.
 
 use std::collections::{HashMap, VecDeque};
 
@@ -6,27 +6,26 @@ use glam::DVec3;
 
 use lumencut_core::math::arc_length::arc_lengths;
 
-/// A vessel that was found.
+/// A vessel of a mask.
 #[derive(Clone, Debug)]
 pub struct MaskVessel {
-    /// The points (mm, LPS), at least two.
+    /// Points (mm, LPS), at least two.
     pub points: Vec<DVec3>,
-    /// The radius at each point (mm).
+    /// Radius per point (mm).
     pub radius: Vec<f64>,
-    /// How sure each point is, 0 to 1; empty where the volume was not asked, or does not show the vessel.
+    /// Confidence per point, 0 to 1; empty if not refined.
     pub confidence: Vec<f64>,
-    /// The nodes of the graph at its start and its end.
+    /// Graph nodes at start and end.
     pub nodes: [usize; 2],
-    /// Whether its first and its last point are ends of the lumen.
+    /// Whether the first and last point are ends of the lumen.
     pub is_free: [bool; 2],
-    /// The value of the mask along most of it.
+    /// Predominant mask value.
     pub label: i64,
-    /// Whether it bridges a gap of the mask.
+    /// Whether it bridges a gap.
     pub is_bridge: bool,
 }
 
 impl MaskVessel {
-    /// Turns the vessel round.
     fn reverse(&mut self) {
         self.points.reverse();
         self.radius.reverse();
@@ -35,19 +34,18 @@ impl MaskVessel {
         self.is_free.reverse();
     }
 
-    /// The length (mm).
+    /// Length (mm).
     pub fn length(&self) -> f64 {
         arc_lengths(&self.points).last().copied().unwrap_or(0.0)
     }
 
-    /// The mean radius (mm).
+    /// Mean radius (mm).
     pub fn mean_radius(&self) -> f64 {
         self.radius.iter().sum::<f64>() / self.radius.len() as f64
     }
 }
 
-/// The vessels piece by piece, the longest piece first; within a piece from the free end of its widest vessel outwards,
-/// and each vessel in that direction.
+/// Sorts and orients vessels: longest component first, from the free end of the widest vessel outwards.
 pub fn outwards(vessels: Vec<MaskVessel>) -> Vec<MaskVessel> {
     let mut at_node: HashMap<usize, Vec<usize>> = HashMap::new();
     for (number, vessel) in vessels.iter().enumerate() {
@@ -58,7 +56,7 @@ pub fn outwards(vessels: Vec<MaskVessel>) -> Vec<MaskVessel> {
     let mut by_width: Vec<usize> = (0..vessels.len()).collect();
     let is_inner = |number: usize| !vessels[number].is_free.contains(&true);
     by_width.sort_by(|&a, &b| {
-        // Without the digits that rounding may change.
+        // Rounded, to be independent of rounding errors.
         let width = |number: usize| (vessels[number].mean_radius() * 1e6).round();
         is_inner(a).cmp(&is_inner(b)).then(width(b).total_cmp(&width(a)))
     });

@@ -1,23 +1,20 @@
-//! The nearest voxel of background on any grid, by a k-d tree: for sheared grids, whose distances are no sums of
-//! distances along the axes.
+//! Nearest background voxel by a k-d tree, for sheared grids.
 
 use glam::DVec3;
 
 use crate::trace::skeleton::foreground::{BACKGROUND, Foreground};
 
-/// So many points are looked at one by one.
+/// Points per leaf.
 const LEAF: usize = 8;
 
-/// The voxels of background that touch lumen by a face, an edge or a corner, as a balanced k-d tree: the middle of a range
-/// parts it along the axis along which it is longest.
-pub struct NearestBackground {
+/// Background voxels that touch lumen, as a balanced k-d tree split along the longest axis.
+pub(super) struct NearestBackground {
     points: Vec<DVec3>,
     axes: Vec<u8>,
 }
 
 impl NearestBackground {
-    /// The tree around the cells of `lumen`.
-    pub fn new(foreground: &Foreground, lumen: &[u32]) -> Self {
+    pub(super) fn new(foreground: &Foreground, lumen: &[u32]) -> Self {
         let [i, j, k] = foreground.strides().map(|stride| stride as isize);
         let mut cells: Vec<usize> = Vec::new();
         for &cell in lumen {
@@ -53,8 +50,8 @@ impl NearestBackground {
         self.part(start + middle + 1, end);
     }
 
-    /// The squared distance (mm²) from a point to the nearest voxel of background.
-    pub fn squared_distance(&self, point: DVec3) -> f64 {
+    /// Squared distance (mm²) to the nearest background voxel.
+    pub(super) fn squared_distance(&self, point: DVec3) -> f64 {
         let mut best = f64::INFINITY;
         self.search(0, self.points.len(), point, &mut best);
         best

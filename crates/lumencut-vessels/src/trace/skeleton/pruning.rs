@@ -1,4 +1,4 @@
-//! Pruning: branches that are no vessels but bumps of the wall, or corners of an end, go.
+//! Prunes spurs: bumps of the wall and corners of ends.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
@@ -9,20 +9,19 @@ use crate::trace::skeleton::graph::{Branch, Graph};
 use crate::trace::skeleton::mask_lumen::Lumen;
 use lumencut_core::math::same_place::ALONG_LINE;
 
-/// A branch stays where it reaches farther beyond the wall of its parent than this many of its own radii, however wide
-/// the parent is.
+/// A branch stays if it reaches this many of its own radii beyond its parent's wall.
 const OWN_RADII: f64 = 4.0;
 
-/// Junctions nearer to each other than this share of the radius there, or than two voxels, become one.
-const NEAR: f64 = 0.3;
+/// Junctions closer than this share of the radius, or two voxels, are merged.
+const MERGE_RADII: f64 = 0.3;
 
-/// A piece whose line, its ends included, is shorter than this many of its largest diameters has no centerline.
+/// Minimum length of a component in diameters.
 const ELONGATED: f64 = 1.25;
 
-/// Removes the spurs of a graph. A branch with a free end stays where it is at least `parent_radii` radii of its parent
-/// long, from the parent's centerline to its end, or reaches far beyond the parent's wall for how narrow it is itself.
-/// The least significant spur goes first, and what it leaves is judged anew.
-pub fn prune(graph: &mut Graph, lumen: &Lumen, parent_radii: f64) {
+/// Removes spurs. A branch with a free end stays if it is at least `parent_radii` parent radii long, from the
+/// parent's centerline to its end, or extends far beyond the parent's wall. The least significant spur goes
+/// first, and its neighbours are judged again.
+pub(crate) fn prune(graph: &mut Graph, lumen: &Lumen, parent_radii: f64) {
     let mut waiting: BinaryHeap<Reverse<(u64, usize)>> = BinaryHeap::new();
     let push = |graph: &Graph, waiting: &mut BinaryHeap<Reverse<(u64, usize)>>, number: usize| {
         let rank = significance(graph, lumen, number, parent_radii).map(rank);
@@ -48,15 +47,14 @@ pub fn prune(graph: &mut Graph, lumen: &Lumen, parent_radii: f64) {
     }
 }
 
-/// The rank of a branch that just stays.
+/// Rank of a branch that just stays.
 const WHOLE: u64 = 1 << 20;
 
-/// A significance without the digits that rounding may change.
 fn rank(significance: f64) -> u64 {
     (significance.max(0.0) * WHOLE as f64).round() as u64
 }
 
-/// How far a branch with one free end is from being a spur, which it is below 1; `None` for other branches.
+/// Significance of a branch with one free end (a spur if below 1); None for others.
 fn significance(graph: &Graph, lumen: &Lumen, number: usize, parent_radii: f64) -> Option<f64> {
     let branch = graph.branches[number].as_ref()?;
     let is_free = branch.nodes.map(|node| graph.incident[node].len() == 1);
@@ -86,8 +84,7 @@ fn significance(graph: &Graph, lumen: &Lumen, number: usize, parent_radii: f64) 
     Some(by_parent.max(by_itself))
 }
 
-/// The radius of the vessel that a branch leaves at a junction: that of the widest other branch, one radius away
-/// from the junction, where the junction itself does not widen it.
+/// Radius of the widest other branch, one radius from the junction, where that does not widen it.
 fn parent_radius(graph: &Graph, lumen: &Lumen, number: usize, junction: usize) -> f64 {
     let at_junction = lumen.radius_at_cell(graph.nodes[junction]);
     let others = graph.incident[junction].iter().filter(|&&other| other != number);
@@ -102,8 +99,8 @@ fn parent_radius(graph: &Graph, lumen: &Lumen, number: usize, junction: usize) -
     along.fold(0.0, f64::max).min(at_junction)
 }
 
-/// The length of a line of voxels without its stairs: of the means of five neighbours.
-pub fn length(points: &[DVec3]) -> f64 {
+/// Length of a voxel line without stair steps (means of five neighbours).
+pub(crate) fn length(points: &[DVec3]) -> f64 {
     let mean = |n: usize| {
         let reach = n.min(points.len() - 1 - n).min(2);
         let near = &points[n - reach..=n + reach];
@@ -112,8 +109,7 @@ pub fn length(points: &[DVec3]) -> f64 {
     (1..points.len()).map(|n| mean(n).distance(mean(n - 1))).sum()
 }
 
-/// Makes one junction of two that lie side by side.
-pub fn merge_junctions(graph: &mut Graph, lumen: &Lumen) {
+pub(crate) fn merge_junctions(graph: &mut Graph, lumen: &Lumen) {
     while let Some(number) = (0..graph.branches.len()).find(|&number| is_near(graph, lumen, number)) {
         let Some(branch) = graph.remove(number) else { return };
         let widest = (0..2).max_by(|&a, &b| {
@@ -142,18 +138,16 @@ fn turned(mut branch: Branch) -> Branch {
     branch
 }
 
-/// Whether a branch joins two junctions that lie side by side.
 fn is_near(graph: &Graph, lumen: &Lumen, number: usize) -> bool {
     let Some(branch) = &graph.branches[number] else { return false };
     let [a, b] = branch.nodes;
     let inner = a != b && graph.incident[a].len() > 2 && graph.incident[b].len() > 2;
     let radius =
         branch.nodes.map(|node| lumen.radius_at_cell(graph.nodes[node])).into_iter().fold(0.0, f64::max);
-    inner && length(&lumen.positions(&branch.cells)) < (NEAR * radius).max(2.0 * lumen.side())
+    inner && length(&lumen.positions(&branch.cells)) < (MERGE_RADII * radius).max(2.0 * lumen.side())
 }
 
-/// Removes pieces of lumen that are as wide as they are long, and whose one branch therefore means nothing.
-pub fn remove_round_pieces(graph: &mut Graph, lumen: &Lumen) {
+pub(crate) fn remove_round_pieces(graph: &mut Graph, lumen: &Lumen) {
     for number in 0..graph.branches.len() {
         let Some(branch) = &graph.branches[number] else { continue };
         let [a, b] = branch.nodes;

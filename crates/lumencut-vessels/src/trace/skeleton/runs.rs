@@ -1,32 +1,26 @@
-//! Connected parts of a mask, found through runs of equal cells along its rows: cavities and pieces.
+//! Connected components by runs along rows: cavities and pieces.
 
 use crate::trace::skeleton::foreground::{BACKGROUND, Foreground, LUMEN};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Neighbouring cells of one value along i.
 struct Run {
     start: u32,
     end: u32,
-    /// Another run of the same part, or itself.
+    /// Union-find parent.
     parent: u32,
 }
 
-/// All runs of one value, row by row, joined where they touch.
 struct Runs {
     runs: Vec<Run>,
-    /// Where the runs of each row begin, and where those of the last one end.
+    /// Index of the first run of each row, plus the end.
     first_of_row: Vec<u32>,
 }
 
-/// Background that no way of neighbouring faces joins with the outside becomes lumen; returns how many such cavities
-/// there were, and how many cells.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`] where `stop` says so.
-pub fn fill_cavities(foreground: &mut Foreground, stop: Stop) -> Result<[usize; 2]> {
+/// Fills background not face-connected to the outside; returns the number of cavities and cells.
+pub(crate) fn fill_cavities(foreground: &mut Foreground, stop: Stop) -> Result<[usize; 2]> {
     let mut runs = Runs::of(foreground, BACKGROUND, 0, stop)?;
-    // The border is background: the run of the first row is the outside.
+    // The border is background, so the first run is the outside.
     let outside = runs.root(0);
     let (mut cavities, mut cells) = (0, 0);
     for row in 0..runs.first_of_row.len() - 1 {
@@ -45,17 +39,14 @@ pub fn fill_cavities(foreground: &mut Foreground, stop: Stop) -> Result<[usize; 
     Ok([cavities, cells])
 }
 
-/// The number of pieces of lumen, whose voxels touch by a face, an edge or a corner.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`] where `stop` says so.
-pub fn pieces(foreground: &Foreground, stop: Stop) -> Result<usize> {
+/// Number of 26-connected components of lumen.
+pub(crate) fn pieces(foreground: &Foreground, stop: Stop) -> Result<usize> {
     let mut runs = Runs::of(foreground, LUMEN, 1, stop)?;
     Ok((0..runs.runs.len() as u32).filter(|&number| runs.root(number) == number).count())
 }
 
 impl Runs {
-    /// The runs of cells of one value. With a reach of 0 runs touch by faces, with a reach of 1 by edges and corners too.
+    /// A reach of 0 connects by faces, 1 also by edges and corners.
     fn of(foreground: &Foreground, value: u8, reach: u32, stop: Stop) -> Result<Self> {
         let [_, nj, nk] = foreground.size;
         let mut all = Self { runs: Vec::new(), first_of_row: vec![0] };
@@ -90,7 +81,6 @@ impl Runs {
         self.first_of_row.push(self.runs.len() as u32);
     }
 
-    /// Joins the runs of two neighbouring rows that touch.
     fn join(&mut self, before: usize, row: usize, reach: u32) {
         let (mut a, end_a) = (self.first_of_row[before], self.first_of_row[before + 1]);
         let (mut b, end_b) = (self.first_of_row[row], self.first_of_row[row + 1]);
@@ -106,7 +96,6 @@ impl Runs {
         }
     }
 
-    /// The first run of the part that a run belongs to.
     fn root(&mut self, number: u32) -> u32 {
         let mut root = number;
         while self.runs[root as usize].parent != root {

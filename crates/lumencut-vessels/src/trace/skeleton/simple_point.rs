@@ -1,26 +1,22 @@
-//! Simple points: voxels of lumen whose removal leaves the topology of a mask as it is.
+//! Simple points: lumen voxels whose removal preserves the topology.
 //!
-//! Lumen is joined by faces, edges and corners, background by faces. Bertrand and Malandain, "A new characterization
-//! of three-dimensional simple points", Pattern Recognition Letters 15(2), 1994, doi:10.1016/0167-8655(94)90046-9: a
-//! point is simple where the lumen around it is one part, and the background around it that touches it is one part
-//! among the 18 neighbours by faces and edges.
+//! Lumen is 26-connected, background 6-connected. Bertrand and Malandain, "A new characterization of
+//! three-dimensional simple points", Pattern Recognition Letters 15(2), 1994,
+//! doi:10.1016/0167-8655(94)90046-9: a point is simple if the lumen around it is one component, and the
+//! background that touches it is one component among the 18 neighbours.
 
-/// The place of a voxel among the 27 around it: i + 3 j + 9 k, each from 0 to 2.
+/// Position in the 3 × 3 × 3 cube: i + 3 j + 9 k.
 const CENTER: usize = 13;
 
-/// For each of the 27 places, the others that touch it by a face, an edge or a corner.
+/// 26-neighbours of each position.
 const TOUCHING: [u32; 27] = neighbours(3, 0);
-/// For each of the 27 places, the others that touch it by a face, but for the corners of the cube.
+/// 6-neighbours of each position, without cube corners.
 const BY_FACES: [u32; 27] = neighbours(1, CORNERS);
-/// The eight corners of the cube.
 const CORNERS: u32 = 1 | 1 << 2 | 1 << 6 | 1 << 8 | 1 << 18 | 1 << 20 | 1 << 24 | 1 << 26;
-/// The six places that touch the middle by a face.
 const FACES: u32 = 1 << 4 | 1 << 10 | 1 << 12 | 1 << 14 | 1 << 16 | 1 << 22;
-/// All places but the middle.
-const AROUND: u32 = ((1 << 27) - 1) & !(1 << CENTER);
+const NEIGHBORS: u32 = ((1 << 27) - 1) & !(1 << CENTER);
 
-/// For each place, the other places within one step along each axis and `most` steps in all, but for those left out
-/// and for the middle.
+/// Positions within one step per axis and `most` in all, except `left_out` and the centre.
 const fn neighbours(most: usize, left_out: u32) -> [u32; 27] {
     let mut all = [0; 27];
     let mut place = 0_usize;
@@ -43,14 +39,13 @@ const fn neighbours(most: usize, left_out: u32) -> [u32; 27] {
     all
 }
 
-/// The voxels around one, a bit for each of the 27 places that is lumen.
+/// Lumen bits of the 27 positions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Neighbourhood(u32);
+pub(crate) struct Neighbourhood(u32);
 
 impl Neighbourhood {
-    /// The neighbourhood of a cell in a grid of these strides; cells other than 0 are lumen.
     #[inline(always)]
-    pub fn of(cells: &[u8], cell: usize, strides: [usize; 3]) -> Self {
+    pub(crate) fn of(cells: &[u8], cell: usize, strides: [usize; 3]) -> Self {
         let mut bits = 0;
         let first = cell - strides[1] - strides[2] - 1;
         for k in 0..3 {
@@ -61,17 +56,15 @@ impl Neighbourhood {
                 }
             }
         }
-        Self(bits & AROUND)
+        Self(bits & NEIGHBORS)
     }
 
-    /// How many of the 26 neighbours are lumen.
-    pub fn count(self) -> u32 {
+    pub(crate) fn count(self) -> u32 {
         self.0.count_ones()
     }
 
-    /// Whether the voxel in the middle can go without a change of the topology.
-    pub fn is_simple(self) -> bool {
-        let background = !self.0 & AROUND & !CORNERS;
+    pub(crate) fn is_simple(self) -> bool {
+        let background = !self.0 & NEIGHBORS & !CORNERS;
         let faces = background & FACES;
         if self.0 == 0 || faces == 0 {
             return false;
@@ -80,7 +73,6 @@ impl Neighbourhood {
     }
 }
 
-/// The part of `places` that holds the first of `seeds`.
 fn part(places: u32, seeds: u32, touching: &[u32; 27]) -> u32 {
     let mut reached = seeds & seeds.wrapping_neg();
     let mut new = reached;
@@ -100,7 +92,6 @@ fn part(places: u32, seeds: u32, touching: &[u32; 27]) -> u32 {
 mod tests {
     use super::*;
 
-    /// The number of parts of `places`, counted by joining pairs of places that touch.
     fn parts(places: u32, touch: impl Fn(usize, usize) -> bool) -> Vec<u32> {
         let mut parts: Vec<u32> = (0..27).filter(|n| places >> n & 1 == 1).map(|n| 1 << n).collect();
         while let Some((a, b)) = (0..parts.len()).flat_map(|b| (0..b).map(move |a| (a, b))).find(|&(a, b)| {
@@ -126,10 +117,10 @@ mod tests {
                 state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
                 bits |= u32::from((state >> 16) % 8 < 1 + round % 7) << place;
             }
-            bits &= AROUND;
+            bits &= NEIGHBORS;
             let lumen = parts(bits, |p, q| steps(p, q).into_iter().max() == Some(1)).len();
             let background =
-                parts(!bits & AROUND & !CORNERS, |p, q| steps(p, q).into_iter().sum::<usize>() == 1);
+                parts(!bits & NEIGHBORS & !CORNERS, |p, q| steps(p, q).into_iter().sum::<usize>() == 1);
             let touching = background.iter().filter(|part| **part & FACES != 0).count();
             assert_eq!(Neighbourhood(bits).is_simple(), lumen == 1 && touching == 1, "{bits:027b}");
             simple += u32::from(lumen == 1 && touching == 1);

@@ -1,25 +1,25 @@
-//! Thinning: what is left of a mask when simple points go, those nearest to the wall first.
+//! Thins a mask by removing simple points, nearest to the wall first.
 //!
 //! Pudney, "Distance-Ordered Homotopic Thinning", Computer Vision and Image Understanding 72(3), 1998,
-//! doi:10.1006/cviu.1998.0680. Voxels at about the same distance from the wall go in turns, from each of the six sides
-//! once, so that a vessel two voxels wide is thinned across its width before it is shortened. A voxel with a single
-//! neighbour is the end of a line and stays.
+//! doi:10.1006/cviu.1998.0680. Voxels at about the same distance are removed in turns from the six sides, so
+//! that a vessel two voxels wide is thinned before it is shortened. A voxel with one neighbour stays.
 
 use crate::trace::skeleton::foreground::{BACKGROUND, Foreground, LUMEN};
 use crate::trace::skeleton::simple_point::Neighbourhood;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Voxels whose distances differ by less than this number of sides of a voxel go in the same turns.
-const TURN: f64 = 0.5;
+/// Distance range of one turn, in voxel sides.
+const TURN_RANGE: f64 = 0.5;
 
-/// Thins the lumen of a grid to lines of voxels with the same topology; returns their cells, rising. `lumen` lists the
-/// cells of lumen, `squares` holds their squared distances to the background (mm²).
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`] where `stop` says so.
-pub fn thin(foreground: &mut Foreground, lumen: &[u32], squares: &[f32], stop: Stop) -> Result<Vec<u32>> {
-    let step = TURN * foreground.smallest_side();
+/// Thins to sorted cells of voxel lines; `squares` are squared distances to background (mm²).
+pub(crate) fn thin(
+    foreground: &mut Foreground,
+    lumen: &[u32],
+    squares: &[f32],
+    stop: Stop,
+) -> Result<Vec<u32>> {
+    let step = TURN_RANGE * foreground.smallest_side();
     let turn_of = |cell: u32| (f64::from(squares[cell as usize]).sqrt() / step) as u64;
     let mut waiting: Vec<u64> = lumen.iter().map(|&cell| turn_of(cell) << 32 | u64::from(cell)).collect();
     waiting.sort_unstable();
@@ -36,7 +36,7 @@ pub fn thin(foreground: &mut Foreground, lumen: &[u32], squares: &[f32], stop: S
     Ok(front)
 }
 
-/// One turn from each of the six sides; whether any voxel went. Those that are left stay in `front`.
+/// One turn from each side; returns whether any voxel was removed.
 fn remove_from_all_sides(foreground: &mut Foreground, front: &mut Vec<u32>, stop: Stop) -> Result<bool> {
     let strides = foreground.strides();
     let mut removed = false;

@@ -1,4 +1,4 @@
-//! Lines through junctions: the two branches that go on into each other there are one line, the others end on it.
+//! Lines through junctions: the two best-aligned branches continue into each other, the others end there.
 
 use glam::DVec3;
 
@@ -6,28 +6,22 @@ use crate::trace::skeleton::graph::Graph;
 use crate::trace::skeleton::mask_lumen::Lumen;
 use lumencut_core::math::same_place::ALONG_LINE;
 
-/// Branches one after the other, each the right way round.
-pub struct ThroughLine {
-    /// The points (mm, LPS): at first the centres of voxels.
+pub(crate) struct ThroughLine {
+    /// Points (mm, LPS), initially voxel centres.
     pub points: Vec<DVec3>,
-    /// The nodes that the line begins with, passes and ends in, and the number of the point there.
+    /// Nodes on the line, with their point numbers.
     pub knots: Vec<Knot>,
-    /// Whether the line ends where it began and goes on there.
-    pub is_closed: bool,
+    pub(crate) is_closed: bool,
 }
 
-/// A node on a line.
 #[derive(Clone, Copy, Debug)]
-pub struct Knot {
-    /// The node of the graph.
+pub(crate) struct Knot {
     pub node: usize,
-    /// The number of the point of the line that lies there.
     pub point: usize,
 }
 
-/// All branches of a graph as lines. In each junction the two branches that are straightest and most alike in
-/// width are one line.
-pub fn through_lines(graph: &Graph, lumen: &Lumen) -> Vec<ThroughLine> {
+/// All branches as lines; at each junction the two that are straightest and most similar in width are joined.
+pub(crate) fn through_lines(graph: &Graph, lumen: &Lumen) -> Vec<ThroughLine> {
     let next: Vec<Option<[usize; 2]>> = (0..graph.nodes.len()).map(|node| pair(graph, lumen, node)).collect();
     let mut used = vec![false; graph.branches.len()];
     let mut lines = Vec::new();
@@ -45,7 +39,6 @@ pub fn through_lines(graph: &Graph, lumen: &Lumen) -> Vec<ThroughLine> {
     lines
 }
 
-/// The line that begins with the end `from` of a branch.
 fn line(
     graph: &Graph,
     lumen: &Lumen,
@@ -80,7 +73,7 @@ fn line(
     made
 }
 
-/// The two branches that go on into each other in a node, the same one twice for a ring without a junction.
+/// The two branches joined at a node; the same twice for a ring.
 fn pair(graph: &Graph, lumen: &Lumen, node: usize) -> Option<[usize; 2]> {
     let incident = &graph.incident[node];
     if incident.len() < 2 {
@@ -88,7 +81,7 @@ fn pair(graph: &Graph, lumen: &Lumen, node: usize) -> Option<[usize; 2]> {
     }
     let mut outwards = Vec::new();
     for (place, &number) in incident.iter().enumerate() {
-        // A branch that begins and ends here leaves first by its start, then by its end.
+        // A loop leaves first by its start, then by its end.
         let Some(branch) = &graph.branches[number] else { continue };
         let from_end = branch.nodes[0] != node || incident[..place].contains(&number);
         outwards.push((number, outward(lumen, &branch.cells, from_end, graph.nodes[node])));
@@ -101,7 +94,7 @@ fn pair(graph: &Graph, lumen: &Lumen, node: usize) -> Option<[usize; 2]> {
             }
             let likeness = radius.min(*width) / radius.max(*width).max(1e-9);
             let score = likeness - direction.dot(*other);
-            // What is equal but for rounding is decided by the order of the branches.
+            // Tolerance, so that ties depend on branch order and not on rounding.
             if best.is_none_or(|(most, _)| score > most + 1e-6) {
                 best = Some((score, [*first, *second]));
             }
@@ -110,7 +103,6 @@ fn pair(graph: &Graph, lumen: &Lumen, node: usize) -> Option<[usize; 2]> {
     best.map(|(_, pair)| pair)
 }
 
-/// The direction in which a branch leaves a node, and its radius: two radii away from there.
 fn outward(lumen: &Lumen, cells: &[u32], from_end: bool, node: u32) -> (DVec3, f64) {
     let mut points = lumen.positions(cells);
     if from_end {

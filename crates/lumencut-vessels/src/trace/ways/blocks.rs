@@ -1,90 +1,68 @@
-//! A volume in blocks of voxels, of which only those are kept that were come to.
+//! A volume in blocks of voxels, stored on demand.
 
 use std::ops::{Index, IndexMut};
 
-/// The side of a block (voxels).
-pub const SIDE: usize = 16;
-/// The number of voxels of a block.
-pub const BLOCK: usize = SIDE * SIDE * SIDE;
+/// Side of a block (voxels).
+pub(crate) const SIDE: usize = 16;
+/// Voxels of a block.
+pub(crate) const BLOCK: usize = SIDE * SIDE * SIDE;
 
-/// Where no block is kept.
 const NO_BLOCK: u32 = u32::MAX;
 
-/// What is kept of the blocks of a volume. A block has its place among all of the volume, and a number among those kept.
+/// Stored blocks. A block has a place in the volume and a number among the stored ones.
 #[derive(Clone, Debug)]
-pub struct Blocks<T> {
-    /// The number of blocks along (i, j, k).
+pub(crate) struct Blocks<T> {
+    /// Blocks along (i, j, k).
     count: [usize; 3],
-    /// The number of each block of the volume.
+    /// Number of each block of the volume.
     numbers: Vec<u32>,
     kept: Vec<Kept<T>>,
 }
 
-/// What is kept of a block.
 #[derive(Clone, Debug)]
 struct Kept<T> {
     place: usize,
-    corner: [i32; 3],
     block: T,
 }
 
 impl<T> Blocks<T> {
-    /// No block yet, of a volume with this number of voxels along (i, j, k).
-    pub fn new(size: [usize; 3]) -> Self {
+    pub(crate) fn new(size: [usize; 3]) -> Self {
         let count = size.map(|n| n.div_ceil(SIDE));
         Self { count, numbers: vec![NO_BLOCK; count.iter().product()], kept: Vec::new() }
     }
 
-    /// The place of the block that a voxel of the volume lies in.
     #[inline]
-    pub fn place_of(&self, voxel: [i32; 3]) -> usize {
+    pub(crate) fn place_of(&self, voxel: [i32; 3]) -> usize {
         let [i, j, k] = voxel.map(|c| c as usize / SIDE);
         (k * self.count[1] + j) * self.count[0] + i
     }
 
-    /// The first voxel of the block at a place.
-    pub fn corner(&self, place: usize) -> [i32; 3] {
+    pub(crate) fn corner(&self, place: usize) -> [i32; 3] {
         let [ni, nj, _] = self.count;
         [place % ni, place / ni % nj, place / (ni * nj)].map(|c| (c * SIDE) as i32)
     }
 
-    /// The place of block `number`.
     #[inline]
-    pub fn place(&self, number: usize) -> usize {
-        self.kept[number].place
-    }
-
-    /// The first voxel of block `number`.
-    #[inline]
-    pub fn corner_of(&self, number: usize) -> [i32; 3] {
-        self.kept[number].corner
-    }
-
-    /// The number of the block at a place, where it is kept.
-    #[inline]
-    pub fn find(&self, place: usize) -> Option<usize> {
+    pub(crate) fn find(&self, place: usize) -> Option<usize> {
         let number = self.numbers[place];
         (number != NO_BLOCK).then_some(number as usize)
     }
 
-    /// The number of the block at a place, which is made where it is not kept yet.
     #[inline]
-    pub fn find_or_make(&mut self, place: usize, make: impl FnOnce(&Self) -> T) -> usize {
+    pub(crate) fn find_or_make(&mut self, place: usize, make: impl FnOnce(&Self) -> T) -> usize {
         self.find(place).unwrap_or_else(|| {
             let block = make(self);
             self.numbers[place] = self.kept.len() as u32;
-            self.kept.push(Kept { place, corner: self.corner(place), block });
+            self.kept.push(Kept { place, block });
             self.kept.len() - 1
         })
     }
 
-    /// The places of the blocks that are kept, by their numbers.
-    pub fn places(&self) -> impl Iterator<Item = usize> {
+    pub(crate) fn places(&self) -> impl Iterator<Item = usize> {
         self.kept.iter().map(|kept| kept.place)
     }
 
-    /// Forgets the blocks at the places that `is_gone` names; the others get new numbers.
-    pub fn forget(&mut self, is_gone: impl Fn(usize) -> bool) {
+    pub(crate) fn forget(&mut self, is_gone: impl Fn(usize) -> bool) {
         self.kept.retain(|kept| !is_gone(kept.place));
         self.numbers.fill(NO_BLOCK);
         for (number, kept) in self.kept.iter().enumerate() {
@@ -109,28 +87,25 @@ impl<T> IndexMut<usize> for Blocks<T> {
     }
 }
 
-/// Voxel `n` of the block whose first voxel is `corner`.
 #[inline]
-pub fn voxel_of(corner: [i32; 3], n: usize) -> [i32; 3] {
+pub(crate) fn voxel_of(corner: [i32; 3], n: usize) -> [i32; 3] {
     let step = [n % SIDE, n / SIDE % SIDE, n / (SIDE * SIDE)];
     std::array::from_fn(|a| corner[a] + step[a] as i32)
 }
 
-/// The place in its block of a voxel by its steps from the block's first one, i fastest.
 #[inline]
-pub fn index_in(inside: [i32; 3]) -> usize {
+pub(crate) fn index_in(inside: [i32; 3]) -> usize {
     let [i, j, k] = inside.map(|c| c as usize);
     (k * SIDE + j) * SIDE + i
 }
 
-/// The place of a voxel of the volume in its block.
 #[inline]
-pub fn index_of(voxel: [i32; 3]) -> usize {
+pub(crate) fn index_of(voxel: [i32; 3]) -> usize {
     index_in(voxel.map(|c| c % SIDE as i32))
 }
 
-/// Whether the block whose first voxel is `corner` has a voxel in a box: its first voxel, and how many it has along each axis.
-pub fn meets(corner: [i32; 3], (first, count): ([i32; 3], [i32; 3])) -> bool {
+/// Whether the block at `corner` intersects a box (first voxel, count).
+pub(crate) fn meets(corner: [i32; 3], (first, count): ([i32; 3], [i32; 3])) -> bool {
     (0..3).all(|a| corner[a] < first[a] + count[a] && corner[a] + SIDE as i32 > first[a])
 }
 
@@ -148,7 +123,6 @@ mod tests {
             assert_eq!(blocks.find_or_make(place, |_| number * 10), number);
             assert_eq!(blocks.find_or_make(place, |_| 99), number);
             assert_eq!(voxel_of(blocks.corner(place), index_of(voxel)), voxel);
-            assert_eq!(blocks.corner_of(number), blocks.corner(place));
         }
         assert_eq!(blocks.places().collect::<Vec<_>>(), [0, 5, 1]);
         let gone = blocks.place_of(voxels[0]);

@@ -1,13 +1,12 @@
-//! What waits for its turn on a front, in buckets by the length of its way: the order of Dijkstra's algorithm to a quarter of a
-//! millimetre, without sorting.
+//! Bucket queue by path length: Dijkstra order to 0.25 mm without sorting.
 
-/// The width of a bucket (mm of the cheapest way), and how many there are at most: no way is longer than all of them.
+/// Bucket width (mm of the cheapest path), and maximum number of buckets.
 const BUCKET: f32 = 0.25;
 const MOST_BUCKETS: usize = 400_000;
 
-/// What waits, the shortest ways first; of those in one bucket the last one first.
+/// Shortest first; last in, first out within a bucket.
 #[derive(Clone, Debug)]
-pub struct Buckets<T> {
+pub(crate) struct Buckets<T> {
     buckets: Vec<Vec<T>>,
     first: usize,
 }
@@ -19,9 +18,8 @@ impl<T> Default for Buckets<T> {
 }
 
 impl<T> Buckets<T> {
-    /// Puts what has this way (mm) among those that wait; what has a way longer than all buckets is left out.
     #[inline]
-    pub fn put(&mut self, way: f32, waiting: T) {
+    pub(crate) fn put(&mut self, way: f32, waiting: T) {
         let bucket = bucket_of(way).max(self.first);
         if bucket >= MOST_BUCKETS {
             return;
@@ -32,22 +30,20 @@ impl<T> Buckets<T> {
         self.buckets[bucket].push(waiting);
     }
 
-    /// Whether nothing waits any more whose way is as short as this one (mm), to the width of a bucket.
+    /// Whether everything as short as `way` (mm) was taken, to the width of a bucket.
     #[inline]
-    pub fn have_passed(&mut self, way: f32) -> bool {
+    pub(crate) fn have_passed(&mut self, way: f32) -> bool {
         self.advance();
         bucket_of(way) < self.first
     }
 
-    /// The next one; none where nothing waits.
     #[inline]
-    pub fn pop(&mut self) -> Option<T> {
+    pub(crate) fn pop(&mut self) -> Option<T> {
         self.advance();
         self.buckets.get_mut(self.first)?.pop()
     }
 
-    /// All that wait, the shortest ways first; none of them waits any more.
-    pub fn drain(&mut self) -> Vec<T> {
+    pub(crate) fn drain(&mut self) -> Vec<T> {
         let waiting = self.buckets.drain(..).flatten().collect();
         self.first = 0;
         waiting

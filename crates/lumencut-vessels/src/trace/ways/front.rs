@@ -1,7 +1,6 @@
-//! A front that grows from one place through the lumen: the cheapest way from there to every voxel it has come to.
+//! A front: Dijkstra's algorithm with buckets and the straight distance to the target as lower bound.
 //!
-//! Dijkstra's algorithm with buckets; the straight distance to the target says where it grows first. Neighbours are the
-//! 26 around a voxel, their distances those in the world, so that any affine grid will do.
+//! Neighbours are the 26 around a voxel, with world distances, so any affine grid works.
 
 use glam::DVec3;
 
@@ -12,23 +11,23 @@ use crate::voxels::Voxels;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// The parent of the voxel where the front starts, and of one that it has not come to.
+/// Parent codes of the start voxel, and of unreached voxels.
 const START: u8 = 26;
 const NONE: u8 = 255;
 
-/// How many voxels a front settles before it asks whether to stop.
+/// Voxels between two checks of `stop`.
 const BETWEEN_STOPS: usize = 1 << 10;
 
-/// The unit in which a front counts how long a way shows no lumen (mm).
-const RUN: f64 = 0.1;
+/// Unit of stretches without lumen (mm).
+const GAP_UNIT_MM: f64 = 0.1;
 
-/// What a front knows of one block: six bytes per voxel beside the costs.
+/// Front data of one block: six bytes per voxel besides the costs.
 #[derive(Clone, Debug)]
 struct Block {
     costs: BlockCosts,
     corner: [i32; 3],
     way: Box<[f32; BLOCK]>,
-    /// A bit for each voxel whose ways to its neighbours were offered.
+    /// Bit per voxel whose neighbours were updated.
     offered: Box<[u64; BLOCK / 64]>,
     parent: Box<[u8; BLOCK]>,
     run: Box<[u8; BLOCK]>,
@@ -40,37 +39,35 @@ impl Block {
     }
 }
 
-/// A voxel that waits to be settled, and the way to it.
 #[derive(Clone, Copy, Debug)]
 struct Waiting {
     place: u32,
     way: f32,
 }
 
-/// How far a front may go.
+/// Limits of a front.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reach {
-    /// The longest stretch without lumen (mm), at most 25; none where it may be as long as it likes.
+    /// Longest stretch without lumen (mm), at most 25; None for no limit.
     pub longest_gap: Option<f64>,
-    /// The largest number of voxels.
+    /// Maximum number of voxels.
     pub most_voxels: usize,
-    /// How many times the straight distance to the target counts for where the front grows first: with 1 it comes by the
-    /// cheapest way; with more it comes sooner, by a way whose cost may be larger by that factor.
+    /// Weight of the straight distance: 1 finds the cheapest path; more is faster, by that factor worse.
     pub pull: f32,
 }
 
-/// How a search ended.
+/// Result of a search.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Found {
-    /// The front has come to the target by the cheapest way.
+    /// The target was reached.
     Target,
-    /// There is no way.
+    /// There is no path.
     NoWay,
-    /// The front has grown as large as it may.
+    /// The front reached its size limit.
     TooFar,
 }
 
-/// The front, and all that it has come to.
+/// A front and everything it reached.
 #[derive(Clone, Debug)]
 pub struct Front {
     source: [i32; 3],
@@ -78,14 +75,14 @@ pub struct Front {
     known: Blocks<Block>,
     waiting: Buckets<Waiting>,
     settled: usize,
-    /// The neighbours: steps along (i, j, k), and their lengths in the world (mm).
+    /// Neighbour steps along (i, j, k) with their world lengths (mm).
     steps: [([i32; 3], f32); 26],
     costs: [f32; 256],
     weak: u8,
 }
 
 impl Front {
-    /// A front that starts at a voxel.
+    /// Starts at a voxel.
     pub fn new(voxels: &Voxels, region: &mut Region, source: [i32; 3], reach: Reach) -> Self {
         let mut front = Self {
             source,
@@ -104,20 +101,19 @@ impl Front {
         front
     }
 
-    /// Where the front started.
+    /// Start voxel.
     pub fn source(&self) -> [i32; 3] {
         self.source
     }
 
-    /// Grows until the way to `target` is known: the cheapest one where nothing pulls the front. `told` hears how far from the
-    /// target it still is (mm).
+    /// Grows until the path to `target` is known. `report` receives the remaining distance (mm).
     pub fn grow(
         &mut self,
         voxels: &Voxels,
         region: &mut Region,
         target: [i32; 3],
         stop: Stop,
-        told: &dyn Fn(f64),
+        report: &dyn Fn(f64),
     ) -> Result<Found> {
         let (block, voxel) = self.locate(voxels, region, target);
         let goal = voxels.center(target);
@@ -126,14 +122,14 @@ impl Front {
         let mut until_stop = 0;
         loop {
             let way = self.known[block].way[voxel];
-            // Everything on a cheaper way, as far as the pull lets it be cheaper, lies in an earlier bucket.
+            // Any cheaper path would lie in an earlier bucket.
             if way.is_finite() && self.waiting.have_passed(way) {
                 return Ok(Found::Target);
             }
             if until_stop == 0 {
                 go_on(stop)?;
                 until_stop = BETWEEN_STOPS;
-                told(nearest);
+                report(nearest);
             }
             until_stop -= 1;
             let Some(waiting) = self.waiting.pop() else {
@@ -148,12 +144,11 @@ impl Front {
         }
     }
 
-    /// Whether the front has come to a voxel, by whatever way.
-    pub fn has_come_to(&self, target: [i32; 3]) -> bool {
+    pub(crate) fn has_come_to(&self, target: [i32; 3]) -> bool {
         self.find(target).is_some_and(|(block, voxel)| self.known[block].way[voxel].is_finite())
     }
 
-    /// The voxels from the source to `target`, which the front has come to.
+    /// Voxels from the source to `target`, which must be reached.
     pub fn way_to(&self, target: [i32; 3]) -> Vec<[i32; 3]> {
         let mut way = vec![target];
         let mut here = target;
@@ -170,13 +165,12 @@ impl Front {
         way
     }
 
-    /// Whether the front has come to any voxel of a ball.
+    /// Whether any voxel of a ball was reached.
     pub fn touches(&self, voxels: &Voxels, center: DVec3, radius: f64) -> bool {
         let ball = voxels.around(center, radius);
         self.known.places().any(|place| meets(self.known.corner(place), ball))
     }
 
-    /// Sorts those that wait by the straight distance to a new goal.
     fn aim(&mut self, voxels: &Voxels, goal: DVec3) {
         for waiting in self.waiting.drain() {
             let (block, voxel) = parts_of(waiting.place);
@@ -187,8 +181,7 @@ impl Front {
         }
     }
 
-    /// Offers the ways over a voxel to its neighbours; its distance to the goal (mm), or nothing where a cheaper way to it
-    /// was found meanwhile.
+    /// Updates the neighbours of a voxel; returns its distance to the goal (mm), or None if it is outdated.
     fn settle(&mut self, voxels: &Voxels, region: &mut Region, waiting: Waiting, goal: DVec3) -> Option<f64> {
         let (block, voxel) = parts_of(waiting.place);
         if self.known[block].way[voxel] < waiting.way {
@@ -199,7 +192,7 @@ impl Front {
         let here = voxel_of(self.known[block].corner, voxel);
         let cost = self.costs[usize::from(self.known[block].costs[voxel])];
         let run = self.known[block].run[voxel];
-        // A cheaper way is found late and often where the front is pulled: too often to offer it again.
+        // With pull, cheaper paths appear late and often, so voxels are not updated again.
         let is_pulled = self.reach.pull > 1.0;
         for n in 0..26 {
             let (step, length) = self.steps[n];
@@ -213,9 +206,12 @@ impl Front {
             if way >= self.known[to].way[at] || (is_pulled && self.known[to].is_offered(at)) {
                 continue;
             }
-            let stretch =
-                if code >= self.weak { run.saturating_add((f64::from(length) / RUN) as u8) } else { 0 };
-            if self.reach.longest_gap.is_some_and(|longest| f64::from(stretch) * RUN > longest) {
+            let stretch = if code >= self.weak {
+                run.saturating_add((f64::from(length) / GAP_UNIT_MM) as u8)
+            } else {
+                0
+            };
+            if self.reach.longest_gap.is_some_and(|longest| f64::from(stretch) * GAP_UNIT_MM > longest) {
                 continue;
             }
             let known = &mut self.known[to];
@@ -226,7 +222,7 @@ impl Front {
         Some(voxels.center(here).distance(goal))
     }
 
-    /// The block and the place in it of a voxel next to one of block `near`; none outside the volume.
+    /// Block and index of a voxel next to block `near`; None outside the volume.
     fn neighbour(
         &mut self,
         voxels: &Voxels,
@@ -243,7 +239,6 @@ impl Front {
         (!is_outside).then(|| self.locate(voxels, region, voxel))
     }
 
-    /// The block and the place in it of a voxel of the volume; the block is made where it is not known yet.
     fn locate(&mut self, voxels: &Voxels, region: &mut Region, voxel: [i32; 3]) -> (usize, usize) {
         let block = self.known.find_or_make(self.known.place_of(voxel), |known| {
             let place = known.place_of(voxel);
@@ -272,10 +267,10 @@ fn parts_of(place: u32) -> (usize, usize) {
     (place as usize / BLOCK, place as usize % BLOCK)
 }
 
-/// The steps to the 26 neighbours, and their lengths in the world (mm).
+/// Steps to the 26 neighbours, and their world lengths (mm).
 pub fn steps(voxels: &Voxels) -> [([i32; 3], f32); 26] {
     std::array::from_fn(|n| {
-        // The middle of the 27 is the voxel itself.
+        // Skips the centre of the 27.
         let n = if n < 13 { n } else { n + 1 };
         let step = [n % 3, n / 3 % 3, n / 9].map(|c| c as i32 - 1);
         let across = voxels.world_from_index.transform_vector3(DVec3::from_array(step.map(f64::from)));

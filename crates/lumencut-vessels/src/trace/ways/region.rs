@@ -1,4 +1,4 @@
-//! What a millimetre of way costs at each voxel, for the blocks that a front has come to.
+//! Path cost per millimetre at each voxel, in blocks computed on demand.
 
 use std::sync::Arc;
 
@@ -6,45 +6,44 @@ use glam::DVec3;
 
 use crate::trace::lumen::lumen_model::LumenModel;
 use crate::trace::ways::blocks::{BLOCK, Blocks, SIDE, index_of, meets, voxel_of};
-use crate::trace::ways::shape::{HALO, WIDE, bends, beside, blurred, raised, wall_between};
+use crate::trace::ways::shape::{HALO, PADDED_SIDE, bends, beside, blurred, raised, wall_between};
 use crate::voxels::Voxels;
 
-/// The membership that even tissue has, so that a way through it is long and not endless.
+/// Membership of plain tissue, so that its cost is finite: for lumen paths, and for bridges.
 const LEAST_MEMBERSHIP: f64 = 0.05;
 const LEAST_OF_BRIDGES: f64 = 0.2;
 
-/// How much longer a way is that has no lumen around it than one in the middle of a wide vessel.
+/// Extra cost far from the middle of a wide vessel.
 const OFF_MIDDLE: f64 = 0.4;
 
-/// How much longer a way is through the wall between two vessels.
+/// Extra cost in the wall between two vessels.
 const WALL: f64 = 15.0;
 
-/// What is left of the membership beside bone, calcium and metal: the edge of bone looks like lumen.
-const RIM: f64 = 0.5;
+/// Factor of the membership next to bone, calcium and metal, whose edges have lumen values.
+const RIM_FACTOR: f64 = 0.5;
 
-/// What the average over the neighbours leaves of the noise.
+/// Share of noise left after averaging neighbours.
 const NOISE_LEFT: f64 = 0.23;
 
-/// The dearest millimetre: that of tissue far from lumen.
+/// Maximum cost: tissue far from lumen.
 const DEAREST: f64 = (1.0 + WALL) * (1.0 + OFF_MIDDLE) / (LEAST_MEMBERSHIP * LEAST_MEMBERSHIP);
 
-/// The code of a voxel that no way may pass; those of others rise with the cost.
-pub const FORBIDDEN: u8 = 0;
+/// Code of forbidden voxels; other codes rise with the cost.
+pub(crate) const FORBIDDEN: u8 = 0;
 
-/// A voxel shows no lumen whose membership, and that of its neighbours, is below this on average; it is thin below the
-/// second one.
-pub const WEAK: f64 = 0.2;
-/// See `WEAK`.
-pub const THIN: f64 = 0.75;
-/// From this membership on a voxel lies well within lumen.
-pub const FULL: f64 = 0.9;
+/// Mean membership below which a voxel is not lumen.
+pub(crate) const WEAK: f64 = 0.2;
+/// Mean membership below which lumen is thin.
+pub(crate) const THIN: f64 = 0.75;
+/// Membership well within lumen.
+pub(crate) const FULL: f64 = 0.9;
 
-/// Whether ways keep to the lumen, or may go through tissue where that is much shorter.
+/// Whether paths must stay in lumen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Strictness {
-    /// Tissue is 400 times as dear as lumen.
+    /// Tissue costs 400 times as much as lumen.
     Lumen,
-    /// Tissue is 25 times as dear as lumen.
+    /// Tissue costs 25 times as much as lumen.
     Bridge,
 }
 
@@ -57,49 +56,46 @@ impl Strictness {
     }
 }
 
-/// The costs of millimetres by their codes.
+/// Cost of each code.
 pub fn costs() -> [f32; 256] {
     std::array::from_fn(|code| {
         if code == 0 { f32::INFINITY } else { DEAREST.powf((code as f64 - 1.0) / 254.0) as f32 }
     })
 }
 
-/// The code of a cost.
 fn code_of(cost: f64) -> u8 {
     (1.0 + 254.0 * cost.ln() / DEAREST.ln()).round().clamp(1.0, 255.0) as u8
 }
 
-/// A place that no way may pass.
+/// A place that no path may pass.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stopper {
-    /// Its middle (mm, LPS).
+    /// Centre (mm, LPS).
     pub center: DVec3,
-    /// Its radius (mm).
+    /// Radius (mm).
     pub radius: f64,
 }
 
-/// The costs of one block of voxels.
-pub type BlockCosts = Arc<[u8; BLOCK]>;
+pub(crate) type BlockCosts = Arc<[u8; BLOCK]>;
 
-/// The costs of all blocks that were needed so far. A byte per voxel.
+/// Costs of the blocks used so far, one byte per voxel.
 #[derive(Clone, Debug)]
 pub struct Region {
-    /// What lumen looks like.
+    /// The lumen model.
     pub model: LumenModel,
-    /// Where no way may pass.
+    /// Places that no path may pass.
     pub stoppers: Vec<Stopper>,
     strictness: Strictness,
     made: Blocks<BlockCosts>,
 }
 
 impl Region {
-    /// A region of a volume of which nothing is known yet.
+    /// A region without computed blocks.
     pub fn new(size: [usize; 3], model: LumenModel, stoppers: Vec<Stopper>, strictness: Strictness) -> Self {
         Self { model, stoppers, strictness, made: Blocks::new(size) }
     }
 
-    /// The costs of the block at a place among all of the volume, made where they are first needed.
-    pub fn costs_of(&mut self, voxels: &Voxels, place: usize) -> BlockCosts {
+    pub(crate) fn costs_of(&mut self, voxels: &Voxels, place: usize) -> BlockCosts {
         if let Some(number) = self.made.find(place) {
             return Arc::clone(&self.made[number]);
         }
@@ -108,19 +104,17 @@ impl Region {
         costs
     }
 
-    /// The cost of a voxel, as a code.
-    pub fn code_of(&mut self, voxels: &Voxels, voxel: [i32; 3]) -> u8 {
+    pub(crate) fn code_of(&mut self, voxels: &Voxels, voxel: [i32; 3]) -> u8 {
         self.costs_of(voxels, self.made.place_of(voxel))[index_of(voxel)]
     }
 
-    /// From this code on the membership is below `limit`.
-    pub fn code_below(&self, limit: f64) -> u8 {
+    pub(crate) fn code_below(&self, limit: f64) -> u8 {
         let least = self.strictness.least_membership();
         let membership = least + (1.0 - least) * limit;
         code_of((1.0 + 0.8 * OFF_MIDDLE) / (membership * membership))
     }
 
-    /// Forgets the costs of the blocks that a ball touches.
+    /// Drops the blocks that a ball touches.
     pub fn forget(&mut self, voxels: &Voxels, ball: &Stopper) {
         let near = voxels.around(ball.center, ball.radius + 2.0 * voxels.smallest_side);
         let gone: Vec<usize> =
@@ -130,8 +124,8 @@ impl Region {
 
     fn make(&self, voxels: &Voxels, place: usize) -> [u8; BLOCK] {
         let corner = self.made.corner(place);
-        let mut shares = vec![0.0; WIDE * WIDE * WIDE];
-        voxels.cube(corner.map(|c| c - HALO as i32), WIDE, &mut shares);
+        let mut shares = vec![0.0; PADDED_SIDE * PADDED_SIDE * PADDED_SIDE];
+        voxels.cube(corner.map(|c| c - HALO as i32), PADDED_SIDE, &mut shares);
         let beside_bone = beside(&shares, |value| self.model.is_far_above(value));
         for share in &mut shares {
             *share = self.model.membership(*share);
@@ -144,9 +138,9 @@ impl Region {
         for k in 0..SIDE {
             for j in 0..SIDE {
                 for i in 0..SIDE {
-                    let from = ((k + HALO) * WIDE + j + HALO) * WIDE + i + HALO;
+                    let from = ((k + HALO) * PADDED_SIDE + j + HALO) * PADDED_SIDE + i + HALO;
                     let bends = bends(&near, from);
-                    let rim = if beside_bone[from] { RIM } else { 1.0 };
+                    let rim = if beside_bone[from] { RIM_FACTOR } else { 1.0 };
                     let share = rim * raised(f64::from(near[from]), &bends, noise);
                     let membership = least + (1.0 - least) * share;
                     let off_middle = OFF_MIDDLE.mul_add(1.0 - f64::from(wide[from]), 1.0);
@@ -159,7 +153,6 @@ impl Region {
         codes
     }
 
-    /// Forbids the voxels of a block that lie outside the volume or within a stopper.
     fn forbid(&self, voxels: &Voxels, corner: [i32; 3], codes: &mut [u8; BLOCK]) {
         for (n, code) in codes.iter_mut().enumerate() {
             let voxel = voxel_of(corner, n);

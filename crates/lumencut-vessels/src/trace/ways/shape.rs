@@ -1,26 +1,25 @@
-//! What the values around a voxel tell of it: whether it lies in a wall between two lumens, on a ridge, or beside bone.
+//! Local shape around a voxel: wall between two lumens, ridge, or edge of bone.
 
 use crate::trace::ways::blocks::SIDE;
 
-/// How far beyond a block its costs look (voxels).
-pub const HALO: usize = 3;
-/// The side of the cube of voxels that the costs of a block look at.
-pub const WIDE: usize = SIDE + 2 * HALO;
+/// Border around a block (voxels).
+pub(crate) const HALO: usize = 3;
+/// Side of the cube with border (voxels).
+pub(crate) const PADDED_SIDE: usize = SIDE + 2 * HALO;
 
-/// How much of what is missing to full membership a ridge makes up for.
+/// Share of the missing membership that a ridge adds.
 const RIDGE: f64 = 0.6;
 
-/// A ridge with less membership does not count.
+/// Minimum membership of a ridge.
 const FAINT: f64 = 0.05;
 
-/// A wall is this much darker than its neighbours on both sides (membership, twice). What gets brighter along it by more than
-/// this part of that is the throat of a stenosis and no wall.
+/// Second derivative of the membership in a wall; a fall across by the second share marks a throat.
 const DIP: f64 = 0.1;
 const THROAT: f64 = 0.3;
 
-/// How much a voxel lies in a wall between two lumens, 0 to 1: darker than both its neighbours in one direction, and not
-/// brighter than those in the two directions across, as the throat of a stenosis is.
-pub fn wall_between(share: f64, bends: &[f64; 3]) -> f64 {
+/// Degree of being in a wall between two lumens, 0 to 1: darker than both neighbours in one direction, but
+/// not brighter than those across, as a throat is.
+pub(crate) fn wall_between(share: f64, bends: &[f64; 3]) -> f64 {
     if !(0.1..0.95).contains(&share) {
         return 0.0;
     }
@@ -29,21 +28,21 @@ pub fn wall_between(share: f64, bends: &[f64; 3]) -> f64 {
     if most <= 0.0 || is_throat { 0.0 } else { (most / DIP).min(1.0) }
 }
 
-/// The membership of a voxel, which counts for more where it is brighter than its neighbours in two directions across each other: a
-/// vessel thinner than a voxel, as in a stenosis, is never as bright as its lumen. Noise of this standard deviation does not count.
-pub fn raised(share: f64, bends: &[f64; 3], noise: f64) -> f64 {
+/// Raises the membership on ridges: a vessel thinner than a voxel is never as bright as its lumen. Noise
+/// below `noise` (standard deviation) is ignored.
+pub(crate) fn raised(share: f64, bends: &[f64; 3], noise: f64) -> f64 {
     let is_seen = (share / (2.0 * noise).max(FAINT) - 1.0).clamp(0.0, 1.0);
     let ridge = ((-bends[1] - 2.0 * noise) / share.max(1e-6)).clamp(0.0, 1.0);
     share + (1.0 - share) * RIDGE * ridge * is_seen
 }
 
-/// How the membership around a voxel bends, falling: positive where neighbours on both sides are brighter.
-pub fn bends(shares: &[f32], at: usize) -> [f64; 3] {
+/// Eigenvalues of the second derivatives, descending; positive where neighbours on both sides are brighter.
+pub(crate) fn bends(shares: &[f32], at: usize) -> [f64; 3] {
     let share = f64::from(shares[at]);
     if !(0.02..0.98).contains(&share) {
         return [0.0; 3];
     }
-    let strides = [1, WIDE, WIDE * WIDE];
+    let strides = [1, PADDED_SIDE, PADDED_SIDE * PADDED_SIDE];
     let value = |n: usize| f64::from(shares[n]);
     let mut bends = [[0.0; 3]; 3];
     for a in 0..3 {
@@ -57,13 +56,13 @@ pub fn bends(shares: &[f32], at: usize) -> [f64; 3] {
     eigenvalues(bends)
 }
 
-/// Which voxels of a cube of `WIDE` a side, but for those at its border, or their neighbours are marked.
-pub fn beside(values: &[f32], is_marked: impl Fn(f32) -> bool) -> Vec<bool> {
+/// Dilates marked voxels by one, except at the border.
+pub(crate) fn beside(values: &[f32], is_marked: impl Fn(f32) -> bool) -> Vec<bool> {
     let mut marked: Vec<bool> = values.iter().map(|value| is_marked(*value)).collect();
     if !marked.contains(&true) {
         return marked;
     }
-    for stride in [1, WIDE, WIDE * WIDE] {
+    for stride in [1, PADDED_SIDE, PADDED_SIDE * PADDED_SIDE] {
         let before = marked.clone();
         for n in stride..marked.len() - stride {
             marked[n] = before[n - stride] || before[n] || before[n + stride];
@@ -72,7 +71,6 @@ pub fn beside(values: &[f32], is_marked: impl Fn(f32) -> bool) -> Vec<bool> {
     marked
 }
 
-/// The eigenvalues of a symmetric matrix, falling.
 fn eigenvalues(m: [[f64; 3]; 3]) -> [f64; 3] {
     let mean = (m[0][0] + m[1][1] + m[2][2]) / 3.0;
     let mut square = 2.0 * (m[0][1].powi(2) + m[0][2].powi(2) + m[1][2].powi(2));
@@ -90,12 +88,12 @@ fn eigenvalues(m: [[f64; 3]; 3]) -> [f64; 3] {
     [first, 3.0 * mean - first - last, last]
 }
 
-/// A cube of `WIDE` voxels a side, averaged with these weights along each axis; right where all of them lie within it.
-pub fn blurred(shares: &[f32], weights: &[f32]) -> Vec<f32> {
+/// Separable average of the cube; valid where all weights lie inside.
+pub(crate) fn blurred(shares: &[f32], weights: &[f32]) -> Vec<f32> {
     let reach = weights.len() / 2;
     let mut now = shares.to_vec();
     let mut next = vec![0.0; shares.len()];
-    for stride in [1, WIDE, WIDE * WIDE] {
+    for stride in [1, PADDED_SIDE, PADDED_SIDE * PADDED_SIDE] {
         let from = reach * stride;
         let length = shares.len() - 2 * from;
         next.fill(0.0);
@@ -114,13 +112,15 @@ pub fn blurred(shares: &[f32], weights: &[f32]) -> Vec<f32> {
 mod tests {
     use super::*;
 
-    /// A cube whose membership is that of a place by its steps from the middle (i, j, k), and the middle.
+    /// A cube with membership by offset from its middle, and the middle.
     fn cube(share: impl Fn([f64; 3]) -> f64) -> (Vec<f32>, usize) {
-        let middle = WIDE / 2;
-        let steps =
-            |n: usize| [n % WIDE, n / WIDE % WIDE, n / (WIDE * WIDE)].map(|c| c as f64 - middle as f64);
-        let shares = (0..WIDE * WIDE * WIDE).map(|n| share(steps(n)) as f32).collect();
-        (shares, (middle * WIDE + middle) * WIDE + middle)
+        let middle = PADDED_SIDE / 2;
+        let steps = |n: usize| {
+            [n % PADDED_SIDE, n / PADDED_SIDE % PADDED_SIDE, n / (PADDED_SIDE * PADDED_SIDE)]
+                .map(|c| c as f64 - middle as f64)
+        };
+        let shares = (0..PADDED_SIDE * PADDED_SIDE * PADDED_SIDE).map(|n| share(steps(n)) as f32).collect();
+        (shares, (middle * PADDED_SIDE + middle) * PADDED_SIDE + middle)
     }
 
     #[test]
@@ -147,6 +147,6 @@ mod tests {
         let (spot, middle) = cube(|steps| f64::from(u8::from(steps == [0.0; 3])));
         let near = beside(&spot, |value| value > 0.5);
         assert_eq!(near.iter().filter(|is_near| **is_near).count(), 27);
-        assert!(near[middle + 1 + WIDE] && !near[middle + 2]);
+        assert!(near[middle + 1 + PADDED_SIDE] && !near[middle + 2]);
     }
 }

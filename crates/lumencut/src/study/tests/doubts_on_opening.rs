@@ -62,7 +62,7 @@ fn a_unit_that_makes_no_vessels_is_doubted_and_can_be_chosen() {
         assert!(
             opened.notes.contains(&doubt.found) && doubt.found.contains(&format!("39 mm across in {name}"))
         );
-        assert!(opened.notes.contains(&"1 point(s) that are not defined were left out".to_owned()));
+        assert!(opened.notes.contains(&"1 undefined point(s) were left out".to_owned()));
         let (opened, length) = told(&line(unit.in_mm(), stated), Some(unit));
         assert!((length - 39.0).abs() < 1e-9 && opened.doubt.is_none(), "{opened:?}");
     }

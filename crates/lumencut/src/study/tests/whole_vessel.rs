@@ -49,7 +49,7 @@ fn a_click_that_gives_no_whole_vessel_is_refused_and_says_why() {
     let whole = |click: [f64; 3]| json!({"kind": "add_whole_vessel", "click": click});
     let document = after(&mut study, &Document::default(), &whole(click));
     let again = tried(&mut study, &document, &whole(click), false).expect_err("it is there");
-    assert_eq!((again.kind, again.found.as_str()), ("tracing", "a vessel that is traced already"));
+    assert_eq!((again.kind, again.found.as_str()), ("tracing", "a vessel that is already traced"));
     assert_eq!(again.more.seen.as_ref().expect("a place").place, click);
     assert_eq!(study.whole_vessel(click, &document.vessels).expect("a volume"), None);
     let corner = study.content.held.as_ref().expect("a volume").volume().expect("one").corners()[0];

@@ -1,4 +1,4 @@
-//! Which tracks lie beside each other and are about as wide: bone fills a neighbourhood, a vessel passes through it.
+//! Finds neighbouring tracks of similar width: bone fills a neighbourhood, a vessel passes through it.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -8,20 +8,17 @@ use crate::trace::find::track::Track;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Tracks are beside each other where a point of one is so near to a point of the other (mm).
-const NEAR: f64 = 12.0;
+/// Maximum distance of neighbours (mm).
+const NEIGHBOR_MM: f64 = 12.0;
 
-/// And where their radii differ by no more than this factor.
-const ALIKE: f64 = 2.2;
+/// Maximum ratio of their radii.
+const MAX_RADIUS_RATIO: f64 = 2.2;
 
-/// Of each track a point is looked at after so much of its length (mm).
+/// Sampling distance along a track (mm).
 const STEP: f64 = 2.0;
 
-/// For each track the numbers of those beside it, rising, without itself and without those that `counts` leaves out.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn beside(tracks: &[Track], counts: &[bool], stop: Stop) -> Result<Vec<Vec<usize>>> {
+/// Sorted numbers of the neighbours of each track that `counts` includes.
+pub(crate) fn beside(tracks: &[Track], counts: &[bool], stop: Stop) -> Result<Vec<Vec<usize>>> {
     let radii: Vec<f64> = tracks.iter().map(Track::radius).collect();
     let places: Vec<Vec<DVec3>> = tracks.par_iter().map(spread_out).collect();
     let mut owners = Vec::new();
@@ -29,14 +26,15 @@ pub fn beside(tracks: &[Track], counts: &[bool], stop: Stop) -> Result<Vec<Vec<u
         owners.resize(owners.len() + places.len(), number);
     }
     let counted = places.iter().zip(counts).filter(|(_, counts)| **counts);
-    let grid = PointGrid::new(counted.flat_map(|(places, _)| places.iter().copied()).collect(), NEAR / 2.0);
+    let grid =
+        PointGrid::new(counted.flat_map(|(places, _)| places.iter().copied()).collect(), NEIGHBOR_MM / 2.0);
     let around = |number: usize| {
         go_on(stop)?;
         let mut found = vec![number];
         for place in &places[number] {
-            grid.near(*place, NEAR, |point| {
+            grid.near(*place, NEIGHBOR_MM, |point| {
                 let other = owners[point];
-                let is_alike = (radii[other] / radii[number]).ln().abs() <= ALIKE.ln();
+                let is_alike = (radii[other] / radii[number]).ln().abs() <= MAX_RADIUS_RATIO.ln();
                 if let (true, Err(at)) = (is_alike, found.binary_search(&other)) {
                     found.insert(at, other);
                 }
@@ -48,7 +46,6 @@ pub fn beside(tracks: &[Track], counts: &[bool], stop: Stop) -> Result<Vec<Vec<u
     (0..tracks.len()).into_par_iter().map(around).collect()
 }
 
-/// Points of a track, some way apart.
 fn spread_out(track: &Track) -> Vec<DVec3> {
     let mut places = vec![track.points[0].place];
     let mut walked = 0.0;

@@ -1,6 +1,6 @@
-//! What the raw voxels show across a track: how long and how even its cross-section is, and whether it is marrow in a cortex.
+//! Raw-voxel cross-section of a track: elongation, evenness, and whether it is marrow in a cortex.
 //!
-//! Tubes are found where bright values are cut off. There a plate of bone looks like a tube; the raw voxels show that it is none.
+//! Tracking clips bright values, so a plate of bone can look like a tube; raw voxels show the difference.
 
 use std::f64::consts::TAU;
 
@@ -12,44 +12,42 @@ use crate::trace::find::section::{TOUCHED, across};
 use crate::trace::find::track::TrackPoint;
 use crate::trace::lumen::ray::Ray;
 
-/// With how many rays a cross-section is looked at: an even number, as opposite ones make a diameter.
+/// Even, because opposite rays make a diameter.
 const RAYS: usize = 24;
 
-/// The distance of samples along a ray (voxels).
+/// Sampling distance (voxels).
 const STEP: f64 = 0.5;
 
-/// How far out the tissue around a lumen is looked for: in radii from the first to the last, and voxels beyond.
+/// Distance range of the surrounding tissue: radii, and voxels beyond.
 const TISSUE: [f64; 2] = [0.8, 1.6];
 const TISSUE_BEYOND: f64 = 2.0;
 
-/// The share of the rays that end in darker tissue than what counts as the tissue.
+/// Quantile of the ray minima that counts as tissue, above fat and lung.
 const TISSUE_SHARE: f64 = 0.3;
 
-/// How far a ray goes at most: the smaller one of two lengths, each in radii and further millimetres.
-const REACH: [[f64; 2]; 2] = [[3.0, 4.0], [6.0, 1.5]];
+/// Maximum ray length: the smaller of two, each in radii plus mm.
+const RAY_LENGTHS: [[f64; 2]; 2] = [[3.0, 4.0], [6.0, 1.5]];
 
-/// A lumen that bone may touch, whose level is no farther from the usual one than this part of the contrast, ends at the darkest place
-/// before bone, which is brighter than the usual level by the second part.
+/// A lumen within the first share of the vessel level ends before bone, which exceeds it by the second.
 const ALIKE: f64 = 0.15;
 const BONE: f64 = 0.4;
 
-/// Diameters below this are not told apart (voxels).
+/// Minimum resolvable diameter (voxels).
 const LEAST_DIAMETER: f64 = 0.8;
 
-/// Where the level of the lumen is taken, and where its spread (radii).
+/// Sampling radii for level and spread.
 const LEVEL_WITHIN: [f64; 2] = [0.2, 0.4];
 const SPREAD_WITHIN: [f64; 3] = [0.25, 0.45, 0.65];
 
-/// The part of the standard deviation that lies between the quartiles of normal values.
+/// Interquartile range of a normal distribution in standard deviations.
 const QUARTILES: f64 = 1.35;
 
-/// How far out a cortex is looked for: in radii from the first to the last, and millimetres beyond.
+/// Distance range of a cortex: radii, and mm beyond.
 const CORTEX: [f64; 2] = [0.8, 2.5];
 const CORTEX_BEYOND: f64 = 2.0;
 
-/// Marrow in a cortex: over more than this share of the rays brighter than inside, by this part of the usual contrast or so
-/// many standard deviations of the noise; inside darker than vessels by the second part, with a standard deviation above the third
-/// part, or darker by the fourth part; the radius at least so many voxels.
+/// Marrow in a cortex: a share of rays is brighter than inside (share of the contrast, multiple of the
+/// noise); the inside is dark and uneven, or very dark; minimum radius in voxels.
 const CORTEX_SHARE: f64 = 0.7;
 const CORTEX_ABOVE: f64 = 0.15;
 const CORTEX_NOISE: f64 = 3.0;
@@ -58,22 +56,17 @@ const MARROW_SPREAD: f64 = 0.2;
 const MARROW_FAR_BELOW: f64 = 0.2;
 const MARROW_RADIUS: f64 = 1.5;
 
-/// What the raw voxels show across a track.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RawSection {
-    /// The level inside.
+pub(crate) struct RawSection {
     pub level: f64,
-    /// The greatest diameter at half level as a multiple of the least one.
-    pub elongation: f64,
-    /// The spread of the values inside, as a share of the usual contrast of vessels.
+    pub(crate) elongation: f64,
     pub spread: f64,
-    /// Whether it is marrow in a cortex.
-    pub is_marrow: bool,
+    pub(crate) is_marrow: bool,
 }
 
 impl RawSection {
-    /// The section at a point of a track; none where it is no brighter than its surroundings.
-    pub fn at(scan: &Scan, point: &TrackPoint) -> Option<Self> {
+    /// None if the section is no brighter than its surroundings.
+    pub(crate) fn at(scan: &Scan, point: &TrackPoint) -> Option<Self> {
         let [u, v] = across(point.direction);
         let level = median(&mut inside(scan, point, [u, v], &LEVEL_WITHIN))?;
         let values = inside(scan, point, [u, v], &SPREAD_WITHIN);
@@ -89,7 +82,6 @@ impl RawSection {
     }
 }
 
-/// Values in the middle of a lumen and around it at some shares of its radius; none from outside the volume.
 fn inside(scan: &Scan, point: &TrackPoint, [u, v]: [DVec3; 2], shares: &[f64]) -> Vec<f64> {
     let around = shares.iter().flat_map(|share| {
         (0..8).map(move |n| {
@@ -101,7 +93,6 @@ fn inside(scan: &Scan, point: &TrackPoint, [u, v]: [DVec3; 2], shares: &[f64]) -
     places.map(|place| f64::from(scan.voxels.at(place))).filter(|value| value.is_finite()).collect()
 }
 
-/// Whether a section is that of marrow in a cortex.
 fn is_marrow(scan: &Scan, level: f64, values: &[f64], rays: &mut Rays) -> bool {
     let is_dark = level < scan.level - MARROW_BELOW * scan.contrast;
     let is_wide = rays.radius > MARROW_RADIUS * scan.side;
@@ -112,7 +103,6 @@ fn is_marrow(scan: &Scan, level: f64, values: &[f64], rays: &mut Rays) -> bool {
         && rays.brighter(level + (CORTEX_NOISE * scan.noise).max(CORTEX_ABOVE * scan.contrast)) > CORTEX_SHARE
 }
 
-/// The rays across a track.
 struct Rays<'a, 'v> {
     rays: Vec<Ray<'a, 'v>>,
     radius: f64,
@@ -131,13 +121,11 @@ impl<'a, 'v> Rays<'a, 'v> {
         Self { rays: (0..RAYS).map(ray).collect(), radius: point.radius, step }
     }
 
-    /// The numbers of the samples that a range covers, given in radii and by what it goes beyond (mm).
     fn samples(&self, [first, last]: [f64; 2], beyond: f64) -> [usize; 2] {
         let number = |length: f64| (length / self.step).round() as usize;
         [number(first * self.radius), number(last * self.radius + beyond).max(1)]
     }
 
-    /// The level of the tissue around: not of its darkest part, where that is fat or lung.
     fn tissue(&mut self, scan: &Scan) -> f64 {
         let [first, last] = self.samples(TISSUE, TISSUE_BEYOND * scan.side);
         let mut darkest: Vec<f64> =
@@ -145,16 +133,14 @@ impl<'a, 'v> Rays<'a, 'v> {
         quantile(&mut darkest, TISSUE_SHARE).unwrap_or(f64::MAX)
     }
 
-    /// The share of the rays that are somewhere near the wall brighter than a limit.
     fn brighter(&mut self, limit: f64) -> f64 {
         let [first, last] = self.samples(CORTEX, CORTEX_BEYOND);
         let brightest = self.rays.iter_mut().map(|ray| ray.extreme(first, last, false));
         brightest.filter(|value| *value > limit).count() as f64 / RAYS as f64
     }
 
-    /// The greatest diameter at a level as a multiple of the least one.
     fn elongation(&mut self, scan: &Scan, level: f64, half: f64) -> f64 {
-        let most = REACH.map(|[radii, beyond]| radii * self.radius + beyond);
+        let most = RAY_LENGTHS.map(|[radii, beyond]| radii * self.radius + beyond);
         let last = (most[0].min(most[1]) / self.step).ceil() as usize;
         let step = self.step;
         let is_alike = (level - scan.level).abs() < ALIKE * scan.contrast;
@@ -170,18 +156,17 @@ impl<'a, 'v> Rays<'a, 'v> {
     }
 }
 
-/// The length of a ray to where it first falls below a level, or leaves the volume, in steps and at most `last` of them.
+/// Ray length (steps) to the first value below `level`, at most `last`.
 fn length(ray: &mut Ray, level: f64, last: usize) -> f64 {
     let is_out = |value: f64| value < level || value.is_nan();
     let Some(out) = (0..=last).find(|n| is_out(ray.value(*n))) else { return last as f64 };
     let [inside, outside] = [out.saturating_sub(1), out].map(|n| ray.value(n));
     let share = (inside - level) / (inside - outside);
-    // The middle itself may lie below, and what lies outside is no number.
+    // The centre may be below `level`, and the outside may be NaN.
     out.saturating_sub(1) as f64 + if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.0 }
 }
 
-/// The length of a ray to the darkest place of the outer half of its way to bone, the last of several, in steps; none where it meets
-/// no bone, or falls below a level before.
+/// Ray length (steps) to the darkest place in the outer half before bone, if any.
 fn to_bone(ray: &mut Ray, level: f64, bone: f64, last: usize) -> Option<f64> {
     let first = (0..=last).find(|n| !(level..=bone).contains(&ray.value(*n)))?;
     let values: Vec<f64> = (0..=first).map(|n| ray.value(n)).collect();
@@ -190,7 +175,6 @@ fn to_bone(ray: &mut Ray, level: f64, bone: f64, last: usize) -> Option<f64> {
     (values[first] > bone).then_some(darkest as f64)
 }
 
-/// How far the quartiles of some values are apart.
 fn between_quartiles(mut values: Vec<f64>) -> f64 {
     let [low, high] = [0.25, 0.75].map(|share| quantile(&mut values, share).unwrap_or(0.0));
     high - low

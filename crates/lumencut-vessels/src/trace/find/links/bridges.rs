@@ -1,4 +1,4 @@
-//! Bridges: links over longer gaps between two ends that lead to each other, as of an artery whose wall touches bone for a while.
+//! Bridges longer gaps between two ends that point at each other, as where bone touches an artery.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -13,26 +13,22 @@ use crate::trace::find::track::Track;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// The least confidence of both tracks.
+/// Minimum confidence of both tracks.
 const CONFIDENCE: f64 = 0.3;
 
-/// How long a bridge is at most: so many radii of the wider end, and so much (mm).
+/// Maximum length: radii of the wider end, and mm.
 const RADII: f64 = 16.0;
 const LONGEST: f64 = 25.0;
 
-/// Both ends lead to each other with this cosine at least, or past each other by no more than so many radii; their radii differ by this factor at most, their levels by this part of
-/// the contrast, and the lowest level between them is this share of the way from the tissue to the lumen.
+/// Limits: cosine, or lateral miss in radii; ratio of radii; difference of levels (share of the contrast);
+/// lowest level on the way (0 tissue, 1 lumen).
 const STRAIGHT: f64 = 0.9;
 const PAST: f64 = 1.5;
 const ALIKE: f64 = 1.6;
 const UNLIKE: f64 = 0.3;
 const LEVEL: f64 = 0.6;
 
-/// The bridges between ends of different trees.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn bridges(
+pub(crate) fn bridges(
     scan: &Scan,
     tracks: &[Track],
     ends: &[End],
@@ -56,7 +52,6 @@ pub fn bridges(
     Ok(found.into_iter().flatten().collect())
 }
 
-/// The bridge between two ends, where there is one.
 fn bridge(scan: &Scan, from: &End, to: &End) -> Option<Link> {
     let way = to.place - from.place;
     let gap = way.length();
@@ -72,7 +67,6 @@ fn bridge(scan: &Scan, from: &End, to: &End) -> Option<Link> {
     (level >= LEVEL).then_some(Link { from: from.of, to: to.of, cost: gap, gap, level })
 }
 
-/// Whether an end leads to what lies some way ahead.
 fn leads_to(end: &End, way: DVec3) -> bool {
     let ahead = end.direction.dot(way);
     let past = (way - end.direction * ahead).length();

@@ -1,43 +1,36 @@
-//! The ends of tracks, and what the lumen is there.
+//! The ends of tracks.
 
 use glam::DVec3;
 
 use crate::trace::find::quantiles::median;
 use crate::trace::find::track::{Track, TrackPoint};
 
-/// A track with less confidence takes part in no link: bone does not join trees.
+/// Tracks with less confidence are not linked: bone must not join trees.
 const LEAST_CONFIDENCE: f64 = 0.3;
 
-/// Over how many radii an end is directed.
+/// Length in radii that gives the direction of an end.
 const DIRECTED: f64 = 1.5;
 
-/// How many points say what the lumen is at an end.
+/// Points that give the lumen of an end.
 const LAST: usize = 5;
 
-/// An end of a track.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct End {
-    /// The track, and the number of its point there.
+pub(crate) struct End {
+    /// Track and point number.
     pub of: [usize; 2],
-    /// Where it lies (mm, LPS).
     pub place: DVec3,
-    /// Where the track would go on to (unit vector).
+    /// Unit vector outwards.
     pub direction: DVec3,
-    /// The usual radius (mm), level and contrast there, as of a point of a track.
     pub radius: f64,
-    /// See `radius`.
     pub level: f64,
-    /// See `radius`.
     pub contrast: f64,
 }
 
-/// Whether a track takes part in links.
-pub fn may_link(track: &Track) -> bool {
+pub(crate) fn may_link(track: &Track) -> bool {
     track.confidence >= LEAST_CONFIDENCE
 }
 
-/// Both ends of all tracks that take part in links.
-pub fn ends(tracks: &[Track]) -> Vec<End> {
+pub(crate) fn ends(tracks: &[Track]) -> Vec<End> {
     let linked = tracks.iter().enumerate().filter(|(_, track)| may_link(track));
     linked.flat_map(|(number, track)| [false, true].map(|at_last| end(number, track, at_last))).collect()
 }

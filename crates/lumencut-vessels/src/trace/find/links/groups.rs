@@ -1,4 +1,4 @@
-//! Which tracks hang together by the links made so far, and how long the way is from one to another.
+//! Connected groups of tracks and distances within them.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
@@ -7,26 +7,23 @@ use crate::trace::find::links::link::Link;
 use crate::trace::find::track::Track;
 use lumencut_core::math::arc_length::arc_lengths;
 
-/// A loop that is shorter than so many of the larger radius at the link that closes it, or than this (mm), goes round no tissue.
-pub const SMALL_LOOP: f64 = 12.0;
+/// Loops shorter than this, in radii at the closing link or in mm, enclose no tissue.
+pub(crate) const SMALL_LOOP: f64 = 12.0;
 const SMALL_LOOP_LENGTH: f64 = 10.0;
 
-/// Tracks in groups that hang together.
-pub struct Groups<'a> {
+pub(crate) struct Groups<'a> {
     tracks: &'a [Track],
-    /// The links made so far.
     pub links: Vec<Link>,
-    /// The numbers of the links that each track has.
+    /// Links of each track.
     at_track: Vec<Vec<usize>>,
-    /// How far along its track each point lies (mm).
+    /// Arc lengths of each track (mm).
     lengths: Vec<Vec<f64>>,
-    /// Another track of the same group, or itself.
+    /// Union-find parents.
     parents: Vec<usize>,
 }
 
 impl<'a> Groups<'a> {
-    /// Tracks without a link.
-    pub fn new(tracks: &'a [Track]) -> Self {
+    pub(crate) fn new(tracks: &'a [Track]) -> Self {
         let length =
             |track: &Track| arc_lengths(&track.points.iter().map(|point| point.place).collect::<Vec<_>>());
         Self {
@@ -38,8 +35,7 @@ impl<'a> Groups<'a> {
         }
     }
 
-    /// The first track of the group of a track.
-    pub fn group(&self, track: usize) -> usize {
+    pub(crate) fn group(&self, track: usize) -> usize {
         let mut root = track;
         while self.parents[root] != root {
             root = self.parents[root];
@@ -47,20 +43,18 @@ impl<'a> Groups<'a> {
         root
     }
 
-    /// Whether a link would join two groups.
-    pub fn are_apart(&self, link: &Link) -> bool {
+    pub(crate) fn are_apart(&self, link: &Link) -> bool {
         self.group(link.from[0]) != self.group(link.to[0])
     }
 
-    /// Adds a link that joins two groups.
-    pub fn add_between_trees(&mut self, link: Link) {
+    pub(crate) fn add_between_trees(&mut self, link: Link) {
         if self.are_apart(&link) {
             self.add(link);
         }
     }
 
-    /// Adds a link unless it closes a small loop: one that goes on, such as the arteries below a brain, is kept.
-    pub fn add_unless_small_loop(&mut self, link: Link) {
+    /// Keeps larger loops, such as the arterial circle of the brain.
+    pub(crate) fn add_unless_small_loop(&mut self, link: Link) {
         let radius = |[track, point]: [usize; 2]| self.tracks[track].points[point].radius;
         let length = self.length_of(&link);
         let small = SMALL_LOOP_LENGTH.max(SMALL_LOOP * radius(link.from).max(radius(link.to))) - length;
@@ -83,11 +77,11 @@ impl<'a> Groups<'a> {
         place(link.from).distance(place(link.to))
     }
 
-    /// The length of the shortest way from one point to another along tracks and links; none where it is longer than `most` (mm).
+    /// Shortest path between two points along tracks and links; None if longer than `most` mm.
     fn way(&self, from: [usize; 2], to: [usize; 2], most: f64) -> Option<f64> {
         let along =
             |[track, a]: [usize; 2], b: usize| (self.lengths[track][a] - self.lengths[track][b]).abs();
-        // Lengths are not negative: their bits are in their order.
+        // Bits of non-negative floats sort like the values.
         let mut open = BinaryHeap::from([Reverse((0, from))]);
         let mut done = BTreeSet::new();
         let mut shortest: Option<f64> = None;

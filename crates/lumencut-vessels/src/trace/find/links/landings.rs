@@ -1,4 +1,4 @@
-//! Where an end of a track may be linked with another track, the cheapest place first.
+//! Possible link targets of an end, the cheapest first.
 
 use crate::trace::find::links::ends::{End, may_link};
 use crate::trace::find::links::link::Link;
@@ -7,77 +7,71 @@ use crate::trace::find::point_grid::PointGrid;
 use crate::trace::find::scan::Scan;
 use crate::trace::find::track::{Track, TrackPoint};
 
-/// How far from an end the middle of another track may lie: so many radii, and so much beyond (mm).
-const REACH: f64 = 2.5;
+/// Maximum distance to the centre of another track: radii plus mm.
+const LANDING_RADII: f64 = 2.5;
 const REACH_BEYOND: f64 = 26.0;
 
-/// How far its wall may lie: so many radii, but at least so many voxels, and at most so much (mm).
+/// Maximum distance to its wall: radii, at least this many voxels, at most this many mm.
 const WALL: f64 = 3.0;
 const WALL_VOXELS: f64 = 4.0;
 const FARTHEST_WALL: f64 = 8.0;
 
-/// An end lies within another track up to this many of its radii, and a voxel beyond.
+/// An end lies inside another track up to this many of its radii plus a voxel.
 const INSIDE: f64 = 1.15;
 
-/// The lowest level along a link.
+/// Minimum level along a link.
 const LEVEL: f64 = 0.45;
 
-/// How much a turn and another level make a link longer.
+/// Extra length of a link for a turn or a different level.
 const TURN: f64 = 0.5;
 
-/// An end is narrow with a radius of less than so many voxels.
-const NARROW: f64 = 2.5;
+/// Radius (voxels) below which an end is narrow.
+const NARROW_VOXELS: f64 = 2.5;
 
-/// At how many places of the same track the way there is looked at.
-const TRIES: usize = 3;
+/// Places tried per track.
+const PLACES_TRIED: usize = 3;
 
-/// What a link must be like.
-pub struct Limits {
-    /// The least confidence of both tracks.
+pub(crate) struct Limits {
+    /// Minimum confidence of both tracks.
     pub confidence: f64,
-    /// The least cosine of its turn, but where the end lies within the other track.
+    /// Minimum cosine, unless the end lies inside the other track.
     pub turn: f64,
-    /// By which part of their contrast both levels may differ.
+    /// Maximum difference of levels (share of the contrast).
     pub unlike: f64,
-    /// How much of that difference counts for a narrow end at a brighter track: it is darker than its lumen.
+    /// Factor of that difference for a narrow end at a brighter track, because it is darker than its lumen.
     pub narrow: f64,
 }
 
-/// Limits for the first link of each end: turns of 60°.
-pub const OPEN_ENDS: Limits = Limits { confidence: 0.3, turn: 0.5, unlike: 0.5, narrow: 1.0 };
+/// For the first link of an end: turns up to 60°.
+pub(crate) const OPEN_ENDS: Limits = Limits { confidence: 0.3, turn: 0.5, unlike: 0.5, narrow: 1.0 };
 
-/// Limits for links with another tree: turns of 45°.
-pub const BETWEEN_TREES: Limits =
+/// For links to another tree: turns up to 45°.
+pub(crate) const BETWEEN_TREES: Limits =
     Limits { confidence: 0.6, turn: std::f64::consts::FRAC_1_SQRT_2, unlike: 0.4, narrow: 0.5 };
 
-/// The points of all tracks that take part in links, found by where they lie.
-pub struct Landings<'a, 'v> {
+pub(crate) struct Landings<'a, 'v> {
     scan: &'a Scan<'v>,
     tracks: &'a [Track],
-    /// By width: tracks that are wide are found from afar.
+    /// By width, because wide tracks are reached from farther away.
     widths: Vec<Width>,
 }
 
-/// The points whose radii lie between a power of two and the next one.
 struct Width {
     widest: f64,
     grid: PointGrid,
-    /// The track of each, and its number there.
     points: Vec<[usize; 2]>,
 }
 
-/// The exponents of those powers of two (mm).
+/// Exponents of the powers of two (mm).
 const WIDTHS: std::ops::RangeInclusive<i32> = -3..=6;
 
-/// A place that may be landed on, before the way there was looked at.
-struct Place {
+struct Landing {
     link: Link,
     end: WayEnd,
 }
 
 impl<'a, 'v> Landings<'a, 'v> {
-    /// The points of tracks.
-    pub fn new(scan: &'a Scan<'v>, tracks: &'a [Track]) -> Self {
+    pub(crate) fn new(scan: &'a Scan<'v>, tracks: &'a [Track]) -> Self {
         let all = || {
             let linked = tracks.iter().enumerate().filter(|(_, track)| may_link(track));
             linked.flat_map(|(t, track)| (0..track.points.len()).map(move |n| [t, n]))
@@ -93,22 +87,27 @@ impl<'a, 'v> Landings<'a, 'v> {
         Self { scan, tracks, widths: WIDTHS.map(of_width).filter(|width| !width.points.is_empty()).collect() }
     }
 
-    /// Tells of each point whose wall is nearer to a place than `wall` and that itself is nearer than `reach` (mm).
-    pub fn near(&self, place: glam::DVec3, wall: f64, reach: f64, mut told: impl FnMut([usize; 2], f64)) {
+    /// Visits points closer than `reach` whose wall is closer than `wall` (mm).
+    pub(crate) fn near(
+        &self,
+        place: glam::DVec3,
+        wall: f64,
+        reach: f64,
+        mut visit: impl FnMut([usize; 2], f64),
+    ) {
         for width in &self.widths {
             width.grid.near(place, reach.min(wall + width.widest), |n| {
                 let of = width.points[n];
                 let point = &self.tracks[of[0]].points[of[1]];
                 let away = point.place.distance(place);
                 if away - point.radius < wall {
-                    told(of, away);
+                    visit(of, away);
                 }
             });
         }
     }
 
-    /// The links that an end may have, the cheapest one first and one for each track.
-    pub fn of<'b>(&'b self, end: &'b End, limits: &Limits) -> impl Iterator<Item = Link> + 'b {
+    pub(crate) fn of<'b>(&'b self, end: &'b End, limits: &Limits) -> impl Iterator<Item = Link> + 'b {
         let places = if self.tracks[end.of[0]].confidence < limits.confidence {
             Vec::new()
         } else {
@@ -116,42 +115,41 @@ impl<'a, 'v> Landings<'a, 'v> {
         };
         let mut tries: Vec<(usize, usize)> = Vec::new();
         let from = WayEnd { place: end.place, level: end.level, contrast: end.contrast };
-        places.into_iter().filter_map(move |Place { link, end }| {
+        places.into_iter().filter_map(move |Landing { link, end }| {
             let known = tries.iter().position(|(track, _)| *track == link.to[0]);
             let tried = known.unwrap_or_else(|| {
                 tries.push((link.to[0], 0));
                 tries.len() - 1
             });
-            if tries[tried].1 >= TRIES {
+            if tries[tried].1 >= PLACES_TRIED {
                 return None;
             }
             let level = lowest_level(self.scan, from, end);
             let is_lumen = level >= LEVEL;
-            tries[tried].1 += if is_lumen { TRIES } else { 1 };
+            tries[tried].1 += if is_lumen { PLACES_TRIED } else { 1 };
             is_lumen.then_some(Link { level, ..link })
         })
     }
 
-    /// The places that an end may be linked with, the cheapest one first.
-    fn places(&self, end: &End, limits: &Limits) -> Vec<Place> {
+    fn places(&self, end: &End, limits: &Limits) -> Vec<Landing> {
         let wall = (WALL * end.radius).max(WALL_VOXELS * self.scan.side).min(FARTHEST_WALL);
         let mut places = Vec::new();
-        self.near(end.place, wall, REACH * end.radius + REACH_BEYOND, |to, away| {
+        self.near(end.place, wall, LANDING_RADII * end.radius + REACH_BEYOND, |to, away| {
             let other = &self.tracks[to[0]];
             if to[0] != end.of[0] && other.confidence >= limits.confidence {
                 places.extend(self.place(end, limits, to, away));
             }
         });
-        places.sort_unstable_by(|a: &Place, b: &Place| a.link.order(&b.link));
+        places.sort_unstable_by(|a: &Landing, b: &Landing| a.link.order(&b.link));
         places
     }
 
-    /// A point as a place to link an end with, unless limits speak against that.
-    fn place(&self, end: &End, limits: &Limits, to: [usize; 2], away: f64) -> Option<Place> {
+    /// None if the limits exclude it.
+    fn place(&self, end: &End, limits: &Limits, to: [usize; 2], away: f64) -> Option<Landing> {
         let point: &TrackPoint = &self.tracks[to[0]].points[to[1]];
         let is_inside = away <= INSIDE * point.radius + self.scan.side;
         let turn = if away > 0.0 { end.direction.dot(point.place - end.place) / away } else { 1.0 };
-        let is_blurred = end.radius < NARROW * self.scan.side && end.level < point.level;
+        let is_blurred = end.radius < NARROW_VOXELS * self.scan.side && end.level < point.level;
         let counts = if is_blurred { limits.narrow } else { 1.0 };
         let unlike = counts * (end.level - point.level).abs() / end.contrast.max(point.contrast);
         if unlike >= limits.unlike || (!is_inside && turn < limits.turn) {
@@ -161,6 +159,6 @@ impl<'a, 'v> Landings<'a, 'v> {
         let cost = away + gap + TURN * away * (1.0 - turn + unlike);
         let link = Link { from: end.of, to, cost, gap, level: 0.0 };
         let end = WayEnd { place: point.place, level: point.level, contrast: point.contrast };
-        Some(Place { link, end })
+        Some(Landing { link, end })
     }
 }

@@ -1,4 +1,4 @@
-//! Links from the side of a track to a wider one of another tree, as where a short trunk divides into two arms that are one track.
+//! Links from the side of a track to a wider track of another tree, as where a trunk divides in two.
 
 use std::collections::BTreeMap;
 
@@ -13,29 +13,25 @@ use crate::trace::find::track::{Track, TrackPoint};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// The least confidence of both tracks, and the least radius of the narrower one (voxels).
+/// Minimum confidence of both, and minimum radius of the narrower (voxels).
 const CONFIDENCE: f64 = 0.7;
 const LEAST_RADIUS: f64 = 1.5;
 
-/// How far apart both walls may be: so many radii of the narrower track, and at most so much (mm).
+/// Maximum distance of the walls: radii of the narrower track, and mm.
 const WALLS: f64 = 3.0;
 const FARTHEST_WALL: f64 = 12.0;
 
-/// By which part of their contrast both levels may differ, and the lowest level along the link.
-const UNLIKE: f64 = 0.3;
-const LEVEL: f64 = 0.7;
+/// Maximum difference of levels (share of the contrast), and minimum level on the way.
+const MAX_LEVEL_DIFFERENCE: f64 = 0.3;
+const MIN_LEVEL: f64 = 0.7;
 
-/// Tracks that run side by side are an artery and its vein: the cosine between them is at most this.
+/// Maximum cosine: parallel tracks are an artery and its vein.
 const SIDE_BY_SIDE: f64 = 0.8;
 
-/// At how many places of a pair of trees the way is looked at.
-const TRIES: usize = 8;
+/// Places tried per pair of trees.
+const PLACES_TRIED: usize = 8;
 
-/// The links from sides that each pair of trees may have: the shortest one.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn side_links(
+pub(crate) fn side_links(
     scan: &Scan,
     tracks: &[Track],
     groups: &Groups,
@@ -66,7 +62,6 @@ pub fn side_links(
     Ok(links.into_iter().flatten().collect())
 }
 
-/// What is needed to look at the sides of tracks.
 struct Sides<'a, 'v> {
     scan: &'a Scan<'v>,
     tracks: &'a [Track],
@@ -76,7 +71,6 @@ struct Sides<'a, 'v> {
 }
 
 impl Sides<'_, '_> {
-    /// The shortest link from a point to each other tree, before its way was looked at.
     fn nearest(&self, from: [usize; 2]) -> Vec<Link> {
         let point = self.point(from);
         let mut best: Vec<Link> = Vec::new();
@@ -100,27 +94,25 @@ impl Sides<'_, '_> {
         best
     }
 
-    /// Whether a point may be linked with one of a wider track, by what both are like.
     fn may_join(&self, from: [usize; 2], to: [usize; 2]) -> bool {
         let [narrow, wide] = [from, to].map(|of| self.point(of));
         let unlike = (narrow.level - wide.level).abs() / narrow.contrast.max(wide.contrast);
         self.tracks[to[0]].confidence >= CONFIDENCE
             && self.radii[to[0]] > self.radii[from[0]]
-            && unlike < UNLIKE
+            && unlike < MAX_LEVEL_DIFFERENCE
             && narrow.direction.dot(wide.direction).abs() <= SIDE_BY_SIDE
     }
 
-    /// The first of the shortest links of a pair of trees that runs through lumen.
     fn first_of_lumen(&self, links: &[Link]) -> Option<Link> {
         let mut links = links.to_vec();
         links.sort_unstable_by(Link::order);
-        links.into_iter().take(TRIES).find_map(|link| {
+        links.into_iter().take(PLACES_TRIED).find_map(|link| {
             let [from, to] = [link.from, link.to].map(|of| {
                 let point = self.point(of);
                 WayEnd { place: point.place, level: point.level, contrast: point.contrast }
             });
             let level = lowest_level(self.scan, from, to);
-            (level >= LEVEL).then_some(Link { level, ..link })
+            (level >= MIN_LEVEL).then_some(Link { level, ..link })
         })
     }
 

@@ -1,29 +1,24 @@
-//! How much like lumen the values are along a straight way from one lumen to another.
+//! Lumen likeness along a straight way between two lumens.
 
 use glam::DVec3;
 
 use crate::trace::find::scan::Scan;
 
-/// The distance of the values that are looked at (voxels).
+/// Sampling distance (voxels).
 const STEP: f64 = 0.5;
 
-/// Each value is a mean over its neighbours, as a Gaussian with this standard deviation makes (voxels).
+/// Smoothing (standard deviation in voxels).
 const SMOOTHED: f64 = 0.6;
 
-/// An end of a way.
 #[derive(Clone, Copy, Debug)]
-pub struct WayEnd {
-    /// Where it lies (mm, LPS).
+pub(crate) struct WayEnd {
     pub place: DVec3,
-    /// The level of the lumen there, and how far that lies above the tissue around.
     pub level: f64,
-    /// See `level`.
     pub contrast: f64,
 }
 
-/// The lowest value along a straight way, as a share of the way from the tissue (0) to the lumen (1) of the darker end, which is
-/// the branch of the other one; 0 for a way that leaves the volume.
-pub fn lowest_level(scan: &Scan, from: WayEnd, to: WayEnd) -> f64 {
+/// Lowest value on the way: 0 tissue, 1 lumen of the darker end, which is the branch; 0 outside the volume.
+pub(crate) fn lowest_level(scan: &Scan, from: WayEnd, to: WayEnd) -> f64 {
     let count = (from.place.distance(to.place) / (STEP * scan.side)).ceil().max(1.0);
     let darker = if to.level < from.level { to } else { from };
     let share = |n: usize| {
@@ -34,7 +29,7 @@ pub fn lowest_level(scan: &Scan, from: WayEnd, to: WayEnd) -> f64 {
     (0..=count as usize).map(share).fold(1.0, f64::min)
 }
 
-/// The mean value around a place: a quarter of it, and an eighth of each of six neighbours at twice the standard deviation.
+/// Weights 1/4 for the place and 1/8 for six neighbours at two standard deviations.
 fn smoothed(scan: &Scan, place: DVec3) -> f64 {
     let away = 2.0 * SMOOTHED * scan.side;
     let around = DVec3::AXES.into_iter().flat_map(|axis| [axis * away, axis * -away]);

@@ -2,7 +2,6 @@ use super::*;
 
 const SIDE: usize = 2 * HALO + 3;
 
-/// The response in the middle of a box of values at places about the middle (voxels), and its direction.
 fn response(number: usize, value: impl Fn([f64; 3]) -> f32) -> (f32, [f64; 3]) {
     let middle = (SIDE / 2) as f64;
     let values = (0..SIDE * SIDE * SIDE)
@@ -41,7 +40,7 @@ fn a_plate_a_slope_and_a_dark_cylinder_give_nothing() {
 fn eigenvalues_of_a_turned_diagonal_matrix_are_its_diagonal() {
     let [sin, cos] = [0.6_f32, 0.8];
     let (a, b, c) = (-3.0, 1.0, 2.0);
-    // Turned about z.
+    // Rotated about z.
     let flows =
         [a * cos * cos + b * sin * sin, a * sin * sin + b * cos * cos, c, (a - b) * sin * cos, 0.0, 0.0];
     let found = eigenvalues(flows);

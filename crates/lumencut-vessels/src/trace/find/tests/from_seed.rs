@@ -5,16 +5,15 @@ use crate::trace::find::stages::Stages;
 use crate::trace::find::tubes::tubes;
 
 const SIZE: [usize; 3] = [70, 60, 50];
-const WIDE: [DVec3; 2] = [DVec3::new(4.0, 15.0, 20.0), DVec3::new(66.0, 22.0, 28.0)];
+const WIDE_TUBE: [DVec3; 2] = [DVec3::new(4.0, 15.0, 20.0), DVec3::new(66.0, 22.0, 28.0)];
 const FAINT: [DVec3; 2] = [DVec3::new(4.0, 45.0, 30.0), DVec3::new(66.0, 40.0, 20.0)];
 
-/// A tube as bright as vessels, and one with 0.17 of its contrast.
+/// A normal tube and one with 0.17 of its contrast.
 fn value(place: DVec3) -> f64 {
     let faint = blurred(2.0 - away(place, &FAINT)) - TISSUE;
-    blurred(4.0 - away(place, &WIDE)) + 0.17 * faint
+    blurred(4.0 - away(place, &WIDE_TUBE)) + 0.17 * faint
 }
 
-/// The tracks that are found with a seed.
 fn found(seed: Option<DVec3>) -> Vec<Track> {
     with_scan(SIZE, 1.0, value, |scan| {
         let request = FindRequest { smallest_radius: 1.0, stop: &|| false, progress: None };
@@ -26,7 +25,7 @@ fn found(seed: Option<DVec3>) -> Vec<Track> {
 fn a_seed_off_all_tracks_finds_a_fainter_tube_and_one_in_a_track_changes_nothing() {
     let without = found(None);
     assert_eq!(without.len(), 1);
-    let within = found(Some(WIDE[0].lerp(WIDE[1], 0.5) + DVec3::Y * 3.0));
+    let within = found(Some(WIDE_TUBE[0].lerp(WIDE_TUBE[1], 0.5) + DVec3::Y * 3.0));
     assert_eq!(within.len(), 1);
     assert_eq!(within[0].points, without[0].points);
     let beside = found(Some(FAINT[0].lerp(FAINT[1], 0.5)));

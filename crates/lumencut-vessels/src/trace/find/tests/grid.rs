@@ -2,7 +2,7 @@ use super::*;
 use glam::DMat3;
 use lumencut_core::volume::{self, Volume};
 
-/// The grid over a volume of 20 x 10 x 5 voxels with some axes (mm).
+/// The grid over 20 × 10 × 5 voxels with these axes (mm).
 fn grid(axes: DMat3, smallest_radius: f64) -> Grid {
     let values = vec![0.0_f32; 1000];
     let world = DAffine3 { matrix3: axes, translation: DVec3::new(5.0, -7.0, 11.0) };
@@ -24,7 +24,7 @@ fn uneven_voxels_become_cubes_of_their_mean_side_and_fine_ones_no_finer_than_is_
     let uneven = grid(DMat3::from_diagonal(DVec3::new(1.0, 1.0, 8.0)), 1.0);
     assert_eq!((uneven.side, uneven.size), (2.0, [10, 5, 17]));
     assert_eq!(grid(DMat3::from_diagonal(DVec3::splat(0.2)), 0.5).side, 0.4);
-    // Who asks for wide vessels alone gets cubes in which their surroundings still show.
+    // Surroundings remain visible when only wide vessels are wanted.
     assert_eq!(grid(DMat3::from_diagonal(DVec3::splat(0.2)), 5.0).side, 0.8);
 }
 

@@ -4,10 +4,9 @@ use crate::trace::find::grid::Grid;
 use crate::trace::find::made::{LEVEL, TISSUE, away, blurred, straight_track, with_scan};
 use crate::trace::find::pyramid::Pyramid;
 
-/// The middle of a tube of 2 mm.
+/// Axis of a tube of 2 mm.
 const TUBE: [DVec3; 2] = [DVec3::new(4.0, 20.0, 20.0), DVec3::new(56.0, 20.0, 20.0)];
 
-/// What is found in a wide track of some radius (voxels, as many mm) beside the tube, of which so much confidence is left.
 fn behind(radius: f64, confidence: f64) -> Vec<Track> {
     let value = |place: DVec3| blurred(2.0 - away(place, &TUBE));
     with_scan([60, 40, 40], 1.0, value, |scan| {
@@ -17,7 +16,7 @@ fn behind(radius: f64, confidence: f64) -> Vec<Track> {
         let floors = Floors { noise: noise(&pyramid.levels[0]), contrast: LEVEL - TISSUE };
         let pass = Tracking {
             pyramid: &pyramid,
-            looked_at: pyramid.all(),
+            levels_examined: pyramid.all(),
             floors,
             stop: &|| false,
             judge: &judge,
@@ -37,7 +36,7 @@ fn a_tube_within_a_wide_track_is_found_once_that_is_no_vessel() {
     assert!((found[0].radius() - 2.0).abs() < 0.2 && found[0].length() > 45.0, "{}", found[0].length());
     let along = found[0].points.iter().filter(|point| (8.0..52.0).contains(&point.place.x));
     assert!(along.map(|point| away(point.place, &TUBE)).fold(0.0, f64::max) < 0.3);
-    // A vessel hides it, and so does a track that is hardly wider.
+    // A vessel, or a hardly wider track, still hides it.
     assert!(behind(6.0, 0.3).is_empty());
     assert!(behind(3.2, 0.1).is_empty());
 }

@@ -1,4 +1,4 @@
-//! Scans and tracks that are made up, for tests.
+//! Synthetic scans and tracks for tests.
 
 use glam::{DAffine3, DVec3};
 
@@ -7,11 +7,10 @@ use crate::trace::find::track::{Track, TrackPoint};
 use crate::voxels::Voxels;
 use lumencut_core::volume::{self, Volume};
 
-/// The values of made vessels and of what lies around them.
 pub const LEVEL: f64 = 300.0;
 pub const TISSUE: f64 = 50.0;
 
-/// What becomes of a scan of `size` voxels with sides of `side` (mm) and the values that places (mm) have.
+/// Runs `work` on a scan with values by position (mm).
 pub fn with_scan<T>(
     size: [usize; 3],
     side: f64,
@@ -39,12 +38,12 @@ pub fn with_scan<T>(
     })
 }
 
-/// The value `depth` (mm) below the surface of what is brighter than tissue, blurred over a millimetre.
+/// Value at `depth` mm below a surface, blurred over a millimetre.
 pub fn blurred(depth: f64) -> f64 {
     TISSUE + (LEVEL - TISSUE) * (depth + 0.5).clamp(0.0, 1.0)
 }
 
-/// How far a place lies from a line of points (mm).
+/// Distance from a polyline (mm).
 pub fn away(place: DVec3, line: &[DVec3]) -> f64 {
     let from_segment = |pair: &[DVec3]| {
         let way = pair[1] - pair[0];
@@ -54,8 +53,8 @@ pub fn away(place: DVec3, line: &[DVec3]) -> f64 {
     line.windows(2).map(from_segment).fold(f64::MAX, f64::min)
 }
 
-/// A straight track with points half a millimetre apart.
-pub fn straight_track(from: DVec3, to: DVec3, radius: f64) -> Track {
+/// A straight track in steps of 0.5 mm.
+pub(crate) fn straight_track(from: DVec3, to: DVec3, radius: f64) -> Track {
     let count = (2.0 * from.distance(to)).round();
     let point = |n: usize| TrackPoint {
         place: from.lerp(to, n as f64 / count),
@@ -69,7 +68,6 @@ pub fn straight_track(from: DVec3, to: DVec3, radius: f64) -> Track {
     Track { points: (0..=count as usize).map(point).collect(), confidence: 0.9, doubt: None }
 }
 
-/// The same track the other way round.
 pub fn turned(mut track: Track) -> Track {
     track.points.reverse();
     for point in &mut track.points {
@@ -78,7 +76,6 @@ pub fn turned(mut track: Track) -> Track {
     track
 }
 
-/// What work gives in a pool of some threads.
-pub fn with_threads<T: Send>(count: usize, work: impl FnOnce() -> T + Send) -> T {
+pub(crate) fn with_threads<T: Send>(count: usize, work: impl FnOnce() -> T + Send) -> T {
     rayon::ThreadPoolBuilder::new().num_threads(count).build().expect("threads").install(work)
 }

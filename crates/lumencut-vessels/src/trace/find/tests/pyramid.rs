@@ -3,7 +3,6 @@ use crate::trace::find::made::with_scan;
 
 const SIZE: [usize; 3] = [84, 80, 76];
 
-/// The levels of a scan of voxels of 1 mm with the values of places (mm).
 fn levels(value: impl Fn(DVec3) -> f64, range: [f64; 2], work: impl Fn(&Pyramid)) {
     with_scan(SIZE, 1.0, value, |scan| {
         let grid = Grid::over(scan.voxels, 0.5);
@@ -48,7 +47,8 @@ fn a_narrow_tube_is_looked_at_on_the_finest_level_and_a_wide_one_on_the_coarsest
         |_| 0.0,
         [0.0, 1.0],
         |pyramid| {
-            let side = |radius: f64, looked_at: Range<usize>| pyramid.level_for(radius, &looked_at).side;
+            let side =
+                |radius: f64, levels_examined: Range<usize>| pyramid.level_for(radius, &levels_examined).side;
             assert_eq!([3.9, 4.0, 8.0, 50.0].map(|radius| side(radius, 0..3)), [1.0, 2.0, 4.0, 4.0]);
             assert_eq!([1.0, 50.0].map(|radius| side(radius, 1..2)), [2.0, 2.0]);
         },

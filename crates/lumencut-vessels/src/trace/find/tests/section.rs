@@ -5,12 +5,11 @@ use crate::trace::find::pyramid::Pyramid;
 
 const MIDDLE: DVec3 = DVec3::new(20.2, 19.7, 15.0);
 
-/// The section across z at a place, in a scan of voxels of 1 mm with the values of places (mm).
+/// Section across z in voxels of 1 mm.
 fn look(value: impl Fn(DVec3) -> f64, place: DVec3, radius: f64) -> Section {
     looked(Section::look, value, place, radius)
 }
 
-/// The same, looked at in one way or another.
 fn looked(
     look: fn(&Level, DVec3, DVec3, f64) -> Section,
     value: impl Fn(DVec3) -> f64,
@@ -68,7 +67,7 @@ fn struts_on_some_sides_move_no_wall_and_a_plate_is_open() {
 
 #[test]
 fn where_bone_touches_a_tube_its_walls_are_seen_once_bone_ends_rays() {
-    // Bone on one side, and between both a wall that is too thin to lose half of the contrast.
+    // Bone on one side, behind a wall too thin to lose half of the contrast.
     let beside = |place: DVec3| {
         let beyond = (place - MIDDLE).x - 3.0;
         if beyond > -0.8 { LEVEL - 40.0 + 140.0 * beyond.clamp(0.0, 1.0) } else { blurred(depth(place, 3.0)) }
@@ -78,7 +77,7 @@ fn where_bone_touches_a_tube_its_walls_are_seen_once_bone_ends_rays() {
     assert!(plain.shift.x > 0.4 && plain.closure < 0.9, "{plain:?}");
     assert!(seen.shift.length() < 0.3 && (seen.radius - 3.0).abs() < 0.15, "{seen:?}");
     assert!(seen.closure > 0.95 && seen.contrast_share > plain.contrast_share, "{seen:?} {plain:?}");
-    // Where there is none nothing changes.
+    // Without bone nothing changes.
     let tube = |place: DVec3| blurred(depth(place, 3.0));
     assert_eq!(looked(Section::beside_bone, tube, MIDDLE, 3.0), look(tube, MIDDLE, 3.0));
 }

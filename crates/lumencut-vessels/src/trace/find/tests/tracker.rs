@@ -6,7 +6,7 @@ const SIZE: [usize; 3] = [70, 50, 50];
 const TUBE: [DVec3; 2] = [DVec3::new(12.0, 22.0, 24.0), DVec3::new(58.0, 28.0, 24.0)];
 const RADIUS: f64 = 3.0;
 
-/// The points (mm) of the track from a place in a direction, in voxels of 1 mm with noise; it ends where a line is painted.
+/// Track points (mm) from a place and direction in noisy 1 mm voxels; `painted` ends it.
 fn track(
     value: impl Fn(DVec3) -> f64,
     noise: f64,
@@ -22,7 +22,7 @@ fn track(
         }
         let tracker = Tracker {
             pyramid: &pyramid,
-            looked_at: pyramid.all(),
+            levels_examined: pyramid.all(),
             paint: &paint,
             levels: &[LEVEL],
             floors: Floors { noise, contrast: LEVEL - TISSUE },
@@ -41,7 +41,7 @@ fn track(
     })
 }
 
-/// White noise of a place, with a deviation of 1.
+/// White noise with a deviation of 1.
 fn white(place: DVec3) -> f64 {
     let mixed = |n: u64| {
         let bits = place.to_array().iter().fold(n, |bits, side| {
@@ -52,12 +52,11 @@ fn white(place: DVec3) -> f64 {
     (1..5).map(mixed).sum::<f64>() * 3.0_f64.sqrt()
 }
 
-/// How far the farthest place lies from a line.
 fn farthest(places: &[DVec3], line: &[DVec3]) -> f64 {
     places.iter().map(|place| away(*place, line)).fold(0.0, f64::max)
 }
 
-/// Asserts that a track keeps to the middle of a line and ends within a radius of its ends.
+/// Asserts that a track follows a line and ends within a radius of its ends.
 fn keeps_to(points: &[DVec3], line: &[DVec3], off: f64) {
     let within =
         |place: &&DVec3| [line[0], line[line.len() - 1]].iter().all(|end| place.distance(*end) > RADIUS);
@@ -95,11 +94,10 @@ fn a_helix_is_followed_through_all_its_turns() {
     keeps_to(&found, &line, 0.6);
 }
 
-/// A fork: a straight vessel, and where a branch leaves it and ends.
+/// A straight vessel and its branch.
 const STRAIGHT: [DVec3; 2] = [DVec3::new(8.0, 18.0, 25.0), DVec3::new(62.0, 18.0, 25.0)];
 const BRANCH: [DVec3; 2] = [DVec3::new(32.0, 18.0, 25.0), DVec3::new(52.0, 42.0, 25.0)];
 
-/// The values of the fork with a branch of a radius.
 fn forked(place: DVec3, radius: f64) -> f64 {
     blurred((RADIUS - away(place, &STRAIGHT)).max(radius - away(place, &BRANCH)))
 }
@@ -117,7 +115,7 @@ fn a_track_of_a_branch_ends_in_the_painted_lumen_of_its_parent() {
     let start = (BRANCH[0].lerp(BRANCH[1], 0.7), BRANCH[1] - BRANCH[0]);
     let found = track(|place| forked(place, RADIUS), 0.0, start, &painted).expect("a track");
     assert!(found[found.len() - 1].distance(BRANCH[1]) < RADIUS);
-    // A step before the painted lumen.
+    // One step before the painted lumen.
     let met = away(found[0], &STRAIGHT);
     assert!(met > RADIUS - 1.0 && met < RADIUS + 2.0, "{met}");
 }

@@ -5,7 +5,7 @@ use glam::DVec3;
 
 const SIZE: [usize; 3] = [70, 60, 50];
 
-/// The level and contrast of the vessels, and the tracks, of a scan of voxels of 1 mm with the values of places (mm).
+/// Level, contrast and tracks in voxels of 1 mm.
 fn found(value: impl Fn(DVec3) -> f64) -> Option<([f64; 2], Vec<Track>)> {
     with_scan(SIZE, 1.0, value, |scan| {
         let request = FindRequest { smallest_radius: 1.0, stop: &|| false, progress: None };
@@ -24,7 +24,7 @@ fn two_tubes_are_two_tracks_in_their_middles_with_their_radii() {
     assert_eq!(tracks.len(), 2);
     for (line, radius) in [(wide, 4.0), (narrow, 2.0)] {
         let track = tracks.iter().find(|track| (track.radius() - radius).abs() < 0.2).expect("a track");
-        // Beyond the ends of the lines the tubes are round.
+        // The tubes have round ends.
         let along = track.points.iter().filter(|point| (6.0..64.0).contains(&point.place.x));
         let worst = along.map(|point| away(point.place, &line)).fold(0.0, f64::max);
         assert!(worst < 0.5, "{worst}");

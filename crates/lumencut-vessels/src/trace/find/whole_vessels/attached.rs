@@ -1,4 +1,4 @@
-//! Runs that begin and end on points of other runs, the same ones to the bit.
+//! Attaches runs to points of other runs, equal to the bit.
 
 use glam::DVec3;
 
@@ -9,25 +9,24 @@ use crate::trace::lumen::refine::STEP;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Of how many straight pieces the bend is made that leads out of a lumen.
+/// Segments of the bend out of a lumen.
 const BEND: usize = 16;
 
-/// A run whose ends lie on others where it meets them.
 #[derive(Clone, Debug)]
-pub struct Attached {
-    /// Its points.
+pub(crate) struct Attached {
     pub points: Vec<LinePoint>,
-    /// The runs at its start and its end; none at free ends.
+    /// Runs at start and end; None if free.
     pub met: [Option<usize>; 2],
-    /// How many of its points at its start and its end lead from the middle of the other run out of its lumen.
+    /// Points at start and end between the other run's centre and its wall.
     pub leads: [usize; 2],
 }
 
-/// Brings the ends of the runs to the runs that they meet.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn attached(runs: &Runs, places: &[DVec3], lines: &[Centered], stop: Stop) -> Result<Vec<Attached>> {
+pub(crate) fn attached(
+    runs: &Runs,
+    places: &[DVec3],
+    lines: &[Centered],
+    stop: Stop,
+) -> Result<Vec<Attached>> {
     let mut made: Vec<Attached> = lines
         .iter()
         .map(|line| Attached { points: line.points.clone(), met: [None; 2], leads: [0; 2] })
@@ -61,8 +60,7 @@ pub fn attached(runs: &Runs, places: &[DVec3], lines: &[Centered], stop: Stop) -
     Ok(made)
 }
 
-/// The point of a line where another one meets it at one of its knots, of which the last one is `last`: at an end the end, else the
-/// point nearest to the place of the node, the first of several.
+/// Where another line meets this one at `knot`: its end, or otherwise the point nearest to the node.
 fn joint(points: &[LinePoint], knot: usize, last: usize, place: DVec3) -> LinePoint {
     let away = |point: &&LinePoint| point.place.distance_squared(place);
     let nearest = points.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
@@ -70,13 +68,12 @@ fn joint(points: &[LinePoint], knot: usize, last: usize, place: DVec3) -> LinePo
     end.or(nearest).copied().unwrap_or(points[0])
 }
 
-/// Leads the first point of a run back to a point of another one, in one bend and as wide as the run is where it begins.
 fn lead_out(run: &mut Attached, joint: Option<LinePoint>, end: usize) {
     let Some(joint) = joint else { return };
     let from = run.points[0];
     let way = from.place.distance(joint.place);
     let outside = run.points[3.min(run.points.len() - 1)].place - from.place;
-    // A parabola whose direction at the wall is that of the run.
+    // Quadratic Bézier curve tangent to the run at the wall.
     let control = from.place - outside.normalize_or_zero() * (way / 2.0);
     let bend = |n: usize| {
         let t = n as f64 / BEND as f64;
@@ -95,7 +92,6 @@ fn lead_out(run: &mut Attached, joint: Option<LinePoint>, end: usize) {
     }
 }
 
-/// Keeps a run within the lumens of those that it meets as short as can be.
 fn lie_within(run: &mut Attached, joints: [Option<LinePoint>; 2]) {
     let last = run.points.len() - 1;
     for (joint, n) in joints.into_iter().zip([0, last]) {
@@ -116,7 +112,7 @@ fn lie_within(run: &mut Attached, joints: [Option<LinePoint>; 2]) {
     run.leads[usize::from(run.met[0].is_none())] = run.points.len() - 1;
 }
 
-/// Makes sure that the ends of a run are points of the runs that it meets, which may have been led elsewhere since.
+/// Inserts end points of a run into the runs it meets, which may have moved since.
 fn share_ends(runs: &mut [Attached], number: usize) {
     for end in 0..2 {
         let Some(owner) = runs[number].met[end] else { continue };

@@ -1,4 +1,4 @@
-//! Each run in the middle of its lumen, outside the lumens of the runs that it begins and ends on.
+//! Centres each run outside the lumens at its ends.
 
 use std::ops::RangeInclusive;
 
@@ -15,48 +15,37 @@ use crate::trace::lumen::refine::{STEP, refined_near};
 use lumencut_core::error::Result;
 use lumencut_core::stop::Stop;
 
-/// How many points of another run before and behind a common node may have that run's lumen around them.
+/// Neighbouring points of another run whose lumen is checked.
 const NEAR_POINTS: usize = 200;
 
-/// What is shorter is not centred (mm).
+/// Minimum length to centre (mm).
 const SHORTEST: f64 = 1.0;
 
-/// By which factor a radius may differ from that of the track.
+/// Maximum ratio of the refined radius to the tracked one.
 const OTHER_RADIUS: f64 = 2.0;
 
-/// The shares of the levels along a run below which its lowest and its highest level lie.
+/// Quantiles of the levels along a run.
 const LEVELS: [f64; 2] = [0.1, 0.9];
 
-/// The least contrast of a run, as a share of its usual one.
+/// Minimum contrast relative to the median.
 const LEAST_CONTRAST: f64 = 0.3;
 
-/// A point of a centred run.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LinePoint {
-    /// Where it lies (mm, LPS).
+pub(crate) struct LinePoint {
     pub place: DVec3,
-    /// The radius of the lumen (mm).
     pub radius: f64,
-    /// How sure it is, 0 to 1.
     pub confidence: f64,
-    /// The track that it belongs to.
     pub track: usize,
 }
 
-/// A centred run.
 #[derive(Clone, Debug)]
-pub struct Centered {
-    /// Its points.
+pub(crate) struct Centered {
     pub points: Vec<LinePoint>,
-    /// Whether any of it lies outside the lumens of the runs at its ends; where none does, the points are those of its tracks.
+    /// Whether any part lies outside the other lumens; otherwise the points are those of the tracks.
     pub is_outside: bool,
 }
 
-/// The run `number` in the middle of its lumen.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn centered(scan: &Scan, runs: &Runs, number: usize, stop: Stop) -> Result<Centered> {
+pub(crate) fn centered(scan: &Scan, runs: &Runs, number: usize, stop: Stop) -> Result<Centered> {
     let way = &runs.runs[number].points;
     let outside = outside(runs, number);
     let is_outside = outside.is_some();
@@ -75,8 +64,8 @@ pub fn centered(scan: &Scan, runs: &Runs, number: usize, stop: Stop) -> Result<C
     Ok(Centered { points: (0..line.points.len()).map(point).collect(), is_outside })
 }
 
-/// The run that a run begins on (0) or ends on (1), and the number of the point there; none at a free end.
-pub fn met(runs: &Runs, number: usize, end: usize) -> Option<(usize, usize)> {
+/// The run met at the start (0) or end (1), and its point; None at a free end.
+pub(crate) fn met(runs: &Runs, number: usize, end: usize) -> Option<(usize, usize)> {
     let run = &runs.runs[number];
     let (node, _) = run.knots[if end == 0 { 0 } else { run.knots.len() - 1 }];
     let owner = runs.owners[node];
@@ -84,7 +73,7 @@ pub fn met(runs: &Runs, number: usize, end: usize) -> Option<(usize, usize)> {
     (owner != number).then_some((owner, knot.1))
 }
 
-/// The points of a run outside the lumens of the runs at its ends; none where there are not two.
+/// Points outside the lumens at the ends; None if fewer than two.
 fn outside(runs: &Runs, number: usize) -> Option<RangeInclusive<usize>> {
     let points = &runs.runs[number].points;
     let is_within = |n: usize, end: usize| {
@@ -96,14 +85,12 @@ fn outside(runs: &Runs, number: usize) -> Option<RangeInclusive<usize>> {
     (first < last).then_some(first..=last)
 }
 
-/// Whether a place lies in the lumen of a run near one of its points.
 fn lies_within(place: DVec3, run: &Run, knot: usize) -> bool {
     let last = (knot + NEAR_POINTS).min(run.points.len() - 1);
     let near = &run.points[knot.saturating_sub(NEAR_POINTS)..=last];
     near.iter().any(|point| point.place.distance_squared(place) < point.radius * point.radius)
 }
 
-/// What the lumen looks like along a way.
 fn model(scan: &Scan, way: &[WayPoint]) -> LumenModel {
     let of = |value: fn(&WayPoint) -> f64, share: f64| {
         quantile(&mut way.iter().map(value).collect::<Vec<f64>>(), share).unwrap_or(0.0)

@@ -1,4 +1,4 @@
-//! Rings: a run that comes back to where it began ends on its first point.
+//! Closes rings: a run that returns to its start ends on its first point.
 
 use crate::trace::find::links::groups::SMALL_LOOP;
 use crate::trace::find::whole_vessels::attached::Attached;
@@ -6,17 +6,16 @@ use crate::trace::find::whole_vessels::centered::LinePoint;
 use crate::trace::lumen::refine::STEP;
 use lumencut_core::math::arc_length::arc_lengths;
 
-/// Both ends of a ring are nearer to each other than so many radii, and it is no small loop.
-const NEAR: f64 = 1.0;
+/// Maximum distance of the ends of a ring, in radii.
+const RING_GAP_RADII: f64 = 1.0;
 
-/// The run, closed where it is a ring whose ends both are free.
-pub fn closed(mut run: Attached) -> Attached {
+pub(crate) fn closed(mut run: Attached) -> Attached {
     let [first, last] = [run.points[0], run.points[run.points.len() - 1]];
     let gap = first.place.distance(last.place);
     let radius = first.radius.min(last.radius);
     let places: Vec<_> = run.points.iter().map(|point| point.place).collect();
     let length = arc_lengths(&places).last().copied().unwrap_or(0.0);
-    let is_ring = run.met == [None; 2] && gap < NEAR * radius && length >= SMALL_LOOP * radius;
+    let is_ring = run.met == [None; 2] && gap < RING_GAP_RADII * radius && length >= SMALL_LOOP * radius;
     if is_ring && gap > 0.0 {
         let count = (gap / STEP).ceil();
         let between = |n: usize| LinePoint { place: last.place.lerp(first.place, n as f64 / count), ..last };
@@ -31,7 +30,7 @@ mod tests {
     use super::*;
     use glam::DVec3;
 
-    /// Most of a circle of 10 mm radius, of a lumen of some radius.
+    /// Most of a circle of 10 mm.
     fn circle(turn: f64, radius: f64) -> Attached {
         let point = |n: i32| {
             let (sin, cos) = (turn * f64::from(n) / 200.0).sin_cos();
@@ -42,7 +41,7 @@ mod tests {
 
     #[test]
     fn a_ring_ends_where_it_began_and_what_is_open_or_ends_on_others_does_not() {
-        // 0.13 of a turn lack 1.3 mm.
+        // A gap of 1.3 mm.
         let almost = std::f64::consts::TAU - 0.13;
         let ring = closed(circle(almost, 1.5)).points;
         assert_eq!(ring[0], ring[ring.len() - 1]);

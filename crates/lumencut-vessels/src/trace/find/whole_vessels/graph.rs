@@ -1,4 +1,4 @@
-//! Tracks and links as a graph: tracks are cut where links join them.
+//! The graph of tracks and links; tracks are cut at links.
 
 use std::collections::BTreeSet;
 
@@ -7,52 +7,39 @@ use glam::DVec3;
 use crate::trace::find::links::link::Link;
 use crate::trace::find::track::{Track, TrackPoint};
 
-/// Points of a link are at most so far apart (mm).
+/// Point distance on a link (mm).
 const STEP: f64 = 0.5;
 
-/// A point of an edge.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WayPoint {
-    /// Where it lies (mm, LPS).
+pub(crate) struct WayPoint {
     pub place: DVec3,
-    /// The radius (mm), and the level and the contrast of the lumen.
     pub radius: f64,
-    /// See `radius`.
     pub level: f64,
-    /// See `radius`.
     pub contrast: f64,
-    /// How sure it is, 0 to 1.
     pub confidence: f64,
-    /// The track that it belongs to: for a link the less sure one of both.
+    /// For a link, the less sure track.
     pub track: usize,
-    /// Whether it belongs to a link.
-    pub is_link: bool,
+    pub(crate) is_link: bool,
 }
 
-/// A piece of a track, or a link.
 #[derive(Clone, Debug)]
-pub struct Edge {
-    /// The nodes at its start and its end.
+pub(crate) struct Edge {
     pub nodes: [usize; 2],
-    /// Its points, those at both nodes included.
+    /// Includes both nodes.
     pub points: Vec<WayPoint>,
 }
 
-/// Tracks and links as nodes and edges.
-pub struct Graph {
-    /// Where each node lies (mm, LPS).
+pub(crate) struct Graph {
     pub places: Vec<DVec3>,
-    /// The numbers of the edges at each node.
-    pub incident: Vec<Vec<usize>>,
-    /// The edges, the pieces of tracks first and in their order.
+    pub(crate) incident: Vec<Vec<usize>>,
+    /// Track pieces first, in order.
     pub edges: Vec<Edge>,
-    /// The first edge of each track, and the one after its last.
-    pub of_track: Vec<[usize; 2]>,
+    /// Edge range of each track.
+    pub(crate) of_track: Vec<[usize; 2]>,
 }
 
 impl Graph {
-    /// The graph of linked tracks.
-    pub fn new(tracks: &[Track], links: &[Link]) -> Self {
+    pub(crate) fn new(tracks: &[Track], links: &[Link]) -> Self {
         let mut cuts: Vec<BTreeSet<usize>> =
             tracks.iter().map(|track| BTreeSet::from([0, track.points.len() - 1])).collect();
         for [track, point] in links.iter().flat_map(|link| [link.from, link.to]) {
@@ -82,14 +69,12 @@ impl Graph {
         graph
     }
 
-    /// The node at the other end of an edge.
-    pub fn far(&self, edge: usize, node: usize) -> usize {
+    pub(crate) fn far(&self, edge: usize, node: usize) -> usize {
         let [a, b] = self.edges[edge].nodes;
         if a == node { b } else { a }
     }
 
-    /// The points of an edge from a node on.
-    pub fn points_from(&self, edge: usize, node: usize) -> Vec<WayPoint> {
+    pub(crate) fn points_from(&self, edge: usize, node: usize) -> Vec<WayPoint> {
         let mut points = self.edges[edge].points.clone();
         if self.edges[edge].nodes[0] != node {
             points.reverse();
@@ -97,8 +82,7 @@ impl Graph {
         points
     }
 
-    /// The part that each node belongs to, numbered in the order of their first nodes, and how many there are.
-    pub fn parts(&self) -> (Vec<usize>, usize) {
+    pub(crate) fn parts(&self) -> (Vec<usize>, usize) {
         let mut parts = vec![usize::MAX; self.places.len()];
         let mut count = 0;
         for first in 0..parts.len() {
@@ -131,7 +115,6 @@ impl Graph {
     }
 }
 
-/// A point of a track.
 fn on_track(tracks: &[Track], number: usize, point: &TrackPoint) -> WayPoint {
     WayPoint {
         place: point.place,
@@ -144,7 +127,7 @@ fn on_track(tracks: &[Track], number: usize, point: &TrackPoint) -> WayPoint {
     }
 }
 
-/// The points of a link: as wide as the narrower of both tracks, and as sure as the less sure one where it is bright.
+/// As wide as the narrower track; confidence of the less sure one times the link's level.
 fn along_link(tracks: &[Track], link: &Link) -> Vec<WayPoint> {
     let [from, to] =
         [link.from, link.to].map(|[track, point]| on_track(tracks, track, &tracks[track].points[point]));

@@ -1,4 +1,4 @@
-//! Where the root of each part lies, and which parts are most important.
+//! Roots and ranks of the parts.
 
 use crate::trace::find::scan::Scan;
 use crate::trace::find::track::{Track, usual};
@@ -8,27 +8,22 @@ use crate::trace::find::whole_vessels::runs::straightest;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Beyond so many voxels the width of a vessel makes it no more important.
+/// Maximum radius in the rank (voxels).
 const WIDEST: f64 = 10.0;
 
-/// Levels are alike within this part of the contrast.
-const ALIKE: f64 = 0.2;
+/// Similar levels differ by this share of the contrast.
+const SIMILAR_LEVEL: f64 = 0.2;
 
-/// A part of the graph.
 struct Part {
-    /// How important it is.
     rank: f64,
-    /// The track with the largest lumen, and how large that is (mm³).
+    /// Track of largest lumen and its size (mm³).
     largest: (usize, f64),
-    /// The edge and the node at the widest free end, and its radius (mm).
+    /// Edge and node of the widest free end, and its radius (mm).
     free: Option<([usize; 2], f64)>,
 }
 
-/// The edge and the node that each part begins with, the most important part first: at the free end of its widest run.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn roots(scan: &Scan, tracks: &[Track], graph: &Graph, stop: Stop) -> Result<Vec<[usize; 2]>> {
+/// Root of each part as edge and node (the free end of its widest run), the most important part first.
+pub(crate) fn roots(scan: &Scan, tracks: &[Track], graph: &Graph, stop: Stop) -> Result<Vec<[usize; 2]>> {
     let (of_node, count) = graph.parts();
     let mut parts: Vec<Part> =
         (0..count).map(|_| Part { rank: 0.0, largest: (0, -1.0), free: None }).collect();
@@ -50,7 +45,7 @@ pub fn roots(scan: &Scan, tracks: &[Track], graph: &Graph, stop: Stop) -> Result
             *free = Some(([edge, node], radius));
         }
     }
-    // The sort is stable: of equal parts the one with the first track comes first.
+    // Stable sort: ties go to the part with the first track.
     parts.sort_by(|a, b| b.rank.total_cmp(&a.rank));
     let root = |part| {
         go_on(stop)?;
@@ -59,11 +54,11 @@ pub fn roots(scan: &Scan, tracks: &[Track], graph: &Graph, stop: Stop) -> Result
     parts.iter().map(root).collect()
 }
 
-/// How important a track is: long, sure and wide, with the contrast and the level of vessels.
+/// Rank of a track: length, confidence, width, contrast, and similarity to the vessel level.
 fn importance(scan: &Scan, track: &Track) -> f64 {
     let wide = (track.radius() / scan.side).min(WIDEST);
     let contrast = track.points.iter().map(|point| point.contrast).sum::<f64>() / track.points.len() as f64;
-    let away = (usual(&track.points, |point| point.level) - scan.level) / (ALIKE * scan.contrast);
+    let away = (usual(&track.points, |point| point.level) - scan.level) / (SIMILAR_LEVEL * scan.contrast);
     track.length() * contrast / scan.contrast * track.confidence * wide * wide * (-away * away).exp()
 }
 
@@ -78,8 +73,7 @@ fn is_free(graph: &Graph, node: usize) -> bool {
     graph.incident[node].len() == 1
 }
 
-/// The wider free end of the run that the largest track of a part belongs to; where that has none the widest one of the part, and
-/// of a ring any end.
+/// The wider free end of the run with the largest track; otherwise the widest free end; any end of a ring.
 fn root(graph: &Graph, part: &Part) -> [usize; 2] {
     let [first, after] = graph.of_track[part.largest.0];
     let ways = [
@@ -95,7 +89,7 @@ fn root(graph: &Graph, part: &Part) -> [usize; 2] {
     }
 }
 
-/// Goes on from an end of an edge as straight as can be, and returns the last edge and the node at its far end.
+/// Follows the straightest edges and returns the last edge and node.
 fn walk(graph: &Graph, [mut edge, mut node]: [usize; 2]) -> [usize; 2] {
     let mut walked = vec![edge];
     loop {

@@ -1,5 +1,4 @@
-//! Whole runs of the graph: from the root outwards each goes on with the edge that is straightest and widest, and the others
-//! begin runs of their own.
+//! Divides the graph into runs that follow the straightest and widest edges from the root outwards.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -12,44 +11,36 @@ use crate::trace::find::whole_vessels::outlook::{Outlook, outlook};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// A run that is met from the side goes on to both sides: where its two edges are this straight (cosine) and both are so many
-/// times as wide as what meets it.
+/// A run met from the side passes through if its edges are this straight (cosine) and this much wider.
 const STRAIGHT: f64 = -0.8;
 const WIDER: f64 = 1.5;
 
-/// Edges are alike where what decides between them differs by no more.
+/// Tolerance of ties.
 const ROUNDING: f64 = 1e-9;
 
-/// How many points say how wide an end is.
+/// Points that give the width of an end.
 const LAST: usize = 5;
 
-/// A whole run.
 #[derive(Clone, Debug)]
-pub struct Run {
-    /// Its points, from the root outwards.
+pub(crate) struct Run {
+    /// From the root outwards.
     pub points: Vec<WayPoint>,
-    /// The nodes that it passes, and the number of its point at each.
+    /// Nodes with their point numbers.
     pub knots: Vec<(usize, usize)>,
 }
 
-/// The runs of a graph.
-pub struct Runs {
-    /// The runs: each after the one that it leaves, unless that is met from the side.
+pub(crate) struct Runs {
+    /// Each after the run it leaves, except those met from the side.
     pub runs: Vec<Run>,
     /// The run that passes each node.
-    pub owners: Vec<usize>,
+    pub(crate) owners: Vec<usize>,
 }
 
 const NONE: usize = usize::MAX;
 
-/// An edge that a run may begin with, the widest one first.
 type Start = (u64, Reverse<usize>, usize);
 
-/// All edges of a graph as runs; `roots` are the edge and the node that each part begins with.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn runs(graph: &Graph, roots: &[[usize; 2]], stop: Stop) -> Result<Runs> {
+pub(crate) fn runs(graph: &Graph, roots: &[[usize; 2]], stop: Stop) -> Result<Runs> {
     let owners = vec![NONE; graph.places.len()];
     let made = Runs { runs: Vec::new(), owners };
     let mut search = Search { graph, made, used: vec![false; graph.edges.len()], open: BinaryHeap::new() };
@@ -74,7 +65,6 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Makes a run that begins with an edge at a node, and one that it meets from the side.
     fn run(&mut self, edge: usize, node: usize) {
         let mut run = Run { points: Vec::new(), knots: Vec::new() };
         let number = self.made.runs.len();
@@ -85,7 +75,6 @@ impl Search<'_> {
         }
     }
 
-    /// Makes a run that goes on from a node to both sides, from its wider end.
     fn run_through(&mut self, node: usize, edges: [usize; 2]) {
         let number = self.made.runs.len();
         self.made.owners[node] = number;
@@ -112,7 +101,7 @@ impl Search<'_> {
         }
     }
 
-    /// Lets a run go on as far as it does. What it meets from the side is told: the node and both edges there.
+    /// Extends a run; returns node and edges of a run met from the side.
     fn grow(
         &mut self,
         run: &mut Run,
@@ -144,18 +133,21 @@ impl Search<'_> {
         }
     }
 
-    /// Lets runs begin with edges at a node.
     fn open_others(&mut self, edges: &[usize], node: usize) {
         for &edge in edges.iter().filter(|edge| !self.used[**edge]) {
             let radius = outlook(self.graph, edge, node, 0.0).radius;
-            // Radii are not negative: their bits are in their order.
+            // Bits of non-negative floats sort like the values.
             self.open.push((radius.to_bits(), Reverse(edge), node));
         }
     }
 }
 
-/// Which edge is straightest and widest, the first of several; none where none is new.
-pub fn straightest(before: &Outlook, ahead: &[Outlook], is_new: impl Fn(&usize) -> bool) -> Option<usize> {
+/// Index of the straightest and widest new edge, the first of equals.
+pub(crate) fn straightest(
+    before: &Outlook,
+    ahead: &[Outlook],
+    is_new: impl Fn(&usize) -> bool,
+) -> Option<usize> {
     let widest = ahead.iter().map(|edge| edge.radius).fold(0.0, f64::max).max(f64::MIN_POSITIVE);
     let mut best: Option<(f64, usize)> = None;
     for n in (0..ahead.len()).filter(is_new) {
@@ -167,7 +159,6 @@ pub fn straightest(before: &Outlook, ahead: &[Outlook], is_new: impl Fn(&usize) 
     best.map(|(_, n)| n)
 }
 
-/// Both edges of a run that is met from the side, where one is.
 fn from_the_side(before: &Outlook, ahead: &[Outlook]) -> Option<[usize; 2]> {
     let pairs = (1..ahead.len()).flat_map(|b| (0..b).map(move |a| [a, b]));
     let mut through = pairs.filter(|[a, b]| {
@@ -177,27 +168,24 @@ fn from_the_side(before: &Outlook, ahead: &[Outlook]) -> Option<[usize; 2]> {
     through.next()
 }
 
-/// The median radius of some points.
 fn usual_radius(points: &[WayPoint]) -> f64 {
     median(&mut points.iter().map(|point| point.radius).collect::<Vec<_>>()).unwrap_or(0.0)
 }
 
 impl Run {
-    /// Goes on with the points of an edge from a node on.
     fn go_on(&mut self, graph: &Graph, edge: usize, node: usize) {
         let points = graph.points_from(edge, node);
         if self.knots.is_empty() {
             self.knots.push((node, 0));
             self.points.push(points[0]);
         }
-        // Where a link has no length both its ends are one point.
+        // A link of length 0 has one point.
         let last = self.points[self.points.len() - 1].place;
         let skipped = points.iter().take_while(|point| point.place == last).count().max(1);
         self.points.extend_from_slice(&points[skipped.min(points.len())..]);
         self.knots.push((graph.far(edge, node), self.points.len() - 1));
     }
 
-    /// Where the run leads to at its end, and how wide it is there.
     fn look_back(&self) -> Outlook {
         let last = self.points.len() - 1;
         let place = self.points[last].place;

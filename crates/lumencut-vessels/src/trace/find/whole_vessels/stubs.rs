@@ -1,21 +1,18 @@
-//! Stubs: a track that runs a little beyond a fork, into the corner between its branches.
+//! Removes stubs: short extensions of a track beyond a fork.
 
 use crate::trace::find::links::link::Link;
 use crate::trace::find::track::{Track, length};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// A stub is shorter than so many radii of its track where the branch is linked with it.
+/// Maximum length in radii at the link.
 const LONGEST: f64 = 1.5;
 
-/// A track ends in a fork where the branch is at least so many times as wide.
+/// Minimum width of the branch of a fork, relative to the track.
 const AS_WIDE: f64 = 0.6;
 
-/// The tracks without their stubs, and the links with the numbers of the points that are left.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn without_stubs(tracks: &[Track], links: &[Link], stop: Stop) -> Result<(Vec<Track>, Vec<Link>)> {
+/// Tracks without stubs, and links with adjusted point numbers.
+pub(crate) fn without_stubs(tracks: &[Track], links: &[Link], stop: Stop) -> Result<(Vec<Track>, Vec<Link>)> {
     let (mut tracks, mut links) = (tracks.to_vec(), links.to_vec());
     for number in 0..tracks.len() {
         go_on(stop)?;
@@ -28,7 +25,6 @@ pub fn without_stubs(tracks: &[Track], links: &[Link], stop: Stop) -> Result<(Ve
     Ok((tracks, links))
 }
 
-/// The number of the point at which a track ends in a fork, where what is beyond is a stub.
 fn kept(tracks: &[Track], links: &[Link], number: usize, at_last: bool) -> Option<usize> {
     let points = &tracks[number].points;
     let last = points.len() - 1;
@@ -44,7 +40,6 @@ fn kept(tracks: &[Track], links: &[Link], number: usize, at_last: bool) -> Optio
     (is_fork && length <= LONGEST * points[at].radius).then_some(at)
 }
 
-/// Ends a track at one of its points.
 fn shorten(track: &mut Track, links: &mut [Link], number: usize, at: usize, at_last: bool) {
     if at_last {
         track.points.truncate(at + 1);

@@ -1,27 +1,25 @@
-//! Runs as vessels that are sure or doubtful, cut where one becomes the other over a long way.
+//! Splits runs into sure and doubtful vessels where either stretch is long.
 
 use crate::trace::find::found::{FoundVessel, SURE};
 use crate::trace::find::track::{Track, TrackDoubt};
 use crate::trace::find::whole_vessels::centered::LinePoint;
 use crate::trace::lines::centerline::Centerline;
 
-/// A stretch that is shorter is not cut off: so long (mm), and so many of its largest radius.
+/// Minimum length of a separate stretch: mm, and largest radii.
 const SHORTEST: f64 = 15.0;
 const SHORTEST_RADII: f64 = 5.0;
 
-/// The vessels of a run of a part: one, or where it is sure and doubtful over long stretches one for each.
-pub fn vessels(tracks: &[Track], points: &[LinePoint], part: usize) -> Vec<FoundVessel> {
+pub(crate) fn vessels(tracks: &[Track], points: &[LinePoint], part: usize) -> Vec<FoundVessel> {
     let cuts = cuts(points);
     cuts.windows(2).map(|pair| vessel(tracks, &points[pair[0]..=pair[1]], part)).collect()
 }
 
-/// The points at which a run is cut, with its first and its last one.
 fn cuts(points: &[LinePoint]) -> Vec<usize> {
     let is_sure = |n: usize| points[n].confidence >= SURE;
     let mut cuts = vec![0];
     cuts.extend((1..points.len() - 1).filter(|n| is_sure(*n) != is_sure(n - 1)));
     cuts.push(points.len() - 1);
-    // The shortest stretch goes first: where it is gone, both sides are alike.
+    // Removes the shortest stretch first, which merges its neighbours.
     while cuts.len() > 2 {
         let lack = |n: usize| {
             let stretch = &points[cuts[n]..=cuts[n + 1]];
@@ -47,7 +45,6 @@ fn vessel(tracks: &[Track], points: &[LinePoint], part: usize) -> FoundVessel {
     FoundVessel { line, part, confidence, doubt }
 }
 
-/// The mean confidence along a line.
 fn mean_confidence(points: &[LinePoint]) -> f64 {
     let sums = points.windows(2).fold([0.0, 0.0], |[sum, whole], pair| {
         let length = pair[0].place.distance(pair[1].place);
@@ -56,7 +53,7 @@ fn mean_confidence(points: &[LinePoint]) -> f64 {
     if sums[1] > 0.0 { (sums[0] / sums[1]).min(1.0) } else { points[0].confidence }
 }
 
-/// What speaks against the least sure track of a line; where nothing does it is that gaps are bridged.
+/// Doubt of the least sure track; `Gap` if there is none.
 fn worst_doubt(tracks: &[Track], points: &[LinePoint]) -> TrackDoubt {
     let doubtful = points.iter().map(|point| point.track).filter(|track| tracks[*track].doubt.is_some());
     let worst = doubtful.min_by(|a, b| {

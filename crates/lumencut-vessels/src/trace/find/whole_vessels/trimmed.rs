@@ -1,4 +1,4 @@
-//! Runs as far as they are wide enough, without the bumps of the walls of others.
+//! Trims runs that are too narrow, and removes bumps of other walls.
 
 use crate::trace::find::quantiles::median;
 use crate::trace::find::whole_vessels::attached::Attached;
@@ -6,20 +6,21 @@ use crate::trace::find::whole_vessels::centered::LinePoint;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// What is shorter outside the lumen that it leaves is a bump of its wall: so many of its own radii, and this length (mm).
+/// Shorter runs outside the parent lumen are bumps: radii, and mm.
 const SHORTEST_RADII: f64 = 2.0;
 const SHORTEST: f64 = 2.0;
 
-/// Over how many points before and behind one the radius is looked at.
-const BESIDE: usize = 4;
+/// Neighbours on each side for the median radius.
+const NEIGHBORS: usize = 4;
 
-/// The runs that stay, as far as they are at least so wide (mm); those that others need stay whatever they are like.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Interrupted`].
-pub fn trimmed(mut runs: Vec<Attached>, smallest_radius: f64, stop: Stop) -> Result<Vec<Option<Attached>>> {
+/// Runs trimmed to a minimum radius (mm); parts that other runs need always stay.
+pub(crate) fn trimmed(
+    mut runs: Vec<Attached>,
+    smallest_radius: f64,
+    stop: Stop,
+) -> Result<Vec<Option<Attached>>> {
     let mut stays = vec![true; runs.len()];
-    // Branches come after what they leave, but for runs that were met from the side.
+    // Reverse order visits most branches before their parents.
     for number in (0..runs.len()).rev() {
         go_on(stop)?;
         let needed = needed(&runs, &stays, number);
@@ -28,7 +29,6 @@ pub fn trimmed(mut runs: Vec<Attached>, smallest_radius: f64, stop: Stop) -> Res
     Ok(runs.into_iter().zip(stays).map(|(run, stays)| stays.then_some(run)).collect())
 }
 
-/// The first and the last point of a run that others begin or end on; none where none does.
 fn needed(runs: &[Attached], stays: &[bool], number: usize) -> Option<[usize; 2]> {
     let mut found: Option<[usize; 2]> = None;
     for other in (0..runs.len()).filter(|other| stays[*other]) {
@@ -43,11 +43,11 @@ fn needed(runs: &[Attached], stays: &[bool], number: usize) -> Option<[usize; 2]
     found
 }
 
-/// Cuts what is too narrow off the free ends of a run, and tells whether the run stays.
+/// Trims free ends; returns whether the run stays.
 fn trim(run: &mut Attached, needed: Option<[usize; 2]>, smallest_radius: f64) -> bool {
     let [start, end] = run.met;
     if start.is_some() && end.is_some() {
-        // It joins two runs; one that returns to the same run within its lumen joins nothing.
+        // A run between two others, unless it returns to the same run within its lumen.
         let is_outside = run.leads[0] + run.leads[1] + 1 < run.points.len();
         return start != end || is_outside || needed.is_some();
     }
@@ -65,7 +65,7 @@ fn trim(run: &mut Attached, needed: Option<[usize; 2]>, smallest_radius: f64) ->
     if needed.is_none() && (range[0] >= range[1] || is_bump(run, range)) {
         return false;
     }
-    // What others need has two points at least.
+    // At least two points.
     let range =
         if range[0] < range[1] { range } else { [range[0].min(last - 1), range[0].min(last - 1) + 1] };
     run.points.truncate(range[1] + 1);
@@ -73,16 +73,15 @@ fn trim(run: &mut Attached, needed: Option<[usize; 2]>, smallest_radius: f64) ->
     true
 }
 
-/// The last point of a line up to which it is wide enough; none where it is nowhere.
+/// Last point up to which a line is wide enough.
 fn wide_until<'a>(points: impl Iterator<Item = &'a LinePoint>, smallest_radius: f64) -> Option<usize> {
     let radii: Vec<f64> = points.map(|point| point.radius).collect();
     let last = radii.len() - 1;
     let is_wide =
-        |n: &usize| usual(&radii[n.saturating_sub(BESIDE)..=(n + BESIDE).min(last)]) >= smallest_radius;
+        |n: &usize| usual(&radii[n.saturating_sub(NEIGHBORS)..=(n + NEIGHBORS).min(last)]) >= smallest_radius;
     (0..radii.len()).rev().find(is_wide)
 }
 
-/// Whether what is left of a run is no longer than a bump.
 fn is_bump(run: &Attached, [first, last]: [usize; 2]) -> bool {
     let from = first.max(run.leads[0]);
     let to = last.min(run.points.len() - 1 - run.leads[1]);
@@ -95,7 +94,6 @@ fn is_bump(run: &Attached, [first, last]: [usize; 2]) -> bool {
     length < SHORTEST.max(SHORTEST_RADII * usual(&radii))
 }
 
-/// The median of some radii.
 fn usual(radii: &[f64]) -> f64 {
     median(&mut radii.to_vec()).unwrap_or(0.0)
 }

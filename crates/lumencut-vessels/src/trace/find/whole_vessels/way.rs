@@ -1,4 +1,4 @@
-//! The way of a run along tracks and links: what a line that moves to the middle of the lumen is held against.
+//! The path of a run along tracks and links, which limits its centring.
 
 use glam::DVec3;
 
@@ -8,27 +8,23 @@ use crate::trace::lines::nearest_point::nearest_point;
 use crate::trace::lines::smoothing::smoothed_by_gaussian;
 use lumencut_core::math::arc_length::arc_lengths;
 
-/// How far a line may move from the way (mm, or in radii where that is more), and how many times as long it may become.
+/// Maximum deviation from the path (mm, or radii if more), and maximum lengthening.
 const STRAYED: f64 = 1.5;
 const STRAYED_RADII: f64 = 0.5;
 const ASTRAY: f64 = 1.25;
 
-/// Where a line is the way itself it is smoothed over so many radii.
+/// Smoothing of the path itself, in radii.
 const SMOOTHED: f64 = 0.4;
 
-/// The way of a run.
-pub struct Way {
-    /// Its points.
+pub(crate) struct Way {
     pub points: Vec<WayPoint>,
-    /// The same points as a line.
     pub line: Centerline,
-    /// Whether each lies on a link, or nearer to one than the radius of the track there: a cross-section may show several lumens.
+    /// Whether each point is on or near a link, where a section may show several lumens.
     near_link: Vec<bool>,
 }
 
 impl Way {
-    /// The way along some points, of which there is one at least, without the turns that links make where tracks overlap.
-    pub fn along(points: &[WayPoint]) -> Self {
+    pub(crate) fn along(points: &[WayPoint]) -> Self {
         let mut points = points.to_vec();
         let mut near_link = near_links(&points);
         while let Some(n) = turn(&points, &near_link) {
@@ -43,13 +39,12 @@ impl Way {
         Self { points, line, near_link }
     }
 
-    /// The length (mm).
-    pub fn length(&self) -> f64 {
+    pub(crate) fn length(&self) -> f64 {
         length(&self.line.points)
     }
 
-    /// A line that was made from the way, but where that strays, and near links, the way itself.
-    pub fn guarded(&self, line: &Centerline) -> Centerline {
+    /// Replaces a centred line by the path where it strays or near links.
+    pub(crate) fn guarded(&self, line: &Centerline) -> Centerline {
         let way = &self.line;
         let nearest: Vec<usize> =
             line.points.iter().map(|point| nearest_point(&way.points, *point)).collect();
@@ -81,19 +76,17 @@ impl Way {
         Centerline { points: smoothed_by_gaussian(&made.points, &sigma, false), ..made }
     }
 
-    /// Half the distance between the neighbours of a point: so far may a place between points lie from the nearest one.
     fn spacing(&self, n: usize) -> f64 {
         let points = &self.line.points;
         points[n.saturating_sub(1)].distance(points[(n + 1).min(points.len() - 1)]) / 2.0
     }
 }
 
-/// Which points lie on a link or near one.
 fn near_links(points: &[WayPoint]) -> Vec<bool> {
     let lengths = arc_lengths(&points.iter().map(|point| point.place).collect::<Vec<DVec3>>());
     let mut near = vec![false; points.len()];
     for n in (0..points.len()).filter(|n| points[*n].is_link) {
-        // The neighbours of a link are points of tracks, whose radii are their own.
+        // The neighbours are track points with their own radii.
         let beside = [n.saturating_sub(1), (n + 1).min(points.len() - 1)];
         let reach = beside.map(|m| points[m].radius).into_iter().fold(0.0, f64::max);
         let first = lengths.partition_point(|length| *length < lengths[n] - reach);
@@ -103,7 +96,6 @@ fn near_links(points: &[WayPoint]) -> Vec<bool> {
     near
 }
 
-/// The first point near a link at which the way turns back.
 fn turn(points: &[WayPoint], near_link: &[bool]) -> Option<usize> {
     let turns = |n: &usize| {
         let [before, here, after] = [n - 1, *n, n + 1].map(|m| points[m].place);
@@ -112,7 +104,6 @@ fn turn(points: &[WayPoint], near_link: &[bool]) -> Option<usize> {
     (1..points.len().saturating_sub(1)).find(turns)
 }
 
-/// The points of a line from `first` to before `end`.
 fn piece(line: &Centerline, first: usize, end: usize) -> Centerline {
     let range = first..end;
     Centerline {

@@ -7,14 +7,13 @@ use lumencut_core::progress::Progress;
 const SIZE: [usize; 3] = [80, 60, 60];
 const SIDE: f64 = 0.5;
 
-/// A tube of 3 mm along y at the left, a plate of 2 mm across x on the right, 25 mm apart.
+/// A tube of 3 mm along y, and a plate of 2 mm, 25 mm apart.
 fn tube_and_plate(place: DVec3) -> f64 {
     let tube = 3.0 - (place.x - 8.0).hypot(place.z - 15.0);
     let plate = 1.0 - (place.x - 33.0).abs();
     blurred(tube.max(plate))
 }
 
-/// The tracks as they are judged in a scan.
 fn judged_in(scan: &Scan, tracks: Vec<Track>) -> Vec<Track> {
     let shapes = shapes(scan, &tracks, &|| false, Stages::begin(None)).expect("shapes");
     left(judged(scan, tracks, &shapes, &|| false).expect("tracks"))
@@ -30,13 +29,13 @@ fn a_plate_is_left_out_and_a_tube_stays_for_any_number_of_threads() {
     let judge = || with_scan(SIZE, SIDE, tube_and_plate, |scan| judged_in(scan, tracks.clone()));
     let found = judge();
     assert_eq!(found.len(), 1);
-    // It is a lumen inside, so half of what speaks against it does not count.
+    // Half of the doubts is forgiven, because it is a lumen inside.
     assert_eq!((found[0].confidence, found[0].doubt), (0.9_f64.sqrt(), None));
     let [one, two] = [1, 2].map(|count| with_threads(count, judge));
     assert_eq!(one[0].confidence.to_bits(), two[0].confidence.to_bits());
 }
 
-/// What is left of a tube that is so many times as long as wide (1.5 mm) across: alone, and between plates 6 and 10 mm away.
+/// A tube elongated by `times` (1.5 mm): alone, and between plates 6 and 10 mm away.
 fn alone_and_among_plates(times: f64) -> [Vec<Track>; 2] {
     let scene = |place: DVec3| {
         let tube = 1.5 - (place.x - 8.0).hypot((place.z - 15.0) / times);
@@ -59,19 +58,18 @@ fn flat_neighbours_are_held_against_an_oval_tube_and_not_against_a_round_one() {
     assert!(among.iter().all(|track| track.confidence < SURE && track.doubt == Some(TrackDoubt::Flat)));
 }
 
-/// What is left of a sure track along y, in thousandths, and its doubt.
+/// Remaining confidence (thousandths) and doubt of a sure track.
 fn after(shape: Shape, radius: f64) -> (i32, Option<TrackDoubt>) {
     let mut track = along_y(8.0, 15.0, radius);
     with_scan([4, 4, 4], SIDE, |_| TISSUE, |scan| judge(scan, &mut track, shape));
     ((track.confidence * 1000.0).round() as i32, track.doubt)
 }
 
-/// The level that lies below the usual one by so much of the contrast.
 fn below(share: f64) -> f64 {
     LEVEL - share * (LEVEL - TISSUE)
 }
 
-/// Inside it is paler than vessels are, so that nothing is excused.
+/// Paler than vessels, so that nothing is forgiven.
 const EVEN_AND_PALE: Shape =
     Shape { level: LEVEL - 0.3 * (LEVEL - TISSUE), elongation: 1.1, spread: 0.05, is_marrow: false };
 
@@ -79,7 +77,7 @@ const EVEN_AND_PALE: Shape =
 fn doubts_take_confidence_between_their_limits() {
     let even = EVEN_AND_PALE;
     assert_eq!(after(even, 3.0), (900, None));
-    // A doubt of 1.45 is half way from 1.2 to 1.7.
+    // A doubt of 1.45 is halfway from 1.2 to 1.7.
     let flat = Shape { elongation: 1.2 + 0.7 * 1.45, ..even };
     assert_eq!(after(flat, 3.0), (450, Some(TrackDoubt::Flat)));
     let uneven = Shape { spread: 0.14 + 0.10 * 1.45, ..even };
@@ -88,7 +86,7 @@ fn doubts_take_confidence_between_their_limits() {
     assert_eq!(after(both, 3.0).0, 450);
     assert_eq!(after(Shape { elongation: 1.2 + 0.7 * 1.1, ..even }, 3.0), (900, None));
     assert_eq!(after(Shape { elongation: 9.0, ..even }, 3.0), (0, Some(TrackDoubt::Flat)));
-    // Of what is 0.5 of the contrast paler a half of the 85 % is lost that an organ loses.
+    // At 0.5 of the contrast, half of the organ's 85 % is lost.
     assert_eq!(after(Shape { level: below(0.5), ..even }, 6.0), (518, Some(TrackDoubt::PaleAndWide)));
     assert_eq!(after(Shape { level: below(0.65), ..even }, 6.0), (135, Some(TrackDoubt::PaleAndWide)));
     assert_eq!(after(Shape { level: below(0.65), ..even }, 4.0), (900, None));
@@ -100,15 +98,15 @@ fn doubts_take_confidence_between_their_limits() {
 #[test]
 fn a_wide_even_lumen_as_bright_as_vessels_may_be_flat_and_marrow_may_not() {
     let flat = Shape { level: LEVEL, elongation: 2.5, ..EVEN_AND_PALE };
-    // Half of what speaks against it counts: 0.9 to the power of a half.
+    // Half of the doubts count: 0.9 to the power of a half.
     assert_eq!(after(flat, 3.0), (949, None));
-    // What is wide as well is a body of even tissue.
+    // A wide one is a body of even tissue.
     assert_eq!(after(flat, 8.0).0, 0);
     assert_eq!(after(Shape { elongation: 1.4, ..flat }, 8.0), (949, None));
     assert_eq!(after(Shape { level: below(0.2), ..flat }, 3.0).0, 0);
     assert_eq!(after(Shape { spread: 0.11, ..flat }, 3.0).0, 0);
     assert_eq!(after(Shape { is_marrow: true, ..flat }, 3.0).0, 0);
-    // A radius of 2 voxels is too narrow to see whether it is even.
+    // Two voxels are too narrow to judge evenness.
     assert_eq!(after(flat, 2.0 * SIDE).0, 0);
 }
 
@@ -140,7 +138,7 @@ fn judging_stops_where_it_is_asked_to() {
 
 #[test]
 fn a_wide_track_that_is_broken_by_other_sections_is_doubtful_and_a_narrow_one_is_not() {
-    // Every fifth section is not that of a tube: of the way from 0.95 to 0.75 about three quarters.
+    // Every fifth section is not tubular.
     let broken = |radius: f64| {
         let mut track = along_y(8.0, 15.0, radius);
         track.points.iter_mut().step_by(5).for_each(|point| point.is_good = false);
@@ -163,6 +161,6 @@ fn judging_tells_how_far_it_is() {
     with_scan(SIZE, SIDE, tube_and_plate, |scan| {
         shapes(scan, &tracks, &|| false, Stages::begin(Some(&progress))).expect("shapes")
     });
-    // The stage begins nothing before it, and is told whole: 7 of 100.
+    // 7 of 100.
     assert_eq!(progress.share(), 0.07);
 }

@@ -5,13 +5,11 @@ const SIZE: [usize; 3] = [60, 60, 40];
 const SIDE: f64 = 0.5;
 const MIDDLE: DVec3 = DVec3::new(15.0, 15.0, 10.0);
 
-/// The section in the middle of a scan of such values, of a track along z with this radius.
 fn section(radius: f64, value: impl Fn(DVec3) -> f64) -> Option<RawSection> {
     let track = straight_track(MIDDLE - DVec3::Z, MIDDLE + DVec3::Z, radius);
     with_scan(SIZE, SIDE, |place| value(place - MIDDLE), |scan| RawSection::at(scan, &track.points[2]))
 }
 
-/// The depth in an upright plate with such half sides.
 fn depth(place: DVec3, half: [f64; 2]) -> f64 {
     (half[0] - place.x.abs()).min(half[1] - place.y.abs())
 }
@@ -32,10 +30,10 @@ fn a_tube_is_round_and_even_whatever_its_width() {
 
 #[test]
 fn a_plate_is_as_long_as_it_is_wide_and_no_longer_than_is_looked() {
-    // The longest of the diameters, 15° apart, of a plate of 10 × 2 mm is its length.
+    // Diameters are 15° apart; the longest is the plate's length.
     let found = section(1.0, |place| blurred(depth(place, [1.0, 5.0]))).expect("a plate");
     assert!((found.elongation - 5.0).abs() < 0.2, "{found:?}");
-    // One without an end is looked at up to 3 r + 4 mm or 6 r + 1.5 mm to both sides.
+    // Limited to 3 r + 4 mm or 6 r + 1.5 mm per side.
     let found = section(1.0, |place| blurred(depth(place, [1.0, 50.0]))).expect("a plate");
     assert!((found.elongation - 7.0).abs() < 0.2, "{found:?}");
     let found = section(0.6, |place| blurred(depth(place, [1.0, 50.0]))).expect("a plate");
@@ -55,7 +53,6 @@ fn marrow_is_uneven_and_has_a_cortex() {
     };
     let found = section(4.0, bone).expect("bone");
     assert!(found.is_marrow && found.spread > 0.24, "{found:?}");
-    // Without the cortex, and as bright as the vessels, it is none.
     let open = section(4.0, |place| if from_axis(place) > 4.0 { TISSUE } else { bone(place) }).expect("bone");
     assert!(!open.is_marrow && open.spread > 0.24, "{open:?}");
     let bright = section(4.0, |place| bone(place) + 100.0).expect("bone");
@@ -82,7 +79,7 @@ fn a_lumen_as_bright_as_vessels_ends_where_bone_touches_it() {
     };
     let found = section(1.5, beside(LEVEL)).expect("a tube");
     assert!(found.elongation < 1.15, "{found:?}");
-    // What is much paler may be marrow.
+    // Much paler lumen may be marrow.
     let touching = |lumen: f64| move |place: DVec3| if place.x > 1.0 { 900.0 } else { beside(lumen)(place) };
     let found = section(1.5, touching(LEVEL)).expect("a tube");
     let pale = section(1.5, touching(LEVEL - 60.0)).expect("a tube");

@@ -13,12 +13,10 @@ fn at(x: f64, y: f64) -> DVec3 {
     DVec3::new(x, y, 10.0)
 }
 
-/// A tube with the track along its middle.
 fn tube(from: DVec3, to: DVec3, radius: f64) -> ([DVec3; 2], Track) {
     ([from, to], straight_track(from, to, radius))
 }
 
-/// The vessels of tracks in tubes that reach a little beyond them.
 fn found(tubes: &[([DVec3; 2], Track)], tracks: &[Track], smallest_radius: f64) -> Vec<FoundVessel> {
     let value = |place: DVec3| {
         let depths = tubes.iter().map(|(line, track)| track.radius() - away(place, line));
@@ -40,7 +38,6 @@ fn ends(vessel: &FoundVessel) -> [DVec3; 2] {
     [vessel.line.points[0], vessel.line.points[vessel.line.points.len() - 1]]
 }
 
-/// Whether a place is a point of a vessel to the bit.
 fn passes(vessel: &FoundVessel, place: DVec3) -> bool {
     vessel.line.points.contains(&place)
 }
@@ -49,7 +46,7 @@ fn length(vessel: &FoundVessel) -> f64 {
     vessel.line.points.windows(2).map(|pair| pair[0].distance(pair[1])).sum()
 }
 
-/// A trunk of 3 mm that divides into arms of 2.2 and 1.5 mm.
+/// A trunk of 3 mm with arms of 2.2 and 1.5 mm.
 fn y_of_tubes() -> Vec<([DVec3; 2], Track)> {
     vec![
         tube(at(3.0, 25.0), at(30.0, 25.0), 3.0),
@@ -76,7 +73,6 @@ fn a_trunk_goes_on_with_its_wider_arm_and_the_other_one_begins_on_it() {
         );
         assert!(line.points.len() == line.radius.len() && line.points.len() == line.confidence.len());
     }
-    // The middle and the radius are those of the tubes.
     let on_trunk = main.line.points.iter().position(|point| point.x > 15.0).expect("a point");
     assert!(
         (main.line.points[on_trunk].y - 25.0).abs() < 0.1 && (main.line.radius[on_trunk] - 3.0).abs() < 0.15
@@ -153,7 +149,7 @@ fn narrow_branches_and_bumps_are_left_out_and_vessels_end_where_they_are_narrow(
     assert!(found(&tubes, &tracks, 3.5).is_empty());
     tubes.push(tube(at(15.0, 25.0), at(15.0, 29.5), 1.0));
     assert_eq!(of_tubes(&tubes).len(), 2);
-    // A tube of 2.5 mm that goes on with 1.2 mm.
+    // A tube of 2.5 mm that continues with 1.2 mm.
     let steps = [tube(at(3.0, 25.0), at(35.0, 25.0), 2.5), tube(at(35.0, 25.0), at(66.0, 25.0), 1.2)];
     let tracks = steps.clone().map(|(_, track)| track);
     let whole = found(&steps, &tracks, 0.5);
@@ -173,7 +169,7 @@ fn a_sure_stretch_beyond_a_doubtful_one_stays_sure() {
         [Some(TrackDoubt::BrightSides), None]
     );
     assert_eq!(ends(&vessels[0])[1], ends(&vessels[1])[0]);
-    // A short doubtful stretch is no vessel of its own.
+    // A short doubtful stretch is not separate.
     tubes[0] = tube(at(2.0, 25.0), at(18.0, 25.0), 1.5);
     tubes[1] = tube(at(28.0, 25.0), at(66.0, 25.0), 1.5);
     tubes.push(tube(at(19.0, 25.0), at(27.0, 25.0), 1.5));
@@ -200,14 +196,14 @@ fn nothing_makes_no_vessels_and_work_stops_where_it_is_asked_to() {
 
 #[test]
 fn making_vessels_whole_asks_whether_to_stop_for_every_track_in_each_step() {
-    // Tubes side by side, that nothing joins.
+    // Separate parallel tubes.
     let line = |n: usize| [5.0, 65.0].map(|x| at(x, 3.0 + 6.0 * n as f64));
     let tracks: Vec<Track> = (0..8).map(line).map(|[from, to]| straight_track(from, to, 1.5)).collect();
     let lines: Vec<[DVec3; 2]> = (0..8).map(line).collect();
     let value =
         |place: DVec3| blurred(lines.iter().map(|line| 1.5 - away(place, line)).fold(f64::MIN, f64::max));
     with_scan(SIZE, SIDE, value, |scan| {
-        // How often it is asked where it answers yes from a question on, and whether vessels are told.
+        // Number of calls of `stop` if it answers yes from call `first`, and whether the work finished.
         let work = |first: usize| {
             let asked = AtomicUsize::new(0);
             let stop = || asked.fetch_add(1, Ordering::Relaxed) >= first;
@@ -216,7 +212,7 @@ fn making_vessels_whole_asks_whether_to_stop_for_every_track_in_each_step() {
             (asked.load(Ordering::Relaxed), is_whole)
         };
         let (whole, is_whole) = work(usize::MAX);
-        // Stubs, what is important, roots, lines, what they meet, their ends, and what is too narrow.
+        // Stubs, importance, roots, lines, attachment, ends and trimming.
         assert!(is_whole && whole >= 7 * tracks.len(), "{whole}");
         for first in 0..whole {
             assert!(!work(first).1, "{first} of {whole}");

@@ -1,41 +1,39 @@
-//! About where the lumen of a section is and how wide, before anything is fitted.
+//! Approximate centre and width of the lumen, before fitting.
 
 use std::f64::consts::PI;
 
 use glam::DVec2;
 
-use super::place::Place;
 use super::rays::{Look, RAYS, Ray, Rays, direction};
+use super::section_plane::SectionPlane;
 use crate::voxels::Voxels;
 use lumencut_core::math::statistics::median;
 
-/// The lumen must be this much of what the whole vessel's is, as a share.
+/// Minimum level of a lumen, as a share of the whole vessel's.
 const LEAST_LUMEN: f64 = 0.25;
 
-/// A ray counts up to this multiple of the median of all rays: where a branch leaves the vessel it would go on.
+/// Rays are cut at this multiple of their median, because they escape into branches.
 const LONGEST_RAY: f64 = 1.6;
 
-/// How often the middle is looked for anew.
+/// Maximum rounds of recentring.
 const ROUNDS: usize = 4;
 
-/// About where a lumen is.
 #[derive(Clone, Copy, Debug)]
-pub struct Rough {
-    /// The middle (mm in the plane).
+pub(crate) struct LumenEstimate {
+    /// Centre (mm in the plane).
     pub center: DVec2,
-    /// The radius (mm).
+    /// Radius (mm).
     pub radius: f64,
-    /// The lumen's level there, as a share.
+    /// Level of the lumen, as a share.
     pub lumen: f64,
 }
 
-/// Above this share of the vessel's lumen there is metal or calcium.
+/// Share above which there is metal or calcium.
 const BRIGHT: f64 = 1.6;
 
-impl Rough {
-    /// About where the lumen is within `search` mm of the vessel's point, up to a radius of `widest` mm; None where there is
-    /// none.
-    pub fn find(rays: &Rays, place: &Place, search: f64, widest: f64) -> Option<Self> {
+impl LumenEstimate {
+    /// Searches within `search` mm of the centerline for a lumen with a radius of up to `widest` mm.
+    pub(crate) fn find(rays: &Rays, place: &SectionPlane, search: f64, widest: f64) -> Option<Self> {
         let mut center = start(rays, place, search)?;
         let mut found = None;
         for _ in 0..ROUNDS {
@@ -56,8 +54,8 @@ impl Rough {
     }
 }
 
-/// Where rays may begin: the vessel's own point where that is lumen, else the most lumen around it.
-fn start(rays: &Rays, place: &Place, search: f64) -> Option<DVec2> {
+/// Start of the rays: the centerline point if it is lumen, otherwise the best point nearby.
+fn start(rays: &Rays, place: &SectionPlane, search: f64) -> Option<DVec2> {
     if level(rays, place, DVec2::ZERO) > 0.5 {
         return Some(DVec2::ZERO);
     }
@@ -71,7 +69,7 @@ fn start(rays: &Rays, place: &Place, search: f64) -> Option<DVec2> {
                 continue;
             }
             let lumen = level(rays, place, point);
-            // What is farther away must be more lumen.
+            // Points farther away need a higher level.
             let score = lumen.min(1.0) - 0.3 * point.length() / search;
             if lumen.is_finite() && best.is_none_or(|(most, _)| score > most) {
                 best = Some((score, point));
@@ -81,15 +79,13 @@ fn start(rays: &Rays, place: &Place, search: f64) -> Option<DVec2> {
     best.map(|(_, point)| point)
 }
 
-/// The distance of the places among which a lumen is looked for within `search` mm: no more places than the volume has voxels,
-/// however far a radius in a file says that it may be.
+/// Step of the search grid (mm), limited to as many points as voxels, whatever radius a file states.
 fn search_step(voxels: &Voxels, search: f64) -> f64 {
     let count: f64 = voxels.size.iter().map(|n| *n as f64).product();
     voxels.sampling_side.max(2.0 * search / count.sqrt())
 }
 
-/// The level near a point, as a share: the median of a few samples.
-fn level(rays: &Rays, place: &Place, center: DVec2) -> f64 {
+fn level(rays: &Rays, place: &SectionPlane, center: DVec2) -> f64 {
     let near = 0.5 * rays.voxels.sampling_side;
     let mut values = vec![rays.at(place, center)];
     values.extend((0..8).map(|n| rays.at(place, center + direction(n * RAYS / 8) * near)));
@@ -97,7 +93,7 @@ fn level(rays: &Rays, place: &Place, center: DVec2) -> f64 {
     median(&mut values).unwrap_or(f64::NAN)
 }
 
-/// The middle of the area that rays enclose, and the radius of a circle of the same area.
+/// Centroid of the polygon of the ray ends, and its equivalent radius.
 fn polygon(rays: &[Ray]) -> Option<(DVec2, f64)> {
     let mut edges: Vec<f64> = rays.iter().filter_map(Ray::end).collect();
     if edges.len() < RAYS / 4 {
@@ -117,5 +113,5 @@ fn polygon(rays: &[Ray]) -> Option<(DVec2, f64)> {
 }
 
 #[cfg(test)]
-#[path = "tests/rough.rs"]
+#[path = "tests/lumen_estimate.rs"]
 mod tests;

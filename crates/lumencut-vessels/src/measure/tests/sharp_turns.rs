@@ -1,9 +1,8 @@
-use super::super::place::Track;
+use super::super::section_plane::Track;
 use super::*;
 use glam::DVec3;
 use lumencut_core::vessel_tree::Vessel;
 
-/// How far the line of a vessel of this diameter turns at most within one diameter (degrees), as it is measured.
 fn sharpest(points: Vec<DVec3>, diameter: f64) -> f64 {
     let vessel = Vessel::new(points, None).expect("a vessel");
     let places =
@@ -11,7 +10,7 @@ fn sharpest(points: Vec<DVec3>, diameter: f64) -> f64 {
     turns(&places, diameter).into_iter().fold(0.0, f64::max)
 }
 
-/// A bend of 180° of this radius (mm), in points 0.5 mm apart.
+/// A bend of 180° with this radius (mm), in steps of 0.5 mm.
 fn bend(radius: f64) -> Vec<DVec3> {
     let count = (std::f64::consts::PI * radius / 0.5) as usize;
     let angle = |n: usize| std::f64::consts::PI * n as f64 / count as f64;
@@ -20,7 +19,7 @@ fn bend(radius: f64) -> Vec<DVec3> {
 
 #[test]
 fn a_bend_is_no_restless_line() {
-    // As sharp as a siphon: the radius of the bend is the diameter of the vessel.
+    // Like a carotid siphon: the bend radius equals the diameter.
     let siphon = sharpest(bend(5.0), 5.0);
     assert!((50.0..SHARP).contains(&siphon), "{siphon}");
     assert!(sharpest(bend(40.0), 25.0) < 45.0);
@@ -28,7 +27,7 @@ fn a_bend_is_no_restless_line() {
 
 #[test]
 fn a_line_along_voxels_is_no_restless_line() {
-    // Steps of a voxel of 0.7 mm to the side, every 2 mm.
+    // Steps of a 0.7 mm voxel to the side, every 2 mm.
     let stairs = |n: i32| DVec3::new(0.7 * f64::from(n / 3), 0.0, 0.7 * f64::from(n));
     for diameter in [2.0, 6.0, 20.0] {
         let turned = sharpest((0..90).map(stairs).collect(), diameter);
@@ -38,7 +37,7 @@ fn a_line_along_voxels_is_no_restless_line() {
 
 #[test]
 fn a_line_that_jumps_from_one_vessel_to_the_next_is_restless() {
-    // From the middle of a graft of 20 mm into one of its limbs, and into a hook at the end.
+    // From a graft of 20 mm into one of its limbs, and into a hook at the end.
     let jump = |n: i32| DVec3::new(if n < 40 { 0.0 } else { 12.0 }, 0.0, f64::from(n));
     let turned = sharpest((0..80).map(jump).collect(), 20.0);
     assert!(turned > SHARP, "{turned}");

@@ -1,20 +1,16 @@
-//! How far measuring is, for whoever watches it from another thread: each section asks whether to stop once in every pass over
-//! its vessel, so that these questions tell it.
+//! Progress of measuring: every section asks whether to stop once per pass, and these calls are counted.
 
 use lumencut_core::error::Result;
 use lumencut_core::progress::Progress;
 use lumencut_core::stop::Stop;
 use lumencut_core::vessel_tree::Vessel;
 
-/// About how often a section is looked at while a vessel is measured.
+/// Approximate number of passes over each section.
 const PASSES: f64 = 3.0;
 
-/// Measures vessels, in sections `step` mm apart, as one of the views that `progress` expects, and tells how far that is. `measure`
-/// is given what it has to ask whether to stop.
-///
-/// # Errors
-/// Those of `measure`.
-pub fn watched<T>(
+/// Measures vessels in sections `step` mm apart and reports progress as one of the expected views. `measure`
+/// receives the stop function to use. Errors: Those of `measure`.
+pub fn with_progress<T>(
     progress: Option<&Progress>,
     (vessels, step): (&[Vessel], f64),
     stop: Stop,
@@ -36,5 +32,5 @@ pub fn watched<T>(
 }
 
 #[cfg(test)]
-#[path = "tests/watched.rs"]
+#[path = "tests/with_progress.rs"]
 mod tests;

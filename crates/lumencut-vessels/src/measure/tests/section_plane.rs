@@ -13,7 +13,6 @@ fn more_sections_than_can_be_measured_are_refused_with_a_step_that_mends_it() {
     assert!(words.contains("0.01 mm, which makes 200001 sections of a vessel of 2000 mm"), "{words}");
     assert!(words.contains("at most 20000 sections; give a step of 0.11 mm or more"), "{words}");
     assert!(places(2000.0, 0.11).is_ok_and(|count| count <= 20_000));
-    // Up to the limit all are measured.
     assert_eq!(places(1999.9, 0.1).ok(), Some(20_000));
     assert!(places(2000.0, 0.1).is_err());
 }

@@ -1,4 +1,4 @@
-//! A vessel in a volume: its scale, its lumen by and large, the levels, and then each section.
+//! Measures a vessel: intensity scale, approximate lumen, levels, then each section.
 
 use std::sync::OnceLock;
 
@@ -13,96 +13,97 @@ use super::ellipse::Ellipse;
 use super::fit::Fit;
 use super::flags::{BRANCH, NO_EDGE, OUTSIDE};
 use super::levels::lumen_levels;
+use super::lumen_estimate::LumenEstimate;
 use super::measured_part::MeasuredPart;
-use super::place::{Place, Track, known_radius};
-use super::point_spread::{Told, estimated};
+use super::point_spread::{SpreadEstimate, estimated};
 use super::pooled::Level;
 use super::profile::Profile;
 use super::rays::Rays;
 use super::request::MeasureRequest;
-use super::restless::flag_restless;
-use super::rough::Rough;
 use super::scale::{Scale, in_words};
+use super::section_plane::{SectionPlane, Track, known_radius};
 use super::sections::{Bench, Doubt, Known, LEAST_CONTRAST, Section, center, noise};
+use super::sharp_turns::flag_sharp_turns;
 use super::slab::thickness;
 use super::texture::{Pairs, Texture};
-use super::told_by_tree::ToldByTree;
+use super::tree_findings::TreeFindings;
 use super::tree_walls::{PooledWall, wall_beside};
 use super::wall::KnownWall;
 use super::wall_level::{WallSource, expected, is_below_lumen};
-use super::wall_pool::{is_apart, pooled, told_level};
+use super::wall_pool::{is_apart, pooled, unpooled_level};
 use crate::voxels::Voxels;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::math::statistics::median;
 use lumencut_core::stop::{Stop, go_on};
 use lumencut_core::vessel_tree::Vessel;
 
-/// Without any other knowledge the point spread is assumed to be this wide (sides of a voxel).
-pub const DEFAULT_FWHM: f64 = 1.2;
+/// Assumed FWHM of the point spread in voxel sides, if nothing else is known.
+pub(crate) const DEFAULT_FWHM: f64 = 1.2;
 
-/// Whether walls are told apart is said by this number of sections.
+/// Number of sections that decide whether walls are visible.
 const WALL_SECTIONS: usize = 48;
 
-/// The texture of the noise is told by this number of sections.
-const TEXTURE: usize = 32;
+/// Number of sections from which the noise texture is estimated.
+const TEXTURE_SECTIONS: usize = 32;
 
-/// The sections that are fitted by themselves lie at least this share of the blur's width apart: those between see the same.
-const FITTED: f64 = 0.7;
+/// Minimum distance of separately fitted sections in blur widths: sections in between see the same voxels.
+const FIT_SPACING: f64 = 0.7;
 
-/// How far from its vessel a lumen is looked for (mm), at least.
-const SEARCH: f64 = 3.0;
+/// Minimum search radius for the lumen around the centerline (mm).
+const MIN_SEARCH_MM: f64 = 3.0;
 
-/// The widest lumen (mm from its middle to its wall).
-const WIDEST: f64 = 45.0;
+/// Maximum radius of a lumen (mm).
+const MAX_RADIUS_MM: f64 = 45.0;
 
-/// The fits of sections by themselves under a point spread, and the wall that may be there where it is not told apart.
+/// Separate fits under a point spread, and the possible wall where none is visible.
 #[derive(Clone)]
 struct FirstFits {
     fwhm: f64,
     hidden: Option<KnownWall>,
     fits: Vec<Option<Fit>>,
-    /// The texture of the noise, from what they miss.
     texture: Texture,
 }
 
-/// A vessel before it is fitted.
-pub struct Looked {
+pub(crate) struct PreparedVessel {
     part: MeasuredPart,
     scale: Scale,
     wall: Option<KnownWall>,
     wall_source: WallSource,
-    places: Vec<Place>,
-    rough: Vec<Option<Rough>>,
-    /// The fits under the point spread that is assumed before it is known, and under the one that is told or given.
+    places: Vec<SectionPlane>,
+    estimates: Vec<Option<LumenEstimate>>,
+    /// Fits under the assumed point spread, and under the estimated or given one.
     first: [OnceLock<FirstFits>; 2],
 }
 
-impl Looked {
-    /// Looks at a vessel of a volume.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Measuring`] for a vessel outside the volume or without a lumen, [`ErrorKind::Settings`] for an invalid step or
-    /// wall, [`ErrorKind::VesselTree`] for a vessel without length, [`ErrorKind::Interrupted`].
-    pub fn new(voxels: &Voxels, vessel: &Vessel, request: &MeasureRequest) -> Result<Self> {
+impl PreparedVessel {
+    pub(crate) fn new(voxels: &Voxels, vessel: &Vessel, request: &MeasureRequest) -> Result<Self> {
         let first = Track::new(vessel, None)?.places(request.step)?;
         let known = known_radius(vessel);
         let part = MeasuredPart::of(voxels, &first, known)?;
         let scale = part.scale;
         let (wall, wall_source) = expected(voxels, &scale, request.wall)?;
-        let widest = known.map_or(WIDEST, |radius| (3.0 * radius + 5.0).min(WIDEST));
-        let search = known.unwrap_or(0.0).max(SEARCH);
+        let widest = known.map_or(MAX_RADIUS_MM, |radius| (3.0 * radius + 5.0).min(MAX_RADIUS_MM));
+        let search = known.unwrap_or(0.0).max(MIN_SEARCH_MM);
         let bench = bench(voxels, scale, wall, assumed(voxels));
-        let mut rough = bench.rough(&first, search, widest, request.stop)?;
-        for (rough, place) in rough.iter_mut().zip(&first) {
-            *rough = rough.filter(|_| part.holds(place));
+        let mut estimates = bench.estimates(&first, search, widest, request.stop)?;
+        for (estimate, place) in estimates.iter_mut().zip(&first) {
+            *estimate = estimate.filter(|_| part.holds(place));
         }
-        let mut radii: Vec<f64> = rough.iter().flatten().map(|rough| rough.radius).collect();
+        let mut radii: Vec<f64> = estimates.iter().flatten().map(|one| one.radius).collect();
         let radius = median(&mut radii).ok_or_else(|| no_lumen(&scale))?;
         let places = Track::new(vessel, Some(radius))?.places(request.step)?;
-        Ok(Self { part, scale, wall, wall_source, places, rough: tamed(&rough), first: Default::default() })
+        Ok(Self {
+            part,
+            scale,
+            wall,
+            wall_source,
+            places,
+            estimates: tamed(&estimates),
+            first: Default::default(),
+        })
     }
 
-    /// The fits under a point spread (FWHM, mm) of the sections that are fitted by themselves, which are kept.
+    /// Separate fits under a point spread (FWHM, mm), cached.
     fn kept_fits(&self, voxels: &Voxels, fwhm: f64, stop: Stop) -> Result<FirstFits> {
         let kept = self.first.iter().filter_map(OnceLock::get).find(|first| first.fwhm == fwhm);
         if let Some(kept) = kept {
@@ -116,30 +117,29 @@ impl Looked {
         Ok(found)
     }
 
-    /// The fits of all sections by themselves under a point spread (FWHM, mm). Some of them say first whether walls are told
-    /// apart: where they are as bright as their surroundings, all are fitted without.
+    /// Separate fits of all sections under a point spread (FWHM, mm). A subset decides first whether walls
+    /// are visible; if they are as bright as their surroundings, all sections are fitted without a wall.
     fn first_fits(&self, voxels: &Voxels, fwhm: f64, stop: Stop) -> Result<FirstFits> {
         let mut bench = bench(voxels, self.scale, self.wall, fwhm);
         let Some(known) = self.wall else {
-            let fits = bench.first_fits(&self.places, &self.rough, stop)?;
+            let fits = bench.first_fits(&self.places, &self.estimates, stop)?;
             return self.textured(&bench, None, fits, stop);
         };
         let every = self.places.len().div_ceil(WALL_SECTIONS).max(1);
         let some = self.part(|n| n % every == 0);
-        let fits = bench.first_fits(&some.places, &some.rough, stop)?;
+        let fits = bench.first_fits(&some.places, &some.estimates, stop)?;
         if let Some(hidden) = some.hidden_wall(&bench, &known, &fits, stop)? {
             bench.wall = None;
-            let fits = bench.first_fits(&self.places, &self.rough, stop)?;
+            let fits = bench.first_fits(&self.places, &self.estimates, stop)?;
             return self.textured(&bench, Some(hidden), fits, stop);
         }
         let others = self.part(|n| n % every != 0);
         let (mut these, mut those) =
-            (fits.into_iter(), bench.first_fits(&others.places, &others.rough, stop)?.into_iter());
+            (fits.into_iter(), bench.first_fits(&others.places, &others.estimates, stop)?.into_iter());
         let merged = (0..self.places.len()).map(|n| if n % every == 0 { these.next() } else { those.next() });
         self.textured(&bench, None, merged.map(Option::flatten).collect(), stop)
     }
 
-    /// Fits with the texture of what they miss.
     fn textured(
         &self,
         bench: &Bench,
@@ -151,32 +151,30 @@ impl Looked {
         Ok(FirstFits { fwhm: bench.fwhm, hidden, fits, texture })
     }
 
-    /// What sections are looked at with under a point spread (FWHM, mm): without walls where they are hidden.
     fn bench<'a, 'v>(&self, voxels: &'a Voxels<'v>, fwhm: f64, hidden: Option<KnownWall>) -> Bench<'a, 'v> {
         bench(voxels, self.scale, self.wall.filter(|_| hidden.is_none()), fwhm)
     }
 
-    /// The sections that are fitted by themselves under a point spread (FWHM, mm): every so many of all.
+    /// The sections that are fitted separately under a point spread (FWHM, mm), and their interval.
     fn fitted(&self, voxels: &Voxels, fwhm: f64) -> (usize, Self) {
         let blur = Blur::new(fwhm, voxels.world_from_index.matrix3);
         let width = self.places.iter().map(|place| blur.width(place)).fold(f64::INFINITY, f64::min);
         let step = self.places.last().map_or(0.0, |last| last.at) / (self.places.len().max(2) - 1) as f64;
-        let every = ((FITTED * width / step) as usize).max(1);
+        let every = ((FIT_SPACING * width / step) as usize).max(1);
         (every, self.part(|n| n % every == 0))
     }
 
-    /// The same vessel with some of its sections, by their numbers.
     fn part(&self, is_one: impl Fn(usize) -> bool) -> Self {
         let kept = || (0..self.places.len()).filter(|n| is_one(*n));
         Self {
             places: kept().map(|n| self.places[n]).collect(),
-            rough: kept().map(|n| self.rough[n]).collect(),
+            estimates: kept().map(|n| self.estimates[n]).collect(),
             first: Default::default(),
             ..*self
         }
     }
 
-    /// The wall that may be there where it is not told apart, as it is as bright as its surroundings.
+    /// The possible wall, if it is as bright as its surroundings; None if walls are visible.
     fn hidden_wall(
         &self,
         bench: &Bench,
@@ -185,33 +183,24 @@ impl Looked {
         stop: Stop,
     ) -> Result<Option<KnownWall>> {
         let inflation = self.inflation(bench, &self.texture(bench, fits, noise(fits), stop)?);
-        let told = pooled(&self.arc_lengths(), fits, known, known.level, inflation);
-        let hidden = told.first().map(|wall| KnownWall { log_thickness: None, slope: 0.0, ..*wall });
-        Ok(hidden.filter(|_| !is_apart(known, &told, fits)))
+        let walls = pooled(&self.arc_lengths(), fits, known, known.level, inflation);
+        let hidden = walls.first().map(|wall| KnownWall { log_thickness: None, slope: 0.0, ..*wall });
+        Ok(hidden.filter(|_| !is_apart(known, &walls, fits)))
     }
 
-    /// Where the sections are (mm).
     fn arc_lengths(&self) -> Vec<f64> {
         self.places.iter().map(|place| place.at).collect()
     }
 
-    /// The point spread that the vessel tells.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Interrupted`].
-    pub fn point_spread(&self, voxels: &Voxels, stop: Stop) -> Result<Told> {
+    pub(crate) fn point_spread(&self, voxels: &Voxels, stop: Stop) -> Result<SpreadEstimate> {
         let (_, fitted) = self.fitted(voxels, assumed(voxels));
         let FirstFits { hidden, fits, .. } = self.kept_fits(voxels, assumed(voxels), stop)?;
         let bench = self.bench(voxels, assumed(voxels), hidden);
         estimated(&bench, voxels.world_from_index.matrix3, &fitted.places, &fits, stop)
     }
 
-    /// What the vessel tells of the level of its wall under a point spread (FWHM, mm), in the volume's unit, without what is expected
-    /// beforehand. None where walls are not told apart.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Interrupted`].
-    pub fn wall_level(&self, voxels: &Voxels, fwhm: f64, stop: Stop) -> Result<Option<Level>> {
+    /// Wall level (in the volume's unit) without the prior; None if walls are not visible.
+    pub(crate) fn wall_level(&self, voxels: &Voxels, fwhm: f64, stop: Stop) -> Result<Option<Level>> {
         let Some(known) = self.wall else { return Ok(None) };
         let FirstFits { hidden, fits, texture, .. } = self.kept_fits(voxels, fwhm, stop)?;
         if hidden.is_some() {
@@ -219,24 +208,20 @@ impl Looked {
         }
         let (_, fitted) = self.fitted(voxels, fwhm);
         let inflation = fitted.inflation(&self.bench(voxels, fwhm, None), &texture);
-        let told = told_level(&fitted.arc_lengths(), &fits, &known, inflation);
-        Ok(told.map(|[mean, deviation]| [self.scale.value(mean), deviation * self.scale.contrast.abs()]))
+        let level = unpooled_level(&fitted.arc_lengths(), &fits, &known, inflation);
+        Ok(level.map(|[mean, deviation]| [self.scale.value(mean), deviation * self.scale.contrast.abs()]))
     }
 
-    /// The profile of the vessel that was looked at, with what its tree told.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Measuring`] for a vessel without a lumen, [`ErrorKind::Interrupted`].
-    pub fn profile(
+    pub(crate) fn profile(
         &self,
         voxels: &Voxels,
         vessel: &Vessel,
         request: &MeasureRequest,
-        told: ToldByTree,
+        findings: TreeFindings,
     ) -> Result<Profile> {
         let stop = request.stop;
-        let by_others = self.wall_by_others(&told, request.tree, vessel);
-        let spread = told.spread;
+        let by_others = self.wall_by_others(&findings, request.tree, vessel);
+        let spread = findings.spread;
         let (every, fitted) = self.fitted(voxels, spread.fwhm);
         let first = self.kept_fits(voxels, spread.fwhm, stop)?;
         let hidden = first.hidden;
@@ -254,8 +239,8 @@ impl Looked {
         let section = |n: usize| {
             go_on(stop)?;
             let place = &self.places[n];
-            let rough = self.rough[n].map(|rough| Ellipse::circle(rough.center, rough.radius));
-            let mut section = match all.known(n, every, rough) {
+            let estimate = self.estimates[n].map(|one| Ellipse::circle(one.center, one.radius));
+            let mut section = match all.known(n, every, estimate) {
                 Some((known, other)) => bench.section(place, &known, other),
                 None => Section::none(),
             };
@@ -273,19 +258,23 @@ impl Looked {
         let variance: Vec<f64> =
             self.places.iter().map(|place| bench.blur.along(place, thickness(voxels, place))).collect();
         sharpen(&mut sections, &self.arc_lengths(), &variance);
-        flag_restless(&self.places, &mut sections);
+        flag_sharp_turns(&self.places, &mut sections);
         let noise = all.noise * self.scale.contrast.abs();
         let profile = Profile::new(&self.places, &sections, &self.scale, noise, spread, wall_source);
         Ok(Profile { without_wall: self.part.left_out(&self.places), ..profile })
     }
 
-    /// The wall that other vessels let expect, where they told anything of it.
-    fn wall_by_others(&self, told: &ToldByTree, tree: &[Vessel], vessel: &Vessel) -> Option<PooledWall> {
-        let by_others = wall_beside(&told.walls, tree, vessel, self.wall_source.expected()?)?;
+    fn wall_by_others(
+        &self,
+        findings: &TreeFindings,
+        tree: &[Vessel],
+        vessel: &Vessel,
+    ) -> Option<PooledWall> {
+        let by_others = wall_beside(&findings.walls, tree, vessel, self.wall_source.expected()?)?;
         is_below_lumen(&by_others, &self.scale).then_some(by_others)
     }
 
-    /// What the sections tell together, from their fits by themselves, and what other vessels told of their wall.
+    /// Pools the separate fits with the wall level from other vessels.
     fn all_sections(
         &self,
         bench: &Bench,
@@ -307,15 +296,14 @@ impl Looked {
         Ok(AllSections { fits, noise, lumen, walls, texture })
     }
 
-    /// By how much what walls tell varies more than with independent noise.
+    /// Factor by which correlated noise raises the variance of wall estimates.
     fn inflation(&self, bench: &Bench, texture: &Texture) -> f64 {
         let sides = bench.rays.voxels.world_from_index.matrix3;
         self.places.first().map_or(1.0, |place| texture.inflation(sides, bench.blur.width(place)))
     }
 
-    /// The texture of the noise, from what fits miss.
     fn texture(&self, bench: &Bench, fits: &[Option<Fit>], noise: f64, stop: Stop) -> Result<Texture> {
-        let every = fits.len().div_ceil(TEXTURE).max(1);
+        let every = fits.len().div_ceil(TEXTURE_SECTIONS).max(1);
         let some: Vec<usize> = (0..fits.len()).step_by(every).collect();
         let pairs = |n: &usize| {
             go_on(stop)?;
@@ -328,7 +316,6 @@ impl Looked {
         Ok(all.map_or_else(Texture::white, |all| Texture::of(&all)))
     }
 
-    /// The flag of a section within the lumen of another vessel.
     fn branch(&self, n: usize, fit: Option<&Fit>, others: &[Lumen]) -> u32 {
         let Some(fit) = fit else { return 0 };
         let place = &self.places[n];
@@ -342,8 +329,8 @@ fn bench<'a, 'v>(voxels: &'a Voxels<'v>, scale: Scale, wall: Option<KnownWall>, 
     Bench { rays: Rays { voxels, scale }, blur, fwhm, wall, doubt: None }
 }
 
-/// The point spread where nothing is known of it (FWHM, mm): by the middle one of the three sides of a voxel.
-pub fn assumed(voxels: &Voxels) -> f64 {
+/// Assumed point spread (FWHM, mm), from the middle voxel side.
+pub(crate) fn assumed(voxels: &Voxels) -> f64 {
     let sides = voxels.world_from_index.matrix3;
     let mut lengths = [sides.x_axis, sides.y_axis, sides.z_axis].map(DVec3::length);
     DEFAULT_FWHM * median(&mut lengths).unwrap_or_default()
@@ -352,22 +339,22 @@ pub fn assumed(voxels: &Voxels) -> f64 {
 fn no_lumen(scale: &Scale) -> Error {
     let [lumen, outside] = [scale.value(1.0), scale.outside];
     let found =
-        format!("no wall around it: {} on the vessel and {} beside it", in_words(lumen), in_words(outside));
+        format!("no wall around it: {} on the vessel and {} next to it", in_words(lumen), in_words(outside));
     let expected = "a lumen around the points of the vessel";
-    let mend = "centerlines must lie in the lumen, or within its radius of it";
+    let mend = "centerlines must lie in the lumen or within one radius of it";
     Error::new(ErrorKind::Measuring, "lumen of the vessel", found, expected).mend(mend)
 }
 
-/// Rough lumens that are far wider than those around them are given their radius: rays leave the lumen where a branch begins.
-fn tamed(rough: &[Option<Rough>]) -> Vec<Option<Rough>> {
-    /// Sections to both sides, and how much wider than them is far wider.
+/// Limits estimates much wider than their neighbours, because rays escape where a branch begins.
+fn tamed(estimates: &[Option<LumenEstimate>]) -> Vec<Option<LumenEstimate>> {
+    /// Neighbours on each side, and the maximum ratio to their median.
     const AROUND: (usize, f64) = (6, 1.5);
-    (0..rough.len())
+    (0..estimates.len())
         .map(|n| {
-            let around = &rough[n.saturating_sub(AROUND.0)..(n + AROUND.0 + 1).min(rough.len())];
+            let around = &estimates[n.saturating_sub(AROUND.0)..(n + AROUND.0 + 1).min(estimates.len())];
             let mut radii: Vec<f64> = around.iter().flatten().map(|one| one.radius).collect();
             let middle = median(&mut radii)?;
-            rough[n].map(|one| Rough { radius: one.radius.min(AROUND.1 * middle), ..one })
+            estimates[n].map(|one| LumenEstimate { radius: one.radius.min(AROUND.1 * middle), ..one })
         })
         .collect()
 }

@@ -2,7 +2,7 @@ use super::*;
 use glam::{DAffine3, DVec3};
 use lumencut_core::volume::{Volume, Voxels as Stored};
 
-/// Steps (mm) of rays and of the places that are searched within 30 mm, in a volume of 32 x 22 x 22 voxels of these sides.
+/// Steps (mm) of rays and of the search within 30 mm, in a volume of 32 × 22 × 22 voxels.
 fn steps(sides: [f64; 3]) -> [f64; 2] {
     let values = vec![0.0_f32; 32 * 22 * 22];
     let placed = DAffine3::from_scale(DVec3::from_array(sides));
@@ -14,7 +14,6 @@ fn steps(sides: [f64; 3]) -> [f64; 2] {
 #[test]
 fn even_voxels_are_sampled_by_their_side() {
     assert_eq!(steps([0.7; 3]), [0.7; 2]);
-    // Thick slices are even enough within their plane.
     assert_eq!(steps([0.6, 0.6, 5.0]), [0.6; 2]);
 }
 

@@ -9,8 +9,8 @@ fn the_share_grows_by_each_question_and_by_each_vessel() {
     let vessel = Vessel::new(vec![DVec3::ZERO, DVec3::Z * 9.0], None).expect("a vessel");
     let mut shares = Vec::new();
     for _ in 0..2 {
-        // Ten sections in three passes, and one more: what was not expected counts as the whole.
-        watched(Some(&progress), (std::slice::from_ref(&vessel), 1.0), &|| false, |stop| {
+        // Ten sections in three passes, and one more: an unexpected one counts as complete.
+        with_progress(Some(&progress), (std::slice::from_ref(&vessel), 1.0), &|| false, |stop| {
             for _ in 0..31 {
                 go_on(stop)?;
                 shares.push((progress.share() * 60.0).round() as usize);
@@ -28,7 +28,7 @@ fn the_share_grows_by_each_question_and_by_each_vessel() {
 fn it_stops_where_it_is_asked_to() {
     let progress = Progress::default();
     let vessel = Vessel::new(vec![DVec3::ZERO, DVec3::Z], None).expect("a vessel");
-    for told in [None, Some(&progress)] {
-        assert!(watched(told, (std::slice::from_ref(&vessel), 1.0), &|| true, go_on).is_err());
+    for progress_of in [None, Some(&progress)] {
+        assert!(with_progress(progress_of, (std::slice::from_ref(&vessel), 1.0), &|| true, go_on).is_err());
     }
 }

@@ -1,17 +1,14 @@
-//! Where a line turns more sharply than a vessel does, as at a hook of its end or a jump from one vessel to the next: its sections
-//! run into each other within the lumen.
+//! Finds sharp turns of a line, where section planes intersect inside the lumen.
 
 use super::flags::RESTLESS_LINE;
-use super::place::Place;
+use super::section_plane::SectionPlane;
 use super::sections::Section;
 use lumencut_core::math::statistics::median;
 
-/// A line is restless where its direction turns by more than this within one diameter (degrees). At 115° the bend would be as
-/// sharp as its inner wall allows; lines of real vessels turn by up to 70°.
-pub const SHARP: f64 = 75.0;
+/// Maximum turn within one diameter (degrees); the geometric limit is 115°, real vessels reach 70°.
+pub(crate) const SHARP: f64 = 75.0;
 
-/// Flags the sections around which the line is restless, within the median diameter of the vessel.
-pub fn flag_restless(places: &[Place], sections: &mut [Section]) {
+pub(crate) fn flag_sharp_turns(places: &[SectionPlane], sections: &mut [Section]) {
     let widths = sections.iter().filter_map(|section| section.fit.as_ref());
     let mut widths: Vec<f64> = widths.map(|fit| fit.ellipse.equivalent_diameter()).collect();
     let Some(diameter) = median(&mut widths) else { return };
@@ -22,8 +19,8 @@ pub fn flag_restless(places: &[Place], sections: &mut [Section]) {
     }
 }
 
-/// By how much the direction turns in all within half of a length (mm) to both sides of each place (degrees).
-fn turns(places: &[Place], within: f64) -> Vec<f64> {
+/// Total turn within a window of `within` mm around each section (degrees).
+fn turns(places: &[SectionPlane], within: f64) -> Vec<f64> {
     let mut turned = vec![0.0];
     for two in places.windows(2) {
         let so_far = turned.last().copied().unwrap_or(0.0);
@@ -38,5 +35,5 @@ fn turns(places: &[Place], within: f64) -> Vec<f64> {
 }
 
 #[cfg(test)]
-#[path = "tests/restless.rs"]
+#[path = "tests/sharp_turns.rs"]
 mod tests;

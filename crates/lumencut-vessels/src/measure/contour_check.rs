@@ -1,0 +1,58 @@
+//! Rejects contours whose interior is not lumen, for example because they cross a flap or leave the lumen.
+
+use super::rays::{RAYS, Rays, direction};
+use super::section_plane::SectionPlane;
+use glam::DVec2;
+
+/// Brighter than lumen by this share of its contrast means another lumen.
+const BRIGHTER: f64 = 0.75;
+
+/// Maximum share of the enclosed area that may lack lumen values.
+const MOST_OTHER: f64 = 0.12;
+
+/// Within this many blur widths of the contour, blur mixes lumen and surroundings.
+const BLURRED_WIDTHS: f64 = 0.75;
+
+/// Every n-th ray is checked, at this many points.
+const CHECKED: (usize, usize) = (2, 6);
+
+/// Lowest and highest value (shares) of lumen, from its level and the level next to it.
+pub(crate) fn lumen_shares(lumen: f64, beside: f64) -> [f64; 2] {
+    let contrast = lumen - beside;
+    [beside + 0.5 * contrast, lumen + BRIGHTER * contrast]
+}
+
+/// Whether the contour at `walls` (mm from `center`, per ray) encloses lumen, under a blur of `width` mm. A
+/// contour too narrow to check counts as lumen.
+pub(crate) fn encloses_lumen(
+    rays: &Rays,
+    place: &SectionPlane,
+    center: DVec2,
+    walls: &[f64],
+    width: f64,
+    [darkest, brightest]: [f64; 2],
+) -> bool {
+    let (mut other, mut all) = (0.0, 0.0);
+    for n in (0..RAYS).step_by(CHECKED.0) {
+        let reach = walls[n] - BLURRED_WIDTHS * width;
+        if reach <= 0.0 {
+            continue;
+        }
+        for m in 0..CHECKED.1 {
+            let away = reach * (m as f64 + 0.5) / CHECKED.1 as f64;
+            let value = rays.at(place, center + direction(n) * away);
+            // Each point represents an area that grows with its distance.
+            let area = away * reach;
+            all += area;
+            // NaN outside the volume fails both comparisons; a separate flag reports that.
+            if value < darkest || value > brightest {
+                other += area;
+            }
+        }
+    }
+    other <= MOST_OTHER * all
+}
+
+#[cfg(test)]
+#[path = "tests/contour_check.rs"]
+mod tests;
