@@ -1,7 +1,8 @@
 """Write the pages of results from the JSON files in ``benches/results``; ``--check`` only compares them.
 
 ``pages.json`` holds the machines, the page that lists them, and for each page its title, introduction and
-subjects in order. Each subject has its own file, named after its title. ``notes`` and ``record`` keep details that no page shows.
+subjects in order. Each subject has its own file, named after its title. ``notes`` and ``record`` keep details
+that no page shows.
 """
 
 from __future__ import annotations
