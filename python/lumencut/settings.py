@@ -29,107 +29,104 @@ class Settings(CheckedSettings):
     Parameters
     ----------
     cost_weight : float, 0 to 10000, default 10
-        λ of Eq. 2: what one mm beyond a vessel's wall costs (mm of depth per mm).
+        λ of Eq. 2: the cost of one mm beyond the wall of a vessel (mm of depth per mm).
     preserve_lumen : bool, default True
-        Measure distance from the wall, or from the centerline. From the centerline it is measured as if no
-        vessel had a radius: under ``lumen_first`` each then has the ``unknown_radius``.
+        Measure distances from the vessel wall instead of the centerline. When off, every vessel counts as
+        having no radius; ``lumen_first`` then uses ``unknown_radius``.
     lumen_first : bool, default True
-        Show every lumen unless a nearer lumen hides it: lumen before wall before surroundings, whatever the
-        depth.
+        Order pixels by lumen, wall and surroundings at any depth; only a nearer lumen hides a lumen.
     lumen_margin : float, 0 to 10000, default 1
-        How thick the wall around a lumen is taken to be (mm). With ``lumen_first`` the wall comes after
-        every lumen and before all surroundings. With the level choice ``own`` the levels of detail are
-        counted from its outside.
+        Assumed thickness of the wall around a lumen (mm). With ``lumen_first``, the wall ranks after every
+        lumen and before all surroundings. With the level choice ``own``, the levels of detail start at its
+        outside.
     unknown_radius : float, 0 to 10000, default 1
-        Radius that ``lumen_first`` takes for vessels without radius, or where it is 0 (mm).
+        Radius that ``lumen_first`` uses for vessels whose radius is missing or 0 (mm).
     level_choice : {"own", "nearest"}, default "own"
-        Which vessel the levels of detail of a pixel belong to (name): the one that wins the pixel at the
-        finest level, or whichever wins at each level, as in the paper.
+        Vessel whose levels of detail a pixel uses (name): the winner at the finest level (``own``), or the
+        winner at each level as in the paper (``nearest``).
     centerline_smoothing : float, 0 to 10, default 0
-        Smooth each centerline along its length by a Gaussian of this many radii (radii, 0 to 10). Jitter of
-        the centerline folds the cut where a vessel runs towards the viewer. Ends, places where vessels meet
-        and vessels without radius stay as they are.
+        Standard deviation of the Gaussian that smooths each centerline along its length (radii, 0 to 10).
+        Jitter of a centerline folds the cut where a vessel runs towards the viewer. Ends, junctions and
+        vessels without radius do not change.
     levels : int, 0 to 15, default 6
-        Levels of detail beyond the finest (count, 0 to 15).
+        Number of levels of detail beyond the finest (count, 0 to 15). N in the paper.
     level_distance : float, 0.001 to 1000000, default 8
-        How far from the vessels one level of detail reaches (mm per level). σ in the paper, as ``levels``
-        is N.
+        Width of one level of detail, as distance from the vessels (mm per level). σ in the paper.
     depth_filter : bool, default True
         Smooth the depth with a Gaussian of 7 × 7 pixels.
     zone_filter : bool, default True
-        Let the depth filter mix only depths of one vessel that lie on an even surface.
+        Restrict the depth filter to depths of one vessel on a smooth surface.
     depth_leap : float, 0 to 1000000, default 1
-        How far a pair of neighbours may lie off a straight line before ``zone_filter`` leaves it out (mm).
+        Largest deviation of a pair of neighbours from a straight line that ``zone_filter`` accepts (mm).
     samples : int, 1 to 4, default 1
-        N × N samples in each pixel, averaged in the picture (count, 1 to 4). Edges become smoother, and the
-        picture takes N² times as long. All other images stay those of one sample in the middle of each
-        pixel.
+        Average N × N samples per pixel (count, 1 to 4). Edges become smoother, and the picture takes N²
+        times as long. All other images keep one sample at the centre of each pixel.
     window : Window | {"auto", "cta", "soft-tissue", "bone", "lung", "full", "mra", "stent"}, optional
         Intensities of the cut surface from black to white, LEVEL ± WIDTH/2 (unit of the volume, HU for CT).
         If not given: from the data.
     opacity : Opacity, optional
-        Ramp of opacity of the cut surface over intensities (unit of the volume, HU for CT). If not given:
-        all opaque.
+        Intensities between which the cut surface changes from transparent to opaque (unit of the volume, HU
+        for CT). If not given: all opaque.
     silhouettes : bool, default True
-        Draw lines where the cut surface leaps.
+        Draw lines where the depth of the cut surface jumps.
     silhouette_rule : {"leap", "gradient"}, default "leap"
-        Where silhouettes are drawn (name): where the surface leaps, or where the depth is steep, as in the
-        paper.
+        Rule that places silhouettes (name): where the surface jumps (``leap``), or where the depth is steep
+        as in the paper (``gradient``).
     silhouette_slope : float, 0.001 to 1000000, default 24
-        Slope at which a silhouette of the rule ``gradient`` has half its strength (mm of depth per mm).
+        Slope at which the rule ``gradient`` draws a silhouette at half strength (mm of depth per mm).
     silhouette_reach : float or None, 0 to 1000000, default 10
-        How far from the nearest wall silhouettes are drawn in full (mm); from there they fade over the same
-        length again. Far from all vessels the lines follow borders of zones that mean nothing to a reader.
-        Measured in the picture. ``None`` draws them everywhere, as in the paper.
+        Distance from the nearest wall up to which silhouettes have full strength (mm); they fade over the
+        same distance again. Distances are measured in the picture. ``None`` draws silhouettes everywhere,
+        as in the paper; far from vessels they only mark borders of zones.
     silhouette_color : (int, int, int), default (255, 220, 0)
         Colour of the silhouettes. Red, green and blue.
     background : (int, int, int, int), default (0, 0, 0, 255)
-        Colour behind it all. Red, green, blue and opacity, where there is nothing to show.
+        Colour of pixels that show nothing else. Red, green, blue and opacity.
     slab : Slab, optional
-        Show the largest, mean or smallest value of a slab around the cut surface (mm, from its near to its
-        far side). If not given: one point deep.
+        Show the largest, mean or smallest value in a slab centred on the cut surface (thickness in mm). If
+        not given: no slab.
     focus : Focus, optional
-        Show the cut surface around the vessels alone, amid the context (mm). From MARGIN mm beyond the
-        nearest wall it fades over FADE mm; both are measured in the picture. A negative margin lets lumens
-        fade too. A fade of 0 is a hard edge, any other is at least two pixels wide. It needs centerlines.
-        If not given: the cut surface everywhere.
+        Show the cut surface only near the vessels, surrounded by the context (mm). It fades over FADE mm,
+        starting MARGIN mm beyond the nearest wall; both are measured in the picture. A negative margin lets
+        lumens fade too. A fade of 0 is a hard edge; any other is at least two pixels wide. Needs
+        centerlines. If not given: the cut surface everywhere.
     focus_vessels : tuple of int or str, default ()
-        Show lumen and wall of these vessels before all others, whatever the depth (names or ids). It needs
-        ``lumen_first``. Silhouettes are drawn then even where ``silhouettes`` leaves them out: a vessel
-        that is shown before one nearer to the viewer looks wrong without its outline. All vessels, or none,
-        set none apart.
+        Show lumen and wall of these vessels in front of all others at any depth (names or ids). Needs
+        ``lumen_first``. Silhouettes are then drawn even if ``silhouettes`` is off: without outlines, a
+        farther vessel in front looks wrong. All vessels or none: no vessel is highlighted.
     others_strength : float, 0 to 1, default 0.5
-        How much of the other vessels a ``focus`` leaves where ``focus_vessels`` are chosen (number, 0 to
-        1). With 0 the context takes their place, with 1 they are shown as the chosen ones are.
+        Share of the other vessels that a ``focus`` keeps when ``focus_vessels`` are chosen (number, 0 to
+        1). At 0 the context replaces them; at 1 they look like the chosen ones.
     context : {"mida", "dvr", "mip", "minip", "average"} or None, default "mida"
-        What is shown where the cut surface is outside the volume or transparent (name): maximum intensity
-        difference accumulation, direct volume rendering, largest, smallest or mean value, or the background
-        alone.
+        What to show where the cut surface is outside the volume or transparent (name): ``mida``, ``dvr``,
+        ``mip``, ``minip``, ``average``, or only the background (``None``). ``mida`` is maximum intensity
+        difference accumulation, ``dvr`` direct volume rendering; ``mip``, ``minip`` and ``average`` are the
+        largest, smallest and mean value along each ray.
     context_gamma : float, -1 to 1, default 0
-        For mida: -1 is dvr, 0 mida, 1 mip, between them a blend (number, -1 to 1).
+        Blend for ``mida`` (number, -1 to 1): -1 is ``dvr``, 0 ``mida``, 1 ``mip``.
     context_window : Window | {"auto", "cta", "soft-tissue", "bone", "lung", "full", "mra", "stent"}, optional
-        Intensities that the context takes as 0 to 1, LEVEL ± WIDTH/2 (unit of the volume, HU for CT). They
-        are 0 to 1 for the differences of mida, and black to white for minip and average; the named transfer
-        functions lie within them. From the data they are taken whatever ``window`` is: as ``Window.whole``
-        does for minip and average, as ``Window.for_mip`` does for mip where there are no centerlines, as
-        ``Window.from_data`` does for the others. If not given: from the data.
+        Intensities that the context maps to 0 to 1, LEVEL ± WIDTH/2 (unit of the volume, HU for CT).
+        ``mida`` scales its differences by it; ``minip`` and ``average`` show it from black to white; named
+        transfer functions lie within it. If not given, it comes from the data whatever ``window`` is:
+        ``Window.whole`` for ``minip`` and ``average``, ``Window.for_mip`` for ``mip`` without centerlines,
+        otherwise ``Window.from_data``. If not given: from the data.
     context_transfer : {"grey", "angio", "bone", "soft-tissue"} or TransferFunction, optional
-        Colours and opacities of mida, dvr and mip: grey, angio, bone, soft-tissue, or control points of
-        intensity (unit of the volume, HU for CT), colour and opacity of one mm (0 to 1). If not given: grey
-        for mip, else angio.
+        Colours and opacities of ``mida``, ``dvr`` and ``mip``: grey, angio, bone, soft-tissue, or control
+        points of intensity (unit of the volume, HU for CT), colour and opacity per mm (0 to 1). If not
+        given: grey for mip, otherwise angio.
     context_step : float, 0.001 to 1000, optional
-        Longest distance between the samples of mida and dvr along a ray (mm). If not given: half the
-        smallest side of a voxel, all of it in a preview.
+        Longest distance between samples of ``mida`` and ``dvr`` along a ray (mm). If not given: half the
+        smallest voxel side, the whole side in a preview.
     context_shading : bool, default False
-        Shade mida and dvr by the gradient, with light from the viewer.
+        Shade ``mida`` and ``dvr`` by the gradient, with light from the viewer.
     context_from : {"cut", "whole"} or None, optional
-        Where the rays of the context start around a ``focus`` (name): at the cut surface, or in front of
-        the volume. Within the focus they start at the cut surface, wherever they start around it. If not
-        given: cut for mida and dvr, else whole.
+        Start of the context rays around a ``focus`` (name): at the cut surface, or in front of the volume.
+        Within the focus they always start at the cut surface. If not given: cut for mida and dvr, otherwise
+        whole.
     context_strength : float, 0 to 1, default 1
-        How bright the context is in the picture: what its colours are multiplied by (number, 0 to 1).
+        Brightness of the context: factor of its colours (number, 0 to 1).
     context_preview : bool, default False
-        Trace one ray for each square of four pixels: quicker and coarser.
+        Trace one ray per 2 × 2 pixels: faster and coarser.
 
     Raises
     ------
