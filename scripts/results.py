@@ -1,7 +1,8 @@
 """Write the pages of results from the JSON files in ``benches/results``; ``--check`` only compares them.
 
-``pages.json`` holds the machines and, for each page, its title, introduction and subjects in order. Each
-subject has its own file, named after its title. ``notes`` and ``record`` keep details that no page shows.
+``pages.json`` holds the machines, the page that lists them, and for each page its title, introduction and
+subjects in order. Each subject has its own file, named after its title. ``notes`` and ``record`` keep details
+that no page shows.
 """
 
 from __future__ import annotations
@@ -88,13 +89,15 @@ def pages(data: Path = DATA) -> dict[str, str]:
     plan = read(data / "pages.json")
     machines, made = plan["machines"], {}
     used = {"pages"}
+    if plan["machines_on"] not in plan["pages"]:
+        raise ResultError(f"pages.json: found machines_on {plan['machines_on']!r}; expected one of its pages")
     for name, page in plan["pages"].items():
         lines = [f"# {page['title']}", "", "<!-- Written by scripts/results.py from benches/results. -->", ""]
         for paragraph in page["intro"]:
             lines += [paragraph, ""]
         subjects = [subject(data / f"{stem}.json", machines) for stem in page["subjects"]]
-        names = {found["machine"] for found in subjects}
-        lines += [f"* {one}: {words}." for one, words in machines.items() if one in names] + [""]
+        if name == plan["machines_on"]:
+            lines += [*(f"* {one}: {words}." for one, words in machines.items()), ""]
         for found in subjects:
             lines += section(found)
         used.update(page["subjects"])

@@ -54,7 +54,7 @@ PAGE = """# Settings
 
 Each setting is a field of `lumencut.Settings`. It is also an option of `lumencut render` and
 `lumencut turntable`, with hyphens instead of underscores. A value outside the range is rejected.
-[Files](files.md) describes settings in a TOML file. `make settings` generates this page.
+[The command line](command-line.md) describes settings in a TOML file. `make settings` generates this page.
 
 | setting | kind | range | unit | default | what it does |
 |---|---|---|---|---|---|

@@ -48,6 +48,7 @@ def test_long_sentences_are_found_in_text_and_lists(words):
     [
         f"```\n{LONG}\n```",
         f"| a |\n|---|\n| {LONG} |",
+        f"a | b\n---|---\nc | {LONG}\nd | {LONG}",
         f"# {LONG}",
         f"A formula:\n\n    {LONG}\n    {LONG}\n",
         "It took " + "12 × 34 5.6 " * 20 + "ms.",
@@ -67,6 +68,8 @@ def test_leftovers_of_a_merge_are_found(words):
     assert "stands in a.md too" in said(words.repeated({"a.md": f"{sentence}\n\n* {sentence}"}))
     row = "| lines | the lines of each vessel with all their radii |\n"
     assert "stands in a.md too" in said(words.repeated({"a.md": row + row}))
+    row = "lines | the lines of each vessel with all their radii\n"
+    assert "stands in a.md too" in said(words.repeated({"a.md": f"a | b\n---|---\n{row}{row}"}))
     start = "(BSD-3-Clause) and SimpleITK (Apache-2.0) as oracles, the fuzz targets"
     texts = {"a.md": f"Tests use vtk\n{start} one of both\nand others\n{start} none of both\n"}
     assert "2 lines start with: (BSD-3-Clause) and SimpleITK" in said(words.repeated(texts))
