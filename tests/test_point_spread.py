@@ -105,8 +105,8 @@ def test_a_stretch_shorter_than_three_widths_tells_nothing_and_says_so():
 
 def test_a_tree_is_asked_once(branches, monkeypatch):
     scene, _ = branches
-    asked, find = [], _lumencut.told_by_tree
-    monkeypatch.setattr(_lumencut, "told_by_tree", lambda *of: asked.append(of) or find(*of))
+    asked, find = [], _lumencut.tree_findings
+    monkeypatch.setattr(_lumencut, "tree_findings", lambda *of: asked.append(of) or find(*of))
     volume = Volume(scene.volume.array, world_from_index=scene.volume.world_from_index)
     vessels = [*scene.tree, scene.tree.path([0, 1])]
     first = [measure(volume, vessel, tree=scene.tree) for vessel in vessels]

@@ -74,7 +74,7 @@ __all__ = [
     "Settings",
     "Spiral",
     "Stenosis",
-    "ToldByTree",
+    "TreeFindings",
     "Tracer",
     "Uncurl",
     "Untangled",
@@ -163,7 +163,7 @@ __all__ = [
     "straightened_mark",
     "tangential_layout",
     "threads",
-    "told_by_tree",
+    "tree_findings",
     "trace_from",
     "trace_mask",
     "vessels_csv",
@@ -450,7 +450,7 @@ class Profile:
     def c_arm(self, ends: tuple[float, float], lao: float | None = None) -> tuple[float, float]: ...
 
 @final
-class ToldByTree: ...
+class TreeFindings: ...
 
 @final
 class Stenosis:
@@ -575,7 +575,7 @@ def measure(
     fwhm: float | None = None,
     tree: list[_Arrays] | None = None,
     wall: tuple[float, float] | None = None,
-    told: ToldByTree | None = None,
+    told: TreeFindings | None = None,
     progress: Callable[[int, int], object] | None = None,
 ) -> Profile: ...
 def measured_radii(
@@ -632,13 +632,13 @@ def sides(direction: Sequence[float] | npt.NDArray[np.float64]) -> str: ...
 def straightened_mark(text: str) -> tuple[str, list[str]] | None: ...
 def smoothed(vessels: list[_Arrays], radii: float) -> list[npt.NDArray[np.float64]]: ...
 def threads() -> int: ...
-def told_by_tree(
+def tree_findings(
     volume: Any,
     tree: list[_Arrays],
     step: float,
     fwhm: float | None = None,
     wall: tuple[float, float] | None = None,
-) -> ToldByTree: ...
+) -> TreeFindings: ...
 def trace_from(
     volume: Any,
     seed: tuple[float, float, float],

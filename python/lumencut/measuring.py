@@ -111,11 +111,11 @@ def _tree_estimates(
     step: float,
     fwhm: float | None,
     wall: tuple[float, float] | None,
-) -> _lumencut.ToldByTree:
+) -> _lumencut.TreeFindings:
     """Estimates from a tree in a volume, computed once for all measurements along it."""
     name = f"step {step}, fwhm {fwhm}, wall {wall}"
-    return volume._told_by_trees.once(
-        volume._voxels, name, tree, lambda: _lumencut.told_by_tree(volume, arrays, step, fwhm, wall)
+    return volume._tree_findings.once(
+        volume._voxels, name, tree, lambda: _lumencut.tree_findings(volume, arrays, step, fwhm, wall)
     )
 
 

@@ -205,7 +205,7 @@ class Volume(KeepsReadOnly):
         return FoundOnce()
 
     @functools.cached_property
-    def _told_by_trees(self) -> FoundOnce[_lumencut.ToldByTree]:
+    def _tree_findings(self) -> FoundOnce[_lumencut.TreeFindings]:
         """Estimates of point spread and walls from trees."""
         return FoundOnce()
 

@@ -28,8 +28,8 @@ use pyo3::types::IntoPyDict;
 
 use crate::errors::to_python;
 use crate::pool;
-use crate::told_by_tree::ToldByTree;
 use crate::tree::{VesselArrays, vessel as vessel_of};
+use crate::tree_findings::TreeFindings;
 use crate::volume::VolumeArgument;
 use crate::wall_request::wall_request;
 use crate::watching::told_while;
@@ -72,7 +72,7 @@ pub(crate) fn measure<'py>(
     fwhm: Option<f64>,
     tree: Option<Vec<VesselArrays<'py>>>,
     wall: Option<[f64; 2]>,
-    told: Option<Py<ToldByTree>>,
+    told: Option<Py<TreeFindings>>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Profile> {
     let borrowed = volume.borrow()?;

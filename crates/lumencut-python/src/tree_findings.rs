@@ -12,19 +12,19 @@ use crate::wall_request::wall_request;
 use crate::watching::interruptible;
 
 #[pyclass(frozen, module = "lumencut._lumencut")]
-pub(crate) struct ToldByTree(pub lumencut::measure::tree_findings::TreeFindings);
+pub(crate) struct TreeFindings(pub lumencut::measure::tree_findings::TreeFindings);
 
 #[pyfunction]
 #[pyo3(signature = (volume, tree, step, fwhm=None, wall=None))]
 #[allow(clippy::needless_pass_by_value)]
-pub(crate) fn told_by_tree<'py>(
+pub(crate) fn tree_findings<'py>(
     py: Python<'py>,
     volume: VolumeArgument<'py>,
     tree: Vec<VesselArrays<'py>>,
     step: f64,
     fwhm: Option<f64>,
     wall: Option<[f64; 2]>,
-) -> PyResult<ToldByTree> {
+) -> PyResult<TreeFindings> {
     let borrowed = volume.borrow()?;
     let volume = volume.volume(&borrowed)?;
     let tree = tree.iter().map(vessel_of).collect::<PyResult<Vec<_>>>()?;
@@ -32,5 +32,5 @@ pub(crate) fn told_by_tree<'py>(
         let request = MeasureRequest { step, fwhm, wall: wall_request(wall), tree: &tree, stop };
         pool::install(|| measuring::tree_findings(&volume, &request))?.map_err(to_python)
     })
-    .map(ToldByTree)
+    .map(TreeFindings)
 }
