@@ -273,7 +273,7 @@ def broken():
     yield {"view": {**view, "camera": {**view["camera"], "direction": [0, 0, 0]}}}, "an invalid camera"
     finding = finding_part(measured())
     yield {"findings": [{**finding, "points": [[0, 0]]}]}, "no points"
-    yield {"findings": [{**finding, "points": [[0, 0, 0]]}]}, "a vessel that is none"
+    yield {"findings": [{**finding, "points": [[0, 0, 0]]}]}, "an invalid vessel"
     yield {"findings": [{**finding, "contours": []}]}, "without the contour"
     yield {"findings": [{**finding, "contours": [3]}]}, "a contour"
     yield {"findings": [{**finding, "marks": [["a", "b", False]]}]}, "a mark"

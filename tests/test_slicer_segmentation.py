@@ -135,7 +135,9 @@ def test_other_masks_of_a_part_are_placed_too_and_say_so(tmp_path, end):
     whole = Volume(labels.T, world_from_index=affine)
     assert_same_lines(tree, trace_mask(whole, volume))
     sizes = " × ".join(map(str, labels[cut].shape))
-    assert tree.notes[0].startswith(f"the mask covers {sizes} of the 34 × 30 × 44 voxels of the volume: placed")
+    assert tree.notes[0].startswith(
+        f"the mask covers {sizes} of the 34 × 30 × 44 voxels of the volume: placed"
+    )
     assert not any("placed" in note for note in trace_mask(whole, volume).notes)
 
 

@@ -70,9 +70,8 @@ def test_a_volume_that_does_not_show_the_vessel_changes_nothing(what):
     }[what]
     tree = trace_mask(mask, Volume(values))
     assert tree == trace_mask(mask)
-    assert "the centre and radius are accurate to about half a voxel (0.5 mm): the volume gives no better estimate there" in (
-        tree.notes
-    )
+    accuracy = "the centre and radius are accurate to about half a voxel (0.5 mm)"
+    assert f"{accuracy}: the volume gives no better estimate there" in tree.notes
 
 
 def test_vessels_that_meet_still_share_their_ends():

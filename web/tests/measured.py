@@ -22,7 +22,9 @@ def bounds(profile: Profile) -> list[str | None]:
     """What calcium or metal beside each section leaves open, in words."""
     both = zip(profile.diameter_calcium_excluded, profile.diameter_calcium_included, strict=True)
     return [
-        f"{low:.2f} mm if brighter material is excluded, {high:.2f} mm if it is included" if low == low else None
+        f"{low:.2f} mm if brighter material is excluded, {high:.2f} mm if it is included"
+        if low == low
+        else None
         for low, high in both
     ]
 

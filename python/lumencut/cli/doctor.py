@@ -15,13 +15,14 @@ from lumencut.cli.report import FAILED, busy, complain, say, verbose_option
 @click.option("--json", "as_json", is_flag=True, help="Print JSON.")
 @verbose_option
 def doctor(as_json: bool) -> None:
-    """Show the versions of all parts, the GPUs, the device that computes, whether the viewer's page is there
-    and isolated from other pages (so that it may use all cores), and which extras are installed.
+    """Show versions, GPUs, the device that computes, the installed extras, and the viewer's page.
+
+    The page must be isolated from other pages to use all cores.
 
     The CPU renders a small picture, and so does a GPU if there is one. Nothing is sent anywhere, and none of
     your files is named: you can put all of the output into a bug report. The exit code is 1 if there is a
     problem, and each problem has a line.
-    """  # noqa: D205 - the command line wraps the paragraph itself
+    """
     from lumencut.doctor import examined
 
     with busy("examining"):

@@ -51,10 +51,10 @@ def serve() -> NoReturn:
                     _become(order)
                 numbers[pid] = order["number"]
                 os.write(1, f"born {order['number']} {pid}\n".encode())
-        _tell_ended(numbers)
+        _report_ended(numbers)
 
 
-def _tell_ended(numbers: dict[int, int]) -> None:
+def _report_ended(numbers: dict[int, int]) -> None:
     while numbers:
         pid, status = os.waitpid(-1, os.WNOHANG)
         if pid == 0:

@@ -27,8 +27,8 @@ like_option = click.option(
     "--like",
     type=options.FILE,
     metavar="PICTURE.png|SESSION.mrk.json",
-    help="Render with the view, the settings and the labels of a .png that lumencut wrote, or of a session "
-    "that the viewer saved, whose vessels are shown if no CENTERLINES are given. Other options change it "
+    help="Render with the view, settings and labels of a .png that lumencut wrote, or of a session that the "
+    "viewer saved. Without CENTERLINES the vessels of the session are shown. Other options change it "
     "further: --view and --up turn it, --rotate, --tilt and --zoom start from it, --size keeps what is in "
     "view, --zoom-to fits it again. The picture does not store the choice of vessels: give --vessel and "
     "--exclude again.",

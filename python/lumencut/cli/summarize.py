@@ -24,8 +24,8 @@ def summarize(out: Path, second: Path | None, output: Path | None, plot: Path | 
     """Show how the measures of OUT, a folder that lumencut batch wrote, are distributed over its vessels.
 
     With SECOND, another run or reader of the same studies, show how both agree: the mean difference, its 95 %
-    confidence interval, and the limits of agreement, over the vessels of the same name or number, and over
-    sections at most 1 mm apart. --plot needs matplotlib.
+    confidence interval, and the limits of agreement. Vessels match by name or number, sections if they are at
+    most 1 mm apart. --plot needs matplotlib.
 
     \b
     lumencut summarize results
@@ -33,17 +33,17 @@ def summarize(out: Path, second: Path | None, output: Path | None, plot: Path | 
     """  # noqa: D301 - click needs the control character itself
     _check(second, output, plot)
     if second is None:
-        _tell_states(out)
+        _print_states(out)
         from lumencut.cohort.distributions import COLUMNS, distributions
 
-        _tell([COLUMNS, *(one.row for one in distributions(out))], output)
+        _print([COLUMNS, *(one.row for one in distributions(out))], output)
         return
     from lumencut.cohort import agreement
 
     found = agreement.agreements(out, second)
     if not found:
         raise click.UsageError(f"{out} and {second} have no vessel in common; name two runs of one cohort")
-    _tell([agreement.COLUMNS, *(one.row for one in found)], output)
+    _print([agreement.COLUMNS, *(one.row for one in found)], output)
     if plot is not None:
         from lumencut.cohort.agreement_plot import write_plot
 
@@ -64,7 +64,7 @@ def _check(second: Path | None, output: Path | None, plot: Path | None) -> None:
         check_folder(path)
 
 
-def _tell_states(out: Path) -> None:
+def _print_states(out: Path) -> None:
     from lumencut.cohort.distributions import states_of
 
     states, reasons = states_of(out)
@@ -73,7 +73,7 @@ def _tell_states(out: Path) -> None:
         say(f"  {count} × {reason}")
 
 
-def _tell(rows: Sequence[Sequence[str]], output: Path | None) -> None:
+def _print(rows: Sequence[Sequence[str]], output: Path | None) -> None:
     """Print rows as columns of equal width, and write them if requested."""
     widths = [max(len(row[n]) for row in rows) for n in range(len(rows[0]))]
     for row in rows:

@@ -103,7 +103,7 @@ def untangled(**given: Any) -> None:
     output = chosen["output"]
     with busy(f"writing {output.name}"):
         made.save(output, annotate=chosen["annotate"], **object_options(output, chosen))
-    _tell(str(output), made)
+    _print(str(output), made)
 
 
 def _renderer(chosen: dict[str, Any], settings: Settings) -> Renderer:
@@ -124,7 +124,7 @@ def _renderer(chosen: dict[str, Any], settings: Settings) -> Renderer:
     return renderer if len(wanted) == len(tree) else renderer.with_tree(tree.select(*wanted))
 
 
-def _tell(output: str, made: UntangledTree) -> None:
+def _print(output: str, made: UntangledTree) -> None:
     """Report what was made, and warn of vessels that could not be separated."""
     import numpy as np
 

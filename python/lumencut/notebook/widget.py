@@ -188,9 +188,9 @@ class VesselWidget(anywidget.AnyWidget):
         with self.hold_sync(), self._quietly():
             self.picture = picture
             self._straightened, self._section = (small.get(name, b"") for name in _LINKED)
-            self._tell_traits()
+            self._update_traits()
 
-    def _tell_traits(self) -> None:
+    def _update_traits(self) -> None:
         """Update the traits from the view."""
         view = self._view
         self.camera, self.settings, self.tree = view.camera, view.settings, view.scene.tree
@@ -239,7 +239,7 @@ class VesselWidget(anywidget.AnyWidget):
         pictures = self._moving_pictures(taken.view)
         self._view = taken.view
         with self._quietly(), self.hold_sync():
-            self._tell_traits()
+            self._update_traits()
         answer["pictures"] = list(pictures)
         return list(pictures.values())
 

@@ -168,7 +168,7 @@ def told_vessel(numbers: Given, finding: Given, *, has_name: bool) -> ToldVessel
     try:
         vessel = Vessel(finding.points("points"), name=name or None)
     except VesselTreeError as error:
-        raise refused(f"a vessel that is none ({error.found})", error.expected) from error
+        raise refused(f"an invalid vessel ({error.found})", error.expected) from error
     graded, words = numbers.object_or_none("stenosis"), finding.text_or_none("words")
     stenoses: tuple[Stenosis, ...] = ()
     if graded is not None:
