@@ -42,7 +42,8 @@ def push(
 
     FILES are files, folders or zip archives; ADDRESS names a DICOMweb server: https://HOST/ROOT.
     Sent objects cannot be removed from here. Results belong to the study of their scan, so push rejects
-    studies that the PACS does not have. It also rejects objects whose PatientID differs from that of their study.
+    studies that the PACS does not have. It also rejects objects whose PatientID differs from that of their
+    study.
 
     Each object that the PACS rejects is reported with the reason; afterwards push asks for all others. The
     exit code is 3 if an object is missing in the PACS.
