@@ -383,7 +383,7 @@ class Tracer:
         vessels: Sequence[npt.NDArray[np.float64]],
         stoppers: Sequence[tuple[tuple[float, ...], float]],
         bridge: bool,
-        told: Callable[[int, int], object] | None = None,
+        callback: Callable[[int, int], object] | None = None,
     ) -> list[
         tuple[
             npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.bool_]
@@ -401,7 +401,7 @@ class KeptProfiles:
         step: float,
         fwhm: float | None = None,
         wall: tuple[float, float] | None = None,
-        told: Callable[[int, int], object] | None = None,
+        callback: Callable[[int, int], object] | None = None,
     ) -> Profile: ...
 
 @final
@@ -498,7 +498,7 @@ class Renderer:
         camera: Any,
         settings: Settings,
         images: list[str] | None = None,
-        told: Callable[[int, int], object] | None = None,
+        callback: Callable[[int, int], object] | None = None,
         method: tuple[Any, ...] | None = None,
     ) -> dict[str, Any]: ...
     def strength(
@@ -556,7 +556,7 @@ def fitted_turn(
 def find_vessels(
     volume: Any,
     smallest_radius: float,
-    told: Callable[[int, int], object] | None = None,
+    callback: Callable[[int, int], object] | None = None,
 ) -> _FoundParts: ...
 def find_window(name: str, volume: Any, vessels: list[_Arrays] | None) -> tuple[float, float]: ...
 def fits_nowhere(points: npt.NDArray[np.float64], volume: Any) -> bool: ...
@@ -575,7 +575,7 @@ def measure(
     fwhm: float | None = None,
     tree: list[_Arrays] | None = None,
     wall: tuple[float, float] | None = None,
-    told: TreeFindings | None = None,
+    estimates: TreeFindings | None = None,
     progress: Callable[[int, int], object] | None = None,
 ) -> Profile: ...
 def measured_radii(
@@ -584,7 +584,7 @@ def measured_radii(
     step: float,
     fwhm: float | None = None,
     wall: tuple[float, float] | None = None,
-    told: Callable[[int, int], object] | None = None,
+    callback: Callable[[int, int], object] | None = None,
 ) -> list[tuple[npt.NDArray[np.float64] | None, int, int]]: ...
 def meant_place(vessel: _Arrays, point: tuple[float, ...], pixel_spacing: float) -> tuple[float, bool]: ...
 def not_measured_stretches(profile: Profile) -> list[str]: ...
@@ -643,7 +643,7 @@ def trace_from(
     volume: Any,
     seed: tuple[float, float, float],
     smallest_radius: float,
-    told: Callable[[int, int], object] | None = None,
+    callback: Callable[[int, int], object] | None = None,
 ) -> _FoundParts: ...
 def place_mask(
     mask: tuple[list[int], list[list[float]]], volume: tuple[list[int], list[list[float]]], always: bool
@@ -653,7 +653,7 @@ def trace_mask(
     volume: Any | None,
     labels: list[int] | None,
     lengths: tuple[float, float, float],
-    told: Callable[[int, int], object] | None = None,
+    callback: Callable[[int, int], object] | None = None,
 ) -> _TracedMask: ...
 def vessels_csv(measured: list[_MeasuredParts]) -> str: ...
 def vessels_json(options: Mapping[str, Any], measured: list[_MeasuredParts]) -> str: ...

@@ -52,7 +52,7 @@ impl CenterlineFile {
     }
 
     fn parted_doubts<'py>(&self, py: Python<'py>) -> PyResult<Vec<Doubt<'py>>> {
-        told(py, py.detach(|| parted_doubt(&self.lines)).into_iter().collect())
+        worded(py, py.detach(|| parted_doubt(&self.lines)).into_iter().collect())
     }
 
     /// `(vessels, notes)`: each vessel `(points (n, 3), radius (n,) or None, name or None)` in mm in the file's space, for
@@ -74,12 +74,12 @@ impl CenterlineFile {
 /// A doubt about a line: vessel index, the other vessel if two lie side by side, finding, and mend.
 type Doubt<'py> = (usize, Option<usize>, String, Bound<'py, PyAny>);
 
-fn told<'py>(py: Python<'py>, doubts: Vec<LineDoubt>) -> PyResult<Vec<Doubt<'py>>> {
-    let told = |doubt: LineDoubt| {
+fn worded<'py>(py: Python<'py>, doubts: Vec<LineDoubt>) -> PyResult<Vec<Doubt<'py>>> {
+    let worded = |doubt: LineDoubt| {
         let advice = if doubt.mend.is_some() { "" } else { doubt.advice };
         Ok((doubt.vessel, doubt.other, doubt.found, advised(py, advice, doubt.mend.as_ref())?))
     };
-    doubts.into_iter().map(told).collect()
+    doubts.into_iter().map(worded).collect()
 }
 
 /// Points (n, 3), radii (n,), and name.
@@ -107,7 +107,7 @@ pub(crate) fn line_doubts<'py>(
         doubts.extend(if beside { beside_doubts_of(&lines) } else { Vec::new() });
         doubts
     });
-    told(py, doubts)
+    worded(py, doubts)
 }
 
 pub(crate) fn raised(error: Error) -> PyErr {

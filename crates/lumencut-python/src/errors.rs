@@ -49,7 +49,7 @@ pub(crate) fn advised<'py>(
     mended_by: Option<&Mend>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let mends: Vec<_> = mended_by.iter().map(|mend| (mend.name(), mend.values())).collect();
-    py.import("lumencut.mends")?.getattr("told")?.call1((advice, mends))
+    py.import("lumencut.mends")?.getattr("advised")?.call1((advice, mends))
 }
 
 pub(crate) fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {

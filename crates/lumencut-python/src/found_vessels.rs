@@ -13,7 +13,7 @@ use pyo3::prelude::*;
 use crate::errors::to_python;
 use crate::pool;
 use crate::volume::VolumeArgument;
-use crate::watching::{SHARES, Watched, interruptible};
+use crate::watching::{Reporter, SHARES, interruptible};
 
 /// Points (n, 3), radii (n,), confidence (n,), and the reason for doubt (may be empty).
 type FoundArrays<'py> =
@@ -23,15 +23,15 @@ type FoundArrays<'py> =
 type FoundParts<'py> = (Vec<FoundArrays<'py>>, Vec<Vec<usize>>, Vec<String>);
 
 #[pyfunction]
-#[pyo3(signature = (volume, smallest_radius, told=None))]
+#[pyo3(signature = (volume, smallest_radius, callback=None))]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn find_vessels<'py>(
     py: Python<'py>,
     volume: VolumeArgument<'py>,
     smallest_radius: f64,
-    told: Option<Py<PyAny>>,
+    callback: Option<Py<PyAny>>,
 ) -> PyResult<FoundParts<'py>> {
-    watched(py, &volume, told.as_ref(), |volume, stop, progress| {
+    searching(py, &volume, callback.as_ref(), |volume, stop, progress| {
         let request = FindRequest { smallest_radius, stop, progress: Some(progress) };
         found_vessels::find_vessels(volume, &request)
     })
@@ -39,37 +39,37 @@ pub(crate) fn find_vessels<'py>(
 
 /// The vessels connected to a seed (mm, LPS).
 #[pyfunction]
-#[pyo3(signature = (volume, seed, smallest_radius, told=None))]
+#[pyo3(signature = (volume, seed, smallest_radius, callback=None))]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn trace_from<'py>(
     py: Python<'py>,
     volume: VolumeArgument<'py>,
     seed: [f64; 3],
     smallest_radius: f64,
-    told: Option<Py<PyAny>>,
+    callback: Option<Py<PyAny>>,
 ) -> PyResult<FoundParts<'py>> {
-    watched(py, &volume, told.as_ref(), |volume, stop, progress| {
+    searching(py, &volume, callback.as_ref(), |volume, stop, progress| {
         let request = FindRequest { smallest_radius, stop, progress: Some(progress) };
         found_vessels::trace_from(volume, DVec3::from_array(seed), &request)
     })
 }
 
-/// Runs a search that reports progress to `told` and stops at Ctrl-C.
-fn watched<'py>(
+/// Runs a search that reports progress to `callback` and stops at Ctrl-C.
+fn searching<'py>(
     py: Python<'py>,
     volume: &VolumeArgument<'py>,
-    told: Option<&Py<PyAny>>,
+    callback: Option<&Py<PyAny>>,
     find: impl FnOnce(&Volume, Stop, &Progress) -> Result<FoundTree> + Send,
 ) -> PyResult<FoundParts<'py>> {
     let borrowed = volume.borrow()?;
     let volume = volume.volume(&borrowed)?;
     let progress = Progress::default();
-    let watched = told.map(|told| Watched { progress: &progress, told });
-    let tree = interruptible(py, watched.as_ref(), |stop| {
+    let reporter = callback.map(|callback| Reporter { progress: &progress, callback });
+    let tree = interruptible(py, reporter.as_ref(), |stop| {
         pool::install(|| find(&volume, stop, &progress))?.map_err(to_python)
     })?;
-    if let Some(watched) = watched {
-        watched.tell(py, SHARES)?;
+    if let Some(reporter) = reporter {
+        reporter.report(py, SHARES)?;
     }
     let parts = sure_parts(&tree);
     let vessels = tree.vessels.into_iter().map(|vessel| arrays(py, vessel)).collect();

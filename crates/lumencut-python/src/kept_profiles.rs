@@ -14,7 +14,7 @@ use crate::pool;
 use crate::tree::{VesselArrays, vessel as vessel_of};
 use crate::volume::VolumeArgument;
 use crate::wall_request::wall_request;
-use crate::watching::told_while;
+use crate::watching::reporting;
 
 /// The profiles of one volume and tree.
 #[pyclass(frozen, module = "lumencut._lumencut")]
@@ -27,8 +27,8 @@ impl KeptProfiles {
         Self(Mutex::new(Core::default()))
     }
 
-    /// The profile of a vessel, points (n, 3) and radii (n,), measured if needed; `told` as in [`crate::measuring::measure`].
-    #[pyo3(signature = (volume, tree, measured, step, fwhm=None, wall=None, told=None))]
+    /// The profile of a vessel, points (n, 3) and radii (n,), measured if needed; `callback` as in [`crate::measuring::measure`].
+    #[pyo3(signature = (volume, tree, measured, step, fwhm=None, wall=None, callback=None))]
     #[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)]
     fn profile<'py>(
         &self,
@@ -39,14 +39,14 @@ impl KeptProfiles {
         step: f64,
         fwhm: Option<f64>,
         wall: Option<[f64; 2]>,
-        told: Option<Py<PyAny>>,
+        callback: Option<Py<PyAny>>,
     ) -> PyResult<Profile> {
         let borrowed = volume.borrow()?;
         let scan = volume.scan();
         let volume = &volume.volume(&borrowed)?;
         let tree = &tree.iter().map(vessel_of).collect::<PyResult<Vec<_>>>()?;
         let vessel = &vessel_of(&measured)?;
-        told_while(py, told.as_ref(), |stop, progress| {
+        reporting(py, callback.as_ref(), |stop, progress| {
             if let Some(progress) = progress {
                 progress.expect_views(1);
             }

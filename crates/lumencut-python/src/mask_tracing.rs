@@ -17,7 +17,7 @@ use crate::errors::to_python;
 use crate::pool;
 use crate::tree::points_of;
 use crate::volume::VolumeArgument;
-use crate::watching::{SHARES, Watched, interruptible};
+use crate::watching::{Reporter, SHARES, interruptible};
 
 /// Points (n, 3), radii (n,), confidence (n,) or (0,), label, and whether it bridges a gap.
 type TracedArrays<'py> =
@@ -65,7 +65,7 @@ pub(crate) fn place_mask(mask: GridParts, volume: GridParts, always: bool) -> Py
 
 /// The vessels of a mask, refined by a volume's grey values if given, with details by name.
 #[pyfunction]
-#[pyo3(signature = (mask, volume, labels, lengths, told=None))]
+#[pyo3(signature = (mask, volume, labels, lengths, callback=None))]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn trace_mask<'py>(
     py: Python<'py>,
@@ -73,7 +73,7 @@ pub(crate) fn trace_mask<'py>(
     volume: Option<VolumeArgument<'py>>,
     labels: Option<Vec<i64>>,
     lengths: Lengths,
-    told: Option<Py<PyAny>>,
+    callback: Option<Py<PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let borrowed = mask.borrow()?;
     let mask = mask.volume(&borrowed)?;
@@ -82,8 +82,8 @@ pub(crate) fn trace_mask<'py>(
     let volume = volume.transpose()?;
     let voxels = volume.as_ref().map(Voxels::new);
     let progress = Progress::default();
-    let watched = told.as_ref().map(|told| Watched { progress: &progress, told });
-    let traced = interruptible(py, watched.as_ref(), |stop| {
+    let reporter = callback.as_ref().map(|callback| Reporter { progress: &progress, callback });
+    let traced = interruptible(py, reporter.as_ref(), |stop| {
         let (labels, progress) = (labels.as_deref(), Some(&progress));
         let (parent_radii, step, bridge) = lengths;
         let grey_values = voxels.as_ref().map(|voxels| GreyValues { voxels, stop });
@@ -94,8 +94,8 @@ pub(crate) fn trace_mask<'py>(
         let request = MaskRequest { labels, parent_radii, step, bridge, refine, stop, progress };
         pool::install(|| core_trace_mask(&mask, &request))?.map_err(to_python)
     })?;
-    if let Some(watched) = watched {
-        watched.tell(py, SHARES)?;
+    if let Some(reporter) = reporter {
+        reporter.report(py, SHARES)?;
     }
     let notes = notes(&traced, &mask, volume.is_some());
     let vessels = traced.vessels.into_iter().map(|vessel| -> TracedArrays<'py> {

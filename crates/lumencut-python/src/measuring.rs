@@ -32,7 +32,7 @@ use crate::tree::{VesselArrays, vessel as vessel_of};
 use crate::tree_findings::TreeFindings;
 use crate::volume::VolumeArgument;
 use crate::wall_request::wall_request;
-use crate::watching::told_while;
+use crate::watching::reporting;
 
 /// Adds the flags (name, bit, word, meaning, colours on paper and screen), methods with labels, and defaults.
 pub(crate) fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
@@ -59,10 +59,10 @@ fn defaults() -> [(&'static str, f64); 4] {
 #[pyclass(frozen, module = "lumencut._lumencut")]
 pub struct Profile(pub Arc<profile::Profile>, pub ScanDetails);
 
-/// The profile of a vessel, points (n, 3) and radii (n,), in its tree. `told` are earlier tree-wide estimates; without a tree the
+/// The profile of a vessel, points (n, 3) and radii (n,), in its tree. `estimates` are earlier tree-wide estimates; without a tree the
 /// point spread is the given width (mm) or estimated from the vessel. `progress` receives the share done.
 #[pyfunction]
-#[pyo3(signature = (volume, measured, step, fwhm=None, tree=None, wall=None, told=None, progress=None))]
+#[pyo3(signature = (volume, measured, step, fwhm=None, tree=None, wall=None, estimates=None, progress=None))]
 #[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)]
 pub(crate) fn measure<'py>(
     py: Python<'py>,
@@ -72,7 +72,7 @@ pub(crate) fn measure<'py>(
     fwhm: Option<f64>,
     tree: Option<Vec<VesselArrays<'py>>>,
     wall: Option<[f64; 2]>,
-    told: Option<Py<TreeFindings>>,
+    estimates: Option<Py<TreeFindings>>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Profile> {
     let borrowed = volume.borrow()?;
@@ -81,11 +81,13 @@ pub(crate) fn measure<'py>(
     let others = tree.iter().flatten().map(vessel_of).collect::<PyResult<Vec<_>>>()?;
     let vessel = vessel_of(&measured)?;
     let wall = wall_request(wall);
-    let profile = told_while(py, progress.as_ref(), |stop, progress| {
+    let profile = reporting(py, progress.as_ref(), |stop, progress| {
         let measured = |stop: Stop<'_>| {
             let request = MeasureRequest { step, fwhm, wall, tree: &others, stop };
-            match &told {
-                Some(told) => measuring::measure_with(told.get().0.clone(), &volume, &vessel, &request),
+            match &estimates {
+                Some(estimates) => {
+                    measuring::measure_with(estimates.get().0.clone(), &volume, &vessel, &request)
+                }
                 None => measuring::measure(&volume, &vessel, &request),
             }
         };
@@ -339,9 +341,9 @@ pub(crate) fn cross_section<'py>(
 
 type RadiusParts<'py> = (Option<Bound<'py, PyArray1<f64>>>, usize, usize);
 
-/// Measured radii of a tree's vessels, points (n, 3) and radii (n,); `told` as in [`measure`].
+/// Measured radii of a tree's vessels, points (n, 3) and radii (n,); `callback` as `progress` in [`measure`].
 #[pyfunction]
-#[pyo3(signature = (volume, vessels, step, fwhm=None, wall=None, told=None))]
+#[pyo3(signature = (volume, vessels, step, fwhm=None, wall=None, callback=None))]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn measured_radii<'py>(
     py: Python<'py>,
@@ -350,12 +352,12 @@ pub(crate) fn measured_radii<'py>(
     step: f64,
     fwhm: Option<f64>,
     wall: Option<[f64; 2]>,
-    told: Option<Py<PyAny>>,
+    callback: Option<Py<PyAny>>,
 ) -> PyResult<Vec<RadiusParts<'py>>> {
     let borrowed = volume.borrow()?;
     let volume = volume.volume(&borrowed)?;
     let tree = vessels.iter().map(vessel_of).collect::<PyResult<Vec<_>>>()?;
-    let found = told_while(py, told.as_ref(), |stop, progress| {
+    let found = reporting(py, callback.as_ref(), |stop, progress| {
         let request = MeasureRequest { step, fwhm, wall: wall_request(wall), tree: &tree, stop };
         let radii = || radii::measured_radii(&volume, &request, progress);
         pool::install(radii)?.map_err(to_python)

@@ -33,7 +33,7 @@ use crate::pool;
 use crate::settings::Checked;
 use crate::tree::{VesselArrays, tree};
 use crate::volume::VolumeArgument;
-use crate::watching::{SHARES, Watched, interruptible};
+use crate::watching::{Reporter, SHARES, interruptible};
 
 /// Renders views of a tree or a volume. Renderers of one volume share the device and what is known about the volume.
 #[pyclass(frozen, module = "lumencut._lumencut")]
@@ -119,8 +119,8 @@ impl Renderer {
     }
 
     /// The requested buffers of a view: of the cut surface if there are vessels, of the picture if there is a volume. `method`
-    /// defaults to the cut surface. `told` receives progress in `SHARES`.
-    #[pyo3(signature = (volume, camera, settings, images=None, told=None, method=None))]
+    /// defaults to the cut surface. `callback` receives progress in `SHARES`.
+    #[pyo3(signature = (volume, camera, settings, images=None, callback=None, method=None))]
     #[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)]
     fn render<'py>(
         &self,
@@ -129,7 +129,7 @@ impl Renderer {
         camera: CameraArgument,
         settings: &Bound<'py, Checked>,
         images: Option<Vec<String>>,
-        told: Option<Py<PyAny>>,
+        callback: Option<Py<PyAny>>,
         method: Option<MethodArgument>,
     ) -> PyResult<Bound<'py, PyDict>> {
         let (camera, Checked(settings)) = (camera.camera()?, settings.get());
@@ -144,9 +144,9 @@ impl Renderer {
         };
         let scene = Scene { volume, tree: self.tree.clone() };
         let progress = Progress::default();
-        let watched = told.as_ref().map(|told| Watched { progress: &progress, told });
-        let (frame, given_up) = interruptible(py, watched.as_ref(), |stop| {
-            let progress = watched.as_ref().map(|watched| watched.progress);
+        let reporter = callback.as_ref().map(|callback| Reporter { progress: &progress, callback });
+        let (frame, given_up) = interruptible(py, reporter.as_ref(), |stop| {
+            let progress = reporter.as_ref().map(|reporter| reporter.progress);
             let request = Request { camera: &camera, settings, images, stop, progress };
             // Locked outside the pool: a pool thread waiting for part of this view could start another view and wait for its own
             // lock. An interrupted rendering leaves nothing that the next does not overwrite.
@@ -155,8 +155,8 @@ impl Renderer {
             pool::install(|| pollster::block_on(backend.render_by(method, &scene, &request)))?
                 .map_err(to_python)
         })?;
-        if let Some(watched) = watched {
-            watched.tell(py, SHARES)?;
+        if let Some(reporter) = reporter {
+            reporter.report(py, SHARES)?;
         }
         say_that_the_cpu_goes_on(py, given_up)?;
         buffers(py, frame)

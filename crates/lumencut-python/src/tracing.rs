@@ -15,7 +15,7 @@ use crate::errors::to_python;
 use crate::pool;
 use crate::tree::points_of;
 use crate::volume::VolumeArgument;
-use crate::watching::{SHARES, Watched, interruptible};
+use crate::watching::{Reporter, SHARES, interruptible};
 
 /// Points (n, 3), radii (n,), confidence (n,), and bridged points (n,).
 type TracedArrays<'py> = (
@@ -36,9 +36,9 @@ impl Tracer {
         Self(Mutex::new(Core::default()))
     }
 
-    /// Centerlines through the points (n, 3) of each vessel, around stoppers `(position, radius)`. `told` receives the share
+    /// Centerlines through the points (n, 3) of each vessel, around stoppers `(position, radius)`. `callback` receives the share
     /// done.
-    #[pyo3(signature = (volume, vessels, stoppers, bridge, told=None))]
+    #[pyo3(signature = (volume, vessels, stoppers, bridge, callback=None))]
     #[allow(clippy::needless_pass_by_value)]
     fn trace<'py>(
         &self,
@@ -47,7 +47,7 @@ impl Tracer {
         vessels: Vec<PyReadonlyArray2<'py, f64>>,
         stoppers: Vec<([f64; 3], f64)>,
         bridge: bool,
-        told: Option<Py<PyAny>>,
+        callback: Option<Py<PyAny>>,
     ) -> PyResult<Vec<TracedArrays<'py>>> {
         let borrowed = volume.borrow()?;
         let volume = volume.volume(&borrowed)?;
@@ -58,15 +58,15 @@ impl Tracer {
             .collect();
         let clicks = Clicks { vessels, stoppers, bridge, beside: Vec::new() };
         let progress = Progress::default();
-        let watched = told.as_ref().map(|told| Watched { progress: &progress, told });
-        let traced = interruptible(py, watched.as_ref(), |stop| {
-            let progress = watched.as_ref().map(|watched| watched.progress);
+        let reporter = callback.as_ref().map(|callback| Reporter { progress: &progress, callback });
+        let traced = interruptible(py, reporter.as_ref(), |stop| {
+            let progress = reporter.as_ref().map(|reporter| reporter.progress);
             let mut tracer = self.0.lock().unwrap_or_else(PoisonError::into_inner);
             let tracer = &mut *tracer;
             pool::install(|| tracer.trace(&volume, &clicks, stop, progress))?.map_err(to_python)
         })?;
-        if let Some(watched) = watched {
-            watched.tell(py, SHARES)?;
+        if let Some(reporter) = reporter {
+            reporter.report(py, SHARES)?;
         }
         traced.into_iter().map(|traced| arrays(py, traced)).collect()
     }

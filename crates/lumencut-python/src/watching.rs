@@ -16,26 +16,26 @@ const SIGNAL_PERIOD: Duration = Duration::from_millis(50);
 
 pub(crate) const SHARES: u32 = 1000;
 
-pub(crate) struct Watched<'a> {
+pub(crate) struct Reporter<'a> {
     pub progress: &'a Progress,
-    pub told: &'a Py<PyAny>,
+    pub callback: &'a Py<PyAny>,
 }
 
-impl Watched<'_> {
+impl Reporter<'_> {
     /// Reports progress in `SHARES`.
-    pub(crate) fn tell(&self, py: Python<'_>, done: u32) -> PyResult<()> {
-        self.told.call1(py, (done, SHARES)).map(drop)
+    pub(crate) fn report(&self, py: Python<'_>, done: u32) -> PyResult<()> {
+        self.callback.call1(py, (done, SHARES)).map(drop)
     }
 
-    fn tell_so_far(&self, py: Python<'_>) -> PyResult<()> {
-        self.tell(py, (self.progress.share() * f64::from(SHARES)) as u32)
+    fn report_so_far(&self, py: Python<'_>) -> PyResult<()> {
+        self.report(py, (self.progress.share() * f64::from(SHARES)) as u32)
     }
 }
 
 /// Runs `work` on another thread without the GIL; this thread handles signals and progress.
 pub(crate) fn interruptible<T: Send>(
     py: Python<'_>,
-    watched: Option<&Watched<'_>>,
+    reporter: Option<&Reporter<'_>>,
     work: impl FnOnce(Stop<'_>) -> PyResult<T> + Send,
 ) -> PyResult<T> {
     let stopped = AtomicBool::new(false);
@@ -55,7 +55,7 @@ pub(crate) fn interruptible<T: Send>(
                 if finished.recv_timeout(SIGNAL_PERIOD).is_err() {
                     signal = Python::attach(|py| {
                         py.check_signals()?;
-                        watched.map_or(Ok(()), |watched| watched.tell_so_far(py))
+                        reporter.map_or(Ok(()), |reporter| reporter.report_so_far(py))
                     });
                 } else {
                     break;
@@ -80,17 +80,18 @@ pub(crate) fn computed<T: Send>(
     interruptible(py, None, |stop| pool::install(|| work(stop))?.map_err(to_python))
 }
 
-/// As [`interruptible`], with progress to `told` until the end.
-pub(crate) fn told_while<T: Send>(
+/// As [`interruptible`], with progress to `callback` until the end.
+pub(crate) fn reporting<T: Send>(
     py: Python<'_>,
-    told: Option<&Py<PyAny>>,
+    callback: Option<&Py<PyAny>>,
     work: impl FnOnce(Stop<'_>, Option<&Progress>) -> PyResult<T> + Send,
 ) -> PyResult<T> {
     let progress = Progress::default();
-    let watched = told.map(|told| Watched { progress: &progress, told });
-    let done = interruptible(py, watched.as_ref(), |stop| work(stop, told.is_some().then_some(&progress)))?;
-    if let Some(watched) = watched {
-        watched.tell(py, SHARES)?;
+    let reporter = callback.map(|callback| Reporter { progress: &progress, callback });
+    let done =
+        interruptible(py, reporter.as_ref(), |stop| work(stop, callback.is_some().then_some(&progress)))?;
+    if let Some(reporter) = reporter {
+        reporter.report(py, SHARES)?;
     }
     Ok(done)
 }
