@@ -51,7 +51,6 @@ pub(crate) struct Span {
 /// `Projected` of `math/levels.wgsl`, written and read on the GPU only.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
-#[allow(missing_docs)]
 pub(crate) struct Projected {
     pub point: [f32; 3],
     pub radius: f32,
@@ -66,7 +65,6 @@ pub(crate) struct Projected {
 /// `Slot` of `math/pieces.wgsl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
-#[allow(missing_docs)]
 pub(crate) struct Slot {
     pub start: [f32; 2],
     pub next: [f32; 2],
@@ -102,7 +100,6 @@ impl Slot {
 /// `NodeBox` of `math/hierarchy.wgsl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
-#[allow(missing_docs)]
 pub(crate) struct NodeBox {
     pub low: [f32; 2],
     pub high: [f32; 2],

@@ -58,8 +58,8 @@ impl Rule {
     #[inline(always)]
     pub(crate) fn is_lumen<const LUMEN_FIRST: bool>(&self, key: f32, d: f32, r: f32) -> bool {
         // The keys of a tier lie within half a lift around it, and 0.5 mm away from its borders.
-        let is_beside = (key >= -1.5 * self.lift) | (self.is_first(key) & (key >= -3.5 * self.lift));
-        if LUMEN_FIRST { !is_beside } else { d - r <= 0.0 }
+        let is_outside_lumen = (key >= -1.5 * self.lift) | (self.is_first(key) & (key >= -3.5 * self.lift));
+        if LUMEN_FIRST { !is_outside_lumen } else { d - r <= 0.0 }
     }
 
     /// Whether a key under *lumen first* belongs to the lumen or wall of a chosen vessel.

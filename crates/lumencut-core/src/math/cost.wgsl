@@ -21,8 +21,8 @@ fn beyond_wall(key: f32, d: f32, r: f32) -> f32 {
 }
 
 fn is_lumen(key: f32, d: f32, r: f32) -> bool {
-    let is_beside = key >= -1.5 * parameters.lift || (is_first(key) && key >= -3.5 * parameters.lift);
-    return select(d - r <= 0.0, !is_beside, LUMEN_FIRST);
+    let is_outside_lumen = key >= -1.5 * parameters.lift || (is_first(key) && key >= -3.5 * parameters.lift);
+    return select(d - r <= 0.0, !is_outside_lumen, LUMEN_FIRST);
 }
 
 fn is_first(key: f32) -> bool {

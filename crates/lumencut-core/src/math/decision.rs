@@ -118,7 +118,6 @@ impl Gathered {
 pub(crate) struct Part<'a> {
     pub area: &'a Area,
     pub x: &'a [f32; PART_PIXELS],
-    #[allow(missing_docs)]
     pub y: &'a [f32; PART_PIXELS],
     pub vessel: &'a [i32; PART_PIXELS],
     pub arc_length: &'a [f32; PART_PIXELS],

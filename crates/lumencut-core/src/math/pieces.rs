@@ -17,19 +17,15 @@ use super::tile::Tile;
 pub(crate) struct Bundle {
     /// The slot's point, view x and y (mm).
     pub x: [f32; FAN],
-    #[allow(missing_docs)]
     pub y: [f32; FAN],
     /// The next point; the same point in a slot without stripe.
     pub next_x: [f32; FAN],
-    #[allow(missing_docs)]
     pub next_y: [f32; FAN],
     /// e: the edge to the next point, zero where it is missing or collinear with the view.
     pub edge_x: [f32; FAN],
-    #[allow(missing_docs)]
     pub edge_y: [f32; FAN],
     /// f: the edge before the point, zero where it is missing.
     pub before_x: [f32; FAN],
-    #[allow(missing_docs)]
     pub before_y: [f32; FAN],
     /// 1 / |e|, zero with e.
     pub inverse_length: [f32; FAN],

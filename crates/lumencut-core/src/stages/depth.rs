@@ -132,7 +132,6 @@ pub const CHOSEN_GAP: f32 = -1.0;
 
 /// The images that the stage writes. `sheet` is empty if nothing reads it.
 #[derive(Debug)]
-#[allow(missing_docs)]
 pub struct DepthImages<'a> {
     pub depth: &'a mut [f32],
     pub vessel: &'a mut [i32],

@@ -86,9 +86,9 @@ fn add_to_sheets(tile: Tile, level: u32) {
                     let found = decide(level, winner_key[n][c], piece, vessel, q);
                     // Lumen is what every blended level shows as lumen.
                     let radius = abs(sheets[n][c].z) + weight[c] * abs(found.sheet_radius);
-                    let is_beside = sheets[n][c].z < 0.0 || found.sheet_radius < 0.0;
+                    let is_outside_lumen = sheets[n][c].z < 0.0 || found.sheet_radius < 0.0;
                     let slope = sheets[n][c].xy + weight[c] * found.slope;
-                    sheets[n][c] = vec4f(slope, select(radius, -radius, is_beside), sheets[n][c].w);
+                    sheets[n][c] = vec4f(slope, select(radius, -radius, is_outside_lumen), sheets[n][c].w);
                     let counted = u32(vessel) + 1u;
                     if found.is_first && (finer_vessel[n][c] == 0u || sheets[n][c].w == CHOSEN_GAP) {
                         sheets[n][c].w = CHOSEN_GAP;

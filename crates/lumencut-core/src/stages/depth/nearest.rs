@@ -71,8 +71,9 @@ impl BlendedSheets {
                 *x += weight[l] * found.slope[0][l];
                 *y += weight[l] * found.slope[1][l];
                 // Lumen is what every blended level shows as lumen.
-                let (is_beside, part) = ((*radius < 0.0) | !found.is_lumen[l], weight[l] * found.radius[l]);
-                *radius = if is_beside { -(radius.abs() + part) } else { *radius + part };
+                let (is_outside_lumen, part) =
+                    ((*radius < 0.0) | !found.is_lumen[l], weight[l] * found.radius[l]);
+                *radius = if is_outside_lumen { -(radius.abs() + part) } else { *radius + part };
                 let (vessel, s) = self.finer[l];
                 let is_first = found.is_first[l] & ((vessel < 0) | (*gap < 0.0));
                 if is_first {
