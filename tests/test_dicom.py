@@ -201,7 +201,8 @@ def test_phases(tmp_path):
     for k in range(5):
         save(slice_of(coded(), AXIAL, k, TriggerTime="400"), folder / f"late{k}.dcm")
     refused(
-        folder, r"10 slices at 5 positions.*TriggerTime differs \(0 in 5 slices, 400 in 5 slices\): mixed phases"
+        folder,
+        r"10 slices at 5 positions.*TriggerTime differs \(0 in 5 slices, 400 in 5 slices\): mixed phases",
     )
 
 

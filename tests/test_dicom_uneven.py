@@ -153,7 +153,9 @@ def test_holes_stay_refused_unless_they_may_be_filled(tmp_path):
     gaps = [4.0] * 6 + [25.0] + [3.1] * 6
     folder = written(tmp_path / "series", gaps)
     hole = r"25 mm between IM0007\.dcm and IM0008\.dcm"
-    with pytest.raises(FormatError, match=rf"add the missing slices of {hole}, or .* together with fill_gaps"):
+    with pytest.raises(
+        FormatError, match=rf"add the missing slices of {hole}, or .* together with fill_gaps"
+    ):
         read_volume(folder)
     with pytest.raises(FormatError, match=rf"with a gap of {hole}.*interpolated with fill_gaps=True"):
         read_volume(folder, resample_slices=True)
@@ -169,7 +171,9 @@ def test_slices_beside_their_line_stay_refused(tmp_path):
     stack[4].plane[0, 3] += 0.5
     (tmp_path / "series").mkdir()
     folder = Stack(stack)(tmp_path / "series").path
-    with pytest.raises(FormatError, match=r"IM0005\.dcm is 0\.5 mm off the line through the others") as caught:
+    with pytest.raises(
+        FormatError, match=r"IM0005\.dcm is 0\.5 mm off the line through the others"
+    ) as caught:
         read_volume(folder, resample_slices=True)
     assert "resample" not in str(caught.value)
 
