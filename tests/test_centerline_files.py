@@ -139,7 +139,7 @@ def test_slicer_curves_are_read_with_their_radius(shared_data):
 @needs_shared_data
 def test_a_file_with_points_but_no_line_is_named(shared_data):
     path = shared_data / "aorta-mra" / "aorta-centerline-referencesystem.vtp"
-    with pytest.raises(FormatError, match=r"referencesystem\.vtp: lines: found 1 point\(s\).*and no line"):
+    with pytest.raises(FormatError, match=r"referencesystem\.vtp: lines: found 1 point\(s\).*but no line"):
         read_centerlines(path)
 
 

@@ -54,9 +54,7 @@ def test_points_that_are_not_defined_are_left_out(ending, tmp_path):
 def test_a_table_of_points_that_are_not_defined_is_refused(tmp_path):
     path = tmp_path / "points.csv"
     path.write_text(table("", tuple(range(20))))
-    with pytest.raises(
-        FormatError, match=r"points: found 20 point\(s\) that are not defined; expected at least 2"
-    ):
+    with pytest.raises(FormatError, match=r"points: found 20 undefined point\(s\); expected at least 2"):
         read_centerlines(path)
 
 

@@ -176,7 +176,7 @@ def test_a_stopper_across_the_only_vessel_leaves_no_way(scene):
 
 def test_a_vessel_within_another_one_is_refused(scene):
     line, volume = scene
-    with pytest.raises(TracingError, match=r"points of vessel 1: .*within earlier ones"):
+    with pytest.raises(TracingError, match=r"points of vessel 1: .*within earlier vessels"):
         trace(volume, [[line[5], line[-6]], [line[60], line[150]]])
 
 

@@ -13,7 +13,7 @@ use lumencut_core::stop::Stop;
 /// Maximum voxels of a front; fronts are kept while the pointer moves.
 const MOST_VOXELS: usize = 4_000_000;
 
-/// Factors of the straight distance: a fast search, and the exact one for when it crosses a wall. Between aorta
+/// Factors of the straight distance: a fast search, and the exact one if that crosses a wall. Between aorta
 /// and iliac artery (290 mm) 1.5 visits 65,000 voxels instead of 101,000; more saves little and swings.
 const PULLS: [f32; 2] = [1.5, 1.0];
 
