@@ -194,7 +194,7 @@ def test_a_faint_artery_of_a_ct_is_sure():
 
 def test_a_vessel_without_contrast_medium_is_doubtful():
     _, volume = ct_of(45, FAT)
-    with pytest.raises(TracingError, match="none that is sure, but"):
+    with pytest.raises(TracingError, match="no certain vessel, but"):
         find_vessels(volume)
 
 

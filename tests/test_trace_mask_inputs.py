@@ -108,7 +108,7 @@ def test_what_is_no_mask_is_refused(tube):
         (Volume(tube.array.astype(np.float32) * 0.5), "a voxel of 0.5; expected whole numbers.*compare"),
         (Volume(tube.array * np.nan), "a voxel of NaN; expected whole numbers"),
         (Volume(tube.array * 1e9), "a voxel of 1000000000; expected whole numbers"),
-        (tubes([[(15, 15, 15), (15.1, 15, 15)]], 6), "nowhere longer than wide"),
+        (tubes([[(15, 15, 15), (15.1, 15, 15)]], 6), "never longer than wide"),
     ):
         with pytest.raises(VolumeError, match=message):
             trace_mask(mask)

@@ -149,7 +149,7 @@ fn vessels_that_were_clicked_are_traced_beside_the_others_that_are_not_doubtful(
     let mut document = three(&mut study, ["a", "b", "c"]);
     let begin = json!({"kind": "begin_vessel", "clicks": clicks(&study, 0, 3)});
     let failure = tried(&mut study, &document, &begin.clone(), false).expect_err("the same vessel");
-    assert!(failure.found.contains("within earlier ones"), "{failure:?}");
+    assert!(failure.found.contains("within earlier vessels"), "{failure:?}");
     assert_eq!(failure.subject, "points of Vessel 1");
     document.vessels[0].is_hidden = true;
     assert!(tried(&mut study, &document, &begin.clone(), false).is_err(), "a hidden vessel is met too");

@@ -85,7 +85,7 @@ fn a_vessel_within_a_line_beside_it_is_refused() {
     let vessel = clicks(&study, 0, 6);
     let failure = traced(&mut study, &request(&[vessel], &[0]), false).expect_err("the same vessel");
     assert_eq!(failure.kind, "tracing");
-    assert!(failure.found.contains("within earlier ones"));
+    assert!(failure.found.contains("within earlier vessels"));
 }
 
 #[test]
