@@ -167,7 +167,7 @@ def test_points_outside_the_volume_and_equal_points_are_named(scene):
 
 def test_a_stopper_across_the_only_vessel_leaves_no_way(scene):
     line, volume = scene
-    with pytest.raises(TracingError, match=r"do not look like lumen|no way between them"):
+    with pytest.raises(TracingError, match=r"do not look like lumen|no path between them"):
         trace(volume, [line[5], line[-6]], [line[150]], stopper_radius=5.0)
     for radius in (0, -1, np.inf):
         with pytest.raises(TracingError, match="stopper"):

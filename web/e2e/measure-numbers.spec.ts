@@ -15,7 +15,7 @@ test('by ECST an original diameter is asked for; by area the percentage is that 
   await tube.marked();
   const numbers = tube.viewer.page.getByTestId('numbers');
   await numbers.getByLabel('Method').selectOption('ecst');
-  await expect(tube.stenosis()).toContainText('ECST needs the diameter');
+  await expect(tube.stenosis()).toContainText('ECST needs the assumed original diameter');
   await numbers.getByLabel('Original diameter').fill('9');
   await numbers.getByLabel('Original diameter').press('Enter');
   await expect(tube.stenosis()).toHaveText(PYTHON.ecst);
