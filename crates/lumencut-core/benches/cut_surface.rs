@@ -1,4 +1,4 @@
-//! The cut surface (projection, distance and depth at all levels) against brute force in the same run.
+//! Times of the cut surface (projection, distance and depth at all levels), compared with brute force.
 
 use glam::DVec3;
 use lumencut_core::brute_force;
@@ -115,7 +115,7 @@ fn against_brute_force(name: &str, tree: &VesselTree, sets: &[Isa]) -> Result<()
     Ok(())
 }
 
-/// Compares the slowest of many directions with the median.
+/// Compares the time of the slowest of many view directions with the median.
 fn over_directions(name: &str, tree: &VesselTree) {
     let (mut renderer, settings) = (CpuRenderer::default(), Settings::default());
     renderer.prepare(&LeveledTree::new(tree.clone()), &settings);

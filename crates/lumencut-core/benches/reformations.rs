@@ -17,7 +17,7 @@ const RUNS: usize = 31;
 
 type Find<'a> = &'a dyn Fn(&LeveledTree, &Request) -> Result<Frame>;
 
-/// Median and fastest milliseconds of finding the positions, and of the whole picture.
+/// Median and shortest time (ms) of finding the positions, and of the complete picture.
 fn times(volume: &SharedVolume, tree: &LeveledTree, request: &Request, find: Find) -> [String; 2] {
     let renderer = CpuRenderer::default();
     let found = || find(tree, request).expect("a frame");

@@ -69,7 +69,7 @@ impl<'a> Request<'a> {
             .mend(format!("give centerlines, or leave the {setting} out")))
     }
 
-    /// Removes the picture if the scene has no volume to show.
+    /// Leaves out the picture if the scene has no volume to show.
     #[must_use]
     pub fn without_unseen_picture(self, scene: &Scene) -> Self {
         let images = if scene.volume.is_some() { self.images } else { self.images.without(Image::Picture) };
@@ -105,9 +105,9 @@ impl<'a> Request<'a> {
 pub struct CpuRenderer {
     levels: Arc<Vec<Level>>,
     projected: Vec<ProjectedLevel>,
-    /// The vessels that take precedence in them.
+    /// The vessels that take precedence in `projected`.
     first: Vec<usize>,
-    /// The sheet of the previous view: the largest image that no frame keeps.
+    /// The sheet of the previous view: of the images that no frame keeps, the largest.
     sheet: Vec<Sheet>,
     isa: Isa,
 }
@@ -119,14 +119,14 @@ impl Default for CpuRenderer {
 }
 
 impl CpuRenderer {
-    /// A renderer with the kernels for `isa`; the pictures are the same to the bit.
+    /// A renderer with the kernels for `isa`; the pictures are bit-identical for all.
     pub fn new(isa: Isa) -> Self {
         Self { levels: Arc::default(), projected: Vec::new(), first: Vec::new(), sheet: Vec::new(), isa }
     }
 
-    /// Renders one view of a scene: without a volume the cut surface alone, without a tree the context alone.
-    /// `Settings::samples` does not apply here: hosts average several pictures. Fails with those of
-    /// [`Request::settings_for`], [`ErrorKind::Volume`] for a scene without volume and tree.
+    /// Renders one view of a scene: without a volume only the cut surface, without a tree only the context.
+    /// `Settings::samples` does not apply here: hosts average several pictures. Fails as
+    /// [`Request::settings_for`], and with [`ErrorKind::Volume`] for a scene without volume and tree.
     pub fn render(&mut self, scene: &Scene, request: &Request) -> Result<Frame> {
         let settings = request.settings_for(scene)?;
         let request = &Request { settings: &settings, ..*request };

@@ -20,7 +20,7 @@ use lumencut_scenes::views::{front, pixel, view};
 
 const DIRECTIONS: [[f64; 3]; 4] = [[0.0, 1.0, 0.0], [0.0, 0.0, -1.0], [1.0, 2.0, 3.0], [1e-5, 1e-5, 1.0]];
 
-/// The default, by cost alone, many levels close together, the paper's, and the default's filter.
+/// The default, by cost only, many levels close together, the paper's, and the default's filter.
 fn rules() -> [Settings; 5] {
     [
         unfiltered(),

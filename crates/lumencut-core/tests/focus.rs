@@ -30,7 +30,7 @@ fn of_surface(frame: &Frame) -> Vec<f32> {
     frame.focus.iter().map(|shares| shares[0]).collect()
 }
 
-/// The same for a tree without a volume.
+/// The shares for a tree without a volume.
 fn shares(tree: &VesselTree, camera: &Camera, settings: &Settings) -> Vec<f32> {
     of_surface(&framed(&Scene::default().with_tree(tree.clone()), camera, settings, Isa::widest()))
 }

@@ -1,4 +1,4 @@
-//! The paper's rules give the same images, to the bit, as when they were the only ones.
+//! Pictures by the paper's rules are bit-identical to those made when there were no other rules.
 #![allow(clippy::unwrap_used)]
 
 use lumencut_core::camera::Camera;

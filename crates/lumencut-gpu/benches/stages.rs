@@ -159,7 +159,7 @@ fn main() -> Result<()> {
     cut_surface(&device, effort)?;
     let mut measured = [Vec::new(), Vec::new()];
     for (_, make) in WORKLOADS {
-        // One volume after the other: the largest takes 684 MB on both sides.
+        // One volume after the other: the largest takes 684 MB on CPU and GPU each.
         let phantom = make(0, if quick { 0.5 } else { 1.0 })?;
         for (side, measured) in effort.sides.into_iter().zip(&mut measured) {
             measured.push(measure(&device, &phantom, side, effort.frames)?);

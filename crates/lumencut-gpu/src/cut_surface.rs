@@ -19,7 +19,7 @@ use crate::view::groups;
 
 /// Columns of quads and rows of a thread's tile on software: what a thread reads should serve many pixels.
 pub(crate) const TILE_ON_SOFTWARE: [usize; 2] = [1, 4];
-/// The same on hardware: larger tiles would be too few threads to keep it busy.
+/// The same on hardware: larger tiles would make too few threads to keep a GPU busy.
 pub(crate) const TILE_ON_HARDWARE: [usize; 2] = [1, 1];
 /// The pixels of a quad, and the tiles of a workgroup in all and per row.
 pub(crate) const QUAD: usize = 4;

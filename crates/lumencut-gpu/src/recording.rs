@@ -62,7 +62,7 @@ impl<'a> Recording<'a> {
         self.run_as(stage.name, stage, resources, groups);
     }
 
-    /// Runs `stage` as a part of the stage `name`, which its time counts to.
+    /// Runs `stage` as a part of the stage `name`; its time counts to that stage.
     pub(crate) fn run_as(
         &mut self,
         name: &'static str,
@@ -157,7 +157,7 @@ impl<'a> Recording<'a> {
     }
 }
 
-/// Parallel: one thread would take longer to copy a large picture than a GPU to compute it.
+/// Copies in parallel: one thread would take longer to copy a large picture than a GPU to compute it.
 #[cfg(not(target_arch = "wasm32"))]
 fn copied<T: Pod + Send + Sync>(bytes: &[u8]) -> Vec<T> {
     use rayon::prelude::*;

@@ -19,11 +19,11 @@ use crate::blocks::DeviceBlocks;
 use crate::device::Device;
 use crate::view::{power_above, split};
 
-/// Larger floats count as missing.
+/// Floats with a larger absolute value count as missing.
 const LARGEST_FLOAT: f32 = 1e30;
 /// The most bytes that are gathered before they are sent.
 const SLAB_BYTES: usize = 64 << 20;
-/// The digits of an `f32`.
+/// The binary digits of an `f32`.
 const DIGITS: i32 = 24;
 
 /// `GridParameters` of `math/sampling.wgsl`.

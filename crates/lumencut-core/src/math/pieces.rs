@@ -27,7 +27,7 @@ pub(crate) struct Bundle {
     /// f: the edge before the point, zero where it is missing.
     pub before_x: [f32; FAN],
     pub before_y: [f32; FAN],
-    /// 1 / |e|, zero with e.
+    /// 1 / |e|; zero if e is zero.
     pub inverse_length: [f32; FAN],
     /// Depth of the stripe at its start (mm), [`ABSENT`] without stripe.
     pub stripe_z: [f32; FAN],
@@ -36,7 +36,7 @@ pub(crate) struct Bundle {
     pub wedge_z: [f32; FAN],
     pub radius: [f32; FAN],
     pub radius_change: [f32; FAN],
-    /// Tiers before lumen and wall of other vessels ([`Rule::key`]): 2 for chosen vessels, else 0.
+    /// Number of tiers before lumen and wall of other vessels ([`Rule::key`]): 2 for chosen vessels, else 0.
     pub tiers: [f32; FAN],
     /// The slot's number in its level; rises along each vessel and from vessel to vessel.
     pub slot: [u32; FAN],
@@ -68,7 +68,7 @@ impl Bundle {
 pub(crate) struct Envelope {
     pub key: [f32; PIXELS],
     pub z: [f32; PIXELS],
-    /// Twice its slot, plus 1 for the stripe: the order of the pieces on a tie.
+    /// Twice the slot of the piece, plus 1 for a stripe; of equal keys the smaller number wins.
     pub piece: [u32; PIXELS],
 }
 
@@ -166,7 +166,7 @@ pub struct Stripe {
 #[derive(Clone, Copy, Debug)]
 pub struct Foot {
     pub covered: bool,
-    /// Share along the stripe, 0 to 1 if it is covered.
+    /// Share of the stripe before the pixel's foot, 0 to 1 if the stripe covers the pixel.
     pub t: f32,
     pub distance: f32,
 }
@@ -203,7 +203,7 @@ pub struct Wedge {
 }
 
 impl Wedge {
-    /// Whether it covers the pixel at (x, y), and the distance from the point (mm).
+    /// Whether the wedge covers the pixel at (x, y), and the distance of the pixel from its point (mm).
     #[inline(always)]
     pub fn cover(&self, x: f32, y: f32) -> (bool, f32) {
         let (ux, uy) = (x - self.point[0], y - self.point[1]);

@@ -15,7 +15,7 @@ use crate::vessel_tree::VesselTree;
 /// voxel, well above the rounding of `f32`.
 pub const COLLINEAR_LENGTH: f32 = 1e-3;
 
-/// How many tiers lumen and wall of a chosen vessel come before those of others: both before both.
+/// Number of tiers by which lumen and wall of a chosen vessel come before those of others: both before both.
 const TIERS_OF_FIRST: f32 = 2.0;
 
 /// One level of detail, made once per tree: its distinct points as slots, and their order in space.
@@ -77,7 +77,7 @@ pub struct Projected {
     /// e, zero where missing or collinear.
     pub edge: [f32; 2],
     pub before: [f32; 2],
-    /// 1 / |e|, zero with e.
+    /// 1 / |e|; zero if e is zero.
     pub inverse_length: f32,
     pub arc_length: f32,
     pub vessel: i32,
@@ -175,7 +175,7 @@ impl ProjectedLevel {
         let (bundle, s) = (&mut self.hierarchy.bundles[place / FAN], place % FAN);
         let here = self.projected[slot];
         let stripe = here.has_stripe();
-        // A collinear segment keeps no extent: its other end has its own slot.
+        // The stripe of a collinear segment has no extent: its other end has its own slot.
         let end = self.projected[slot + usize::from(stripe)];
         bundle.slot[s] = slot as u32;
         (bundle.x[s], bundle.y[s]) = (here.point[0], here.point[1]);
@@ -196,7 +196,7 @@ impl ProjectedLevel {
     }
 }
 
-/// Decides for one vessel which segments are collinear and what stands at each point: a wedge at inner
+/// Decides for one vessel which segments are collinear and which piece lies at each point: a wedge at inner
 /// points, half-planes at the ends and before a collinear run, a full plane at an end that a run reaches.
 fn stand(vessel: &mut [Projected]) {
     let last = vessel.len() - 1;

@@ -40,7 +40,7 @@ fn foot_at(n: vec2f) -> Foot {
     return Foot(index.xyz, rest.xyz);
 }
 
-// The unit divides all that is split, with few enough digits for exact products.
+// A multiple of the grid's unit; it has so few digits that its products are exact.
 fn coarse(depth: f32) -> f32 {
     return round(depth * grid.per_unit) * grid.unit;
 }

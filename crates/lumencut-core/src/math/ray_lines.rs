@@ -11,7 +11,7 @@ use crate::volume::Volume;
 pub const WHOLE: f32 = -1e9;
 /// The start of a ray that is not needed.
 pub const NONE: f32 = 1e9;
-/// Beyond both.
+/// A depth beyond both of them.
 pub const NEVER: f64 = 2e9;
 
 /// A direction that moves less than this along an axis (voxels per mm) runs along the volume's sides.
@@ -40,7 +40,7 @@ impl IndexFromView {
         }
     }
 
-    /// The length of a ray between voxels along the axis where it meets most of them (mm).
+    /// Length of a ray per voxel (mm), along the axis on which it crosses the most voxels.
     pub fn voxel(&self) -> f64 {
         1.0 / self.z.abs().max_element()
     }

@@ -1,4 +1,4 @@
-//! The walk through a hierarchy for one tile: near nodes first, cut off by the tile's worst key so far.
+//! The walk through a hierarchy for one tile: near nodes first, until none can beat its worst key so far.
 
 use super::candidates::candidates;
 use super::cost::Rule;

@@ -40,7 +40,7 @@ impl Named for Sampling {
 /// How the sections of a vessel are wound up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpiralParameters {
-    /// The distance of neighbouring windings, of both spirals together (mm).
+    /// The distance between neighbouring windings, counting both spirals (mm).
     pub pitch: f64,
     /// The largest distance of the windings from the vessel (mm).
     pub radius: f64,

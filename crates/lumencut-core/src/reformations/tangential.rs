@@ -1,4 +1,4 @@
-//! Tangential CPR: one vessel as a camera sees it, with its surroundings at the depth of the nearest point.
+//! Tangential CPR: one vessel as a camera sees it; its surroundings have the depth of its nearest point.
 //!
 //! It is CR of one vessel without a threshold: each pixel takes the depth of the vessel's nearest point in
 //! the image. The paper of CSR names it; its text was not found, the definition is ours

@@ -92,15 +92,15 @@ impl UntangledParameters {
 /// A part of a vessel in the image, between two points where vessels meet or end.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LaidOut {
-    /// The id of the vessel.
+    /// Id of the vessel.
     pub vessel: usize,
     /// Rising arc lengths along the vessel (mm).
     pub arc_length: Vec<f64>,
     /// The image positions (column, row) at these arc lengths.
     pub pixels: Vec<DVec2>,
-    /// The turn of this part and all that follows it (radians, counter-clockwise in the image).
+    /// The turn of this part and of all parts that follow it (radians, counter-clockwise in the image).
     pub turn: f64,
-    /// Whether it begins at its last point.
+    /// Whether the part begins at its last point.
     pub is_reversed: bool,
 }
 

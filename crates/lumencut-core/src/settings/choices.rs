@@ -6,7 +6,7 @@ use super::value::{Transfer, Value};
 use crate::error::{Error, ErrorKind, Result};
 use crate::named::Named;
 
-/// What a host chose; the rest has its default.
+/// What a host chose; all other settings have their defaults.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Choices {
     settings: Settings,

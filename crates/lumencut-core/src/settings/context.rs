@@ -79,8 +79,8 @@ pub enum ContextMode {
 }
 
 impl ContextMode {
-    /// Opacities hide what lies behind a cut surface, but a largest, smallest or mean value leaps where the
-    /// cut surface does.
+    /// Blends start at the cut surface, since opacities hide what lies behind it. A largest, smallest or mean
+    /// value would jump where the cut surface does.
     pub fn default_from(self) -> ContextFrom {
         if self.is_sampled() { ContextFrom::Cut } else { ContextFrom::Whole }
     }

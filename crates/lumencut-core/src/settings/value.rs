@@ -33,7 +33,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// The kind in a word.
+    /// The word for the kind.
     pub fn name(self) -> &'static str {
         match self {
             Self::Flag => "flag",
@@ -80,7 +80,7 @@ pub enum Value {
     Transfer(TransferFunction),
 }
 
-/// A transfer function as it is chosen.
+/// A transfer function as a host chooses it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Transfer {
     /// By name; it lies within the window of the context.

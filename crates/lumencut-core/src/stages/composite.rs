@@ -91,7 +91,7 @@ impl CompositeParameters {
         }
     }
 
-    /// The shown share of the grey surface and the silhouette's colour over context and background.
+    /// The grey surface and its silhouettes, as far as they are shown, over context and background.
     #[inline(always)]
     fn pixel(&self, value: f32, strength: f32, [share, lines]: Shares, context: [f32; 4]) -> [f32; 4] {
         let nothing = value.is_nan();
@@ -125,7 +125,7 @@ fn straight(pixel: [f32; 4], behind: [f32; 4]) -> [u8; 4] {
 }
 
 /// The nearest integer to a value of at most a little over 255. From 2²³ on, a float's last bit counts ones,
-/// so the sum's low byte is the number: no conversion checks.
+/// so the sum's low byte is the number; a conversion would add checks.
 #[inline(always)]
 fn byte(value: f32) -> u32 {
     (smaller(value, 255.0) + 8_388_608.0).to_bits() & 0xFF

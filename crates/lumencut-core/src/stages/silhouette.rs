@@ -30,9 +30,9 @@ const _: () = assert!(WIDEST_LINE <= FARTHEST_LEAP as f64);
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct SilhouetteParameters {
-    /// From the sum of the Sobel weights to mm per mm.
+    /// Factor from the sum with Sobel weights to a slope in mm per mm.
     pub per_slope: f32,
-    /// The square of the slope that has half the strength.
+    /// The square of the slope at which a silhouette has half strength.
     pub half: f32,
     /// Width of the line of a leap (pixels).
     pub line_width: f32,

@@ -227,7 +227,7 @@ impl Stage {
         }
     }
 
-    /// The stages that find the cut surface of a view with the images `wanted`, in their order.
+    /// The stages, in order, that find the cut surface of a view with the images `wanted`.
     pub fn of_cut_surface(settings: &Settings, wanted: ImageSet) -> Vec<Self> {
         let own = settings.level_choice == LevelChoice::Own;
         let draws_leaps = settings.silhouettes && settings.silhouette_rule == SilhouetteRule::Leap;
@@ -245,7 +245,7 @@ impl Stage {
         needed(&stages)
     }
 
-    /// Whether it is one of those that find the cut surface.
+    /// Whether the stage is one of those that find the cut surface.
     pub const fn is_of_cut_surface(self) -> bool {
         matches!(self, Self::Distance | Self::Depth | Self::Leap | Self::DepthFilter | Self::Focus)
     }

@@ -90,7 +90,7 @@ impl Sections {
         if station.turn == DVec3::ZERO {
             return;
         }
-        // The sections turn: the point may be nearer to them than at both ends, and lie in two of them.
+        // Sections turn in between: the point may be nearer to one there than at both ends, and lie in two.
         let direction = self.path.direction()[self.path.segment(from)];
         let [start, end] = ends.map(|mark| mark.section(point).change(station, direction));
         let approaches = if low >= 0.0 { start < 0.0 && end > 0.0 } else { start > 0.0 && end < 0.0 };

@@ -14,7 +14,7 @@ use crate::math::centerline_path::CenterlinePath;
 use crate::math::frames::{Frames, MovingFrame};
 use crate::math::same_place::ON_PICTURE;
 
-/// Space around a straightened vessel, extended straight: x to the right, y into the picture, z along (mm).
+/// Space around a straightened vessel and its straight extension: x right, y into the picture, z along (mm).
 #[derive(Clone)]
 pub struct Straightened {
     sections: Arc<Sections>,
@@ -23,7 +23,7 @@ pub struct Straightened {
 
 #[derive(Clone)]
 enum Angle {
-    /// Constant: its sine and cosine.
+    /// A constant angle: its sine and cosine.
     Even([f64; 2]),
     Rolled(Arc<Roll>),
 }

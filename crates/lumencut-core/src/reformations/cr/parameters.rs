@@ -9,7 +9,7 @@ const MAX_THRESHOLD_PIXELS: f64 = 1e6;
 pub struct CrParameters {
     /// Distance beyond its radius within which a vessel displaces what lies behind it (pixels).
     pub radius_offset: f64,
-    /// Distance along the tree (pixels) within which points form a stretch that shows its nearest one.
+    /// Points within this distance along the tree (pixels) form a stretch, which shows its nearest point.
     pub arc_threshold: f64,
 }
 

@@ -18,10 +18,10 @@ pub(super) struct CrView<'a> {
     pub level: &'a Level,
     pub camera: &'a Camera,
     projected: Vec<Projected>,
-    /// Their pieces without depth and radius: the smallest key is the smallest distance.
+    /// The pieces without depth and radius: the smallest key is the smallest distance.
     plane: Hierarchy,
     pub plane_rule: Rule,
-    /// Their pieces with disc radii: the smallest key is the foremost disc that holds the pixel.
+    /// The pieces with disc radii: the smallest key is the foremost disc that holds the pixel.
     discs: Hierarchy,
     disc_rule: Rule,
     pub chains: Chains,
@@ -126,7 +126,7 @@ pub(super) struct Seen {
     pub piece: u32,
     pub vessel: i32,
     pub is_covered: bool,
-    /// In the image (mm).
+    /// Distance from the pixel in the image (mm).
     pub distance: f32,
     pub z: f32,
     radius: f32,

@@ -15,7 +15,7 @@ pub(super) struct LeapLines<'a> {
     size: PixelStep,
     /// Width of a line (pixels), at least 1.
     line_width: f32,
-    /// The most of a pixel that a line covers.
+    /// The largest share of a pixel that a line covers.
     most: f32,
     /// The largest distance between a pixel and the leaps whose lines can cover it (pixels).
     reach: isize,
@@ -64,7 +64,7 @@ impl<'a> LeapLines<'a> {
         })
     }
 
-    /// Lines cover a lumen only straight across from a leap to another lumen, where it ends.
+    /// Lines cover a lumen only beside a leap to another lumen, along the row or column across the leap.
     fn cover_of_lumen(&self, here: PixelStep) -> f32 {
         let ends = |at: PixelStep, step| {
             let beyond = ahead(at, step);
@@ -91,7 +91,8 @@ impl<'a> LeapLines<'a> {
         let mut cover = 0f32;
         for down in -self.reach..=self.reach {
             for right in -self.reach..=self.reach {
-                // The pixel as seen from the one whose leaps these are.
+                // The pixel whose leaps these are; `here` lies to its right by `right` and below it by
+                // `down`.
                 let owner = [here[0] - right, here[1] - down];
                 let (bits, x, y) = (self.bits(owner), right as f32, down as f32);
                 if bits & TO_THE_RIGHT != 0 && self.shows_line_of(owner, [1, 0], right > 0) {
@@ -114,7 +115,7 @@ impl<'a> LeapLines<'a> {
         }
     }
 
-    /// A pixel shows a leap's line that lies in it, or whose own pixel shows nothing while this one is no
+    /// A pixel shows a leap's line that lies in it, or whose own pixel shows nothing while this one is not
     /// lumen.
     fn shows_line(&self, here: PixelStep, step: PixelStep) -> bool {
         let may_lie_here = !(self.is_lumen(here) || self.is_shown(ahead(here, step)));
