@@ -88,7 +88,7 @@ fn against_brute_force(name: &str, tree: &VesselTree, sets: &[Isa]) -> Result<()
         [("default", Settings::default()), ("paper's", Settings::paper()), ("lumen first, nearest", nearest)];
     let leveled = LeveledTree::new(tree.clone());
     for (zoom, camera) in zooms(tree)? {
-        // The other rules and instruction sets are timed only for the view that shows the whole tree.
+        // The other rules and instruction sets are timed only for the view that shows the entire tree.
         let fits = zoom == "fits";
         for (rule, settings) in rules.iter().take(if fits { rules.len() } else { 1 }) {
             for &isa in if fits { sets } else { &sets[sets.len() - 1..] } {

@@ -1,4 +1,4 @@
-//! mpCPR, CR and the cut surface: 512 × 512 pixels of the workloads from the front, without context.
+//! Times of mpCPR, CR and the cut surface at 512 × 512 pixels: the workloads from the front, without context.
 
 use glam::DVec3;
 use lumencut_core::error::Result;

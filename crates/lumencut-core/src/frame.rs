@@ -91,7 +91,7 @@ impl Frame {
         there.fold(ImageSet::of(&[]), |images, (image, _)| images.and(ImageSet::of(&[image])))
     }
 
-    /// Makes the picture transparent where it has no value, independent of the background.
+    /// Makes pixels of the picture without a value transparent, whatever the background.
     #[must_use]
     pub fn transparent_outside(mut self) -> Self {
         clear_outside(&mut self.image, &self.value);

@@ -12,7 +12,7 @@ pub enum Geometry {
     Orthographic {
         /// The view.
         camera: Camera,
-        /// Depth of the cut surface in each pixel (mm); if empty, every ray crosses the whole volume.
+        /// Depth of the cut surface in each pixel (mm); if empty, every ray crosses the entire volume.
         depth: Vec<f32>,
     },
     /// One position per pixel.

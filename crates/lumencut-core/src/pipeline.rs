@@ -197,7 +197,7 @@ impl CpuRenderer {
         Ok(images.into_frame(frame, clock.timings).keeping(request.images))
     }
 
-    /// Takes over the levels of a tree if it, their number, smoothing or chosen vessels changed.
+    /// Takes over the levels of a tree if the tree, their number, the smoothing or chosen vessels changed.
     pub fn prepare(&mut self, tree: &LeveledTree, settings: &Settings) {
         let levels = tree.levels(settings.levels, settings.centerline_smoothing);
         if !Arc::ptr_eq(&self.levels, &levels) {
@@ -236,8 +236,8 @@ impl CpuRenderer {
     }
 }
 
-/// The picture of values in the window and opacity of `settings`, over their background; transparent where
-/// the value is NaN. Fails with [`ErrorKind::Settings`] for a setting outside its range.
+/// The picture of values in the window and opacity of `settings`, over their background; transparent if the
+/// value is NaN. Fails with [`ErrorKind::Settings`] for a setting outside its range.
 pub fn picture(value: &[f32], size: [usize; 2], (settings, stop): (&Settings, Stop)) -> Result<Vec<[u8; 4]>> {
     settings.check()?;
     let work = Work { size, isa: Isa::widest(), stop, progress: None };

@@ -13,7 +13,7 @@ use crate::stop::Stop;
 use crate::vessel_tree::VesselTree;
 use crate::volume::Volume;
 
-/// What is shown. Cloning is cheap: the [`VolumeKey`] and the [`LeveledTree`] keep what takes time.
+/// What is shown. Cloning is cheap: clones share the [`VolumeKey`] and the [`LeveledTree`].
 #[derive(Clone, Debug, Default)]
 pub struct Scene<'a> {
     /// The volume; without it only the cut surface can be rendered.

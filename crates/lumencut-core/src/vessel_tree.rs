@@ -70,7 +70,7 @@ impl Vessel {
         &self.arc_length
     }
 
-    /// The radius at point `i` (mm), 0 where unknown.
+    /// The radius at point `i` (mm), 0 if unknown.
     pub fn radius_or_zero(&self, i: usize) -> f64 {
         self.radius.as_ref().map_or(0.0, |r| r[i])
     }

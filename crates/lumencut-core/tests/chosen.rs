@@ -255,7 +255,7 @@ fn the_strength_of_the_others_is_their_share_beside_that_of_the_chosen() {
     assert_eq!(gone.focus, found.focus);
 }
 
-/// Settings whose rays around a focus cross the whole volume.
+/// Settings whose rays around a focus cross the entire volume.
 fn whole_rays() -> Settings {
     let context = Settings::default().context.unwrap();
     let context =

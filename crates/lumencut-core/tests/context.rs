@@ -1,4 +1,4 @@
-//! The same bits with and without skipping, on every instruction set, thread count and memory layout.
+//! The context has the same bits with and without skipping, for all instruction sets, threads and layouts.
 #![allow(clippy::unwrap_used)]
 
 use std::sync::atomic::{AtomicUsize, Ordering};

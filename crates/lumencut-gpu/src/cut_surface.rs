@@ -21,12 +21,12 @@ use crate::view::groups;
 pub(crate) const TILE_ON_SOFTWARE: [usize; 2] = [1, 4];
 /// The same on hardware: larger tiles would make too few threads to keep a GPU busy.
 pub(crate) const TILE_ON_HARDWARE: [usize; 2] = [1, 1];
-/// The pixels of a quad, and the tiles of a workgroup in all and per row.
+/// The pixels of a quad; the tiles of a workgroup, in all and per row.
 pub(crate) const QUAD: usize = 4;
 pub(crate) const TILES: usize = 64;
 pub(crate) const TILES_ACROSS: usize = 4;
 pub(crate) const POINT_THREADS: u32 = 64;
-/// The most workgroups along one side of a dispatch.
+/// The largest number of workgroups along one side of a dispatch.
 const MAX_GROUPS: u32 = 65_535;
 
 #[derive(Debug)]
@@ -179,7 +179,7 @@ fn tile_of(device: &Device) -> [usize; 2] {
     if device.description().is_software { TILE_ON_SOFTWARE } else { TILE_ON_HARDWARE }
 }
 
-/// The size of a dispatch of at least `groups` workgroups, in rows of allowed length.
+/// The size of a dispatch of at least `groups` workgroups, cut into rows of allowed length.
 fn in_rows(groups: u32) -> [u32; 2] {
     let across = groups.min(MAX_GROUPS);
     [across, groups.div_ceil(across)]

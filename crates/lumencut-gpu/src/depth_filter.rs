@@ -23,7 +23,7 @@ pub(crate) struct DepthFilter {
 pub(crate) struct ZoneImages<'a> {
     pub image: &'a Buffer,
     pub vessel: &'a Buffer,
-    /// Scratch.
+    /// The depth filtered along columns only.
     pub columns: &'a Buffer,
     pub smoothed: &'a Buffer,
 }

@@ -116,7 +116,7 @@ impl NodeBox {
 
 #[derive(Debug)]
 pub(crate) struct DeviceLevels {
-    /// Number of spans and of points, cumulated over levels.
+    /// Numbers of spans and of points up to and including each level.
     spans_up_to: Vec<u32>,
     points_up_to: Vec<u32>,
     places: [LevelLayout; MAX_LEVELS + 1],
@@ -124,7 +124,7 @@ pub(crate) struct DeviceLevels {
     origin: DVec3,
     reach: f64,
     unit: f64,
-    /// The vessels with precedence last written, and all spans.
+    /// The chosen vessels last written, and all spans.
     first: Vec<usize>,
     all_spans: Vec<Span>,
     pub spans: Buffer,
@@ -173,8 +173,8 @@ impl DeviceLevels {
         })
     }
 
-    /// Puts lumen and wall of these vessels before those of all others in all later views, from where they
-    /// leave the others' lumens; `levels` are those of the tree.
+    /// Puts lumen and wall of these vessels before those of all others in all later views, from the point
+    /// where they leave the others' lumens; `levels` are those of the tree.
     pub(crate) fn put_first(&mut self, device: &Device, levels: &[Level], vessels: &[usize]) {
         if self.first == vessels {
             return;

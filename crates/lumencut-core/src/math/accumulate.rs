@@ -15,13 +15,13 @@ pub(crate) type Rgba = [[f32; FAN]; 4];
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Samples<'a> {
     pub value: &'a [f32; FAN],
-    /// 1 where the ray has this sample, else 0; a number instead of `bool` keeps the compiler's vectors.
+    /// 1 if the ray has this sample, else 0; a number instead of `bool`, so that the code vectorises.
     pub present: &'a [f32; FAN],
     /// Length of the ray (mm) that each sample represents.
     pub thickness: &'a [f32; FAN],
 }
 
-/// Light on sixteen samples; evaluated only where one of them is visible.
+/// Light on sixteen samples; evaluated only if one of them is visible.
 pub(crate) trait Light {
     /// The factor on each colour, and the term added to it.
     fn shade(&self) -> [[f32; FAN]; 2];

@@ -16,7 +16,7 @@ pub const SIDE: usize = 1 << SIDE_BITS;
 /// If more blocks than this along an axis had to be read, a coarser level is read.
 const MAX_LOOKUPS: i32 = 3;
 
-/// A bound on the rounding of trilinear interpolation, relative to the larger end of a range.
+/// A bound on the rounding of trilinear interpolation, relative to the range's largest absolute value.
 const ROUNDING: f32 = 1e-6;
 
 /// A number beyond every value; larger and infinite values of an `f64` volume count as this.

@@ -57,7 +57,7 @@ impl Cover {
     }
 }
 
-/// Lower bounds on the keys of stripes and wedges in an area; [`ABSENT`] where a piece covers none of it.
+/// Lower bounds on the keys of stripes and wedges in an area; [`ABSENT`] if a piece covers none of it.
 #[inline(always)]
 fn smallest_keys<const LUMEN_FIRST: bool>(
     area: &Area,

@@ -10,7 +10,7 @@ pub(crate) struct Rule {
     pub weight: f32,
     /// Thickness of the wall around a lumen (mm).
     pub margin: f32,
-    /// Height of a tier, above the depth range of the tree (mm). Under *lumen first* walls come before
+    /// Height of a tier (mm), more than the depth range of the tree. Under *lumen first*, walls come before
     /// surroundings, lumens before walls, and both of a chosen vessel before all others.
     pub lift: f32,
     /// A bound on the rounding error of a projected distance (mm).

@@ -22,7 +22,7 @@ impl<R: Real, const N: usize> Cubic<R, N> {
     pub(crate) fn between(corners: &Corners<R, N>, enter: &Weights<R, N>, leave: &Weights<R, N>) -> Self {
         let third = R::from_weight(1.0 / 3.0);
         let mut form = [[R::from_f32(0.0); N]; 4];
-        // In each name the letters stand for i, j and k: e where the ray enters, l where it leaves.
+        // The three letters of a name are for i, j and k: e where the ray enters, l where it leaves.
         for n in 0..N {
             let [e, l] = [enter, leave].map(|place| [place[0][n], place[1][n], place[2][n]]);
             let [xe, xl] = [e[0], l[0]].map(|x| {
@@ -61,7 +61,7 @@ impl<R: Real, const N: usize> Cubic<R, N> {
         largest
     }
 
-    /// The value at the local maximum; a smaller one if there is none between both ends.
+    /// The value at the local maximum; if there is none, a value of at most the larger end.
     #[inline(always)]
     pub(crate) fn at_summit(&self) -> [R; N] {
         let mut value = self.0[0];

@@ -143,7 +143,7 @@ impl Hierarchy {
         }
     }
 
-    /// Removes depths and radii from all pieces, so that only their position in the image counts.
+    /// Removes depths and radii from all pieces, so that only their positions in the image count.
     pub fn flatten(&mut self) {
         for bundle in &mut self.bundles {
             for s in 0..FAN {

@@ -24,7 +24,7 @@ pub const FAR: f32 = 1e9;
 /// A key that no piece beats: the pixel is left out of the search.
 pub const EXCLUDED: f32 = -1e30;
 
-/// The larger of two numbers, the second if the first is NaN: one instruction, where `f32::max` needs three.
+/// The larger of two numbers, the second if the first is NaN: one instruction; `f32::max` needs three.
 #[inline(always)]
 pub fn larger<R: PartialOrd>(a: R, b: R) -> R {
     if a > b { a } else { b }
@@ -36,7 +36,7 @@ pub fn smaller(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
 }
 
-/// An integer with the order of the number; the compiler vectorises reductions of integers only.
+/// An integer that sorts like the number: the compiler vectorises reductions of integers only.
 #[inline(always)]
 fn ordered(number: f32) -> i32 {
     let bits = number.to_bits() as i32;
@@ -82,7 +82,7 @@ impl Bits {
         Self(std::hint::black_box(bits))
     }
 
-    /// Bit n is set where number n is at most `limit`.
+    /// Bit n is set if number n is at most `limit`.
     #[inline(always)]
     pub fn within(&self, numbers: &[f32; FAN], limit: f32) -> u32 {
         let mut all = 0;

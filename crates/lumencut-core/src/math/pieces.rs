@@ -21,10 +21,10 @@ pub(crate) struct Bundle {
     /// The next point; the same point in a slot without stripe.
     pub next_x: [f32; FAN],
     pub next_y: [f32; FAN],
-    /// e: the edge to the next point, zero where it is missing or collinear with the view.
+    /// e: the edge to the next point; zero if missing or collinear with the view.
     pub edge_x: [f32; FAN],
     pub edge_y: [f32; FAN],
-    /// f: the edge before the point, zero where it is missing.
+    /// f: the edge before the point; zero if missing.
     pub before_x: [f32; FAN],
     pub before_y: [f32; FAN],
     /// 1 / |e|; zero if e is zero.
@@ -186,7 +186,7 @@ impl Stripe {
         let beyond_end = (x - self.end[0]) * ex + (y - self.end[1]) * ey;
         Foot {
             covered: (after_start >= 0.0) & (beyond_end <= 0.0),
-            // Rounding must not carry t past the end, where depth and radius were never bounded.
+            // Rounding must not move t beyond the end: no bounds of depth and radius hold there.
             t: smaller(after_start * self.per_square, 1.0),
             distance: (ux * self.unit[1] - uy * self.unit[0]).abs(),
         }
@@ -196,9 +196,9 @@ impl Stripe {
 #[derive(Clone, Copy, Debug)]
 pub struct Wedge {
     pub point: [f32; 2],
-    /// f: the edge before the point, zero where it is missing.
+    /// f: the edge before the point; zero if missing.
     pub before: [f32; 2],
-    /// e: the edge after the point, zero where it is missing.
+    /// e: the edge after the point; zero if missing.
     pub edge: [f32; 2],
 }
 

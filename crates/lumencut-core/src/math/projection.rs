@@ -24,7 +24,7 @@ pub struct Level {
     /// The first slot of each vessel, and the number of slots at the end.
     pub first_slot: Vec<u32>,
     pub points: Vec<DVec3>,
-    /// The radius at each slot (mm), 0 where unknown.
+    /// The radius at each slot (mm), 0 if unknown.
     pub radii: Vec<f32>,
     /// Arc length of each slot (mm); never falls along a vessel.
     pub arc_length: Vec<f32>,
@@ -74,7 +74,7 @@ impl Level {
 pub struct Projected {
     pub point: [f32; 3],
     pub radius: f32,
-    /// e, zero where missing or collinear.
+    /// e; zero if missing or collinear.
     pub edge: [f32; 2],
     pub before: [f32; 2],
     /// 1 / |e|; zero if e is zero.
@@ -111,7 +111,7 @@ impl Projected {
 
 #[derive(Clone, Copy, Debug)]
 pub struct Radii {
-    /// Factor on radii: 1 where they count, else 0.
+    /// Factor on radii: 1 if radii count, else 0.
     pub scale: f32,
     /// Replaces a radius of 0 (mm).
     pub unknown: f32,
@@ -220,11 +220,11 @@ fn stand(vessel: &mut [Projected]) {
     // Without an edge before it, the first point has a half-plane, or a plane before a run.
     vessel[0].stands = true;
     for i in first_stripe + 1..=last_stripe {
-        // After a stripe: a wedge, or a half-plane where a collinear run begins. Elsewhere in a run: nothing.
+        // After a stripe: a wedge, or a half-plane if a collinear run begins. Elsewhere in a run: nothing.
         vessel[i].stands = vessel[i - 1].has_stripe();
         vessel[i].before = vessel[i - 1].edge;
     }
-    // The last point: a half-plane, or a plane where a run ends the vessel.
+    // The last point: a half-plane, or a plane if a run ends the vessel.
     vessel[last].stands = true;
     vessel[last].before = if last_stripe + 1 == last { vessel[last_stripe].edge } else { [0.0; 2] };
 }

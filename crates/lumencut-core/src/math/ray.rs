@@ -1,4 +1,4 @@
-//! Rays through the volume: sixteen at a time, cut into equal parts, skipped where nothing can be seen.
+//! Rays through the volume: sixteen at a time, cut into equal parts; parts that show nothing are skipped.
 
 use super::blocks::{Blocks, Range};
 use super::lanes::FAN;
@@ -39,7 +39,7 @@ impl Rays {
 pub(crate) struct Packet {
     lines: Lines,
     part: [f64; FAN],
-    /// The number of parts of each ray; 0 where it misses the volume or is not needed.
+    /// The number of parts of each ray; 0 if it misses the volume or is not needed.
     pub count: [i32; FAN],
     pub thickness: [f32; FAN],
     pub longest: i32,

@@ -1,4 +1,4 @@
-// The largest, the smallest or the mean value along a whole ray.
+// The largest, the smallest or the mean value along a ray through the entire volume.
 // import math/blocks
 // import math/cell_walk
 

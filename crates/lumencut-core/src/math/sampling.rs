@@ -22,7 +22,7 @@ pub struct Grid {
 /// voxel.
 pub type Places = [[f32; FAN]; 3];
 
-/// Positions to sample: sixteen at each of some steps.
+/// Positions to sample: sixteen per step.
 pub trait SampledRun {
     fn places(&self, n: usize) -> Places;
 }
@@ -35,7 +35,7 @@ pub struct Around {
 }
 
 impl Around {
-    /// Around positions that are relative to a voxel `shift` voxels before theirs.
+    /// The positions around `places`; the base moves to a voxel `shift` voxels before the present one.
     pub fn new(places: Places, shift: [f32; 3]) -> Self {
         Self { places, shift }
     }

@@ -39,7 +39,7 @@ struct GridParameters {
 @group(0) @binding(2) var<uniform> grid: GridParameters;
 @group(0) @binding(3) var voxels: texture_3d<i32>;
 
-// A continuous index: an integer and a summand, so that fractions keep their digits.
+// A continuous index: an integer and a remainder, so that fractions keep their digits.
 struct GridPosition {
     whole: vec3f,
     part: vec3f,
@@ -97,7 +97,7 @@ fn corners_in(near: vec3i) -> Corners {
     return Corners(low, high);
 }
 
-// The value in a cell; HUGE where one of its voxels has none.
+// The value in a cell; HUGE if one of its voxels has none.
 fn value_in(cell: Cell) -> f32 {
     let corners = corners_in(cell.voxel);
     let low = corners.near;

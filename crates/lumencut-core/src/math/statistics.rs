@@ -18,7 +18,7 @@ pub fn quantile(values: &mut [f64], part: f64) -> Option<f64> {
     Some(if weight < 0.5 { low + difference * weight } else { high - difference * (1.0 - weight) })
 }
 
-/// The start of the second of two groups of rising values by Otsu (1979); `None` if all are equal.
+/// Splits rising values into two groups by Otsu (1979): the start of the second; `None` if all are equal.
 pub fn two_groups(rising: &[f64]) -> Option<usize> {
     let first = *rising.first()?;
     let all: f64 = rising.iter().map(|value| value - first).sum();

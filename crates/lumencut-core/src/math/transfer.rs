@@ -4,7 +4,7 @@ use super::blocks::{HUGE, Range};
 use super::lanes::{FAN, larger, smaller};
 use crate::settings::{ControlPoint, TransferFunction};
 
-/// Opacity below which nothing is seen, far below one grey value over a whole body.
+/// Opacity below which nothing is seen: even across a body it changes far less than one grey value.
 pub const INVISIBLE: f32 = 1e-6;
 
 /// A rise from one control point to the next: what it adds to colour and opacity.

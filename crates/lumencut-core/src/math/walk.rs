@@ -10,7 +10,7 @@ use super::nearest::{NearestPoint, lower_distance};
 use super::pieces::Envelope;
 use super::tile::{Tile, lane};
 
-/// Fifteen siblings wait on each of the eight heights that 2³² slots can have.
+/// On each of the eight heights that 2³² slots can have, at most fifteen siblings wait.
 const STACK: usize = 8 * FAN;
 
 /// Waiting nodes, the nearest on top: bound, height and index.

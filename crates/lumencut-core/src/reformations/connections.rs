@@ -26,7 +26,7 @@ struct Reached {
     distance: f32,
 }
 
-/// The most reachable meetings cached over all junctions; the rest is recomputed on each use.
+/// The largest number of reachable meetings cached over all junctions; the rest is recomputed on each use.
 const MAX_CACHED: usize = 1 << 24;
 
 /// Where the vessels of a tree meet: wherever one of them ends at a point of another.

@@ -19,7 +19,7 @@ pub(super) struct PixelContent {
     pub vessel: i32,
     /// Slopes and radius, as the stage `leap` reads them.
     pub sheet: Sheet,
-    /// Whether other points of the vessel could stand here.
+    /// Whether other points of the vessel could be shown in this pixel as well.
     pub is_folded: bool,
 }
 

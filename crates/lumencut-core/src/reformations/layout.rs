@@ -22,10 +22,10 @@ pub trait Layout: Send + Sync {
     /// World position and slab direction of each pixel; a position that is not finite shows nothing.
     fn curved(&self, stop: Stop) -> Result<Curved>;
 
-    /// Arc length (mm): one per row if rows run along one vessel, else per pixel; NaN where nothing is shown.
+    /// Arc length (mm): one per row if rows run along one vessel, else per pixel; NaN if nothing is shown.
     fn arc_length(&self, stop: Stop) -> Result<Vec<f64>>;
 
-    /// Pixels that are unreliable because the image runs backwards or shows the same elsewhere.
+    /// Whether pixels are unreliable: the image runs backwards there, or shows the same point elsewhere.
     fn folded(&self, stop: Stop) -> Result<Vec<bool>>;
 
     /// The world point at an image position.

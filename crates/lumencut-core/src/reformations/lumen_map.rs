@@ -50,7 +50,7 @@ pub struct LumenMap {
     straightened: Straightened,
     wall: Arc<Wall>,
     parameters: LumenMapParameters,
-    /// Columns once around the vessel, and those that are repeated on each side.
+    /// Number of columns once around the vessel, and of those that are repeated on each side.
     columns: [usize; 2],
     rows: usize,
 }
@@ -113,7 +113,7 @@ impl LumenMap {
         self.each(false, stop, |at, around| self.wall.is_open(at, around))
     }
 
-    /// Brightness of the wall lit from the middle of the vessel: 1 where it is met at right angles.
+    /// Brightness of the wall lit from the middle of the vessel: 1 if the light meets it at right angles.
     pub fn shades(&self, stop: Stop) -> Result<Vec<f32>> {
         let numbers = (0..self.size()[1] + 2).into_par_iter();
         let rows = numbers

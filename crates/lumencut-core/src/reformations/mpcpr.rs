@@ -18,7 +18,7 @@ use crate::stages::depth::Sheet;
 
 const POINTS_PER_BLOCK: usize = 64;
 
-/// The slope (mm per mm) is clamped to this: it is unbounded where a vessel runs along a row.
+/// The slope (mm per mm) is clamped to this; if a vessel runs along a row, it would be unbounded.
 const MAX_SLOPE: f64 = 1e9;
 
 /// The position of every pixel of a view by mpCPR. The setting `centerline_smoothing` applies, and

@@ -45,7 +45,7 @@ impl<F: Fn(usize) -> [f64; 2] + Sync> RaySource for ViewRays<F> {
     }
 }
 
-/// Writes the value of each ray; NaN where it meets no value.
+/// Writes the value of each ray; NaN if it meets no value.
 pub fn along_rays(work: &Work, along: &AlongRays, source: &dyn RaySource, values: &mut [f32]) -> Result<()> {
     let (grid, isa, width) = (Grid::new(along.volume), work.isa, along.size[0]);
     with_voxels!(along.volume.voxels(), voxels => {

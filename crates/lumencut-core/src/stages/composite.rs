@@ -13,7 +13,7 @@ use crate::settings::Settings;
 /// The layers of a picture, from the front to the back.
 #[derive(Clone, Copy, Debug)]
 pub struct Layers<'a> {
-    /// The volume at the cut surface, NaN where it shows nothing.
+    /// The volume at the cut surface, NaN if it shows nothing.
     pub value: &'a [f32],
     /// Strength of the silhouettes, if they are drawn.
     pub strength: Option<&'a [f32]>,
@@ -47,7 +47,7 @@ pub fn composite(
     layers.focus.iter().for_each(|focus| work.expect_whole(Image::Focus, focus));
     layers.context.iter().for_each(|context| work.expect_whole(Image::Gathered, context));
     let chunk = work.tile_row();
-    // Stand-ins for missing layers.
+    // Arrays that replace missing layers.
     let absent = vec![0.0; if layers.strength.is_some() { 0 } else { chunk }];
     let whole = vec![[1.0; 2]; if layers.focus.is_some() { 0 } else { chunk }];
     let empty = vec![[0.0; 4]; if layers.context.is_some() { 0 } else { chunk }];
@@ -136,7 +136,7 @@ const PIXELS_TOGETHER: usize = 64;
 
 #[inline(always)]
 fn is_nothing(colors: &[[f32; 4]]) -> bool {
-    // A fold without early exit vectorises.
+    // Without an early exit the fold vectorises.
     colors.as_flattened().iter().fold(0, |bits, channel| bits | channel.to_bits()) == 0
 }
 
@@ -188,7 +188,7 @@ impl Kernel for StraightRows<'_> {
     fn run(self) {
         for (image, colors) in self.image.chunks_mut(PIXELS_TOGETHER).zip(self.colors.chunks(PIXELS_TOGETHER))
         {
-            // Most of a picture has no context: unwritten pages cost no memory.
+            // Most of a picture has no context, and pages that are never written cost no memory.
             if !is_nothing(colors) {
                 for (image, color) in image.iter_mut().zip(colors) {
                     *image = straight(*color, [0.0; 4]);

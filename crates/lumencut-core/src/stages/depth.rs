@@ -127,7 +127,7 @@ impl Search for LowestKeySearch<'_> {
 /// precedence.
 pub type Sheet = [f32; 4];
 
-/// The gap in a sheet where a chosen vessel takes precedence.
+/// The gap in a sheet if a chosen vessel takes precedence at the pixel.
 pub const CHOSEN_GAP: f32 = -1.0;
 
 /// The images that the stage writes. `sheet` is empty if nothing reads it.

@@ -30,7 +30,7 @@ pub enum Image {
     Start,
     /// The context: premultiplied colours and opacity, four f32.
     Gathered,
-    /// The context alone as RGBA with straight alpha, four bytes.
+    /// Only the context, as RGBA with straight alpha, four bytes.
     Context,
     /// The picture as RGBA with straight alpha, four bytes.
     Picture,
@@ -255,9 +255,9 @@ impl Stage {
         wanted.has(Image::Sheet) || Self::of_cut_surface(settings, wanted).contains(&Self::Leap)
     }
 
-    /// The stages that show what is there, in their order. Of the images `made` so far, the surface needs a
-    /// depth, and silhouettes leaps or vessels too. A curved geometry has neither silhouettes nor context.
-    /// The frame shall have the images `wanted`.
+    /// The stages, in order, that show the volume at the positions of `geometry`. Of the images `made` so
+    /// far, the surface needs a depth, and silhouettes leaps or vessels too. A curved geometry has neither
+    /// silhouettes nor context. The frame shall have the images `wanted`.
     pub fn of_look(settings: &Settings, geometry: &Geometry, made: ImageSet, wanted: ImageSet) -> Vec<Self> {
         let has_camera = geometry.camera().is_some();
         let has_surface = !has_camera || made.has(Image::Depth);

@@ -29,7 +29,7 @@ fn render(renderer: &mut GpuRenderer, scene: &Scene, stop: Stop) -> Result<Frame
     pollster::block_on(renderer.render(scene, &Request { stop, ..Request::new(&camera, &settings) }))
 }
 
-/// An error of the GPU in one line with a mend.
+/// Asserts that an error of the GPU is one line and that the CPU is its remedy.
 fn check(error: &Error) {
     let line = error.to_string();
     assert_eq!(error.kind, ErrorKind::Device, "{line}");

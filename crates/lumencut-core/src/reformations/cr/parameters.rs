@@ -7,7 +7,7 @@ const MAX_THRESHOLD_PIXELS: f64 = 1e6;
 /// The two thresholds of CR.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CrParameters {
-    /// Distance beyond its radius within which a vessel displaces what lies behind it (pixels).
+    /// Distance beyond its radius within which a vessel hides what lies behind it (pixels).
     pub radius_offset: f64,
     /// Points within this distance along the tree (pixels) form a stretch, which shows its nearest point.
     pub arc_threshold: f64,

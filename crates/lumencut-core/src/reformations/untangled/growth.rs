@@ -14,11 +14,11 @@ const SAME_RADIUS_MM: f64 = 1e-6;
 
 #[derive(Clone, Debug)]
 pub(super) struct Part {
-    /// The point it grows from (mm, LPS).
+    /// The point from which the part grows (mm, LPS).
     pub root: DVec3,
-    /// Its pieces, each after the one that it follows.
+    /// The pieces of the part, each after the one that it follows.
     pub order: Vec<usize>,
-    /// Those of them that begin at the root.
+    /// The pieces that begin at the root.
     pub first: Vec<usize>,
 }
 

@@ -47,7 +47,7 @@ pub(super) fn discs(number: usize, piece: &Piece, places: &[DVec2], margin: f64)
         .collect()
 }
 
-/// The discs at least `distance` from the origin, and one more where a piece crosses that distance.
+/// The discs at least `distance` from the origin, and one more at each crossing of that distance.
 pub(super) fn beyond(discs: &[Disc], distance: f64) -> Vec<Disc> {
     let is_beyond = |disc: &Disc| disc.center.length() >= distance;
     let mut kept = Vec::new();
@@ -114,7 +114,7 @@ impl Hull {
         });
     }
 
-    /// Whether discs of one piece overlap farther apart along it than twice the sum of their radii.
+    /// Whether discs of a piece overlap that are farther apart along it than twice the sum of their radii.
     pub(super) fn overlaps_itself(&self) -> bool {
         let is_far =
             |disc: &Disc, other: &Disc| (disc.at - other.at).abs() > 2.0 * (disc.radius + other.radius);

@@ -44,7 +44,7 @@ pub(super) struct Turning {
     pub hulls: Vec<Vec<Disc>>,
     /// Hull radii around a branching point, besides [`OVERLAP_EXTRA_MM`], within which branches may overlap.
     pub near: f64,
-    /// Number of branching points where sectors did not fit, so that branches turned too much or too little.
+    /// Number of branching points at which sectors did not fit, so branches turned too much or too little.
     pub without_room: usize,
     /// The pieces that still overlap others, or themselves.
     pub overlaps: Vec<usize>,
@@ -190,7 +190,7 @@ impl Node {
         (wanted.collect(), has_room)
     }
 
-    /// The smallest share of the turns without overlap; 1 if there is none.
+    /// The smallest share of the wanted turns without overlap; 1 if there is none.
     fn smallest_share(&self, wanted: &[f64]) -> f64 {
         let mut shares = (0..=TURN_STEPS).map(|step| step as f64 / TURN_STEPS as f64);
         let Some(mut enough) = shares.find(|share| self.is_apart(wanted, *share)) else { return 1.0 };
