@@ -38,9 +38,9 @@ use crate::stop::Stop;
 pub struct Request<'a> {
     /// The view.
     pub camera: &'a Camera,
-    /// How it is made and shown.
+    /// How the view is made and shown.
     pub settings: &'a Settings,
-    /// The images that the frame shall have, if the view has them.
+    /// The images that the frame shall contain, if the view has them.
     pub images: ImageSet,
     /// Whether to stop.
     pub stop: Stop<'a>,
@@ -151,8 +151,8 @@ impl CpuRenderer {
         SurfaceDetails::of(&self.pass(&Request { settings, images: SurfaceDetails::WANTED, ..*request }))
     }
 
-    /// Strength of the silhouettes of a reformation's frame with [`crate::stages::Image::Leap`], 0 to 1,
-    /// unmasked.
+    /// Strength of the silhouettes, 0 to 1, of a reformation's frame with [`crate::stages::Image::Leap`];
+    /// neither reach nor focus reduces it.
     pub fn strength(&self, frame: &Frame, request: &Request) -> Result<Vec<f32>> {
         let &Request { camera, settings, stop, .. } = request;
         let work = Work { size: frame.size(), isa: self.isa, stop, progress: None };

@@ -34,7 +34,7 @@ impl<'a> Scene<'a> {
         Self { volume: Some(SharedVolume::new(volume, VolumeKey::default())), ..self }
     }
 
-    /// Replaces the tree; what was computed of the volume stays.
+    /// Replaces the tree; what was computed from the volume stays.
     #[must_use]
     pub fn with_tree(self, tree: VesselTree) -> Self {
         Self { tree: Some(Arc::new(LeveledTree::new(tree))), ..self }

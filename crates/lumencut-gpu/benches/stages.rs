@@ -26,7 +26,7 @@ type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
 /// Rendering time before the measurement.
 const WARM_UP: Duration = Duration::from_secs(1);
-/// The frame of which only the picture is read back.
+/// The row for frames of which only the picture is read back.
 const PICTURE_ALONE: &str = "picture alone";
 
 #[derive(Clone, Copy)]

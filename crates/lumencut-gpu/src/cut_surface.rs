@@ -43,7 +43,7 @@ pub(crate) struct CutSurfaceStages {
     parameters: Buffer,
     /// The layout of the levels last written.
     written_layout: Option<[LevelLayout; MAX_LEVELS + 1]>,
-    /// The pixels of a workgroup.
+    /// Columns and rows of pixels of a workgroup.
     group: [usize; 2],
 }
 

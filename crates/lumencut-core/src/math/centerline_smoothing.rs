@@ -15,7 +15,7 @@ use crate::vessel_tree::{MAX_COORDINATE, Vessel, VesselTree};
 /// Number of box layers that approximate the Gaussian.
 const LAYERS: usize = 16;
 
-/// Where the Gaussian is cut off (σ).
+/// Distance at which the Gaussian is cut off (σ).
 const CUT_OFF_SIGMAS: f64 = 4.0;
 
 /// `tree` with centerlines smoothed by a Gaussian whose σ at each point is `radii` times the radius there.
@@ -40,7 +40,7 @@ fn smooth(vessel: &Vessel, radii: f64, ends: &PositionMap<()>, layers: &[Layer])
         let stretch = FixedRun::new(&points[start..=end]);
         for i in start + 1..end {
             let sigma = radii * radius[i];
-            // A smaller σ moves nothing.
+            // With a smaller σ the point stays as it is.
             if sigma >= VESSEL_END {
                 smoothed[i] = stretch.mean(i - start, sigma, layers);
             }

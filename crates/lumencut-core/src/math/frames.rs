@@ -12,7 +12,7 @@ use super::centerline_path::CenterlinePath;
 /// The longest rounding of a corner before and after a point (mm).
 pub(crate) const MAX_CORNER_MM: f64 = 5.0;
 
-/// Two directions that differ by less than this sine are equal.
+/// Two directions count as equal if the sine of their angle is smaller.
 const SAME_DIRECTION: f64 = 1e-12;
 
 /// A right-handed set of unit vectors: `across` × `tangent` = `ahead`.

@@ -62,7 +62,7 @@ impl RayGrid {
         Self { size: camera.size(), first: [camera.view_x(0), camera.view_y(0)], next: [s, -s] }
     }
 
-    /// A ray for every square of four pixels.
+    /// One ray for every square of four pixels.
     pub fn coarse(camera: &Camera) -> Self {
         let fine = Self::fine(camera);
         let first = std::array::from_fn(|a| fine.first[a] + fine.next[a] / 2.0);

@@ -10,7 +10,7 @@ use crate::stages::depth::Sheet;
 use crate::stages::leap::{LeapParameters, leap};
 use crate::stages::{Stage, Work};
 
-/// The vessel of a pixel that shows none.
+/// The vessel id of pixels that show no vessel.
 pub const NO_VESSEL: i32 = -1;
 
 #[derive(Clone, Copy, Debug)]

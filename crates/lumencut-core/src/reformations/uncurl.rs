@@ -58,7 +58,7 @@ impl Uncurl {
         Ok(Self { path, camera, amount, reach: width.map_or(f64::INFINITY, |width| width / 2.0), bent, feet })
     }
 
-    /// The points of the bent vessel before the camera (mm, LPS).
+    /// The points of the bent vessel, placed in front of the camera (mm, LPS).
     pub fn points(&self) -> &[DVec3] {
         &self.bent.points
     }

@@ -30,7 +30,7 @@ impl Named for ContextName {
 }
 
 impl ContextName {
-    /// What its rays gather; `gamma` is that of MIDA.
+    /// What the rays of this mode gather; `gamma` is the γ of MIDA.
     pub fn mode(self, gamma: f64) -> ContextMode {
         match self {
             Self::Mida => ContextMode::Blend { gamma },
@@ -107,7 +107,7 @@ pub struct Context {
     pub shading: bool,
     /// Where rays start around the focus.
     pub from: ContextFrom,
-    /// Factor on its colours in the picture, 0 to 1.
+    /// Factor on the colours of the context in the picture, 0 to 1.
     pub strength: f64,
     /// Whether only one ray is traced for each square of four pixels.
     pub preview: bool,

@@ -22,7 +22,7 @@ pub struct Setting {
 }
 
 impl Setting {
-    /// What it does, in one sentence.
+    /// What the setting does, in one sentence.
     pub fn sentence(&self) -> String {
         self.paragraphs().next().unwrap_or_default()
     }

@@ -27,7 +27,7 @@ impl Named for SlabMode {
 pub struct Slab {
     /// Distance from its near to its far side along the view (mm); the cut surface lies in the middle.
     pub thickness: f64,
-    /// What it shows.
+    /// What the slab shows.
     pub mode: SlabMode,
 }
 

@@ -54,7 +54,7 @@ impl Kind {
 /// The value of a setting.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// No choice.
+    /// No value was chosen.
     None,
     /// Of [`Kind::Flag`].
     Flag(bool),
@@ -83,7 +83,7 @@ pub enum Value {
 /// A transfer function as a host chooses it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Transfer {
-    /// By name; it lies within the window of the context.
+    /// By name; the function lies within the window of the context.
     Preset(Preset),
     /// By its points.
     Function(TransferFunction),

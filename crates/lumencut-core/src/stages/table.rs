@@ -81,7 +81,7 @@ impl Image {
 pub struct ImageSet(u16);
 
 impl ImageSet {
-    /// All that a frame can have.
+    /// All images that a frame can have.
     pub const ALL: Self = Self::of(&[
         Image::Distance,
         Image::Depth,
@@ -270,7 +270,7 @@ impl Stage {
         let has_silhouettes = has_picture && settings.silhouettes && can_have_silhouettes;
         let wants_context = has_picture || wanted.has(Image::Context);
         let has_context = wants_context && has_camera && settings.context.is_some();
-        // Rays of a context start by the values.
+        // The values decide where rays of a context start.
         let has_values = has_surface && (has_picture || has_context || wanted.has(Image::Value));
         let stages = [
             (Self::Surface, has_values),

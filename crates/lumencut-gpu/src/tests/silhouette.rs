@@ -16,7 +16,7 @@ use crate::images::Images;
 use crate::recording::Recording;
 use crate::silhouette::{Silhouette, SilhouetteImages};
 
-/// Both strengths of an image, and the names of the timings.
+/// The strengths of an image on both sides, and the names of the timings.
 fn both(
     size: [usize; 2],
     depth: &[f32],

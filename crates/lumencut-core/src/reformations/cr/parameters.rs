@@ -14,7 +14,7 @@ pub struct CrParameters {
 }
 
 impl Default for CrParameters {
-    /// Those of the paper's picture of the neck.
+    /// The thresholds of the paper's picture of the neck.
     fn default() -> Self {
         Self { radius_offset: 50.0, arc_threshold: 150.0 }
     }

@@ -89,7 +89,7 @@ struct Best<'a> {
     /// The middle of the stretch: a vessel and an arc length (mm).
     middle: (i32, f32),
     seen: Seen,
-    /// The squared distance (mm²) beyond which nothing is nearer.
+    /// Segments beyond this squared distance (mm²) cannot be nearer.
     limit: f32,
 }
 

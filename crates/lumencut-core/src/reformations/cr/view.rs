@@ -122,7 +122,7 @@ pub(super) const NO_PIECE: u32 = u32::MAX;
 
 #[derive(Clone, Copy)]
 pub(super) struct Seen {
-    /// Twice its slot, plus 1 for the stripe.
+    /// Twice the slot of the piece, plus 1 for a stripe.
     pub piece: u32,
     pub vessel: i32,
     pub is_covered: bool,

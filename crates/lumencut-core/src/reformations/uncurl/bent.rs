@@ -27,7 +27,7 @@ struct Turning {
 #[derive(Clone, Debug)]
 pub(super) struct Bent {
     turnings: Vec<Turning>,
-    /// The points before the camera (mm, LPS).
+    /// The points, placed in front of the camera (mm, LPS).
     pub points: Vec<DVec3>,
 }
 

@@ -70,7 +70,7 @@ fn crossing(from: DVec2, to: DVec2, distance: f64) -> f64 {
     let step = to - from;
     let [a, b, c] = [step.length_squared(), from.dot(step), from.length_squared() - distance * distance];
     let root = (b * b - a * c).max(0.0).sqrt();
-    // Outwards the larger solution, inwards the smaller one.
+    // On the way outwards the larger solution, inwards the smaller one.
     let share = if c < 0.0 { (root - b) / a } else { (-root - b) / a };
     share.clamp(0.0, 1.0)
 }
