@@ -1,4 +1,4 @@
-//! The context: the sampler against a scalar loop, and every mode with and without block skipping.
+//! Times of the context: the sampler against a scalar loop, and every mode with and without block skipping.
 
 use glam::{DAffine3, DVec3};
 use lumencut_core::camera::Camera;
@@ -21,7 +21,7 @@ use lumencut_scenes::workloads::WORKLOADS;
 const SIDE: usize = 256;
 const PACKETS: usize = 2048;
 const SAMPLES: usize = 128;
-/// Samples of a ray taken together.
+/// Number of samples of a ray that are taken together.
 const STEPS: usize = 8;
 
 struct Line {
@@ -160,7 +160,7 @@ fn modes() -> Vec<(&'static str, Context)> {
     ]
 }
 
-/// Milliseconds of one mode with every ray through the whole volume.
+/// Time (ms) of one mode if every ray crosses the entire volume.
 fn whole(shared: &SharedVolume, camera: &Camera, settings: &Context, skip: bool, runs: usize) -> Result<f64> {
     let work = on_cpu(camera);
     let start = vec![WHOLE; 512 * 512];

@@ -1,4 +1,4 @@
-//! The cut surface (projection, distance and depth at all levels) against brute force in the same run.
+//! Times of the cut surface (projection, distance and depth at all levels), compared with brute force.
 
 use glam::DVec3;
 use lumencut_core::brute_force;
@@ -88,7 +88,7 @@ fn against_brute_force(name: &str, tree: &VesselTree, sets: &[Isa]) -> Result<()
         [("default", Settings::default()), ("paper's", Settings::paper()), ("lumen first, nearest", nearest)];
     let leveled = LeveledTree::new(tree.clone());
     for (zoom, camera) in zooms(tree)? {
-        // The other rules and instruction sets are timed only for the view that shows the whole tree.
+        // The other rules and instruction sets are timed only for the view that shows the entire tree.
         let fits = zoom == "fits";
         for (rule, settings) in rules.iter().take(if fits { rules.len() } else { 1 }) {
             for &isa in if fits { sets } else { &sets[sets.len() - 1..] } {
@@ -115,7 +115,7 @@ fn against_brute_force(name: &str, tree: &VesselTree, sets: &[Isa]) -> Result<()
     Ok(())
 }
 
-/// Compares the slowest of many directions with the median.
+/// Compares the time of the slowest of many view directions with the median.
 fn over_directions(name: &str, tree: &VesselTree) {
     let (mut renderer, settings) = (CpuRenderer::default(), Settings::default());
     renderer.prepare(&LeveledTree::new(tree.clone()), &settings);

@@ -1,4 +1,4 @@
-//! The cut surface by the default rules and by the paper's, in alternation, at several pixel spacings.
+//! Times of the cut surface by the default rules and the paper's, alternating, at several pixel spacings.
 
 use glam::DVec3;
 use lumencut_core::camera::Camera;
@@ -14,12 +14,12 @@ use lumencut_scenes::timing::{head, once, row};
 use lumencut_scenes::workloads::WORKLOADS;
 
 const RUNS: usize = 41;
-/// Without the distance image, which the paper's rule computes anyway.
+/// The images of a cut surface without the distance, which the paper's rule computes anyway.
 const SURFACE: ImageSet = ImageSet::of(&[Image::Depth, Image::Vessel]);
 
-/// The medians of both rules (ms), and the median of the ratios of neighbouring runs.
+/// The median time of each rule (ms), and the median ratio of the times of neighbouring runs.
 fn in_turns(scene: &Scene, camera: &Camera) -> Result<[f64; 3]> {
-    // Without depth filter, leaps and image: `workloads` measures whole frames.
+    // Depth filter, leaps and picture are off: `workloads` measures complete frames.
     let rules = [Settings::default(), Settings::paper()];
     let rules = rules.map(|rule| Settings { depth_filter: false, ..rule });
     let mut renderers = [CpuRenderer::default(), CpuRenderer::default()];

@@ -1,4 +1,4 @@
-//! mpCPR, CR and the cut surface: 512 × 512 pixels of the workloads from the front, without context.
+//! Times of mpCPR, CR and the cut surface at 512 × 512 pixels: the workloads from the front, without context.
 
 use glam::DVec3;
 use lumencut_core::error::Result;
@@ -17,7 +17,7 @@ const RUNS: usize = 31;
 
 type Find<'a> = &'a dyn Fn(&LeveledTree, &Request) -> Result<Frame>;
 
-/// Median and fastest milliseconds of finding the positions, and of the whole picture.
+/// Median and shortest time (ms) of finding the positions, and of the complete picture.
 fn times(volume: &SharedVolume, tree: &LeveledTree, request: &Request, find: Find) -> [String; 2] {
     let renderer = CpuRenderer::default();
     let found = || find(tree, request).expect("a frame");

@@ -1,4 +1,4 @@
-//! Untangled CPR of trees of 9, 50 and 200 random vessels at about 512 × 1024 pixels: layout and positions.
+//! Times of untangled CPR, layout and positions, of trees of 9, 50 and 200 vessels, about 512 × 1024 pixels.
 
 use glam::DVec3;
 use lumencut_core::camera::Camera;
@@ -13,7 +13,7 @@ const RUNS: usize = 11;
 
 const PIXELS: f64 = 512.0 * 1024.0;
 
-/// A spiral on the sphere.
+/// The direction with number `n` on a spiral around the sphere.
 fn direction(n: usize) -> DVec3 {
     let z = 1.0 - 2.0 * ((n as f64 * 0.754_877_666).fract());
     let around = n as f64 * 2.399_963_229;

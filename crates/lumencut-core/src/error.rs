@@ -1,4 +1,4 @@
-//! Errors in one form: subject, what was found, what was expected, and what mends it.
+//! Errors in one form: subject, what was found, what was expected, and how to fix it.
 
 use std::fmt;
 
@@ -41,7 +41,7 @@ impl ErrorKind {
     ];
 }
 
-/// Where an error shows in the volume.
+/// The position in the volume where an error shows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ErrorPosition {
     /// Position (mm, LPS).
@@ -50,7 +50,7 @@ pub struct ErrorPosition {
     pub value: f64,
 }
 
-/// Which of the clicked points an error is about; the subject names the same in words.
+/// The clicked points that an error is about; the error's subject names them in words.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Clicked {
     /// All points of the vessel with this number, from 0.
@@ -66,7 +66,7 @@ pub enum Clicked {
     Single,
 }
 
-/// An error in one line: `subject: found …; expected …; advice, or mend`.
+/// An error in one line: `subject: found …; expected …; how to fix it`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Error {
     /// The cause.
@@ -77,18 +77,18 @@ pub struct Error {
     pub found: String,
     /// What was expected.
     pub expected: String,
-    /// Advice without an action in a host; empty where `expected` already says it.
+    /// Advice for which no host has an action; empty if `expected` already says how to fix the error.
     pub mend: String,
-    /// A mend besides the advice, which hosts word and offer themselves.
+    /// A remedy besides the advice; hosts word and offer it themselves.
     pub mended_by: Option<Mend>,
     /// Position in the volume: the weakest point of a path without lumen, or the point outside the lumen.
     pub place: Option<Box<ErrorPosition>>,
-    /// The clicked points it is about.
+    /// The clicked points that the error is about.
     pub clicked: Option<Box<Clicked>>,
 }
 
 impl Error {
-    /// An error without a mend.
+    /// An error without advice or remedy.
     pub fn new(
         kind: ErrorKind,
         subject: impl Into<String>,
@@ -107,14 +107,14 @@ impl Error {
         }
     }
 
-    /// Adds advice without an action in a host.
+    /// Adds advice for which no host has an action.
     #[must_use]
     pub fn mend(mut self, mend: impl Into<String>) -> Self {
         self.mend = mend.into();
         self
     }
 
-    /// Adds a mend that hosts word and offer themselves.
+    /// Adds a remedy that hosts word and offer themselves.
     #[must_use]
     pub fn mended_by(mut self, mend: Mend) -> Self {
         self.mended_by = Some(mend);
@@ -135,7 +135,7 @@ impl Error {
         self
     }
 
-    /// The caller asked to stop.
+    /// The error after the caller asked to stop.
     pub fn interrupted() -> Self {
         Self::new(ErrorKind::Interrupted, "rendering", "a request to stop", "to run to its end")
     }

@@ -7,7 +7,7 @@ use crate::stages::{Image, ImageSet};
 /// How long one stage took.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Timing {
-    /// Name of the stage, the same as its module's.
+    /// Name of the stage and of its module.
     pub stage: &'static str,
     /// Wall time (ms).
     pub milliseconds: f64,
@@ -24,13 +24,13 @@ pub struct Frame {
     pub vessel: Vec<i32>,
     /// Where the cut surface leaps ([`crate::stages::leap`]).
     pub leap: Vec<u32>,
-    /// Shown shares of cut surface and silhouettes ([`crate::stages::focus`]); empty where all is shown.
+    /// How much of surface and silhouettes is shown ([`crate::stages::focus`]); empty if all of both is.
     pub focus: Vec<Shares>,
     /// Projected distance to the nearest centerline (mm).
     pub distance: Vec<f32>,
     /// The volume at the cut surface, NaN outside the volume.
     pub value: Vec<f32>,
-    /// The context alone, RGBA with straight alpha; transparent where not needed, empty without a context.
+    /// Only the context, RGBA with straight alpha; transparent where not needed, empty without a context.
     pub context: Vec<[u8; 4]>,
     /// For reformations: whether other points of the vessel share the pixel. Otherwise empty.
     pub folded: Vec<bool>,
@@ -39,7 +39,7 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// A frame with positions and no images yet.
+    /// A frame that has positions but no images yet.
     pub fn of(geometry: Geometry) -> Self {
         Self {
             geometry,
@@ -60,7 +60,7 @@ impl Frame {
         self.geometry.size()
     }
 
-    /// Depth of the cut surface (mm); empty where there is none.
+    /// Depth of the cut surface (mm); empty if there is none.
     pub fn depth(&self) -> &[f32] {
         self.geometry.depth()
     }
@@ -91,7 +91,7 @@ impl Frame {
         there.fold(ImageSet::of(&[]), |images, (image, _)| images.and(ImageSet::of(&[image])))
     }
 
-    /// Makes the picture transparent where it has no value, independent of the background.
+    /// Makes pixels of the picture without a value transparent, whatever the background.
     #[must_use]
     pub fn transparent_outside(mut self) -> Self {
         clear_outside(&mut self.image, &self.value);

@@ -12,7 +12,7 @@ pub enum Geometry {
     Orthographic {
         /// The view.
         camera: Camera,
-        /// Depth of the cut surface in each pixel (mm); if empty, every ray crosses the whole volume.
+        /// Depth of the cut surface in each pixel (mm); if empty, every ray crosses the entire volume.
         depth: Vec<f32>,
     },
     /// One position per pixel.
@@ -33,7 +33,7 @@ impl Geometry {
         }
     }
 
-    /// The camera, where there is one.
+    /// The camera, if there is one.
     pub fn camera(&self) -> Option<&Camera> {
         match self {
             Self::Orthographic { camera, .. } => Some(camera),
@@ -49,7 +49,7 @@ impl Geometry {
         }
     }
 
-    /// Whether pixels have a position; false where every ray crosses the whole volume.
+    /// Whether pixels have a position; false if every ray crosses the entire volume.
     pub fn has_surface(&self) -> bool {
         match self {
             Self::Orthographic { depth, .. } => !depth.is_empty(),

@@ -1,8 +1,8 @@
-//! What mends an error, if a host can do it or words it itself.
+//! Remedies for errors, if a host can apply or word them itself.
 
 use std::fmt;
 
-/// A step that mends an [`Error`](crate::error::Error). Each host words it: as Python arguments, command-line
+/// A remedy for an [`Error`](crate::error::Error). Each host words it: as Python arguments, command-line
 /// options or buttons. The words of [`fmt::Display`] are for Rust programs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Mend {
@@ -25,7 +25,7 @@ pub enum Mend {
 }
 
 impl Mend {
-    /// Every mend of this crate.
+    /// Every remedy of this crate.
     pub const ALL: [Self; 8] = [
         Self::Bridge,
         Self::EverySecond,

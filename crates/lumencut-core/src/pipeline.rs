@@ -38,9 +38,9 @@ use crate::stop::Stop;
 pub struct Request<'a> {
     /// The view.
     pub camera: &'a Camera,
-    /// How it is made and shown.
+    /// How the view is made and shown.
     pub settings: &'a Settings,
-    /// The images that the frame shall have, if the view has them.
+    /// The images that the frame shall contain, if the view has them.
     pub images: ImageSet,
     /// Whether to stop.
     pub stop: Stop<'a>,
@@ -69,7 +69,7 @@ impl<'a> Request<'a> {
             .mend(format!("give centerlines, or leave the {setting} out")))
     }
 
-    /// Removes the picture if the scene has no volume to show.
+    /// Leaves out the picture if the scene has no volume to show.
     #[must_use]
     pub fn without_unseen_picture(self, scene: &Scene) -> Self {
         let images = if scene.volume.is_some() { self.images } else { self.images.without(Image::Picture) };
@@ -105,9 +105,9 @@ impl<'a> Request<'a> {
 pub struct CpuRenderer {
     levels: Arc<Vec<Level>>,
     projected: Vec<ProjectedLevel>,
-    /// The vessels that take precedence in them.
+    /// The vessels that take precedence in `projected`.
     first: Vec<usize>,
-    /// The sheet of the previous view: the largest image that no frame keeps.
+    /// The sheet of the previous view: of the images that no frame keeps, the largest.
     sheet: Vec<Sheet>,
     isa: Isa,
 }
@@ -119,14 +119,14 @@ impl Default for CpuRenderer {
 }
 
 impl CpuRenderer {
-    /// A renderer with the kernels for `isa`; the pictures are the same to the bit.
+    /// A renderer with the kernels for `isa`; the pictures are bit-identical for all.
     pub fn new(isa: Isa) -> Self {
         Self { levels: Arc::default(), projected: Vec::new(), first: Vec::new(), sheet: Vec::new(), isa }
     }
 
-    /// Renders one view of a scene: without a volume the cut surface alone, without a tree the context alone.
-    /// `Settings::samples` does not apply here: hosts average several pictures. Fails with those of
-    /// [`Request::settings_for`], [`ErrorKind::Volume`] for a scene without volume and tree.
+    /// Renders one view of a scene: without a volume only the cut surface, without a tree only the context.
+    /// `Settings::samples` does not apply here: hosts average several pictures. Fails as
+    /// [`Request::settings_for`], and with [`ErrorKind::Volume`] for a scene without volume and tree.
     pub fn render(&mut self, scene: &Scene, request: &Request) -> Result<Frame> {
         let settings = request.settings_for(scene)?;
         let request = &Request { settings: &settings, ..*request };
@@ -151,8 +151,8 @@ impl CpuRenderer {
         SurfaceDetails::of(&self.pass(&Request { settings, images: SurfaceDetails::WANTED, ..*request }))
     }
 
-    /// Strength of the silhouettes of a reformation's frame with [`crate::stages::Image::Leap`], 0 to 1,
-    /// unmasked.
+    /// Strength of the silhouettes, 0 to 1, of a reformation's frame with [`crate::stages::Image::Leap`];
+    /// neither reach nor focus reduces it.
     pub fn strength(&self, frame: &Frame, request: &Request) -> Result<Vec<f32>> {
         let &Request { camera, settings, stop, .. } = request;
         let work = Work { size: frame.size(), isa: self.isa, stop, progress: None };
@@ -197,7 +197,7 @@ impl CpuRenderer {
         Ok(images.into_frame(frame, clock.timings).keeping(request.images))
     }
 
-    /// Takes over the levels of a tree if it, their number, smoothing or chosen vessels changed.
+    /// Takes over the levels of a tree if the tree, their number, the smoothing or chosen vessels changed.
     pub fn prepare(&mut self, tree: &LeveledTree, settings: &Settings) {
         let levels = tree.levels(settings.levels, settings.centerline_smoothing);
         if !Arc::ptr_eq(&self.levels, &levels) {
@@ -236,8 +236,8 @@ impl CpuRenderer {
     }
 }
 
-/// The picture of values in the window and opacity of `settings`, over their background; transparent where
-/// the value is NaN. Fails with [`ErrorKind::Settings`] for a setting outside its range.
+/// The picture of values in the window and opacity of `settings`, over their background; transparent if the
+/// value is NaN. Fails with [`ErrorKind::Settings`] for a setting outside its range.
 pub fn picture(value: &[f32], size: [usize; 2], (settings, stop): (&Settings, Stop)) -> Result<Vec<[u8; 4]>> {
     settings.check()?;
     let work = Work { size, isa: Isa::widest(), stop, progress: None };

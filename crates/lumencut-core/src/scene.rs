@@ -13,7 +13,7 @@ use crate::stop::Stop;
 use crate::vessel_tree::VesselTree;
 use crate::volume::Volume;
 
-/// What is shown. Cloning is cheap: the [`VolumeKey`] and the [`LeveledTree`] keep what takes time.
+/// What is shown. Cloning is cheap: clones share the [`VolumeKey`] and the [`LeveledTree`].
 #[derive(Clone, Debug, Default)]
 pub struct Scene<'a> {
     /// The volume; without it only the cut surface can be rendered.
@@ -34,7 +34,7 @@ impl<'a> Scene<'a> {
         Self { volume: Some(SharedVolume::new(volume, VolumeKey::default())), ..self }
     }
 
-    /// Replaces the tree; what was computed of the volume stays.
+    /// Replaces the tree; what was computed from the volume stays.
     #[must_use]
     pub fn with_tree(self, tree: VesselTree) -> Self {
         Self { tree: Some(Arc::new(LeveledTree::new(tree))), ..self }
@@ -48,25 +48,25 @@ pub struct VolumeKey {
     blocks: Arc<OnceLock<Blocks>>,
 }
 
-/// A [`VolumeKey`] that keeps nothing in memory.
+/// A [`VolumeKey`] that keeps no cached data in memory.
 #[derive(Clone, Debug)]
 pub struct WeakVolumeKey(Weak<OnceLock<Blocks>>);
 
 impl VolumeKey {
-    /// The same key, which keeps nothing in memory.
+    /// The same key; it keeps no cached data in memory.
     pub fn downgrade(&self) -> WeakVolumeKey {
         WeakVolumeKey(Arc::downgrade(&self.blocks))
     }
 }
 
 impl WeakVolumeKey {
-    /// Whether it is this key.
+    /// Whether this is the same key.
     pub fn is(&self, key: &VolumeKey) -> bool {
         self.0.ptr_eq(&Arc::downgrade(&key.blocks))
     }
 }
 
-/// A volume and what was computed of its voxels.
+/// A volume and what was computed from its voxels.
 #[derive(Clone, Debug)]
 pub struct SharedVolume<'a> {
     /// The voxels and their grid.
@@ -113,8 +113,8 @@ impl LeveledTree {
         &self.tree
     }
 
-    /// The tree smoothed by `smoothing` radii in at least `coarsest` levels, finest first; the last two are
-    /// kept.
+    /// The tree smoothed by `smoothing` radii in at least `coarsest` levels, finest first. Levels of the last
+    /// two smoothings stay cached.
     pub fn levels(&self, coarsest: usize, smoothing: f64) -> Arc<Vec<Level>> {
         if let Some(known) = self.latest(smoothing, None).filter(|known| known.len() > coarsest) {
             return known;
@@ -134,7 +134,7 @@ impl LeveledTree {
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         let place = kept.iter().position(|(value, _)| *value == smoothing);
         let known = place.map(|place| kept.remove(place).1);
-        // Ties go to the known ones, the last argument, which others may hold already.
+        // A tie goes to the known levels, the last argument, since others may hold them already.
         let most = [made, known.as_ref()].into_iter().flatten().max_by_key(|levels| levels.len()).cloned()?;
         kept.insert(0, (smoothing, Arc::clone(&most)));
         kept.truncate(CACHED_SMOOTHINGS);

@@ -1,4 +1,4 @@
-//! The stages as WGSL, each next to its Rust file: all that this crate knows of GPUs.
+//! The stages as WGSL, each next to its Rust file; nothing else in this crate concerns GPUs.
 
 /// A module's shader.
 #[derive(Clone, Copy, Debug)]

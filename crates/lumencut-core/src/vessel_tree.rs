@@ -17,7 +17,7 @@ pub struct Vessel {
 }
 
 impl Vessel {
-    /// At least two finite points and, if given, one finite radius ≥ 0 each. Fails with
+    /// A vessel with at least two finite points and, if given, one finite radius ≥ 0 each. Fails with
     /// [`ErrorKind::VesselTree`].
     pub fn new(points: Vec<DVec3>, radius: Option<Vec<f64>>) -> Result<Self> {
         let wrong = |subject: &str, found: String, expected: &str| {
@@ -70,7 +70,7 @@ impl Vessel {
         &self.arc_length
     }
 
-    /// The radius at point `i` (mm), 0 where unknown.
+    /// The radius at point `i` (mm), 0 if unknown.
     pub fn radius_or_zero(&self, i: usize) -> f64 {
         self.radius.as_ref().map_or(0.0, |r| r[i])
     }
@@ -83,7 +83,7 @@ pub struct VesselTree {
 }
 
 impl VesselTree {
-    /// Fails with [`ErrorKind::VesselTree`] for no vessels, or more than 2³⁰ points.
+    /// A tree of these vessels. Fails with [`ErrorKind::VesselTree`] for none, or more than 2³⁰ points.
     pub fn new(vessels: Vec<Vessel>) -> Result<Self> {
         let points: usize = vessels.iter().map(|v| v.points.len()).sum();
         if vessels.is_empty() || points > 1 << 30 {

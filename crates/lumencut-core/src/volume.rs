@@ -8,7 +8,7 @@ use crate::error::{Error, ErrorKind, Result};
 pub trait Voxel: Copy + Default + PartialOrd + Send + Sync + 'static {
     /// The type of interpolation: `f32` if it holds every value exactly, else `f64`.
     type Real: Real;
-    /// Two neighbours as one number where possible, so that one load fetches both.
+    /// Two neighbours as one number if possible, so that one load fetches both.
     type Pair: Copy;
     /// The smallest finite value of the type.
     const SMALLEST: Self;
@@ -270,13 +270,13 @@ impl<'a> Volume<'a> {
         self.index_from_world
     }
 
-    /// The smallest side of a voxel (mm).
+    /// The length of the shortest side of a voxel (mm).
     pub fn smallest_side(&self) -> f64 {
         let sides = self.world_from_index.matrix3;
         sides.x_axis.length().min(sides.y_axis.length()).min(sides.z_axis.length())
     }
 
-    /// The longest line through the volume (mm).
+    /// The length of the longest line through the volume (mm).
     pub fn longest_way(&self) -> f64 {
         let corners = self.corners();
         (0..4).map(|c| corners[c].distance(corners[7 - c])).fold(0.0, f64::max)

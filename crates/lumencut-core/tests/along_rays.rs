@@ -1,5 +1,5 @@
-//! Largest, smallest and mean values along rays against an independent computation in float64: all crossings
-//! of a ray with the planes of the grid, sorted, and between them the cubic through four samples.
+//! Largest, smallest and mean values along rays compared with an independent computation in f64: all
+//! crossings of a ray with the planes of the grid, sorted, and between them the cubic through four samples.
 #![allow(clippy::unwrap_used)]
 
 use glam::{DAffine3, DVec3};
@@ -45,7 +45,7 @@ impl Exact {
         sum
     }
 
-    /// Smallest, largest and mean value between two depths of a ray; `None` where it misses the volume.
+    /// Smallest, largest and mean value between two depths of a ray; `None` if it misses the volume.
     fn along(&self, origin: DVec3, direction: DVec3, chord: [f64; 2]) -> Option<[f64; 3]> {
         let (from, toward) = (
             self.index_from_world.transform_point3(origin),

@@ -1,4 +1,4 @@
-//! Smoothed centerlines: closed forms, what stays to the bit, and degenerate vessels.
+//! Smoothed centerlines: closed forms, what stays bit-identical, and degenerate vessels.
 #![allow(clippy::unwrap_used)]
 
 use std::f64::consts::{PI, TAU};
@@ -19,7 +19,7 @@ use lumencut_scenes::views::view;
 /// Rounding of coordinates of some hundred mm, summed along a vessel (mm).
 const ROUNDING: f64 = 1e-10;
 
-/// Error of the Gaussian's layers and of the chords of a finely sampled arc (share of R).
+/// Error of the layers of the Gaussian and of the chords of a finely sampled arc (share of R).
 const CLOSED_FORM: f64 = 1e-4;
 
 fn line(points: Vec<DVec3>, radius: f64) -> Vessel {

@@ -1,4 +1,4 @@
-//! Chosen vessels: against the vessels alone, against plain pictures to the bit, and in closed form.
+//! Chosen vessels: compared with only these vessels, bit by bit with plain pictures, and in closed form.
 #![allow(clippy::unwrap_used)]
 
 use glam::DVec3;
@@ -155,7 +155,7 @@ fn a_chosen_branch_comes_first_from_where_it_leaves_its_parent() {
 
 #[test]
 fn a_chosen_vessel_that_leaves_no_other_comes_first_as_a_whole() {
-    // Within the thick one from end to end, and behind its middle.
+    // A vessel within the thick one from end to end, and behind its middle.
     let inner = vessel(&[[-20.0, 4.0, 0.0], [20.0, 4.0, 0.0]], 3.0);
     let scene = tree(vec![vessel(&[[-80.0, 0.0, 0.0], [80.0, 0.0, 0.0]], 10.0), inner]);
     let frame = cut(&scene, &front([160, 160], 0.5), &choosing(&[1]));
@@ -255,7 +255,7 @@ fn the_strength_of_the_others_is_their_share_beside_that_of_the_chosen() {
     assert_eq!(gone.focus, found.focus);
 }
 
-/// Settings whose rays around a focus cross the whole volume.
+/// Settings whose rays around a focus cross the entire volume.
 fn whole_rays() -> Settings {
     let context = Settings::default().context.unwrap();
     let context =

@@ -1,4 +1,4 @@
-//! The same bits with and without skipping, on every instruction set, thread count and memory layout.
+//! The context has the same bits with and without skipping, for all instruction sets, threads and layouts.
 #![allow(clippy::unwrap_used)]
 
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -226,7 +226,7 @@ fn voxels_more_than_32_bits_apart_are_found() {
 fn a_context_stops_when_asked() {
     let voxels = ball_and_rod(SIZE);
     let camera = view([0.0, 1.0, 0.0], [256, 256], 0.2);
-    // Before the blocks, and between tiles of rays.
+    // Stops before the blocks, and between tiles of rays.
     for patience in [0, 100] {
         let asked = AtomicUsize::new(0);
         let stop = || asked.fetch_add(1, Ordering::Relaxed) >= patience;

@@ -1,4 +1,4 @@
-//! CR against closed forms, and bit for bit against an independent search of every piece.
+//! CR compared with closed forms, and bit by bit with an independent search of every piece.
 #![allow(clippy::unwrap_used)]
 
 use lumencut_core::camera::Camera;
@@ -125,7 +125,7 @@ fn the_vessel_in_front_keeps_its_disc_and_a_larger_offset_hides_more() {
         for j in 0..120 {
             for i in 0..120 {
                 let (x, y) = (camera.view_x(i).abs(), camera.view_y(j).abs());
-                // Within its disc the vessel in front; elsewhere the nearer one, then the first.
+                // Within its disc the vessel in front; elsewhere the nearer one, or the first of equal ones.
                 let expected = if y <= 4.0 + offset || y <= x { 0.0 } else { 40.0 };
                 assert_eq!(frame.depth()[j * 120 + i], expected, "{x}, {y} with {offset} pixels");
             }

@@ -1,4 +1,4 @@
-//! The cut surface on scenes with a closed form, and its invariants.
+//! The cut surface compared with closed forms, and its invariants.
 #![allow(clippy::unwrap_used)]
 
 use glam::{DQuat, DVec3};
@@ -88,7 +88,7 @@ fn a_vessel_that_dives_along_the_view_goes_on_behind() {
     let frame = by_hierarchy(&tree(vec![diving]), &front([120, 120], 1.0), &settings);
     near(at(&frame, frame.depth(), -20.5, 0.5), 0.0);
     near(at(&frame, frame.depth(), 10.5, -10.5), 0.0);
-    // Above the dive: half-plane at depth 0, distance 25 − 2, against the far stripe at depth 60, distance 0.
+    // Above the dive: the half-plane at depth 0, distance 25 − 2, loses to the far stripe at depth 60.
     near(at(&frame, frame.depth(), 0.5, 25.5), 60.0);
 }
 
@@ -108,7 +108,7 @@ fn a_run_at_an_end_gives_a_plane_through_the_end_point() {
     let frame = by_hierarchy(&tree(vec![late]), &front([80, 80], 1.0), &settings);
     near(at(&frame, frame.depth(), -10.5, 0.5), 0.0);
     near(at(&frame, frame.depth(), 20.5, 0.5), 25.0);
-    // The plane covers all: it also wins where its cost is lower than the stripe's.
+    // The plane covers everything: it wins wherever its cost is lower than the stripe's.
     near(at(&frame, frame.depth(), -0.5, 39.5), 0.0);
 }
 

@@ -1,4 +1,4 @@
-//! The depth filter within zones: against the rule applied pixel by pixel, and where it must change nothing.
+//! The depth filter within zones, compared with the rule pixel by pixel; and images it must not change.
 #![allow(clippy::unwrap_used)]
 
 use std::collections::BTreeSet;

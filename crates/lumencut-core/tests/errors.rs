@@ -1,4 +1,4 @@
-//! Bad input is rejected by name, and every error kind of this crate occurs.
+//! Bad input is rejected with the reason, and every error kind of this crate occurs.
 #![allow(clippy::unwrap_used)]
 
 use std::collections::HashSet;

@@ -1,4 +1,4 @@
-//! The focus against closed forms and an independent distance; its limits against CSR and the context.
+//! The focus compared with closed forms and an independent distance; its limits are CSR and the context.
 #![allow(clippy::unwrap_used)]
 
 use glam::{DVec2, DVec3};
@@ -30,7 +30,7 @@ fn of_surface(frame: &Frame) -> Vec<f32> {
     frame.focus.iter().map(|shares| shares[0]).collect()
 }
 
-/// The same for a tree without a volume.
+/// The shares for a tree without a volume.
 fn shares(tree: &VesselTree, camera: &Camera, settings: &Settings) -> Vec<f32> {
     of_surface(&framed(&Scene::default().with_tree(tree.clone()), camera, settings, Isa::widest()))
 }
@@ -93,7 +93,7 @@ fn the_distance_is_that_of_the_nearest_disc_of_all_vessels() {
 
 #[test]
 fn neighbours_differ_by_no_more_than_the_slope_of_the_fade_allows() {
-    // A vessel that widens fast, where the distance from the foot's wall alone would be steeper.
+    // A vessel that widens fast: the distance from only the wall at the foot would be steeper.
     let points = vec![DVec3::ZERO, DVec3::new(6.0, 30.0, 0.0), DVec3::new(9.0, 31.0, 14.0)];
     let widening = Vessel::new(points, Some(vec![1.0, 6.5, 2.0])).unwrap();
     let scenes = [random_tree(7, 6, 20, 6.0, 30.0).unwrap(), tree(vec![widening])];

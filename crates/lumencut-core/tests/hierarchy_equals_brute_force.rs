@@ -11,7 +11,7 @@ use lumencut_scenes::settings::{paper_unfiltered, unfiltered};
 use lumencut_scenes::trees::{tree, trefoil, vessel};
 use lumencut_scenes::views::view;
 
-/// Along axes, oblique, and so close to an axis that segments are nearly collinear.
+/// Directions along axes, oblique, and so close to an axis that segments are nearly collinear.
 const DIRECTIONS: [[f64; 3]; 8] = [
     [0.0, 1.0, 0.0],
     [1.0, 0.0, 0.0],

@@ -1,4 +1,4 @@
-//! Leaps in closed form: where one surface hides another, and nowhere else.
+//! Leaps compared with closed forms: they lie where one surface hides another, and nowhere else.
 #![allow(clippy::unwrap_used)]
 
 use lumencut_core::camera::Camera;
@@ -139,7 +139,7 @@ fn a_leap_is_more_than_the_larger_diameter_and_more_than_two_mm() {
     }
 }
 
-/// Depths in mm, and sheets that explain some of their changes.
+/// Random depths (mm), and sheets that explain some of their changes.
 fn noise(random: &mut Random, pixels: usize) -> (Vec<f32>, Vec<Sheet>) {
     let sheet = |random: &mut Random| {
         let [x, y] = [0; 2].map(|_| random.between(-6.0, 6.0));
@@ -149,7 +149,7 @@ fn noise(random: &mut Random, pixels: usize) -> (Vec<f32>, Vec<Sheet>) {
     (depth, (0..pixels).map(|_| sheet(random)).collect())
 }
 
-/// The rule in f64: whether a change from one pixel to another is a leap; `None` where rounding decides.
+/// The rule in f64: whether a change from one pixel to another is a leap; `None` if rounding decides.
 fn stated(change: f32, sheets: [Sheet; 2], step: [f64; 2]) -> Option<bool> {
     let over = sheets.map(|[x, y, radius, _]| {
         let expected = f64::from(x) * step[0] + f64::from(y) * step[1];

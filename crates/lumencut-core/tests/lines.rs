@@ -1,4 +1,4 @@
-//! The lines of leaps in closed form: their width and side, and that they leave lumens free.
+//! The lines of leaps compared with closed forms: their width and side, and that they leave lumens free.
 #![allow(clippy::unwrap_used)]
 
 use lumencut_core::camera::Camera;
@@ -72,7 +72,7 @@ fn a_line_between_surroundings_is_as_wide_and_lies_on_the_farther_side() {
 
 #[test]
 fn a_line_beside_a_far_lumen_leaves_it_free() {
-    // Without a wall the surroundings of the near tube end where the lumen of the far one begins.
+    // Without a wall, the surroundings of the near tube end at the lumen of the far one.
     let settings = Settings { lumen_margin: 0.0, ..Settings::default() };
     for (spacing, width) in WIDTHS {
         let scene = tree(vec![tube(25.0 * spacing, 0.0, spacing), tube(0.0, 900.0 * spacing, 8.0 * spacing)]);

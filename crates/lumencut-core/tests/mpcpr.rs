@@ -1,4 +1,4 @@
-//! mpCPR against closed forms, and against an independent search of every point of every row.
+//! mpCPR compared with closed forms, and with an independent search of every point of every row.
 #![allow(clippy::unwrap_used)]
 
 use glam::DVec3;
@@ -23,7 +23,7 @@ fn seen(tree: &VesselTree, camera: &Camera) -> Frame {
     mpcpr(&LeveledTree::new(tree.clone()), &Request::new(camera, &settings)).unwrap()
 }
 
-/// Every pixel of a row against every segment: depth, vessel, and whether its vessel is met twice.
+/// Compares every pixel of a row with every segment: depth, vessel, and whether its vessel is met twice.
 fn by_brute_force(tree: &VesselTree, camera: &Camera, j: usize) -> Vec<Option<(f64, i32, bool)>> {
     let y = camera.view_y(j);
     let mut points = Vec::new();
@@ -92,7 +92,7 @@ fn a_row_is_split_midway_between_vessels() {
         vessel(&[[14., -7., -10.], [14., -7., 10.]], 2.0),
     ]);
     let frame = seen(&tree, &front([60, 80], 1.0));
-    // x = 2 is midway; above and below z = ±10 the second vessel has ended.
+    // x = 2 is midway between the vessels; above and below z = ±10 the second vessel has ended.
     for (x, y, depth, id) in
         [(1.5, 0.5, 5.0, 0), (2.5, 0.5, -7.0, 1), (29.5, 9.5, -7.0, 1), (29.5, 10.5, 5.0, 0)]
     {
@@ -168,7 +168,7 @@ fn a_segment_within_a_row_shows_its_point_nearest_along_the_row() {
         assert!(frame.folded[pixel(&frame, x, 0.5)]);
     }
     assert!(!frame.folded[pixel(&frame, 0.5, -0.5)] && !frame.folded[pixel(&frame, 0.5, 1.5)]);
-    // Along the view all of it lies at one position: its nearest point.
+    // Along the view the vessel lies at one position: its nearest point counts.
     let away = vessel(&[[0., 9., 0.5], [0., -3., 0.5]], 1.0);
     let frame = seen(&tree(vec![away]), &front([16, 8], 1.0));
     assert_eq!(at(&frame, frame.depth(), 5.5, 0.5), -3.0);

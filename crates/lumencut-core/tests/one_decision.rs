@@ -87,7 +87,7 @@ fn a_lumen_that_rounding_may_change_is_not_certain() {
     assert_eq!(depths(3.0001), [None; 2]);
 }
 
-/// Own levels by lumen and by cost alone, with few levels and many.
+/// Own levels by *lumen first* and by cost only, with few levels and many.
 fn own_levels() -> [Settings; 3] {
     [
         unfiltered(),

@@ -1,4 +1,4 @@
-//! The paper's rules give the same images, to the bit, as when they were the only ones.
+//! Images by the paper's rules are bit-identical to those made when there were no other rules.
 #![allow(clippy::unwrap_used)]
 
 use lumencut_core::camera::Camera;
@@ -22,7 +22,7 @@ fn of_numbers(numbers: &[f32]) -> u64 {
     hash(numbers.iter().flat_map(|number| number.to_bits().to_le_bytes()))
 }
 
-/// Depth, vessel, distance and strength of the silhouettes.
+/// Hashes of depth, vessel, distance and strength of the silhouettes.
 fn hashes(scene: &VesselTree, camera: &Camera, settings: &Settings) -> [u64; 4] {
     let shown = Scene::default().with_tree(scene.clone());
     let frame = CpuRenderer::default().render(&shown, &Request::new(camera, settings)).unwrap();
@@ -55,7 +55,7 @@ fn scenes() -> [(&'static str, VesselTree); 5] {
     ]
 }
 
-/// The paper's rules and some of their settings.
+/// The paper's rules, and the same with some other settings changed.
 fn rules() -> [Settings; 5] {
     let paper = Settings::paper;
     [

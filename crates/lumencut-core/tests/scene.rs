@@ -98,7 +98,7 @@ fn levels_are_kept_for_two_values_of_the_smoothing() {
         assert!(Arc::ptr_eq(&none, &leveled.levels(3, 0.0)));
         assert!(Arc::ptr_eq(&half, &leveled.levels(2, 0.5)));
     }
-    // The value used last stays next to a third one.
+    // The smoothing used last stays cached next to a third one.
     let two = leveled.levels(3, 2.0);
     assert!(Arc::ptr_eq(&half, &leveled.levels(3, 0.5)));
     assert!(Arc::ptr_eq(&two, &leveled.levels(3, 2.0)));
@@ -111,7 +111,7 @@ fn looking_again_shows_the_same() {
     let (camera, scene) = (view([0.3, 1.0, 0.2], SIZE, 1.5), scene(&phantom));
     let request = Request::new(&camera, &settings);
     let whole = shown(&scene, &camera, &settings);
-    // A cut surface alone has leaps, and the reach of their lines, only if requested.
+    // Without a volume, a cut surface has leaps and shares only if requested.
     let cut = Scene { volume: None, ..scene.clone() };
     let images = ImageSet::ALL.and(ImageSet::of(&[Image::Leap, Image::Focus]));
     let with_leaps = Request { images, ..request };

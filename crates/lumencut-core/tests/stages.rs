@@ -1,4 +1,4 @@
-//! Levels, filter, surface, silhouettes and window, each against its closed form.
+//! Levels, filter, surface, silhouettes and window, each compared with its closed form.
 #![allow(clippy::unwrap_used)]
 
 use glam::{DAffine3, DMat3, DVec3};

@@ -1,4 +1,4 @@
-//! Lumen first in closed form: on parallel tubes, lumen comes before wall and wall before surroundings.
+//! Lumen first on parallel tubes, in closed form: lumen comes before wall and wall before surroundings.
 #![allow(clippy::unwrap_used)]
 
 use lumencut_core::settings::Settings;
@@ -72,7 +72,7 @@ fn tube(height: f64, depth: f64, radius: f64) -> Tube {
 
 #[test]
 fn lumen_beats_wall_and_wall_beats_surroundings_whatever_the_depth() {
-    // Lumen to 2, wall to 3; the nearer tube's from 4 and 3.5 on; the nearest is a thin line far above.
+    // Lumen to 2, wall to 2.75; the nearer tube: wall from 2.75, lumen from 3.5; the nearest lies far above.
     let tubes = [tube(0.0, 1000.0, 2.0), tube(5.0, 500.0, 1.5), tube(12.0, -900.0, 0.5)];
     let thin_wall = Settings { lumen_margin: 0.75, ..unfiltered() };
     assert_eq!(

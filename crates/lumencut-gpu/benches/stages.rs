@@ -26,7 +26,7 @@ type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
 /// Rendering time before the measurement.
 const WARM_UP: Duration = Duration::from_secs(1);
-/// The frame of which only the picture is read back.
+/// The row for frames of which only the picture is read back.
 const PICTURE_ALONE: &str = "picture alone";
 
 #[derive(Clone, Copy)]
@@ -159,7 +159,7 @@ fn main() -> Result<()> {
     cut_surface(&device, effort)?;
     let mut measured = [Vec::new(), Vec::new()];
     for (_, make) in WORKLOADS {
-        // One volume after the other: the largest takes 684 MB on both sides.
+        // One volume after the other: the largest takes 684 MB on CPU and GPU each.
         let phantom = make(0, if quick { 0.5 } else { 1.0 })?;
         for (side, measured) in effort.sides.into_iter().zip(&mut measured) {
             measured.push(measure(&device, &phantom, side, effort.frames)?);

@@ -23,7 +23,7 @@ pub struct Description {
     pub driver: String,
     /// Whether it is a software rasteriser.
     pub is_software: bool,
-    /// The most voxels along each side of a volume.
+    /// The largest number of voxels along each side of a volume.
     pub volume_side: u32,
     /// The largest buffer that a stage can read (bytes).
     pub buffer_bytes: u64,

@@ -25,7 +25,7 @@ pub(crate) struct Layers<'a> {
 
 #[derive(Debug)]
 pub(crate) struct Composite {
-    /// With or without each layer, compiled when needed.
+    /// A stage for each combination of layers, compiled when needed.
     stages: [OnceLock<Stage>; 16],
     layer: OnceLock<Stage>,
     parameters: Buffer,

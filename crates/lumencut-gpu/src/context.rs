@@ -51,7 +51,7 @@ impl Permutation {
 
 #[derive(Debug)]
 pub(crate) struct ContextStage {
-    /// Where rays start: without a focus, and with one in front of the volume or at the surface.
+    /// Stages for the starts of rays: without a focus, and with one in front of the volume or at the surface.
     starts: [OnceLock<Stage>; 3],
     stages: Vec<(Permutation, Stage)>,
     parameters: Buffer,
@@ -62,7 +62,7 @@ pub(crate) struct ContextStage {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ContextImages<'a> {
     pub size: [usize; 2],
-    /// Without one every ray crosses the whole volume.
+    /// Whether there is a cut surface; without one every ray crosses the entire volume.
     pub has_surface: bool,
     pub focus: Option<&'a Buffer>,
     pub depth: &'a Buffer,

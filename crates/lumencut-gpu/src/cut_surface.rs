@@ -19,14 +19,14 @@ use crate::view::groups;
 
 /// Columns of quads and rows of a thread's tile on software: what a thread reads should serve many pixels.
 pub(crate) const TILE_ON_SOFTWARE: [usize; 2] = [1, 4];
-/// The same on hardware: larger tiles would be too few threads to keep it busy.
+/// The same on hardware: larger tiles would make too few threads to keep a GPU busy.
 pub(crate) const TILE_ON_HARDWARE: [usize; 2] = [1, 1];
-/// The pixels of a quad, and the tiles of a workgroup in all and per row.
+/// The pixels of a quad; the tiles of a workgroup, in all and per row.
 pub(crate) const QUAD: usize = 4;
 pub(crate) const TILES: usize = 64;
 pub(crate) const TILES_ACROSS: usize = 4;
 pub(crate) const POINT_THREADS: u32 = 64;
-/// The most workgroups along one side of a dispatch.
+/// The largest number of workgroups along one side of a dispatch.
 const MAX_GROUPS: u32 = 65_535;
 
 #[derive(Debug)]
@@ -43,7 +43,7 @@ pub(crate) struct CutSurfaceStages {
     parameters: Buffer,
     /// The layout of the levels last written.
     written_layout: Option<[LevelLayout; MAX_LEVELS + 1]>,
-    /// The pixels of a workgroup.
+    /// Columns and rows of pixels of a workgroup.
     group: [usize; 2],
 }
 
@@ -179,7 +179,7 @@ fn tile_of(device: &Device) -> [usize; 2] {
     if device.description().is_software { TILE_ON_SOFTWARE } else { TILE_ON_HARDWARE }
 }
 
-/// The size of a dispatch of at least `groups` workgroups, in rows of allowed length.
+/// The size of a dispatch of at least `groups` workgroups, cut into rows of allowed length.
 fn in_rows(groups: u32) -> [u32; 2] {
     let across = groups.min(MAX_GROUPS);
     [across, groups.div_ceil(across)]

@@ -23,7 +23,7 @@ pub(crate) struct DepthFilter {
 pub(crate) struct ZoneImages<'a> {
     pub image: &'a Buffer,
     pub vessel: &'a Buffer,
-    /// Scratch.
+    /// The depth filtered along columns only.
     pub columns: &'a Buffer,
     pub smoothed: &'a Buffer,
 }
@@ -51,7 +51,7 @@ impl DepthFilter {
         self.record_as(self.stage.name, recording, view, size, from_to);
     }
 
-    /// The same as a part of the stage `name`, which its time counts to.
+    /// Records the filter as a part of the stage `name`; its time counts to that stage.
     pub(crate) fn record_as(
         &self,
         name: &'static str,

@@ -29,7 +29,7 @@ struct Trouble {
     error: Option<String>,
     /// The reason of a permanent loss.
     loss: Option<String>,
-    /// Waiting for the loss; dropping a sender wakes its receiver.
+    /// Senders of those who wait for the loss; dropping a sender wakes its receiver.
     waiting: Vec<Sender<()>>,
 }
 

@@ -18,7 +18,7 @@ pub(crate) struct Images {
     pub leap: Buffer,
     pub focus: Buffer,
     pub value: Buffer,
-    /// The slope behind silhouettes; before that, the depth filtered within zones along columns only.
+    /// The slopes behind silhouettes; before that, the depth filtered within zones along columns only.
     pub raised: Buffer,
     pub strength: Buffer,
     pub start: Buffer,

@@ -19,12 +19,12 @@ use crate::view::{AXIS_UNIT, power_above, split_at};
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(crate) struct Point {
-    /// From the tree's origin (mm): multiples of the tree's unit.
+    /// Position relative to the tree's origin (mm): multiples of the tree's unit.
     pub coarse: [f32; 3],
     pub radius: f32,
     /// The rest.
     pub fine: [f32; 3],
-    /// Its index among the slots of all bundles.
+    /// The index of the slot among the slots of all bundles.
     pub place: u32,
 }
 
@@ -116,7 +116,7 @@ impl NodeBox {
 
 #[derive(Debug)]
 pub(crate) struct DeviceLevels {
-    /// Number of spans and of points, cumulated over levels.
+    /// Numbers of spans and of points up to and including each level.
     spans_up_to: Vec<u32>,
     points_up_to: Vec<u32>,
     places: [LevelLayout; MAX_LEVELS + 1],
@@ -124,7 +124,7 @@ pub(crate) struct DeviceLevels {
     origin: DVec3,
     reach: f64,
     unit: f64,
-    /// The vessels with precedence last written, and all spans.
+    /// The chosen vessels last written, and all spans.
     first: Vec<usize>,
     all_spans: Vec<Span>,
     pub spans: Buffer,
@@ -141,7 +141,7 @@ impl DeviceLevels {
         let origin = middle(&levels[0].points);
         let points = levels.iter().flat_map(|level| &level.points);
         let reach = points.map(|point| point.distance(origin)).fold(1.0, f64::max);
-        // Eleven digits: their products with those of the axes have 22, and sums of four such 24.
+        // Eleven binary digits: products with those of the axes have 22, and sums of four such products 24.
         let unit = power_above(reach) / 2048.0;
         let mut all = Arrays::default();
         for level in levels {
@@ -173,8 +173,8 @@ impl DeviceLevels {
         })
     }
 
-    /// Puts lumen and wall of these vessels before those of all others in all later views, from where they
-    /// leave the others' lumens; `levels` are those of the tree.
+    /// Puts lumen and wall of these vessels before those of all others in all later views, from the point
+    /// where they leave the others' lumens; `levels` are those of the tree.
     pub(crate) fn put_first(&mut self, device: &Device, levels: &[Level], vessels: &[usize]) {
         if self.first == vessels {
             return;

@@ -38,7 +38,7 @@ pub(crate) struct Pass<'a> {
     pub scene: &'a Scene<'a>,
     pub levels: Option<&'a DeviceLevels>,
     pub volume: Option<&'a DeviceVolume>,
-    /// The positions of the pixels; the depth of a cut surface made by the GPU is among the images instead.
+    /// The positions of the pixels; if the GPU made the cut surface, its depth is among the images instead.
     pub geometry: Geometry,
     pub request: &'a Request<'a>,
     pub recording: Recording<'a>,

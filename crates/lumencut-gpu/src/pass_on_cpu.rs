@@ -1,4 +1,4 @@
-//! A stage of a view on the CPU, with what the GPU made before.
+//! A stage of a view on the CPU, with the images that the GPU made before.
 
 use lumencut_core::error::Result;
 use lumencut_core::frame::Timing;

@@ -62,7 +62,7 @@ impl<'a> Recording<'a> {
         self.run_as(stage.name, stage, resources, groups);
     }
 
-    /// Runs `stage` as a part of the stage `name`, which its time counts to.
+    /// Runs `stage` as a part of the stage `name`; its time counts to that stage.
     pub(crate) fn run_as(
         &mut self,
         name: &'static str,
@@ -147,7 +147,7 @@ impl<'a> Recording<'a> {
         device.queue.submit([self.encoder.finish()]);
         let (done, is_done) = futures_channel::oneshot::channel();
         device.queue.on_submitted_work_done(move || {
-            // Nobody waits for it after an interruption.
+            // After an interruption nobody waits for it.
             let _ = done.send(());
         });
         async move {
@@ -157,7 +157,7 @@ impl<'a> Recording<'a> {
     }
 }
 
-/// Parallel: one thread would take longer to copy a large picture than a GPU to compute it.
+/// Copies in parallel: one thread would take longer to copy a large picture than a GPU to compute it.
 #[cfg(not(target_arch = "wasm32"))]
 fn copied<T: Pod + Send + Sync>(bytes: &[u8]) -> Vec<T> {
     use rayon::prelude::*;
@@ -201,7 +201,7 @@ impl Device {
     async fn map(&self, buffer: &Buffer, stop: Stop<'_>) -> Result<wgpu::BufferView> {
         let (done, is_done) = futures_channel::oneshot::channel();
         buffer.map_async(MapMode::Read, .., move |mapped| {
-            // Nobody waits for it after an interruption.
+            // After an interruption nobody waits for it.
             let _ = done.send(mapped);
         });
         match self.patience(is_done, stop).await? {
@@ -225,7 +225,7 @@ impl Device {
                 Ok(sent) => return Ok(sent),
                 Err(_) => return Ok(None),
             }
-            // Sleeps for 1 % of the elapsed time: neither late nor busy.
+            // Sleeps for 1 % of the elapsed time: a result is noticed soon, at little cost.
             let nap = start.elapsed() / 100;
             std::thread::sleep(
                 nap.clamp(std::time::Duration::from_micros(20), std::time::Duration::from_millis(2)),
@@ -233,7 +233,7 @@ impl Device {
         }
     }
 
-    /// The browser reports it by itself.
+    /// A browser polls by itself.
     #[cfg(target_arch = "wasm32")]
     async fn patience<T>(&self, sent: Receiver<T>, _: Stop<'_>) -> Result<Option<T>> {
         Ok(sent.await.ok())

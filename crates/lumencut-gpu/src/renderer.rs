@@ -185,7 +185,7 @@ impl GpuRenderer {
         if let Some(shared) = &scene.volume
             && self.volume.as_ref().is_none_or(|kept| !kept.key.is(&shared.key))
         {
-            // There may be no room for two.
+            // There may be no room for two volumes.
             self.volume = None;
             let on_device = DeviceVolume::new(&self.device, &shared.volume, request.stop)?;
             self.volume = Some(ShownVolume { key: shared.key.downgrade(), on_device });

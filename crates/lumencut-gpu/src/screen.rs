@@ -13,7 +13,7 @@ use wgpu::{
 use crate::device::Device;
 use crate::recording::Recording;
 
-/// Every browser's canvas has it.
+/// Every browser's canvas supports this format.
 const FORMAT: TextureFormat = TextureFormat::Rgba8Unorm;
 
 /// A canvas with as many pixels as its picture; the page stretches it.

@@ -20,7 +20,7 @@ use crate::volume::DeviceVolume;
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(crate) struct CurvedPixel {
-    /// The whole part of its continuous index.
+    /// The integer part of its continuous index.
     pub whole: [f32; 4],
     /// The remainder.
     pub part: [f32; 4],
@@ -37,7 +37,7 @@ impl CurvedPixel {
         let place = |(point, direction): (&DVec3, &glam::Vec3)| {
             let index = to.transform_point3(*point);
             let per_mm = to.transform_vector3(direction.as_dvec3());
-            // No volume reaches beyond this, and whole numbers up to it are exact.
+            // No volume reaches beyond this, and integers up to it are exact.
             if !index.is_finite() || !per_mm.is_finite() || index.abs().max_element() >= 1e6 {
                 return Self::NOWHERE;
             }

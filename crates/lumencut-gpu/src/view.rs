@@ -13,7 +13,7 @@ use crate::device::Device;
 #[repr(C)]
 pub(crate) struct ViewParameters {
     pub size: [u32; 2],
-    /// The side of a pixel (mm): twelve digits, and the rest.
+    /// The side of a pixel (mm): a part of twelve binary digits, and the rest.
     pub spacing: [f32; 2],
     /// The axes of view space in world space.
     pub axes: [Axis; 3],
@@ -82,7 +82,7 @@ impl Device {
 
     pub(crate) fn upload<T: Pod>(&self, label: &str, items: &[T]) -> Buffer {
         let bytes: &[u8] = bytemuck::cast_slice(items);
-        // Bindings are never empty.
+        // Bindings must not be empty.
         let buffer =
             self.buffer(label, bytes.len().max(16) as u64, BufferUsages::STORAGE | BufferUsages::COPY_DST);
         self.write(&buffer, items);

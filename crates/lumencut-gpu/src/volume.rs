@@ -19,11 +19,11 @@ use crate::blocks::DeviceBlocks;
 use crate::device::Device;
 use crate::view::{power_above, split};
 
-/// Larger floats count as missing.
+/// Floats with a larger absolute value count as missing.
 const LARGEST_FLOAT: f32 = 1e30;
-/// The most bytes that are gathered before they are sent.
+/// The largest number of bytes that are gathered before they are sent.
 const SLAB_BYTES: usize = 64 << 20;
-/// The digits of an `f32`.
+/// The binary digits of an `f32`.
 const DIGITS: i32 = 24;
 
 /// `GridParameters` of `math/sampling.wgsl`.
@@ -60,7 +60,7 @@ impl GridParameters {
         let middle = volume.world_from_index().transform_point3(DVec3::from(last) / 2.0);
         let depth = camera.view_from_world(middle).z.round();
         let origin = to.origin + to.z * depth;
-        // Multiples of half of this up to `reach` fit a float.
+        // A float holds multiples of half this unit exactly, up to `reach`.
         let reach = (origin.abs() + x.abs() * (width / 2.0) + y.abs() * (height / 2.0)).max_element();
         let index_unit = power_above(reach) * 2f64.powi(1 - DIGITS);
         let unit = power_above(volume.longest_way()) * 2f64.powi(1 - DIGITS / 2);
@@ -88,7 +88,7 @@ impl GridParameters {
         }
     }
 
-    /// The grid of `volume` alone, for positions that are already indices.
+    /// The grid of `volume` without a view, for positions that are already indices.
     pub(crate) fn without_view(volume: &Volume, shift: f32) -> Self {
         Self {
             last: volume.size().map(|n| (n - 1) as f32),

@@ -13,7 +13,7 @@ const WITHOUT_RUST: [&str; 1] = ["math/view"];
 /// The module that is no stage of the method but runs as one.
 const PROJECTION: &str = "math/projection";
 
-/// The most storage buffers of a stage that every GPU allows.
+/// The largest number of storage buffers of a stage that every GPU allows.
 const MOST_STORAGE: usize = 8;
 
 fn parse(room: &str) -> (Module, ModuleInfo) {
@@ -60,7 +60,7 @@ fn the_shader_of_the_screen_is_valid() {
     parsed("screen", include_str!("../src/screen.wgsl"));
 }
 
-/// The compilers of browsers require parentheses where a bit operator stands next to a shift; naga does not.
+/// Compilers of browsers require parentheses when a bit operator is next to a shift; naga does not.
 #[test]
 fn shifts_stand_in_parentheses() {
     let screen = include_str!("../src/screen.wgsl");
@@ -167,7 +167,7 @@ fn bindings_are_the_first_of_group_0_with_few_storage_buffers() {
     }
 }
 
-/// The words of WGSL, without comments, that stand for a non-finite number.
+/// The words of WGSL, without comments, that mean a non-finite number.
 fn not_finite(text: &str) -> Vec<&str> {
     text.lines()
         .flat_map(|line| line.split("//").next())

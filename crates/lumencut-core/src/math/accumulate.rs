@@ -6,7 +6,7 @@ use super::lanes::{FAN, larger, smaller, smallest};
 use super::thickness::of_thickness;
 use super::transfer::Colors;
 
-/// Accumulated opacity from which on only brighter samples matter: less than half a grey value remains.
+/// From this opacity on only brighter samples matter: all others change less than half a grey value.
 pub const OPAQUE: f32 = 1.0 - 1.0 / 1024.0;
 
 /// Premultiplied colours and opacity of sixteen pixels, channel by channel, 0 to 1.
@@ -15,13 +15,13 @@ pub(crate) type Rgba = [[f32; FAN]; 4];
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Samples<'a> {
     pub value: &'a [f32; FAN],
-    /// 1 where the ray has this sample, else 0; a number instead of `bool` keeps the compiler's vectors.
+    /// 1 if the ray has this sample, else 0; a number instead of `bool`, so that the code vectorises.
     pub present: &'a [f32; FAN],
-    /// Length of ray that each sample stands for (mm).
+    /// Length of the ray (mm) that each sample represents.
     pub thickness: &'a [f32; FAN],
 }
 
-/// Light on sixteen samples; evaluated only where one of them is visible.
+/// Light on sixteen samples; evaluated only if one of them is visible.
 pub(crate) trait Light {
     /// The factor on each colour, and the term added to it.
     fn shade(&self) -> [[f32; FAN]; 2];
@@ -37,7 +37,7 @@ pub(crate) struct Palette {
 #[derive(Clone, Debug)]
 pub(crate) struct Blend<'a> {
     palette: &'a Palette,
-    /// 1 + min(γ, 0): how far a brighter sample pushes back what was gathered before it.
+    /// 1 + min(γ, 0): how much a brighter sample weakens what was accumulated before it.
     push: f32,
     /// max(γ, 0): the share of the maximum in the finished pixel.
     mix: f32,

@@ -13,13 +13,13 @@ pub const SIDE_BITS: u32 = 2;
 /// The side of a block (cells between neighbouring voxels).
 pub const SIDE: usize = 1 << SIDE_BITS;
 
-/// More blocks than this along an axis are looked up at a coarser level.
+/// If more blocks than this along an axis had to be read, a coarser level is read.
 const MAX_LOOKUPS: i32 = 3;
 
-/// A bound on the rounding of trilinear interpolation, relative to the larger end of a range.
+/// A bound on the rounding of trilinear interpolation, relative to the range's largest absolute value.
 const ROUNDING: f32 = 1e-6;
 
-/// Beyond every value; larger and infinite values of an `f64` volume count as this.
+/// A number beyond every value; larger and infinite values of an `f64` volume count as this.
 pub const HUGE: f32 = 3e38;
 
 /// An empty range, which every value widens.
@@ -49,7 +49,7 @@ impl Range {
         Self { low: smaller(self.low, other.low), high: larger(self.high, other.high) }
     }
 
-    /// The range a little wider, so that no interpolated value leaves it by rounding.
+    /// The range, widened a little so that rounding moves no interpolated value out of it.
     fn rounded(self) -> Self {
         let slack = ROUNDING * larger(self.low.abs(), self.high.abs());
         Self { low: larger(self.low - slack, -HUGE), high: smaller(self.high + slack, HUGE) }
@@ -57,7 +57,7 @@ impl Range {
 }
 
 /// The ranges of all blocks of a volume. Block b holds the values of all samples whose lower corner is a
-/// voxel from 4·b to 4·b + 3 along each axis; NaN voxels are left out. Each coarser level joins two blocks
+/// voxel from 4·b to 4·b + 3 along each axis; NaN voxels are ignored. Each coarser level joins two blocks
 /// along each axis, up to one block that holds everything.
 #[derive(Debug)]
 pub struct Blocks {
@@ -156,7 +156,7 @@ fn row_of_blocks<T: Voxel>(voxels: &[T], volume: &Volume, [j, k]: [usize; 2], ra
     }
 }
 
-/// Widens the ranges of a line of voxels by another line; comparisons leave out NaN.
+/// Widens the ranges of a line of voxels by another line; the comparisons ignore NaN.
 #[inline(always)]
 fn widen<'a, T: Voxel>(low: &mut [T], high: &mut [T], line: impl Iterator<Item = &'a T>) {
     for ((low, high), voxel) in low.iter_mut().zip(high).zip(line) {

@@ -4,7 +4,7 @@
 
 const SIDE_BITS = 2u;
 const ALL = vec2f(-HUGE, HUGE);
-// Beyond every volume (voxels), and more than the samples of a ray.
+// Beyond every volume (voxels), and more than the number of samples of any ray.
 const FARTHEST: f32 = 1e6;
 
 @group(0) @binding(4) var<storage, read> blocks: array<vec2f>;
@@ -19,13 +19,13 @@ fn range_at(level: u32, voxel: vec3i) -> vec2f {
     return blocks[size.w + (block.z * size.y + block.y) * size.x + block.x];
 }
 
-// A lower bound on the further samples within the block, if each step moves by `way`.
+// A lower bound on the number of further samples in the block, if each step moves by `way`.
 fn samples_left(level: u32, cell: Cell, way: vec3f) -> i32 {
     let bits = vec3u(side_bits(level));
     let block = vec3u(cell.voxel) >> bits;
     let first = vec3i(block << bits);
     let beyond = vec3i((block + 1u) << bits);
-    // The outermost blocks extend without end.
+    // The outermost blocks extend to infinity.
     let up = select(vec3f(beyond - cell.voxel) - cell.share, vec3f(FARTHEST), beyond > grid.low);
     let down = select(vec3f(cell.voxel - first) + cell.share, vec3f(FARTHEST), first == vec3i());
     let room = select(down, up, way > vec3f());

@@ -5,7 +5,7 @@ use super::lanes::{ABSENT, FAN, PARTS, larger, smaller};
 use super::pieces::Bundle;
 use super::tile::{Area, Tile};
 
-/// Pairs of a part and a slot: bit 16·part + slot.
+/// A set of pairs of a part and a slot: bit 16·part + slot.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Candidates {
     pub stripes: u32,
@@ -33,9 +33,9 @@ pub(crate) fn candidates<const LUMEN_FIRST: bool>(
 pub(crate) struct Cover {
     pub in_stripe: bool,
     pub in_wedge: bool,
-    /// (q − p)·e at the middle q of the area.
+    /// (q − p)·e for the middle q of the area; p and e as in pieces.rs.
     start: f32,
-    /// The largest difference from that over the area.
+    /// The largest difference from `start` within the area.
     along: f32,
     /// Half the sides of the area, plus a bound on the rounding of all products.
     sides: [f32; 2],
@@ -57,7 +57,7 @@ impl Cover {
     }
 }
 
-/// Lower bounds on the keys of stripes and wedges in an area; [`ABSENT`] where a piece covers none of it.
+/// Lower bounds on the keys of stripes and wedges in an area; [`ABSENT`] if a piece covers none of it.
 #[inline(always)]
 fn smallest_keys<const LUMEN_FIRST: bool>(
     area: &Area,
@@ -82,7 +82,7 @@ fn smallest_keys<const LUMEN_FIRST: bool>(
         let stripe_key = rule.bound::<LUMEN_FIRST>(near, across, widest, bundle.tiers[s]);
         stripe[s] = if in_stripe { stripe_key } else { ABSENT };
 
-        // The distance from the point is at least that across its edge, and at least that from the box.
+        // The point is at least as far as the line of its edge, and at least as far as the area of pixels.
         let (gx, gy) = (larger(ux.abs() - hx, 0.0), larger(uy.abs() - hy, 0.0));
         let away = larger(across, (gx * gx + gy * gy).sqrt());
         let wedge_key = rule.bound::<LUMEN_FIRST>(bundle.wedge_z[s], away, r0, bundle.tiers[s]);

@@ -7,23 +7,23 @@ use super::ray::RaySpan;
 use super::sampling::{Grid, Offset};
 use crate::volume::{Real, Voxel};
 
-/// Longer than every stretch, as a share of it.
+/// Where a ray meets a plane that it never reaches, in lengths of the stretch: beyond its end.
 pub const NO_MEETING: f32 = 1e9;
-/// A ray that moves less than this along an axis runs along its planes (voxels).
+/// A ray that moves by less than this along an axis (voxels) counts as parallel to that axis's planes.
 pub const ALONG_PLANE: f32 = 1e-9;
 
 pub(crate) trait Fold<R> {
-    /// Whether cells with corners up to `top` can change anything; `length` is as in [`Fold::take`].
+    /// Whether cells whose largest corner is `top` can change the result; `length` is as in [`Fold::take`].
     fn asks(&self, top: &[f32; FAN], length: &[f32; FAN]) -> bool;
-    /// Takes cubics with corners up to `top`; `length` is their length along each ray (mm), 0 after its end.
+    /// Takes cubics whose largest corner is `top`; `length` is theirs along each ray (mm), 0 after its end.
     fn take(&mut self, cubic: &Cubic<R, FAN>, top: &[f32; FAN], length: &[f32; FAN]);
 }
 
 #[derive(Debug)]
 pub(crate) struct Largest<'a> {
-    /// The largest values so far; HUGE for rays that ask for nothing.
+    /// The largest values so far; HUGE for rays that need no value.
     pub best: &'a mut [f32; FAN],
-    /// The value from which on a larger one makes no difference.
+    /// Values above this make no difference.
     pub limit: f32,
 }
 
@@ -93,14 +93,14 @@ impl<R: Real> Fold<R> for Sums<'_> {
     }
 }
 
-/// A walk through the cells along `stretch`; voxels are multiplied by `sign`.
+/// A walk through the cells along `stretch`; the values of voxels are multiplied by `sign`.
 pub(crate) struct CellWalk<'a, T, F> {
     pub grid: &'a Grid,
     pub voxels: &'a [T],
     pub base: [i32; 3],
-    /// Where the rays go, counted from there.
+    /// The positions of the rays, relative to `base`.
     pub stretch: &'a RaySpan,
-    /// −1 turns the smallest into the largest.
+    /// −1 turns the search for the largest value into one for the smallest.
     pub sign: f32,
     pub fold: F,
 }
@@ -115,9 +115,9 @@ impl<T: Voxel, F: Fold<T::Real>> Kernel for CellWalk<'_, T, F> {
 }
 
 struct Walkers {
-    /// Cell of each ray, axis by axis: −1 or the last voxel in the half voxel beyond the outermost centres.
+    /// Each ray's cell, axis by axis; half a voxel beyond the outermost centres it is −1 or the last voxel.
     cell: [[i32; FAN]; 3],
-    /// The next plane, and the share of the stretch that one voxel takes; 0 along a plane.
+    /// The next plane, and the share of the stretch per voxel across planes; 0 for a ray parallel to them.
     plane: [[f32; FAN]; 3],
     per_voxel: [[f32; FAN]; 3],
     gone: [f32; FAN],
@@ -158,7 +158,7 @@ impl Walkers {
     }
 }
 
-/// This many cells of each ray are found before the voxels of the first are read.
+/// Number of cells of each ray that are found before the voxels of the first are read.
 const CELLS_AHEAD: usize = 2;
 
 #[derive(Clone, Copy)]

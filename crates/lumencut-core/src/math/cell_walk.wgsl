@@ -22,7 +22,7 @@ fn corners_at(voxel: vec3i, sign: f32) -> Corners {
     return Corners(corners.near * sign, corners.far * sign);
 }
 
-// Follows a ray over `way` voxels: finds values above `so_far`, or sums all with `wants_mean`.
+// Follows a ray over `way` voxels. Finds values above `so_far`, or sums all values if `wants_mean`.
 fn walk_cells(start: GridPosition, way: vec3f, sign: f32, limit: f32, wants_mean: bool, so_far: f32) -> Found {
     let carry = floor(start.part);
     let first = start.whole + carry;
@@ -35,7 +35,7 @@ fn walk_cells(start: GridPosition, way: vec3f, sign: f32, limit: f32, wants_mean
     var plane = select(vec3f(), vec3f(1.0), way > vec3f());
     var found = Found(so_far, 0.0, 0.0);
     var enter = 0.0;
-    // Each turn crosses a plane or ends.
+    // Each iteration crosses a plane or ends the loop.
     let most = i32(abs(way.x)) + i32(abs(way.y)) + i32(abs(way.z)) + 8;
     for (var turn = 0; turn < most; turn++) {
         let meeting = select((plane - place) * per_voxel, vec3f(NO_MEETING), is_along);

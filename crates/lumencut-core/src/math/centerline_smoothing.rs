@@ -2,8 +2,8 @@
 //! its radius.
 //!
 //! The average is over the polyline, not its points, so their spacing does not matter. Beyond the ends of a
-//! stretch the curve continues by point reflection, p(−s) = 2·p(0) − p(s): ends stay fixed and straight
-//! stretches stay straight.
+//! run between two fixed points the curve continues by point reflection, p(−s) = 2·p(0) − p(s). So these ends
+//! stay fixed and straight runs stay straight.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -15,13 +15,13 @@ use crate::vessel_tree::{MAX_COORDINATE, Vessel, VesselTree};
 /// Number of box layers that approximate the Gaussian.
 const LAYERS: usize = 16;
 
-/// Where the Gaussian is cut off (σ).
+/// Distance at which the Gaussian is cut off (σ).
 const CUT_OFF_SIGMAS: f64 = 4.0;
 
 /// `tree` with centerlines smoothed by a Gaussian whose σ at each point is `radii` times the radius there.
 ///
-/// Ends, points where another vessel ends, and points of unknown or zero radius stay as they are to the bit.
-/// Radii and the number and order of points do not change.
+/// Ends, points where another vessel ends, and points of unknown or zero radius stay bit-identical. Radii and
+/// the number and order of points do not change.
 pub fn smooth_centerlines(tree: &VesselTree, radii: f64) -> VesselTree {
     if radii <= 0.0 {
         return tree.clone();
@@ -40,7 +40,7 @@ fn smooth(vessel: &Vessel, radii: f64, ends: &PositionMap<()>, layers: &[Layer])
         let stretch = FixedRun::new(&points[start..=end]);
         for i in start + 1..end {
             let sigma = radii * radius[i];
-            // A smaller σ moves nothing.
+            // With a smaller σ the point stays as it is.
             if sigma >= VESSEL_END {
                 smoothed[i] = stretch.mean(i - start, sigma, layers);
             }
@@ -50,7 +50,7 @@ fn smooth(vessel: &Vessel, radii: f64, ends: &PositionMap<()>, layers: &[Layer])
     Vessel::from_checked(smoothed, Some(radius.to_vec()))
 }
 
-/// A layer of the Gaussian with σ = 1: `height` from −`reach` to `reach`.
+/// A box of the Gaussian with σ = 1: it is `height` high from −`reach` to `reach`.
 #[derive(Clone, Copy, Debug)]
 struct Layer {
     reach: f64,
@@ -74,7 +74,7 @@ fn gaussian() -> [Layer; LAYERS] {
 struct FixedRun<'a> {
     points: &'a [DVec3],
     arc: Vec<f64>,
-    /// From the chord to each point, at equal shares of the length.
+    /// The offset of each point from the point of the chord at the same share of the length.
     offset: Vec<DVec3>,
     /// Half of the change of the offset along each segment (per mm).
     half_slope: Vec<DVec3>,
@@ -86,7 +86,7 @@ impl<'a> FixedRun<'a> {
     fn new(points: &'a [DVec3]) -> Self {
         let count = points.len();
         let (zeros, mut arc) = (vec![DVec3::ZERO; count], vec![0.0; count]);
-        // Summed from here, so that it equals that of a vessel cut here, to the bit.
+        // Arc length is summed from this end, so it is bit-identical to that of a vessel that begins here.
         for i in 1..count {
             arc[i] = arc[i - 1] + points[i].distance(points[i - 1]);
         }
@@ -128,7 +128,7 @@ impl<'a> FixedRun<'a> {
     }
 
     /// The integral of the offset from the start to arc length `s`, symmetric about both ends by reflection.
-    /// `segment` is where the search starts and where it ended.
+    /// The search for the segment starts at `segment`, which becomes the segment found.
     fn integral_to(&self, s: f64, segment: &mut usize) -> DVec3 {
         let s = folded(s, self.length());
         *segment = self.segment(s, *segment);

@@ -7,13 +7,13 @@ use super::transfer::Colors;
 use super::window::Ramp;
 use crate::settings::{Context, ContextFrom, ContextMode, MAX_POINTS, Settings};
 
-/// The most rises and gaps between the control points of a transfer function.
+/// The largest number of rises between the control points of a transfer function.
 const MAX_RISES: usize = MAX_POINTS - 1;
 const MAX_GAPS: usize = MAX_POINTS / 2 + 1;
-/// The most sizes of blocks; with them the largest block holds a volume of any size.
+/// The largest number of block sizes; with so many, the largest block holds a volume of any size.
 pub(crate) const MAX_BLOCK_LEVELS: usize = 16;
 
-/// Change over two voxels that is half shaded (share of the window): above the noise, below all borders.
+/// Intensity change over two voxels (share of the window) that is half shaded: above noise, below borders.
 const HALF_SHADED: f64 = 0.1;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -50,7 +50,7 @@ impl Gathering {
     }
 }
 
-/// A rise of the transfer function: the amount added after all rises before it.
+/// A rise of the transfer function between two control points: what it adds to colour and opacity.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct RiseParameters {
@@ -67,9 +67,9 @@ pub struct RiseParameters {
 #[repr(C)]
 pub struct BlockLayout {
     pub level_count: u32,
-    /// log2 of the ratio of the smallest blocks there to the volume's smallest.
+    /// log₂ of the factor by which the smallest blocks in the buffer are larger than the volume's.
     pub finest: u32,
-    /// Blocks along each axis and the index of the first one's range, per size.
+    /// For each size: the number of blocks along each axis, and the index of the first block's range.
     pub levels: [[u32; 4]; MAX_BLOCK_LEVELS],
 }
 
@@ -83,14 +83,14 @@ pub struct ContextParameters {
     pub per_step: f32,
     /// How far behind a transparent cut surface rays start (mm).
     pub behind: f32,
-    /// 1 + min(γ, 0): how far a brighter sample pushes back what was gathered before it.
+    /// 1 + min(γ, 0): how much a brighter sample weakens what was accumulated before it.
     pub push: f32,
     /// max(γ, 0): the share of the maximum in the finished pixel.
     pub mix: f32,
-    /// In the window, a value above all that is transparent before the first visible sample.
+    /// The intensity up to which everything is transparent, mapped by the window to 0 to 1.
     pub most: f32,
     pub black: f32,
-    /// The square of a change that is half shaded.
+    /// The square of the change of intensity that is half shaded.
     pub noise: f32,
     /// The intensity from which on the colour is constant.
     pub last: f32,

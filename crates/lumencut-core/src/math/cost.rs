@@ -6,11 +6,11 @@ use crate::settings::Settings;
 /// The rule that orders the pieces covering a pixel: the smallest key wins.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rule {
-    /// λ.
+    /// λ of Eq. 2.
     pub weight: f32,
     /// Thickness of the wall around a lumen (mm).
     pub margin: f32,
-    /// Height of a tier, above the depth range of the tree (mm). Under *lumen first* walls come before
+    /// Height of a tier (mm), more than the depth range of the tree. Under *lumen first*, walls come before
     /// surroundings, lumens before walls, and both of a chosen vessel before all others.
     pub lift: f32,
     /// A bound on the rounding error of a projected distance (mm).
@@ -20,7 +20,7 @@ pub(crate) struct Rule {
 }
 
 impl Rule {
-    /// Coordinates of tree and pixels stay within these distances (mm) of the view's origin.
+    /// `tree_reach` and `view_reach` bound the distances (mm) of tree and pixels from the view's origin.
     pub(crate) fn new(settings: &Settings, tree_reach: f32, view_reach: f32) -> Self {
         let rounding = 4e-6 * larger(tree_reach, view_reach) + 1e-5;
         Self {
@@ -32,8 +32,8 @@ impl Rule {
         }
     }
 
-    /// The key at depth `z`, lumen radius `r` and distance `d` from the centerline. Under *lumen first* lumen
-    /// and wall come `tiers` before those of other vessels.
+    /// The key at depth `z`, lumen radius `r` and distance `d` from the centerline. Under *lumen first*,
+    /// lumen and wall come `tiers` tiers before those of other vessels.
     #[inline(always)]
     pub(crate) fn key<const LUMEN_FIRST: bool>(&self, z: f32, d: f32, r: f32, tiers: f32) -> f32 {
         let beyond = d - r;
@@ -45,7 +45,7 @@ impl Rule {
         if beyond <= self.margin { lifted } else { cost }
     }
 
-    /// Distance beyond the vessel's wall (mm); under *lumen first* the key decides whether there is one.
+    /// Distance beyond the vessel's wall (mm); under *lumen first* the key decides whether it is above 0.
     #[inline(always)]
     pub(crate) fn beyond_wall<const LUMEN_FIRST: bool>(&self, key: f32, d: f32, r: f32) -> f32 {
         let beyond = larger(d - r - self.margin, 0.0);
@@ -74,7 +74,7 @@ impl Rule {
         self.key::<LUMEN_FIRST>(z - self.depth_slack, d - self.distance_slack, r, tiers)
     }
 
-    /// The bound beyond which nothing can beat or tie with `key`.
+    /// No piece whose bound is above this can beat or tie with `key`.
     #[inline(always)]
     pub(crate) fn limit(&self, key: f32) -> f32 {
         key + self.depth_slack + key.abs() * 4e-7

@@ -9,7 +9,7 @@ pub const TINY: f32 = 1e-30;
 
 /// The values at the corners of the cells of N rays, i fastest, then j, then k.
 pub(crate) type Corners<R, const N: usize> = [[R; N]; 8];
-/// Where N rays meet a cell: weights of its farther corners, axis by axis.
+/// Positions of N rays in their cells: weights of the farther corners, axis by axis.
 pub(crate) type Weights<R, const N: usize> = [[R; N]; 3];
 
 /// The volume along N rays between entering and leaving a cell: Bernstein coefficients.
@@ -17,12 +17,12 @@ pub(crate) type Weights<R, const N: usize> = [[R; N]; 3];
 pub(crate) struct Cubic<R, const N: usize>([[R; N]; 4]);
 
 impl<R: Real, const N: usize> Cubic<R, N> {
-    /// The cubic between two positions of each ray: trilinear forms with weights of either position per axis.
+    /// The cubic between two positions of each ray: its coefficients mix the weights of both, axis by axis.
     #[inline(always)]
     pub(crate) fn between(corners: &Corners<R, N>, enter: &Weights<R, N>, leave: &Weights<R, N>) -> Self {
         let third = R::from_weight(1.0 / 3.0);
         let mut form = [[R::from_f32(0.0); N]; 4];
-        // In each name the letters stand for i, j and k: e where the ray enters, l where it leaves.
+        // The three letters of a name are for i, j and k: e where the ray enters, l where it leaves.
         for n in 0..N {
             let [e, l] = [enter, leave].map(|place| [place[0][n], place[1][n], place[2][n]]);
             let [xe, xl] = [e[0], l[0]].map(|x| {
@@ -61,7 +61,7 @@ impl<R: Real, const N: usize> Cubic<R, N> {
         largest
     }
 
-    /// The value at the local maximum; a smaller one if there is none between both ends.
+    /// The value at the local maximum; if there is none, a value of at most the larger end.
     #[inline(always)]
     pub(crate) fn at_summit(&self) -> [R; N] {
         let mut value = self.0[0];
@@ -94,7 +94,7 @@ fn summit<R: Real>([b0, b1, b2, b3]: [R; 4]) -> R {
     let (d0, d1, d2) = (d0 * scale, d1 * scale, d2 * scale);
     let (curve, bend) = (d0 - d1 - d1 + d2, d1 - d0);
     let root = larger(d1 * d1 - d0 * d2, zero).square_root();
-    // The root where the derivative falls, without a difference of almost equal numbers.
+    // The root at which the derivative falls, without a difference of almost equal numbers.
     let above = if bend > zero { zero - (bend + root) } else { d0 };
     let below = if bend > zero { curve } else { root - bend };
     let below = if size(below) > tiny { below } else { tiny };

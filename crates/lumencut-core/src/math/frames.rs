@@ -2,8 +2,8 @@
 //! Rotation Minimizing Frames, ACM Transactions on Graphics 27(1), 2008, doi:10.1145/1330511.1330513).
 //!
 //! A segment has its own direction in its middle. About each inner point the direction turns along a great
-//! circle at an even rate, over half of the shorter segment on both sides and at most `MAX_CORNER_MM`. So the
-//! tangent never jumps, and straight runs are crossed at right angles.
+//! circle at a constant rate, over half of the shorter segment on both sides and at most `MAX_CORNER_MM`. So
+//! the tangent never jumps, and sections cross straight runs at right angles.
 
 use glam::{DQuat, DVec3};
 
@@ -12,7 +12,7 @@ use super::centerline_path::CenterlinePath;
 /// The longest rounding of a corner before and after a point (mm).
 pub(crate) const MAX_CORNER_MM: f64 = 5.0;
 
-/// Two directions that differ by less than this sine are equal.
+/// Two directions count as equal if the sine of their angle is smaller.
 const SAME_DIRECTION: f64 = 1e-12;
 
 /// A right-handed set of unit vectors: `across` × `tangent` = `ahead`.
@@ -27,14 +27,14 @@ pub struct MovingFrame {
 }
 
 impl MovingFrame {
-    /// The frame with this unit tangent whose `ahead` is the perpendicular part of the given one, if any.
+    /// The frame with this unit tangent; its `ahead` is the part of the given one across the tangent, if any.
     pub fn looking(tangent: DVec3, ahead: DVec3) -> Self {
         let perpendicular = ahead.reject_from_normalized(tangent).try_normalize();
         let ahead = perpendicular.unwrap_or_else(|| tangent.any_orthonormal_vector());
         Self { tangent, across: tangent.cross(ahead), ahead }
     }
 
-    /// The frame turned about its tangent by this sine and cosine; the viewer moves to the right.
+    /// The frame turned about its tangent by the angle of this sine and cosine; the viewer moves right.
     #[must_use]
     pub fn turned(self, [sine, cosine]: [f64; 2]) -> Self {
         let Self { tangent, across, ahead } = self;
@@ -46,7 +46,7 @@ impl MovingFrame {
     }
 }
 
-/// A position on the path from which on the frame turns at an even rate.
+/// A position on the path; from there to the next station the frame turns at a constant rate.
 #[derive(Clone, Copy, Debug)]
 pub struct Station {
     /// Arc length (mm).
@@ -73,7 +73,7 @@ pub struct Frames {
 }
 
 impl Frames {
-    /// The frame that begins as `first`, whose tangent is that of the first segment.
+    /// The frame along a path that begins as `first`, whose tangent is that of the first segment.
     pub fn new(path: &CenterlinePath, first: MovingFrame) -> Self {
         let mut stations = vec![Station { at: 0.0, frame: first, turn: DVec3::ZERO }];
         for i in 1..path.direction().len() {

@@ -11,11 +11,11 @@ use super::lanes::{ABSENT, FAN, FAR, gap};
 use super::pieces::Bundle;
 use super::tile::{Area, Tile};
 
-/// An entry of the order that holds no slot.
+/// Marks an entry of the order that holds no slot.
 pub const NO_SLOT: u32 = u32::MAX;
 
-/// Sixteen nodes of one height: the box in the view plane, nearest depth, largest radius (mm), most tiers
-/// (`Rule::key`).
+/// Sixteen nodes of one height, each with its box in the view plane, smallest depth and largest radius (mm),
+/// and largest number of tiers (`Rule::key`).
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub struct Boxes {
@@ -143,7 +143,7 @@ impl Hierarchy {
         }
     }
 
-    /// Removes depths and radii from all pieces, so that only their position in the image counts.
+    /// Removes depths and radii from all pieces, so that only their positions in the image count.
     pub fn flatten(&mut self) {
         for bundle in &mut self.bundles {
             for s in 0..FAN {
@@ -195,7 +195,7 @@ fn split(order: &mut [u32], centers: &[DVec3]) {
     let (low, high) = points.fold((DVec3::MAX, DVec3::MIN), |(l, h), p| (l.min(p), h.max(p)));
     let side = high - low;
     let axis = if side.x >= side.y && side.x >= side.z { 0 } else { 1 + usize::from(side.z > side.y) };
-    // Whole nodes on the lower side, of the largest height that still splits.
+    // The lower side gets only complete nodes, of the largest height that leaves the other side some slots.
     let mut node = FAN;
     while node * FAN < order.len() {
         node *= FAN;

@@ -44,7 +44,7 @@ fn within(node: Node) -> Node {
     return Node(node.height - 1u, node.index * FAN);
 }
 
-// The node that follows all that is within a node: its next sibling, or that of its parent, and so on.
+// The node after all descendants of a node: its next sibling, or its parent's next sibling, and so on.
 fn after(node: Node) -> Node {
     let next = node.index + 1u;
     // The last of FAN = 2⁴ siblings is followed by its parent's successor.

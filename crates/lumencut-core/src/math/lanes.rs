@@ -9,22 +9,22 @@ pub const COLUMNS: usize = 16;
 /// The height of a tile (pixels).
 pub const ROWS: usize = 8;
 pub const PIXELS: usize = COLUMNS * ROWS;
-/// The children of a node of the hierarchy and the slots of a bundle, tested together.
+/// Number of children of a node and of slots of a bundle; they are tested together.
 pub const FAN: usize = 16;
 pub(crate) const PART_SIDE: usize = 8;
 pub(crate) const PART_PIXELS: usize = PART_SIDE * PART_SIDE;
 pub const PARTS: usize = PIXELS / PART_PIXELS;
 
-/// A key no piece reaches: the pixel has no winner yet. Finite, so that no kernel ever meets inf or NaN.
+/// A key that no piece reaches: the pixel has no winner yet. Finite, so that no kernel ever meets inf or NaN.
 pub const UNSET: f32 = 1e30;
-/// The depth of a missing piece; stays beyond [`UNSET`] after any addition.
+/// The depth of a missing piece; it stays above [`UNSET`] after any addition.
 pub const ABSENT: f32 = 3e30;
-/// Where slots without a point lie (mm): beyond every scene, with a finite square.
+/// Coordinate of slots without a point (mm): beyond every scene, and its square is finite.
 pub const FAR: f32 = 1e9;
-/// A key that no piece beats: the pixel takes no part.
+/// A key that no piece beats: the pixel is left out of the search.
 pub const EXCLUDED: f32 = -1e30;
 
-/// The larger of two numbers, the second if the first is NaN: one instruction, where `f32::max` needs three.
+/// The larger of two numbers, the second if the first is NaN: one instruction; `f32::max` needs three.
 #[inline(always)]
 pub fn larger<R: PartialOrd>(a: R, b: R) -> R {
     if a > b { a } else { b }
@@ -36,7 +36,7 @@ pub fn smaller(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
 }
 
-/// An integer with the order of the number; the compiler vectorises reductions of integers only.
+/// An integer that sorts like the number: the compiler vectorises reductions of integers only.
 #[inline(always)]
 fn ordered(number: f32) -> i32 {
     let bits = number.to_bits() as i32;
@@ -72,7 +72,7 @@ pub fn smallest(numbers: &[f32; FAN]) -> f32 {
 pub struct Bits([u32; FAN]);
 
 impl Bits {
-    /// Bit n for lane n, hidden from the compiler: with constants it splits the vectors.
+    /// Bit n for lane n. The compiler must not know these constants: it would split the vectors.
     #[inline(always)]
     pub fn new() -> Self {
         let mut bits = [1; FAN];
@@ -82,7 +82,7 @@ impl Bits {
         Self(std::hint::black_box(bits))
     }
 
-    /// Bit n is set where number n is at most `limit`.
+    /// Bit n is set if number n is at most `limit`.
     #[inline(always)]
     pub fn within(&self, numbers: &[f32; FAN], limit: f32) -> u32 {
         let mut all = 0;
@@ -117,7 +117,7 @@ pub fn gap(low: f32, high: f32, center: f32, half: f32) -> f32 {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Isa {
-    /// What every processor of the target has (SSE2, NEON, wasm simd128 if enabled).
+    /// The instructions of every processor of the target (SSE2, NEON, wasm simd128 if enabled).
     Baseline,
     /// x86-64 with AVX2.
     #[cfg(target_arch = "x86_64")]
@@ -176,7 +176,7 @@ pub fn dispatch<K: Kernel>(isa: Isa, kernel: K) -> K::Output {
     }
 }
 
-/// A separate function: inlined, the kernel would be optimised in each caller, a third of the compile time.
+/// A separate function: inlining would optimise the kernel in each caller, a third of the compile time.
 #[cfg_attr(target_arch = "x86_64", inline(never))]
 fn baseline<K: Kernel>(kernel: K) -> K::Output {
     kernel.run()

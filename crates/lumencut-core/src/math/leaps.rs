@@ -1,4 +1,4 @@
-//! How leaps between neighbours are written, and on which side of each its line lies.
+//! The bits for leaps between neighbouring pixels, and for the side of each leap on which its line lies.
 
 pub const TO_THE_RIGHT: u32 = 1;
 pub const DOWNWARDS: u32 = 2;

@@ -1,4 +1,4 @@
-// How leaps between neighbours are written; see leaps.rs.
+// The bits for leaps between neighbouring pixels; see leaps.rs.
 
 const TO_THE_RIGHT = 1u;
 const DOWNWARDS = 2u;

@@ -7,7 +7,7 @@ use super::projection::Radii;
 use crate::camera::Camera;
 use crate::settings::{MAX_LEVELS, Settings};
 
-/// The most heights of boxes that the shaders know: 2³² slots have eight.
+/// The largest number of heights of boxes in the shaders: 2³² slots have eight.
 pub(crate) const MAX_HEIGHTS: usize = 8;
 
 /// The position of a level in the GPU buffers; the CPU has separate buffers per level.
@@ -25,23 +25,23 @@ pub struct LevelLayout {
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct CutSurfaceParameters {
-    /// λ, the cost of a millimetre beyond the wall; this and the next four are those of `Rule`.
+    /// λ, the cost of a millimetre beyond the wall; this and the next four fields are those of `Rule`.
     pub weight: f32,
     pub margin: f32,
     pub lift: f32,
     pub distance_slack: f32,
     pub depth_slack: f32,
-    /// N / σ (levels² per mm): f² = this · the distance that selects.
+    /// N / σ (levels² per mm); times the distance that selects the levels, it gives f².
     pub selection: f32,
     pub coarsest: u32,
-    /// Factor on radii: 1 where they count, else 0.
+    /// Factor on radii: 1 if radii count, else 0.
     pub radius_scale: f32,
     /// Replaces a radius of 0 (mm).
     pub unknown_radius: f32,
     pub vessel_count: u32,
     pub padding: [u32; 2],
-    /// View coordinates (mm) of the origin of a GPU's points: the part that adds to products without
-    /// rounding.
+    /// View coordinates (mm) of the origin of the points on the GPU: the part that products can be added to
+    /// without rounding.
     pub origin_coarse: [f32; 4],
     pub origin_fine: [f32; 4],
     pub levels: [LevelLayout; MAX_LEVELS + 1],

@@ -16,14 +16,14 @@ struct LevelLayout {
 struct Span {
     first: u32,
     end: u32,
-    // The first point of its level.
+    // The index of the first point of its level.
     level: u32,
     // The points whose lumen and wall take precedence: the first, and the one after the last.
     first_chosen: u32,
     end_chosen: u32,
 }
 
-// A point in projection (mm), written once per view: both neighbours of a border read the same numbers.
+// A point in the projection (mm). Written once per view, so pieces that share it read identical numbers.
 struct Projected {
     point: vec3f,
     radius: f32,

@@ -6,11 +6,11 @@ use super::ray_lines::IndexFromView;
 use super::sampler::Sampler;
 use super::sampling::{Around, Places};
 
-/// The share of its colour that a surface keeps edge on.
+/// The share of its colour that a surface keeps when seen edge on.
 pub const AMBIENT: f32 = 0.4;
 /// The additional share of a surface that faces the viewer.
 pub const DIFFUSE: f32 = 0.6;
-/// White mirrored straight towards the viewer; it falls off with the sixteenth power of the cosine.
+/// White reflection of a surface that faces the viewer; it falls off with the sixteenth power of the cosine.
 pub const SPECULAR: f32 = 0.2;
 /// Changes are clamped to this so that they can be squared.
 pub const STEEPEST: f32 = 1e12;
@@ -44,7 +44,7 @@ impl Light for Headlight<'_> {
         let Some(shading) = self.shading else {
             return [lit, shine];
         };
-        // One more voxel of room towards the first voxels, if there is one.
+        // The base moves one voxel towards the first voxels, if possible, as room for the neighbours there.
         let base = self.base.map(|b| (b - 1).max(0));
         let shift = [0, 1, 2].map(|a| (self.base[a] - base[a]) as f32);
         let value = self.sampler.around(base, &Around::new(self.places, shift));

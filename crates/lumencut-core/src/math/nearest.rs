@@ -17,7 +17,7 @@ pub(crate) fn lower_distance(tile: &Tile, squared: &mut [f32; PIXELS], bundle: &
     }
 }
 
-/// The nearest point so far to the middle of a tile, on the segments met.
+/// Of the points on the segments met so far, the one nearest to the middle of a tile.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NearestPoint {
     /// Its distance from the middle, plus a bound on its rounding (mm).
@@ -40,14 +40,14 @@ impl NearestPoint {
         Self { distance, ..*self }
     }
 
-    /// Meets the segments of a bundle; returns whether one of them is nearer.
+    /// Takes the segments of a bundle into account; returns whether one of them is nearer.
     #[inline(always)]
     pub(crate) fn approach(&mut self, tile: &Tile, bundle: &Bundle) -> bool {
         let [cx, cy] = tile.area.center;
         let squared = squared_distances_to_segments(bundle, cx, cy);
         let least = smallest(&squared);
         let s = tile.bits.within(&squared, least).trailing_zeros() as usize % FAN;
-        // From the segment, not the tile: a far tile would round the point away from its segment.
+        // From the segment, since counting from a far tile would round the point off the segment.
         let t = foot(bundle, s, cx - bundle.x[s], cy - bundle.y[s]);
         let (x, y) = (bundle.x[s] + t * bundle.edge_x[s], bundle.y[s] + t * bundle.edge_y[s]);
         let distance = least.sqrt() * 1.000_01 + slack(tile, x, y);

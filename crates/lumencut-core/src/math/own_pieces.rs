@@ -1,4 +1,4 @@
-//! The pieces of the winner's own vessel at coarser levels whose arc length is nearest to the winner's.
+//! The pieces of the winner's vessel at coarser levels that are nearest to the winner in arc length.
 
 use super::candidates::Cover;
 use super::cost::Rule;
@@ -7,19 +7,19 @@ use super::lanes::{EXCLUDED, PART_PIXELS, UNSET, larger, largest};
 use super::pieces::Foot;
 use super::projection::{Level, Projected};
 
-/// Slots to each side of the first one that a group of pixels searches together.
+/// Number of slots on each side of the starting slot that a group of pixels searches together.
 const GROUP_SLOTS: usize = 8;
 
-/// For each pixel of a part, the piece of its vessel at a level whose arc length is nearest so far.
+/// For each pixel of a part: the piece of its vessel at a level that is so far nearest in arc length.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(crate) struct NearestPieces {
-    /// Distance of the piece from the winner along the vessel (mm).
+    /// Distance between the piece and the winner along the vessel (mm).
     apart: [f32; PART_PIXELS],
-    /// From the winner to the piece along the vessel (mm).
+    /// Arc length of the piece minus that of the winner (mm).
     pub along: [f32; PART_PIXELS],
     cost: [f32; PART_PIXELS],
-    /// Twice its slot, plus 1 for the stripe: decides between equal costs.
+    /// Twice the slot of the piece, plus 1 for a stripe: decides between equal costs.
     piece: [u32; PART_PIXELS],
     pub z: [f32; PART_PIXELS],
     /// Change of depth to the right and upwards (mm per mm), if a sheet is made.
@@ -55,7 +55,7 @@ impl NearestPieces {
         }
     }
 
-    /// The arc lengths (mm) between which a piece can still be nearer to a member, plus a bound on rounding.
+    /// Between these arc lengths (mm), widened for rounding, a piece can still be nearer to a member.
     #[inline(always)]
     fn reach(&self, part: &Part, is_member: &[bool; PART_PIXELS]) -> [f32; 2] {
         let (mut low, mut high) = ([EXCLUDED; PART_PIXELS], [EXCLUDED; PART_PIXELS]);
@@ -111,7 +111,7 @@ impl OwnPieces<'_> {
                 is_member[l] = is_open[l] & (vessel == group.vessel) & (s >= group.low) & (s <= group.high);
                 is_open[l] &= !is_member[l];
             }
-            // Independent of the rounding at the ends of the group.
+            // The seed is a member even if rounding moves it beyond the ends of the group.
             is_member[seed] = true;
             is_open[seed] = false;
             self.search::<SHEET>(part, &group, &is_member, nearest);
@@ -130,7 +130,7 @@ impl OwnPieces<'_> {
         Group { vessel, first, end, middle, low, high }
     }
 
-    /// Offers slots from the middle of a group outwards, until none farther out can be nearer to any member.
+    /// Offers slots from the middle of a group outwards, until no slot farther out can be nearer to a member.
     #[inline(always)]
     fn search<const SHEET: bool>(
         &self,
@@ -141,7 +141,7 @@ impl OwnPieces<'_> {
     ) {
         let arc_length = &self.level.arc_length;
         let mut reach = [-UNSET, UNSET];
-        // What is left: the slots before `left`, and those from `right` on.
+        // Not yet offered are the slots before `left`, and those from `right` on.
         let (mut left, mut right) = (group.middle, group.middle);
         loop {
             let is_left = left > group.first && arc_length[left] >= reach[0];

@@ -1,5 +1,5 @@
-// The pieces of the winner's own vessel at coarser levels: the one whose arc length is nearest to the
-// winner's. Each pixel searches on its own.
+// The piece of the winner's vessel at a coarser level that is nearest to the winner in arc length. Each pixel
+// searches on its own.
 // import math/lanes
 // import math/levels
 // import math/cost
@@ -89,7 +89,7 @@ fn with_pieces_of(i: u32, q: vec2f, s: f32, so_far: NearestPiece) -> NearestPiec
             nearest = nearer_of(nearest, offered);
         }
     }
-    // Written out as in `foot`, so that both neighbours of a border compute the same number.
+    // Computed as in `foot`, so that both neighbours of a border get the same number.
     let u = q - here.point.xy;
     let beyond_before = u.x * here.before.x + u.y * here.before.y;
     let after_start = u.x * here.edge.x + u.y * here.edge.y;

@@ -21,13 +21,13 @@ pub(crate) struct Bundle {
     /// The next point; the same point in a slot without stripe.
     pub next_x: [f32; FAN],
     pub next_y: [f32; FAN],
-    /// e: the edge to the next point, zero where it is missing or collinear with the view.
+    /// e: the edge to the next point; zero if missing or collinear with the view.
     pub edge_x: [f32; FAN],
     pub edge_y: [f32; FAN],
-    /// f: the edge before the point, zero where it is missing.
+    /// f: the edge before the point; zero if missing.
     pub before_x: [f32; FAN],
     pub before_y: [f32; FAN],
-    /// 1 / |e|, zero with e.
+    /// 1 / |e|; zero if e is zero.
     pub inverse_length: [f32; FAN],
     /// Depth of the stripe at its start (mm), [`ABSENT`] without stripe.
     pub stripe_z: [f32; FAN],
@@ -36,7 +36,7 @@ pub(crate) struct Bundle {
     pub wedge_z: [f32; FAN],
     pub radius: [f32; FAN],
     pub radius_change: [f32; FAN],
-    /// Tiers before lumen and wall of other vessels ([`Rule::key`]): 2 for chosen vessels, else 0.
+    /// Number of tiers before lumen and wall of other vessels ([`Rule::key`]): 2 for chosen vessels, else 0.
     pub tiers: [f32; FAN],
     /// The slot's number in its level; rises along each vessel and from vessel to vessel.
     pub slot: [u32; FAN],
@@ -68,7 +68,7 @@ impl Bundle {
 pub(crate) struct Envelope {
     pub key: [f32; PIXELS],
     pub z: [f32; PIXELS],
-    /// Twice its slot, plus 1 for the stripe: the order of the pieces on a tie.
+    /// Twice the slot of the piece, plus 1 for a stripe; of equal keys the smaller number wins.
     pub piece: [u32; PIXELS],
 }
 
@@ -166,7 +166,7 @@ pub struct Stripe {
 #[derive(Clone, Copy, Debug)]
 pub struct Foot {
     pub covered: bool,
-    /// Share along the stripe, 0 to 1 if it is covered.
+    /// Share of the stripe before the pixel's foot, 0 to 1 if the stripe covers the pixel.
     pub t: f32,
     pub distance: f32,
 }
@@ -186,7 +186,7 @@ impl Stripe {
         let beyond_end = (x - self.end[0]) * ex + (y - self.end[1]) * ey;
         Foot {
             covered: (after_start >= 0.0) & (beyond_end <= 0.0),
-            // Rounding must not carry t past the end, where depth and radius were never bounded.
+            // Rounding must not move t beyond the end: no bounds of depth and radius hold there.
             t: smaller(after_start * self.per_square, 1.0),
             distance: (ux * self.unit[1] - uy * self.unit[0]).abs(),
         }
@@ -196,14 +196,14 @@ impl Stripe {
 #[derive(Clone, Copy, Debug)]
 pub struct Wedge {
     pub point: [f32; 2],
-    /// f: the edge before the point, zero where it is missing.
+    /// f: the edge before the point; zero if missing.
     pub before: [f32; 2],
-    /// e: the edge after the point, zero where it is missing.
+    /// e: the edge after the point; zero if missing.
     pub edge: [f32; 2],
 }
 
 impl Wedge {
-    /// Whether it covers the pixel at (x, y), and the distance from the point (mm).
+    /// Whether the wedge covers the pixel at (x, y), and the distance of the pixel from its point (mm).
     #[inline(always)]
     pub fn cover(&self, x: f32, y: f32) -> (bool, f32) {
         let (ux, uy) = (x - self.point[0], y - self.point[1]);

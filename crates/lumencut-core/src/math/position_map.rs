@@ -7,7 +7,7 @@ use glam::DVec3;
 #[derive(Clone, Debug)]
 pub(crate) struct PositionMap<T> {
     cells: HashMap<[i64; 3], Vec<(DVec3, T)>>,
-    /// Positions no farther apart than this (mm) are equal.
+    /// Positions at most this far apart (mm) count as equal.
     within: f64,
 }
 

@@ -15,7 +15,7 @@ use crate::vessel_tree::VesselTree;
 /// voxel, well above the rounding of `f32`.
 pub const COLLINEAR_LENGTH: f32 = 1e-3;
 
-/// How many tiers lumen and wall of a chosen vessel come before those of others: both before both.
+/// Number of tiers by which lumen and wall of a chosen vessel come before those of others: both before both.
 const TIERS_OF_FIRST: f32 = 2.0;
 
 /// One level of detail, made once per tree: its distinct points as slots, and their order in space.
@@ -24,7 +24,7 @@ pub struct Level {
     /// The first slot of each vessel, and the number of slots at the end.
     pub first_slot: Vec<u32>,
     pub points: Vec<DVec3>,
-    /// The radius at each slot (mm), 0 where unknown.
+    /// The radius at each slot (mm), 0 if unknown.
     pub radii: Vec<f32>,
     /// Arc length of each slot (mm); never falls along a vessel.
     pub arc_length: Vec<f32>,
@@ -74,10 +74,10 @@ impl Level {
 pub struct Projected {
     pub point: [f32; 3],
     pub radius: f32,
-    /// e, zero where missing or collinear.
+    /// e; zero if missing or collinear.
     pub edge: [f32; 2],
     pub before: [f32; 2],
-    /// 1 / |e|, zero with e.
+    /// 1 / |e|; zero if e is zero.
     pub inverse_length: f32,
     pub arc_length: f32,
     pub vessel: i32,
@@ -111,7 +111,7 @@ impl Projected {
 
 #[derive(Clone, Copy, Debug)]
 pub struct Radii {
-    /// Factor on radii: 1 where they count, else 0.
+    /// Factor on radii: 1 if radii count, else 0.
     pub scale: f32,
     /// Replaces a radius of 0 (mm).
     pub unknown: f32,
@@ -175,7 +175,7 @@ impl ProjectedLevel {
         let (bundle, s) = (&mut self.hierarchy.bundles[place / FAN], place % FAN);
         let here = self.projected[slot];
         let stripe = here.has_stripe();
-        // A collinear segment keeps no extent: its other end has its own slot.
+        // The stripe of a collinear segment has no extent: its other end has its own slot.
         let end = self.projected[slot + usize::from(stripe)];
         bundle.slot[s] = slot as u32;
         (bundle.x[s], bundle.y[s]) = (here.point[0], here.point[1]);
@@ -196,7 +196,7 @@ impl ProjectedLevel {
     }
 }
 
-/// Decides for one vessel which segments are collinear and what stands at each point: a wedge at inner
+/// Decides for one vessel which segments are collinear and which piece lies at each point: a wedge at inner
 /// points, half-planes at the ends and before a collinear run, a full plane at an end that a run reaches.
 fn stand(vessel: &mut [Projected]) {
     let last = vessel.len() - 1;
@@ -220,11 +220,11 @@ fn stand(vessel: &mut [Projected]) {
     // Without an edge before it, the first point has a half-plane, or a plane before a run.
     vessel[0].stands = true;
     for i in first_stripe + 1..=last_stripe {
-        // After a stripe: a wedge, or a half-plane where a collinear run begins. Elsewhere in a run: nothing.
+        // After a stripe: a wedge, or a half-plane if a collinear run begins. Elsewhere in a run: nothing.
         vessel[i].stands = vessel[i - 1].has_stripe();
         vessel[i].before = vessel[i - 1].edge;
     }
-    // The last point: a half-plane, or a plane where a run ends the vessel.
+    // The last point: a half-plane, or a plane if a run ends the vessel.
     vessel[last].stands = true;
     vessel[last].before = if last_stripe + 1 == last { vessel[last_stripe].edge } else { [0.0; 2] };
 }

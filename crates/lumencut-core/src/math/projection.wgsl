@@ -5,8 +5,8 @@
 // import math/pieces
 // import math/hierarchy
 
-// A point counted from the middle of the tree (mm): few digits, for exact products with coarse axes, and the
-// rest.
+// A point relative to the middle of the tree (mm): a part with so few digits that its products with coarse
+// axes are exact, and the rest.
 struct Point {
     coarse: vec3f,
     radius: f32,
@@ -35,7 +35,7 @@ struct Along {
 fn along(axis: u32, point: Point) -> f32 {
     let coarse = view.axes[axis].coarse.xyz;
     let fine = view.axes[axis].fine.xyz;
-    // Exact in any order and with any rounding.
+    // The sum is exact, in any order of its terms and with any rounding.
     let exact = dot(coarse, point.coarse) + parameters.origin_coarse[axis];
     return exact + (dot(fine, point.coarse) + dot(coarse + fine, point.fine) + parameters.origin_fine[axis]);
 }

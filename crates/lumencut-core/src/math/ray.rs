@@ -1,4 +1,4 @@
-//! Rays through the volume: sixteen at a time, cut into equal parts, skipped where nothing can be seen.
+//! Rays through the volume: sixteen at a time, cut into equal parts; parts that show nothing are skipped.
 
 use super::blocks::{Blocks, Range};
 use super::lanes::FAN;
@@ -12,11 +12,11 @@ pub(crate) const PACKET: [usize; 2] = [4, 4];
 /// Parts of a ray that are sampled or skipped together.
 pub const STEPS: usize = 8;
 
-/// The most samples along a ray and across a slab.
+/// The largest number of samples along a ray and across a slab.
 pub const MAX_SAMPLES: f64 = 65_536.0;
 
-/// Share of a step that a chord may exceed whole steps without another part: n voxels give n parts despite
-/// rounding.
+/// A chord may exceed n steps by this share of a step and still has n parts, so that rounding never adds a
+/// part to n voxels.
 pub const SPARE: f64 = 1e-3;
 
 /// What all rays of a view share.
@@ -39,7 +39,7 @@ impl Rays {
 pub(crate) struct Packet {
     lines: Lines,
     part: [f64; FAN],
-    /// The number of parts of each ray; 0 where it misses the volume or is not needed.
+    /// The number of parts of each ray; 0 if it misses the volume or is not needed.
     pub count: [i32; FAN],
     pub thickness: [f32; FAN],
     pub longest: i32,
@@ -79,7 +79,7 @@ impl Packet {
         packet
     }
 
-    /// Copies a ray that sees something over those that see nothing, so that they widen no bounds.
+    /// Replaces rays that see nothing by a copy of one that sees something: they must not widen bounds.
     #[inline(always)]
     fn fill_idle_lanes(&mut self) {
         let mut busy = 0;
@@ -112,7 +112,7 @@ impl Packet {
         }
     }
 
-    /// The segment of samples in the middle of the parts from `first` on, within bounds of the whole packet.
+    /// The segment from part `first` on, with samples in the middle of its parts, and bounds for all rays.
     #[inline(always)]
     pub(crate) fn segment(&self, grid: &Grid, blocks: Option<&Blocks>, first: i32) -> Segment {
         let [first_part, end_part] = [f64::from(first) + 0.5, f64::from(first + STEPS as i32) - 0.5];
@@ -130,7 +130,7 @@ impl Packet {
         self.between(grid, blocks, first, [f64::from(first), f64::from(first + count)])
     }
 
-    /// The segment from part `first` on whose bounds hold the given interval, counted in parts.
+    /// The segment from part `first` on; its bounds hold the samples in an interval, counted in parts.
     #[inline(always)]
     fn between(&self, grid: &Grid, blocks: Option<&Blocks>, first: i32, parts: [f64; 2]) -> Segment {
         let Bounds { foot, toward, near, part, far } = &self.bounds;
@@ -205,10 +205,10 @@ impl Packet {
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RaySpan {
-    /// Where they begin (voxels).
+    /// Where the rays begin (voxels).
     pub start: Places,
     pub way: Places,
-    /// Where they end, as a share of the segment; at most 0 if a ray has ended before.
+    /// Where the rays end, as a share of the segment; at most 0 if a ray has ended before.
     pub end: [f32; FAN],
     pub length: [f32; FAN],
 }
@@ -226,7 +226,7 @@ fn ends(numbers: &[f64; FAN]) -> [f64; 2] {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Segment {
     pub first: i32,
-    /// A voxel before all its samples.
+    /// A voxel at or before all samples of the segment along each axis.
     pub base: [i32; 3],
     pub range: Range,
 }

@@ -2,19 +2,19 @@
 // import math/sampling
 // import math/view
 
-// The start of a ray that crosses the whole volume, and of one that is not needed (depth in mm).
+// The start of a ray that crosses the entire volume, and of one that is not needed (depth in mm).
 const WHOLE: f32 = -1e9;
 const NONE: f32 = 1e9;
 const NEVER: f32 = 2e9;
 const SPARE: f32 = 1e-3;
 
-// Where a ray meets the reference depth: an exact index, and the rest.
+// The index at which a ray meets the reference depth: an exact part, and the rest.
 struct Foot {
     index: vec3f,
     rest: vec3f,
 }
 
-// A depth from the grid's reference (mm): a multiple of its unit, and the rest.
+// A depth relative to the grid's reference (mm): a multiple of the grid's unit, and the rest.
 struct Depth {
     coarse: f32,
     rest: f32,
@@ -40,7 +40,7 @@ fn foot_at(n: vec2f) -> Foot {
     return Foot(index.xyz, rest.xyz);
 }
 
-// The unit divides all that is split, with few enough digits for exact products.
+// A multiple of the grid's unit; it has so few digits that its products are exact.
 fn coarse(depth: f32) -> f32 {
     return round(depth * grid.per_unit) * grid.unit;
 }
@@ -81,7 +81,7 @@ fn coarse_meetings(foot: Foot, plane: vec3f) -> vec3f {
 }
 
 fn rests(foot: Foot, plane: vec3f, at: vec3f) -> vec3f {
-    // The remaining distance: its large terms cancel exactly.
+    // The distance that remains: its large terms cancel exactly.
     let left = plane - foot.index - at * grid.z.xyz - (foot.rest + at * grid.z_rest.xyz);
     return left * grid.per_voxel.xyz;
 }

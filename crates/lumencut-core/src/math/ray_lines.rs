@@ -7,19 +7,19 @@ use super::sampling::Grid;
 use crate::camera::Camera;
 use crate::volume::Volume;
 
-/// The start of a ray that crosses the whole volume (depth in mm).
+/// The start of a ray that crosses the entire volume (depth in mm).
 pub const WHOLE: f32 = -1e9;
 /// The start of a ray that is not needed.
 pub const NONE: f32 = 1e9;
-/// Beyond both.
+/// A depth beyond both of them.
 pub const NEVER: f64 = 2e9;
 
-/// A direction that moves less than this along an axis (voxels per mm) runs along the volume's sides.
+/// A direction that moves by less than this along an axis (voxels per mm) counts as perpendicular to it.
 pub const PARALLEL: f64 = 1e-9;
 /// The chord of a pixel without a ray.
 pub(crate) const NO_CHORD: [f64; 2] = [NONE as f64, -(NONE as f64)];
 
-/// Continuous index as an affine map of view coordinates.
+/// The continuous index of a position in view coordinates: an affine map.
 #[derive(Clone, Copy, Debug)]
 pub struct IndexFromView {
     pub origin: DVec3,
@@ -40,7 +40,7 @@ impl IndexFromView {
         }
     }
 
-    /// The length of a ray between voxels along the axis where it meets most of them (mm).
+    /// Length of a ray per voxel (mm), along the axis on which it crosses the most voxels.
     pub fn voxel(&self) -> f64 {
         1.0 / self.z.abs().max_element()
     }
@@ -62,7 +62,7 @@ impl RayGrid {
         Self { size: camera.size(), first: [camera.view_x(0), camera.view_y(0)], next: [s, -s] }
     }
 
-    /// A ray for every square of four pixels.
+    /// One ray for every square of four pixels.
     pub fn coarse(camera: &Camera) -> Self {
         let fine = Self::fine(camera);
         let first = std::array::from_fn(|a| fine.first[a] + fine.next[a] / 2.0);
@@ -70,7 +70,7 @@ impl RayGrid {
     }
 }
 
-/// Sixteen rays: index at depth 0, direction, and the wanted depths.
+/// Sixteen rays: index at depth 0, change of the index with depth, and the wanted depths.
 #[derive(Clone, Debug)]
 pub struct Lines {
     pub foot: [[f64; FAN]; 3],

@@ -1,4 +1,4 @@
-//! The reduction of the values along rays. Shaders follow rays singly, the CPU sixteen
+//! The reduction of the values along rays. Shaders follow one ray at a time, the CPU sixteen
 //! (`stages/along_rays.rs`).
 
 use super::blocks::HUGE;

@@ -1,11 +1,11 @@
-// The largest, the smallest or the mean value along a whole ray.
+// The largest, the smallest or the mean value along a ray through the entire volume.
 // import math/blocks
 // import math/cell_walk
 
 // Parts of a ray that are followed together.
 const STRETCH: i32 = 8;
 
-// Stretches per partial sum: sums of few numbers keep their digits.
+// Number of stretches per partial sum: sums of few numbers lose fewer digits.
 const FEW: i32 = 16;
 
 fn part_place(ray: Ray, n: i32) -> GridPosition {
@@ -30,14 +30,14 @@ fn largest_along(ray: Ray, sign: f32, limit: f32) -> f32 {
     return best;
 }
 
-// The first part from `first` on that can exceed the best; `search` is the sign, the limit and the best.
+// The first part from `first` on that can exceed the best; `search` holds the sign, the limit and the best.
 fn skip_parts(ray: Ray, way: vec3f, search: vec3f, first: i32, level: ptr<function, u32>) -> i32 {
     let coarsest = parameters.level_count - 1u;
     var n = first;
     while n < ray.count {
         let cell = cell_of(part_place(ray, n));
         if is_no_larger(range_at(*level, cell.voxel), search) {
-            // Whole parts: a part that leaves the block is passed only with a larger block.
+            // Only complete parts are skipped; one that leaves the block is skipped only with a larger block.
             let left = samples_left(*level, cell, way);
             if left > 0 {
                 n += left;

@@ -1,4 +1,4 @@
-//! Distances below which two positions are the same, with the reason.
+//! Distances below which two positions count as the same, with the reason.
 //!
 //! Distances are in mm. Each is far above the rounding of a coordinate of a few hundred mm (1e-13 mm), and
 //! far below the smallest voxel (about 0.05 mm).
@@ -10,7 +10,7 @@ pub const REPEATED_POINT: f64 = 1e-9;
 /// up to 3e-5 mm at 500 mm, and writers round to 0.001 mm.
 pub const VESSEL_END: f64 = 1e-3;
 
-/// Positions of a reformation this near are equal: their computations differ, and no pixel is as small.
+/// Positions of a reformation this near count as equal: their computations differ, and no pixel is as small.
 pub(crate) const ON_PICTURE: f64 = 1e-6;
 
 /// Arc lengths that differ by less are equal: the rounding of sums over thousands of segments.

@@ -10,7 +10,7 @@ use crate::volume::Voxel;
 pub(crate) trait Sampler: Sync {
     fn along(&self, base: [i32; 3], line: &Line) -> [[f32; FAN]; STEPS];
     fn around(&self, base: [i32; 3], neighbours: &Around) -> [[f32; FAN]; 6];
-    /// Raises the largest values of `sign` · volume along rays, clamped to the limit.
+    /// Raises `best` to the largest values of `sign` · volume along rays, clamped to the limit.
     fn widen(&self, base: [i32; 3], stretch: &RaySpan, sign_and_limit: [f32; 2], best: &mut [f32; FAN]);
     fn sum_up(&self, base: [i32; 3], stretch: &RaySpan, sums: &mut [[f64; FAN]; 2]);
 }

@@ -11,7 +11,7 @@ pub const POSITION_ROUNDING: f64 = 1e-3;
 #[derive(Clone, Copy, Debug)]
 pub struct Grid {
     last: [f64; 3],
-    /// The last index with a neighbour above it, and the step to it in elements; both 0 for one voxel.
+    /// Last index with a neighbour above, and the step to that neighbour (elements); both 0 for one voxel.
     low: [usize; 3],
     step: [usize; 3],
     strides: [usize; 3],
@@ -22,12 +22,12 @@ pub struct Grid {
 /// voxel.
 pub type Places = [[f32; FAN]; 3];
 
-/// Positions to sample: sixteen at each of some steps.
+/// Positions to sample: sixteen per step.
 pub trait SampledRun {
     fn places(&self, n: usize) -> Places;
 }
 
-/// One voxel to both sides along each axis.
+/// Positions one voxel away from others, to both sides along each axis.
 #[derive(Clone, Copy, Debug)]
 pub struct Around {
     places: Places,
@@ -35,7 +35,7 @@ pub struct Around {
 }
 
 impl Around {
-    /// Around positions that are relative to a voxel `shift` voxels before theirs.
+    /// The positions around `places`; the base moves to a voxel `shift` voxels before the present one.
     pub fn new(places: Places, shift: [f32; 3]) -> Self {
         Self { places, shift }
     }
@@ -77,7 +77,7 @@ impl Grid {
         self.low.map(|n| n as i32)
     }
 
-    /// The value at continuous index `p`: the outermost voxel's up to half a voxel outside, NaN beyond.
+    /// The value at continuous index `p`; up to half a voxel outside that of the outermost voxel, NaN beyond.
     #[inline]
     pub fn trilinear<T: Voxel>(&self, voxels: &[T], p: DVec3) -> f32 {
         self.interpolated(voxels, p, Voxel::real)
@@ -291,7 +291,7 @@ impl Offset for usize {
     }
 }
 
-/// The whole part of a number from 0 to 2²²: from 2²³ on, a float's last bit counts ones.
+/// The integer part of a number from 0 to 2²²: from 2²³ on, a float's last bit counts ones.
 #[inline(always)]
 fn whole(c: f32) -> u32 {
     const ONES: f32 = 8_388_608.0;

@@ -9,7 +9,7 @@ const POSITION_ROUNDING: f32 = 1e-3;
 // The volume's grid in the view. The fourth component of vectors is padding.
 struct GridParameters {
     last: vec3f,
-    // What the voxels of an unsigned type were shifted down by.
+    // What was subtracted from the voxels of an unsigned type.
     shift: f32,
     // The last voxel that has a neighbour above it; 0 along an axis with one voxel.
     low: vec3i,
@@ -19,8 +19,8 @@ struct GridParameters {
     unit: f32,
     per_unit: f32,
     padding: vec2f,
-    // The index in the middle of the image at the reference depth, and its change per column, row and mm of
-    // depth: parts of few digits with exact products and sums, and the rests.
+    // The index at the image centre at the reference depth, and its change per column, row and mm of depth.
+    // Each is a part with so few digits that its products and sums are exact, and the rest (`_rest`).
     origin: vec4f,
     origin_rest: vec4f,
     x: vec4f,
@@ -39,7 +39,7 @@ struct GridParameters {
 @group(0) @binding(2) var<uniform> grid: GridParameters;
 @group(0) @binding(3) var voxels: texture_3d<i32>;
 
-// A continuous index: an integer and a summand, so that fractions keep their digits.
+// A continuous index: an integer and a remainder, so that fractions keep their digits.
 struct GridPosition {
     whole: vec3f,
     part: vec3f,
@@ -97,7 +97,7 @@ fn corners_in(near: vec3i) -> Corners {
     return Corners(low, high);
 }
 
-// The value in a cell; HUGE where one of its voxels has none.
+// The value in a cell; HUGE if one of its voxels has none.
 fn value_in(cell: Cell) -> f32 {
     let corners = corners_in(cell.voxel);
     let low = corners.near;

@@ -1,24 +1,24 @@
 //! Medians, quantiles and groups of values, in time proportional to their number.
 
-/// The median, or the mean of the two in the middle; `None` of no values. It reorders the values.
+/// The median, or the mean of the two in the middle; `None` without values. It reorders the values.
 pub fn median(values: &mut [f64]) -> Option<f64> {
     let last = values.len().checked_sub(1)?;
     let [below, above] = neighbours(values, last / 2);
     Some(if last % 2 == 0 { below } else { (below + above) / 2.0 })
 }
 
-/// The quantile at share `part`, interpolated linearly; `None` of no values. It reorders the values.
+/// The quantile at share `part`, interpolated linearly; `None` without values. It reorders the values.
 pub fn quantile(values: &mut [f64], part: f64) -> Option<f64> {
     let last = values.len().checked_sub(1)?;
     let place = last as f64 * part;
     let below = (place.floor() as usize).min(last);
     let [low, high] = neighbours(values, below);
     let (weight, difference) = (place - below as f64, high - low);
-    // From the nearer end, so that both ends are met exactly.
+    // Computed from the nearer end, so that the result at both ends is exact.
     Some(if weight < 0.5 { low + difference * weight } else { high - difference * (1.0 - weight) })
 }
 
-/// The start of the second of two groups of rising values by Otsu (1979); `None` if all are equal.
+/// Splits rising values into two groups by Otsu (1979): the start of the second; `None` if all are equal.
 pub fn two_groups(rising: &[f64]) -> Option<usize> {
     let first = *rising.first()?;
     let all: f64 = rising.iter().map(|value| value - first).sum();

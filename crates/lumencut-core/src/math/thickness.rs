@@ -1,4 +1,4 @@
-//! Opacity of another thickness: 1 − (1 − α)^h, without the system's logarithm: equal bits on every platform.
+//! Opacity at another thickness: 1 − (1 − α)^h, without the system's logarithm, so equal on every platform.
 
 use super::lanes::{FAN, larger, smaller};
 

@@ -1,4 +1,4 @@
-// Opacity of another thickness: 1 − (1 − α)^h, with the polynomials of the CPU; see thickness.rs.
+// Opacity at another thickness: 1 − (1 − α)^h, with the polynomials of the CPU; see thickness.rs.
 
 const ROOT_HALF = 0x3F3504F3u;
 const LOG2_E: f32 = 1.4426950408889634;

@@ -1,4 +1,4 @@
-//! Tiles of pixels, and the parts of a tile: a part's pixels fill one vector, a tile's share one walk.
+//! Tiles of pixels, and parts of tiles: the pixels of a part fill one vector, those of a tile share one walk.
 
 use super::lanes::{Bits, COLUMNS, PART_PIXELS, PART_SIDE, PARTS, PIXELS, ROWS, larger};
 use crate::camera::Camera;

@@ -9,8 +9,8 @@ const MAX_ACROSS = 2u;
 const MAX_ROWS = 8u;
 const MAX_QUADS = 16u;
 const QUAD = 4u;
-// Short rows of tiles keep threads in step close together. Software adapters run in step along the first
-// dimension only, which must exceed their vectors.
+// Tiles of a workgroup form short rows, so that threads in lockstep work on nearby pixels. Software adapters
+// run only the first workgroup dimension in lockstep; it must be larger than their vectors.
 const TILES = 64u;
 const TILES_ACROSS = 4u;
 

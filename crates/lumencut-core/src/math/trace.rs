@@ -1,4 +1,4 @@
-//! The one ray loop of the context: all rays of a tile together, skipping segments that change nothing.
+//! The ray loop of the context: all rays of a tile advance together and skip segments that change nothing.
 
 use super::accumulate::{Blend, Rgba, Samples};
 use super::blocks::{Blocks, Range};

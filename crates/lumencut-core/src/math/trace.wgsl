@@ -1,4 +1,4 @@
-// The one ray loop of the context: run by run, skipping blocks that change nothing.
+// The ray loop of the context: it goes run by run and skips blocks that change nothing.
 // import math/accumulate
 // import math/blocks
 // import math/ray
@@ -12,7 +12,7 @@ fn trace(ray: Ray) -> vec4f {
     var level = parameters.level_count - 1u;
     var n = 0;
     loop {
-        // Neighbours that wait for each other skip together, and then sample together.
+        // Threads in lockstep wait for each other: they first all skip, then all sample.
         n = skip(ray, way, gathered, n, &level);
         if n >= ray.count {
             break;

@@ -4,10 +4,10 @@ use super::blocks::{HUGE, Range};
 use super::lanes::{FAN, larger, smaller};
 use crate::settings::{ControlPoint, TransferFunction};
 
-/// Opacity below which nothing is seen, far below one grey value over a whole body.
+/// Opacity below which nothing is seen: even across a body it changes far less than one grey value.
 pub const INVISIBLE: f32 = 1e-6;
 
-/// A rise from one control point to the next: the amount added after all rises before it.
+/// A rise from one control point to the next: what it adds to colour and opacity.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rise {
     /// The intensity at which it begins.
@@ -30,7 +30,7 @@ impl Rise {
         }
     }
 
-    /// The intensity from which on the rise is complete; after a step, at which it has not begun.
+    /// The intensity from which on the rise is complete; for a step, the one at which it has not yet begun.
     fn end(&self) -> f32 {
         larger(self.start.next_up(), self.start + 1.0 / self.per_intensity)
     }

@@ -1,4 +1,4 @@
-//! The walk through a hierarchy for one tile: near nodes first, cut off by the tile's worst key so far.
+//! The walk through a hierarchy for one tile: near nodes first, until none can beat its worst key so far.
 
 use super::candidates::candidates;
 use super::cost::Rule;
@@ -10,7 +10,7 @@ use super::nearest::{NearestPoint, lower_distance};
 use super::pieces::Envelope;
 use super::tile::{Tile, lane};
 
-/// Fifteen siblings wait on each of the eight heights that 2³² slots can have.
+/// On each of the eight heights that 2³² slots can have, at most fifteen siblings wait.
 const STACK: usize = 8 * FAN;
 
 /// Waiting nodes, the nearest on top: bound, height and index.

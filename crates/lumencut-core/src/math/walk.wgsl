@@ -1,4 +1,4 @@
-// The walk through the hierarchy for one tile of pixels, cut off by the tile's worst key so far.
+// The walk through the hierarchy for one tile of pixels, up to the tile's worst key so far.
 // import math/hierarchy
 // import math/pieces
 // import math/candidates
@@ -21,7 +21,7 @@ fn most_promising(tile: Tile, level: u32, first: Node) -> Node {
     return best;
 }
 
-// A bundle likely to hold low keys: from the root to the box with the lowest bound of each height.
+// A bundle likely to hold low keys: from the root down, at each height the box with the lowest bound.
 fn promising_bundle(tile: Tile, level: u32) -> u32 {
     var node = most_promising(tile, level, first_node(level));
     while node.height > 0u {
@@ -46,8 +46,8 @@ fn next_bundle(tile: Tile, level: u32, first: Node, limit: f32) -> Node {
     return node;
 }
 
-// Returns the limit beyond which nothing wins any more. Candidates are found first, so that threads in step
-// evaluate them together.
+// Returns the limit beyond which nothing wins any more. Candidates are found first, so that threads in
+// lockstep evaluate them together.
 fn offer_bundle(tile: Tile, bundle: u32, limit: f32) -> f32 {
     var candidates = 0u;
     for (var s = 0u; s < FAN; s++) {

@@ -1,7 +1,7 @@
 //! The distance of pixels to the nearest wall of any vessel, in the view plane.
 //!
 //! In projection a vessel is the union of the discs around the points of its centerline. The distance to its
-//! outline therefore has no leaps and a slope of at most 1, however the radius changes along the vessel.
+//! outline therefore never jumps and has a slope of at most 1, however the radius changes along the vessel.
 
 use super::hierarchy::{Boxes, Hierarchy};
 use super::lanes::{ABSENT, FAN, FAR, PIXELS, larger, largest, places, smaller};
@@ -24,7 +24,7 @@ pub(crate) struct WallRange {
 /// The largest `lean`: beyond it one end of the segment is nearest for every pixel.
 pub const MAX_LEAN: f32 = 1e6;
 
-/// Lowers each pixel's distance (mm) from the wall, negative within, to that of the segment of slot `s`.
+/// Lowers the distances of pixels from the wall (mm, negative within) to that from the segment of slot `s`.
 ///
 /// The outline of a tapering segment touches its largest disc towards the pixel. That disc is off the pixel's
 /// foot by the lean times the distance from the line.
@@ -52,7 +52,7 @@ fn lean(taper: f32) -> f32 {
     smaller(larger(taper / rest.sqrt(), -MAX_LEAN), MAX_LEAN)
 }
 
-/// Lowers the distances (mm, negative within) to the nearest wall, of chosen vessels if `OF_FIRST`. The
+/// Lowers the distances (mm, negative within) to the nearest wall, only of chosen vessels if `OF_FIRST`. The
 /// search ends beyond `range.far`, and once all pixels are within `range.near`.
 #[inline(always)]
 pub(crate) fn nearest_walls<const OF_FIRST: bool>(
@@ -79,7 +79,7 @@ pub(crate) fn nearest_walls<const OF_FIRST: bool>(
             lower_beyond(tile, beyond, bundle, s);
         }
         let farthest = largest(beyond);
-        // Once all are near, no node can matter.
+        // Once all pixels are near enough, no node can matter.
         limit = if farthest <= range.near { -2.0 * FAR } else { smaller(farthest, range.far) };
     }
 }

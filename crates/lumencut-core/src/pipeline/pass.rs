@@ -44,7 +44,7 @@ impl CutSurfacePass<'_> {
             Stage::Depth => {
                 images.unfiltered_depth = vec![0.0; pixels];
                 images.vessel = vec![0; pixels];
-                // Overwrites the previous view.
+                // Overwrites the sheet of the previous view.
                 resize(&mut images.sheet, if self.has_sheet { pixels } else { 0 }, [0.0; 4], work.stop)?;
                 let Images { unfiltered_depth, vessel, sheet, .. } = images;
                 let written = DepthImages { depth: unfiltered_depth, vessel, sheet };
@@ -72,7 +72,7 @@ impl CutSurfacePass<'_> {
             return Ok(());
         };
         images.focus = vec![[0.0; 2]; self.work.pixels()];
-        // A requested image is complete.
+        // A requested image needs exact shares everywhere; lines of leaps need them only near leaps.
         let is_whole = self.wanted.has(Image::Focus) || self.settings.silhouette_rule != SilhouetteRule::Leap;
         let leap = if is_whole { &[][..] } else { &images.leap };
         focus(&self.work, &self.surface, &parameters, leap, &mut images.focus)
@@ -154,7 +154,7 @@ impl LookPass<'_> {
         if has_rays(&images.start) { self.volume.blocks(self.work.stop).map(drop) } else { Ok(()) }
     }
 
-    /// Without a cut surface every ray crosses the whole volume.
+    /// Writes the starts of rays; without a cut surface every ray crosses the entire volume.
     fn starts(&self, images: &mut Images) -> Result<()> {
         images.start = filled(self.work.pixels(), WHOLE, self.work.stop)?;
         if self.geometry.has_surface() {
@@ -166,7 +166,7 @@ impl LookPass<'_> {
         Ok(())
     }
 
-    /// Skips the context behind an opaque cut surface.
+    /// Renders the context, but not behind an opaque cut surface.
     fn context(&self, images: &mut Images) -> Result<()> {
         let (Some(camera), Some(chosen)) = (self.geometry.camera(), &self.settings.context) else {
             return Ok(());
@@ -209,7 +209,7 @@ pub(super) struct Lines<'a> {
     pub depth: &'a [f32],
     pub vessel: &'a [i32],
     pub leap: &'a [u32],
-    /// Empty without a volume.
+    /// The values at the cut surface; empty without a volume.
     pub value: &'a [f32],
 }
 

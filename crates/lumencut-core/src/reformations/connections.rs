@@ -26,7 +26,7 @@ struct Reached {
     distance: f32,
 }
 
-/// The most reachable meetings cached over all junctions; the rest is recomputed on each use.
+/// The largest number of reachable meetings cached over all junctions; the rest is recomputed on each use.
 const MAX_CACHED: usize = 1 << 24;
 
 /// Where the vessels of a tree meet: wherever one of them ends at a point of another.
@@ -84,7 +84,7 @@ impl Connections {
         })
     }
 
-    /// What may lie within the threshold of a part of a vessel: vessels with arc lengths from and to (mm).
+    /// Parts of vessels that may lie within the threshold: vessel, first and last arc length (mm).
     pub fn stretches(&self, vessel: u32, [low, high]: [f64; 2]) -> Vec<(u32, [f64; 2])> {
         let mut stretches = vec![(vessel, [low - self.threshold, high + self.threshold])];
         for meeting in self.meetings_of(vessel) {
@@ -128,7 +128,7 @@ impl Connections {
     /// Junctions within the threshold of one, and their distances along the tree (mm): Dijkstra's algorithm.
     fn shortest_ways(&self, start: u32) -> Vec<(u32, f64)> {
         let mut known: HashMap<u32, f64> = HashMap::from([(start, 0.0)]);
-        // The bits of non-negative floats have their order; the heap pops the largest first.
+        // Bits of non-negative floats sort like the floats; the heap pops the largest first.
         let mut waiting = BinaryHeap::from([(std::cmp::Reverse(0.0f64.to_bits()), start)]);
         while let Some((std::cmp::Reverse(bits), junction)) = waiting.pop() {
             let distance = f64::from_bits(bits);

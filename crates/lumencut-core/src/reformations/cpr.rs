@@ -38,7 +38,7 @@ const DEFAULT_MARGIN_MM: f64 = 25.0;
 /// How the lines across a vessel are laid out as an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CprMode {
-    /// As seen: rows by height, the line through each point of the vessel at that height.
+    /// As seen: each row is a height, and shows the line through each point of the vessel at that height.
     Projected,
     /// The surface of parallel lines unrolled, so that lengths on it are true.
     Stretched,
@@ -54,7 +54,7 @@ impl Named for CprMode {
     ];
 }
 
-/// One vessel laid out as an image. Clones and rotated copies share what was computed of the vessel.
+/// One vessel laid out as an image. Clones and rotated copies share what was computed for the vessel.
 #[derive(Clone)]
 pub struct Cpr {
     mode: CprMode,

@@ -10,7 +10,7 @@ use crate::stages::depth::Sheet;
 use crate::stages::leap::{LeapParameters, leap};
 use crate::stages::{Stage, Work};
 
-/// The vessel of a pixel that shows none.
+/// The vessel id of pixels that show no vessel.
 pub const NO_VESSEL: i32 = -1;
 
 #[derive(Clone, Copy, Debug)]
@@ -19,12 +19,12 @@ pub(super) struct PixelContent {
     pub vessel: i32,
     /// Slopes and radius, as the stage `leap` reads them.
     pub sheet: Sheet,
-    /// Whether other points of the vessel could stand here.
+    /// Whether other points of the vessel could be shown in this pixel as well.
     pub is_folded: bool,
 }
 
 impl PixelContent {
-    /// Nothing: beyond every volume, and no depth leaps to it.
+    /// A pixel without a vessel: its depth lies beyond every volume, and no leap lies beside it.
     pub(super) const NOTHING: Self =
         Self { depth: FAR, vessel: NO_VESSEL, sheet: [0.0, 0.0, -ABSENT, 0.0], is_folded: false };
 }

@@ -25,7 +25,7 @@ use crate::stop::{Stop, go_on};
 const PIXEL_SPACING: Limits = Limits::new(1e-6, 1e4, "mm");
 const OVERLAP: Limits = Limits::new(0.0, 3.0, "rad");
 
-/// Brightness of a wall seen edge on, and the gain of one seen face on.
+/// Brightness of a wall seen edge on, and the additional brightness of one seen face on.
 const EDGE_AND_FACE_BRIGHTNESS: [f64; 2] = [0.3, 0.7];
 
 /// How a lumen map is laid out.
@@ -33,13 +33,13 @@ const EDGE_AND_FACE_BRIGHTNESS: [f64; 2] = [0.3, 0.7];
 pub struct LumenMapParameters {
     /// The side of a pixel (mm): along the vessel, and around it at the mean radius.
     pub pixel_spacing: f64,
-    /// The radius at which columns are true (mm).
+    /// The radius at which widths in the map are true (mm).
     pub mean_radius: f64,
-    /// The direction of the middle column (radians): 0 is to the right of the straightened CPR at angle 0.
+    /// The direction of the middle column (radians): 0 is to the right in the straightened CPR at angle 0.
     pub angle: f64,
     /// How much of the other side is repeated beyond each edge (radians).
     pub overlap: f64,
-    /// Distance of the pixels beyond the wall (mm).
+    /// Distance of the shown points beyond the wall (mm).
     pub beyond: f64,
 }
 
@@ -50,7 +50,7 @@ pub struct LumenMap {
     straightened: Straightened,
     wall: Arc<Wall>,
     parameters: LumenMapParameters,
-    /// Columns once around the vessel, and those that are repeated on each side.
+    /// Number of columns once around the vessel, and of those that are repeated on each side.
     columns: [usize; 2],
     rows: usize,
 }
@@ -93,7 +93,7 @@ impl LumenMap {
         self.columns[1]
     }
 
-    /// The straightened space in which directions around the vessel count.
+    /// The straightened space in which directions around the vessel are measured.
     pub fn straightened(&self) -> &Straightened {
         &self.straightened
     }
@@ -113,7 +113,7 @@ impl LumenMap {
         self.each(false, stop, |at, around| self.wall.is_open(at, around))
     }
 
-    /// Brightness of the wall lit from the middle of the vessel: 1 where it is met at right angles.
+    /// Brightness of the wall lit from the middle of the vessel: 1 if the light meets it at right angles.
     pub fn shades(&self, stop: Stop) -> Result<Vec<f32>> {
         let numbers = (0..self.size()[1] + 2).into_par_iter();
         let rows = numbers

@@ -18,7 +18,7 @@ use crate::stages::depth::Sheet;
 
 const POINTS_PER_BLOCK: usize = 64;
 
-/// The slope (mm per mm) is clamped to this: it is unbounded where a vessel runs along a row.
+/// The slope (mm per mm) is clamped to this; if a vessel runs along a row, it would be unbounded.
 const MAX_SLOPE: f64 = 1e9;
 
 /// The position of every pixel of a view by mpCPR. The setting `centerline_smoothing` applies, and
@@ -174,7 +174,7 @@ impl Run {
     fn nearest_crossing(&self, x: f64) -> Crossing {
         let dx = self.b.x - self.a.x;
         let t = if dx == 0.0 {
-            // Along the view all of it lies at one x.
+            // A run along the view lies at one x; its end nearer to the viewer counts.
             f64::from(u8::from(self.b.z < self.a.z))
         } else {
             ((x - self.a.x) / dx).clamp(0.0, 1.0)

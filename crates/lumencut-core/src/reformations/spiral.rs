@@ -1,5 +1,5 @@
-//! Spiral CPR: every section across a vessel wound up into one row, so that a still picture shows all around
-//! the vessel, and widths in it are areas.
+//! Spiral CPR: every section across a vessel is wound up into one row. So a still picture shows the vessel
+//! from all sides, and widths in it represent areas.
 //!
 //! After the helical CPR of Kanitsar (dissertation, TU Wien 2004): sections as in the straightened CPR, with
 //! two spirals of constant pitch from the middle of each. The formulas are ours.
@@ -40,7 +40,7 @@ impl Named for Sampling {
 /// How the sections of a vessel are wound up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpiralParameters {
-    /// The distance of neighbouring windings, of both spirals together (mm).
+    /// The distance between neighbouring windings, counting both spirals (mm).
     pub pitch: f64,
     /// The largest distance of the windings from the vessel (mm).
     pub radius: f64,
@@ -63,8 +63,8 @@ pub struct Spiral {
 }
 
 impl Spiral {
-    /// Seen as in [`Straightened`]. Fails with [`ErrorKind::Camera`] for an invalid view, angle or length, or
-    /// too many pixels: the error names a pitch that fits.
+    /// The spiral CPR of a vessel, seen as in [`Straightened`]. Fails with [`ErrorKind::Camera`] for an
+    /// invalid view, angle or length, or too many pixels; the error then states a pitch that fits.
     pub fn new(path: Arc<CenterlinePath>, view: &View, parameters: SpiralParameters) -> Result<Self> {
         let SpiralParameters { pitch, radius, pixel_spacing, angle, .. } = parameters;
         for (subject, value) in [
@@ -115,7 +115,7 @@ impl SpiralParameters {
         self.rate() / 2.0 * (angle * angle.hypot(1.0) + angle.asinh())
     }
 
-    /// The angle at this length, by Newton's method, which starts beyond it and descends.
+    /// The angle at this length, by Newton's method, which starts beyond that angle and descends.
     fn angle_of(&self, length: f64) -> f64 {
         let rate = self.rate();
         (0..NEWTON_STEPS).fold((2.0 * length / rate).sqrt(), |angle, _| {
@@ -154,7 +154,7 @@ impl SpiralParameters {
         let turns = (place.length() / self.rate() - around) / PI;
         // The spirals of both sides alternate on each half plane.
         let nearest = (turns - 0.5).ceil();
-        // Nearer to the middle than half a pitch, and to no winding, it is shown in the middle.
+        // A position before the beginning of the nearest winding is shown in the middle.
         let along = (around + nearest * PI).max(0.0);
         let side = if nearest.rem_euclid(2.0) == 0.0 { 1.0 } else { -1.0 };
         side * self.pixels(along)
@@ -213,7 +213,7 @@ impl Layout for Spiral {
     }
 }
 
-/// The size of the image; an error names a pitch at which it fits, if there is one.
+/// The size of the image; an error states a pitch at which it fits, if there is one.
 fn fitting_size(parameters: &SpiralParameters, size: [f64; 2]) -> Result<[usize; 2]> {
     checked_size("size of the spiral CPR", size).map_err(|error| {
         let [width, height] = size;

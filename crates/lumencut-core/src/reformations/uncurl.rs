@@ -19,7 +19,7 @@ use crate::math::centerline_path::CenterlinePath;
 use crate::math::same_place::ON_PICTURE;
 use crate::stop::{Stop, filled};
 
-/// The most bisections in the search for a foot, to below the resolution of a number.
+/// The largest number of bisections in the search for a foot; so many reach the resolution of a number.
 const BISECTIONS: usize = 60;
 
 /// One vessel, partly straightened, in the pixels of a camera.
@@ -58,7 +58,7 @@ impl Uncurl {
         Ok(Self { path, camera, amount, reach: width.map_or(f64::INFINITY, |width| width / 2.0), bent, feet })
     }
 
-    /// The points of the bent vessel before the camera (mm, LPS).
+    /// The points of the bent vessel, placed in front of the camera (mm, LPS).
     pub fn points(&self) -> &[DVec3] {
         &self.bent.points
     }

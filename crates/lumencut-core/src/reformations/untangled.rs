@@ -50,16 +50,16 @@ const NO_SEGMENT: u32 = u32::MAX;
 pub struct UntangledParameters {
     /// Width shown on each side of a vessel (mm).
     pub width: f64,
-    /// How much wider than the lumen the hulls are that must not overlap (mm).
+    /// Width by which the hulls, which must not overlap, exceed the lumen (mm).
     pub hull_margin: f64,
-    /// The standard deviation by which directions of vessels are smoothed along them (mm).
+    /// Standard deviation of the Gaussian that smooths the directions of vessels along them (mm).
     pub smoothing: f64,
     /// The side of a pixel (mm).
     pub pixel_spacing: f64,
     /// Replaces unknown radii (mm).
     pub unknown_radius: f64,
-    /// A point near the end where the tree grows from (mm, LPS). Parts without it grow from the free end of
-    /// the largest mean radius over 10 mm.
+    /// A point near the end from which the tree grows (mm, LPS). Other parts grow from the free end with the
+    /// largest mean radius over 10 mm.
     pub root: Option<DVec3>,
 }
 
@@ -92,15 +92,15 @@ impl UntangledParameters {
 /// A part of a vessel in the image, between two points where vessels meet or end.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LaidOut {
-    /// The id of the vessel.
+    /// Id of the vessel.
     pub vessel: usize,
     /// Rising arc lengths along the vessel (mm).
     pub arc_length: Vec<f64>,
     /// The image positions (column, row) at these arc lengths.
     pub pixels: Vec<DVec2>,
-    /// The turn of this part and all that follows it (radians, counter-clockwise in the image).
+    /// The turn of this part and of all parts that follow it (radians, counter-clockwise in the image).
     pub turn: f64,
-    /// Whether it begins at its last point.
+    /// Whether the part begins at its last point.
     pub is_reversed: bool,
 }
 

@@ -6,7 +6,7 @@ use super::value::{Transfer, Value};
 use crate::error::{Error, ErrorKind, Result};
 use crate::named::Named;
 
-/// What a host chose; the rest has its default.
+/// What a host chose; all other settings have their defaults.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Choices {
     settings: Settings,
@@ -50,7 +50,7 @@ impl Settings {
 }
 
 impl ContextChoices {
-    /// The context; that of the default name if none is wanted.
+    /// The context; if none is wanted, the one with the default name.
     pub fn context(&self) -> Context {
         let name = self.context.unwrap_or(ContextName::Mida);
         let transfer = self.context_transfer.clone().unwrap_or(Transfer::Preset(name.default_transfer()));

@@ -24,13 +24,13 @@ impl Settings {
         Ok(Cow::Owned(Self { silhouettes: true, ..self.clone() }))
     }
 
-    /// The setting that sets some vessels apart from their surroundings, and its words.
+    /// The setting that sets some vessels apart from their surroundings, and words for it.
     pub fn focused(&self) -> Option<(&'static str, &'static str)> {
         let chosen = (!self.focus_vessels.is_empty()).then_some(("focus_vessels", "chosen vessels"));
         self.focus.map(|_| ("focus", "a focus")).or(chosen)
     }
 
-    /// Rejects chosen vessels where lumen and wall have no tiers.
+    /// Rejects chosen vessels if lumen and wall have no tiers.
     pub(super) fn check_chosen(&self) -> Result<()> {
         if self.focus_vessels.is_empty() || self.lumen_first {
             return Ok(());

@@ -30,7 +30,7 @@ impl Named for ContextName {
 }
 
 impl ContextName {
-    /// What its rays gather; `gamma` is that of MIDA.
+    /// What the rays of this mode gather; `gamma` is the γ of MIDA.
     pub fn mode(self, gamma: f64) -> ContextMode {
         match self {
             Self::Mida => ContextMode::Blend { gamma },
@@ -79,8 +79,8 @@ pub enum ContextMode {
 }
 
 impl ContextMode {
-    /// Opacities hide what lies behind a cut surface, but a largest, smallest or mean value leaps where the
-    /// cut surface does.
+    /// Blends start at the cut surface, since opacities hide what lies behind it. A largest, smallest or mean
+    /// value would jump where the cut surface does.
     pub fn default_from(self) -> ContextFrom {
         if self.is_sampled() { ContextFrom::Cut } else { ContextFrom::Whole }
     }
@@ -107,7 +107,7 @@ pub struct Context {
     pub shading: bool,
     /// Where rays start around the focus.
     pub from: ContextFrom,
-    /// Factor on its colours in the picture, 0 to 1.
+    /// Factor on the colours of the context in the picture, 0 to 1.
     pub strength: f64,
     /// Whether only one ray is traced for each square of four pixels.
     pub preview: bool,

@@ -11,7 +11,7 @@ use crate::named::Named;
 
 pub(super) trait Field: Sized {
     const KIND: Kind;
-    /// Whether hosts may leave it open with [`Value::None`].
+    /// Whether hosts may leave the field open with [`Value::None`].
     const OPTIONAL: bool = false;
 
     fn choices() -> Vec<&'static str> {

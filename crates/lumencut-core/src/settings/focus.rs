@@ -3,17 +3,17 @@
 use crate::error::Result;
 use crate::limits::Limits;
 
-/// Margins far below 0 leave the context alone.
+/// With a margin far below 0, only the context is shown.
 const MARGIN_LIMITS: Limits = Limits::new(-1e6, 1e6, "mm");
 const FADE_LIMITS: Limits = Limits::new(0.0, 1e6, "mm");
 
 /// The cut surface around the vessels amid the context.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Focus {
-    /// Distance beyond the nearest wall (mm, in the view plane) with all of the cut surface; below 0 lumens
-    /// fade.
+    /// Distance beyond the nearest wall (mm, in the view plane) up to which all of the cut surface is shown;
+    /// if below 0, lumens fade.
     pub margin: f64,
-    /// Distance over which the cut surface then fades into the context (mm); 0 is a hard edge.
+    /// Distance over which the cut surface then fades into the context (mm); 0 makes a hard edge.
     pub fade: f64,
 }
 

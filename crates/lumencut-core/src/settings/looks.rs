@@ -1,4 +1,4 @@
-//! The looks: several settings under one name, as a reader chooses them.
+//! The looks: several settings under one name, for users to choose.
 
 use super::context::{ContextFrom, ContextName};
 use super::focus::Focus;
@@ -6,7 +6,7 @@ use super::slab::{Slab, SlabMode};
 use super::value::Value;
 use crate::named::Named;
 
-/// A focus that shows the context alone.
+/// A focus that shows only the context.
 const NOTHING_OF_THE_CUT: Focus = Focus { margin: -1e6, fade: 0.0 };
 /// Thickness of the look with a thick slab (mm).
 const THICK_SLAB_MM: f64 = 10.0;

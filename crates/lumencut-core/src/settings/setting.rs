@@ -10,11 +10,11 @@ pub struct Setting {
     pub name: &'static str,
     /// The kind of its value.
     pub kind: Kind,
-    /// Whether it may be left open.
+    /// Whether the setting may be left open.
     pub optional: bool,
     /// The range of a number.
     pub limits: Option<Limits>,
-    /// The meaning of the open value, for settings that are open by default.
+    /// What the open value means, for settings that are open by default.
     pub open: Option<&'static str>,
     pub(super) about: &'static str,
     pub(super) choices: fn() -> Vec<&'static str>,
@@ -22,7 +22,7 @@ pub struct Setting {
 }
 
 impl Setting {
-    /// What it does, in one sentence.
+    /// What the setting does, in one sentence.
     pub fn sentence(&self) -> String {
         self.paragraphs().next().unwrap_or_default()
     }
@@ -32,7 +32,7 @@ impl Setting {
         self.paragraphs().skip(1).collect::<Vec<_>>().join(" ")
     }
 
-    /// The valid names: of the setting, or of the slab's mode.
+    /// The valid names: those of the setting, or of the slab's mode.
     pub fn choices(&self) -> Vec<&'static str> {
         (self.choices)()
     }
@@ -48,7 +48,7 @@ impl Setting {
 }
 
 /// Declares settings, one row each: `name: type = default`, range and unit, meaning of an open value. The
-/// comment before a row is the user's text: its first paragraph on the command line, all of it in documents.
+/// comment before a row is text for users: the command line shows its first paragraph, documents all of it.
 macro_rules! settings {
     (
         $(#[$attribute:meta])*

@@ -25,9 +25,9 @@ impl Named for SlabMode {
 /// A thick cut surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slab {
-    /// From its near to its far side along the view direction, the cut surface in the middle (mm).
+    /// Distance from its near to its far side along the view (mm); the cut surface lies in the middle.
     pub thickness: f64,
-    /// What it shows.
+    /// What the slab shows.
     pub mode: SlabMode,
 }
 

@@ -33,7 +33,7 @@ pub enum Kind {
 }
 
 impl Kind {
-    /// The kind in a word.
+    /// The word for the kind.
     pub fn name(self) -> &'static str {
         match self {
             Self::Flag => "flag",
@@ -54,7 +54,7 @@ impl Kind {
 /// The value of a setting.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
-    /// No choice.
+    /// No value was chosen.
     None,
     /// Of [`Kind::Flag`].
     Flag(bool),
@@ -80,10 +80,10 @@ pub enum Value {
     Transfer(TransferFunction),
 }
 
-/// A transfer function as it is chosen.
+/// A transfer function as a host chooses it.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Transfer {
-    /// By name; it lies within the window of the context.
+    /// By name; the function lies within the window of the context.
     Preset(Preset),
     /// By its points.
     Function(TransferFunction),

@@ -1,4 +1,4 @@
-//! The exact largest, smallest or mean value of the volume along rays: over the whole chord, not at samples.
+//! The exact largest, smallest or mean value of the volume along rays: not sampled, but over the whole chord.
 
 use rayon::prelude::*;
 
@@ -22,7 +22,7 @@ pub struct AlongRays<'a> {
     /// Blocks to skip; `None` reads everything, with the same result.
     pub blocks: Option<&'a Blocks>,
     pub reduction: Reduction,
-    /// The value from which on a larger (smaller) one makes no difference.
+    /// Values beyond this make no difference: larger ones, or smaller ones for the smallest value.
     pub limit: f32,
     /// The longest part of a ray (mm): about a voxel.
     pub step: f64,
@@ -32,7 +32,7 @@ pub trait RaySource: Sync {
     fn lines(&self, pixels: &[Option<[usize; 2]>; FAN]) -> Lines;
 }
 
-/// The parallel rays of a view, each between the two depths that `chord` returns for its pixel (mm).
+/// The parallel rays of a view; `chord` returns the two depths (mm) between which a pixel's ray runs.
 pub struct ViewRays<F> {
     pub to: IndexFromView,
     pub rays: RayGrid,
@@ -45,7 +45,7 @@ impl<F: Fn(usize) -> [f64; 2] + Sync> RaySource for ViewRays<F> {
     }
 }
 
-/// Writes the value of each ray; NaN where it meets no value.
+/// Writes the value of each ray; NaN if it meets no value.
 pub fn along_rays(work: &Work, along: &AlongRays, source: &dyn RaySource, values: &mut [f32]) -> Result<()> {
     let (grid, isa, width) = (Grid::new(along.volume), work.isa, along.size[0]);
     with_voxels!(along.volume.voxels(), voxels => {
@@ -108,7 +108,7 @@ impl Kernel for Square<'_> {
 }
 
 impl Square<'_> {
-    /// The largest values of `sign` · volume: segments with the largest values go first.
+    /// Finds the largest values of `sign` · volume: segments with the largest values go first.
     #[inline(always)]
     fn largest(&self, packet: &Packet, sign: f32) -> [f32; FAN] {
         let limit = self.along.limit * sign;

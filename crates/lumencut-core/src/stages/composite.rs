@@ -13,7 +13,7 @@ use crate::settings::Settings;
 /// The layers of a picture, from the front to the back.
 #[derive(Clone, Copy, Debug)]
 pub struct Layers<'a> {
-    /// The volume at the cut surface, NaN where it shows nothing.
+    /// The volume at the cut surface, NaN if it shows nothing.
     pub value: &'a [f32],
     /// Strength of the silhouettes, if they are drawn.
     pub strength: Option<&'a [f32]>,
@@ -47,7 +47,7 @@ pub fn composite(
     layers.focus.iter().for_each(|focus| work.expect_whole(Image::Focus, focus));
     layers.context.iter().for_each(|context| work.expect_whole(Image::Gathered, context));
     let chunk = work.tile_row();
-    // Stand-ins for missing layers.
+    // Arrays that replace missing layers.
     let absent = vec![0.0; if layers.strength.is_some() { 0 } else { chunk }];
     let whole = vec![[1.0; 2]; if layers.focus.is_some() { 0 } else { chunk }];
     let empty = vec![[0.0; 4]; if layers.context.is_some() { 0 } else { chunk }];
@@ -91,7 +91,7 @@ impl CompositeParameters {
         }
     }
 
-    /// The shown share of the grey surface and the silhouette's colour over context and background.
+    /// The grey surface and its silhouettes, as far as they are shown, over context and background.
     #[inline(always)]
     fn pixel(&self, value: f32, strength: f32, [share, lines]: Shares, context: [f32; 4]) -> [f32; 4] {
         let nothing = value.is_nan();
@@ -125,7 +125,7 @@ fn straight(pixel: [f32; 4], behind: [f32; 4]) -> [u8; 4] {
 }
 
 /// The nearest integer to a value of at most a little over 255. From 2²³ on, a float's last bit counts ones,
-/// so the sum's low byte is the number: no conversion checks.
+/// so the sum's low byte is the number; a conversion would add checks.
 #[inline(always)]
 fn byte(value: f32) -> u32 {
     (smaller(value, 255.0) + 8_388_608.0).to_bits() & 0xFF
@@ -136,7 +136,7 @@ const PIXELS_TOGETHER: usize = 64;
 
 #[inline(always)]
 fn is_nothing(colors: &[[f32; 4]]) -> bool {
-    // A fold without early exit vectorises.
+    // Without an early exit the fold vectorises.
     colors.as_flattened().iter().fold(0, |bits, channel| bits | channel.to_bits()) == 0
 }
 
@@ -188,7 +188,7 @@ impl Kernel for StraightRows<'_> {
     fn run(self) {
         for (image, colors) in self.image.chunks_mut(PIXELS_TOGETHER).zip(self.colors.chunks(PIXELS_TOGETHER))
         {
-            // Most of a picture has no context: unwritten pages cost no memory.
+            // Most of a picture has no context, and pages that are never written cost no memory.
             if !is_nothing(colors) {
                 for (image, color) in image.iter_mut().zip(colors) {
                     *image = straight(*color, [0.0; 4]);

@@ -23,15 +23,15 @@ use crate::settings::{Context, Settings};
 
 #[derive(Clone, Copy, Debug)]
 pub struct SurfaceImages<'a> {
-    /// The volume there, NaN where it shows nothing.
+    /// The volume at the cut surface; NaN if that shows nothing.
     pub value: &'a [f32],
     pub depth: &'a [f32],
-    /// How much of it and of its silhouettes is shown; `None` for all of both.
+    /// How much of the cut surface and of its silhouettes is shown; `None` for all of both.
     pub focus: Option<&'a [Shares]>,
 }
 
-/// Writes the start of each pixel's ray: nowhere behind an opaque cut surface, behind a transparent one, in
-/// front of the volume outside. Around a focus the parameters decide.
+/// Writes where each pixel's ray starts: nowhere if the cut surface is opaque, behind it if it is
+/// transparent, in front of the volume if it shows nothing. Around a focus the parameters decide.
 pub fn starts(work: &Work, parameters: &StartParameters, surface: &SurfaceImages, start: &mut [f32]) {
     let &SurfaceImages { value, depth, focus } = surface;
     work.expect_whole(Image::Value, value);

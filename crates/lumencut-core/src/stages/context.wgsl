@@ -3,7 +3,7 @@
 // import math/reduce
 // import math/trace
 
-// The codes of `Gathering`.
+// Must equal the values of the Rust enum `Gathering`.
 const BLEND = 0u;
 const BRIGHTEST = 1u;
 const DARKEST = 2u;
@@ -13,12 +13,12 @@ override MODE: u32 = 0u;
 
 override PREVIEW: bool = false;
 
-// Without a focus its binding is empty.
+// Without a focus, the binding of `focus` is empty.
 override HAS_FOCUS: bool = false;
-// Whether rays start at the cut surface where not all of it is shown; else in front of the volume.
+// Whether rays start at the cut surface if not all of it is shown; otherwise in front of the volume.
 override FROM_CUT: bool = true;
 
-// See raster.rs.
+// raster.rs explains this value.
 const IN_FRONT: f32 = NONE / 2.0;
 
 @group(0) @binding(2) var<storage, read> value: array<f32>;

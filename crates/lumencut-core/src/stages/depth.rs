@@ -30,7 +30,7 @@ pub struct CutSurface<'a> {
     rule: Rule,
     lumen_first: bool,
     level_choice: LevelChoice,
-    /// N / σ (levels² per mm): f² = this · the distance that selects.
+    /// N / σ (levels² per mm); times the distance that selects the levels, it gives f².
     selection: f32,
 }
 
@@ -95,7 +95,7 @@ pub(crate) trait Search {
     fn own<const SHEET: bool>(&mut self, pieces: OwnPieces, part: &Part, nearest: &mut NearestPieces);
 }
 
-/// By a walk through the hierarchy, seeded with the winners of the previous tile, and along the vessels.
+/// Searches through the hierarchy, beginning with winners of the previous tile, and along the vessels.
 struct LowestKeySearch<'a> {
     surface: &'a CutSurface<'a>,
     seeds: [Seeds; MAX_LEVELS + 1],
@@ -127,7 +127,7 @@ impl Search for LowestKeySearch<'_> {
 /// precedence.
 pub type Sheet = [f32; 4];
 
-/// The gap in a sheet where a chosen vessel takes precedence.
+/// The gap in a sheet if a chosen vessel takes precedence at the pixel.
 pub const CHOSEN_GAP: f32 = -1.0;
 
 /// The images that the stage writes. `sheet` is empty if nothing reads it.

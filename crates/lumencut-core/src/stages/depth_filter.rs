@@ -1,5 +1,5 @@
 //! The depth filter: a 7×7 Gaussian with σ = 2√(2 ln 2)/π pixels that smooths the steps of the pixel grid in
-//! the cut surface (paper section 3.3.3), over the whole image or within influence zones.
+//! the cut surface (paper section 3.3.3), over the entire image or within influence zones.
 
 use bytemuck::{Pod, Zeroable};
 use rayon::prelude::*;
@@ -27,7 +27,7 @@ pub struct DepthFilterParameters {
 }
 
 impl DepthFilterParameters {
-    /// The Gaussian of the paper, over the whole image.
+    /// The Gaussian of the paper, over the entire image.
     pub fn new() -> Self {
         let sigma = 2.0 * (2.0 * 2f64.ln()).sqrt() / std::f64::consts::PI;
         let bell: [f64; HALF_WIDTH + 1] =
@@ -162,12 +162,11 @@ const OFFSETS: [usize; SPAN] = [0, 1, 2, 3, 4, 5, 6];
 /// Filters a row of pixels along one axis, within zones. Entry n of `z` and `zone` is the row shifted by n −
 /// `HALF_WIDTH` along that axis.
 ///
-/// A pair of neighbours counts if both, and all pairs nearer in, are in the zone of the middle pixel, and if
-/// it does not leap. The deviations of the pairs from a straight line through the middle are added to the
-/// middle: on a plane they are 0 but for the rounding of the depths, and if no pair counts the middle is kept
-/// to the bit. Neighbours are subtracted from the middle one by one, since close numbers have an exact
-/// difference, whereas a sum of two loses a digit. The middle always counts, so the sum of the weights is
-/// never 0.
+/// A pair of neighbours counts if both, and all pairs nearer to the middle, are in the zone of the middle
+/// pixel, and if the pair does not leap. The deviations of the pairs from a straight line through the middle
+/// are added to the middle: on a plane they are 0 up to the rounding of the depths, and if no pair counts the
+/// middle does not change. Neighbours are subtracted from the middle one by one: close numbers have an exact
+/// difference, but a sum of two loses a digit. The middle always counts, so the sum of weights is never 0.
 #[inline(always)]
 fn filter_within_zones(
     parameters: &DepthFilterParameters,

@@ -1,8 +1,8 @@
-// The depth filter: a 7×7 Gaussian (paper section 3.3.3), over the whole image in one pass, or within zones
+// The depth filter: a 7×7 Gaussian (paper section 3.3.3), over the entire image in one pass, or within zones
 // in one pass per axis.
 // import math/view
 
-// Within zones: whether this pass goes along columns or rows.
+// Within zones: whether this pass filters along columns; otherwise along rows.
 override DOWN: bool = true;
 
 struct DepthFilterParameters {

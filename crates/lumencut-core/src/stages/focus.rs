@@ -15,7 +15,7 @@ use crate::math::tile::{Tile, scatter};
 use crate::math::walls::{WallRange, nearest_walls};
 use crate::settings::{Focus, Settings};
 
-/// 1 / fade of a hard edge (per mm): beyond all distances that rounding distinguishes.
+/// 1 / fade of a hard edge (per mm): so large that rounding never shows a fade.
 const HARD_EDGE_PER_MM: f64 = 1e20;
 /// Minimum width of a fade (pixels): a narrower one would show steps.
 const MIN_FADE_PIXELS: f64 = 2.0;
@@ -31,7 +31,7 @@ pub struct FocusParameters {
     pub near: f32,
     /// Larger distances (mm) count as this.
     pub far: f32,
-    /// The share that remains around the other vessels if some are chosen, 0 to 1.
+    /// The share that the other vessels keep if some are chosen, 0 to 1.
     pub others: f32,
     pub padding: f32,
 }
@@ -63,13 +63,13 @@ impl FocusParameters {
     /// The distances from the wall (mm) between which shares change; `None` if they are 1 everywhere.
     fn between(&self, which: &[usize]) -> Option<[f32; 2]> {
         let fading = which.iter().filter(|n| self.per_fade[**n] > 0.0);
-        // A little more than where the share becomes 0.
+        // Slightly beyond the distance at which the share becomes 0.
         let ends = fading.map(|n| [self.margin[*n], self.margin[*n] + 1.000_01 / self.per_fade[*n]]);
         let ends = ends.map(|[near, far]| [larger(near, 0.0), larger(far, 0.0)]);
         ends.reduce(|[near, far], [nearer, farther]| [smaller(near, nearer), larger(far, farther)])
     }
 
-    /// The same as a range for distances with a rounding error below `slack` (mm).
+    /// The same distances as a range, for distances with a rounding error below `slack` (mm).
     fn range(&self, which: &[usize], slack: f32) -> Option<WallRange> {
         self.between(which).map(|[near, far]| WallRange { near, far: far + slack, slack })
     }
@@ -94,8 +94,8 @@ pub type Shares = [f32; 2];
 const SURFACE: usize = 0;
 const LINES: usize = 1;
 
-/// Writes the shares of cut surface and silhouettes. In tiles where `leap` rules out lines, the latter is
-/// arbitrary; with an empty `leap` it is exact everywhere.
+/// Writes the shares of cut surface and silhouettes. In tiles that no line reaches according to `leap`, the
+/// latter is arbitrary; with an empty `leap` it is exact everywhere.
 pub fn focus(
     work: &Work,
     surface: &CutSurface,

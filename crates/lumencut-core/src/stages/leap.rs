@@ -26,11 +26,11 @@ impl LeapParameters {
     }
 }
 
-/// Writes between which neighbours the depth (mm, before its filter) leaps: where it differs by more than the
-/// vessel's diameter and [`SMALLEST_LEAP`] from what the slope of either side predicts; where a chosen vessel
-/// with precedence ends, by more than [`SMALLEST_LEAP`]. Also writes which pixels show lumen, and the side of
-/// each line: outside the lumen if only one side is lumen, else on the farther side, which the nearer one
-/// partly hides.
+/// Writes the leaps between neighbours: the depth (mm, before its filter) differs from what the slope of
+/// either side predicts by more than the vessel's diameter and [`SMALLEST_LEAP`]; where a chosen vessel with
+/// precedence ends, by more than [`SMALLEST_LEAP`]. Also writes which pixels show lumen, and the side of each
+/// line: outside the lumen if only one side is lumen, else on the farther side, which the nearer one partly
+/// hides.
 pub fn leap(
     work: &Work,
     parameters: &LeapParameters,
@@ -75,7 +75,7 @@ impl Kernel for LeapRows<'_> {
         for (j, leap) in (self.first..).zip(self.leap.chunks_mut(width)) {
             for (n, leap) in leap.chunks_mut(FAN).enumerate() {
                 let i = n * FAN;
-                // Beyond the last column and the last row there is nothing to leap to.
+                // Pixels of the last column have no neighbour to the right, those of the last row none below.
                 let here = surface.strip(i, j);
                 let down = here.leaps_to(&surface.strip(i, (j + 1).min(last_row)), [0.0, -side]);
                 let right = here.leaps_to(&surface.strip(i + 1, j), [side, 0.0]);
@@ -146,7 +146,7 @@ impl Strip {
         }
     }
 
-    /// The bits, of either axis, of leaps to other pixels at `step` (view x and y, mm).
+    /// Bits (of both axes) for leaps to the pixels of another strip at `step` (view x and y, mm).
     #[inline(always)]
     fn leaps_to(&self, others: &Self, step: [f32; 2]) -> [u32; FAN] {
         let mut leaps = [0; FAN];
@@ -163,8 +163,8 @@ impl Strip {
         leaps
     }
 
-    /// Whether a change of depth differs from the slope at pixel `l`; `ends_first`: a chosen vessel ends
-    /// there.
+    /// Whether a change of depth differs too much from that by the slope at pixel `l`. `ends_first`: whether
+    /// a chosen vessel ends there.
     #[inline(always)]
     fn is_off(&self, l: usize, change: f32, step: [f32; 2], ends_first: bool) -> bool {
         let expected = self.slope[0][l] * step[0] + self.slope[1][l] * step[1];

@@ -30,14 +30,14 @@ fn smooth(vessel: &Vessel) -> Vessel {
     let controls: Vec<Control> = (0..=last).map(control).collect();
     let mut samples = Vec::with_capacity(count);
     samples.push(controls[0]);
-    // Three points or fewer become the two ends: the straight line between them.
+    // Three points or fewer become the straight line between the two ends.
     if points.len() >= 4 {
         let spans = (points.len() - 3) as f64;
         samples.extend((1..count - 1).map(|j| spline(&controls, j as f64 / (count - 1) as f64 * spans)));
     }
     samples.push(controls[last]);
     let radius = vessel.radius().map(|_| samples.iter().map(|(s, _)| s.w.max(0.0)).collect());
-    // Rounding must not let the arc length fall: the pieces of a level are searched by it.
+    // Rounding must not let the arc length fall: the pieces of a level are searched by arc length.
     let rising = samples.iter().scan(0.0, |so_far: &mut f64, (_, arc_length)| {
         *so_far = so_far.max(*arc_length);
         Some(*so_far)

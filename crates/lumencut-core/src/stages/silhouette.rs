@@ -23,24 +23,24 @@ pub(crate) const LINE_WIDTH: f64 = 1.0;
 pub(crate) const NARROWEST_LINE: f64 = 0.5;
 /// The widest line of a leap (pixels), however close the view.
 pub(crate) const WIDEST_LINE: f64 = 1.5;
-/// No line covers a pixel farther than this from its leap (pixels): [`WIDEST_LINE`] in whole pixels.
+/// No line covers a pixel farther than this from its leap (pixels): [`WIDEST_LINE`], rounded up.
 pub(crate) const FARTHEST_LEAP: usize = 2;
 const _: () = assert!(WIDEST_LINE <= FARTHEST_LEAP as f64);
 
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct SilhouetteParameters {
-    /// From the sum of the Sobel weights to mm per mm.
+    /// Factor from the sum with Sobel weights to a slope in mm per mm.
     pub per_slope: f32,
-    /// The square of the slope that has half the strength.
+    /// The square of the slope at which a silhouette has half strength.
     pub half: f32,
     /// Width of the line of a leap (pixels).
     pub line_width: f32,
 }
 
 impl SilhouetteParameters {
-    /// A smooth surface looks the same at every zoom; lines have a constant width in mm, within limits in
-    /// pixels.
+    /// Parameters with which a smooth surface looks the same at every zoom. Lines have a constant width in
+    /// mm, within limits in pixels.
     pub fn new(settings: &Settings, camera: &Camera) -> Self {
         let slope = settings.silhouette_slope;
         let line_width = (LINE_WIDTH / camera.pixel_spacing()).clamp(NARROWEST_LINE, WIDEST_LINE);
@@ -78,8 +78,8 @@ pub fn silhouette(
 }
 
 /// Writes the strength of the silhouette, 0 to 1, at each pixel: how much of it the lines of the leaps cover.
-/// `value` is the volume on the surface, NaN where it shows nothing: a line there moves to the other side of
-/// its leap, unless that is lumen. Without values every pixel counts as shown.
+/// `value` is the volume on the surface, NaN if it shows nothing: a line there moves to the other side of its
+/// leap, unless that is lumen. Without values every pixel counts as shown.
 pub fn silhouette_of_leaps(
     work: &Work,
     parameters: &SilhouetteParameters,

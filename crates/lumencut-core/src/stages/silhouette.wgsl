@@ -61,7 +61,7 @@ fn strength(@builtin(global_invocation_id) thread: vec3u) {
 
 @group(0) @binding(1) var<storage, read> leap: array<u32>;
 @group(0) @binding(3) var<uniform> line_parameters: SilhouetteParameters;
-// HUGE where the surface shows nothing.
+// HUGE if the surface shows nothing.
 @group(0) @binding(4) var<storage, read> value: array<f32>;
 
 fn bits_at(pixel: vec2i) -> u32 {
@@ -115,7 +115,7 @@ fn shows_line_of(owner: vec2i, step: vec2i, beyond: bool) -> bool {
     return shows_line(select(owner, owner + step, beyond), select(step, -step, beyond));
 }
 
-// Whether a pixel outside all lumens lies at leaps and shows none of their lines.
+// Whether a pixel outside all lumens has leaps at its borders and shows none of their lines.
 fn is_other_side(here: vec2i) -> bool {
     var is_beside = false;
     for (var n = 0; n < 4; n++) {
@@ -130,8 +130,8 @@ fn is_other_side(here: vec2i) -> bool {
     return is_beside;
 }
 
-// Cover of pixel `seen`, outside all lumens, by another pixel's lines: by distance to the nearest leap on its
-// line's side.
+// How much of the pixel at offset `seen`, outside all lumens, lines of leaps of `owner` cover: by the
+// distance to the nearest leap whose line lies on this side.
 fn cover_beside_lumen(owner: vec2i, seen: vec2i) -> f32 {
     let bits = bits_at(owner);
     var cover = 0.0;

@@ -1,4 +1,4 @@
-//! The surface: the volume at the world position of each pixel (paper section 3.3.4).
+//! The surface stage: samples the volume at the world position of each pixel (paper section 3.3.4).
 
 use bytemuck::{Pod, Zeroable};
 use glam::DAffine3;
@@ -57,7 +57,7 @@ pub fn surface(work: &Work, scene: &SurfaceScene, value: &mut [f32]) -> Result<(
     let mut thick = vec![f32::NAN; value.len()];
     thicken(work, scene, slab, value, &mut thick)?;
     value.par_iter_mut().zip(&thick).for_each(|(value, thick)| {
-        // A slab is shown only where there is a cut surface.
+        // A slab is shown only if there is a value at the cut surface.
         *value = if value.is_nan() || thick.is_nan() { *value } else { *thick };
     });
     Ok(())

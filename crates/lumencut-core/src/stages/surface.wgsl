@@ -1,7 +1,7 @@
-// The surface: the volume at the world position of each pixel (paper section 3.3.4).
+// The surface stage: samples the volume at the world position of each pixel (paper section 3.3.4).
 // import math/cell_walk
 
-// Whether pixels have separate positions; else they lie on the rays of a camera, at depths.
+// Whether pixels have separate positions; otherwise they lie on the rays of a camera, at given depths.
 override CURVED: bool = false;
 
 const MEAN = 0u;
@@ -18,8 +18,8 @@ struct SurfaceParameters {
     padding: u32,
 }
 
-// A pixel of a curved geometry in the volume: the whole numbers of its index, their summands, and the index
-// per mm along the slab direction. The fourth components are padding.
+// A pixel of a curved geometry in the volume: the integer part of its index, the remainder, and the change of
+// the index per mm along the slab direction. The fourth components are padding.
 struct CurvedPixel {
     whole: vec4f,
     part: vec4f,

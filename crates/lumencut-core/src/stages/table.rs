@@ -30,7 +30,7 @@ pub enum Image {
     Start,
     /// The context: premultiplied colours and opacity, four f32.
     Gathered,
-    /// The context alone as RGBA with straight alpha, four bytes.
+    /// Only the context, as RGBA with straight alpha, four bytes.
     Context,
     /// The picture as RGBA with straight alpha, four bytes.
     Picture,
@@ -81,7 +81,7 @@ impl Image {
 pub struct ImageSet(u16);
 
 impl ImageSet {
-    /// All that a frame can have.
+    /// All images that a frame can have.
     pub const ALL: Self = Self::of(&[
         Image::Distance,
         Image::Depth,
@@ -227,7 +227,7 @@ impl Stage {
         }
     }
 
-    /// The stages that find the cut surface of a view with the images `wanted`, in their order.
+    /// The stages, in order, that find the cut surface of a view with the images `wanted`.
     pub fn of_cut_surface(settings: &Settings, wanted: ImageSet) -> Vec<Self> {
         let own = settings.level_choice == LevelChoice::Own;
         let draws_leaps = settings.silhouettes && settings.silhouette_rule == SilhouetteRule::Leap;
@@ -245,7 +245,7 @@ impl Stage {
         needed(&stages)
     }
 
-    /// Whether it is one of those that find the cut surface.
+    /// Whether the stage is one of those that find the cut surface.
     pub const fn is_of_cut_surface(self) -> bool {
         matches!(self, Self::Distance | Self::Depth | Self::Leap | Self::DepthFilter | Self::Focus)
     }
@@ -255,9 +255,9 @@ impl Stage {
         wanted.has(Image::Sheet) || Self::of_cut_surface(settings, wanted).contains(&Self::Leap)
     }
 
-    /// The stages that show what is there, in their order. Of the images `made` so far, the surface needs a
-    /// depth, and silhouettes leaps or vessels too. A curved geometry has neither silhouettes nor context.
-    /// The frame shall have the images `wanted`.
+    /// The stages, in order, that show the volume at the positions of `geometry`. Of the images `made` so
+    /// far, the surface needs a depth, and silhouettes leaps or vessels too. A curved geometry has neither
+    /// silhouettes nor context. The frame shall have the images `wanted`.
     pub fn of_look(settings: &Settings, geometry: &Geometry, made: ImageSet, wanted: ImageSet) -> Vec<Self> {
         let has_camera = geometry.camera().is_some();
         let has_surface = !has_camera || made.has(Image::Depth);
@@ -270,7 +270,7 @@ impl Stage {
         let has_silhouettes = has_picture && settings.silhouettes && can_have_silhouettes;
         let wants_context = has_picture || wanted.has(Image::Context);
         let has_context = wants_context && has_camera && settings.context.is_some();
-        // Rays of a context start by the values.
+        // The values decide where rays of a context start.
         let has_values = has_surface && (has_picture || has_context || wanted.has(Image::Value));
         let stages = [
             (Self::Surface, has_values),

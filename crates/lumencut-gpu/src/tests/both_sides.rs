@@ -1,4 +1,4 @@
-//! One scene on the GPU and on the CPU, and the comparison of the frames.
+//! Renders one scene on the GPU and on the CPU, and compares the frames.
 
 use std::sync::Arc;
 
@@ -43,14 +43,14 @@ impl BothSides {
         self.assert_same(gpu, &cpu, settings);
     }
 
-    /// [`assert_same`], except for the ties around joints.
+    /// [`assert_same`], but ties around joints are accepted.
     pub(super) fn assert_same(&self, mut gpu: Frame, cpu: &Frame, settings: &Settings) {
         ties::excuse(&mut gpu, cpu, &self.phantom.tree, settings);
         assert_same(&gpu, cpu);
     }
 }
 
-/// Frames are equal up to rounding in the picture, the cut surface, its distance and the context.
+/// Asserts that picture, cut surface, distance and context are equal up to rounding.
 pub(crate) fn assert_same(gpu: &Frame, cpu: &Frame) {
     assert_equal(gpu, cpu);
     assert_eq!(gpu.value.len(), cpu.value.len());

@@ -1,4 +1,4 @@
-//! Pictures against the CPU's: equal bytes, except that less than one in a thousand may be 1 apart.
+//! Pictures compared with the CPU's: equal bytes, except that less than one in a thousand may be 1 apart.
 
 use lumencut_core::settings::{Context, Opacity, Settings, Window};
 use lumencut_core::stages::composite::{self, CompositeParameters, layer};
@@ -12,7 +12,7 @@ use crate::composite::{Composite, Layers};
 use crate::device::Device;
 use crate::recording::Recording;
 
-/// Values with holes, strengths, and a context that is empty in places.
+/// Values with gaps, strengths, and a context that is empty in places.
 struct Scene {
     value: Vec<f32>,
     strength: Vec<f32>,

@@ -114,7 +114,7 @@ fn in_rust() -> BTreeMap<Name, Vec<f64>> {
     all
 }
 
-/// The constants that only shaders have, by module, and why.
+/// The constants that only shaders have, by module, with the reason.
 const ONLY_IN_SHADERS: [(&str, &str, &str); 12] = [
     ("math/blocks", "FARTHEST", "rays of the CPU skip whole segments and count no samples"),
     ("math/projection", "SPAN_THREADS", "the threads of a group"),
@@ -169,7 +169,7 @@ fn in_shaders(shaders: &[Shader]) -> BTreeMap<Name, Vec<f64>> {
     found
 }
 
-/// The constants of shaders that differ from Rust's and are not among the `alone`, as lines to read.
+/// The constants of shaders that differ from Rust's and are not listed in `alone`, one line each.
 fn differences(
     shaders: &BTreeMap<Name, Vec<f64>>,
     rust: &BTreeMap<Name, Vec<f64>>,

@@ -49,7 +49,7 @@ fn all_settings() -> Vec<Settings> {
     both.chain([alone(0, &own), own.clone(), paper.clone()]).collect()
 }
 
-/// A vessel given in the view coordinates of views along `direction`, with nothing that covers what it leaves
+/// A vessel given in the view coordinates of views along `direction`; no other vessel covers what it leaves
 /// out.
 fn seen_along(direction: [f64; 3], points: &[[f64; 3]]) -> VesselTree {
     let camera = view(direction, [1, 1], 1.0);

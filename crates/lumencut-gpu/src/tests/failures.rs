@@ -29,7 +29,7 @@ fn render(renderer: &mut GpuRenderer, scene: &Scene, stop: Stop) -> Result<Frame
     pollster::block_on(renderer.render(scene, &Request { stop, ..Request::new(&camera, &settings) }))
 }
 
-/// An error of the GPU in one line with a mend.
+/// Asserts that an error of the GPU is one line and that the CPU is its remedy.
 fn check(error: &Error) {
     let line = error.to_string();
     assert_eq!(error.kind, ErrorKind::Device, "{line}");
@@ -63,7 +63,7 @@ fn a_lost_gpu_is_an_error_before_and_after_the_first_view() {
         // Waiting callers are woken, and later ones do not wait.
         assert!(has_ended());
         pollster::block_on(device.loss());
-        // A new renderer on it does not compute either.
+        // A new renderer on the lost GPU does not compute either.
         let mut late = GpuRenderer::new(device);
         check(&render(&mut late, &scene, &|| false).unwrap_err());
     }
@@ -98,13 +98,13 @@ fn a_renderer_that_was_stopped_renders_again() {
     let mut renderer = GpuRenderer::new(Arc::clone(device));
     let mut fresh = GpuRenderer::new(Arc::clone(device));
     let expected = render(&mut fresh, &scene, &|| false).unwrap();
-    // Stopped at once, and at the second, third … poll: while it sends the volume or waits.
+    // Stops at once, or at the second, third … poll: while it sends the volume or waits.
     for patience in 0..6 {
         let asked = AtomicUsize::new(0);
         let stop = || asked.fetch_add(1, Ordering::Relaxed) >= patience;
         match render(&mut renderer, &scene, &stop) {
             Err(error) => assert_eq!(error.kind, ErrorKind::Interrupted, "{error}"),
-            // A fast GPU is done before that many polls.
+            // A fast GPU is done before so many polls.
             Ok(_) => assert!(patience > 0 && asked.into_inner() <= patience),
         }
     }

@@ -1,4 +1,4 @@
-//! Shaders from modules: each module once, after its imports.
+//! Assembled shaders contain each module once, after its imports.
 
 use lumencut_core::shaders::Shader;
 

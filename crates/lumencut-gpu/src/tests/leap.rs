@@ -1,4 +1,4 @@
-//! Leaps against the CPU's: from the same depths and sheets to the bit, and their sheets.
+//! Leaps, bit-identical to the CPU's from the same depths and sheets; and sheets against the CPU's.
 
 use lumencut_core::math::leaps::{DOWNWARDS, LUMEN, TO_THE_RIGHT};
 use lumencut_core::pipeline::{CpuRenderer, Request, SurfaceDetails};

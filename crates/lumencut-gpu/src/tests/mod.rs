@@ -1,4 +1,4 @@
-//! Each stage against the CPU's, and consistency of the two.
+//! Each stage compared with the CPU's, and consistency of the two.
 #![allow(clippy::unwrap_used)]
 
 mod both_sides;
@@ -31,7 +31,7 @@ use crate::device::Device;
 use crate::recording::{Recording, Results};
 use crate::view;
 
-/// Images that no workgroup fits.
+/// Image sizes that workgroups do not cover exactly.
 pub(crate) const SIZES: [[usize; 2]; 5] = [[1, 1], [1, 17], [17, 1], [257, 257], [33, 20]];
 
 /// The GPU that all tests share. Without one, prints why and returns `None`, unless `LUMENCUT_REQUIRE_GPU` is

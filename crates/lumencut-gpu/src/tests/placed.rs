@@ -1,4 +1,4 @@
-//! Volumes on the GPU in a view, for several tests.
+//! Places volumes on the GPU in a view, for several tests.
 #![allow(clippy::unwrap_used)]
 
 use lumencut_core::camera::Camera;

@@ -1,4 +1,4 @@
-//! Silhouettes against the CPU's: where the depth is smooth, where zones meet, at single leaps; and the lines
+//! Silhouettes compared with the CPU's: on smooth depth, at borders of zones, at single leaps; and the lines
 //! of leaps.
 
 use lumencut_core::math::blocks::HUGE;
@@ -16,7 +16,7 @@ use crate::images::Images;
 use crate::recording::Recording;
 use crate::silhouette::{Silhouette, SilhouetteImages};
 
-/// Both strengths of an image, and the names of the timings.
+/// The strengths of an image on both sides, and the names of the timings.
 fn both(
     size: [usize; 2],
     depth: &[f32],
@@ -97,7 +97,7 @@ fn lines(device: &Device, size: [usize; 2], spacing: f64) -> [Vec<f32>; 2] {
     let leap: Vec<u32> = (0..pixels)
         .map(|p| {
             let [right, down, lumen] = [0.2, 0.2, 0.6].map(|share| random.between(0.0, 1.0) < share);
-            // Beyond the last column and the last row there is nothing to leap to.
+            // Pixels of the last column have no neighbour to the right, those of the last row none below.
             let (right, down) = (right && (p + 1) % size[0] != 0, down && p + size[0] < pixels);
             let [line_right, line_down] = [0; 2].map(|_| random.between(0.0, 1.0) < 0.5);
             let bits = [

@@ -160,7 +160,7 @@ fn axes_of_one_voxel_and_any_strides() {
 
 #[test]
 fn a_long_volume_keeps_its_places() {
-    // The value is the index, counted from the middle: it shows differences of positions, at most a 10,000th
+    // The value is the index, relative to the middle: it shows differences of positions, at most a 10,000th
     // of a voxel.
     const SIZE: [usize; 3] = [64, 48, 1300];
     let voxels: Vec<i16> = (0..SIZE.iter().product()).map(|n: usize| (n / (64 * 48)) as i16 - 650).collect();

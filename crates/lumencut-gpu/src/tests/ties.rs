@@ -17,7 +17,7 @@ const FILTER_HALF_WIDTH: usize = 3;
 struct End {
     point: DVec3,
     place: DVec2,
-    /// Reach of lumen and wall from it (mm).
+    /// Reach of lumen and wall from the point (mm).
     reach: f64,
     vessel: i32,
 }
@@ -47,8 +47,8 @@ fn around(p: usize, [width, height]: [usize; 2]) -> impl Iterator<Item = usize> 
     near(p / width, height).flat_map(move |y| near(p % width, width).map(move |x| y * width + x))
 }
 
-/// Takes vessels that tie from the CPU, and around them depths that the filter within zones made from other
-/// neighbours, if they differ by less than a leap.
+/// Where vessels tie, takes the CPU's; around them also its depths, if the filter within zones used other
+/// neighbours and they differ by less than a leap.
 ///
 /// # Panics
 /// For more pixels than [`TIED`] allows.

@@ -1,4 +1,4 @@
-//! Volumes that do not fit, and those that are no longer wanted.
+//! Volumes that do not fit, and volumes whose sending is stopped.
 #![allow(clippy::unwrap_used)]
 
 use glam::DAffine3;

@@ -56,7 +56,7 @@ impl Projected {
             } else {
                 Run::at(self.anchor(segment, (height - from) / (to - from)))
             };
-            // A row through a point meets both of its segments there.
+            // A row through a point of the vessel meets both segments there.
             let end = runs.last().map_or(f64::NEG_INFINITY, |last| last.to.arc_length);
             if run.to.arc_length > end + ON_PICTURE {
                 if runs.last().is_some_and(|last| {

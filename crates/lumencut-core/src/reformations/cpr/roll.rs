@@ -11,10 +11,10 @@ use crate::reformations::Wall;
 /// Number of diameter directions compared, over half a turn.
 const DIRECTIONS: usize = 48;
 
-/// Distance of the angles along the vessel (mm); neighbours differ by one direction at most.
+/// Distance along the vessel between the angles (mm); neighbours differ by one direction at most.
 const STEP_MM: f64 = 0.5;
 
-/// Cost of a change by one direction (mm of diameter): keeps the picture steady if all are alike.
+/// Cost of a change by one direction (mm of diameter): keeps the picture steady if all diameters are alike.
 const CHANGE_COST_MM: f64 = 0.15;
 
 /// Standard deviations (mm) of the Gaussians that smooth the diameters and the angle along the vessel.
@@ -119,7 +119,7 @@ fn cheapest(cost: &[Vec<f64>]) -> Vec<i32> {
     way.iter().map(|step| step - turns).collect()
 }
 
-/// Values at even distances along a length (mm), smoothed by a Gaussian, constant beyond the ends.
+/// Values at equal distances along a length (mm), smoothed by a Gaussian, constant beyond the ends.
 fn smoothed(values: &[f64], length: f64, deviation: f64) -> Vec<f64> {
     let step = length / (values.len() - 1) as f64;
     let reach = (3.0 * deviation / step).ceil() as isize;

@@ -5,7 +5,7 @@ use glam::DVec3;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Anchor {
     pub point: DVec3,
-    /// Its position in the image, to the right of the middle (mm).
+    /// Position in the image, to the right of the middle (mm).
     pub x: f64,
     pub arc_length: f64,
 }
@@ -39,13 +39,13 @@ pub(super) struct Row {
     pub across: DVec3,
     /// Unit vector into the scene, along which a slab is thick.
     pub ahead: DVec3,
-    /// Where it meets the vessel, at least once, by rising arc length.
+    /// Where the row meets the vessel, at least once, by rising arc length.
     pub runs: Vec<Run>,
 }
 
 impl Row {
-    /// The world point at `x` on the line through the nearest vessel point along the row, of several the
-    /// front one.
+    /// The world point at `x` on the line through the vessel point nearest along the row; of equally near
+    /// ones the one in front.
     pub(super) fn place(&self, x: f64) -> DVec3 {
         let mut best = self.runs[0].nearest_anchor(x);
         for run in &self.runs[1..] {
@@ -63,7 +63,7 @@ impl Row {
         if let [Run { from, to }] = self.runs[..]
             && from.x == to.x
         {
-            // The usual case, without a search in each pixel.
+            // Usually a row meets the vessel once, and no pixel needs a search.
             for (place, x) in places.iter_mut().zip(x) {
                 *place = from.point + self.across * (x - from.x);
             }

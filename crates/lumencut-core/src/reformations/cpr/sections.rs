@@ -8,7 +8,7 @@ use crate::math::centerline_path::CenterlinePath;
 use crate::math::frames::{Frames, MovingFrame, Station};
 use crate::math::same_place::ON_PICTURE;
 
-/// The most bisections in the search for a section, to below the resolution of a number.
+/// The largest number of bisections in the search for a section; so many reach the resolution of a number.
 const BISECTIONS: usize = 60;
 
 const MAX_TURN_RADIANS: f64 = 0.1;
@@ -90,7 +90,7 @@ impl Sections {
         if station.turn == DVec3::ZERO {
             return;
         }
-        // The sections turn: the point may be nearer to them than at both ends, and lie in two of them.
+        // Sections turn in between: the point may be nearer to one there than at both ends, and lie in two.
         let direction = self.path.direction()[self.path.segment(from)];
         let [start, end] = ends.map(|mark| mark.section(point).change(station, direction));
         let approaches = if low >= 0.0 { start < 0.0 && end > 0.0 } else { start > 0.0 && end < 0.0 };
@@ -151,7 +151,7 @@ impl Section {
     }
 }
 
-/// Bisects for the position where a condition that holds at `from` and not at `to` changes.
+/// Bisects for the position at which a condition that holds at `from` and not at `to` changes.
 fn halved(mut from: f64, mut to: f64, holds: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..BISECTIONS {
         let middle = from + (to - from) / 2.0;

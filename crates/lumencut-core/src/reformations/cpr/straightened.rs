@@ -14,7 +14,7 @@ use crate::math::centerline_path::CenterlinePath;
 use crate::math::frames::{Frames, MovingFrame};
 use crate::math::same_place::ON_PICTURE;
 
-/// Space around a straightened vessel, extended straight: x to the right, y into the picture, z along (mm).
+/// Space around a straightened vessel and its straight extension: x right, y into the picture, z along (mm).
 #[derive(Clone)]
 pub struct Straightened {
     sections: Arc<Sections>,
@@ -23,7 +23,7 @@ pub struct Straightened {
 
 #[derive(Clone)]
 enum Angle {
-    /// Constant: its sine and cosine.
+    /// A constant angle: its sine and cosine.
     Even([f64; 2]),
     Rolled(Arc<Roll>),
 }
@@ -101,8 +101,8 @@ impl Straightened {
         self.sections.frames.at(at).turned(self.angle.at(at))
     }
 
-    /// How far a point at an offset (mm) moves per mm of the vessel: 1 on a straight run, 0 where sections
-    /// meet.
+    /// How far a point at an offset (mm) moves per mm of the vessel: 1 on a straight run, 0 where
+    /// neighbouring sections meet.
     pub fn advance(&self, at: f64, offset: DVec2) -> f64 {
         let Sections { path, frames, .. } = &*self.sections;
         let station = frames.station(at);
@@ -135,7 +135,7 @@ impl Surface for Straightened {
     fn image_from_world(&self, point: DVec3) -> DVec2 {
         let places: Vec<_> = self.sections.through(point).iter().map(|section| self.place(section)).collect();
         let within = -ON_PICTURE..=self.length() + ON_PICTURE;
-        // A point of the picture lies where the picture shows it, however near another part of the vessel is.
+        // A point in the plane of the picture is placed there, however near other parts of the vessel are.
         let shown = places.iter().filter(|place| place.y.abs() <= ON_PICTURE && within.contains(&place.z));
         let first = shown.reduce(|best, place| {
             let [one, other] = [place, best].map(|place| [place.x.abs(), place.z]);
@@ -147,7 +147,7 @@ impl Surface for Straightened {
     }
 
     fn folded(&self, y: f64, x: &[f64]) -> Vec<bool> {
-        // Movement of the image along the vessel's tangent from row to row.
+        // Movement of each pixel's point per mm of the vessel.
         let moves: Vec<_> = x.iter().map(|x| self.advance(y, DVec2::new(*x, 0.0))).collect();
         let mut folded: Vec<_> = moves.iter().map(|moves| *moves <= 0.0).collect();
         self.mark_shown_elsewhere(y, x, &moves, &mut folded);

@@ -68,7 +68,7 @@ impl Stretched {
         Anchor { point, x: point.dot(self.across) - self.middle, arc_length }
     }
 
-    /// The point of a strip, optionally extended beyond its ends, nearest to a point across the lines.
+    /// The point of a strip nearest to a point, across the lines; if `goes_on`, also beyond the strip's ends.
     fn nearest_candidate(&self, strip: &Strip, point: DVec3, goes_on: bool) -> Candidate {
         let share = (point - self.path.points()[strip.segment]).dot(strip.down) / strip.height;
         let share = if goes_on { share } else { share.clamp(0.0, 1.0) };
@@ -84,11 +84,11 @@ impl Stretched {
 
 #[derive(Clone, Copy, Debug)]
 struct Candidate {
-    /// From the point to the surface there (mm).
+    /// Distance of the point from the surface there (mm).
     distance: f64,
     /// Distance of the point from the vessel (mm).
     aside: f64,
-    /// Downwards in the image (mm).
+    /// Position in the image, downwards (mm).
     y: f64,
 }
 
@@ -123,7 +123,7 @@ impl Surface for Stretched {
             .map(|end| self.nearest_candidate(end, point, true));
         let beyond = ends.into_iter().filter(|end| end.y < 0.0 || end.y > self.height());
         let better = |best: Candidate, other: Candidate| if other.is_better(&best) { other } else { best };
-        // Beyond the vessel lies only what is not within it.
+        // A position beyond the ends counts only if the surface is nearer there than within the vessel.
         let best = within
             .reduce(better)
             .into_iter()

@@ -7,14 +7,14 @@ const MAX_THRESHOLD_PIXELS: f64 = 1e6;
 /// The two thresholds of CR.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CrParameters {
-    /// Distance beyond its radius within which a vessel displaces what lies behind it (pixels).
+    /// Distance beyond its radius within which a vessel hides what lies behind it (pixels).
     pub radius_offset: f64,
-    /// Distance along the tree (pixels) within which points form a stretch that shows its nearest one.
+    /// Points within this distance along the tree (pixels) form a stretch, which shows its nearest point.
     pub arc_threshold: f64,
 }
 
 impl Default for CrParameters {
-    /// Those of the paper's picture of the neck.
+    /// The thresholds of the paper's picture of the neck.
     fn default() -> Self {
         Self { radius_offset: 50.0, arc_threshold: 150.0 }
     }

@@ -10,8 +10,8 @@ use crate::math::tile::{Area, Tile};
 
 const MAX_CACHED_CHAINS: usize = 256;
 
-/// Finds the piece nearest to a pixel within the threshold along the tree. Points on one chain have nearly
-/// the same pieces around them, and so do the pixels of a tile.
+/// Finds the piece nearest to a pixel within the threshold along the tree. Caches the pieces around a chain:
+/// they are nearly the same for all its points, and for the pixels of a tile.
 pub(super) struct StretchSearch<'a> {
     view: &'a CrView<'a>,
     /// For a chain, the ranges of chains within the threshold of a point on it.
@@ -58,7 +58,7 @@ impl<'a> StretchSearch<'a> {
             self.around.clear();
         }
         let around = self.around.entry(chain).or_insert_with(|| view.around(chain));
-        // The bits of non-negative floats have their order.
+        // Bits of non-negative floats sort like the floats.
         let entry = |chain| Reverse((view.chains.squared_distance(chain, &tile.area).to_bits(), chain));
         let rest: Vec<_> = around.iter().flat_map(|[from, to]| *from..*to).map(entry).collect();
         NearFirst { ordered: Vec::new(), rest: rest.into() }
@@ -89,7 +89,7 @@ struct Best<'a> {
     /// The middle of the stretch: a vessel and an arc length (mm).
     middle: (i32, f32),
     seen: Seen,
-    /// The squared distance (mm²) beyond which nothing is nearer.
+    /// Segments beyond this squared distance (mm²) cannot be nearer.
     limit: f32,
 }
 

@@ -18,10 +18,10 @@ pub(super) struct CrView<'a> {
     pub level: &'a Level,
     pub camera: &'a Camera,
     projected: Vec<Projected>,
-    /// Their pieces without depth and radius: the smallest key is the smallest distance.
+    /// The pieces without depth and radius: the smallest key is the smallest distance.
     plane: Hierarchy,
     pub plane_rule: Rule,
-    /// Their pieces with disc radii: the smallest key is the foremost disc that holds the pixel.
+    /// The pieces with disc radii: the smallest key is the foremost disc that holds the pixel.
     discs: Hierarchy,
     disc_rule: Rule,
     pub chains: Chains,
@@ -122,11 +122,11 @@ pub(super) const NO_PIECE: u32 = u32::MAX;
 
 #[derive(Clone, Copy)]
 pub(super) struct Seen {
-    /// Twice its slot, plus 1 for the stripe.
+    /// Twice the slot of the piece, plus 1 for a stripe.
     pub piece: u32,
     pub vessel: i32,
     pub is_covered: bool,
-    /// In the image (mm).
+    /// Distance from the pixel in the image (mm).
     pub distance: f32,
     pub z: f32,
     radius: f32,

@@ -1,4 +1,4 @@
-//! A partly straightened vessel: its points, and the map from its surroundings to the true ones.
+//! A partly straightened vessel: its points, and the map from space around it to that around the true one.
 
 use glam::{DQuat, DVec3};
 
@@ -27,7 +27,7 @@ struct Turning {
 #[derive(Clone, Debug)]
 pub(super) struct Bent {
     turnings: Vec<Turning>,
-    /// The points before the camera (mm, LPS).
+    /// The points, placed in front of the camera (mm, LPS).
     pub points: Vec<DVec3>,
 }
 
@@ -50,7 +50,7 @@ impl Bent {
         bent
     }
 
-    /// The rotation from the surroundings of the bent vessel to those of the true one at an arc length (mm).
+    /// The rotation from the space around the bent vessel to that around the true one at an arc length (mm).
     #[inline]
     pub(super) fn true_from_bent(&self, at: f64) -> DQuat {
         let turning = &self.turnings[self.turnings.partition_point(|turning| turning.at <= at).max(1) - 1];

@@ -17,9 +17,9 @@ pub(super) struct Foot {
     /// Arc length (mm).
     pub at: f64,
     pub segment: usize,
-    /// Position in the image (mm, to the right and upwards).
+    /// Position of the foot in the image (mm, to the right and upwards).
     pub place: DVec2,
-    /// From there to the pixel (mm).
+    /// Offset from the foot to the pixel (mm).
     pub aside: DVec2,
 }
 

@@ -14,11 +14,11 @@ const SAME_RADIUS_MM: f64 = 1e-6;
 
 #[derive(Clone, Debug)]
 pub(super) struct Part {
-    /// The point it grows from (mm, LPS).
+    /// The point from which the part grows (mm, LPS).
     pub root: DVec3,
-    /// Its pieces, each after the one that it follows.
+    /// The pieces of the part, each after the one that it follows.
     pub order: Vec<usize>,
-    /// Those of them that begin at the root.
+    /// The pieces that begin at the root.
     pub first: Vec<usize>,
 }
 
@@ -34,9 +34,8 @@ pub(super) struct Growth {
 }
 
 impl Growth {
-    /// Grows from the vessel end nearest to `root`; parts without it grow from the free end of the largest
-    /// mean radius. Fails with [`ErrorKind::VesselTree`] for a part without a free end, unless `root` names
-    /// an end.
+    /// The part with the vessel end nearest to `root` grows from there, other parts from the free end with
+    /// the largest mean radius. Fails with [`ErrorKind::VesselTree`] for another part without a free end.
     pub(super) fn new(pieces: &[Piece], nodes: usize, root: Option<DVec3>) -> Result<Self> {
         let graph = Graph::new(pieces, nodes);
         let mut growth = Self {
@@ -72,7 +71,7 @@ impl Growth {
         let mut led: Vec<Option<Option<usize>>> = vec![None; graph.ends.len()];
         let mut is_used = vec![false; pieces.len()];
         let mut late = Vec::new();
-        // The bits of non-negative floats have their order.
+        // Bits of non-negative floats sort like the floats.
         let mut waiting = BinaryHeap::from([Reverse((0.0f64.to_bits(), None, root))]);
         while let Some(Reverse((bits, by, node))) = waiting.pop() {
             if led[node].is_some() {
@@ -86,7 +85,7 @@ impl Growth {
             for &(piece, end) in &graph.ends[node] {
                 let other = pieces[piece].nodes[1 - end];
                 if led[other].is_none() {
-                    // A piece waits at most once: its other end leads back. A loser is corrected below.
+                    // If another piece reaches the far end first, `close` sets the direction again.
                     let length = f64::from_bits(bits) + pieces[piece].length();
                     self.is_reversed[piece] = end == 1;
                     waiting.push(Reverse((length.to_bits(), Some(piece), other)));
@@ -116,7 +115,7 @@ impl Growth {
         }
     }
 
-    /// Adds a piece whose two ends are reached: it begins at end `near`, reached first, and ends free.
+    /// Adds a piece whose two ends are reached already: it begins at end `near`, and its other end is free.
     fn close(
         &mut self,
         part: &mut Part,
@@ -128,7 +127,7 @@ impl Growth {
         self.is_reversed[piece] = near == 1;
         self.attach(part, piece, led[pieces[piece].nodes[near]].flatten());
         let far = pieces[piece].nodes[1 - near];
-        // The other position is the end of the piece that led there, or the beginning of one at the root.
+        // The cycle closes at the end of the piece that led there, or at the start of a piece at the root.
         let there = match led[far].flatten() {
             Some(by) => (by, 1 - self.start(by)),
             None => (part.first[0], self.start(part.first[0])),

@@ -47,7 +47,7 @@ pub(super) fn discs(number: usize, piece: &Piece, places: &[DVec2], margin: f64)
         .collect()
 }
 
-/// The discs at least `distance` from the origin, and one more where a piece crosses that distance.
+/// The discs at least `distance` from the origin, and one more at each crossing of that distance.
 pub(super) fn beyond(discs: &[Disc], distance: f64) -> Vec<Disc> {
     let is_beyond = |disc: &Disc| disc.center.length() >= distance;
     let mut kept = Vec::new();
@@ -70,7 +70,7 @@ fn crossing(from: DVec2, to: DVec2, distance: f64) -> f64 {
     let step = to - from;
     let [a, b, c] = [step.length_squared(), from.dot(step), from.length_squared() - distance * distance];
     let root = (b * b - a * c).max(0.0).sqrt();
-    // Outwards the larger solution, inwards the smaller one.
+    // On the way outwards the larger solution, inwards the smaller one.
     let share = if c < 0.0 { (root - b) / a } else { (-root - b) / a };
     share.clamp(0.0, 1.0)
 }
@@ -114,7 +114,7 @@ impl Hull {
         });
     }
 
-    /// Whether discs of one piece overlap farther apart along it than twice the sum of their radii.
+    /// Whether discs of a piece overlap that are farther apart along it than twice the sum of their radii.
     pub(super) fn overlaps_itself(&self) -> bool {
         let is_far =
             |disc: &Disc, other: &Disc| (disc.at - other.at).abs() > 2.0 * (disc.radius + other.radius);

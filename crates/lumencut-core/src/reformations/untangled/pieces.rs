@@ -12,7 +12,7 @@ const MAX_STATION_DISTANCE_MM: f64 = 0.5;
 
 const MIN_STEPS: f64 = 4.0;
 
-/// A point of the vessel nearer to the last station than this share of a step is no station.
+/// A point of the vessel nearer to the last station than this share of a step becomes no station.
 const MIN_STEP_SHARE: f64 = 0.1;
 
 /// A part of a vessel between two points where vessels meet or end. Stations follow the vessel's own order.
@@ -79,7 +79,7 @@ fn cuts(vessel: &Vessel, ends: &Ends) -> Vec<(usize, usize)> {
     let mut cuts: Vec<(usize, usize)> = Vec::new();
     for (i, point) in points.iter().enumerate() {
         let Some(node) = ends.at(*point) else { continue };
-        // Points within the same junction make one cut; the last cut is the vessel's last point.
+        // Points within the same junction make one cut; the vessel's last point makes the last cut.
         let is_same = |&(n, _): &(usize, usize)| at[i] - at[n] <= 2.0 * VESSEL_END;
         match cuts.last() {
             Some(cut) if is_same(cut) && i == last && cuts.len() > 1 => {
@@ -116,7 +116,7 @@ impl Stations<'_> {
         }
         let places: Vec<_> = at.iter().map(|at| LinePlace::at(along, *at)).collect();
         let mut points: Vec<_> = places.iter().map(|place| place.point(self.vessel.points())).collect();
-        // Of points at one arc length the vessel's own ones count.
+        // Of points at the same arc length, those of the vessel itself count.
         points[0] = self.vessel.points()[first];
         let end = points.len() - 1;
         points[end] = self.vessel.points()[last];

@@ -39,9 +39,9 @@ fn wrapped(angle: f64) -> f64 {
     (angle + PI).rem_euclid(TAU) - PI
 }
 
-/// The turns (radians) of least sum of squares that set sectors apart within a room, in the order of their
-/// middles; of several with one middle the first one lies lowest. If the room is too small, they share what
-/// it lacks.
+/// The turns (radians) with the smallest sum of squares that set sectors apart within a room, in the order of
+/// their middles; of several with the same middle the first lies lowest. If the room is too small, all
+/// sectors share what is missing.
 pub(super) fn turns(sectors: &[Sector], room: Sector) -> Vec<f64> {
     let mut order: Vec<usize> = (0..sectors.len()).collect();
     let middle = |n: &usize| sectors[*n].low + sectors[*n].high;

@@ -9,7 +9,7 @@ use crate::math::same_place::ON_PICTURE;
 use crate::reformations::cut_locus::MIN_DISTANCE_EXCESS;
 use crate::reformations::segments::Segments;
 
-/// The most bisections in the search for a section, to below the resolution of a number.
+/// The largest number of bisections in the search for a section; so many reach the resolution of a number.
 const BISECTIONS: usize = 60;
 
 const MAX_MOVES: usize = 4;
@@ -27,7 +27,7 @@ pub(super) struct Station {
     pub at: f64,
 }
 
-/// A position on a sheet: segment, share of it (outside 0 to 1 beyond free ends), offset to the right (mm).
+/// A position on a sheet: segment, share of it (below 0 or above 1 beyond free ends), offset right (mm).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SheetPosition {
     pub segment: usize,
@@ -37,7 +37,7 @@ pub(super) struct SheetPosition {
 
 #[derive(Clone, Debug)]
 pub(super) struct Sheet {
-    /// The stations, piece by piece, in the order of vessels and along them.
+    /// The stations, piece by piece: vessels in their order, pieces along each vessel.
     stations: Vec<Station>,
     start: Vec<usize>,
     piece: Vec<usize>,
@@ -178,7 +178,7 @@ impl Sheet {
         a.point.lerp(b.point, place.share)
     }
 
-    /// Across the sheet, into the scene where the vessel is seen from its side.
+    /// The direction across the sheet; into the scene if the vessel is seen from its side.
     pub(super) fn slab_direction(&self, place: &SheetPosition) -> DVec3 {
         let [a, b] = self.ends(place.segment);
         let across = a.across.lerp(b.across, place.share.clamp(0.0, 1.0));
@@ -235,7 +235,7 @@ impl Sheet {
             && (self.arc_length(&there) - self.arc_length(place)).abs() < ON_PICTURE.sqrt()
     }
 
-    /// The positions of a segment whose sections hold a world point, also beyond it where the piece ends.
+    /// The positions of a segment whose sections hold a world point, also beyond it if the piece ends there.
     fn sections(&self, segment: usize, point: DVec3) -> Vec<SheetPosition> {
         let [a, b] = self.ends(segment);
         let along = b.point - a.point;
@@ -261,7 +261,7 @@ impl Sheet {
             }
             found.push(place(f64::midpoint(low, high)));
         }
-        // Adjacent sections may leave a gap for points off the sheet, and rounding one for those on it.
+        // Points off the sheet may fall between adjacent sections, and by rounding also points on it.
         let beyond = |share: f64, towards: DVec3| {
             share + (point - a.point.lerp(b.point, share)).dot(towards) / along.length_squared()
         };

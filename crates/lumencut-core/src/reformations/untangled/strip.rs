@@ -14,7 +14,7 @@ const SMOOTHING_ACROSS_MM: f64 = 2.0;
 
 const CUT_OFF_SIGMAS: f64 = 4.0;
 
-/// Longest extension of a line across a sharp corner, so that it ends where its neighbours end.
+/// Longest extension of a line across a sharp corner, so that it ends at the same place as its neighbours.
 pub(super) const LONGEST_MITRE: f64 = 3.0;
 
 /// A shorter vector has no direction.

@@ -21,7 +21,7 @@ pub(super) const OVERLAP_EXTRA_MM: f64 = 2.0;
 /// The share of the bends of vessels that is kept, tried in this order.
 const STIFFNESS: [f64; 4] = [1.0, 0.6, 0.3, 0.0];
 
-/// Number of steps of a turn, and bisections of the first one that suffices.
+/// Number of steps of a turn, and of bisections of the first step that suffices.
 const TURN_STEPS: usize = 16;
 const BISECTIONS: usize = 16;
 
@@ -36,22 +36,22 @@ pub(super) struct Tree<'a> {
 
 #[derive(Clone, Debug)]
 pub(super) struct Turning {
-    /// The stations of each piece, from where it begins to grow, not turned (mm).
+    /// The stations of each piece (mm), from where it begins to grow, before any turn.
     pub places: Vec<Vec<DVec2>>,
     /// The turn of each piece and all that follows it (radians, counter-clockwise).
     pub turns: Vec<f64>,
-    /// The hull of each part, from its root, not moved.
+    /// The hull of each part relative to its root.
     pub hulls: Vec<Vec<Disc>>,
-    /// Within this many hull radii of a branching point, plus [`OVERLAP_EXTRA_MM`], branches may overlap.
+    /// Hull radii around a branching point, besides [`OVERLAP_EXTRA_MM`], within which branches may overlap.
     pub near: f64,
-    /// Number of branching points where sectors did not fit, so that branches turned too much or too little.
+    /// Number of branching points at which sectors did not fit, so branches turned too much or too little.
     pub without_room: usize,
     /// The pieces that still overlap others, or themselves.
     pub overlaps: Vec<usize>,
 }
 
 impl Turning {
-    /// Compared in this order.
+    /// The numbers of faults, the more serious ones first.
     fn faults(&self) -> (usize, usize) {
         (self.overlaps.len(), self.without_room)
     }
@@ -90,7 +90,7 @@ fn attempt(tree: Tree, near: f64, stiffness: f64, stop: Stop) -> Result<Turning>
         without_room: 0,
         overlaps: Vec::new(),
     };
-    // Each piece with all that follows it, from where it begins, already turned beyond that point.
+    // Each piece with all pieces that follow it, from its beginning, already turned beyond that point.
     let mut units: Vec<Vec<Disc>> = vec![Vec::new(); pieces.len()];
     for part in &growth.parts {
         for &piece in part.order.iter().rev() {
@@ -190,7 +190,7 @@ impl Node {
         (wanted.collect(), has_room)
     }
 
-    /// The smallest share of the turns without overlap; 1 if there is none.
+    /// The smallest share of the wanted turns without overlap; 1 if there is none.
     fn smallest_share(&self, wanted: &[f64]) -> f64 {
         let mut shares = (0..=TURN_STEPS).map(|step| step as f64 / TURN_STEPS as f64);
         let Some(mut enough) = shares.find(|share| self.is_apart(wanted, *share)) else { return 1.0 };

@@ -2,7 +2,7 @@
 
 use crate::math::ray::{NONE, WHOLE};
 
-/// A start in front of the volume in comparisons: after all cut surfaces, before nowhere.
+/// Stands for a start in front of the volume in comparisons: after all cut surfaces, before `NONE`.
 pub const IN_FRONT: f32 = NONE / 2.0;
 
 /// The start of each square of four pixels: the nearest behind a cut surface, so that no pixel shows what

@@ -3,15 +3,15 @@
 use crate::math::lanes::{PIXELS, smaller};
 
 pub(super) struct LevelBlend {
-    /// k0, as a float that compares exactly.
+    /// k0, the finer level, as a float: integers compare exactly.
     fine: [f32; PIXELS],
     fine_weight: [f32; PIXELS],
-    /// The weight of k0 + 1; 0 where k0 = N.
+    /// The weight of k0 + 1; 0 if k0 = N.
     coarse_weight: [f32; PIXELS],
 }
 
 impl LevelBlend {
-    /// Level selection at distance D: f = √(N·D/σ) between ⌊f⌋ and ⌊f⌋ + 1, N beyond.
+    /// Selects the levels at distance D: f = √(N·D/σ) lies between ⌊f⌋ and ⌊f⌋ + 1; beyond N only N.
     #[inline(always)]
     pub(super) fn select(selection: f32, coarsest: usize, distance: &[f32; PIXELS]) -> Self {
         let zero = [0.0; PIXELS];

@@ -1,4 +1,4 @@
-//! The paper's way: at each level the piece with the smallest key, of any vessel.
+//! The paper's level choice: at each level the piece with the smallest key, of any vessel.
 
 use super::blend::LevelBlend;
 use super::{CHOSEN_GAP, CutSurface, Search, Sheet, TileSurface};
@@ -21,7 +21,7 @@ impl CutSurface<'_> {
         // For each pixel the slot with the larger weight, and its level.
         let (mut slot, mut ruling_level, mut ruling_weight) = ([0; PIXELS], [0; PIXELS], [0.0; PIXELS]);
         let mut sheets = BlendedSheets::new();
-        // Finest first: the coarse term is added to the fine one, and a tie stays with the finer level.
+        // Finest first: the coarse term is added to the fine one, and the finer level wins a tie.
         for level in places(blend.needed()) {
             let mut weight = [0.0; PIXELS];
             for l in 0..PIXELS {
@@ -37,7 +37,7 @@ impl CutSurface<'_> {
                 slot[l] = if rules { envelope.piece[l] / 2 } else { slot[l] };
             }
             if with_sheet {
-                // Pixels without a winner at this level have no weight: any slot will do.
+                // Pixels without a winner at this level have no weight: any slot is allowed.
                 envelope.piece = envelope.piece.map(|piece| if piece == u32::MAX { 0 } else { piece });
                 let own = self.own_pieces(level);
                 let found = Decision::of::<LUMEN_FIRST>(&envelope, own.projected, tile, &self.rule);
@@ -70,7 +70,7 @@ impl BlendedSheets {
                 let [x, y, radius, gap] = &mut self.sheet[l];
                 *x += weight[l] * found.slope[0][l];
                 *y += weight[l] * found.slope[1][l];
-                // Lumen is what every blended level shows as lumen.
+                // A pixel shows lumen if every level that it blends shows lumen.
                 let (is_outside_lumen, part) =
                     ((*radius < 0.0) | !found.is_lumen[l], weight[l] * found.radius[l]);
                 *radius = if is_outside_lumen { -(radius.abs() + part) } else { *radius + part };

@@ -21,7 +21,7 @@ impl CutSurface<'_> {
         let decision = Decision::of::<LUMEN_FIRST>(&winners, finest.projected, tile, &self.rule);
         let blend = LevelBlend::select(self.selection, self.projected.len() - 1, &decision.beyond_wall);
         let mut sum = Sum::of_winners(&blend, &winners, &decision);
-        // Finest first: the coarse term is added to the fine one.
+        // The finest level comes first: the coarse term is added to the fine one.
         for level in places(blend.needed() & !1) {
             let mut weight = [0.0; PIXELS];
             for l in 0..PIXELS {

@@ -10,14 +10,14 @@ const STEPS: [PixelStep; 4] = [[1, 0], [-1, 0], [0, 1], [0, -1]];
 
 pub(super) struct LeapLines<'a> {
     leap: &'a [u32],
-    /// The values on the surface, NaN where it shows nothing; empty if all of it counts as shown.
+    /// The values on the surface, NaN if it shows nothing; empty if all of it counts as shown.
     value: &'a [f32],
     size: PixelStep,
     /// Width of a line (pixels), at least 1.
     line_width: f32,
-    /// The most of a pixel that a line covers.
+    /// The largest share of a pixel that a line covers.
     most: f32,
-    /// The largest distance between a pixel and the leaps whose lines can cover it (pixels).
+    /// The largest distance (pixels) between a pixel and a leap whose line can cover it.
     reach: isize,
 }
 
@@ -53,7 +53,7 @@ impl<'a> LeapLines<'a> {
         }
     }
 
-    /// Whether the line of any leap can reach the sixteen pixels from column `i` of row `j` on.
+    /// Whether the line of any leap can reach the sixteen pixels of row `j` that begin at column `i`.
     fn has_leaps_near(&self, i: isize, j: isize) -> bool {
         let [width, height] = self.size;
         let columns = (i - self.reach).max(0)..(i + FAN as isize + self.reach).min(width);
@@ -64,7 +64,7 @@ impl<'a> LeapLines<'a> {
         })
     }
 
-    /// Lines cover a lumen only straight across from a leap to another lumen, where it ends.
+    /// Lines cover a lumen only beside a leap to another lumen, along the row or column across the leap.
     fn cover_of_lumen(&self, here: PixelStep) -> f32 {
         let ends = |at: PixelStep, step| {
             let beyond = ahead(at, step);
@@ -81,8 +81,8 @@ impl<'a> LeapLines<'a> {
         cover
     }
 
-    /// Lines cover the outside by the distance to the nearest leap on their side, unless the pixel is the
-    /// other side of a leap.
+    /// The cover of a pixel outside all lumens, by its distance to the nearest leap whose line lies on this
+    /// side. A pixel on the other side of a leap has no cover.
     fn cover_beside_lumen(&self, here: PixelStep) -> f32 {
         let mut leaps = STEPS.into_iter().filter(|step| self.border(here, *step).is_leap).peekable();
         if leaps.peek().is_some() && !leaps.any(|step| self.shows_line(here, step)) {
@@ -91,7 +91,7 @@ impl<'a> LeapLines<'a> {
         let mut cover = 0f32;
         for down in -self.reach..=self.reach {
             for right in -self.reach..=self.reach {
-                // The pixel as seen from the one whose leaps these are.
+                // The pixel whose leaps these are: so many steps to the left of `here` and above it.
                 let owner = [here[0] - right, here[1] - down];
                 let (bits, x, y) = (self.bits(owner), right as f32, down as f32);
                 if bits & TO_THE_RIGHT != 0 && self.shows_line_of(owner, [1, 0], right > 0) {
@@ -105,7 +105,7 @@ impl<'a> LeapLines<'a> {
         cover
     }
 
-    /// Whether the line of the leap from a pixel to a neighbour is shown on one side of it, beyond it or not.
+    /// Whether the line of the leap from a pixel to a neighbour is shown on the side of either of them.
     fn shows_line_of(&self, owner: PixelStep, step: PixelStep, beyond: bool) -> bool {
         if beyond {
             self.shows_line(ahead(owner, step), [-step[0], -step[1]])
@@ -114,7 +114,7 @@ impl<'a> LeapLines<'a> {
         }
     }
 
-    /// A pixel shows a leap's line that lies in it, or whose own pixel shows nothing while this one is no
+    /// A pixel shows a leap's line that lies in it, or whose own pixel shows nothing while this one is not
     /// lumen.
     fn shows_line(&self, here: PixelStep, step: PixelStep) -> bool {
         let may_lie_here = !(self.is_lumen(here) || self.is_shown(ahead(here, step)));
