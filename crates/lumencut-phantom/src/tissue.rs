@@ -22,12 +22,12 @@ pub(crate) enum Tissue {
     Muscle,
     /// Mesenteric fat with bowel loops, some with gas.
     Bowel,
-    /// A cortex (mm) around marrow (HU).
+    /// Marrow (HU) inside a cortex (mm thick).
     Bone {
         cortex: f32,
         marrow: f32,
     },
-    /// An organ with an enhanced rim (mm).
+    /// An organ with a rim (mm thick) that takes up more contrast medium.
     Rim {
         width: f32,
         rim: f32,
@@ -53,7 +53,7 @@ impl Patterns {
 }
 
 impl Tissue {
-    /// The value at (x, y), at signed distance `distance` (mm, negative inside).
+    /// The value (HU) at (x, y); `distance` is the signed distance from the surface of the solid (mm, negative inside).
     #[inline(always)]
     pub(crate) fn hu(self, distance: f32, x: f32, y: f32, patterns: &Patterns) -> f32 {
         match self {
@@ -89,7 +89,7 @@ impl Tissue {
     }
 }
 
-/// Loops where the pattern `n` is high, with gas in some.
+/// The value of bowel (HU): loops are where the pattern `n` is high, and gas is where it is highest.
 #[inline(always)]
 fn bowel(n: f32, fine: f32) -> f32 {
     let fat = FAT - 5.0 + 10.0 * fine;
@@ -99,7 +99,7 @@ fn bowel(n: f32, fine: f32) -> f32 {
     mix(filled, AIR, smooth_step((n - 0.84) / 0.03))
 }
 
-/// From `a` at 0 to `b` at 1.
+/// Linear interpolation from `a` (t = 0) to `b` (t = 1).
 #[inline(always)]
 pub(crate) fn mix(a: f32, b: f32, t: f32) -> f32 {
     a + t * (b - a)

@@ -18,7 +18,7 @@ pub(crate) fn edge_letters(right: [f64; 3], down: [f64; 3]) -> Vec<(&'static str
     vec![("left", found.left), ("right", found.right), ("top", found.top), ("bottom", found.bottom)]
 }
 
-/// One side letter per grid axis (LPS), and the largest deviation (radians).
+/// The patient-side letter of each grid axis, from directions in LPS, and the largest deviation of an axis from its side (radians).
 #[pyfunction]
 pub(crate) fn grid_letters(directions: [[f64; 3]; 3]) -> (String, f64) {
     let directions = directions.map(DVec3::from_array);

@@ -6,7 +6,7 @@ use std::sync::{Condvar, Mutex, PoisonError};
 use rayon::{ThreadBuilder, ThreadPoolBuilder};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
-/// Threads without a worker yet.
+/// Threads that no worker runs yet.
 static WAITING: Mutex<VecDeque<ThreadBuilder>> = Mutex::new(VecDeque::new());
 static COME: Condvar = Condvar::new();
 
@@ -21,7 +21,7 @@ pub fn use_threads(count: usize) -> Result<(), JsError> {
     pool.build_global().map_err(|error| JsError::new(&error.to_string()))
 }
 
-/// Runs one thread in the calling worker, to its end.
+/// Takes a waiting thread and runs it in the calling worker until it ends.
 #[wasm_bindgen]
 pub fn run_thread() {
     let mut waiting = WAITING.lock().unwrap_or_else(PoisonError::into_inner);
