@@ -1,4 +1,4 @@
-//! Captions that explain the rows and columns of a reformation.
+//! Captions that explain what the rows and columns of a reformation show.
 
 use crate::text::{fixed, rounded};
 

@@ -348,9 +348,9 @@ export type NotMeasured = {
   readonly from_mm: number;
   /** Its end (arc length, mm). */
   readonly to_mm: number;
-  /** Where cutting the vessel removes it (arc length, mm). */
+  /** Where to cut the vessel to remove the unmeasured stretch (arc length, mm). */
   readonly cut_mm: number;
-  /** A sentence with the reason. */
+  /** A sentence that states the reason. */
   readonly words: string;
 };
 
@@ -601,7 +601,7 @@ export type ReportView = {
 
 export type Roll = "narrowest" | "widest";
 
-/** A bar with a round length. */
+/** A scale bar of round length. */
 export type ScaleBar = {
   /** Length (mm). */
   readonly length: number;
