@@ -1,4 +1,4 @@
-//! How vessels were measured and shown, in words.
+//! Describes how vessels were measured and shown.
 
 use lumencut_core::math::statistics::median;
 use lumencut_core::named::Named;
@@ -34,12 +34,12 @@ impl Stated {
         if self.has_units { " mm" } else { "" }
     }
 
-    /// A length (mm).
+    /// A length (mm) in words, without unit if the unit is unknown.
     pub(super) fn length(&self, value: f64, decimals: usize) -> String {
         format!("{}{}", fixed(value, decimals), self.unit())
     }
 
-    /// A sentence of the engine, without units if they are unknown.
+    /// A sentence of the engine; its units are removed if they are unknown.
     pub(super) fn with_units(&self, words: &str) -> String {
         if self.has_units { words.to_owned() } else { words.replace(" mm²", "").replace(" mm", "") }
     }

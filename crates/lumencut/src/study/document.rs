@@ -1,4 +1,4 @@
-//! The part of a viewer's document that vessel edits change. It is immutable: a host keeps earlier documents for undo.
+//! The part of a viewer's document that edits of vessels change. Documents are immutable; a host keeps earlier ones for undo.
 
 use serde::{Deserialize, Serialize};
 
@@ -28,7 +28,7 @@ pub(crate) struct DocumentVessel {
 }
 
 impl DocumentVessel {
-    /// Not doubtful: other vessels may join it, and clicks in it add nothing.
+    /// Whether the vessel is not doubtful: other vessels may join it, and clicks in it add nothing.
     pub(crate) fn is_sure(&self) -> bool {
         self.doubt.is_none()
     }

@@ -1,7 +1,7 @@
 //! The edits of vessels that a viewer offers, and their results.
 //!
-//! Name, colour and visibility are not edits: a host sets these fields at once because nothing follows from them. Undo is the
-//! host's too: it keeps the documents before each step together with marks and rulers, which must not wait for tracing.
+//! Name, colour and visibility are not edits: a host sets these fields immediately, since nothing follows from them. Undo is up to
+//! the host: it keeps the earlier documents together with marks and rulers, which must not wait for tracing.
 
 use serde::{Deserialize, Serialize};
 
@@ -91,7 +91,7 @@ pub(crate) enum Edit {
 }
 
 impl Edit {
-    /// Whether it changes clicks, stoppers or bridges, so that clicked vessels are retraced.
+    /// Whether the edit changes clicks, stoppers or bridging, so that vessels with clicks are traced again.
     pub(crate) fn is_of_clicks(&self) -> bool {
         matches!(
             self,
@@ -107,7 +107,7 @@ impl Edit {
         )
     }
 
-    /// The single vessel that it traces, if any; `added` are the new ids.
+    /// The vessel that the edit traces, if it is a single one; `added` are the new ids.
     pub(crate) fn traces(&self, added: &[u32]) -> Option<u32> {
         match self {
             Self::BeginVessel { .. } | Self::AddWholeVessel { .. } => added.first().copied(),

@@ -1,4 +1,4 @@
-//! Errors as the page gets them: the usual texts, the kind, and the mends.
+//! Errors as the page gets them: the texts, the kind, and the remedies.
 
 use lumencut_core::error::{Clicked, Error, ErrorKind};
 use lumencut_io as centerlines;
@@ -65,7 +65,7 @@ pub(crate) struct Seen {
 pub type Result<T> = std::result::Result<T, Failure>;
 
 impl Failure {
-    /// For an invalid message of the page: a bug of the page, never of its user.
+    /// An error for an invalid message. Such a message is a bug of the page, and no mistake of its user.
     pub fn of_message(subject: &str, found: &impl ToString, expected: &str) -> Self {
         Error::new(ErrorKind::Settings, subject, found.to_string(), expected).into()
     }

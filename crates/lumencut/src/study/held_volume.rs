@@ -1,4 +1,4 @@
-//! A volume held for a viewer: first its header, then its voxels as bytes.
+//! A volume that is held for a viewer: it passes first the header, and then the voxels as bytes.
 
 use std::collections::BTreeMap;
 
@@ -69,7 +69,7 @@ impl HeldVolume {
     /// `count` writable bytes of its voxels from `offset` on.
     ///
     /// # Errors
-    /// `volume` beyond its end or without a volume.
+    /// `volume` beyond the end of the voxels or without a volume.
     pub fn bytes(held: Option<&mut Self>, offset: usize, count: usize) -> Result<&mut [u8]> {
         let bytes = held.map_or(&mut [][..], |held| held.stored.bytes_mut());
         let expected = format!("at most the {} that the header states", bytes.len());
@@ -80,7 +80,7 @@ impl HeldVolume {
         })
     }
 
-    /// The volume as the core borrows it.
+    /// The volume in the form that the core borrows.
     ///
     /// # Errors
     /// `volume` for an invalid grid.

@@ -1,4 +1,4 @@
-//! The page's lines by number. A line is immutable: every edit makes a new one, for undo.
+//! The page's lines by number. A line is immutable: every edit makes a new line, so that it can be undone.
 
 use std::sync::Arc;
 
@@ -59,7 +59,7 @@ pub(crate) struct ListedLine {
 }
 
 impl Line {
-    /// The core's vessel: unknown radii are 0 among known ones.
+    /// The vessel for the core; it states unknown radii as 0 if others are known.
     ///
     /// # Errors
     /// `vessel tree` for invalid points or radii.
@@ -77,7 +77,7 @@ impl Line {
         }
     }
 
-    /// The line as an obstacle for tracing; zero width if its radius is unknown.
+    /// The line as other vessels meet it while they are traced. Its width is zero if its radius is unknown.
     pub(crate) fn met(&self) -> Centerline {
         let radius = self.known_radius().unwrap_or_else(|| vec![0.0; self.points.len()]);
         Centerline { points: self.points.clone(), radius, confidence: Vec::new() }
@@ -155,7 +155,7 @@ pub(crate) fn wrong(what: &str, found: String, expected: &str) -> Error {
 
 #[derive(Debug, Default)]
 pub(crate) struct Lines {
-    /// Number of lines in earlier studies: numbers are never reused.
+    /// Number of lines in earlier studies; line numbers are never used again.
     before: usize,
     held: Vec<Arc<Line>>,
 }

@@ -1,4 +1,4 @@
-//! Measurements as page and worker exchange them; the page's types are generated from these.
+//! Measurements as page and worker exchange them. The page's types are generated from these types.
 
 use crate::flag_table::{FLAGS, FlagLook};
 use crate::measure_words::{of_bounds, of_c_arm, of_doubts, of_flags, of_source, of_stenosis, of_wall};
@@ -147,7 +147,7 @@ impl MarksMessage {
         Ok(Marked { at: self.at, method, compared, group: territory.transpose()?, diameters })
     }
 
-    /// The request as on the command line; only the place if no stenosis is graded.
+    /// The request with the fields of the command line; only the place if the stenosis is not graded.
     pub(crate) fn asked(&self, is_graded: bool) -> Asked {
         let only = Asked { at_mm: self.at, ..Asked::default() };
         if !is_graded {

@@ -1,4 +1,4 @@
-//! Picking: what a pixel shows, and what lies at a world point.
+//! Picking: finds what a pixel shows and what lies at a world point.
 
 use crate::clicked_vessel::{is_clicked, nearest_arc_length};
 use crate::cut_at::{CutAt, cut_at};
@@ -24,11 +24,11 @@ pub(crate) struct Pick {
 }
 
 impl Study {
-    /// What a pixel (column, row) shows: the cut surface, or the brightest place on the ray if a focus shows the surroundings.
+    /// What a pixel (column, row) shows: the cut surface, or the brightest place on the ray if the focus shows the surroundings.
     pub(crate) fn pick(&mut self, view: &View, pixel: [f64; 2]) -> Result<Pick> {
         let cut = self.cut_in(view, pixel)?;
         if !cut.is_shown {
-            // Outside the scan there is no brightest place, and no vessel.
+            // Outside the scan there is neither a brightest place nor a vessel.
             let brightest = self.brightest_on_whole_ray(view, pixel);
             return Ok(brightest.unwrap_or_else(|_| self.pick_at(cut.point, None)));
         }

@@ -1,4 +1,4 @@
-//! The table of a viewer's questions to the study; the page's types are generated from it, see [`crate::study::asking`].
+//! The questions of a viewer to the study, as a table. The page's types are generated from it, see [`crate::study::asking`].
 
 use lumencut_vessels::measure::profile::Profile;
 
@@ -42,7 +42,7 @@ type Vector = [f64; 3];
 /// Level and width.
 type Window = [f64; 2];
 
-/// Time limit of a path search while the pointer moves (ms).
+/// Time limit of the search for a path while the pointer moves (ms).
 const PATH_TIME_LIMIT_MS: f64 = 40.0;
 
 questions! { |study, asking|
@@ -60,7 +60,7 @@ of_the_study {
     /// The camera of a named view, fitted to the study.
     [Turn::First] fitted { view: String, size: [usize; 2] } -> CameraMessage = study.fitted(&view, size)?;
 
-    /// The view that shows most of a line, fitted to it, with the least turn from this camera.
+    /// The view that shows most of a line, fitted to it, with little turning from this camera.
     [Turn::First] best_view { camera: CameraMessage, line: usize } -> CameraMessage =
         study.best_view(&camera, line)?;
 
@@ -234,7 +234,7 @@ at_once {
 }
 }
 
-/// The profile of a line as last requested.
+/// The profile of a line for the width that was last requested.
 fn measured<'a>(study: &'a mut Study, line: usize, asking: &Asking) -> Result<&'a Profile> {
     study.measured(line, asking.watch.stop)
 }

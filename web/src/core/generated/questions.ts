@@ -8,9 +8,9 @@ export type Territory = 'carotid' | 'coronary';
 
 export type AfterEdit = {
   readonly edited: Edited;
-  /** The state: shows the vessels of the document that are not doubtful. */
+  /** The state; the vessels of the document that are not doubtful are shown. */
   readonly report: Report;
-  /** Lines that are new in the document. */
+  /** The lines that the document before the edit did not have. */
   readonly lines: ReadonlyArray<NumberedLine>;
   /** Facts about the lines that are not doubtful. */
   readonly facts: ReadonlyArray<LineFacts>;
@@ -18,7 +18,7 @@ export type AfterEdit = {
   readonly pick: Pick | null;
 };
 
-/** An orthographic camera; its axes are unit vectors. */
+/** An orthographic camera, with unit vectors as axes. */
 export type Camera = {
   readonly center: Vector;
   readonly direction: Vector;
@@ -207,7 +207,7 @@ export type Findings = {
 
 export type FirstClick = {
   readonly pick: Pick;
-  /** The whole vessel that it would add. */
+  /** The whole vessel that the click would add. */
   readonly whole: WholeVessel | null;
 };
 
@@ -505,7 +505,7 @@ export type ReformedPicture = {
   readonly size: Pair;
   /** One byte per channel. */
   readonly bytes: Bytes;
-  /** The meaning of rows, columns and colours. */
+  /** What rows, columns and colours mean. */
   readonly words: string;
   /** Pixel side (mm). */
   readonly pixel_spacing: number;
@@ -535,7 +535,7 @@ export type Report = {
   readonly can_reorder?: boolean;
 };
 
-/** A place with its name and colour. */
+/** A place in a report, with its name and colour. */
 export type ReportPlace = {
   /** Such as `marked place` or `reference before (suggestion)`. */
   readonly name: string;
@@ -573,7 +573,7 @@ export type ReportRequest = {
   readonly distances: ReadonlyArray<number>;
 };
 
-/** The straightened vessel from left to right; its start is the middle of the first column. */
+/** The straightened vessel from left to right. The vessel starts in the middle of the first column. */
 export type ReportStrip = {
   /** PNG in base64. */
   readonly picture: string;
@@ -777,9 +777,9 @@ export type Windows = {
   readonly main: Pair;
   readonly contexts: Readonly<Record<string, Pair>>;
   readonly presets: ReadonlyArray<NamedWindow>;
-  /** Whether the values appear to be Hounsfield units, so that CT windows apply. */
+  /** Whether the values seem to be Hounsfield units, so that CT windows apply. */
   readonly is_hounsfield: boolean;
-  /** Whether the stent window is useful: Hounsfield units, with values as bright as metal. */
+  /** Whether the stent window is useful: the values seem to be Hounsfield units, and some are as bright as metal. */
   readonly may_hold_stents: boolean;
 };
 
@@ -817,7 +817,7 @@ export type Questions = {
     };
     readonly answer: Camera;
   };
-  /** The view that shows most of a line, fitted to it, with the least turn from this camera. */
+  /** The view that shows most of a line, fitted to it, with little turning from this camera. */
   readonly best_view: {
     readonly message: {
       readonly camera: Camera;
