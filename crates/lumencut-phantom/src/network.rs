@@ -185,8 +185,7 @@ struct Piece<'a> {
 }
 
 impl Piece<'_> {
-    /// Adds the lesions whose middle lies on this piece. A lesion at the end of the piece belongs to the next piece, if there is
-    /// one.
+    /// Adds the lesions whose middle lies on this piece; a lesion at its end belongs to the next piece, if there is one.
     fn add_lesions(&self, last: bool, made: &mut Vasculature) {
         let mine = |s: f64| s >= self.from && (s < self.to || last);
         for [s, length, percent] in self.trunk.stenoses.iter().copied().filter(|s| mine(s[0])) {

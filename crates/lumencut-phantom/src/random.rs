@@ -15,8 +15,7 @@ pub fn uniform(seed: u64, place: u64) -> f64 {
     (hash(seed, place) >> 11) as f64 / (1u64 << 53) as f64
 }
 
-/// A random number, nearly normal within ±4.9, with mean 0 and standard deviation 1. One multiplication adds the eight bytes of a
-/// hash.
+/// A nearly normal number within ±4.9, mean 0, standard deviation 1. One multiplication adds the eight bytes of a hash.
 #[inline(always)]
 pub(crate) fn normal(seed: u64, place: u64) -> f32 {
     const BYTES: u64 = 0x00FF_00FF_00FF_00FF;

@@ -199,8 +199,7 @@ impl Profile {
         self.0.noise
     }
 
-    /// Grades the stenosis at an arc length (mm) by a method. References are arc lengths (mm); the original and comparison
-    /// diameters are in mm.
+    /// Grades the stenosis at an arc length (mm). References are arc lengths, original and comparison are diameters (mm).
     #[pyo3(signature = (at, method, reference, original=None, comparison=None))]
     fn stenosis(
         &self,

@@ -32,8 +32,7 @@ pub(crate) fn brightest(
     Ok(place.to_array())
 }
 
-/// The arc length (mm) on a vessel nearest to a point, and whether a click at the point selects the vessel in a view of this pixel
-/// side (mm).
+/// The arc length (mm) on a vessel nearest to a point, and whether a click there selects the vessel at this pixel side (mm).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn meant_place(

@@ -40,8 +40,7 @@ impl FromPyObject<'_, '_> for UnitArgument {
     }
 }
 
-/// What is known about a file's coordinates: what the caller requests and what the file states. The keys are those of
-/// `lumencut.placement.Stated`.
+/// What is known about a file's coordinates: the caller's request and the file's statement (`lumencut.placement.Stated`).
 #[derive(FromPyObject)]
 pub(crate) struct KnownArgument {
     #[pyo3(item)]

@@ -1,5 +1,4 @@
-//! The thread pool. A forked process inherits its parent's pool but not its threads, and would wait forever, so it makes its own
-//! pool.
+//! The thread pool. A forked process makes its own pool: it inherits its parent's pool without threads, and would wait forever.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};

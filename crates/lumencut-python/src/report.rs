@@ -29,8 +29,7 @@ pub(crate) struct PageParts {
     sections: Vec<String>,
 }
 
-/// What a report needs: width and pixel side of the straightened vessel (mm), arc lengths of the sections, and the side of their
-/// pictures (mm).
+/// Width and pixel side of the straightened vessel (mm), arc lengths of the sections, and the side of their pictures (mm).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn report_plan(profile: &Profile, places: Vec<PlaceParts>) -> (f64, f64, Vec<f64>, f64) {

@@ -1,5 +1,4 @@
-//! Converts Python objects to setting values: numbers, names, and the attributes of windows, opacities, slabs, focuses and transfer
-//! functions.
+//! Converts Python objects to setting values: numbers, names, windows, opacities, slabs, focuses and transfer functions.
 
 use lumencut::error::Result;
 use lumencut::named::Named;

@@ -41,8 +41,7 @@ impl Tolerance {
     }
 }
 
-/// How much of a focus is shown, 0 to 1. Wall distances round to a few 10⁻⁶ mm, and fades are at least 1 mm wide; a grey step is
-/// 4·10⁻³.
+/// How much of a focus is shown, 0 to 1. Wall distances round to a few 10⁻⁶ mm, fades are at least 1 mm; a grey step is 4·10⁻³.
 pub const SHARE: Tolerance = Tolerance::new(1e-4, 0.0);
 
 /// Side of a neighbourhood (pixels).
@@ -51,12 +50,10 @@ pub const NEIGHBOURHOOD: usize = 8;
 /// The most pixels of a neighbourhood that may differ in depth or by [`COLOR_LEAP`]; the smallest vessel covers more.
 pub const MOST_TOGETHER: usize = 16;
 
-/// Depths of frames (mm), and vessel ids. The difference is far below a voxel; on borders between zones two pieces may be equally
-/// near.
+/// Depths of frames (mm), and vessel ids: far below a voxel; on borders between zones two pieces may be equally near.
 pub const DEPTH: Tolerance = Tolerance::new(1e-3, 1e-3);
 
-/// Pixels around joints where pieces tie. In small pictures a 5 mm lumen at the only joint covers 1.6 % of the pixels; the filter
-/// spreads ties.
+/// Pixels around joints where pieces tie. A 5 mm lumen at the only joint of small pictures covers 1.6 %; the filter spreads ties.
 pub const TIED: Tolerance = Tolerance::new(0.0, 0.02);
 
 /// Colours of frames, in steps of 255. Rounding changes a channel by one step, and by more only if a depth differs.
@@ -83,8 +80,7 @@ pub const BYTE: Tolerance = Tolerance::new(1.0, 0.0);
 /// The fraction of composed bytes that may be rounded differently.
 pub const OTHER_BYTE: Tolerance = Tolerance::new(0.0, 1e-3);
 
-/// Surface values, as a fraction of the range. Sample positions are exact to 10⁻⁴ voxel; samples of border pixels may lie outside
-/// the volume.
+/// Surface values, as a fraction of the range. Sample positions are exact to 10⁻⁴ voxel; border pixels may lie outside.
 pub const SURFACE: Tolerance = Tolerance::new(1e-5, 5e-4);
 
 /// Silhouette strengths, 0 to 1: sums of 49 products in single precision.
@@ -108,8 +104,7 @@ pub const LUMEN: Tolerance = Tolerance::new(1e-3, 0.0);
 /// Zone-filtered depths in a lumen, compared with the reference (mm): half of a jump, except at sharp bends towards the viewer.
 pub const FILTERED_LUMEN: Tolerance = Tolerance::new(0.5, 1e-3);
 
-/// Depths of a random tree that is rotated together with its camera (mm). Coordinates are rounded again, and border pixels may
-/// change zones.
+/// Depths of a random tree rotated with its camera (mm). Coordinates are rounded again; border pixels may change zones.
 pub const TURNED: Tolerance = Tolerance::new(1e-2, 2e-3);
 
 /// Depths of the trefoil rotated onto itself (mm). Its corners then lie elsewhere within pixels, so more zone borders move.

@@ -55,8 +55,7 @@ async fn backend(device: &str) -> Thrown<Backend> {
 
 #[wasm_bindgen]
 impl Engine {
-    /// An engine without a study on `device`: `gpu`, `cpu`, `auto` (a hardware GPU if available) or `any` (`auto` that also accepts
-    /// software GPUs).
+    /// An engine without a study on `device`: `gpu`, `cpu`, `auto` (a hardware GPU if available) or `any` (also a software GPU).
     ///
     /// # Errors
     /// `device` if a required GPU cannot be used.
@@ -169,8 +168,7 @@ impl Engine {
         answer(phantoms::open(&mut self.study, name, scale))
     }
 
-    /// Renders a view given as JSON. With a GPU it appears on the canvas of [`Engine::draw_on`]; otherwise its RGBA pixels are
-    /// returned.
+    /// Renders a view given as JSON. With a GPU it appears on the canvas of [`Engine::draw_on`]; otherwise returns RGBA pixels.
     pub async fn render(&mut self, view: &str) -> Thrown<Option<Uint8ClampedArray>> {
         let view = answer(ViewMessage::read(view).and_then(|message| self.study.view_of(&message)))?;
         answer(self.rendered(&view).await)

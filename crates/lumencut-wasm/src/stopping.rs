@@ -1,5 +1,4 @@
-//! Stops work in progress, and reports its progress. A busy worker receives no messages, so the page sets bits of a byte in shared
-//! memory.
+//! Stops work in progress, and reports its progress. A busy worker receives no messages, so the page sets bits in shared memory.
 
 use std::cell::RefCell;
 use std::sync::atomic::{AtomicU8, Ordering};

@@ -13,8 +13,7 @@ use crate::devices::{self, Choice, Wanted};
 use crate::method::{Method, refuse_focus};
 use crate::samples::{Mean, sub_views};
 
-/// Environment variable that lists stages (comma-separated) which the CPU computes in place of the GPU. It helps to find a faulty
-/// stage.
+/// Environment variable that lists stages (comma-separated) for the CPU in place of the GPU, to find a faulty stage.
 #[cfg(not(target_arch = "wasm32"))]
 pub(crate) const CPU_STAGES: &str = "LUMENCUT_CPU_STAGES";
 
@@ -104,8 +103,7 @@ impl Backend {
         Ok((frame, self.unreported.take()))
     }
 
-    /// Draws a view on the canvas if a GPU computes it, else returns the image. With one sample per pixel, a cut surface never
-    /// leaves the GPU.
+    /// Draws a view on the canvas if a GPU computes it, else returns it. With one sample, a cut surface never leaves the GPU.
     ///
     /// # Errors
     /// As [`Backend::render_by`]; [`ErrorKind::Device`] even if the GPU is optional, so that the caller can choose the device.
@@ -148,8 +146,7 @@ impl Backend {
         }
     }
 
-    /// Samples a volume once per pixel, at the positions of the frame that `places` makes. If the GPU fails, the CPU repeats the
-    /// work.
+    /// Samples a volume once per pixel, at the positions of the frame that `places` makes; on the CPU if the GPU fails.
     pub async fn look(
         &mut self,
         volume: &SharedVolume<'_>,

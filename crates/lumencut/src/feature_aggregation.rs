@@ -67,8 +67,7 @@ impl Feature {
         }
     }
 
-    /// The index of the value that the feature shows (the first if several are equal). None for features that show no single value,
-    /// or without known values.
+    /// The index of the value that the feature shows (the first of equal ones); None if it shows no single value or none is known.
     pub fn place(self, values: &[f32]) -> Option<usize> {
         let known = values.iter().enumerate().filter(|(_, value)| !value.is_nan());
         let larger = |best: Option<(usize, f32)>, (n, value): (usize, f32)| {

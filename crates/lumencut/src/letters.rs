@@ -6,8 +6,7 @@ use serde::Serialize;
 /// A direction points to a side if its component towards the side is at least this, the sine of 11.5 degrees.
 const MIN_COMPONENT: f64 = 0.2;
 
-/// Components are rounded to 1 divided by this number. Equal ones tie, and the axis order breaks the tie, so rounding errors do
-/// not.
+/// Components are rounded to 1 divided by this number, so that the axis order, and not rounding, decides between equal ones.
 const ROUNDING_STEPS: f64 = 1e6;
 
 /// Axes tie if the sums of their cosines differ by less than this, so that rounding does not decide.

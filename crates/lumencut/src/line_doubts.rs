@@ -1,7 +1,6 @@
 //! Detects doubtful centerlines: wrong point order, stray points, missing parts, and two lines in one vessel.
 //!
-//! A line in the right order raises no doubt, however tortuous it is, if its points are nearer to their neighbours than to other
-//! stretches.
+//! An ordered line raises no doubt, however tortuous, if its points are nearer to their neighbours than to other stretches.
 
 use glam::DVec3;
 

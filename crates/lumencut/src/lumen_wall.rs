@@ -216,8 +216,7 @@ fn crossing_of(direction: DVec2, a: DVec2, b: DVec2) -> Option<f64> {
     Some(direction.dot(a.lerp(b, from / (from - to)))).filter(|away| *away > 0.0)
 }
 
-/// The openings: directions in which rays certainly leave, and connected ones in which they perhaps leave. Too small openings are
-/// omitted.
+/// The openings: directions in which rays certainly leave, grown over those in which they perhaps leave; small ones are omitted.
 fn openings(stations: &[Station]) -> Vec<bool> {
     let is_sure = |station: &Station, k: usize| f64::from(u8::from(station.exit[k] == Exit::Yes));
     let sure: Vec<bool> = median_filtered(stations, is_sure).into_iter().map(|share| share > 0.5).collect();

@@ -10,8 +10,7 @@ use crate::profile_marks::{main_place, offered_references};
 pub(crate) const HINDRANCES: [(u32, &str); 3] =
     [(CHANGE_OF_LUMEN, "change of lumen"), (FLAP, "flap"), (UNSURE, "unsure diameter")];
 
-/// Why the narrowest place or a reference is not suggested, one sentence each. `at` and `references` are the marked places (arc
-/// lengths, mm).
+/// Why no narrowest place or reference is suggested, a sentence each; `at` and `references` are marked places (mm).
 pub fn not_suggested(profile: &Profile, at: Option<f64>, references: &[f64]) -> Vec<String> {
     match main_place(profile, at) {
         None => {

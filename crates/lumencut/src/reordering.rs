@@ -9,8 +9,7 @@ use crate::mends::OfCenterlines;
 /// How the note about a reordered line ends.
 pub const REORDERED: &str = "points were reordered";
 
-/// Sorts the points of each line along the vessel. Radii follow their points, and each line keeps its direction. A note counts the
-/// moved points.
+/// Sorts the points of each line along the vessel, with their radii. Lines keep their direction; a note counts the moved points.
 ///
 /// A list that was split into lines at long steps becomes one line again if its points form one.
 ///

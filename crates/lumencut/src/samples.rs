@@ -5,8 +5,7 @@ use lumencut_core::error::Result;
 
 use crate::views::panned;
 
-/// Views at `samples` × `samples` evenly spaced positions within a pixel, row by row. The views are shifted only in their plane, so
-/// depths stay valid.
+/// Views at `samples` × `samples` even positions within a pixel, row by row. They are shifted in their plane, so depths stay valid.
 pub(crate) fn sub_views(camera: &Camera, samples: usize) -> Result<Vec<Camera>> {
     let offset = |n: usize| ((n as f64 + 0.5) / samples as f64 - 0.5) * camera.pixel_spacing();
     let places = (0..samples).flat_map(|j| (0..samples).map(move |i| (i, j)));

@@ -18,8 +18,7 @@ pub struct ScaleBar {
 }
 
 impl ScaleBar {
-    /// The longest bar of 1, 2 or 5 times a power of ten mm that fits a quarter of `width` (pixels; `pixel_spacing` in mm). None if
-    /// the width is 0.
+    /// The longest bar of 1, 2 or 5 times a power of ten mm within a quarter of `width` (pixels); None if the width is 0.
     pub fn new(width: f64, pixel_spacing: f64) -> Option<Self> {
         let room = MAX_WIDTH_FRACTION * (width * pixel_spacing);
         if !(room > 0.0 && room.is_finite()) {

@@ -89,8 +89,7 @@ const EXTERNAL_CAROTID_BRANCHES: [Branch<4>; 5] = [
     ),
 ];
 
-/// The left vertebral artery: from the subclavian artery through the transverse processes and around the atlas to the basilar
-/// artery.
+/// The left vertebral artery: from the subclavian artery through the transverse processes, around the atlas to the basilar artery.
 const VERTEBRAL: [WayPoint; 10] = [
     [42.0, -16.0, 49.0, 2.3],
     [33.0, 4.0, 66.0, 2.0],

@@ -303,8 +303,7 @@ fn push(svg: &mut String, markup: std::fmt::Arguments) {
     let _ = svg.write_fmt(markup);
 }
 
-/// The upper end of the diameter axis (mm): above the largest diameter of reliable sections, or of all sections if none is
-/// reliable.
+/// The upper end of the diameter axis (mm): above the largest diameter of reliable sections, else of all sections.
 fn top(profile: &Profile) -> f64 {
     let widest = |is_among: &dyn Fn(usize) -> bool| {
         let among = (0..profile.len()).filter(|n| is_among(*n)).map(|n| profile.diameter_max[n]);

@@ -19,8 +19,7 @@ const STEP_VOXELS: f64 = 0.5;
 /// Depths (mm) of an unlimited ray.
 const ALL_DEPTHS: [f64; 2] = [f64::MIN, f64::MAX];
 
-/// The brightest place on the ray of a pixel (column, row), between two depths (mm, growing away from the viewer). Of several, the
-/// nearest.
+/// The brightest place on the ray of a pixel (column, row) between two depths (mm, away from the viewer); the nearest of several.
 ///
 /// # Errors
 /// [`ErrorKind::Tracing`] if the ray misses the volume or has no voxel between the depths.
@@ -52,8 +51,7 @@ pub fn brightest_on_ray(
 }
 
 impl Study {
-    /// The brightest place on the ray of a pixel (column, row). If the pixel shows the cut surface with a slab, only the slab
-    /// counts.
+    /// The brightest place on the ray of a pixel (column, row); only within the slab if the pixel shows the cut surface with one.
     pub(crate) fn brightest(&mut self, view: &View, pixel: [f64; 2]) -> Result<Pick> {
         let within = self.depths_of_slab(view, pixel)?;
         self.brightest_within(view, pixel, within)

@@ -31,8 +31,7 @@ pub(crate) struct StraightenedPick {
 }
 
 impl Study {
-    /// The straightened CPR of a vessel in a window. If the rows follow a side of the lumen, the lumen is measured if it was not
-    /// yet.
+    /// The straightened CPR of a vessel in a window. If rows follow a side of the lumen, the lumen is measured if necessary.
     pub(crate) fn straightened(
         &mut self,
         message: CprMessage,
