@@ -19,11 +19,11 @@ use side_by_side::side_by_side;
 /// A vessel to check.
 #[derive(Clone, Copy, Debug)]
 pub struct DoubtedLine<'a> {
-    /// Its points (mm).
+    /// The points of the vessel (mm).
     pub points: &'a [DVec3],
     /// The radius at each point (mm), if known.
     pub radius: Option<&'a [f64]>,
-    /// Its name; may be empty.
+    /// Name of the vessel; may be empty.
     pub name: &'a str,
 }
 

@@ -3,13 +3,13 @@
 use lumencut_vessels::measure::profile::Profile;
 use serde::Serialize;
 
-/// An unmeasured stretch.
+/// A stretch of a vessel where nothing was measured.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub struct NotMeasured {
-    /// Its start (arc length, mm).
+    /// Start of the stretch (arc length, mm).
     pub(crate) from_mm: f64,
-    /// Its end (arc length, mm).
+    /// End of the stretch (arc length, mm).
     pub(crate) to_mm: f64,
     /// Where to cut the vessel to remove the unmeasured stretch (arc length, mm).
     pub(crate) cut_mm: f64,

@@ -42,7 +42,7 @@ pub enum Origin {
 }
 
 impl Origin {
-    /// Its name in reports.
+    /// The name of the source in reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Asked => "asked",

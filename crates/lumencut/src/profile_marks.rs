@@ -150,7 +150,7 @@ impl Marked {
 pub struct Measured<'a> {
     /// Id of the vessel in the tree; several ids for a path.
     pub id: String,
-    /// Its name, if any.
+    /// Name of the vessel, if it has one.
     pub name: Option<String>,
     /// The profile of the vessel.
     pub profile: &'a Profile,

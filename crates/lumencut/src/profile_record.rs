@@ -23,9 +23,9 @@ pub struct Asked {
     pub step_mm: f64,
     /// Point-spread width (mm), if given.
     pub fwhm_mm: Option<f64>,
-    /// The stenosis (mm).
+    /// The place of the stenosis (arc length, mm).
     pub at_mm: Option<f64>,
-    /// Its references (mm).
+    /// The references of the stenosis (arc lengths, mm).
     pub reference_mm: Option<Vec<f64>>,
     /// The method's name.
     pub method: Option<String>,

@@ -50,7 +50,7 @@ pub struct Shown {
 /// A measured vessel with its pictures (PNG, base64).
 #[derive(Clone, Debug)]
 pub struct VesselPage<'a> {
-    /// The vessel with sections and stenosis.
+    /// The vessel with its profile and its grade.
     pub measured: Measured<'a>,
     /// Marked and suggested places.
     pub marks: Vec<ReportMark>,
@@ -81,7 +81,7 @@ pub struct Lengths {
 pub struct View {
     /// PNG in base64.
     pub picture: String,
-    /// Its method, such as `csr`.
+    /// The method of the view, such as `csr`.
     #[cfg_attr(test, ts(type = "Method"))]
     pub method: String,
 }

@@ -72,9 +72,9 @@ pub enum PresetSource {
 /// A named window.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WindowPreset {
-    /// Its name in Python, in files and on the command line.
+    /// Name of the window in Python, in files and on the command line.
     pub name: &'static str,
-    /// Its label.
+    /// Label of the window.
     pub words: &'static str,
     /// Where the window comes from.
     pub source: PresetSource,

@@ -18,7 +18,7 @@ pub(super) const EXPLAINED: &str = "All diameters are of the lumen: thrombus and
 
 pub(super) const UNITLESS: &str = "The scan has no voxel spacing: 1 mm is assumed, and lengths have no unit.";
 
-/// What a file states about its grid, or a reader assumed.
+/// What is known about the scan's grid, from its file or by an assumption of the reader.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Stated {

@@ -28,9 +28,9 @@ const MIN_PIXEL_MM: f64 = 0.05;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "ReportPlan"))]
 pub struct Plan {
-    /// The width of the straightened vessel (mm); a host shows less if the volume has less.
+    /// The width of the straightened vessel (mm); a host shows less if the volume is narrower.
     pub width: f64,
-    /// Its pixel side (mm).
+    /// Pixel side of the straightened vessel (mm).
     pub spacing: f64,
     /// The places of the section pictures, in order.
     pub places: Vec<ReportPlace>,

@@ -70,9 +70,9 @@ pub(crate) struct Report {
     pub volume: Option<VolumeReport>,
     /// The shown vessels; None if only the volume is open.
     pub vessels: Option<Vec<VesselReport>>,
-    /// Suggested windows; none without a volume.
+    /// Suggested windows; none if no volume is open.
     pub(crate) windows: Option<Windows>,
-    /// Whether the last opened centerlines seem unsorted and can be sorted; omitted if not.
+    /// Whether the centerlines opened last seem to be in the wrong order and can be sorted; omitted if not.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     #[cfg_attr(test, ts(optional, as = "Option<bool>"))]
     pub(crate) can_reorder: bool,
@@ -98,9 +98,9 @@ pub(crate) struct VolumeReport {
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct VesselReport {
-    /// Its line number.
+    /// Number of the vessel's line.
     pub line: usize,
-    /// Its name; may be empty.
+    /// Name; may be empty.
     pub name: String,
     pub length: f64,
     pub(crate) has_radius: bool,
@@ -164,7 +164,7 @@ impl Content {
         self.windows = OnceLock::new();
     }
 
-    /// The suggested windows, computed on first use; None without a volume.
+    /// The suggested windows, computed on first use; None if no volume is open.
     pub(crate) fn windows(&self) -> Result<Option<Windows>> {
         if let Some(known) = self.windows.get() {
             return Ok(known.clone());

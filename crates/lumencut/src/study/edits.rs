@@ -21,8 +21,8 @@ pub(crate) enum Edit {
         id: u32,
         point: WorldPoint,
     },
-    /// A click between others, where a vessel was dragged. A vessel without clicks first gets clicks along its line, so that it
-    /// keeps its course.
+    /// A click between others, where a vessel was dragged. A vessel without clicks first gets clicks along its line, so its course
+    /// stays.
     AddClickOnLine {
         id: u32,
         point: WorldPoint,
@@ -150,7 +150,7 @@ impl Edit {
 pub(crate) struct EditMessage {
     pub(crate) document: Document,
     pub(crate) edit: Edit,
-    /// Whether to bridge gaps from now on, in the same step: the mend of an edit rejected with `bridge`.
+    /// Whether to bridge gaps from now on, in the same step. This is the remedy for an edit that was rejected with `bridge`.
     pub(crate) bridging: bool,
 }
 
@@ -164,7 +164,7 @@ impl EditMessage {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct Edited {
-    /// The document after it; unchanged if there was nothing to do.
+    /// The document after the edit; unchanged if there was nothing to do.
     pub(crate) document: Document,
     /// The name of the undo step.
     pub words: String,

@@ -37,9 +37,9 @@ pub struct More {
 /// Points of a tracing request, counted from 0.
 #[derive(Debug, PartialEq, Eq, Serialize)]
 pub(crate) struct About {
-    /// The vessel; none if the point belongs to no vessel yet.
+    /// The vessel; None if the point belongs to no vessel yet.
     pub vessel: Option<usize>,
-    /// The point; none for all points.
+    /// The point; None if all points are meant.
     pub point: Option<usize>,
 }
 

@@ -53,7 +53,7 @@ impl VolumeHeader {
 /// The open volume.
 #[derive(Debug)]
 pub struct HeldVolume {
-    /// Its voxels, i fastest.
+    /// The voxels, i fastest.
     pub stored: Stored,
     /// Voxels along (i, j, k).
     pub size: [usize; 3],
@@ -66,7 +66,7 @@ pub struct HeldVolume {
 }
 
 impl HeldVolume {
-    /// `count` writable bytes of its voxels from `offset` on.
+    /// `count` writable bytes of the voxels, from `offset` on.
     ///
     /// # Errors
     /// `volume` beyond the end of the voxels or without a volume.

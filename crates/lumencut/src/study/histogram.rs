@@ -10,7 +10,7 @@ const MAX_VOXELS: usize = 500_000;
 pub(crate) struct Histogram {
     pub(crate) low: f32,
     pub(crate) high: f32,
-    /// Counts from the lowest range; the largest value counts in the last.
+    /// Number of values in each range, from the lowest range on; the largest value counts in the last range.
     pub counts: Vec<u32>,
 }
 

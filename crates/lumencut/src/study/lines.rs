@@ -30,7 +30,7 @@ pub struct Line {
 pub(crate) struct LineContent {
     /// At least two points (mm, LPS).
     points: Vec<[f64; 3]>,
-    /// mm; null if unknown, for all points or for one
+    /// Radius (mm); null if unknown, for all points or for one.
     radius: Option<Vec<Option<f64>>>,
     /// The confidence of each point (0 to 1) of a traced line.
     confidence: Option<Vec<f64>>,
@@ -41,19 +41,19 @@ pub(crate) struct LineContent {
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct NamedLine {
-    /// Its number.
+    /// Number of the line.
     pub line: usize,
-    /// Its name; may be empty.
+    /// Name; may be empty.
     pub name: String,
 }
 
-/// A line in a viewer's list. A hidden line is not drawn but still measured among all, so that hiding changes no number.
+/// A line in a viewer's list. A hidden line is not drawn but is measured together with the others, so hiding changes no number.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct ListedLine {
-    /// Its number.
+    /// Number of the line.
     pub line: usize,
-    /// Its name; may be empty.
+    /// Name; may be empty.
     pub name: String,
     pub(crate) hidden: bool,
 }
@@ -161,7 +161,7 @@ pub(crate) struct Lines {
 }
 
 impl Lines {
-    /// Adds a line; returns its number.
+    /// Adds a line and returns the number that it gets.
     pub(crate) fn add(&mut self, line: Line) -> Result<usize> {
         line.check()?;
         self.held.push(Arc::new(line));

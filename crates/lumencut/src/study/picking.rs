@@ -17,9 +17,9 @@ pub(crate) struct Pick {
     pub point: [f64; 3],
     /// The volume's value; none outside.
     pub value: Option<f32>,
-    /// The vessel in or next to whose lumen it lies; none in tissue.
+    /// The vessel in whose lumen, or next to whose lumen, the point lies; none in tissue.
     pub vessel: Option<usize>,
-    /// The nearest arc length on the vessel (mm).
+    /// The arc length on the vessel nearest to the point (mm).
     pub arc_length: Option<f64>,
 }
 

@@ -15,13 +15,14 @@ use crate::views::{Axis, rotated};
 /// After this many degrees the same cut appears, seen from behind.
 const HALF_TURN: u32 = 180;
 
-/// A turn about a place on a vessel, which runs upwards through the middle of the picture.
+/// The views about a place on a vessel, which runs upwards through the middle of the picture.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct PlaceTurn {
-    /// The first view: the one nearest to anterior.
+    /// The first view: the one nearest to the anterior view.
     pub camera: CameraMessage,
-    /// The cut diameter (mm) after each degree from 0 to 179, then repeating. None without two walls.
+    /// The cut diameter (mm) after each degree from 0 to 179, from where the diameters repeat. None if the view does not cut two
+    /// walls.
     pub(crate) diameters: Vec<Option<f64>>,
 }
 

@@ -65,7 +65,7 @@ pub(crate) enum ReformationMessage {
     Uncurl {
         vessel: usize,
         side: Side,
-        /// From 0 (as seen) to 1 (straight).
+        /// How far the vessel is straightened, from 0 (as seen) to 1 (straight).
         amount: f64,
     },
     /// One vessel, its sections unrolled along a spiral.

@@ -19,10 +19,10 @@ pub(crate) struct SettingRow {
     default: Json,
     low: Option<f64>,
     high: Option<f64>,
-    /// The unit of a number.
+    /// The unit, if the value is a number with a unit.
     unit: Option<&'static str>,
     choices: Vec<&'static str>,
-    /// The effect if unset, for settings unset by default.
+    /// What the setting means if it is unset, for settings that are unset by default.
     open: Option<&'static str>,
     sentence: String,
 }
@@ -46,11 +46,11 @@ pub(super) fn rows() -> Vec<SettingRow> {
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct LookRow {
-    /// Its name in Python and on the command line.
+    /// Name in Python and on the command line.
     pub name: &'static str,
     words: &'static str,
     sentence: &'static str,
-    /// Values of all settings that any look sets; defaults for those this one leaves alone.
+    /// The values of all settings that at least one look sets; the default of a setting that this look does not set.
     #[cfg_attr(test, ts(type = "Settings"))]
     pub settings: Map<String, Json>,
 }

@@ -15,13 +15,13 @@ use crate::study::failure::Result;
 pub(crate) struct CprMessage {
     /// Index of the vessel.
     pub vessel: usize,
-    /// Rotation about its axis (radians).
+    /// Rotation about the axis of the vessel (radians).
     pub angle: f64,
     /// Width of the picture (mm).
     pub width: f64,
     /// Pixel side (mm).
     pub pixel_spacing: f64,
-    /// The CFA feature of a half circle; none for the plain value.
+    /// The CFA feature of a half circle; none to show the values of the scan.
     #[serde(default)]
     pub(crate) feature: Option<Aggregated>,
     /// The side of the lumen that rows follow; none for a constant angle.

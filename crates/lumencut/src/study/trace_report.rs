@@ -22,18 +22,18 @@ const SAME_POINT_MM: f64 = 1e-6;
 pub(crate) struct Told {
     /// The vessel.
     pub vessel: u32,
-    /// Name, length and joined vessels, in a sentence.
+    /// A sentence with name, length and joined vessels.
     pub words: String,
-    /// Its doubtful places.
+    /// The doubtful places of the vessel.
     pub doubts: Vec<DoubtfulPlace>,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct DoubtfulPlace {
-    /// The reason, in a sentence.
+    /// A sentence that states the reason of the doubt.
     pub words: String,
-    /// The arc length (mm) from or up to which it is doubtful, to show and cut there; none for the whole line.
+    /// The arc length (mm) from which, or up to which, the vessel is doubtful, to show and cut there; none for the whole line.
     pub at: Option<f64>,
 }
 

@@ -33,7 +33,7 @@ pub struct Watch<'a> {
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Stopper"))]
 pub(crate) struct StopperMessage {
     pub center: [f64; 3],
-    /// Its radius (mm).
+    /// Radius of the stopper (mm).
     pub radius: f64,
 }
 
@@ -44,7 +44,7 @@ pub(crate) struct TraceRequest {
     pub(crate) stoppers: Vec<StopperMessage>,
     /// Whether to bridge stretches without lumen, however long.
     pub(crate) bridge: bool,
-    /// Existing lines: a traced vessel that meets one ends at a point of it.
+    /// Lines of other vessels; a traced vessel that meets one of them ends at a point of it.
     pub beside: Vec<usize>,
 }
 
@@ -60,9 +60,9 @@ pub(crate) struct PathMessage {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct HeldLine {
-    /// Its line number.
+    /// Number of the line.
     pub line: usize,
-    /// Why it is doubtful; none if it is not.
+    /// Why the line is doubtful; None if it is not.
     pub(crate) doubt: Option<&'static str>,
 }
 

@@ -28,7 +28,7 @@ const MAX_STUMP_RADIUS_MM: f64 = 25.0;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct WholeVessel {
-    /// The points of its line (mm, LPS).
+    /// The points of the vessel's line (mm, LPS).
     pub points: Vec<WorldPoint>,
     /// Length and joined vessels, such as `84.2 mm, joins Vessel 2 at 12 mm`.
     pub words: String,
