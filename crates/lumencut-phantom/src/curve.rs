@@ -1,4 +1,4 @@
-//! Smooth curves with radii through anatomical way points, by arc length.
+//! Smooth curves with radii through anatomical way points; places on them are arc lengths.
 
 use std::f64::consts::TAU;
 
@@ -21,7 +21,7 @@ pub(crate) struct Curve {
 }
 
 impl Curve {
-    /// The centripetal Catmull-Rom spline through at least two way points, exact at both ends.
+    /// The centripetal Catmull-Rom spline through at least two way points; it starts and ends exactly at the outermost ones.
     pub(crate) fn through(way: &[WayPoint]) -> Self {
         let place = |i: usize| DVec3::new(way[i][0], way[i][1], way[i][2]);
         let last = way.len() - 1;

@@ -93,7 +93,7 @@ impl Calcification {
         curve.at(self.arc_length).0 + direction * (lumen + self.thickness / 2.0)
     }
 
-    /// A sheet of rods on the outside of the lumen, thinner towards its rim.
+    /// Fills the plaque with rods on the outside of the lumen; they are thinner towards the rim of the plaque.
     pub(crate) fn rods(&self, curve: &Curve, lumen: impl Fn(f64) -> f64) -> Vec<Rod> {
         let radius = lumen(self.arc_length) + self.thickness / 2.0;
         let steps = (radius * self.angular_extent / (0.5 * self.thickness)).ceil().max(2.0) as usize;

@@ -33,7 +33,7 @@ pub use workload::{AORTA, CERVICAL, RUNOFF, Workload, aorta, cervical, runoff};
 /// A volume and its vessel tree, with the truth.
 #[derive(Clone, Debug)]
 pub struct Phantom {
-    /// The name of its function.
+    /// Name of the function that makes the phantom.
     pub name: &'static str,
     /// Voxels (HU), i fastest.
     pub voxels: Vec<i16>,

@@ -38,7 +38,7 @@ struct Trunk {
 }
 
 impl Trunk {
-    /// The narrowing at arc length `s`: 0 open, 1 closed.
+    /// How far the lumen is narrowed at arc length `s`: 0 is open, 1 is closed.
     fn narrowed(&self, s: f64) -> f64 {
         let narrowed =
             |[middle, length, percent]: &[f64; 3]| percent / 100.0 * narrowing(s - middle, *length);
@@ -161,7 +161,7 @@ fn cut(trunk: &Trunk, cuts: &[f64], per_mm: f64, made: &mut Vasculature) {
         let [from, to] = [ends[0], ends[1]];
         let name = if pieces == 1 { trunk.name.clone() } else { format!("{} {}", trunk.name, n + 1) };
         let steps = (((to - from) * per_mm).round() as usize).max(2);
-        // Exact cut positions, so that neighbours share their end points.
+        // The ends are exactly at the cuts, so that neighbours share their end points.
         let place = |j: usize| if j == steps { to } else { from + (to - from) * j as f64 / steps as f64 };
         let places: Vec<f64> = (0..=steps).map(place).collect();
         let vessel = KnownVessel {

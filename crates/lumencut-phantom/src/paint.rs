@@ -134,7 +134,7 @@ impl<'a> Painter<'a> {
         Vec2::new((origin.x + spacing.x * i as f64) as f32, (origin.y + spacing.y * j as f64) as f32)
     }
 
-    /// Calls `visit` with (pixel, world position) over a rectangle (mm).
+    /// Calls `visit` with the number and the world position of each pixel in a rectangle (mm).
     #[inline(always)]
     fn each_pixel(&self, [low, high]: [Vec2; 2], z: f32, mut visit: impl FnMut(usize, Vec3)) {
         let range = |axis: usize| {

@@ -38,7 +38,7 @@ pub(crate) struct SmoothNoise {
 }
 
 impl SmoothNoise {
-    /// Noise with wavelengths (mm) in plane and across slices, for height `z` and the rectangle from `low` to `high` (mm).
+    /// Noise at height `z`, over the rectangle from `low` to `high` (mm), with wavelengths in the plane and across slices (mm).
     pub(crate) fn new(
         seed: u64,
         wavelength: f32,

@@ -1,4 +1,4 @@
-//! Simple solids by signed distance (mm, negative inside).
+//! Simple solids, described by signed distances (mm, negative inside).
 
 use glam::{Vec2, Vec3};
 
@@ -51,7 +51,7 @@ impl Shape {
 }
 
 impl Cut<'_> {
-    /// Signed distance of `p`: exact for plates and rods of one radius, else accurate near the surface.
+    /// The signed distance of `p`. It is exact for plates and for rods of constant radius, and otherwise accurate near the surface.
     #[inline(always)]
     pub(crate) fn distance(&self, p: Vec3) -> f32 {
         match self {
@@ -73,7 +73,7 @@ impl Cut<'_> {
     }
 }
 
-/// Distance to an ellipse or ellipsoid by one Newton step, from the norms of q / axes and q / axes².
+/// Distance to an ellipse or ellipsoid by one Newton step; `scaled` is the norm of q / axes, `slope` that of q / axes².
 #[inline(always)]
 fn round_distance(scaled: f32, slope: f32) -> f32 {
     scaled * (scaled - 1.0) / slope.max(1e-9)

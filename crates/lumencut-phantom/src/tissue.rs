@@ -67,7 +67,7 @@ impl Tissue {
             Tissue::Muscle => {
                 let seam = (patterns.seams.at(x, y) - 0.5).abs() / 0.035;
                 let grain = 14.0 * (patterns.fine.at(x, y) - 0.5);
-                // Seams fade in and out, like the planes between muscles.
+                // The seams in muscle fade in and out, like the planes between muscles.
                 let faded = smooth_step((patterns.loops.at(x, y) - 0.3) / 0.35);
                 let seam = 1.0 - faded * (1.0 - smooth_step(seam));
                 mix(FAT + 25.0, MUSCLE + grain, seam)
@@ -105,7 +105,7 @@ pub(crate) fn mix(a: f32, b: f32, t: f32) -> f32 {
     a + t * (b - a)
 }
 
-/// One organ: softly blended shapes, shrunk by `inset` mm.
+/// One organ: shapes that blend softly, shrunk by `inset` mm.
 #[derive(Clone, Debug)]
 pub(crate) struct Solid {
     pub(crate) shapes: Vec<Shape>,

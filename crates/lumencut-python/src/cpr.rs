@@ -30,7 +30,7 @@ pub struct Cpr(pub cpr::Cpr);
 
 #[pymethods]
 impl Cpr {
-    /// The layout of a vessel's points (n, 3) in a view; `pixels` are image width and pixel side (mm).
+    /// Lays out a vessel's points (n, 3) in a view; `pixels` are image width and pixel side (mm).
     #[new]
     #[pyo3(signature = (points, smoothing, mode, view, pixels))]
     #[allow(clippy::needless_pass_by_value)]

@@ -1,4 +1,4 @@
-//! DICOM headers and their interpretation, as JSON.
+//! Interprets and describes DICOM headers, as JSON.
 
 use lumencut_dicom::{Keyword, json};
 use pyo3::prelude::*;

@@ -1,4 +1,4 @@
-//! Reformations laid out as an image, for Python.
+//! Layouts of reformations as images, for Python.
 
 use std::sync::Arc;
 

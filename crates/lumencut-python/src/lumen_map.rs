@@ -26,7 +26,7 @@ use crate::watching::computed;
 /// An ostium: vessel id, arc length (mm), point (mm, LPS), column and row.
 type OstiumRow = (usize, f64, [f64; 3], [f64; 2]);
 
-/// The wall around a vessel, shared by its maps.
+/// The wall around a vessel; all maps of the vessel share it.
 #[pyclass(frozen, module = "lumencut._lumencut")]
 pub struct LumenWall {
     path: Arc<CenterlinePath>,
@@ -75,7 +75,7 @@ impl LumenWall {
         self.found.mean_radius
     }
 
-    /// Arc lengths (mm), and the angle (radians) of the narrowest or widest side at each.
+    /// Arc lengths (mm), and at each of them the direction (radians) of the narrowest or widest side.
     fn roll<'py>(&self, py: Python<'py>, side: &str) -> PyResult<[Bound<'py, PyArray1<f64>>; 2]> {
         let side = Side::named("roll of the CPR", side).map_err(to_python)?;
         let length = self.path.length();

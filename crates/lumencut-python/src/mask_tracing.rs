@@ -19,7 +19,7 @@ use crate::tree::points_of;
 use crate::volume::VolumeArgument;
 use crate::watching::{Reporter, SHARES, interruptible};
 
-/// Points (n, 3), radii (n,), confidence (n,) or (0,), label, and whether it bridges a gap.
+/// A vessel: points (n, 3), radii (n,), confidence (n,) or (0,), label, and whether it bridges a gap.
 type TracedArrays<'py> =
     (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, i64, bool);
 

@@ -162,7 +162,7 @@ impl Renderer {
         buffers(py, frame)
     }
 
-    /// The requested images of a volume at the positions of a reformation; the picture is transparent outside the volume.
+    /// The requested images of a volume at the positions of a reformation. Outside the volume the picture is transparent.
     #[allow(clippy::needless_pass_by_value)]
     fn look<'py>(
         &self,
@@ -238,7 +238,7 @@ fn places(layout: &dyn lumencut::reformations::Layout, stop: Stop<'_>) -> lumenc
     Ok(frame)
 }
 
-/// A method: ("mpcpr",), or ("cr", radius offset, arc-length threshold) in pixels.
+/// A method: ("mpcpr",), or ("cr", radius offset, arc-length threshold) with both numbers in pixels.
 #[derive(FromPyObject)]
 pub(crate) enum MethodArgument {
     Cr(String, f64, f64),

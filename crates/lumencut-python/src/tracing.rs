@@ -17,7 +17,7 @@ use crate::tree::points_of;
 use crate::volume::VolumeArgument;
 use crate::watching::{Reporter, SHARES, interruptible};
 
-/// Points (n, 3), radii (n,), confidence (n,), and bridged points (n,).
+/// A line: points (n, 3), radii (n,), confidence (n,), and whether each point is bridged (n,).
 type TracedArrays<'py> = (
     Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray1<f64>>,

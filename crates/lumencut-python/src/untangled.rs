@@ -16,7 +16,7 @@ use crate::watching::computed;
 /// begins at its last position.
 type LaidOutRow<'py> = (usize, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>, f64, bool);
 
-/// A tree laid out without overlap.
+/// A tree laid out in the plane without overlap.
 #[pyclass(frozen, extends = Layout, module = "lumencut._lumencut")]
 pub struct Untangled(untangled::Untangled);
 

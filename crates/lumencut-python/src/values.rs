@@ -35,7 +35,7 @@ pub(crate) fn value(kind: Kind, object: &Bound<'_, PyAny>) -> PyResult<Value> {
     })
 }
 
-/// Vessel ids; [`usize::MAX`] for names and negative ids.
+/// Vessel ids; a name or a negative id becomes [`usize::MAX`].
 fn ids(vessels: &Bound<'_, PyAny>) -> PyResult<Vec<usize>> {
     vessels.try_iter()?.map(|one| Ok(one?.extract().unwrap_or(usize::MAX))).collect()
 }

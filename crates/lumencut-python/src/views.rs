@@ -61,7 +61,7 @@ fn placed(made: lumencut::error::Result<Camera>) -> PyResult<DerivedView> {
 
 #[derive(FromPyObject)]
 pub(crate) enum AxisArgument {
-    /// `"superior"`, `"up"`, `"right"` or `"direction"`.
+    /// The name of an axis: `"superior"`, `"up"`, `"right"` or `"direction"`.
     Name(String),
     Vector([f64; 3]),
 }
@@ -122,7 +122,7 @@ pub(crate) fn fitted_turn(
     placed(py.detach(|| turn::fitted_turn(&camera, &points, degrees, axis)))
 }
 
-/// The view about a place on a vessel: arc length (mm), angle (radians).
+/// The view about a place on a vessel, from arc length (mm) and angle (radians).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn about(
@@ -210,7 +210,7 @@ pub(crate) fn positions<'py>(
     PyArray1::from_vec(py, points).reshape([height, width, 3])
 }
 
-/// A camera moved in its plane (mm).
+/// A camera moved to the right and up in its plane (mm).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn panned(camera: MadeCamera, right: f64, up: f64) -> PyResult<DerivedView> {

@@ -117,7 +117,7 @@ pub(crate) fn contains<'py>(
     Ok(PyArray1::from_iter(py, points.into_iter().map(|point| extent.contains(point))))
 }
 
-/// The volume at world points (n, 3) (mm, LPS), trilinear, NaN outside; shape (n,).
+/// The values of the volume at world points (n, 3) (mm, LPS), interpolated trilinearly; NaN outside; shape (n,).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn sample<'py>(

@@ -1,4 +1,4 @@
-//! The wall level as Python requests it.
+//! The wall level, as Python requests it.
 
 use lumencut::measure::wall_level::WallRequest;
 

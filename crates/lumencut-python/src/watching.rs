@@ -46,7 +46,7 @@ pub(crate) fn interruptible<T: Send>(
             let stop = &stop;
             let worker = scope.spawn(move || {
                 let result = work(stop);
-                // The receiver outlives this thread: sending cannot fail.
+                // Sending cannot fail, since the receiver outlives this thread.
                 let _ = done.send(());
                 result
             });

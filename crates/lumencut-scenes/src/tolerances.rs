@@ -71,7 +71,7 @@ pub const CONTEXT_OF_FRAME: Tolerance = Tolerance::new(4.0, 1e-3);
 /// Channels of the context without vessels, 0 to 1: one step of 255, except on rays that graze visible edges.
 pub const CONTEXT: Tolerance = Tolerance::new(1.0 / 255.0, 5e-4);
 
-/// As [`CONTEXT`]: in small pictures, four steps of 255 on at most one ray in a hundred.
+/// As [`CONTEXT`], for small pictures: more than four steps of 255 on at most one ray in a hundred.
 pub const CONTEXT_LEAP: Tolerance = Tolerance::new(4.0 / 255.0, 1e-2);
 
 /// Bytes composed from identical layers. A value midway between two bytes may be rounded up or down.

@@ -5,9 +5,9 @@ use crate::random::Random;
 /// A depth and a zone per pixel: an uneven surface with jumps, in zones of all shapes.
 #[derive(Clone, Debug)]
 pub struct Zones {
-    /// From −300 to 300 mm.
+    /// The depth of each pixel, from −300 to 300 mm.
     pub depth: Vec<f32>,
-    /// From 0 to 2.
+    /// The zone of each pixel, from 0 to 2.
     pub vessel: Vec<i32>,
 }
 

@@ -35,7 +35,7 @@ pub fn address() -> usize {
     ASKED.as_ptr() as usize
 }
 
-/// Clears the stop bit of a kind of work.
+/// Clears a stop bit: [`VIEW`] or [`LONG`].
 pub fn heard(kind: u8) {
     ASKED.fetch_and(!kind, Ordering::Relaxed);
 }

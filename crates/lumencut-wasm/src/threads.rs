@@ -10,7 +10,7 @@ use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 static WAITING: Mutex<VecDeque<ThreadBuilder>> = Mutex::new(VecDeque::new());
 static COME: Condvar = Condvar::new();
 
-/// Starts a pool of `count` workers; blocks until all of them wait in [`run_thread`]. Can be called once only.
+/// Starts a pool of `count` workers, and blocks until all of them wait in [`run_thread`]. It can be called only once.
 #[wasm_bindgen]
 pub fn use_threads(count: usize) -> Result<(), JsError> {
     let pool = ThreadPoolBuilder::new().num_threads(count).spawn_handler(|thread| {

@@ -9,11 +9,11 @@ pub enum Axes {
     Untangled,
     /// A vessel straightened by an amount from 0 to 1.
     Uncurled(f64),
-    /// The spiral CPR sampled at even arc lengths; its pitch (mm).
+    /// The spiral CPR, sampled at even arc lengths; the number is the pitch (mm).
     SpiralByArc(f64),
-    /// The spiral CPR sampled at even angles.
+    /// The spiral CPR, sampled at even angles.
     SpiralByAngle,
-    /// The lumen map; the radius at which its columns are true to scale (mm).
+    /// The lumen map; the number is the radius at which its columns are true to scale (mm).
     Map(f64),
 }
 

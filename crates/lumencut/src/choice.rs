@@ -20,7 +20,7 @@ pub(crate) struct Chosen {
     pub(crate) best: Reading,
     /// The evidence, if the values of the volume decided the space or the unit.
     pub by_values: Option<ByValues>,
-    /// Other units that fit the volume.
+    /// Other units that fit the volume too.
     pub also: Vec<Unit>,
 }
 

@@ -1,4 +1,4 @@
-//! Whether a click selects a vessel, and where on it.
+//! Decides whether a click selects a vessel, and at which place.
 
 use glam::{DVec2, DVec3};
 use lumencut_core::math::arc_length::point_at;
@@ -17,7 +17,7 @@ pub fn is_clicked(vessel: &Vessel, point: DVec3, pixel_spacing: f64) -> bool {
     point.distance(point_at(vessel.points(), vessel.arc_length(), at)) <= radius_at(vessel, at) + reach
 }
 
-/// The arc length (mm) nearest to a point.
+/// The arc length (mm) of the place on a vessel that is nearest to a point.
 pub fn nearest_arc_length(vessel: &Vessel, point: DVec3) -> f64 {
     let (points, along) = (vessel.points(), vessel.arc_length());
     let mut best = DVec2::new(f64::MAX, 0.0);

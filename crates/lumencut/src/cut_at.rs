@@ -1,4 +1,4 @@
-//! What a pixel of a view shows of the cut surface.
+//! Finds what a pixel of a view shows of the cut surface.
 
 use glam::DVec3;
 use lumencut_core::camera::Camera;

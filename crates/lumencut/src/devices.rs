@@ -130,7 +130,7 @@ pub fn forget(failed: &Device) {
     });
 }
 
-/// The process id; constant in a browser.
+/// The id of this process; always 0 in a browser.
 pub(crate) fn process() -> u32 {
     if cfg!(target_arch = "wasm32") { 0 } else { std::process::id() }
 }

@@ -8,7 +8,7 @@ use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::reformations::Layout;
 use lumencut_core::reformations::cpr::Cpr;
 
-/// The aggregate of a half circle.
+/// What is computed from the values of a half circle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Feature {
     /// The largest value.
@@ -17,7 +17,7 @@ pub enum Feature {
     Mean,
     /// The smallest value.
     Min,
-    /// Largest minus smallest: how uneven the surroundings are.
+    /// Largest minus smallest value: how uneven the surroundings are.
     Range,
     /// The fraction of values above this level, 0 to 1.
     Share(f64),
@@ -126,7 +126,7 @@ fn turns(cpr: &Cpr, pixel_spacing: f64) -> impl Iterator<Item = f64> {
     (0..angles).map(move |n| (n as f64 - (angles / 2) as f64) / angles as f64 * PI)
 }
 
-/// World points of the half circle of a CFA pixel (column, row).
+/// World points of the half circle that a CFA pixel (column, row) aggregates.
 pub(crate) fn half_circle(cpr: &Cpr, pixel_spacing: f64, pixel: DVec2) -> Result<Vec<DVec3>> {
     turns(cpr, pixel_spacing).map(|aside| Ok(cpr.rotated(aside)?.world_from_pixel(pixel))).collect()
 }

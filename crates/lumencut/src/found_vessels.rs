@@ -19,7 +19,7 @@ use crate::text::{fixed, rounded};
 pub struct FoundLine {
     /// Points, radii and confidence.
     pub line: Centerline,
-    /// Why it is doubtful; None if it is not.
+    /// Why the vessel is doubtful; None if it is not.
     pub doubt: Option<&'static str>,
     /// Number of the connected part; part 0 is the most important one.
     pub part: usize,
@@ -32,7 +32,7 @@ pub struct FoundTree {
     pub vessels: Vec<FoundLine>,
     /// Notes about the scan, one sentence each.
     pub notes: Vec<String>,
-    /// Counts of doubtful vessels by reason, one sentence each.
+    /// How many vessels are doubtful for each reason, one sentence each.
     pub doubts: Vec<String>,
 }
 
@@ -114,7 +114,7 @@ fn doubts(vessels: &[FoundLine]) -> Vec<String> {
     counts.into_iter().map(sentence).collect()
 }
 
-/// Indices of the confident vessels of each connected part, the most important part first.
+/// For each connected part, the indices of its confident vessels; the most important part comes first.
 pub fn sure_parts(tree: &FoundTree) -> Vec<Vec<usize>> {
     let mut parts: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for (number, vessel) in tree.vessels.iter().enumerate().filter(|(_, vessel)| vessel.doubt.is_none()) {

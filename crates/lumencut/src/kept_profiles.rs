@@ -36,12 +36,12 @@ pub struct MeasureParameters<'a> {
 
 /// The cached profiles, by the key with which the host names a vessel.
 pub struct KeptProfiles<K> {
-    /// Tree-wide estimates, by wall level and point spread.
+    /// Tree-wide estimates, each with its wall level and point spread.
     estimates: Vec<((WallRequest, Option<f64>), TreeFindings)>,
     kept: Vec<Kept<K>>,
 }
 
-/// A cached profile with its parameters (mm).
+/// A cached profile, and the parameters with which it was measured (mm).
 struct Kept<K> {
     of: K,
     step: f64,

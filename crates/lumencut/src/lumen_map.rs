@@ -122,7 +122,7 @@ fn thickest_side(map: &LumenMap, thickness: &[f32]) -> f64 {
     if sum == DVec2::ZERO { 0.0 } else { sum.to_angle() }
 }
 
-/// Where another vessel opens into the mapped one.
+/// An ostium: where another vessel opens into the mapped one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ostium {
     /// Id of the other vessel.

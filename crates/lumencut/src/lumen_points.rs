@@ -31,7 +31,7 @@ pub struct Lines<'a> {
     pub radii: &'a [f64],
 }
 
-/// How many points look like lumen.
+/// How many of the sampled points look like lumen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LumenCount {
     /// The number of points brighter than their surroundings or of darker ones, whichever is larger.
@@ -40,7 +40,7 @@ pub struct LumenCount {
     pub of: usize,
 }
 
-/// What a volume can decide about centerlines.
+/// What a volume tells about how to read centerlines.
 #[derive(Clone, Copy)]
 pub struct Judge<'a> {
     /// The extent of the volume.

@@ -209,7 +209,7 @@ fn polar(straightened: &Straightened, at: f64, contour: &[DVec3]) -> Vec<Option<
 
 fn crossing_of(direction: DVec2, a: DVec2, b: DVec2) -> Option<f64> {
     let [from, to] = [a, b].map(|end| direction.perp_dot(end));
-    // Each corner belongs to one edge only.
+    // With >=, a corner on the ray belongs to only one of its two edges.
     if (from >= 0.0) == (to >= 0.0) {
         return None;
     }

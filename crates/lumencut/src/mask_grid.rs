@@ -162,7 +162,7 @@ mod tests {
         let part = grid([10, 8, 6], spaced() * DAffine3::from_translation(DVec3::new(5.0, 6.0, 7.0)));
         let place = place_of(&part, &volume).expect("a part").expect("a place");
         assert_eq!(place, MaskPlace { axes: [0, 1, 2], forward: [true; 3], low: [5, 6, 7] });
-        // Stored along k, −i, j.
+        // The part is stored with the axes k, −i, j.
         let mut turned = part.world_from_index;
         let [i, j, k] = [turned.matrix3.x_axis, turned.matrix3.y_axis, turned.matrix3.z_axis];
         turned.matrix3 = glam::DMat3::from_cols(k, -i, j);

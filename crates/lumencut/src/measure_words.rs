@@ -112,7 +112,7 @@ pub(crate) fn of_bounds([excluded, included]: [f64; 2]) -> Option<String> {
     Some(format!("{} mm if brighter material is excluded, {} mm if it is included", excluded?, included?))
 }
 
-/// The words of the set flags, such as `no clear wall`.
+/// The words for the flags that are set, such as `no clear wall`.
 pub fn of_flags(flags: u32) -> Vec<String> {
     set_in(flags).map(|flag| flag.word.to_owned()).collect()
 }

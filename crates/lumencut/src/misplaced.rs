@@ -16,7 +16,7 @@ pub fn fits_nowhere(points: &[DVec3], volume: &Extent) -> bool {
     readings(points, &places(&Space::ALL, &Unit::ALL), volume).iter().all(is_outside)
 }
 
-/// Points that fit better in another space or unit.
+/// The space and unit in which points fit better.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Misplaced {
     /// The finding, in words.

@@ -4,7 +4,7 @@
 use glam::DVec3;
 use lumencut_core::camera::Camera;
 
-/// The world point at `depth` (mm) behind the pixel (i, j), which may be fractional.
+/// The world point seen at the pixel (i, j), which may be fractional, at `depth` (mm).
 pub fn world_from_pixel(camera: &Camera, [i, j]: [f64; 2], depth: f64) -> DVec3 {
     let [width, height] = camera.size().map(|n| n as f64);
     let x = (i + 0.5 - width / 2.0) * camera.pixel_spacing();

@@ -14,7 +14,7 @@ pub struct ScanDetails {
     pub series_number: Option<String>,
     /// Series description.
     pub series_description: Option<String>,
-    /// Phase of the heart, of the contrast medium and of the series, as far as stated.
+    /// Phase of the heart, of the contrast medium and of the series, as far as the file states them.
     pub phase: Option<String>,
     /// Slice thickness (mm).
     pub slice_thickness_mm: Option<f64>,

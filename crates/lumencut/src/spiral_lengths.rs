@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 /// How far the windings reach: this factor times the largest radius, plus this margin (mm).
 const REACH_FACTOR_AND_MARGIN: (f64, f64) = (1.25, 2.0);
 
-/// The pitch as a fraction of the usual radius.
+/// The pitch, as a fraction of the usual radius.
 const PITCH_RADII: f64 = 0.25;
 
 /// How far the windings reach (mm), for a largest radius (mm).
@@ -16,7 +16,7 @@ pub fn spiral_reach(largest: f64) -> f64 {
 /// The space available to a spiral CPR.
 #[derive(Clone, Copy, Debug)]
 pub struct Room {
-    /// Reach of the windings (mm).
+    /// How far the windings reach (mm).
     pub radius: f64,
     /// Pixel side (mm).
     pub pixel_spacing: f64,

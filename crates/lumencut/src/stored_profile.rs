@@ -10,7 +10,7 @@ use lumencut_vessels::measure::wall_level::WallSource;
 /// The columns, flags and sources of a profile.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StoredProfile {
-    /// Columns by name, in mm, LPS or the volume's unit; points are flattened.
+    /// Columns with their names, in mm, LPS or the volume's unit. The coordinates of points follow each other.
     pub columns: Vec<(String, Vec<f64>)>,
     /// The flags of each section.
     pub flags: Vec<u32>,

@@ -54,7 +54,7 @@ pub fn coloured(values: &[f32], [low, high]: [f64; 2], colours: Colours) -> Vec<
     values.iter().map(colour).collect()
 }
 
-/// The upper end of a colour scale of lengths (mm): the maximum, rounded up to 0.5 mm, at least 0.5.
+/// The upper end of a colour scale of lengths (mm): the largest length, rounded up to a multiple of 0.5 mm, at least 0.5 mm.
 pub fn scale_end(values: &[f32]) -> f64 {
     let largest = values.iter().copied().filter(|value| value.is_finite()).fold(0.0, f32::max);
     ((f64::from(largest) * 2.0).ceil() / 2.0).max(0.5)

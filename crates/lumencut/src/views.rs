@@ -58,7 +58,7 @@ pub enum Axis {
     Right,
     /// Away from the viewer.
     Direction,
-    /// A vector of any length (LPS).
+    /// A vector of any length (LPS), as the axis.
     World(DVec3),
 }
 

@@ -11,7 +11,7 @@ use crate::windows;
 /// A window that is computed from the data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DataWindow {
-    /// Separates lumen from surroundings: [`windows::along`] the vessels, or [`windows::of_volume`].
+    /// Separates lumen from surroundings: [`windows::along`] vessels, or [`windows::of_volume`] if there are none.
     Auto,
     /// [`windows::of_mip`].
     Mip,
@@ -53,7 +53,7 @@ impl DataWindow {
     pub fn of_context(context: ContextName, has_tree: bool) -> Self {
         match context {
             ContextName::Mip if !has_tree => Self::Mip,
-            // Minima and means along rays lie far below the vessels.
+            // Pictures of minima and means along rays are much darker than the vessels.
             ContextName::Minip | ContextName::Average => Self::Whole,
             ContextName::Mida | ContextName::Dvr | ContextName::Mip => Self::Auto,
         }

@@ -43,7 +43,7 @@ const MIP_MAX_WIDENING: f64 = 1.4;
 /// At least this fraction of the surroundings must lie inside the volume and not be padding.
 const MIN_SHOWN_FRACTION: f64 = 0.5;
 
-/// Quantiles of voxels at the black and the white end of a whole-volume window.
+/// The quantiles of voxels at the black and the white ends of windows for a whole volume.
 const DARKEST_QUANTILE: f64 = 0.01;
 const BRIGHT_QUANTILE: f64 = 0.99;
 const BRIGHTEST_QUANTILE: f64 = 0.999;
@@ -213,7 +213,7 @@ pub(crate) fn of_mip(volume: &Volume) -> Result<Window> {
     alone(volume, |found, [black, width]| ((found.peak - black) / width).clamp(1.0, MIP_MAX_WIDENING))
 }
 
-/// A window from the populations, widened by the factor `wider(populations, [black, width])`.
+/// A window from the levels of [`Populations`], widened by the factor `wider(populations, [black, width])`.
 fn alone(volume: &Volume, wider: impl Fn(&Populations, [f64; 2]) -> f64) -> Result<Window> {
     let Some(found) = Populations::of(&mut VoxelSample::at(volume)) else {
         return Ok(EMPTY_VOLUME_WINDOW);

@@ -1,4 +1,4 @@
-//! From the aortic arch to the circle of Willis; z = 0 at the top of the arch.
+//! Vessels from the aortic arch to the circle of Willis; z = 0 at the top of the arch.
 
 use super::{Branch, SIDES, on_side};
 use crate::curve::WayPoint;

@@ -49,7 +49,7 @@ impl<'a> Nearby<'a> {
         self.divide(from + middle, to);
     }
 
-    /// Calls `visit` with each point within `reach` of a position, until it returns false.
+    /// Calls `visit` with each point at most `reach` away from a position, until `visit` returns false.
     pub(super) fn within(&self, place: DVec3, reach: f64, mut visit: impl FnMut(usize) -> bool) {
         let mut open: Vec<usize> = if self.nodes.is_empty() { Vec::new() } else { vec![0] };
         while let Some(number) = open.pop() {

@@ -16,7 +16,7 @@ use crate::text::fixed;
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "SentenceKind"))]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Kind {
-    /// The percentage of a stenosis, or why there is none.
+    /// The percentage of a stenosis, or why there is no percentage.
     Finding,
     Doubt,
     Remark,

@@ -34,7 +34,7 @@ const DEVIATIONS: f64 = 2.0;
 
 const HEADROOM: f64 = 1.12;
 
-/// Diameters below this many FWHM are near the resolution limit.
+/// Diameters smaller than this many times the FWHM are near the resolution limit.
 const RESOLUTION_LIMIT_FWHM: f64 = 1.5;
 
 const CURVE: &str = "#1f4e9c";

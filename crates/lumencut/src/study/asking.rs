@@ -8,7 +8,7 @@ use crate::study::open_study::Picture;
 use crate::study::reformed::ReformedPicture;
 use crate::study::tracing::Watch;
 
-/// When a viewer with one thread answers a question.
+/// When a viewer with only one thread answers a question.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Turn {
     /// Before the view in progress, which is interrupted.
@@ -26,7 +26,7 @@ pub enum Turn {
 pub struct Asking<'a> {
     /// The message as JSON.
     pub message: &'a str,
-    /// The bytes of a file, or empty.
+    /// The bytes of a file; empty without a file.
     pub bytes: &'a [u8],
     /// Stops the work, and receives its progress.
     pub watch: Watch<'a>,
@@ -129,7 +129,7 @@ macro_rules! questions {
             }
         }
 
-        /// The turn of each question.
+        /// When each question is answered.
         pub const TURNS: &[(&str, Turn)] =
             &[$((stringify!($name), $turn),)+ $((stringify!($now), Turn::AtOnce),)+];
 

@@ -32,7 +32,7 @@ pub(crate) enum Edit {
         number: usize,
         point: WorldPoint,
     },
-    /// Removes a click; a vessel left with one click is removed.
+    /// Removes a click. If only one click would be left, the vessel is removed.
     RemoveClick {
         id: u32,
         number: usize,
@@ -47,7 +47,7 @@ pub(crate) enum Edit {
     RemoveStopper {
         number: usize,
     },
-    /// Whether tracing bridges stretches without visible lumen.
+    /// Sets whether tracing bridges stretches without visible lumen.
     SetBridge {
         bridge: bool,
     },
@@ -64,17 +64,17 @@ pub(crate) enum Edit {
     Remove {
         ids: Vec<u32>,
     },
-    /// All branches connected to a seed; doubtful ones wait for acceptance.
+    /// Adds all branches connected to a seed; doubtful ones wait until they are accepted.
     AddBranches {
         seed: WorldPoint,
     },
-    /// The whole vessel at a click, from the nearest existing vessel to its end.
+    /// Adds the whole vessel at a click, from the nearest existing vessel to its end.
     AddWholeVessel {
         click: WorldPoint,
     },
-    /// All vessels of the scan; doubtful ones wait for acceptance.
+    /// Adds all vessels of the scan; doubtful ones wait until they are accepted.
     FindVessels {
-        /// Whether to return doubtful vessels if none is confident; otherwise that is an error.
+        /// Whether to return only doubtful vessels if none is confident; otherwise that is an error.
         doubtful: bool,
     },
     Accept {
@@ -84,7 +84,7 @@ pub(crate) enum Edit {
         ids: Vec<u32>,
     },
     AddMask,
-    /// The vessels of existing lines, such as those of files.
+    /// Adds vessels with existing lines, such as lines of files.
     AddLines {
         lines: Vec<NamedLine>,
     },

@@ -34,7 +34,7 @@ pub struct More {
     pub(crate) seen: Option<Seen>,
 }
 
-/// Points of a tracing request, counted from 0.
+/// The point of a tracing request that an error concerns; numbers count from 0.
 #[derive(Debug, PartialEq, Eq, Serialize)]
 pub(crate) struct About {
     /// The vessel; None if the point belongs to no vessel yet.

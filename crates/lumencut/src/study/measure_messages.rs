@@ -59,7 +59,7 @@ pub(crate) struct ProfileMessage {
     counts: Vec<bool>,
     /// Words for the flags of each section, such as `calcium`, `no clear wall`.
     flags: Vec<Vec<String>>,
-    /// The two bounds of a diameter next to calcium or metal, in words.
+    /// The two bounds of each diameter next to calcium or metal, in words.
     bounds: Vec<Option<String>>,
     /// All flags, in the order of plots and tables.
     flag_table: &'static [FlagLook],
@@ -111,7 +111,7 @@ pub(crate) struct MarksMessage {
     references: Vec<f64>,
     #[cfg_attr(test, ts(type = "StenosisMethod"))]
     method: String,
-    /// The assumed original diameter (mm), for ECST.
+    /// The assumed original diameter of the vessel (mm), for ECST.
     original: Option<f64>,
     /// The diameter of a comparable normal vessel (mm).
     comparison: Option<f64>,
@@ -225,7 +225,7 @@ impl StenosisMessage {
     }
 }
 
-/// Places to compare before grading, such as offered references (arc lengths, mm).
+/// Places to compare with a stenosis before it is graded, such as offered references (arc lengths, mm).
 #[derive(Clone, Debug, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Compared"))]
 pub(crate) struct ComparedMessage {

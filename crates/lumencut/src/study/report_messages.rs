@@ -91,7 +91,7 @@ fn words_of(value: &Json) -> String {
 }
 
 impl Study {
-    /// The findings on vessels and the straight distances (mm), in the report's sentences.
+    /// The findings on vessels and the straight distances (mm), in the sentences of the report.
     pub(crate) fn findings(
         &mut self,
         vessels: &[VesselMessage],

@@ -70,7 +70,7 @@ impl Study {
         written(content, &self.lines)
     }
 
-    /// The content of a session file of the open scan; its lines are held but not yet shown.
+    /// The content of a session file of the open scan. Its lines are kept, but not shown yet.
     pub(crate) fn read_session(&mut self, bytes: &[u8], name: &str) -> Result<SessionContent> {
         let Some(held) = &self.content.held else {
             return Err(not_of_scan(name, "a session without its scan", "a scan that is open"));

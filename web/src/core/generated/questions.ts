@@ -36,7 +36,7 @@ export type CenterlineWish = {
   readonly reorder?: boolean;
 };
 
-/** Places to compare before grading, such as offered references (arc lengths, mm). */
+/** Places to compare with a stenosis before it is graded, such as offered references (arc lengths, mm). */
 export type Compared = {
   readonly at: number;
   readonly references: ReadonlyArray<number>;
@@ -159,7 +159,7 @@ export type Edit = {
   readonly click: Vector;
 } | {
   readonly "kind": "find_vessels";
-  /** Whether to return doubtful vessels if none is confident; otherwise that is an error. */
+  /** Whether to return only doubtful vessels if none is confident; otherwise that is an error. */
   readonly doubtful: boolean;
 } | {
   readonly "kind": "accept";
@@ -300,7 +300,7 @@ export type Marks = {
   readonly at: number | null;
   readonly references: ReadonlyArray<number>;
   readonly method: StenosisMethod;
-  /** The assumed original diameter (mm), for ECST. */
+  /** The assumed original diameter of the vessel (mm), for ECST. */
   readonly original: number | null;
   /** The diameter of a comparable normal vessel (mm). */
   readonly comparison: number | null;
@@ -461,7 +461,7 @@ export type Profile = {
   readonly counts: ReadonlyArray<boolean>;
   /** Words for the flags of each section, such as `calcium`, `no clear wall`. */
   readonly flags: ReadonlyArray<ReadonlyArray<string>>;
-  /** The two bounds of a diameter next to calcium or metal, in words. */
+  /** The two bounds of each diameter next to calcium or metal, in words. */
   readonly bounds: ReadonlyArray<string | null>;
   /** All flags, in the order of plots and tables. */
   readonly flag_table: ReadonlyArray<FlagLook>;

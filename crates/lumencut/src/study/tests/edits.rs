@@ -1,4 +1,4 @@
-//! The results of vessel edits.
+//! Edits of vessels and their results.
 
 use glam::DVec3;
 use lumencut_core::progress::Progress;

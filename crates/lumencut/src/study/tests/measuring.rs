@@ -309,7 +309,7 @@ fn profiles_are_kept_until_other_vessels_are_shown() {
     // Returning a cached profile never asks whether to stop.
     assert_eq!(study.profile(line, Some(FWHM), &never).expect("kept").area, first.area);
     assert_eq!(study.measured(line, &never).expect("kept").area, first.area);
-    // The same line under another name.
+    // The same line is shown under another name.
     study.show(&[ListedLine { name: "carotid".into(), ..listed(line) }]).expect("the line");
     assert_eq!(study.profile(line, Some(FWHM), &never).expect("kept").area, first.area);
     open_line(&mut study, 3.0, 37.0);
