@@ -83,8 +83,7 @@ impl Cpr {
         self.straightened(py, &points, |space, point| space.straightened_from_world(point))
     }
 
-    /// For a straightened volume with this step (mm): the directions (LPS) stated for i, j and k, and the text that marks its
-    /// files.
+    /// For a straightened volume with this step (mm): the directions (LPS) stated for i, j and k, and the mark of its files.
     fn straightened_sides(&self, step: f64, is_stated: bool) -> PyResult<([[f64; 3]; 3], String)> {
         let sides = StraightenedSides::of(self.space()?, step, is_stated);
         Ok((sides.axes().map(|axis| axis.to_array()), sides.mark()))

@@ -122,8 +122,7 @@ of_the_study {
     /// The lumens along a ray, the nearest first, or the lumen at a place.
     [Turn::First] lumens(pointed: PointedMessage) -> Vec<PointedLumen> = study.lumens(&pointed)?;
 
-    /// The path to the pointer through voxel centres; null if it was not found within 40 ms. It is never rejected for lack of
-    /// lumen.
+    /// The path to the pointer through voxel centres; null if not found within 40 ms. It is never rejected for lack of lumen.
     [Turn::First] path(request: PathMessage) -> Option<Vec<Vector>> = {
         let end = (asking.clock)() + PATH_TIME_LIMIT_MS;
         study.path(&request, &|| (asking.clock)() >= end)?

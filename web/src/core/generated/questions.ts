@@ -408,7 +408,7 @@ export type PlaceDoubt = {
 export type PlaceTurn = {
   /** The first view: the one nearest to the anterior view. */
   readonly camera: Camera;
-  /** The cut diameter (mm) after each degree from 0 to 179, from where the diameters repeat. None if the view does not cut two walls. */
+  /** The cut diameter (mm) after each degree from 0 to 179, from where the diameters repeat. None if two walls are not found. */
   readonly diameters: ReadonlyArray<number | null>;
 };
 
@@ -949,7 +949,7 @@ export type Questions = {
     readonly message: PointedAt;
     readonly answer: ReadonlyArray<PointedLumen>;
   };
-  /** The path to the pointer through voxel centres; null if it was not found within 40 ms. It is never rejected for lack of lumen. */
+  /** The path to the pointer through voxel centres; null if not found within 40 ms. It is never rejected for lack of lumen. */
   readonly path: {
     readonly message: PathRequest;
     readonly answer: ReadonlyArray<Vector> | null;
