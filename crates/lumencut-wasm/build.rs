@@ -1,6 +1,6 @@
 //! Links the engine with memory shared by the page's workers.
 
-/// Symbols that a worker needs to start in shared memory.
+/// Symbols that a worker needs to start a thread in shared memory.
 const EXPORTED: [&str; 5] = ["__wasm_init_tls", "__tls_size", "__tls_align", "__tls_base", "__heap_base"];
 
 fn main() {

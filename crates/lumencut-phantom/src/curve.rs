@@ -1,4 +1,4 @@
-//! Smooth curves with radii through anatomical way points, by arc length.
+//! Smooth curves with radii through anatomical way points; places on them are arc lengths.
 
 use std::f64::consts::TAU;
 
@@ -21,14 +21,14 @@ pub(crate) struct Curve {
 }
 
 impl Curve {
-    /// The centripetal Catmull-Rom spline through at least two way points, exact at both ends.
+    /// The centripetal Catmull-Rom spline through at least two way points; it starts and ends exactly at the outermost ones.
     pub(crate) fn through(way: &[WayPoint]) -> Self {
         let place = |i: usize| DVec3::new(way[i][0], way[i][1], way[i][2]);
         let last = way.len() - 1;
         let mut points = vec![place(0)];
         let mut radius = vec![way[0][3]];
         for i in 0..last {
-            // Beyond its ends the curve continues as its own mirror image.
+            // Beyond an end, the neighbouring point is reflected in the end point.
             let before = if i == 0 { place(0) * 2.0 - place(1) } else { place(i - 1) };
             let after = if i + 1 == last { place(last) * 2.0 - place(last - 1) } else { place(i + 2) };
             let span = [before, place(i), place(i + 1), after];
@@ -56,7 +56,7 @@ impl Curve {
         Self { points, radius, arc }
     }
 
-    /// The curve with slight bends of about `amplitude` mm, none at its ends.
+    /// Adds slight bends of about `amplitude` mm that vanish at both ends.
     pub(crate) fn winding(self, amplitude: f64, seed: u64) -> Self {
         let length = self.length();
         let waves = (length / 45.0).max(0.5);
@@ -106,7 +106,7 @@ impl Curve {
     }
 }
 
-/// The centripetal Catmull-Rom spline between the middle points, `t` in [0, 1] (Barry and Goldman).
+/// The centripetal Catmull-Rom spline between the two middle points at `t` in [0, 1] (Barry and Goldman).
 fn catmull_rom(p: [DVec3; 4], t: f64) -> DVec3 {
     let knot = |i: usize| p[i].distance(p[i + 1]).sqrt().max(1e-9);
     let k = [0.0, knot(0), knot(0) + knot(1), knot(0) + knot(1) + knot(2)];

@@ -1,4 +1,4 @@
-//! Lesions of vessels, stenoses and plaques: as truth and as shape.
+//! Stenoses and plaques: their true values and their shapes.
 
 use std::f64::consts::{PI, TAU};
 
@@ -9,7 +9,7 @@ use crate::curve::Curve;
 /// The composition of a plaque.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlaqueKind {
-    /// Non-calcified, between the lumen and the healthy lumen's border.
+    /// Non-calcified; it fills the space between the lumen and the healthy lumen.
     Soft,
     /// Calcified.
     Calcified,
@@ -20,11 +20,11 @@ pub enum PlaqueKind {
 pub struct Stenosis {
     /// Vessel id.
     pub vessel: usize,
-    /// Arc length of its middle (mm).
+    /// Arc length of the middle (mm).
     pub arc_length: f64,
     /// Length (mm).
     pub length: f64,
-    /// Diameter reduction at its middle (percent of the reference).
+    /// Diameter reduction at the middle (percent of the reference).
     pub percent: f64,
 }
 
@@ -33,27 +33,27 @@ pub struct Stenosis {
 pub struct Plaque {
     /// Vessel id.
     pub vessel: usize,
-    /// Arc length of its middle (mm).
+    /// Arc length of the middle (mm).
     pub arc_length: f64,
     /// Composition.
     pub kind: PlaqueKind,
-    /// Direction of its middle around the vessel (radians), right-handed about the vessel's direction; 0 is nearest to anterior,
+    /// Direction from the centerline to the middle (radians), right-handed about the vessel's direction; 0 is nearest to anterior,
     /// or to superior if the vessel runs anteriorly.
     pub angle: f64,
     /// Length (mm).
     pub length: f64,
     /// Angular extent (radians); 2π for a ring.
     pub angular_extent: f64,
-    /// Thickness at its middle (mm).
+    /// Thickness at the middle (mm).
     pub thickness: f64,
-    /// World position of its middle (mm, LPS); on the centerline for a ring.
+    /// World position of the middle (mm, LPS); on the centerline for a ring.
     pub position: DVec3,
 }
 
-/// The fraction of a stenosis at its narrowest.
+/// The fraction of a stenosis's length over which it is narrowest.
 const PLATEAU: f64 = 0.4;
 
-/// The progress of narrowing (0 to 1) at `offset` mm from the middle.
+/// How far the narrowing has progressed (0 to 1) at `offset` mm from the middle.
 pub(crate) fn narrowing(offset: f64, length: f64) -> f64 {
     let u = 2.0 * offset.abs() / length;
     if u >= 1.0 {
@@ -63,7 +63,7 @@ pub(crate) fn narrowing(offset: f64, length: f64) -> f64 {
     0.5 + 0.5 * (PI * v).cos()
 }
 
-/// Unit vector across a vessel at `angle`, as in [`Plaque::angle`].
+/// The unit vector across a vessel in the direction `angle`, defined as [`Plaque::angle`].
 pub(crate) fn across(tangent: DVec3, angle: f64) -> DVec3 {
     let anterior = DVec3::NEG_Y;
     let zero = if tangent.dot(anterior).abs() < 0.95 { anterior } else { DVec3::Z };
@@ -87,18 +87,18 @@ pub(crate) struct Rod {
 }
 
 impl Calcification {
-    /// The position of its middle (mm, LPS): outside a lumen of radius `lumen`.
+    /// The position of the plaque's middle (mm, LPS), outside a lumen of radius `lumen`.
     pub(crate) fn position(&self, curve: &Curve, lumen: f64) -> DVec3 {
         let direction = across(curve.tangent(self.arc_length), self.angle);
         curve.at(self.arc_length).0 + direction * (lumen + self.thickness / 2.0)
     }
 
-    /// A sheet of rods on the outside of the lumen, thinner towards its rim.
+    /// Fills the plaque with rods on the outside of the lumen; they are thinner towards the rim of the plaque.
     pub(crate) fn rods(&self, curve: &Curve, lumen: impl Fn(f64) -> f64) -> Vec<Rod> {
         let radius = lumen(self.arc_length) + self.thickness / 2.0;
         let steps = (radius * self.angular_extent / (0.5 * self.thickness)).ceil().max(2.0) as usize;
         let pieces = (self.length / 1.5).ceil().max(2.0) as usize;
-        // From −1 to 1, so that rod ends stay within the stated extent.
+        // Grid positions run from −1 to 1, so that the rods end within the stated extent.
         let grid = |n: usize, of: usize| 2.0 * n as f64 / of as f64 - 1.0;
         let rim = 0.2 * self.thickness;
         let arc_half = (self.angular_extent / 2.0 - rim / radius).max(0.0);
@@ -111,7 +111,7 @@ impl Calcification {
         };
         let mut rods = Vec::with_capacity(steps * pieces);
         for v in (0..=steps).map(|n| grid(n, steps)) {
-            // The outline is an ellipse.
+            // The outline of the plaque is an ellipse.
             let reach = (1.0 - 0.8 * v * v).sqrt();
             for piece in 0..pieces {
                 let (a, ra) = knob(reach * grid(piece, pieces), v);
@@ -123,7 +123,7 @@ impl Calcification {
     }
 }
 
-/// A full turn: a concentric plaque.
+/// The angular extent of a concentric plaque: a full turn.
 pub(crate) const WHOLE_RING: f64 = TAU;
 
 #[cfg(test)]

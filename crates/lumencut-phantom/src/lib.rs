@@ -33,7 +33,7 @@ pub use workload::{AORTA, CERVICAL, RUNOFF, Workload, aorta, cervical, runoff};
 /// A volume and its vessel tree, with the truth.
 #[derive(Clone, Debug)]
 pub struct Phantom {
-    /// The name of its function.
+    /// Name of the function that makes the phantom.
     pub name: &'static str,
     /// Voxels (HU), i fastest.
     pub voxels: Vec<i16>,
@@ -168,7 +168,7 @@ mod tests {
         let stop = || asked.fetch_add(1, std::sync::atomic::Ordering::Relaxed) >= 3;
         let error = AORTA.make(0, 0.1, &stop).unwrap_err();
         assert_eq!(error.kind, ErrorKind::Interrupted);
-        // Only slices already started on other threads still ask.
+        // Only slices that other threads had already started ask after the stop.
         assert!(asked.into_inner() < 26);
     }
 

@@ -1,4 +1,4 @@
-//! Trunks, branches and bridges, cut at junctions into unbranched vessels.
+//! Builds a network of trunks, branches and bridges, and cuts it at junctions into unbranched vessels.
 
 use glam::DVec3;
 
@@ -32,13 +32,13 @@ struct Trunk {
     curve: Curve,
     /// Arc lengths of junctions with other trunks.
     junctions: Vec<f64>,
-    /// (arc length of the middle, length, percent of the diameter).
+    /// (arc length of the middle in mm, length in mm, percent of the diameter).
     stenoses: Vec<[f64; 3]>,
     calcifications: Vec<Calcification>,
 }
 
 impl Trunk {
-    /// The narrowing at arc length `s`: 0 open, 1 closed.
+    /// How far the lumen is narrowed at arc length `s`: 0 is open, 1 is closed.
     fn narrowed(&self, s: f64) -> f64 {
         let narrowed =
             |[middle, length, percent]: &[f64; 3]| percent / 100.0 * narrowing(s - middle, *length);
@@ -60,7 +60,7 @@ impl Network {
         Self { seed, trunks: Vec::new() }
     }
 
-    /// A line through way points, with seeded bends of about `winding` mm.
+    /// Adds a trunk through way points, with random bends of about `winding` mm.
     pub(crate) fn trunk(&mut self, name: &str, way: &[WayPoint], winding: f64) -> TrunkId {
         let seed = hash(self.seed, self.trunks.len() as u64);
         self.trunks.push(Trunk {
@@ -73,14 +73,14 @@ impl Network {
         TrunkId(self.trunks.len() - 1)
     }
 
-    /// A line that starts at the point of `parent` nearest to the first way point.
+    /// Adds a trunk that starts at the point of `parent` nearest to the first way point.
     pub(crate) fn branch(&mut self, parent: TrunkId, name: &str, way: &[WayPoint], winding: f64) -> TrunkId {
         let mut way = way.to_vec();
         self.attach(parent, &mut way[0]);
         self.trunk(name, &way, winding)
     }
 
-    /// A line from the nearest point of `from` to that of `to`.
+    /// Adds a trunk from the point of `from` nearest to the first way point to the point of `to` nearest to the last one.
     pub(crate) fn bridge(
         &mut self,
         from: TrunkId,
@@ -96,7 +96,7 @@ impl Network {
         self.trunk(name, &way, winding)
     }
 
-    /// Moves `way` onto `parent` and records the junction.
+    /// Moves `way` to the nearest point of `parent` and records the junction.
     fn attach(&mut self, parent: TrunkId, way: &mut WayPoint) {
         let parent = &mut self.trunks[parent.0];
         let s = parent.curve.nearest_arc_length(DVec3::new(way[0], way[1], way[2]));
@@ -107,25 +107,25 @@ impl Network {
         }
     }
 
-    /// A stenosis of `percent`, `length` mm long, at `fraction` of a trunk.
+    /// Adds a stenosis of `percent`, `length` mm long, at `fraction` of the trunk's length.
     pub(crate) fn stenosis(&mut self, trunk: TrunkId, fraction: f64, length: f64, percent: f64) {
         let trunk = &mut self.trunks[trunk.0];
         trunk.stenoses.push([fraction * trunk.curve.length(), length, percent]);
     }
 
-    /// A calcification at `fraction` of a trunk.
+    /// Adds a calcification at `fraction` of the trunk's length.
     pub(crate) fn calcify(&mut self, trunk: TrunkId, fraction: f64, shape: Calcification) {
         let trunk = &mut self.trunks[trunk.0];
         let arc_length = fraction * trunk.curve.length();
         trunk.calcifications.push(Calcification { arc_length, ..shape });
     }
 
-    /// `count` random calcifications between two fractions of a trunk.
+    /// Adds `count` random calcifications between two fractions of the trunk's length.
     pub(crate) fn scatter_calcium(&mut self, trunk: TrunkId, count: u64, between: [f64; 2]) {
         let seed = hash(self.seed, 1000 + trunk.0 as u64);
         for n in 0..count {
             let random = |what: u64, low: f64, high: f64| low + (high - low) * uniform(seed, 8 * n + what);
-            // One per equal interval, to avoid clusters.
+            // One calcification in each of `count` equal intervals avoids clusters.
             let along = (n as f64 + random(0, 0.2, 0.8)) / count as f64;
             let shape = Calcification {
                 arc_length: 0.0,
@@ -138,7 +138,7 @@ impl Network {
         }
     }
 
-    /// The unbranched vessels, with about `segments` evenly spaced segments in all.
+    /// Returns the unbranched vessels, with about `segments` evenly spaced segments in total.
     pub(crate) fn finish(mut self, segments: usize) -> Vasculature {
         let length: f64 = self.trunks.iter().map(|t| t.curve.length()).sum();
         let per_mm = segments as f64 / length;
@@ -161,7 +161,7 @@ fn cut(trunk: &Trunk, cuts: &[f64], per_mm: f64, made: &mut Vasculature) {
         let [from, to] = [ends[0], ends[1]];
         let name = if pieces == 1 { trunk.name.clone() } else { format!("{} {}", trunk.name, n + 1) };
         let steps = (((to - from) * per_mm).round() as usize).max(2);
-        // Exact cut positions, so that neighbours share their end points.
+        // The ends are exactly at the cuts, so that neighbours share their end points.
         let place = |j: usize| if j == steps { to } else { from + (to - from) * j as f64 / steps as f64 };
         let places: Vec<f64> = (0..=steps).map(place).collect();
         let vessel = KnownVessel {
@@ -185,7 +185,7 @@ struct Piece<'a> {
 }
 
 impl Piece<'_> {
-    /// Adds the lesions centred on this piece; its end belongs to the next piece, if any.
+    /// Adds the lesions whose middle lies on this piece; a lesion at its end belongs to the next piece, if there is one.
     fn add_lesions(&self, last: bool, made: &mut Vasculature) {
         let mine = |s: f64| s >= self.from && (s < self.to || last);
         for [s, length, percent] in self.trunk.stenoses.iter().copied().filter(|s| mine(s[0])) {
@@ -218,7 +218,7 @@ impl Piece<'_> {
         }
     }
 
-    /// Arc length on the vessel's points for arc length `s` on the trunk.
+    /// Converts arc length `s` on the trunk to arc length along the vessel's points.
     fn arc_length(&self, s: f64) -> f64 {
         let steps = self.points.len() - 1;
         let place = (s - self.from) / (self.to - self.from) * steps as f64;

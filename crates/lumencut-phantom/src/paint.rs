@@ -94,7 +94,7 @@ struct Painter<'a> {
     scene: &'a Scene,
     strokes: &'a [Stroke],
     by_slice: Vec<Vec<u32>>,
-    /// Width of the soft edge for partial volume (mm).
+    /// Width of the soft edge that imitates the partial volume effect (mm).
     edge: f32,
 }
 
@@ -134,7 +134,7 @@ impl<'a> Painter<'a> {
         Vec2::new((origin.x + spacing.x * i as f64) as f32, (origin.y + spacing.y * j as f64) as f32)
     }
 
-    /// Calls `visit` with (pixel, world position) over a rectangle (mm).
+    /// Calls `visit` with the number and the world position of each pixel in a rectangle (mm).
     #[inline(always)]
     fn each_pixel(&self, [low, high]: [Vec2; 2], z: f32, mut visit: impl FnMut(usize, Vec3)) {
         let range = |axis: usize| {
@@ -161,7 +161,7 @@ impl<'a> Painter<'a> {
         }
         for (_, rectangle) in &cuts {
             self.each_pixel(*rectangle, z, |n, p| {
-                // Consumes the distance: a pixel in several rectangles is painted once.
+                // Resets the distance, so that a pixel in several rectangles is painted only once.
                 let distance = std::mem::replace(&mut scratch.distance[n], FAR) + solid.inset;
                 let cover = self.cover(distance);
                 if cover > 0.0 {
@@ -202,7 +202,7 @@ impl<'a> Painter<'a> {
     fn write(&self, k: usize, slice: &mut [i16], hu: &[f32]) {
         let seed = hash(self.scene.seed, 0xC0_FFEE + k as u64);
         for (n, (voxel, hu)) in slice.iter_mut().zip(hu).enumerate() {
-            // Scanners have less noise without absorption.
+            // In air, which absorbs little, CT has less noise.
             let noise = if *hu < 5.0 * FAT { 0.6 * self.scene.noise } else { self.scene.noise };
             let noisy = hu + noise * normal(seed, n as u64);
             *voxel = noisy.round().clamp(AIR - 24.0, 3071.0) as i16;
@@ -211,7 +211,7 @@ impl<'a> Painter<'a> {
 }
 
 impl Stroke {
-    /// The bounding box up to `reach` mm outside the stroke.
+    /// The bounding box of the stroke, enlarged by `reach` mm on all sides.
     fn bounds(&self, reach: f32) -> (Vec3, Vec3) {
         let radius = self.radius.as_flattened().iter().copied().fold(0.0, f32::max) + reach;
         let [a, b] = self.ends;

@@ -1,4 +1,4 @@
-//! Stateless randomness: hashes of seed and place, so that neither evaluation order nor threads change a phantom.
+//! Random numbers without state: hashes of seed and place. Neither evaluation order nor threads change a phantom.
 
 /// A hash of two numbers (SplitMix64's finaliser over a Weyl sequence).
 #[inline(always)]
@@ -15,12 +15,12 @@ pub fn uniform(seed: u64, place: u64) -> f64 {
     (hash(seed, place) >> 11) as f64 / (1u64 << 53) as f64
 }
 
-/// Nearly normal within ±4.9, mean 0, standard deviation 1: the sum of a hash's eight bytes by one multiplication.
+/// A nearly normal number within ±4.9, mean 0, standard deviation 1. One multiplication adds the eight bytes of a hash.
 #[inline(always)]
 pub(crate) fn normal(seed: u64, place: u64) -> f32 {
     const BYTES: u64 = 0x00FF_00FF_00FF_00FF;
     const MEAN: f32 = 8.0 * 127.5;
-    // The variance of a uniform byte is (256² − 1) / 12; eight add up.
+    // A uniform random byte has the variance (256² − 1) / 12; the variances of eight bytes add up.
     const DEVIATION: f32 = 209.020_73;
     let h = hash(seed, place);
     let pairs = (h & BYTES) + ((h >> 8) & BYTES);
@@ -38,7 +38,7 @@ pub(crate) struct SmoothNoise {
 }
 
 impl SmoothNoise {
-    /// Noise with wavelengths (mm) in plane and across slices, for height `z` and the rectangle from `low` to `high` (mm).
+    /// Noise at height `z`, over the rectangle from `low` to `high` (mm), with wavelengths in the plane and across slices (mm).
     pub(crate) fn new(
         seed: u64,
         wavelength: f32,
@@ -75,7 +75,7 @@ impl SmoothNoise {
     }
 }
 
-/// Smoothstep from 0 to 1.
+/// The smoothstep function; 0 below 0 and 1 above 1.
 #[inline(always)]
 pub(crate) fn smooth_step(t: f32) -> f32 {
     let t = t.clamp(0.0, 1.0);

@@ -1,8 +1,8 @@
-//! Simple solids by signed distance (mm, negative inside).
+//! Simple solids, described by signed distances (mm, negative inside).
 
 use glam::{Vec2, Vec3};
 
-/// An axial ellipse at height `z`; a [`Shape::Profile`] interpolates them smoothly.
+/// An axial ellipse at height `z`; [`Shape::Profile`] interpolates smoothly between ellipses.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Section {
     pub(crate) z: f32,
@@ -25,7 +25,7 @@ pub(crate) enum Cut<'a> {
 }
 
 impl Shape {
-    /// The cross-section at height `z`, with a rectangle up to `reach` mm outside; `None` if farther away.
+    /// The cross-section at height `z`, and a rectangle that contains it and `reach` mm around it; `None` if `z` is farther away.
     pub(crate) fn cut(&self, z: f32, reach: f32) -> Option<(Cut<'_>, [Vec2; 2])> {
         if let Shape::Profile(sections) = self {
             let (center, axes) = section_at(sections, z)?;
@@ -51,7 +51,7 @@ impl Shape {
 }
 
 impl Cut<'_> {
-    /// Signed distance of `p`: exact for plates and rods of one radius, else accurate near the surface.
+    /// The signed distance of `p`. It is exact for plates and for rods of constant radius, and otherwise accurate near the surface.
     #[inline(always)]
     pub(crate) fn distance(&self, p: Vec3) -> f32 {
         match self {
@@ -73,13 +73,13 @@ impl Cut<'_> {
     }
 }
 
-/// Distance to an ellipse or ellipsoid by one Newton step, from the norms of q / axes and q / axes².
+/// Distance to an ellipse or ellipsoid by one Newton step; `scaled` is the norm of q / axes, `slope` that of q / axes².
 #[inline(always)]
 fn round_distance(scaled: f32, slope: f32) -> f32 {
     scaled * (scaled - 1.0) / slope.max(1e-9)
 }
 
-/// Distance of `p` from the line a–b, and the position of its foot (0 to 1).
+/// The distance of `p` from the segment a–b, and the position of the nearest point on it (0 at a, 1 at b).
 #[inline(always)]
 pub(crate) fn distance_to_line(p: Vec3, a: Vec3, b: Vec3) -> (f32, f32) {
     let (e, q) = (b - a, p - a);
@@ -97,7 +97,7 @@ fn distance_to_triangle(p: Vec3, [a, b, c]: &[Vec3; 3]) -> f32 {
     edge(a, b).min(edge(b, c)).min(edge(c, a))
 }
 
-/// The ellipse at height `z`, or `None` outside.
+/// The interpolated ellipse at height `z`, or `None` above or below all sections.
 fn section_at(sections: &[Section], z: f32) -> Option<(Vec2, Vec2)> {
     let above = sections.iter().position(|s| s.z >= z)?;
     let b = sections[above];
@@ -111,7 +111,7 @@ fn section_at(sections: &[Section], z: f32) -> Option<(Vec2, Vec2)> {
     Some((blend(|s| s.center), blend(|s| s.axes).max(Vec2::splat(0.5))))
 }
 
-/// Cubic Hermite interpolation between the middle values, `t` in [0, 1].
+/// Cubic Hermite interpolation between the two middle values at `t` in [0, 1].
 fn hermite(v: [(f32, Vec2); 4], t: f32) -> Vec2 {
     let gap = v[2].0 - v[1].0;
     let slope = |i: usize, j: usize| (v[j].1 - v[i].1) * (gap / (v[j].0 - v[i].0).max(1e-6));

@@ -1,4 +1,4 @@
-//! Small phantoms with closed-form answers: tubes in fat, noise-free, voxels of 0.5 mm.
+//! Small phantoms with closed-form answers: tubes in fat without noise, in voxels of 0.5 mm.
 
 use std::f64::consts::{PI, TAU};
 
@@ -15,7 +15,7 @@ use crate::{Phantom, wall_thickness};
 /// Voxel side (mm).
 const SPACING: f64 = 0.5;
 
-/// Fat around the outermost wall (mm).
+/// Thickness of the fat around the outermost wall (mm).
 const MARGIN: f64 = 10.0;
 
 /// A tube of radius 4 mm from (0, 0, −30) to (0, 0, 30), 60 segments.
@@ -50,7 +50,7 @@ pub fn crossing() -> Result<Phantom> {
 /// times in the anterior view.
 pub fn trefoil() -> Result<Phantom> {
     let place = |u: f64| {
-        // The same parameter at both ends closes the knot exactly.
+        // Both ends get the same parameter, so that the knot closes exactly.
         let t = if u < 1.0 { TAU * u } else { 0.0 };
         let x = t.sin() + 2.0 * (2.0 * t).sin();
         let z = t.cos() - 2.0 * (2.0 * t).cos();
@@ -159,7 +159,7 @@ fn made(name: &'static str, vasculature: Vasculature) -> Result<Phantom> {
         }
     }
     let size = ((high - low) / SPACING).ceil().to_array().map(|n| n as usize + 1);
-    // Centred, so that symmetric phantoms stay symmetric.
+    // The grid is centred, so that symmetric phantoms stay symmetric.
     let extent = DVec3::from_array(size.map(|n| (n - 1) as f64)) * SPACING;
     let grid = Grid { size, spacing: DVec3::splat(SPACING), origin: (low + high - extent) / 2.0 };
     let scene = Scene { solids: Vec::new(), background: FAT, seed: 0, noise: 0.0 };

@@ -22,12 +22,12 @@ pub(crate) enum Tissue {
     Muscle,
     /// Mesenteric fat with bowel loops, some with gas.
     Bowel,
-    /// A cortex (mm) around marrow (HU).
+    /// Marrow (HU) inside a cortex (mm thick).
     Bone {
         cortex: f32,
         marrow: f32,
     },
-    /// An organ with an enhanced rim (mm).
+    /// An organ with a rim (mm thick) that takes up more contrast medium.
     Rim {
         width: f32,
         rim: f32,
@@ -53,7 +53,7 @@ impl Patterns {
 }
 
 impl Tissue {
-    /// The value at (x, y), at signed distance `distance` (mm, negative inside).
+    /// The value (HU) at (x, y); `distance` is the signed distance from the surface of the solid (mm, negative inside).
     #[inline(always)]
     pub(crate) fn hu(self, distance: f32, x: f32, y: f32, patterns: &Patterns) -> f32 {
         match self {
@@ -67,7 +67,7 @@ impl Tissue {
             Tissue::Muscle => {
                 let seam = (patterns.seams.at(x, y) - 0.5).abs() / 0.035;
                 let grain = 14.0 * (patterns.fine.at(x, y) - 0.5);
-                // Seams fade in and out, like the planes between muscles.
+                // The seams in muscle fade in and out, like the planes between muscles.
                 let faded = smooth_step((patterns.loops.at(x, y) - 0.3) / 0.35);
                 let seam = 1.0 - faded * (1.0 - smooth_step(seam));
                 mix(FAT + 25.0, MUSCLE + grain, seam)
@@ -89,7 +89,7 @@ impl Tissue {
     }
 }
 
-/// Loops where the pattern `n` is high, with gas in some.
+/// The value of bowel (HU): loops are where the pattern `n` is high, and gas is where it is highest.
 #[inline(always)]
 fn bowel(n: f32, fine: f32) -> f32 {
     let fat = FAT - 5.0 + 10.0 * fine;
@@ -99,13 +99,13 @@ fn bowel(n: f32, fine: f32) -> f32 {
     mix(filled, AIR, smooth_step((n - 0.84) / 0.03))
 }
 
-/// From `a` at 0 to `b` at 1.
+/// Linear interpolation from `a` (t = 0) to `b` (t = 1).
 #[inline(always)]
 pub(crate) fn mix(a: f32, b: f32, t: f32) -> f32 {
     a + t * (b - a)
 }
 
-/// One organ: softly blended shapes, shrunk by `inset` mm.
+/// One organ: shapes that blend softly, shrunk by `inset` mm.
 #[derive(Clone, Debug)]
 pub(crate) struct Solid {
     pub(crate) shapes: Vec<Shape>,

@@ -83,7 +83,7 @@ impl Workload {
         Phantom::of(self.name, (&grid, &scene), vasculature, stop)
     }
 
-    /// The same field of view with `scale` times as many voxels along each axis.
+    /// The voxel grid of the same field of view, with `scale` times as many voxels along each axis.
     fn grid(&self, scale: f64) -> Result<Grid> {
         if !(0.02..=2.0).contains(&scale) {
             let found = format!("{scale}");

@@ -33,19 +33,19 @@ impl CenterlineFile {
         self.lines.format
     }
 
-    /// `"lps"`, `"ras"`, or None if not stated.
+    /// The space that the file states: `"lps"`, `"ras"`, or None.
     #[getter]
     fn space(&self) -> Option<&'static str> {
         self.lines.space.map(Space::name)
     }
 
-    /// `"um"`, `"mm"`, `"cm"`, `"dm"`, `"m"`, or None if not stated.
+    /// The unit that the file states: `"um"`, `"mm"`, `"cm"`, `"dm"`, `"m"`, or None.
     #[getter]
     fn unit(&self) -> Option<&'static str> {
         self.lines.unit.map(Unit::name)
     }
 
-    /// The usual unit of the format.
+    /// The unit that files of this format usually have.
     #[getter]
     fn conventional_unit(&self) -> &'static str {
         self.lines.conventional_unit.unwrap_or(Unit::Millimetre).name()
@@ -55,8 +55,8 @@ impl CenterlineFile {
         worded(py, py.detach(|| parted_doubt(&self.lines)).into_iter().collect())
     }
 
-    /// `(vessels, notes)`: each vessel `(points (n, 3), radius (n,) or None, name or None)` in mm in the file's space, for
-    /// `mm_per_unit`. `reorder` sorts the points of each line first.
+    /// Returns `(vessels, notes)`; each vessel is `(points (n, 3), radius (n,) or None, name or None)` in mm, in the file's space.
+    /// A unit of the file is `mm_per_unit` mm. `reorder` first sorts the points of each line.
     fn vessels<'py>(
         &self,
         py: Python<'py>,
@@ -71,7 +71,7 @@ impl CenterlineFile {
     }
 }
 
-/// A doubt about a line: vessel index, the other vessel if two lie side by side, finding, and mend.
+/// A doubt about a line: index of the vessel, of the other vessel if two lie side by side, finding, and remedy.
 type Doubt<'py> = (usize, Option<usize>, String, Bound<'py, PyAny>);
 
 fn worded<'py>(py: Python<'py>, doubts: Vec<LineDoubt>) -> PyResult<Vec<Doubt<'py>>> {
@@ -85,7 +85,7 @@ fn worded<'py>(py: Python<'py>, doubts: Vec<LineDoubt>) -> PyResult<Vec<Doubt<'p
 /// Points (n, 3), radii (n,), and name.
 type NamedVessel<'py> = (VesselArrays<'py>, Option<String>);
 
-/// Doubts about the point order of vessels and, with `beside`, about pairs side by side.
+/// Doubts about the point order of vessels and, if `beside` is set, about pairs of vessels side by side.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn line_doubts<'py>(

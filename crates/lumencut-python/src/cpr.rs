@@ -1,4 +1,4 @@
-//! The CPR of a vessel as a layout, and pictures of values.
+//! The CPR of a vessel as a layout, and pictures from arrays of values.
 
 use std::sync::Arc;
 
@@ -30,7 +30,7 @@ pub struct Cpr(pub cpr::Cpr);
 
 #[pymethods]
 impl Cpr {
-    /// The layout of a vessel's points (n, 3) in a view; `pixels` are image width and pixel side (mm).
+    /// Lays out a vessel's points (n, 3) in a view; `pixels` are image width and pixel side (mm).
     #[new]
     #[pyo3(signature = (points, smoothing, mode, view, pixels))]
     #[allow(clippy::needless_pass_by_value)]
@@ -57,13 +57,13 @@ impl Cpr {
         Bound::new(py, self.0.rotated(angle).map(Self::with_layout).map_err(to_python)?)
     }
 
-    /// The same straightened vessel with angles (radians) that vary along it (mm).
+    /// The same straightened vessel, rotated by the angles `angle` (radians) at the arc lengths `at` (mm).
     fn rolled<'py>(&self, py: Python<'py>, at: Vec<f64>, angle: Vec<f64>) -> PyResult<Bound<'py, Self>> {
         let rolled = Roll::new(at, angle).and_then(|roll| self.0.rolled(roll));
         Bound::new(py, rolled.map(Self::with_layout).map_err(to_python)?)
     }
 
-    /// World points (n, 3) of positions in straightened space: across, ahead, along (mm).
+    /// World points (n, 3) of positions in straightened space: offset to the side, offset away from the viewer, arc length (mm).
     #[allow(clippy::needless_pass_by_value)]
     fn world_from_straightened<'py>(
         &self,
@@ -73,7 +73,7 @@ impl Cpr {
         self.straightened(py, &places, |space, place| space.world_from_straightened(place))
     }
 
-    /// Positions of world points (n, 3) in straightened space: across, ahead, along (mm).
+    /// Positions of world points (n, 3) in straightened space; the coordinates are those of `world_from_straightened` (mm).
     #[allow(clippy::needless_pass_by_value)]
     fn straightened_from_world<'py>(
         &self,
@@ -83,7 +83,7 @@ impl Cpr {
         self.straightened(py, &points, |space, point| space.straightened_from_world(point))
     }
 
-    /// The stated directions (LPS) of i, j and k of a straightened volume with this step (mm), and the mark for its files.
+    /// For a straightened volume with this step (mm): the directions (LPS) stated for i, j and k, and the mark of its files.
     fn straightened_sides(&self, step: f64, is_stated: bool) -> PyResult<([[f64; 3]; 3], String)> {
         let sides = StraightenedSides::of(self.space()?, step, is_stated);
         Ok((sides.axes().map(|axis| axis.to_array()), sides.mark()))
@@ -137,7 +137,7 @@ pub(crate) fn feature_window(feature: &str, level: Option<f64>, window: [f64; 2]
     Feature::named(feature, level).map(|feature| feature.window(window)).map_err(to_python)
 }
 
-/// The side letters and warnings in the mark of a straightened volume; None for another text.
+/// Finds the mark of a straightened volume in a text: its side letters and warnings; None if there is no mark.
 #[pyfunction]
 pub(crate) fn straightened_mark(text: &str) -> Option<(String, Vec<String>)> {
     StraightenedSides::read(text).map(|sides| (sides.letters().to_owned(), sides.notes()))

@@ -1,10 +1,10 @@
-//! DICOM headers and their interpretation, as JSON.
+//! Interprets and describes DICOM headers, as JSON.
 
 use lumencut_dicom::{Keyword, json};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// Adds the required attributes: keyword → functional groups that may contain it.
+/// Adds the required DICOM attributes to the module: each keyword with the functional groups that may contain it.
 pub(crate) fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let attributes = PyDict::new(module.py());
     for keyword in Keyword::ALL {
@@ -25,7 +25,7 @@ pub(crate) fn describe_dicom(py: Python<'_>, headers: &[u8]) -> String {
     py.detach(|| json::describe(headers))
 }
 
-/// Direction cosines corrected to slices along a line; None if far from orthonormal.
+/// Direction cosines corrected so that the slices lie along a line; None if the cosines are far from orthonormal.
 #[pyfunction]
 #[pyo3(signature = (cosines, line, /))]
 pub(crate) fn dicom_directions(cosines: [f64; 6], line: [f64; 3]) -> Option<[f64; 6]> {

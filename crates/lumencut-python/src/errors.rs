@@ -1,4 +1,4 @@
-//! Rust errors as exceptions of `lumencut.errors`, by an exhaustive match over the kinds.
+//! Converts Rust errors to exceptions of `lumencut.errors`; a match covers all kinds.
 
 use std::ffi::CString;
 
@@ -28,7 +28,7 @@ pub(crate) fn exception(class: &str, subject: &str, found: &str, expected: &str,
     mended(class, [subject, found, expected, advice], None)
 }
 
-/// An exception of subject, finding, expectation and advice, with a mend.
+/// An exception of `class` with the texts subject, finding, expectation and advice, and a remedy for programs.
 pub(crate) fn mended(class: &str, texts: [&str; 4], mended_by: Option<&Mend>) -> PyErr {
     Python::attach(|py| made(py, class, texts, mended_by).map_or_else(|error| error, PyErr::from_value))
 }

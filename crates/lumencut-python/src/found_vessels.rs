@@ -1,4 +1,4 @@
-//! Finds vessels automatically or from a seed, for `lumencut.finding` and `lumencut.seed_tracing`.
+//! Finds vessels automatically or from a seed; used by `lumencut.finding` and `lumencut.seed_tracing`.
 
 use glam::DVec3;
 use lumencut::error::Result;
@@ -19,7 +19,7 @@ use crate::watching::{Reporter, SHARES, interruptible};
 type FoundArrays<'py> =
     (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, &'static str);
 
-/// Vessels (doubtful ones last), indices of connected confident ones, and notes.
+/// Vessels (doubtful ones last), the indices of confident vessels in each connected part, and notes.
 type FoundParts<'py> = (Vec<FoundArrays<'py>>, Vec<Vec<usize>>, Vec<String>);
 
 #[pyfunction]
@@ -37,7 +37,7 @@ pub(crate) fn find_vessels<'py>(
     })
 }
 
-/// The vessels connected to a seed (mm, LPS).
+/// Finds the vessels connected to a seed (mm, LPS).
 #[pyfunction]
 #[pyo3(signature = (volume, seed, smallest_radius, callback=None))]
 #[allow(clippy::needless_pass_by_value)]

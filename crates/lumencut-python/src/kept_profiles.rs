@@ -27,7 +27,7 @@ impl KeptProfiles {
         Self(Mutex::new(Core::default()))
     }
 
-    /// The profile of a vessel, points (n, 3) and radii (n,), measured if needed; `callback` as in [`crate::measuring::measure`].
+    /// The cached profile of a vessel with points (n, 3) and radii (n,); `callback` as in [`crate::measuring::measure`].
     #[pyo3(signature = (volume, tree, measured, step, fwhm=None, wall=None, callback=None))]
     #[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)]
     fn profile<'py>(

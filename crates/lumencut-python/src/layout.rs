@@ -1,4 +1,4 @@
-//! Reformations laid out as an image, for Python.
+//! Layouts of reformations as images, for Python.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use crate::tree::points_of;
 use crate::watching::computed;
 
-/// The sampled positions of a reformation; base class of the specific ones.
+/// The sampled positions of a reformation; base class for the layout of each kind of reformation.
 #[pyclass(frozen, subclass, module = "lumencut._lumencut")]
 pub struct Layout(pub Arc<dyn reformations::Layout>);
 
@@ -35,18 +35,18 @@ impl Layout {
         numbers_of(py, curved.position()).reshape([height, width, 3])
     }
 
-    /// Arc length (mm), shape (H,) if rows run along one vessel, else (H * W,).
+    /// Arc length (mm): shape (H,) if each row shows one position along a single vessel, else (H * W,).
     fn arc_length<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray1<f64>>> {
         Ok(PyArray1::from_vec(py, computed(py, |stop| self.0.arc_length(stop))?))
     }
 
-    /// Folded pixels, shape (H, W).
+    /// Whether each pixel is folded, shape (H, W).
     fn folded<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<bool>>> {
         let [width, height] = self.0.size();
         PyArray1::from_vec(py, computed(py, |stop| self.0.folded(stop))?).reshape([height, width])
     }
 
-    /// World points (n, 3) (mm, LPS) of image positions (n, 2): column and row.
+    /// World points (n, 3) (mm, LPS) at image positions (n, 2), given as column and row.
     #[allow(clippy::needless_pass_by_value)]
     fn world_from_pixel<'py>(
         &self,

@@ -9,7 +9,7 @@ use pyo3::prelude::*;
 use crate::errors::to_python;
 use crate::tree::{flat_arrays, points_of};
 
-/// Points (n, 3), radii (n,), confidence (n,) and bridged points (n,) of a vessel.
+/// A vessel: points (n, 3), radii (n,), confidence (n,), and whether each point is bridged (n,).
 #[derive(FromPyObject)]
 pub(crate) struct LineArrays<'py>(
     PyReadonlyArray2<'py, f64>,
@@ -37,7 +37,7 @@ impl LineArrays<'_> {
     }
 }
 
-/// The two parts of a vessel cut at an arc length (mm).
+/// Cuts a vessel in two at an arc length (mm).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn cut<'py>(

@@ -26,7 +26,7 @@ use crate::watching::computed;
 /// An ostium: vessel id, arc length (mm), point (mm, LPS), column and row.
 type OstiumRow = (usize, f64, [f64; 3], [f64; 2]);
 
-/// The wall around a vessel, shared by its maps.
+/// The wall around a vessel; all maps of the vessel share it.
 #[pyclass(frozen, module = "lumencut._lumencut")]
 pub struct LumenWall {
     path: Arc<CenterlinePath>,
@@ -36,7 +36,7 @@ pub struct LumenWall {
 
 #[pymethods]
 impl LumenWall {
-    /// The wall of a vessel, points (n, 3) and radii (n,), seen with `up` upwards; from its profile if given.
+    /// The wall of a vessel with points (n, 3) and radii (n,), seen with `up` upwards. It comes from `profile`, if given.
     #[new]
     #[pyo3(signature = (volume, vessel, smoothing, up, profile=None))]
     #[allow(clippy::needless_pass_by_value)]
@@ -53,7 +53,7 @@ impl LumenWall {
         let view = View { up: DVec3::from_array(up), angle: 0.0, normal: None };
         let profile = profile.map(|profile| Arc::clone(&profile.get().0));
         let found = || -> Result<Self> {
-            // The path has no radii.
+            // The path of a map uses no radii.
             let line = Vessel::new(vessel.points().to_vec(), None)?;
             let path = Arc::new(CenterlinePath::new(&line, smoothing)?);
             let straightened = Straightened::new(Arc::clone(&path), &view)?;
@@ -63,19 +63,19 @@ impl LumenWall {
         py.detach(|| pool::install(found))?.map_err(to_python)
     }
 
-    /// The least level of calcium or metal, if the vessel was measured.
+    /// The lowest value that counts as calcium or metal; None if the vessel was not measured.
     #[getter]
     fn calcium_level(&self) -> Option<f64> {
         self.found.levels.map(maps::calcium_level)
     }
 
-    /// The radius at which columns are true to scale (mm).
+    /// The radius (mm) at which the width of columns is true to scale.
     #[getter]
     fn mean_radius(&self) -> f64 {
         self.found.mean_radius
     }
 
-    /// Arc lengths (mm), and the angle (radians) of the narrowest or widest side at each.
+    /// Arc lengths (mm), and at each of them the direction (radians) of the narrowest or widest side.
     fn roll<'py>(&self, py: Python<'py>, side: &str) -> PyResult<[Bound<'py, PyArray1<f64>>; 2]> {
         let side = Side::named("roll of the CPR", side).map_err(to_python)?;
         let length = self.path.length();
@@ -83,8 +83,8 @@ impl LumenWall {
         Ok([roll.places(), roll.angles()].map(|values| PyArray1::from_slice(py, values)))
     }
 
-    /// A map of the wall: pixel side (mm), direction of the middle (radians; None centres calcium), overlap (radians), band
-    /// beyond the wall (mm), and calcium level.
+    /// A map of the wall, for a pixel side (mm), direction of the middle column (radians; None centres calcium), overlap (radians),
+    /// band beyond the wall (mm), and calcium level.
     #[allow(clippy::needless_pass_by_value)]
     fn map<'py>(
         &self,
@@ -133,12 +133,12 @@ impl LumenMap {
         self.shaped(py, computed(py, |stop| self.0.open(stop))?)
     }
 
-    /// Shading of the wall, lit from the middle (0 to 1), shape (H, W).
+    /// Shading of the wall by a light at the middle of the lumen (0 to 1), shape (H, W).
     fn shades<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f32>>> {
         self.shaped(py, computed(py, |stop| self.0.shades(stop))?)
     }
 
-    /// Thickness above a level within a band beyond the wall (mm), shape (H, W).
+    /// Thickness (mm) of what exceeds a level within a band beyond the wall, shape (H, W).
     #[allow(clippy::needless_pass_by_value)]
     fn thickness<'py>(
         &self,

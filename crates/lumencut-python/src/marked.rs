@@ -1,4 +1,4 @@
-//! A reader's marks on a vessel, and their results.
+//! A reader's marks on a vessel, and the results at the marked places.
 
 use lumencut::measure::groups::Territory;
 use lumencut::measure::stenosis::{Compared, Method};
@@ -60,7 +60,7 @@ impl Grade {
     }
 }
 
-/// The result at the marked place; None without one.
+/// The result at the marked place; None if no place is marked.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn grade(profile: &Profile, marked: MarkedParts) -> PyResult<Option<Grade>> {

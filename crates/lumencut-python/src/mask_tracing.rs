@@ -1,4 +1,4 @@
-//! Traces masks and compares centerlines, for `lumencut.mask_tracing` and `lumencut.centerline_comparison`.
+//! Traces masks and compares centerlines; used by `lumencut.mask_tracing` and `lumencut.centerline_comparison`.
 
 use glam::{DAffine3, DMat3, DVec3};
 use lumencut::mask_grid::{Grid, place_of, place_within, placed_note};
@@ -19,19 +19,19 @@ use crate::tree::points_of;
 use crate::volume::VolumeArgument;
 use crate::watching::{Reporter, SHARES, interruptible};
 
-/// Points (n, 3), radii (n,), confidence (n,) or (0,), label, and whether it bridges a gap.
+/// A vessel: points (n, 3), radii (n,), confidence (n,) or (0,), label, and whether it bridges a gap.
 type TracedArrays<'py> =
     (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>, i64, bool);
 
 type Place = (f64, f64, f64);
 
-/// Least branch length (radii of the parent), point step and widest bridged gap (mm).
+/// The shortest branch (radii of its parent), the distance of points, and the widest gap to bridge (mm).
 type Lengths = (f64, f64, f64);
 
-/// Width (mm), vessel ids and points on both sides, and whether it was bridged.
+/// A gap: its width (mm), vessel ids and points on both sides, and whether it was bridged.
 type GapParts = (f64, (usize, usize), (Place, Place), bool);
 
-/// Correspondence of two lines (n, 3), (m, 3) as point indices, shape (n + m - 1, 2).
+/// The corresponding points of two lines (n, 3) and (m, 3): pairs of point indices, shape (n + m - 1, 2).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn correspondence<'py>(
@@ -47,7 +47,7 @@ pub(crate) fn correspondence<'py>(
 
 type GridParts = ([usize; 3], [[f64; 4]; 3]);
 
-/// The volume axis of each mask axis; per volume axis the direction and the lowest mask index; a note.
+/// The volume axis of each mask axis; for each volume axis whether the mask runs the same way, and its lowest index; a note.
 type PlaceParts = ([usize; 3], [bool; 3], [usize; 3], String);
 
 /// The position of a mask in its volume; None if their grids are equal.
@@ -63,7 +63,7 @@ pub(crate) fn place_mask(mask: GridParts, volume: GridParts, always: bool) -> Py
     Ok(place.map_err(to_python)?.map(|place| (place.axes, place.forward, place.low, note)))
 }
 
-/// The vessels of a mask, refined by a volume's grey values if given, with details by name.
+/// The vessels of a mask, and a dictionary with details. If a volume is given, its grey values refine the vessels.
 #[pyfunction]
 #[pyo3(signature = (mask, volume, labels, lengths, callback=None))]
 #[allow(clippy::needless_pass_by_value)]

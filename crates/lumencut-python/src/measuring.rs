@@ -34,7 +34,7 @@ use crate::volume::VolumeArgument;
 use crate::wall_request::wall_request;
 use crate::watching::reporting;
 
-/// Adds the flags (name, bit, word, meaning, colours on paper and screen), methods with labels, and defaults.
+/// Adds to the module: flags (name, bit, word, meaning, colours on paper and screen), methods with labels, and defaults.
 pub(crate) fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let row = |flag: &FlagLook| (flag.name, flag.bit, flag.word, flag.meaning, flag.paper, flag.screen);
     module.add("MEASURING_FLAGS", FLAGS.iter().map(row).collect::<Vec<_>>())?;
@@ -45,7 +45,7 @@ pub(crate) fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("DEFAULTS", defaults().into_py_dict(module.py())?)
 }
 
-/// Defaults by name: mm, but radii of the parent for the shortest branch.
+/// Default lengths by name, in mm; the shortest branch in radii of its parent.
 fn defaults() -> [(&'static str, f64); 4] {
     [
         ("measuring_step", measuring::STEP),
@@ -59,8 +59,8 @@ fn defaults() -> [(&'static str, f64); 4] {
 #[pyclass(frozen, module = "lumencut._lumencut")]
 pub struct Profile(pub Arc<profile::Profile>, pub ScanDetails);
 
-/// The profile of a vessel, points (n, 3) and radii (n,), in its tree. `estimates` are earlier tree-wide estimates; without a tree the
-/// point spread is the given width (mm) or estimated from the vessel. `progress` receives the share done.
+/// The profile of a vessel with points (n, 3) and radii (n,), in its tree. `estimates` are earlier tree-wide estimates. Without a
+/// tree the point spread is `fwhm` (mm) or estimated from the vessel. `progress` receives the fraction of the work that is done.
 #[pyfunction]
 #[pyo3(signature = (volume, measured, step, fwhm=None, tree=None, wall=None, estimates=None, progress=None))]
 #[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)]
@@ -143,13 +143,13 @@ impl Profile {
         PyArray1::from_slice(py, &self.0.flags)
     }
 
-    /// Sections that count for largest, narrowest and suggested places, shape (n,).
+    /// Whether each section is considered for the largest, narrowest and suggested places, shape (n,).
     #[getter]
     fn counts<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
         PyArray1::from_iter(py, (0..self.0.len()).map(|n| self.0.counts(n)))
     }
 
-    /// Index of the section nearest to an arc length (mm); the first of two.
+    /// Index of the section nearest to an arc length (mm); the first of two equally near sections.
     fn nearest(&self, at: f64) -> usize {
         self.0.nearest_section(at)
     }
@@ -199,7 +199,7 @@ impl Profile {
         self.0.noise
     }
 
-    /// The stenosis at an arc length (mm): method, references (mm), assumed original and comparison diameters (mm).
+    /// Grades the stenosis at an arc length (mm). References are arc lengths, original and comparison are diameters (mm).
     #[pyo3(signature = (at, method, reference, original=None, comparison=None))]
     fn stenosis(
         &self,
@@ -225,12 +225,12 @@ impl Profile {
         self.0.widest().map(pair)
     }
 
-    /// The largest diameter as suggested to readers: arc length and diameter (mm).
+    /// The largest diameter that is suggested to readers: arc length and diameter (mm).
     fn offered_widest(&self) -> Option<(f64, f64)> {
         self.0.offered_widest().map(pair)
     }
 
-    /// Suggested references before and after an arc length (mm): arc length and diameter (mm).
+    /// The references suggested before and after an arc length (mm): arc length and diameter of each (mm).
     fn suggested_references(&self, at: f64) -> PyResult<[Option<(f64, f64)>; 2]> {
         let spots = self.0.suggested_references(at).map_err(to_python)?;
         Ok(spots.map(|spot| spot.map(pair)))
@@ -241,7 +241,7 @@ impl Profile {
         self.0.diameter_at(at).map_err(to_python)
     }
 
-    /// Length of a stretch along the vessel, and straight (mm).
+    /// The length of a stretch along the vessel, and the straight distance of its ends (mm).
     fn stretch(&self, ends: [f64; 2]) -> PyResult<(f64, f64)> {
         self.0.stretch(ends).map(|stretch| (stretch.length, stretch.straight)).map_err(to_python)
     }
@@ -255,13 +255,13 @@ impl Profile {
         self.0.angle_between(first, second).map_err(to_python)
     }
 
-    /// LAO and cranial angle of a C-arm that shows a stretch unforeshortened (radians).
+    /// LAO and cranial angle (radians) of a C-arm position that shows a stretch without foreshortening.
     #[pyo3(signature = (ends, lao=None))]
     fn c_arm(&self, ends: [f64; 2], lao: Option<f64>) -> PyResult<(f64, f64)> {
         self.0.c_arm(ends, lao).map(|arm| (arm.lao, arm.cranial)).map_err(to_python)
     }
 
-    /// FWHM of the point spread (mm), and its source.
+    /// FWHM of the point spread (mm), and where it comes from.
     #[getter]
     fn fwhm(&self) -> (f64, String) {
         (self.0.fwhm, measure_words::of_source(&self.0.fwhm_source))
@@ -273,7 +273,7 @@ pub struct Stenosis(pub stenosis::Stenosis);
 
 #[pymethods]
 impl Stenosis {
-    /// Percent, place, diameter, uncertainty, reference (mm), and uncertainty of the percentage.
+    /// Percent, place (mm), diameter (mm) and its uncertainty, reference (mm), and uncertainty of the percentage.
     fn numbers(&self) -> (f64, f64, f64, f64, f64, f64) {
         let graded = &self.0;
         let unsure = graded.percent_uncertainty;
@@ -314,7 +314,7 @@ impl Stenosis {
 /// Values (H, W), positions (H, W, 3), normal and arc length (mm) of a section.
 type SectionParts<'py> = (Bound<'py, PyArray2<f32>>, Bound<'py, PyArray3<f64>>, [f64; 3], f64);
 
-/// The section of a vessel, points (n, 3) and radii (n,), at an arc length; the nearest one of a given profile.
+/// The section of a vessel with points (n, 3) and radii (n,) at an arc length; with a profile, the measured section nearest to it.
 #[pyfunction]
 #[pyo3(signature = (volume, measured, at, image, profile=None))]
 #[allow(clippy::needless_pass_by_value)]
@@ -341,7 +341,7 @@ pub(crate) fn cross_section<'py>(
 
 type RadiusParts<'py> = (Option<Bound<'py, PyArray1<f64>>>, usize, usize);
 
-/// Measured radii of a tree's vessels, points (n, 3) and radii (n,); `callback` as `progress` in [`measure`].
+/// The measured radii of a tree's vessels with points (n, 3) and radii (n,); `callback` acts as `progress` in [`measure`].
 #[pyfunction]
 #[pyo3(signature = (volume, vessels, step, fwhm=None, wall=None, callback=None))]
 #[allow(clippy::needless_pass_by_value)]

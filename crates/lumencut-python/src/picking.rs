@@ -32,7 +32,7 @@ pub(crate) fn brightest(
     Ok(place.to_array())
 }
 
-/// The arc length (mm) on a vessel nearest to a point, and whether a click there selects the vessel, for a pixel side (mm).
+/// The arc length (mm) on a vessel nearest to a point, and whether a click there selects the vessel at this pixel side (mm).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn meant_place(
@@ -45,7 +45,7 @@ pub(crate) fn meant_place(
     Ok((at, clicked_vessel::is_clicked(&vessel, point, pixel_spacing)))
 }
 
-/// Whether a pixel (column, row) shows the cut surface rather than a focus's surroundings.
+/// Whether a pixel (column, row) shows the cut surface, and not what lies around the focus.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn shows_cut(

@@ -1,4 +1,4 @@
-//! Space and unit of centerlines, for `lumencut.placement`.
+//! Finds space and unit of centerlines; used by `lumencut.placement`.
 
 use glam::DVec3;
 use lumencut::centerlines::{Space, Unit};
@@ -40,7 +40,7 @@ impl FromPyObject<'_, '_> for UnitArgument {
     }
 }
 
-/// Knowledge about a file's coordinates: the caller's request, and the attributes of `lumencut.placement.Stated`.
+/// What is known about a file's coordinates: the caller's request and the file's statement (`lumencut.placement.Stated`).
 #[derive(FromPyObject)]
 pub(crate) struct KnownArgument {
     #[pyo3(item)]
@@ -67,7 +67,7 @@ impl KnownArgument {
     }
 }
 
-/// Adds millimetres per unit, signs from each space to LPS, and plausible extents of vessels (mm).
+/// Adds to the module: millimetres per unit, signs from each space to LPS, and the plausible extents of vessels (mm).
 pub(crate) fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let (units, spaces) = (PyDict::new(module.py()), PyDict::new(module.py()));
     for unit in Unit::ALL {
@@ -83,7 +83,7 @@ pub(crate) fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("LARGEST_EXTENT", LARGEST)
 }
 
-/// Runs `work` with a judge: the extent of a volume, and its values along points (n, 3) with radii (n,).
+/// Calls `decide` with the extent of a volume and its values along points (n, 3) with radii (n,).
 fn judged<T: Send>(
     py: Python<'_>,
     (points, radii): (&[DVec3], &PyReadonlyArray1<'_, f64>),
@@ -100,7 +100,7 @@ fn judged<T: Send>(
     Ok(py.detach(|| decide(&Judge { extent: Extent::from(&volume), lumen: &lumen })))
 }
 
-/// The placement of the file `subject` with points (n, 3) and radii (n,), NaN if unknown: the attributes of
+/// How to read the file `subject` with points (n, 3) and radii (n,), NaN if unknown. Returns the attributes of
 /// `lumencut.placement.Placement`.
 #[pyfunction]
 #[pyo3(signature = (subject, points, radii, known, volume))]
@@ -144,8 +144,8 @@ fn names_of(stated: Statement) -> (Option<&'static str>, Option<&'static str>) {
 
 type Better = (String, (&'static str, &'static str));
 
-/// A better place for points (n, 3) (mm, LPS) with radii (n,) (mm), NaN if unknown, that fit the volume or its lumen better
-/// elsewhere; assumes they were read as LPS in mm.
+/// The space and unit in which points (n, 3) with radii (n,), read as LPS in mm, fit the volume or its lumen better; None if they
+/// fit as read. Unknown radii are NaN.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn better_place(
@@ -159,7 +159,7 @@ pub(crate) fn better_place(
     Ok(better.map(|better| (better.found, (better.meant.space.name(), better.meant.unit.name()))))
 }
 
-/// Whether points (n, 3) (mm, LPS) miss a volume in every space and unit.
+/// Whether points (n, 3) (mm, LPS) miss a volume in every combination of space and unit.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn fits_nowhere(

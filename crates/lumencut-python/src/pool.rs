@@ -1,4 +1,4 @@
-//! The thread pool. A forked process inherits its parent's pool without threads and would wait forever, so it makes its own.
+//! The thread pool. A forked process makes its own pool: it inherits its parent's pool without threads, and would wait forever.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -15,10 +15,10 @@ struct Made {
 
 static POOL: Mutex<Option<Made>> = Mutex::new(None);
 
-/// The requested number of threads; 0 for all of the processor.
+/// The requested number of threads; 0 for one per logical processor.
 static WANTED: AtomicUsize = AtomicUsize::new(0);
 
-/// Sets the number of threads; 0 for all of the processor.
+/// Sets the number of threads; 0 for one per logical processor.
 #[pyfunction]
 pub(crate) fn set_threads(count: usize) {
     WANTED.store(count, Ordering::Relaxed);

@@ -1,4 +1,4 @@
-//! Outputs of profiles: words, marked places, tables and JSON.
+//! Profiles in words, tables and JSON, and the places to review on them.
 
 use lumencut::measure::stretch::CArm;
 use lumencut::measure_words;
@@ -17,7 +17,7 @@ pub(crate) fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("MEASURING_NOTICE", NOTICE)
 }
 
-/// The request, as options of the command line.
+/// The measuring request; fields are named like the command-line options.
 #[derive(FromPyObject)]
 #[pyo3(from_item_all)]
 pub struct Options {
@@ -92,7 +92,7 @@ fn parts_of(marks: &[Mark]) -> Vec<MarkParts> {
     marks.iter().map(|mark| (mark.name, mark.at, mark.diameter, mark.is_suggestion)).collect()
 }
 
-/// The places to review on a vessel with marks; without unmeasured ones.
+/// The places to review on a vessel with marks; places without a measurement are omitted.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn marked_places(profile: &Profile, marked: MarkedParts) -> PyResult<Vec<MarkParts>> {
@@ -127,7 +127,7 @@ pub(crate) fn flag_words(flags: u32) -> Vec<String> {
     measure_words::of_flags(flags)
 }
 
-/// C-arm angles (radians) as displayed on it.
+/// The angles of a C-arm (radians) in the words that it displays.
 #[pyfunction]
 pub(crate) fn c_arm_words(lao: f64, cranial: f64) -> String {
     measure_words::of_c_arm(&CArm { lao, cranial })

@@ -1,4 +1,4 @@
-//! Checks parts of the settings, so that their Python classes do not depend on `lumencut.Settings`.
+//! Checks parts of the settings for Python classes that must not depend on `lumencut.Settings`.
 
 use lumencut::named::Named;
 use lumencut::reformations::cr::CrParameters;
@@ -34,7 +34,7 @@ pub(crate) fn check_transfer_function(points: Vec<(f64, [u8; 3], f64)>) -> PyRes
     TransferFunction { points: points.into_iter().map(point).collect() }.check().map_err(to_python)
 }
 
-/// Checks the thresholds of CR (pixels).
+/// Checks the thresholds of Centerline Reformation (pixels).
 #[pyfunction]
 pub(crate) fn check_cr(radius_offset: f64, arc_threshold: f64) -> PyResult<()> {
     CrParameters { radius_offset, arc_threshold }.check().map_err(to_python)

@@ -1,4 +1,4 @@
-//! Shared by pictures of reformations: captions, colours and default lengths.
+//! Captions, colours and default lengths for pictures of reformations.
 
 use lumencut::axes_words::Axes;
 use lumencut::error::{Error, ErrorKind};
@@ -9,8 +9,8 @@ use pyo3::prelude::*;
 
 use crate::errors::to_python;
 
-/// The caption of a reformation: `untangled`, `uncurled` (amount), `spiral by arc` (pitch, mm), `spiral by angle`, `map` (radius
-/// true to scale, mm).
+/// The caption of a reformation. `number` is the amount of `uncurled`, the pitch (mm) of `spiral by arc`, or the radius (mm) at
+/// which a `map` is true to scale.
 #[pyfunction]
 #[pyo3(signature = (reformation, number=0.0))]
 pub(crate) fn axes_words(reformation: &str, number: f64) -> PyResult<String> {
@@ -54,13 +54,13 @@ pub(crate) fn scale_end(value: PyReadonlyArray2<'_, f32>) -> f64 {
     value_colours::scale_end(&values)
 }
 
-/// The reach of a spiral CPR (mm), for a largest radius (mm).
+/// How far a spiral CPR reaches (mm), for a largest radius (mm).
 #[pyfunction]
 pub(crate) fn spiral_reach(largest: f64) -> f64 {
     spiral_lengths::spiral_reach(largest)
 }
 
-/// The pitch of a spiral CPR (mm) from usual radius, smallest voxel side, reach, pixel side (mm), and largest number of columns.
+/// The pitch of a spiral CPR (mm) from typical radius, smallest voxel side, reach, pixel side (mm), and largest number of columns.
 #[pyfunction]
 pub(crate) fn spiral_pitch(
     usual: f64,

@@ -1,4 +1,4 @@
-//! The renderer: runs without the GIL; Ctrl-C stops it.
+//! The renderer. It releases the GIL while it works; Ctrl-C stops it.
 
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
@@ -35,7 +35,7 @@ use crate::tree::{VesselArrays, tree};
 use crate::volume::VolumeArgument;
 use crate::watching::{Reporter, SHARES, interruptible};
 
-/// Renders views of a tree or a volume. Renderers of one volume share the device and what is known about the volume.
+/// Renders views of a tree or a volume. Renderers of one volume share the device and the data computed from the volume.
 #[pyclass(frozen, module = "lumencut._lumencut")]
 pub struct Renderer {
     backend: Arc<Mutex<Backend>>,
@@ -67,8 +67,8 @@ impl Renderer {
         py.detach(|| self.backend.lock().unwrap_or_else(PoisonError::into_inner).name().to_owned())
     }
 
-    /// Details of a cut surface, computed on the CPU: the arc length between the two blended positions of each pixel (mm,
-    /// infinite across vessels), and the silhouette strength.
+    /// Details of a cut surface, computed on the CPU: the silhouette strength, and the arc length (mm) between the two positions
+    /// that each pixel blends; infinite between two vessels.
     #[allow(clippy::needless_pass_by_value)]
     fn details<'py>(
         &self,
@@ -118,8 +118,8 @@ impl Renderer {
         PyArray1::from_vec(py, strength).reshape([height, width])
     }
 
-    /// The requested buffers of a view: of the cut surface if there are vessels, of the picture if there is a volume. `method`
-    /// defaults to the cut surface. `callback` receives progress in `SHARES`.
+    /// The requested images of a view: the cut surface if there are vessels, the picture if there is a volume. `method` defaults to
+    /// the cut surface. `callback` receives the progress and `SHARES`.
     #[pyo3(signature = (volume, camera, settings, images=None, callback=None, method=None))]
     #[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)]
     fn render<'py>(
@@ -148,8 +148,8 @@ impl Renderer {
         let (frame, given_up) = interruptible(py, reporter.as_ref(), |stop| {
             let progress = reporter.as_ref().map(|reporter| reporter.progress);
             let request = Request { camera: &camera, settings, images, stop, progress };
-            // Locked outside the pool: a pool thread waiting for part of this view could start another view and wait for its own
-            // lock. An interrupted rendering leaves nothing that the next does not overwrite.
+            // The lock is taken outside the pool. A pool thread that waits for part of this view could start another view, and wait
+            // for the lock that it holds itself. After an interrupted rendering, the next one overwrites all that it left.
             let mut locked = self.backend.lock().unwrap_or_else(PoisonError::into_inner);
             let backend = &mut *locked;
             pool::install(|| pollster::block_on(backend.render_by(method, &scene, &request)))?
@@ -162,7 +162,7 @@ impl Renderer {
         buffers(py, frame)
     }
 
-    /// The requested images of a volume at the positions of a reformation; the picture is transparent outside the volume.
+    /// The requested images of a volume at the positions of a reformation. Outside the volume the picture is transparent.
     #[allow(clippy::needless_pass_by_value)]
     fn look<'py>(
         &self,
@@ -176,7 +176,7 @@ impl Renderer {
         let images = image_set(&images)?;
         let borrowed = volume.borrow()?;
         let volume = SharedVolume::new(volume.volume(&borrowed)?, self.volume.clone());
-        // A dummy: the images need no camera.
+        // The renderer needs a camera; these images do not depend on it.
         let camera = Camera::new(DVec3::ZERO, DVec3::Y, DVec3::Z, [1, 1], 1.0).map_err(to_python)?;
         let (frame, given_up) = interruptible(py, None, |stop| {
             let request = Request { images, stop, ..Request::new(&camera, settings) };
@@ -189,8 +189,8 @@ impl Renderer {
         buffers(py, py.detach(|| frame.transparent_outside()))
     }
 
-    /// The CFA of a straightened CPR, shape (H, W), and the number of directions of a half circle. `level` is for shares; pixel
-    /// side in mm.
+    /// The CFA of a straightened CPR, shape (H, W), and the number of directions in a half circle. Only the feature `share` uses a
+    /// level. Pixel side in mm.
     #[allow(clippy::needless_pass_by_value)]
     fn aggregate<'py>(
         &self,
@@ -205,7 +205,7 @@ impl Renderer {
         let (Cpr(cpr), Checked(settings)) = (cpr.get(), settings.get());
         let borrowed = volume.borrow()?;
         let volume = SharedVolume::new(volume.volume(&borrowed)?, self.volume.clone());
-        // A dummy: the images need no camera.
+        // The renderer needs a camera; these images do not depend on it.
         let camera = Camera::new(DVec3::ZERO, DVec3::Y, DVec3::Z, [1, 1], 1.0).map_err(to_python)?;
         let (value, given_up) = interruptible(py, None, |stop| {
             let images = ImageSet::of(&[Image::Value]);
@@ -229,7 +229,7 @@ impl Renderer {
     }
 }
 
-/// A frame with the positions of a reformation, and the time to find them.
+/// A frame with the positions of a reformation; its timings state how long it took to find them.
 fn places(layout: &dyn lumencut::reformations::Layout, stop: Stop<'_>) -> lumencut::error::Result<Frame> {
     let start = Instant::now();
     let mut frame = Frame::of(Geometry::Curved(layout.curved(stop)?));
@@ -238,7 +238,7 @@ fn places(layout: &dyn lumencut::reformations::Layout, stop: Stop<'_>) -> lumenc
     Ok(frame)
 }
 
-/// A method: ("mpcpr",), or ("cr", radius offset, arc-length threshold) in pixels.
+/// A method: ("mpcpr",), or ("cr", radius offset, arc-length threshold) with both numbers in pixels.
 #[derive(FromPyObject)]
 pub(crate) enum MethodArgument {
     Cr(String, f64, f64),
@@ -290,7 +290,7 @@ fn buffers(py: Python<'_>, frame: Frame) -> PyResult<Bound<'_, PyDict>> {
         Geometry::Orthographic { depth, .. } => depth,
         Geometry::Curved(_) => Vec::new(),
     };
-    // Empty pixels of a reformation lie beyond every scene.
+    // The depth of empty pixels lies beyond every scene.
     let shown = |depth: f32| if depth < FAR { depth } else { f32::NAN };
     let depth = if frame.folded.is_empty() { depth } else { depth.into_iter().map(shown).collect() };
     for (name, numbers) in [("depth", depth), ("distance", frame.distance), ("value", frame.value)] {

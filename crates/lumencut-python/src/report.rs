@@ -29,8 +29,7 @@ pub(crate) struct PageParts {
     sections: Vec<String>,
 }
 
-/// The pictures for a report: width and pixel side of the straightened vessel (mm), arc lengths of sections and their picture
-/// side (mm).
+/// Width and pixel side of the straightened vessel (mm), arc lengths of the sections, and the side of their pictures (mm).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn report_plan(profile: &Profile, places: Vec<PlaceParts>) -> (f64, f64, Vec<f64>, f64) {
@@ -50,7 +49,7 @@ fn page(parts: &PageParts) -> VesselPage<'_> {
     }
 }
 
-/// The report as HTML, from the options, level and width, and pages.
+/// The report as HTML, from the measuring request, the window (level and width), and the pages.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn report_html(options: Options, window: [f64; 2], pages: Vec<PageParts>) -> PyResult<String> {

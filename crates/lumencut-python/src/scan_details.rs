@@ -1,4 +1,4 @@
-//! How a scan was made, converted for the facade.
+//! Converts Python's description of how a scan was made.
 
 use lumencut::scan_details::ScanDetails;
 use pyo3::prelude::*;

@@ -10,7 +10,7 @@ pub(crate) fn is_session_file(py: Python<'_>, content: &[u8]) -> bool {
     py.detach(|| session_file::is_session(content))
 }
 
-/// The content of the session file `name` except lines, checked, as JSON.
+/// Checks the session file `name` and returns its content, without the lines, as JSON.
 #[pyfunction]
 pub(crate) fn read_session_file(py: Python<'_>, content: &[u8], name: &str) -> PyResult<String> {
     let file = py.detach(|| session_file::read_session(content, name)).map_err(raised)?;

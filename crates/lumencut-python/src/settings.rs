@@ -1,4 +1,4 @@
-//! The table of settings for Python, and `lumencut.Settings` converted for the core.
+//! The table of settings for Python; converts `lumencut.Settings` for the core.
 
 use lumencut::method::refuse_focus;
 use lumencut::named::Named;
@@ -39,7 +39,7 @@ impl Row {
     }
 }
 
-/// A setting's value for Python: a focus as two lengths, a slab as thickness and mode, None if unset.
+/// A setting's value as a Python object: a focus is two lengths, a slab is thickness and mode; None if unset.
 fn plain(py: Python<'_>, default: Value) -> PyResult<Py<PyAny>> {
     match default {
         Value::Flag(flag) => flag.into_py_any(py),
@@ -54,7 +54,7 @@ fn plain(py: Python<'_>, default: Value) -> PyResult<Py<PyAny>> {
     }
 }
 
-/// Adds the table of settings, the paper's differences from the defaults, and the looks.
+/// Adds to the module: the table of settings, the values that follow the paper's rules, and the looks.
 pub(crate) fn add_table(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let rows = PyDict::new(module.py());
     for setting in table() {
@@ -81,7 +81,7 @@ fn values<'py>(py: Python<'py>, chosen: Vec<(&'static str, Value)>) -> PyResult<
     Ok(all)
 }
 
-/// The settings of `lumencut.Settings`, checked once and read by every view.
+/// The settings of `lumencut.Settings`. They are checked once; every view reads them.
 #[pyclass(frozen, name = "Settings", module = "lumencut._lumencut")]
 pub struct Checked(pub Settings);
 

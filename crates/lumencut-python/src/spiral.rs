@@ -15,7 +15,7 @@ use crate::errors::to_python;
 use crate::layout::Layout;
 use crate::tree::points_of;
 
-/// A vessel with sections unrolled along spirals.
+/// A spiral CPR: the sections of a vessel, unrolled along spirals.
 #[pyclass(frozen, extends = Layout, module = "lumencut._lumencut")]
 pub struct Spiral;
 

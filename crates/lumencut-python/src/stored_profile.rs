@@ -43,7 +43,7 @@ pub(crate) fn restored_profile(stored: Given<'_>, scan: ScanArgument) -> PyResul
     Ok(Profile(Arc::new(stored.profile().map_err(to_python)?), scan.details()))
 }
 
-/// Percent and its uncertainty, place, diameter, its uncertainty, reference (mm); references; method; doubts.
+/// Percentage and its uncertainty, place, diameter and its uncertainty, reference (mm); references; method; doubts.
 type StenosisParts = ([f64; 6], Vec<[f64; 2]>, String, (u32, bool));
 
 #[pyfunction]

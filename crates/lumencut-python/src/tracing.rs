@@ -17,7 +17,7 @@ use crate::tree::points_of;
 use crate::volume::VolumeArgument;
 use crate::watching::{Reporter, SHARES, interruptible};
 
-/// Points (n, 3), radii (n,), confidence (n,), and bridged points (n,).
+/// A line: points (n, 3), radii (n,), confidence (n,), and whether each point is bridged (n,).
 type TracedArrays<'py> = (
     Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray1<f64>>,
@@ -25,7 +25,7 @@ type TracedArrays<'py> = (
     Bound<'py, PyArray1<bool>>,
 );
 
-/// What is kept of a volume between tracings.
+/// Data of a volume that is kept between tracings.
 #[pyclass(frozen, module = "lumencut._lumencut")]
 pub struct Tracer(Mutex<Core>);
 
@@ -36,8 +36,8 @@ impl Tracer {
         Self(Mutex::new(Core::default()))
     }
 
-    /// Centerlines through the points (n, 3) of each vessel, around stoppers `(position, radius)`. `callback` receives the share
-    /// done.
+    /// Centerlines through the points (n, 3) of each vessel that avoid stoppers `(position, radius)`. `callback` receives the
+    /// fraction of the work that is done.
     #[pyo3(signature = (volume, vessels, stoppers, bridge, callback=None))]
     #[allow(clippy::needless_pass_by_value)]
     fn trace<'py>(

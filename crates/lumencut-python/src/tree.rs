@@ -1,4 +1,4 @@
-//! Vessel trees from and to arrays.
+//! Converts vessel trees from and to arrays.
 
 use glam::DVec3;
 use lumencut::math::centerline_smoothing::smooth_centerlines;
@@ -50,7 +50,7 @@ pub(crate) fn check_vessel(
     vessel(&(points, radius)).map(drop)
 }
 
-/// The tree and its `count` levels of detail, finest first, as lists of (points, radius).
+/// The levels of detail of a tree, `count` in all and finest first, each as a list of (points, radius).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn levels<'py>(
@@ -63,7 +63,7 @@ pub(crate) fn levels<'py>(
     levels.iter().map(|level| level.vessels().iter().map(|v| arrays(py, v)).collect()).collect()
 }
 
-/// The points of each vessel after Gaussian smoothing; standard deviation in radii.
+/// The points of each vessel after Gaussian smoothing; the standard deviation is in radii.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn smoothed<'py>(
@@ -77,7 +77,7 @@ pub(crate) fn smoothed<'py>(
     smoothed.vessels().iter().map(|v| arrays(py, v).map(|(points, _)| points)).collect()
 }
 
-/// Connected vessels as one path: points (n, 3) and radii (n,). `words` name the vessels in errors.
+/// Joins connected vessels to one path with points (n, 3) and radii (n,). Errors name the vessels by `words`.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn path<'py>(
@@ -94,7 +94,7 @@ pub(crate) fn path<'py>(
     flat_arrays(py, &joined.points, joined.radius.as_deref())
 }
 
-/// Indices of connected lines, points (n, 3) each, the longest part first.
+/// The indices of connected lines with points (n, 3), one list for each part; the longest part comes first.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn parts(py: Python<'_>, lines: Vec<PyReadonlyArray2<'_, f64>>) -> PyResult<Vec<Vec<usize>>> {

@@ -1,4 +1,4 @@
-//! Tree-wide estimates of a measurement, computed once.
+//! Computes the tree-wide estimates of a measurement once.
 
 use lumencut::measure::measuring;
 use lumencut::measure::request::MeasureRequest;

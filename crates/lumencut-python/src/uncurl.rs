@@ -33,7 +33,7 @@ pub struct Uncurl;
 
 #[pymethods]
 impl Uncurl {
-    /// Points (n, 3) straightened by an amount (0 to 1) as a camera sees them, with surroundings within half a width (mm).
+    /// Straightens points (n, 3), as a camera sees them, by an amount (0 to 1), with surroundings up to half a width (mm) away.
     #[new]
     #[pyo3(signature = (points, smoothing, camera, amount, width=None))]
     #[allow(clippy::needless_pass_by_value)]

@@ -12,18 +12,18 @@ use crate::layout::Layout;
 use crate::tree::{VesselArrays, tree};
 use crate::watching::computed;
 
-/// Part of a vessel in the image: id, arc lengths (n,) (mm), columns and rows (n, 2), rotation (radians), and whether it starts
-/// at its last position.
+/// Part of a vessel in the image: id, arc lengths (n,) (mm), columns and rows (n, 2), rotation (radians), and whether the part
+/// begins at its last position.
 type LaidOutRow<'py> = (usize, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>, f64, bool);
 
-/// A tree laid out without overlap.
+/// A tree laid out in the plane without overlap.
 #[pyclass(frozen, extends = Layout, module = "lumencut._lumencut")]
 pub struct Untangled(untangled::Untangled);
 
 #[pymethods]
 impl Untangled {
-    /// The layout of vessels (points, radius) along a camera's direction. Lengths (mm): half width, hull margin, smoothing, pixel
-    /// side, and default radius.
+    /// Lays out vessels (points, radius) in the view direction of a camera. Lengths (mm): half width, hull margin, smoothing, pixel
+    /// side, and the radius used where it is unknown.
     #[new]
     #[pyo3(signature = (vessels, camera, lengths, root))]
     #[allow(clippy::needless_pass_by_value)]
@@ -59,7 +59,7 @@ impl Untangled {
         self.0.overlaps().to_vec()
     }
 
-    /// Where cycles are cut: two positions (column, row) each.
+    /// The two positions (column, row) of each place at which a cycle is cut.
     #[getter]
     fn closures(&self) -> Vec<[[f64; 2]; 2]> {
         self.0.closures().iter().map(|places| places.map(|place| place.to_array())).collect()

@@ -1,5 +1,4 @@
-//! Setting values from Python objects: numbers, names, and attributes of windows, opacities, slabs, focuses and transfer
-//! functions.
+//! Converts Python objects to setting values: numbers, names, windows, opacities, slabs, focuses and transfer functions.
 
 use lumencut::error::Result;
 use lumencut::named::Named;
@@ -21,13 +20,13 @@ pub(crate) fn value(kind: Kind, object: &Bound<'_, PyAny>) -> PyResult<Value> {
         Kind::Count => Value::Count(object.extract()?),
         Kind::Color(_) => Value::Color(object.extract()?),
         Kind::Choice => Value::Name(object.extract()?),
-        // A named window from the data is resolved once there is a volume.
+        // A named window that depends on the data is computed as soon as there is a volume.
         Kind::Window if object.is_instance_of::<PyString>() => Value::None,
         Kind::Window => Value::Window(object.extract::<WindowArgument>()?.window()),
         Kind::Opacity => Value::Opacity(object.extract::<OpacityArgument>()?.opacity()),
         Kind::Slab => Value::Slab(object.extract::<SlabArgument>()?.slab().map_err(to_python)?),
         Kind::Focus => Value::Focus(object.extract::<FocusArgument>()?.focus()),
-        // Names resolve with a tree; until then they stand for no vessel.
+        // Names are replaced by ids as soon as there is a tree; until then they select no vessel.
         Kind::Vessels => Value::Vessels(ids(object)?),
         Kind::Transfer => match object.extract() {
             Ok(name) => Value::Name(name),
@@ -36,7 +35,7 @@ pub(crate) fn value(kind: Kind, object: &Bound<'_, PyAny>) -> PyResult<Value> {
     })
 }
 
-/// Vessel ids; [`usize::MAX`] for names and negative ids.
+/// Vessel ids; a name or a negative id becomes [`usize::MAX`].
 fn ids(vessels: &Bound<'_, PyAny>) -> PyResult<Vec<usize>> {
     vessels.try_iter()?.map(|one| Ok(one?.extract().unwrap_or(usize::MAX))).collect()
 }

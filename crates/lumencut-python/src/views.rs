@@ -1,4 +1,4 @@
-//! Derived views, for `lumencut.Camera`.
+//! Views derived from others, for `lumencut.Camera`.
 
 use glam::DVec3;
 use lumencut::camera::Camera;
@@ -61,7 +61,7 @@ fn placed(made: lumencut::error::Result<Camera>) -> PyResult<DerivedView> {
 
 #[derive(FromPyObject)]
 pub(crate) enum AxisArgument {
-    /// `"superior"`, `"up"`, `"right"` or `"direction"`.
+    /// The name of an axis: `"superior"`, `"up"`, `"right"` or `"direction"`.
     Name(String),
     Vector([f64; 3]),
 }
@@ -75,7 +75,7 @@ impl AxisArgument {
     }
 }
 
-/// The camera centred on points (n, 3) that fits them at every amount of uncurling.
+/// A view centred on points (n, 3), in which they fit at every amount of uncurling.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn fitted_uncurling(
@@ -87,7 +87,7 @@ pub(crate) fn fitted_uncurling(
     placed(uncurling::fitted_uncurling(&camera.camera()?, &vessel, smoothing))
 }
 
-/// Adds the standard views: direction into the scene, and up (LPS).
+/// Adds to the module the standard views: direction into the scene, and up (LPS).
 pub(crate) fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let views = PyDict::new(module.py());
     for view in VIEWS {
@@ -122,7 +122,7 @@ pub(crate) fn fitted_turn(
     placed(py.detach(|| turn::fitted_turn(&camera, &points, degrees, axis)))
 }
 
-/// The view about a place on a vessel: arc length (mm), angle (radians).
+/// The view about a place on a vessel, from arc length (mm) and angle (radians).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn about(
@@ -141,7 +141,7 @@ pub(crate) fn radius_at(vessel: VesselArrays<'_>, at: f64) -> PyResult<f64> {
     Ok(vessel_views::radius_at(&tree::vessel(&vessel)?, at))
 }
 
-/// The diameter (mm) cut by a view about a place; NaN without two walls.
+/// The diameter (mm) that a view about a place cuts; NaN if the view does not cut two walls.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn cut_diameter(volume: VolumeArgument<'_>, camera: MadeCamera, radius: f64) -> PyResult<f64> {
@@ -168,7 +168,7 @@ pub(crate) fn flight(start: MadeCamera, end: MadeCamera, frames: usize) -> PyRes
     Ok(views[1..views.len() - 1].iter().map(DerivedView::of).collect())
 }
 
-/// Frame angles of a turn (radians).
+/// The angle of each frame of a turntable (radians).
 #[pyfunction]
 pub(crate) fn frame_angles(frames: usize, degrees: f64) -> PyResult<Vec<f64>> {
     turn::frame_angles(frames, degrees).map_err(to_python)
@@ -186,7 +186,7 @@ pub(crate) fn zoomed(camera: MadeCamera, factor: f64) -> PyResult<DerivedView> {
     placed(views::zoomed(&camera.camera()?, factor))
 }
 
-/// World points (mm, LPS) of a picture's pixels for their depths (mm), shape (H, W, 3).
+/// World points (mm, LPS) of a picture's pixels at the given depths (mm), shape (H, W, 3).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn positions<'py>(
@@ -210,7 +210,7 @@ pub(crate) fn positions<'py>(
     PyArray1::from_vec(py, points).reshape([height, width, 3])
 }
 
-/// A camera moved in its plane (mm).
+/// A camera moved to the right and up in its plane (mm).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn panned(camera: MadeCamera, right: f64, up: f64) -> PyResult<DerivedView> {

@@ -96,16 +96,16 @@ impl GridArgument {
     }
 }
 
-/// Evidence against a grid's lengths, from size (ni, nj, nk) and affine rows; None if plausible.
+/// Why a grid's lengths, from size (ni, nj, nk) and affine rows, are implausible; None if they are plausible.
 #[pyfunction]
 pub(crate) fn doubted_size(size: [usize; 3], affine_rows: [[f64; 4]; 3]) -> Option<String> {
     lumencut::doubted_scan::doubted_size(size, affine(affine_rows))
 }
 
-/// Points sampled between two checks for a stop.
+/// Number of points sampled between two checks whether to stop.
 const PART: usize = 1 << 14;
 
-/// World points (n, 3) (mm, LPS) inside a volume's outer corners; shape (n,).
+/// Whether world points (n, 3) (mm, LPS) lie within a volume's outer corners; shape (n,).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn contains<'py>(
@@ -117,7 +117,7 @@ pub(crate) fn contains<'py>(
     Ok(PyArray1::from_iter(py, points.into_iter().map(|point| extent.contains(point))))
 }
 
-/// The volume at world points (n, 3) (mm, LPS), trilinear, NaN outside; shape (n,).
+/// The values of the volume at world points (n, 3) (mm, LPS), interpolated trilinearly; NaN outside; shape (n,).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn sample<'py>(

@@ -1,8 +1,8 @@
-//! The wall level as Python requests it.
+//! The wall level, as Python requests it.
 
 use lumencut::measure::wall_level::WallRequest;
 
-/// The request for a level and its standard deviation; level 0 means no wall.
+/// Converts a wall level and its standard deviation; a standard deviation of 0 means that no walls are separated.
 pub(crate) fn wall_request(wall: Option<[f64; 2]>) -> WallRequest {
     match wall {
         None => WallRequest::Automatic,

@@ -1,4 +1,4 @@
-//! Runs long work without the GIL, with Ctrl-C and progress.
+//! Runs long work without the GIL, stops it at Ctrl-C, and reports its progress.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc;
@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 use crate::errors::to_python;
 use crate::pool;
 
-/// How often a rendering checks for signals such as Ctrl-C.
+/// How often a rendering checks for signals, such as that of Ctrl-C.
 const SIGNAL_PERIOD: Duration = Duration::from_millis(50);
 
 pub(crate) const SHARES: u32 = 1000;
@@ -22,7 +22,7 @@ pub(crate) struct Reporter<'a> {
 }
 
 impl Reporter<'_> {
-    /// Reports progress in `SHARES`.
+    /// Reports that `done` of `SHARES` equal parts are done.
     pub(crate) fn report(&self, py: Python<'_>, done: u32) -> PyResult<()> {
         self.callback.call1(py, (done, SHARES)).map(drop)
     }
@@ -46,7 +46,7 @@ pub(crate) fn interruptible<T: Send>(
             let stop = &stop;
             let worker = scope.spawn(move || {
                 let result = work(stop);
-                // The receiver outlives this thread: sending cannot fail.
+                // Sending cannot fail, since the receiver outlives this thread.
                 let _ = done.send(());
                 result
             });
@@ -80,7 +80,7 @@ pub(crate) fn computed<T: Send>(
     interruptible(py, None, |stop| pool::install(|| work(stop))?.map_err(to_python))
 }
 
-/// As [`interruptible`], with progress to `callback` until the end.
+/// As [`interruptible`]; `callback` receives the progress, up to the end.
 pub(crate) fn reporting<T: Send>(
     py: Python<'_>,
     callback: Option<&Py<PyAny>>,

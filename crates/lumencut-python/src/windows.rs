@@ -1,4 +1,4 @@
-//! Windows from the data and named windows, for `lumencut.Window`.
+//! Named windows and windows computed from the data, for `lumencut.Window`.
 
 use lumencut::named::Named;
 use lumencut::settings::ContextName;
@@ -9,7 +9,7 @@ use crate::errors::to_python;
 use crate::tree::{VesselArrays, tree};
 use crate::volume::VolumeArgument;
 
-/// Level and width of a named window from the data; only "auto" uses vessels.
+/// Level and width of a named window that is computed from the data; only "auto" uses vessels.
 #[pyfunction]
 #[pyo3(signature = (name, volume, vessels))]
 #[allow(clippy::needless_pass_by_value)]
@@ -33,7 +33,7 @@ pub(crate) fn context_window(context: &str, has_tree: bool) -> PyResult<&'static
     Ok(DataWindow::of_context(context, has_tree).name())
 }
 
-/// Adds the named windows: label, and level and width if fixed.
+/// Adds the named windows to the module: label, and level and width if they are constant.
 pub(crate) fn add_presets(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let presets = WINDOW_PRESETS.map(|preset| match preset.source {
         PresetSource::Fixed(window) => (preset.name, preset.words, Some((window.level, window.width))),

@@ -13,7 +13,7 @@ type Numbers<'py> = Option<PyReadonlyArray1<'py, f64>>;
 /// Points (n, 3), radii (n,), name and confidence (n,).
 type NamedVessel<'py> = (PyReadonlyArray2<'py, f64>, Numbers<'py>, Option<String>, Numbers<'py>);
 
-/// The file of vessels in mm, LPS; `kind` is its extension.
+/// Writes vessels (mm, LPS) to a file; `kind` is its file name extension.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn write_centerlines<'py>(

@@ -1,4 +1,4 @@
-//! Cut surfaces through the hierarchy, and by brute force.
+//! Computes cut surfaces through the hierarchy and by brute force.
 
 use lumencut_core::brute_force;
 use lumencut_core::camera::Camera;
@@ -22,7 +22,7 @@ pub fn by_brute_force(tree: &VesselTree, camera: &Camera, settings: &Settings) -
         (projected(tree, camera, settings, Isa::widest()), Request::new(camera, settings));
     let pass = renderer.pass(&request);
     let pixels = pass.work.pixels();
-    // Negative values reveal pixels that brute force skips.
+    // The negative values remain in pixels that brute force skips, and so reveal them.
     let (mut distance, mut depth, mut vessel) = (vec![-1.0; pixels], vec![-1.0; pixels], vec![-1; pixels]);
     brute_force::distance(&pass.work, &pass.surface, &mut distance).unwrap();
     let written = DepthImages { depth: &mut depth, vessel: &mut vessel, sheet: &mut [] };
@@ -36,7 +36,7 @@ pub fn by_brute_force(tree: &VesselTree, camera: &Camera, settings: &Settings) -
     Frame { vessel: images.vessel, distance, ..Frame::of(geometry) }
 }
 
-/// A renderer with a projected tree, to run stages separately.
+/// A renderer with a projected tree, whose stages can be run separately.
 pub fn projected(tree: &VesselTree, camera: &Camera, settings: &Settings, isa: Isa) -> CpuRenderer {
     let mut renderer = CpuRenderer::new(isa);
     renderer.prepare(&LeveledTree::new(tree.clone()), settings);

@@ -1,4 +1,4 @@
-//! Compares whole frames up to rounding.
+//! Compares frames; differences by rounding are allowed.
 
 use lumencut_core::frame::Frame;
 
@@ -9,19 +9,19 @@ use crate::tolerances::{COLOR, COLOR_LEAP, DEPTH, MOST_TOGETHER, NEIGHBOURHOOD};
 pub struct Differences {
     /// Fraction of pixels whose depths differ by more than [`DEPTH`].
     pub depths: f64,
-    /// Largest difference in any channel.
+    /// Largest difference in any colour channel of any pixel.
     pub largest_color: u8,
-    /// Fraction of pixels with a channel beyond [`COLOR`].
+    /// Fraction of pixels that differ in a channel by more than [`COLOR`].
     pub colors: f64,
-    /// Fraction of pixels with a channel beyond [`COLOR_LEAP`].
+    /// Fraction of pixels that differ in a channel by more than [`COLOR_LEAP`].
     pub leaps: f64,
     pub vessels: usize,
     pub vessel_share: f64,
-    /// Most differing pixels (depth or colour) in an 8 × 8 neighbourhood.
+    /// The largest number of pixels in one 8 × 8 block that differ in depth or by [`COLOR_LEAP`].
     pub together: usize,
 }
 
-/// Checks that both images have the same size, all or none of the pixels, and separate memory.
+/// Checks that two images have the same size and separate memory, and are empty or have all pixels.
 fn check<T>(name: &str, a: &[T], b: &[T], pixels: usize) {
     assert_eq!(a.len(), b.len(), "{name}: different sizes");
     assert!(a.is_empty() || a.len() == pixels, "{name}: {} of {pixels} pixels", a.len());
@@ -102,7 +102,7 @@ mod tests {
         })
     }
 
-    /// Asserts that a changed frame is rejected with `words`.
+    /// Asserts that `assert_equal` rejects a changed frame with `words`.
     fn refuses(words: &str, size: [usize; 2], change: impl Fn(&mut Frame)) {
         let (a, mut b) = (frame(size), frame(size));
         assert_eq!(refused(&a, &b), None, "before the change");
@@ -119,7 +119,7 @@ mod tests {
         let (a, mut b) = (frame(SIZE), frame(SIZE));
         b.image.iter_mut().for_each(|color| *color = color.map(|c| c.saturating_add(1)));
         depth_of(&mut b).iter_mut().for_each(|depth| *depth += 5e-4);
-        // Few isolated pixels: 16 colours, 3 of them far apart, and 32 depths of 32,000 pixels.
+        // Few isolated pixels differ: 16 of 32,000 in colour, 3 of these by far, and 32 in depth.
         (0..13).for_each(|n| b.image[n * 2001][2] -= 4);
         (0..3).for_each(|n| b.image[n * 9001 + 50][2] = 0);
         (0..32).for_each(|n| depth_of(&mut b)[n * 999] += 7.0);
@@ -137,7 +137,7 @@ mod tests {
             }
         };
         refuses("colours: ", SIZE, |b| block(b, [40, 6], 200));
-        // In a large picture this fraction of vessels would be allowed.
+        // In a picture of this size, the fraction of pixels alone would be allowed.
         refuses("one place", [1000, 1000], |b| block(b, [10, 6], 1000));
         refuses("one place", [1000, 1000], |b| {
             (0..6)

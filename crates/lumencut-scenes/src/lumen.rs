@@ -1,22 +1,22 @@
-//! The lumen by definition, in f64 and independent of the product: the reference for images.
+//! Computes the lumen from its definition, in f64 and without code of the product, as the reference for images.
 
 use glam::{DVec2, DVec3};
 use lumencut_core::camera::Camera;
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
 
-/// The nearest lumen at view (x, y): the least depth (mm) among pieces that cover it with d ≤ r.
+/// The depth (mm) of the nearest lumen at view (x, y): the smallest depth of the pieces with distance d ≤ radius r there.
 pub fn nearest_lumen(scene: &VesselTree, camera: &Camera, x: f64, y: f64) -> Option<f64> {
     lumen_within(scene, camera, [x, y], 0.0)
 }
 
-/// As [`nearest_lumen`], only if rounding of radii does not change it.
+/// As [`nearest_lumen`]; None if rounding of the radii could change the result.
 pub fn certain_lumen(scene: &VesselTree, camera: &Camera, x: f64, y: f64) -> Option<f64> {
     const ROUNDING: f64 = 1e-3;
     let [wide, narrow] = [ROUNDING, -ROUNDING].map(|more| lumen_within(scene, camera, [x, y], more));
     narrow.filter(|_| narrow == wide)
 }
 
-/// The nearest lumen if all radii were larger by `more` (mm).
+/// The depth of the nearest lumen if all radii were larger by `more` (mm).
 fn lumen_within(scene: &VesselTree, camera: &Camera, at: [f64; 2], more: f64) -> Option<f64> {
     let lumens =
         scene.vessels().iter().filter_map(|vessel| lumen_of(vessel, camera, DVec2::from_array(at), more));

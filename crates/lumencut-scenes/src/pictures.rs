@@ -1,4 +1,4 @@
-//! Frames of scenes for one view.
+//! Renders frames of scenes.
 
 use lumencut_core::camera::Camera;
 use lumencut_core::error::Result;
@@ -20,7 +20,7 @@ pub fn picture(volume: Volume, tree: &VesselTree, camera: &Camera, settings: &Se
     render(&Scene::new(volume, tree.clone()), camera, settings, &|| false).unwrap()
 }
 
-/// The context of a volume without vessels.
+/// Renders the context of a volume without vessels.
 pub fn context_alone(volume: Volume, camera: &Camera, settings: &Settings, stop: Stop) -> Result<Frame> {
     render(&Scene::default().with_volume(volume), camera, settings, stop)
 }

@@ -28,7 +28,7 @@ impl Random {
         low + (high - low) * self.number() as f32
     }
 
-    /// True once in `n` times on average.
+    /// Returns true once in `n` times on average.
     pub fn once_in(&mut self, n: u32) -> bool {
         self.number() * f64::from(n) < 1.0
     }

@@ -6,8 +6,8 @@ use lumencut_core::vessel_tree::{Vessel, VesselTree};
 
 use crate::random::Random;
 
-/// A tree of `vessels` vessels with `segments` segments of `step` mm; about half start on an earlier vessel. Points stay within
-/// ±`extent` mm; radii are 1 to 6 mm.
+/// A tree of `vessels` vessels with `segments` segments of `step` mm. About half of the vessels start on an earlier one. Points
+/// stay within ±`extent` mm; radii are 1 to 6 mm.
 pub fn random_tree(seed: u64, vessels: usize, segments: usize, step: f64, extent: f64) -> Result<VesselTree> {
     let mut random = Random::new(seed);
     let mut made: Vec<Vessel> = Vec::with_capacity(vessels);
@@ -23,7 +23,7 @@ pub fn random_tree(seed: u64, vessels: usize, segments: usize, step: f64, extent
     VesselTree::new(made)
 }
 
-/// A walk from `start` that turns back at the faces of the cube.
+/// A random walk from `start` that turns back at the faces of the cube.
 fn walk(
     random: &mut Random,
     start: DVec3,

@@ -1,4 +1,4 @@
-//! Timing for benches: medians and minima of repeated runs, as Markdown tables.
+//! Measures times for benches: medians and minima of repeated runs, as Markdown tables.
 
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -14,7 +14,7 @@ pub struct Times {
     pub minimum: f64,
 }
 
-/// Median duration (ms) by stage; "frame" is the total as seen by the caller.
+/// Median duration (ms) of each stage; "frame" is the total that the caller measures.
 pub type StageTimes = BTreeMap<&'static str, f64>;
 
 /// The duration of `work` (ms), and its result.
@@ -32,7 +32,7 @@ pub fn time(runs: usize, mut work: impl FnMut()) -> Times {
     Times { median: median(&mut times).unwrap_or(f64::NAN), minimum }
 }
 
-/// Medians of `frames` frames after a warm-up frame.
+/// The median time of each stage over `frames` frames, after a warm-up frame.
 pub fn stage_medians(frames: usize, mut render: impl FnMut() -> Result<Frame>) -> Result<StageTimes> {
     render()?;
     let mut all: BTreeMap<&'static str, Vec<f64>> = BTreeMap::new();

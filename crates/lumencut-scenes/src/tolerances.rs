@@ -3,9 +3,9 @@
 /// A largest difference, and the fraction of values that may exceed it.
 #[derive(Clone, Copy, Debug)]
 pub struct Tolerance {
-    /// The largest rounding difference, in the values' unit.
+    /// The largest difference that rounding may cause, in the values' unit.
     pub apart: f32,
-    /// The fraction that may exceed it, 0 to 1.
+    /// The fraction of values that may differ more, 0 to 1.
     pub share: f64,
 }
 
@@ -19,7 +19,7 @@ impl Tolerance {
         (a - b).abs() <= self.apart
     }
 
-    /// Whether this many of `all` numbers may exceed the difference.
+    /// Whether `further` of `all` numbers may differ by more than `apart`.
     pub fn allows(self, further: usize, all: usize) -> bool {
         further as f64 <= self.share * all as f64
     }
@@ -41,97 +41,97 @@ impl Tolerance {
     }
 }
 
-/// Fractions of a focus, 0 to 1: wall distances round to a few 10⁻⁶ mm, fades are at least 1 mm; a grey step is 4·10⁻³.
+/// How much of a focus is shown, 0 to 1. Wall distances round to a few 10⁻⁶ mm, fades are at least 1 mm; a grey step is 4·10⁻³.
 pub const SHARE: Tolerance = Tolerance::new(1e-4, 0.0);
 
 /// Side of a neighbourhood (pixels).
 pub const NEIGHBOURHOOD: usize = 8;
 
-/// The most pixels of a neighbourhood that may differ in depth or by [`COLOR_LEAP`]: fewer than the smallest vessel covers.
+/// The most pixels of a neighbourhood that may differ in depth or by [`COLOR_LEAP`]; the smallest vessel covers more.
 pub const MOST_TOGETHER: usize = 16;
 
-/// Depths of frames (mm), and vessels: far below a voxel; along zone borders two pieces may cost the same.
+/// Depths of frames (mm), and vessel ids: far below a voxel; on borders between zones two pieces may be equally near.
 pub const DEPTH: Tolerance = Tolerance::new(1e-3, 1e-3);
 
-/// Pixels around joints that tie: a 5 mm lumen at the only joint of small pictures covers 1.6 %; the filter spreads ties.
+/// Pixels around joints where pieces tie. A 5 mm lumen at the only joint of small pictures covers 1.6 %; the filter spreads ties.
 pub const TIED: Tolerance = Tolerance::new(0.0, 0.02);
 
-/// Colours of frames, in steps of 255: rounding moves a channel by one step, more only if a depth differs.
+/// Colours of frames, in steps of 255. Rounding changes a channel by one step, and by more only if a depth differs.
 pub const COLOR: Tolerance = Tolerance::new(1.0, 5e-4);
 
-/// Clearly different colours, in steps of 255: four steps are visible, so only single pixels may differ.
+/// Clearly different colours, in steps of 255. Four steps are visible, so only single pixels may differ as much.
 pub const COLOR_LEAP: Tolerance = Tolerance::new(4.0, 1e-4);
 
-/// Distances of frames (mm): computed directly, without choices that rounding could flip.
+/// Distances of frames (mm). They are computed directly, without decisions that rounding could change.
 pub const DISTANCE: Tolerance = Tolerance::new(1e-4, 0.0);
 
-/// The context of frames, in steps of 255: the last digit of a depth can move a ray past an edge.
+/// The context of frames, in steps of 255. Rounding of a depth can move a ray beyond an edge.
 pub const CONTEXT_OF_FRAME: Tolerance = Tolerance::new(4.0, 1e-3);
 
-/// Channels of the context alone, 0 to 1: one step of 255, except for rays that graze visible edges.
+/// Channels of the context without vessels, 0 to 1: one step of 255, except on rays that graze visible edges.
 pub const CONTEXT: Tolerance = Tolerance::new(1.0 / 255.0, 5e-4);
 
-/// As [`CONTEXT`]: four steps of 255 for at most one ray in a hundred of small pictures.
+/// As [`CONTEXT`], for small pictures: more than four steps of 255 on at most one ray in a hundred.
 pub const CONTEXT_LEAP: Tolerance = Tolerance::new(4.0 / 255.0, 1e-2);
 
-/// Bytes composed from identical layers: a value midway between two bytes may round either way.
+/// Bytes composed from identical layers. A value midway between two bytes may be rounded up or down.
 pub const BYTE: Tolerance = Tolerance::new(1.0, 0.0);
 
-/// The fraction of composed bytes that may round the other way.
+/// The fraction of composed bytes that may be rounded differently.
 pub const OTHER_BYTE: Tolerance = Tolerance::new(0.0, 1e-3);
 
-/// Surface values, as a fraction of the range: sample positions are exact to 10⁻⁴ voxel; border pixels may lie outside.
+/// Surface values, as a fraction of the range. Sample positions are exact to 10⁻⁴ voxel; border pixels may lie outside.
 pub const SURFACE: Tolerance = Tolerance::new(1e-5, 5e-4);
 
 /// Silhouette strengths, 0 to 1: sums of 49 products in single precision.
 pub const SILHOUETTE: Tolerance = Tolerance::new(1e-5, 0.0);
 
-/// Filtered depths of up to 300 mm: two units of the last place, 2 · 2⁻¹⁵ mm.
+/// Filtered depths of up to 300 mm: two units in the last place of f32, 2 · 2⁻¹⁵ mm.
 pub const FILTERED_DEPTH: Tolerance = Tolerance::new(2.0 * 256.0 * f32::EPSILON, 0.0);
 
-/// Zone-filtered depths of a plane of up to 300 mm: pairs are two units of the last place off, of which each axis adds a quarter.
+/// Zone-filtered depths of a plane of up to 300 mm: a pair differs by two units in the last place, and each axis adds a quarter.
 pub const PLANE: Tolerance = Tolerance::new(2.0 * 256.0 * f32::EPSILON, 0.0);
 
-/// Zone-filtered depths on two machines: as [`FILTERED_DEPTH`], except pairs that deviate by exactly the jump limit.
+/// Zone-filtered depths on two machines: as [`FILTERED_DEPTH`], except for pairs whose difference equals the jump limit.
 pub const FILTERED_IN_ZONES: Tolerance = Tolerance::new(FILTERED_DEPTH.apart, 1e-4);
 
-/// Depths and distances of up to 60 mm against their closed form (mm): a few units of the last place of f32.
+/// Depths and distances of up to 60 mm (mm), compared with their formula: a few units in the last place of f32.
 pub const CLOSED_FORM: Tolerance = Tolerance::new(1e-4, 0.0);
 
-/// Depths in a lumen against the reference (mm): f32 against f64.
+/// Depths in a lumen, compared with the reference (mm): f32 against f64.
 pub const LUMEN: Tolerance = Tolerance::new(1e-3, 0.0);
 
-/// Zone-filtered depths in a lumen against the reference (mm): half of a jump, except at sharp bends towards the viewer.
+/// Zone-filtered depths in a lumen, compared with the reference (mm): half of a jump, except at sharp bends towards the viewer.
 pub const FILTERED_LUMEN: Tolerance = Tolerance::new(0.5, 1e-3);
 
-/// Depths of a random tree rotated with its camera (mm): coordinates round again, and border pixels may change zones.
+/// Depths of a random tree rotated with its camera (mm). Coordinates are rounded again; border pixels may change zones.
 pub const TURNED: Tolerance = Tolerance::new(1e-2, 2e-3);
 
-/// Depths of the trefoil rotated onto itself (mm): its corners move within pixels, so more zone borders move.
+/// Depths of the trefoil rotated onto itself (mm). Its corners then lie elsewhere within pixels, so more zone borders move.
 pub const SYMMETRIC: Tolerance = Tolerance::new(1e-2, 9.9e-3);
 
-/// Depths after reordering vessels: vessels tie around shared end points, and the first wins.
+/// Depths after reordering vessels. Around shared end points vessels tie, and the first one wins.
 pub const REORDERED_DEPTH: Tolerance = Tolerance::new(0.0, 5e-3);
 
-/// Vessel ids after reordering: ties around shared end points name another vessel.
+/// Vessel ids after reordering. Where vessels tie around shared end points, another vessel may win.
 pub const REORDERED_VESSEL: Tolerance = Tolerance::new(0.0, 5e-2);
 
-/// Sheet slopes on two machines (mm per mm): rounding of 2 mm segments; larger only for ties as in [`DEPTH`].
+/// Slopes of sheets on two machines (mm per mm): rounding on 2 mm segments; larger only for ties as in [`DEPTH`].
 pub const SHEET_SLOPE: Tolerance = Tolerance::new(1e-4, 1e-3);
 
-/// Sheet radii on two machines (mm): position on a segment times radius changes of up to 6 mm.
+/// Radii of sheets on two machines (mm): the position on a segment times radius changes of up to 6 mm.
 pub const SHEET_RADIUS: Tolerance = Tolerance::new(1e-5, 1e-3);
 
-/// Sheet gaps on two machines (mm): differences of arc lengths of up to 300 mm.
+/// Gaps of sheets on two machines (mm): differences of arc lengths of up to 300 mm.
 pub const SHEET_GAP: Tolerance = Tolerance::new(2e-4, 1e-3);
 
-/// Volume values of up to 700 against their closed form, or in f64: a few units of the last place of f32.
+/// Volume values of up to 700, compared with their formula or with f64: a few units in the last place of f32.
 pub const VALUE: Tolerance = Tolerance::new(1e-3, 0.0);
 
-/// Filter weights (at most 1) against the Gaussian: a few units of the last place.
+/// Filter weights (at most 1), compared with the Gaussian: a few units in the last place.
 pub const WEIGHT: Tolerance = Tolerance::new(1e-6, 0.0);
 
-/// A filtered constant of 7.5: the 49 weights sum to 1 up to a few units of the last place.
+/// A filtered constant of 7.5. The 49 weights sum to 1 up to a few units in the last place.
 pub const CONSTANT: Tolerance = Tolerance::new(1e-5, 0.0);
 
 #[cfg(test)]

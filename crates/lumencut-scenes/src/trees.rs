@@ -1,4 +1,4 @@
-//! Vessels and trees from literal points.
+//! Makes vessels and trees from literal points.
 
 use std::f64::consts::TAU;
 
@@ -16,7 +16,7 @@ pub fn tree(vessels: Vec<Vessel>) -> VesselTree {
     VesselTree::new(vessels).unwrap()
 }
 
-/// A trefoil knot of half size about 60 mm.
+/// A trefoil knot that extends about 60 mm to each side of its middle.
 pub fn trefoil(points: usize) -> VesselTree {
     let knot = |i: usize| {
         let t = i as f64 / points as f64 * TAU;

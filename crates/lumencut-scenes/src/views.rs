@@ -18,13 +18,13 @@ pub fn view(direction: [f64; 3], size: [usize; 2], pixel_spacing: f64) -> Camera
     view_of(DVec3::ZERO, DVec3::from_array(direction), size, pixel_spacing)
 }
 
-/// As [`view`], slightly shifted: along a grid axis no ray then passes through voxel centres, where the last digit picks the
-/// neighbours.
+/// As [`view`], slightly shifted. Along a grid axis no ray then passes through voxel centres, where rounding would choose the
+/// neighbouring voxels.
 pub fn view_beside_voxels(direction: [f64; 3], size: [usize; 2], pixel_spacing: f64) -> Camera {
     view_of(DVec3::new(0.013, -0.021, 0.017), DVec3::from_array(direction), size, pixel_spacing)
 }
 
-/// From the front: view x is world x, view y is world z, depth is world y.
+/// The view from the front: view x is world x, view y is world z, and depth is world y.
 pub fn front(size: [usize; 2], pixel_spacing: f64) -> Camera {
     view([0.0, 1.0, 0.0], size, pixel_spacing)
 }
@@ -36,7 +36,7 @@ pub fn fitted(tree: &VesselTree, direction: DVec3, side: usize) -> Camera {
     view_of((low + high) * 0.5, direction, [side; 2], extent / side as f64)
 }
 
-/// Input of the CPU stages: the widest instruction set, without stop.
+/// Input of the CPU stages: the widest instruction set, never stopped.
 pub fn on_cpu(camera: &Camera) -> Work<'static> {
     Work { size: camera.size(), isa: Isa::widest(), stop: &|| false, progress: None }
 }

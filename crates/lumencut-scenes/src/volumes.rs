@@ -3,7 +3,7 @@
 use glam::{DAffine3, DMat3, DVec3};
 use lumencut_core::volume::{Volume, Voxels};
 
-/// A volume with i fastest.
+/// A volume whose index i varies fastest.
 pub fn volume(voxels: Voxels<'_>, size: [usize; 3], world_from_index: DAffine3) -> Volume<'_> {
     Volume::new(voxels, size, [1, size[0], size[0] * size[1]], world_from_index).unwrap()
 }
@@ -16,7 +16,7 @@ pub fn sheared(size: [usize; 3]) -> DAffine3 {
     DAffine3::from_mat3_translation(columns, -(columns * last / 2.0))
 }
 
-/// A bright ball and rod in noise, between 0 and 1000.
+/// A bright ball and rod with noise; the values lie between 0 and 1000.
 pub fn ball_and_rod([ni, nj, nk]: [usize; 3]) -> Vec<i16> {
     let [x, y, z] = [ni, nj, nk].map(|n| n as f64);
     let value = |n: usize| {

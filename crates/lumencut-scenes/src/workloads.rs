@@ -4,19 +4,19 @@ use lumencut_core::error::Result;
 use lumencut_core::stages::{Image, ImageSet};
 use lumencut_phantom::{Phantom, aorta, cervical, runoff};
 
-/// Makes a workload from seed and scale.
+/// A function that makes a workload from seed and scale.
 pub type Maker = fn(u64, f64) -> Result<Phantom>;
 
 /// The workloads by name, in the order of the paper's figures.
 pub const WORKLOADS: [(&str, Maker); 3] = [("aorta", aorta), ("runoff", runoff), ("cervical", cervical)];
 
-/// A stage, and the paper's timing.
+/// A stage, and its times in the paper.
 #[derive(Clone, Copy, Debug)]
 pub struct PaperStage {
     pub stage: &'static str,
-    /// Its name in the paper; may be empty.
+    /// Name of the stage in the paper; may be empty.
     pub papers_name: &'static str,
-    /// The paper's milliseconds for each workload; 0 if missing.
+    /// The paper's time for each workload (ms); 0 if not published.
     pub milliseconds: [f64; 3],
 }
 
@@ -32,10 +32,10 @@ pub const PAPER_STAGES: [PaperStage; 8] = [
     paper_stage("composite", "", [0.0; 3]),
 ];
 
-/// The default images: distance is computed only if required or requested.
+/// The images requested by default. Distance is computed only if the view needs it.
 pub const ASKED: ImageSet = ImageSet::ALL.without(Image::Distance);
 
-/// The paper's whole frames with MIDA context (ms).
+/// The paper's times of complete frames with MIDA context (ms).
 pub const PAPER_FRAMES: [f64; 3] = [218.0, 659.0, 314.0];
 
 const fn paper_stage(stage: &'static str, papers_name: &'static str, milliseconds: [f64; 3]) -> PaperStage {

@@ -1,4 +1,5 @@
-//! The interface of the page's worker: named questions, devices, voxels, and the turning view, on the canvas with a GPU, else as bytes.
+//! What the page's worker calls: named questions, devices, voxels, and the turning view. A GPU draws the view on the canvas; the
+//! CPU returns it as bytes.
 
 use js_sys::{Array, Date, Function, Promise, Uint8Array, Uint8ClampedArray};
 use lumencut::backend::{Backend, Drawn};
@@ -17,7 +18,7 @@ use lumencut::study::open_study::Study;
 use lumencut::study::questions::ask_at_once;
 use lumencut::study::view::{View, ViewMessage};
 
-/// The device and the open study. All methods throw errors as JSON.
+/// The device and the open study. The methods throw errors as JSON.
 #[wasm_bindgen]
 pub struct Engine {
     backend: Backend,
@@ -35,7 +36,7 @@ fn answer<T>(result: Result<T>) -> Thrown<T> {
     result.map_err(|failure| thrown(&failure))
 }
 
-/// The answer: JSON, and bytes or `undefined`.
+/// Converts an answer to an array: JSON, and bytes or `undefined`.
 fn sent(answered: Result<Answer>) -> Thrown<Array> {
     let Answer { json, bytes } = answer(answered)?;
     let bytes = bytes.map_or(JsValue::UNDEFINED, |bytes| clamped(&bytes).into());
@@ -54,7 +55,7 @@ async fn backend(device: &str) -> Thrown<Backend> {
 
 #[wasm_bindgen]
 impl Engine {
-    /// An empty engine on `device`: `gpu`, `cpu`, `auto` (a hardware GPU if available) or `any` (software GPUs too).
+    /// An engine without a study on `device`: `gpu`, `cpu`, `auto` (a hardware GPU if available) or `any` (also a software GPU).
     ///
     /// # Errors
     /// `device` if a required GPU cannot be used.
@@ -67,8 +68,8 @@ impl Engine {
         self.backend.name().to_owned()
     }
 
-    /// Switches the device, or reopens a lost one; the study stays open. A GPU needs a new canvas: the old one stays black after
-    /// the browser's GPU process failed.
+    /// Switches the device, or opens a lost one again; the study stays open. A GPU needs a new canvas, since the old one stays
+    /// black after the browser's GPU process has failed.
     pub async fn change_device(&mut self, device: &str) -> Thrown<()> {
         self.screen = None;
         self.backend = backend(device).await?;
@@ -95,13 +96,13 @@ impl Engine {
         stopping::address()
     }
 
-    /// Clears the page's cancellation, so that long work can start again.
+    /// Clears the stop bit of tracing and measuring, so that long work can start again.
     pub fn cancellation_was_heard() {
         stopping::heard(stopping::LONG);
     }
 
-    /// Answers a question of `lumencut::study::questions`: JSON, and bytes or `undefined`. `bytes` is an input file, if any;
-    /// `listener` receives the share done. Throws `interrupted` on a stop.
+    /// Answers a question of `lumencut::study::questions` with JSON, and bytes or `undefined`. `bytes` is an input file, if any.
+    /// `listener` receives the fraction of the work that is done. Throws `interrupted` after a stop.
     pub fn ask(
         &mut self,
         name: &str,
@@ -114,15 +115,15 @@ impl Engine {
         }))
     }
 
-    /// As [`Engine::ask`], for questions that need no study and so do not wait for a view in progress.
+    /// As [`Engine::ask`], for questions that need no study and therefore need not wait for a view in progress.
     pub fn ask_at_once(name: &str, message: &str) -> Thrown<Array> {
         sent(ask_at_once(name, message))
     }
 
-    /// Makes room for a volume with this JSON header.
+    /// Allocates memory for a volume with this JSON header.
     ///
     /// # Errors
-    /// `volume` without memory.
+    /// `volume` if there is not enough memory.
     pub fn begin_volume(&mut self, header: &str) -> Thrown<()> {
         answer(self.study.begin_volume(header))
     }
@@ -130,22 +131,22 @@ impl Engine {
     /// Writes bytes of voxels from `offset` on.
     ///
     /// # Errors
-    /// `volume` beyond the volume's end.
+    /// `volume` beyond the end of the volume.
     pub fn take_voxels(&mut self, offset: f64, bytes: &Uint8Array) -> Thrown<()> {
         let room = self.study.voxel_bytes(offset as usize, bytes.length() as usize);
         bytes.copy_to(answer(room)?);
         Ok(())
     }
 
-    /// Invalidates caches after new voxels.
+    /// Discards caches after new voxels.
     pub fn voxels_changed(&mut self) {
         self.study.voxels_changed();
     }
 
-    /// Makes room for a mask with this JSON header.
+    /// Allocates memory for a mask with this JSON header.
     ///
     /// # Errors
-    /// `volume` without a scan or memory.
+    /// `volume` without an open scan, or if there is not enough memory.
     pub fn begin_mask(&mut self, header: &str) -> Thrown<()> {
         answer(self.study.begin_mask(header))
     }
@@ -157,7 +158,7 @@ impl Engine {
         Ok(())
     }
 
-    /// Frees the mask.
+    /// Frees the memory of the mask.
     pub fn end_mask(&mut self) {
         self.study.end_mask();
     }
@@ -167,7 +168,7 @@ impl Engine {
         answer(phantoms::open(&mut self.study, name, scale))
     }
 
-    /// Renders a view given as JSON: on the canvas of [`Engine::draw_on`] with a GPU, else returns RGBA pixels.
+    /// Renders a view given as JSON. With a GPU it appears on the canvas of [`Engine::draw_on`]; otherwise returns RGBA pixels.
     pub async fn render(&mut self, view: &str) -> Thrown<Option<Uint8ClampedArray>> {
         let view = answer(ViewMessage::read(view).and_then(|message| self.study.view_of(&message)))?;
         answer(self.rendered(&view).await)
@@ -187,7 +188,7 @@ impl Engine {
     }
 }
 
-/// A copy: browsers take no pictures from shared memory.
+/// Copies bytes, since browsers cannot make pictures from shared memory.
 fn clamped(bytes: &[u8]) -> Uint8ClampedArray {
     let copy = Uint8ClampedArray::new_with_length(bytes.len() as u32);
     copy.copy_from(bytes);

@@ -1,4 +1,4 @@
-//! Lumencut in a browser, for the page in `web/`: a thin conversion between JSON or bytes and the facade's [`lumencut::study`].
+//! Lumencut in a browser, for the page in `web/`. It converts JSON and bytes for the facade's [`lumencut::study`].
 
 #[cfg(target_arch = "wasm32")]
 mod engine;

@@ -1,4 +1,4 @@
-//! Phantoms by name.
+//! Opens phantoms by name.
 
 use lumencut::error::{Error, ErrorKind, Mend};
 use lumencut_phantom::Phantom;
@@ -8,7 +8,7 @@ use lumencut::study::held_volume::HeldVolume;
 use lumencut::study::open_study::Study;
 use lumencut::study::voxels::Stored;
 
-/// Opens a phantom in place of the current study, see [`phantom`].
+/// Opens the phantom `name`, see [`phantom`], and closes the current study.
 pub fn open(study: &mut Study, name: &str, scale: f64) -> Result<()> {
     study.close();
     let Phantom { voxels, size, world_from_index, tree, vessel_names, .. } = phantom(name, scale)?;
@@ -17,10 +17,10 @@ pub fn open(study: &mut Study, name: &str, scale: f64) -> Result<()> {
     study.open(held, tree, vessel_names)
 }
 
-/// The phantom of this name; workloads have `scale` times as many voxels along each axis.
+/// The phantom `name`; workloads have `scale` times as many voxels along each axis.
 ///
 /// # Errors
-/// `settings` for another name, `volume` without memory.
+/// `settings` for another name; `volume` if there is not enough memory.
 pub fn phantom(name: &str, scale: f64) -> Result<Phantom> {
     let made = match name {
         "aorta" => lumencut_phantom::aorta(0, scale),

@@ -1,4 +1,4 @@
-//! Stops work in progress, and reports its progress. The page sets bits of a byte in shared memory: messages do not reach a busy worker.
+//! Stops work in progress, and reports its progress. A busy worker receives no messages, so the page sets bits in shared memory.
 
 use std::cell::RefCell;
 use std::sync::atomic::{AtomicU8, Ordering};
@@ -13,12 +13,12 @@ use lumencut::study::tracing::Watch;
 /// The stop bits set by the page.
 static ASKED: AtomicU8 = AtomicU8::new(0);
 
-/// Bits of views, and of tracing and measuring. A cancellation covers all long work requested before it, so its bit stays until the
-/// worker receives the cancellation.
+/// The stop bits of views, and of tracing and measuring. A cancellation ends all long work that was requested before it, so its bit
+/// stays set until the worker receives the cancellation.
 pub const VIEW: u8 = 1;
 pub const LONG: u8 = 2;
 
-/// Progress interval (ms).
+/// Time between two progress reports (ms).
 const PROGRESS_INTERVAL_MS: f64 = 100.0;
 
 struct Listener {
@@ -27,7 +27,7 @@ struct Listener {
 }
 
 thread_local! {
-    /// Set on the engine's own thread only.
+    /// Only set on the engine's own thread.
     static LISTENER: RefCell<Option<Listener>> = const { RefCell::new(None) };
 }
 
@@ -35,7 +35,7 @@ pub fn address() -> usize {
     ASKED.as_ptr() as usize
 }
 
-/// Clears the stop bit of a kind of work.
+/// Clears a stop bit: [`VIEW`] or [`LONG`].
 pub fn heard(kind: u8) {
     ASKED.fetch_and(!kind, Ordering::Relaxed);
 }
@@ -44,7 +44,7 @@ pub fn is_asked(kind: u8) -> bool {
     ASKED.load(Ordering::Relaxed) & kind != 0
 }
 
-/// Runs work that can be stopped and reports the share done.
+/// Runs work that can be stopped, and reports the fraction that is done.
 pub fn with_progress<T>(on_progress: Option<Function>, work: impl FnOnce(Watch) -> Result<T>) -> Result<T> {
     let progress = Progress::default();
     LISTENER.set(on_progress.map(|on_progress| Listener { on_progress, last: Date::now() }));
@@ -63,7 +63,7 @@ fn report(progress: &Progress) {
         let now = Date::now();
         if now - listener.last >= PROGRESS_INTERVAL_MS {
             listener.last = now;
-            // A failing listener is no reason to stop.
+            // If the listener fails, the work continues.
             let _ = listener.on_progress.call1(&JsValue::NULL, &JsValue::from_f64(progress.share()));
         }
     });

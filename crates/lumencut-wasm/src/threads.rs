@@ -6,11 +6,11 @@ use std::sync::{Condvar, Mutex, PoisonError};
 use rayon::{ThreadBuilder, ThreadPoolBuilder};
 use wasm_bindgen::prelude::{JsError, wasm_bindgen};
 
-/// Threads without a worker yet.
+/// Threads that no worker runs yet.
 static WAITING: Mutex<VecDeque<ThreadBuilder>> = Mutex::new(VecDeque::new());
 static COME: Condvar = Condvar::new();
 
-/// Starts a pool of `count` workers; blocks until all of them wait in [`run_thread`]. Can be called once only.
+/// Starts a pool of `count` workers, and blocks until all of them wait in [`run_thread`]. It can be called only once.
 #[wasm_bindgen]
 pub fn use_threads(count: usize) -> Result<(), JsError> {
     let pool = ThreadPoolBuilder::new().num_threads(count).spawn_handler(|thread| {
@@ -21,7 +21,7 @@ pub fn use_threads(count: usize) -> Result<(), JsError> {
     pool.build_global().map_err(|error| JsError::new(&error.to_string()))
 }
 
-/// Runs one thread in the calling worker, to its end.
+/// Takes a waiting thread and runs it in the calling worker until it ends.
 #[wasm_bindgen]
 pub fn run_thread() {
     let mut waiting = WAITING.lock().unwrap_or_else(PoisonError::into_inner);

@@ -1,4 +1,4 @@
-//! Captions that explain the rows and columns of a reformation.
+//! Captions that explain what the rows and columns of a reformation show.
 
 use crate::text::{fixed, rounded};
 
@@ -9,11 +9,11 @@ pub enum Axes {
     Untangled,
     /// A vessel straightened by an amount from 0 to 1.
     Uncurled(f64),
-    /// The spiral CPR sampled at even arc lengths; its pitch (mm).
+    /// The spiral CPR, sampled at even arc lengths; the number is the pitch (mm).
     SpiralByArc(f64),
-    /// The spiral CPR sampled at even angles.
+    /// The spiral CPR, sampled at even angles.
     SpiralByAngle,
-    /// The lumen map; the radius at which its columns are true to scale (mm).
+    /// The lumen map; the number is the radius at which its columns are true to scale (mm).
     Map(f64),
 }
 

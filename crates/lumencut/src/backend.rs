@@ -13,7 +13,7 @@ use crate::devices::{self, Choice, Wanted};
 use crate::method::{Method, refuse_focus};
 use crate::samples::{Mean, sub_views};
 
-/// Environment variable that lists the stages the CPU computes in place of the GPU (comma-separated), to locate a faulty stage.
+/// Environment variable that lists stages (comma-separated) for the CPU in place of the GPU, to find a faulty stage.
 #[cfg(not(target_arch = "wasm32"))]
 pub(crate) const CPU_STAGES: &str = "LUMENCUT_CPU_STAGES";
 
@@ -26,13 +26,13 @@ pub enum Drawn {
     Frame(Frame),
 }
 
-/// Images that every sample of a picture needs.
+/// The images that every sample of a pixel needs.
 const PICTURE: ImageSet = ImageSet::of(&[Image::Picture]);
 
 /// The device that computes views.
 pub struct Backend {
     computer: Computer,
-    /// Why the CPU took over, until a finished view reports it.
+    /// Why the CPU replaced the GPU, until a finished view reports it.
     unreported: Option<Error>,
 }
 
@@ -44,7 +44,7 @@ enum Computer {
 pub(crate) type Rendered = (Frame, Option<Error>);
 
 impl Backend {
-    /// Opens the wanted device. Also returns the error if an optional GPU does not open.
+    /// Opens the requested device. If an optional GPU does not open, its error is returned too.
     ///
     /// # Errors
     /// [`ErrorKind::Device`] if a required GPU cannot be used.
@@ -70,8 +70,8 @@ impl Backend {
         self.render_by(Method::CutSurface, scene, request).await
     }
 
-    /// Renders a view by any method. The CPU finds the positions of mpCPR and CR, the GPU samples them; progress arrives only at
-    /// the end.
+    /// Renders a view by any method. For mpCPR and CR the CPU finds the sampled positions and the GPU samples them; the progress is
+    /// reported only at the end.
     pub async fn render_by(
         &mut self,
         method: Method,
@@ -81,7 +81,7 @@ impl Backend {
         let views = sub_views(request.camera, request.settings.samples)?;
         let has_samples = views.len() > 1 && scene.volume.is_some() && request.images.has(Image::Picture);
         if let Some(progress) = request.progress {
-            // The middle sample of an odd number is the view itself.
+            // If the number of samples is odd, the middle one is the view itself.
             let samples = views.iter().filter(|camera| *camera != request.camera).count();
             progress.expect_views(if has_samples { 1 + samples } else { 1 });
         }
@@ -103,7 +103,7 @@ impl Backend {
         Ok((frame, self.unreported.take()))
     }
 
-    /// Draws a view on a canvas if a GPU computes, else returns it. One sample of a cut surface never leaves the GPU.
+    /// Draws a view on the canvas if a GPU computes it, else returns it. With one sample, a cut surface never leaves the GPU.
     ///
     /// # Errors
     /// As [`Backend::render_by`]; [`ErrorKind::Device`] even if the GPU is optional, so that the caller can choose the device.
@@ -131,7 +131,7 @@ impl Backend {
         Ok(Drawn::OnScreen)
     }
 
-    /// Resolves once the GPU in use is lost; at once if there is none.
+    /// Resolves once the GPU in use is lost; immediately if there is none.
     #[cfg(target_arch = "wasm32")]
     pub fn loss(&self) -> impl Future<Output = ()> + use<> {
         let renderer = match &self.computer {
@@ -146,8 +146,7 @@ impl Backend {
         }
     }
 
-    /// Samples a volume at the positions of the frame that `places` makes; runs again on the CPU if the GPU fails. One sample per
-    /// pixel.
+    /// Samples a volume once per pixel, at the positions of the frame that `places` makes; on the CPU if the GPU fails.
     pub async fn look(
         &mut self,
         volume: &SharedVolume<'_>,
@@ -198,7 +197,7 @@ impl Backend {
             return Err(error);
         }
         let mut cpu = CpuRenderer::default();
-        // Interrupted: the caller has not seen the GPU's failure yet, so the next view tries the GPU again.
+        // If this is interrupted, the caller does not learn of the GPU's failure, so the next view tries the GPU again.
         let frame = method.on_cpu(&mut cpu, scene, request)?;
         self.computer = Computer::Cpu(cpu);
         self.unreported = Some(error);
@@ -240,7 +239,7 @@ impl Gpu {
         Self { choice, is_optional, name: String::new(), renderer: None, process: devices::process() }
     }
 
-    /// The renderer; reopened after a failure and in a forked process.
+    /// The renderer; it is opened again after a failure and in a forked process.
     async fn open(&mut self) -> Result<&mut GpuRenderer> {
         self.leave_the_parents();
         let renderer = match self.renderer.take() {

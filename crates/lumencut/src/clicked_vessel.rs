@@ -1,4 +1,4 @@
-//! Whether a click selects a vessel, and where on it.
+//! Decides whether a click selects a vessel, and at which place.
 
 use glam::{DVec2, DVec3};
 use lumencut_core::math::arc_length::point_at;
@@ -6,18 +6,18 @@ use lumencut_core::vessel_tree::Vessel;
 
 use crate::vessel_views::radius_at;
 
-/// How far outside its wall a vessel is still selected (mm), and in pixels of a distant view.
+/// A click up to this far outside its wall selects a vessel (mm); in distant views, up to this many pixels.
 const CLICK_MARGIN_MM: f64 = 2.0;
 const CLICK_MARGIN_PX: f64 = 4.0;
 
-/// Whether a click selects the vessel: in its lumen or just outside. `pixel_spacing` is the pixel side (mm).
+/// Whether a click selects the vessel: in its lumen or close to its wall. `pixel_spacing` is the pixel side (mm).
 pub fn is_clicked(vessel: &Vessel, point: DVec3, pixel_spacing: f64) -> bool {
     let at = nearest_arc_length(vessel, point);
     let reach = CLICK_MARGIN_MM.max(CLICK_MARGIN_PX * pixel_spacing);
     point.distance(point_at(vessel.points(), vessel.arc_length(), at)) <= radius_at(vessel, at) + reach
 }
 
-/// The arc length (mm) nearest to a point.
+/// The arc length (mm) of the place on a vessel that is nearest to a point.
 pub fn nearest_arc_length(vessel: &Vessel, point: DVec3) -> f64 {
     let (points, along) = (vessel.points(), vessel.arc_length());
     let mut best = DVec2::new(f64::MAX, 0.0);

@@ -1,4 +1,4 @@
-//! What a pixel of a view shows of the cut surface.
+//! Finds what a pixel of a view shows of the cut surface.
 
 use glam::DVec3;
 use lumencut_core::camera::Camera;
@@ -11,7 +11,7 @@ use lumencut_core::stages::{Image, ImageSet};
 use crate::method::Method;
 use crate::positions::world_from_pixel;
 
-/// Pixels around one that affect it: the reach of the depth filter and of jump detection.
+/// How far other pixels affect a pixel, through the depth filter and the detection of jumps.
 const NEIGHBOURHOOD_PX: usize = 8;
 /// A pixel shows the cut surface if its opacity is at least this.
 const MIN_OPACITY: f32 = 0.5;
@@ -21,9 +21,9 @@ const MIN_OPACITY: f32 = 0.5;
 pub struct CutAt {
     /// The world point (LPS, mm).
     pub point: DVec3,
-    /// The vessel whose zone contains it.
+    /// The vessel whose zone contains the pixel.
     pub vessel: Option<usize>,
-    /// False if a focus shows the surroundings instead.
+    /// False if the focus shows the surroundings here.
     pub is_shown: bool,
 }
 

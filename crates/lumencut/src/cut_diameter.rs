@@ -6,17 +6,17 @@ use lumencut_core::volume::Volume;
 
 use crate::windows::sample;
 
-/// In radii from the centre: the lumen is sampled up to here, the surroundings from the second value to the third.
+/// The lumen is sampled up to the first value, the surroundings between the other two (radii from the centre).
 const LUMEN_RADII: f64 = 0.5;
 const SURROUNDINGS_RADII: [f64; 2] = [1.5, 3.0];
 const SAMPLES: usize = 200;
 
-/// The diameter (mm) that the view cuts; None without two walls.
+/// The diameter (mm) that the view cuts; None if there are not two walls.
 ///
-/// It is read through the camera's center along the image's horizontal: the cut runs there inside the lumen. On each side the
-/// wall is where the values first pass midway between the lumen (median within half a radius) and the most different value within
-/// three radii. A wall beyond 1.5 radii belongs to a touching vessel, so the result is None. `radius` is the approximate radius
-/// (mm).
+/// It is read along the image's horizontal line through the camera's center, where the cut runs inside the lumen. On each side, the
+/// wall is where the values first pass midway between two levels: the lumen (median within half a radius) and the value within
+/// three radii that differs most from it. A wall beyond 1.5 radii belongs to a touching vessel, so the result is None. `radius` is
+/// the approximate radius (mm).
 pub fn cut_diameter(volume: &Volume, camera: &Camera, radius: f64) -> Option<f64> {
     let places: Vec<f64> = (0..=2 * SAMPLES)
         .map(|n| SURROUNDINGS_RADII[1] * radius * (n as f64 / SAMPLES as f64 - 1.0))
@@ -48,7 +48,7 @@ fn steps_to_wall(depth: &[f64]) -> Option<f64> {
     let half = depth.iter().copied().fold(0.0, f64::min) / 2.0;
     let after = depth.iter().position(|value| *value <= half).filter(|after| half < 0.0 && *after > 0)?;
     let share = (depth[after - 1] - half) / (depth[after - 1] - depth[after]);
-    // NaN: the wall would be next to values outside the volume.
+    // NaN if the wall would be next to values outside the volume.
     Some((after - 1) as f64 + share).filter(|steps| steps.is_finite())
 }
 

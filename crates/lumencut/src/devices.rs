@@ -1,4 +1,4 @@
-//! The GPU of this process, shared by all scenes, and the choice among GPUs.
+//! The GPU of this process, which all scenes share, and the choice among GPUs.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -7,13 +7,13 @@ use lumencut_core::error::{Error, ErrorKind, Result};
 pub use lumencut_gpu::adapter::{Choice, Description, devices};
 pub use lumencut_gpu::device::Device;
 
-/// Environment variable for the meaning of `auto`: `hardware` (default), `any` GPU, or `cpu`.
+/// Environment variable for what `auto` means: `hardware` (a hardware GPU, the default), `any` (any GPU), or `cpu`.
 pub(crate) const AUTO: &str = "LUMENCUT_AUTO_DEVICE";
 
-/// Set once a search found no hardware GPU; none appears later.
+/// Set once a search has found no hardware GPU; the search is then not repeated.
 static IS_BARE: AtomicBool = AtomicBool::new(false);
 
-/// Advice if a forked process cannot open its parent's GPU: some drivers serve the parent only.
+/// Advice if a forked process cannot open its parent's GPU, since some drivers serve only the parent.
 const SPAWN: &str =
     "start processes by 'spawn' instead of 'fork': this driver does not support forked processes";
 
@@ -22,22 +22,22 @@ const SPAWN: &str =
 pub enum Wanted {
     /// The CPU.
     Cpu,
-    /// A GPU, or an error.
+    /// A GPU; an error if there is none.
     Gpu(Choice),
     /// A GPU if available, else the CPU.
     Auto(Choice),
 }
 
 impl Wanted {
-    /// The device for `auto`, `cpu` or `gpu`; [`AUTO`] refines `auto`.
+    /// The device for `auto`, `cpu` or `gpu`; the environment variable [`AUTO`] says what `auto` means.
     ///
     /// # Errors
-    /// [`ErrorKind::Settings`] for another name, also in the environment variable.
+    /// [`ErrorKind::Settings`] for another name or another value of the environment variable.
     pub fn named(name: &str) -> Result<Self> {
         Self::with_auto(name, std::env::var(AUTO).ok().as_deref())
     }
 
-    /// The device for `name`, with the meaning of `auto` given.
+    /// The device for `name`; `auto` is the value of the environment variable [`AUTO`].
     ///
     /// # Errors
     /// [`ErrorKind::Settings`] for an unknown name.
@@ -74,10 +74,10 @@ impl Opened {
     }
 }
 
-/// The GPU of this process, opened if needed.
+/// The GPU of this process; it is opened if necessary.
 ///
 /// # Errors
-/// [`ErrorKind::Device`] if there is none of that kind, or it cannot be used.
+/// [`ErrorKind::Device`] if there is no GPU of the chosen kind, or it cannot be used.
 pub async fn open(choice: Choice) -> Result<Arc<Device>> {
     let (shared, is_forked) = with_shared(|shared| {
         let device =
@@ -93,13 +93,13 @@ pub async fn open(choice: Choice) -> Result<Arc<Device>> {
     }
 }
 
-/// Shares a newly opened GPU, unless another thread was faster: then returns that one.
+/// Shares a newly opened GPU. If another thread has shared one meanwhile, returns that GPU.
 fn share(device: Arc<Device>, choice: Choice) -> Arc<Device> {
     with_shared(|shared| {
         if let Some(opened) = shared.as_ref().filter(|opened| opened.will_do(choice)) {
             return Arc::clone(&opened.device);
         }
-        // Dropping the parent's GPU would block: it does not respond to this process.
+        // Dropping the parent's GPU would block, since it does not respond to this process.
         std::mem::forget(shared.take_if(|opened| opened.process != process()));
         *shared = Some(Opened { process: process(), device: Arc::clone(&device) });
         device
@@ -123,14 +123,14 @@ pub(crate) async fn open_if_there(choice: Choice) -> Result<Option<Arc<Device>>>
     }
 }
 
-/// Lets the next scene reopen the GPU after a failure.
+/// Forgets a failed GPU, so that the next scene opens it again.
 pub fn forget(failed: &Device) {
     with_shared(|shared| {
         drop(shared.take_if(|opened| std::ptr::eq(Arc::as_ptr(&opened.device), failed)));
     });
 }
 
-/// The process id; constant in a browser.
+/// The id of this process; always 0 in a browser.
 pub(crate) fn process() -> u32 {
     if cfg!(target_arch = "wasm32") { 0 } else { std::process::id() }
 }

@@ -1,13 +1,13 @@
-//! Detects scans of implausible size, as when the header uses another unit of length.
+//! Detects scans of implausible size, for example because the header uses another unit of length.
 
 use glam::{DAffine3, DVec3};
 
 use crate::places::LARGEST;
 use crate::text::rounded;
 
-/// A scan whose longest side is shorter (mm) is implausible.
+/// A scan is implausible if its longest side is shorter than this (mm).
 const MIN_LENGTH_MM: f64 = 1.0;
-/// Corrections for metres or micrometres taken as mm.
+/// Factors that correct micrometres or metres read as mm.
 const UNIT_FACTORS: [f64; 2] = [1e-3, 1e3];
 const DIGITS: usize = 6;
 

@@ -1,4 +1,4 @@
-//! Detects centerlines in the wrong unit: an implausible size, or another unit that fits the volume better.
+//! Detects centerlines read in the wrong unit: their size is implausible, or they fit the volume better in another unit.
 
 use std::cmp::Reverse;
 
@@ -67,7 +67,7 @@ fn doubted_by_volume(points: &[DVec3], place: CoordinateSystem, volume: &Judge) 
     Some(Doubt { found, units: others.iter().map(|other| other.place.unit).collect() })
 }
 
-/// Whether another unit is likelier than the one read.
+/// Whether another unit is likelier than the one in which the points were read.
 fn is_likelier(other: &Reading, as_read: &Reading, total: usize, volume: &Judge) -> bool {
     if other.is_clearly_better_than(as_read.fits(), total) {
         return true;

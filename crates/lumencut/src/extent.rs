@@ -1,11 +1,11 @@
-//! The extent of a volume: which world points (mm, LPS) lie inside its outer corners.
+//! The extent of a volume: decides which world points (mm, LPS) lie inside its outer corners.
 
 use glam::{DAffine3, DMat3, DVec3};
 use lumencut_core::volume::Volume;
 
 use crate::fused;
 
-/// Tolerance (voxels) that keeps corners inside despite rounding by the affine and its inverse.
+/// Tolerance (voxels), so that corners count as inside although the affine and its inverse round.
 const TOLERANCE: f64 = 1e-9;
 
 /// The grid of a volume without its voxels.
@@ -28,7 +28,7 @@ impl Extent {
         }
     }
 
-    /// Whether a world point lies inside; the faces are half a voxel beyond the outermost centres.
+    /// Whether a world point lies inside. The faces of the volume are half a voxel beyond the outermost voxel centres.
     pub fn contains(&self, point: DVec3) -> bool {
         let index = self.index_from_offset.solve(point - self.origin);
         index.cmpge(DVec3::splat(-0.5 - TOLERANCE)).all() && index.cmple(self.last + TOLERANCE).all()
@@ -56,10 +56,10 @@ impl From<&Volume<'_>> for Extent {
     }
 }
 
-/// A 3 × 3 linear system by elimination with pivoting: for sheared grids more accurate than the inverse matrix.
+/// Solves a 3 × 3 linear system by elimination with pivoting. For sheared grids this is more accurate than the inverse matrix.
 #[derive(Clone, Copy, Debug)]
 struct Elimination {
-    /// Rows in pivot order: the factors below the diagonal, the triangle above.
+    /// Rows in pivot order: factors of the elimination below the diagonal, the upper triangle above.
     rows: [[f64; 3]; 3],
     order: [usize; 3],
 }

@@ -1,5 +1,5 @@
-//! Curvicircular feature aggregation (CFA) of a straightened vessel: each pixel aggregates a half circle on its side of the
-//! vessel (our reading of Mistelbauer et al. 2013, DOI 10.1111/cgf.12110).
+//! Curvicircular feature aggregation (CFA) of a straightened vessel. Each pixel aggregates the values of a half circle on its side
+//! of the vessel (our reading of Mistelbauer et al. 2013, DOI 10.1111/cgf.12110).
 
 use std::f64::consts::PI;
 
@@ -8,7 +8,7 @@ use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::reformations::Layout;
 use lumencut_core::reformations::cpr::Cpr;
 
-/// The aggregate of a half circle.
+/// What is computed from the values of a half circle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Feature {
     /// The largest value.
@@ -17,9 +17,9 @@ pub enum Feature {
     Mean,
     /// The smallest value.
     Min,
-    /// Largest minus smallest: how uneven the surroundings are.
+    /// Largest minus smallest value: how uneven the surroundings are.
     Range,
-    /// The fraction above this level, 0 to 1.
+    /// The fraction of values above this level, 0 to 1.
     Share(f64),
 }
 
@@ -27,7 +27,7 @@ impl Feature {
     /// The feature named `max`, `mean`, `min`, `range` or `share`; only `share` has a level.
     ///
     /// # Errors
-    /// [`ErrorKind::Settings`] for another name, a share without a finite level, or a level without share.
+    /// [`ErrorKind::Settings`] for another name, a share without a finite level, or a level for another feature.
     pub fn named(name: &str, level: Option<f64>) -> Result<Self> {
         let wrong = |subject: &str, found: String, expected: &str| {
             Err(Error::new(ErrorKind::Settings, subject, found, expected))
@@ -50,7 +50,7 @@ impl Feature {
         }
     }
 
-    /// Level and width for the feature, given those of the volume: a range begins at 0, a share lies in 0 to 1.
+    /// Level and width for pictures of the feature, from those of the volume. A range begins at 0; a share lies between 0 and 1.
     pub fn window(self, [level, width]: [f64; 2]) -> [f64; 2] {
         match self {
             Self::Max | Self::Mean | Self::Min => [level, width],
@@ -59,7 +59,7 @@ impl Feature {
         }
     }
 
-    /// The summand of the mean; for a share 1 above its level, else 0.
+    /// The number that the mean averages; for a share 1 above its level, else 0.
     fn counted(self, value: f64) -> f64 {
         match self {
             Self::Share(level) => f64::from(u8::from(value > level)),
@@ -67,7 +67,7 @@ impl Feature {
         }
     }
 
-    /// Index of the value shown (first of several); None for features without a single one or without known values.
+    /// The index of the value that the feature shows (the first of equal ones); None if it shows no single value or none is known.
     pub fn place(self, values: &[f32]) -> Option<usize> {
         let known = values.iter().enumerate().filter(|(_, value)| !value.is_nan());
         let larger = |best: Option<(usize, f32)>, (n, value): (usize, f32)| {
@@ -113,8 +113,8 @@ impl Gathered {
     }
 }
 
-/// Number of directions of a half circle: samples on the largest one are at most `pixel_spacing` (mm) apart. It is odd, so that
-/// the middle direction is that of the straightened vessel.
+/// Number of directions of a half circle. On the largest half circle, samples are at most `pixel_spacing` (mm) apart. The number is
+/// odd, so that the middle direction is that of the straightened vessel.
 pub fn angle_count(cpr: &Cpr, pixel_spacing: f64) -> usize {
     let largest = (cpr.size()[0] / 2) as f64 * pixel_spacing;
     ((PI * largest / pixel_spacing).ceil() as usize) | 1
@@ -126,13 +126,13 @@ fn turns(cpr: &Cpr, pixel_spacing: f64) -> impl Iterator<Item = f64> {
     (0..angles).map(move |n| (n as f64 - (angles / 2) as f64) / angles as f64 * PI)
 }
 
-/// World points of the half circle of a CFA pixel (column, row).
+/// World points of the half circle that a CFA pixel (column, row) aggregates.
 pub(crate) fn half_circle(cpr: &Cpr, pixel_spacing: f64, pixel: DVec2) -> Result<Vec<DVec3>> {
     turns(cpr, pixel_spacing).map(|aside| Ok(cpr.rotated(aside)?.world_from_pixel(pixel))).collect()
 }
 
-/// The CFA in the layout of `cpr`, row by row; NaN if the whole half circle is outside the volume. `look` samples the vessel
-/// rotated about itself, on any device.
+/// The CFA in the layout of `cpr`, row by row; NaN where the half circle lies outside the volume. `look` samples the vessel rotated
+/// about itself, on any device.
 pub fn feature_aggregation(
     cpr: &Cpr,
     pixel_spacing: f64,

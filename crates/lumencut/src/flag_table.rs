@@ -9,20 +9,20 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub struct FlagLook {
-    /// Its constant, such as `NO_EDGE`.
+    /// The name of the flag's constant, such as `NO_EDGE`.
     #[serde(skip)]
     pub name: &'static str,
-    /// Its bit.
+    /// The flag's bit in the flags of a section.
     #[serde(skip)]
     pub bit: u32,
-    /// Its word in tables and reports, such as `no clear wall`; part of the file formats.
+    /// The word for the flag in tables and reports, such as `no clear wall`; it is part of the file formats.
     pub word: &'static str,
-    /// Its meaning, as part of a sentence.
+    /// What the flag means, as part of a sentence.
     pub meaning: &'static str,
-    /// Its colour on paper, `#rrggbb`.
+    /// The colour of the flag on paper, `#rrggbb`.
     #[serde(skip)]
     pub paper: &'static str,
-    /// Its colour on a dark screen, `#rrggbb`.
+    /// The colour of the flag on a dark screen, `#rrggbb`.
     pub screen: &'static str,
 }
 

@@ -6,11 +6,11 @@ use lumencut_core::error::{Error, ErrorKind, Result};
 
 pub(crate) const MOST_FRAMES: usize = 1_000_000;
 
-/// The views of a flight between two cameras; the first and last are exactly these.
+/// The views of a flight between two cameras; the first and last view are exactly these cameras.
 ///
-/// It eases in and out: progress is 3t² − 2t³ for the time t in 0 to 1. The view turns by the shortest rotation in step with the
-/// progress; the pixel spacing changes geometrically. The centre of the closer view moves in a straight line on screen, at a
-/// speed that is even in pixels, so a flight back retraces the path.
+/// The flight starts and ends slowly: the progress is 3t² − 2t³ for the time t in 0 to 1. The view turns by the shortest rotation,
+/// in proportion to the progress; the pixel spacing changes geometrically. The centre of the closer view moves in a straight line
+/// on screen, at a constant speed in pixels, so a flight back retraces the path.
 ///
 /// # Errors
 /// [`ErrorKind::Camera`] for fewer than two or more than [`MOST_FRAMES`] frames, or cameras of different sizes.
@@ -38,7 +38,7 @@ pub fn flight(from: &Camera, to: &Camera, frames: usize) -> Result<Vec<Camera>> 
     (0..frames).map(view).collect()
 }
 
-/// Progress at a time from 0 to 1.
+/// The progress at a time from 0 to 1.
 fn eased(time: f64) -> f64 {
     time * time * (3.0 - 2.0 * time)
 }
@@ -47,14 +47,14 @@ fn between(from: &Camera, to: &Camera, way: f64) -> Result<Camera> {
     let [start, end] = [from, to].map(orientation);
     let turned = DMat3::from_quat(start.slerp(end, way));
     let spacing = from.pixel_spacing() * (to.pixel_spacing() / from.pixel_spacing()).powf(way);
-    // The remaining shift of the center, measured from the closer view.
+    // How far the center remains from that of the closer view.
     let is_closer = to.pixel_spacing() <= from.pixel_spacing();
     let (near, far, left) = if is_closer { (to, from, 1.0 - way) } else { (from, to, way) };
     let center = near.center() + (far.center() - near.center()) * (left * spacing / far.pixel_spacing());
     Camera::new(center, turned.z_axis, turned.y_axis, from.size(), spacing)
 }
 
-/// Rotation from the world's axes to left, up and direction: right, up and direction are left-handed.
+/// The rotation from the world's axes to left, up and direction; right, up and direction would be left-handed.
 fn orientation(camera: &Camera) -> DQuat {
     DQuat::from_mat3(&DMat3::from_cols(-camera.right(), camera.up(), camera.direction())).normalize()
 }

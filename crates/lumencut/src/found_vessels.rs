@@ -1,4 +1,4 @@
-//! The vessels found in a scan, automatically or from a seed, with notes for readers.
+//! The vessels that were found in a scan, automatically or from a seed, with notes for readers.
 
 use std::collections::BTreeMap;
 
@@ -19,35 +19,35 @@ use crate::text::{fixed, rounded};
 pub struct FoundLine {
     /// Points, radii and confidence.
     pub line: Centerline,
-    /// Why it is doubtful; None if it is not.
+    /// Why the vessel is doubtful; None if it is not.
     pub doubt: Option<&'static str>,
-    /// Its connected part; 0 is the most important.
+    /// Number of the connected part; part 0 is the most important one.
     pub part: usize,
 }
 
 /// All vessels found in a scan, with notes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FoundTree {
-    /// Confident vessels part by part, then the doubtful ones.
+    /// Confident vessels, ordered by part, then the doubtful ones.
     pub vessels: Vec<FoundLine>,
     /// Notes about the scan, one sentence each.
     pub notes: Vec<String>,
-    /// Counts of doubtful vessels by reason, one sentence each.
+    /// How many vessels are doubtful for each reason, one sentence each.
     pub doubts: Vec<String>,
 }
 
-/// Finds all vessels of a scan; at least one must be confident.
+/// Finds all vessels of a scan. At least one of them must be confident.
 ///
 /// # Errors
-/// Those of [`find::find_vessels`]; [`lumencut_core::error::ErrorKind::Tracing`] if none is confident.
+/// Those of [`find::find_vessels`]; [`lumencut_core::error::ErrorKind::Tracing`] if no vessel is confident.
 pub fn find_vessels(volume: &Volume, request: &FindRequest) -> Result<FoundTree> {
     confident_tree(&find::find_vessels(volume, request)?, request.smallest_radius)
 }
 
-/// Describes trees with at least one confident vessel.
+/// Describes the vessels found; at least one of them must be confident.
 ///
 /// # Errors
-/// [`lumencut_core::error::ErrorKind::Tracing`] if none is confident; `smallest_radius` (mm) is the requested one.
+/// [`lumencut_core::error::ErrorKind::Tracing`] if no vessel is confident; the error states `smallest_radius` (mm).
 pub fn confident_tree(trees: &Trees, smallest_radius: f64) -> Result<FoundTree> {
     if trees.vessels.iter().any(|vessel| vessel.doubt.is_none()) {
         return Ok(found(trees.clone()));
@@ -55,7 +55,7 @@ pub fn confident_tree(trees: &Trees, smallest_radius: f64) -> Result<FoundTree> 
     Err(refusals::no_vessel(trees.vessels.len(), smallest_radius))
 }
 
-/// As [`confident_tree`], but accepts doubtful vessels alone.
+/// As [`confident_tree`], but accepts a result with only doubtful vessels.
 pub(crate) fn tree_with_doubtful(trees: &Trees, smallest_radius: f64) -> Result<FoundTree> {
     if trees.vessels.is_empty() {
         return Err(refusals::no_vessel(0, smallest_radius));
@@ -68,7 +68,7 @@ pub fn trace_from(volume: &Volume, seed: DVec3, request: &FindRequest) -> Result
     Ok(found(find_from(volume, seed, request)?))
 }
 
-/// The vessel at a click (mm, LPS), from the nearest existing vessel (`beside`) to its end.
+/// The vessel at a click (mm, LPS): from the nearest existing vessel (one of `beside`) to the vessel's end.
 pub(crate) fn one_vessel(
     volume: &Volume,
     trees: &Trees,
@@ -114,7 +114,7 @@ fn doubts(vessels: &[FoundLine]) -> Vec<String> {
     counts.into_iter().map(sentence).collect()
 }
 
-/// Indices of the confident vessels of each connected part, the most important part first.
+/// For each connected part, the indices of its confident vessels; the most important part comes first.
 pub fn sure_parts(tree: &FoundTree) -> Vec<Vec<usize>> {
     let mut parts: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
     for (number, vessel) in tree.vessels.iter().enumerate().filter(|(_, vessel)| vessel.doubt.is_none()) {

@@ -1,8 +1,8 @@
-//! Fused sums of products, rounded once per term, so that views are identical to the last bit on every processor and host.
+//! Sums of products by fused multiply-add, which rounds once per term. So views are bit-identical on every processor and host.
 
 use glam::{DMat3, DVec3};
 
-/// `a · b`, summed from x to z.
+/// `a · b`; the terms are added from x to z.
 pub(crate) fn dot(a: DVec3, b: DVec3) -> f64 {
     a.z.mul_add(b.z, a.y.mul_add(b.y, a.x * b.x))
 }
@@ -12,7 +12,7 @@ pub(crate) fn combined(a: DVec3, x: f64, b: DVec3, y: f64) -> DVec3 {
     DVec3::from_array([0, 1, 2].map(|n| b[n].mul_add(y, a[n] * x)))
 }
 
-/// `matrix · vector`, row by row from the middle term.
+/// `matrix · vector`; in each row, the term of y is rounded first.
 pub(crate) fn product(matrix: &DMat3, vector: DVec3) -> DVec3 {
     let row = |n: usize| {
         let row = matrix.row(n);
@@ -29,7 +29,7 @@ pub(crate) fn matrices(a: &DMat3, b: &DMat3) -> DMat3 {
 mod tests {
     use super::*;
 
-    /// Its square is 1 + 2⁻²⁹ + 2⁻⁶⁰; a separately rounded product loses the last term.
+    /// The square of this number is 1 + 2⁻²⁹ + 2⁻⁶⁰; a product that is rounded separately loses the last term.
     const NEAR_ONE: f64 = 1.0 + 1.0 / (1u64 << 30) as f64;
     const LOST: f64 = 1.0 / (1u64 << 60) as f64;
 

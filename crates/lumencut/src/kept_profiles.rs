@@ -1,4 +1,4 @@
-//! A cache of measured profiles of one scan, with the tree-wide estimates they share.
+//! A cache of the measured profiles of one scan, and of the tree-wide estimates that they share.
 
 use std::sync::Arc;
 
@@ -12,36 +12,36 @@ use lumencut_vessels::measure::request::MeasureRequest;
 use lumencut_vessels::measure::tree_findings::TreeFindings;
 use lumencut_vessels::measure::wall_level::WallRequest;
 
-/// A volume and its tree; a cache is valid for one pair only.
+/// A volume and its tree. A cache is valid for only one such pair.
 #[derive(Clone, Copy)]
 pub struct Scan<'a> {
     /// The angiography.
     pub volume: &'a Volume<'a>,
-    /// The vessels that determine the point spread, the wall level and the branches.
+    /// The vessels from which point spread, wall level and branches are determined.
     pub tree: &'a [Vessel],
 }
 
 /// Parameters of a measurement.
 #[derive(Clone, Copy)]
 pub struct MeasureParameters<'a> {
-    /// The largest distance of sections (mm).
+    /// The largest distance between sections (mm).
     pub step: f64,
     /// The width of the point spread (mm); None estimates it from the tree.
     pub fwhm: Option<f64>,
     /// The wall level.
     pub wall: WallRequest,
-    /// Asked whether to stop.
+    /// Tells whether to stop.
     pub stop: Stop<'a>,
 }
 
-/// The cached profiles, by the host's key of a vessel.
+/// The cached profiles, by the key with which the host names a vessel.
 pub struct KeptProfiles<K> {
-    /// Tree-wide estimates, by wall level and point spread.
+    /// Tree-wide estimates, each with its wall level and point spread.
     estimates: Vec<((WallRequest, Option<f64>), TreeFindings)>,
     kept: Vec<Kept<K>>,
 }
 
-/// A cached profile with its parameters (mm).
+/// A cached profile, and the parameters with which it was measured (mm).
 struct Kept<K> {
     of: K,
     step: f64,
@@ -57,7 +57,7 @@ impl<K> Default for KeptProfiles<K> {
 }
 
 impl<K: PartialEq> KeptProfiles<K> {
-    /// The cache index of a vessel's profile; measures it if the parameters are new.
+    /// The index of a vessel's profile in the cache. The vessel is measured if it was not yet measured with these parameters.
     pub fn of(
         &mut self,
         key: K,

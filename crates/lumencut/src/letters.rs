@@ -1,18 +1,18 @@
-//! The patient-side letters at the edges of a picture, for all hosts.
+//! The patient-side letters at the edges of a picture; all hosts use them.
 
 use glam::DVec3;
 use serde::Serialize;
 
-/// A side is named if the direction's component towards it is at least this: the sine of 11.5 degrees.
+/// A direction points to a side if its component towards the side is at least this, the sine of 11.5 degrees.
 const MIN_COMPONENT: f64 = 0.2;
 
-/// Components equal to this many steps tie; the axis order, not rounding, breaks the tie.
+/// Components are rounded to 1 divided by this number, so that the axis order, and not rounding, decides between equal ones.
 const ROUNDING_STEPS: f64 = 1e6;
 
-/// Axes whose cosines differ by less tie, so that rounding does not decide.
+/// Axes tie if the sums of their cosines differ by less than this, so that rounding does not decide.
 const COSINE_TOLERANCE: f64 = 1e-6;
 
-/// The patient's signed axes (LPS) by preference among ties: along the body first.
+/// The patient's signed axes (LPS). Of axes that tie the first wins: those along the body come first.
 pub(crate) const PREFERRED_AXES: [DVec3; 6] =
     [DVec3::NEG_Z, DVec3::Z, DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y];
 
@@ -40,8 +40,8 @@ impl EdgeLetters {
     }
 }
 
-/// Letters of the sides a direction points to (LPS, any length above 0), the main one first: R, L, A(nterior), P(osterior),
-/// S(uperior), I(nferior). Components below 0.2 are omitted.
+/// Letters of the sides to which a direction points (LPS, any length above 0), the main one first. They are R, L, A(nterior),
+/// P(osterior), S(uperior) and I(nferior). Components below 0.2 are omitted.
 pub fn sides(direction: DVec3) -> String {
     let parts = direction.normalize_or_zero().to_array();
     let size = |axis: usize| (parts[axis].abs() * ROUNDING_STEPS).round();
@@ -51,7 +51,7 @@ pub fn sides(direction: DVec3) -> String {
     named.map(|axis| SIDES[axis][usize::from(parts[axis] > 0.0)]).collect()
 }
 
-/// The patient axes nearest to three directions (LPS, any length above 0): each axis once, with their handedness.
+/// The patient axes nearest to three directions (LPS, any length above 0). Each axis is used once, and the handedness stays.
 pub fn nearest_axes(directions: [DVec3; 3]) -> [DVec3; 3] {
     let [first, second, third] = directions.map(DVec3::normalize_or_zero);
     let handedness = if first.cross(second).dot(third) < 0.0 { -1.0 } else { 1.0 };
@@ -68,7 +68,7 @@ pub fn nearest_axes(directions: [DVec3; 3]) -> [DVec3; 3] {
     best
 }
 
-/// One letter per grid axis: the side of the nearest patient axis.
+/// One letter for each grid axis: the side to which the nearest patient axis points.
 pub fn grid_letters(directions: [DVec3; 3]) -> String {
     nearest_axes(directions).map(sides).concat()
 }

@@ -19,11 +19,11 @@ use side_by_side::side_by_side;
 /// A vessel to check.
 #[derive(Clone, Copy, Debug)]
 pub struct DoubtedLine<'a> {
-    /// Its points (mm).
+    /// The points of the vessel (mm).
     pub points: &'a [DVec3],
     /// The radius at each point (mm), if known.
     pub radius: Option<&'a [f64]>,
-    /// Its name; may be empty.
+    /// Name of the vessel; may be empty.
     pub name: &'a str,
 }
 
@@ -34,24 +34,24 @@ pub struct LineDoubt {
     pub vessel: usize,
     /// Index of the other vessel, if two lie side by side.
     pub other: Option<usize>,
-    /// Its kind for programs: `order`, `gap`, `far` or `beside`.
+    /// The kind of doubt for programs: `order`, `gap`, `far` or `beside`.
     pub kind: &'static str,
     /// What was found and what it may mean.
     pub found: String,
     /// What the reader can do.
     pub advice: &'static str,
-    /// What a host can do instead.
+    /// A remedy that a host can offer.
     pub mend: Option<Mend>,
 }
 
 impl LineDoubt {
-    /// Finding and advice in one sentence without option names.
+    /// Finding and advice in one sentence that names no options.
     pub fn words(&self) -> String {
         format!("{}; {}", self.found, self.advice)
     }
 }
 
-/// Doubts about each vessel on its own, in order.
+/// Doubts that concern a single vessel, in the order of the vessels.
 pub fn order_doubts_of(lines: &[DoubtedLine]) -> Vec<LineDoubt> {
     let mut found = Vec::new();
     for (vessel, line) in lines.iter().enumerate() {
@@ -62,7 +62,7 @@ pub fn order_doubts_of(lines: &[DoubtedLine]) -> Vec<LineDoubt> {
     found
 }
 
-/// Pairs of vessels that run side by side, as two lines of one vessel.
+/// Doubts about pairs of vessels that run side by side, as if they were two lines of one vessel.
 pub fn beside_doubts_of(lines: &[DoubtedLine]) -> Vec<LineDoubt> {
     let doubt_of_pair = |(first, second, length): (usize, usize, f64)| {
         let names = [first, second].map(|vessel| called(vessel, &lines[vessel]));
@@ -128,7 +128,7 @@ fn long(step: &LongStep) -> String {
     format!("{} mm after point {}, {times} times the usual one", mm(step.length), step.after)
 }
 
-/// A length with one decimal; below 10 mm with three digits.
+/// A length in mm: one decimal, or three digits below 10 mm.
 fn mm(length: f64) -> String {
     if length < 10.0 { rounded(length, 3) } else { fixed(length, 1) }
 }

@@ -1,4 +1,4 @@
-//! What a lumen map adds to the values: the thickness of calcium at the wall, and the ostia of branches.
+//! What a lumen map shows beside values: the thickness of calcium at the wall, and the ostia of branches.
 
 use std::sync::Arc;
 
@@ -20,10 +20,10 @@ use crate::rays_across::TOO_BRIGHT;
 
 const MIN_CALCIUM_HU: f64 = 130.0;
 
-/// Sample distance through the wall, in units of [`Voxels::sampling_side`].
+/// Distance of samples through the wall, in units of [`Voxels::sampling_side`].
 const SAMPLE_STEP: f64 = 0.5;
 
-/// A branch is attached if one of its ends lies within this many radii of the wall, plus this distance (mm).
+/// A branch is attached if an end lies within this many wall radii plus this distance (mm) of the centerline.
 const ATTACHED: (f64, f64) = (1.6, 2.0);
 
 /// The parameters of a lumen map.
@@ -33,21 +33,21 @@ pub struct MapRequest {
     pub pixel_spacing: f64,
     /// Direction of the middle column (radians); None centres the side with most calcium.
     pub angle: Option<f64>,
-    /// The angle repeated beyond each edge (radians).
+    /// The angle that the map repeats beyond each edge (radians).
     pub overlap: f64,
     /// The range of distances beyond the wall that is mapped (mm).
     pub band: [f64; 2],
-    /// The least level of calcium or metal; None derives it from the vessel's levels.
+    /// The lowest value that counts as calcium or metal; None derives it from the vessel's levels.
     pub calcium_level: Option<f64>,
 }
 
-/// Pixel side of the coarse map used to find the side with most calcium (mm).
+/// Pixel side (mm) of the coarse map that finds the side with most calcium.
 const COARSE_PIXEL_MM: f64 = 1.0;
 
-/// The map of a vessel with a known wall; pixels lie in the middle of the band.
+/// The map of a vessel whose wall is known. The pixels lie in the middle of the band.
 ///
 /// # Errors
-/// [`lumencut_core::error::ErrorKind::Camera`] for an invalid layout, [`lumencut_core::error::ErrorKind::Interrupted`].
+/// [`lumencut_core::error::ErrorKind::Camera`] for an invalid layout; [`lumencut_core::error::ErrorKind::Interrupted`].
 pub fn lumen_map(
     volume: &Volume,
     path: &Arc<CenterlinePath>,
@@ -70,12 +70,12 @@ pub fn lumen_map(
     laid(LumenMapParameters { angle, ..parameters })
 }
 
-/// The least level of calcium or metal, from the levels of the lumen and its surroundings.
+/// The lowest value that counts as calcium or metal, from the levels of the lumen and its surroundings.
 pub fn calcium_level([lumen, around]: [f64; 2]) -> f64 {
     (lumen + TOO_BRIGHT * (lumen - around)).max(MIN_CALCIUM_HU)
 }
 
-/// The thickness brighter than a level (mm) for each pixel, between two distances beyond the wall (mm). NaN outside the volume
+/// For each pixel, the thickness (mm) of what exceeds a level between two distances beyond the wall (mm). NaN outside the volume
 /// and at openings of the wall.
 pub fn thickness(
     volume: &Volume,
@@ -109,7 +109,7 @@ pub fn thickness(
     pixels.map_init(Vec::new, through).collect()
 }
 
-/// The direction with most calcium at the wall (radians): the map is cut open opposite to it. 0 without calcium.
+/// The direction with most calcium at the wall (radians), or 0 without calcium. The map is cut open opposite to it.
 fn thickest_side(map: &LumenMap, thickness: &[f32]) -> f64 {
     let width = map.size()[0];
     let sum: DVec2 = thickness
@@ -122,20 +122,20 @@ fn thickest_side(map: &LumenMap, thickness: &[f32]) -> f64 {
     if sum == DVec2::ZERO { 0.0 } else { sum.to_angle() }
 }
 
-/// Where another vessel opens into the mapped one.
+/// An ostium: where another vessel opens into the mapped one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ostium {
     /// Id of the other vessel.
     pub vessel: usize,
     /// Arc length on the mapped vessel (mm).
     pub at: f64,
-    /// Direction around it (radians).
+    /// Direction around the mapped vessel (radians).
     pub around: f64,
     /// The point where the other vessel leaves the wall (mm, LPS).
     pub point: DVec3,
 }
 
-/// The ostia of a tree's vessels on the mapped one, by id; without vessels that run along it or lie inside its wall.
+/// The ostia of other vessels on the mapped one, by vessel id. Vessels that run along it or lie inside its wall have none.
 pub fn ostia(map: &LumenMap, vessels: &[Vessel]) -> Vec<Ostium> {
     let found = |(vessel, other): (usize, &Vessel)| {
         let mut points = other.points().to_vec();
@@ -148,7 +148,7 @@ pub fn ostia(map: &LumenMap, vessels: &[Vessel]) -> Vec<Ostium> {
             WallCoordinates::of(map, **point).is_none_or(|place| place.away > place.wall(map))
         })?;
         let place = WallCoordinates::of(map, *leaves)?;
-        // Part of the mapped vessel itself: both ends and everything between lie on it.
+        // A vessel whose first point outside the wall is far away does not open into the wall there.
         let is_apart = place.away <= ATTACHED.0 * place.wall(map) + ATTACHED.1;
         is_apart.then_some(Ostium {
             vessel,

@@ -1,4 +1,4 @@
-//! Counts the centerline points that look like lumen, for any unit and for bright or dark lumen.
+//! Counts the centerline points that look like lumen. It works in any unit, and for bright or dark lumen.
 
 use std::collections::BTreeSet;
 
@@ -10,16 +10,16 @@ use crate::places::CoordinateSystem;
 use crate::windows::sample;
 use lumencut_core::math::statistics::median;
 
-/// One point is sampled per cube of this side (mm): close points carry the same information.
+/// One point is sampled in each cube of this side (mm), since close points carry the same information.
 const CUBE_MM: f64 = 2.0;
 const MAX_POINTS: usize = 2000;
-/// The fewest lumen-like points that can decide: about 40 mm of vessel in cubes of 2 mm.
+/// At least this many points must look like lumen: about 40 mm of vessel in cubes of 2 mm.
 const MIN_LUMEN_POINTS: usize = 20;
-/// The winning reading has at least this many times the points of the other.
+/// In the winning reading, at least this many times as many points as in the other must look like lumen.
 const MIN_RATIO: usize = 3;
-/// If no radius is known: the reach of a point's own value, and the distance of its surroundings (mm).
+/// If no radius is known: how far the values around a point count as its own, and the distance of its surroundings (mm).
 const UNKNOWN_RADIUS: (f64, f64) = (1.0, 15.0);
-/// The least distance of the surroundings beyond the wall (mm); else a radius.
+/// The surroundings are a radius beyond the wall, but at least this far (mm).
 const MIN_SURROUNDINGS_MM: f64 = 3.0;
 
 /// Points and radii of centerlines as in their file; NaN for unknown radii.
@@ -31,27 +31,27 @@ pub struct Lines<'a> {
     pub radii: &'a [f64],
 }
 
-/// How many points look like lumen.
+/// How many of the sampled points look like lumen.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LumenCount {
-    /// Those brighter than their surroundings, or those darker, whichever are more.
+    /// The number of points brighter than their surroundings or of darker ones, whichever is larger.
     pub(crate) like_lumen: usize,
-    /// How many were sampled.
+    /// The number of points sampled.
     pub of: usize,
 }
 
-/// What a volume can decide about centerlines.
+/// What a volume tells about how to read centerlines.
 #[derive(Clone, Copy)]
 pub struct Judge<'a> {
     /// The extent of the volume.
     pub extent: Extent,
-    /// Counts lumen-like points for a reading.
+    /// Counts the points that look like lumen if the lines are read in this space and unit.
     pub lumen: &'a dyn Fn(CoordinateSystem) -> LumenCount,
 }
 
 impl LumenCount {
-    /// Whether these points are lumen and those of the other reading are not: at least three times as many, half of all, and
-    /// twenty.
+    /// Whether the points of this reading are lumen and those of the other reading are not. At least twenty, half of all, and three
+    /// times as many as in the other reading must look like lumen.
     pub(crate) fn is_evident_over(self, other: Self) -> bool {
         self.like_lumen >= MIN_LUMEN_POINTS
             && 2 * self.like_lumen >= self.of
@@ -59,11 +59,11 @@ impl LumenCount {
     }
 }
 
-/// Counts the points that look like lumen when the lines are read in a place.
+/// Counts the points that look like lumen if the lines are read in a space and unit.
 ///
-/// A point looks like lumen if its value (the median of it and six points half a radius away) exceeds three quarters of 26 values
-/// around it, a radius beyond the wall. Ranks make this independent of CT, MR or scaling. If more points are below three quarters
-/// of their surroundings, those count: the lumen is dark.
+/// The value of a point is the median of the voxel there and six points half a radius away. It looks like lumen if it exceeds three
+/// quarters of 26 values around it, a radius beyond the wall. Only ranks matter, so the result does not depend on the modality or
+/// on scaling. If more points are darker than three quarters of their surroundings, the lumen is dark and those points count.
 pub fn lumen_count(volume: &Volume, lines: &Lines, place: CoordinateSystem) -> LumenCount {
     let (scale, mm) = (place.scale(), place.unit.in_mm());
     let looked_at = spread(lines, mm);
@@ -81,7 +81,7 @@ pub fn lumen_count(volume: &Volume, lines: &Lines, place: CoordinateSystem) -> L
     LumenCount { like_lumen: brighter.max(darker), of: looked_at.len() }
 }
 
-/// One point per cube, evenly thinned to [`MAX_POINTS`].
+/// One point per cube; if there are more than [`MAX_POINTS`], an even selection.
 fn spread(lines: &Lines, mm: f64) -> Vec<usize> {
     let mut cubes = BTreeSet::new();
     let cube = |point: DVec3| (point * mm / CUBE_MM).floor().as_i64vec3().to_array();
@@ -89,8 +89,8 @@ fn spread(lines: &Lines, mm: f64) -> Vec<usize> {
     kept.iter().copied().step_by(kept.len().div_ceil(MAX_POINTS).max(1)).collect()
 }
 
-/// How many of the values `away` from a point are below and above its own, and their count. None if the point or most of its
-/// surroundings are outside the volume.
+/// How many of the values `away` mm from a point are below and above the point's own value, and how many there are. None if the
+/// point or most of its surroundings lie outside the volume.
 fn ranks(volume: &Volume, point: DVec3, own: f64, away: f64) -> Option<(usize, usize, usize)> {
     let sides = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| [axis, -axis]);
     let near: Vec<DVec3> = std::iter::once(point).chain(sides.map(|side| point + own * side)).collect();

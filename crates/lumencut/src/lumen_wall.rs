@@ -1,5 +1,5 @@
-//! The wall that a lumen map unrolls: the measured contour, else the fall of values along rays, else the centerline's radius; and
-//! its openings at branches.
+//! The wall that a lumen map unrolls, and its openings at branches. The wall is the measured contour, else where values fall along
+//! rays, else the centerline's radius.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -21,35 +21,35 @@ use lumencut_vessels::voxels::Voxels;
 
 use crate::rays_across::{Fall, RaysAcross};
 
-/// Directions around the vessel in which the wall is known.
+/// Number of directions around the vessel in which the wall is known.
 const DIRECTIONS: usize = 180;
 
-/// The least distance of wall stations along the vessel (mm).
+/// The smallest distance between wall stations along the vessel (mm).
 const STATION_STEP_MM: f64 = 1.0;
 
-/// A ray without a wall within this many radii leaves through the opening of a branch.
+/// A ray that meets no wall within this many radii leaves through the opening of a branch.
 const OPEN_RADII: f64 = 1.6;
 
-/// So does a neighbouring ray whose wall lies beyond this many contour radii: the branch's wall.
+/// A neighbouring ray leaves too if it meets the branch's wall: a wall beyond this many contour radii.
 const NEAR_OPEN_RADII: f64 = 1.15;
 
-/// Smaller openings are ignored (mm²): single rays slip between stent struts.
+/// Smaller openings (mm²) are ignored, since single rays pass between the struts of a stent.
 const MIN_OPENING_MM2: f64 = 3.0;
 
-/// A section's own contrast counts up to this many times the usual one, and down to the inverse.
+/// The levels of a section are used if its contrast is at most this many times the usual one, and at least the inverse.
 const MAX_CONTRAST_RATIO: f64 = 2.0;
 
 /// The wall around a vessel.
 pub struct FoundWall {
-    /// Radius, and openings.
+    /// The radius of the wall, and its openings.
     pub wall: Arc<Wall>,
     /// Median levels of lumen and surroundings, if the vessel was measured.
     pub levels: Option<[f64; 2]>,
-    /// The radius at which map columns are true to scale (mm): the median of the centerline's, else of the wall's.
+    /// The radius at which map columns are true to scale (mm): the median of the centerline's radii, else of the wall's.
     pub mean_radius: f64,
 }
 
-/// The wall of a vessel by its profile; without one, the centerline's radius.
+/// The wall of a vessel from its profile; without a profile, from the centerline's radius.
 ///
 /// # Errors
 /// [`ErrorKind::VesselTree`] if neither profile nor vessel has a radius.
@@ -83,7 +83,7 @@ struct Station {
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 enum Exit {
     No,
-    /// It meets a farther wall: an exit if a neighbouring ray exits.
+    /// The ray meets a wall farther away; it leaves if a neighbouring ray does.
     Perhaps,
     Yes,
 }
@@ -114,7 +114,7 @@ pub(crate) fn no_radius() -> Error {
     )
 }
 
-/// The centerline's radius at a fraction of its length, if positive.
+/// The centerline's radius at a fraction of its length, if it is above 0.
 fn radius_at(vessel: &Vessel, share: f64) -> Option<f64> {
     let lengths = vessel.arc_length();
     let place = LinePlace::at(lengths, share * lengths[lengths.len() - 1]);
@@ -147,7 +147,7 @@ fn measured(
         let own =
             median(&mut known).or_else(|| radius_at(vessel, at / straightened.length())).unwrap_or(usual);
         let own_levels = Some(profile.levels[*n]).filter(|local| is_alike(*local, levels));
-        // At a branch the contour may reach into it.
+        // At a branch the contour may reach into the branch.
         let is_branching = profile.flags[*n] & BRANCH != 0;
         let usual = |k: usize| if is_branching { own } else { contour[k].unwrap_or(own) };
         let reach = |k: usize| OPEN_RADII * usual(k);
@@ -168,7 +168,7 @@ fn measured(
     Ok(chosen.par_iter().map(station).collect())
 }
 
-/// Whether a section's own levels are usable: air outside the skin or bone are not the tissue around a wall.
+/// Whether a section's own levels are usable. They are not if its surroundings are bone or air outside the skin.
 fn is_alike(local: [f64; 2], usual: Option<[f64; 2]>) -> bool {
     let contrast = |[lumen, around]: [f64; 2]| lumen - around;
     let ratio = contrast(local) / usual.map_or(contrast(local), contrast);
@@ -190,7 +190,7 @@ fn median_levels(profile: &Profile) -> Option<[f64; 2]> {
     Some([of(0)?, of(1)?])
 }
 
-/// A contour in polar form: its farthest crossing in each direction (mm).
+/// A contour in polar form: the farthest crossing in each direction (mm).
 fn polar(straightened: &Straightened, at: f64, contour: &[DVec3]) -> Vec<Option<f64>> {
     let frame = straightened.frame(at);
     let middle = straightened.world_from_straightened(DVec3::new(0.0, 0.0, at));
@@ -209,14 +209,14 @@ fn polar(straightened: &Straightened, at: f64, contour: &[DVec3]) -> Vec<Option<
 
 fn crossing_of(direction: DVec2, a: DVec2, b: DVec2) -> Option<f64> {
     let [from, to] = [a, b].map(|end| direction.perp_dot(end));
-    // Each corner belongs to one edge only.
+    // With >=, a corner on the ray belongs to only one of its two edges.
     if (from >= 0.0) == (to >= 0.0) {
         return None;
     }
     Some(direction.dot(a.lerp(b, from / (from - to)))).filter(|away| *away > 0.0)
 }
 
-/// Openings: directions where rays surely exit, grown over neighbours that perhaps exit, unless the whole is too small.
+/// The openings: directions in which rays certainly leave, grown over those in which they perhaps leave; small ones are omitted.
 fn openings(stations: &[Station]) -> Vec<bool> {
     let is_sure = |station: &Station, k: usize| f64::from(u8::from(station.exit[k] == Exit::Yes));
     let sure: Vec<bool> = median_filtered(stations, is_sure).into_iter().map(|share| share > 0.5).collect();
@@ -237,7 +237,7 @@ fn openings(stations: &[Station]) -> Vec<bool> {
     open
 }
 
-/// All entries connected to a sure one; marks them as seen.
+/// All directions connected to a certain one; they are marked as seen.
 fn grown(seed: usize, stations: &[Station], sure: &[bool], seen: &mut [bool]) -> Vec<usize> {
     let mut found = vec![seed];
     let mut next = 0;
@@ -255,7 +255,7 @@ fn grown(seed: usize, stations: &[Station], sure: &[bool], seen: &mut [bool]) ->
     found
 }
 
-/// A 3 × 3 median of an image of the stations, which removes specks.
+/// A 3 × 3 median of an image with a row per station, which removes specks.
 fn median_filtered(stations: &[Station], value: impl Fn(&Station, usize) -> f64 + Sync) -> Vec<f64> {
     let entry = |row: usize, k: usize| {
         let rows = rows_around(row, stations.len());

@@ -6,9 +6,9 @@ use lumencut_core::volume::Volume;
 
 use crate::text::rounded;
 
-/// Largest offset of mask voxels from volume voxels, in voxels.
+/// How far mask voxels may deviate from volume voxels, in voxels.
 const MAX_VOXEL_OFFSET: f64 = 0.1;
-/// Largest offset of corners, in the smallest voxel side.
+/// How far corners of the grids may deviate, in smallest voxel sides.
 const MAX_CORNER_OFFSET: f64 = 0.1;
 const ADVICE: &str = "take the mask that was made on this scan, or resample it onto the grid of this scan";
 
@@ -26,7 +26,7 @@ pub struct Grid {
 pub struct MaskPlace {
     /// The volume axis of each mask axis.
     pub axes: [usize; 3],
-    /// For each volume axis: whether the mask runs the same way.
+    /// For each volume axis, whether the mask runs in the same direction.
     pub forward: [bool; 3],
     /// The lowest mask index along each volume axis.
     pub low: [usize; 3],
@@ -90,7 +90,7 @@ fn check_corners(mask: &Grid, volume: &Grid) -> Result<()> {
     Ok(())
 }
 
-/// As [`place_of`], for a mask that may cover part of the volume.
+/// As [`place_of`], but the result exists for equal grids too, and the mask may cover only part of the volume.
 pub fn place_within(mask: &Grid, volume: &Grid) -> Result<MaskPlace> {
     let step = volume.world_from_index.inverse() * mask.world_from_index;
     let columns = [step.matrix3.x_axis, step.matrix3.y_axis, step.matrix3.z_axis];
@@ -119,7 +119,7 @@ pub fn place_within(mask: &Grid, volume: &Grid) -> Result<MaskPlace> {
     Ok(MaskPlace { axes, forward, low })
 }
 
-/// The volume axis of each mask axis, if the mask's last voxel is a whole number of voxels away along it.
+/// The volume axis of each mask axis, if the voxels of the mask stay voxels of the volume up to its last voxel.
 fn axes_of(mask: &Grid, columns: &[DVec3; 3]) -> Option<[usize; 3]> {
     let mut axes = [0; 3];
     for (axis, column) in columns.iter().enumerate() {
@@ -134,7 +134,7 @@ fn axes_of(mask: &Grid, columns: &[DVec3; 3]) -> Option<[usize; 3]> {
     (axes[0] != axes[1] && axes[1] != axes[2] && axes[0] != axes[2]).then_some(axes)
 }
 
-/// The note for a mask that covers part of the volume.
+/// The note about a mask that covers only part of the volume.
 pub fn placed_note(mask: [usize; 3], volume: [usize; 3]) -> String {
     let [own, every] = [mask, volume].map(|size| size.map(|n| n.to_string()).join(" × "));
     format!("the mask covers {own} of the {every} voxels of the volume: placed by its own grid, 0 elsewhere")
@@ -162,7 +162,7 @@ mod tests {
         let part = grid([10, 8, 6], spaced() * DAffine3::from_translation(DVec3::new(5.0, 6.0, 7.0)));
         let place = place_of(&part, &volume).expect("a part").expect("a place");
         assert_eq!(place, MaskPlace { axes: [0, 1, 2], forward: [true; 3], low: [5, 6, 7] });
-        // Stored along k, −i, j.
+        // The part is stored with the axes k, −i, j.
         let mut turned = part.world_from_index;
         let [i, j, k] = [turned.matrix3.x_axis, turned.matrix3.y_axis, turned.matrix3.z_axis];
         turned.matrix3 = glam::DMat3::from_cols(k, -i, j);

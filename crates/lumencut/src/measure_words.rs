@@ -1,4 +1,4 @@
-//! Measurements in words, the same in every host.
+//! Measurements in words; all hosts use them.
 
 use lumencut_core::named::Named;
 use lumencut_vessels::measure::profile::Source;
@@ -9,10 +9,10 @@ use lumencut_vessels::measure::wall_level::{CT_WALL, WallSource};
 use crate::flag_table::set_in;
 use crate::text::fixed;
 
-/// The note for lengths that assume 1 mm between voxels.
+/// The note if lengths assume 1 mm between voxels.
 pub(crate) const MILLIMETRE_ASSUMED: &str = "The scan has no voxel spacing: 1 mm is assumed.";
 
-/// The name of a method for readers: `NASCET`, `ECST` or `area`.
+/// The name of a method as readers see it: `NASCET`, `ECST` or `area`.
 pub fn of_method(method: Method) -> String {
     match method {
         Method::Area => method.name().to_owned(),
@@ -38,7 +38,7 @@ pub fn of_stenosis(graded: &Stenosis) -> String {
     )
 }
 
-/// A percentage with its standard deviation, rounded up: nothing is accurate to less than 1 %.
+/// A percentage with its standard deviation. The deviation is rounded up, since no percentage is accurate to less than 1 %.
 fn of_percent(percent: f64, uncertainty: f64) -> String {
     if uncertainty.is_finite() {
         format!("{} ± {}", fixed(percent, 0), fixed(uncertainty.ceil().max(1.0), 0))
@@ -61,14 +61,14 @@ pub fn of_doubts(doubts: &Doubts) -> Vec<String> {
     at_places.into_iter().chain(doubts.is_branch_between.then(|| between.to_owned())).collect()
 }
 
-/// A stenosis as in [`of_stenosis`], followed by its doubts.
+/// A stenosis as in [`of_stenosis`], then its doubts.
 pub fn of_doubtful_stenosis(graded: &Stenosis) -> String {
     let doubts = of_doubts(&graded.doubts);
     let words = of_stenosis(graded);
     if doubts.is_empty() { words } else { format!("{words}. {}", doubts.join(" ")) }
 }
 
-/// C-arm angles as displayed on it, such as `RAO 20° CRAN 5°`. The side is that of the rounded angle.
+/// The angles of a C-arm as it displays them, such as `RAO 20° CRAN 5°`. The side is that of the rounded angle.
 pub fn of_c_arm(arm: &CArm) -> String {
     let [turn, tilt] = [arm.lao, arm.cranial].map(|angle| angle.to_degrees().round_ties_even());
     let side = if turn < 0.0 { "RAO" } else { "LAO" };
@@ -76,7 +76,7 @@ pub fn of_c_arm(arm: &CArm) -> String {
     format!("{side} {}° {towards} {}°", fixed(turn.abs(), 0), fixed(tilt.abs(), 0))
 }
 
-/// The source of a point-spread width: `given`, `estimated on …` or `assumed: …`.
+/// Where a point-spread width comes from: `given`, `estimated on …` or `assumed: …`.
 pub fn of_source(source: &Source) -> String {
     match source {
         Source::Given => "given".to_owned(),
@@ -106,13 +106,13 @@ pub fn of_wall(source: &WallSource) -> String {
     }
 }
 
-/// The two bounds of a diameter (mm) next to calcium or metal; None if nothing is brighter than the lumen.
+/// The two bounds of a diameter (mm) next to calcium or metal; None if nothing there is brighter than the lumen.
 pub(crate) fn of_bounds([excluded, included]: [f64; 2]) -> Option<String> {
     let [excluded, included] = [excluded, included].map(|mm| mm.is_finite().then(|| fixed(mm, 2)));
     Some(format!("{} mm if brighter material is excluded, {} mm if it is included", excluded?, included?))
 }
 
-/// The words of the set flags, such as `no clear wall`.
+/// The words for the flags that are set, such as `no clear wall`.
 pub fn of_flags(flags: u32) -> Vec<String> {
     set_in(flags).map(|flag| flag.word.to_owned()).collect()
 }

@@ -1,4 +1,4 @@
-//! The remedies ("mends") of errors from all crates: a name and choices; each host words and offers them itself.
+//! The remedies ("mends") for errors of all crates: a name and choices. Each host words and offers them itself.
 
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 
@@ -6,7 +6,7 @@ pub use lumencut_core::error::Mend as OfCore;
 pub use lumencut_dicom::Mend as OfDicom;
 pub use lumencut_io::Mend as OfCenterlines;
 
-/// A mend of any crate; in JSON `{"name": …, "values": […]}`.
+/// A remedy of any crate; in JSON `{"name": …, "values": […]}`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Mend {
     /// For views, devices, volumes, tracing and measuring.
@@ -18,7 +18,7 @@ pub enum Mend {
 }
 
 impl Mend {
-    /// The name shared by all hosts.
+    /// The name of the remedy, which all hosts share.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Core(mend) => mend.name(),
@@ -64,7 +64,7 @@ impl Serialize for Mend {
     }
 }
 
-/// The names of all mends; each host has words for them.
+/// The names of all remedies; each host has words for them.
 pub fn names() -> Vec<&'static str> {
     let of_core = OfCore::ALL.into_iter().map(OfCore::name);
     of_core.chain(OfCenterlines::NAMES).chain(OfDicom::NAMES).collect()

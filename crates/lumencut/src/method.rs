@@ -1,4 +1,4 @@
-//! The methods of a view: the cut surface and the reformations it is compared with.
+//! The methods of a view: the cut surface, and the reformations that it is compared with.
 
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::frame::Frame;
@@ -9,10 +9,10 @@ use lumencut_core::scene::Scene;
 use lumencut_core::settings::Settings;
 use lumencut_gpu::renderer::GpuRenderer;
 
-/// Rejects a focus and selected vessels for other methods than the cut surface.
+/// Rejects settings with a focus or selected vessels, which only the cut surface supports.
 ///
 /// # Errors
-/// [`ErrorKind::Settings`] if a setting has one.
+/// [`ErrorKind::Settings`] if the settings contain one of them.
 pub fn refuse_focus(settings: &Settings) -> Result<()> {
     let Some((setting, what)) = settings.focused() else { return Ok(()) };
     let found = format!("{what} for a picture that is not a cut surface");
@@ -20,10 +20,10 @@ pub fn refuse_focus(settings: &Settings) -> Result<()> {
         .mend(format!("leave the {setting} out")))
 }
 
-/// How the sampled positions are found.
+/// How the sampled positions of a view are found.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Method {
-    /// Curved Surface Reformation, by the settings.
+    /// Curved Surface Reformation, with the settings.
     CutSurface,
     /// Multipath CPR.
     MpCpr,

@@ -7,7 +7,7 @@ use crate::extent::Extent;
 use crate::placement::Judge;
 use crate::places::{CoordinateSystem, Reading, mm, places, readings};
 
-/// Whether points in LPS and mm miss the volume in every space and unit.
+/// Whether points in LPS and mm lie outside the volume in every space and unit.
 pub fn fits_nowhere(points: &[DVec3], volume: &Extent) -> bool {
     let is_outside = |reading: &Reading| match reading.place.unit {
         Unit::Millimetre => reading.inside == 0,
@@ -16,25 +16,25 @@ pub fn fits_nowhere(points: &[DVec3], volume: &Extent) -> bool {
     readings(points, &places(&Space::ALL, &Unit::ALL), volume).iter().all(is_outside)
 }
 
-/// Points that fit better in another space or unit.
+/// The space and unit in which points fit better.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Misplaced {
     /// The finding, in words.
     pub found: String,
-    /// The place that fits for points read as LPS in mm. If its space is RAS, points read as RAS fit as LPS.
+    /// The place that fits if the points were read as LPS in mm. If its space is RAS, points that were read as RAS fit as LPS.
     pub meant: CoordinateSystem,
 }
 
-/// A better place for points in LPS and mm: it brings twice as many points, and a tenth of all more, into the volume (RAS read as
-/// LPS, cm as mm). Or both spaces fit, and points clearly look like lumen only with x and y negated. Points spanning a few voxels
-/// are ignored.
+/// A better place for points read as LPS in mm. Either it brings twice as many points, and a tenth of all more, into the volume, as
+/// when cm were read as mm. Or points are inside in both spaces, but clearly look like lumen only if x and y are negated. Points
+/// that span only a few voxels are ignored.
 pub fn better_place(points: &[DVec3], volume: &Judge) -> Option<Misplaced> {
     better_by_extent(points, &volume.extent).or_else(|| mirrored_by_values(points, volume))
 }
 
 fn better_by_extent(points: &[DVec3], volume: &Extent) -> Option<Misplaced> {
     let mut candidates = places(&Space::ALL, &Unit::ALL);
-    // The likeliest mistakes first: ties go to the first place.
+    // The likeliest mistakes come first, since the first of equal places wins.
     candidates.sort_by_key(|place| place.unit != Unit::Millimetre);
     let readings = readings(points, &candidates, volume);
     let as_read = readings[0];

@@ -1,23 +1,23 @@
-//! The unmeasured ends of a vessel, in words for every host.
+//! Describes the unmeasured ends of a vessel; all hosts use the words.
 
 use lumencut_vessels::measure::profile::Profile;
 use serde::Serialize;
 
-/// An unmeasured stretch.
+/// A stretch of a vessel where nothing was measured.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub struct NotMeasured {
-    /// Its start (arc length, mm).
+    /// Start of the stretch (arc length, mm).
     pub(crate) from_mm: f64,
-    /// Its end (arc length, mm).
+    /// End of the stretch (arc length, mm).
     pub(crate) to_mm: f64,
-    /// Where cutting the vessel removes it (arc length, mm).
+    /// Where to cut the vessel to remove the unmeasured stretch (arc length, mm).
     pub(crate) cut_mm: f64,
-    /// A sentence with the reason.
+    /// A sentence that states the reason.
     pub words: String,
 }
 
-/// Shorter unmeasured ends are not reported (mm): many vessels have them.
+/// Unmeasured ends shorter than this (mm) are not reported, since many vessels have them.
 const MIN_LENGTH_MM: f64 = 10.0;
 
 /// The unmeasured ends of a vessel.

@@ -1,4 +1,4 @@
-//! Why no place is suggested on a vessel, in words for every host.
+//! Describes why no place is suggested on a vessel; all hosts use the words.
 
 use lumencut_vessels::measure::hindrances::{CHANGE_OF_LUMEN, FLAP, UNSURE};
 use lumencut_vessels::measure::profile::Profile;
@@ -10,7 +10,7 @@ use crate::profile_marks::{main_place, offered_references};
 pub(crate) const HINDRANCES: [(u32, &str); 3] =
     [(CHANGE_OF_LUMEN, "change of lumen"), (FLAP, "flap"), (UNSURE, "unsure diameter")];
 
-/// Why the narrowest place or a reference is not suggested, given the marked places (arc lengths, mm): one sentence each.
+/// Why no narrowest place or reference is suggested, a sentence each; `at` and `references` are marked places (mm).
 pub fn not_suggested(profile: &Profile, at: Option<f64>, references: &[f64]) -> Vec<String> {
     match main_place(profile, at) {
         None => {
@@ -26,14 +26,14 @@ pub fn not_suggested(profile: &Profile, at: Option<f64>, references: &[f64]) -> 
     }
 }
 
-/// The number of reported reasons: those of the most sections.
+/// At most this many reasons are reported: those that apply to the most sections.
 const MAX_REASONS: usize = 3;
 
 fn none_safe(profile: &Profile) -> String {
     let hindrances = profile.hindrances();
     let counted = |bit: u32| hindrances.iter().filter(|found| *found & bit != 0).count();
     let bits = FLAGS.iter().map(|flag| (flag.bit, flag.word)).chain(HINDRANCES);
-    // An insertion into a short list: less code than a sort.
+    // Inserting into a short list needs less code than a sort.
     let mut found: Vec<(usize, &str)> = Vec::new();
     for (bit, word) in bits {
         let count = counted(bit);

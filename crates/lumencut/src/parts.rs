@@ -1,4 +1,4 @@
-//! Which lines are connected, and the parent of each: lines connect where one ends at a point of the other.
+//! Finds which lines are connected, and the parent of each. Two lines connect if one ends at a point of the other.
 
 use std::collections::{HashMap, VecDeque};
 
@@ -6,7 +6,7 @@ use glam::DVec3;
 use lumencut_core::math::arc_length::arc_lengths;
 use lumencut_core::math::same_place::VESSEL_END;
 
-/// Indices of connected lines in ascending order, the longest part first. Ends match points to [`VESSEL_END`].
+/// Indices of connected lines in ascending order, the longest part first. An end matches points within [`VESSEL_END`].
 pub fn parts(lines: &[&[DVec3]]) -> Vec<Vec<usize>> {
     let mut heads: Vec<usize> = (0..lines.len()).collect();
     touching(lines, |number, owner| join(&mut heads, number, owner));
@@ -22,7 +22,8 @@ pub fn parts(lines: &[&[DVec3]]) -> Vec<Vec<usize>> {
     ranked.into_iter().map(|(_, part)| part).collect()
 }
 
-/// The parent of each line, breadth first from the widest line of each part, which has none. Unknown `widths` count as narrowest.
+/// The parent of each line, found breadth first from the widest line of each part, which has no parent. A line of unknown width
+/// counts as narrowest.
 pub(crate) fn parents(lines: &[&[DVec3]], widths: &[Option<f64>]) -> Vec<Option<usize>> {
     let mut neighbors = vec![Vec::new(); lines.len()];
     touching(lines, |number, owner| {
@@ -49,7 +50,7 @@ pub(crate) fn parents(lines: &[&[DVec3]], widths: &[Option<f64>]) -> Vec<Option<
     parents
 }
 
-/// Calls `visit(a, b)` each time an end of line b is a point of line a.
+/// Calls `visit(a, b)` for each end of line b that is a point of line a.
 fn touching(lines: &[&[DVec3]], mut visit: impl FnMut(usize, usize)) {
     let ends = ends(lines);
     for (number, line) in lines.iter().enumerate() {
@@ -108,7 +109,7 @@ mod tests {
     #[test]
     fn lines_hang_together_by_their_ends_and_by_ends_on_points_between() {
         let trunk = straight([0.0; 3], [0.0, 0.0, 100.0]);
-        // From a trunk point, from its end as rounded by a file, from a branch, and past the trunk.
+        // Lines that start from a trunk point, from its end as rounded by a file, from a branch, and beside the trunk.
         let branch = straight([0.0, 0.0, 50.0], [30.0, 0.0, 50.0]);
         let leg = straight([0.0, 0.0006, 100.0006], [0.0, 20.0, 130.0]);
         let twig = straight([30.0, 5.0, 50.0], [30.0, 0.0, 50.0]);
@@ -130,7 +131,7 @@ mod tests {
         let lines = [&twig, &branch, &trunk, &leg, &alone].map(Vec::as_slice);
         let widths = [Some(2.0), Some(5.0), Some(20.0), Some(9.0), None];
         assert_eq!(parents(&lines, &widths), [Some(1), Some(2), None, Some(2), None]);
-        // Without widths the first line is the root.
+        // If no width is known, the first line is the root.
         assert_eq!(parents(&lines, &[None; 5]), [None, Some(0), Some(1), Some(2), None]);
         assert!(parents(&[], &[]).is_empty());
     }

@@ -1,6 +1,6 @@
-//! Decides space and unit of centerlines: from the caller, else the file, else the volume (by extent, or between two spaces by
-//! its values), else the usual ones.
-//!
+//! Decides space and unit of centerlines. The caller decides first, then the file, then the volume (by its extent, or between two
+//! spaces by its values), then what is usual.
+//! A choice that the file does not state is reported with the counts that led to it.
 //! Every choice that the file does not state is reported with the counts behind it.
 
 use glam::DVec3;
@@ -26,7 +26,7 @@ pub struct Known {
     pub usual_unit: Unit,
 }
 
-/// The source of a space or unit.
+/// Where a space or unit comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
     /// The caller.
@@ -37,12 +37,12 @@ pub enum Origin {
     Volume,
     /// The values of the volume along the lines.
     Values,
-    /// A default.
+    /// What is usual.
     Assumed,
 }
 
 impl Origin {
-    /// Its name in reports.
+    /// The name of the source in reports.
     pub fn name(self) -> &'static str {
         match self {
             Self::Asked => "asked",
@@ -71,26 +71,26 @@ impl Origin {
 pub struct Placement {
     /// Space and unit.
     pub place: CoordinateSystem,
-    /// Source of the space.
+    /// Where the space comes from.
     pub space_from: Origin,
-    /// Source of the unit.
+    /// Where the unit comes from.
     pub unit_from: Origin,
-    /// The decision and its reason; empty if file or caller stated everything.
+    /// The decision and its reason; empty if file or caller stated both space and unit.
     pub decision: String,
-    /// What the caller can state to confirm the volume's decision.
+    /// What the caller can state to confirm what the volume decided.
     pub confirmed_by: Statement,
-    /// Whether the volume decided against LPS or the usual unit, or decided the space by values only.
+    /// Whether the volume decided against LPS or the usual unit, or only its values decided the space.
     pub is_unusual: bool,
-    /// Other units that fit, if the volume decided for the usual one.
+    /// Other units that fit, if the volume decided for the usual unit.
     pub also: Vec<Unit>,
     /// Evidence against the stated or assumed unit.
     pub doubt: Option<Doubt>,
 }
 
-/// Decides how to read the points of a file; without a volume by what is usual.
+/// Decides how to read the points of a file. Without a volume, it uses what is usual.
 ///
 /// # Errors
-/// [`lumencut_io::Error`] without a file name if the volume cannot decide: several places fit equally, or none.
+/// [`lumencut_io::Error`], still without file name, if the volume cannot decide: several places fit equally well, or none fits.
 pub fn placement(known: &Known, points: &[DVec3], volume: Option<&Judge>) -> Result<Placement> {
     let usual = known.usual();
     let space_from = Origin::of(known.asked_space, known.stated_space);
@@ -141,7 +141,7 @@ pub fn placement(known: &Known, points: &[DVec3], volume: Option<&Judge>) -> Res
 }
 
 impl Known {
-    /// The place taken unless the volume contradicts it.
+    /// The place that is used unless the volume contradicts it.
     pub fn usual(&self) -> CoordinateSystem {
         CoordinateSystem {
             space: self.asked_space.or(self.stated_space).unwrap_or(Space::Lps),

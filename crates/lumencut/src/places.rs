@@ -1,4 +1,4 @@
-//! Candidate spaces and units of coordinates, and how many points each brings into a volume.
+//! Possible spaces and units of coordinates, and how many points lie inside a volume in each of them.
 
 use std::fmt;
 
@@ -9,16 +9,16 @@ use crate::extent::Extent;
 use crate::fused;
 use crate::text::rounded;
 
-/// Plausible extents of vessels lie between these (mm).
+/// The smallest plausible extent of vessels (mm).
 pub const SMALLEST: f64 = 8.0;
-/// See [`SMALLEST`].
+/// The largest plausible extent of vessels (mm).
 pub const LARGEST: f64 = 2500.0;
-/// A line shorter than this many voxels and than [`SHORTEST`] carries no information.
+/// Lines are ignored if they are shorter than this many voxels and than [`SHORTEST`].
 const FEW_VOXELS: f64 = 3.0;
-/// A line at least this long (mm) counts for any voxel size.
+/// Lines at least this long (mm) are never ignored.
 const SHORTEST: f64 = 1.0;
 const DIGITS: usize = 3;
-/// A place is as good as another with at least this fraction of its points inside.
+/// A place is as good as another if at least this fraction of the other's points is inside.
 const AS_GOOD: f64 = 0.8;
 
 /// A space and a unit.
@@ -31,12 +31,12 @@ pub struct CoordinateSystem {
 }
 
 impl CoordinateSystem {
-    /// Factors from this place to LPS in mm, per axis.
+    /// The factor of each axis that converts coordinates of this place to LPS in mm.
     pub fn scale(self) -> DVec3 {
         signs(self.space) * self.unit.in_mm()
     }
 
-    /// The correction for coordinates of this place that were read as LPS in mm.
+    /// How to correct coordinates of this place that were read as LPS in mm.
     pub(crate) fn mistaken(self) -> String {
         let mut how = Vec::new();
         if self.space == Space::Ras {
@@ -64,7 +64,7 @@ pub struct Statement {
     pub unit: Option<Unit>,
 }
 
-/// The signs from a space to LPS, per axis.
+/// The sign of each axis that converts coordinates of a space to LPS.
 pub fn signs(space: Space) -> DVec3 {
     match space {
         Space::Lps => DVec3::ONE,
@@ -72,7 +72,7 @@ pub fn signs(space: Space) -> DVec3 {
     }
 }
 
-/// All combinations, grouped by space.
+/// All combinations of spaces and units, grouped by space.
 pub fn places(spaces: &[Space], units: &[Unit]) -> Vec<CoordinateSystem> {
     spaces
         .iter()
@@ -84,19 +84,19 @@ pub fn places(spaces: &[Space], units: &[Unit]) -> Vec<CoordinateSystem> {
 pub(crate) struct Reading {
     pub place: CoordinateSystem,
     pub inside: usize,
-    /// The extent of the vessels, corner to corner (mm).
+    /// The diagonal of the vessels' bounding box (mm).
     pub across: f64,
-    /// Whether vessels can have that size: in mm also short pieces of a few voxels; in other units a body-sized extent.
+    /// Whether vessels can have that size: in mm also short pieces of a few voxels; in other units only sizes found in a body.
     pub(crate) is_plausible: bool,
 }
 
 impl Reading {
-    /// The points inside; 0 if the size is implausible.
+    /// The number of points inside; 0 if the size is implausible.
     pub(crate) fn fits(&self) -> usize {
         if self.is_plausible { self.inside } else { 0 }
     }
 
-    /// Whether the vessels are so short that another fitting unit is as likely.
+    /// Whether the vessels are so short that another unit that fits is as likely.
     pub(crate) fn is_short(&self) -> bool {
         self.across < SMALLEST
     }
@@ -166,9 +166,9 @@ mod tests {
                 .map(Reading::fits)
                 .collect::<Vec<_>>()
         };
-        // 4 units: a short piece in mm, 40 mm in cm, 400 mm in dm with one end outside; 4 m.
+        // A line of 4 units is a short piece in mm; 40 mm in cm; in dm, 400 mm with one end outside; and 4 m.
         assert_eq!(counted(&[DVec3::ZERO, DVec3::X * 4.0]), [0, 2, 2, 1, 0]);
-        // Shorter than three voxels and than 1 mm.
+        // The line is shorter than three voxels and than 1 mm.
         assert_eq!(counted(&[DVec3::ZERO, DVec3::X * 0.9]), [0, 0, 2, 2, 1]);
         assert_eq!(counted(&[]), [0; 5]);
     }

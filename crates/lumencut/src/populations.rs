@@ -5,43 +5,43 @@ use lumencut_core::with_voxels;
 
 use lumencut_core::math::statistics::{median, quantile, two_groups};
 
-/// The cube side (voxels) whose maxima separate lumen from tissue, and the number of cubes.
+/// Lumen and tissue are separated by the maxima of cubes with this side (voxels); this is the number of cubes.
 const CUBE_SIDE: usize = 4;
 const MAX_CUBES: f64 = 32768.0;
 
-/// A dark value is padding if this fraction of voxels has it, and at most this fraction is darker.
+/// A dark value is padding if at least the first fraction of voxels has it; at most the second fraction is darker.
 const MIN_PADDING_FRACTION: f64 = 0.05;
 const MAX_DARKER_FRACTION: f64 = 0.01;
 
-/// The quantile of the peak.
+/// The quantile that stands for the brightest voxels.
 const PEAK_QUANTILE: f64 = 0.999;
 
-/// Voxels within this fraction of the range above the darkest are air.
+/// Voxels are air if they lie within this fraction of the range above the darkest voxel.
 const AIR_FRACTION: f64 = 0.25;
 
-/// Padding is air if the next voxel value is within this fraction of the range.
+/// The darkest value is clipped air if the next value is nearer than this fraction of the range.
 const MAX_GAP_FRACTION: f64 = 0.05;
 
-/// If less than this fraction remains, the volume shows vessels only.
+/// If less than this fraction of voxels remains, the volume shows only vessels.
 const VESSELS_ONLY_FRACTION: f64 = 0.08;
 
 /// The quantile, among voxels brighter than air, of the darkest tissue.
 const DARKEST_TISSUE_QUANTILE: f64 = 0.1;
 
-/// The largest fraction of cubes brighter than tissue, and the number of splits to get there.
+/// Splitting stops once at most this fraction of cubes is brighter than tissue, or after this number of splits.
 const MAX_BRIGHTER_FRACTION: f64 = 1.0 / 3.0;
 const MAX_SPLITS: usize = 8;
 
-/// Quantiles of cubes: the end of dark tissue; of the brighter cubes the end of edges and the lumen.
+/// The quantile of cubes where dark tissue ends; the quantile of the brighter cubes that is the lumen.
 const BRIGHTEST_TISSUE_QUANTILE: f64 = 0.95;
 const EDGES: f64 = 0.2;
 
-/// Vessels only: the quantiles of edges and of lumen.
+/// If a volume shows only vessels: the quantiles of voxels for edges and lumen.
 const ALONE_EDGES: f64 = 0.05;
 const ALONE_LUMEN: f64 = 0.75;
-/// The least difference of the two, as a fraction of the range from darkest voxel to lumen.
+/// Lumen and edges differ by at least this fraction of the range from the darkest voxel to the lumen.
 const ALONE_DIFFERENCE: f64 = 0.25;
-/// How much darker edges must be than the lumen, in the same fraction.
+/// Edges count if they are darker than the lumen by this fraction of the same range.
 const EDGE: f64 = 0.1;
 
 pub(crate) struct VoxelSample {
@@ -96,7 +96,7 @@ pub(crate) fn range(volume: &Volume) -> [f64; 2] {
     ends
 }
 
-/// The padding: a dark value shared by many but not all voxels. Sorts the voxels.
+/// The padding: a dark value that many, but not all, voxels have. Sorts the voxels.
 pub(crate) fn padding(voxels: &mut [f64]) -> Option<f64> {
     voxels.sort_unstable_by(f64::total_cmp);
     let darkest = *voxels.get((voxels.len() as f64 * MAX_DARKER_FRACTION) as usize)?;
@@ -111,16 +111,16 @@ pub(crate) fn without_padding(voxels: &mut [f64]) -> &mut [f64] {
     &mut voxels[start..]
 }
 
-/// Levels of tissue and lumen of a volume without centerlines.
+/// Levels of tissue and lumen, for a volume without centerlines.
 ///
-/// Excluded are padding (a dark value of at least 5 % of voxels) and air (below a quarter of the range from the 1st to the 99th
-/// percentile). If less than 8 % remains, the volume shows vessels only: their edges stand for the tissue, and three quarters of
-/// them lie below the lumen level.
+/// Padding (a dark value of at least 5 % of voxels) and air (below a quarter of the range from the 1st to the 99th percentile) are
+/// excluded. If less than 8 % of voxels remains, the volume shows only vessels. Their edges then stand for the tissue, and three
+/// quarters of their voxels lie below the lumen level.
 ///
-/// Otherwise cubes of 4 × 4 × 4 voxels are classified by their maximum: noise hardly changes it, and thin vessels weigh more.
-/// Cubes above the median are split in two groups on an asinh scale, so that bone does not outweigh lumen; the brighter group is
-/// split again until it is below a third of all. The brightest tissue is the 95th percentile of the darker cubes. The lumen is
-/// the 20th percentile of the brighter ones, because bone and metal make up most of these.
+/// Otherwise cubes of 4 × 4 × 4 voxels are classified by their maximum, which noise hardly changes and to which thin vessels
+/// contribute more. Cubes above the median are split into two groups on an asinh scale, so that bone does not outweigh lumen. The
+/// brighter group is split again until it is below a third of all cubes. The brightest tissue is the 95th percentile of the darker
+/// cubes. The lumen is the 20th percentile of the brighter cubes, because most of these show bone and metal.
 pub(crate) struct Populations {
     /// The smallest sampled voxel.
     pub smallest: f64,
@@ -134,12 +134,12 @@ pub(crate) struct Populations {
     pub brightest: f64,
     /// The 99.9th percentile without padding.
     pub(crate) peak: f64,
-    /// Whether the volume shows vessels only, with edges darker than the lumen.
+    /// Whether the volume shows only vessels, with edges darker than the lumen.
     pub(crate) has_edges: bool,
 }
 
 impl Populations {
-    /// None without voxels.
+    /// None if there are no voxels.
     pub(crate) fn of(sampled: &mut VoxelSample) -> Option<Self> {
         let Air { smallest, darkest, ends, at: air, .. } = Air::of(sampled)?;
         let enough = VESSELS_ONLY_FRACTION * sampled.count as f64;
@@ -147,7 +147,7 @@ impl Populations {
         let peak = quantile(shown, PEAK_QUANTILE)?;
         let mut body: Vec<f64> = shown.iter().copied().filter(|value| *value > air).collect();
         let is_body = body.len() as f64 >= enough && !body.is_empty();
-        // A constant volume, or few voxels besides padding: all count.
+        // In a constant volume, or with few voxels besides padding, all voxels count.
         let is_few = (shown.len() as f64) < enough || body.is_empty();
         let vessels = if is_few { shown } else { &mut body };
         let [edges, bright] = [quantile(vessels, ALONE_EDGES)?, quantile(vessels, ALONE_LUMEN)?];
@@ -169,7 +169,7 @@ struct Air {
     /// The 1st and 99th percentile without padding.
     ends: [f64; 2],
     at: f64,
-    /// Whether air was clipped: many voxels share the darkest value, and the others follow without a gap.
+    /// Whether air was clipped: many voxels have the darkest value, and other values follow without a gap.
     is_cut_off: bool,
 }
 
@@ -181,7 +181,7 @@ impl Air {
         let shown = without_padding(&mut sampled.voxels);
         let first = *shown.first()?;
         let ends = [quantile(shown, MAX_DARKER_FRACTION)?, quantile(shown, 1.0 - MAX_DARKER_FRACTION)?];
-        // Padding followed by other values without a gap is clipped air.
+        // If other values follow the padding without a gap, it is clipped air.
         let is_air = first - darkest < MAX_GAP_FRACTION * (ends[1] - darkest);
         let low = if is_air { darkest } else { ends[0] };
         let at = low + AIR_FRACTION * (ends[1] - low);
@@ -190,7 +190,7 @@ impl Air {
 }
 
 /// The darkest tissue (fat in CT): the 10th percentile of voxels above air. If air was clipped at a value of at least `cut_off`,
-/// that value, because tissue may be darker than the air limit. None if the volume shows hardly anything but vessels.
+/// that value, since tissue may be darker than the limit of air. None if the volume shows hardly anything but vessels.
 pub(crate) fn darkest_tissue(sampled: &mut VoxelSample, cut_off: f64) -> Option<f64> {
     let air = Air::of(sampled)?;
     if air.is_cut_off && air.darkest >= cut_off {

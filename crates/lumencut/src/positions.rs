@@ -1,10 +1,10 @@
-//! Conversions between pixels and the world. Pixel (i, j) counts from the top left, its centre at (i, j); world points in mm
-//! (LPS).
+//! Converts between pixels and the world. Pixels (i, j) count from the top left; the centre of a pixel is at (i, j). World points
+//! are in mm (LPS).
 
 use glam::DVec3;
 use lumencut_core::camera::Camera;
 
-/// The world point at `depth` (mm) behind the pixel (i, j), which may be fractional.
+/// The world point seen at the pixel (i, j), which may be fractional, at `depth` (mm).
 pub fn world_from_pixel(camera: &Camera, [i, j]: [f64; 2], depth: f64) -> DVec3 {
     let [width, height] = camera.size().map(|n| n as f64);
     let x = (i + 0.5 - width / 2.0) * camera.pixel_spacing();
@@ -29,7 +29,7 @@ pub fn positions<'a>(camera: &'a Camera, depth: &'a [f32]) -> impl Iterator<Item
 pub struct PixelPlace {
     /// Column and row; may be fractional or outside.
     pub pixel: [f64; 2],
-    /// Depth (mm), growing away from the viewer; 0 at the camera's center.
+    /// Depth (mm): it grows away from the viewer and is 0 at the camera's center.
     pub depth: f64,
 }
 

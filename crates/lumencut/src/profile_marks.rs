@@ -1,4 +1,4 @@
-//! Marks on a measured vessel with their results, and suggestions for what is not marked.
+//! Marks on a measured vessel, their results, and suggestions for places that are not marked.
 
 use lumencut_core::error::Result;
 use lumencut_vessels::measure::groups::Territory;
@@ -9,16 +9,16 @@ use lumencut_vessels::measure::suggestions::Spot;
 use crate::measure_words::{MILLIMETRE_ASSUMED, of_doubts, of_stenosis};
 use crate::scan_details::ScanDetails;
 
-/// A reader's marks on one vessel. It keeps inputs of other methods too, so that switching methods loses nothing.
+/// A reader's marks on one vessel. Inputs of all methods are kept, so that switching the method loses nothing.
 #[derive(Clone, Debug)]
 pub struct Marked {
-    /// The stenosis, an arc length (mm).
+    /// The place of the stenosis, an arc length (mm).
     pub at: Option<f64>,
     /// The grading method.
     pub method: Method,
-    /// The reference.
+    /// What the stenosis is compared with.
     pub compared: Compared,
-    /// The territory whose severity groups are requested.
+    /// The territory for which severity groups are requested.
     pub group: Option<Territory>,
     /// Arc lengths (mm) whose diameters are noted.
     pub diameters: Vec<f64>,
@@ -65,7 +65,7 @@ impl Grade {
         }
     }
 
-    /// All lines: percentage, doubts and group, or why there is none.
+    /// All lines of text: percentage, doubts and group, or why there is no percentage.
     pub fn lines(&self) -> Vec<String> {
         match self {
             Self::NotGraded(reason) => vec![format!("no percentage: {reason}")],
@@ -78,7 +78,7 @@ impl Grade {
 }
 
 impl Marked {
-    /// Grades the marked place; None without one. Uses only the inputs of the method; only methods with groups get one.
+    /// Grades the marked place; None if nothing is marked. Only the inputs of the chosen method are used.
     pub fn grade(&self, profile: &Profile) -> Option<Grade> {
         let is_marked = self.at.is_some() || !self.compared.reference.is_empty();
         is_marked.then(|| self.graded(profile).unwrap_or_else(Grade::NotGraded))
@@ -92,7 +92,7 @@ impl Marked {
             return Err(missing.to_owned());
         }
         let stenosis = profile.stenosis(at, self.method, &self.used()).map_err(words)?;
-        // Other methods have no groups.
+        // Only some methods have groups.
         let group = self.group.and_then(|territory| stenosis.group(territory).ok());
         Ok(Grade::Graded { stenosis, group })
     }
@@ -120,12 +120,12 @@ impl Marked {
         }
     }
 
-    /// The references offered in addition to the marks; see [`offered_references`].
+    /// The references that are offered in addition to the marks; see [`offered_references`].
     pub(crate) fn offered_references(&self, profile: &Profile) -> Result<[Option<Spot>; 2]> {
         offered_references(profile, self.at, &self.compared.reference)
     }
 
-    /// All places to review: [`marks`], then the noted diameters; without unmeasured ones.
+    /// All places to review: [`marks`], then the noted diameters. Places without a measurement are omitted.
     pub fn places(&self, profile: &Profile) -> Vec<Mark> {
         let is_measured = |place: &f64| profile.diameter_at(*place).is_ok();
         let references: Vec<f64> = self.compared.reference.iter().copied().filter(is_measured).collect();
@@ -148,17 +148,17 @@ impl Marked {
 /// A measured vessel with its grade.
 #[derive(Clone, Debug)]
 pub struct Measured<'a> {
-    /// Its id in the tree; several ids for a path.
+    /// Id of the vessel in the tree; several ids for a path.
     pub id: String,
-    /// Its name, if any.
+    /// Name of the vessel, if it has one.
     pub name: Option<String>,
-    /// Its sections.
+    /// The profile of the vessel.
     pub profile: &'a Profile,
     /// How the scan was made.
     pub scan: &'a ScanDetails,
     /// The result at the marked place, if any.
     pub grade: Option<&'a Grade>,
-    /// Whether 1 mm between voxels is assumed; every output states it.
+    /// Whether 1 mm between voxels is assumed; every output states this.
     pub is_millimetre_assumed: bool,
 }
 
@@ -178,16 +178,16 @@ pub struct Mark {
     pub at: f64,
     /// Diameter of the circle of the same area (mm).
     pub diameter: f64,
-    /// Suggested, not marked.
+    /// Whether the place is suggested and not marked.
     pub is_suggestion: bool,
 }
 
-/// The places to review: marks, and suggestions for what is not marked. Ascending, except that a stenosis comes first.
+/// The places to review: marks, and suggestions for what is not marked. They ascend along the vessel, but a stenosis comes first.
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::Measuring`] for a place beyond the vessel or without a measurement.
 pub fn marks(profile: &Profile, at: Option<f64>, references: &[f64]) -> Result<Vec<Mark>> {
-    // The diameter at the place itself; references of a stenosis use medians.
+    // The diameter at the place itself; a percentage uses medians around its references.
     let mark = |name, at, is_suggestion| {
         profile.diameter_at(at).map(|(diameter, _)| Mark { name, at, diameter, is_suggestion })
     };
@@ -204,8 +204,8 @@ pub fn marks(profile: &Profile, at: Option<f64>, references: &[f64]) -> Result<V
     Ok(main.into_iter().chain(beside).collect())
 }
 
-/// References offered before and after the stenosis (or the narrowest place): one on each side without a mark; none once two are
-/// marked. They do not count until a reader accepts them.
+/// The references offered before and after the stenosis or the narrowest place: one on each side without a mark, and none if two
+/// are marked. They do not count until a reader accepts them.
 pub(crate) fn offered_references(
     profile: &Profile,
     at: Option<f64>,
@@ -217,7 +217,7 @@ pub(crate) fn offered_references(
     Ok([before.filter(|_| is_free(true)), after.filter(|_| is_free(false))])
 }
 
-/// The stenosis: the marked or the narrowest place.
+/// The place of the stenosis: the marked place, else the narrowest one.
 pub(crate) fn main_place(profile: &Profile, at: Option<f64>) -> Option<f64> {
     at.or_else(|| profile.narrowest().map(|spot| spot.at))
 }

@@ -1,4 +1,4 @@
-//! Profiles as JSON for programs: full precision; null for what was not measured.
+//! Profiles as JSON for programs, with full precision; null means not measured.
 
 use lumencut_core::named::Named;
 use lumencut_vessels::measure::profile::Profile;
@@ -16,16 +16,16 @@ use crate::scan_details::ScanDetails;
 /// The notice in every file.
 pub const NOTICE: &str = "Lumencut is not a medical device.";
 
-/// The request of a measurement; places are those of the one marked vessel.
+/// The request of a measurement; the places belong to the only vessel with marks.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Asked {
     /// Distance of sections (mm).
     pub step_mm: f64,
     /// Point-spread width (mm), if given.
     pub fwhm_mm: Option<f64>,
-    /// The stenosis (mm).
+    /// The place of the stenosis (arc length, mm).
     pub at_mm: Option<f64>,
-    /// Its references (mm).
+    /// The references of the stenosis (arc lengths, mm).
     pub reference_mm: Option<Vec<f64>>,
     /// The method's name.
     pub method: Option<String>,
@@ -64,7 +64,7 @@ fn document<T: Serialize>(content: &T) -> String {
     let whole = Document { software, notice: NOTICE, content };
     let mut text = Vec::new();
     let mut writer = serde_json::Serializer::with_formatter(&mut text, PrettyFormatter::with_indent(b" "));
-    // Neither writing to memory nor numbers and texts can fail.
+    // Writing to memory cannot fail, and neither can numbers and texts.
     let written = whole.serialize(&mut writer);
     debug_assert!(written.is_ok(), "{written:?}");
     text.push(b'\n');
@@ -160,7 +160,7 @@ struct Suggestions {
 
 impl Suggestions {
     fn of(profile: &Profile) -> Self {
-        // Suggested places are sections that count.
+        // Places are suggested only at sections that count.
         let found = marks(profile, None, &[]).unwrap_or_default();
         let narrowest = found.first().map(PlaceRecord::from);
         let references = found.iter().skip(1).map(PlaceRecord::from).collect();
@@ -184,7 +184,7 @@ impl Sections {
     }
 }
 
-/// Planes of the sections: unit vectors right and down (LPS).
+/// The planes of the sections: unit vectors right and down (LPS).
 fn axes(profile: &Profile) -> impl Iterator<Item = (&'static str, Vec<f64>)> {
     const NAMES: [[&str; 3]; 2] =
         [["right_x_lps", "right_y_lps", "right_z_lps"], ["down_x_lps", "down_y_lps", "down_z_lps"]];

@@ -20,7 +20,7 @@ struct Block<'a> {
     behind: Same,
 }
 
-/// The numbers of all sections, by name with unit.
+/// The numbers of all sections: columns named with their unit.
 pub fn columns(profile: &Profile) -> Vec<(&'static str, Vec<f64>)> {
     let centers = |axis: usize| profile.center.iter().map(|point| point[axis]).collect();
     let normals = |axis: usize| profile.normal.iter().map(|normal| normal[axis]).collect();
@@ -58,12 +58,12 @@ pub fn columns(profile: &Profile) -> Vec<(&'static str, Vec<f64>)> {
     ]
 }
 
-/// A profile as CSV with a header line. Seven significant digits; empty for what was not measured.
+/// A profile as CSV with a header line and seven significant digits; empty means not measured.
 pub fn profile_csv(profile: &Profile, scan: &ScanDetails) -> String {
     csv_text(&[Block { before: Same::new(), profile, scan, behind: Same::new() }])
 }
 
-/// Vessels as one table: the columns of [`profile_csv`] between those of the vessel and those of its marked place.
+/// Vessels as one table. Each row has the columns of the vessel, those of [`profile_csv`], and those of the marked place.
 pub fn vessels_csv(vessels: &[Measured]) -> String {
     let blocks: Vec<Block> = vessels
         .iter()
@@ -76,7 +76,7 @@ pub fn vessels_csv(vessels: &[Measured]) -> String {
     csv_text(&blocks)
 }
 
-/// Columns of the marked place (empty without one), and of assumed lengths.
+/// Columns about the marked place (empty if there is none) and about assumed lengths.
 fn grade_columns(one: &Measured) -> Same {
     let grade = one.grade;
     let stenosis = grade.and_then(Grade::stenosis);

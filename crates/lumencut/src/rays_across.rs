@@ -1,4 +1,4 @@
-//! Rays across a vessel, from its middle to the end of the lumen.
+//! Casts rays across a vessel, from its middle to the end of the lumen.
 
 use std::f64::consts::TAU;
 
@@ -7,13 +7,13 @@ use glam::DVec3;
 use lumencut_core::reformations::cpr::Straightened;
 use lumencut_vessels::voxels::Voxels;
 
-/// Sample distance on a ray, in units of [`Voxels::sampling_side`].
+/// Distance of samples on a ray, in units of [`Voxels::sampling_side`].
 const SAMPLE_STEP: f64 = 0.4;
 
-/// Values above the lumen by this fraction of its contrast are calcium or metal.
+/// Values above the lumen by more than this fraction of the contrast are calcium or metal.
 pub(crate) const TOO_BRIGHT: f64 = 0.5;
 
-/// A ray is followed this fraction beyond its reach, to detect touching bone or calcium.
+/// A ray is followed beyond its reach by this fraction, to detect touching bone or calcium.
 const EXTRA_REACH: f64 = 0.5;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,12 +21,12 @@ pub(crate) enum Fall {
     /// A wall at this distance (mm).
     Wall(f64),
     Open,
-    /// It begins outside the lumen, or leaves the volume.
+    /// The ray begins outside the lumen, or leaves the volume.
     Unknown,
 }
 
 impl Fall {
-    /// The distance of a wall (mm) beyond the middle.
+    /// The distance of the wall (mm), if it is above 0.
     pub(crate) fn radius(self) -> Option<f64> {
         match self {
             Self::Wall(radius) if radius > 0.0 => Some(radius),
@@ -43,8 +43,8 @@ pub(crate) struct RaysAcross<'a, 'v> {
 }
 
 impl RaysAcross<'_, '_> {
-    /// What each ray of a section meets within its reach (mm): the wall is where values first fall midway from lumen to
-    /// surroundings. If values rise to touching bone just beyond the reach, the wall is their minimum before that.
+    /// What each ray of a section meets within its reach (mm). The wall is where values first fall midway from lumen to
+    /// surroundings. If values rise to touching bone just beyond the reach, the wall is where they are lowest before the rise.
     pub(crate) fn falls(
         &self,
         at: f64,
@@ -77,7 +77,7 @@ impl RaysAcross<'_, '_> {
     }
 }
 
-/// Where the depths of a ray (0 in lumen, 1 outside; `step` mm apart) pass one half, or meet calcium or metal in the wall.
+/// Where the depths of a ray (0 in lumen, 1 outside; `step` mm apart) first pass one half, or where the ray meets calcium or metal.
 fn fall(depths: &[f64], step: f64) -> Fall {
     let mut before = f64::NAN;
     for (n, &depth) in depths.iter().enumerate() {
@@ -87,7 +87,7 @@ fn fall(depths: &[f64], step: f64) -> Fall {
         if depth >= 0.5 {
             return Fall::Wall((n as f64 - (depth - 0.5) / (depth - before)) * step);
         }
-        // Noise does not reach this level twice in a row.
+        // Noise hardly reaches this level twice in a row.
         if depth.max(before) < -TOO_BRIGHT {
             return Fall::Wall(n as f64 * step);
         }
@@ -96,11 +96,11 @@ fn fall(depths: &[f64], step: f64) -> Fall {
     Fall::Open
 }
 
-/// The wall next to touching bone or calcium: the minimum before the rise. Open without a rise.
+/// The wall in front of touching bone or calcium: the lowest value before the rise. Open if there is no rise.
 fn touching(depths: &[f64], step: f64) -> Fall {
     let rises = |pair: &[f64]| pair.iter().all(|depth| *depth < -TOO_BRIGHT);
     let Some(rise) = depths.windows(2).position(rises) else { return Fall::Open };
     let lowest = |best: usize, n: usize| if depths[n] >= depths[best] { n } else { best };
-    // Close to the middle noise decides the minimum.
+    // The part next to the middle is skipped, since noise would decide the minimum there.
     Fall::Wall((rise / 2..rise).fold(rise / 2, lowest) as f64 * step)
 }

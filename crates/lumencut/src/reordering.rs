@@ -9,13 +9,12 @@ use crate::mends::OfCenterlines;
 /// How the note about a reordered line ends.
 pub const REORDERED: &str = "points were reordered";
 
-/// The lines with their points in order along the vessel; radii follow their points, and each line keeps its direction. A note
-/// counts the moved points.
+/// Sorts the points of each line along the vessel, with their radii. Lines keep their direction; a note counts the moved points.
 ///
-/// Lists that were split at long steps become one line again if their points form one.
+/// A list that was split into lines at long steps becomes one line again if its points form one.
 ///
 /// # Errors
-/// Without a file name, if the order is doubtful and no unambiguous one exists.
+/// If the order is doubtful and no unambiguous one exists; the error does not yet name the file.
 pub fn in_order(mut lines: Centerlines) -> Result<Centerlines> {
     let given = std::mem::take(&mut lines.lines);
     for (number, line) in rejoined(&given).into_iter().enumerate() {
@@ -39,7 +38,7 @@ pub fn in_order(mut lines: Centerlines) -> Result<Centerlines> {
     Ok(lines)
 }
 
-/// The doubt for a list that was split at long steps although its points form one line.
+/// The doubt about a list that was split at long steps although its points form one line.
 pub fn parted_doubt(lines: &Centerlines) -> Option<LineDoubt> {
     let joined = rejoined(&lines.lines);
     let vessel = (0..joined.len()).find(|n| joined[*n].points.len() != lines.lines[*n].points.len())?;
@@ -108,7 +107,7 @@ fn sorted(line: Line, order: &[usize]) -> Line {
     Line { points, radius: line.radius.map(values), confidence: line.confidence.map(values), ..line }
 }
 
-/// Rejects a line of doubtful order; a gap alone is accepted.
+/// Rejects a line of doubtful order; a gap is accepted.
 fn refuse_doubtful(number: usize, line: &Line) -> Result<()> {
     let name = line.name.as_deref().unwrap_or_default();
     let looked_at = DoubtedLine { points: &line.points, radius: None, name };

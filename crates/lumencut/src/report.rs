@@ -1,5 +1,5 @@
-//! The report of measured vessels: a self-contained web page without scripts or addresses. It shows only pictures and vessel
-//! names, and the scan's name if a host gives it. Hosts supply pictures, the facade all else.
+//! The report of measured vessels: a self-contained web page without scripts or links. It names vessels, and the scan only if a
+//! host passes its name. Hosts supply the pictures; the facade does the rest.
 
 mod curves;
 mod findings;
@@ -30,14 +30,14 @@ use plot::Plot;
 
 const STYLE: &str = include_str!("report/style.css");
 
-/// What all vessels of a report share.
+/// What all vessels of a report have in common.
 #[derive(Clone, Debug)]
 pub struct Shown {
     /// The scan's name, if requested.
     pub scan: Option<String>,
     /// When the report was saved, in words.
     pub saved: Option<String>,
-    /// What the scan states about its grid.
+    /// What is known about the scan's grid.
     pub stated: Stated,
     /// The request.
     pub asked: Asked,
@@ -50,17 +50,17 @@ pub struct Shown {
 /// A measured vessel with its pictures (PNG, base64).
 #[derive(Clone, Debug)]
 pub struct VesselPage<'a> {
-    /// The vessel with sections and stenosis.
+    /// The vessel with its profile and its grade.
     pub measured: Measured<'a>,
     /// Marked and suggested places.
     pub marks: Vec<ReportMark>,
-    /// Other lengths.
+    /// Measurements other than the stenosis.
     pub lengths: Lengths,
     /// A view of all vessels.
     pub view: Option<View>,
     /// The straightened vessel.
     pub strip: Option<Strip>,
-    /// The section at each of [`Plan::places`], with its contour and without.
+    /// For each of [`Plan::places`], two pictures of the section: with its contour and without.
     pub sections: Vec<String>,
 }
 
@@ -81,12 +81,12 @@ pub struct Lengths {
 pub struct View {
     /// PNG in base64.
     pub picture: String,
-    /// Its method, such as `csr`.
+    /// The method of the view, such as `csr`.
     #[cfg_attr(test, ts(type = "Method"))]
     pub method: String,
 }
 
-/// The straightened vessel from left to right; its start is the middle of the first column.
+/// The straightened vessel from left to right. The vessel starts in the middle of the first column.
 #[derive(Clone, Debug, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "ReportStrip"))]
 pub struct Strip {

@@ -1,12 +1,11 @@
-//! Supersampling: views from positions within a pixel, and their mean.
+//! Supersampling: makes views at several positions within a pixel, and averages their pictures.
 
 use lumencut_core::camera::Camera;
 use lumencut_core::error::Result;
 
 use crate::views::panned;
 
-/// The views at `samples` × `samples` even positions within a pixel, row by row. Only in-plane positions differ, so depths stay
-/// valid.
+/// Views at `samples` × `samples` even positions within a pixel, row by row. They are shifted in their plane, so depths stay valid.
 pub(crate) fn sub_views(camera: &Camera, samples: usize) -> Result<Vec<Camera>> {
     let offset = |n: usize| ((n as f64 + 0.5) / samples as f64 - 0.5) * camera.pixel_spacing();
     let places = (0..samples).flat_map(|j| (0..samples).map(move |i| (i, j)));
@@ -19,13 +18,13 @@ pub(crate) fn sub_views(camera: &Camera, samples: usize) -> Result<Vec<Camera>> 
 }
 
 pub(crate) struct Mean {
-    /// Per pixel: opacity-weighted colour sums, and the sum of opacities.
+    /// For each pixel, the sums of the colours weighted by opacity, and the sum of the opacities.
     sums: Vec<[u32; 4]>,
     pictures: u32,
 }
 
 impl Mean {
-    /// An empty mean for this number of pixels.
+    /// A mean over no samples yet, for this number of pixels.
     pub(crate) fn of(pixels: usize) -> Self {
         Self { sums: vec![[0; 4]; pixels], pictures: 0 }
     }
@@ -41,7 +40,7 @@ impl Mean {
         self.pictures += 1;
     }
 
-    /// RGBA with straight alpha; black where fully transparent.
+    /// RGBA, not premultiplied by opacity; black if fully transparent.
     pub(crate) fn pixels(&self) -> Vec<[u8; 4]> {
         let pixel = |&[red, green, blue, alpha]: &[u32; 4]| {
             let color = [red, green, blue].map(|sum| rounded(sum, alpha));
@@ -79,7 +78,7 @@ mod tests {
             }
             assert_eq!(views.contains(&camera()), samples % 2 == 1, "{samples} samples");
         }
-        // Row by row from the top left: a third of a pixel apart.
+        // The views lie row by row from the top left, a third of a pixel apart.
         let views = sub_views(&camera(), 3).expect("views");
         let first = camera().view_from_world(views[0].center());
         assert!((first - DVec3::new(-0.2, 0.2, 0.0)).length() < 1e-12, "{first}");

@@ -1,4 +1,4 @@
-//! How a scan was made, as its file states; reported with measurements that depend on it.
+//! How a scan was made, as stated by its file. Measurements depend on it, so it is reported with them.
 
 use serde::{Deserialize, Serialize};
 
@@ -6,7 +6,7 @@ use crate::text::rounded;
 
 const DIGITS: usize = 6;
 
-/// The stated acquisition details; None if not stated. Nothing identifies a patient.
+/// Acquisition details; None if the file does not state them. No detail identifies the patient.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize, Serialize)]
 #[serde(default)]
 pub struct ScanDetails {
@@ -14,7 +14,7 @@ pub struct ScanDetails {
     pub series_number: Option<String>,
     /// Series description.
     pub series_description: Option<String>,
-    /// Phase of the heart, of the contrast medium and of the series, as far as stated.
+    /// Phase of the heart, of the contrast medium and of the series, as far as the file states them.
     pub phase: Option<String>,
     /// Slice thickness (mm).
     pub slice_thickness_mm: Option<f64>,
@@ -22,7 +22,7 @@ pub struct ScanDetails {
     pub kernel: Option<String>,
 }
 
-/// In tables, for details that are not stated.
+/// What tables show for a detail that is not stated.
 pub(crate) const NOT_STATED: &str = "not stated";
 
 impl ScanDetails {
@@ -34,7 +34,7 @@ impl ScanDetails {
         kernel: None,
     };
 
-    /// All details in words, including what is not stated.
+    /// All details in words; details that are not stated are named too.
     pub fn words(&self) -> String {
         let series = match (&self.series_number, &self.series_description) {
             (Some(number), Some(description)) => Some(format!("series {number}, {description}")),

@@ -1,14 +1,14 @@
-//! The default resolution and reach of a spiral CPR, from its vessel's radii.
+//! The default pitch and reach of a spiral CPR, from the radii of the vessel.
 
 use std::f64::consts::PI;
 
-/// The reach of the windings beyond the largest radius: factor and margin (mm).
+/// How far the windings reach: this factor times the largest radius, plus this margin (mm).
 const REACH_FACTOR_AND_MARGIN: (f64, f64) = (1.25, 2.0);
 
-/// The pitch as a fraction of the usual radius.
+/// The pitch, as a fraction of the usual radius.
 const PITCH_RADII: f64 = 0.25;
 
-/// The reach of the windings (mm) for a largest radius (mm).
+/// How far the windings reach (mm), for a largest radius (mm).
 pub fn spiral_reach(largest: f64) -> f64 {
     REACH_FACTOR_AND_MARGIN.0 * largest + REACH_FACTOR_AND_MARGIN.1
 }
@@ -16,7 +16,7 @@ pub fn spiral_reach(largest: f64) -> f64 {
 /// The space available to a spiral CPR.
 #[derive(Clone, Copy, Debug)]
 pub struct Room {
-    /// Reach of the windings (mm).
+    /// How far the windings reach (mm).
     pub radius: f64,
     /// Pixel side (mm).
     pub pixel_spacing: f64,
@@ -24,8 +24,8 @@ pub struct Room {
     pub columns: f64,
 }
 
-/// The pitch (mm): a quarter of the usual radius (mm), at least the smallest voxel side (mm), and such that rows (section area /
-/// pitch) fit the room.
+/// The pitch (mm): a quarter of the usual radius (mm), but at least the smallest voxel side (mm). It is larger if rows of length
+/// section area / pitch would not fit the room.
 pub fn spiral_pitch(usual: f64, smallest_side: f64, room: Room) -> f64 {
     let lengths = [room.radius, room.pixel_spacing, room.columns];
     let is_room = lengths.iter().all(|length| *length > 0.0 && length.is_finite());
@@ -45,7 +45,7 @@ mod tests {
         assert_eq!(spiral_pitch(4.0, 1.5, room), 1.5);
         let narrow = Room { columns: 100.0, ..room };
         assert!((spiral_pitch(4.0, 0.4, narrow) - 2.0 * PI).abs() < 1e-12);
-        // An invalid room sets no bound: the layout rejects it.
+        // An invalid room limits nothing here; the layout rejects it.
         assert_eq!(spiral_pitch(4.0, 0.4, Room { pixel_spacing: 0.0, ..room }), 1.0);
         assert_eq!(spiral_reach(4.0), 7.0);
     }

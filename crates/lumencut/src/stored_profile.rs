@@ -1,4 +1,4 @@
-//! A profile as plain columns that restore it exactly.
+//! A profile as plain columns, from which it is restored exactly.
 
 use glam::DVec3;
 use lumencut_core::error::{Error, ErrorKind, Result};
@@ -10,13 +10,13 @@ use lumencut_vessels::measure::wall_level::WallSource;
 /// The columns, flags and sources of a profile.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StoredProfile {
-    /// Columns by name, in mm, LPS or the volume's unit; points are flattened.
+    /// Columns with their names, in mm, LPS or the volume's unit. The coordinates of points follow each other.
     pub columns: Vec<(String, Vec<f64>)>,
     /// The flags of each section.
     pub flags: Vec<u32>,
-    /// The source of the point spread: kind and words.
+    /// Where the point spread comes from: kind and words.
     pub fwhm_source: (String, String),
-    /// The source of the wall: kind and numbers.
+    /// Where the wall level comes from: kind and numbers.
     pub wall_source: (String, Vec<f64>),
 }
 
@@ -33,7 +33,7 @@ impl StoredProfile {
         }
     }
 
-    /// The profile of these columns, bit-identical.
+    /// Restores the profile from its columns; it is bit-identical.
     ///
     /// # Errors
     /// [`ErrorKind::Measuring`] for missing or inconsistent columns.
@@ -107,7 +107,7 @@ impl Column<'_> {
         }
     }
 
-    /// Replaces the content; None for a wrong number of values.
+    /// Replaces the content of the column; None if the number of values is wrong.
     fn filled(self, numbers: &[f64]) -> Option<()> {
         match self {
             Self::Number(number) => {
@@ -150,7 +150,7 @@ fn points_of(numbers: &[f64]) -> Option<Vec<DVec3>> {
 fn lists_of(mut numbers: &[f64]) -> Option<Vec<Vec<DVec3>>> {
     let mut lists = Vec::new();
     while let Some((count, after)) = numbers.split_first() {
-        // A fractional or too large count is invalid.
+        // A count that is fractional or too large is invalid.
         let length = 3 * whole(*count)?;
         lists.push(points_of(after.get(..length)?)?);
         numbers = &after[length..];

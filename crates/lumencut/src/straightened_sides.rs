@@ -1,4 +1,4 @@
-//! The patient sides of a straightened volume: the axes nearest to its frame at the middle of the vessel.
+//! The patient sides that files state for a straightened volume: the axes nearest to its frame at the middle of the vessel.
 
 use glam::DVec3;
 use lumencut_core::math::frames::MovingFrame;
@@ -6,37 +6,37 @@ use lumencut_core::reformations::cpr::Straightened;
 
 use crate::letters::{PREFERRED_AXES, nearest_axes, sides};
 
-/// Readers are warned if a true axis deviates more from its stated side (degrees).
+/// Readers are warned if a true axis deviates from its stated side by more than this (degrees).
 const MAX_TURN_DEGREES: f64 = 45.0;
 
-/// Half the length (mm) over which the middle frame is averaged, and the number of samples less one.
+/// The middle frame is the mean over this length (mm) to each side, from this number of samples plus one.
 const MIDDLE_HALF_LENGTH_MM: f64 = 5.0;
 const MIDDLE_SAMPLES: u32 = 40;
 
 const SIDES: [(char, &str); 6] =
     [('R', "right"), ('L', "left"), ('A', "front"), ('P', "back"), ('I', "feet"), ('S', "head")];
 
-/// Text before the letters and after the angle of [`StraightenedSides::mark`].
+/// The text of [`StraightenedSides::mark`] before the letters and after the angle.
 const MARK: [&str; 2] = ["Lumencut straightened vessel; sides ", " deg off"];
 
-/// Letters searched after the start of a mark.
+/// The length of text (bytes) that is searched after the start of a mark.
 const MAX_MARK_LETTERS: usize = 64;
 
-/// Text between them for scans without and with a stated orientation.
+/// The text between letters and angle, for scans without and with a stated orientation.
 const BETWEEN: [&str; 2] = [" if the scan is LPS; up to ", " at its middle; up to "];
 
-/// The stated sides of a straightened volume.
+/// The sides that files state for a straightened volume.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StraightenedSides {
     /// The sides towards which i (across), j (into the picture) and k (along) run.
     letters: String,
-    /// The largest deviation of a true axis from its side along the vessel (0.1 degrees).
+    /// The largest deviation of a true axis from its stated side, over the whole vessel (0.1 degrees).
     turn: u32,
     is_stated: bool,
 }
 
 impl StraightenedSides {
-    /// The patient axes nearest to the frame at the middle, with its handedness; the deviation is sampled every `step` mm.
+    /// Takes the patient axes nearest to the frame at the middle, with its handedness. The deviation is sampled every `step` mm.
     pub fn of(space: &Straightened, step: f64, is_stated: bool) -> Self {
         let stated = nearest_axes(middle(space));
         let sections = (space.length() / step).floor() as usize;
@@ -72,13 +72,13 @@ impl StraightenedSides {
         [(); 3].map(|()| letters.next().and_then(axis).unwrap_or_default())
     }
 
-    /// A short ASCII text for files, at most 79 characters.
+    /// A short ASCII text that marks files, at most 79 characters long.
     pub fn mark(&self) -> String {
         let ([before, after], between) = (MARK, BETWEEN[usize::from(self.is_stated)]);
         format!("{before}{}{between}{:.1}{after}", self.letters, self.degrees())
     }
 
-    /// Warnings for readers of the volume; empty if the sides hold along the whole vessel.
+    /// Warnings for readers of the volume; none if the sides are right along the whole vessel.
     pub fn notes(&self) -> Vec<String> {
         let mut notes = Vec::new();
         if !self.is_stated {

@@ -1,5 +1,5 @@
-//! The study open in a viewer: volume, vessel lines with edits, tracing, picking, measurements, marks and sessions. It exchanges
-//! plain values and JSON, so that all viewers work alike.
+//! The study that is open in a viewer: volume, vessel lines and their edits, tracing, picking, measurements, marks and sessions.
+//! Viewers exchange plain values and JSON with it, so that all of them work alike.
 //!
 //! Points are in world space (LPS, mm) unless stated otherwise.
 

@@ -1,4 +1,4 @@
-//! Formats numbers in messages as Python does.
+//! Formats numbers in messages in the same way as Python.
 
 /// The shortest text that identifies a number, such as `0.5`, `2.0`, `1e-05` or `nan`.
 pub(crate) fn shortest(number: f64) -> String {

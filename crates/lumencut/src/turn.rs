@@ -1,4 +1,4 @@
-//! Turntables: frame angles, and a view that fits every frame.
+//! Turntables: the angle of each frame, and a view that fits every frame.
 
 use glam::DVec3;
 use lumencut_core::camera::Camera;
@@ -7,10 +7,10 @@ use lumencut_core::error::{Error, ErrorKind, Result};
 use crate::text::shortest;
 use crate::views::{Axis, MARGIN, centered, in_plane, rotated, spacing_for};
 
-/// Sampled views: enough for the widest extent to a fraction of the margin.
+/// Number of sampled views. It finds the widest extent up to a fraction of the margin.
 const VIEWS_OF_A_TURN: usize = 72;
 
-/// The frame angles of a turn (radians); a full turn stops one step before its end.
+/// The angle of each frame of a turntable (radians). A full turn stops one step before its end.
 ///
 /// # Errors
 /// [`ErrorKind::Camera`] for a non-finite angle.
@@ -23,7 +23,7 @@ pub fn frame_angles(frames: usize, degrees: f64) -> Result<Vec<f64>> {
     let is_whole = degrees % 360.0 == 0.0;
     let steps = if is_whole { frames } else { frames.saturating_sub(1) };
     let step = end / steps.max(1) as f64;
-    // Adding 0 avoids -0 as the first angle of a reverse turn.
+    // Adding 0 turns -0 into 0, the first angle of a reverse turn.
     let mut angles: Vec<f64> = (0..frames).map(|frame| 0.0 + frame as f64 * step).collect();
     if !is_whole && frames > 1 {
         angles[frames - 1] = end;
@@ -31,7 +31,7 @@ pub fn frame_angles(frames: usize, degrees: f64) -> Result<Vec<f64>> {
     Ok(angles)
 }
 
-/// The camera at the centre of the points that fits every frame of a turn; direction, up and size are kept.
+/// The camera at the centre of the points that shows all of them in every frame of a turn. Direction, up and size stay.
 ///
 /// # Errors
 /// [`ErrorKind::Camera`] without points, for a non-finite angle or an invalid axis.
@@ -77,13 +77,13 @@ mod tests {
 
     #[test]
     fn the_widest_of_all_views_fits() {
-        // A rod along the line of sight is widest after a quarter turn: its 80 mm lie across the image.
+        // A rod along the line of sight is widest after a quarter turn: then its 80 mm lie across the image.
         let ends = [DVec3::new(1.0, -40.0, 2.0), DVec3::new(1.0, 40.0, 2.0)];
         let fitted = fitted_turn(&front(), &ends, 360.0, Axis::Superior).unwrap();
         assert_eq!(fitted.center(), DVec3::new(1.0, 0.0, 2.0));
         assert!((fitted.pixel_spacing() - 80.0 / (100.0 * 0.88)).abs() < 1e-12);
         assert_eq!(fitted.direction(), DVec3::Y);
-        // Turned about the line of sight it never is.
+        // If it turns about the line of sight, it never lies across.
         let fitted = fitted_turn(&front(), &ends, 360.0, Axis::Direction).unwrap();
         assert_eq!(fitted.pixel_spacing(), 1e-3);
     }

@@ -13,10 +13,10 @@ use crate::views::{fitted, spacing_for};
 /// The fraction of the image that the vessel fills.
 const FILLED_FRACTION: f64 = 0.9;
 
-/// Sampled amounts from 0 to 1.
+/// Number of sampled amounts from 0 to 1.
 const SAMPLED_AMOUNTS: usize = 17;
 
-/// The camera centred on a vessel that fits it at every amount of uncurling; direction, up and size are kept.
+/// The camera centred on a vessel that shows all of it at every amount of uncurling. Direction, up and size stay.
 ///
 /// # Errors
 /// [`lumencut_core::error::ErrorKind::VesselTree`] for a vessel without length, [`lumencut_core::error::ErrorKind::Settings`] for

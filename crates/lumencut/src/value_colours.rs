@@ -1,7 +1,7 @@
 //! Colour maps for measured values, such as radius and thickness.
 
-/// Viridis at even steps: lightness rises evenly, so that it works in grey and for colour-blind readers. By Nathaniel Smith and
-/// Stéfan van der Walt, public domain (CC0).
+/// Viridis at even steps, by Nathaniel Smith and Stéfan van der Walt, public domain (CC0). Its lightness rises evenly, so that it
+/// works in grey and for colour-blind readers.
 const VIRIDIS: [[u8; 3]; 10] = [
     [68, 1, 84],
     [72, 40, 120],
@@ -54,7 +54,7 @@ pub fn coloured(values: &[f32], [low, high]: [f64; 2], colours: Colours) -> Vec<
     values.iter().map(colour).collect()
 }
 
-/// The upper end of a colour scale of lengths (mm): the maximum, rounded up to 0.5 mm, at least 0.5.
+/// The upper end of a colour scale of lengths (mm): the largest length, rounded up to a multiple of 0.5 mm, at least 0.5 mm.
 pub fn scale_end(values: &[f32]) -> f64 {
     let largest = values.iter().copied().filter(|value| value.is_finite()).fold(0.0, f32::max);
     ((f64::from(largest) * 2.0).ceil() / 2.0).max(0.5)
@@ -69,7 +69,7 @@ mod tests {
         let shown = coloured(&[1.0, 3.0, 9.0, 2.0, f32::NAN], [1.0, 3.0], Colours::Viridis);
         assert_eq!(shown[0], [68, 1, 84, 255]);
         assert_eq!((shown[1], shown[2]), ([253, 231, 37, 255], [253, 231, 37, 255]));
-        // The middle of ten colours is half way between the fifth and the sixth.
+        // With ten colours, the middle is half way between the fifth and the sixth.
         assert_eq!(shown[3], [35, 144, 140, 255]);
         assert_eq!(shown[4], [0; 4]);
         assert_eq!(coloured(&[0.5], [0.0, 1.0], Colours::Grey), [[128, 128, 128, 255]]);

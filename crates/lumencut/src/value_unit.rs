@@ -1,4 +1,4 @@
-//! Guesses whether a volume has Hounsfield units and contains metal, if its file does not say.
+//! Guesses whether the values of a volume are Hounsfield units and whether it contains metal, if its file does not say so.
 
 use lumencut_core::math::statistics::quantile;
 use lumencut_core::settings::Window;
@@ -8,22 +8,22 @@ use lumencut_vessels::voxels::Voxels;
 
 use crate::populations::VoxelSample;
 
-/// The quantile of metal: a stent fills little of a scan.
+/// The quantile that stands for metal, since a stent fills only a small part of a scan.
 const METAL_QUANTILE: f64 = 0.9999;
-/// Metal is this many times as far above the darkest voxels as the white end of the lumen's window. Ours: 4 in CT with a stent,
-/// at most 2.2 in MR and head scans.
+/// Metal is this many times as far above the darkest voxel as the white end of the lumen's window. Our measurements: 4 in CT with a
+/// stent, at most 2.2 in MR and in head scans.
 const METAL_RATIO: f64 = 3.0;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct ValueUnit {
-    /// The values look like Hounsfield units.
+    /// Whether the values look like Hounsfield units.
     pub(crate) is_hounsfield: bool,
-    /// Some values are as far above the lumen as metal.
+    /// Whether some values are as bright as metal.
     pub(crate) has_metal: bool,
 }
 
 impl ValueUnit {
-    /// Inspects a volume; `lumen` is the window of its lumen.
+    /// Examines a volume; `lumen` is the window that shows its lumen.
     pub(crate) fn of(volume: &Volume, lumen: Window) -> Self {
         let mut voxels = VoxelSample::at(volume).voxels;
         voxels.sort_unstable_by(f64::total_cmp);

@@ -1,4 +1,4 @@
-//! Views of one vessel: about a place on it, and the one that shows most of it.
+//! Views of one vessel: about a place on it, or showing as much of it as possible.
 
 use std::f64::consts::PI;
 
@@ -12,25 +12,25 @@ use lumencut_core::vessel_tree::Vessel;
 use crate::text::rounded;
 use crate::views::{Axis, FINEST, fitted, rotated};
 
-/// Half the width of a view about a place, in radii there.
+/// Half the width of a view about a place, in radii at the place.
 const HALF_WIDTH_RADII: f64 = 8.0;
-/// Stands for unknown radii (mm), as the default of `unknown_radius`.
+/// Used if a radius is unknown (mm); equals the default of `unknown_radius`.
 const UNKNOWN_RADIUS_MM: f64 = 1.0;
-/// Sine of the angle to the anterior view below which a vessel has no nearest view.
+/// If the sine of the angle between a vessel and the anterior direction is smaller, angle 0 looks along the body instead.
 const MIN_ANTERIOR_SINE: f64 = 0.05;
 const TRIED_DIRECTIONS: usize = 256;
 const VISIBILITY_SAMPLES: usize = 200;
-/// Least margin around a whole vessel, in radii.
+/// The smallest margin around a whole vessel, in radii.
 const MARGIN_RADII: f64 = 2.0;
-/// The cost of a half turn, as a fraction of the vessel's length.
+/// The cost of turning the view by half a turn, as a fraction of the vessel's length.
 const TURN_COST: f64 = 0.2;
 
-/// The view about a place `at` mm along a vessel, which runs upwards through the middle; it extends eight radii to each side.
-/// Angle 0 is nearest to the anterior view; from there the viewer moves by `angle` (radians), as [`rotated`] about `up`.
+/// The view about a place `at` mm along a vessel, which runs upwards through the middle. The view extends eight radii to each side.
+/// Angle 0 is the view nearest to anterior; from there the viewer moves by `angle` (radians), as [`rotated`] about `up`.
 ///
 /// # Errors
-/// [`ErrorKind::Camera`] for a place off the vessel, a non-finite angle or an invalid size; [`ErrorKind::VesselTree`] without
-/// length.
+/// [`ErrorKind::Camera`] for a place off the vessel, a non-finite angle or an invalid size; [`ErrorKind::VesselTree`] for a vessel
+/// without length.
 pub fn about(vessel: &Vessel, at: f64, angle: f64, size: [usize; 2]) -> Result<Camera> {
     let first = about_lumen(vessel, Lumen { at, radius: radius_at(vessel, at) }, size)?;
     rotated(&first, angle, Axis::Up)
@@ -45,7 +45,7 @@ pub struct Lumen {
     pub radius: f64,
 }
 
-/// As [`about`] at angle 0, for a radius from elsewhere.
+/// As [`about`] at angle 0, with a radius that the caller knows.
 pub(crate) fn about_lumen(vessel: &Vessel, Lumen { at, radius }: Lumen, size: [usize; 2]) -> Result<Camera> {
     let path = CenterlinePath::new(vessel, 0.0)?;
     if !(0.0..=path.length()).contains(&at) {
@@ -68,7 +68,7 @@ fn tangent_at(path: &CenterlinePath, at: f64) -> DVec3 {
     Frames::new(path, first).at(at).tangent.normalize()
 }
 
-/// The radius of a vessel at a place (mm), linear between points; 1 mm if unknown.
+/// The radius of a vessel at a place (mm), linearly interpolated; 1 mm if unknown.
 pub fn radius_at(vessel: &Vessel, at: f64) -> f64 {
     known_radius_at(vessel, at).unwrap_or(UNKNOWN_RADIUS_MM)
 }
@@ -83,9 +83,10 @@ pub(crate) fn known_radius_at(vessel: &Vessel, at: f64) -> Option<f64> {
     Some(from + (to - from) * t).filter(|radius| *radius > 0.0)
 }
 
-/// The view that shows most of a vessel, fitted to it with a margin of two radii. Of 256 directions it maximises ∫
-/// visible·sin∠(T, v) ds − 0.2·L·turn/π: T is the vessel's direction, v the view's, L the length, and turn the angle from
-/// `camera`. A place is visible if no other stretch lies before it. Head, else front, is up; the size is that of `camera`.
+/// The view that shows most of a vessel, fitted to it with a margin of two radii. Of 256 directions it is the one with the largest
+/// ∫ visible·sin∠(T, v) ds − 0.2·L·turn/π. T is the vessel's direction, v the view's direction, L the length, and turn the angle
+/// from `camera`. A place is visible if no other stretch lies in front of it. The head, else the front, is up; the size is that of
+/// `camera`.
 ///
 /// # Errors
 /// [`ErrorKind::VesselTree`] for a vessel without length.
@@ -96,7 +97,7 @@ pub fn refocused(camera: &Camera, vessel: &Vessel) -> Result<Camera> {
         let turn = direction.dot(camera.direction()).clamp(-1.0, 1.0).acos();
         steps.seen(*direction) - TURN_COST * path.length() * turn / PI
     };
-    // The current direction has no turning cost.
+    // Keeping the current direction costs nothing.
     let best = std::iter::once(camera.direction())
         .chain(directions())
         .map(|direction| (worth(&direction), direction))
@@ -119,7 +120,7 @@ fn directions() -> impl Iterator<Item = DVec3> {
     })
 }
 
-/// Up in a view: the head, or the front if the view runs along the body.
+/// What is up in a view: the head, or the front if the view runs along the body.
 fn upright(direction: DVec3) -> DVec3 {
     let across = direction.x.hypot(direction.y);
     if across > MIN_ANTERIOR_SINE * direction.z.abs() { DVec3::Z } else { DVec3::NEG_Y }
@@ -145,7 +146,7 @@ impl Steps {
         }
     }
 
-    /// The visible length (mm) along a direction, in projection.
+    /// The visible length (mm), projected along a direction.
     fn seen(&self, direction: DVec3) -> f64 {
         let seen = |n: usize| self.tangents[n].cross(direction).length();
         (0..VISIBILITY_SAMPLES).filter(|n| !self.is_hidden(*n, direction)).map(seen).sum::<f64>()

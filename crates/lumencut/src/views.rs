@@ -1,4 +1,4 @@
-//! The six standard views, fitted views, rotation, zoom and pan.
+//! The six standard views; fits, rotates, zooms and pans views.
 //!
 //! Every function returns a new camera. Points are in world space (LPS, mm).
 
@@ -58,12 +58,12 @@ pub enum Axis {
     Right,
     /// Away from the viewer.
     Direction,
-    /// A vector of any length (LPS).
+    /// A vector of any length (LPS), as the axis.
     World(DVec3),
 }
 
 impl Axis {
-    /// The axis named `superior`, `up`, `right` or `direction`.
+    /// The axis with this name: `superior`, `up`, `right` or `direction`.
     ///
     /// # Errors
     /// [`ErrorKind::Camera`] for another name.
@@ -91,7 +91,7 @@ impl Axis {
     }
 }
 
-/// The camera moved and zoomed so that all points just fit; direction, up and size are kept.
+/// The camera moved and zoomed so that all points just fit. Direction, up and size stay.
 ///
 /// # Errors
 /// [`ErrorKind::Camera`] without points, or for an invalid view.
@@ -121,7 +121,7 @@ pub(crate) fn centered(camera: &Camera, points: &[DVec3]) -> Result<Camera> {
     Camera::new((low + high) / 2.0, camera.direction(), camera.up(), camera.size(), 1.0)
 }
 
-/// The position of a point right of and above the camera's center (mm).
+/// How far a point lies to the right of and above the camera's center (mm).
 pub(crate) fn in_plane(camera: &Camera, point: DVec3) -> [f64; 2] {
     let offset = point - camera.center();
     [fused::dot(offset, camera.right()), fused::dot(offset, camera.up())]
@@ -133,7 +133,7 @@ pub(crate) fn spacing_for(camera: &Camera, lengths: [f64; 2], part: f64) -> f64 
     across.max(upwards).max(FINEST)
 }
 
-/// The camera rotated about its center by an angle (radians), counterclockwise as seen against the axis.
+/// The camera rotated about its center by an angle (radians), counterclockwise if the axis points at the observer.
 ///
 /// # Errors
 /// [`ErrorKind::Camera`] for a non-finite angle, or an invalid axis.

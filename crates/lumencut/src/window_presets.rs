@@ -8,10 +8,10 @@ use lumencut_core::volume::Volume;
 
 use crate::windows;
 
-/// A window computed from the data.
+/// A window that is computed from the data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DataWindow {
-    /// Separates lumen from surroundings: [`windows::along`] the vessels, or [`windows::of_volume`].
+    /// Separates lumen from surroundings: [`windows::along`] vessels, or [`windows::of_volume`] if there are none.
     Auto,
     /// [`windows::of_mip`].
     Mip,
@@ -34,7 +34,7 @@ impl Named for DataWindow {
 }
 
 impl DataWindow {
-    /// Computes the window; only [`DataWindow::Auto`] uses the tree.
+    /// Computes the window; only [`DataWindow::Auto`] uses the vessels.
     ///
     /// # Errors
     /// [`ErrorKind::Volume`](lumencut_core::error::ErrorKind::Volume) for values out of range.
@@ -53,30 +53,30 @@ impl DataWindow {
     pub fn of_context(context: ContextName, has_tree: bool) -> Self {
         match context {
             ContextName::Mip if !has_tree => Self::Mip,
-            // Minima and means along rays lie far below the vessels.
+            // Pictures of minima and means along rays are much darker than the vessels.
             ContextName::Minip | ContextName::Average => Self::Whole,
             ContextName::Mida | ContextName::Dvr | ContextName::Mip => Self::Auto,
         }
     }
 }
 
-/// The source of a named window.
+/// Where a named window comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PresetSource {
     /// Constant (HU).
     Fixed(Window),
-    /// From the data.
+    /// Computed from the data.
     Data(DataWindow),
 }
 
 /// A named window.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WindowPreset {
-    /// Its name in Python, in files and on the command line.
+    /// Name of the window in Python, in files and on the command line.
     pub name: &'static str,
-    /// Its label.
+    /// Label of the window.
     pub words: &'static str,
-    /// Its source.
+    /// Where the window comes from.
     pub source: PresetSource,
 }
 
@@ -88,7 +88,7 @@ const fn from_data(name: &'static str, words: &'static str, window: DataWindow) 
     WindowPreset { name, words, source: PresetSource::Data(window) }
 }
 
-/// The named windows in display order; bone and lung are those of the OHIF viewer.
+/// The named windows in display order; bone and lung have the values of the OHIF viewer.
 pub const WINDOW_PRESETS: [WindowPreset; 8] = [
     from_data("auto", "From the data", DataWindow::Auto),
     fixed("cta", "CT angiography", 300.0, 900.0),
@@ -97,7 +97,7 @@ pub const WINDOW_PRESETS: [WindowPreset; 8] = [
     fixed("lung", "Lung", -600.0, 1500.0),
     from_data("full", "All values", DataWindow::Full),
     from_data("mra", "MR angiography", DataWindow::Mra),
-    // Separates struts from the lumen inside.
+    // This window separates the struts of a stent from the lumen inside.
     fixed("stent", "Stent", 400.0, 1500.0),
 ];
 

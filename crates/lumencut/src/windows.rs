@@ -1,4 +1,4 @@
-//! Windows computed from the data: intensities (in the volume's unit, HU for CT) that separate lumen from surroundings.
+//! Windows computed from the data, which separate lumen from surroundings. Intensities are in the volume's unit (HU in CT).
 
 use glam::DVec3;
 use lumencut_core::error::{Error, ErrorKind, Mend, Result};
@@ -12,51 +12,51 @@ use crate::populations::{Populations, VoxelSample, darkest_tissue, padding, rang
 use crate::text::rounded;
 use lumencut_core::math::statistics::{median, quantile};
 
-/// Where tissue is sampled beyond the wall (mm), and the radius if unknown (mm).
+/// Tissue is sampled this far beyond the wall (mm); an unknown radius counts as this one (mm).
 const TISSUE_DISTANCE_MM: f64 = 10.0;
 const UNKNOWN_RADIUS_MM: f64 = 10.0;
 
 const MAX_MAGNITUDE: f64 = 1e12;
 
-/// The lumen's least and largest position in a window, from black (0) to white (1).
+/// The smallest and largest position of the lumen in a window, from black (0) to white (1).
 const LUMEN_POSITION: [f64; 2] = [0.60, 0.72];
 
-/// Black lies this many lumen–tissue differences below the lumen: without noise, and at most.
+/// Black lies below the lumen by this many times the difference between lumen and tissue: without noise, and at most.
 const BLACK_BELOW_LUMEN: [f64; 2] = [1.5, 2.2];
 
-/// Black lies this many lumen–tissue differences below the darkest tissue.
+/// Black lies below the darkest tissue by this share of the difference between lumen and darkest tissue.
 const BLACK_BELOW_DARKEST_TISSUE: f64 = 0.1;
 
 /// Quantiles of a normal distribution at ±1 standard deviation.
 const ONE_SIGMA_QUANTILES: [f64; 2] = [0.16, 0.84];
 
-/// Volume only: the position of the lumen in the window, and how far below it the brightest and the median tissue lie.
+/// Without centerlines: the position of the lumen in the window, and how far below it the brightest and the median tissue lie.
 const VOLUME_LUMEN_POSITION: f64 = 0.67;
 const VOLUME_TISSUE_BELOW: [f64; 2] = [0.4, 0.56];
 
-/// Volume only: the least width, as a fraction of the range from darkest to brightest voxels.
+/// Without centerlines: the smallest width, as a fraction of the range from the darkest to the brightest voxels.
 const VOLUME_MIN_WIDTH: f64 = 0.1;
 
-/// The largest widening for a MIP, so that stents and bone are not as white as the lumen.
+/// The largest factor by which a window is widened for a MIP, so that stents and bone are brighter than the lumen.
 const MIP_MAX_WIDENING: f64 = 1.4;
 
-/// The fraction of the surroundings that must be inside the volume and not padding.
+/// At least this fraction of the surroundings must lie inside the volume and not be padding.
 const MIN_SHOWN_FRACTION: f64 = 0.5;
 
-/// Quantiles of voxels at the black and the white end of a whole-volume window.
+/// The quantiles of voxels at the black and the white ends of windows for a whole volume.
 const DARKEST_QUANTILE: f64 = 0.01;
 const BRIGHT_QUANTILE: f64 = 0.99;
 const BRIGHTEST_QUANTILE: f64 = 0.999;
 
-/// The quantile of the lumen that stands for the brightest vessels: small ones are darker because of blur.
+/// The quantile of the lumen that stands for the brightest vessels; small vessels are darker because of blur.
 const BRIGHT_LUMEN_QUANTILE: f64 = 0.9;
 
-/// The position of the brightest vessels after widening, and from which nothing inside is visible.
+/// The position of the brightest vessels after widening a window, and the position beyond which the window is too narrow for them.
 const BRIGHT_LUMEN_POSITION: [f64; 2] = [0.9, 0.95];
 
 const EMPTY_VOLUME_WINDOW: Window = Window { level: 300.0, width: 900.0 };
 
-/// The volume at world points (mm, LPS), trilinear; NaN outside.
+/// The values of the volume at world points (mm, LPS), interpolated trilinearly; NaN outside.
 pub fn sample(volume: &Volume, points: &[DVec3]) -> Vec<f32> {
     let (grid, to_index) = (Grid::new(volume), volume.index_from_world());
     with_voxels!(volume.voxels(), voxels => points
@@ -65,13 +65,13 @@ pub fn sample(volume: &Volume, points: &[DVec3]) -> Vec<f32> {
         .collect())
 }
 
-/// A window that shows lumen light grey, tissue dark, and calcifications and stents white.
+/// A window that shows lumen light grey, tissue dark, and calcium and stents white.
 ///
-/// The lumen is the median along the centerlines; the tissue is the median 10 mm beyond the walls. If most of that is padding or
-/// outside the volume, the tissue is the vessels' edges, or the rest if darker. Black lies 1.5 lumen–tissue differences below the
-/// lumen, up to 2.2 for a noisy lumen or to keep the darkest tissue (fat) visible, and not below the volume's minimum. White is
-/// at the brightest voxels, as long as the lumen stays at 60 to 72 % of the range. For a dark lumen everything is mirrored: it
-/// lies at 28 to 40 %, or darker if the volume has no value as dark as black.
+/// The lumen is the median along the centerlines, and the tissue is the median 10 mm beyond the walls. If most of that is padding
+/// or outside the volume, the tissue is the vessels' edges, or the rest if darker. Black lies 1.5 times the difference between
+/// lumen and tissue below the lumen. It lies lower, up to 2.2 times, if the lumen is noisy or the darkest tissue (fat) would be
+/// black, but not below the volume's minimum. White is at the brightest voxels, as long as the lumen stays at 60 to 72 % of the
+/// range. For a dark lumen everything is mirrored: it lies at 28 to 40 %, or darker if no voxel is as dark as black.
 ///
 /// # Errors
 /// [`ErrorKind::Volume`] for values out of range.
@@ -87,7 +87,7 @@ pub fn along(volume: &Volume, tree: &VesselTree) -> Result<Window> {
     };
     let darkest_tissue = darkest_tissue(&mut sampled, level - BLACK_BELOW_LUMEN[1] * (level - beyond));
     let mut wall = finite(&sample(volume, &beside(tree, 0.0)));
-    // A dark lumen is handled as a bright one with negated values.
+    // A dark lumen is handled like a bright one, with negated values.
     let sign = if level < beyond { -1.0 } else { 1.0 };
     for value in lumen.iter_mut().chain(&mut wall).chain(&mut sampled.voxels) {
         *value *= sign;
@@ -99,7 +99,7 @@ pub fn along(volume: &Volume, tree: &VesselTree) -> Result<Window> {
     let tissue = Tissue { middle: sign * beyond, darkest: darkest_tissue.filter(|_| sign > 0.0) };
     let [black, mut white] = around_lumen(sign * level, tissue, (upper - lower) / 2.0, [low, high]);
     if sign < 0.0 {
-        // Negated white is black, which is never below the whole volume.
+        // White, negated, is the black end, which never lies below the volume's minimum.
         white = white.min(quantile(&mut sampled.voxels, 1.0).unwrap_or(white));
     }
     within(sign * (black + white) / 2.0, white - black, || {
@@ -107,8 +107,8 @@ pub fn along(volume: &Volume, tree: &VesselTree) -> Result<Window> {
     })
 }
 
-/// The median around the vessels. If most of that is padding or outside: the darker of its visible rest and the vessels' edges,
-/// because in clipped scans most tissue looks like padding, and the only edges may be those to bone.
+/// The median around the vessels. If most of that is padding or outside, the darker of two: the median of what is visible, and the
+/// vessels' edges. In clipped scans most tissue looks like padding, and the visible rest may be only bone.
 fn tissue_around(volume: &Volume, tree: &VesselTree, lumen: f64, sampled: &mut VoxelSample) -> Option<f64> {
     let places = beside(tree, TISSUE_DISTANCE_MM);
     let mut around = finite(&sample(volume, &places));
@@ -133,7 +133,7 @@ struct Tissue {
 fn around_lumen(lumen: f64, tissue: Tissue, spread: f64, ends: [f64; 2]) -> [f64; 2] {
     let difference = lumen - tissue.middle;
     let mut below = 2.0 * spread;
-    // Without contrast only the noise defines a window.
+    // Without contrast, only the noise defines the window.
     if difference > spread / 2.0 {
         let darkest =
             tissue.darkest.map_or(0.0, |darkest| (1.0 + BLACK_BELOW_DARKEST_TISSUE) * (lumen - darkest));
@@ -157,13 +157,13 @@ fn beside(tree: &VesselTree, beyond: f64) -> Vec<DVec3> {
     of_vessel.collect()
 }
 
-/// A window that separates lumen from surroundings without centerlines; levels from `populations.rs`.
+/// A window without centerlines that separates lumen from surroundings, with the levels of [`Populations`].
 pub(crate) fn of_volume(volume: &Volume) -> Result<Window> {
     alone(volume, |_, _| 1.0)
 }
 
-/// A window without centerlines for slices, in which tissue matters: the lumen is at 60 to 72 %, and black as far below it as in
-/// [`along`]. [`of_volume`] leaves more tissue black, as projections require.
+/// A window without centerlines for slices, in which tissue matters. The lumen is at 60 to 72 %, and black as far below it as in
+/// [`along`]. The window of [`of_volume`] leaves more tissue black, as projections require.
 pub(crate) fn of_slices(volume: &Volume) -> Result<Window> {
     let mut sampled = VoxelSample::at(volume);
     let Some(found) = Populations::of(&mut sampled) else {
@@ -178,8 +178,8 @@ pub(crate) fn of_slices(volume: &Volume) -> Result<Window> {
     within(f64::midpoint(black, white), white - black, || from_to(found.darkest, found.brightest))
 }
 
-/// The tissue of a volume with clipped dark values: most voxels above padding are nearer to it than to the lumen, and much would
-/// count as air. None for other volumes.
+/// The tissue of a volume whose dark values were clipped, else None. Most voxels above padding are nearer to it than to the lumen,
+/// and many of them would count as air.
 fn cut_off_tissue(sampled: &mut VoxelSample, lumen: f64) -> Option<Tissue> {
     let padding = padding(&mut sampled.voxels)?;
     let middle = median(&mut without_padding(&mut sampled.voxels).to_vec())?;
@@ -196,7 +196,7 @@ pub(crate) fn holding_lumen(volume: &Volume, tree: &VesselTree) -> Result<Window
     Ok(Window { level: black + width / 2.0, width })
 }
 
-/// Whether the brightest vessels are not white in a window; true without vessels.
+/// Whether a window does not show the brightest vessels white; true without vessels.
 pub(crate) fn holds_lumen(window: Window, volume: &Volume, tree: &VesselTree) -> bool {
     let share = |lumen: f64| (lumen - window.level) / window.width + 0.5;
     brightest_lumen(volume, tree).is_none_or(|lumen| share(lumen) <= BRIGHT_LUMEN_POSITION[1])
@@ -207,13 +207,13 @@ fn brightest_lumen(volume: &Volume, tree: &VesselTree) -> Option<f64> {
     quantile(&mut finite(&sample(volume, &points)), BRIGHT_LUMEN_QUANTILE)
 }
 
-/// [`of_volume`] for a MIP: white at the 99.9th percentile, if that widens it at most 1.4 times. In a MIP noise raises the lumen,
-/// so that brighter values have room.
+/// [`of_volume`] for a MIP, widened at most 1.4 times so that white is at the 99.9th percentile. In a MIP noise raises the lumen,
+/// so brighter values need room.
 pub(crate) fn of_mip(volume: &Volume) -> Result<Window> {
     alone(volume, |found, [black, width]| ((found.peak - black) / width).clamp(1.0, MIP_MAX_WIDENING))
 }
 
-/// A window from the populations, widened by the factor `wider(populations, [black, width])`.
+/// A window from the levels of [`Populations`], widened by the factor `wider(populations, [black, width])`.
 fn alone(volume: &Volume, wider: impl Fn(&Populations, [f64; 2]) -> f64) -> Result<Window> {
     let Some(found) = Populations::of(&mut VoxelSample::at(volume)) else {
         return Ok(EMPTY_VOLUME_WINDOW);
@@ -222,14 +222,14 @@ fn alone(volume: &Volume, wider: impl Fn(&Populations, [f64; 2]) -> f64) -> Resu
         [found.brightest_tissue, found.tissue.min(found.brightest_tissue)].map(|tissue| found.lumen - tissue);
     let least = VOLUME_MIN_WIDTH * (found.brightest - found.darkest);
     let width = (above[0] / VOLUME_TISSUE_BELOW[0]).max(above[1] / VOLUME_TISSUE_BELOW[1]).max(least);
-    // Not below the minimum, which would then look grey.
+    // Black is not below the minimum, which would then look grey.
     let black = (found.lumen - VOLUME_LUMEN_POSITION * width).max(found.smallest);
     let width = (found.lumen - black) / VOLUME_LUMEN_POSITION;
     let width = width * wider(&found, [black, width]);
     within(black + width / 2.0, width, || from_to(found.darkest, found.brightest))
 }
 
-/// A window from the 1st percentile to the 99th without padding: air to lumen.
+/// A window from the 1st percentile to the 99th, without padding: from air to lumen.
 ///
 /// # Errors
 /// [`ErrorKind::Volume`] for values out of range.
@@ -237,7 +237,7 @@ pub fn whole(volume: &Volume) -> Result<Window> {
     without_unit(volume, BRIGHT_QUANTILE)
 }
 
-/// As [`whole`] for MR angiography, but up to the 99.9th percentile, so that vessels are not uniformly white.
+/// As [`whole`] for MR angiography, but up to the 99.9th percentile, so that vessels are not all white.
 pub(crate) fn mra(volume: &Volume) -> Result<Window> {
     without_unit(volume, BRIGHTEST_QUANTILE)
 }
@@ -254,7 +254,7 @@ pub fn full(volume: &Volume) -> Result<Window> {
     within(black + (white - black) / 2.0, white - black, || from_to(black, white))
 }
 
-/// From the 1st percentile to the quantile `bright` without padding.
+/// A window from the 1st percentile to the quantile `bright`, without padding.
 fn without_unit(volume: &Volume, bright: f64) -> Result<Window> {
     let mut voxels = VoxelSample::at(volume).voxels;
     let Some(black) = quantile(&mut voxels, DARKEST_QUANTILE) else {
@@ -268,7 +268,7 @@ fn from_to(low: f64, high: f64) -> String {
     format!("values from {} to {}", rounded(low, 3), rounded(high, 3))
 }
 
-/// The window with positive width, or an error that reports `found`.
+/// The window with a width above 0, or an error that reports `found`.
 fn within(level: f64, width: f64, found: impl Fn() -> String) -> Result<Window> {
     let width = width.max(1e-3 * level.abs()).max(1e-6);
     if level.abs() <= MAX_MAGNITUDE && width <= MAX_MAGNITUDE {

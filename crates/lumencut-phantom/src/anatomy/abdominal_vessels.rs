@@ -8,8 +8,8 @@ pub(super) struct AbdominalVessels {
     pub(super) external_iliac: [TrunkId; 2],
 }
 
-/// Draws the aorta from height `top` down, with external iliac arteries along `external_iliac` (left way points from the common
-/// iliac's end).
+/// Draws the aorta from height `top` downwards. The external iliac arteries follow `external_iliac`: way points of the left side,
+/// from the end of the common iliac artery on.
 pub(super) fn draw(network: &mut Network, top: f64, external_iliac: &[WayPoint]) -> AbdominalVessels {
     let way: Vec<WayPoint> = [
         [2.0, 24.0, 168.0, 12.0],

@@ -1,10 +1,10 @@
-//! From the aortic arch to the circle of Willis; z = 0 at the top of the arch.
+//! Vessels from the aortic arch to the circle of Willis; z = 0 at the top of the arch.
 
 use super::{Branch, SIDES, on_side};
 use crate::curve::WayPoint;
 use crate::network::{Network, TrunkId, Vasculature};
 
-/// From above the aortic valve over the arch to T6.
+/// The aorta from above its valve over the arch to the level of T6.
 const ARCH: [WayPoint; 8] = [
     [-18.0, -30.0, -70.0, 15.5],
     [-15.0, -35.0, -42.0, 15.2],
@@ -16,7 +16,7 @@ const ARCH: [WayPoint; 8] = [
     [23.0, 37.0, -72.0, 12.0],
 ];
 
-/// Both common carotid arteries; the right one is mirrored.
+/// The left common carotid artery; the right one is its mirror image.
 const CAROTID: [WayPoint; 2] = [[31.0, -13.0, 98.0, 3.5], [33.0, -8.0, 138.0, 3.9]];
 
 const INTERNAL_CAROTID: [WayPoint; 10] = [
@@ -89,7 +89,7 @@ const EXTERNAL_CAROTID_BRANCHES: [Branch<4>; 5] = [
     ),
 ];
 
-/// From the subclavian artery through the transverse processes around the atlas to the basilar artery.
+/// The left vertebral artery: from the subclavian artery through the transverse processes, around the atlas to the basilar artery.
 const VERTEBRAL: [WayPoint; 10] = [
     [42.0, -16.0, 49.0, 2.3],
     [33.0, 4.0, 66.0, 2.0],
@@ -187,7 +187,7 @@ fn cerebral_arteries(network: &mut Network, internal: TrunkId, side: f64, name: 
     network.branch(internal, &format!("{name} anterior cerebral artery"), &way, 0.5);
 }
 
-/// The subclavian artery of one side and its branches; the vertebral artery ends at the basilar's start.
+/// Draws the subclavian artery of one side and its branches; the vertebral artery ends where the basilar artery starts.
 fn arm_arteries(
     network: &mut Network,
     [parent, basilar]: [TrunkId; 2],

@@ -30,7 +30,7 @@ pub(super) struct Anatomy {
 
 type Branch<const N: usize> = (&'static str, [WayPoint; N]);
 
-/// The patient's right (x < 0) and left.
+/// The sign of x and the name of each side of the patient.
 const SIDES: [(f64, &str); 2] = [(-1.0, "right"), (1.0, "left")];
 
 fn rod(from: [f32; 3], to: [f32; 3], radius: [f32; 2]) -> Shape {
@@ -45,7 +45,7 @@ fn plate(corners: [[f32; 3]; 3], radius: f32) -> Shape {
     Shape::Plate { corners: corners.map(Vec3::from), radius }
 }
 
-/// Ellipses [z, centre x, centre y, half axis x, half axis y] in order of z.
+/// A shape from ellipses [z, centre x, centre y, half axis x, half axis y], sorted by z.
 fn profile(rows: &[[f32; 5]]) -> Shape {
     let section =
         |[z, x, y, rx, ry]: [f32; 5]| Section { z, center: Vec2::new(x, y), axes: Vec2::new(rx, ry) };
@@ -75,7 +75,7 @@ fn both_sides(shapes: Vec<Shape>) -> Vec<Shape> {
     shapes.into_iter().chain(others).collect()
 }
 
-/// Left-sided way points moved to `side` (−1 right, 1 left).
+/// The way points of the left side, mirrored if `side` is −1 (right).
 fn on_side<const N: usize>(side: f64, way: [WayPoint; N]) -> [WayPoint; N] {
     way.map(|[x, y, z, radius]| [side * x, y, z, radius])
 }

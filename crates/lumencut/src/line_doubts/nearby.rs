@@ -1,8 +1,8 @@
-//! A bounding-box tree over the points of a line, for neighbour queries.
+//! A tree of bounding boxes of a line's points, to find neighbours.
 
 use glam::DVec3;
 
-/// Boxes of at most this many points are leaves.
+/// A box with at most this many points is not divided.
 const MAX_LEAF_POINTS: usize = 8;
 
 struct Node {
@@ -10,7 +10,7 @@ struct Node {
     high: DVec3,
     from: usize,
     to: usize,
-    /// Index of the second child; the first is the next box.
+    /// Index of the second child box; the first child is the next box.
     second: Option<usize>,
 }
 
@@ -49,7 +49,7 @@ impl<'a> Nearby<'a> {
         self.divide(from + middle, to);
     }
 
-    /// Calls `visit` with each point within `reach` of a position, until it returns false.
+    /// Calls `visit` with each point at most `reach` away from a position, until `visit` returns false.
     pub(super) fn within(&self, place: DVec3, reach: f64, mut visit: impl FnMut(usize) -> bool) {
         let mut open: Vec<usize> = if self.nodes.is_empty() { Vec::new() } else { vec![0] };
         while let Some(number) = open.pop() {
@@ -84,7 +84,7 @@ impl<'a> Nearby<'a> {
         found
     }
 
-    /// The nearest point of another component than point `n`, within `bound`, with its distance.
+    /// The nearest point to `n` that belongs to another component and is within `bound`, with its distance.
     pub(super) fn nearest_of_others(
         &self,
         n: usize,
@@ -110,10 +110,10 @@ impl<'a> Nearby<'a> {
             for other in self.order[node.from..node.to].iter().copied().filter(|m| piece[*m] != own) {
                 let distance = self.points[other].distance(place);
                 if distance == 0.0 {
-                    // Nothing can be nearer; stops a quadratic search among coincident points.
+                    // No point can be nearer. Stopping here avoids quadratic time among coincident points.
                     return Some((distance, other));
                 }
-                // Ties go to the first point, so that the tree has no cycle.
+                // Of equally near points the first wins, so that the tree has no cycle.
                 if distance < best || (distance == best && found.is_none_or(|(_, before)| other < before)) {
                     (best, found) = (distance, Some((distance, other)));
                 }

@@ -1,4 +1,4 @@
-//! Checks the order of a line's points, and finds the unambiguous order.
+//! Checks the order of a line's points, and finds an unambiguous order.
 
 use glam::DVec3;
 use lumencut_core::math::statistics::{median, quantile};
@@ -6,25 +6,25 @@ use lumencut_core::math::statistics::{median, quantile};
 use super::nearby::Nearby;
 use super::shortest_tree::ShortestTree;
 
-/// A step is long from this many times the usual step …
+/// A step is too long if it is this many times as long as the usual step …
 pub(super) const LONG_STEP: f64 = 20.0;
-/// … and only beyond this fraction of the line's extent.
+/// … and longer than this fraction of the line's extent.
 const LONG_STEP_FRACTION: f64 = 0.05;
-/// A line is too long from this many times the length of a short path through its points …
+/// A line is too long if it is this many times as long as a short path through its points …
 const MAX_LENGTH_RATIO: f64 = 2.0;
-/// … or this many times if an unambiguous order exists.
+/// … or this many times, if an unambiguous order exists.
 const MAX_LENGTH_RATIO_FOUND: f64 = 1.2;
-/// Steps are regular if the longest is at most this many usual steps, and high quantiles this many times low ones.
+/// Steps are regular if the longest is at most this many usual steps, and high quantiles are at most this many times low ones.
 const MAX_REGULAR_RATIO: f64 = 3.0;
-/// A point is a spike at this many usual steps from both neighbours.
+/// A point is a spike if it is more than this many usual steps away from both neighbours.
 const SPIKE_STEPS: f64 = 5.0;
-/// An unambiguous order has no step of this many usual steps.
+/// The steps of an unambiguous order are at most this many usual steps long.
 const MAX_FOUND_STEP: f64 = 5.0;
-/// Points of another stretch within this many longest steps make an order ambiguous.
+/// An order is ambiguous if points of another stretch are nearer than this many times the longest step.
 const CLEARANCE_STEPS: f64 = 1.5;
-/// A stretch is another one if the path to it is this many times the straight distance.
+/// A point belongs to another stretch if the path to it is more than this many times the straight distance.
 const OTHER_STRETCH_RATIO: f64 = 4.0;
-/// An order is ambiguous if this many points are near one.
+/// An order is ambiguous if more than this many points are near one point.
 const MAX_NEIGHBOURS: usize = 256;
 const MIN_POINTS: usize = 5;
 const MIN_POINTS_WITH_SPIKE: usize = 8;
@@ -32,9 +32,9 @@ const MIN_POINTS_WITH_SPIKE: usize = 8;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum OrderDoubt {
     Disorder(Disorder),
-    /// A part seems to be missing at a long step.
+    /// A part of the line seems to be missing at a long step.
     Gap(LongStep),
-    /// Stray points, and their least distance from all others.
+    /// Stray points, and their smallest distance from the other points (mm).
     Stray(Vec<usize>, f64),
 }
 
@@ -42,14 +42,14 @@ pub(super) enum OrderDoubt {
 pub(super) struct Disorder {
     /// The longest step, if it is too long.
     pub step: Option<LongStep>,
-    /// The lengths of the line and of a short path through its points.
+    /// The lengths of the line and of a short path through its points (mm).
     pub lengths: [f64; 2],
     pub(crate) is_found: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct LongStep {
-    /// The index of the point before it.
+    /// Index of the point before the step.
     pub after: usize,
     pub length: f64,
     pub usual: f64,
@@ -72,7 +72,7 @@ pub(super) fn order_doubts(points: &[DVec3]) -> Vec<OrderDoubt> {
 }
 
 impl OrderDoubt {
-    /// The same doubt in the numbering of the whole line, when only the `kept` points were checked.
+    /// The same doubt with the point numbers of the whole line, if only the `kept` points were checked.
     fn among(self, kept: &[usize]) -> Self {
         let moved = |step: LongStep| LongStep { after: kept[step.after], ..step };
         match self {
@@ -87,8 +87,8 @@ impl OrderDoubt {
     }
 }
 
-/// The unambiguous order along the vessel: the shortest path, with regular steps, on which each point is nearest to its
-/// neighbours from both ends.
+/// The unambiguous order along the vessel, or None: the shortest path through all points, with regular steps. On both sides of a
+/// point, the neighbour on the path must be the nearest point.
 pub(crate) fn found_order(points: &[DVec3]) -> Option<Vec<usize>> {
     if points.len() < MIN_POINTS {
         return None;
@@ -120,7 +120,7 @@ fn found(points: &[DVec3], tree: &ShortestTree, nearby: &Nearby) -> Option<Vec<u
     (is_clear && is_even).then_some(order)
 }
 
-/// Whether a point's neighbours in an order are its nearest points on either side, with no other stretch nearby.
+/// Whether the neighbours of a point in an order are the nearest points on either side, and no other stretch is near.
 fn is_clear(
     (points, nearby): (&[DVec3], &Nearby),
     (order, rank): (&[usize], &[usize]),

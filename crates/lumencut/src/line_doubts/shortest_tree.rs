@@ -1,4 +1,4 @@
-//! The minimum spanning tree of points, and the short path along it.
+//! The minimum spanning tree of points, and a short path through all of them.
 
 use glam::DVec3;
 
@@ -6,7 +6,7 @@ use super::nearby::Nearby;
 
 /// If no point has more than two edges, the tree is the shortest path through all points.
 pub(super) struct ShortestTree {
-    /// The points of each edge, and its length.
+    /// The two points of each edge, and the length of the edge.
     pub edges: Vec<(usize, usize, f64)>,
     neighbours: Vec<Vec<(usize, f64)>>,
 }
@@ -37,7 +37,7 @@ impl ShortestTree {
                     edges.push((a, b, length));
                 }
             }
-            // NaN points have no distance to others.
+            // A point with NaN has no distance to other points, so no edge reaches it.
             if edges.len() == before {
                 break;
             }
@@ -54,7 +54,7 @@ impl ShortestTree {
         self.neighbours.iter().all(|edges| edges.len() <= 2)
     }
 
-    /// The points along a short path: the tree's longest path, with short branches visited first.
+    /// The points along a short path: it follows the longest path in the tree, and visits short branches on the way.
     pub(super) fn path(&self) -> Vec<usize> {
         let start = self.farthest(self.farthest(0));
         let (order, before) = self.from(start);
@@ -75,7 +75,7 @@ impl ShortestTree {
         path
     }
 
-    /// The component of each point without the edges longer than `longest`.
+    /// The component of each point after removing the edges longer than `longest`.
     pub(super) fn pieces(&self, longest: f64) -> Vec<usize> {
         let mut heads: Vec<usize> = (0..self.neighbours.len()).collect();
         for (a, b, _) in self.edges.iter().filter(|(.., length)| *length <= longest) {

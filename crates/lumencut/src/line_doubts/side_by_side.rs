@@ -1,4 +1,4 @@
-//! Finds pairs of vessels that run side by side in one lumen.
+//! Finds pairs of vessels that run side by side within one lumen.
 
 use std::collections::BTreeMap;
 
@@ -8,19 +8,19 @@ use lumencut_core::math::arc_length::{arc_lengths, point_at};
 use super::DoubtedLine;
 use super::nearby::Nearby;
 
-/// Lines nearer than this (mm) share a vessel if no radius is known …
+/// If a radius is unknown, lines nearer than this (mm) share a vessel …
 const NEAR_MM: f64 = 0.5;
-/// … and else if nearer than this fraction of the smaller radius.
+/// … and otherwise lines nearer than this fraction of the smaller radius.
 const NEAR_RADII: f64 = 0.5;
 /// Sampling step along lines (mm).
 const STEP_MM: f64 = 1.0;
 const CHORD_SAMPLES: usize = 5;
 const MAX_SAMPLES: f64 = 30_000.0;
-/// Upper bound of neighbours per sample: bounds the work; no vessel is that wide.
+/// At most this many neighbours of a sample are checked, to limit the work; no vessel is wide enough for more.
 const MAX_NEIGHBOURS: usize = 200;
-/// The shortest stretch side by side (mm) …
+/// The shortest stretch side by side that counts (mm) …
 const MIN_LENGTH_MM: f64 = 10.0;
-/// … also in radii, because joining lines separate slowly.
+/// … and in radii, since lines that join separate slowly.
 const MIN_LENGTH_RADII: f64 = 6.0;
 
 struct Spot {
@@ -28,7 +28,7 @@ struct Spot {
     radius: Option<f64>,
 }
 
-/// Pairs of vessels (the lower index first) and their length side by side (mm).
+/// Pairs of vessels (the lower index first), and over what length they run side by side (mm).
 pub(super) fn side_by_side(lines: &[DoubtedLine]) -> Vec<(usize, usize, f64)> {
     if lines.len() < 2 {
         return Vec::new();
@@ -51,7 +51,7 @@ pub(super) fn side_by_side(lines: &[DoubtedLine]) -> Vec<(usize, usize, f64)> {
             runs.entry((spot.vessel, other)).or_default().add(n, radius);
         }
     }
-    // Each vessel of a pair has its own stretches.
+    // Both vessels of a pair have stretches; the longer one counts.
     let mut pairs: BTreeMap<(usize, usize), f64> = BTreeMap::new();
     for ((a, b), runs) in runs {
         if let Some(length) = runs.longest(&points) {
@@ -64,7 +64,7 @@ pub(super) fn side_by_side(lines: &[DoubtedLine]) -> Vec<(usize, usize, f64)> {
 
 #[derive(Default)]
 struct Runs {
-    /// First and last sample of each stretch, and its largest radius.
+    /// First and last sample of each stretch, and the largest radius on it.
     found: Vec<(usize, usize, f64)>,
 }
 

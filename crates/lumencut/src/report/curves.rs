@@ -1,4 +1,4 @@
-//! The curves of a profile as SVG paths; NaN is not drawn.
+//! The curves of a profile as SVG paths; NaN interrupts them.
 
 use std::fmt::Write;
 
@@ -6,7 +6,7 @@ use super::scale::Axis;
 
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Axes {
-    /// Along the vessel (mm).
+    /// Arc length along the vessel (mm).
     pub x: Axis,
     /// Diameter (mm).
     pub y: Axis,
@@ -18,7 +18,7 @@ impl Axes {
     }
 }
 
-/// A polyline, interrupted at NaN; isolated values are not drawn.
+/// A polyline, interrupted at NaN. A value between two NaN is not drawn.
 pub(super) fn line(axes: &Axes, at: &[f64], values: &[f64]) -> String {
     let mut path = String::new();
     for run in stretches(values).iter().filter(|run| run.len() > 1) {
@@ -46,7 +46,7 @@ fn stretches(values: &[f64]) -> Vec<std::ops::Range<usize>> {
     runs(values.len(), |n| values[n].is_finite())
 }
 
-/// Runs of indices below `count` for which a condition holds.
+/// Ranges of consecutive indices below `count` for which `holds` is true.
 pub(super) fn runs(count: usize, holds: impl Fn(usize) -> bool) -> Vec<std::ops::Range<usize>> {
     let mut found: Vec<std::ops::Range<usize>> = Vec::new();
     for n in (0..count).filter(|n| holds(*n)) {

@@ -1,4 +1,4 @@
-//! Findings on a vessel in sentences: a percentage always has its method, references and mm.
+//! The findings on a vessel, in sentences. A percentage is always stated with its method, its references and mm.
 
 use lumencut_vessels::measure::profile::Profile;
 use serde::Serialize;
@@ -16,7 +16,7 @@ use crate::text::fixed;
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "SentenceKind"))]
 #[serde(rename_all = "snake_case")]
 pub(crate) enum Kind {
-    /// The percentage of a stenosis, or why there is none.
+    /// The percentage of a stenosis, or why there is no percentage.
     Finding,
     Doubt,
     Remark,
@@ -29,7 +29,7 @@ pub(crate) struct Sentence {
     pub words: String,
 }
 
-/// Stenosis with doubts (or why it is not graded) and group; then noted diameters and stretches.
+/// The stenosis with its doubts and group, or why it is not graded; then noted diameters, unmeasured parts and stretches.
 pub(crate) fn sentences(stated: Stated, measured: &Measured, lengths: &Lengths) -> Vec<Sentence> {
     let sentence = |kind, words: &str| Sentence { kind, words: stated.with_units(words) };
     let graded = match measured.grade {
@@ -53,7 +53,7 @@ pub(crate) fn sentences(stated: Stated, measured: &Measured, lengths: &Lengths) 
     graded.into_iter().chain(noted).chain(parts).chain(stretches).collect()
 }
 
-/// A noted diameter with its flags; None without a measurement.
+/// The sentence for a diameter that the user noted at arc length `at` (mm), with its flags; None if nothing was measured there.
 fn noted(stated: Stated, profile: &Profile, at: f64) -> Option<String> {
     let (diameter, uncertainty) = profile.diameter_at(at).ok()?;
     let n = profile.nearest_section(at);
@@ -98,7 +98,7 @@ fn stretch_words(stated: Stated, profile: &Profile, stretches: &[[f64; 2]]) -> V
     words
 }
 
-/// A stretch in a sentence; None if its ends are not on the vessel.
+/// The sentence about a stretch; None if an end is not on the vessel.
 fn stretch(stated: Stated, profile: &Profile, ends: [f64; 2]) -> Option<String> {
     let found = profile.stretch(ends).ok()?;
     let arm = profile.c_arm(ends, None).ok().filter(|_| stated.has_orientation);

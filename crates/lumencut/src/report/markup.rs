@@ -1,4 +1,4 @@
-//! HTML fragments: texts are escaped, pictures embedded.
+//! HTML fragments; texts are escaped, and pictures are embedded.
 
 use lumencut_core::error::{Error, ErrorKind, Result};
 

@@ -1,4 +1,4 @@
-//! How vessels were measured and shown, in words.
+//! Describes how vessels were measured and shown.
 
 use lumencut_core::math::statistics::median;
 use lumencut_core::named::Named;
@@ -18,7 +18,7 @@ pub(super) const EXPLAINED: &str = "All diameters are of the lumen: thrombus and
 
 pub(super) const UNITLESS: &str = "The scan has no voxel spacing: 1 mm is assumed, and lengths have no unit.";
 
-/// What a file states about its grid, or a reader assumed.
+/// What is known about the scan's grid, from its file or by an assumption of the reader.
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub struct Stated {
@@ -34,12 +34,12 @@ impl Stated {
         if self.has_units { " mm" } else { "" }
     }
 
-    /// A length (mm).
+    /// A length (mm) in words, without unit if the unit is unknown.
     pub(super) fn length(&self, value: f64, decimals: usize) -> String {
         format!("{}{}", fixed(value, decimals), self.unit())
     }
 
-    /// A sentence of the engine, without units if they are unknown.
+    /// A sentence of the engine; its units are removed if they are unknown.
     pub(super) fn with_units(&self, words: &str) -> String {
         if self.has_units { words.to_owned() } else { words.replace(" mm²", "").replace(" mm", "") }
     }

@@ -1,4 +1,4 @@
-//! The places that a report shows: marks, and suggestions separately.
+//! The places that a report shows: marks, and, named as such, suggestions.
 
 use lumencut_vessels::measure::profile::Profile;
 use serde::Serialize;
@@ -11,7 +11,7 @@ use crate::text::fixed;
 
 const REFERENCE: &str = "reference";
 
-/// Colours of the stenosis, its references and noted diameters, as the handles in pictures.
+/// Colours of the stenosis, its references and noted diameters; the handles in pictures have the same colours.
 const COLORS: [&str; 3] = ["#ff6b6b", "#7ee787", "#79c0ff"];
 
 const MISSING: &str = "–";
@@ -33,7 +33,7 @@ impl From<&Mark> for ReportMark {
     }
 }
 
-/// A place with its name and colour.
+/// A place in a report, with its name and colour.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "ReportPlace"))]
 pub struct ReportPlace {
@@ -48,7 +48,7 @@ pub struct ReportPlace {
 }
 
 impl ReportPlace {
-    /// `#rrggbb`.
+    /// The colour as `#rrggbb`.
     pub fn color(&self) -> &'static str {
         COLORS[self.rank()]
     }
@@ -63,7 +63,7 @@ impl ReportPlace {
     }
 }
 
-/// The places of marks; references are named by their side of the first place.
+/// The places of the marks. A reference is named by the side of the first place on which it lies.
 pub(super) fn places(marks: &[ReportMark]) -> Vec<ReportPlace> {
     let is_main = |mark: &&ReportMark| mark.name != REFERENCE && mark.name != NOTED;
     let main = marks.iter().find(is_main).map(|mark| mark.at);
@@ -77,7 +77,7 @@ pub(super) fn places(marks: &[ReportMark]) -> Vec<ReportPlace> {
         let name = format!("{}{side}{offered}", mark.name);
         ReportPlace { name, at: mark.at, is_suggestion: mark.is_suggestion, is_reference }
     };
-    // Insertion into a short list: less code than a sort.
+    // Inserting into a short list needs less code than a sort.
     let order = |place: &ReportPlace| (place.rank(), place.at);
     let mut found: Vec<ReportPlace> = Vec::new();
     for place in marks.iter().map(named) {
@@ -115,7 +115,7 @@ fn numbers(profile: &Profile, name: &str, at: f64, shown: &Shown) -> String {
     format!("<tr><td>{name}</td>{cells}<td class=\"words\">{flags}</td></tr>\n")
 }
 
-/// A table; lengths without unit if it is unknown.
+/// A table; its lengths have no unit if `has_units` is false.
 pub(super) fn table(rows: &[String], has_units: bool) -> String {
     let [mm, square] = if has_units { [" (mm)", " (mm²)"] } else { [""; 2] };
     let heads = ["arc length", "diameter ± 1 SD", "shortest", "longest"].map(|name| format!("{name}{mm}"));

@@ -1,4 +1,4 @@
-//! The pictures that a report requests from its host.
+//! Decides which pictures a report needs from its host.
 
 use lumencut_core::math::statistics::quantile;
 use lumencut_vessels::measure::profile::Profile;
@@ -7,20 +7,20 @@ use serde::Serialize;
 use super::places::{ReportMark, ReportPlace, places};
 use super::plot::{STRIP, axis_along};
 
-/// The side of a section picture: this many lumen diameters, within these bounds (mm), or this default.
+/// The side of a section picture: this many lumen diameters, clamped to these bounds (mm); the default if no diameter was measured.
 const SECTION_DIAMETERS: f64 = 2.5;
 const SECTION_SIDES_MM: [f64; 2] = [12.0, 120.0];
 const DEFAULT_SIDE_MM: f64 = 30.0;
 
-/// The quantile of sections that fit the pictures.
+/// The pictures are large enough for this fraction of the sections.
 const FITTING_QUANTILE: f64 = 0.9;
 
-/// The strip of a short vessel is narrower, so that it is not flat, but at least this fraction of the section pictures; and its
-/// bounds (mm).
+/// For a short vessel the strip is narrower, so that it fits the height of the plot, but at least this fraction of a section
+/// picture; and its bounds (mm).
 const MIN_STRIP_RATIO: f64 = 0.6;
 const STRIP_WIDTHS_MM: [f64; 2] = [12.0, 90.0];
 
-/// Pixels of the strip per plot pixel, and the finest pixel side (mm).
+/// Pixels of the strip per plot pixel, and the smallest pixel side (mm).
 const PIXELS_PER_PLOT_PIXEL: f64 = 1.6;
 const MIN_PIXEL_MM: f64 = 0.05;
 
@@ -28,9 +28,9 @@ const MIN_PIXEL_MM: f64 = 0.05;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "ReportPlan"))]
 pub struct Plan {
-    /// The width of the straightened vessel (mm); a host shows less if the volume has less.
+    /// The width of the straightened vessel (mm); a host shows less if the volume is narrower.
     pub width: f64,
-    /// Its pixel side (mm).
+    /// Pixel side of the straightened vessel (mm).
     pub spacing: f64,
     /// The places of the section pictures, in order.
     pub places: Vec<ReportPlace>,
@@ -38,7 +38,7 @@ pub struct Plan {
     pub side: f64,
 }
 
-/// The pictures for a vessel with these marks.
+/// The pictures of a vessel with these marks.
 pub fn plan(profile: &Profile, marks: &[ReportMark]) -> Plan {
     let x = axis_along(profile.length());
     let pixel = profile.length() / (x.end - x.start);
@@ -52,7 +52,7 @@ pub fn plan(profile: &Profile, marks: &[ReportMark]) -> Plan {
     }
 }
 
-/// The side that fits nearly all counting sections (mm).
+/// The side of pictures (mm) in which nearly all reliable sections fit.
 fn fitting_side(profile: &Profile) -> f64 {
     let wide = |is_among: &dyn Fn(usize) -> bool| -> Vec<f64> {
         let among = (0..profile.len()).filter(|n| is_among(*n)).map(|n| profile.diameter_max[n]);

@@ -1,4 +1,4 @@
-//! The profile of a vessel as SVG, below the straightened vessel on the same axis.
+//! The profile of a vessel as SVG, below the straightened vessel and with the same axis.
 
 use std::f64::consts::PI;
 use std::fmt::Write;
@@ -14,27 +14,27 @@ use super::{Strip, flag_rows};
 use crate::flag_table::FlagLook;
 use crate::text::{fixed, rounded};
 
-/// Plot width, and heights of the chart and (at most) of the straightened vessel (plot pixels).
+/// Plot width, height of the chart, and largest height of the straightened vessel (plot pixels).
 const WIDTH: f64 = 1000.0;
 const CHART: f64 = 270.0;
 pub(super) const STRIP: f64 = 150.0;
 
-/// Margins for axis numbers, words, legend and ticks.
+/// Margins for axis numbers, place names, legend and ticks.
 const LEFT_MARGIN: f64 = 56.0;
 const RIGHT_MARGIN: f64 = 104.0;
 const TOP_MARGIN: f64 = 38.0;
 const BOTTOM_MARGIN: f64 = 34.0;
 
-/// Height of a flag row, and the largest share of all rows.
+/// Height of a row of flags, and the largest fraction of the chart for all rows.
 const ROW_HEIGHT: f64 = 12.0;
 const MAX_ROWS_SHARE: f64 = 0.45;
 
-/// Half width of the uncertainty band, in standard deviations.
+/// Half the width of the uncertainty band, in standard deviations.
 const DEVIATIONS: f64 = 2.0;
 
 const HEADROOM: f64 = 1.12;
 
-/// Diameters below this many FWHM are near the resolution limit.
+/// Diameters smaller than this many times the FWHM are near the resolution limit.
 const RESOLUTION_LIMIT_FWHM: f64 = 1.5;
 
 const CURVE: &str = "#1f4e9c";
@@ -53,7 +53,7 @@ pub(super) struct Plot<'a> {
 struct Layout {
     axes: Axes,
     flags: Vec<&'static FlagLook>,
-    /// Height of a flag row; the first begins at diameter 0.
+    /// Height of a row of flags; the first row begins below diameter 0.
     row: f64,
     bottom: f64,
 }
@@ -101,7 +101,7 @@ impl Plot<'_> {
         let per_mm = (x.end - x.start) / (x.high - x.low);
         let [columns, rows] = strip.size.map(|count| count as f64 * strip.spacing * per_mm);
         let height = rows.min(STRIP);
-        // The vessel begins in the middle of the first column.
+        // The vessel starts in the middle of the first column.
         let left = x.start - strip.spacing * per_mm / 2.0;
         let address = png_address(&strip.picture)?;
         let mut markup = format!(
@@ -173,7 +173,7 @@ impl Plot<'_> {
         let width = counted(&all);
         let spread = |sign: f64| -> Vec<f64> {
             let away = |n: usize| width[n] + sign * DEVIATIONS * profile.uncertainty[n];
-            // NaN stays NaN.
+            // The comparison keeps NaN.
             (0..width.len()).map(away).map(|edge| if edge < 0.0 { 0.0 } else { edge }).collect()
         };
         let range = band(axes, at, &counted(&profile.diameter_min), &counted(&profile.diameter_max));
@@ -269,7 +269,7 @@ impl Plot<'_> {
             format_args!(
                 "<g class=\"place\" stroke=\"{OUTLINE}\" fill=\"{fill}\"><path d=\"M{column:.2} 0V{top:.2}M{column:.2} {:.2}V{:.2}\" \
                  stroke=\"{color}\" stroke-width=\"1.4\"{dashes}/><path d=\"{symbol}\"/></g>\n",
-                // Keeps the words between vessel and chart clear.
+                // This keeps the words between vessel and chart readable.
                 top + TOP_MARGIN,
                 top + layout.bottom
             ),
@@ -303,7 +303,7 @@ fn push(svg: &mut String, markup: std::fmt::Arguments) {
     let _ = svg.write_fmt(markup);
 }
 
-/// The top of the chart (mm): the largest diameter of counting sections, else of all.
+/// The upper end of the diameter axis (mm): above the largest diameter of reliable sections, else of all sections.
 fn top(profile: &Profile) -> f64 {
     let widest = |is_among: &dyn Fn(usize) -> bool| {
         let among = (0..profile.len()).filter(|n| is_among(*n)).map(|n| profile.diameter_max[n]);

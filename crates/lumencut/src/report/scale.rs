@@ -1,4 +1,4 @@
-//! Maps lengths to plot pixels, and places the ticks of an axis.
+//! Converts lengths to plot pixels, and places the ticks of an axis.
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Axis {
@@ -13,12 +13,12 @@ impl Axis {
         self.start + (value - self.low) / (self.high - self.low) * (self.end - self.start)
     }
 
-    /// The pixel of a length, clamped to the axis.
+    /// The pixel of a length; lengths beyond the axis get the pixel of its end.
     pub(super) fn pixel_within(&self, value: f64) -> f64 {
         self.pixel(value.clamp(self.low, self.high))
     }
 
-    /// Multiples of 1, 2 or 5 times a power of ten, at least `pixels` apart; none on an empty axis.
+    /// The positions of ticks: multiples of 1, 2 or 5 times a power of ten, at least `pixels` apart; none on an empty axis.
     pub(super) fn ticks(&self, pixels: f64) -> Vec<f64> {
         let span = self.high - self.low;
         let most = (self.end - self.start).abs() / pixels;

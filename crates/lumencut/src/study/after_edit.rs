@@ -1,4 +1,4 @@
-//! The viewer's state after an edit, in one answer: vessels, lines, facts, and what lies at the edited place.
+//! Answers an edit at once with all that a viewer needs afterwards: vessels, lines, facts, and what lies at the edited place.
 
 use serde::Serialize;
 
@@ -17,9 +17,9 @@ use crate::study::whole_vessel::WholeVessel;
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct AfterEdit {
     pub(crate) edited: Edited,
-    /// The state: shows the vessels of the document that are not doubtful.
+    /// The state; the vessels of the document that are not doubtful are shown.
     pub(crate) report: Report,
-    /// Lines that are new in the document.
+    /// The lines that the document before the edit did not have.
     pub lines: Vec<NumberedLine>,
     /// Facts about the lines that are not doubtful.
     pub(crate) facts: Vec<LineFacts>,
@@ -38,12 +38,12 @@ pub(crate) struct NumberedLine {
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct FirstClick {
     pub(crate) pick: Pick,
-    /// The whole vessel that it would add.
+    /// The whole vessel that the click would add.
     pub whole: Option<WholeVessel>,
 }
 
 impl Study {
-    /// Makes an edit and shows the document after it; an error leaves the view unchanged.
+    /// Makes an edit and shows the document after it. After an error the view stays unchanged.
     pub(crate) fn edit_and_show(&mut self, message: &EditMessage, watch: Watch) -> Result<AfterEdit> {
         let edited = self.edit(message, watch)?;
         let listed = listed(&edited.document);
@@ -64,7 +64,7 @@ impl Study {
     }
 }
 
-/// The vessels to show: those that are not doubtful.
+/// The vessels to show: all that are not doubtful.
 fn listed(document: &Document) -> Vec<ListedLine> {
     let of = |vessel: &DocumentVessel| ListedLine {
         line: vessel.line,
@@ -74,7 +74,7 @@ fn listed(document: &Document) -> Vec<ListedLine> {
     document.vessels.iter().filter(|vessel| vessel.is_sure()).map(of).collect()
 }
 
-/// The place of an edit: its click, seed or stopper.
+/// The place of an edit: where its click, seed or stopper lies.
 fn place(edit: &Edit) -> Option<WorldPoint> {
     match edit {
         Edit::BeginVessel { clicks } => clicks.last().copied(),

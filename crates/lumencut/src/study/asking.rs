@@ -1,5 +1,5 @@
-//! The interface of a viewer to the study: named questions with message and answer, in one table ([`crate::study::questions`])
-//! that also generates the page's types.
+//! How a viewer asks the study: by named questions with a message and an answer. A table ([`crate::study::questions`]) declares
+//! them, and also generates the page's types.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,12 +8,12 @@ use crate::study::open_study::Picture;
 use crate::study::reformed::ReformedPicture;
 use crate::study::tracing::Watch;
 
-/// When a viewer with one thread answers a question.
+/// When a viewer with only one thread answers a question.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Turn {
-    /// At once: interrupts the view in progress.
+    /// Before the view in progress, which is interrupted.
     First,
-    /// As [`Turn::First`] for long work: it can be cancelled, even before it starts. The words name the work.
+    /// As [`Turn::First`], for long work that can be cancelled, even before it starts. The words name the work.
     Long(&'static str),
     /// After the view in progress.
     Later,
@@ -26,9 +26,9 @@ pub enum Turn {
 pub struct Asking<'a> {
     /// The message as JSON.
     pub message: &'a str,
-    /// The bytes of a file, or empty.
+    /// The bytes of a file; empty without a file.
     pub bytes: &'a [u8],
-    /// Stop and progress.
+    /// Stops the work, and receives its progress.
     pub watch: Watch<'a>,
     /// A clock (ms).
     pub clock: &'a (dyn Fn() -> f64 + Sync),
@@ -39,7 +39,7 @@ pub struct Asking<'a> {
 pub struct Answer {
     /// As JSON.
     pub json: String,
-    /// Binary content, such as a picture: the answer's field `bytes`.
+    /// Binary content, such as a picture; it becomes the field `bytes` of the answer.
     pub bytes: Option<Vec<u8>>,
 }
 
@@ -93,8 +93,9 @@ pub(crate) fn read<'a, T: Deserialize<'a>>(question: &str, text: &'a str) -> Res
     serde_json::from_str(text).map_err(|error| Failure::of_message(&subject, &error, "JSON of its type"))
 }
 
-/// Declares the table of questions. Each row has doc, turn, name, message (`(name: Type)` or `{ name: Type, … }`), answer type
-/// and body. Bodies see the study and the asking under the names given first, and may use `?`; rows under `at_once` see neither.
+/// Declares the table of questions. A row has a doc comment, turn, name, message (`(name: Type)` or `{ name: Type, … }`), answer
+/// type and body. Bodies see the study and the asking under the names given first, and may use `?`; rows under `at_once` see
+/// neither.
 macro_rules! questions {
     (
         |$study:ident, $asking:ident|
@@ -108,7 +109,7 @@ macro_rules! questions {
             /// Answers the question `name`.
             ///
             /// # Errors
-            /// Those of the question; `settings` for an unknown name or invalid message.
+            /// Those of the question; `settings` for an unknown name or an invalid message.
             pub fn ask(&mut self, name: &str, asking: &Asking) -> Result<Answer> {
                 match name {
                     $( stringify!($name) => $name::answer(self, read(name, asking.message)?, asking), )+
@@ -117,10 +118,10 @@ macro_rules! questions {
             }
         }
 
-        /// Answers a question that does not need a study.
+        /// Answers a question that needs no study.
         ///
         /// # Errors
-        /// Those of the question; `settings` for an unknown name or invalid message.
+        /// Those of the question; `settings` for an unknown name or an invalid message.
         pub fn ask_at_once(name: &str, message: &str) -> Result<Answer> {
             match name {
                 $( stringify!($now) => $now::answer(read(name, message)?), )+
@@ -128,7 +129,7 @@ macro_rules! questions {
             }
         }
 
-        /// The turn of each question.
+        /// When each question is answered.
         pub const TURNS: &[(&str, Turn)] =
             &[$((stringify!($name), $turn),)+ $((stringify!($now), Turn::AtOnce),)+];
 

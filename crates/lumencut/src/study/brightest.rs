@@ -1,4 +1,4 @@
-//! The brightest voxel on the ray of a pixel: the target of a click into a projection.
+//! Finds the brightest voxel on the ray of a pixel: what a click into a projection means.
 
 use crate::positions::{pixel_from_world, world_from_pixel};
 use crate::windows;
@@ -13,14 +13,13 @@ use crate::study::open_study::Study;
 use crate::study::picking::Pick;
 use crate::study::view::View;
 
-/// Sampling step in units of the smallest voxel side.
+/// Distance of samples, in smallest voxel sides.
 const STEP_VOXELS: f64 = 0.5;
 
 /// Depths (mm) of an unlimited ray.
 const ALL_DEPTHS: [f64; 2] = [f64::MIN, f64::MAX];
 
-/// The brightest place on the ray of a pixel (column, row), the nearest of several, between two depths (mm, positive away from
-/// the viewer).
+/// The brightest place on the ray of a pixel (column, row) between two depths (mm, away from the viewer); the nearest of several.
 ///
 /// # Errors
 /// [`ErrorKind::Tracing`] if the ray misses the volume or has no voxel between the depths.
@@ -52,13 +51,13 @@ pub fn brightest_on_ray(
 }
 
 impl Study {
-    /// The brightest place on the ray of a pixel (column, row); limited to a slab around the cut surface if the pixel shows it.
+    /// The brightest place on the ray of a pixel (column, row); only within the slab if the pixel shows the cut surface with one.
     pub(crate) fn brightest(&mut self, view: &View, pixel: [f64; 2]) -> Result<Pick> {
         let within = self.depths_of_slab(view, pixel)?;
         self.brightest_within(view, pixel, within)
     }
 
-    /// As [`Study::brightest`], on the whole ray.
+    /// As [`Study::brightest`], along the whole ray.
     pub(super) fn brightest_on_whole_ray(&self, view: &View, pixel: [f64; 2]) -> Result<Pick> {
         self.brightest_within(view, pixel, ALL_DEPTHS)
     }
@@ -69,7 +68,7 @@ impl Study {
         Ok(self.at(place.to_array()))
     }
 
-    /// Near and far depth (mm) of a pixel's slab; unlimited without a slab, or if a focus shows the surroundings.
+    /// Near and far depth (mm) of the slab at a pixel; unlimited if there is no slab or the focus shows the surroundings.
     fn depths_of_slab(&mut self, view: &View, pixel: [f64; 2]) -> Result<[f64; 2]> {
         let Some(slab) = view.settings.slab.filter(|_| self.content.tree().is_some()) else {
             return Ok(ALL_DEPTHS);
@@ -83,7 +82,7 @@ impl Study {
     }
 }
 
-/// The range (mm) of a ray between the outermost voxels; reversed if it misses them.
+/// The range (mm) of a ray between the outermost voxel centres; reversed if the ray misses them.
 fn chord(volume: &Volume, from: DVec3, along: DVec3) -> [f64; 2] {
     let to_index = volume.index_from_world();
     let (start, step) = (to_index.transform_point3(from), to_index.transform_vector3(along));

@@ -48,7 +48,7 @@ impl From<AskedMessage> for Asked {
 }
 
 impl AskedMessage {
-    /// The request; unknown names count as none.
+    /// The requested space and unit; an unknown name requests nothing.
     pub(crate) fn statement(self) -> Statement {
         let space = |space: &Space| Some(space.name()) == self.coordinates.as_deref();
         let unit = |unit: &Unit| Some(unit.name()) == self.unit.as_deref();
@@ -59,10 +59,10 @@ impl AskedMessage {
 #[derive(Clone, Debug)]
 pub(crate) struct PlacedVessels {
     pub tree: VesselTree,
-    /// One per vessel; may be empty.
+    /// A name for each vessel; may be empty.
     pub names: Vec<String>,
     pub(crate) notes: Vec<String>,
-    /// Whether points seem to be in the wrong order and can be sorted.
+    /// Whether points seem to be in the wrong order, and can be sorted.
     pub(crate) can_reorder: bool,
     /// Evidence against the space or unit used.
     pub(crate) doubt: Option<PlaceDoubt>,
@@ -85,7 +85,7 @@ pub(crate) struct OpenedLines {
     pub(crate) doubt: Option<PlaceDoubt>,
 }
 
-/// Reads the vessels of the file `name` as requested; the volume decides what neither caller nor file states.
+/// Reads the vessels of the file `name`. The volume decides about space and unit if neither the caller nor the file states them.
 pub(crate) fn read_centerlines(
     bytes: &[u8],
     name: &str,
@@ -140,7 +140,7 @@ fn doubts_of(vessels: &[Vessel], names: &[String]) -> Vec<LineDoubt> {
     doubts
 }
 
-/// Evidence against the unit, or other units that fit.
+/// The doubt if there is evidence against the unit, or if other units fit too.
 fn doubt_of_unit(found: &Placement) -> Option<PlaceDoubt> {
     let of = |units: &[Unit]| {
         units.iter().map(|unit| CoordinateSystem { unit: *unit, ..found.place }.to_string()).collect()
@@ -152,7 +152,7 @@ fn doubt_of_unit(found: &Placement) -> Option<PlaceDoubt> {
     (!found.also.is_empty()).then(|| PlaceDoubt { found: found.decision.clone(), readings: also })
 }
 
-/// A doubt if vessels miss the volume or, without an earlier doubt, fit better elsewhere.
+/// A doubt if vessels lie outside the volume, or fit better elsewhere although the caller neither stated the space nor was told.
 fn doubt_beside(tree: &VesselTree, volume: &Volume, read: &Placement) -> Option<PlaceDoubt> {
     let points: Vec<DVec3> = tree.vessels().iter().flat_map(|vessel| vessel.points()).copied().collect();
     let radius =
@@ -167,7 +167,7 @@ fn doubt_beside(tree: &VesselTree, volume: &Volume, read: &Placement) -> Option<
     }
     let is_told = read.is_unusual || read.space_from == Origin::Asked;
     let better = better_place(&points, &judge).filter(|_| !is_told)?;
-    // `better` assumes points read as LPS; for points read as RAS it is the opposite.
+    // `better` assumes that points were read as LPS. If they were read as RAS, the other space is meant.
     let space = if better.meant.space == read.place.space { Space::Lps } else { Space::Ras };
     let is_in_mm = read.place.unit == Unit::Millimetre;
     let meant = CoordinateSystem { space, ..better.meant };

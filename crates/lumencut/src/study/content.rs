@@ -1,4 +1,4 @@
-//! The content of the open study: a volume, a tree, or both.
+//! What the open study contains: a volume, a tree, or both.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
@@ -21,11 +21,11 @@ use crate::windows;
 #[derive(Debug)]
 pub(crate) struct NamedTree {
     pub(crate) leveled: Arc<LeveledTree>,
-    /// One per vessel; may be empty.
+    /// A name for each vessel; may be empty.
     pub names: Vec<String>,
     /// The line number of each vessel.
     pub lines: Vec<usize>,
-    /// All vessels including hidden ones in list order; None if none is hidden.
+    /// All vessels in list order, hidden ones included; None if no vessel is hidden.
     with_hidden: Option<Listed>,
 }
 
@@ -45,7 +45,7 @@ impl NamedTree {
         Self { with_hidden: Some(listed), ..self }
     }
 
-    /// The vessels, hidden ones included, that determine point spread and branches, with their line numbers.
+    /// The vessels, hidden ones included, from which point spread and branches are determined, with their line numbers.
     pub(crate) fn measured_among(&self) -> (&[usize], &[Vessel]) {
         let shown = (&self.lines[..], self.leveled.tree().vessels());
         self.with_hidden.as_ref().map_or(shown, |all| (&all.lines, &all.vessels))
@@ -70,9 +70,9 @@ pub(crate) struct Report {
     pub volume: Option<VolumeReport>,
     /// The shown vessels; None if only the volume is open.
     pub vessels: Option<Vec<VesselReport>>,
-    /// Suggested windows; none without a volume.
+    /// Suggested windows; none if no volume is open.
     pub(crate) windows: Option<Windows>,
-    /// Whether the last opened centerlines seem unsorted and can be sorted; omitted if not.
+    /// Whether the centerlines opened last seem to be in the wrong order and can be sorted; omitted if not.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     #[cfg_attr(test, ts(optional, as = "Option<bool>"))]
     pub(crate) can_reorder: bool,
@@ -98,9 +98,9 @@ pub(crate) struct VolumeReport {
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct VesselReport {
-    /// Its line number.
+    /// Number of the vessel's line.
     pub line: usize,
-    /// Its name; may be empty.
+    /// Name; may be empty.
     pub name: String,
     pub length: f64,
     pub(crate) has_radius: bool,
@@ -113,9 +113,9 @@ pub(crate) struct Windows {
     #[cfg_attr(test, ts(type = "Readonly<Record<string, Pair>>"))]
     contexts: BTreeMap<&'static str, LevelWidth>,
     presets: Vec<NamedWindow>,
-    /// Whether the values appear to be Hounsfield units, so that CT windows apply.
+    /// Whether the values seem to be Hounsfield units, so that CT windows apply.
     is_hounsfield: bool,
-    /// Whether the stent window is useful: Hounsfield units, with values as bright as metal.
+    /// Whether the stent window is useful: the values seem to be Hounsfield units, and some are as bright as metal.
     may_hold_stents: bool,
 }
 
@@ -137,7 +137,7 @@ impl Content {
         Ok(Scene { volume, tree: self.tree().cloned() })
     }
 
-    /// The tree, if any.
+    /// The tree, if there is one.
     pub fn tree(&self) -> Option<&Arc<LeveledTree>> {
         self.named.as_ref().map(|named| &named.leveled)
     }
@@ -164,7 +164,7 @@ impl Content {
         self.windows = OnceLock::new();
     }
 
-    /// The suggested windows, computed on first use; None without a volume.
+    /// The suggested windows, computed on first use; None if no volume is open.
     pub(crate) fn windows(&self) -> Result<Option<Windows>> {
         if let Some(known) = self.windows.get() {
             return Ok(known.clone());
@@ -177,7 +177,7 @@ impl Content {
         let Some(held) = &self.held else { return Ok(None) };
         let (volume, tree) = (&held.volume()?, self.tree().map(|tree| tree.tree()));
         let pair = |window: Window| [window.level, window.width];
-        // Each is computed once.
+        // Different presets use the same windows, so each window is computed once.
         let found = DataWindow::NAMES
             .iter()
             .map(|(name, kind)| Ok((*name, pair(kind.find(volume, tree)?))))
@@ -208,7 +208,7 @@ impl Content {
         }))
     }
 
-    /// What a full view must contain: the volume's corners, or the tree's points.
+    /// The points that a fitted view must contain: the volume's corners, or the tree's points.
     pub(crate) fn outline(&self) -> Result<Vec<DVec3>> {
         let points = |named: &NamedTree| {
             named.leveled.tree().vessels().iter().flat_map(|vessel| vessel.points()).copied().collect()

@@ -1,4 +1,4 @@
-//! The part of a viewer's document that vessel edits change. It is immutable: a host keeps earlier documents for undo.
+//! The part of a viewer's document that edits of vessels change. Documents are immutable; a host keeps earlier ones for undo.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,23 +12,23 @@ pub(crate) type WorldPoint = [f64; 3];
 #[serde(rename_all = "camelCase")]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct DocumentVessel {
-    /// Constant through edits and unique in a study.
+    /// Identifies the vessel: it is constant through edits and unique in a study.
     pub(crate) id: u32,
-    /// Its line number.
+    /// Number of the vessel's line.
     pub line: usize,
-    /// Its name; may be empty.
+    /// Name; may be empty.
     pub name: String,
     /// `#rrggbb`.
     pub(crate) color: String,
     pub(crate) is_hidden: bool,
-    /// Its clicks in order; none if it came from a file, mask or seed, or was cut or joined.
+    /// The clicks of the vessel in order; none if it came from a file, mask or seed, or was cut or joined.
     pub(crate) clicks: Option<Vec<WorldPoint>>,
     /// Why a found branch is doubtful, until it is accepted.
     pub(crate) doubt: Option<String>,
 }
 
 impl DocumentVessel {
-    /// Not doubtful: other vessels may join it, and clicks in it add nothing.
+    /// Whether the vessel is not doubtful: other vessels may join it, and clicks in it add nothing.
     pub(crate) fn is_sure(&self) -> bool {
         self.doubt.is_none()
     }
@@ -41,7 +41,7 @@ impl DocumentVessel {
 #[derive(Clone, Debug, Default, Deserialize, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "VesselDocument"))]
 pub(crate) struct Document {
-    /// In list order.
+    /// The vessels in list order.
     pub vessels: Vec<DocumentVessel>,
     pub(crate) stoppers: Vec<StopperMessage>,
     /// Whether tracing bridges stretches without visible lumen.

@@ -1,4 +1,4 @@
-//! A document during an edit: added vessels, lost marks and new clicks.
+//! A document while an edit changes it, with the added vessels, the lost marks and the new clicks.
 
 use crate::study::document::{Document, DocumentVessel, WorldPoint};
 use crate::study::edits::Edit;
@@ -6,7 +6,7 @@ use crate::study::failure::Failure;
 use crate::study::names::{fresh_name, part_name};
 use crate::study::tracing::StopperMessage;
 
-/// Radius of a stopper (mm), as in Python.
+/// Radius of a stopper (mm); equals that in Python.
 const STOPPER_RADIUS_MM: f64 = 3.0;
 
 const MIN_CLICKS: usize = 2;
@@ -17,7 +17,7 @@ pub(crate) struct Draft {
     pub(crate) last_id: u32,
     pub(crate) added: Vec<u32>,
     pub(crate) without_marks: Vec<u32>,
-    /// Clicks set by the edit: vessel id and click index.
+    /// The clicks that the edit sets: vessel id and number of the click.
     new_clicks: Vec<(u32, usize)>,
 }
 
@@ -37,7 +37,7 @@ impl Draft {
         &mut vessels[last]
     }
 
-    /// Adds a vessel; without a name it gets one of its kind, such as `Mask 2`.
+    /// Adds a vessel. Without a name, it is named after its kind, such as `Mask 2`.
     pub(crate) fn add_named(&mut self, line: usize, name: &str, kind: &str) -> &mut DocumentVessel {
         let name = if name.is_empty() { fresh_name(&self.document.names(), kind) } else { name.to_owned() };
         self.add(line, name)
@@ -48,7 +48,7 @@ impl Draft {
         self.document.vessels.retain(|vessel| !ids.contains(&vessel.id));
     }
 
-    /// Gives a vessel another line that is not traced between clicks, so its marks are lost.
+    /// Gives a vessel a line that was not traced between clicks; its clicks and marks are lost.
     pub(crate) fn replace(&mut self, id: u32, line: usize) {
         if let Some(vessel) = self.vessel(id) {
             vessel.line = line;
@@ -77,7 +77,7 @@ impl Draft {
         self.remove(&doubtful);
     }
 
-    /// Begins a vessel between clicks; its line follows once traced.
+    /// Adds a vessel with clicks; it gets its line when it is traced.
     pub(crate) fn begin(&mut self, clicks: &[WorldPoint]) {
         let id = self.add_named(0, "", "Vessel").id;
         self.give_clicks(id, clicks.to_vec());
@@ -104,7 +104,7 @@ impl Draft {
         }
     }
 
-    /// Removes a click, or the whole vessel; returns whether a line must be traced.
+    /// Removes a click, or the whole vessel if too few clicks would remain. Returns whether a line must be traced.
     pub(crate) fn remove_click(&mut self, id: u32, number: usize) -> bool {
         let Some(clicks) = self.clicks(id).filter(|clicks| number < clicks.len()) else { return false };
         let is_kept = clicks.len() > MIN_CLICKS;
@@ -116,7 +116,7 @@ impl Draft {
         is_kept
     }
 
-    /// Applies a stopper edit; ignores unknown stoppers.
+    /// Applies an edit of stoppers; edits of unknown stoppers are ignored.
     pub(crate) fn change_stoppers(&mut self, edit: &Edit) {
         let stoppers = &mut self.document.stoppers;
         match edit {
@@ -147,7 +147,7 @@ impl Draft {
             (Some((vessel, _)), Some(number)) if !self.new_clicks.contains(&(vessel.id, number)) => {
                 format!("point {} of {}", number + 1, vessel.called())
             }
-            // Hosts show a new point at its place.
+            // Hosts show the message at the new point.
             _ => "this point".to_owned(),
         };
         failure

@@ -1,4 +1,4 @@
-//! Executes edits of vessels, and retraces the affected ones.
+//! Carries out edits of vessels, and traces the affected vessels again.
 
 use glam::DVec3;
 
@@ -24,8 +24,8 @@ impl Study {
         draft.document
     }
 
-    /// The document after an edit. Clicks, stoppers and bridges retrace all clicked vessels, next to the others that are not
-    /// doubtful.
+    /// The document after an edit. If clicks, stoppers or bridging change, all vessels with clicks are traced again, beside the
+    /// other vessels that are not doubtful.
     pub(crate) fn edit(&mut self, message: &EditMessage, watch: Watch) -> Result<Edited> {
         let mut draft = Draft::of(message.document.clone(), self.last_id);
         let mut notes = Vec::new();
@@ -78,7 +78,7 @@ impl Study {
     }
 
     fn add_branches(&mut self, draft: &mut Draft, seed: WorldPoint, watch: Watch) -> Result<()> {
-        // Reject a seed in bone or fat at once, instead of after a search of the whole scan.
+        // Rejects a seed in bone or fat immediately, and not after a search of the whole scan.
         self.check_click(seed)?;
         for branch in self.trace_from(seed, watch)? {
             draft.add_named(branch.line, "", "Branch").doubt = branch.doubt.map(str::to_owned);
@@ -143,7 +143,7 @@ fn is_beside(vessel: &DocumentVessel) -> bool {
     vessel.clicks.is_none() && vessel.is_sure()
 }
 
-/// Applies an edit of the document alone; returns whether clicked vessels must be retraced.
+/// Applies an edit that changes only the document; returns whether vessels with clicks must be traced again.
 fn changed(draft: &mut Draft, edit: &Edit) -> bool {
     match edit {
         Edit::BeginVessel { clicks } => draft.begin(clicks),

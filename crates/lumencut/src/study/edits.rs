@@ -1,7 +1,7 @@
 //! The edits of vessels that a viewer offers, and their results.
 //!
-//! Name, colour and visibility are not edits: a host sets these fields at once because nothing follows from them. Undo is the
-//! host's too: it keeps the documents before each step together with marks and rulers, which must not wait for tracing.
+//! Name, colour and visibility are not edits: a host sets these fields immediately, since nothing follows from them. Undo is up to
+//! the host: it keeps the earlier documents together with marks and rulers, which must not wait for tracing.
 
 use serde::{Deserialize, Serialize};
 
@@ -21,8 +21,8 @@ pub(crate) enum Edit {
         id: u32,
         point: WorldPoint,
     },
-    /// A click between others, where a vessel was dragged. A vessel without clicks first gets clicks along its line, so that it
-    /// keeps its course.
+    /// A click between others, where a vessel was dragged. A vessel without clicks first gets clicks along its line, to stay in
+    /// place.
     AddClickOnLine {
         id: u32,
         point: WorldPoint,
@@ -32,7 +32,7 @@ pub(crate) enum Edit {
         number: usize,
         point: WorldPoint,
     },
-    /// Removes a click; a vessel left with one click is removed.
+    /// Removes a click. If only one click would be left, the vessel is removed.
     RemoveClick {
         id: u32,
         number: usize,
@@ -47,7 +47,7 @@ pub(crate) enum Edit {
     RemoveStopper {
         number: usize,
     },
-    /// Whether tracing bridges stretches without visible lumen.
+    /// Sets whether tracing bridges stretches without visible lumen.
     SetBridge {
         bridge: bool,
     },
@@ -64,17 +64,17 @@ pub(crate) enum Edit {
     Remove {
         ids: Vec<u32>,
     },
-    /// All branches connected to a seed; doubtful ones wait for acceptance.
+    /// Adds all branches connected to a seed; doubtful ones wait until they are accepted.
     AddBranches {
         seed: WorldPoint,
     },
-    /// The whole vessel at a click, from the nearest existing vessel to its end.
+    /// Adds the whole vessel at a click, from the nearest existing vessel to its end.
     AddWholeVessel {
         click: WorldPoint,
     },
-    /// All vessels of the scan; doubtful ones wait for acceptance.
+    /// Adds all vessels of the scan; doubtful ones wait until they are accepted.
     FindVessels {
-        /// Whether to return doubtful vessels if none is confident; otherwise that is an error.
+        /// Whether to return only doubtful vessels if none is confident; otherwise that is an error.
         doubtful: bool,
     },
     Accept {
@@ -84,14 +84,14 @@ pub(crate) enum Edit {
         ids: Vec<u32>,
     },
     AddMask,
-    /// The vessels of existing lines, such as those of files.
+    /// Adds vessels with existing lines, such as lines of files.
     AddLines {
         lines: Vec<NamedLine>,
     },
 }
 
 impl Edit {
-    /// Whether it changes clicks, stoppers or bridges, so that clicked vessels are retraced.
+    /// Whether the edit changes clicks, stoppers or bridging, so that vessels with clicks are traced again.
     pub(crate) fn is_of_clicks(&self) -> bool {
         matches!(
             self,
@@ -107,7 +107,7 @@ impl Edit {
         )
     }
 
-    /// The single vessel that it traces, if any; `added` are the new ids.
+    /// The vessel that the edit traces, if it is a single one; `added` are the new ids.
     pub(crate) fn traces(&self, added: &[u32]) -> Option<u32> {
         match self {
             Self::BeginVessel { .. } | Self::AddWholeVessel { .. } => added.first().copied(),
@@ -150,7 +150,7 @@ impl Edit {
 pub(crate) struct EditMessage {
     pub(crate) document: Document,
     pub(crate) edit: Edit,
-    /// Whether to bridge gaps from now on, in the same step: the mend of an edit rejected with `bridge`.
+    /// Whether to bridge gaps from now on, in the same step. This is the remedy for an edit that was rejected with `bridge`.
     pub(crate) bridging: bool,
 }
 
@@ -164,7 +164,7 @@ impl EditMessage {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct Edited {
-    /// The document after it; unchanged if there was nothing to do.
+    /// The document after the edit; unchanged if there was nothing to do.
     pub(crate) document: Document,
     /// The name of the undo step.
     pub words: String,

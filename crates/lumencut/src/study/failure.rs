@@ -1,4 +1,4 @@
-//! Errors as the page gets them: the usual texts, the kind, and the mends.
+//! Errors as the page gets them: the texts, the kind, and the remedies.
 
 use lumencut_core::error::{Clicked, Error, ErrorKind};
 use lumencut_io as centerlines;
@@ -34,12 +34,12 @@ pub struct More {
     pub(crate) seen: Option<Seen>,
 }
 
-/// Points of a tracing request, counted from 0.
+/// The point of a tracing request that an error concerns; numbers count from 0.
 #[derive(Debug, PartialEq, Eq, Serialize)]
 pub(crate) struct About {
-    /// The vessel; none if the point belongs to no vessel yet.
+    /// The vessel; None if the point belongs to no vessel yet.
     pub vessel: Option<usize>,
-    /// The point; none for all points.
+    /// The point; None if all points are meant.
     pub point: Option<usize>,
 }
 
@@ -65,7 +65,7 @@ pub(crate) struct Seen {
 pub type Result<T> = std::result::Result<T, Failure>;
 
 impl Failure {
-    /// For an invalid message of the page: a bug of the page, never of its user.
+    /// An error for an invalid message. Such a message is a bug of the page, and no mistake of its user.
     pub fn of_message(subject: &str, found: &impl ToString, expected: &str) -> Self {
         Error::new(ErrorKind::Settings, subject, found.to_string(), expected).into()
     }

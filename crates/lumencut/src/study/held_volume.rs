@@ -1,4 +1,4 @@
-//! A volume held for a viewer: first its header, then its voxels as bytes.
+//! A volume that is held for a viewer: it passes first the header, and then the voxels as bytes.
 
 use std::collections::BTreeMap;
 
@@ -53,7 +53,7 @@ impl VolumeHeader {
 /// The open volume.
 #[derive(Debug)]
 pub struct HeldVolume {
-    /// Its voxels, i fastest.
+    /// The voxels, i fastest.
     pub stored: Stored,
     /// Voxels along (i, j, k).
     pub size: [usize; 3],
@@ -66,10 +66,10 @@ pub struct HeldVolume {
 }
 
 impl HeldVolume {
-    /// `count` writable bytes of its voxels from `offset` on.
+    /// `count` writable bytes of the voxels, from `offset` on.
     ///
     /// # Errors
-    /// `volume` beyond its end or without a volume.
+    /// `volume` beyond the end of the voxels or without a volume.
     pub fn bytes(held: Option<&mut Self>, offset: usize, count: usize) -> Result<&mut [u8]> {
         let bytes = held.map_or(&mut [][..], |held| held.stored.bytes_mut());
         let expected = format!("at most the {} that the header states", bytes.len());
@@ -80,7 +80,7 @@ impl HeldVolume {
         })
     }
 
-    /// The volume as the core borrows it.
+    /// The volume in the form that the core borrows.
     ///
     /// # Errors
     /// `volume` for an invalid grid.

@@ -10,12 +10,12 @@ const MAX_VOXELS: usize = 500_000;
 pub(crate) struct Histogram {
     pub(crate) low: f32,
     pub(crate) high: f32,
-    /// Counts from the lowest range; the largest value counts in the last.
+    /// Number of values in each range, from the lowest range on; the largest value counts in the last range.
     pub counts: Vec<u32>,
 }
 
 impl Histogram {
-    /// Samples large volumes; ignores NaN.
+    /// Counts the values; large volumes are sampled, and NaN is ignored.
     pub(crate) fn of<T: Voxel>(voxels: &[T], bins: usize) -> Self {
         let values = || {
             let looked_at = voxels.iter().step_by(voxels.len().div_ceil(MAX_VOXELS).max(1));
@@ -27,7 +27,7 @@ impl Histogram {
         let last = counts.len() - 1;
         let per_value = counts.len() as f32 / (high - low).max(f32::MIN_POSITIVE);
         for value in values() {
-            // Not below 0: `low` is the smallest value.
+            // The index is not negative, since `low` is the smallest value.
             counts[(((value - low) * per_value) as usize).min(last)] += 1;
         }
         Self { low, high, counts }

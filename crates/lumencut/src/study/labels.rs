@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use crate::letters::EdgeLetters;
 use crate::scale_bar::ScaleBar;
 
-/// The position of a picture: unit vectors right and down (LPS), width in pixels, pixel side (mm).
+/// How a picture lies in space: unit vectors right and down (LPS), width in pixels, pixel side (mm).
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct LaidPicture {

@@ -8,14 +8,14 @@ use lumencut_vessels::trace::lumen::refine::STEP;
 
 use crate::study::lines::{Line, wrong};
 
-/// Ends within this distance (mm) are one point: above the rounding of files, far below any lumen.
+/// Ends within this distance (mm) are one point. It is larger than the rounding of files and much smaller than any lumen.
 pub(crate) const MEETING: f64 = 0.1;
 
-/// Ends to join may be this far apart (mm), or this many radii of the wider one: as far as tracing goes without a bridge.
+/// Ends can be joined up to this distance (mm), or this many radii of the wider one: as far as tracing goes without bridging.
 const MAX_JOIN_MM: f64 = 5.0;
 const MAX_JOIN_RADII: f64 = 2.0;
 
-/// Largest point distance in a gap between joined ends (mm).
+/// The largest distance of points in the gap between joined ends (mm).
 const GAP_STEP: f64 = STEP;
 
 #[derive(Clone, Copy)]
@@ -41,7 +41,7 @@ impl Knot {
 /// The two parts of a line cut at an arc length (mm); both contain the cut point.
 ///
 /// # Errors
-/// `vessel tree` for a place not between the ends.
+/// `vessel tree` for a place that is not between the ends.
 pub fn cut(line: &Line, at: f64) -> Result<[Line; 2]> {
     let lengths = arc_lengths(&line.points);
     let whole = lengths[lengths.len() - 1];
@@ -61,11 +61,11 @@ pub fn cut(line: &Line, at: f64) -> Result<[Line; 2]> {
     Ok(parts.map(|part| with_knots(&part, line)))
 }
 
-/// Two lines joined at their nearest ends, in the direction of the first. A gap is closed by a straight stretch marked as
-/// bridged.
+/// Joins two lines at their nearest ends; the result has the direction of the first line. A gap is closed by a straight stretch
+/// that is marked as bridged.
 ///
 /// # Errors
-/// `vessel tree` for ends too far apart.
+/// `vessel tree` if the ends are too far apart.
 pub fn join(first: &Line, second: &Line) -> Result<Line> {
     let (mut one, mut other) = (knots(first), knots(second));
     let end = |knots: &[Knot], is_last: bool| knots[if is_last { knots.len() - 1 } else { 0 }];
@@ -81,7 +81,7 @@ pub fn join(first: &Line, second: &Line) -> Result<Line> {
         let error = wrong("join", found, &expected);
         return Err(error.mend("trace the stretch between them first, and join it to both"));
     }
-    // At the first line's end the other follows; at its start the other precedes.
+    // The second line follows the end of the first line, or precedes its start.
     let [is_at_end, other_is_at_end] = nearest;
     if is_at_end == other_is_at_end {
         other.reverse();
@@ -103,7 +103,7 @@ pub fn join(first: &Line, second: &Line) -> Result<Line> {
     Ok(with_knots(&joined, &has))
 }
 
-/// Concatenates points: a shared point is kept once, from the first; a gap gets new points.
+/// Concatenates points. A shared point is taken only from the first line; new points fill a gap.
 pub(super) fn followed(mut one: Vec<Knot>, other: &[Knot]) -> Vec<Knot> {
     let end = one[one.len() - 1];
     let is_shared = end.point.distance(other[0].point) <= MEETING;
@@ -121,7 +121,7 @@ fn gap(from: Knot, to: Knot) -> Vec<Knot> {
     (1..parts).map(unseen).collect()
 }
 
-/// The points of a line; full confidence if it was not traced.
+/// The points of a line with their data; the confidence is full if the line was not traced.
 pub(super) fn knots(line: &Line) -> Vec<Knot> {
     let knot = |(n, point): (usize, &DVec3)| Knot {
         point: *point,
@@ -132,7 +132,7 @@ pub(super) fn knots(line: &Line) -> Vec<Knot> {
     line.points.iter().enumerate().map(knot).collect()
 }
 
-/// A line of these points, with the optional data that `like` has.
+/// A line of these points, with the kinds of data that `like` has.
 pub(super) fn with_knots(knots: &[Knot], like: &Line) -> Line {
     Line {
         points: knots.iter().map(|knot| knot.point).collect(),

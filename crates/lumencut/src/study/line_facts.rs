@@ -1,4 +1,4 @@
-//! Facts for tidying vessels: length, calibre, connected part and parent.
+//! Facts that help to tidy vessels: length, calibre, connected part and parent.
 
 use lumencut_core::math::arc_length::arc_lengths;
 use lumencut_core::math::statistics::median;
@@ -17,14 +17,14 @@ pub(crate) struct LineFacts {
     pub length: f64,
     /// Median diameter (mm); null if no radius is known.
     pub(crate) calibre: Option<f64>,
-    /// Index of its connected part; 0 is the longest.
+    /// Index of the connected part that contains the line; 0 is the longest part.
     pub part: usize,
-    /// The line it branches from; null for the widest line of a part.
+    /// The line from which this line branches; null for the widest line of a part.
     pub parent: Option<usize>,
 }
 
 impl Study {
-    /// Facts about lines, in order; parts count these lines only.
+    /// Facts about lines, in order; only these lines count for the connected parts.
     pub(crate) fn line_facts(&self, numbers: &[usize]) -> Result<Vec<LineFacts>> {
         let lines = numbers.iter().map(|number| self.lines.get(*number)).collect::<Result<Vec<_>>>()?;
         let points: Vec<_> = lines.iter().map(|line| &line.points[..]).collect();

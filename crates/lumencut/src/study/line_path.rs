@@ -6,18 +6,19 @@ use crate::study::line_edits::{Knot, MEETING, followed, knots, with_knots};
 use crate::study::lines::Line;
 use crate::text::rounded;
 
-/// The closest approach of two lines: a point index on each, at least one an end, and the distance (mm).
+/// Where two lines are nearest to each other: a point index on each line, at least one of them an end, and the distance (mm).
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Meeting {
     on: [usize; 2],
     apart: f64,
 }
 
-/// A path through lines in order, whatever their directions. A line met between its ends is followed from or to that point. The
-/// first line starts at its start; the last ends at its start if entered in between. `words` name the lines in errors.
+/// A path through lines in order, in whatever direction each line runs. If a line is met between its ends, the path follows it from
+/// or to that point. The path starts at the first line's first point. On the last line it ends at the first point if it enters the
+/// line in between. Errors name the lines by `words`.
 ///
 /// # Errors
-/// `vessel tree` for neighbours farther apart than [`MEETING`].
+/// `vessel tree` if neighbours are farther apart than [`MEETING`].
 pub fn path(lines: &[Line], words: &[String]) -> Result<Line> {
     let all: Vec<Vec<Knot>> = lines.iter().map(knots).collect();
     let mut joined: Vec<Knot> = Vec::new();
@@ -49,11 +50,11 @@ pub fn path(lines: &[Line], words: &[String]) -> Result<Line> {
     Ok(with_knots(&joined, &like))
 }
 
-/// Where a line entered at `entry` (if any) is left for another: end to end, the other's end, or its own end at a point of the
-/// other. The first that is near enough, else the nearest.
+/// Where a line that was entered at `entry` (if any) is left for another line. It tries end to end, then any point to the other's
+/// end, then its own end to any point. The first that is near enough counts, else the nearest.
 fn meeting(line: &[Knot], other: &[Knot], entry: Option<usize>) -> Meeting {
     let last = line.len() - 1;
-    // A line entered at an end runs to its other end.
+    // A line that was entered at one end is followed to its other end.
     let ends = match entry {
         Some(0) => vec![last],
         Some(entry) if entry == last => vec![0],
@@ -73,7 +74,7 @@ fn meeting(line: &[Knot], other: &[Knot], entry: Option<usize>) -> Meeting {
         .unwrap_or_else(|| ways.into_iter().fold(ways[0], nearest))
 }
 
-/// The closest of the given points; the first of ties.
+/// The nearest pair of the given points; of equal pairs, the first.
 fn nearest(line: &[Knot], other: &[Knot], points: &[usize], other_points: &[usize]) -> Meeting {
     let pairs = points.iter().flat_map(|a| other_points.iter().map(|b| [*a, *b]));
     let meetings = pairs.map(|[a, b]| Meeting { on: [a, b], apart: line[a].point.distance(other[b].point) });

@@ -1,4 +1,4 @@
-//! The page's lines by number. A line is immutable: every edit makes a new one, for undo.
+//! The page's lines by number. A line is immutable: every edit makes a new line, so that it can be undone.
 
 use std::sync::Arc;
 
@@ -30,7 +30,7 @@ pub struct Line {
 pub(crate) struct LineContent {
     /// At least two points (mm, LPS).
     points: Vec<[f64; 3]>,
-    /// mm; null if unknown, for all points or for one
+    /// Radius (mm); null if unknown, for all points or for one.
     radius: Option<Vec<Option<f64>>>,
     /// The confidence of each point (0 to 1) of a traced line.
     confidence: Option<Vec<f64>>,
@@ -41,25 +41,25 @@ pub(crate) struct LineContent {
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct NamedLine {
-    /// Its number.
+    /// Number of the line.
     pub line: usize,
-    /// Its name; may be empty.
+    /// Name; may be empty.
     pub name: String,
 }
 
-/// A line in a viewer's list. A hidden line is not drawn but still measured among all, so that hiding changes no number.
+/// A line in a viewer's list. A hidden line is not drawn but is measured together with the others, so hiding changes no number.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct ListedLine {
-    /// Its number.
+    /// Number of the line.
     pub line: usize,
-    /// Its name; may be empty.
+    /// Name; may be empty.
     pub name: String,
     pub(crate) hidden: bool,
 }
 
 impl Line {
-    /// The core's vessel: unknown radii are 0 among known ones.
+    /// The vessel for the core; it states unknown radii as 0 if others are known.
     ///
     /// # Errors
     /// `vessel tree` for invalid points or radii.
@@ -77,7 +77,7 @@ impl Line {
         }
     }
 
-    /// The line as an obstacle for tracing; zero width if its radius is unknown.
+    /// The line as other vessels meet it while they are traced. Its width is zero if its radius is unknown.
     pub(crate) fn met(&self) -> Centerline {
         let radius = self.known_radius().unwrap_or_else(|| vec![0.0; self.points.len()]);
         Centerline { points: self.points.clone(), radius, confidence: Vec::new() }
@@ -155,13 +155,13 @@ pub(crate) fn wrong(what: &str, found: String, expected: &str) -> Error {
 
 #[derive(Debug, Default)]
 pub(crate) struct Lines {
-    /// Number of lines in earlier studies: numbers are never reused.
+    /// Number of lines in earlier studies; line numbers are never used again.
     before: usize,
     held: Vec<Arc<Line>>,
 }
 
 impl Lines {
-    /// Adds a line; returns its number.
+    /// Adds a line and returns the number that it gets.
     pub(crate) fn add(&mut self, line: Line) -> Result<usize> {
         line.check()?;
         self.held.push(Arc::new(line));

@@ -15,22 +15,22 @@ use crate::study::open_study::Study;
 pub(crate) struct PointedMessage {
     /// The place (LPS, mm).
     pub point: WorldPoint,
-    /// Unit vector of the ray, away from the viewer; none for the place itself.
+    /// Unit vector of the ray, away from the viewer; none if only the place counts.
     pub along: Option<WorldPoint>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct PointedLumen {
-    /// The pointed place in it; on a ray, the one nearest its centre.
+    /// The pointed place in the lumen; on a ray, the place nearest to the lumen's centre.
     pub point: WorldPoint,
-    /// Its centre.
+    /// Centre of the lumen.
     pub center: WorldPoint,
-    /// Its diameter (mm).
+    /// Diameter of the lumen (mm).
     pub diameter: f64,
-    /// The median value at its centre.
+    /// The median value at the centre of the lumen.
     pub value: f64,
-    /// The section's right.
+    /// Unit vector to the right in the section.
     pub right: WorldPoint,
     pub(crate) down: WorldPoint,
 }
@@ -50,7 +50,7 @@ impl Study {
     }
 }
 
-/// A lumen with its section: anterior, else the head, is up.
+/// A lumen with its section, in which anterior is up, or the head if the lumen runs anteriorly.
 fn with_section(seen: &SeenLumen, place: DVec3) -> PointedLumen {
     let upright = |to: DVec3| (-to).reject_from_normalized(seen.along);
     let (front, head) = (upright(DVec3::NEG_Y), upright(DVec3::Z));

@@ -1,4 +1,4 @@
-//! Traces the lines of a vessel mask; its voxels are held only during tracing.
+//! Traces the lines of a vessel mask. The voxels of the mask are held only while it is traced.
 
 use std::collections::HashSet;
 
@@ -23,21 +23,21 @@ use crate::study::open_study::Study;
 use crate::study::tracing::Watch;
 use crate::study::voxels::Stored;
 
-/// A volume with more values is a scan, not a mask.
+/// A volume with more distinct values is a scan and no mask.
 const MOST_LABELS: usize = 1000;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct MaskLines {
-    /// The lines, named by label; unnamed if the mask has one label.
+    /// The lines, named by label; without names if the mask has only one label.
     pub lines: Vec<NamedLine>,
     pub(crate) notes: Vec<String>,
 }
 
 impl Study {
-    /// Makes room for a mask; its voxels follow as bytes.
+    /// Allocates memory for a mask, whose voxels then follow as bytes.
     ///
     /// # Errors
-    /// `volume` without a scan, without memory, or for an invalid grid.
+    /// `volume` without an open scan, without enough memory, or for an invalid grid.
     pub fn begin_mask(&mut self, header: &str) -> Result<()> {
         self.mask = None;
         self.content.held.as_ref().ok_or_else(no_volume)?;
@@ -49,12 +49,12 @@ impl Study {
     /// `count` writable bytes of the mask's voxels from `offset` on.
     ///
     /// # Errors
-    /// `volume` beyond its end.
+    /// `volume` beyond the end of the mask.
     pub fn mask_bytes(&mut self, offset: usize, count: usize) -> Result<&mut [u8]> {
         HeldVolume::bytes(self.mask.as_mut().map(|mask| &mut mask.held), offset, count)
     }
 
-    /// Frees the mask.
+    /// Frees the memory of the mask.
     pub fn end_mask(&mut self) {
         self.mask = None;
     }
@@ -80,7 +80,7 @@ impl Study {
     }
 }
 
-/// The mask on the volume's grid, 0 elsewhere.
+/// The mask on the volume's grid; 0 outside the mask.
 fn placed(mask: &HeldVolume, place: &MaskPlace, volume: &HeldVolume) -> Result<HeldVolume> {
     let [ni, nj, nk] = volume.size;
     let strides = [1, ni, ni * nj];
@@ -142,7 +142,7 @@ fn check_labels(stored: &Stored) -> Result<()> {
     Ok(())
 }
 
-/// Whether there are too many distinct values; exploits runs of equal ones.
+/// Whether there are too many distinct values. It is fast if equal values follow each other.
 fn has_many(values: impl Iterator<Item = u32>) -> bool {
     let mut different = HashSet::new();
     let mut last = None;

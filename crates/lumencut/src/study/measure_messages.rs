@@ -1,4 +1,4 @@
-//! Measurements as page and worker exchange them; the page's types are generated from these.
+//! Measurements as page and worker exchange them. The page's types are generated from these types.
 
 use crate::flag_table::{FLAGS, FlagLook};
 use crate::measure_words::{of_bounds, of_c_arm, of_doubts, of_flags, of_source, of_stenosis, of_wall};
@@ -23,7 +23,7 @@ type Vector = [f64; 3];
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Spot"))]
 pub(crate) struct SpotMessage {
-    /// mm along the vessel
+    /// Arc length on the vessel (mm).
     at: f64,
     /// mm
     diameter: f64,
@@ -40,7 +40,7 @@ impl From<Spot> for SpotMessage {
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Profile"))]
 pub(crate) struct ProfileMessage {
     arc_length: Vec<f64>,
-    /// Of a circle of the same area (mm).
+    /// Diameter of the circle of the same area (mm).
     #[cfg_attr(test, ts(type = "Array<number | null>"))]
     diameter: Vec<f64>,
     /// mm
@@ -55,23 +55,23 @@ pub(crate) struct ProfileMessage {
     /// The standard deviation of `diameter` (mm).
     #[cfg_attr(test, ts(type = "Array<number | null>"))]
     uncertainty: Vec<f64>,
-    /// Whether a section counts for the narrowest, widest and suggested places.
+    /// Whether each section is considered for the narrowest, widest and suggested places.
     counts: Vec<bool>,
-    /// Words such as `calcium`, `no clear wall`.
+    /// Words for the flags of each section, such as `calcium`, `no clear wall`.
     flags: Vec<Vec<String>>,
-    /// The two bounds of a diameter next to calcium or metal, in words.
+    /// The two bounds of each diameter next to calcium or metal, in words.
     bounds: Vec<Option<String>>,
     /// All flags, in the order of plots and tables.
     flag_table: &'static [FlagLook],
     center: Vec<Vector>,
     /// FWHM of the point spread (mm).
     fwhm: f64,
-    /// Its source: `given`, `estimated on …`, `assumed: …`.
+    /// Where the point-spread width comes from: `given`, `estimated on …`, `assumed: …`.
     fwhm_source: String,
-    /// The expected wall level, or why walls were not separated.
+    /// The expected level of the wall, or why walls were not separated.
     wall_source: String,
     narrowest: Option<SpotMessage>,
-    /// The largest diameter; none if an odd outline or a branch may cause it.
+    /// The largest diameter; none if an unusual outline or a branch may be its cause.
     widest: Option<SpotMessage>,
     /// Why no narrowest place or reference is suggested, one sentence each.
     not_suggested: Vec<String>,
@@ -111,15 +111,15 @@ pub(crate) struct MarksMessage {
     references: Vec<f64>,
     #[cfg_attr(test, ts(type = "StenosisMethod"))]
     method: String,
-    /// The assumed original diameter (mm), for ECST.
+    /// The assumed original diameter of the vessel (mm), for ECST.
     original: Option<f64>,
     /// The diameter of a comparable normal vessel (mm).
     comparison: Option<f64>,
     #[cfg_attr(test, ts(type = "Territory | null"))]
     group: Option<String>,
-    /// The ends of a stretch, for length and C-arm.
+    /// The ends of a stretch, for length and C-arm angles.
     stretch: Option<[f64; 2]>,
-    /// The ends of a second stretch, for the angle between both.
+    /// The ends of a second stretch, for the angle between both stretches.
     #[serde(rename = "secondStretch")]
     second_stretch: Option<[f64; 2]>,
     #[serde(default)]
@@ -147,7 +147,7 @@ impl MarksMessage {
         Ok(Marked { at: self.at, method, compared, group: territory.transpose()?, diameters })
     }
 
-    /// The request as on the command line; only the place if no stenosis is graded.
+    /// The request with the fields of the command line; only the place if the stenosis is not graded.
     pub(crate) fn asked(&self, is_graded: bool) -> Asked {
         let only = Asked { at_mm: self.at, ..Asked::default() };
         if !is_graded {
@@ -181,12 +181,12 @@ impl From<Option<Grade>> for GradeMessage {
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Stenosis"))]
 struct StenosisMessage {
-    /// How much narrower it is than the reference.
+    /// By how much the stenosis is narrower than the reference (percent).
     percent: f64,
     /// The standard deviation of `percent`.
     #[cfg_attr(test, ts(type = "number | null"))]
     percent_uncertainty: f64,
-    /// Its place (mm).
+    /// The place of the stenosis (arc length, mm).
     at: f64,
     diameter: f64,
     /// The standard deviation of `diameter` (mm).
@@ -201,7 +201,7 @@ struct StenosisMessage {
     words: String,
     /// Doubts about the percentage, one sentence each.
     doubts: Vec<String>,
-    /// The severity group with its source, if a territory was named.
+    /// The severity group with its source, if a territory was stated and the method has groups.
     group: Option<String>,
 }
 
@@ -225,7 +225,7 @@ impl StenosisMessage {
     }
 }
 
-/// Places to compare before grading, such as offered references (arc lengths, mm).
+/// Places to compare with a stenosis before it is graded, such as offered references (arc lengths, mm).
 #[derive(Clone, Debug, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Compared"))]
 pub(crate) struct ComparedMessage {
@@ -245,9 +245,9 @@ impl ComparedMessage {
 #[derive(Clone, Copy, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Diameter"))]
 pub(crate) struct DiameterMessage {
-    /// Of a circle of the same area (mm).
+    /// Diameter of the circle of the same area (mm).
     pub diameter: f64,
-    /// Its standard deviation (mm).
+    /// Standard deviation of the diameter (mm).
     #[cfg_attr(test, ts(type = "number | null"))]
     pub uncertainty: f64,
 }
@@ -258,7 +258,7 @@ impl From<(f64, f64)> for DiameterMessage {
     }
 }
 
-/// A section: its number, wall, and the ends of its shortest and longest diameters (mm, LPS).
+/// A section: its number, the wall, and the ends of the shortest and longest diameter (mm, LPS).
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "MeasuredSection"))]
 pub(crate) struct SectionMessage {
@@ -291,15 +291,15 @@ pub(crate) struct LookMessage {
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Stretch"))]
 pub(crate) struct StretchMessage {
-    /// Along the vessel (mm).
+    /// Length along the vessel (mm).
     length: f64,
-    /// From end to end (mm).
+    /// Straight distance between the ends (mm).
     straight: f64,
     /// `length` / `straight`; null for a closed stretch.
     #[cfg_attr(test, ts(type = "number | null"))]
     tortuosity: f64,
     direction: Vector,
-    /// LAO angle of a C-arm that shows it unforeshortened (radians).
+    /// LAO angle of a C-arm that shows the stretch without foreshortening (radians).
     lao: f64,
     /// Cranial angle of that C-arm (radians).
     cranial: f64,
@@ -309,7 +309,7 @@ pub(crate) struct StretchMessage {
 }
 
 impl StretchMessage {
-    /// The stretch between two arc lengths (mm), and the least-angled C-arm that shows it unforeshortened.
+    /// The stretch between two arc lengths (mm), and the least-angled C-arm that shows it without foreshortening.
     pub(super) fn between(profile: &Profile, ends: [f64; 2]) -> Result<Self> {
         let stretch = profile.stretch(ends)?;
         let arm = profile.c_arm(ends, None)?;
@@ -334,7 +334,7 @@ impl StretchMessage {
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "MeasuredVessel"))]
 pub(crate) struct VesselMessage {
     pub(crate) id: String,
-    /// Its name; may be empty.
+    /// Name; may be empty.
     pub name: String,
     pub line: usize,
     pub(crate) marks: MarksMessage,

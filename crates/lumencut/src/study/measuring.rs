@@ -1,4 +1,4 @@
-//! Measures the shown lines, as Python's `lumencut.measure(volume, vessel, 0.5, fwhm, tree=tree)`.
+//! Measures the shown lines in the same way as Python's `lumencut.measure(volume, vessel, 0.5, fwhm, tree=tree)`.
 
 use crate::profile_marks::{Grade, Measured};
 use crate::profile_record::{Asked, vessels_json};
@@ -18,14 +18,14 @@ pub(super) struct GradedVessel {
 }
 
 impl Study {
-    /// The profile of a shown line for a point-spread width (mm), or for the tree's own.
+    /// The profile of a shown line for a point-spread width (mm); None estimates the width from the tree.
     pub fn profile(&mut self, line: usize, fwhm: Option<f64>, stop: Stop) -> Result<&Profile> {
         let found = self.profiles.of(&self.content, line, &ProfileParameters { fwhm, stop })?;
         self.profiles.ask_with(line, fwhm);
         Ok(self.profiles.kept(found))
     }
 
-    /// The profile of a shown line with the last requested width.
+    /// The profile of a shown line for the width that was last requested.
     pub fn measured(&mut self, line: usize, stop: Stop) -> Result<&Profile> {
         self.profile(line, self.profiles.width(line), stop)
     }
@@ -34,7 +34,7 @@ impl Study {
         self.profiles = Profiles::default();
     }
 
-    /// The CSV of `lumencut measure -o x.csv`; states assumed lengths.
+    /// The CSV of `lumencut measure -o x.csv`; it says if lengths are assumed.
     pub(crate) fn profiles_csv(
         &mut self,
         vessels: &[VesselMessage],
@@ -45,7 +45,7 @@ impl Study {
         Ok(vessels_csv(&self.rows(vessels, &graded, is_millimetre_assumed)))
     }
 
-    /// The JSON of `lumencut measure -o x.json`. For a single vessel its marks are part of the settings, as there.
+    /// The JSON of `lumencut measure -o x.json`. As there, the marks of a single vessel are part of the settings.
     pub(crate) fn profiles_json(
         &mut self,
         vessels: &[VesselMessage],
@@ -57,7 +57,7 @@ impl Study {
         Ok(vessels_json(&asked, &self.rows(vessels, &graded, is_millimetre_assumed)))
     }
 
-    /// The request; includes the marks if it is one vessel.
+    /// The request; for a single vessel, it includes the marks.
     pub(super) fn asked(&self, vessels: &[VesselMessage], graded: &[GradedVessel]) -> Asked {
         let asked = match (vessels, graded) {
             ([one], [graded]) => one.marks.asked(graded.grade.as_ref().and_then(Grade::stenosis).is_some()),

@@ -1,6 +1,6 @@
-//! Names of vessels that an edit adds.
+//! Names for vessels that an edit adds.
 
-/// An unused name: the kind and the first free number, such as `Branch 3`.
+/// A name that is not in use: the kind and the first free number, such as `Branch 3`.
 pub(crate) fn fresh_name(taken: &[String], kind: &str) -> String {
     let mut name = String::new();
     for number in 1..=taken.len() + 1 {

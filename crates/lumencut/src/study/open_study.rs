@@ -1,4 +1,4 @@
-//! The open study and its basic questions, all on the CPU except the turning view.
+//! The open study and its basic questions. Only the turning view can use a GPU.
 
 use crate::views;
 use glam::DVec3;
@@ -47,10 +47,10 @@ pub struct Study {
     pub(crate) reformed: Option<Reformed>,
     pub(crate) profiles: Profiles,
     pub(crate) lines: Lines,
-    /// Knowledge about the volume kept between tracings, and the last lines.
+    /// What is kept about the volume between tracings, and the last lines.
     pub(crate) tracer: Tracer,
     pub(crate) traced: Vec<usize>,
-    /// The vessels of the scan, once searched for.
+    /// The vessels of the scan, once they were searched for.
     pub(crate) trees: Option<Trees>,
     pub(crate) last_id: u32,
     pub(crate) mask: Option<HeldMask>,
@@ -65,7 +65,7 @@ impl Study {
         self.content.scene()
     }
 
-    /// A checked view. Without shown vessels a focus is ignored: the page may not yet know that the last vessel is gone.
+    /// Checks a view. Without shown vessels its focus is ignored, since the page may not yet know that the last vessel is gone.
     pub fn view_of(&self, message: &ViewMessage) -> Result<View> {
         let mut view = message.view()?;
         if self.content.tree().is_none() {
@@ -84,7 +84,7 @@ impl Study {
         Ok(CameraMessage::from(&views::fitted(&camera, &self.content.outline()?)?))
     }
 
-    /// Voxel counts in `bins` ranges of equal width.
+    /// The number of voxels in each of `bins` value ranges of equal width.
     pub(crate) fn histogram(&self, bins: usize) -> Result<Histogram> {
         let held = self.content.held.as_ref().ok_or_else(no_volume)?;
         Ok(with_voxels!(held.stored.voxels(), voxels => Histogram::of(voxels, bins)))
@@ -94,8 +94,8 @@ impl Study {
         self.shown(plane.geometry()?, window)
     }
 
-    /// The section at an arc length (mm), clamped to the ends: centre and unit vectors right and down. Once measured it is the
-    /// nearest measured section.
+    /// The section at an arc length (mm), clamped to the ends: centre and unit vectors right and down. If the vessel was measured,
+    /// it is the nearest measured section.
     pub(crate) fn across(&self, number: usize, at: f64) -> Result<[[f64; 3]; 3]> {
         let vessel = self.vessel(number)?;
         let length = vessel.arc_length().last().copied().unwrap_or(0.0);

@@ -8,10 +8,10 @@ use crate::study::held_volume::{HeldVolume, VolumeHeader};
 use crate::study::open_study::Study;
 
 impl Study {
-    /// Makes room for a volume in place of the current study; its voxels follow as bytes.
+    /// Closes the current study and allocates memory for a volume, whose voxels then follow as bytes.
     ///
     /// # Errors
-    /// `settings` for an invalid header; `volume` without memory or for an invalid grid.
+    /// `settings` for an invalid header; `volume` without enough memory or for an invalid grid.
     pub fn begin_volume(&mut self, header: &str) -> Result<()> {
         let header = VolumeHeader::read(header)?;
         self.close();
@@ -22,12 +22,12 @@ impl Study {
     /// `count` writable bytes of voxels from `offset` on.
     ///
     /// # Errors
-    /// `volume` beyond its end.
+    /// `volume` beyond the end of the volume.
     pub fn voxel_bytes(&mut self, offset: usize, count: usize) -> Result<&mut [u8]> {
         HeldVolume::bytes(self.content.held.as_mut(), offset, count)
     }
 
-    /// Invalidates caches after voxels changed.
+    /// Discards caches after the voxels have changed.
     pub fn voxels_changed(&mut self) {
         self.tracer = Default::default();
         self.trees = None;
@@ -38,7 +38,7 @@ impl Study {
         }
     }
 
-    /// Opens a volume with named vessels in place of the current study.
+    /// Closes the current study and opens a volume with named vessels.
     ///
     /// # Errors
     /// `vessel tree` for an invalid tree.
@@ -48,7 +48,7 @@ impl Study {
         self.show_tree(tree, names)
     }
 
-    /// Opens centerlines in place of the current ones; returns notes. After an error the current tree stays.
+    /// Opens centerlines in place of the current ones, and returns notes. After an error the current vessels stay.
     pub(crate) fn open_centerlines(
         &mut self,
         bytes: &[u8],
@@ -63,7 +63,7 @@ impl Study {
         Ok(OpenedLines { notes: read.notes, doubt: read.doubt })
     }
 
-    /// Closes the study and frees its memory.
+    /// Closes the study and frees the memory that it used.
     pub fn close(&mut self) {
         let mut lines = std::mem::take(&mut self.lines);
         lines.clear();

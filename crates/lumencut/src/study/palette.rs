@@ -1,6 +1,6 @@
-//! Vessel colours: those of Okabe and Ito, brightest on dark first. None is yellow, orange or red, which are warnings.
+//! Vessel colours of Okabe and Ito, in order of brightness on dark. Yellow, orange and red are omitted, since they mark warnings.
 
-/// Colours in order of use; hosts name them.
+/// Colours in the order in which vessels get them; hosts have names for them.
 pub(crate) const PALETTE: [&str; 12] = [
     "#56b4e9", "#cc79a7", "#00b98a", "#b18cff", "#8fdc6a", "#ffa6dc", "#3f6fe0", "#8ff0e8", "#c44df0",
     "#2f8f9f", "#9aa8b6", "#ffffff",
@@ -40,7 +40,7 @@ mod tests {
     fn no_color_is_one_that_warns_and_all_are_told_apart() {
         for (n, color) in PALETTE.iter().enumerate() {
             let [red, green, blue] = rgb(color);
-            // Yellow, orange and red have little blue relative to red.
+            // In yellow, orange and red, blue is low relative to red.
             assert!(blue > 0.6 * red, "{color}");
             for other in &PALETTE[..n] {
                 let apart: f64 =

@@ -1,4 +1,4 @@
-//! Picking: what a pixel shows, and what lies at a world point.
+//! Picking: finds what a pixel shows and what lies at a world point.
 
 use crate::clicked_vessel::{is_clicked, nearest_arc_length};
 use crate::cut_at::{CutAt, cut_at};
@@ -17,18 +17,18 @@ pub(crate) struct Pick {
     pub point: [f64; 3],
     /// The volume's value; none outside.
     pub value: Option<f32>,
-    /// The vessel in or next to whose lumen it lies; none in tissue.
+    /// The vessel in whose lumen, or next to whose lumen, the point lies; none in tissue.
     pub vessel: Option<usize>,
-    /// The nearest arc length on the vessel (mm).
+    /// The arc length on the vessel nearest to the point (mm).
     pub arc_length: Option<f64>,
 }
 
 impl Study {
-    /// What a pixel (column, row) shows: the cut surface, or the brightest place on the ray if a focus shows the surroundings.
+    /// What a pixel (column, row) shows: the cut surface, or the brightest place on the ray if the focus shows the surroundings.
     pub(crate) fn pick(&mut self, view: &View, pixel: [f64; 2]) -> Result<Pick> {
         let cut = self.cut_in(view, pixel)?;
         if !cut.is_shown {
-            // Outside the scan there is no brightest place, and no vessel.
+            // Outside the scan there is neither a brightest place nor a vessel.
             let brightest = self.brightest_on_whole_ray(view, pixel);
             return Ok(brightest.unwrap_or_else(|_| self.pick_at(cut.point, None)));
         }

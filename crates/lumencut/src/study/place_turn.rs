@@ -1,4 +1,4 @@
-//! Views of one vessel: the clearest view, and a turn about a place.
+//! Views of one vessel: the one that shows most of it, and a turn about a place.
 
 use lumencut_core::error::{Error, ErrorKind};
 use lumencut_core::stop::Stop;
@@ -12,21 +12,21 @@ use crate::study::view::CameraMessage;
 use crate::vessel_views::{Lumen, about_lumen, known_radius_at, refocused};
 use crate::views::{Axis, rotated};
 
-/// Degrees after which the cut repeats, seen from behind.
+/// After this many degrees the same cut appears, seen from behind.
 const HALF_TURN: u32 = 180;
 
-/// A turn about a place on a vessel, which runs upwards through the middle of the picture.
+/// The views about a place on a vessel, which runs upwards through the middle of the picture.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct PlaceTurn {
-    /// The first view: the one nearest to anterior.
+    /// The first view: the one nearest to the anterior view.
     pub camera: CameraMessage,
-    /// The cut diameter (mm) after each degree from 0 to 179, then repeating. None without two walls.
+    /// The cut diameter (mm) after each degree from 0 to 179, from where the diameters repeat. None if two walls are not found.
     pub(crate) diameters: Vec<Option<f64>>,
 }
 
 impl Study {
-    /// The view that shows most of a line, shown or doubtful, with the least turn from a camera.
+    /// The view that shows most of a line, which may be doubtful, with little turning from a camera.
     pub(crate) fn best_view(&self, camera: &CameraMessage, line: usize) -> Result<CameraMessage> {
         Ok((&refocused(&camera.camera()?, &self.lines.get(line)?.vessel()?)?).into())
     }
@@ -49,7 +49,7 @@ impl Study {
         Ok(PlaceTurn { camera: (&first).into(), diameters: (0..HALF_TURN).map(cut).collect::<Result<_>>()? })
     }
 
-    /// The radius at a place (mm): of the nearest section once measured, else the vessel's own, else measured now.
+    /// The radius at a place (mm): that of the nearest section if the line was measured, else the vessel's own, else measured now.
     fn lumen_radius(&mut self, number: usize, at: f64, stop: Stop) -> Result<f64> {
         let own = known_radius_at(self.vessel(number)?, at);
         let lines = self.content.named.as_ref().map_or(&[][..], |named| &named.lines);

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::study::failure::Result;
 
-/// A flat picture: centre in the world, unit vectors right and down (LPS), size in pixels, pixel side (mm).
+/// A flat picture: centre in world space, unit vectors right and down (LPS), size in pixels, pixel side (mm).
 #[derive(Clone, Copy, Debug, Deserialize, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct Plane {

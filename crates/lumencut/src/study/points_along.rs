@@ -1,4 +1,4 @@
-//! Finds clicks for a point on a line: its neighbours, or new ones for a line without clicks.
+//! Finds the clicks around a point on a line, or generates clicks for a line without clicks.
 
 use std::collections::BTreeSet;
 
@@ -7,7 +7,7 @@ use lumencut_core::math::arc_length::arc_lengths;
 
 /// Spacing of generated clicks (mm).
 const CLICK_SPACING_MM: f64 = 20.0;
-/// Generated clicks keep this distance from the ends and from the dragged point (mm).
+/// Generated clicks are more than this distance away from the ends and from the dragged point (mm).
 const MIN_DISTANCE_MM: f64 = 5.0;
 
 pub(super) fn nearest_point(points: &[DVec3], place: DVec3) -> usize {
@@ -15,14 +15,14 @@ pub(super) fn nearest_point(points: &[DVec3], place: DVec3) -> usize {
     (0..points.len()).min_by(|a, b| apart(a).total_cmp(&apart(b))).unwrap_or(0)
 }
 
-/// The click before which a line point lies; never before the first or after the last.
+/// Number of the click before which a point of the line lies; never the first click, and the last click for points behind it.
 pub(super) fn click_after(clicks: &[DVec3], points: &[DVec3], number: usize) -> usize {
     let last = clicks.len().saturating_sub(1);
     let after = clicks.iter().position(|click| nearest_point(points, *click) > number);
     after.map_or(last, |after| after.max(1))
 }
 
-/// Point indices of generated clicks: both ends, the given point, and evenly spaced ones between.
+/// Point indices of generated clicks: both ends, the given point, and evenly spaced points between them.
 pub(super) fn points_along(points: &[DVec3], number: usize) -> BTreeSet<usize> {
     let lengths = arc_lengths(points);
     let last = points.len() - 1;
@@ -39,7 +39,7 @@ pub(super) fn points_along(points: &[DVec3], number: usize) -> BTreeSet<usize> {
 mod tests {
     use super::*;
 
-    /// A straight line along x with a point at every mm.
+    /// A straight line along x with a point every mm.
     fn line(length: usize) -> Vec<DVec3> {
         (0..=length).map(|n| DVec3::X * n as f64).collect()
     }
@@ -48,9 +48,9 @@ mod tests {
     fn a_line_has_points_at_its_ends_where_it_is_held_and_between() {
         let cases: [(usize, usize, &[usize]); 5] = [
             (60, 30, &[0, 20, 30, 40, 60]),
-            // None is near the requested point.
+            // No generated click is near the requested point.
             (60, 22, &[0, 22, 40, 60]),
-            // An end is no further point.
+            // If the point is an end, no click is added for it.
             (60, 60, &[0, 20, 40, 60]),
             (12, 6, &[0, 6, 12]),
             (1, 0, &[0, 1]),

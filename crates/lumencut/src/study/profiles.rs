@@ -1,7 +1,7 @@
-//! Cached profiles by line.
+//! Caches profiles by line.
 //!
-//! All listed vessels, hidden ones included, determine point spread and branches, so hiding changes no number. Profiles are valid
-//! for one list and its order, and are dropped with the volume. Names do not matter.
+//! Point spread and branches are determined from all listed vessels, hidden ones included, so hiding a vessel changes no number.
+//! Profiles are valid only for one list in one order, and are discarded with the volume. Names do not matter.
 
 use std::collections::HashMap;
 
@@ -25,7 +25,7 @@ pub(crate) struct Profiles {
 }
 
 impl Profiles {
-    /// The cache index of a line's profile; measures it if needed.
+    /// The cache index of a line's profile. The line is measured if necessary.
     pub(crate) fn of(
         &mut self,
         content: &Content,
@@ -50,22 +50,22 @@ impl Profiles {
         Ok(self.kept.of(line, &tree[number], Scan { volume, tree }, &parameters)?)
     }
 
-    /// The profile at the last index from [`Profiles::of`].
+    /// The profile at an index that [`Profiles::of`] returned last.
     pub(crate) fn kept(&self, number: usize) -> &Profile {
         self.kept.kept(number)
     }
 
-    /// Any cached profile of a line: its planes do not depend on the point spread.
+    /// Any cached profile of a line. The planes of its sections do not depend on the point spread.
     pub(crate) fn any_of(&self, line: usize) -> Option<&Profile> {
         self.kept.any_of(&line)
     }
 
-    /// Sets the point-spread width (mm) for a line; None for the tree's own.
+    /// Stores the point-spread width (mm) requested for a line; None estimates it from the tree.
     pub(crate) fn ask_with(&mut self, line: usize, fwhm: Option<f64>) {
         self.widths.insert(line, fwhm);
     }
 
-    /// The last requested width (mm).
+    /// The last requested width (mm); None estimates it.
     pub(crate) fn width(&self, line: usize) -> Option<f64> {
         self.widths.get(&line).copied().flatten()
     }

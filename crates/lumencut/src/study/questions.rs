@@ -1,4 +1,4 @@
-//! The table of a viewer's questions to the study; the page's types are generated from it, see [`crate::study::asking`].
+//! The questions of a viewer to the study, as a table. The page's types are generated from it, see [`crate::study::asking`].
 
 use lumencut_vessels::measure::profile::Profile;
 
@@ -42,32 +42,32 @@ type Vector = [f64; 3];
 /// Level and width.
 type Window = [f64; 2];
 
-/// Time limit of a path search while the pointer moves (ms).
+/// Time limit of the search for a path while the pointer moves (ms).
 const PATH_TIME_LIMIT_MS: f64 = 40.0;
 
 questions! { |study, asking|
 of_the_study {
-    /// The state of what is open.
+    /// The state of all that is open.
     [Turn::Later] report(_nothing: ()) -> Report = study.report()?;
 
     /// Closes the study.
     [Turn::First] close(_nothing: ()) -> () = study.close();
 
-    /// Opens a centerline file; returns notes and doubts about its placement.
+    /// Opens a centerline file; returns notes, and doubts about its space and unit.
     [Turn::First] open_centerlines { name: String, wish: AskedMessage } -> OpenedLines =
         study.open_centerlines(asking.bytes, &name, wish)?;
 
     /// The camera of a named view, fitted to the study.
     [Turn::First] fitted { view: String, size: [usize; 2] } -> CameraMessage = study.fitted(&view, size)?;
 
-    /// The view that shows most of a line, fitted to it, with the least turn from this camera.
+    /// The view that shows most of a line, fitted to it, with little turning from this camera.
     [Turn::First] best_view { camera: CameraMessage, line: usize } -> CameraMessage =
         study.best_view(&camera, line)?;
 
-    /// Length, calibre and connections of lines.
+    /// Length, calibre and connections of the given lines.
     [Turn::First] line_facts { lines: Vec<usize> } -> Vec<LineFacts> = study.line_facts(&lines)?;
 
-    /// A turn about a place on a vessel (mm), with the cut diameters.
+    /// The views about a place on a vessel (arc length, mm), with the cut diameters.
     [Turn::First] turn_about { vessel: usize, at: f64, size: [usize; 2] } -> PlaceTurn =
         study.turn_about(vessel, at, size, asking.watch.stop)?;
 
@@ -83,73 +83,73 @@ of_the_study {
     /// The histogram of the volume.
     [Turn::Later] histogram { bins: usize } -> Histogram = study.histogram(bins)?;
 
-    /// The picture of a plane in a window.
+    /// The picture of a plane, with the given window.
     [Turn::First] slice { plane: Plane, window: Window } -> Picture = study.slice(&plane, window)?;
 
-    /// The section at an arc length (mm), the measured one if available: centre, right and down.
+    /// The section at an arc length (mm), a measured section if the vessel was measured: centre, unit vectors right and down.
     [Turn::First] across { vessel: usize, at: f64 } -> [Vector; 3] = study.across(vessel, at)?;
 
-    /// The straightened CPR of a vessel in a window.
+    /// The straightened CPR of a vessel, with the given window.
     [Turn::First] straightened { cpr: CprMessage, window: Window } -> Picture = study.straightened(cpr, (window, asking.watch.stop))?;
 
-    /// What a pixel of the last straightened CPR shows; for CFA, the place on its half circle.
+    /// What a pixel of the last straightened CPR shows; for CFA, the place on the half circle of the pixel.
     [Turn::First] pick_straightened { pixel: [f64; 2] } -> StraightenedPick = study.pick_straightened(pixel)?;
 
-    /// Column and row of a point in the last straightened CPR; null without one.
+    /// Column and row of a point in the last straightened CPR; null if there is none.
     [Turn::Later] on_straightened(point: Vector) -> Option<[f64; 2]> = study.on_straightened(point);
 
-    /// Another reformation, in a pane of this size.
+    /// Another reformation of the scan, fitted into a pane of this size.
     [Turn::First] reformed { reformation: ReformationMessage, size: [usize; 2], window: Window } -> ReformedPicture =
         study.reformed(reformation, size, (window, asking.watch.stop))?;
 
-    /// What a pixel of the last reformation shows; null if nothing.
+    /// What a pixel of the last reformation shows; null if it shows nothing.
     [Turn::First] pick_reformed { pixel: [f64; 2] } -> Option<Pick> = study.pick_reformed(pixel)?;
 
-    /// Column and row of a point in the last reformation; null if not shown.
+    /// Column and row of a point in the last reformation; null if it does not show the point.
     [Turn::Later] on_reformed(point: Vector) -> Option<[f64; 2]> = study.on_reformed(point);
 
     /// The initial document: the opened vessels, with ids from 1.
     [Turn::First] begin_document(_nothing: ()) -> Document = study.begin_document();
 
-    /// An edit of vessels with the state after it. To add a mask, the viewer reads its file first.
+    /// Makes an edit of vessels; returns the state after it. To add a mask, the viewer reads its file first.
     [Turn::Long("Tracing")] edit(message: EditMessage) -> AfterEdit = study.edit_and_show(&message, asking.watch)?;
 
-    /// What a first click hit, and the whole vessel that it would add. Rejects places where no vessel can begin: outside the
+    /// What a first click hits, and the whole vessel that it would add. Rejects a place where no vessel can begin: outside the
     /// scan, or with a value that is not lumen.
     [Turn::First] first_click { click: Vector, vessels: Vec<DocumentVessel> } -> FirstClick =
         study.first_click(click, &vessels)?;
 
-    /// The lumens along a ray, nearest first, or at a place.
+    /// The lumens along a ray, the nearest first, or the lumen at a place.
     [Turn::First] lumens(pointed: PointedMessage) -> Vec<PointedLumen> = study.lumens(&pointed)?;
 
-    /// The path to the pointer through voxel centres; null if not found within 40 ms. Never rejected for lack of lumen.
+    /// The path to the pointer through voxel centres; null if not found within 40 ms. It is never rejected for lack of lumen.
     [Turn::First] path(request: PathMessage) -> Option<Vec<Vector>> = {
         let end = (asking.clock)() + PATH_TIME_LIMIT_MS;
         study.path(&request, &|| (asking.clock)() >= end)?
     };
 
-    /// The whole vessel that a click would add; null if none, or before the scan's vessels were searched for.
+    /// The whole vessel that a click would add; null if there is none, or if the scan's vessels were not searched for yet.
     [Turn::First] whole_vessel { click: Vector, vessels: Vec<DocumentVessel> } -> Option<WholeVessel> =
         study.whole_vessel(click, &vessels)?;
 
     /// The content of a line.
     [Turn::First] line { line: usize } -> LineContent = study.line(line)?;
 
-    /// Adds a line, such as one of a saved session; returns its number.
+    /// Adds a line, such as a line of a saved session; returns the number that it gets.
     [Turn::First] add_line(content: LineContent) -> usize = study.add_line(content)?;
 
-    /// Shows the lines of a list that are not hidden, in order; an empty list shows the volume only. All are measured together.
-    /// Windows stay unchanged.
+    /// Shows the lines of a list that are not hidden, in order; only the volume if the list is empty. All listed lines are measured
+    /// together. Windows stay unchanged.
     [Turn::First] show(lines: Vec<ListedLine>) -> Report = {
         study.show(&lines)?;
         study.report()?
     };
 
-    /// A centerline file of these lines.
+    /// Writes these lines to a centerline file.
     [Turn::First] write_lines { lines: Vec<NamedLine>, kind: String } -> WrittenFile =
         WrittenFile { bytes: study.write(&lines, &kind)? };
 
-    /// The profile of a shown line, measured in 0.5 mm steps with this point-spread width (mm); null estimates it.
+    /// The profile of a shown line, measured in steps of 0.5 mm with this point-spread width (mm); null estimates the width.
     [Turn::First] profile { line: usize, fwhm: Option<f64> } -> ProfileMessage =
         study.profile(line, fwhm, asking.watch.stop)?.into();
 
@@ -157,11 +157,11 @@ of_the_study {
     [Turn::First] grade { line: usize, marks: MarksMessage } -> GradeMessage =
         marks.marked()?.grade(measured(study, line, asking)?).into();
 
-    /// The doubts that a percentage from these places would have, one sentence each.
+    /// The doubts that a percentage would have if it were graded from these places, one sentence each.
     [Turn::First] doubts { line: usize, compared: ComparedMessage } -> Vec<String> =
         compared.doubts(measured(study, line, asking)?)?;
 
-    /// The references offered before and after the stenosis, on sides without a mark.
+    /// The references that are offered before and after the stenosis, on sides without a marked reference.
     [Turn::First] offered_references { line: usize, marks: MarksMessage } -> [Option<SpotMessage>; 2] =
         marks.marked()?.offered_references(measured(study, line, asking)?)?.map(|spot| spot.map(SpotMessage::from));
 
@@ -181,15 +181,15 @@ of_the_study {
     [Turn::First] angle_between { line: usize, first: [f64; 2], second: [f64; 2] } -> f64 =
         measured(study, line, asking)?.angle_between(first, second)?;
 
-    /// The table of `lumencut measure -o x.csv`.
+    /// The measurements of the vessels, as the CSV of `lumencut measure -o x.csv`.
     [Turn::First] profiles_csv { vessels: Vec<VesselMessage>, is_millimetre_assumed: bool } -> String =
         study.profiles_csv(&vessels, is_millimetre_assumed, asking.watch.stop)?;
 
-    /// The JSON of `lumencut measure -o x.json`.
+    /// The measurements of the vessels, as the JSON of `lumencut measure -o x.json`.
     [Turn::First] profiles_json { vessels: Vec<VesselMessage>, is_millimetre_assumed: bool } -> String =
         study.profiles_json(&vessels, is_millimetre_assumed, asking.watch.stop)?;
 
-    /// The findings on vessels and the straight distances (mm), in the report's sentences.
+    /// The findings on vessels and the straight distances (mm), in the sentences of the report.
     [Turn::First] findings { vessels: Vec<VesselMessage>, distances: Vec<f64>, stated: Stated } -> Findings =
         study.findings(&vessels, &distances, (stated, asking.watch.stop))?;
 
@@ -201,22 +201,22 @@ of_the_study {
     [Turn::First] measured_report(request: ReportMessage) -> String =
         study.measured_report(&request, asking.watch.stop)?;
 
-    /// A session file of this content.
+    /// A session file with this content.
     [Turn::First] write_session(content: SessionContent) -> WrittenFile =
         WrittenFile { bytes: study.write_session(content)? };
 
-    /// The content of a session file of the open scan; its lines are held but not yet shown.
+    /// The content of a session file of the open scan. Its lines are kept, but not shown yet.
     [Turn::First] read_session { name: String } -> SessionContent = study.read_session(asking.bytes, &name)?;
 }
 at_once {
     /// The edge letters and scale bar of a picture.
     labels(picture: LaidPicture) -> PictureLabels = picture.into();
 
-    /// Warnings about the sides of a straightened volume, from a text of its file.
+    /// Warnings about the sides of a straightened volume, from the text that marks its file.
     straightened_notes { text: String } -> Vec<String> =
         StraightenedSides::read(&text).map_or_else(Vec::new, |sides| sides.notes());
 
-    /// The views of a flight between two cameras, at equal time steps, both ends included.
+    /// The views of a flight between two cameras, at equal time steps, including both cameras.
     flight { from: CameraMessage, to: CameraMessage, views: usize } -> Vec<CameraMessage> =
         views_between(&from, &to, views)?;
 
@@ -234,7 +234,7 @@ at_once {
 }
 }
 
-/// The profile of a line as last requested.
+/// The profile of a line for the width that was last requested.
 fn measured<'a>(study: &'a mut Study, line: usize, asking: &Asking) -> Result<&'a Profile> {
     study.measured(line, asking.watch.stop)
 }

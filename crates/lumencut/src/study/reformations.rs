@@ -1,4 +1,4 @@
-//! Reformations other than the straightened CPR, as the page requests them, and their layout in a pane.
+//! Reformations other than the straightened CPR: how the page requests them, and their layout in a pane.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -25,10 +25,10 @@ use crate::spiral_lengths::{Room, spiral_pitch, spiral_reach};
 use crate::study::failure::{Failure, Result};
 use crate::uncurling::fitted_uncurling;
 
-/// The smallest pixel side used to fill a pane (mm).
+/// The smallest pixel side that is used to fill a pane (mm).
 const MIN_PIXEL_MM: f64 = 0.05;
 
-/// The range beyond the wall that a map samples (mm).
+/// The range of distances beyond the wall that a map samples (mm).
 pub(crate) const BAND: [f64; 2] = [-1.0, 3.0];
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
@@ -65,7 +65,7 @@ pub(crate) enum ReformationMessage {
     Uncurl {
         vessel: usize,
         side: Side,
-        /// From 0 (as seen) to 1 (straight).
+        /// How far the vessel is straightened, from 0 (as seen) to 1 (straight).
         amount: f64,
     },
     /// One vessel, its sections unrolled along a spiral.
@@ -95,7 +95,7 @@ pub(crate) enum Laid {
     Untangled(Untangled),
     Uncurl(Uncurl, f64),
     Spiral(Spiral),
-    /// A wall, and the least level of calcium or metal in it.
+    /// A map, and the lowest value that counts as calcium or metal in it.
     Map(LumenMap, Option<f64>),
 }
 
@@ -118,7 +118,7 @@ impl Laid {
         }
     }
 
-    /// The arc length of a position (mm), if rows run along a vessel.
+    /// The arc length at a position (mm), if its row shows a single place along a vessel.
     pub(super) fn arc_length(&self, [_, row]: [f64; 2]) -> Option<f64> {
         match self {
             Self::Untangled(_) | Self::Uncurl(..) => None,
@@ -127,7 +127,7 @@ impl Laid {
     }
 }
 
-/// All vessels untangled in a pane; reuses `before` if only pixels differ.
+/// All vessels untangled, fitted into a pane. If only the pixels differ, the layout `before` is used again.
 pub(crate) fn untangled(
     tree: &VesselTree,
     side: &Side,
@@ -147,7 +147,7 @@ pub(crate) fn uncurl(vessel: &Vessel, side: &Side, amount: f64, size: [usize; 2]
     Ok(Uncurl::new(path, camera, amount, None)?)
 }
 
-/// A spiral CPR as fine as the pane is wide; `smallest_side` is that of a voxel (mm).
+/// A spiral CPR with the finest pitch that fits the width of the pane; `smallest_side` is that of a voxel (mm).
 pub(crate) fn spiral(vessel: &Vessel, angle: f64, smallest_side: f64, size: [usize; 2]) -> Result<Spiral> {
     let no_radii = || Failure::from(crate::lumen_wall::no_radius());
     let usual = known_radius(vessel).ok_or_else(no_radii)?;
@@ -161,7 +161,7 @@ pub(crate) fn spiral(vessel: &Vessel, angle: f64, smallest_side: f64, size: [usi
         let parameters = SpiralParameters { pitch, radius, sampling: Sampling::Arc, pixel_spacing, angle };
         let made = Spiral::new(Arc::clone(&path), &head_up(), parameters)?;
         let width = made.size()[0];
-        // Windings are slightly longer than their area suggests.
+        // Windings are slightly longer than section area / pitch, so the pitch may have to grow.
         if width <= size[0].max(1) {
             return Ok(made);
         }
@@ -186,7 +186,7 @@ pub(super) fn map(
     Ok(lumen_map(volume, path, &head_up(), found, (&request, stop))?)
 }
 
-/// The sampled range beyond the wall (mm): the wall itself if its radius is shown.
+/// The range of distances beyond the wall that is sampled (mm): only the wall if the map shows its radius.
 pub(crate) fn band_of(of: MapOf) -> [f64; 2] {
     if of == MapOf::Radius { [0.0; 2] } else { BAND }
 }
@@ -195,7 +195,7 @@ pub(crate) fn head_up() -> View {
     View { up: DVec3::Z, angle: 0.0, normal: None }
 }
 
-/// The pixel side (mm) at which an extent (mm) fits a pane.
+/// The pixel side (mm) at which an extent (mm) just fits a pane.
 fn filling(extent: DVec2, size: [usize; 2]) -> f64 {
     let [width, height] = size.map(|side| side.saturating_sub(2).max(1) as f64);
     (extent.x / width).max(extent.y / height).max(MIN_PIXEL_MM)

@@ -1,4 +1,4 @@
-//! The last reformation of a study, and its picture.
+//! The last reformation that a study rendered, and its picture.
 
 use serde::Serialize;
 
@@ -12,7 +12,7 @@ pub(crate) struct ReformedPicture {
     /// One byte per channel.
     #[cfg_attr(test, ts(type = "Bytes"))]
     pub bytes: Vec<u8>,
-    /// The meaning of rows, columns and colours.
+    /// What rows, columns and colours mean.
     pub words: String,
     /// Pixel side (mm).
     pub pixel_spacing: f64,
@@ -31,6 +31,6 @@ pub(crate) struct Reformed {
     pub(super) message: ReformationMessage,
     pub(super) size: [usize; 2],
     pub(super) laid: Laid,
-    /// The value of each pixel: of the volume, or a length (mm); NaN if empty.
+    /// The value of each pixel: a value of the volume, or a length (mm); NaN if the pixel is empty.
     pub(super) value: Vec<f32>,
 }

@@ -45,7 +45,7 @@ impl Study {
         Ok(picture)
     }
 
-    /// What a position in the last reformation shows; None if nothing.
+    /// What a position in the last reformation shows; None if it shows nothing.
     pub(crate) fn pick_reformed(&self, pixel: [f64; 2]) -> Result<Option<Pick>> {
         let none = || Failure::of_message("reformation", &"none", "a reformation shown before");
         let reformed = self.reformed.as_ref().ok_or_else(none)?;
@@ -63,7 +63,7 @@ impl Study {
         Ok(Some(Pick { arc_length: along.or(pick.arc_length), ..pick }))
     }
 
-    /// Column and row of a world point in the last reformation; None if not shown.
+    /// Column and row of a world point in the last reformation; None if it does not show the point.
     pub(crate) fn on_reformed(&self, point: [f64; 3]) -> Option<[f64; 2]> {
         let pixel = self.reformed.as_ref()?.laid.layout().pixel_from_world(DVec3::from_array(point));
         pixel.is_finite().then(|| pixel.to_array())
@@ -101,7 +101,7 @@ impl Study {
         })
     }
 
-    /// The path of a vessel and its wall: from the profile, or from its radii if no lumen can be measured.
+    /// The path of a vessel, and its wall: from its profile, or from its radii if no lumen can be measured.
     pub(super) fn wall_of(&mut self, number: usize, stop: Stop) -> Result<(Arc<CenterlinePath>, FoundWall)> {
         let vessel = self.vessel(number)?.clone();
         let line = self.content.named.as_ref().and_then(|named| named.lines.get(number)).copied();
@@ -119,7 +119,7 @@ impl Study {
         Ok((path, found))
     }
 
-    /// The value of each pixel: of the volume, or a length (mm); NaN if empty.
+    /// The value of each pixel: a value of the volume, or a length (mm); NaN if the pixel is empty.
     fn values_of(&self, message: &ReformationMessage, laid: &Laid, stop: Stop) -> Result<Vec<f32>> {
         let volume = self.scene()?.volume.ok_or_else(no_volume)?;
         let of = match message {

@@ -1,4 +1,4 @@
-//! Looks by body region: look, window and slab as that region is usually read.
+//! Looks by body region: the look, window and slab with which readers usually view the region.
 
 use lumencut_core::settings::{LOOKS, Slab, SlabMode, Value};
 use serde::Serialize;
@@ -11,15 +11,15 @@ struct Region {
     words: &'static str,
     sentence: &'static str,
     look: &'static str,
-    /// Slab thickness (mm) if it differs from the look's.
+    /// Slab thickness (mm), if it is not that of the look.
     slab: Option<f64>,
-    /// Window names for Hounsfield and other units.
+    /// Names of the windows for Hounsfield units and for other units.
     presets: [&'static str; 2],
 }
 
-/// The window for heavily calcified vessels is at least 1500 HU wide, so that calcium does not hide the lumen (Fleischmann et al.
-/// 2006, doi:10.1097/01.RVI.0000191361.02857.DE, leg arteries). A 5 mm slab is usual for coronary arteries (SCCT, Leipsic et al.
-/// 2014, doi:10.1016/j.jcct.2014.07.003). The rest is ours.
+/// For heavily calcified vessels the window is at least 1500 HU wide, so that calcium does not hide the lumen (Fleischmann et al.
+/// 2006, doi:10.1097/01.RVI.0000191361.02857.DE, leg arteries). For coronary arteries a 5 mm slab is usual (SCCT, Leipsic et al.
+/// 2014, doi:10.1016/j.jcct.2014.07.003). The other values are our choice.
 const REGIONS: [Region; 5] = [
     Region {
         name: "aorta",

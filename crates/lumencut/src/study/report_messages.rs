@@ -1,4 +1,4 @@
-//! Findings and reports of measured vessels as a viewer requests them: it supplies pictures, the facade the rest.
+//! Findings and reports of measured vessels, as a viewer requests them. The viewer supplies pictures; the facade does the rest.
 
 use lumencut_core::stop::Stop;
 use serde::{Deserialize, Serialize};
@@ -69,7 +69,7 @@ impl ReportMessage {
         }
     }
 
-    /// Other lengths of the vessel at this index; the scan's distances go on the first page.
+    /// Other lengths of the vessel with this index; the first vessel's page also shows the distances in the scan.
     fn lengths(&self, number: usize) -> Lengths {
         let distances = if number == 0 { self.distances.clone() } else { Vec::new() };
         Lengths { distances, ..lengths_of(&self.vessels[number].vessel) }
@@ -91,7 +91,7 @@ fn words_of(value: &Json) -> String {
 }
 
 impl Study {
-    /// The findings on vessels and the straight distances (mm), in the report's sentences.
+    /// The findings on vessels and the straight distances (mm), in the sentences of the report.
     pub(crate) fn findings(
         &mut self,
         vessels: &[VesselMessage],

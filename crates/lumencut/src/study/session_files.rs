@@ -13,10 +13,10 @@ use crate::study::open_study::Study;
 
 const SOFTWARE: &str = concat!("lumencut ", env!("CARGO_PKG_VERSION"));
 
-/// Rounding tolerance of a scan's grid in a file (mm).
+/// How much rounding may change the scan's grid in a file (mm).
 const GRID_TOLERANCE_MM: f64 = 1e-3;
 
-/// A session as the page has it: lines by number, everything else as in the file except point data.
+/// A session as the page has it. Lines are numbers; everything else is as in the file, without the data of points.
 #[derive(Debug, Deserialize, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct SessionContent {
@@ -34,7 +34,7 @@ pub(crate) fn written(content: SessionContent, lines: &Lines) -> Result<Vec<u8>>
         let line = lines.get(named.line)?;
         state.confidence.clone_from(&line.confidence);
         state.bridged.clone_from(&line.bridged);
-        // Confidence is stored with the vessel instead.
+        // The session stores confidence with the vessel, so the line omits it.
         file.lines.push(centerlines::Line { confidence: None, ..line.in_file(&named.name) });
     }
     for (named, branch) in doubtful_lines.iter().zip(&mut file.session.doubtful) {
@@ -46,7 +46,7 @@ pub(crate) fn written(content: SessionContent, lines: &Lines) -> Result<Vec<u8>>
     Ok(write_session(&file, SOFTWARE)?)
 }
 
-/// The page's session, completed with empty fields.
+/// Adds the fields that the page omits, and parses the session.
 fn session_of(mut said: Value, counts: (usize, usize)) -> Result<Session> {
     let wrong = |found: &str| Failure::of_message("session", &found, "a session as JSON");
     let count = |list: &str| said.get(list).and_then(Value::as_array).map(Vec::len);
@@ -70,7 +70,7 @@ impl Study {
         written(content, &self.lines)
     }
 
-    /// The content of a session file of the open scan; its lines are held but not yet shown.
+    /// The content of a session file of the open scan. Its lines are kept, but not shown yet.
     pub(crate) fn read_session(&mut self, bytes: &[u8], name: &str) -> Result<SessionContent> {
         let Some(held) = &self.content.held else {
             return Err(not_of_scan(name, "a session without its scan", "a scan that is open"));
@@ -204,7 +204,7 @@ mod tests {
         assert!(refused(odd, &lines).contains("invalid type"));
     }
 
-    /// A volume of 2 × 3 × 4 voxels at a position along the first axis (mm).
+    /// A volume of 2 × 3 × 4 voxels, at `place` mm along the first axis.
     fn study_at(place: f64) -> Study {
         let mut study = Study::default();
         let rows = [[1.0, 0.0, 0.0, place], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]];
@@ -223,7 +223,7 @@ mod tests {
         let bytes = study.write_session(content).expect("a file");
         let back = study.read_session(&bytes, "saved.mrk.json").expect("a session");
         assert_eq!(*study.lines.get(back.lines[0].line).expect("a line"), line(Some(vec![false, true])));
-        // Rounded as in files; otherwise another scan.
+        // A grid that differs by rounding belongs to the same scan; others do not.
         assert!(study_at(5.0005).read_session(&bytes, "saved.mrk.json").is_ok());
         let other = study_at(5.1).read_session(&bytes, "saved.mrk.json").expect_err("another scan");
         assert_eq!((other.kind, other.subject.as_str()), ("session", "saved.mrk.json"));

@@ -1,4 +1,4 @@
-//! Settings by name as JSON, from the common table.
+//! Converts settings, named as in the common table, from and to JSON.
 
 use lumencut_core::named::Named;
 use lumencut_core::settings::{
@@ -19,10 +19,10 @@ pub(crate) struct SettingRow {
     default: Json,
     low: Option<f64>,
     high: Option<f64>,
-    /// The unit of a number.
+    /// The unit, if the value is a number with a unit.
     unit: Option<&'static str>,
     choices: Vec<&'static str>,
-    /// The effect if unset, for settings unset by default.
+    /// What the setting means if it is unset, for settings that are unset by default.
     open: Option<&'static str>,
     sentence: String,
 }
@@ -46,11 +46,11 @@ pub(super) fn rows() -> Vec<SettingRow> {
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct LookRow {
-    /// Its name in Python and on the command line.
+    /// Name in Python and on the command line.
     pub name: &'static str,
     words: &'static str,
     sentence: &'static str,
-    /// Values of all settings that any look sets; defaults for those this one leaves alone.
+    /// The values of all settings that at least one look sets; the default of a setting that this look does not set.
     #[cfg_attr(test, ts(type = "Settings"))]
     pub settings: Map<String, Json>,
 }
@@ -63,7 +63,7 @@ pub(crate) fn looks() -> Vec<LookRow> {
     LOOKS.iter().map(row).collect()
 }
 
-/// Values of all settings that any look sets: the chosen ones, else defaults.
+/// The values of all settings that at least one look sets: those chosen, else the defaults.
 pub(crate) fn settings_of_a_look(chosen: &[(&'static str, Value)]) -> Map<String, Json> {
     let value = |setting: &Setting| {
         let own = chosen.iter().find(|(name, _)| *name == setting.name);
@@ -91,7 +91,7 @@ fn json_of(value: Value) -> Json {
     }
 }
 
-/// Settings from names and values, applied after `first`; all others have defaults.
+/// Settings from names and values, applied after `first`; all other settings have their defaults.
 pub(super) fn settings(first: Vec<(&str, Value)>, chosen: &Map<String, Json>) -> Result<Settings> {
     let mut choices = Choices::default();
     for (name, value) in first {
@@ -128,7 +128,7 @@ fn pair(json: &Json) -> Option<[f64; 2]> {
     serde_json::from_value(json.clone()).ok()
 }
 
-/// A slab: thickness (mm) and mode.
+/// A slab, from thickness (mm) and mode.
 fn slab(json: &Json) -> Result<Option<Slab>> {
     let Ok((thickness, mode)) = serde_json::from_value::<(f64, String)>(json.clone()) else {
         return Ok(None);

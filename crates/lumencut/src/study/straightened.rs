@@ -1,4 +1,4 @@
-//! The straightened CPR of a vessel: its layout, from pixels to the world and back.
+//! The straightened CPR of a vessel: its layout, and conversions between its pixels and the world.
 
 use crate::feature_aggregation::Feature;
 use glam::{DVec2, DVec3};
@@ -15,13 +15,13 @@ use crate::study::failure::Result;
 pub(crate) struct CprMessage {
     /// Index of the vessel.
     pub vessel: usize,
-    /// Rotation about its axis (radians).
+    /// Rotation about the axis of the vessel (radians).
     pub angle: f64,
     /// Width of the picture (mm).
     pub width: f64,
     /// Pixel side (mm).
     pub pixel_spacing: f64,
-    /// The CFA feature of a half circle; none for the plain value.
+    /// The CFA feature of a half circle; none to show the values of the scan.
     #[serde(default)]
     pub(crate) feature: Option<Aggregated>,
     /// The side of the lumen that rows follow; none for a constant angle.
@@ -73,7 +73,7 @@ pub(crate) struct Laid {
 }
 
 impl Laid {
-    /// The requested layout; reuses `before` if [`Laid::is_turned`].
+    /// The requested layout; `before` is used again if only angle and feature differ.
     pub(crate) fn new(message: CprMessage, vessel: &Vessel, before: Option<&Self>) -> Result<Self> {
         if let Some(laid) = before.filter(|laid| laid.is_turned(&message)) {
             let is_rolled = message.roll.is_some();
@@ -102,7 +102,7 @@ impl Laid {
         self.cpr.pixel_from_world(DVec3::from_array(point)).to_array()
     }
 
-    /// The arc length (mm) of a row.
+    /// The arc length (mm) that a row shows.
     pub(crate) fn arc_length(&self, row: f64) -> f64 {
         row * self.message.pixel_spacing
     }

@@ -31,7 +31,7 @@ pub(crate) struct StraightenedPick {
 }
 
 impl Study {
-    /// The straightened CPR of a vessel in a window. A roll needs the lumen, which is measured if unknown.
+    /// The straightened CPR of a vessel in a window. If rows follow a side of the lumen, the lumen is measured if necessary.
     pub(crate) fn straightened(
         &mut self,
         message: CprMessage,
@@ -55,7 +55,7 @@ impl Study {
         Ok(picture)
     }
 
-    /// What a position in the last straightened CPR shows; for a CFA of largest or smallest values, the place of that value.
+    /// What a position in the last straightened CPR shows; for CFA with the largest or smallest value, the place of that value.
     pub(crate) fn pick_straightened(&self, [column, row]: [f64; 2]) -> Result<StraightenedPick> {
         let none = || Failure::of_message("CPR", &"none", "a straightened CPR shown before");
         let laid = self.laid.as_ref().ok_or_else(none)?;
@@ -75,7 +75,7 @@ impl Study {
         Ok(place.map(|n| circle[n].to_array()))
     }
 
-    /// Column and row of a world point in the last straightened CPR; None without one.
+    /// Column and row of a world point in the last straightened CPR; None if there is none.
     pub(crate) fn on_straightened(&self, point: [f64; 3]) -> Option<[f64; 2]> {
         self.laid.as_ref().map(|laid| laid.pixel(point))
     }

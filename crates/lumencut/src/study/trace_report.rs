@@ -1,4 +1,4 @@
-//! The report on a traced vessel: its length, junctions and doubtful stretches.
+//! The report on a traced vessel: its length, the vessels that it joins, and its doubtful stretches.
 
 use glam::DVec3;
 use lumencut_core::math::arc_length::arc_lengths;
@@ -14,7 +14,7 @@ use crate::study::failure::Result;
 use crate::study::open_study::Study;
 use crate::text::fixed;
 
-/// An end within this distance of a point of another line is that point, up to rounding (mm).
+/// An end within this distance (mm) of a point of another line is the same point; it differs only by rounding.
 const SAME_POINT_MM: f64 = 1e-6;
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -22,18 +22,18 @@ const SAME_POINT_MM: f64 = 1e-6;
 pub(crate) struct Told {
     /// The vessel.
     pub vessel: u32,
-    /// Name, length and joined vessels, in a sentence.
+    /// A sentence with name, length and joined vessels.
     pub words: String,
-    /// Its doubtful places.
+    /// The doubtful places of the vessel.
     pub doubts: Vec<DoubtfulPlace>,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct DoubtfulPlace {
-    /// The reason, in a sentence.
+    /// A sentence that states the reason of the doubt.
     pub words: String,
-    /// The arc length (mm) from or up to which it is doubtful, to show and cut there; none for the whole line.
+    /// The arc length (mm) from which, or up to which, the vessel is doubtful, to show and cut there; none for the whole line.
     pub at: Option<f64>,
 }
 
@@ -86,7 +86,7 @@ impl Study {
     }
 }
 
-/// The first stretch on which a line turns sharply; gaps below a radius belong to it.
+/// The first stretch on which a line turns sharply; interruptions shorter than a radius are part of it.
 fn wandering_from(line: &Centerline) -> Option<(usize, usize)> {
     let is_wandering = wandering(line);
     let lengths = arc_lengths(&line.points);
@@ -96,7 +96,7 @@ fn wandering_from(line: &Centerline) -> Option<(usize, usize)> {
     Some((from, later.fold(from, |to, n| if goes_on(to, n) { n } else { to })))
 }
 
-/// The doubt about a stretch on which a line turns sharply (arc lengths, mm).
+/// The doubt about a stretch with sharp turns, between two arc lengths (mm).
 fn wanders(from: f64, to: f64) -> DoubtfulPlace {
     let why = "the line turns in less than the width of the vessel there";
     let (words, at) = if from > 0.0 {

@@ -1,4 +1,4 @@
-//! Traces vessels between clicks and from a seed in the open study, and manages their lines.
+//! Traces vessels between clicks and from a seed in the open study, and keeps their lines.
 
 use glam::DVec3;
 use lumencut_core::error::{Error, ErrorKind};
@@ -20,10 +20,10 @@ use crate::study::line_edits::{cut, join};
 use crate::study::lines::{Line, LineContent, ListedLine, NamedLine};
 use crate::study::open_study::Study;
 
-/// Control of long work: stop and progress.
+/// Controls long work: stops it and receives its progress.
 #[derive(Clone, Copy)]
 pub struct Watch<'a> {
-    /// Polled during work.
+    /// Asked during the work whether to stop.
     pub stop: Stop<'a>,
     /// Receives the progress.
     pub progress: &'a Progress,
@@ -33,7 +33,7 @@ pub struct Watch<'a> {
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Stopper"))]
 pub(crate) struct StopperMessage {
     pub center: [f64; 3],
-    /// Its radius (mm).
+    /// Radius of the stopper (mm).
     pub radius: f64,
 }
 
@@ -44,7 +44,7 @@ pub(crate) struct TraceRequest {
     pub(crate) stoppers: Vec<StopperMessage>,
     /// Whether to bridge stretches without lumen, however long.
     pub(crate) bridge: bool,
-    /// Existing lines: a traced vessel that meets one ends at a point of it.
+    /// Lines of other vessels; a traced vessel that meets one of them ends at a point of it.
     pub beside: Vec<usize>,
 }
 
@@ -60,9 +60,9 @@ pub(crate) struct PathMessage {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct HeldLine {
-    /// Its line number.
+    /// Number of the line.
     pub line: usize,
-    /// Why it is doubtful; none if it is not.
+    /// Why the line is doubtful; None if it is not.
     pub(crate) doubt: Option<&'static str>,
 }
 
@@ -73,7 +73,7 @@ impl From<&StopperMessage> for Stopper {
 }
 
 impl Study {
-    /// The line numbers of clicked vessels, in order; an unchanged line keeps its number.
+    /// Traces the vessels with clicks and returns their line numbers, in order. An unchanged line keeps its number.
     pub(crate) fn trace(&mut self, request: &TraceRequest, watch: Watch) -> Result<Vec<usize>> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         let beside = request.beside.iter().map(|line| Ok(self.lines.get(*line)?.met()));
@@ -100,7 +100,7 @@ impl Study {
         Ok(self.tracer.check_click(&volume, DVec3::from_array(click))?)
     }
 
-    /// The path of a vessel to the pointer; None if not found before `stop`.
+    /// The path of a vessel to the pointer; None if it was not found before `stop`.
     pub(crate) fn path(&mut self, message: &PathMessage, stop: Stop) -> Result<Option<Vec<[f64; 3]>>> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         let stoppers: Vec<Stopper> = message.stoppers.iter().map(Stopper::from).collect();
@@ -110,7 +110,7 @@ impl Study {
         Ok(way.map(|points| points.iter().map(|point| point.to_array()).collect()))
     }
 
-    /// The vessels connected to a seed's, down to Python's default radius; doubtful ones last.
+    /// The vessels connected to the vessel at a seed, down to Python's default radius; doubtful ones last.
     pub(crate) fn trace_from(&mut self, seed: [f64; 3], watch: Watch) -> Result<Vec<HeldLine>> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         let Watch { stop, progress } = watch;
@@ -119,8 +119,8 @@ impl Study {
         self.held_lines(tree.vessels)
     }
 
-    /// All vessels of the scan down to Python's default radius, doubtful ones last, with notes. `doubtful` accepts a result
-    /// without a confident vessel.
+    /// All vessels of the scan down to Python's default radius, doubtful ones last, and notes. With `doubtful`, a result without a
+    /// confident vessel is no error.
     pub(crate) fn find_vessels(
         &mut self,
         doubtful: bool,
@@ -138,7 +138,7 @@ impl Study {
         found.into_iter().map(hold).collect()
     }
 
-    /// The two parts of a line cut at an arc length (mm).
+    /// The line numbers of the two parts of a line that is cut at an arc length (mm).
     pub(crate) fn cut(&mut self, line: usize, at: f64) -> Result<[usize; 2]> {
         let [first, second] = cut(&*self.lines.get(line)?, at)?;
         Ok([self.lines.add(first)?, self.lines.add(second)?])
@@ -161,8 +161,8 @@ impl Study {
         self.lines.add(content.into())
     }
 
-    /// Shows the lines of a list that are not hidden, in order; an empty list shows the volume only. All are measured together.
-    /// Windows change only if the shown lumen would be white. After an error the view stays.
+    /// Shows the lines of a list that are not hidden, in order; only the volume if the list is empty. All listed lines are measured
+    /// together. Windows change only if the shown lumen would be white. After an error the view stays.
     pub(crate) fn show(&mut self, listed: &[ListedLine]) -> Result<()> {
         let vessels = listed.iter().map(|one| self.lines.get(one.line)?.vessel());
         let vessels = vessels.collect::<Result<Vec<_>>>()?;

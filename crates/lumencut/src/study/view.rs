@@ -12,7 +12,7 @@ use serde_json::{Map, Value as Json};
 use crate::study::failure::{Failure, Result};
 use crate::study::settings::settings;
 
-/// An orthographic camera; its axes are unit vectors.
+/// An orthographic camera, with unit vectors as axes.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Camera"))]
 pub struct CameraMessage {
@@ -25,7 +25,7 @@ pub struct CameraMessage {
 }
 
 impl CameraMessage {
-    /// The core's camera.
+    /// The camera in the form that the core uses.
     pub fn camera(&self) -> Result<Camera> {
         let [center, direction, up] = [self.center, self.direction, self.up].map(DVec3::from_array);
         Ok(Camera::new(center, direction, up, self.size, self.pixel_spacing)?)
@@ -52,7 +52,7 @@ impl From<&Camera> for CameraMessage {
     }
 }
 
-/// View methods: saved name and label, in display order.
+/// The methods of a view: name in files and label, in display order.
 pub const METHODS: [[&str; 2]; 4] =
     [["csr", "CSR"], ["csr-paper", "CSR (paper)"], ["cr", "CR"], ["mpcpr", "mpCPR"]];
 
@@ -105,7 +105,7 @@ impl ViewMessage {
         let first = if self.method == "csr-paper" { Settings::paper_values() } else { Vec::new() };
         let mut settings = settings(first, &self.settings)?;
         if method != Method::CutSurface {
-            // The viewer shows one picture by several methods; only the cut surface has a focus.
+            // The viewer shows one picture by several methods, but only the cut surface has a focus.
             settings.focus = None;
             settings.focus_vessels.clear();
         }

@@ -1,4 +1,4 @@
-//! Voxels in their own type; the page converts other types to one of these.
+//! Voxels in their own type. The page converts voxels of other types to one of these types.
 
 use lumencut_core::error::{Error, ErrorKind, Mend};
 use lumencut_core::volume::Voxels;
@@ -18,7 +18,7 @@ pub enum Stored {
     F32(Vec<f32>),
 }
 
-/// Runs `$body` with `$voxels` bound to the typed voxels.
+/// Evaluates `$body` with `$voxels` bound to the voxels in their type.
 macro_rules! with_stored {
     ($stored:expr, $voxels:ident => $body:expr) => {
         match $stored {
@@ -31,7 +31,7 @@ macro_rules! with_stored {
 }
 
 impl Stored {
-    /// `count` zero voxels of NumPy's type `dtype`.
+    /// `count` voxels of NumPy's type `dtype`, all 0.
     pub(crate) fn zeros(dtype: &str, count: f64) -> Result<Self> {
         Ok(match dtype {
             "uint8" => Self::U8(room(count)?),
@@ -52,7 +52,7 @@ impl Stored {
         with_stored!(self, voxels => bytemuck::cast_slice_mut(voxels))
     }
 
-    /// `count` voxels of the same type: these at the indices in `place`, 0 elsewhere.
+    /// `count` voxels of the same type: the voxels of `self` at the indices in `place`, and 0 elsewhere.
     pub(crate) fn placed(&self, count: usize, place: impl Iterator<Item = usize>) -> Result<Self> {
         Ok(match self {
             Self::U8(voxels) => Self::U8(scattered(voxels, count, place)?),
@@ -62,7 +62,7 @@ impl Stored {
         })
     }
 
-    /// The voxels as the core borrows them.
+    /// The voxels in the form that the core borrows.
     pub fn voxels(&self) -> Voxels<'_> {
         match self {
             Self::U8(voxels) => Voxels::U8(voxels),
@@ -87,7 +87,7 @@ fn scattered<T: Copy + Default>(
 
 fn room<T: Clone + Default>(count: f64) -> Result<Vec<T>> {
     let mut voxels = Vec::new();
-    // Saturates: a count beyond all memory fails to allocate just the same.
+    // The cast saturates, but a count larger than any memory cannot be allocated anyway.
     if voxels.try_reserve_exact(count as usize).is_err() {
         let megabytes = (count * size_of::<T>() as f64 / 1e6).ceil();
         let found = format!("{megabytes} MB of voxels");

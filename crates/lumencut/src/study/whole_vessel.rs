@@ -1,4 +1,4 @@
-//! Finds the whole vessel at a click among all vessels of the scan, which are searched for once.
+//! Finds the whole vessel at a click among all vessels of the scan, which are searched for only once.
 
 use glam::DVec3;
 use lumencut_core::error::ErrorKind;
@@ -20,15 +20,15 @@ use crate::study::lines::Line;
 use crate::study::open_study::Study;
 use crate::study::tracing::Watch;
 
-/// A stump hardly longer than wide is accepted if it is round: its points have at least this mean confidence, and its radius (mm)
-/// is at most that of the widest aorta.
+/// A vessel that is hardly longer than wide is accepted if it is round: its points have at least this mean confidence. Its radius
+/// (mm) must be at most that of the widest aorta.
 const MIN_ROUND_CONFIDENCE: f64 = 0.6;
 const MAX_STUMP_RADIUS_MM: f64 = 25.0;
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct WholeVessel {
-    /// The points of its line (mm, LPS).
+    /// The points of the vessel's line (mm, LPS).
     pub points: Vec<WorldPoint>,
     /// Length and joined vessels, such as `84.2 mm, joins Vessel 2 at 12 mm`.
     pub words: String,
@@ -54,11 +54,11 @@ impl Study {
         notes: &mut Vec<String>,
         (click, watch): (WorldPoint, Watch),
     ) -> Result<()> {
-        // Reject a place in air or fat at once, instead of after a search of the whole scan.
+        // Rejects a place in air or fat immediately, and not after a search of the whole scan.
         self.check_click(click)?;
         self.trees(watch)?;
         let known = self.known_vessel(click, &draft.document.vessels);
-        // A mend of a second click hints that the scan shows too little of the vessel.
+        // If the error advises a second click, the scan shows too little of the vessel.
         let is_short = known.as_ref().is_err_and(|refused| !refused.mend.is_empty());
         let short = if is_short { self.short_vessel(click, &draft.document.vessels, watch)? } else { None };
         if let Some(line) = short {
@@ -74,7 +74,7 @@ impl Study {
         Ok(())
     }
 
-    /// The vessel at a click if the scan cuts it off on both sides, it is hardly longer than wide, and round.
+    /// The vessel at a click, if the scan cuts it off on both sides, and it is round and hardly longer than wide.
     fn short_vessel(
         &self,
         click: WorldPoint,
@@ -100,7 +100,7 @@ impl Study {
         Ok(traced.into_iter().find(|traced| is_round(&traced.line)).map(Line::from))
     }
 
-    /// The vessel that a click would add; None before the scan's vessels were searched for.
+    /// The vessel that a click would add; None if the scan's vessels were not searched for yet.
     pub(crate) fn known_vessel(
         &self,
         click: WorldPoint,
@@ -114,7 +114,7 @@ impl Study {
         Ok(Some(one_vessel(&volume, trees, DVec3::from_array(click), &beside)?))
     }
 
-    /// As [`Study::known_vessel`], but None instead of an error about the click.
+    /// As [`Study::known_vessel`], but None if the click is rejected.
     pub(crate) fn whole_vessel(
         &self,
         click: WorldPoint,

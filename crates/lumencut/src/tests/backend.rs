@@ -43,7 +43,7 @@ fn an_interrupted_picture_leaves_the_reason_of_the_fall_back_to_the_next() {
     };
     let (first, second, checks) = render(usize::MAX);
     assert_eq!((first, second), (Ok(Some(reason.clone())), None));
-    // The first of five pictures checks at least once, and so does every sample.
+    // The first of five pictures asks at least once whether to stop, and so does every sample.
     assert!(checks >= 5, "{checks}");
     for limit in 0..checks {
         let (first, second, _) = render(limit);
@@ -68,7 +68,7 @@ fn reformations_need_a_tree_and_a_cut_surface_does_not() {
         assert_eq!(refused.kind, ErrorKind::VesselTree);
         let (frame, described) = at_once(backend.render_by(method, &whole, &request)).unwrap();
         assert_eq!((frame.image.len(), frame.vessel.len(), described), (72, 72, None));
-        // Only mpCPR has folds.
+        // Only mpCPR marks folded pixels.
         assert_eq!(frame.folded.len(), if method == Method::MpCpr { 72 } else { 0 });
     }
 }

@@ -3,12 +3,12 @@ use lumencut_core::volume::Voxels;
 
 use super::*;
 
-/// A slab from i = 12 to 20 in even surroundings, 1 mm voxels.
+/// A slab from i = 12 to 20 in uniform surroundings, in 1 mm voxels.
 fn slab(lumen: f32, around: f32) -> Vec<f32> {
     (0..40 * 9 * 9).map(|n| if (12..=20).contains(&(n % 40)) { lumen } else { around }).collect()
 }
 
-/// The diameter in a view from the front, moved by `beside` (mm) from the slab's middle.
+/// The diameter in a view from the front, `beside` mm away from the slab's middle.
 fn described(voxels: &[f32], beside: f64, radius: f64) -> Option<f64> {
     let volume = Volume::new(Voxels::F32(voxels), [40, 9, 9], [1, 40, 360], DAffine3::IDENTITY).unwrap();
     let place = DVec3::new(16.0 + beside, 4.0, 4.0);
@@ -19,7 +19,7 @@ fn described(voxels: &[f32], beside: f64, radius: f64) -> Option<f64> {
 fn the_walls_lie_half_way_whichever_is_brighter_and_wherever_the_place_is() {
     for (lumen, around) in [(300.0, 0.0), (0.0, 300.0), (-50.0, -1000.0)] {
         for beside in [0.0, 1.2] {
-            // Half values lie half a voxel outside the outermost lumen voxels.
+            // Half of the values lies half a voxel outside the outermost lumen voxels.
             let found = described(&slab(lumen, around), beside, 4.0).unwrap();
             assert!((found - 9.0).abs() < 0.01, "{lumen} in {around}, {beside} mm off: {found}");
         }
@@ -28,7 +28,7 @@ fn the_walls_lie_half_way_whichever_is_brighter_and_wherever_the_place_is() {
 
 #[test]
 fn the_far_wall_of_a_vessel_that_touches_this_one_is_not_its_own() {
-    // Between both slabs the values fall by only a tenth.
+    // Between the two slabs, the values fall by only a tenth.
     let touching = |lumen: f32, other: f32| -> Vec<f32> {
         let value = |i: usize| match i {
             12..=20 => lumen,

@@ -45,7 +45,7 @@ fn turn_and_zoom_go_evenly_with_the_way_by_the_shortest_rotation() {
         assert!((zoom - way * (0.125f64).ln()).abs() < 1e-9, "frame {n}");
         assert!(view.up().dot(view.direction()).abs() < 1e-12);
     }
-    // Slow at both ends, fastest in the middle.
+    // The flight is slow at both ends and fastest in the middle.
     let step = |n: usize| turn(&views[n], &views[n + 1]);
     assert!(step(0) < 0.1 * step(20) && step(39) < 0.1 * step(20));
 }
@@ -61,7 +61,7 @@ fn half_a_turn_is_flown_too() {
 
 #[test]
 fn what_is_in_the_middle_of_the_closer_view_goes_straight_there() {
-    // Without rotation, so that picture positions are comparable.
+    // Without rotation, positions in the pictures can be compared.
     let (from, to) =
         (camera([0.0; 3], [0.0, 1.0, 0.0], 2.0), camera([60.0, 3.0, -20.0], [0.0, 1.0, 0.0], 0.1));
     let views = flight(&from, &to, 21).unwrap();

@@ -1,4 +1,4 @@
-//! Cached profiles.
+//! Profiles are measured once and then cached.
 
 use lumencut_core::error::ErrorKind;
 use lumencut_core::volume::Voxels;

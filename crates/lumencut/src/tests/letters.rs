@@ -42,7 +42,7 @@ fn each_axis_of_the_patient_has_one_axis_of_a_grid() {
     let known = [
         ([DVec3::X, DVec3::Y, DVec3::Z], "LPS"),
         ([DVec3::NEG_Y * 2.0, DVec3::Z * 0.5, DVec3::X], "ASL"),
-        // Two of these point mainly to the right.
+        // Two of these directions point mainly to the right.
         (
             [DVec3::new(-0.24, 0.80, -0.55), DVec3::new(-0.63, -0.56, -0.53), DVec3::new(-0.73, 0.22, 0.64)],
             "PRS",

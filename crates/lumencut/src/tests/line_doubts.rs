@@ -1,4 +1,4 @@
-//! Ordered lines raise no doubt; disorder, strays, gaps and two lines of one vessel do.
+//! Lines in order raise no doubt. Disorder, stray points, gaps and two lines of one vessel do.
 
 use std::f64::consts::TAU;
 

@@ -8,7 +8,7 @@ use super::*;
 const SIZE: [usize; 3] = [64, 64, 81];
 const FRONT: View = View { up: DVec3::Z, angle: 0.0, normal: None };
 
-/// A lumen of 4 mm radius and 300, a 1 mm crust of 900 on the posterior side, and 0 elsewhere.
+/// A lumen of 4 mm radius with the value 300, a 1 mm crust of 900 on its posterior side, and 0 elsewhere.
 fn values() -> Vec<f32> {
     let each = |n: usize| {
         let [i, j] = [n % 64, n / 64 % 64].map(|index| index as f64 * 0.5 - 16.0);

@@ -40,7 +40,7 @@ fn lumen_is_told_whatever_the_units_of_the_volume_and_bright_or_dark() {
     let points = points();
     let radii = vec![4.0; points.len()];
     let lines = Lines { points: &points, radii: &radii };
-    // CT with uneven tissue, 8-bit MR on an empty background, its inverse, and noisy CT.
+    // CT with uneven tissue, 8-bit MR on an empty background, inverted MR, and noisy CT.
     let values: [&dyn Fn(DVec3) -> f32; 4] = [
         &|p| if is_lumen(p) { 350.0 } else { 40.0 + (p.x + p.z) as f32 },
         &|p| if is_lumen(p) { 255.0 } else { 0.0 },
@@ -49,7 +49,7 @@ fn lumen_is_told_whatever_the_units_of_the_volume_and_bright_or_dark() {
     ];
     for (n, value) in values.iter().enumerate() {
         let [as_it_is, mirrored] = [LPS, RAS].map(|place| counted(value, &lines, place));
-        // 60 mm in cubes of 2 mm.
+        // The vessel is 60 mm long, and is sampled in cubes of 2 mm.
         assert_eq!((as_it_is.of, mirrored.of), (30, 30));
         assert!(as_it_is.like_lumen >= 28, "volume {n}: {as_it_is:?}");
         let described = format!("volume {n}: {as_it_is:?} beside {mirrored:?}");

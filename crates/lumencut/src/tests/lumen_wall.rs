@@ -12,7 +12,7 @@ use super::*;
 
 const SIZE: [usize; 3] = [64, 64, 81];
 
-/// Values on a 0.5 mm grid around the vessel of [`line`], by position across and along it (mm).
+/// Values on a 0.5 mm grid around the vessel of [`line`], from the position across and along the vessel (mm).
 fn painted(value: impl Fn(DVec2, f64) -> f64) -> Vec<f32> {
     let each = |n: usize| {
         let [i, j, k] = [n % 64, n / 64 % 64, n / 4096].map(|index| index as f64 * 0.5);
@@ -36,7 +36,7 @@ fn straight() -> Straightened {
     Straightened::new(Arc::new(path), &View { up: DVec3::Z, angle: 0.0, normal: None }).expect("a view")
 }
 
-/// A lumen of 300 within a radius, 0 outside, blurred over about a voxel.
+/// The value 300 within a radius and 0 outside, blurred over about a voxel.
 fn lumen(across: DVec2, radius: f64) -> f64 {
     300.0 * ((radius - across.length()) / 0.7 + 0.5).clamp(0.0, 1.0)
 }
@@ -82,7 +82,7 @@ fn a_branch_at_right_angles_is_an_opening_of_its_size() {
 
 #[test]
 fn bone_that_touches_a_vessel_is_no_opening() {
-    // Towards bone values fall only to two thirds, and rise above the lumen's beyond 1.6 radii.
+    // Towards bone, values fall only to two thirds; beyond 1.6 radii they exceed those of the lumen.
     let bone = |across: DVec2| {
         let rises = across.x > 3.0 && across.y.abs() < 2.0;
         if rises { 200.0 + 90.0 * (across.x - 3.8).max(0.0) } else { 0.0 }
@@ -96,7 +96,7 @@ fn bone_that_touches_a_vessel_is_no_opening() {
         let away = fall.radius().expect("a wall");
         assert!((3.4..4.4).contains(&away), "{away} mm");
     }
-    // Towards a branch values stay those of lumen.
+    // Towards a branch, the values stay those of the lumen.
     let branch = painted(|across, _| lumen(across, 4.0).max(lumen(DVec2::new(0.0, across.y), 2.0)));
     let falls = with(&branch, |volume| {
         let rays = RaysAcross { voxels: &Voxels::new(volume), straightened: &straight(), directions: 4 };

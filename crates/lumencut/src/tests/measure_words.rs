@@ -61,7 +61,7 @@ fn angles_of_a_c_arm_have_no_signs() {
     assert_eq!(described(-20.2, 5.0), "RAO 20° CRAN 5°");
     assert_eq!(described(89.6, -30.0), "LAO 90° CAUD 30°");
     assert_eq!(described(0.0, 0.0), "LAO 0° CRAN 0°");
-    // An invisible fraction does not decide the side.
+    // A fraction that rounds to 0 does not decide the side.
     assert_eq!(described(-1e-9, -0.4), "LAO 0° CRAN 0°");
 }
 

@@ -8,7 +8,7 @@ fn a_vessel_that_has_a_wall_everywhere_tells_nothing() {
     assert_eq!(not_measured(&tube()), []);
 }
 
-/// The 60 mm tube without sections outside these places (mm).
+/// The 60 mm tube, unmeasured outside these places (mm).
 fn measured_within([low, high]: [f64; 2]) -> Profile {
     let mut profile = tube();
     for (area, at) in profile.area.iter_mut().zip(&profile.arc_length) {

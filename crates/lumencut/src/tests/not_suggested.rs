@@ -16,12 +16,12 @@ fn where_nothing_is_safe_the_hindrances_are_told() {
     stent.flags[7] = CALCIUM;
     stent.uncertainty[9] = 20.0;
     let [reason] = &not_suggested(&stent, None, &[])[..] else { panic!("one reason") };
-    // The branch flag is gone: all flags were overwritten.
+    // The flag of the branch is missing, since all flags were overwritten.
     assert_eq!(
         reason,
         "No narrowest place is suggested: no section is reliable (metal, calcium, unsure diameter). Mark it yourself."
     );
-    // A marked place has no reference then.
+    // A marked place then has no reference either.
     let [reason] = &not_suggested(&stent, Some(30.0), &[])[..] else { panic!("one reason") };
     assert!(reason.starts_with("No reference is suggested for 30.0 mm: no place within 50 mm"), "{reason}");
 }

@@ -7,7 +7,7 @@ use crate::misplaced::{Misplaced, better_place, fits_nowhere};
 use crate::places::{SMALLEST, across};
 use lumencut_io::Mend;
 
-/// A volume of 100 mm sides, far enough from the origin that only one space fits.
+/// A volume of 100 mm sides, so far from the origin that only one space fits.
 fn volume() -> Extent {
     Extent::new([101; 3], DAffine3::from_translation(DVec3::splat(20.0)))
 }
@@ -119,7 +119,7 @@ fn centerlines_of_another_volume_are_refused() {
     let error = placement(&nothing(), &far, Some(&silent(volume()))).unwrap_err();
     assert_eq!(error.found, "no point inside the volume, in lps or ras, in um, mm, cm, dm, m");
     assert_eq!(error.mended_by.as_deref(), Some(&Mend::Place));
-    // If the file states the space, it is not requested.
+    // A space that the file states is not asked for.
     let known = Known { stated_space: Some(Space::Ras), ..nothing() };
     let found = decided(&known, &far);
     assert_eq!(found.place, CoordinateSystem { space: Space::Ras, unit: Unit::Millimetre });
@@ -138,7 +138,7 @@ fn a_better_place_is_named() {
 
 #[test]
 fn a_few_points_more_are_no_better_place() {
-    // Three of fifty fit only with x and y negated: below a tenth.
+    // Three of fifty points fit only if x and y are negated; that is less than a tenth.
     let mut mixed = vec![DVec3::splat(7000.0); 47];
     mixed.extend_from_slice(&points(Space::Ras, Unit::Millimetre)[..3]);
     assert_eq!(better_place(&mixed, &silent(volume())), None);
@@ -158,7 +158,7 @@ fn around_the_origin() -> (Extent, Vec<DVec3>) {
     (around, (0..20).map(|n| DVec3::splat(f64::from(n) - 10.0)).collect())
 }
 
-/// Lumen counts of a hundred points in LPS and in RAS.
+/// Lumen counts of a hundred points, read as LPS and as RAS.
 fn counts(lps: usize, ras: usize) -> impl Fn(CoordinateSystem) -> LumenCount {
     move |place| LumenCount { like_lumen: if place.space == Space::Lps { lps } else { ras }, of: 100 }
 }
@@ -186,12 +186,12 @@ fn between_spaces_that_fit_alike_the_values_decide_where_they_are_evident() {
         assert_eq!(found.decision, expected);
         assert_eq!(found.confirmed_by, Statement { space: Some(space), unit: None });
     }
-    // Too similar, or too few.
+    // The counts are too similar, or too small.
     for (lps, ras) in [(90, 31), (31, 90), (49, 0), (0, 0), (70, 70)] {
         let error = found(lps, ras, &nothing()).unwrap_err();
         assert_eq!(error.mended_by.as_deref(), Some(&Mend::Coordinates), "{error}");
     }
-    // Stated or requested choices are not tested against values.
+    // Stated or requested choices are not compared with the values.
     let stated = Known { stated_space: Some(Space::Lps), ..nothing() };
     assert_eq!(found(0, 100, &stated).unwrap().place.space, Space::Lps);
     let asked = Known { asked_space: Some(Space::Ras), ..nothing() };
@@ -213,12 +213,12 @@ fn values_that_speak_for_the_mirrored_lines_are_told() {
     let meant = CoordinateSystem { space: Space::Ras, unit: Unit::Millimetre };
     assert_eq!(described(20, 80), Some(Misplaced { found: found.into(), meant }));
     assert_eq!((described(80, 20), described(30, 80), described(0, 49)), (None, None, None));
-    // Lines that leave the volume when mirrored stay as read.
+    // If mirrored lines leave the volume, the lines stay as they were read.
     let judge = Judge { extent: volume(), lumen: &counts(0, 100) };
     assert_eq!(better_place(&self::points(Space::Lps, Unit::Millimetre), &judge), None);
 }
 
-/// A 640 mm cube of 1 mm voxels, centred at a position.
+/// A 640 mm cube of 1 mm voxels around a position.
 fn cube_around(middle: DVec3) -> Extent {
     Extent::new([640; 3], DAffine3::from_translation(middle - 319.5))
 }
@@ -229,7 +229,7 @@ fn line_of(length: f64, middle: DVec3, place: CoordinateSystem) -> Vec<DVec3> {
     (0..50).map(|n| point(n) / place.scale()).collect()
 }
 
-/// What a caller states who follows a mend: each of its offers.
+/// What a caller states who follows a remedy, for each of its choices.
 fn followed(mend: &Mend, known: &Known) -> Vec<Known> {
     let space = |space: &Space| Known { asked_space: Some(*space), ..*known };
     let unit = |unit: &Unit| Known { asked_unit: Some(*unit), ..*known };
@@ -248,7 +248,7 @@ fn followed(mend: &Mend, known: &Known) -> Vec<Known> {
     }
 }
 
-/// Follows every mend until the points are read; whether one path ends at the truth.
+/// Follows every remedy until the points are read; returns whether one path leads to the truth.
 fn leads_to(truth: CoordinateSystem, known: &Known, points: &[DVec3], judge: &Judge) -> bool {
     match placement(known, points, Some(judge)) {
         Ok(found) => {
@@ -291,14 +291,14 @@ fn no_unit_is_wrong_without_a_word_and_every_mend_leads_to_the_place() {
         let judge = silent(extent);
         let stated = |space, unit| Known { stated_space: space, stated_unit: unit, ..nothing() };
         let mut tried = vec![nothing(), stated(Some(truth.space), None)];
-        // A statement with a plausible size is trusted, such as 60 mm for 600 mm in cm.
+        // A statement with a plausible size is trusted, even if 600 mm in cm are read as 60 mm.
         if !(SMALLEST..300.0).contains(&across(&points)) {
             tried.push(stated(Some(truth.space), Some(Unit::Millimetre)));
         }
         for known in tried {
             assert!(leads_to(truth, &known, &points, &judge), "{truth}, {known:?}, {} mm", across(&points));
         }
-        // A caller who names both is trusted.
+        // A caller who states both space and unit is trusted.
         let asked = Known { asked_space: Some(truth.space), asked_unit: Some(truth.unit), ..nothing() };
         let found = placement(&asked, &points, Some(&judge)).expect("what was asked");
         assert_eq!((found.place, found.doubt, found.also), (truth, None, Vec::new()));

@@ -19,7 +19,7 @@ fn all_of_a_small_volume_is_looked_at() {
     found.voxels.sort_unstable_by(f64::total_cmp);
     assert!(found.voxels.iter().copied().eq((0..180).map(f64::from)));
     assert_eq!(found.count, 180);
-    // The last voxel of each cube: i is 3 or 4, j 3, and k 3, 7 or 8.
+    // The last voxel of each cube has i = 3 or 4, j = 3, and k = 3, 7 or 8.
     assert_eq!(found.largest, [78.0, 79.0, 158.0, 159.0, 178.0, 179.0]);
 }
 
@@ -37,7 +37,7 @@ fn what_is_no_number_counts_as_a_voxel_only() {
 fn of_a_large_volume_cubes_that_are_spread_over_it_are_looked_at() {
     let size = [256, 256, 128];
     let found = sampled(&vec![1.0; 256 * 256 * 128], size);
-    // 64 × 64 × 32 cubes are four times too many: every second one along each axis.
+    // There are 64 × 64 × 32 cubes, four times too many, so every second one along each axis is used.
     assert_eq!((found.largest.len(), found.voxels.len()), (32 * 32 * 16, 32 * 32 * 16 * 64));
 }
 
@@ -45,7 +45,7 @@ fn of_a_large_volume_cubes_that_are_spread_over_it_are_looked_at() {
 fn padding_is_a_dark_value_that_many_voxels_have() {
     let mut padded = [vec![-2000.0; 30], (0..70).map(f64::from).collect()].concat();
     assert_eq!(without_padding(&mut padded).len(), 70);
-    // As many voxels mid-range are no padding, nor is a constant volume.
+    // Equally many voxels of a middle value are no padding, and neither is a constant volume.
     let mut tissue = [vec![35.0; 30], (0..70).map(f64::from).collect()].concat();
     assert_eq!(without_padding(&mut tissue).len(), 100);
     assert_eq!(without_padding(&mut [0.0; 50]).len(), 50);
@@ -54,7 +54,7 @@ fn padding_is_a_dark_value_that_many_voxels_have() {
 
 #[test]
 fn few_voxels_beside_padding_are_vessels() {
-    // 0.8 % at 200.
+    // 0.8 % of the voxels have the value 200.
     let voxels: Vec<f32> = (0..1000).map(|n| if n < 8 { 200.0 } else { 0.0 }).collect();
     let found = Populations::of(&mut sampled(&voxels, [10; 3])).expect("voxels");
     assert_eq!(
@@ -63,7 +63,7 @@ fn few_voxels_beside_padding_are_vessels() {
     );
 }
 
-/// Air clipped at −1000, tissue of 40 to 60, a rod of 300 and a thicker one of 1000.
+/// Air clipped at −1000, tissue of 40 to 60, a rod of 300, and a thicker rod of 1000.
 fn body() -> Vec<f32> {
     let value = |[i, j, k]: [usize; 3]| match (i, j, k) {
         (0..6, ..) => -1000.0,

@@ -192,15 +192,15 @@ fn lengths_that_a_reader_measured_are_told() {
 fn the_plot_shows_curves_flags_and_places() {
     let text = html_of(&shown(), &marked(Some(30.0), &[20.0]));
     let count = |part: &str| text.matches(part).count();
-    // Each flag that occurs has a row; the branch is one run.
+    // Each flag that occurs has a row; the branch is a single bar.
     assert_eq!([count("<text class=\"flag\""), count("<rect x=")], [2, 4]);
-    // The marks, and the reference offered after the place.
+    // The places are the marks, and the reference offered after the marked place.
     assert_eq!(count("<g class=\"place\""), 3);
     assert_eq!(count("class=\"left-out\""), 20);
     assert!(
         text.contains("1.5 × FWHM: 1.80 mm") && text.contains("<image href=\"data:image/png;base64,QUJD\"")
     );
-    // The diameter curve is uninterrupted, and ends at the branch.
+    // The diameter curve is not interrupted, and ends at the branch.
     let (_, curve) = text.split_once("<path class=\"width\" d=\"").expect("a curve");
     let (curve, _) = curve.split_once('"').expect("its end");
     assert_eq!(curve.matches(['M', 'L']).count(), 101);

@@ -1,4 +1,4 @@
-//! The length, the words and the pixels of scale bars.
+//! Length, label and pixels of scale bars.
 
 use super::ScaleBar;
 

@@ -1,4 +1,4 @@
-//! Profiles that are stored as numbers.
+//! Profiles are stored as numbers and restored.
 
 use lumencut_core::volume::{Volume, Voxels};
 use lumencut_phantom::Phantom;

@@ -1,4 +1,4 @@
-//! Sides of straightened volumes with known frames.
+//! The sides of straightened volumes with known frames.
 
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -21,7 +21,7 @@ fn straight(along: DVec3) -> Straightened {
     space((0..=40).map(|n| along.normalize() * f64::from(n)).collect(), 0.0)
 }
 
-/// An arc by quarter turns: up, left, down.
+/// An arc of this many quarter turns: up, left, down.
 fn arc(quarters: f64) -> Straightened {
     let place = |n: i32| {
         let turn = quarters * PI / 2.0 * f64::from(n) / 60.0;
@@ -60,7 +60,7 @@ fn stated_axes_have_the_handedness_of_the_frame_and_no_others_are_nearer() {
         assert_eq!(DMat3::from_cols(axes[0], axes[1], axes[2]).determinant(), -1.0);
         let frame = space.frame(20.0);
         let turned = axes[0].dot(frame.across) + axes[1].dot(frame.ahead) + axes[2].dot(frame.tangent);
-        // A frame is at most 62.8 degrees from the nearest rotation of a cube; quarter-turn rotations are farther.
+        // No frame is more than 62.8 degrees from the nearest rotation of a cube; rotations off by a quarter turn are farther.
         assert!(turned >= 1.0 + 2.0 * 62.81_f64.to_radians().cos(), "{along}: {turned}");
     }
 }
@@ -100,7 +100,7 @@ fn a_vessel_that_turns_away_from_its_sides_says_how_far() {
         .expect("degrees")
         .parse()
         .expect("a number");
-    // The frames at both ends lag the arc's tangent by half a segment.
+    // At both ends, the frame deviates from the tangent of the arc by half a segment.
     assert!((degrees - 90.0).abs() < 3.0, "{degrees}");
 }
 

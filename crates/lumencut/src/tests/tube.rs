@@ -1,4 +1,4 @@
-//! A synthetic profile for tests.
+//! The profile of a synthetic tube.
 
 use glam::DVec3;
 use lumencut_vessels::measure::flags::{BRANCH, CALCIUM};
@@ -6,7 +6,7 @@ use lumencut_vessels::measure::parts::Parts;
 use lumencut_vessels::measure::profile::{Profile, Source};
 use lumencut_vessels::measure::wall_level::WallSource;
 
-/// A 60 mm tube, 8 mm wide and 4 mm in its middle, with calcium at 20 mm and a branch over its last 10 mm.
+/// A 60 mm tube that is 8 mm wide and 4 mm in its middle, with calcium at 20 mm and a branch on its last 10 mm.
 pub(crate) fn tube() -> Profile {
     let at: Vec<f64> = (0..=120).map(|n| f64::from(n) / 2.0).collect();
     let numbers = |of: &dyn Fn(f64) -> f64| at.iter().map(|at| of(*at)).collect::<Vec<_>>();

@@ -1,11 +1,11 @@
-//! Estimated units of volumes with few levels.
+//! Guessed units of volumes with few distinct values.
 
 use lumencut_core::settings::Window;
 use lumencut_core::volume::{Volume, Voxels};
 
 use super::*;
 
-/// The unit of a 40³ cube of one level, except for some leading voxels.
+/// The unit of a 40³ cube with one value, except for some voxels at its beginning.
 fn unit(level: i16, others: &[(usize, i16)], lumen: Window) -> ValueUnit {
     let mut values = vec![level; 40 * 40 * 40];
     let mut rest = &mut values[..];

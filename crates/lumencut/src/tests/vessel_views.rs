@@ -13,7 +13,7 @@ fn front() -> Camera {
 
 #[test]
 fn about_a_place_the_vessel_runs_upwards_through_the_middle() {
-    // The head is up for either direction of the points.
+    // The head is up, whatever the direction of the points.
     for points in [[[1.0, 2.0, -30.0], [7.0, 2.0, 70.0]], [[7.0, 2.0, 70.0], [1.0, 2.0, -30.0]]] {
         let along = (DVec3::from_array(points[1]) - DVec3::from_array(points[0])).normalize();
         let camera = about(&vessel(&points, 2.0), 40.0, 0.0, [100, 80]).unwrap();
@@ -69,19 +69,19 @@ fn a_vessel_in_a_plane_is_seen_across_that_plane() {
         .map(|((sine, cosine), _)| ((u * cosine + v * sine) * 50.0).to_array())
         .collect();
     let found = refocused(&front(), &vessel(&arch, 4.0)).unwrap().direction();
-    // Tried directions are about 12 degrees apart.
+    // The tried directions are about 12 degrees apart.
     assert!(found.dot(normal).abs() > 0.97, "{found} beside the normal {normal}");
     assert!(found.dot(DVec3::Y) > 0.0, "from the side that is nearer");
 }
 
 #[test]
 fn a_view_of_a_vessel_shows_its_walls_and_what_lies_beside_them() {
-    // One shorter than wide and one longer: in 80 pixels minus 6 % margin on each side.
+    // One vessel is shorter than wide, the other is longer; each fills 80 pixels minus 6 % margin on each side.
     for (length, seen) in [(10.0, 10.0 + 4.0 * 15.0), (400.0, 400.0 + 4.0 * 15.0)] {
         let thick = vessel(&[[0.0, 0.0, 0.0], [0.0, 0.0, length]], 15.0);
         let found = refocused(&front(), &thick).unwrap();
         assert!(found.center().abs_diff_eq(DVec3::Z * length / 2.0, 1e-6));
-        // The sampled positions end half a step before its ends.
+        // The sampled positions end half a step before the ends of the vessel.
         let height = 80.0 * 0.88 * found.pixel_spacing();
         assert!((height - seen).abs() < 0.01 * length, "{height} mm of {seen}");
     }
@@ -89,7 +89,7 @@ fn a_view_of_a_vessel_shows_its_walls_and_what_lies_beside_them() {
 
 #[test]
 fn a_loop_is_not_seen_through_itself() {
-    // Two legs behind each other from the front, which hides half of the vessel.
+    // Two parts lie behind each other as seen from the front, so the front view hides half of the vessel.
     let legs = vessel(&[[0.0, 0.0, -60.0], [0.0, 0.0, 60.0], [0.0, 30.0, 60.0], [0.0, 30.0, -60.0]], 5.0);
     let found = refocused(&front(), &legs).unwrap();
     assert!(found.direction().x.abs() > 0.5, "{}", found.direction());

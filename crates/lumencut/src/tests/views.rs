@@ -40,7 +40,7 @@ fn unit_vectors_that_were_kept_elsewhere_are_taken_to_the_last_bit() {
     let nudged = DVec3::new(0.0, 1f64.next_down(), 0.0);
     let kept = camera.with_axes(nudged, camera.right(), camera.up()).unwrap();
     assert_eq!(kept.direction(), nudged);
-    // Derived cameras have unit vectors again.
+    // The axes of derived cameras have unit length again.
     assert_eq!(zoomed(&kept, 2.0).unwrap().direction(), DVec3::Y);
     let error = camera.with_axes(nudged, camera.up(), camera.right()).unwrap_err();
     assert_eq!(error.subject, "axes of the camera");
@@ -48,7 +48,7 @@ fn unit_vectors_that_were_kept_elsewhere_are_taken_to_the_last_bit() {
 
 #[test]
 fn a_fitted_view_leaves_the_margin_free_on_the_wider_side() {
-    // 44 mm across and 11 mm upwards: 88 of 100 pixels are used, 0.5 mm each.
+    // The points are 44 mm across and 11 mm high. They fill 88 of 100 pixels, 0.5 mm each.
     let corners = [DVec3::new(10.0, -7.0, 5.0), DVec3::new(54.0, 9.0, 16.0)];
     let fitted = fitted(&front(), &corners).unwrap();
     assert_near(fitted.center(), DVec3::new(32.0, 1.0, 10.5));

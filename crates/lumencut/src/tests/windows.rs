@@ -4,7 +4,7 @@ use lumencut_core::volume::Voxels;
 
 use super::*;
 
-/// Voxels of 1 mm with values by index.
+/// Voxels of 1 mm, with a value for each index.
 fn grid(size: [usize; 3], value: impl Fn([usize; 3]) -> f32) -> Vec<f32> {
     let [ni, nj, nk] = size;
     (0..ni * nj * nk).map(|n| value([n % ni, n / ni % nj, n / (ni * nj)])).collect()
@@ -23,7 +23,7 @@ fn rod() -> Vec<f32> {
     grid([40, 40, 40], |[_, j, k]| if j.abs_diff(20) < 5 && k.abs_diff(20) < 5 { 400.0 } else { 100.0 })
 }
 
-/// A value's position in a window: 0 black, 1 white.
+/// The position of a value in a window: 0 is black, 1 is white.
 fn share(window: Window, value: f64) -> f64 {
     (value - window.level) / window.width + 0.5
 }
@@ -34,7 +34,7 @@ fn a_window_along_centerlines_has_the_lumen_light_and_the_darkest_tissue_black()
     for radius in [None, Some(4.0), Some(0.0)] {
         let found = along(&volume(&voxels, [40; 3]), &tree(radius)).unwrap();
         assert!(share(found, 100.0).abs() < 1e-12);
-        // Nothing is brighter than the lumen.
+        // No voxel is brighter than the lumen.
         assert!((share(found, 400.0) - LUMEN_POSITION[1]).abs() < 1e-12);
     }
 }
@@ -42,7 +42,7 @@ fn a_window_along_centerlines_has_the_lumen_light_and_the_darkest_tissue_black()
 #[test]
 fn a_dark_lumen_has_the_mirrored_window_of_a_bright_one() {
     let [bright, dark] = [1.0, -1.0].map(|sign| {
-        // Something is brighter than white; negated, darker than black.
+        // Some voxels are brighter than white; in the negated volume they are darker than black.
         let voxels: Vec<f32> =
             rod().iter().enumerate().map(|(i, value)| sign * if i < 50 { 1500.0 } else { *value }).collect();
         along(&volume(&voxels, [40; 3]), &tree(Some(4.0))).unwrap()
@@ -53,12 +53,12 @@ fn a_dark_lumen_has_the_mirrored_window_of_a_bright_one() {
 #[test]
 fn white_is_the_brightest_there_is_and_black_the_darkest_within_what_the_lumen_needs() {
     for (ends, expected) in [
-        // Black lies 1.5 times the difference below the lumen.
+        // Black lies below the lumen by 1.5 times the difference.
         ([-1000.0, 550.0], [-50.0, 550.0]),
         ([0.0, 500.0], [0.0, 500.0]),
         ([-1000.0, 5000.0], [-50.0, 325.0 + 375.0 * (1.0 / 0.60 - 1.0)]),
         ([-1000.0, 330.0], [-50.0, 325.0 + 375.0 * (1.0 / 0.72 - 1.0)]),
-        // Never above the tissue.
+        // Black never lies above the tissue.
         ([90.0, 330.0], [75.0, 325.0 + 250.0 * (1.0 / 0.72 - 1.0)]),
     ] {
         let found = around_lumen(325.0, Tissue { middle: 75.0, darkest: None }, 0.0, ends);
@@ -71,10 +71,10 @@ fn white_is_the_brightest_there_is_and_black_the_darkest_within_what_the_lumen_n
 fn the_darkest_tissue_is_above_black_as_long_as_the_tissue_stays_dark() {
     let ends = [-1000.0, 5000.0];
     for (darkest, expected) in [
-        // Bright enough: black lies 1.5 times the difference below the lumen.
+        // The tissue is bright enough: black lies below the lumen by 1.5 times the difference.
         (-10.0, -75.0),
         (-100.0, 300.0 - 1.1 * 400.0),
-        // At most 2.2 times.
+        // Black lies below the lumen by at most 2.2 times the difference.
         (-800.0, -250.0),
     ] {
         let tissue = Tissue { middle: 50.0, darkest: Some(darkest) };
@@ -86,7 +86,7 @@ fn the_darkest_tissue_is_above_black_as_long_as_the_tissue_stays_dark() {
 
 #[test]
 fn no_window_begins_below_the_smallest_value() {
-    // A thick rod in tissue; a quarter of the volume is masked to 0.
+    // A thick rod in tissue; a quarter of the volume is masked with 0.
     let voxels = grid([40; 3], |[i, j, k]| match (j.abs_diff(20), k.abs_diff(20)) {
         (0..7, 0..7) => 300.0,
         _ if i < 30 => 10.0 + ((3 * i + 5 * j + 7 * k) % 101) as f32,
@@ -98,7 +98,7 @@ fn no_window_begins_below_the_smallest_value() {
         assert!(black(found.unwrap()).abs() < 1e-9);
     }
     assert!((share(of_volume(&masked).unwrap(), 300.0) - VOLUME_LUMEN_POSITION).abs() < 1e-9);
-    // A dark lumen: nothing is as dark as black would be.
+    // With a dark lumen, no voxel is as dark as black would be.
     let voxels =
         grid([40; 3], |[_, j, k]| if j.abs_diff(20) < 5 && k.abs_diff(20) < 5 { 20.0 } else { 200.0 });
     let dark = along(&volume(&voxels, [40; 3]), &tree(Some(4.0))).unwrap();
@@ -112,7 +112,7 @@ fn noise_widens_a_window_until_the_tissue_would_be_grey() {
     for (spread, expected) in [(10.0, 150.0), (75.0, 150.0), (100.0, 100.0), (110.0, 80.0), (190.0, 80.0)] {
         assert!((black(spread) - expected).abs() < 1e-9, "noise of {spread}: {}", black(spread));
     }
-    // A lumen without contrast to its tissue gets the window of its noise.
+    // If lumen and tissue do not differ, the noise defines the window.
     assert_eq!(black(210.0), -120.0);
     for spread in [0.0, 60.0, 190.0] {
         let [black, white] = around_lumen(300.0, Tissue { middle: 200.0, darkest: None }, spread, ends);
@@ -137,7 +137,7 @@ fn vessels_without_tissue_have_their_edges_for_it() {
 
 #[test]
 fn tissue_among_padding_is_darker_than_edges_between_bright_structures() {
-    // Everything below 60 was clipped to 0, as most voxels are. What touches the vessel is as bright as bone.
+    // Values below 60, as most voxels have, were clipped to 0. What touches the vessel is as bright as bone.
     let voxels = grid([10, 40, 40], |[i, j, k]| match (j.abs_diff(20), k.abs_diff(20)) {
         (0..2, 0..2) => 300.0,
         (0..3, 0..3) => 200.0 + ((3 * i + 5 * j + 7 * k) % 41) as f32,
@@ -162,7 +162,7 @@ fn beside_a_point_are_six_places_beyond_its_wall() {
 
 #[test]
 fn windows_of_the_whole_leave_padding_out_and_the_full_one_nothing() {
-    // Half padding, then tissue, and 2 % lumen; one voxel of each is far out.
+    // Half of the voxels is padding, then follow tissue and 2 % lumen; one voxel of each has an extreme value.
     let voxels = grid([100, 1, 1], |[i, ..]| match i {
         0..50 => -1000.0,
         50..98 => 50.0,
@@ -221,7 +221,7 @@ fn the_window_of_a_mip_reaches_to_the_brightest_and_is_at_most_so_much_wider() {
         let black = |window: Window| window.level - window.width / 2.0;
         assert!((black(mip) - black(blended)).abs() < 1e-9);
     }
-    // Between the two limits white is the brightest value.
+    // Between the two limits, white is at the brightest value.
     let voxels = grid([40; 3], |[i, j, k]| match (j.abs_diff(20), k.abs_diff(20)) {
         (0..2, 0..2) => 390.0,
         (0..5, 0..5) => 300.0,
@@ -231,7 +231,7 @@ fn the_window_of_a_mip_reaches_to_the_brightest_and_is_at_most_so_much_wider() {
     assert!((found.level + found.width / 2.0 - 390.0).abs() < 1e-9, "{found:?}");
 }
 
-/// Air, fat and muscle with noise; a sac of 40 with a lumen of 350 along i.
+/// Air, fat and muscle with noise; a sac with the value 40 and a lumen of 350 along i.
 fn sac() -> Vec<f32> {
     grid([40, 40, 40], |[i, j, k]| {
         let noise = ((i * 7919 + j * 104_729 + k * 1_299_709) % 97) as f32 / 97.0 - 0.5;
@@ -277,7 +277,7 @@ fn bright_vessels_beside_many_faint_ones_are_held() {
     assert!((share(found, 800.0) - BRIGHT_LUMEN_POSITION[0]).abs() < 1e-9);
 }
 
-/// The line of [`tree`] with a point per mm.
+/// The line of [`tree`], with a point every mm.
 fn line_of_points() -> VesselTree {
     let points = (2..38).map(|i| DVec3::new(f64::from(i), 20.0, 20.0)).collect();
     VesselTree::new(vec![Vessel::new(points, None).unwrap()]).unwrap()
@@ -285,7 +285,7 @@ fn line_of_points() -> VesselTree {
 
 #[test]
 fn slices_of_a_scan_whose_dark_values_are_cut_off_begin_there() {
-    // A CTA with soft tissue of 62 and everything darker at 0.
+    // A CT angiography with soft tissue of 62, in which all darker values are 0.
     let voxels: Vec<f32> = sac().iter().map(|value| if *value < 0.0 { 0.0 } else { *value }).collect();
     let found = of_slices(&volume(&voxels, [40; 3])).unwrap();
     assert!(share(found, 0.0) < 0.05 && share(found, 40.0) > 0.05, "{found:?}");

@@ -8,9 +8,9 @@ export type Territory = 'carotid' | 'coronary';
 
 export type AfterEdit = {
   readonly edited: Edited;
-  /** The state: shows the vessels of the document that are not doubtful. */
+  /** The state; the vessels of the document that are not doubtful are shown. */
   readonly report: Report;
-  /** Lines that are new in the document. */
+  /** The lines that the document before the edit did not have. */
   readonly lines: ReadonlyArray<NumberedLine>;
   /** Facts about the lines that are not doubtful. */
   readonly facts: ReadonlyArray<LineFacts>;
@@ -18,7 +18,7 @@ export type AfterEdit = {
   readonly pick: Pick | null;
 };
 
-/** An orthographic camera; its axes are unit vectors. */
+/** An orthographic camera, with unit vectors as axes. */
 export type Camera = {
   readonly center: Vector;
   readonly direction: Vector;
@@ -36,7 +36,7 @@ export type CenterlineWish = {
   readonly reorder?: boolean;
 };
 
-/** Places to compare before grading, such as offered references (arc lengths, mm). */
+/** Places to compare with a stenosis before it is graded, such as offered references (arc lengths, mm). */
 export type Compared = {
   readonly at: number;
   readonly references: ReadonlyArray<number>;
@@ -46,36 +46,36 @@ export type Compared = {
 export type Cpr = {
   /** Index of the vessel. */
   readonly vessel: number;
-  /** Rotation about its axis (radians). */
+  /** Rotation about the axis of the vessel (radians). */
   readonly angle: number;
   /** Width of the picture (mm). */
   readonly width: number;
   /** Pixel side (mm). */
   readonly pixel_spacing: number;
-  /** The CFA feature of a half circle; none for the plain value. */
+  /** The CFA feature of a half circle; none to show the values of the scan. */
   readonly feature: Feature | null;
   /** The side of the lumen that rows follow; none for a constant angle. */
   readonly roll: Roll | null;
 };
 
 export type Diameter = {
-  /** Of a circle of the same area (mm). */
+  /** Diameter of the circle of the same area (mm). */
   readonly diameter: number;
-  /** Its standard deviation (mm). */
+  /** Standard deviation of the diameter (mm). */
   readonly uncertainty: number | null;
 };
 
 export type DocumentVessel = {
-  /** Constant through edits and unique in a study. */
+  /** Identifies the vessel: it is constant through edits and unique in a study. */
   readonly id: number;
-  /** Its line number. */
+  /** Number of the vessel's line. */
   readonly line: number;
-  /** Its name; may be empty. */
+  /** Name; may be empty. */
   readonly name: string;
   /** `#rrggbb`. */
   readonly color: string;
   readonly isHidden: boolean;
-  /** Its clicks in order; none if it came from a file, mask or seed, or was cut or joined. */
+  /** The clicks of the vessel in order; none if it came from a file, mask or seed, or was cut or joined. */
   readonly clicks: ReadonlyArray<Vector> | null;
   /** Why a found branch is doubtful, until it is accepted. */
   readonly doubt: string | null;
@@ -88,9 +88,9 @@ export type DoubtRow = {
 };
 
 export type DoubtfulPlace = {
-  /** The reason, in a sentence. */
+  /** A sentence that states the reason of the doubt. */
   readonly words: string;
-  /** The arc length (mm) from or up to which it is doubtful, to show and cut there; none for the whole line. */
+  /** The arc length (mm) from which, or up to which, the vessel is doubtful, to show and cut there; none for the whole line. */
   readonly at: number | null;
 };
 
@@ -159,7 +159,7 @@ export type Edit = {
   readonly click: Vector;
 } | {
   readonly "kind": "find_vessels";
-  /** Whether to return doubtful vessels if none is confident; otherwise that is an error. */
+  /** Whether to return only doubtful vessels if none is confident; otherwise that is an error. */
   readonly doubtful: boolean;
 } | {
   readonly "kind": "accept";
@@ -177,12 +177,12 @@ export type Edit = {
 export type EditRequest = {
   readonly document: VesselDocument;
   readonly edit: Edit;
-  /** Whether to bridge gaps from now on, in the same step: the mend of an edit rejected with `bridge`. */
+  /** Whether to bridge gaps from now on, in the same step. This is the remedy for an edit that was rejected with `bridge`. */
   readonly bridging: boolean;
 };
 
 export type Edited = {
-  /** The document after it; unchanged if there was nothing to do. */
+  /** The document after the edit; unchanged if there was nothing to do. */
   readonly document: VesselDocument;
   /** The name of the undo step. */
   readonly words: string;
@@ -207,17 +207,17 @@ export type Findings = {
 
 export type FirstClick = {
   readonly pick: Pick;
-  /** The whole vessel that it would add. */
+  /** The whole vessel that the click would add. */
   readonly whole: WholeVessel | null;
 };
 
 /** A flag of a section. */
 export type FlagLook = {
-  /** Its word in tables and reports, such as `no clear wall`; part of the file formats. */
+  /** The word for the flag in tables and reports, such as `no clear wall`; it is part of the file formats. */
   readonly word: string;
-  /** Its meaning, as part of a sentence. */
+  /** What the flag means, as part of a sentence. */
   readonly meaning: string;
-  /** Its colour on a dark screen, `#rrggbb`. */
+  /** The colour of the flag on a dark screen, `#rrggbb`. */
   readonly screen: string;
 };
 
@@ -229,11 +229,11 @@ export type Grade = {
 export type Histogram = {
   readonly low: number;
   readonly high: number;
-  /** Counts from the lowest range; the largest value counts in the last. */
+  /** Number of values in each range, from the lowest range on; the largest value counts in the last range. */
   readonly counts: ReadonlyArray<number>;
 };
 
-/** The position of a picture: unit vectors right and down (LPS), width in pixels, pixel side (mm). */
+/** How a picture lies in space: unit vectors right and down (LPS), width in pixels, pixel side (mm). */
 export type LaidPicture = {
   readonly right: Vector;
   readonly down: Vector;
@@ -244,7 +244,7 @@ export type LaidPicture = {
 export type LineContent = {
   /** At least two points (mm, LPS). */
   readonly points: ReadonlyArray<Vector>;
-  /** mm; null if unknown, for all points or for one */
+  /** Radius (mm); null if unknown, for all points or for one. */
   readonly radius: ReadonlyArray<number | null> | null;
   /** The confidence of each point (0 to 1) of a traced line. */
   readonly confidence: ReadonlyArray<number> | null;
@@ -258,17 +258,17 @@ export type LineFacts = {
   readonly length: number;
   /** Median diameter (mm); null if no radius is known. */
   readonly calibre: number | null;
-  /** Index of its connected part; 0 is the longest. */
+  /** Index of the connected part that contains the line; 0 is the longest part. */
   readonly part: number;
-  /** The line it branches from; null for the widest line of a part. */
+  /** The line from which this line branches; null for the widest line of a part. */
   readonly parent: number | null;
 };
 
-/** A line in a viewer's list. A hidden line is not drawn but still measured among all, so that hiding changes no number. */
+/** A line in a viewer's list. A hidden line is not drawn but is measured together with the others, so hiding changes no number. */
 export type ListedLine = {
-  /** Its number. */
+  /** Number of the line. */
   readonly line: number;
-  /** Its name; may be empty. */
+  /** Name; may be empty. */
   readonly name: string;
   readonly hidden: boolean;
 };
@@ -279,11 +279,11 @@ export type Look = {
 };
 
 export type LookRow = {
-  /** Its name in Python and on the command line. */
+  /** Name in Python and on the command line. */
   readonly name: string;
   readonly words: string;
   readonly sentence: string;
-  /** Values of all settings that any look sets; defaults for those this one leaves alone. */
+  /** The values of all settings that at least one look sets; the default of a setting that this look does not set. */
   readonly settings: Settings;
 };
 
@@ -300,19 +300,19 @@ export type Marks = {
   readonly at: number | null;
   readonly references: ReadonlyArray<number>;
   readonly method: StenosisMethod;
-  /** The assumed original diameter (mm), for ECST. */
+  /** The assumed original diameter of the vessel (mm), for ECST. */
   readonly original: number | null;
   /** The diameter of a comparable normal vessel (mm). */
   readonly comparison: number | null;
   readonly group: Territory | null;
-  /** The ends of a stretch, for length and C-arm. */
+  /** The ends of a stretch, for length and C-arm angles. */
   readonly stretch: Pair | null;
-  /** The ends of a second stretch, for the angle between both. */
+  /** The ends of a second stretch, for the angle between both stretches. */
   readonly secondStretch: Pair | null;
   readonly diameters: ReadonlyArray<number>;
 };
 
-/** A section: its number, wall, and the ends of its shortest and longest diameters (mm, LPS). */
+/** A section: its number, the wall, and the ends of the shortest and longest diameter (mm, LPS). */
 export type MeasuredSection = {
   readonly number: number;
   /** The contour of the wall; empty if none was found. */
@@ -323,16 +323,16 @@ export type MeasuredSection = {
 
 export type MeasuredVessel = {
   readonly id: string;
-  /** Its name; may be empty. */
+  /** Name; may be empty. */
   readonly name: string;
   readonly line: number;
   readonly marks: Marks;
 };
 
 export type NamedLine = {
-  /** Its number. */
+  /** Number of the line. */
   readonly line: number;
-  /** Its name; may be empty. */
+  /** Name; may be empty. */
   readonly name: string;
 };
 
@@ -342,15 +342,15 @@ export type NamedWindow = {
   readonly window: Pair;
 };
 
-/** An unmeasured stretch. */
+/** A stretch of a vessel where nothing was measured. */
 export type NotMeasured = {
-  /** Its start (arc length, mm). */
+  /** Start of the stretch (arc length, mm). */
   readonly from_mm: number;
-  /** Its end (arc length, mm). */
+  /** End of the stretch (arc length, mm). */
   readonly to_mm: number;
-  /** Where cutting the vessel removes it (arc length, mm). */
+  /** Where to cut the vessel to remove the unmeasured stretch (arc length, mm). */
   readonly cut_mm: number;
-  /** A sentence with the reason. */
+  /** A sentence that states the reason. */
   readonly words: string;
 };
 
@@ -378,9 +378,9 @@ export type Pick = {
   readonly point: Vector;
   /** The volume's value; none outside. */
   readonly value: number | null;
-  /** The vessel in or next to whose lumen it lies; none in tissue. */
+  /** The vessel in whose lumen, or next to whose lumen, the point lies; none in tissue. */
   readonly vessel: number | null;
-  /** The nearest arc length on the vessel (mm). */
+  /** The arc length on the vessel nearest to the point (mm). */
   readonly arc_length: number | null;
 };
 
@@ -404,15 +404,15 @@ export type PlaceDoubt = {
   readonly readings: ReadonlyArray<string>;
 };
 
-/** A turn about a place on a vessel, which runs upwards through the middle of the picture. */
+/** The views about a place on a vessel, which runs upwards through the middle of the picture. */
 export type PlaceTurn = {
-  /** The first view: the one nearest to anterior. */
+  /** The first view: the one nearest to the anterior view. */
   readonly camera: Camera;
-  /** The cut diameter (mm) after each degree from 0 to 179, then repeating. None without two walls. */
+  /** The cut diameter (mm) after each degree from 0 to 179, from where the diameters repeat. None if two walls are not found. */
   readonly diameters: ReadonlyArray<number | null>;
 };
 
-/** A flat picture: centre in the world, unit vectors right and down (LPS), size in pixels, pixel side (mm). */
+/** A flat picture: centre in world space, unit vectors right and down (LPS), size in pixels, pixel side (mm). */
 export type Plane = {
   readonly center: Vector;
   readonly right: Vector;
@@ -426,20 +426,20 @@ export type Plane = {
 export type PointedAt = {
   /** The place (LPS, mm). */
   readonly point: Vector;
-  /** Unit vector of the ray, away from the viewer; none for the place itself. */
+  /** Unit vector of the ray, away from the viewer; none if only the place counts. */
   readonly along: Vector | null;
 };
 
 export type PointedLumen = {
-  /** The pointed place in it; on a ray, the one nearest its centre. */
+  /** The pointed place in the lumen; on a ray, the place nearest to the lumen's centre. */
   readonly point: Vector;
-  /** Its centre. */
+  /** Centre of the lumen. */
   readonly center: Vector;
-  /** Its diameter (mm). */
+  /** Diameter of the lumen (mm). */
   readonly diameter: number;
-  /** The median value at its centre. */
+  /** The median value at the centre of the lumen. */
   readonly value: number;
-  /** The section's right. */
+  /** Unit vector to the right in the section. */
   readonly right: Vector;
   readonly down: Vector;
 };
@@ -447,7 +447,7 @@ export type PointedLumen = {
 /** The lumen of a vessel by arc length; NaN (null in JSON) if not measured. */
 export type Profile = {
   readonly arc_length: ReadonlyArray<number>;
-  /** Of a circle of the same area (mm). */
+  /** Diameter of the circle of the same area (mm). */
   readonly diameter: ReadonlyArray<number | null>;
   /** mm */
   readonly diameter_min: ReadonlyArray<number | null>;
@@ -457,23 +457,23 @@ export type Profile = {
   readonly area: ReadonlyArray<number | null>;
   /** The standard deviation of `diameter` (mm). */
   readonly uncertainty: ReadonlyArray<number | null>;
-  /** Whether a section counts for the narrowest, widest and suggested places. */
+  /** Whether each section is considered for the narrowest, widest and suggested places. */
   readonly counts: ReadonlyArray<boolean>;
-  /** Words such as `calcium`, `no clear wall`. */
+  /** Words for the flags of each section, such as `calcium`, `no clear wall`. */
   readonly flags: ReadonlyArray<ReadonlyArray<string>>;
-  /** The two bounds of a diameter next to calcium or metal, in words. */
+  /** The two bounds of each diameter next to calcium or metal, in words. */
   readonly bounds: ReadonlyArray<string | null>;
   /** All flags, in the order of plots and tables. */
   readonly flag_table: ReadonlyArray<FlagLook>;
   readonly center: ReadonlyArray<Vector>;
   /** FWHM of the point spread (mm). */
   readonly fwhm: number;
-  /** Its source: `given`, `estimated on …`, `assumed: …`. */
+  /** Where the point-spread width comes from: `given`, `estimated on …`, `assumed: …`. */
   readonly fwhm_source: string;
-  /** The expected wall level, or why walls were not separated. */
+  /** The expected level of the wall, or why walls were not separated. */
   readonly wall_source: string;
   readonly narrowest: Spot | null;
-  /** The largest diameter; none if an odd outline or a branch may cause it. */
+  /** The largest diameter; none if an unusual outline or a branch may be its cause. */
   readonly widest: Spot | null;
   /** Why no narrowest place or reference is suggested, one sentence each. */
   readonly not_suggested: ReadonlyArray<string>;
@@ -487,7 +487,7 @@ export type Reformation = {
   readonly "kind": "uncurl";
   readonly vessel: number;
   readonly side: Side;
-  /** From 0 (as seen) to 1 (straight). */
+  /** How far the vessel is straightened, from 0 (as seen) to 1 (straight). */
   readonly amount: number;
 } | {
   readonly "kind": "spiral";
@@ -505,7 +505,7 @@ export type ReformedPicture = {
   readonly size: Pair;
   /** One byte per channel. */
   readonly bytes: Bytes;
-  /** The meaning of rows, columns and colours. */
+  /** What rows, columns and colours mean. */
   readonly words: string;
   /** Pixel side (mm). */
   readonly pixel_spacing: number;
@@ -529,13 +529,13 @@ export type Report = {
   readonly volume: VolumeReport | null;
   /** The shown vessels; None if only the volume is open. */
   readonly vessels: ReadonlyArray<VesselReport> | null;
-  /** Suggested windows; none without a volume. */
+  /** Suggested windows; none if no volume is open. */
   readonly windows: Windows | null;
-  /** Whether the last opened centerlines seem unsorted and can be sorted; omitted if not. */
+  /** Whether the centerlines opened last seem to be in the wrong order and can be sorted; omitted if not. */
   readonly can_reorder?: boolean;
 };
 
-/** A place with its name and colour. */
+/** A place in a report, with its name and colour. */
 export type ReportPlace = {
   /** Such as `marked place` or `reference before (suggestion)`. */
   readonly name: string;
@@ -549,9 +549,9 @@ export type ReportPlace = {
 
 /** The pictures of a vessel. */
 export type ReportPlan = {
-  /** The width of the straightened vessel (mm); a host shows less if the volume has less. */
+  /** The width of the straightened vessel (mm); a host shows less if the volume is narrower. */
   readonly width: number;
-  /** Its pixel side (mm). */
+  /** Pixel side of the straightened vessel (mm). */
   readonly spacing: number;
   /** The places of the section pictures, in order. */
   readonly places: ReadonlyArray<ReportPlace>;
@@ -573,7 +573,7 @@ export type ReportRequest = {
   readonly distances: ReadonlyArray<number>;
 };
 
-/** The straightened vessel from left to right; its start is the middle of the first column. */
+/** The straightened vessel from left to right. The vessel starts in the middle of the first column. */
 export type ReportStrip = {
   /** PNG in base64. */
   readonly picture: string;
@@ -595,13 +595,13 @@ export type ReportVessel = {
 export type ReportView = {
   /** PNG in base64. */
   readonly picture: string;
-  /** Its method, such as `csr`. */
+  /** The method of the view, such as `csr`. */
   readonly method: Method;
 };
 
 export type Roll = "narrowest" | "widest";
 
-/** A bar with a round length. */
+/** A scale bar of round length. */
 export type ScaleBar = {
   /** Length (mm). */
   readonly length: number;
@@ -618,7 +618,7 @@ export type Sentence = {
 
 export type SentenceKind = "finding" | "doubt" | "remark";
 
-/** A session as the page has it: lines by number, everything else as in the file except point data. */
+/** A session as the page has it. Lines are numbers; everything else is as in the file, without the data of points. */
 export type SessionContent = {
   readonly lines: ReadonlyArray<NamedLine>;
   readonly doubtful_lines: ReadonlyArray<NamedLine>;
@@ -632,10 +632,10 @@ export type SettingRow = {
   readonly default: SettingValue;
   readonly low: number | null;
   readonly high: number | null;
-  /** The unit of a number. */
+  /** The unit, if the value is a number with a unit. */
   readonly unit: string | null;
   readonly choices: ReadonlyArray<string>;
-  /** The effect if unset, for settings unset by default. */
+  /** What the setting means if it is unset, for settings that are unset by default. */
   readonly open: string | null;
   readonly sentence: string;
 };
@@ -647,13 +647,13 @@ export type Side = {
 
 /** A place on a vessel and its diameter (mm). */
 export type Spot = {
-  /** mm along the vessel */
+  /** Arc length on the vessel (mm). */
   readonly at: number;
   /** mm */
   readonly diameter: number;
 };
 
-/** What a file states about its grid, or a reader assumed. */
+/** What is known about the scan's grid, from its file or by an assumption of the reader. */
 export type Stated = {
   /** Whether the voxel spacing is known; otherwise lengths have no unit. */
   readonly has_units: boolean;
@@ -662,11 +662,11 @@ export type Stated = {
 };
 
 export type Stenosis = {
-  /** How much narrower it is than the reference. */
+  /** By how much the stenosis is narrower than the reference (percent). */
   readonly percent: number;
   /** The standard deviation of `percent`. */
   readonly percent_uncertainty: number | null;
-  /** Its place (mm). */
+  /** The place of the stenosis (arc length, mm). */
   readonly at: number;
   readonly diameter: number;
   /** The standard deviation of `diameter` (mm). */
@@ -679,13 +679,13 @@ export type Stenosis = {
   readonly words: string;
   /** Doubts about the percentage, one sentence each. */
   readonly doubts: ReadonlyArray<string>;
-  /** The severity group with its source, if a territory was named. */
+  /** The severity group with its source, if a territory was stated and the method has groups. */
   readonly group: string | null;
 };
 
 export type Stopper = {
   readonly center: Vector;
-  /** Its radius (mm). */
+  /** Radius of the stopper (mm). */
   readonly radius: number;
 };
 
@@ -701,14 +701,14 @@ export type StraightenedPick = {
 };
 
 export type Stretch = {
-  /** Along the vessel (mm). */
+  /** Length along the vessel (mm). */
   readonly length: number;
-  /** From end to end (mm). */
+  /** Straight distance between the ends (mm). */
   readonly straight: number;
   /** `length` / `straight`; null for a closed stretch. */
   readonly tortuosity: number | null;
   readonly direction: Vector;
-  /** LAO angle of a C-arm that shows it unforeshortened (radians). */
+  /** LAO angle of a C-arm that shows the stretch without foreshortening (radians). */
   readonly lao: number;
   /** Cranial angle of that C-arm (radians). */
   readonly cranial: number;
@@ -720,14 +720,14 @@ export type Stretch = {
 export type Told = {
   /** The vessel. */
   readonly vessel: number;
-  /** Name, length and joined vessels, in a sentence. */
+  /** A sentence with name, length and joined vessels. */
   readonly words: string;
-  /** Its doubtful places. */
+  /** The doubtful places of the vessel. */
   readonly doubts: ReadonlyArray<DoubtfulPlace>;
 };
 
 export type VesselDocument = {
-  /** In list order. */
+  /** The vessels in list order. */
   readonly vessels: ReadonlyArray<DocumentVessel>;
   readonly stoppers: ReadonlyArray<Stopper>;
   /** Whether tracing bridges stretches without visible lumen. */
@@ -735,9 +735,9 @@ export type VesselDocument = {
 };
 
 export type VesselReport = {
-  /** Its line number. */
+  /** Number of the vessel's line. */
   readonly line: number;
-  /** Its name; may be empty. */
+  /** Name; may be empty. */
   readonly name: string;
   readonly length: number;
   readonly has_radius: boolean;
@@ -767,7 +767,7 @@ export type VolumeReport = {
 };
 
 export type WholeVessel = {
-  /** The points of its line (mm, LPS). */
+  /** The points of the vessel's line (mm, LPS). */
   readonly points: ReadonlyArray<Vector>;
   /** Length and joined vessels, such as `84.2 mm, joins Vessel 2 at 12 mm`. */
   readonly words: string;
@@ -777,9 +777,9 @@ export type Windows = {
   readonly main: Pair;
   readonly contexts: Readonly<Record<string, Pair>>;
   readonly presets: ReadonlyArray<NamedWindow>;
-  /** Whether the values appear to be Hounsfield units, so that CT windows apply. */
+  /** Whether the values seem to be Hounsfield units, so that CT windows apply. */
   readonly is_hounsfield: boolean;
-  /** Whether the stent window is useful: Hounsfield units, with values as bright as metal. */
+  /** Whether the stent window is useful: the values seem to be Hounsfield units, and some are as bright as metal. */
   readonly may_hold_stents: boolean;
 };
 
@@ -791,7 +791,7 @@ export type WrittenFile = {
 
 /** The questions that the engine answers, by their names. */
 export type Questions = {
-  /** The state of what is open. */
+  /** The state of all that is open. */
   readonly report: {
     readonly message: null;
     readonly answer: Report;
@@ -801,7 +801,7 @@ export type Questions = {
     readonly message: null;
     readonly answer: null;
   };
-  /** Opens a centerline file; returns notes and doubts about its placement. */
+  /** Opens a centerline file; returns notes, and doubts about its space and unit. */
   readonly open_centerlines: {
     readonly message: {
       readonly name: string;
@@ -817,7 +817,7 @@ export type Questions = {
     };
     readonly answer: Camera;
   };
-  /** The view that shows most of a line, fitted to it, with the least turn from this camera. */
+  /** The view that shows most of a line, fitted to it, with little turning from this camera. */
   readonly best_view: {
     readonly message: {
       readonly camera: Camera;
@@ -825,14 +825,14 @@ export type Questions = {
     };
     readonly answer: Camera;
   };
-  /** Length, calibre and connections of lines. */
+  /** Length, calibre and connections of the given lines. */
   readonly line_facts: {
     readonly message: {
       readonly lines: ReadonlyArray<number>;
     };
     readonly answer: ReadonlyArray<LineFacts>;
   };
-  /** A turn about a place on a vessel (mm), with the cut diameters. */
+  /** The views about a place on a vessel (arc length, mm), with the cut diameters. */
   readonly turn_about: {
     readonly message: {
       readonly vessel: number;
@@ -869,7 +869,7 @@ export type Questions = {
     };
     readonly answer: Histogram;
   };
-  /** The picture of a plane in a window. */
+  /** The picture of a plane, with the given window. */
   readonly slice: {
     readonly message: {
       readonly plane: Plane;
@@ -877,7 +877,7 @@ export type Questions = {
     };
     readonly answer: Picture;
   };
-  /** The section at an arc length (mm), the measured one if available: centre, right and down. */
+  /** The section at an arc length (mm), a measured section if the vessel was measured: centre, unit vectors right and down. */
   readonly across: {
     readonly message: {
       readonly vessel: number;
@@ -885,7 +885,7 @@ export type Questions = {
     };
     readonly answer: readonly [Vector, Vector, Vector];
   };
-  /** The straightened CPR of a vessel in a window. */
+  /** The straightened CPR of a vessel, with the given window. */
   readonly straightened: {
     readonly message: {
       readonly cpr: Cpr;
@@ -893,19 +893,19 @@ export type Questions = {
     };
     readonly answer: Picture;
   };
-  /** What a pixel of the last straightened CPR shows; for CFA, the place on its half circle. */
+  /** What a pixel of the last straightened CPR shows; for CFA, the place on the half circle of the pixel. */
   readonly pick_straightened: {
     readonly message: {
       readonly pixel: Pair;
     };
     readonly answer: StraightenedPick;
   };
-  /** Column and row of a point in the last straightened CPR; null without one. */
+  /** Column and row of a point in the last straightened CPR; null if there is none. */
   readonly on_straightened: {
     readonly message: Vector;
     readonly answer: Pair | null;
   };
-  /** Another reformation, in a pane of this size. */
+  /** Another reformation of the scan, fitted into a pane of this size. */
   readonly reformed: {
     readonly message: {
       readonly reformation: Reformation;
@@ -914,14 +914,14 @@ export type Questions = {
     };
     readonly answer: ReformedPicture;
   };
-  /** What a pixel of the last reformation shows; null if nothing. */
+  /** What a pixel of the last reformation shows; null if it shows nothing. */
   readonly pick_reformed: {
     readonly message: {
       readonly pixel: Pair;
     };
     readonly answer: Pick | null;
   };
-  /** Column and row of a point in the last reformation; null if not shown. */
+  /** Column and row of a point in the last reformation; null if it does not show the point. */
   readonly on_reformed: {
     readonly message: Vector;
     readonly answer: Pair | null;
@@ -931,12 +931,12 @@ export type Questions = {
     readonly message: null;
     readonly answer: VesselDocument;
   };
-  /** An edit of vessels with the state after it. To add a mask, the viewer reads its file first. */
+  /** Makes an edit of vessels; returns the state after it. To add a mask, the viewer reads its file first. */
   readonly edit: {
     readonly message: EditRequest;
     readonly answer: AfterEdit;
   };
-  /** What a first click hit, and the whole vessel that it would add. Rejects places where no vessel can begin: outside the scan, or with a value that is not lumen. */
+  /** What a first click hits, and the whole vessel that it would add. Rejects a place where no vessel can begin: outside the scan, or with a value that is not lumen. */
   readonly first_click: {
     readonly message: {
       readonly click: Vector;
@@ -944,17 +944,17 @@ export type Questions = {
     };
     readonly answer: FirstClick;
   };
-  /** The lumens along a ray, nearest first, or at a place. */
+  /** The lumens along a ray, the nearest first, or the lumen at a place. */
   readonly lumens: {
     readonly message: PointedAt;
     readonly answer: ReadonlyArray<PointedLumen>;
   };
-  /** The path to the pointer through voxel centres; null if not found within 40 ms. Never rejected for lack of lumen. */
+  /** The path to the pointer through voxel centres; null if not found within 40 ms. It is never rejected for lack of lumen. */
   readonly path: {
     readonly message: PathRequest;
     readonly answer: ReadonlyArray<Vector> | null;
   };
-  /** The whole vessel that a click would add; null if none, or before the scan's vessels were searched for. */
+  /** The whole vessel that a click would add; null if there is none, or if the scan's vessels were not searched for yet. */
   readonly whole_vessel: {
     readonly message: {
       readonly click: Vector;
@@ -969,17 +969,17 @@ export type Questions = {
     };
     readonly answer: LineContent;
   };
-  /** Adds a line, such as one of a saved session; returns its number. */
+  /** Adds a line, such as a line of a saved session; returns the number that it gets. */
   readonly add_line: {
     readonly message: LineContent;
     readonly answer: number;
   };
-  /** Shows the lines of a list that are not hidden, in order; an empty list shows the volume only. All are measured together. Windows stay unchanged. */
+  /** Shows the lines of a list that are not hidden, in order; only the volume if the list is empty. All listed lines are measured together. Windows stay unchanged. */
   readonly show: {
     readonly message: ReadonlyArray<ListedLine>;
     readonly answer: Report;
   };
-  /** A centerline file of these lines. */
+  /** Writes these lines to a centerline file. */
   readonly write_lines: {
     readonly message: {
       readonly lines: ReadonlyArray<NamedLine>;
@@ -987,7 +987,7 @@ export type Questions = {
     };
     readonly answer: WrittenFile;
   };
-  /** The profile of a shown line, measured in 0.5 mm steps with this point-spread width (mm); null estimates it. */
+  /** The profile of a shown line, measured in steps of 0.5 mm with this point-spread width (mm); null estimates the width. */
   readonly profile: {
     readonly message: {
       readonly line: number;
@@ -1003,7 +1003,7 @@ export type Questions = {
     };
     readonly answer: Grade;
   };
-  /** The doubts that a percentage from these places would have, one sentence each. */
+  /** The doubts that a percentage would have if it were graded from these places, one sentence each. */
   readonly doubts: {
     readonly message: {
       readonly line: number;
@@ -1011,7 +1011,7 @@ export type Questions = {
     };
     readonly answer: ReadonlyArray<string>;
   };
-  /** The references offered before and after the stenosis, on sides without a mark. */
+  /** The references that are offered before and after the stenosis, on sides without a marked reference. */
   readonly offered_references: {
     readonly message: {
       readonly line: number;
@@ -1052,7 +1052,7 @@ export type Questions = {
     };
     readonly answer: number;
   };
-  /** The table of `lumencut measure -o x.csv`. */
+  /** The measurements of the vessels, as the CSV of `lumencut measure -o x.csv`. */
   readonly profiles_csv: {
     readonly message: {
       readonly vessels: ReadonlyArray<MeasuredVessel>;
@@ -1060,7 +1060,7 @@ export type Questions = {
     };
     readonly answer: string;
   };
-  /** The JSON of `lumencut measure -o x.json`. */
+  /** The measurements of the vessels, as the JSON of `lumencut measure -o x.json`. */
   readonly profiles_json: {
     readonly message: {
       readonly vessels: ReadonlyArray<MeasuredVessel>;
@@ -1068,7 +1068,7 @@ export type Questions = {
     };
     readonly answer: string;
   };
-  /** The findings on vessels and the straight distances (mm), in the report's sentences. */
+  /** The findings on vessels and the straight distances (mm), in the sentences of the report. */
   readonly findings: {
     readonly message: {
       readonly vessels: ReadonlyArray<MeasuredVessel>;
@@ -1087,12 +1087,12 @@ export type Questions = {
     readonly message: ReportRequest;
     readonly answer: string;
   };
-  /** A session file of this content. */
+  /** A session file with this content. */
   readonly write_session: {
     readonly message: SessionContent;
     readonly answer: WrittenFile;
   };
-  /** The content of a session file of the open scan; its lines are held but not yet shown. */
+  /** The content of a session file of the open scan. Its lines are kept, but not shown yet. */
   readonly read_session: {
     readonly message: {
       readonly name: string;
@@ -1104,14 +1104,14 @@ export type Questions = {
     readonly message: LaidPicture;
     readonly answer: PictureLabels;
   };
-  /** Warnings about the sides of a straightened volume, from a text of its file. */
+  /** Warnings about the sides of a straightened volume, from the text that marks its file. */
   readonly straightened_notes: {
     readonly message: {
       readonly text: string;
     };
     readonly answer: ReadonlyArray<string>;
   };
-  /** The views of a flight between two cameras, at equal time steps, both ends included. */
+  /** The views of a flight between two cameras, at equal time steps, including both cameras. */
   readonly flight: {
     readonly message: {
       readonly from: Camera;

@@ -1,4 +1,4 @@
-//! The single answer to an edit equals the answers of separate questions.
+//! The answer to an edit equals the answers to separate questions.
 
 use lumencut_core::progress::Progress;
 use serde_json::{Value as Json, json};
@@ -30,11 +30,11 @@ fn an_edit_tells_what_line_facts_report_and_place_tell_and_shows_the_tree() {
     assert_eq!(first.facts, study.line_facts(&[line]).expect("facts"));
     assert_eq!(as_json(&first.report), as_json(study.report().expect("a report")));
     assert_eq!(first.report.vessels.as_ref().map(Vec::len), Some(1));
-    // The last click lies in the vessel traced to it.
+    // The last click lies in the vessel that was traced to it.
     let pick = first.pick.expect("a place");
     assert_eq!((pick.point, pick.vessel), (trunk[1], Some(0)));
 
-    // A hidden vessel is reported but not shown; known lines are not sent again.
+    // A hidden vessel is reported but not shown, and lines that the viewer knows are not sent again.
     let mut document = first.edited.document;
     document.vessels[0].is_hidden = true;
     let branch = [lines[1][9], lines[1][lines[1].len() - 5]].map(|point| point.to_array());

@@ -1,4 +1,4 @@
-//! Doubts reported when scans or centerlines are opened: orders, units, sizes.
+//! Opening scans or centerlines reports doubts about order, unit and size.
 
 use glam::DVec3;
 use lumencut_io::Unit;

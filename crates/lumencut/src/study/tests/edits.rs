@@ -1,4 +1,4 @@
-//! The results of vessel edits.
+//! Edits of vessels and their results.
 
 use glam::DVec3;
 use lumencut_core::progress::Progress;
@@ -72,11 +72,11 @@ fn an_id_is_never_given_twice() {
     let line = json!({"kind": "add_lines", "lines": [{"line": 0, "name": "d"}]});
     let more = edited(&mut study, &document, &line.clone());
     assert_eq!((more.words.as_str(), &more.added), ("open centerlines", &vec![4]));
-    // Ids are not reused after the last vessel is gone or its step undone …
+    // Ids are not used again after the last vessel was removed or its step was undone …
     let fewer = after(&mut study, &more.document, &json!({"kind": "remove", "ids": [4]}));
     assert_eq!(fewer, document);
     assert_eq!(edited(&mut study, &document, &line.clone()).added, [5]);
-    // … nor are those of a document that was read.
+    // … and neither are those of a document that was read.
     let mut read = document;
     read.vessels[1].id = 70;
     assert_eq!(edited(&mut study, &read, &line).added, [71]);
@@ -127,7 +127,7 @@ fn clicks_are_added_inserted_moved_and_removed_and_the_line_follows() {
     assert_eq!(removed.words, "remove a point");
     has(&removed.document, &[0.35, 0.5, 0.8]);
     assert!(removed.without_marks.is_empty(), "a vessel that is traced again keeps its marks");
-    // The same clicks give the same line, whatever came between.
+    // The same clicks give the same line, whatever happened in between.
     let again = after(&mut study, &begun, &json!({"kind": "add_click", "id": 1, "point": at(0.9)}));
     let [again, added] = [&again, &added.document].map(|document| points(&study, document.vessels[0].line));
     assert_eq!(again, added);
@@ -155,7 +155,7 @@ fn vessels_that_were_clicked_are_traced_beside_the_others_that_are_not_doubtful(
     assert!(tried(&mut study, &document, &begin.clone(), false).is_err(), "a hidden vessel is met too");
     document.vessels[0].doubt = Some("touches bone".into());
     let begun = after(&mut study, &document, &begin);
-    // Traced together: the second vessel does not change the first.
+    // Both vessels are traced together, but the second does not change the first.
     let second = json!({"kind": "begin_vessel", "clicks": clicks(&study, 1, 3)});
     document.vessels[1].doubt = Some("touches bone".into());
     let mut begun = Document { vessels: [&document.vessels[..], &begun.vessels[3..]].concat(), ..begun };
@@ -212,7 +212,7 @@ fn a_refused_click_is_told_by_the_name_of_its_vessel_or_as_the_new_point() {
     ] {
         assert_eq!(subject(&mut study, &document, &edit), "this point");
     }
-    // If another click is at fault, the failure names it.
+    // If the error concerns another click, the failure names that click.
     let outside = corner + 2.0 * (corner - ends[0]);
     document.vessels[0].clicks = Some(vec![clicks[0], outside.to_array()]);
     document.vessels[0].name = "SMA".into();
@@ -297,7 +297,7 @@ fn branches_from_a_seed_come_at_once_and_doubtful_ones_are_accepted_or_left_out(
     }
     let accepted = edited(&mut study, &document, &json!({"kind": "accept", "ids": [2]}));
     assert_eq!((accepted.words.as_str(), &accepted.document.vessels[1].doubt), ("accept a branch", &None));
-    // A branch accepted meanwhile is not discarded.
+    // A branch that was accepted meanwhile is not removed.
     let left = edited(&mut study, &accepted.document, &json!({"kind": "leave_out", "ids": [2, 3]}));
     assert_eq!(
         (left.words.as_str(), called(&left.document)),
@@ -340,7 +340,7 @@ fn a_vessel_that_nobody_clicked_takes_points_and_runs_where_it_ran() {
     );
     let away = |point: &DVec3| line.iter().map(|own| own.distance(*point)).fold(f64::MAX, f64::min);
     assert!(points(&study, vessel.line).iter().all(|point| away(point) < 0.7));
-    // A doubtful branch is accepted first.
+    // A doubtful branch must be accepted first.
     let mut doubtful = document;
     doubtful.vessels[0].doubt = Some("touches bone".into());
     assert_eq!(after(&mut study, &doubtful, &edit), doubtful);

@@ -21,7 +21,7 @@ fn all_vessels_are_found_in_one_step_beside_those_that_there_are() {
 #[test]
 fn where_no_vessel_is_sure_the_doubtful_ones_are_given_to_who_wants_them() {
     let mut scan = lumencut_phantom::y_junction().expect("a phantom");
-    // A stump of unenhanced blood surrounded by fat.
+    // A short piece of unenhanced blood, surrounded by fat.
     let (slice, slices) = (scan.size[0] * scan.size[1], scan.size[2]);
     for (n, voxel) in scan.voxels.iter_mut().enumerate() {
         let is_blood = *voxel > 200 && (slices / 2..slices / 2 + 12).contains(&(n / slice));

@@ -1,4 +1,4 @@
-//! Lines by number: edited, shown and saved.
+//! Lines are edited, shown and saved by their numbers.
 
 use glam::DVec3;
 use lumencut_core::error::ErrorKind;
@@ -11,7 +11,7 @@ use crate::study::line_path::path;
 use crate::study::lines::{Line, LineContent, ListedLine, NamedLine};
 use crate::study::open_study::Study;
 
-/// A line along x in steps of 1 mm from `from`, with growing radius.
+/// A line along x in steps of 1 mm from `from` on, with growing radius.
 fn straight(from: f64, count: usize) -> Line {
     let along = |n: usize| from + n as f64;
     Line {
@@ -36,7 +36,7 @@ fn both_parts_of_a_cut_have_its_point() {
     assert_eq!(first.points[4], second.points[0]);
     assert_eq!((first.points[4].x, first.radius.as_ref().expect("radii")[4]), (3.25, 1.325));
     assert_eq!((&first.points[..4], &second.points[1..]), (&line.points[..4], &line.points[4..]));
-    // At a point of the line no further point is made.
+    // A cut at a point of the line adds no point.
     let [first, second] = cut(&line, 4.0 + 1e-9).expect("two parts");
     assert_eq!((&first.points[..], &second.points[..]), (&line.points[..5], &line.points[4..]));
     for at in [0.0, -1.0, 10.0, 99.0, f64::NAN] {
@@ -50,7 +50,7 @@ fn what_was_cut_can_be_joined_again() {
     let [first, second] = cut(&line, 4.0).expect("two parts");
     assert_eq!(join(&first, &second).expect("one line"), line);
     assert_eq!(join(&first, &reversed(second.clone())).expect("one line"), line);
-    // The result runs as the first line does.
+    // The result has the direction of the first line.
     assert_eq!(join(&second, &reversed(first.clone())).expect("one line"), line);
     assert_eq!(join(&reversed(first), &second).expect("one line"), reversed(line));
 }
@@ -91,7 +91,7 @@ fn a_path_runs_from_its_first_line_to_its_last_whatever_their_directions() {
 #[test]
 fn a_path_leaves_a_line_and_enters_it_where_another_one_begins() {
     let trunk = straight(0.0, 21);
-    // From points 5 and 15 of the trunk across it, as a branch begins at a point of its parent.
+    // Branches that leave the trunk at its points 5 and 15, since a branch starts at a point of its parent.
     let branch = |x: usize, side: f64| {
         let points = (0..4).map(|n| trunk.points[x] + f64::from(n) * side * DVec3::Y).collect();
         Line { points, radius: Some(vec![0.5; 4]), confidence: Some(vec![1.0; 4]), bridged: None }
@@ -101,11 +101,11 @@ fn a_path_leaves_a_line_and_enters_it_where_another_one_begins() {
     let places = |lines: &[Line]| -> Vec<DVec3> { path(lines, &words).expect("a path").points };
     let out = places(&[trunk.clone(), left.clone()]);
     assert_eq!(out, [&trunk.points[..=5], &left.points[1..]].concat());
-    // The reverse path, for either direction of the branch.
+    // The path in reverse, for both directions of the branch.
     let back: Vec<DVec3> = out.iter().rev().copied().collect();
     assert_eq!(places(&[left.clone(), trunk.clone()]), back);
     assert_eq!(places(&[reversed(left.clone()), trunk.clone()]), back);
-    // From branch to branch along the trunk, in both directions.
+    // From one branch along the trunk to the other, in both directions.
     let across = places(&[left.clone(), trunk.clone(), right.clone()]);
     let left_back: Vec<DVec3> = left.points.iter().rev().copied().collect();
     assert_eq!(across, [&left_back[..], &trunk.points[6..=15], &right.points[1..]].concat());
@@ -225,7 +225,7 @@ fn files_hold_names_radii_and_confidence() {
 fn lines_are_told_by_length_calibre_and_what_they_hang_together_with() {
     let mut study = Study::default();
     let mut add = |line| study.lines.add(line).expect("a line");
-    // An isolated piece, a trunk of 10 mm, and a branch from a point in it, without radius.
+    // A piece that is not connected, a trunk of 10 mm, and a branch from one of its points, without radius.
     let piece =
         add(Line { points: vec![DVec3::new(0.0, 50.0, 0.0), DVec3::new(0.0, 50.0, 3.0)], ..Line::default() });
     let trunk = add(straight(0.0, 11));
@@ -240,7 +240,7 @@ fn lines_are_told_by_length_calibre_and_what_they_hang_together_with() {
     let alone = study.line_facts(&[branch, piece]).expect("lines");
     assert_eq!([alone[0].part, alone[1].part], [0, 1], "without the trunk they are two parts");
     assert_eq!(study.line_facts(&[branch + 1]).expect_err("no line").kind, "vessel tree");
-    // A radius of 0 is unknown.
+    // A radius of 0 means unknown.
     let odd = Line {
         radius: Some(vec![0.0, 2.0, 0.0, f64::NAN, 0.0]),
         confidence: None,

@@ -51,7 +51,7 @@ fn the_lines_of_a_mask_are_those_of_the_vessels() {
         let away = near.flat_map(|line| line.points.clone()).map(|point| point.distance(middle));
         assert!(away.fold(f64::MAX, f64::min) < 0.6);
     }
-    // The volume's grey values refined it.
+    // The line was refined by the volume's grey values.
     let line = study.lines.get(made.lines[0].line).expect("a line");
     assert!(line.confidence.is_some() && line.bridged.as_ref().is_some_and(|marks| !marks.contains(&true)));
 }
@@ -74,7 +74,7 @@ fn labels_name_the_lines_also_where_they_are_floats() {
     assert_eq!(names, ["label 4", "label 9"]);
 }
 
-/// A mask in a box of the volume's voxels that begins at `low`, with its header.
+/// A mask that is a box of the volume's voxels and begins at `low`, with its header.
 fn cropped(study: &Study, low: [usize; 3], size: [usize; 3], names: &serde_json::Value) -> (String, Vec<u8>) {
     let ([ni, nj, _], affine) = grid(study);
     let every = values(study);
@@ -154,7 +154,7 @@ fn column(bright: &[(usize, i16)]) -> Study {
     study
 }
 
-/// The brightest place seen from above at a pixel of a 5 × 5 mm picture, with these settings.
+/// The brightest place, seen from above with these settings, at a pixel of a 5 × 5 mm picture.
 fn brightest(study: &mut Study, pixel: [f64; 2], settings: &serde_json::Value) -> Result<Pick, Failure> {
     let camera = json!({"center": [2, 2, 0], "direction": [0, 0, 1], "up": [0, 1, 0], "size": [5, 5], "pixel_spacing": 1});
     let text = json!({"camera": camera, "method": "csr", "settings": settings}).to_string();
@@ -167,7 +167,7 @@ fn the_brightest_voxel_of_a_ray_is_found() {
     let mut study = column(&[(3, 200), (7, 500), (9, 499)]);
     let pick = brightest(&mut study, [2.0, 2.0], &json!({})).expect("a place");
     assert_eq!((pick.point, pick.value), ([2.0, 2.0, 7.0], Some(500.0)));
-    // Of equal voxels the nearer one wins.
+    // Of voxels with equal values the nearer one is chosen.
     let mut alike = column(&[(3, 500), (7, 500)]);
     assert_eq!(brightest(&mut alike, [2.0, 2.0], &json!({})).expect("a place").point, [2.0, 2.0, 3.0]);
     let failure = brightest(&mut study, [9.0, 2.0], &json!({})).expect_err("beside");

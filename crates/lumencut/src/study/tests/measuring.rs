@@ -1,4 +1,4 @@
-//! Measuring through the study, compared with analytic tubes and with the core.
+//! Measurements through the study, compared with tubes of known diameter and with the core.
 
 use std::f64::consts::{FRAC_PI_6, PI};
 
@@ -28,7 +28,7 @@ fn go_on() -> bool {
     false
 }
 
-/// The lumen at a height: axes 4 and 6 mm, the longer at 30 degrees to x; 60 % less at 20 mm.
+/// The lumen at a height z: axes of 4 and 6 mm, the longer one at 30 degrees to x; 60 % narrower at 20 mm.
 fn lumen(z: f64) -> Ellipse {
     let away = ((z - 20.0) / 8.0).abs().min(1.0);
     let left = 1.0 - 0.6 * (0.5 + 0.5 * (PI * away).cos());
@@ -131,7 +131,7 @@ fn a_stenosis_has_the_percentage_that_was_painted() {
     let ecst = graded(ecst).expect("a stenosis");
     let expected = 100.0 * (1.0 - 0.4 * 24.0_f64.sqrt() / 8.0);
     assert!((ecst["percent"].as_f64().expect("a number") - expected).abs() < 0.7);
-    // Groups exist for NASCET only.
+    // Only NASCET has groups.
     assert!(ecst["group"].is_null());
     assert_eq!(whole["doubts"], json!([]));
 }
@@ -161,7 +161,7 @@ fn a_place_that_is_not_graded_has_the_reason() {
     ] {
         assert_eq!(grade(given), json!({"stenosis": null, "not_graded": reason}));
     }
-    // Without a mark nothing is missing.
+    // If nothing is marked, nothing is missing.
     for given in [json!({}), json!({"method": "ecst", "original": 8.0, "group": "carotid"})] {
         assert_eq!(grade(given), json!({"stenosis": null, "not_graded": null}));
     }
@@ -186,7 +186,7 @@ fn what_another_method_needs_is_left_aside() {
         assert!(grade(all.clone())["stenosis"]["percent"].is_f64(), "{method}");
         assert_eq!(grade(all), grade(used), "{method}");
     }
-    // ECST does not check an unused reference.
+    // ECST ignores the reference, so an invalid one is no error.
     let ecst = json!({"at": 18.0, "references": [99.0], "original": 8.0, "method": "ecst"});
     assert_eq!(grade(ecst)["stenosis"]["references"], json!([]));
 }
@@ -231,7 +231,7 @@ fn a_stretch_is_seen_by_a_c_arm_from_the_front() {
     let vector =
         |value: &Json| DVec3::from(serde_json::from_value::<[f64; 3]>(value.clone()).expect("a vector"));
     assert!(vector(&stretch["direction"]).distance(DVec3::Z) < 1e-3);
-    // From the front into the patient, head up.
+    // The view runs from the front into the patient, with the head up.
     assert!(vector(&stretch["view"]["direction"]).distance(DVec3::Y) < 1e-3);
     assert!(vector(&stretch["view"]["up"]).distance(DVec3::Z) < 1e-3);
     assert_eq!(stretch["c_arm"], json!("LAO 0° CRAN 0°"));
@@ -263,7 +263,7 @@ fn profiles_are_those_of_the_core_among_the_vessels_that_are_shown() {
         (&found.flags, &found.area, &found.fwhm_source),
         (&among_all.flags, &among_all.area, &among_all.fwhm_source)
     );
-    // A single vessel has no branches, and determines the point spread alone.
+    // A single vessel has no branches, and the point spread is estimated from it.
     for (line, vessel) in [(trunk, 0), (branch, 1)] {
         study.show(&[listed(line)]).expect("one line");
         let expected = measured_by_core(&study, &tree.vessels()[vessel..=vessel]);
@@ -289,7 +289,7 @@ fn hiding_a_vessel_changes_no_number() {
     let found = study.profile(lines[0], None, &go_on).expect("a profile").clone();
     assert_eq!((&found.flags, &found.area), (&among_all.flags, &among_all.area));
     assert_eq!((found.fwhm, &found.fwhm_source), (among_all.fwhm, &among_all.fwhm_source));
-    // Shown again, it is not measured again.
+    // A line that is shown again is not measured again.
     study.show(&lines.iter().map(|line| listed(*line)).collect::<Vec<_>>()).expect("all of them");
     assert_eq!(study.profile(lines[0], None, &|| true).expect("kept").area, among_all.area);
     study
@@ -306,10 +306,10 @@ fn profiles_are_kept_until_other_vessels_are_shown() {
     assert_eq!(study.profile(line, None, &never).expect_err("stopped").kind, "interrupted");
     let first = study.profile(line, Some(FWHM), &go_on).expect("a profile").clone();
     study.profile(line, Some(1.0), &go_on).expect("a profile");
-    // A cached profile never asks whether to stop.
+    // Returning a cached profile never asks whether to stop.
     assert_eq!(study.profile(line, Some(FWHM), &never).expect("kept").area, first.area);
     assert_eq!(study.measured(line, &never).expect("kept").area, first.area);
-    // The same line under another name.
+    // The same line is shown under another name.
     study.show(&[ListedLine { name: "carotid".into(), ..listed(line) }]).expect("the line");
     assert_eq!(study.profile(line, Some(FWHM), &never).expect("kept").area, first.area);
     open_line(&mut study, 3.0, 37.0);
@@ -369,7 +369,7 @@ fn tables_have_a_line_for_each_section_of_each_vessel() {
     assert!(lines[0].ends_with(&format!(",wall_source,{scan},stenosis,doubts,not_graded")));
     assert!(lines[1..].iter().all(|line| line.ends_with(",,,Mark a reference: where the vessel is normal.")));
     assert!(lines[1].starts_with("0,,0,") && lines[1 + counts[0]].starts_with("2,,0,"));
-    // For several vessels no single place is recorded.
+    // With several vessels, the settings contain no place.
     let all: Json =
         serde_json::from_str(&study.profiles_json(&vessels, false, &go_on).expect("a text")).expect("JSON");
     assert!(all["settings"]["at_mm"].is_null());

@@ -1,4 +1,4 @@
-//! The study as viewers rely on it.
+//! The behaviour of the study on which viewers rely.
 
 mod after_edit;
 mod doubts_on_opening;
@@ -35,7 +35,7 @@ use crate::study::straightened::{Aggregated, CprMessage};
 use crate::study::view::{CameraMessage, ViewMessage};
 use crate::study::voxels::Stored;
 
-/// Centerlines read as LPS.
+/// The statement that centerlines are in LPS.
 pub(crate) const LPS: Statement = Statement { space: Some(Space::Lps), unit: None };
 
 pub(crate) fn opened(phantom: &str) -> Study {
@@ -91,9 +91,9 @@ fn a_pick_is_the_pixel_of_the_whole_picture() {
             [x as f64, y as f64],
             f64::from(depth[y * 96 + x]),
         );
-        // The sub-view differs only by rounding.
+        // Rounding is the only difference of the partial view.
         assert!(point.distance(DVec3::from_array(pick.point)) < 1e-3, "pixel {x}, {y}");
-        // The tube is in the middle; pixels outside it select no vessel, although all lie in its zone.
+        // The tube is in the middle. Pixels outside it select no vessel, although all pixels lie in its zone.
         assert_eq!(vessel[y * 96 + x], 0);
         assert_eq!(pick.vessel, (x == 48 || x == 50).then_some(0), "pixel {x}, {y}");
     }
@@ -114,7 +114,7 @@ fn a_click_beside_a_vessel_means_it_as_far_as_it_is_seen_to_be_beside_it() {
     let mut study = opened("stenosis");
     let view = study.view_of(&view(&study, [96, 80])).expect("a view");
     let spacing = view.camera.pixel_spacing();
-    // The tube is straight, upright and 8 mm wide at its lower end; four pixels outside still select it.
+    // The tube is straight, upright and 8 mm wide at its lower end. Pixels up to four outside it still select it.
     let wall = 47.5 + 4.0 / spacing;
     let mut vessel = |x: f64| study.pick(&view, [x, 70.0]).expect("a pick").vessel;
     assert_eq!(vessel((wall + 3.0).floor()), Some(0));
@@ -130,7 +130,7 @@ fn where_nothing_is_cut_a_click_means_the_brightest_place_on_its_ray() {
     let brightest = study.brightest(&view, [48.0, 40.0]).expect("a place");
     assert_eq!(study.pick(&view, [48.0, 40.0]).expect("a pick"), brightest);
     assert!(brightest.value >= cut.value);
-    // Outside the scan nothing is picked, without an error.
+    // Outside the scan nothing is picked, and there is no error.
     let mut wide = view.clone();
     wide.camera = lumencut_core::camera::Camera::new(
         wide.camera.center(),
@@ -142,7 +142,7 @@ fn where_nothing_is_cut_a_click_means_the_brightest_place_on_its_ray() {
     .expect("a camera");
     let nothing = study.pick(&wide, [2.0, 2.0]).expect("a pick");
     assert_eq!((nothing.value, nothing.vessel), (None, None));
-    // A focus of 1 mm shows the cut in the lumen, and the surroundings 10 mm outside the wall.
+    // With a focus of 1 mm, the cut is shown in the lumen and the surroundings 10 mm outside the wall.
     view.settings.focus = Some(lumencut_core::settings::Focus { margin: 1.0, fade: 0.0 });
     assert_eq!(study.pick(&view, [48.0, 40.0]).expect("a pick"), cut);
     let beside = [(47.5 + 14.0 / view.camera.pixel_spacing()).round(), 40.0];
@@ -162,7 +162,7 @@ fn a_slab_limits_no_ray_where_a_focus_shows_what_lies_around_the_vessels() {
         Some(lumencut_core::settings::Slab { thickness: 0.5, mode: lumencut_core::settings::SlabMode::Max });
     assert_eq!(study.pick(&view, beside).expect("a pick"), around);
     assert_eq!(study.brightest(&view, beside).expect("a place"), around);
-    // Within the lumen the slab is shown.
+    // Within the lumen the slab limits the ray.
     let brightest = study.brightest(&view, inside).expect("a place").point;
     let far = DVec3::from_array(brightest).distance(DVec3::from_array(cut.point));
     assert!(far <= 0.25 + view.camera.pixel_spacing(), "{far} mm beside the cut");
@@ -193,7 +193,7 @@ fn a_slice_shows_the_voxels_of_its_plane() {
     };
     let value = study.at(point.to_array()).value.expect("inside");
     let picture = study.slice(&plane, [f64::from(value), 200.0]).expect("a slice");
-    // The level of a window is middle grey.
+    // The level of a window appears as middle grey.
     assert!((i32::from(picture.bytes[4 * 4]) - 128).abs() <= 1);
     assert_eq!(picture.bytes.len(), 3 * 3 * 4);
     let away = Plane { center: [1e4, 0.0, 0.0], ..plane };
@@ -326,7 +326,7 @@ fn a_feature_aggregation_is_as_bright_as_its_circles() {
     let [least, own, most] =
         [least, plain, CprMessage { feature: most, ..plain }].map(|m| shown(&mut study, m));
     assert_eq!((least.size, most.size), (own.size, own.size));
-    // A sample of the circle is up to half an angle away from the pixel.
+    // The samples of the half circle may miss the direction of the pixel by half a step.
     let brighter = |a: &[u8], b: &[u8]| a.iter().zip(b).all(|(a, b)| i32::from(*a) + 2 >= i32::from(*b));
     assert!(brighter(&most.bytes, &least.bytes));
     let middle = own.size[0] / 2 + own.size[0] * (own.size[1] / 2);

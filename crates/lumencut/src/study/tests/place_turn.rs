@@ -9,10 +9,10 @@ use crate::study::tests::LPS;
 const SIZE: [usize; 3] = [48, 48, 40];
 const SIDE: f64 = 0.5;
 const MIDDLE: f64 = 12.0;
-/// Half axes of the lumen (mm); the longer at 60 degrees to x.
+/// Half axes of the lumen (mm); the longer one is at 60 degrees to x.
 const AXES: [f64; 2] = [4.0, 3.0];
 
-/// The distance of the wall in a direction (mm).
+/// The distance of the wall from the centre in a direction (mm).
 fn wall(direction: DVec2) -> f64 {
     let along = DVec2::from_angle(-FRAC_PI_3).rotate(direction.normalize());
     1.0 / (along.x / AXES[0]).hypot(along.y / AXES[1])
@@ -46,7 +46,7 @@ fn turn(study: &mut Study, at: f64) -> Result<PlaceTurn> {
 
 #[test]
 fn a_turn_sweeps_the_diameters_of_the_lumen() {
-    // From the front x points right; the viewer then moves counterclockwise as seen from the head.
+    // In the first view, from the front, x points right. The viewer then moves counterclockwise as seen from the head.
     let expected = |degree: f64| 2.0 * wall(DVec2::from_angle(degree.to_radians()));
     for with_radius in [true, false] {
         let turn = turn(&mut tube(with_radius), 6.0).expect("a turn");

@@ -1,4 +1,4 @@
-//! The shown section lies in the plane of its measured contour.
+//! The section that is shown lies in the plane of its measured contour.
 
 use glam::DVec3;
 use lumencut_vessels::measure::profile::Profile;
@@ -6,7 +6,7 @@ use lumencut_vessels::measure::profile::Profile;
 use crate::study::open_study::Study;
 use crate::study::tests::{opened, report_of};
 
-/// Arc lengths along the helix (mm), mostly between two sections of the 0.5 mm grid.
+/// Arc lengths along the helix (mm); most lie between two sections of the 0.5 mm grid.
 const PLACES: [f64; 5] = [0.0, 40.13, 101.6, 160.37, 258.0];
 
 fn profile_of_helix(study: &mut Study) -> Profile {
@@ -15,7 +15,7 @@ fn profile_of_helix(study: &mut Study) -> Profile {
     study.profile(line, Some(0.8), &|| false).expect("a profile").clone()
 }
 
-/// The largest distance of points from a shown section's plane (mm).
+/// The largest distance of points from the plane of a shown section (mm).
 fn off_plane(section: [[f64; 3]; 3], points: &[DVec3]) -> f64 {
     let [middle, right, down] = section.map(DVec3::from_array);
     let normal = right.cross(down);

@@ -1,10 +1,10 @@
-//! Formats TypeScript for readers: one readonly field per line.
+//! Formats generated TypeScript so that it is easy to read: one readonly field per line.
 
 pub(super) fn comment(words: &str) -> String {
     format!("/**\n * {}\n */\n", words.replace('\n', "\n * "))
 }
 
-/// One line per field; comments on one line if possible.
+/// Puts each field on a line of its own, and each comment on a single line.
 pub(super) fn pretty(types: &str) -> String {
     let mut made = String::new();
     let mut depth: usize = 0;
@@ -52,14 +52,14 @@ pub(super) fn pretty(types: &str) -> String {
     made
 }
 
-/// Whether the text so far ends outside tuple and generic brackets, where a comma ends a field.
+/// Whether a comma after this text ends a field, and is not within a tuple or generic brackets.
 fn is_field(made: &str) -> bool {
     let line = made.rsplit('\n').next().unwrap_or_default();
     let count = |signs: [char; 2]| line.chars().filter(|sign| signs.contains(sign)).count();
     count(['[', '[']) == count([']', ']']) && count(['<', '<']) == count(['>', '>'])
 }
 
-/// Makes fields, lists and tuples readonly; places and number pairs get their names.
+/// Makes fields, lists and tuples readonly, and names tuples of two and three numbers.
 pub(super) fn with_readonly(types: &str) -> String {
     let line = |line: &str| {
         let bare = line.trim_start();

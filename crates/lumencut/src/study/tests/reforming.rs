@@ -44,7 +44,7 @@ fn each_fits_into_its_pane_and_a_pick_leads_back_to_its_pixel() {
         assert!(width >= PANE[0] - 8 || height >= PANE[1] - 8, "{asked:?}: {width} × {height}");
         assert_eq!(picture.bytes.len(), 4 * width * height);
         assert!(picture.words.ends_with('.'), "{}", picture.words);
-        // A place exactly in the middle lies on no wall.
+        // A place exactly in the middle of the vessel does not lie on a wall.
         let point = middle_of(&study, 1) + DVec3::X * 0.2;
         let pixel =
             study.on_reformed(point.to_array()).unwrap_or_else(|| panic!("{asked:?} does not show {point}"));
@@ -53,7 +53,7 @@ fn each_fits_into_its_pane_and_a_pick_leads_back_to_its_pixel() {
         let along = pick.arc_length.expect("a place");
         let expected = study.pick_at(point, Some(1)).arc_length.expect("a place");
         assert!((along - expected).abs() < picture.pixel_spacing, "{asked:?}: {along} and {expected}");
-        // A map shows the wall around the middle, a spiral the nearest winding.
+        // A map finds the point on the wall around the middle, and a spiral on the nearest winding.
         let bound = match &study.reformed.as_ref().expect("a picture").laid {
             Laid::Map(layout, _) => layout.parameters().mean_radius + BAND[1],
             Laid::Spiral(layout) => layout.parameters().pitch / 2.0,
@@ -94,10 +94,10 @@ fn a_window_alone_changes_the_picture_and_nothing_is_laid_out_again() {
     assert!(kept < laid_out, "the picture alone asks whether to stop: {kept} of {laid_out}");
     assert_eq!(brighter.size, first.size);
     assert_ne!(brighter.bytes, first.bytes);
-    // The tree keeps its layout in a pane of another size.
+    // In a pane of another size, the layout of the tree stays.
     let wide = study.reformed(asked, [480, 360], (WINDOW, &go)).expect("the same layout");
     assert!((wide.pixel_spacing - first.pixel_spacing / 2.0).abs() < 0.01 * first.pixel_spacing);
-    // Another side needs a new layout, which can be stopped.
+    // Seen from another side, the tree needs a new layout, which can be stopped.
     let side = serde_json::json!({"direction": [1.0, 0.0, 0.0], "up": [0.0, 0.0, 1.0]});
     let other = message(serde_json::json!({"kind": "untangled", "side": side}));
     let stopped = study.reformed(other, PANE, (WINDOW, &|| true)).expect_err("a stop");
@@ -125,11 +125,11 @@ fn colours_of_a_map_tell_the_radius_of_the_wall() {
     assert!(picture.words.contains("Colours: from 0 (dark blue) to 4"), "{}", picture.words);
     let [width, height] = picture.size;
     let green = |row: usize| picture.bytes[4 * (row * width + width / 2) + 1];
-    // Half as wide in the middle: half way down the colours.
+    // In the middle the vessel is half as wide, so its colour is half way down the scale.
     assert!(green(height / 2) + 40 < green(height / 8));
     let value = &study.reformed.as_ref().expect("a map").value;
     assert!((value[height / 8 * width] - 4.0).abs() < 0.3);
-    // There is no calcium at its wall.
+    // The vessel has no calcium at its wall.
     let thick = message(serde_json::json!({"kind": "map", "vessel": 0, "of": "thickness"}));
     study.reformed(thick, PANE, (WINDOW, &go)).expect("a map");
     assert!(

@@ -1,4 +1,4 @@
-//! Findings in sentences, and report pages.
+//! Findings are sentences, and reports have a page for each vessel.
 
 use serde_json::{Value as Json, json};
 
@@ -38,7 +38,7 @@ fn findings_are_told_in_the_sentences_of_the_report() {
     let is_stretch = |one: &Json| one["words"].as_str().is_some_and(|words| words.starts_with(stretch));
     assert!(sentences.iter().any(is_stretch), "{sentences:?}");
     assert_eq!(told["distances"], json!(["Straight distance 1: 12.3 mm"]));
-    // Without voxel spacing no length has a unit.
+    // If the voxel spacing is unknown, lengths have no unit.
     assert!(!found(false).to_string().contains(" mm"));
 }
 

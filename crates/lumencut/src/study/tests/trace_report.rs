@@ -1,4 +1,4 @@
-//! Reports on traced vessels in scenes with a known answer.
+//! Reports on vessels traced in scenes with a known answer.
 
 use glam::{DAffine3, DVec3};
 use lumencut_core::math::arc_length::arc_lengths;
@@ -14,12 +14,12 @@ use crate::study::document::Document;
 use crate::study::open_study::Study;
 use crate::study::trace_report::Told;
 
-/// A 96 mm tube along z of radius 9 mm in fat, in 1 mm voxels with values from a function of z and noise of ±20.
+/// A tube along z in fat: 96 mm long, 9 mm radius, 1 mm voxels. Its values are a function of z with noise of ±20.
 fn tube(lumen: impl Fn(f64) -> f64) -> Study {
     tube_of(96, lumen)
 }
 
-/// The same, of `length` mm.
+/// The same tube, `length` mm long.
 fn tube_of(length: usize, lumen: impl Fn(f64) -> f64) -> Study {
     let size = [40, 40, length];
     let mut seed = 3u32;
@@ -51,7 +51,7 @@ fn tube_of(length: usize, lumen: impl Fn(f64) -> f64) -> Study {
 
 #[test]
 fn one_click_takes_a_vessel_that_is_hardly_longer_than_wide_in_the_scan_and_says_that_it_was_not_found() {
-    // A 24 mm slab of a vessel 18 mm wide.
+    // A 24 mm slab of a vessel that is 18 mm wide.
     let mut study = tube_of(24, |_| 400.0);
     let whole = json!({"kind": "add_whole_vessel", "click": [2.0, -3.0, 12.0]});
     let begun = edited(&mut study, &Document::default(), &whole);
@@ -115,7 +115,7 @@ fn a_line_wanders_where_it_turns_more_tightly_than_its_vessel_is_wide() {
         let line = Centerline { points, radius: vec![9.0; count], confidence: vec![1.0; count] };
         wandering(&line).into_iter().filter(|wanders| *wanders).count()
     };
-    // No tube bends more tightly than this; a fold within the lumen does.
+    // No tube bends more sharply than this, but a fold within the lumen does.
     assert_eq!(circle(9.0), 0);
     assert!(circle(4.0) > 10, "{}", circle(4.0));
 }

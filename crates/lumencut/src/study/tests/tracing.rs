@@ -1,4 +1,4 @@
-//! Tracing as the page relies on it, on the native target.
+//! Checks what the page expects of tracing, on the native target.
 
 use glam::{DAffine3, DMat4, DVec3};
 use lumencut_core::progress::Progress;
@@ -68,7 +68,7 @@ fn a_line_that_is_what_it_was_keeps_its_number() {
 fn a_vessel_ends_at_a_point_of_a_line_beside_it_which_stays() {
     let mut study = opened("y_junction");
     let trunk = points(&study, 0);
-    // From within the trunk into the branch.
+    // The path leads from within the trunk into the branch.
     let branch = points(&study, 1);
     let click = |point: DVec3| (point + DVec3::new(0.2, 0.0, 0.1)).to_array();
     let vessel = vec![click(trunk[trunk.len() - 2]), branch[branch.len() - 4].to_array()];
@@ -135,7 +135,7 @@ fn branches_from_a_place_that_is_no_lumen_by_its_value_are_refused_before_anythi
         "document": Document::default(), "edit": {"kind": "add_branches", "seed": fat}, "bridging": false,
     });
     let message: EditMessage = serde_json::from_value(message).expect("a message");
-    // A search would hear the stop, and end as interrupted.
+    // A search would notice the stop and end as interrupted.
     let watch = Watch { stop: &|| true, progress: &Progress::default() };
     let failure = study.edit(&message, watch).expect_err("no lumen");
     assert_eq!((failure.kind, failure.more.seen.map(|seen| seen.place)), ("tracing", Some(fat)));
@@ -164,9 +164,9 @@ fn the_way_to_the_pointer_goes_on_where_it_was_stopped() {
     let line = points(&study, 0);
     let away = |point: DVec3| line.iter().map(|own| own.distance(point)).fold(f64::MAX, f64::min);
     assert!(way.iter().all(|point| away(DVec3::from_array(*point)) < 4.0));
-    // The front has already reached it, so no time is needed.
+    // The earlier search has already reached the place, so no time is needed.
     assert_eq!(path(&mut study, sought(to), true), Some(way));
-    // No path outside the vessel, outside the volume, or from a place without lumen.
+    // There is no path outside the vessel, outside the volume, or from a place without lumen.
     let beside = [from[0] + 6.0, from[1], from[2]];
     assert_eq!(path(&mut study, sought(beside), false), None);
     assert_eq!(path(&mut study, sought([1e4, 0.0, 0.0]), false), None);

@@ -1,4 +1,4 @@
-//! Ramps whose values are positions verify edge letters and reported points.
+//! Edge letters and reported points are checked in volumes whose values are positions.
 
 use glam::{DAffine3, DVec3};
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
@@ -25,7 +25,7 @@ fn grid() -> DAffine3 {
     DAffine3::from_cols(across, ahead, along, middle)
 }
 
-/// A volume whose values are positions along a patient axis (mm), with a vessel along a direction.
+/// A volume whose values are positions along a patient axis (mm), and a vessel along a direction.
 fn ramp(axis: usize, way: DVec3) -> Study {
     let places = (0..SIDE.pow(3)).map(|n| {
         let index = DVec3::new((n % SIDE) as f64, (n / SIDE % SIDE) as f64, (n / SIDE / SIDE) as f64);
@@ -63,7 +63,7 @@ fn letters(plane: &Plane) -> EdgeLetters {
     PictureLabels::from(from_value::<LaidPicture>(laid).expect("a picture")).letters
 }
 
-/// Values are known to a window step: letters of components near a fifth may differ.
+/// Whether letters agree. Values are known only to a window step, so letters of components near a fifth may differ.
 fn agree(letters: &str, way: DVec3) -> bool {
     let named = |least: f64| sides(way).chars().filter(|side| part(*side, way) > least).collect::<String>();
     named(0.25).chars().all(|side| letters.contains(side))

@@ -1,5 +1,5 @@
-//! Generates the page's types, `web/src/core/generated/questions.ts`, from the table of questions. A test fails if the file is
-//! stale; `make types` rewrites it.
+//! Generates the page's types, `web/src/core/generated/questions.ts`, from the table of questions. A test fails if the file is out
+//! of date; `make types` writes it again.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -44,7 +44,7 @@ impl Types {
         let _ = writeln!(self.turns, "  {name}: {turn},");
     }
 
-    /// The name of a type, declared with its dependencies; a row's message is inlined.
+    /// The name of a type, which is declared together with the types that it uses. Messages of rows are inlined.
     fn named<T: TS + 'static>(&mut self) -> String {
         self.visit::<T>();
         let name = T::name(&self.config);

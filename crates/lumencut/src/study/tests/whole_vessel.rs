@@ -22,12 +22,12 @@ fn one_click_adds_the_whole_vessel_from_the_one_that_there_is_to_its_end() {
     );
     assert_eq!(first.document.vessels[0].doubt, None);
     let held = first.document.vessels[0].line;
-    // From now on the page can preview what a click adds.
+    // From now on the page can show in advance what a click adds.
     let shown = study.whole_vessel(branch, &first.document.vessels).expect("a volume").expect("a vessel");
     let second = edited(&mut study, &first.document, &whole(branch));
     let added = points(&study, second.document.vessels[1].line);
     assert_eq!(shown.points, added.iter().map(|point| point.to_array()).collect::<Vec<_>>());
-    // Both name the shared point where they join.
+    // Both vessels name the point at which they join.
     let told = second.told.expect("words");
     assert_eq!(told.words, format!("Vessel 2, {}.", shown.words));
     let joined = points(&study, held).iter().position(|point| *point == added[0]).expect("a shared point");
