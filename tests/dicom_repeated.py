@@ -226,7 +226,7 @@ REPEATED = [
         "a copy at another place",
         GROUP,
         changed(ImagePositionPatient=["0", "0", "500"]),
-        ("other.dcm", "other ImagePositionPatient"),
+        ("other.dcm", "different ImagePositionPatient"),
     ),
     Case("two patients", GROUP, of_patients(two_ids), ("'P1' in 16 images", "'P2' in 8", "one patient")),
     Case("one patient in several ways of writing", GROUP, of_patients(padded)),

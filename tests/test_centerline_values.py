@@ -150,7 +150,7 @@ def test_info_tells_the_same_decision(tmp_path):
     path = silent(tmp_path, points * FLIP, np.full(len(points), 4.0))
     result = CliRunner().invoke(main, ["info", str(tmp_path / "scan.nrrd"), str(path)])
     assert result.exit_code == 0, result.output
-    assert "ras (the values of the volume tell it)" in result.stdout
+    assert "ras (the values of the volume decide)" in result.stdout
     counts = re.search(
         r"\d+ look like lumen in ras and \d+ in lps", inspect_centerlines(path, volume=volume).decision
     )

@@ -83,7 +83,7 @@ def test_what_has_no_true_values_is_refused(tmp_path):
     camera = Camera.anterior(LINE, (64, 64))
     with pytest.raises(FormatError, match="a picture of mpCPR"):
         save(lumencut.mpcpr(scan(), LINE, camera), path)
-    with pytest.raises(SettingsError, match="annotate: found True beside values"):
+    with pytest.raises(SettingsError, match="annotate: found True with values"):
         save(frame(), path, annotate=True)
     unstated = Volume(scan().array, world_from_index=scan().world_from_index, states_orientation=False)
     with pytest.raises(FormatError, match="without spacing or orientation"):

@@ -79,7 +79,7 @@ def test_every_point_has_the_pixel_where_the_camera_sees_it():
         (
             {"vessel": vessel([[0, -9, 0], [0, 9, 0]]), "camera": Camera((0, 0, 0), (0, 1, 0), (0, 0, 1))},
             CameraError,
-            "runs along the view",
+            "parallel to the direction of view",
         ),
     ],
 )

@@ -16,7 +16,7 @@ import pytest
 
 from lumencut.errors import FileError, FormatError, LumencutError
 from lumencut.volume_files import inspect_volume, read_volume
-from lumencut.volume_files.opened import refusing, told
+from lumencut.volume_files.opened import impersonal, refusing
 from lumencut.volume_files.payload import read_numbers, read_voxels
 from test_volume_files import save_meta, save_nifti
 from test_volume_variants import RAW, save_by_hand
@@ -256,7 +256,7 @@ def test_texts_of_a_metaimage_are_not_told(tmp_path, fields, caplog, capfd):
     ],
 )
 def test_foreign_errors_and_warnings_are_cut_before_values(error, text):
-    assert told(error) == text
+    assert impersonal(error) == text
     notes = []
     with pytest.raises(FormatError) as caught, refusing(Path("x.dcm"), "DICOM", notes):
         raise error

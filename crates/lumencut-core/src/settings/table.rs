@@ -111,7 +111,7 @@ settings! {
         /// Red, green, blue and opacity.
         background: [u8; 4] = [0, 0, 0, 255];
 
-        /// Show the largest, mean or smallest value in a slab centred on the cut surface (thickness in mm).
+        /// Show the largest, mean or smallest value in a slab (mm) centred on the cut surface.
         slab: Option<Slab> = None, open("no slab");
 
         /// Show the cut surface only near the vessels, surrounded by the context (mm).
