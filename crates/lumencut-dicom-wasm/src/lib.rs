@@ -1,5 +1,5 @@
-//! Plans how to read DICOM series in a browser; the documents are those of `lumencut_dicom::json`. A separate
-//! module, so that pages without DICOM need not load it.
+//! Plans how to read DICOM series in a browser; input and output are those of `lumencut_dicom::json`. It is a
+//! separate module, so that pages without DICOM do not load it.
 #![cfg(target_arch = "wasm32")]
 
 use lumencut_dicom::{Keyword, json};
@@ -12,7 +12,7 @@ pub fn judge_dicom(headers: &str, wanted: &str) -> String {
     json::judge(headers.as_bytes(), wanted.as_bytes())
 }
 
-/// Attributes to read from headers, with their functional groups.
+/// The attributes to read from headers, with their functional groups.
 #[wasm_bindgen]
 pub fn dicom_attributes() -> String {
     let groups =

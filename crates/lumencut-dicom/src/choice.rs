@@ -1,4 +1,4 @@
-//! Chooses the series to read.
+//! Chooses the series that is read.
 
 use crate::describing::described;
 use crate::error::{Error, ErrorKind, Result};
@@ -7,7 +7,7 @@ use crate::report::Report;
 use crate::series::{Series, plain};
 use crate::wording::{listed, quoted};
 
-/// The requested series, the only one, or the only possible angiography volume.
+/// The requested series, or the only one, or the only one that can be an angiography volume.
 pub(crate) fn chosen<'s, 'a>(
     every: &'s [Series<'a>],
     wanted: Option<&str>,
@@ -46,7 +46,7 @@ fn asked_for<'s, 'a>(every: &'s [Series<'a>], wanted: &str) -> Result<&'s Series
 }
 
 fn not_one(series: Vec<Report>, expected: &str) -> Error {
-    // Possible volumes first, because users choose among them.
+    // Possible volumes are listed first, because users choose among them.
     let (volumes, others): (Vec<&Report>, Vec<&Report>) = series.iter().partition(|one| one.can_be_volume);
     let reports: Vec<String> = volumes.into_iter().chain(others).map(ToString::to_string).collect();
     let error = Error::new(format!("{} series: {}", series.len(), listed(&reports)), expected);

@@ -1,4 +1,4 @@
-//! Detects copies of an image; the host compares their values.
+//! Detects copies of an image. The host compares their pixel values.
 
 use crate::error::{Error, Result};
 use crate::grouping::groups;
@@ -28,7 +28,7 @@ pub(crate) fn without_copies<'i, 'a>(images: &[&'i Image<'a>]) -> (Vec<&'i Image
     (kept, copies)
 }
 
-/// Pairs of slices for the host to compare; rejects copies that differ.
+/// Pairs of slices that the host must compare. Rejects copies whose attributes or values differ.
 pub(crate) fn compared<'i>(
     copies: &[Copy<'i, 'i>],
     unlike: &[Unlike],
@@ -82,7 +82,7 @@ fn differs(one: &Attributes, other: &Attributes) -> Option<Keyword> {
     of_image.into_iter().find(|&keyword| !is_same(keyword))
 }
 
-/// Numbers may be written in several ways.
+/// Whether two values are equal; a number may be written in several ways.
 fn is_equal(one: &Value, other: &Value) -> bool {
     one == other || one.number().is_some_and(|number| other.number() == Some(number))
 }

@@ -1,4 +1,4 @@
-//! Describes a series and whether it may be an angiography.
+//! Describes a series, and whether it may be an angiography.
 
 use crate::geometry::{Mending, stacked};
 use crate::image::Image;
@@ -22,7 +22,7 @@ pub(crate) fn described(series: &Series) -> Report {
         can_be_volume: odd.is_empty(),
         trouble: odd,
     };
-    // A stack with gaps is listed as a volume with missing slices.
+    // A stack with gaps is described as a volume with missing slices.
     let mending = Mending { fill_gaps: true, resample_slices: false };
     let placed = series.slices(&[], &mut Vec::new());
     match placed.and_then(|placed| stacked(placed.slices, mending, &[], &mut Vec::new())) {
@@ -44,7 +44,7 @@ pub(crate) fn described(series: &Series) -> Report {
     report
 }
 
-/// Why a series certainly is no angiography; empty if it may be one, even if unreadable as it is.
+/// Why a series is certainly no angiography. Empty if it may be one, even if it is not readable unchanged.
 fn why_no_angiography(series: &Series) -> String {
     let (first, modality) = (&series.images[0], series.modality());
     if !MODALITIES.contains(&modality.as_str()) {

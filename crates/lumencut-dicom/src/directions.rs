@@ -1,10 +1,10 @@
-//! Directions of rows and columns; rounded cosines are made orthonormal.
+//! Directions of rows and columns. Rounded cosines are made orthonormal.
 
 use glam::DVec3;
 
-/// Maximum deviation of cosines from orthonormal vectors.
+/// Maximum deviation of cosines from those of orthonormal vectors.
 pub(crate) const ROUNDING: f64 = 0.01;
-/// Up to this deviation, only the length is corrected.
+/// Up to this deviation, only the lengths of the vectors are corrected.
 const EXACT: f64 = 1e-4;
 
 #[derive(Debug, Clone, Copy)]
@@ -16,7 +16,7 @@ pub(crate) struct Directions {
 }
 
 impl Directions {
-    /// None if the cosines are too far from orthonormal.
+    /// The directions; None if the cosines are too far from orthonormal.
     pub(crate) fn of(cosines: &[f64; 6]) -> Option<Self> {
         let stated = [DVec3::from_slice(&cosines[..3]), DVec3::from_slice(&cosines[3..])];
         let [along_i, along_j] = orthonormal(stated)?;
@@ -32,13 +32,13 @@ impl Directions {
         })
     }
 
-    /// Turns rounded directions perpendicular to the line of slices, if that is within rounding.
+    /// Makes rounded directions perpendicular to the line of slices, if rounding explains the difference.
     pub(crate) fn along(self, line: Option<DVec3>) -> Self {
         let line = line.filter(|_| self.is_rounded);
         line.and_then(|line| self.across(line)).unwrap_or(self)
     }
 
-    /// None if a cosine moves by more than the rounding.
+    /// The directions turned across `normal`; None if a cosine would change by more than rounding explains.
     fn across(&self, normal: DVec3) -> Option<Self> {
         let within = |vector: DVec3| vector - vector.dot(normal) * normal;
         let [along_i, along_j] = orthonormal([within(self.along_i), within(self.along_j)])?;
@@ -55,14 +55,14 @@ impl Directions {
     }
 }
 
-/// Direction cosines of a stack whose positions run along `line`; None if too far from orthonormal.
+/// Direction cosines of a stack whose positions lie along `line`; None if too far from orthonormal.
 pub fn corrected(cosines: &[f64; 6], line: [f64; 3]) -> Option<[f64; 6]> {
     let made = Directions::of(cosines)?.along(DVec3::from_array(line).try_normalize());
     let ([a, b, c], [d, e, f]) = (made.along_i.to_array(), made.along_j.to_array());
     Some([a, b, c, d, e, f])
 }
 
-/// Nearest orthonormal vectors; both turn by the same angle.
+/// The nearest orthonormal vectors; both vectors turn by the same angle.
 fn orthonormal([row, column]: [DVec3; 2]) -> Option<[DVec3; 2]> {
     let (row, column) = (row.try_normalize()?, column.try_normalize()?);
     let (sum, difference) = ((row + column).try_normalize()?, (row - column).try_normalize()?);

@@ -1,20 +1,20 @@
-//! Errors of judging series.
+//! Errors of the functions that plan a volume.
 
 use serde::{Serialize, Serializer};
 
 use crate::mend::Mend;
 use crate::report::Report;
 
-/// Result of this crate.
+/// Result of the functions of this crate.
 pub type Result<T> = std::result::Result<T, Error>;
 
-/// Why images form no volume, as parts of `SUBJECT: found FOUND; expected EXPECTED; ADVICE, or MEND`. The
-/// host adds the subject: a file, or everything it examined.
+/// Why images do not form a volume, as parts of `SUBJECT: found FOUND; expected EXPECTED; ADVICE, or MEND`.
+/// The host adds the subject, which is a file or everything that it examined.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Error {
-    /// Kind of error.
+    /// The kind of the error.
     pub kind: ErrorKind,
-    /// Number of the file concerned, from 0; None for all together.
+    /// Number of the file with the error, from 0; None if it concerns all files together.
     pub file: Option<usize>,
     /// What was found.
     pub found: String,
@@ -22,10 +22,10 @@ pub struct Error {
     pub expected: String,
     /// Advice in words; may be empty.
     pub advice: String,
-    /// Remedy that hosts offer in their own words; in JSON a list `mends` of names and values.
+    /// Remedy that each host states in its own words. In JSON it is a list `mends` of names and values.
     #[serde(rename = "mends", serialize_with = "as_list")]
     pub mended_by: Option<Box<Mend>>,
-    /// All series, if none of them is clearly the one to read.
+    /// Descriptions of all series, if it is not clear which one to read.
     pub series: Box<[Report]>,
 }
 
@@ -33,14 +33,14 @@ pub struct Error {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ErrorKind {
-    /// Images that form no volume.
+    /// The images do not form a volume.
     Format,
-    /// Several series, with no clear choice.
+    /// There are several series, and it is not clear which one to read.
     Series,
 }
 
 impl Error {
-    /// An error about all images together.
+    /// An error that concerns all images together.
     pub fn new(found: impl Into<String>, expected: impl Into<String>) -> Self {
         let (found, expected) = (found.into(), expected.into());
         Self {
@@ -54,19 +54,19 @@ impl Error {
         }
     }
 
-    /// Assigns the error to a file.
+    /// Assigns the error to the file with this number.
     #[must_use]
     pub fn of(self, file: usize) -> Self {
         Self { file: Some(file), ..self }
     }
 
-    /// Adds advice in words.
+    /// Adds advice in words to the error.
     #[must_use]
     pub fn mend(self, advice: impl Into<String>) -> Self {
         Self { advice: advice.into(), ..self }
     }
 
-    /// Adds a remedy for hosts.
+    /// Adds a remedy to the error.
     #[must_use]
     pub fn mended_by(self, mend: Mend) -> Self {
         Self { mended_by: Some(Box::new(mend)), ..self }

@@ -1,4 +1,4 @@
-//! Errors that keep slices from forming one stack, with the slices concerned.
+//! Errors if slices do not form one stack; they name the slices concerned.
 
 use crate::directions::ROUNDING;
 use crate::error::{Error, Result};
@@ -9,7 +9,7 @@ use crate::wording::{bracketed, counted, listed, rounded};
 
 /// Maximum relative difference of spacings.
 const RELATIVE: f64 = 1e-3;
-/// Maximum difference of cosines, unless rounded.
+/// Maximum difference of cosines that are not rounded.
 const COSINE: f64 = 1e-3;
 
 pub(crate) fn require_alike(slices: &[Slice]) -> Result<()> {
@@ -48,7 +48,7 @@ fn alike(
     Err(error.mend("move the others to a separate folder"))
 }
 
-/// Rejects a stack with gaps; `steps` are distances in usual ones.
+/// Rejects a stack with gaps; `steps` are distances divided by the usual distance.
 pub(crate) fn refuse_gaps(ordered: &[Slice], gaps: &[f64], steps: &[i64]) -> Result<()> {
     let missing: i64 = steps.iter().map(|step| step - 1).sum();
     if missing == 0 {
@@ -65,7 +65,7 @@ pub(crate) fn refuse_gaps(ordered: &[Slice], gaps: &[f64], steps: &[i64]) -> Res
     Err(if is_mostly_missing(ordered, steps) { error } else { error.mended_by(Mend::FillGaps) })
 }
 
-/// Whether more slices are missing than present; interpolation is not offered then.
+/// Whether more slices are missing than present. If so, interpolation is not offered.
 pub(crate) fn is_mostly_missing(ordered: &[Slice], steps: &[i64]) -> bool {
     steps.iter().map(|step| step - 1).sum::<i64>() > ordered.len() as i64
 }

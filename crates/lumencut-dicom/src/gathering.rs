@@ -1,4 +1,4 @@
-//! Gathers series of one slice each that form one scan, as anonymisers leave them.
+//! Gathers series that have one slice each and form one scan, as anonymisers leave them.
 
 use crate::error::Result;
 use crate::geometry::{Mending, Stack, stacked};
@@ -9,7 +9,7 @@ use crate::patients::Patient;
 use crate::series::{Series, grouped};
 
 const FEWEST: usize = 3;
-/// Attributes that the slices of a series share, besides their grid.
+/// Attributes besides the grid that must be equal in all slices of such a scan.
 const SHARED: [Keyword; 6] = [
     Keyword::StudyInstanceUID,
     Keyword::FrameOfReferenceUID,

@@ -1,7 +1,7 @@
-//! Geometry of a series: one affine for the stack, including shear, or a specific error.
+//! The geometry of a series: one affine for the stack, including shear, or an error with the reason.
 //!
-//! Tolerances: 1e-3 per cosine, 0.1 % of the spacing, and for each slice 0.01 mm or 1 % of the slice distance
-//! (the larger) from an evenly spaced line, unless the caller allows resampling.
+//! Tolerances: 1e-3 per cosine, and 0.1 % of the spacing. A slice may be 0.01 mm or 1 % of the slice distance
+//! (the larger) away from an evenly spaced line, unless the caller allows resampling.
 
 use glam::DVec3;
 
@@ -17,30 +17,30 @@ use crate::spacing::{has_run, median, tolerance};
 use crate::uneven::Uneven;
 use crate::wording::rounded;
 
-/// Neighbours farther apart than this many usual distances have a gap.
+/// Neighbours farther apart than this many usual distances have a gap between them.
 const GAP_FROM: f64 = 1.5;
-/// Maximum distance in usual ones, because damaged positions may be anywhere.
+/// Maximum distance in usual distances, because damaged positions may have any value.
 const MAX_STEPS: f64 = 1e9;
-/// Minimum stated tilt (degrees).
+/// Tilts below this (degrees) count as none.
 const MIN_TILT_DEGREES: f64 = 0.1;
 
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Mending {
-    /// Interpolate missing slices instead of rejecting them.
+    /// Whether missing slices are interpolated instead of rejected.
     pub fill_gaps: bool,
-    /// Put uneven slices on a regular grid.
+    /// Whether uneven slices are put on a regular grid.
     pub resample_slices: bool,
 }
 
 #[derive(Debug)]
 pub(crate) struct Stack<'a> {
     pub slices: Vec<Slice<'a>>,
-    /// Index k of each slice; fractional only if resampled.
+    /// Index k of each slice; not an integer only if slices are resampled.
     pub places: Vec<f64>,
     pub origin: DVec3,
     pub steps: [DVec3; 3],
     pub is_resampled: bool,
-    /// Skipped slices, each after the slice read at its position.
+    /// Pairs of slices at one position: one that is read, and one that is skipped.
     pub repeats: Vec<Pair<'a>>,
 }
 
@@ -50,7 +50,7 @@ impl Stack<'_> {
         [columns, rows, self.places[self.places.len() - 1] as i64 + 1]
     }
 
-    /// Indices k without a slice.
+    /// Indices k that have no slice.
     pub(crate) fn missing(&self) -> Vec<i64> {
         let mut measured = self.places.iter().filter(|place| place.fract() == 0.0).peekable();
         let is_missing = |&k: &i64| measured.next_if(|place| **place == k as f64).is_none();
@@ -58,8 +58,8 @@ impl Stack<'_> {
     }
 }
 
-/// Sorts slices along their normal and finds the affine; `unlike` are pairs whose values the host found to
-/// differ.
+/// Sorts slices along their normal, and finds the affine. `unlike` are pairs of frames whose values the host
+/// found to differ.
 pub(crate) fn stacked<'a>(
     mut slices: Vec<Slice<'a>>,
     mending: Mending,
@@ -70,7 +70,7 @@ pub(crate) fn stacked<'a>(
     let Some(normal) = slices.first().map(Slice::normal) else {
         return Err(Error::new("no slices", "a stack of slices"));
     };
-    // Names decide the order at one position.
+    // At one position, names decide the order.
     let height = |one: &Slice| one.position.dot(normal);
     slices.sort_by_cached_key(Slice::name);
     slices.sort_by(|a, b| height(a).total_cmp(&height(b)));
@@ -85,7 +85,7 @@ pub(crate) fn stacked<'a>(
     Ok(Stack { slices, places, origin, steps, is_resampled, repeats })
 }
 
-/// Gives slices the same rounded directions, perpendicular to the line of positions if within rounding.
+/// Gives all slices the same rounded directions, perpendicular to their line if rounding allows it.
 fn correct_directions(slices: &mut [Slice], notes: &mut Vec<String>) {
     let [first, .., last] = slices else { return note_correction(slices, notes) };
     if !first.directions.is_rounded {
@@ -108,7 +108,7 @@ fn note_correction(slices: &[Slice], notes: &mut Vec<String>) {
     }
 }
 
-/// Index of each slice, vector between indices, and whether slices are resampled.
+/// Index of each slice, vector between consecutive indices, and whether slices are resampled.
 type Places = (Vec<f64>, DVec3, bool);
 
 fn on_a_line(ordered: &[Slice], mending: Mending, notes: &mut Vec<String>) -> Result<Places> {
@@ -137,7 +137,7 @@ fn on_a_line(ordered: &[Slice], mending: Mending, notes: &mut Vec<String>) -> Re
     Ok((places, step, true))
 }
 
-/// Distances in usual ones; 1 without a gap.
+/// Distances divided by the usual distance, as integers; 1 if there is no gap.
 fn steps(gaps: &[f64]) -> Vec<i64> {
     let usual = median(gaps);
     let step = |&gap: &f64| {
@@ -179,7 +179,7 @@ fn alone(only: &Slice, notes: &mut Vec<String>) -> Result<Places> {
     Err(error.of(only.image.file))
 }
 
-/// Notes a sheared stack (gantry tilt), which is kept, and a stated tilt that the positions lack.
+/// Notes a sheared stack (gantry tilt), which stays sheared, or a stated tilt that the positions do not show.
 fn note_tilt(ordered: &[Slice], places: &[f64], step: DVec3, notes: &mut Vec<String>) -> Result<()> {
     let normal = ordered[0].normal();
     let along = step.dot(normal);

@@ -1,4 +1,4 @@
-//! Rejects images that are not readable grey slices.
+//! Rejects images that are not readable slices of grey values.
 
 use crate::error::{Error, Result};
 use crate::image::Image;
@@ -6,7 +6,7 @@ use crate::keyword::Keyword;
 use crate::uids;
 use crate::value::Value;
 
-/// Named colour types; any other text may contain anything.
+/// Colour types that errors may name. Other texts are not shown, because they may contain anything.
 const COLOURS: [&str; 12] = [
     "PALETTE COLOR",
     "RGB",
@@ -101,7 +101,7 @@ fn require_bits(image: &Image) -> Result<()> {
     Ok(())
 }
 
-/// Rejects several frames without a description of each.
+/// Rejects several frames if they are not described individually.
 fn require_groups(image: &Image) -> Result<()> {
     let (count, described) = (image.frame_count, image.header.frames.len());
     if count < 1 || (count > 1 && described == 0) {

@@ -1,4 +1,4 @@
-//! Grouping by key.
+//! Groups elements by a key.
 
 use std::collections::HashMap;
 

@@ -1,4 +1,4 @@
-//! Headers of all examined files as plain values, the input of every judgement.
+//! Headers of all examined files as plain values, which are the input of this crate.
 
 use std::fmt;
 
@@ -8,24 +8,24 @@ use serde::de::{Deserializer, MapAccess, Visitor};
 use crate::keyword::Keyword;
 use crate::value::Value;
 
-/// Everything known of a folder, archive or list of files.
+/// The headers of a folder, an archive or a list of files.
 #[derive(Debug, Deserialize)]
 pub struct Headers {
     /// Transfer syntaxes (UIDs) that the host can decode.
     pub transfer_syntaxes: Vec<String>,
-    /// Files in the host's order; errors and plans refer to their numbers.
+    /// Files in the order of the host. Errors and plans refer to their numbers.
     pub files: Vec<File>,
-    /// Pairs of [`Plan::compared`](crate::Plan::compared) whose values the host found to differ.
+    /// Pairs of [`Plan::compared`](crate::Plan::compared) for which the host found different values.
     #[serde(default)]
     pub unlike: Vec<Unlike>,
 }
 
-/// Two frames that a plan equates but whose values differ.
+/// Two frames that a plan treats as equal although their values differ.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 pub struct Unlike {
-    /// The frame read.
+    /// The frame that is read.
     pub kept: FrameOf,
-    /// The frame skipped.
+    /// The frame that is skipped.
     pub other: FrameOf,
 }
 
@@ -41,12 +41,12 @@ pub struct FrameOf {
 /// One file.
 #[derive(Debug, Deserialize)]
 pub struct File {
-    /// Name without folders.
+    /// The name of the file, without folders.
     pub name: String,
     /// Description of a file that is not DICOM, such as `gzipped; unpack it first`.
     #[serde(default)]
     pub kind: String,
-    /// Header; None (null or omitted) if not DICOM.
+    /// The header; None (null or left out) if the file is not DICOM.
     #[serde(default)]
     pub header: Option<Header>,
 }
@@ -54,29 +54,29 @@ pub struct File {
 /// The header of a DICOM file.
 #[derive(Debug, Deserialize)]
 pub struct Header {
-    /// SOP class UID from the dataset or the meta information; may be empty.
+    /// UID of the SOP class, from the dataset or the meta information; may be empty.
     pub sop_class: String,
-    /// Transfer syntax UID.
+    /// UID of the transfer syntax.
     pub transfer_syntax: String,
     /// Keyword of the pixel element, such as `PixelData`; may be empty.
     pub pixels: String,
-    /// Top-level attributes.
+    /// Attributes at the top level.
     pub attributes: Attributes,
-    /// Shared functional groups.
+    /// Functional groups that all frames share.
     #[serde(default)]
     pub shared: Attributes,
-    /// Functional groups per frame; may be empty.
+    /// Functional groups of each frame; may be empty.
     #[serde(default)]
     pub frames: Vec<Attributes>,
 }
 
-/// Attributes of one header level, as an object of [`Keyword`]s and [`Value`]s; others are ignored.
-/// Functional groups are flattened ([`Keyword::groups`]).
+/// Attributes of one level of a header. In JSON they are an object with [`Keyword`]s and [`Value`]s, and
+/// others are ignored. Functional groups are flattened ([`Keyword::groups`]).
 #[derive(Debug, Default)]
 pub struct Attributes(Vec<(Keyword, Value)>);
 
 impl Attributes {
-    /// None if absent.
+    /// Value of an attribute; None if absent.
     pub fn get(&self, keyword: Keyword) -> Option<&Value> {
         self.0.iter().find(|(own, _)| *own == keyword).map(|(_, value)| value)
     }
@@ -114,7 +114,7 @@ impl<'de> Visitor<'de> for AnyAttributes {
     }
 }
 
-/// Some hosts write 40.0 as 40 in JSON.
+/// The value with the type of its attribute, because some hosts write 40.0 as 40 in JSON.
 fn typed(keyword: Keyword, value: Value) -> Value {
     match value {
         Value::Integer(whole) if keyword.is_float() => Value::Number(whole as f64),

@@ -1,4 +1,4 @@
-//! One image, with access to its attributes and frames.
+//! One image, with access to its attributes and its frames.
 
 use crate::error::{Error, Result};
 use crate::headers::{File, Header};
@@ -14,9 +14,9 @@ pub(crate) struct Image<'a> {
     pub file: usize,
     pub name: String,
     pub kind: &'a str,
-    /// Whether the host can decode its pixels.
+    /// Whether the host can decode the pixels.
     pub is_decodable: bool,
-    /// As stated, which may be wrong.
+    /// Number of frames that the header states, which may be wrong.
     pub frame_count: i64,
     pub samples: i64,
     pub header: &'a Header,
@@ -42,7 +42,7 @@ impl<'a> Image<'a> {
         self.header.attributes.get(keyword).unwrap_or(&EMPTY)
     }
 
-    /// Attribute of a frame: from its functional groups, then the shared ones, then the top level.
+    /// Value of an attribute for a frame: from its own groups, else the shared groups, else the top level.
     pub(crate) fn of_frame(&self, frame: usize, keyword: Keyword) -> &'a Value {
         if keyword.groups().is_empty() {
             return self.get(keyword);
@@ -51,7 +51,7 @@ impl<'a> Image<'a> {
         own.or_else(|| self.header.shared.get(keyword)).unwrap_or_else(|| self.get(keyword))
     }
 
-    /// As one printable line; empty if not stated.
+    /// Value as one printable line; empty if not stated.
     pub(crate) fn text(&self, keyword: Keyword) -> String {
         match self.get(keyword) {
             Value::Empty => String::new(),
@@ -59,7 +59,7 @@ impl<'a> Image<'a> {
         }
     }
 
-    /// Top-level integer; None if not stated or zero.
+    /// Integer at the top level; None if not stated or zero.
     pub(crate) fn count(&self, keyword: Keyword) -> Result<Option<i64>> {
         let stated = self.get(keyword);
         if stated.is_nothing() {
@@ -91,7 +91,7 @@ impl<'a> Image<'a> {
         !self.of_frame(frame, Keyword::ImagePositionPatient).is_empty()
     }
 
-    /// Checks described frames only, because the stated count may be wrong.
+    /// Checks only the frames that are described, because the stated number may be wrong.
     pub(crate) fn has_positions(&self) -> bool {
         let described = self.header.frames.len().max(1);
         let frames = usize::try_from(self.frame_count.max(1)).map_or(described, |count| count.min(described));
@@ -106,7 +106,7 @@ pub(crate) fn kind(file: &File) -> &str {
     }
 }
 
-/// Error for an invalid value, which is not quoted because it may be a patient's name.
+/// The error for an invalid value. It does not quote the value, which may be the name of a patient.
 fn damaged(keyword: Keyword, expected: &str) -> Error {
     Error::new(format!("damaged values in {}", keyword.name()), expected)
 }

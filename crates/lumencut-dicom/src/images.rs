@@ -1,4 +1,4 @@
-//! Selects the images among the files.
+//! Selects the images from the files.
 
 use crate::error::{Error, Result};
 use crate::headers::{Header, Headers};
@@ -6,9 +6,9 @@ use crate::image::{Image, kind};
 use crate::keyword::Keyword;
 use crate::wording::{listed, printable};
 
-/// SOP class of a disc directory.
+/// Name of the SOP class of a disc directory.
 const DIRECTORY: &str = "Media Storage Directory";
-/// Objects with contours but no voxels.
+/// Names of SOP classes with contours but no voxels.
 const SHAPES: [&str; 2] = ["RT Structure Set Storage", "Surface Segmentation Storage"];
 
 pub(crate) fn images<'a>(headers: &'a Headers, notes: &mut Vec<String>) -> Result<Vec<Image<'a>>> {

@@ -1,7 +1,7 @@
-//! The judgements with JSON input and output, for hosts in other languages.
+//! The functions of this crate with JSON as input and output, for hosts in other languages.
 //!
-//! Input are [`Headers`] and [`Wanted`]; output is `{"plan": …}` with a [`Plan`], `{"series": […]}` with
-//! [`Report`]s, or `{"error": …}` with an [`Error`].
+//! The input is [`Headers`] and [`Wanted`]. The output is `{"plan": …}` with a [`Plan`], `{"series": […]}`
+//! with [`Report`]s, or `{"error": …}` with an [`Error`].
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -37,7 +37,7 @@ pub fn describe(headers: &[u8]) -> String {
     }
 }
 
-/// Errors give the position only, because the parser's message quotes values.
+/// Errors state only the position, because the message of the parser quotes values.
 fn read<T: DeserializeOwned>(document: &[u8], what: &str) -> Result<T> {
     serde_json::from_slice(document).map_err(|error| {
         let found =

@@ -1,4 +1,4 @@
-//! The sequence of judgements, from headers to a plan.
+//! The steps from headers to a plan.
 
 use serde::Deserialize;
 
@@ -15,21 +15,21 @@ use crate::plan::Plan;
 use crate::report::Report;
 use crate::series::{Placed, grouped};
 
-/// What to read, and which remedies to apply.
+/// What to read, and which remedies are allowed.
 #[derive(Debug, Clone, Default, Deserialize)]
 #[serde(default)]
 pub struct Wanted {
-    /// Number or UID of a series.
+    /// Number or UID of the series to read.
     pub series: Option<String>,
-    /// Attribute value of one phase.
+    /// Value of the attribute that selects a phase.
     pub phase: Option<String>,
-    /// Interpolate missing slices instead of rejecting them.
+    /// Whether missing slices are interpolated instead of rejected.
     pub fill_gaps: bool,
-    /// Put uneven slices on a regular grid instead of rejecting them.
+    /// Whether uneven slices are put on a regular grid instead of rejected.
     pub resample_slices: bool,
 }
 
-/// Decides how images become one volume, or why they do not.
+/// Decides how images become one volume, or states why they do not.
 pub fn judge(headers: &Headers, wanted: &Wanted) -> Result<Plan> {
     let mut notes = Vec::new();
     let every = gathered(grouped(images(headers, &mut notes)?));
@@ -45,7 +45,7 @@ pub fn judge(headers: &Headers, wanted: &Wanted) -> Result<Plan> {
     Ok(Plan::new(series, &stack, &copies, notes))
 }
 
-/// Describes all series.
+/// Describes each series.
 pub fn describe(headers: &Headers) -> Result<Vec<Report>> {
     let every = gathered(grouped(images(headers, &mut Vec::new())?));
     Ok(every.iter().map(described).collect())

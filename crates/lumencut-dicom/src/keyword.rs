@@ -1,8 +1,8 @@
-//! The attributes used in judgements, which hosts read.
+//! The attributes that this crate uses and hosts must read.
 
 macro_rules! keywords {
     ($($(#[$comment:meta])* $keyword:ident),+ $(,)?) => {
-        /// An attribute, by its keyword in the standard (PS3.6), which defines its meaning.
+        /// An attribute, named by its keyword in the standard (PS3.6), which defines its meaning.
         #[allow(missing_docs)]
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
         pub enum Keyword { $($(#[$comment])* $keyword),+ }
@@ -11,7 +11,7 @@ macro_rules! keywords {
             /// All attributes.
             pub const ALL: &[Self] = &[$(Self::$keyword),+];
 
-            /// The keyword as text.
+            /// The keyword.
             pub fn name(self) -> &'static str {
                 match self { $(Self::$keyword => stringify!($keyword)),+ }
             }
@@ -20,16 +20,16 @@ macro_rules! keywords {
 }
 
 keywords! {
-    /// Instance identifier; equal ones are copies.
+    /// Identifier of the image; images with the same one are copies.
     SOPInstanceUID,
     StudyInstanceUID,
-    /// Common space of several series.
+    /// Identifier of a space that several series share.
     FrameOfReferenceUID,
     PatientID,
     IssuerOfPatientID,
-    /// Patient name; never shown.
+    /// Name of the patient; never shown.
     PatientName,
-    /// Birth date; never shown.
+    /// Birth date of the patient; never shown.
     PatientBirthDate,
     SeriesInstanceUID,
     SeriesNumber,
@@ -44,12 +44,12 @@ keywords! {
     PhotometricInterpretation,
     BitsAllocated,
     BitsStored,
-    /// Highest used bit.
+    /// Highest bit that is used.
     HighBit,
     PixelRepresentation,
-    /// Stored number outside the scan.
+    /// Stored number of pixels outside the scan.
     PixelPaddingValue,
-    /// Look-up table from stored numbers to values, passed as its number of items.
+    /// Look-up table from stored numbers to values; hosts pass its number of items.
     ModalityLUTSequence,
     RescaleSlope,
     RescaleIntercept,
@@ -61,15 +61,15 @@ keywords! {
     ImageOrientationPatient,
     /// Slice thickness (mm).
     SliceThickness,
-    /// Stated slice distance (mm).
+    /// Slice distance (mm) as stated.
     SpacingBetweenSlices,
     /// Gantry tilt (degrees).
     GantryDetectorTilt,
     TemporalPositionIdentifier,
     TemporalPositionIndex,
-    /// Cardiac phase (percent).
+    /// Phase of the heart (percent).
     NominalPercentageOfCardiacPhase,
-    /// Cardiac phase (ms after the R wave).
+    /// Phase of the heart (ms after the R wave).
     NominalCardiacTriggerDelayTime,
     /// Time since the trigger (ms).
     TriggerTime,
@@ -85,18 +85,18 @@ keywords! {
     FrameAcquisitionNumber,
     AcquisitionTime,
     FrameAcquisitionDateTime,
-    /// Creation time of the image.
+    /// Time at which the image was created.
     ContentTime,
 }
 
 impl Keyword {
-    /// The attribute of a keyword; None if unused.
+    /// The attribute with this keyword; None if this crate does not use it.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.iter().copied().find(|keyword| keyword.name() == name)
     }
 
-    /// Functional groups of enhanced multi-frame images that may have it (PS3.3 C.7.6.16), in order; empty
-    /// for top-level attributes.
+    /// Functional groups of enhanced multi-frame images that may contain the attribute (PS3.3 C.7.6.16), in
+    /// order. Empty for attributes at the top level.
     pub fn groups(self) -> &'static [&'static str] {
         match self {
             Self::ImagePositionPatient => &["PlanePositionSequence"],
@@ -123,7 +123,7 @@ impl Keyword {
         }
     }
 
-    /// Whether values are floating-point, which JSON may write without a decimal point.
+    /// Whether the values are floating-point numbers, which JSON may write without a decimal point.
     pub fn is_float(self) -> bool {
         matches!(
             self,

@@ -1,4 +1,4 @@
-//! Plans how to read DICOM series, from the values of their headers.
+//! Plans how to read DICOM series from the values in their headers.
 //!
 //! A host (the Python package, a browser) finds files and reads headers. Pure functions here decide which
 //! files are images, which series to read, where slices lie, what is missing, repeated or uneven, and how

@@ -1,26 +1,26 @@
-//! Remedies that hosts can apply or word themselves.
+//! Remedies that hosts apply, or state in their own words.
 
-/// A remedy of an [`Error`](crate::Error). Hosts word it as Python arguments, command-line options or
+/// A remedy of an [`Error`](crate::Error). Hosts state it as Python arguments, command-line options or
 /// buttons.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Mend {
-    /// Name the series to read; the error describes them.
+    /// Name the series to read. The error describes all series.
     Series,
-    /// Name the phase by one of these values; empty if there are too many.
+    /// Choose a phase by one of these values; the list is empty if there are too many.
     Phase(Vec<String>),
     /// Interpolate missing slices.
     FillGaps,
     /// Put uneven slices on a regular grid.
     ResampleSlices,
-    /// Put uneven slices on a regular grid, across gaps too.
+    /// Put uneven slices on a regular grid, also across gaps.
     ResampleAndFill,
 }
 
 impl Mend {
-    /// All names.
+    /// Names of all remedies.
     pub const NAMES: [&str; 5] = ["series", "phase", "fill_gaps", "resample_slices", "resample_and_fill"];
 
-    /// The name used by every host.
+    /// The name of the remedy, which every host uses.
     pub const fn name(&self) -> &'static str {
         match self {
             Self::Series => "series",
@@ -31,7 +31,7 @@ impl Mend {
         }
     }
 
-    /// The choices.
+    /// The values to choose from.
     pub fn values(&self) -> &[String] {
         match self {
             Self::Phase(values) => values,

@@ -1,4 +1,4 @@
-//! Notes about unusual values of a readable stack.
+//! Notes about unusual values of a stack that can be read.
 
 use std::collections::BTreeSet;
 
@@ -60,7 +60,7 @@ fn is_high_bit_odd(image: &Image) -> bool {
 
 fn note_padding(images: &[&Image], notes: &mut Vec<String>) {
     let stated = images.iter().filter_map(|image| image.header.attributes.get(Keyword::PixelPaddingValue));
-    // A damaged value may be any text, so it is not quoted.
+    // A damaged value may be any text, so only numbers are quoted.
     let numbers = stated.filter(|value| matches!(value, Value::Integer(_) | Value::Number(_)));
     let values: BTreeSet<String> = numbers.map(|value| shown(&value.to_string())).collect();
     if !values.is_empty() {

@@ -26,8 +26,8 @@ impl Patient {
         }
     }
 
-    /// Whether two images certainly name different patients: by ID and issuer, or by name and birth date
-    /// without an ID.
+    /// Whether two images certainly name different patients: by ID and issuer, or without an ID by name and
+    /// birth date.
     fn differs(&self, other: &Self) -> bool {
         if differ(&self.id, &other.id) {
             return true;
@@ -48,7 +48,7 @@ impl Patient {
     }
 }
 
-/// Messages name patients by ID only.
+/// Rejects images of several patients. The error names patients only by ID.
 pub(crate) fn require_one_patient(images: &[Image]) -> Result<()> {
     let every: Vec<Patient> = images.iter().map(Patient::of).collect();
     let firsts: Vec<usize> =
@@ -76,7 +76,7 @@ fn differ(one: &str, other: &str) -> bool {
     !one.is_empty() && !other.is_empty() && one != other
 }
 
-/// Surrounding blanks mean nothing.
+/// The text without surrounding blanks, which have no meaning.
 fn unpadded(value: &Value) -> String {
     match value {
         Value::Empty | Value::Odd => String::new(),
@@ -84,7 +84,7 @@ fn unpadded(value: &Value) -> String {
     }
 }
 
-/// First spelling of a name, without padding, trailing empty parts and case.
+/// The first spelling of a name, in one case, without blanks around it and empty parts at its end.
 fn plain_name(name: &str) -> String {
     let written = name.split('=').find(|group| !group.trim().is_empty()).unwrap_or_default();
     let parts: Vec<String> = written.split('^').map(|part| part.trim().to_uppercase()).collect();

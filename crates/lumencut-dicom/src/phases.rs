@@ -1,4 +1,4 @@
-//! Separates phases whose slices share positions.
+//! Separates phases whose slices have the same positions.
 
 use std::cmp::Ordering;
 use std::collections::{BTreeMap, BTreeSet};
@@ -11,7 +11,7 @@ use crate::spacing;
 use crate::value::Value;
 use crate::wording::{MENTIONED, counted, listed, quoted, shown};
 
-/// Attributes that may separate phases, the most reliable first.
+/// Attributes that may tell phases apart, the most reliable first.
 const PHASE_KEYWORDS: [Keyword; 17] = [
     Keyword::TemporalPositionIdentifier,
     Keyword::TemporalPositionIndex,
@@ -31,11 +31,11 @@ const PHASE_KEYWORDS: [Keyword; 17] = [
     Keyword::FrameAcquisitionDateTime,
     Keyword::ContentTime,
 ];
-/// Maximum number of phases to choose from.
+/// Maximum number of phases that are offered for choice.
 const MOST_PHASES: usize = 40;
 
-/// Attributes that never alternate within a phase. Acquisition numbers may, because 2D MR may acquire odd
-/// slices first.
+/// Attributes that have one value in a phase. Acquisition numbers may alternate within a phase, because 2D MR
+/// may acquire odd slices first.
 const WHOLE_PHASE: [Keyword; 3] = [
     Keyword::TemporalPositionIdentifier,
     Keyword::TemporalPositionIndex,
@@ -52,7 +52,7 @@ pub(crate) fn mixed(ordered: &[Slice], keyword: Keyword) -> String {
     format!("{} differs ({}): mixed {mixed}", keyword.name(), values_of(ordered, keyword))
 }
 
-/// Slices of one phase, by the first attribute that has the value in some slices only.
+/// Slices of one phase, selected by the first attribute that has this value in some slices, but not in all.
 pub(crate) fn of_phase<'a>(
     slices: &[Slice<'a>],
     phase: &str,
@@ -121,7 +121,7 @@ pub(crate) fn choice(slices: &[Slice], keyword: Keyword) -> Mend {
     Mend::Phase(values)
 }
 
-/// Numbers by size, before other texts.
+/// Order of values: numbers by size, then other texts.
 pub(crate) fn in_order(one: &str, other: &str) -> Ordering {
     let number = |value: &str| value.parse().unwrap_or(f64::INFINITY);
     number(one).total_cmp(&number(other)).then_with(|| one.cmp(other))
@@ -137,7 +137,7 @@ pub(crate) fn values_of(slices: &[Slice], keyword: Keyword) -> String {
     listed(&counts.collect::<Vec<_>>())
 }
 
-/// 400 matches 400.0, as text or number.
+/// Whether a value means this phase; 400 also means 400.0, as text or number.
 fn is_called(value: &Value, phase: &str) -> bool {
     let meant: Option<f64> = phase.trim().parse().ok();
     value.to_string() == phase || meant.is_some_and(|number| value.number() == Some(number))

@@ -13,27 +13,27 @@ use crate::slices::{Pair, Slice};
 use crate::uids;
 use crate::wording::{listed, shown};
 
-/// The volume of a series.
+/// How to read the volume of a series.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Plan {
-    /// Voxels along i, j, k.
+    /// Number of voxels along i, j, k.
     pub size: [i64; 3],
-    /// Affine from voxel indices to patient space (mm, LPS), by rows, including shear.
+    /// Affine from voxel indices to patient space (mm, LPS), row by row, including shear.
     pub world_from_index: [[f64; 4]; 4],
-    /// NumPy type of stored numbers, such as `i2` or `f4`.
+    /// NumPy type of the stored numbers, such as `i2` or `f4`.
     pub stored_type: String,
-    /// Slices in order.
+    /// Slices to read, in order.
     pub slices: Vec<PlannedSlice>,
-    /// Whether slice indices may be fractional.
+    /// Whether slices are resampled; only then may their indices not be integers.
     pub is_resampled: bool,
-    /// Indices k without a slice.
+    /// Indices k that have no slice.
     pub missing: Vec<i64>,
-    /// Interpolation of each missing slice.
+    /// How each missing slice is interpolated.
     pub fills: Vec<Fill>,
-    /// Frames that the plan equates; if values differ, the host judges again with these pairs as
-    /// [`Headers::unlike`](crate::Headers::unlike).
+    /// Pairs of frames that the plan treats as equal. If values differ, the host asks again with these pairs
+    /// as [`Headers::unlike`](crate::Headers::unlike).
     pub compared: Vec<Compared>,
-    /// Notes for the user.
+    /// Notes for the user, one sentence each.
     pub notes: Vec<String>,
     /// Details of the series.
     pub details: Details,
@@ -41,55 +41,55 @@ pub struct Plan {
     pub scan: Scan,
 }
 
-/// A slice to read.
+/// A slice that is read.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PlannedSlice {
-    /// Number of its file.
+    /// Number of the file.
     pub file: usize,
-    /// Number of its frame, from 0.
+    /// Number of the frame, from 0.
     pub frame: usize,
-    /// Its index k.
+    /// Index k of the slice.
     pub place: f64,
-    /// Factor from stored numbers to values.
+    /// Factor that converts stored numbers to values.
     pub slope: f64,
-    /// Offset from stored numbers to values.
+    /// Offset that is then added.
     pub intercept: f64,
 }
 
-/// A slice to read, and one to skip if its values are equal.
+/// A slice that is read, and one that is skipped if its values are equal.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Compared {
-    /// The slice read.
+    /// The slice that is read.
     pub kept: PlannedSlice,
-    /// The slice skipped.
+    /// The slice that is skipped.
     pub other: PlannedSlice,
 }
 
-/// A slice interpolated as (1 - part) × before + part × after.
+/// A missing slice, interpolated as (1 - part) × before + part × after.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Fill {
-    /// Its index k.
+    /// Index k of the missing slice.
     pub k: i64,
-    /// Number of the slice before it in [`Plan::slices`].
+    /// Number of the slice before it, in [`Plan::slices`].
     pub before: usize,
-    /// Number of the slice after it.
+    /// Number of the slice after it, in [`Plan::slices`].
     pub after: usize,
-    /// Fraction of the way between them.
+    /// Position between them, from 0 to 1.
     pub part: f64,
 }
 
-/// Details of a series for any reader.
+/// Details of a series that any reader may see.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Details {
-    /// Number and description.
+    /// Number and description of the series.
     pub series: String,
-    /// UID.
+    /// UID of the series.
     pub series_uid: String,
     /// Modality.
     pub modality: String,
-    /// Number of files read.
+    /// Number of files that are read.
     pub files: String,
-    /// Transfer syntaxes.
+    /// Transfer syntaxes of the files.
     pub pixels: String,
 }
 

@@ -7,26 +7,26 @@ use serde::ser::{SerializeStruct, Serializer};
 
 use crate::wording::{counted, rounded};
 
-/// One series, described for choosing; texts are empty where not stated.
+/// A series, described so that users can choose; texts are empty if not stated.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Report {
-    /// Number.
+    /// Number of the series.
     pub number: String,
-    /// UID.
+    /// UID of the series.
     pub uid: String,
-    /// Description.
+    /// Description of the series.
     pub description: String,
     /// Modality.
     pub modality: String,
-    /// Number of images (frames).
+    /// Number of images, or of frames.
     pub images: i64,
-    /// Voxels along i, j, k; None if the images form no stack.
+    /// Number of voxels along i, j, k; None if the images do not form a stack.
     pub size: Option<[i64; 3]>,
-    /// Voxel distances along i, j, k (mm).
+    /// Distance between voxels along i, j, k (mm).
     pub spacing: Option<[f64; 3]>,
-    /// Whether it may be an angiography volume.
+    /// Whether the series may be an angiography volume.
     pub can_be_volume: bool,
-    /// Why it is no (angiography) volume; otherwise empty.
+    /// Why the series is not a volume, or not an angiography; otherwise empty.
     pub trouble: String,
 }
 

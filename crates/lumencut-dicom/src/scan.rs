@@ -10,14 +10,14 @@ use crate::wording::{line, rounded};
 
 const DIGITS: usize = 6;
 
-/// How a scan was made, without patient data; None where not stated or not common to all slices.
+/// How a scan was made, without patient data. Values are None if not stated or not equal in all slices.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Scan {
     /// Number of the series.
     pub series_number: Option<String>,
     /// Description of the series.
     pub series_description: Option<String>,
-    /// Stated phases of heart, contrast medium and series.
+    /// Phases of heart, contrast medium and series, as stated.
     pub phase: Option<String>,
     /// Slice thickness (mm).
     pub slice_thickness_mm: Option<f64>,

@@ -1,4 +1,4 @@
-//! The images of one series, and their slices.
+//! The images of one series, and the slices in them.
 
 use crate::copies::{compared, without_copies};
 use crate::error::{Error, Result};
@@ -13,18 +13,18 @@ use crate::wording::{counted, listed};
 
 #[derive(Debug)]
 pub(crate) struct Series<'a> {
-    /// May be empty.
+    /// UID of the series; may be empty.
     pub uid: String,
-    /// Number of single-slice series it was gathered from; normally 1.
+    /// Number of series of one slice from which it was gathered; 1 for ordinary series.
     pub part_count: usize,
-    /// At least one.
+    /// Images; at least one.
     pub images: Vec<Image<'a>>,
 }
 
 #[derive(Debug)]
 pub(crate) struct Placed<'a> {
     pub slices: Vec<Slice<'a>>,
-    /// Slices of copies, each after the slice read.
+    /// Pairs of slices: one that is read, and its copy.
     pub copies: Vec<Pair<'a>>,
 }
 
@@ -49,7 +49,7 @@ impl Series<'_> {
         self.images.iter().fold(0, |sum, image| sum.saturating_add(image.frame_count))
     }
 
-    /// All slices, without copies, and without localisers if there are others.
+    /// All slices without copies; localisers are left out if there are other slices.
     pub(crate) fn slices(&self, unlike: &[Unlike], notes: &mut Vec<String>) -> Result<Placed<'_>> {
         require_one_patient(&self.images)?;
         let is_scout = |image: &&Image| image.frame_count == 1 && image.is_localizer(0);
@@ -83,7 +83,7 @@ pub(crate) fn grouped(images: Vec<Image>) -> Vec<Series> {
     series.collect()
 }
 
-/// Removes leading zeros and a plus sign; keeps other texts.
+/// A number without leading zeros and plus sign; other texts stay unchanged.
 pub(crate) fn plain(number: &str) -> String {
     let digits = number.strip_prefix(['+', '-']).unwrap_or(number);
     if digits.is_empty() || digits.len() > 64 || !digits.bytes().all(|digit| digit.is_ascii_digit()) {

@@ -1,7 +1,7 @@
-//! Several slices at one position: phases, overlapping parts of a scan, or repeated images.
+//! Handles several slices at one position: phases, overlapping parts of a scan, or repeated images.
 //!
-//! Overlapping parts have equal values there and phases differ, so the host compares the values of the
-//! returned pairs.
+//! Overlapping parts have equal values at shared positions, phases have not. So the host compares the values
+//! of the pairs that are returned.
 
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
@@ -56,8 +56,8 @@ fn places<'s, 'a>(ordered: &'s [Slice<'a>]) -> Vec<&'s [Slice<'a>]> {
     ordered.chunk_by(is_one).collect()
 }
 
-/// Whether slices may be overlapping parts: some positions have one slice, and the parts extend each other or
-/// share few positions.
+/// Whether slices may be overlapping parts: some positions have only one slice, and the parts extend each
+/// other or share few positions.
 fn may_overlap(places: &[&[Slice]], keyword: Keyword) -> bool {
     let shared = places.iter().filter(|place| place.len() > 1).count();
     let values =
@@ -91,7 +91,7 @@ fn refused(found: &str, differing: &[Pair], apart: Option<(&[Slice], Keyword)>) 
     let found = format!("{found}; {} is {values}: phases, or overlapping parts of one scan", keyword.name());
     let error = Error::new(found, "one slice per position").mend("remove one of each pair if they are parts");
     let different: BTreeSet<String> = ordered.iter().map(|one| value_text(one, keyword)).collect();
-    // A value per slice does not indicate phases.
+    // If nearly every slice has a value of its own, the attribute does not indicate phases.
     if 2 * different.len() > ordered.len() { error } else { error.mended_by(choice(ordered, keyword)) }
 }
 

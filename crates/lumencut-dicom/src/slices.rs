@@ -1,4 +1,4 @@
-//! The slices of an image: one, or one per frame of an enhanced multi-frame image.
+//! The slices of an image: one slice, or one per frame of an enhanced multi-frame image.
 
 use glam::DVec3;
 
@@ -26,9 +26,9 @@ pub(crate) struct Slice<'a> {
     pub size: [i64; 2],
     pub position: DVec3,
     pub directions: Directions,
-    /// Distance between columns, then between rows.
+    /// Distance between columns, then between rows (mm).
     pub spacing: [f64; 2],
-    /// Slope and intercept from stored numbers to values.
+    /// Slope and intercept that convert stored numbers to values.
     pub scaling: (f64, f64),
 }
 
@@ -37,7 +37,7 @@ impl<'a> Slice<'a> {
         self.image.frame_name(self.frame)
     }
 
-    /// Slices are sorted along it.
+    /// The direction along which slices are sorted.
     pub(crate) fn normal(&self) -> DVec3 {
         self.directions.normal()
     }
@@ -47,7 +47,7 @@ impl<'a> Slice<'a> {
     }
 }
 
-/// Skips localisers if there are other frames.
+/// The slices of an image; localisers are left out if there are other frames.
 pub(crate) fn slices_of<'a>(image: &'a Image<'a>) -> Result<Vec<Slice<'a>>> {
     let frames = 0..usize::try_from(image.frame_count).unwrap_or_default();
     let mut wanted: Vec<usize> = frames.clone().filter(|&frame| !image.is_localizer(frame)).collect();
@@ -74,7 +74,7 @@ fn placed<'a>(image: &'a Image<'a>, frame: usize) -> Result<Slice<'a>> {
         size: plane_size(image).unwrap_or_default(),
         position,
         directions,
-        // Stated as (between rows, between columns); i runs along a row, so between columns.
+        // The header states the distance between rows first, but i runs along a row, between columns.
         spacing: [spacing[1], spacing[0]],
         scaling: scaling(image, frame)?,
     })
@@ -100,7 +100,7 @@ fn numbers<const COUNT: usize>(image: &Image, frame: usize, keyword: Keyword) ->
     let read: Vec<Option<f64>> = stated.all().iter().map(Value::number).collect();
     let values: Option<Vec<f64>> =
         read.iter().map(|value| value.filter(|number| number.is_finite())).collect();
-    // A damaged value may be a patient's name, so it is not quoted.
+    // A damaged value may be the name of a patient, so it is not quoted.
     let odd =
         values.as_ref().map_or_else(|| "damaged values".to_owned(), |all| format!("{} numbers", all.len()));
     values.and_then(|all| all.try_into().ok()).ok_or_else(|| {

@@ -1,22 +1,22 @@
-//! Distances between slices, and position tolerances.
+//! Distances between slices, and tolerances of their positions.
 
 use crate::wording::rounded;
 
-/// Position tolerance: mm, and share of the slice distance.
+/// Tolerance of positions: mm, or share of the slice distance if larger.
 const MILLIMETRE: f64 = 0.01;
 const OF_STEP: f64 = 0.01;
-/// Slices closer than this (mm) share a position.
+/// Slices closer than this (mm) are at one position.
 pub(crate) const ONE_PLACE: f64 = 0.01;
-/// This many equal wide distances in a row are intended.
+/// This many equal wide distances in succession are intended.
 const INTENDED_RUN: usize = 3;
-/// Maximum number of distances listed individually.
+/// Maximum number of distances that a text lists individually.
 const MAX_LISTED: usize = 4;
 
 pub(crate) fn tolerance(step: f64) -> f64 {
     MILLIMETRE.max(OF_STEP * step)
 }
 
-/// NaN if any number is.
+/// The median; NaN if any number is NaN.
 pub(crate) fn median(numbers: &[f64]) -> f64 {
     let mut sorted = numbers.to_vec();
     sorted.sort_by(f64::total_cmp);
@@ -33,7 +33,7 @@ pub(crate) fn ends(numbers: &[f64]) -> (f64, f64) {
     numbers.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), &n| (low.min(n), high.max(n)))
 }
 
-/// Whether wide steps of equal length follow each other, as in a part scanned more coarsely.
+/// Whether equal wide steps follow each other, as in a part that was scanned more coarsely.
 pub(crate) fn has_run(steps: &[i64]) -> bool {
     steps.windows(INTENDED_RUN).any(|run| run[0] > 1 && run.iter().all(|step| *step == run[0]))
 }

@@ -1,8 +1,8 @@
-//! Uneven slice distances: an error, or resampling to a regular grid on request.
+//! Handles uneven slice distances by an error, or on request by resampling to a regular grid.
 //!
-//! The grid uses the largest distance that divides all others, if that gives at most four times as many
-//! slices; each slice then keeps its position. Otherwise it uses the smallest distance, within the same
-//! limit.
+//! The distance of the grid is the largest one that divides all others, if the grid then has at most four
+//! times as many slices. In that case each slice keeps its position. Otherwise it is the smallest distance,
+//! within the same limit.
 
 use crate::error::{Error, Result};
 use crate::mend::Mend;
@@ -10,11 +10,11 @@ use crate::slices::Slice;
 use crate::spacing::{described, ends, median, tolerance};
 use crate::wording::{counted, rounded};
 
-/// Maximum number of grid slices, relative to the series.
+/// Maximum number of slices of the grid, relative to that of the series.
 const MAX_GRID_RATIO: usize = 4;
-/// A distance this much longer than its neighbours is a gap.
+/// A distance that exceeds the distances beside it by this factor is a gap.
 const GAP_RATIO: f64 = 3.0;
-/// Rounding tolerance of step counts and equal distances (mm).
+/// Tolerance for rounding of step counts and equal distances (mm).
 const ROUNDING: f64 = 1e-6;
 
 #[derive(Debug)]
@@ -38,7 +38,7 @@ impl Uneven<'_, '_> {
         }
     }
 
-    /// Grid index of each slice, an integer where measured. Rejects slices off a straight line, and gaps
+    /// Index of each slice on the grid. Rejects slices that do not lie on a straight line. Rejects gaps,
     /// unless they may be filled and most of the stack is measured.
     pub(crate) fn places(&self, fill_gaps: bool) -> Result<Vec<f64>> {
         self.require_line()?;
@@ -72,7 +72,7 @@ impl Uneven<'_, '_> {
         format!("uneven slices at mixed distances ({})", described(&self.gaps))
     }
 
-    /// Rejects laterally shifted slices, which resampling along the normal cannot correct.
+    /// Rejects slices that are shifted sideways, which resampling along the normal cannot correct.
     fn require_line(&self) -> Result<()> {
         let (heights, first) = (self.heights(), self.ordered[0].position);
         let way = self.ordered[self.ordered.len() - 1].position - first;
@@ -82,7 +82,7 @@ impl Uneven<'_, '_> {
             .collect();
         let worst = largest(&off);
         let allowed = tolerance(median(&self.gaps));
-        // NaN, from huge positions, is off too.
+        // NaN, which huge positions give, also counts as off the line.
         if off[worst] <= allowed {
             return Ok(());
         }
@@ -141,7 +141,7 @@ fn largest(numbers: &[f64]) -> usize {
     largest
 }
 
-/// Grid indices; the first and last slice are the ends.
+/// Indices on the grid; the first and the last slice are its ends.
 fn places_on_grid(heights: &[f64], smallest: f64) -> Vec<f64> {
     let (total, most) = (heights[heights.len() - 1], (MAX_GRID_RATIO * heights.len() - 1) as f64);
     let mut parts = 1.0;

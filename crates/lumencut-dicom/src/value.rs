@@ -1,5 +1,5 @@
-//! A header value as read, with conversions. Headers may have a text or several numbers where one number
-//! belongs, so callers check on use.
+//! The value of a header attribute as it was read, with conversions. Where a number belongs, a header may
+//! have a text or several numbers, so callers check values when they use them.
 
 use std::fmt;
 
@@ -7,28 +7,28 @@ use serde::de::{Deserialize, Deserializer, IgnoredAny, MapAccess, SeqAccess, Vis
 
 use crate::wording::quoted;
 
-/// The value of one attribute. In JSON: `null`, a number, a text without trailing padding, or a list of
-/// these. DS and IS are passed as their texts, non-finite numbers as `nan`, `inf` and `-inf`, a sequence as
-/// its number of items, anything else as `true`.
+/// The value of one attribute. In JSON it is `null`, a number, a text without padding at the end, or a list
+/// of these. DS and IS are passed as texts, non-finite numbers as `nan`, `inf` and `-inf`, a sequence as its
+/// number of items, and anything else as `true`.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub enum Value {
-    /// Empty or not stated.
+    /// The attribute is empty or not stated.
     #[default]
     Empty,
     /// An integer.
     Integer(i64),
-    /// Any other number.
+    /// A number that is not an integer.
     Number(f64),
     /// A text.
     Text(String),
-    /// Several values.
+    /// A list of values.
     List(Vec<Value>),
-    /// A value without a plain form.
+    /// A value that has no plain form.
     Odd,
 }
 
 impl Value {
-    /// Whether nothing is stated.
+    /// Whether no value is stated.
     pub fn is_empty(&self) -> bool {
         match self {
             Self::Empty => true,
@@ -38,14 +38,14 @@ impl Value {
         }
     }
 
-    /// Whether nothing or zero is stated.
+    /// Whether no value, or zero, is stated.
     pub fn is_nothing(&self) -> bool {
         self.is_empty()
             || matches!(self, Self::Integer(0))
             || matches!(self, Self::Number(zero) if *zero == 0.0)
     }
 
-    /// The single number, possibly written as text; may be infinite or NaN.
+    /// The value as a single number, even if written as text; may be infinite or NaN.
     pub fn number(&self) -> Option<f64> {
         match self {
             Self::Integer(number) => Some(*number as f64),
@@ -55,7 +55,7 @@ impl Value {
         }
     }
 
-    /// The single integer, possibly written as text.
+    /// The value as a single integer, even if written as text.
     pub fn integer(&self) -> Option<i64> {
         match self {
             Self::Integer(number) => Some(*number),
@@ -65,7 +65,7 @@ impl Value {
         }
     }
 
-    /// All values of a list, or the single one; empty if not stated.
+    /// All values of a list, or the single value; empty if nothing is stated.
     pub fn all(&self) -> &[Self] {
         match self {
             Self::List(values) => values,
@@ -75,7 +75,7 @@ impl Value {
     }
 }
 
-/// As Python writes values.
+/// Writes values as Python does.
 impl fmt::Display for Value {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -102,7 +102,7 @@ impl<'de> Deserialize<'de> for Value {
     }
 }
 
-/// Accepts any JSON, because no header value makes the document invalid.
+/// Accepts any JSON value, because no header value may make the document invalid.
 struct AnyValue;
 
 impl<'de> Visitor<'de> for AnyValue {

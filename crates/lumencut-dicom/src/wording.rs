@@ -1,4 +1,4 @@
-//! Formats counts, lists and numbers for messages.
+//! Formats counts, lists and numbers for texts.
 
 pub(crate) const MENTIONED: usize = 4;
 const SHOWN: usize = 60;
@@ -14,7 +14,7 @@ pub(crate) fn listed<S: AsRef<str>>(names: &[S]) -> String {
     first.join(", ") + &if more > 0 { format!(" and {more} more") } else { String::new() }
 }
 
-/// Rounds to `digits` significant digits without trailing zeros, such as `0.5` or `1e+06`.
+/// Rounds to `digits` significant digits, without zeros at the end, such as `0.5` or `1e+06`.
 pub(crate) fn rounded(number: f64, digits: usize) -> String {
     if !number.is_finite() {
         let name = if number.is_nan() { "nan" } else { "inf" };
@@ -35,7 +35,7 @@ fn without_zeros(number: &str) -> &str {
     if number.contains('.') { number.trim_end_matches('0').trim_end_matches('.') } else { number }
 }
 
-/// Such as `(0, 0, 4)`.
+/// Numbers in brackets, such as `(0, 0, 4)`.
 pub(crate) fn bracketed(numbers: &[f64]) -> String {
     let numbers: Vec<String> = numbers.iter().map(|&number| rounded(number, 6)).collect();
     format!("({})", numbers.join(", "))
@@ -66,7 +66,7 @@ fn escaped(code: u32) -> String {
     }
 }
 
-/// Removes line breaks and terminal controls.
+/// Replaces line breaks and control characters.
 pub(crate) fn printable(text: &str) -> String {
     text.chars().map(|letter| if is_printable(letter) { letter } else { '\u{fffd}' }).collect()
 }
@@ -84,12 +84,12 @@ pub(crate) fn line(text: &str) -> String {
     words.join(" ").chars().filter(|&letter| is_printable(letter)).take(LINE).collect()
 }
 
-/// False for controls, unassigned characters and unusual spaces.
+/// Whether a character may be shown; false for control, unassigned and unusual blank characters.
 fn is_printable(letter: char) -> bool {
     if letter.is_ascii() {
         return !letter.is_ascii_control();
     }
-    // Rust escapes exactly those; combining marks only at the start of a text.
+    // Rust escapes exactly these characters, and combining marks, but the latter only at the start of a text.
     let mut bytes = [b'a'; 5];
     let length = 1 + letter.encode_utf8(&mut bytes[1..]).len();
     std::str::from_utf8(&bytes[..length]).is_ok_and(|pair| pair.escape_debug().count() == 2)

@@ -8,7 +8,7 @@ use lumencut_dicom::Mend;
 use made::{as_they_are, even, judged, plan, refused, stack, with};
 use serde_json::{Value, json};
 
-/// Positions of a gantry tilted by `degrees` while the table moves along z.
+/// Positions of slices if the gantry is tilted by `degrees` and the table moves along z.
 fn tilted(degrees: f64) -> impl Fn(usize, &mut Value) {
     let angle = degrees.to_radians();
     move |_, attributes| {

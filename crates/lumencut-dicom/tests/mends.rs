@@ -1,4 +1,4 @@
-//! Tests: a remedy is a name with values, in Rust and in JSON.
+//! Tests that a remedy is a name with values, in Rust and in JSON.
 
 mod made;
 

@@ -1,4 +1,4 @@
-//! Tests of scan parameters, which contain no patient data.
+//! Tests of the scan parameters, which contain no patient data.
 
 mod made;
 

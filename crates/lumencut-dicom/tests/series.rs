@@ -1,4 +1,4 @@
-//! Tests: which files are images, which series is read, and which images are rejected.
+//! Tests which files are images, which series is read, and which images are rejected.
 
 mod made;
 
@@ -167,7 +167,7 @@ fn odd_values_are_noted() {
     );
 }
 
-/// One file with functional groups: frames at these heights, other attributes shared.
+/// A file with functional groups: frames at these heights (mm); all other attributes are shared.
 fn enhanced(heights: &[f64]) -> Value {
     let mut attributes = made::axial(0.0);
     attributes["NumberOfFrames"] = heights.len().to_string().into();

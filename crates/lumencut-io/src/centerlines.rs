@@ -1,4 +1,4 @@
-//! The content of a centerline file, and its checks.
+//! The content of a centerline file, and checks of it.
 
 use glam::DVec3;
 
@@ -9,44 +9,44 @@ use crate::unit::Unit;
 /// One polyline of a file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Line {
-    /// Points in the file's space and unit: at least two, finite, no equal neighbours.
+    /// Points in the space and unit of the file: at least two, all finite; neighbours are never equal.
     pub points: Vec<DVec3>,
-    /// Radius per point in the unit of the points, finite and ≥ 0; 0 where not stated. None if the file has
-    /// none.
+    /// Radius of each point in the unit of the points, finite and ≥ 0; 0 if not stated. None if the file has
+    /// no radii for this line.
     pub radius: Option<Vec<f64>>,
-    /// Group from a branch splitter; lines of one group run along the same vessel.
+    /// Group that a branch splitter assigned; lines of one group run along the same vessel.
     pub group: Option<i64>,
     /// Name in the file.
     pub name: Option<String>,
-    /// Confidence per point (0 to 1) of a traced line; written, not read.
+    /// Confidence of each point (0 to 1) of a traced line. It is written, but not read.
     pub confidence: Option<Vec<f64>>,
-    /// Number of the point list that was split into this line and others at its jumps.
+    /// Number of the point list that was split at its jumps into this line and others.
     pub list: Option<usize>,
 }
 
 /// The lines of one file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Centerlines {
-    /// Lines in file order, at least one.
+    /// Lines in the order of the file, at least one.
     pub lines: Vec<Line>,
-    /// Space stated by the file.
+    /// Space that the file states.
     pub space: Option<Space>,
-    /// Unit stated by the file or its format, unchanged by [`scaled`](Self::scaled).
+    /// Unit that the file or its format states; [`scaled`](Self::scaled) does not change it.
     pub unit: Option<Unit>,
-    /// Usual unit of the format.
+    /// Unit that files of this format usually have.
     pub conventional_unit: Option<Unit>,
-    /// Name of the format, such as "VTK XML PolyData".
+    /// Name of the format, such as `VTK XML PolyData`.
     pub format: &'static str,
-    /// Whether the file states that its lines are separate vessels, so that none are joined.
+    /// Whether the file states that its lines are separate vessels. Such lines are not joined.
     pub joined: bool,
     /// Notes for the user, one sentence each.
     pub notes: Vec<String>,
 }
 
-/// Mark in files of this crate whose lines are already vessels.
+/// Mark in files that this crate writes: their lines are already vessels.
 pub(crate) const JOINED_MARK: &str = "LumencutVessels";
 
-/// Largest plausible coordinate or radius (mm); anything larger is damaged or misread data. The core uses the
+/// Largest plausible coordinate or radius (mm). Larger ones mean damaged or misread data. The core uses the
 /// same limit.
 const LARGEST_COORDINATE: f64 = 1e6;
 
@@ -56,7 +56,7 @@ pub(crate) struct Limit {
 }
 
 impl Limit {
-    /// Without a known unit, the limit of the smallest unit.
+    /// If the unit is not known, the limit is that of the smallest unit.
     pub(crate) fn of(unit: Option<Unit>) -> Self {
         let assumed = unit.unwrap_or(Unit::Micrometre);
         Self { largest: LARGEST_COORDINATE / assumed.in_mm(), unit: unit.map_or("", Unit::name) }
@@ -68,7 +68,7 @@ impl Limit {
 }
 
 impl Centerlines {
-    /// Empty, in mm.
+    /// Centerlines without lines, in mm.
     pub(crate) fn of(format: &'static str) -> Self {
         Self { format, conventional_unit: Some(Unit::Millimetre), ..Self::default() }
     }
@@ -79,7 +79,7 @@ impl Centerlines {
         }
     }
 
-    /// Treats NaN radii as unknown and notes their number: 0 for single points, None for a whole line.
+    /// Treats NaN radii as unknown: 0 for single points, None for a complete line. Notes their number.
     fn without_nan_radii(mut self) -> Self {
         let (mut unknown, mut all) = (0, 0);
         for line in &mut self.lines {
@@ -96,7 +96,7 @@ impl Centerlines {
         self
     }
 
-    /// Treats radii that are all 0 as missing, because some programs write them so.
+    /// If all radii are 0, treats them as missing, because some programs write missing radii so.
     pub(crate) fn without_zero_radii(self) -> Self {
         let mut zero = self.without_nan_radii();
         zero.drop_zero_radii();
@@ -111,7 +111,7 @@ impl Centerlines {
         }
     }
 
-    /// Notes that unnamed numbers may be voxel indices, or something other than a radius.
+    /// Notes that numbers without names may be voxel indices, or something other than radii.
     pub(crate) fn doubt_unnamed_columns(&mut self) {
         let mut numbers = self.lines.iter().flat_map(|line| &line.points).flat_map(|p| p.to_array());
         if numbers.all(|number| number.fract() == 0.0) {
@@ -125,7 +125,7 @@ impl Centerlines {
         }
     }
 
-    /// Checks every line; drops and notes repeated points and lines of one point.
+    /// Checks every line. Drops repeated points and lines of one point, and notes that.
     pub(crate) fn tidy(self) -> Result<Self> {
         let limit = Limit::of(self.unit);
         let mut out = self.without_nan_radii().checked(&limit)?;

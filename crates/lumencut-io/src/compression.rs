@@ -1,4 +1,4 @@
-//! The compressors of VTK XML files, and the budget against decompression bombs.
+//! The compressors of VTK XML files, and a budget that protects against decompression bombs.
 
 use std::io::Read;
 
@@ -29,12 +29,12 @@ impl Compressor {
         match self {
             Self::Zlib => 1032,
             Self::Lz4 => 255,
-            // A match of 273 bytes takes at least a third of a bit: 7000 bytes from one.
+            // A match of 273 bytes takes at least a third of a bit, so a byte gives at most about 7000.
             Self::Lzma => 1 << 14,
         }
     }
 
-    /// Unpacks a block of exactly `size` bytes, which the caller charged to its budget, onto `out`.
+    /// Unpacks a block of exactly `size` bytes to the end of `out`. The caller has charged it to its budget.
     pub(crate) fn unpack(self, subject: &str, block: &[u8], size: usize, out: &mut Vec<u8>) -> Result<()> {
         let before = out.len();
         let most = block.len().saturating_mul(self.largest_ratio());
@@ -65,7 +65,7 @@ impl Compressor {
     }
 }
 
-/// Reads at most one byte more than `size`, enough to detect an oversized block.
+/// Reads at most one byte more than `size`, which is enough to detect a block that is too large.
 fn read_up_to(reader: impl Read, size: usize, out: &mut Vec<u8>) -> std::result::Result<(), String> {
     let limit = u64::try_from(size).unwrap_or(u64::MAX).saturating_add(1);
     reader.take(limit).read_to_end(out).map(|_| ()).map_err(|error| error.to_string())
@@ -78,7 +78,7 @@ pub(crate) struct Budget {
 
 impl Budget {
     /// 1 MiB plus 16 file sizes. A point with radius and line entry takes 66 bytes, compressed rarely below
-    /// 8; decompression bombs take thousands per byte.
+    /// 8. Decompression bombs unpack thousands of bytes per byte.
     pub(crate) fn of_file(size: usize) -> Self {
         Self { left: (size as u64).saturating_mul(16).saturating_add(1 << 20) }
     }

@@ -1,4 +1,4 @@
-//! Number types of VTK files, decoded from bytes and text.
+//! The number types of VTK files, read from bytes or text.
 
 use crate::error::{Error, Result, excerpt};
 
@@ -32,8 +32,8 @@ impl NumberType {
         }
     }
 
-    /// Numbers in `bytes`, ignoring a partial last one. Integers beyond 2⁵³ are rounded; no readable file
-    /// needs them.
+    /// The numbers in `bytes`; an incomplete last one is ignored. Integers beyond 2⁵³ are rounded, but no
+    /// readable file needs them.
     pub(crate) fn numbers(self, bytes: &[u8], order: ByteOrder) -> Vec<f64> {
         match self {
             Self::I8 => bytes.iter().map(|b| f64::from(b.cast_signed())).collect(),
@@ -68,7 +68,7 @@ pub(crate) fn numbers_of_text(subject: &str, text: &str, kind: NumberType) -> Re
     text.split_ascii_whitespace().map(|word| number_of_word(subject, word, kind)).collect()
 }
 
-/// Rounds 32-bit floats, so that text and binary files give the same numbers.
+/// Reads a number. 32-bit floats are rounded, so that text and binary files give the same numbers.
 pub(crate) fn number_of_word(subject: &str, word: &str, kind: NumberType) -> Result<f64> {
     let number = match kind {
         NumberType::F32 => word.parse::<f32>().map(f64::from),

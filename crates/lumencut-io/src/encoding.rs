@@ -1,4 +1,4 @@
-//! Binary data of VTK XML files: raw or base64, with a length header, whole or in compressed blocks.
+//! Binary data of VTK XML files: raw or base64, after a length header, in one piece or in compressed blocks.
 
 use crate::compression::{Budget, Compressor};
 use crate::data_array::ByteOrder;
@@ -7,15 +7,15 @@ use crate::error::{Error, Result};
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Layout {
     pub order: ByteOrder,
-    /// Bytes of a header number: 4 or 8.
+    /// Number of bytes of a number in the header: 4 or 8.
     pub header_size: usize,
     pub compressor: Option<Compressor>,
 }
 
 pub(crate) enum Bytes<'a> {
     Raw(&'a [u8]),
-    /// Base64 text, and bytes decoded ahead. Padding may follow any group, because writers may pad the header
-    /// separately.
+    /// Base64 text, and bytes that are already decoded. Padding may follow any group, because writers may
+    /// encode the header separately.
     Base64 {
         text: &'a [u8],
         ahead: Vec<u8>,
@@ -92,7 +92,7 @@ fn decode_group(subject: &str, group: [u8; 4], out: &mut Vec<u8>) -> Result<()> 
     Ok(())
 }
 
-/// Content of one array: reads the header and unpacks blocks within the budget.
+/// The content of one array. Reads the header, and unpacks blocks within the budget.
 pub(crate) fn content(
     subject: &str,
     mut bytes: Bytes,

@@ -1,4 +1,4 @@
-//! Errors that name the file and place, what was found, what was expected, and a remedy.
+//! Errors that state file and place, what was found, what was expected, and a remedy.
 
 use std::fmt;
 
@@ -7,7 +7,7 @@ use crate::mend::Mend;
 /// An error in one line: `subject: found …; expected …; advice, or mend`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Error {
-    /// File and place.
+    /// The file, and the place in it.
     pub subject: String,
     /// What was found.
     pub found: String,
@@ -15,7 +15,7 @@ pub struct Error {
     pub expected: String,
     /// Advice in words; may be empty.
     pub mend: String,
-    /// Remedy that hosts can offer in their own words.
+    /// Remedy that each host states in its own words.
     pub mended_by: Option<Box<Mend>>,
 }
 
@@ -26,21 +26,21 @@ impl Error {
         Self { subject, found, expected, mend: String::new(), mended_by: None }
     }
 
-    /// Adds advice in words.
+    /// Adds advice in words to the error.
     #[must_use]
     pub fn mend(mut self, mend: impl Into<String>) -> Self {
         self.mend = mend.into();
         self
     }
 
-    /// Adds a remedy for hosts.
+    /// Adds a remedy to the error.
     #[must_use]
     pub fn mended_by(mut self, mend: Mend) -> Self {
         self.mended_by = Some(Box::new(mend));
         self
     }
 
-    /// Prefixes the file name.
+    /// Puts the file name in front of the place.
     #[must_use]
     pub fn in_file(mut self, file_name: &str) -> Self {
         self.subject =
@@ -71,10 +71,10 @@ impl fmt::Display for Error {
 
 impl std::error::Error for Error {}
 
-/// Result of this crate.
+/// Result of the functions of this crate.
 pub type Result<T> = std::result::Result<T, Error>;
 
-/// At most 40 characters of foreign text.
+/// At most 40 characters of text from a file, escaped.
 pub(crate) fn excerpt(text: &str) -> String {
     let short: String = text.chars().take(40).flat_map(char::escape_debug).collect();
     if text.chars().nth(40).is_some() { format!("'{short}…'") } else { format!("'{short}'") }

@@ -7,10 +7,10 @@ use crate::space::Space;
 use crate::text::{self, Separator};
 use crate::unit::Unit;
 
-/// Default columns.
+/// The columns of files that do not name them.
 const COLUMNS: &str = "id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID";
 
-/// The fiducials as one line, in mm by definition of the format. Coordinates in voxels are rejected.
+/// The fiducials as one line, in mm, as the format defines. Coordinates in voxels are rejected.
 pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     let mut out = Centerlines::of("3D Slicer fiducials");
     out.unit = Some(Unit::Millimetre);
@@ -60,7 +60,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     out.tidy()
 }
 
-/// By name, or by number before version 4.11.
+/// The space, given by its name, or by its number before version 4.11.
 fn space(text: &str) -> Result<Space> {
     match text.split(',').next().unwrap_or_default().trim() {
         "RAS" | "0" => Ok(Space::Ras),

@@ -1,4 +1,4 @@
-//! Tubes of ITK and TubeTK (`.tre`): MetaIO scenes with text or binary points.
+//! Tubes of ITK and TubeTK (`.tre`), which are MetaIO scenes with points as text or bytes.
 
 use std::collections::HashMap;
 
@@ -12,11 +12,11 @@ use crate::space::Space;
 use crate::unit::Unit;
 use crate::vtk_cursor::Cursor;
 
-/// Maximum nesting of objects.
+/// Maximum nesting depth of objects.
 const MOST_PARENTS: usize = 64;
 
-/// One line per tube, in LPS and mm by definition of the format. Points are in `ElementSpacing`, radii in its
-/// first component; then the transforms of the tube and its parents apply.
+/// One line per tube, in LPS and mm, as the format defines. Points are multiplied by `ElementSpacing`, radii
+/// by its first component. Then the transforms of the tube and of its parents apply.
 pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     let mut out = Centerlines::of("ITK tube");
     (out.space, out.unit) = (Some(Space::Lps), Some(Unit::Millimetre));
@@ -35,7 +35,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     out.without_zero_radii().tidy()
 }
 
-/// All objects; lines are not yet placed.
+/// All objects of the file; the lines are not yet transformed.
 fn objects(bytes: &[u8], out: &mut Centerlines) -> Result<Vec<MetaObject>> {
     let mut cursor = Cursor::new(bytes.trim_ascii_start());
     let mut objects: Vec<MetaObject> = Vec::new();
@@ -60,7 +60,7 @@ fn objects(bytes: &[u8], out: &mut Centerlines) -> Result<Vec<MetaObject>> {
                 cursor.skip_to(b"ObjectType");
             }
             (_, Some(object)) => object.set(key, value),
-            // A comment before the scene.
+            // A comment in front of the scene.
             (_, None) => {}
         }
     }

@@ -32,13 +32,13 @@ impl<'a> Json<'a> {
         serde_json::from_str(self.raw()).ok()
     }
 
-    /// Fields of an object by name (the last of duplicates); None if null, missing, or not an object.
+    /// Fields of an object with these names (the last of duplicates); None if null, missing, or no object.
     pub(crate) fn fields<const N: usize>(self, names: [&str; N]) -> [Option<Self>; N] {
         let fields = serde_json::Deserializer::from_str(self.raw()).deserialize_map(Fields(names));
         fields.unwrap_or([None; N]).map(|field| field.filter(|value| value.raw() != "null"))
     }
 
-    /// Calls `take` per list element until the first error; returns the count, or None if not a list.
+    /// Calls `take` for each element of a list until the first error; returns the count, None if no list.
     pub(crate) fn each(self, take: impl FnMut(usize, Self) -> Result<()>) -> Option<Result<usize>> {
         serde_json::Deserializer::from_str(self.raw()).deserialize_seq(Each(take)).ok()
     }
@@ -76,7 +76,7 @@ impl<'a, F: FnMut(usize, Json<'a>) -> Result<()>> Visitor<'a> for Each<F> {
 
     fn visit_seq<A: SeqAccess<'a>>(mut self, mut list: A) -> std::result::Result<Self::Value, A::Error> {
         let mut count = Ok(0);
-        // The parser must reach the end of the list.
+        // The parser must reach the end of the list, so it reads on after an error.
         while let Some(element) = list.next_element()? {
             count = count.and_then(|i| (self.0)(i, Json(element)).map(|()| i + 1));
         }

@@ -1,16 +1,16 @@
-//! Splits point lists that contain several lines without separators.
+//! Splits point lists that contain several lines without anything between them.
 
 use crate::centerlines::{Centerlines, Line};
 
-/// Minimum length of a jump, in median steps.
+/// Minimum length of a jump, as a multiple of the median step.
 const JUMP: f64 = 20.0;
-/// Minimum length relative to both neighbouring steps; otherwise the points are just sparse there.
+/// Minimum length of a jump relative to both steps beside it. Shorter ones only mean sparse points.
 const LOCAL_JUMP: f64 = 5.0;
-/// Minimum number of points for a median step.
+/// Minimum number of points for which a median step is meaningful.
 const FEWEST_POINTS: usize = 8;
 
 impl Centerlines {
-    /// Splits lines at jumps and notes it, as well as long steps that are not jumps.
+    /// Splits lines at jumps, and notes that. Also notes long steps that are not jumps.
     pub(crate) fn parted_at_jumps(mut self) -> Self {
         let count = self.lines.len();
         let lines = std::mem::take(&mut self.lines);
@@ -31,11 +31,11 @@ impl Centerlines {
     }
 }
 
-/// End index of each part; counts long steps that are not jumps.
+/// Index after the last point of each part. Counts long steps that are not jumps.
 fn ends_at_jumps(line: &Line, kept: &mut usize) -> Vec<usize> {
     let whole = vec![line.points.len()];
     let steps: Vec<f64> = line.points.windows(2).map(|pair| pair[0].distance(pair[1])).collect();
-    // Repeated points are not steps.
+    // Repeated points do not count as steps.
     let moved: Vec<usize> = (0..steps.len()).filter(|i| steps[*i] > 0.0).collect();
     if moved.len() < FEWEST_POINTS - 1 || !steps.iter().all(|step| step.is_finite()) {
         return whole;

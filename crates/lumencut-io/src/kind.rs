@@ -1,4 +1,4 @@
-//! Detects the format by content, and by file name only if that is ambiguous.
+//! Detects the format of a file by its content, and by its name only if the content is ambiguous.
 
 use crate::error::{Error, Result, excerpt};
 use crate::table;
@@ -19,10 +19,10 @@ pub(crate) enum Kind {
     Npy,
 }
 
-/// Bytes checked for binary content.
+/// Number of bytes that are searched for binary content.
 const BEGINNING: usize = 4096;
 
-/// `content` has no byte order mark.
+/// The format of `content`, which must not start with a byte order mark.
 pub(crate) fn of(content: &[u8], file_name: &str) -> Result<Kind> {
     let name = file_name.to_ascii_lowercase();
     let begins = content.trim_ascii_start();
@@ -45,7 +45,7 @@ pub(crate) fn of(content: &[u8], file_name: &str) -> Result<Kind> {
     }
 }
 
-/// Rejects archives and UTF-16 by name.
+/// Rejects archives and UTF-16 text with an error that states what they are.
 fn packed(content: &[u8], name: &str) -> Result<()> {
     let (found, mend) = match content {
         [0xff, 0xfe, ..] | [0xfe, 0xff, ..] => ("text in UTF-16", "save it as UTF-8"),

@@ -1,9 +1,9 @@
 //! Readers and writers of centerline files, one module per format.
 //!
-//! [`read`] returns the [`Centerlines`] of a file in its own space and unit; [`Centerlines::scaled`] converts
-//! them to mm; [`junctions::vessels`] turns repeated trunks and single segments into vessels that meet.
+//! [`read`] returns the [`Centerlines`] of a file in its own space and unit. [`Centerlines::scaled`] converts
+//! them to mm. [`junctions::vessels`] turns repeated trunks and single segments into vessels that meet.
 //!
-//! | format | recognized by | unit and space | radius |
+//! | format | recognised by | unit and space | radius |
 //! |---|---|---|---|
 //! | VTK XML poly data, `.vtp` | `<VTKFile` | none; `SPACE` | a point array |
 //! | legacy VTK, `.vtk` | `# vtk` | none; `SPACE=` in the title | a point array |
@@ -16,8 +16,8 @@
 //! | text table, `.csv`, `.tsv`, `.txt` | numbers or a header | the header's | the header's, or a fourth column |
 //! | NumPy array, `.npy` | `\x93NUMPY` | none; none | a fourth column |
 //!
-//! Readers trust no stated count or offset before its bytes exist, and unpack within a budget that grows with
-//! the file.
+//! Readers use a stated count or offset only if the file has the bytes for it, and unpack within a budget
+//! that grows with the file.
 
 mod centerlines;
 mod compression;
@@ -65,11 +65,11 @@ pub use write::{marked_cell, write_csv, write_mrk_json, write_swc, write_vtk, wr
 
 use kind::Kind;
 
-/// Reads the centerlines of a file, in its own unit and space.
+/// Reads the centerlines of a file, in the unit and space of the file.
 ///
 /// Pass the result to [`Centerlines::scaled`] (factor 1 for mm), which enforces the limit of 1e6 mm. The
-/// content decides the format; `file_name` only if that is ambiguous. Fails with the file and place for an
-/// unknown format, damaged content, or a file without lines.
+/// content decides the format, `file_name` only if the content is ambiguous. Fails for an unknown format,
+/// damaged content, or a file without lines; the error states file and place.
 pub fn read(bytes: &[u8], file_name: &str) -> Result<Centerlines> {
     read_unnamed(bytes, file_name).map_err(|error| error.in_file(file_name))
 }

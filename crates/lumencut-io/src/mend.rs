@@ -1,37 +1,37 @@
-//! Remedies for file errors that hosts can apply or word themselves.
+//! Remedies for errors in files. Hosts apply them, or state them in their own words.
 
 use std::fmt;
 
 use crate::space::Space;
 use crate::unit::Unit;
 
-/// A remedy of an [`Error`](crate::Error). Hosts word it as Python arguments, command-line options or
-/// buttons; [`fmt::Display`] is for Rust programs.
+/// A remedy of an [`Error`](crate::Error). Hosts state it as Python arguments, command-line options or
+/// buttons. The text of [`fmt::Display`] is for Rust programs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Mend {
-    /// State the space of the coordinates, LPS or RAS; the volume does not decide it.
+    /// State the space of the coordinates, LPS or RAS, because the volume does not decide it.
     Coordinates,
-    /// State the unit, one of these; the volume does not decide it.
+    /// State the unit, which is one of these, because the volume does not decide it.
     Unit(Vec<Unit>),
-    /// State space and unit; no combination fits the volume.
+    /// State space and unit, because no combination fits the volume.
     Place,
     /// Sort the points of each line along the vessel.
     Reorder,
-    /// State space and unit, one of these pairs; the volume does not decide it.
+    /// State space and unit, which are one of these pairs, because the volume does not decide it.
     Reading(Vec<(Space, Unit)>),
 }
 
-/// Rows are spaces, columns units.
+/// Names of pairs: a row for each space, a column for each unit.
 const READINGS: [[&str; 5]; 2] = [
     ["lps in um", "lps in mm", "lps in cm", "lps in dm", "lps in m"],
     ["ras in um", "ras in mm", "ras in cm", "ras in dm", "ras in m"],
 ];
 
 impl Mend {
-    /// All names.
+    /// Names of all remedies.
     pub const NAMES: [&str; 5] = ["coordinates", "unit", "place", "reading", "reorder"];
 
-    /// The name used by every host.
+    /// The name of the remedy, which every host uses.
     #[must_use]
     pub const fn name(&self) -> &'static str {
         match self {
@@ -43,7 +43,7 @@ impl Mend {
         }
     }
 
-    /// The choices: spaces, units, or both as in `lps in cm`.
+    /// The values to choose from: spaces, units, or pairs such as `lps in cm`.
     #[must_use]
     pub fn values(&self) -> Vec<&'static str> {
         match self {

@@ -5,7 +5,7 @@ use glam::{DAffine3, DMat3, DVec3};
 use crate::centerlines::Line;
 use crate::error::{Error, Result, excerpt};
 
-/// Fields to read.
+/// Names of the fields that are read.
 const KNOWN: [&str; 18] = [
     "NDims",
     "ID",
@@ -30,7 +30,7 @@ const KNOWN: [&str; 18] = [
 pub(crate) struct MetaObject {
     kind: String,
     fields: Vec<(&'static str, String)>,
-    /// In units of the object.
+    /// The line, in units of the object.
     pub line: Option<Line>,
 }
 
@@ -47,7 +47,7 @@ impl MetaObject {
         one_of(&self.kind, &["Tube", "VesselTube", "DTITube"])
     }
 
-    /// Fails for a tube without points.
+    /// Fails if the object is a tube without points.
     pub(crate) fn check_points(&self) -> Result<()> {
         if self.is_tube() && self.line.is_none() {
             return Err(Error::truncated(self.title(), "no Points", "the points of the tube"));
@@ -77,7 +77,7 @@ impl MetaObject {
         format!("{} {}", self.kind, self.get("ID").unwrap_or("without ID"))
     }
 
-    /// Point spacing per axis; 1 if not stated.
+    /// Point spacing along each axis; 1 if not stated.
     pub(crate) fn spacing(&self) -> Result<DVec3> {
         let Some(spacing) = self.numbers::<3>(&["ElementSpacing"])? else { return Ok(DVec3::ONE) };
         if spacing.iter().all(|size| *size > 0.0) {
@@ -86,7 +86,7 @@ impl MetaObject {
         Err(Error::new("ElementSpacing", format!("{spacing:?}"), "3 numbers above 0"))
     }
 
-    /// Transform to the parent: row-major matrix, then the offset, which includes the centre of rotation.
+    /// The transform to the parent: a row-major matrix, and an offset that includes the centre of rotation.
     pub(crate) fn parent_from_object(&self) -> Result<DAffine3> {
         let matrix = self.numbers::<9>(&["TransformMatrix", "Rotation", "Orientation"])?;
         let matrix = matrix.map_or(DMat3::IDENTITY, |rows| DMat3::from_cols_array(&rows).transpose());

@@ -9,10 +9,10 @@ use crate::placed_points::{has_place, note_left_out};
 use crate::space::Space;
 use crate::unit::Unit;
 
-/// Number of other markup types that a message names.
+/// Maximum number of other markup types that an error message names.
 const MOST_NAMED: usize = 8;
 
-/// One line per curve or line through its control points, in the unit of the first.
+/// One line per curve or line, through its control points, in the unit of the first markup.
 pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     let root = Json::of(bytes).map_err(|error| {
         Error::truncated("", format!("damaged JSON ({error})"), "a 3D Slicer markups file")
@@ -47,7 +47,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     if others.count > 0 {
         out.notes.push(format!("markups other than curves were ignored: {}", others.text()));
     }
-    // Files of this crate are read back unchanged.
+    // Files that this crate writes are read back unchanged.
     if out.joined { out.tidy() } else { out.without_zero_radii().tidy() }
 }
 
@@ -91,7 +91,7 @@ impl<'a> Markup<'a> {
     }
 }
 
-/// Adds the line of a markup; returns the number of points without a position.
+/// Adds the line of a markup. Returns the number of its points without a position.
 fn markup_line(markup: &Markup, kind: &str, out: &mut Centerlines) -> Result<usize> {
     let space = space(markup.space)?;
     let own = unit_of("coordinateUnits", markup.unit)?;
@@ -134,7 +134,7 @@ fn is_corner(points: &[DVec3]) -> bool {
     before.dot(behind) < 0.75_f64.sqrt() * before.length() * behind.length()
 }
 
-/// By name, or by 3D Slicer's number.
+/// The space, given by its name or by the number of 3D Slicer.
 fn space(stated: Option<Json>) -> Result<Option<Space>> {
     let Some(stated) = stated else { return Ok(None) };
     let text = stated.text().unwrap_or_else(|| stated.raw().to_owned());
@@ -145,7 +145,7 @@ fn space(stated: Option<Json>) -> Result<Option<Space>> {
     }
 }
 
-/// One name, equal names per axis, or a UCUM code such as `["mm", "UCUM", "millimeter"]`; mm if not stated.
+/// The unit: a name, equal names per axis, or a UCUM code such as `["mm", "UCUM", "millimeter"]`; default mm.
 fn unit_of(subject: &str, stated: Option<Json>) -> Result<Unit> {
     let Some(stated) = stated else { return Ok(Unit::Millimetre) };
     let (mut first, mut alike, mut coded) = (None, true, false);
@@ -196,7 +196,7 @@ fn position_of(place: Json, index: usize) -> Result<DVec3> {
     })
 }
 
-/// The `Radius` measurement of the `placed` points, converted from unit `own` to `wanted`; null is NaN.
+/// The measurement `Radius` of the `placed` points, converted from unit `own` to `wanted`. Null becomes NaN.
 fn radius(measurements: Option<Json>, placed: &[bool], [own, wanted]: [Unit; 2]) -> Result<Option<Vec<f64>>> {
     let Some([values, stated]) = measurements.and_then(measured_radius) else { return Ok(None) };
     let Some(count) = values.and_then(|values| values.each(|_, _| Ok(()))).transpose()? else {

@@ -8,10 +8,10 @@ use crate::error::{Error, Result, excerpt};
 
 pub(crate) const MAGIC: &[u8] = b"\x93NUMPY";
 
-/// Maximum header length (bytes); NumPy's own limit is 10,000 characters.
+/// Maximum length of the header (bytes). The limit of NumPy is 10,000 characters.
 const LONGEST_HEADER: usize = 1 << 16;
 
-/// The array as one line, or several at jumps: rows of x, y, z and an optional radius.
+/// The array as one line, or as several lines split at jumps. Its rows are x, y, z and an optional radius.
 pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     let (header, data) = split(bytes)?;
     let (kind, order) = number_type(header)?;
@@ -62,7 +62,7 @@ fn split(bytes: &[u8]) -> Result<(&str, &[u8])> {
     Ok((header, data))
 }
 
-/// Text after a key of the header, a Python dictionary with three keys.
+/// The text after a key of the header, which is a Python dictionary with three keys.
 fn value_of<'a>(header: &'a str, key: &str) -> Result<&'a str> {
     let quoted = [format!("'{key}'"), format!("\"{key}\"")];
     let behind = quoted.iter().find_map(|key| header.split_once(key.as_str()));

@@ -1,4 +1,4 @@
-//! Positions of 3D Slicer's control points, which may be undefined.
+//! Positions of control points of 3D Slicer, which may be undefined.
 
 use crate::centerlines::Centerlines;
 use crate::error::{Error, Result, excerpt};
@@ -7,9 +7,9 @@ const FEWEST: usize = 2;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum PlacedBy {
-    /// Defined, 0 or 1.
+    /// Column `defined`, with 0 or 1.
     Flag,
-    /// `positionStatus`.
+    /// Column `positionStatus`.
     Status,
 }
 
@@ -21,7 +21,7 @@ impl PlacedBy {
         }
     }
 
-    /// An empty field counts as defined.
+    /// Whether the point has a position; an empty field means that it has.
     pub(crate) fn is_placed(self, field: &str) -> Result<bool> {
         match self {
             Self::Flag => is_defined(field),
@@ -41,7 +41,7 @@ fn is_defined(flag: &str) -> Result<bool> {
     }
 }
 
-/// Whether a `positionStatus`, by name or number, means a defined position.
+/// Whether a `positionStatus` (name or number) means that the point has a position.
 pub(crate) fn has_place(status: &str) -> Result<bool> {
     match status.to_ascii_lowercase().as_str() {
         "" | "defined" | "2" => Ok(true),
@@ -50,7 +50,7 @@ pub(crate) fn has_place(status: &str) -> Result<bool> {
     }
 }
 
-/// Notes the number of skipped points; fails if too few remain.
+/// Notes how many points were skipped. Fails if too few remain.
 pub(crate) fn note_left_out(out: &mut Centerlines, count: usize, points: &str, kept: &str) -> Result<()> {
     if count == 0 {
         return Ok(());

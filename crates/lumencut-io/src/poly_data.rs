@@ -1,4 +1,4 @@
-//! One VTK poly data, and its conversion to centerlines.
+//! A poly data of VTK, and its conversion to centerlines.
 
 use glam::DVec3;
 
@@ -10,18 +10,18 @@ use crate::space::Space;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Array {
     pub name: String,
-    /// Numbers per point or cell.
+    /// Number of values per point or cell.
     pub components: usize,
     pub values: Vec<f64>,
 }
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct PolyData {
-    /// x, y, z per point.
+    /// x, y and z of each point.
     pub points: Vec<f64>,
-    /// Point ids of all lines.
+    /// Ids of the points of all lines.
     pub connectivity: Vec<f64>,
-    /// End of each line in `connectivity`.
+    /// Position in `connectivity` at which each line ends.
     pub ends: Vec<f64>,
     pub cells_before_lines: usize,
     pub other_cells: usize,
@@ -30,13 +30,13 @@ pub(crate) struct PolyData {
     pub names: Option<Vec<String>>,
 }
 
-/// Cell array of names.
+/// Name of the cell array that holds names.
 pub(crate) const NAMES: &str = "Name";
-/// Cell array that is 0 for cells without a name.
+/// Name of the cell array that is 0 for cells without a name.
 pub(crate) const HAS_NAME: &str = "HasName";
-/// Cell array that is 0 for lines without radii.
+/// Name of the cell array that is 0 for lines without radii.
 pub(crate) const HAS_RADIUS: &str = "HasRadius";
-/// Point arrays of radii, the most specific first.
+/// Names of point arrays that hold radii, the most specific first.
 pub(crate) const RADIUS_NAMES: [&str; 4] =
     ["MaximumInscribedSphereRadius", "Radius", "Radii", "VesselRadius"];
 const GROUP_NAME: &str = "GroupIds";
@@ -45,7 +45,7 @@ pub(crate) fn wanted(name: &str) -> bool {
     name == GROUP_NAME || [HAS_NAME, HAS_RADIUS].contains(&name) || names_radius(name) || names_diameter(name)
 }
 
-/// Excludes radii of curvature.
+/// Whether a name means a radius; radii of curvature are excluded.
 pub(crate) fn names_radius(name: &str) -> bool {
     let name = name.to_ascii_lowercase();
     ["radius", "radii"].iter().any(|word| name.contains(word)) && !name.contains("curvature")
@@ -113,7 +113,7 @@ impl PolyData {
         Ok(())
     }
 
-    /// Values of the best radius array, otherwise diameter, and the factor to the radius.
+    /// Values of the best array of radii, otherwise diameters, and the factor that converts them to radii.
     fn radius(&self, points: usize, notes: &mut Vec<String>) -> Result<Option<(&[f64], f64)>> {
         let scalar = |array: &&Array| array.components == 1;
         let named = RADIUS_NAMES.iter().find_map(|name| {
@@ -173,7 +173,7 @@ fn one_value_each(array: &Array, count: usize, of: &str) -> Result<()> {
     Err(Error::new(format!("{of} array '{}'", array.name), found, format!("one value per {of}")))
 }
 
-/// Runs of one group; each starts with the last point of the previous one.
+/// Stretches of one group. Each starts with the last point of the one before it.
 fn runs<'a>(ids: &'a [usize], groups: &'a [f64]) -> impl Iterator<Item = (&'a [usize], i64)> {
     let mut start = 0;
     std::iter::from_fn(move || {

@@ -5,10 +5,10 @@ use crate::error::{Error, Result, excerpt};
 use crate::table;
 use crate::text::{self, Separator};
 
-/// x, y, z, radius and usually the variance between observers.
+/// Numbers of columns: x, y, z, radius, and usually the variance between observers.
 const COLUMNS: [usize; 2] = [4, 5];
 
-/// One line, without stated space or unit. Rejects a first column that only counts rows.
+/// One line, without a space or unit. Rejects files whose first column only counts rows.
 pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     let (mut points, mut radius) = (Vec::new(), Vec::new());
     for (number, row) in text::data_lines(bytes) {
@@ -29,7 +29,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     out.without_zero_radii().tidy()
 }
 
-/// Recognizes `reference.txt` with four or five columns, or five columns without a header.
+/// Whether it is `reference.txt` with four or five columns, or any file with five columns and no header.
 pub(crate) fn is_row(row: &str, file_name: &str) -> bool {
     let fields = text::fields(row, Separator::Blanks);
     let named = file_name.ends_with("reference.txt");

@@ -1,7 +1,7 @@
-//! Session files: the state of a reading, to continue later.
+//! Session files, which store the state of a reading so that it can be continued.
 //!
-//! A session file is a 3D Slicer markups file (`.mrk.json`) whose curves are the vessels; the field [`FIELD`]
-//! has the rest. It contains no file names and no patient data. Points are in LPS, lengths in mm.
+//! A session file is a markups file of 3D Slicer (`.mrk.json`) whose curves are the vessels. The field
+//! [`FIELD`] has everything else, but no file names or patient data. Points are in LPS, lengths in mm.
 
 use std::collections::BTreeMap;
 
@@ -15,11 +15,11 @@ use crate::read;
 use crate::write::check_all;
 use crate::write::mrk_json::markups;
 
-/// Name of the additional field.
+/// Name of the field that is added to the markups file.
 pub const FIELD: &str = "LumencutSession";
 
-/// Versions of that field. Version 2 adds the assumed voxel spacing of 1 mm and noted diameters. Files use
-/// the lowest sufficient version, so that older readers reject only what they cannot read.
+/// Versions of that field. Version 2 adds the assumed voxel spacing of 1 mm, and noted diameters. Files use
+/// the lowest version that suffices, so that older readers reject only files that they cannot read.
 const FORMATS: [u32; 2] = [1, 2];
 
 const NOTICE: &str = "Lumencut is not a medical device.";
@@ -29,39 +29,39 @@ type Point = [f64; 3];
 /// A saved session.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SessionFile {
-    /// Vessels (mm, LPS), one per [`Session::vessels`].
+    /// Vessels (mm, LPS), one for each of [`Session::vessels`].
     pub lines: Vec<Line>,
-    /// Everything else.
+    /// Everything except the lines.
     pub session: Session,
 }
 
-/// The content of a session file besides the lines.
+/// Everything in a session file except the lines.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Session {
     /// Version of this structure.
     pub format: u32,
-    /// Program and version that wrote it.
+    /// Name and version of the program that wrote the file.
     pub software: String,
-    /// Statement that it is not a medical device.
+    /// Statement that the program is not a medical device.
     pub notice: String,
-    /// Grid of the scan, to recognize it; None without a scan.
+    /// Grid of the scan, by which the scan is recognised; None if there was no scan.
     pub scan: Option<Scan>,
-    /// One per vessel.
+    /// State of each vessel.
     pub vessels: Vec<VesselState>,
-    /// Seeded branches not yet accepted.
+    /// Branches found from a seed that the reader has not accepted yet.
     pub doubtful: Vec<DoubtfulBranch>,
     /// Balls that no vessel may pass.
     pub stoppers: Vec<Stopper>,
-    /// Whether tracing bridges stretches without lumen.
+    /// Whether tracing may cross stretches without lumen by straight bridges.
     pub bridge: bool,
-    /// Straight distances.
+    /// Straight distances that the reader measured.
     pub rulers: Vec<Ruler>,
-    /// FWHM of the point spread given by the reader (mm); None if estimated.
+    /// FWHM of the point spread that the reader stated (mm); None if it is estimated.
     pub fwhm_mm: Option<f64>,
-    /// The view.
+    /// The view of the scan, if saved.
     pub view: Option<View>,
-    /// Whether a voxel spacing of 1 mm was assumed; since format 2.
+    /// Whether a voxel spacing of 1 mm was assumed; exists since version 2.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub one_millimetre_assumed: bool,
 }
@@ -73,7 +73,7 @@ impl Session {
         FORMATS[usize::from(self.one_millimetre_assumed || marks.into_iter().any(has_diameters))]
     }
 
-    /// As JSON.
+    /// The session as JSON.
     pub fn json(&self) -> Result<String> {
         let expected = "numbers and texts that JSON can hold";
         serde_json::to_string(self).map_err(|error| Error::new(FIELD, error.to_string(), expected))
@@ -84,70 +84,70 @@ impl Session {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Scan {
-    /// Voxels along (i, j, k).
+    /// Number of voxels along (i, j, k).
     pub size: [usize; 3],
     /// World position (LPS, mm) of a continuous index, row by row.
     pub world_from_index: [[f64; 4]; 4],
 }
 
-/// The state of a vessel besides its line.
+/// The state of a vessel, except its line.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct VesselState {
-    /// `#rrggbb`.
+    /// Colour as `#rrggbb`.
     pub color: String,
-    /// Whether views omit it.
+    /// Whether views leave out the vessel.
     pub hidden: bool,
-    /// Clicks in order; None if not traced from clicks.
+    /// Clicks in order; None if the vessel was not traced from clicks.
     pub clicks: Option<Vec<Point>>,
-    /// Confidence per point, 0 to 1.
+    /// Confidence of each point, 0 to 1.
     pub confidence: Option<Vec<f64>>,
-    /// Whether each point lies on a bridged stretch.
+    /// Whether each point lies on a bridged stretch without lumen.
     pub bridged: Option<Vec<bool>>,
     /// The reader's marks.
     pub marks: Option<Marks>,
 }
 
-/// The reader's marks on a vessel: arc lengths and diameters in mm.
+/// Marks that the reader set on a vessel; arc lengths and diameters are in mm.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Marks {
-    /// Place of a stenosis.
+    /// Arc length of a stenosis.
     pub at_mm: Option<f64>,
-    /// Reference places.
+    /// Arc lengths of the references.
     pub references_mm: Vec<f64>,
-    /// `nascet`, `ecst` or `area`.
+    /// Grading method: `nascet`, `ecst` or `area`.
     pub method: String,
     /// Assumed original diameter, for ECST.
     pub original_mm: Option<f64>,
-    /// Diameter of a comparable normal vessel.
+    /// Diameter of a comparable normal vessel, for NASCET.
     pub comparison_mm: Option<f64>,
-    /// `carotid` or `coronary`.
+    /// Territory for grades: `carotid` or `coronary`.
     pub group: Option<String>,
-    /// Ends of a segment.
+    /// Arc lengths of the ends of a segment.
     pub stretch_mm: Option<[f64; 2]>,
-    /// Ends of a second segment.
+    /// Arc lengths of the ends of a second segment.
     pub second_stretch_mm: Option<[f64; 2]>,
-    /// Places of noted diameters; since format 2.
+    /// Arc lengths of noted diameters; exist since version 2.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub diameters_mm: Vec<f64>,
 }
 
-/// An uncertain branch from a seed.
+/// A doubtful branch that was found from a seed.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct DoubtfulBranch {
-    /// Name; may be empty.
+    /// Name of the branch; may be empty.
     pub name: String,
-    /// `#rrggbb`.
+    /// Colour as `#rrggbb`.
     pub color: String,
-    /// Reason for doubt.
+    /// Reason for the doubt.
     pub doubt: String,
-    /// Points.
+    /// Points of the branch.
     pub points: Vec<Point>,
     /// Radius per point (mm).
     pub radius: Option<Vec<f64>>,
-    /// Confidence per point, 0 to 1.
+    /// Confidence of each point, 0 to 1.
     pub confidence: Option<Vec<f64>>,
 }
 
@@ -157,17 +157,17 @@ pub struct DoubtfulBranch {
 pub struct Stopper {
     /// Centre.
     pub center: Point,
-    /// Radius.
+    /// Radius (mm).
     pub radius_mm: f64,
 }
 
-/// A straight distance.
+/// A straight distance between two points.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Ruler {
-    /// One end.
+    /// Position of one end.
     pub from: Point,
-    /// The other end.
+    /// Position of the other end.
     pub to: Point,
 }
 
@@ -177,15 +177,15 @@ pub struct Ruler {
 pub struct View {
     /// Camera of the 3D view.
     pub camera: Camera,
-    /// `csr`, `csr-paper`, `mpcpr` or `cr`.
+    /// Reformation: `csr`, `csr-paper`, `mpcpr` or `cr`.
     pub method: String,
-    /// Settings that differ from their defaults, by name; a window is level and width.
+    /// Values of settings that differ from the default, by name; a window is level and width.
     pub settings: BTreeMap<String, Value>,
     /// Layout of the page.
     pub layout: String,
-    /// Position of the cross-hair.
+    /// Position of the cross-hair, if it is shown.
     pub cross_hair: Option<Point>,
-    /// Vessel of the straightened CPR, and the place of its section (mm).
+    /// Vessel of the straightened CPR, and the place of its section.
     pub picked: Option<Picked>,
 }
 
@@ -195,21 +195,21 @@ pub struct View {
 pub struct Picked {
     /// Number of the vessel, from 0.
     pub vessel: usize,
-    /// Arc length.
+    /// Arc length (mm).
     pub at_mm: f64,
 }
 
-/// An orthographic camera; axes are unit vectors.
+/// An orthographic camera; its axes are unit vectors.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Camera {
     /// Centre of the image.
     pub center: Point,
-    /// From the viewer into the scene.
+    /// Direction from the viewer into the scene.
     pub direction: Point,
-    /// Up in the image.
+    /// Direction that is up in the image.
     pub up: Point,
-    /// Columns and rows.
+    /// Number of columns and rows.
     pub size: [usize; 2],
     /// Side of a pixel (mm).
     pub pixel_spacing: f64,
@@ -222,10 +222,10 @@ pub fn is_session(content: &[u8]) -> bool {
         && Json::of(content).is_ok_and(|root| root.fields([FIELD])[0].is_some())
 }
 
-/// Reads the session file `name`. Fails if it is no session, of an unknown version, or inconsistent.
+/// Reads the session file `name`. Fails for other files, an unknown version, or contradictory content.
 pub fn read_session(content: &[u8], name: &str) -> Result<SessionFile> {
     read_unnamed(content, name).map_err(|error| {
-        // The curve reader already adds the name.
+        // The reader of curves has already added the name.
         if error.subject.starts_with(name) { error } else { error.in_file(name) }
     })
 }
@@ -245,7 +245,7 @@ fn read_unnamed(content: &[u8], name: &str) -> Result<SessionFile> {
     Ok(SessionFile { lines, session })
 }
 
-/// Writes a session file with version and notice. Fails if its parts are inconsistent.
+/// Writes a session file with version and notice. Fails if parts of it contradict each other.
 pub fn write_session(file: &SessionFile, software: &str) -> Result<Vec<u8>> {
     let session = Session {
         format: file.session.least_format(),

@@ -11,8 +11,8 @@ use crate::xml::{self, Attributes};
 
 const EXPECTED: &str = "a SimVascular path file";
 
-/// One line per path, at the first time step; older files have two root elements, `format` and `path`. No
-/// file states its unit; SimVascular models usually are in cm.
+/// One line per path, at its first time step. Older files have two root elements, `format` and `path`. Files
+/// do not state a unit; SimVascular models are usually in cm.
 pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     let text = String::from_utf8_lossy(bytes);
     let mut reader = Reader::from_str(&text);
@@ -45,10 +45,10 @@ struct Path {
 
 #[derive(Default)]
 struct Walk {
-    /// Enclosing elements.
+    /// Names of the elements that enclose the current one.
     open: Vec<String>,
     paths: Vec<Path>,
-    /// Time steps in the current root element.
+    /// Number of time steps in the current root element.
     time_steps: usize,
     later_time_steps: usize,
 }

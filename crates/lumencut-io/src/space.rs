@@ -1,6 +1,6 @@
-//! Patient spaces of files.
+//! The patient spaces of files.
 
-/// The patient space of coordinates.
+/// The patient space in which coordinates are given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Space {
     /// x to the left, y to the back, z to the head.
@@ -10,10 +10,10 @@ pub enum Space {
 }
 
 impl Space {
-    /// Every space.
+    /// Both spaces.
     pub const ALL: [Self; 2] = [Self::Lps, Self::Ras];
 
-    /// `lps` or `ras`.
+    /// Name of the space: `lps` or `ras`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

@@ -1,4 +1,4 @@
-//! SWC trees: one node per line, `id type x y z radius parent`.
+//! SWC trees: each text line is a node, `id type x y z radius parent`.
 
 use glam::DVec3;
 
@@ -8,7 +8,7 @@ use crate::text::{self, Separator};
 
 const COLUMNS: &str = "7 numbers: id type x y z radius parent";
 
-/// One line from each root or branching to the next branching or leaf, sharing end points to the bit. Node
+/// One line from each root or branching to the next branching or leaf, with bit-identical end points. Node
 /// types are ignored.
 pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     let nodes =
@@ -17,7 +17,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
         return Err(Error::new("", "no node", "an SWC file with a node per line"));
     }
     let tree = Tree::new(&nodes)?;
-    // The parents are stated, so nothing is joined by position.
+    // The file states the parents, so nothing is joined by position.
     let mut out = Centerlines { joined: true, ..Centerlines::of("SWC") };
     out.lines = tree.branches(&nodes)?;
     if let Some(scale) = unused_scale(bytes) {
@@ -26,7 +26,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     out.without_zero_radii().tidy()
 }
 
-/// A leading `SCALE` comment other than 1; programs differ in whether nodes already include it.
+/// The factor in a leading comment `SCALE`, if not 1. Programs differ in whether nodes include it.
 fn unused_scale(bytes: &[u8]) -> Option<String> {
     let comments = text::lines(bytes).map_while(|(_, line)| Some(line.strip_prefix('#')?.trim().to_owned()));
     let is_one = |word: &str| word.parse() == Ok(1.0);
@@ -42,12 +42,12 @@ pub(crate) fn is_node(line: &str) -> bool {
 }
 
 struct Node {
-    /// Line number.
+    /// Number of the text line.
     line: usize,
     id: i64,
     point: DVec3,
     radius: f64,
-    /// None for a root.
+    /// Id of the parent; None for a root.
     parent: Option<i64>,
 }
 
@@ -61,7 +61,7 @@ fn node(line: usize, content: &str) -> Result<Node> {
     Ok(Node { line, id, point: text::point(line, [x, y, z])?, radius: text::number(line, radius)?, parent })
 }
 
-/// An integer, which some programs write as `1.0`.
+/// Reads an integer, which some programs write as `1.0`.
 fn whole(line: usize, field: &str) -> Result<i64> {
     let of_float = || {
         let number = field.parse::<f64>().ok()?;
@@ -77,13 +77,13 @@ fn whole(line: usize, field: &str) -> Result<i64> {
 struct Tree {
     roots: Vec<usize>,
     children: Vec<usize>,
-    /// Start index per node, plus the end.
+    /// Number of the first child of each node, and the number of all.
     begins: Vec<usize>,
 }
 
 impl Tree {
     fn new(nodes: &[Node]) -> Result<Self> {
-        // Sorted by id, which is the usual file order.
+        // The order is by id, which is usually also the order in the file.
         let mut order: Vec<(i64, usize)> = nodes.iter().enumerate().map(|(i, node)| (node.id, i)).collect();
         order.sort_unstable();
         if let Some(pair) = order.windows(2).find(|pair| pair[0].0 == pair[1].0) {

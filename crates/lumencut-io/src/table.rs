@@ -1,4 +1,4 @@
-//! Tables of numbers as text (`.csv`, `.tsv`, `.txt`), with or without a header.
+//! Tables of numbers as text (`.csv`, `.tsv`, `.txt`), with or without a header row.
 
 use std::borrow::Cow;
 use std::collections::HashSet;
@@ -10,9 +10,9 @@ use crate::table_columns::{Columns, name_coordinates};
 use crate::text::{self, Separator};
 use crate::unit::Unit;
 
-/// One point per row. A first row `sep=;` is skipped. Blank rows separate lines, as does a change in a column
-/// such as `line` or `GroupId`; without such a column, jumps do. Decimal commas are allowed with semicolons.
-/// Fails for damaged rows or unclear columns.
+/// Each row is a point. A first row `sep=;` is skipped. Lines are separated by blank rows, or by a change in
+/// a column such as `line` or `GroupId`; without such a column, also by jumps. Decimal commas are allowed
+/// with semicolons. Fails for damaged rows or unclear columns.
 pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     let Some((first, row)) = text::data_lines(bytes).find(|(_, row)| !names_separator(row)) else {
         return Err(Error::new("", "no row", "a table with a point per row"));
@@ -37,7 +37,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
         if line.trim_start().starts_with('#') {
             continue;
         }
-        // Spreadsheets write blank rows as separators.
+        // Spreadsheets write blank rows as rows of separators.
         match line.trim_matches([' ', '\t', ',', ';']) {
             "" => rows.finish_line(),
             _ => rows.add(number, &line)?,
@@ -49,19 +49,19 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
         rows.out.doubt_unnamed_columns();
         refuse_counter(&rows.out.lines)?;
     }
-    // With a line column, gaps within a line stay.
+    // If a column separates lines, a line may have gaps.
     let whole = rows.columns.key.is_some();
     let out = if whole { rows.out } else { rows.out.parted_at_jumps() };
     out.without_zero_radii().tidy()
 }
 
-/// Whether a row only states the separator for spreadsheets.
+/// Whether a row only states the separator, as spreadsheets expect.
 fn names_separator(row: &str) -> bool {
     let named = row.trim().trim_matches('"').strip_prefix("sep=");
     named.is_some_and(|separator| separator.chars().count() <= 1)
 }
 
-/// Removes blanks before units (`x (mm)` to `x(mm)`) if blanks separate columns.
+/// Removes blanks in front of units (`x (mm)` to `x(mm)`) if blanks separate columns.
 fn closed_up(header: &str, separator: Separator) -> Cow<'_, str> {
     if separator != Separator::Blanks {
         return Cow::Borrowed(header);
@@ -69,14 +69,14 @@ fn closed_up(header: &str, separator: Separator) -> Cow<'_, str> {
     Cow::Owned(header.replace(" (", "(").replace(" [", "["))
 }
 
-/// Takes the unit from a leading comment such as `units: cm`; otherwise notes the first unit there.
+/// Takes the unit from a leading comment such as `units: cm`; otherwise notes the first unit in comments.
 fn unit_in_comments(bytes: &[u8], first: usize, columns: &mut Columns) {
     let mut other = None;
     for (_, line) in text::lines(bytes).take(first - 1).filter(|(_, line)| line.starts_with('#')) {
         let comment = line.to_lowercase();
         let signs = |c: char| c.is_whitespace() || "#()[],;:=.".contains(c);
         let mut words = comment.split(signs).filter(|word| !word.is_empty());
-        // A single m is ambiguous.
+        // A single `m` does not have to mean metres.
         let known = |word: &str| Unit::of_name(word).filter(|unit| *unit != Unit::Metre);
         let Some(unit) = words.clone().find_map(known) else { continue };
         let said = [words.next(), words.next(), words.next()];
@@ -94,7 +94,7 @@ fn unit_in_comments(bytes: &[u8], first: usize, columns: &mut Columns) {
     }
 }
 
-/// Whether a line can start a table: at least three numbers, or a header with coordinates.
+/// Whether a row can be the first one of a table: at least three numbers, or a header with coordinates.
 pub(crate) fn is_first_row(line: &str) -> bool {
     let separator = separator_of(line);
     let fields = fields_of(line, separator);
@@ -102,7 +102,7 @@ pub(crate) fn is_first_row(line: &str) -> bool {
     numbers || name_coordinates(&fields)
 }
 
-/// Separator of a row. Blanks besides tabs separate too, unless names contain blanks.
+/// Separator of a row. If tabs separate, blanks do too, unless names contain blanks.
 fn separator_of(row: &str) -> Separator {
     if let Some(separator) = [';', ','].into_iter().find(|separator| row.contains(*separator)) {
         return Separator::Character(separator);
@@ -123,14 +123,14 @@ fn fields_of(row: &str, separator: Separator) -> Vec<&str> {
     fields
 }
 
-/// Whether the last field is empty in the first row but not in all.
+/// Whether the last field is empty in the first row, but not in all rows.
 fn has_empty_last(bytes: &[u8], first: &str, separator: Separator) -> bool {
     let count = text::fields(first, separator).len();
     count > fields_of(first, separator).len()
         && text::data_lines(bytes).any(|(_, row)| fields_of(&row, separator).len() == count)
 }
 
-/// NaN if not stated.
+/// The radius in a field; NaN if not stated.
 fn radius_of(number: usize, field: &str) -> Result<f64> {
     let is_unknown = ["", "nan", "na", "n/a"].into_iter().any(|name| field.eq_ignore_ascii_case(name));
     if is_unknown { Ok(f64::NAN) } else { text::number(number, field) }
@@ -140,7 +140,7 @@ fn all_numbers(fields: &[&str], separator: Separator) -> bool {
     fields.iter().all(|field| with_point(field, separator).parse::<f64>().is_ok())
 }
 
-/// Converts a decimal comma, which only semicolon tables can have.
+/// Converts a decimal comma, which is possible only in tables with semicolons.
 fn with_point(field: &str, separator: Separator) -> Cow<'_, str> {
     if separator == Separator::Character(';') && field.contains(',') {
         Cow::Owned(field.replace(',', "."))
@@ -149,7 +149,7 @@ fn with_point(field: &str, separator: Separator) -> Cow<'_, str> {
     }
 }
 
-/// Columns named by the last leading comment, if their number fits.
+/// Columns that the last leading comment names, if their number fits.
 fn header_in_comment(bytes: &[u8], first: usize, count: usize) -> Result<Option<Columns>> {
     let comment = text::lines(bytes).take(first - 1).filter(|(_, line)| line.starts_with('#')).last();
     let Some((number, line)) = comment else { return Ok(None) };
@@ -163,8 +163,8 @@ fn header_in_comment(bytes: &[u8], first: usize, count: usize) -> Result<Option<
     Columns::of_header(number, names, &fields).map(Some)
 }
 
-/// Rejects unnamed columns whose x only counts rows, if a radius follows: then y would be x, and z the
-/// radius.
+/// Rejects columns without names whose x only counts rows, if a radius follows. In that case y would really
+/// be x, and z the radius.
 pub(crate) fn refuse_counter(lines: &[Line]) -> Result<()> {
     let mut x = lines.iter().flat_map(|line| &line.points).map(|p| p.x).enumerate();
     let begins = x.next().map(|(_, first)| first).filter(|first| *first == 0.0 || *first == 1.0);
@@ -181,10 +181,10 @@ struct Rows {
     separator: Separator,
     out: Centerlines,
     line: Line,
-    /// Value of the line column.
+    /// Value in the column that separates lines.
     key: Option<String>,
     known_keys: HashSet<String>,
-    /// Points without a position.
+    /// Number of points without a position.
     undefined: usize,
 }
 
@@ -199,7 +199,7 @@ impl Rows {
 
     fn add(&mut self, number: usize, row: &str) -> Result<()> {
         let mut fields = text::fields(row, self.separator);
-        // Ignores trailing separators.
+        // Separators at the end of a row are ignored.
         while fields.len() > self.columns.count && fields.last() == Some(&"") {
             fields.pop();
         }

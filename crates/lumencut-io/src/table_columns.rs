@@ -1,4 +1,4 @@
-//! The meaning of table columns, from the header or their number.
+//! The meaning of the columns of a table, from the header or from their number.
 
 use crate::error::{Error, Result, excerpt};
 use crate::placed_points::PlacedBy;
@@ -10,9 +10,9 @@ use crate::unit::Unit;
 pub(crate) struct Columns {
     pub count: usize,
     pub xyz: [usize; 3],
-    /// Column and factor of the radius.
+    /// Column of the radius, and the factor that converts it to the unit of the coordinates.
     pub radius: Option<(usize, f64)>,
-    /// Column that separates lines, and whether it has branch-splitter groups.
+    /// Column that separates lines, and whether it holds groups of a branch splitter.
     pub key: Option<(usize, bool)>,
     /// Column that states which points have a position.
     pub placed: Option<(usize, PlacedBy)>,
@@ -23,7 +23,7 @@ pub(crate) struct Columns {
 
 const RADIUS_NAMES: [&str; 4] = ["maximuminscribedsphereradius", "radius", "radii", "r"];
 const DIAMETER_NAMES: [&str; 2] = ["diameter", "diam"];
-/// Names of the line column, the most specific first; blanks and signs between words are ignored.
+/// Names of the column that separates lines, the most specific first. Blanks and signs in names are ignored.
 const KEY_NAMES: [&str; 11] = [
     "line",
     "lineid",
@@ -37,10 +37,10 @@ const KEY_NAMES: [&str; 11] = [
     "groupid",
     "groupids",
 ];
-/// Names of the status column, as in 3D Slicer.
+/// Names of the column with the position status, as in 3D Slicer.
 const PLACED_NAMES: [(&str, PlacedBy); 2] =
     [("positionstatus", PlacedBy::Status), ("defined", PlacedBy::Flag)];
-/// Prefixes of an axis name or number.
+/// Prefixes in front of the name or number of an axis.
 const POINT_PREFIXES: [&str; 6] = ["points:", "points_", "point_", "position_", "pos_", "coordinate_"];
 const EXPECTED: &str =
     "numbers, or a header that names x, y, z (or L, P, S; R, A, S; Points:0, Points:1, Points:2)";
@@ -51,7 +51,7 @@ struct Name {
 }
 
 impl Name {
-    /// `x (cm)`, `x [cm]`, `x_cm` and `x cm` are x in cm.
+    /// Splits a name such as `x (cm)`, `x [cm]`, `x_cm` or `x cm` into x and the unit cm.
     fn of(field: &str) -> Self {
         let field = field.trim().to_lowercase();
         if let Some((base, unit)) = field.split_once(['(', '[']) {
@@ -59,7 +59,7 @@ impl Name {
             return Self { base: base.trim().into(), unit: (!unit.is_empty()).then(|| unit.into()) };
         }
         match field.rsplit_once(['_', ' ']) {
-            // `_m` is ambiguous.
+            // `_m` does not have to mean metres.
             Some((base, unit)) if unit.len() > 1 && Unit::of_name(unit).is_some() => {
                 Self { base: base.trim().into(), unit: Some(unit.into()) }
             }
@@ -67,7 +67,7 @@ impl Name {
         }
     }
 
-    /// Name without prefix, such as x for `points:0`.
+    /// Name without its prefix, such as x for `points:0`.
     fn axis(&self) -> &str {
         let stripped = POINT_PREFIXES.iter().find_map(|prefix| self.base.strip_prefix(prefix));
         match stripped.unwrap_or(&self.base) {
@@ -126,7 +126,7 @@ impl Columns {
         Ok(Self { count, xyz, radius, key: None, placed: None, unit: None, space: None, notes })
     }
 
-    /// Finds the radius column, otherwise the diameter, in the unit of the coordinates.
+    /// Finds the column of radii, or otherwise of diameters, and its factor to the unit of the coordinates.
     fn find_radius(&mut self, fields: &[&str], names: &[Name]) -> Result<()> {
         let free = |column: &usize| !self.xyz.contains(column);
         let find = |fits: &dyn Fn(&str) -> bool| {

@@ -17,7 +17,7 @@ pub(crate) enum Separator {
     Blanks,
 }
 
-/// Numbered lines from 1, ending in LF or CR LF, or in CR if there is no LF.
+/// Text lines, numbered from 1. They end with LF or CR LF, or with CR if there is no LF.
 pub(crate) fn lines(text: &[u8]) -> impl Iterator<Item = Numbered<'_>> {
     let end = if text.contains(&b'\n') { b'\n' } else { b'\r' };
     text.split(move |b| *b == end)
@@ -25,12 +25,12 @@ pub(crate) fn lines(text: &[u8]) -> impl Iterator<Item = Numbered<'_>> {
         .map(|(i, line)| (i + 1, String::from_utf8_lossy(line.strip_suffix(b"\r").unwrap_or(line))))
 }
 
-/// Lines that are neither blank nor `#` comments.
+/// Text lines that are neither blank nor comments with `#`.
 pub(crate) fn data_lines(text: &[u8]) -> impl Iterator<Item = Numbered<'_>> {
     lines(text).filter(|(_, line)| !line.trim_start().is_empty() && !line.trim_start().starts_with('#'))
 }
 
-/// Rows with the number of their first line; quoted text may span lines.
+/// Rows with the number of their first text line; quoted text may extend over several.
 pub(crate) fn rows<'t>(
     mut lines: impl Iterator<Item = Numbered<'t>>,
     separator: Separator,
@@ -54,13 +54,13 @@ pub(crate) fn rows<'t>(
     })
 }
 
-/// Parser state. A field is quoted if it starts with a quotation mark; a doubled mark does not end it.
+/// State of the parser. A field is quoted if it starts with a quotation mark. A doubled mark does not end it.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum At {
     Begin,
     Plain,
     Quoted,
-    /// After a quotation mark that ends the field or is the first of two.
+    /// After a quotation mark that either ends the field or is the first one of two.
     Closed,
 }
 
@@ -81,7 +81,7 @@ impl At {
     }
 }
 
-/// Fields without surrounding blanks and quotes; separators in quotes belong to the field. Bounded in number.
+/// Fields without surrounding blanks and quotes. Separators in quotes belong to the field. Limited in number.
 pub(crate) fn fields(line: &str, separator: Separator) -> Vec<&str> {
     match separator {
         Separator::Blanks => line.split_ascii_whitespace().take(MOST_FIELDS + 1).map(unquoted).collect(),

@@ -1,11 +1,11 @@
 //! Units of length in files.
 
-/// A unit of length.
+/// A unit of length that files use.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Unit {
     /// 1/1000 mm.
     Micrometre,
-    /// The unit after reading.
+    /// 1 mm; [`Centerlines::scaled`](crate::Centerlines::scaled) converts to this unit.
     Millimetre,
     /// 10 mm.
     Centimetre,
@@ -16,11 +16,11 @@ pub enum Unit {
 }
 
 impl Unit {
-    /// Every unit, the smallest first.
+    /// All units, the smallest first.
     pub const ALL: [Self; 5] =
         [Self::Micrometre, Self::Millimetre, Self::Centimetre, Self::Decimetre, Self::Metre];
 
-    /// Millimetres per unit.
+    /// Length of the unit in mm.
     #[must_use]
     pub fn in_mm(self) -> f64 {
         match self {
@@ -32,7 +32,7 @@ impl Unit {
         }
     }
 
-    /// `um`, `mm`, `cm`, `dm` or `m`.
+    /// Short name: `um`, `mm`, `cm`, `dm` or `m`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -44,13 +44,13 @@ impl Unit {
         }
     }
 
-    /// By short name; accepts both characters for µ.
+    /// The unit with this short name; both characters for µ are accepted.
     pub(crate) fn of_name(name: &str) -> Option<Self> {
         let name = name.replace(['\u{b5}', '\u{3bc}'], "u");
         Self::ALL.into_iter().find(|unit| unit.name() == name)
     }
 
-    /// Conversion factor to `other`; exactly 1 for the same unit.
+    /// Factor that converts lengths to `other`; exactly 1 for the same unit.
     pub(crate) fn in_units_of(self, other: Self) -> f64 {
         self.in_mm() / other.in_mm()
     }

@@ -19,7 +19,7 @@ impl ValueType {
             "unsigned_char" | "vtktypeuint8" => Self::Number(NumberType::U8),
             "short" | "vtktypeint16" => Self::Number(NumberType::I16),
             "unsigned_short" | "vtktypeuint16" => Self::Number(NumberType::U16),
-            // Legacy ids are 32 bits wide on every machine.
+            // Ids in legacy files have 32 bits on every machine.
             "int" | "vtkidtype" | "vtktypeint32" => Self::Number(NumberType::I32),
             "unsigned_int" | "vtktypeuint32" => Self::Number(NumberType::U32),
             "long" | "long_long" | "vtktypeint64" => Self::Number(NumberType::I64),
@@ -33,7 +33,7 @@ impl ValueType {
 
 pub(crate) struct Cursor<'a> {
     rest: &'a [u8],
-    /// Big-endian bytes instead of text.
+    /// Whether values are big-endian bytes instead of text.
     pub binary: bool,
 }
 
@@ -74,7 +74,7 @@ impl<'a> Cursor<'a> {
         next.get(..word.len()).is_some_and(|begin| begin.eq_ignore_ascii_case(word.as_bytes()))
     }
 
-    /// The next `count` values, from the next line; for text, its character codes.
+    /// The next `count` values, starting on the next line; the values of text are its character codes.
     pub(crate) fn values(&mut self, subject: &str, kind: ValueType, count: usize) -> Result<Vec<f64>> {
         self.line();
         match kind {
@@ -117,7 +117,7 @@ impl<'a> Cursor<'a> {
         self.rest = at.map_or(&[], |at| &self.rest[at..]);
     }
 
-    /// One text per line, or length-prefixed; the first two bits give the width of the length.
+    /// Texts, one per line, or each after its length; the first two bits give the width of that length.
     fn texts(&mut self, subject: &str, count: usize) -> Result<Vec<f64>> {
         let mut out = Vec::new();
         for _ in 0..count {

@@ -19,7 +19,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     };
     let mut out = Centerlines { space: space_of_title(&title), ..Centerlines::of("legacy VTK") };
     if title.contains(JOINED_MARK) {
-        // Files of this crate: vessels in mm.
+        // A file that this crate wrote: its lines are vessels in mm.
         out.joined = true;
         out.unit = Some(Unit::Millimetre);
     }
@@ -29,11 +29,11 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     }
     out.space = out.space.or(sections.space);
     sections.data.into_centerlines(&mut out)?;
-    // Files of this crate are read back unchanged.
+    // Files that this crate writes are read back unchanged.
     if out.joined { out.tidy() } else { out.without_zero_radii().tidy() }
 }
 
-/// 3D Slicer writes `SPACE=LPS` or `SPACE=RAS` into the title.
+/// The space in the title: 3D Slicer writes `SPACE=LPS` or `SPACE=RAS`.
 fn space_of_title(title: &str) -> Option<crate::Space> {
     let (_, stated) = title.split_once("SPACE=")?;
     poly_data::space_of(stated.get(..3)?)
@@ -85,7 +85,7 @@ impl Sections<'_> {
         ValueType::of_name(subject, &name)
     }
 
-    /// Bits are not accepted as ids: eight per byte would inflate the file.
+    /// Bits are rejected as ids: a byte would give eight ids, which take far more memory than the file.
     fn id_type(&mut self, subject: &str) -> Result<ValueType> {
         match self.value_type(subject)? {
             kind @ ValueType::Number(_) => Ok(kind),
@@ -112,7 +112,7 @@ impl Sections<'_> {
         Ok(())
     }
 
-    /// Since version 5.0: offsets, then all point ids.
+    /// Cells since version 5.0: first the offsets, then the ids of all points.
     fn cells_by_offsets(
         &mut self,
         keyword: &str,
@@ -224,7 +224,7 @@ fn unknown(keyword: &str) -> Error {
     Error::new("", format!("the word {}", excerpt(keyword)), "a section of a legacy VTK poly data file")
 }
 
-/// Before version 5.0: each cell as its count and ids. Returns ends and connectivity.
+/// Cells before version 5.0: each is a count followed by ids. Returns ends and connectivity.
 fn cells_by_counts(keyword: &str, numbers: &[f64], cells: usize) -> Result<(Vec<f64>, Vec<f64>)> {
     let (mut ends, mut connectivity) = (Vec::new(), Vec::new());
     let mut rest = numbers;

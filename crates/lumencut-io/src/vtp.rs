@@ -1,4 +1,4 @@
-//! VTK XML poly data (`.vtp`): ASCII, inline base64 and appended data, compressed or not.
+//! VTK XML poly data (`.vtp`): ASCII, inline base64 or appended data, with or without compression.
 
 use crate::centerlines::{Centerlines, JOINED_MARK, Line};
 use crate::compression::{Budget, Compressor};
@@ -26,7 +26,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     let field = |name| document.field_arrays.iter().find(|array| array.attributes.get("Name") == Some(name));
     let mut out = Centerlines::of("VTK XML PolyData");
     if field(JOINED_MARK).is_some() {
-        // Files of this crate: vessels in mm.
+        // A file that this crate wrote: its lines are vessels in mm.
         out.joined = true;
         out.unit = Some(Unit::Millimetre);
     }
@@ -37,7 +37,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     for piece in &document.pieces {
         arrays.poly_data(piece)?.into_centerlines(&mut out)?;
     }
-    // Files of this crate are read back unchanged.
+    // Files that this crate writes are read back unchanged.
     if out.joined { out.tidy() } else { out.without_zero_radii().tidy() }
 }
 
@@ -117,7 +117,7 @@ impl Arrays<'_> {
             let ends = numbers("offsets of Lines", of("Lines", Some("offsets")), Some(lines))?;
             (ends, numbers("connectivity of Lines", of("Lines", Some("connectivity")), None)?)
         };
-        // Lines of fewer than two points cost nothing to pack.
+        // Lines of fewer than two points take memory but no space in the file, so they count for the budget.
         let empty = lines.saturating_sub(connectivity.len() / 2).saturating_mul(size_of::<Line>());
         self.budget.take("Lines", empty as u64)?;
         Ok(PolyData {
@@ -138,7 +138,7 @@ impl Arrays<'_> {
             array.section == "CellData" && has("type", "String") && has("Name", poly_data::NAMES)
         };
         let Some(array) = piece.arrays.iter().find(is_name) else { return Ok(None) };
-        // VTK writes text bytes as signed numbers.
+        // VTK writes the bytes of texts as signed numbers.
         let codes: Vec<u8> =
             self.numbers(array)?.into_iter().map(|code| code.rem_euclid(256.0) as u8).collect();
         let texts = codes.strip_suffix(&[0]).unwrap_or(&codes).split(|code| *code == 0);

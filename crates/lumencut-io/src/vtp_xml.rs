@@ -1,4 +1,4 @@
-//! The elements of a VTK XML file: declared arrays and their locations, without decoding.
+//! The elements of a VTK XML file: its arrays and where they are, without decoding them.
 
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
@@ -8,10 +8,10 @@ use crate::xml::{self, Attributes};
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Declared {
-    /// Enclosing element, such as `Points` or `FieldData`.
+    /// Name of the enclosing element, such as `Points` or `FieldData`.
     pub section: String,
     pub attributes: Attributes,
-    /// Inline data.
+    /// Data inside the element, as text.
     pub text: String,
 }
 
@@ -31,7 +31,7 @@ pub(crate) struct Document {
 
 const EXPECTED: &str = "a VTK XML file";
 
-/// `text` may end at its appended data.
+/// Reads the elements; `text` may end where appended data begins.
 pub(crate) fn document(text: &str) -> Result<Document> {
     let mut reader = Reader::from_str(text);
     let mut walk = Walk::default();
@@ -94,7 +94,7 @@ impl Walk {
         self.open.last().is_some_and(|name| name == "DataArray" || name == "Array")
     }
 
-    /// Keeps text directly in an array; nested information keys have their own.
+    /// Keeps text that is directly inside an array. Information keys inside have texts of their own.
     fn text(&mut self, content: &str) {
         if !self.inside_array() {
             return;

@@ -1,4 +1,4 @@
-//! Shared parts of the XML readers.
+//! Functions that the XML readers share.
 
 use quick_xml::Reader;
 use quick_xml::events::BytesStart;
@@ -13,17 +13,17 @@ impl Attributes {
         self.0.iter().find(|(key, _)| key == name).map(|(_, value)| value.trim())
     }
 
-    /// The attribute `name` as a count; 0 if missing.
+    /// Value of the attribute `name` as a count; 0 if missing.
     pub(crate) fn count(&self, name: &str) -> Result<usize> {
         let text = self.get(name).unwrap_or("0");
         text.parse().map_err(|_| Error::new(name, excerpt(text), "a whole number from 0"))
     }
 }
 
-/// Maximum nesting; valid files nest 6 deep.
+/// Maximum nesting depth; valid files have up to 6.
 const DEEPEST: usize = 32;
 
-/// Only the five predefined XML entities are accepted.
+/// The attributes of an element. Only the five predefined XML entities are accepted.
 pub(crate) fn attributes(element: &BytesStart, expected: &str) -> Result<Attributes> {
     let wrong = |cause: String| Error::new("", format!("damaged XML attributes ({cause})"), expected);
     element
@@ -51,12 +51,12 @@ pub(crate) fn damaged(reader: &Reader<&[u8]>, cause: &quick_xml::Error, expected
     Error::truncated("", found, expected)
 }
 
-/// A document type could define entities of unlimited size.
+/// The error for a document type, which could define entities of unlimited size.
 pub(crate) fn document_type(expected: &str) -> Error {
     Error::new("", "a document type (<!DOCTYPE)", format!("{expected}, which has no document type"))
 }
 
-/// Name of the first element after declarations and comments.
+/// Name of the first element, after declarations and comments.
 pub(crate) fn first_element(mut text: &[u8]) -> Option<&[u8]> {
     loop {
         text = text.trim_ascii_start().strip_prefix(b"<")?;

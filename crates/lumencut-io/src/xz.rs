@@ -1,14 +1,14 @@
-//! Reduces the dictionary of an LZMA block, because its reader allocates the stated size.
+//! Reduces the dictionary of an LZMA block, because the reader allocates as much as the block states.
 
 use std::borrow::Cow;
 
-/// Stream header: magic bytes, flags, checksum.
+/// Bytes of the stream header: magic bytes, flags, checksum.
 const STREAM_HEADER: usize = 12;
-/// Reader memory besides the dictionary (KiB), with a margin.
+/// Memory that the reader needs besides the dictionary (KiB), with a margin.
 const READER_KIB: u32 = 256;
 const CODES: std::ops::Range<u8> = 0..40;
 
-/// The block with a dictionary no larger than its content of `size` bytes needs, and the memory limit (KiB).
+/// The block with the smallest dictionary that its content of `size` bytes needs, and a memory limit (KiB).
 /// Unusual blocks are returned unchanged.
 pub(crate) fn with_small_dictionary(block: &[u8], size: usize) -> (Cow<'_, [u8]>, u32) {
     let code = CODES.into_iter().find(|code| dictionary(*code) >= size as u64).unwrap_or(CODES.end);
@@ -39,7 +39,7 @@ fn dictionary_field(block: &[u8]) -> Option<DictionaryField> {
     if block.len() < sum + 4 || flags & 0x3f != 0 {
         return None;
     }
-    // Block sizes are variable-length numbers whose last byte is below 128.
+    // Sizes of blocks are stored in a variable number of bytes; the last one is below 128.
     let mut at = 0;
     for _ in 0..(flags >> 6).count_ones() {
         at += 1 + fields[at..].iter().position(|byte| *byte < 128)?;

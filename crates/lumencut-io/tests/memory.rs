@@ -1,4 +1,4 @@
-//! Peak memory of reading files that expand the most.
+//! Tests the peak memory of reading the files that expand most.
 #![allow(unsafe_code, clippy::unwrap_used)]
 
 #[path = "../fuzz/src/memory.rs"]
@@ -8,7 +8,7 @@ use std::io::Write;
 
 use lumencut_io::{junctions, read};
 
-/// Maximum memory, in sizes of the file or of 1 MiB.
+/// Maximum memory: ten times the size of the file, or of 1 MiB for smaller files.
 const MOST: usize = 10 << 20;
 const FILE: usize = 64 << 10;
 
@@ -22,7 +22,7 @@ fn lz4(content: &[u8]) -> Vec<u8> {
     lz4_flex::block::compress(content)
 }
 
-/// With the 64 MiB dictionary of the strongest preset.
+/// Packs content with the dictionary of 64 MiB that the strongest preset uses.
 fn lzma(content: &[u8]) -> Vec<u8> {
     let mut encoder = lzma_rust2::XzWriter::new(Vec::new(), lzma_rust2::XzOptions::with_preset(9)).unwrap();
     encoder.write_all(content).unwrap();
@@ -31,7 +31,7 @@ fn lzma(content: &[u8]) -> Vec<u8> {
 
 type Packer = fn(&[u8]) -> Vec<u8>;
 
-/// A `.vtp` of three points and a line through them in turns, in `FILE` bytes.
+/// A `.vtp` of `FILE` bytes with three points and a line that visits them in turn.
 fn turns(compressor: &str, pack: Packer, ids: usize) -> Vec<u8> {
     let block = |content: &[u8], claimed: usize| {
         let packed = pack(content);
@@ -64,7 +64,7 @@ fn assert_small(what: &str, bytes: &[u8], name: &str, expected: &str) {
     assert!(bytes.len() <= FILE && peak <= MOST, "{what}: {peak} bytes for {}", bytes.len());
 }
 
-/// One test, because concurrent tests would add up their memory.
+/// A single test, because the memory of concurrent tests would add up.
 #[test]
 fn no_small_file_takes_more_than_ten_times_a_mebibyte() {
     let packers: [(&str, Packer); 3] =
@@ -73,7 +73,7 @@ fn no_small_file_takes_more_than_ten_times_a_mebibyte() {
         assert_small(compressor, &turns(compressor, pack, 225_000), "a.vtp", "1 vessel(s)");
         assert_small(compressor, &turns(compressor, pack, 8_000_000), "a.vtp", "bytes to unpack");
     }
-    // Claimed content that is missing must not be allocated.
+    // Content that is claimed but missing must not be allocated.
     let claim = |content: &[u8]| lz4(&content[..content.len().min(9)]);
     assert_small(
         "lz4",
@@ -96,7 +96,7 @@ fn no_small_file_takes_more_than_ten_times_a_mebibyte() {
     assert_small("bits", &legacy("bit", (FILE - 1000) * 8), "a.vtk", "ids of the type Bits");
 }
 
-/// A legacy file of one line through 256 shuffled points, with ids of a given type.
+/// A legacy file of one line through 256 points in random order, with ids of a given type.
 fn legacy(kind: &str, ids: usize) -> Vec<u8> {
     let mut out = b"# vtk DataFile Version 5.1\nt\nBINARY\nDATASET POLYDATA\nPOINTS 256 char\n".to_vec();
     out.extend((0..=255u8).flat_map(|i| [i, i.wrapping_mul(i), 3]));
@@ -111,7 +111,7 @@ fn legacy(kind: &str, ids: usize) -> Vec<u8> {
     out
 }
 
-/// A `.vtp` of one line and many without points.
+/// A `.vtp` of one line with points and many lines without.
 fn empty_lines(count: usize) -> Vec<u8> {
     let block = |content: &[u8]| {
         let packed = zlib(content);

@@ -1,4 +1,4 @@
-//! Traces vessels in a volume or a mask and measures them.
+//! Traces vessels in a volume or a mask, and measures them.
 //!
 //! Points are in world space (LPS, mm).
 

@@ -1,4 +1,4 @@
-//! Measures the lumen of a vessel. Described in `docs/method/measuring.md`.
+//! Measures the lumen of a vessel, as described in `docs/method/measuring.md`.
 
 pub(crate) mod all_sections;
 pub(crate) mod along;

@@ -1,7 +1,7 @@
-//! Traces centerlines in a volume or a mask. Described in `docs/method/tracing.md`.
+//! Traces centerlines in a volume or a mask, as described in `docs/method/tracing.md`.
 //!
-//! Each module needs only those before it: [`lines`], [`lumen`], [`ways`], [`skeleton`]; then the entry
-//! points [`clicks`], [`find`] and [`mask`].
+//! Each module uses only those before it: [`lines`], [`lumen`], [`ways`], [`skeleton`]. The entry points
+//! [`clicks`], [`find`] and [`mask`] use all of them.
 
 pub mod clicks;
 pub mod find;

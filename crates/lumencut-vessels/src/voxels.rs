@@ -1,4 +1,4 @@
-//! The voxels of a volume as numbers, for any voxel type and any grid.
+//! The voxels of a volume as numbers, for all voxel types and grids.
 
 use std::sync::OnceLock;
 
@@ -11,12 +11,12 @@ use lumencut_core::with_voxels;
 
 pub(crate) trait VoxelSource: Sync {
     fn cube(&self, first: [i32; 3], side: usize, values: &mut [f32]);
-    /// Trilinear value at a continuous index; NaN more than half a voxel beyond the outermost centres.
+    /// Trilinear value at a continuous index; NaN more than half a voxel beyond the outermost voxel centres.
     fn at(&self, index: DVec3) -> f32;
-    /// Value of a voxel, which must exist.
+    /// Value of a voxel inside the volume.
     fn voxel(&self, voxel: [i32; 3]) -> f32;
     fn along(&self, start: DVec3, stride: DVec3, values: &mut Vec<f32>);
-    /// Whether a value in every `every`-th row along i, from the first, is below `limit`.
+    /// Whether some value in every `every`-th row along i, starting with the first, is below `limit`.
     fn goes_below(&self, limit: f32, every: usize) -> bool;
 }
 
@@ -31,19 +31,19 @@ pub struct Voxels<'a> {
     pub index_from_world: DAffine3,
     /// Smallest voxel side (mm).
     pub smallest_side: f64,
-    /// Unit of sampling distances (mm): the smallest voxel side, but at least a quarter of the middle one, so
-    /// that very uneven voxels do not multiply the samples.
+    /// Unit of sampling distances (mm): the smallest voxel side, but at least a quarter of the middle one.
+    /// Otherwise very uneven voxels would multiply the number of samples.
     pub sampling_side: f64,
     negative: OnceLock<bool>,
 }
 
-/// Values below this mean that the volume is in HU and shows fat or air.
+/// Values below this limit mean that the volume is in HU and shows fat or air.
 const NEGATIVE: f32 = -20.0;
 
 /// Maximum number of voxels read to find negative values.
 const MOST_VOXELS: usize = 400_000;
 
-/// Minimum sampling distance, as a share of the middle voxel side.
+/// Minimum unit of sampling distances, as a share of the middle voxel side.
 const LEAST_OF_MIDDLE: f64 = 0.25;
 
 fn middle_side(world_from_index: DAffine3) -> f64 {
@@ -81,7 +81,7 @@ impl<'a> Voxels<'a> {
         self.source.at(self.index_from_world.transform_point3(place))
     }
 
-    /// Value of a voxel, which must exist.
+    /// Value of a voxel inside the volume.
     pub fn voxel(&self, voxel: [i32; 3]) -> f32 {
         self.source.voxel(voxel)
     }
@@ -91,18 +91,18 @@ impl<'a> Voxels<'a> {
         self.source.at(index)
     }
 
-    /// Appends sixteen values in steps of `stride` from `start`, continuing after the values already present.
+    /// Appends sixteen values in steps of `stride` from `start`, continuing after those already in `values`.
     pub fn along(&self, start: DVec3, stride: DVec3, values: &mut Vec<f32>) {
         self.source.along(start, stride, values);
     }
 
-    /// Whether the volume has values as negative as fat and air in HU; reads a subset of the rows.
+    /// Whether the volume has values as negative as those of fat and air in HU; only some rows are read.
     pub(crate) fn has_negative(&self) -> bool {
         let voxels: usize = self.size.iter().product();
         *self.negative.get_or_init(|| self.source.goes_below(NEGATIVE, voxels.div_ceil(MOST_VOXELS).max(1)))
     }
 
-    /// Voxel nearest to a world position; None outside.
+    /// The voxel nearest to a world position; None outside.
     pub fn voxel_at(&self, place: DVec3) -> Option<[i32; 3]> {
         let voxel = self.index_from_world.transform_point3(place).round();
         let is_inside = (0..3).all(|a| voxel[a] >= 0.0 && voxel[a] < self.size[a] as f64);
@@ -114,10 +114,10 @@ impl<'a> Voxels<'a> {
         self.world_from_index.transform_point3(DVec3::from_array(voxel.map(f64::from)))
     }
 
-    /// Box of voxels around a ball: the first voxel, and the number along each axis.
+    /// Box of voxels around a ball: its first voxel, and the number of voxels along each axis.
     pub fn around(&self, center: DVec3, radius: f64) -> ([i32; 3], [i32; 3]) {
         let index = self.index_from_world.transform_point3(center);
-        // The row lengths of the inverse matrix give the extent of a ball along each index axis.
+        // The lengths of the rows of the inverse matrix give the extent of a ball along each index axis.
         let rows = self.index_from_world.matrix3.transpose();
         let reach = DVec3::new(rows.x_axis.length(), rows.y_axis.length(), rows.z_axis.length()) * radius;
         let low = (index - reach).ceil();
@@ -179,7 +179,7 @@ impl<T: Voxel> VoxelSource for Typed<'_, T> {
 
     #[inline]
     fn at(&self, index: DVec3) -> f32 {
-        // Single precision, so that the same scan in another voxel type gives the same result.
+        // Single precision makes the result independent of the voxel type.
         self.grid.trilinear_single(self.voxels, index)
     }
 
@@ -190,7 +190,7 @@ impl<T: Voxel> VoxelSource for Typed<'_, T> {
 
     fn along(&self, start: DVec3, stride: DVec3, values: &mut Vec<f32>) {
         let first = values.len();
-        // On the web, lanes for each voxel type would enlarge the download.
+        // On the web, separate lanes for each voxel type would enlarge the download.
         let is_number = start.is_finite() && stride.is_finite();
         if cfg!(target_arch = "wasm32") || !is_number {
             values.extend((first..first + FAN).map(|n| self.at(start + stride * n as f64)));
@@ -209,7 +209,7 @@ impl<T: Voxel> VoxelSource for Typed<'_, T> {
     }
 }
 
-/// Kernel: sixteen values along a line.
+/// Kernel that computes sixteen values along a line.
 struct Along<'a, T> {
     voxels: &'a [T],
     grid: &'a Grid,

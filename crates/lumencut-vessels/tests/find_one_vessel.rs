@@ -1,4 +1,4 @@
-//! The vessel of one click, in trees with a known answer.
+//! Tests which vessel one click gives, in trees with a known answer.
 #![allow(clippy::unwrap_used)]
 
 use glam::DVec3;
@@ -47,7 +47,7 @@ fn a_click_gives_the_whole_vessel_that_it_lies_in() {
 fn the_line_leads_back_to_the_vessel_that_there_is() {
     let tree = tree();
     let all = lines(&tree);
-    // Without the artery, the path to the branch goes through it.
+    // If the artery does not exist yet, the path to the branch leads through it.
     let way = one_vessel(&tree, IN_BRANCH, 0.5, &all[..1]).unwrap();
     assert_eq!(way.points[0], DVec3::new(0.0, 0.0, 50.0));
     assert_eq!(way.points.last(), all[2].points.last());
@@ -56,7 +56,7 @@ fn the_line_leads_back_to_the_vessel_that_there_is() {
     assert!(through.contains(&DVec3::new(29.0, 0.0, 50.0)));
     assert_eq!(way.radius.len(), way.points.len());
     assert_eq!(way.confidence.len(), way.points.len());
-    // With the artery, only the branch, starting on a point of the artery to the bit.
+    // If the artery exists, only the branch is found. It starts on a bit-identical point of the artery.
     let branch = one_vessel(&tree, IN_BRANCH, 0.5, &all[..2]).unwrap();
     assert_eq!(branch.points[0], DVec3::new(30.0, 0.0, 50.0));
     assert!((branch.points.len() as f64 - 40.0).abs() < 3.0);
@@ -72,7 +72,7 @@ fn a_trunk_does_not_end_where_a_branch_that_there_is_hangs_on_it() {
 #[test]
 fn a_line_ends_where_it_enters_a_vessel_that_there_is() {
     let tree = tree();
-    // The last part of the artery and a vessel after it exist.
+    // The last part of the artery exists already, and so does a vessel after it.
     let traced = line(DVec3::new(50.0, -20.0, 50.0), DVec3::new(50.0, 20.0, 50.0), 2.0);
     let artery = one_vessel(&tree, IN_ARTERY, 0.5, &[traced]).unwrap();
     assert_eq!(artery.points[0], DVec3::new(0.0, 0.0, 50.0));

@@ -1,4 +1,4 @@
-//! Finding vessels stops on request in each of its stages.
+//! Tests that finding vessels stops on request in each of its stages.
 #![allow(clippy::unwrap_used)]
 
 use std::sync::Mutex;
@@ -15,7 +15,7 @@ use lumencut_vessels::trace::find::{FindRequest, find_vessels};
 /// Share of the work at which each stage begins.
 const BEGIN: [f64; 7] = [0.0, 0.04, 0.22, 0.50, 0.88, 0.95, 0.97];
 
-/// Maximum number of further calls of `stop` until all threads have stopped.
+/// Maximum number of calls of `stop` that may follow until all threads have stopped.
 const IN_HAND: usize = 100;
 
 fn found(stop: Stop, progress: &Progress) -> lumencut_core::error::Result<Trees> {
@@ -25,7 +25,7 @@ fn found(stop: Stop, progress: &Progress) -> lumencut_core::error::Result<Trees>
     find_vessels(&volume, &FindRequest { smallest_radius: 1.0, stop, progress: Some(progress) })
 }
 
-/// Progress at each call of `stop`.
+/// The progress at each call of `stop`.
 fn shares() -> Vec<f64> {
     let (told, progress) = (Mutex::new(Vec::new()), Progress::default());
     let stop = || {

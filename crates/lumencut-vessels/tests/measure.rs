@@ -21,7 +21,7 @@ const SIZE: usize = 36;
 const SIDE: f64 = 0.5;
 const FWHM: f64 = 0.9;
 
-/// A vessel along z: a blurred ellipse.
+/// A vessel along z whose slices show a blurred ellipse.
 fn slices(ellipse: &Ellipse) -> Vec<f32> {
     let variance = variance_of(FWHM) + SIDE * SIDE / 12.0;
     let boundary = Boundary::new(ellipse, Whitening::new(DMat2::from_diagonal(DVec2::splat(variance))));
@@ -79,7 +79,7 @@ fn a_point_spread_that_nobody_waited_for_is_not_told() {
     let volume = Volume::new(Voxels::F32(&values), [SIZE; 3], [1, SIZE, SIZE * SIZE], affine).unwrap();
     let tree =
         [Vessel::new([2.0, 15.0].map(|z| DVec3::new(9.2, 8.9, z)).to_vec(), Some(vec![2.0; 2])).unwrap()];
-    // Stopped before and during the first look at the only vessel.
+    // Stops before and during the first look at the only vessel.
     for questions in 0..40 {
         let asked = AtomicUsize::new(0);
         let stop = || asked.fetch_add(1, Ordering::Relaxed) >= questions;

@@ -1,4 +1,4 @@
-//! Clicks next to lumen, or in nothing but lumen, are accepted.
+//! Tests that clicks beside lumen, or with nothing but lumen around them, are accepted.
 #![allow(clippy::unwrap_used)]
 
 use glam::{DAffine3, DVec3};
@@ -18,7 +18,7 @@ fn traced(volume: &Volume, clicks: &[DVec3]) -> lumencut_core::error::Result<Tra
     Tracer::default().trace(volume, &clicks, &|| false, None).map(|mut lines| lines.remove(0))
 }
 
-/// A chamber of blood (470 HU, noise 40, radius 48 mm) in fat: only blood within 30 mm of its centre.
+/// A chamber of blood (470 HU, noise 40, radius 48 mm) in fat; only blood lies within 30 mm of its centre.
 fn chamber() -> (Vec<i16>, [usize; 3], DAffine3) {
     let side = 72;
     let mut seed = 7u32;
@@ -29,7 +29,7 @@ fn chamber() -> (Vec<i16>, [usize; 3], DAffine3) {
     let value = |n: usize| {
         let index = DVec3::new((n % side) as f64, (n / side % side) as f64, (n / (side * side)) as f64);
         let is_blood = (index - DVec3::splat(35.5)).length() * 1.5 < 48.0;
-        // Nearly normal: the sum of twelve uniform numbers.
+        // The sum of twelve uniform random numbers is nearly normal.
         let deviate: f64 = (0..12).map(|_| noise()).sum();
         (if is_blood { 470.0 } else { -90.0 } + 40.0 * deviate).round() as i16
     };
@@ -53,7 +53,7 @@ fn a_click_next_to_lumen_means_the_lumen_and_one_farther_away_is_refused() {
     let phantom = straight_tube().unwrap();
     let volume = phantom.volume().unwrap();
     let (from, to) = (DVec3::Z * -15.0, DVec3::new(0.3, 0.2, 15.0));
-    // Radius 4 mm; a place with lumen on all sides is about 3 mm from the centre.
+    // The radius is 4 mm; places that lumen surrounds on all sides lie up to 3 mm from the centre.
     for first in [DVec3::new(4.6, 0.0, -15.0), DVec3::new(0.0, -4.6, -15.0)] {
         let line = traced(&volume, &[first, to]).unwrap().line;
         assert!(line.points[0].truncate().length() < 1.0, "{}", line.points[0]);
@@ -61,7 +61,7 @@ fn a_click_next_to_lumen_means_the_lumen_and_one_farther_away_is_refused() {
     }
     let refused = traced(&volume, &[from, DVec3::new(7.0, 0.0, 15.0)]).unwrap_err();
     assert!(refused.mend.contains("the nearest place that looks like lumen"), "{refused}");
-    // The check of a first click agrees.
+    // The check of a single first click gives the same answer.
     let tracer = Tracer::default();
     assert!(tracer.check_click(&volume, DVec3::new(4.6, 0.0, -15.0)).is_ok());
     assert!(tracer.check_click(&volume, DVec3::new(7.0, 0.0, -15.0)).is_err());

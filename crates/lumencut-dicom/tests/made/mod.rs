@@ -1,12 +1,12 @@
 //! Test data: headers of series with known geometry.
 
-// Each test file compiles this module and uses a part of it.
+// Each test file compiles this module, but uses only a part of it.
 #![allow(dead_code)]
 
 use lumencut_dicom::{Error, Headers, Plan, Wanted};
 use serde_json::{Value, json};
 
-/// The only decodable transfer syntax in tests.
+/// The only transfer syntax that can be decoded in tests.
 pub const SYNTAX: &str = "1.2.840.10008.1.2.1";
 
 pub fn file(name: &str, attributes: &Value) -> Value {
@@ -21,7 +21,7 @@ pub fn file(name: &str, attributes: &Value) -> Value {
     })
 }
 
-/// An axial slice of 4 × 3 pixels at this height.
+/// The header of an axial slice of 4 × 3 pixels at this height (mm).
 pub fn axial(height: f64) -> Value {
     json!({
         "SOPInstanceUID": format!("1.2.3.{height}"),
@@ -35,7 +35,7 @@ pub fn axial(height: f64) -> Value {
     })
 }
 
-/// Slices at these heights, with changes to each.
+/// Headers of slices at these heights (mm), each modified by `change`.
 pub fn stack(heights: &[f64], change: impl Fn(usize, &mut Value)) -> Vec<Value> {
     let one = |(k, &height): (usize, &f64)| {
         let mut attributes = axial(height);

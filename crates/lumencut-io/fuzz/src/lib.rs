@@ -1,4 +1,4 @@
-//! Properties that must hold for any bytes read as a centerline file.
+//! Properties that must hold for any bytes that are read as a centerline file.
 
 mod memory;
 mod packed;
@@ -10,18 +10,18 @@ use lumencut_io::{Error, Line, junctions, read, write_mrk_json, write_vtp};
 
 pub use packed::vtp as packed_vtp;
 
-/// Maximum memory for reading, in file sizes.
+/// Maximum memory for reading a file, in sizes of that file.
 const MOST_TIMES: usize = 10;
-/// Smaller files may use as much as one of this size (bytes).
+/// Files smaller than this (bytes) may use as much memory as one of this size.
 const SMALL: usize = 1 << 20;
-/// Maximum CPU time of one thread per file, for all reading and writing here.
+/// Maximum CPU time of one thread for all reading and writing of one file here.
 const MOST_TIME: Duration = Duration::from_secs(2);
 
-/// Lines up to this many points are also checked in other units.
+/// Only lines of up to this many points are also checked in other units.
 const FEW_POINTS: usize = 1000;
 
-/// Reads `data` under this name and checks the result. Panics if lines are unsound, memory or time exceeds
-/// the limits, or written lines are read back differently.
+/// Reads `data` under this name and checks the result. Panics if a line is invalid, memory or time exceeds
+/// its limit, or written lines are read back with differences.
 pub fn check(data: &[u8], name: &str) {
     let start = ThreadTime::now();
     check_what_is_read(data, name);
@@ -34,7 +34,7 @@ fn check_what_is_read(data: &[u8], name: &str) {
         memory::peak_of(|| read(data, name).and_then(|found| found.scaled(1.0)).map(junctions::vessels));
     let most = MOST_TIMES * data.len().max(SMALL);
     assert!(peak <= most, "reading {} bytes took {peak} bytes, more than {most}", data.len());
-    // Another unit changes the coordinate limit.
+    // The limit of coordinates depends on the unit.
     let Ok(found) = read(data, name) else { return };
     assert_sound(&found.lines);
     if found.lines.iter().map(|line| line.points.len()).sum::<usize>() <= FEW_POINTS {
@@ -44,7 +44,7 @@ fn check_what_is_read(data: &[u8], name: &str) {
         }
     }
     let Ok(vessels) = vessels else { return };
-    // Both the joined lines and those in the file are written.
+    // Writes the joined lines, and also those of the file.
     let lines = found.scaled(1.0).expect("a file that was read before").lines;
     for lines in [lines, vessels.lines] {
         assert_sound(&lines);
@@ -66,7 +66,7 @@ fn assert_sound(lines: &[Line]) {
 
 fn assert_written_alike(mut lines: Vec<Line>) {
     type Writer = fn(&[Line]) -> Result<Vec<u8>, Error>;
-    // Groups are not written, and VTK text ends at a null character.
+    // Groups are not written, and text in VTK files ends at a null character.
     let null = lines.iter().any(|line| line.name.as_ref().is_some_and(|name| name.contains('\0')));
     lines.iter_mut().for_each(|line| line.group = None);
     for (write, name, able) in [(write_vtp as Writer, "b.vtp", !null), (write_mrk_json, "b.mrk.json", true)] {
@@ -74,7 +74,7 @@ fn assert_written_alike(mut lines: Vec<Line>) {
             let bytes = write(&lines).unwrap_or_else(|error| panic!("not written as {name}: {error}"));
             let back = read(&bytes, name).unwrap_or_else(|error| panic!("not read back: {error}"));
             let back = junctions::vessels(back).lines;
-            // Debug text distinguishes zeros of either sign.
+            // The debug text is compared, because it distinguishes 0 from -0.
             assert!(format!("{back:?}") == format!("{lines:?}"), "read back otherwise from {name}");
         }
     }

@@ -1,4 +1,4 @@
-//! Lines that run along another line, without shared points, take its points.
+//! If a line runs along another one without shared points, it takes the points of that one.
 
 use std::cell::Cell;
 
@@ -7,30 +7,30 @@ use glam::DVec3;
 use super::Path;
 use super::ids::Id;
 
-/// Maximum lateral distance, as a share of the radius.
+/// Maximum sideways distance from the other line, as a share of the radius.
 const PART_OF_RADIUS: f64 = 0.1;
-/// The same for lines of one group.
+/// Maximum sideways distance between lines of one group.
 const PART_OF_RADIUS_IN_GROUP: f64 = 0.5;
-/// Without radius, as a share of the median spacing.
+/// Maximum sideways distance if there is no radius, as a share of the median spacing.
 const PART_OF_SPACING: f64 = 0.5;
-/// Upper limit of that (mm), so that sparse control points do not reach a neighbour.
+/// Upper limit of that distance (mm), so that sparse control points do not reach a neighbouring vessel.
 const MOST_BY_SPACING: f64 = 0.5;
-/// Minimum shared stretch, in maximum lateral distances.
+/// Minimum length of a shared stretch, in maximum sideways distances.
 const SHORTEST_STRETCH: f64 = 10.0;
-/// Maximum point-segment comparisons (about one second); huge radii would compare everything.
+/// Maximum number of point-segment comparisons (about one second); huge radii would compare everything.
 const MOST_COMPARISONS: usize = 1 << 26;
 
 pub(super) struct Followed {
-    /// Number of path ends that follow another path.
+    /// Number of ends of paths that follow another path.
     pub ends: usize,
-    /// Whether the comparison limit was not reached.
+    /// Whether all comparisons were made within the limit.
     pub whole: bool,
 }
 
 pub(super) fn follow(points: &[DVec3], paths: &mut [Path], spacing: f64) -> Followed {
     let mut followed = 0;
     let left = Cell::new(MOST_COMPARISONS);
-    // A path that follows another leaves its old end, where a third path may begin.
+    // A path that follows another one gives up its old end, at which a third path may begin.
     let mut moved: Vec<(Id, Id)> = Vec::new();
     for i in 1..paths.len() {
         let (earlier, rest) = paths.split_at_mut(i);
@@ -56,13 +56,13 @@ struct Shared {
     other: usize,
     backwards: bool,
     last: usize,
-    /// In the direction of walking.
+    /// Last point on the other path, counted in the direction in which `path` follows it.
     other_last: usize,
     length: f64,
 }
 
-/// Longest stretch at the start of `path` along an `earlier` path. None if they share the first step, because
-/// equal points are better evidence than any tolerance.
+/// The longest stretch from the start of `path` along an `earlier` path. None if they share the first step,
+/// because equal points are better evidence than distances.
 fn longest(
     points: &[DVec3],
     path: &Path,
@@ -120,7 +120,7 @@ impl Walk<'_> {
         self.points[self.other.nodes[self.other_index(i)] as usize]
     }
 
-    /// Maximum lateral distance at point `i` (mm).
+    /// Maximum sideways distance at point `i` (mm).
     fn tolerance(&self, i: usize, in_group: bool) -> f64 {
         let part = if in_group { PART_OF_RADIUS_IN_GROUP } else { PART_OF_RADIUS };
         let radius = self.other.radius.as_ref().map(|radius| radius[self.other_index(i)]);
@@ -130,7 +130,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Last point along the other path, the other's last point, and the length (mm).
+    /// Last point that runs along the other path, last point of the other path, and the length (mm).
     fn along(&self) -> Option<(usize, usize, f64)> {
         let in_group = self.path.group.is_some() && self.path.group == self.other.group;
         let first = self.points[self.path.nodes[0] as usize];
@@ -153,7 +153,7 @@ impl Walk<'_> {
             (at, last, length, before) = (segment, i, length + step, point);
         }
         let shortest = SHORTEST_STRETCH * self.tolerance(0, false);
-        // A whole path ends at the other's nearest point; otherwise it leaves after the current segment.
+        // A path that follows to its end takes the nearest point; others leave after the current segment.
         let whole = last + 1 == self.path.nodes.len();
         let nearer_end = whole && at + 1 < self.other.nodes.len() && {
             before.distance(self.other_point(at + 1)) < before.distance(self.other_point(at))
@@ -162,7 +162,7 @@ impl Walk<'_> {
         (last > 0 && other_last > 0 && length >= shortest).then_some((last, other_last, length))
     }
 
-    /// Segment nearest to `point` and its distance, at most `reach` mm beyond segment `from`.
+    /// The segment nearest to `point`, up to `reach` mm after segment `from`, and its distance.
     fn nearest_segment(&self, from: usize, point: DVec3, reach: f64) -> (usize, f64) {
         let mut best = (from, f64::INFINITY);
         let mut travelled = 0.0;
@@ -185,7 +185,7 @@ impl Walk<'_> {
 }
 
 impl Shared {
-    /// Gives `path` the other's points; returns the replaced ends.
+    /// Gives the points of the other path to `path`; returns the ends that were replaced.
     fn replace(self, path: &mut Path, earlier: &[Path]) -> Vec<(Id, Id)> {
         let other = &earlier[self.other];
         let count = other.nodes.len();

@@ -1,4 +1,4 @@
-//! The graph of paths: shared stretches are shared edges, and chains between junctions are vessels.
+//! The graph of paths. Shared stretches are shared edges; chains of edges between junctions are vessels.
 
 use glam::DVec3;
 
@@ -14,12 +14,12 @@ enum Partner {
 }
 
 struct Edge {
-    /// Smaller id first.
+    /// Ids of both ends; the smaller one is first.
     nodes: [Id; 2],
-    /// First path with a radius, and its step.
+    /// The first path that has a radius, and the number of its step.
     radius: Option<[Id; 2]>,
     partners: [Partner; 2],
-    /// Whether all its paths have a group.
+    /// Whether all paths on this edge have a group.
     grouped: bool,
 }
 
@@ -76,7 +76,7 @@ struct Graph {
 
 impl Graph {
     fn of(places: usize, paths: &[Path]) -> (Self, Vec<Vec<Id>>) {
-        // A tree has about as many edges as places.
+        // A tree has about as many edges as points.
         let expected = places + places / 16;
         let steps: usize = paths.iter().map(|path| path.nodes.len() - 1).sum();
         let mut graph = Self { edges: Vec::with_capacity(expected.min(steps)), left: steps };
@@ -119,7 +119,7 @@ impl Graph {
         }
     }
 
-    /// Pairs two grouped edges that end at each other; blocks places where an edge ends or branches.
+    /// Joins two grouped edges that end at one place; where an edge ends or branches, all edges end.
     fn join_groups(&mut self, places: usize) {
         let incidence = Incidence::new(places, self.edges.len(), |edge| self.edges[edge].nodes);
         for place in 0..places {
@@ -188,7 +188,7 @@ impl Graph {
             Some(*at)
         }));
         let points = nodes.iter().map(|node| places[*node as usize]).collect();
-        // The first place has the radius of the first edge, others that of the edge before.
+        // The first point has the radius of the first edge; other points have that of the edge before them.
         let edges = chain.iter().take(1).chain(chain).map(edge);
         let radius = chain.iter().all(|id| edge(id).radius.is_some()).then(|| {
             let mut out = Vec::with_capacity(nodes.len());

@@ -1,8 +1,8 @@
-//! Compact ids and tables, because large files leave little memory besides their points.
+//! Ids and tables of small size, because large files leave little memory besides their points.
 
 use std::hash::{BuildHasher, Hash, RandomState};
 
-/// [`MOST_POINTS`] keeps twice their number below the largest id.
+/// Number of a point or edge. Twice [`MOST_POINTS`] is below the largest one.
 pub(super) type Id = u32;
 
 /// Maximum number of points of all lines.
@@ -14,10 +14,10 @@ pub(super) fn id(i: usize) -> Id {
     i as Id
 }
 
-/// Hash table with linear probing; keys stay with the caller.
+/// A hash table with linear probing. The caller keeps the keys.
 #[derive(Default)]
 pub(super) struct Table {
-    /// A power of two, at most three quarters full.
+    /// Their number is a power of two; at most three quarters are full.
     slots: Vec<Slot>,
     count: usize,
     state: RandomState,
@@ -66,7 +66,7 @@ impl Table {
     }
 }
 
-/// Grows by doubling, but by no more than the `most` still to come.
+/// Doubles the capacity, but adds no more than the `most` elements that may still come.
 pub(super) fn make_room<T>(all: &mut Vec<T>, most: usize) {
     if all.len() == all.capacity() {
         all.reserve_exact(all.len().max(16).min(most.max(1)));
@@ -74,7 +74,7 @@ pub(super) fn make_room<T>(all: &mut Vec<T>, most: usize) {
 }
 
 pub(super) struct Incidence {
-    /// Start index per place, plus the end.
+    /// Number of the first edge at each place, and the number of all.
     begins: Vec<Id>,
     edges: Vec<Id>,
 }

@@ -1,9 +1,9 @@
-//! Turns lines that repeat a trunk into vessels that meet at shared end points.
+//! Turns lines that repeat a trunk into vessels that meet at common end points.
 //!
-//! Tools write one line per outlet, which repeats the trunk, or every segment separately. Five steps make
+//! Some programs write one line per outlet, each with the trunk; others write every segment. Five steps make
 //! each stretch one vessel:
 //!
-//! 1. *Weld* (`weld.rs`): points closer than 1/1000 of the median spacing are merged.
+//! 1. *Weld* (`weld.rs`): points closer than 1/1000 of the median spacing become one point.
 //! 2. *Segments* (`segments.rs`): if most lines are single segments, they are joined to chains.
 //! 3. *Follow* (`follow.rs`): a line that runs along another without shared points takes its points, within a
 //!    tenth of the radius (half of it within a group; without radius half the spacing, at most 0.5 mm). The
@@ -13,7 +13,7 @@
 //!    pair off and stay whole.
 //! 5. Chains between junctions are the vessels, in the order and direction of their lines.
 //!
-//! Only step 3 moves points by more than the weld distance; a tree that meets at shared points stays
+//! Only step 3 moves points by more than the distance of step 1. A tree that meets at shared points stays
 //! unchanged.
 
 mod follow;
@@ -25,7 +25,7 @@ mod weld;
 use crate::centerlines::{Centerlines, Line};
 use ids::{Id, MOST_POINTS};
 
-/// More lines skip step 3, which compares all pairs.
+/// If there are more lines, step 3 is skipped, because it compares all pairs.
 const MOST_LINES_TO_FOLLOW: usize = 1024;
 
 struct Path {
@@ -45,9 +45,9 @@ impl Path {
     }
 }
 
-/// Vessels formed by the lines (mm), with end points equal to the bit, and a note of any change. Lines that
-/// the file declares as vessels stay unchanged. A vessel takes the name of its first line, so names may
-/// repeat.
+/// Vessels that the lines (mm) form, with bit-identical end points where they meet, and a note of each
+/// change. Lines that the file marks as vessels stay unchanged. A vessel has the name of its first line, so
+/// names may repeat.
 #[must_use]
 pub fn vessels(centerlines: Centerlines) -> Centerlines {
     if centerlines.joined {

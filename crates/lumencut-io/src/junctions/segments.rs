@@ -1,4 +1,4 @@
-//! Joins clouds of segments, in any order and direction, to chains.
+//! Joins single segments, in any order and direction, to chains.
 
 use std::collections::{HashSet, VecDeque};
 
@@ -7,10 +7,10 @@ use glam::DVec3;
 use super::Path;
 use super::ids::{Id, Incidence, id};
 
-/// If most paths are single segments, joins them where exactly two meet.
+/// If most paths are single segments, joins segments at each place at which exactly two meet.
 ///
-/// Chains keep the direction of their segments if those agree. Otherwise they run away from the open end with
-/// the largest radius, or the highest.
+/// Chains keep the direction of their segments if all agree. Otherwise they run away from the open end that
+/// has the largest radius, or is highest.
 pub(super) fn join(points: &[DVec3], mut paths: Vec<Path>, notes: &mut Vec<String>) -> Vec<Path> {
     let is_segment = |path: &Path| path.nodes.len() == 2;
     let count = paths.iter().filter(|path| is_segment(path)).count();
@@ -35,9 +35,9 @@ pub(super) fn join(points: &[DVec3], mut paths: Vec<Path>, notes: &mut Vec<Strin
 struct Cloud {
     segments: Vec<Path>,
     at: Incidence,
-    /// Whether chains pass through each place.
+    /// Whether a chain may continue through each place.
     open: Vec<bool>,
-    /// Whether the segments agree in direction.
+    /// Whether the directions of the segments agree.
     directed: bool,
 }
 
@@ -84,7 +84,7 @@ impl Cloud {
         out
     }
 
-    /// Start of the chain through `first`; in a loop, `first`.
+    /// The start of the chain that contains `first`; in a loop it is `first`.
     fn beginning(&self, first: Id) -> (Id, Id) {
         let start = self.segments[first as usize].nodes[0];
         let (mut node, mut segment) = (start, first);
@@ -144,7 +144,7 @@ impl<'a> Orientation<'a> {
         Self { points, chains: chains.into_iter().map(Some).collect(), ends }
     }
 
-    /// Likelihood of being a root: open, wide, high.
+    /// Rank of a place as a root: open ends first, then wide, then high ones.
     fn rank(&self, node: Id) -> [f64; 5] {
         let chains = self.ends.at(node as usize);
         let radius = chains.iter().filter_map(|i| self.chains[*i as usize].as_ref()).filter_map(|chain| {

@@ -1,4 +1,4 @@
-//! Merges equal points of lines.
+//! Merges points of lines that are equal or nearly so.
 
 use glam::DVec3;
 
@@ -6,9 +6,9 @@ use super::Path;
 use super::ids::{Id, Table, make_room};
 use crate::centerlines::Line;
 
-/// Weld distance as a share of the median spacing.
+/// Distance up to which points are merged, as a share of the median spacing.
 const PART_OF_SPACING: f64 = 1e-3;
-/// Minimum spacing relative to the largest coordinate, which keeps grid cells countable.
+/// Minimum spacing relative to the largest coordinate, so that the cells of the grid can be counted.
 const PART_OF_COORDINATE: f64 = 1e-9;
 
 pub(super) fn resolves(lines: &[Line], spacing: f64) -> bool {
@@ -16,8 +16,8 @@ pub(super) fn resolves(lines: &[Line], spacing: f64) -> bool {
     spacing > largest * PART_OF_COORDINATE
 }
 
-/// Distinct places (with the coordinates of their first point), and the lines as paths. The spacing must pass
-/// [`resolves`].
+/// The distinct points (each with the coordinates of its first occurrence), and the lines as paths of them.
+/// The spacing must satisfy [`resolves`].
 pub(super) fn weld(lines: Vec<Line>, spacing: f64) -> (Vec<DVec3>, Vec<Path>) {
     let distance = spacing * PART_OF_SPACING;
     let count = lines.iter().map(|line| line.points.len()).sum();
@@ -26,7 +26,7 @@ pub(super) fn weld(lines: Vec<Line>, spacing: f64) -> (Vec<DVec3>, Vec<Path>) {
     (grid.points, paths)
 }
 
-/// None if all points are one place.
+/// The line as a path; None if all its points were merged.
 fn path(line: Line, grid: &mut Grid) -> Option<Path> {
     let nodes = line.points.iter().map(|p| grid.place(*p)).collect();
     let mut path = Path { nodes, radius: line.radius, group: line.group, name: line.name };
@@ -34,7 +34,7 @@ fn path(line: Line, grid: &mut Grid) -> Option<Path> {
     (path.nodes.len() >= 2).then_some(path)
 }
 
-/// Cells as wide as the weld distance, which hold only a few points.
+/// A grid whose cells are as wide as the merging distance, so each holds only a few points.
 struct Grid {
     distance: f64,
     left: usize,

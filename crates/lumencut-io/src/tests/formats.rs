@@ -1,4 +1,4 @@
-//! Tests: every encoding of every format gives the same lines, notes and errors.
+//! Tests that every encoding of every format gives the same lines, notes and errors.
 
 use glam::DVec3;
 

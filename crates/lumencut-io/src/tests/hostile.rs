@@ -1,4 +1,4 @@
-//! Tests: foreign content, and content that is expensive to read.
+//! Tests with content of other formats, and with content that is expensive to read.
 
 use crate::{junctions, read};
 

@@ -1,11 +1,11 @@
-//! Tests: lines that repeat a trunk become vessels that share end points.
+//! Tests that lines which repeat a trunk become vessels that share end points.
 
 use glam::DVec3;
 
 use crate::junctions::vessels;
 use crate::{Centerlines, Line};
 
-/// Points every 1 mm, including both ends.
+/// A line with points every 1 mm, including both ends.
 fn straight(from: [f64; 3], to: [f64; 3]) -> Vec<DVec3> {
     let (from, to) = (DVec3::from(from), DVec3::from(to));
     let count = from.distance(to).ceil();
@@ -174,7 +174,7 @@ fn lines_that_meet_end_to_end_stay_two_unless_a_group_splitter_cut_them() {
     assert_eq!(joined[0].radius.as_ref().unwrap().len(), 31);
 }
 
-/// The second line of the Y, with its trunk resampled `aside` mm to the side.
+/// The second line of the Y, resampled, with its trunk `aside` mm to the side.
 fn resampled(aside: f64) -> Line {
     let mut b = y()[1].clone();
     for p in &mut b.points {

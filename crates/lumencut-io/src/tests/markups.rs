@@ -1,4 +1,4 @@
-//! Tests: 3D Slicer markups.
+//! Tests of 3D Slicer markups.
 
 use glam::DVec3;
 

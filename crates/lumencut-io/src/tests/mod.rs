@@ -1,4 +1,4 @@
-//! Tests on generated files in every encoding, and on the shared samples if present.
+//! Tests on generated files in every encoding, and on samples from other programs if present.
 
 mod formats;
 mod hostile;

@@ -1,4 +1,4 @@
-//! Tests: SimVascular, SWC, ITK tubes, fiducials, Rotterdam references and NumPy arrays.
+//! Tests of SimVascular, SWC, ITK tubes, fiducials, Rotterdam references and NumPy arrays.
 
 use glam::DVec3;
 

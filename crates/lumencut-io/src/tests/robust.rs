@@ -1,4 +1,4 @@
-//! Tests: damaged files give an error or sound lines.
+//! Tests that damaged files give an error or valid lines.
 
 use glam::DVec3;
 
@@ -24,11 +24,11 @@ fn a_file_cut_anywhere_is_an_error_or_gives_all_its_lines() {
             if !read_and_check(&bytes[..length], name) {
                 continue;
             }
-            // Text rows may end anywhere.
+            // Tables may end after any row.
             if text.contains(&name) {
                 continue;
             }
-            // A legacy file may end between sections unnoticed; the end of appended data is optional.
+            // A legacy file may end between sections unnoticed; the closing tag of appended data is optional.
             let lines = read(&bytes[..length], name).unwrap().lines;
             let appended = bytes.windows(13).any(|w| w == b"<AppendedData") && bytes.len() - length < 64;
             assert!(name == "a.vtk" || appended, "{name} cut at {length} of {}", bytes.len());
@@ -43,7 +43,7 @@ fn a_file_cut_anywhere_is_an_error_or_gives_all_its_lines() {
     }
 }
 
-/// Seeded generator (xorshift), so that failures repeat.
+/// Random numbers from a seed (xorshift), so that failures can be repeated.
 pub struct Random(pub u64);
 
 impl Random {
@@ -73,7 +73,7 @@ const NASTY: [&[u8]; 12] = [
 #[test]
 fn mutated_files_never_panic() {
     let mut files = sample::files();
-    // In proportion to the variants of `.vtp`.
+    // As many other files as there are variants of `.vtp`.
     let others: Vec<_> =
         sample::other_files().into_iter().map(|(content, name, _)| (content, name)).collect();
     files.extend(others.iter().cycle().take(64).cloned());
@@ -97,7 +97,7 @@ fn mutated_files_never_panic() {
     assert!((1..20_000).contains(&read_whole), "{read_whole} of the mutated files were read");
 }
 
-/// Every point is near every segment: comparing all would be quadratic.
+/// If every point is near every segment, comparing all of them would take quadratic time.
 #[test]
 fn radii_as_wide_as_the_tree_end_in_time() {
     const COUNT: usize = 30_000;
@@ -111,7 +111,7 @@ fn radii_as_wide_as_the_tree_end_in_time() {
     assert_eq!(found.lines.len(), 2);
 }
 
-/// Lines that weld to a single place stay lines.
+/// Lines whose points would all be merged stay lines.
 #[test]
 fn lines_shorter_than_the_weld_distance_stay() {
     for (at, step) in [(0.0, 1e-310), (1e6, 1e-7), (1e-200, 1e-205)] {

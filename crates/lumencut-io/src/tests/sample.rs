@@ -1,11 +1,11 @@
-//! Test data: a small Y of two lines in every encoding of every format.
+//! Test data: a small Y of two lines, in every encoding of every format.
 
 use glam::DVec3;
 
 use crate::compression::Compressor;
 use crate::data_array::ByteOrder;
 
-/// Two lines that share their first two points; eighths are exact in all number types and in text.
+/// Two lines that share two points. Multiples of 1/8 are exact in all number types and in text.
 pub const POINTS: [[f64; 3]; 7] = [
     [-1.5, 2.25, 0.0],
     [-1.5, 2.25, 4.0],
@@ -31,7 +31,7 @@ pub struct Style {
     pub compressor: Option<Compressor>,
     pub order: ByteOrder,
     pub wide_header: bool,
-    /// Float64 and Int64 instead of Float32 and Int32.
+    /// Whether numbers are Float64 and Int64 instead of Float32 and Int32.
     pub wide: bool,
 }
 
@@ -100,7 +100,7 @@ pub fn pack(compressor: Compressor, block: &[u8]) -> Vec<u8> {
     }
 }
 
-/// Header and data of an array, in blocks of 32 bytes if compressed.
+/// Header and data of an array; compressed data has blocks of 32 bytes.
 fn blocks(style: Style, content: &[u8]) -> (Vec<u8>, Vec<u8>) {
     let word = |n: usize| match style.wide_header {
         true => ordered(&(n as u64).to_le_bytes(), style.order),
@@ -113,7 +113,7 @@ fn blocks(style: Style, content: &[u8]) -> (Vec<u8>, Vec<u8>) {
     (header, packed.concat())
 }
 
-/// Arrays by section, name, integer or not, components, and values.
+/// Arrays: section, name, whether integer, number of components, and values.
 type Arrays = Vec<(&'static str, &'static str, bool, usize, Vec<f64>)>;
 
 fn arrays() -> Arrays {
@@ -190,7 +190,7 @@ pub fn vtp(style: Style) -> Vec<u8> {
     out
 }
 
-/// `offsets` is the form of version 5.
+/// A `.vtk` file; `offsets` selects the form of version 5.
 pub fn vtk(binary: bool, offsets: bool) -> Vec<u8> {
     let version = if offsets { "5.1" } else { "3.0" };
     let encoding = if binary { "BINARY" } else { "ASCII" };
@@ -252,7 +252,7 @@ pub fn mrk_json(space: &str, unit: &str, per_mm: f64) -> Vec<u8> {
     format!("{{\"markups\": [{}, {}]}}", curve(0, ENDS[0]), curve(ENDS[0], ENDS[1])).into_bytes()
 }
 
-/// Two root elements, one path per line.
+/// A `.pth` file with two root elements and one path per line.
 pub fn pth() -> Vec<u8> {
     let mut out = "<?xml version=\"1.0\" encoding=\"UTF-8\" ?>\n<format version=\"1.0\"/>\n".to_owned();
     for i in 0..2 {
@@ -279,7 +279,7 @@ fn rows(i: usize) -> Vec<[f64; 4]> {
     line(i).iter().zip(&RADIUS[begin..]).map(|(p, r)| [p.x, p.y, p.z, *r]).collect()
 }
 
-/// Line 0, or other rows, as a NumPy array.
+/// These rows as a NumPy array.
 pub fn npy(rows: &[[f64; 4]], columns: usize, kind: &str, fortran: bool, version: u8) -> Vec<u8> {
     let order = if kind.starts_with('>') { ByteOrder::Big } else { ByteOrder::Little };
     let header = format!(
@@ -302,7 +302,7 @@ pub fn npy(rows: &[[f64; 4]], columns: usize, kind: &str, fortran: bool, version
     out
 }
 
-/// The sample, or its first line, in each format, with file and format names.
+/// The sample, or its first line, in each format, with the names of file and format.
 pub fn other_files() -> Vec<(Vec<u8>, &'static str, &'static str)> {
     let row =
         |separator: &str, [x, y, z, r]: [f64; 4]| format!("{x}{separator}{y}{separator}{z}{separator}{r}\n");
@@ -343,7 +343,7 @@ pub fn other_files() -> Vec<(Vec<u8>, &'static str, &'static str)> {
     ]
 }
 
-/// One small file of each kind, with its name.
+/// One small file of each kind, with its file name.
 pub fn files() -> Vec<(Vec<u8>, &'static str)> {
     let mut out: Vec<_> = styles().into_iter().map(|style| (vtp(style), "a.vtp")).collect();
     for binary in [false, true] {

@@ -1,4 +1,4 @@
-//! Tests: clouds of single segments give the vessels of their polylines.
+//! Tests that single segments in any order give the vessels of their polylines.
 
 use glam::DVec3;
 
@@ -6,7 +6,7 @@ use super::robust::Random;
 use crate::junctions::vessels;
 use crate::{Centerlines, Line};
 
-/// A line of `count` steps whose radius falls from `radius[0]`.
+/// A line of `count` steps whose radius changes evenly from `radius[0]` to `radius[1]`.
 fn polyline(from: DVec3, to: DVec3, count: usize, radius: [f64; 2]) -> Line {
     let part = |i: usize| i as f64 / count as f64;
     let sway = |i: usize| DVec3::new((part(i) * std::f64::consts::PI).sin() * 3.0, 0.0, 0.0);

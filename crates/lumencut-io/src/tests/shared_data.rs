@@ -1,4 +1,4 @@
-//! Tests on samples of other programs, if the data folder exists.
+//! Tests on samples from other programs, if the data folder exists.
 
 use std::path::PathBuf;
 
@@ -84,7 +84,7 @@ fn all_poly_data_variants_are_equal() {
     }
 }
 
-/// Largest distance from points of `lines` to those of `others`, and the difference of radii there.
+/// Largest distance from points of `lines` to the nearest of `others`, and the radius difference there.
 fn farthest(lines: &[Line], others: &[Line]) -> [f64; 2] {
     let all: Vec<_> =
         others.iter().flat_map(|line| line.points.iter().zip(line.radius.as_deref().unwrap())).collect();

@@ -1,4 +1,4 @@
-//! Tests: separators, headers, units and lines of tables; ambiguous ones are rejected.
+//! Tests of separators, headers, units and lines of tables, and that ambiguous tables are rejected.
 
 use glam::DVec3;
 
@@ -189,7 +189,7 @@ fn the_first_row_of_a_spreadsheet_may_name_its_separator() {
     }
 }
 
-/// Header of 3D Slicer's table of control points.
+/// Header of the table of control points that 3D Slicer writes.
 const SLICER: &str = "label,r,a,s,defined,selected,visible,locked,description";
 
 #[test]
@@ -274,7 +274,7 @@ fn quoted_fields_hold_separators_quotes_and_line_ends() {
         let z: Vec<f64> = read.lines[0].points.iter().map(|p| p.z).collect();
         assert_eq!(z, [1.5, 2.5, 3.5], "{description:?}");
     }
-    // Inch marks within a field do not start a quotation.
+    // An inch mark within a field does not start a quotation.
     assert_eq!(ok("name,x,y,z\n5\" wire,1,2,3\n5\" wire,1,2,4\n").lines[0].points.len(), 2);
     let open = message("x,y,z,name\n1,2,3,\"a\n1,2,4,b\n");
     assert!(open.contains("line 2: found an unclosed quotation mark"), "{open}");

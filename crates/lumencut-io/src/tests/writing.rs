@@ -1,4 +1,4 @@
-//! Tests: written files are read back to the bit.
+//! Tests that written files are read back bit-identically.
 
 use glam::DVec3;
 
@@ -28,7 +28,7 @@ fn assert_round_trip(lines: &[Line]) {
     }
 }
 
-/// Legacy VTK keeps everything but names.
+/// Legacy VTK files keep everything except names.
 #[test]
 fn legacy_vtk_comes_back_but_for_names() {
     let mut random = Random(0x5851_f42d_4c95_7f2d);
@@ -67,7 +67,7 @@ fn a_fork_comes_back_from_tables_and_nodes() {
     assert_eq!((table.space, table.unit), (Some(Space::Lps), Some(Unit::Millimetre)));
 }
 
-/// Branches before their trunk, and vessels in a loop: every node follows its parent.
+/// Branches in front of their trunk, and vessels in a loop: every node still comes after its parent.
 #[test]
 fn nodes_follow_their_parents() {
     let mut lines = fork(Some(2.0));
@@ -105,7 +105,7 @@ fn names_stand_in_tables_and_in_legacy_vtk() {
     assert!(error.contains("name of line 0: found a line break"), "{error}");
 }
 
-/// Extreme numbers, and some that decimals cannot represent exactly.
+/// Extreme numbers, and some that are not exact as decimals.
 const EXTREMES: [f64; 10] = [0.0, -0.0, 1e-300, 5e-324, -1e6, 1e6, 0.1, 1.0 / 3.0, -2.225e-308, 1e-5];
 
 fn number(random: &mut Random) -> f64 {
@@ -119,7 +119,7 @@ fn number(random: &mut Random) -> f64 {
 const NAMES: [&str; 8] =
     ["", "LAD", "a \"quoted\" <b> & c", "línea 静脈 🩸", "two\nlines\r\n\ttab", " ", "]]>", "\\u0041"];
 
-/// A tree whose vessels mostly start on others, run along them, or cross.
+/// A tree in which most vessels start on others, run along them, or cross them.
 fn tree(random: &mut Random) -> Vec<Line> {
     let mut out: Vec<Line> = Vec::new();
     for _ in 0..=random.below(6) {
@@ -169,7 +169,7 @@ fn vessels_of_a_file_come_back_to_the_bit() {
     assert!(forks > 5, "{forks} files of a tree that forks");
 }
 
-/// A foreign file has its lines joined; the same file written here does not.
+/// The lines of a file from elsewhere are joined; the lines of the same file written here are not.
 #[test]
 fn the_mark_of_vessels_keeps_lines_apart() {
     let lines: Vec<Line> =

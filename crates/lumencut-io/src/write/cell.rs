@@ -1,12 +1,12 @@
-//! Table cells that spreadsheets show but do not execute.
+//! Cells of tables, written so that spreadsheets show but do not execute them.
 
 use std::borrow::Cow;
 
-/// Characters that start a formula.
+/// Characters with which a formula starts.
 const FORMULA: [char; 6] = ['=', '+', '-', '@', '\t', '\r'];
 
-/// The text of a cell. A formula-like cell that is no number gets an apostrophe, as does one with apostrophes
-/// before such a sign, so that reading restores each text.
+/// The text of a cell. If it looks like a formula and is no number, an apostrophe is put in front. A text
+/// with apostrophes in front of such a sign gets one more, so that reading restores each text.
 pub fn marked_cell(text: &str) -> Cow<'_, str> {
     if text.trim_start_matches('\'').starts_with(FORMULA) && !is_number(text) {
         return Cow::Owned(format!("'{text}"));

@@ -1,7 +1,7 @@
-//! Writers of vessels. `.vtp` and `.mrk.json` are read back to the bit; `.vtk` keeps all but names, `.csv`
-//! and `.swc` what their format can hold.
+//! Writers of vessels. `.vtp` and `.mrk.json` are read back bit-identically; `.vtk` keeps everything except
+//! names, `.csv` and `.swc` keep what their format can hold.
 //!
-//! Numbers are the shortest decimals that restore them. The first three formats carry the mark
+//! Numbers are written as the shortest decimals that restore them. The first three formats carry the mark
 //! `LumencutVessels`, so that this crate does not join their lines again. Groups are not written.
 
 mod cell;
@@ -22,10 +22,10 @@ use crate::centerlines::{Limit, Line, check};
 use crate::error::{Error, Result};
 use crate::unit::Unit;
 
-/// Name of the confidence array, column or measurement.
+/// Name of the array, column or measurement that holds confidences.
 const CONFIDENCE: &str = "Confidence";
 
-/// Confidence of all points; empty if no vessel was traced, 1 for untraced vessels.
+/// Confidence of all points, which is 1 for vessels that were not traced. None if no vessel was traced.
 fn confidences(vessels: &[Line]) -> Option<Vec<f64>> {
     vessels.iter().any(|vessel| vessel.confidence.is_some()).then(|| {
         let of = |vessel: &Line| vessel.confidence.clone().unwrap_or_else(|| vec![1.0; vessel.points.len()]);

@@ -1,4 +1,4 @@
-//! Writes 3D Slicer markups (`.mrk.json`), one Curve per vessel.
+//! Writes markups of 3D Slicer (`.mrk.json`), with one Curve per vessel.
 
 use serde_json::Value;
 
@@ -6,17 +6,17 @@ use super::{CONFIDENCE, check_all};
 use crate::centerlines::{JOINED_MARK, Line};
 use crate::error::Result;
 
-/// Schema stated by 3D Slicer.
+/// Address of the schema, as 3D Slicer states it.
 const SCHEMA: &str = "https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/Resources/Schema/markups-schema-v1.0.3.json#";
 
-/// Writes a `.mrk.json` of vessels (mm, LPS), with radii as the measurement `Radius`. Fails without a valid
-/// vessel.
+/// Writes a `.mrk.json` of vessels (mm, LPS); the measurement `Radius` holds radii. Fails if no vessel is
+/// valid.
 pub fn write_mrk_json(vessels: &[Line]) -> Result<Vec<u8>> {
     check_all(vessels)?;
     Ok(markups(vessels, "").into_bytes())
 }
 
-/// `beside` has additional fields, each with a trailing comma, which 3D Slicer ignores.
+/// `beside` are additional fields, each followed by a comma. 3D Slicer ignores them.
 pub(crate) fn markups(vessels: &[Line], beside: &str) -> String {
     let curves: Vec<String> = vessels.iter().map(curve).collect();
     let head = format!("\"@schema\": \"{SCHEMA}\",\n\"{JOINED_MARK}\": true");

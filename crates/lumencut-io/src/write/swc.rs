@@ -1,4 +1,4 @@
-//! Writes SWC trees: a node per point, after its parent.
+//! Writes SWC trees, with one node per point; each node comes after its parent.
 
 use std::collections::{HashMap, HashSet};
 
@@ -10,11 +10,11 @@ use crate::error::Result;
 
 type Place = [u64; 3];
 
-/// Writes a `.swc` of vessels (mm, LPS; the format cannot state this).
+/// Writes a `.swc` of vessels. Coordinates are in mm and LPS, which the format cannot state.
 ///
-/// A vessel that starts on another continues from its node, with that node's radius. One that ends on another
-/// gets its own node there, because a node has one parent. Names and vessel boundaries are lost, and unknown
-/// radii are 0. Fails without a valid vessel.
+/// A vessel that starts on another one continues from its node there, with the radius of that node. A vessel
+/// that ends on another one gets a node of its own there, because a node has only one parent. Names and the
+/// ends of vessels are lost, and unknown radii are 0. Fails if no vessel is valid.
 pub fn write_swc(vessels: &[Line]) -> Result<Vec<u8>> {
     check_all(vessels)?;
     let mut out = String::from("# vessels in mm, LPS\n# id type x y z radius parent\n");
@@ -36,12 +36,12 @@ pub fn write_swc(vessels: &[Line]) -> Result<Vec<u8>> {
     Ok(out.into_bytes())
 }
 
-/// Coordinate bits; zeros of either sign are equal.
+/// Bits of the coordinates; 0 and -0 are equal.
 fn place(point: DVec3) -> Place {
     (point + DVec3::ZERO).to_array().map(f64::to_bits)
 }
 
-/// Vessels, each after one that contains its first point; loops start anywhere.
+/// Order of the vessels in which each comes after one that contains its first point. Loops start anywhere.
 fn parents_first(vessels: &[Line]) -> Vec<usize> {
     let mut starting: HashMap<Place, Vec<usize>> = HashMap::new();
     for (index, vessel) in vessels.iter().enumerate() {
@@ -61,7 +61,7 @@ fn parents_first(vessels: &[Line]) -> Vec<usize> {
             }
             out.push(index);
             for point in vessels[index].points.iter().rev() {
-                // Each place releases its vessels once.
+                // The vessels that start at a place are added once.
                 waiting.extend(starting.remove(&place(*point)).unwrap_or_default().into_iter().rev());
             }
         }

@@ -5,11 +5,11 @@ use crate::centerlines::{JOINED_MARK, Line};
 use crate::error::Result;
 use crate::poly_data::{HAS_RADIUS, NAMES, RADIUS_NAMES};
 
-/// Writes a `.vtk` of vessels (mm, LPS); shared end points are repeated.
+/// Writes a `.vtk` of vessels (mm, LPS). End points that vessels share are repeated.
 ///
-/// Radii are the point array `MaximumInscribedSphereRadius`; if only some vessels have radii, others are 0
-/// and the cell array `HasRadius` marks them. Names are the cell array `Name`, which VTK reads and this crate
-/// does not. Everything else is read back to the bit. Fails without a valid vessel.
+/// The point array `MaximumInscribedSphereRadius` holds radii. If only some vessels have radii, those of
+/// others are 0, and the cell array `HasRadius` marks them. The cell array `Name` holds names, which VTK
+/// reads and this crate does not. Everything else is read back bit-identically. Fails if no vessel is valid.
 pub fn write_vtk(vessels: &[Line]) -> Result<Vec<u8>> {
     check_all(vessels)?;
     let points: usize = vessels.iter().map(|vessel| vessel.points.len()).sum();

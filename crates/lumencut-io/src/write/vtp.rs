@@ -5,11 +5,11 @@ use crate::centerlines::{JOINED_MARK, Line};
 use crate::error::{Error, Result};
 use crate::poly_data::{HAS_NAME, HAS_RADIUS, NAMES, RADIUS_NAMES};
 
-/// Writes a `.vtp` of vessels (mm, LPS); shared end points are repeated.
+/// Writes a `.vtp` of vessels (mm, LPS). End points that vessels share are repeated.
 ///
-/// Radii are the point array `MaximumInscribedSphereRadius`, names the cell array `Name`, confidences the
-/// point array `Confidence`. If only some vessels have radii or names, `HasRadius` and `HasName` mark them.
-/// Fails without a valid vessel, or for a name with a null character, which ends VTK text.
+/// The point array `MaximumInscribedSphereRadius` holds radii, the cell array `Name` names, and the point
+/// array `Confidence` confidences. If only some vessels have radii or names, `HasRadius` and `HasName` mark
+/// those. Fails if no vessel is valid, or if a name has a null character, which ends text in VTK.
 pub fn write_vtp(vessels: &[Line]) -> Result<Vec<u8>> {
     check_all(vessels)?;
     let with_null = |vessel: &Line| vessel.name.as_ref().is_some_and(|name| name.contains('\0'));
@@ -42,7 +42,7 @@ fn element(tag: &str, kind: &str, name: &str, more: &str, rows: impl IntoIterato
     format!("<{tag} type=\"{kind}\" Name=\"{name}\"{more} format=\"ascii\">\n{rows}\n</{tag}>\n")
 }
 
-/// Byte codes and a final zero.
+/// The codes of the bytes, and a zero at the end.
 fn text(text: &str) -> String {
     text.bytes().map(|byte| format!("{byte} ")).collect::<String>() + "0"
 }

@@ -1,4 +1,4 @@
-//! Peak memory of reading large files of the usual shape: at most ten file sizes in all formats.
+//! Tests that reading usual large files takes at most ten file sizes of memory, in all formats.
 #![allow(unsafe_code, clippy::unwrap_used)]
 
 #[path = "../../fuzz/src/memory.rs"]
@@ -15,7 +15,7 @@ const BRANCHES: usize = 20;
 
 type Row = [f64; 4];
 
-/// Branches of a tree, each from a point of the previous one, with realistic digits.
+/// Branches of a tree, each from a point of the one before it, with realistic numbers of digits.
 fn branches(points: usize) -> Vec<Vec<Row>> {
     let mut random = 0x2545_f491_4f6c_dd1d_u64;
     let mut noise = || {

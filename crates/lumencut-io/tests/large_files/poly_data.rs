@@ -75,7 +75,7 @@ pub fn vtk(tree: &[Vec<Row>], binary: bool) -> Vec<u8> {
     out
 }
 
-/// Every segment as a separate line.
+/// The tree with every segment as a separate line.
 pub fn segments(tree: &[Vec<Row>]) -> Vec<u8> {
     let rows: Vec<&Row> = tree.iter().flatten().collect();
     let mut out =

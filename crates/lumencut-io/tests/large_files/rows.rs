@@ -1,4 +1,4 @@
-//! Test data: a tree in row-based formats.
+//! Test data: a tree in the formats that have one row per point.
 
 use std::fmt::Write as _;
 use std::io::Write as _;

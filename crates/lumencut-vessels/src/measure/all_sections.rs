@@ -1,4 +1,4 @@
-//! What the separately fitted sections of a vessel say about all of its sections.
+//! Prior knowledge for all sections of a vessel, from the sections that were fitted separately.
 
 use super::ellipse::Ellipse;
 use super::fit::Fit;
@@ -12,14 +12,14 @@ pub(crate) struct AllSections {
     /// Noise of a voxel, as a share of the contrast.
     pub noise: f64,
     pub lumen: Vec<Level>,
-    /// None where walls cannot be separated from the surroundings.
+    /// None if walls cannot be separated from the surroundings.
     pub walls: Option<Vec<KnownWall>>,
     pub texture: Texture,
 }
 
 impl AllSections {
-    /// Prior knowledge of section `n`, when every `every`-th section was fitted, and its second solution
-    /// ([`Fit::other`]). Interpolates the lumen between the fitted sections; without them it uses `estimate`.
+    /// Prior knowledge of section `n` and its second solution ([`Fit::other`]), if every `every`-th section
+    /// was fitted. The lumen is interpolated between fitted sections; if there are none, `estimate` gives it.
     pub(crate) fn known(
         &self,
         n: usize,

@@ -1,18 +1,18 @@
 //! Corrects areas for the blur along the vessel.
 //!
-//! Where the width changes, blur mixes a section with its neighbours. To first order, the measured area is
-//! the true area plus half of the blur variance times the second derivative of the area.
+//! If the width of a vessel changes, blur mixes a section with its neighbours. To first order, the measured
+//! area is the true area plus half of the blur variance times the second derivative of the area.
 
 use super::sections::Section;
 use lumencut_core::math::same_place::REPEATED_POINT;
 
-/// Distance (mm) and minimum number of sections for the parabola that gives the second derivative.
+/// Half-length (mm) of the parabola that gives the second derivative; its minimum number of sections.
 const PARABOLA: (f64, usize) = (2.0, 5);
 
 /// Maximum relative correction of an area, because the formula is of first order only.
 const MAX_CORRECTION: f64 = 0.25;
 
-/// Corrects sections at arc lengths `at` (mm) for blur variances along the vessel (mm²).
+/// Corrects sections at arc lengths `at` (mm), given the blur variance along the vessel at each (mm²).
 pub(crate) fn sharpen(sections: &mut [Section], at: &[f64], variance: &[f64]) {
     let areas: Vec<f64> =
         sections.iter().map(|section| section.fit.map_or(f64::NAN, |fit| fit.ellipse.area())).collect();
@@ -23,12 +23,12 @@ pub(crate) fn sharpen(sections: &mut [Section], at: &[f64], variance: &[f64]) {
     }
 }
 
-/// Second derivative of the areas at section `n`; None if too few sections are known, or only on one side.
+/// Second derivative of the areas at section `n`; None if too few sections with an area lie on a side.
 fn second_derivative(at: &[f64], areas: &[f64], n: usize) -> Option<f64> {
     let (reach, least) = PARABOLA;
     let first = at.partition_point(|there| *there < at[n] - reach - REPEATED_POINT);
     let last = at.partition_point(|there| *there <= at[n] + reach + REPEATED_POINT);
-    // Symmetric, so that a slope does not enter.
+    // The window is symmetric, so that a slope of the areas does not change the result.
     let side = (n - first).min(last - 1 - n);
     let around = n - side..=n + side;
     if 2 * side + 1 < least || around.clone().any(|m| areas[m].is_nan()) {

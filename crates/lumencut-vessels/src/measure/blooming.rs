@@ -1,4 +1,4 @@
-//! Bounds of a diameter next to calcium or metal, which look larger than they are and hide the edge.
+//! Bounds of a diameter next to calcium or metal, which look larger than they are and hide the wall.
 
 use std::f64::consts::TAU;
 
@@ -6,17 +6,17 @@ use super::flags::{CALCIUM, METAL};
 use super::obstacles::is_bright;
 use super::rays::{RAYS, Ray};
 
-/// Maximum distance (mm) between rings of one stent.
+/// Maximum distance (mm) between two rings of one stent.
 const RINGS: f64 = 6.0;
 
-/// Maximum distance (mm) if all sections in between are bright: struts blurred into arcs look like calcium,
-/// but calcium does not start and end with metal.
+/// Maximum distance (mm) between two rings if all sections in between are bright. Struts blurred into arcs
+/// look like calcium, but calcium does not start and end with metal.
 const BRIGHT_BETWEEN: f64 = 40.0;
 
-/// Smallest and largest diameter as factors of the measured one: without, and with, everything at the wall
-/// that is brighter than lumen. `wall` is the measured radius (mm) per ray.
+/// Smallest and largest diameter, as factors of the measured one: all bright material at the wall is excluded
+/// from the lumen, or included. `wall` gives the measured radius (mm) of each ray.
 pub(crate) fn bounds(rays: &[Ray], wall: impl Fn(usize) -> f64, width: f64) -> [f64; 2] {
-    // Bright material behind the edge does not hide it.
+    // Bright material behind the edge of the lumen does not hide it.
     let hides = |n: usize| rays[n].edge.is_none() && is_bright(&rays[n], wall(n), width);
     let measured: Vec<f64> = (0..RAYS).map(&wall).collect();
     let bound = |n: usize, other: f64| if hides(n) { other } else { measured[n] };
@@ -31,7 +31,7 @@ fn area(radii: &[f64]) -> f64 {
     (0..RAYS).map(|n| triangle * radii[n] * radii[(n + 1) % RAYS]).sum()
 }
 
-/// Marks the sections between rings of a stent as metal instead of calcium.
+/// Flags the sections between rings of a stent as metal instead of calcium.
 pub(crate) fn join_rings(at: &[f64], flags: &mut [u32]) {
     let rings: Vec<usize> = (0..at.len()).filter(|n| flags[*n] & METAL != 0).collect();
     for two in rings.windows(2) {

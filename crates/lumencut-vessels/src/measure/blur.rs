@@ -6,10 +6,10 @@ use glam::{DMat2, DMat3, DVec3};
 
 use super::section_plane::SectionPlane;
 
-/// Variance of averaging over a voxel, in squared sides.
+/// Variance caused by averaging over a voxel, in squared voxel sides.
 const AVERAGING: f64 = 1.0 / 12.0;
 
-/// Variance added by linear interpolation, averaged over all positions between voxels, in squared sides.
+/// Variance caused by linear interpolation, averaged over positions between voxels, in squared sides.
 const INTERPOLATION: f64 = 1.0 / 6.0;
 
 /// Variance of a Gaussian with this full width at half maximum.
@@ -24,35 +24,35 @@ pub(crate) fn fwhm_of(variance: f64) -> f64 {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Blur {
     point_spread: f64,
-    /// Sum of the outer products of the voxel sides (mm²).
+    /// Sum of the outer products of the voxel sides with themselves (mm²).
     voxel: DMat3,
 }
 
 impl Blur {
-    /// `sides` has the voxel sides as columns.
+    /// The columns of `sides` are the voxel sides (mm).
     pub(crate) fn new(fwhm: f64, sides: DMat3) -> Self {
         Self { point_spread: variance_of(fwhm), voxel: sides * sides.transpose() }
     }
 
-    /// In-plane covariance of voxel values (mm²).
+    /// Covariance of the blur of voxel values within the plane (mm²).
     pub(crate) fn of_voxels(&self, place: &SectionPlane) -> DMat2 {
         self.in_plane(place, AVERAGING)
     }
 
-    /// In-plane covariance of interpolated values (mm²).
+    /// Covariance of the blur of interpolated values within the plane (mm²).
     pub(crate) fn interpolated(&self, place: &SectionPlane) -> DMat2 {
         self.in_plane(place, AVERAGING + INTERPOLATION)
     }
 
-    /// In-plane FWHM of voxel values, averaged over directions (mm).
+    /// FWHM of the blur of voxel values within the plane, averaged over directions (mm).
     pub(crate) fn width(&self, place: &SectionPlane) -> f64 {
         fwhm_of(self.of_voxels(place).determinant().sqrt())
     }
 
-    /// Variance along the vessel (mm²) of voxels weighted by distance to the plane, up to `thickness` mm.
+    /// Blur variance along the vessel (mm²) for voxels whose weight falls linearly to 0 at `thickness` mm.
     pub(crate) fn along(&self, place: &SectionPlane, thickness: f64) -> f64 {
         let voxel = place.normal.dot(self.voxel * place.normal) * AVERAGING;
-        // t²/6 is the variance of a triangular weight.
+        // t²/6 is the variance of weights that fall linearly from the plane to 0 at t.
         self.point_spread + voxel + thickness * thickness / 6.0
     }
 

@@ -1,22 +1,22 @@
-//! Finds sections inside the lumen of another vessel.
+//! Finds sections that meet the lumen of another vessel.
 
 use glam::DVec3;
 
 use super::section_plane::SectionPlane;
 use lumencut_core::vessel_tree::Vessel;
 
-/// Points this close (mm) are the same point.
+/// Points at most this far apart (mm) count as the same point.
 const SAME_PLACE: f64 = 1e-3;
 
 /// Sampling step along a line (mm).
 const STEP: f64 = 0.5;
 
-/// Whether a disc of `radius` mm meets the lumen of any other vessel.
+/// Whether a disc of `radius` mm around `center` meets the lumen of another vessel.
 pub(crate) fn meets(place: &SectionPlane, center: DVec3, radius: f64, others: &[Lumen]) -> bool {
     others.iter().any(|other| other.meets(place, center, radius))
 }
 
-/// Lumen of another vessel: balls along its line, and a bounding ball.
+/// Lumen of another vessel: balls along its centerline, and a ball that encloses them.
 #[derive(Clone, Debug)]
 pub(crate) struct Lumen {
     balls: Vec<(DVec3, f64)>,
@@ -24,7 +24,7 @@ pub(crate) struct Lumen {
 }
 
 impl Lumen {
-    /// Lumens of the vessels of `tree` that are not part of `measured`.
+    /// Lumens of all vessels of `tree` that are not part of `measured`.
     pub(crate) fn of_others(tree: &[Vessel], measured: &Vessel) -> Vec<Self> {
         tree.iter().filter(|vessel| !is_part(vessel, measured)).map(Self::new).collect()
     }

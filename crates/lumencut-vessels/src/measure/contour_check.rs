@@ -4,26 +4,26 @@ use super::rays::{RAYS, Rays, direction};
 use super::section_plane::SectionPlane;
 use glam::DVec2;
 
-/// Brighter than lumen by this share of its contrast means another lumen.
+/// Values above the lumen by this share of its contrast belong to another lumen.
 const BRIGHTER: f64 = 0.75;
 
-/// Maximum share of the enclosed area that may lack lumen values.
+/// Maximum share of the enclosed area whose values are not those of lumen.
 const MOST_OTHER: f64 = 0.12;
 
-/// Within this many blur widths of the contour, blur mixes lumen and surroundings.
+/// Up to this many blur widths inside the contour, blur mixes lumen and surroundings, so nothing is checked.
 const BLURRED_WIDTHS: f64 = 0.75;
 
-/// Every n-th ray is checked, at this many points.
+/// Every n-th ray is checked (first number), at this many points (second number).
 const CHECKED: (usize, usize) = (2, 6);
 
-/// Lowest and highest value (shares) of lumen, from its level and the level next to it.
+/// Lowest and highest value of lumen (shares of the contrast), from its level and that next to it.
 pub(crate) fn lumen_shares(lumen: f64, beside: f64) -> [f64; 2] {
     let contrast = lumen - beside;
     [beside + 0.5 * contrast, lumen + BRIGHTER * contrast]
 }
 
-/// Whether the contour at `walls` (mm from `center`, per ray) encloses lumen, under a blur of `width` mm. A
-/// contour too narrow to check counts as lumen.
+/// Whether the contour encloses lumen, for a blur of `width` mm. `walls` is its distance from `center` (mm)
+/// per ray. A contour too narrow to check counts as lumen.
 pub(crate) fn encloses_lumen(
     rays: &Rays,
     place: &SectionPlane,
@@ -44,7 +44,7 @@ pub(crate) fn encloses_lumen(
             // Each point represents an area that grows with its distance.
             let area = away * reach;
             all += area;
-            // NaN outside the volume fails both comparisons; a separate flag reports that.
+            // NaN, outside the volume, fails both comparisons; the flag OUTSIDE reports it.
             if value < darkest || value > brightest {
                 other += area;
             }

@@ -19,18 +19,18 @@ const MOST_PIXELS: f64 = 4096.0;
 /// A section as an image of square pixels, centred on the vessel.
 #[derive(Clone, Debug)]
 pub struct CrossSection {
-    /// The plane.
+    /// The plane of the section.
     pub place: SectionPlane,
-    /// Pixels along each side.
+    /// Number of pixels along each side.
     pub pixels: usize,
     /// Side of a pixel (mm).
     pub pixel_spacing: f64,
-    /// Values, row by row from the top; NaN outside the volume.
+    /// Value of each pixel, row by row from the top; NaN outside the volume.
     pub value: Vec<f32>,
 }
 
 impl CrossSection {
-    /// Samples a square of `size` mm. [`ErrorKind::Settings`] for an invalid size or pixel spacing.
+    /// Samples a square of `size` mm per side. [`ErrorKind::Settings`] for an invalid size or pixel spacing.
     pub fn new(volume: &Volume, place: SectionPlane, size: f64, pixel_spacing: f64) -> Result<Self> {
         SIDE.check("size of the cross-section", size)?;
         SIDE.check("pixel_spacing of the cross-section", pixel_spacing)?;
@@ -54,8 +54,8 @@ impl CrossSection {
     }
 }
 
-/// Plane of a section at an arc length (mm): with `profile` the plane of the nearest measured section,
-/// otherwise that of the centerline. [`ErrorKind::Measuring`] for a wrong arc length or profile;
+/// Plane of a section at an arc length (mm). With `profile`, it is the plane of the nearest measured section,
+/// otherwise the plane across the centerline. [`ErrorKind::Measuring`] for a wrong arc length or profile;
 /// [`ErrorKind::VesselTree`] for a vessel without length.
 pub fn section_place(vessel: &Vessel, at: f64, profile: Option<&Profile>) -> Result<SectionPlane> {
     let length = vessel.arc_length().last().copied().unwrap_or(0.0);

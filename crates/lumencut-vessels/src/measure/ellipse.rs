@@ -1,10 +1,10 @@
-//! An ellipse blurred by a Gaussian: the image of a lumen with a sharp wall.
+//! An ellipse blurred by a Gaussian, which is the image of a lumen with a sharp wall.
 //!
-//! Green's theorem turns the integral of the Gaussian over the ellipse into one along its boundary: with r
-//! the vector from a point to the boundary, the field r (1 - exp(-r²/2)) / (2 π r²) has the Gaussian of
-//! standard deviation 1 as its divergence. The integrand is periodic and smooth, so the trapezoidal rule
-//! converges exponentially (Trefethen and Weideman 2014, doi:10.1137/130932132). Shape derivatives are
-//! Gaussians along the same boundary.
+//! Green's theorem turns the integral of the Gaussian over the ellipse into one along its boundary. Let r be
+//! the vector from a point to the boundary. The divergence of the field r (1 - exp(-r²/2)) / (2 π r²) is the
+//! Gaussian of standard deviation 1. The integrand is periodic and smooth, so the trapezoidal rule converges
+//! exponentially (Trefethen and Weideman 2014, doi:10.1137/130932132). Derivatives by the shape are integrals
+//! of Gaussians along the same boundary.
 
 use std::f64::consts::{PI, TAU};
 use std::sync::OnceLock;
@@ -16,31 +16,31 @@ use lumencut_core::math::lanes::FAN;
 /// Number of shape parameters: centre (2), mean semi-axis, stretch (2).
 pub(crate) const SHAPE: usize = 5;
 
-/// Maximum distance of nodes in blur standard deviations; keeps the error below 0.001 %.
+/// Maximum distance between nodes, in standard deviations of the blur; keeps the error below 0.001 %.
 const NODE_DISTANCE: f64 = 1.3;
 
 const FEWEST_NODES: usize = 12;
 
-/// Squared distance (blur standard deviations) from which exp, 1e-14, vanishes in single precision.
+/// Squared distance (blur standard deviations) beyond which the exponential is below single precision.
 const FAR_AWAY: f32 = 64.0;
 
-/// Enough for a lumen whose radius is 40 times the blur.
+/// Maximum number of nodes, enough for a lumen whose radius is 40 times the blur.
 const MOST_NODES: usize = 400;
 
 /// The points centre + S (cos t, sin t) with the symmetric matrix S = [[mean + x, y], [y, mean - x]] and (x,
-/// y) = `stretch`. This form has no singularity at a circle.
+/// y) = `stretch`. Unlike axes and an angle, these parameters have no singularity at a circle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ellipse {
     /// Centre (mm).
     pub center: DVec2,
     /// Mean of the semi-axes (mm).
     pub mean: f64,
-    /// Half of the difference of the semi-axes, as a vector at twice the angle of the longer one (mm).
+    /// Half of the difference of the semi-axes (mm), as a vector at twice the angle of the longer semi-axis.
     pub stretch: DVec2,
 }
 
 impl Ellipse {
-    /// A circle.
+    /// A circle of radius `radius` (mm).
     pub fn circle(center: DVec2, radius: f64) -> Self {
         Self { center, mean: radius, stretch: DVec2::ZERO }
     }
@@ -50,7 +50,7 @@ impl Ellipse {
         (ellipse.semi_axes()[0] > 0.0).then_some(ellipse)
     }
 
-    /// In the order of the derivatives.
+    /// The parameters, in the order of the derivatives.
     pub fn parameters(&self) -> [f64; SHAPE] {
         [self.center.x, self.center.y, self.mean, self.stretch.x, self.stretch.y]
     }
@@ -61,7 +61,7 @@ impl Ellipse {
         [self.mean - half, self.mean + half]
     }
 
-    /// From the centre to the ends of the shorter and of the longer axis (mm).
+    /// Vectors from the centre to an end of the shorter and of the longer axis (mm).
     pub fn half_axes(&self) -> [DVec2; 2] {
         let [short, long] = self.semi_axes();
         let direction = DVec2::from_angle(0.5 * self.stretch.y.atan2(self.stretch.x));
@@ -77,13 +77,13 @@ impl Ellipse {
         2.0 * (self.area() / PI).max(0.0).sqrt()
     }
 
-    /// The ellipse with its semi-axes times a factor.
+    /// The ellipse with its semi-axes multiplied by `by`.
     #[must_use]
     pub fn scaled(&self, by: f64) -> Self {
         Self { center: self.center, mean: self.mean * by, stretch: self.stretch * by }
     }
 
-    /// Interpolates between this ellipse and `other`.
+    /// Interpolates between this ellipse (`share` 0) and `other` (1).
     #[must_use]
     pub fn towards(&self, other: &Self, share: f64) -> Self {
         Self {
@@ -93,7 +93,7 @@ impl Ellipse {
         }
     }
 
-    /// Largest difference of a parameter (mm).
+    /// Largest difference of any parameter between two ellipses (mm).
     pub fn differs(&self, other: &Self) -> f64 {
         let [own, others] = [self, other].map(Self::parameters);
         own.iter().zip(&others).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
@@ -110,15 +110,15 @@ impl Ellipse {
     }
 }
 
-/// A Gaussian blur in a plane, as the matrix that maps it to standard deviation 1 in all directions.
+/// A Gaussian blur in a plane, as the matrix that transforms it to standard deviation 1 in all directions.
 #[derive(Clone, Copy, Debug)]
 pub struct Whitening(pub DMat2);
 
 impl Whitening {
-    /// Inverse square root of a positive definite covariance (mm²).
+    /// The inverse square root of a positive definite covariance (mm²).
     pub fn new(covariance: DMat2) -> Self {
         let (a, b, d) = (covariance.x_axis.x, covariance.x_axis.y, covariance.y_axis.y);
-        // Square root of a 2 × 2 matrix: (C + √det) / √(trace + 2 √det).
+        // The square root of a 2 × 2 matrix is (C + √det) / √(trace + 2 √det).
         let root = (a * d - b * b).max(0.0).sqrt();
         let scale = (a + d + 2.0 * root).sqrt();
         let square_root = DMat2::from_cols(DVec2::new(a + root, b), DVec2::new(b, d + root)) * (1.0 / scale);
@@ -126,7 +126,7 @@ impl Whitening {
     }
 }
 
-/// A node of the whitened boundary; vectors include the node's share of the boundary, over 2 π.
+/// A node of the whitened boundary; vectors are multiplied by the node's share of the boundary over 2 π.
 #[derive(Clone, Copy, Debug)]
 struct Node {
     place: [f32; 2],
@@ -134,7 +134,7 @@ struct Node {
     outwards: [f32; SHAPE],
 }
 
-/// The boundary of an ellipse under a blur.
+/// The boundary of an ellipse in the space where the blur has standard deviation 1.
 #[derive(Clone, Debug)]
 pub struct Boundary {
     nodes: Vec<Node>,
@@ -144,14 +144,14 @@ pub struct Boundary {
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Blurred {
-    /// From 0 outside to 1 inside.
+    /// Blurred value, from 0 outside to 1 inside.
     pub value: [f32; FAN],
-    /// Derivatives (1/mm), in the order of [`Ellipse::parameters`].
+    /// Derivatives of the value (1/mm), in the order of [`Ellipse::parameters`].
     pub slopes: [[f32; FAN]; SHAPE],
 }
 
 impl Boundary {
-    /// The boundary of `ellipse` under the blur `whitening`.
+    /// The boundary of `ellipse`, blurred by `whitening`.
     pub fn new(ellipse: &Ellipse, Whitening(whitening): Whitening) -> Self {
         let matrix = ellipse.matrix();
         let needed = TAU * longest(whitening * matrix).max(1e-9) / NODE_DISTANCE;
@@ -181,7 +181,7 @@ impl Boundary {
         }
     }
 
-    /// Value and derivatives at sixteen points (mm); not inlined on the web, to save code size.
+    /// Value and derivatives at sixteen points (mm). Not inlined on the web, to save code size.
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     #[cfg_attr(target_arch = "wasm32", inline(never))]
     pub(crate) fn blurred(&self, x: &[f32; FAN], y: &[f32; FAN]) -> Blurred {
@@ -203,7 +203,7 @@ impl Boundary {
                 is_near |= squares[l] < FAR_AWAY;
             }
             if !is_near {
-                // The exponential is negligible next to 1.
+                // Beyond FAR_AWAY the exponential is negligible next to 1.
                 for l in 0..FAN {
                     let dx = node.place[0] - place[0][l];
                     let dy = node.place[1] - place[1][l];
@@ -230,7 +230,7 @@ impl Boundary {
         sum
     }
 
-    /// Value at one point (mm), 0 to 1.
+    /// Value at one point (mm), between 0 and 1.
     pub fn value(&self, place: DVec2) -> f64 {
         f64::from(self.blurred(&[place.x as f32; FAN], &[place.y as f32; FAN]).value[0])
     }
@@ -238,7 +238,7 @@ impl Boundary {
 
 type Circle = Box<[(f64, f64)]>;
 
-/// Sine and cosine at `count` even steps around a circle, cached per count.
+/// Sine and cosine at `count` even steps around a circle, cached for each count.
 fn circle(count: usize) -> &'static [(f64, f64)] {
     static CIRCLES: [OnceLock<Circle>; MOST_NODES + 1] = [const { OnceLock::new() }; MOST_NODES + 1];
     let share = 1.0 / count as f64;
@@ -252,19 +252,19 @@ fn longest(matrix: DMat2) -> f64 {
     (half + difference.hypot(x.dot(y))).sqrt()
 }
 
-/// exp(x) for x ≤ 0 with a relative error of 2e-6: a power of two by bits, and a polynomial.
+/// exp(x) for x ≤ 0 with a relative error of 2e-6: a power of two from exponent bits, times a polynomial.
 #[inline(always)]
 fn exponential(x: f32) -> f32 {
-    /// 1.5 · 2²³: above it, the last bit of a float has the value 1, so adding it rounds to an integer.
+    /// 1.5 · 2²³. The last bit of a float of this size has the value 1, so adding it rounds to an integer.
     const ONES: f32 = 12_582_912.0;
     const LN_2: f32 = std::f32::consts::LN_2;
     let power = if x > -80.0 { x } else { -80.0 } * std::f32::consts::LOG2_E;
     let rounded = power + ONES;
     let f = power - (rounded - ONES);
-    // Taylor series of 2^f, |f| ≤ 1/2.
+    // Taylor series of 2^f for |f| ≤ 1/2.
     let tail = 0.009_618_13 + f * 0.001_333_36;
     let part = 1.0 + f * (LN_2 + f * (0.240_226_5 + f * (0.055_504_11 + f * tail)));
-    // 2 to the integer part, by its exponent bits.
+    // 2 to the power of the integer part, from its exponent bits.
     part * f32::from_bits(rounded.to_bits().wrapping_add(127) << 23)
 }
 

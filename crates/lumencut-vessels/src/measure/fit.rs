@@ -15,66 +15,66 @@ use super::wall::{KnownWall, Wall};
 use lumencut_core::math::lanes::{FAN, Isa, dispatch};
 use lumencut_core::math::statistics::median;
 
-/// Residuals above this many standard deviations get weight 0 (Tukey's biweight).
+/// Tukey's biweight gives weight 0 to residuals above this many standard deviations.
 const TUKEY: f64 = 5.0;
 
-/// Maximum steps before and after reweighting.
+/// Maximum number of steps before and after the samples are reweighted.
 const STEPS: [usize; 2] = [12, 8];
 
-/// Linear weights reduce the noise of the weighted mean by this factor below what they imply.
+/// Weights that fall linearly reduce the variance of a mean more than they imply, by this factor.
 const EVENLY_FALLING: f64 = 2.0 / 3.0;
 
-/// Prior knowledge, as means and standard deviations; levels are shares.
+/// Prior knowledge: means and standard deviations. Levels are shares of the contrast.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Expected<'a> {
     pub lumen: [f64; 2],
     pub background: [f64; 2],
-    /// Standard deviation of the relative difference of the semi-axes, around 0.
+    /// Standard deviation of the relative difference of the semi-axes, whose mean is 0.
     pub stretch: f64,
     pub noise: f64,
-    /// Whether `noise` is a guess; the typical residual may then replace it.
+    /// Whether `noise` is only a guess, which the typical residual may replace.
     pub(crate) is_guessed: bool,
-    /// None where the wall cannot be separated from the surroundings.
+    /// None if the wall cannot be separated from the surroundings.
     pub wall: Option<KnownWall>,
-    /// Set if the uncertainty of the diameter is wanted.
+    /// Given if the uncertainty of the diameter is wanted.
     pub unsure: Option<&'a Unsure<'a>>,
 }
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Unsure<'a> {
     pub texture: &'a Texture,
-    /// Blur with the point spread wider by its standard deviation; None if it is known.
+    /// The blur if the point spread is wider by its standard deviation; None if its width is known exactly.
     pub wider: Option<Whitening>,
-    /// A possible wall where none can be separated from the surroundings.
+    /// A possible wall, if none can be separated from the surroundings.
     pub wall: Option<KnownWall>,
 }
 
-/// Standard deviations of the surroundings per harmonic, as shares: tissue differs from side to side.
+/// Standard deviations of the harmonics of the surroundings (shares of the contrast).
 const SIDES: [f64; HARMONICS] = [0.3, 0.3, 0.15, 0.15, 0.1, 0.1];
 
-/// Limits: the centre moves at most this many radii, and the size stays within these factors.
+/// Maximum shift of the centre (radii), and range of the size relative to the start.
 const TRUSTED: (f64, [f64; 2]) = (1.0, [0.15, 2.0]);
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fit {
     pub ellipse: Ellipse,
-    /// Mean and standard deviation, as shares.
+    /// Level of the lumen and its standard deviation, as shares of the contrast.
     pub lumen: [f64; 2],
     pub background: f64,
     pub wall: Option<Wall>,
-    /// Root mean square of the residuals, as a share: the noise, if the lumen is an ellipse.
+    /// Root mean square of the residuals (share of the contrast); the noise if the lumen is an ellipse.
     pub(crate) missed: f64,
     /// Standard deviation of the equivalent diameter (mm); NaN if not requested.
     pub uncertainty: f64,
     pub parts: Parts,
-    /// Share of directions in which the wall is unobstructed.
+    /// Share of directions in which nothing obstructs the wall.
     pub free: f64,
-    /// Second solution: set when restarting the fit from its own result leads elsewhere (ambiguous lumen).
+    /// Second solution, given if restarting the fit from its own result leads elsewhere (ambiguous lumen).
     pub other: Option<Ellipse>,
 }
 
 impl Fit {
-    /// Fits from `start`; None if there are too few samples or no ellipse fits.
+    /// Fits an ellipse from `start`; None if there are too few samples or no ellipse fits.
     pub(crate) fn new(
         samples: &Samples,
         whitening: Whitening,
@@ -108,7 +108,7 @@ impl Fit {
         })
     }
 
-    /// [`Fit::missed`] of the fit from `start`, without the second weighting.
+    /// [`Fit::missed`] of the fit from `start`, before samples are reweighted a second time.
     pub(crate) fn missed_by(
         samples: &Samples,
         whitening: Whitening,
@@ -136,7 +136,7 @@ impl Fit {
         }
     }
 
-    /// Adds the difference of the diameters of two equally plausible fits to the uncertainty.
+    /// Adds the difference between the diameters of two equally plausible fits to the uncertainty.
     #[must_use]
     pub(crate) fn or(mut self, other: &Self) -> Self {
         let apart = self.ellipse.equivalent_diameter() - other.ellipse.equivalent_diameter();
@@ -150,7 +150,7 @@ fn plain<const N: usize>(expected: &Expected) -> Vec<Term<N>> {
     vec![Term::one(LUMEN, expected.lumen), Term::one(BACKGROUND, expected.background)]
 }
 
-/// Priors with a wall, in surroundings that differ from side to side.
+/// Priors of the model with a wall, in surroundings that differ from side to side.
 fn walled(expected: &Expected, known: &KnownWall, start: &Ellipse) -> Vec<Term<WALLED>> {
     let mut terms = plain(expected);
     terms.push(Term::one(WALL, known.level));
@@ -200,7 +200,7 @@ impl<'a, M: Model<N>, const N: usize> Work<'a, M, N> {
         Self { samples, whitening, expected, start, terms, kept: samples.weight.clone(), model: PhantomData }
     }
 
-    /// Best parameters before reweighting, and the residual; None if there are too few samples.
+    /// Best parameters and residual before reweighting; None if there are too few samples.
     fn weighed(&mut self) -> Option<([f64; N], f64)> {
         if self.samples.count < 2 * N {
             return None;
@@ -215,7 +215,7 @@ impl<'a, M: Model<N>, const N: usize> Work<'a, M, N> {
         Some((first.at, missed))
     }
 
-    /// Best parameters, residual, and the parts of the uncertainty if requested.
+    /// Best parameters, root mean square of the residuals, and the parts of the uncertainty if requested.
     fn done(mut self) -> Option<(Minimum<N>, f64, Parts)> {
         let (first, missed) = self.weighed()?;
         let last = minimum(first, STEPS[1], |at| self.evaluate(at))?;
@@ -226,8 +226,8 @@ impl<'a, M: Model<N>, const N: usize> Work<'a, M, N> {
         Some((last, missed, parts))
     }
 
-    /// Parts of the uncertainty: a = A⁻¹ c gives the shift of the diameter per sample and per prior, with A
-    /// the normal matrix and c the derivatives of the diameter.
+    /// Parts of the uncertainty. With A the normal matrix and c the derivatives of the diameter, a = A⁻¹ c
+    /// gives the shift of the diameter caused by each sample and each prior.
     fn parts(&self, minimum: &Minimum<N>, missed: f64, unsure: &Unsure) -> Option<Parts> {
         let ellipse = Ellipse::from_parameters(&minimum.at)?;
         let towards = solved(&minimum.normal.matrix, &diameter_by(&ellipse))?;
@@ -239,7 +239,7 @@ impl<'a, M: Model<N>, const N: usize> Work<'a, M, N> {
             Moves { samples: self.samples, kept: &self.kept, model: &model, towards: towards_shares };
         let moves = dispatch(Isa::widest(), kernel);
         let noise = expected.noise * unsure.texture.variance(self.samples, &moves).sqrt();
-        // Residuals above the noise show that the lumen is no ellipse or the surroundings are uneven.
+        // Residuals above the noise show that the lumen is no ellipse or that the surroundings are uneven.
         let excess = (missed / expected.noise).max(1.0);
         let wall = match unsure.wall {
             Some(hidden) => self.moved(&moves, &model, &self.with_wall(&minimum.at, &ellipse, &hidden)),
@@ -259,7 +259,7 @@ impl<'a, M: Model<N>, const N: usize> Work<'a, M, N> {
         parts.total().is_finite().then_some(parts)
     }
 
-    /// Error of the diameter (mm) caused by errors of some priors of one standard deviation.
+    /// Error of the diameter (mm) if the priors selected by `of` are wrong by one standard deviation.
     fn expectations(&self, towards: &[f64; N], of: impl Fn(usize) -> bool) -> f64 {
         let own = self.terms.iter().filter(|term| of(term.parameter));
         let moved = |term: &Term<N>| (0..N).map(|n| term.by[n] * towards[n]).sum::<f64>() / term.level[1];
@@ -274,7 +274,7 @@ impl<'a, M: Model<N>, const N: usize> Work<'a, M, N> {
         ThreeLevels::of(ellipse, &wall, [at[LUMEN], at[BACKGROUND]], self.whitening)
     }
 
-    /// Shift of the diameter (mm) if the samples followed `other` instead of `model`.
+    /// Shift of the diameter (mm) if the true image is `other` instead of `model`.
     fn moved<O: Model<P>, const P: usize>(&self, moves: &[[f32; FAN]], model: &M, other: &O) -> f64 {
         let (own, others) = (missing(self.samples, model), missing(self.samples, other));
         let mut sum = 0.0;
@@ -308,7 +308,7 @@ impl<'a, M: Model<N>, const N: usize> Work<'a, M, N> {
         Some(normal)
     }
 
-    /// Standard deviation of a normal distribution with the same median absolute residual.
+    /// Standard deviation of a normal distribution with the same median absolute residual as the samples.
     fn typical(&self, missing: &[[f32; FAN]]) -> Option<f64> {
         let weights = self.samples.weight.iter().flatten();
         let mut all: Vec<f64> = missing
@@ -328,7 +328,7 @@ impl<'a, M: Model<N>, const N: usize> Work<'a, M, N> {
             && (small..=large).contains(&size)
     }
 
-    /// Reweights the samples by their residuals; returns the root mean square of those that count.
+    /// Reweights the samples by their residuals; returns the root mean square of those that keep weight.
     fn weigh(&mut self, at: &[f64; N]) -> Option<f64> {
         let model = self.model(at, &Ellipse::from_parameters(at)?);
         let missing = missing(self.samples, &model);

@@ -1,4 +1,4 @@
-//! Prepares the fit of a section: which voxels count, and the priors.
+//! Prepares the fit of a section: selects the voxels that count, and sets the priors.
 
 use glam::DVec2;
 
@@ -15,23 +15,23 @@ use super::texture::Pairs;
 use super::wall::KnownWall;
 use lumencut_core::math::statistics::median;
 
-/// Voxels count up to this many blur widths beyond the wall.
+/// Voxels up to this many blur widths beyond the wall count.
 const BEYOND: f64 = 1.5;
 
-/// Prior of the relative difference of the semi-axes: wide lumens, and those as narrow as the blur.
+/// Standard deviation of the relative difference of the semi-axes, for wide and for narrow lumens.
 const STRETCH: (f64, f64) = (0.4, 0.06);
 
-/// Minimum share of directions with an unobstructed wall.
+/// Minimum share of directions in which nothing obstructs the wall.
 const LEAST_FREE: f64 = 0.35;
 
-/// The lumen level is read within this share of the radius, if blur leaves this share of the peak.
+/// The lumen level is read within this share of the radius, if the blurred peak is high enough.
 const MIDDLE: f64 = 1.0 / 3.0;
 const LEAST_PEAK: f64 = 0.95;
 
-/// Standard deviation of that level: a share of the contrast, and a share of the voxel noise.
+/// Standard deviation of the level read there: a share of the contrast, and a factor of the voxel noise.
 const SEEN: (f64, f64) = (0.02, 0.33);
 
-/// Voxels of a section without obstacles.
+/// Voxels of a section, without those that obstacles affect.
 struct Cleared {
     samples: Samples,
     obstacles: Obstacles,
@@ -71,7 +71,7 @@ impl Bench<'_, '_> {
         let cleared = self.cleared(place, known)?;
         let seen = self.level_seen(place, known, |point| cleared.obstacles.keeps(point));
         let expected = Expected {
-            // For a sharp wall, a smaller ellipse with a higher level fits as well.
+            // A sharp wall also fits a smaller ellipse with a higher level, so the visible level is used.
             lumen: seen.filter(|seen| seen[1] < known.lumen[1]).unwrap_or(known.lumen),
             background: [0.0, 0.5],
             stretch: stretch(2.0 * known.ellipse.mean, self.blur.width(place)),
@@ -93,7 +93,7 @@ impl Bench<'_, '_> {
         self.wall.map(|wall| known.wall.unwrap_or(wall))
     }
 
-    /// Voxels of a section without obstacles; None if too few directions are free.
+    /// Voxels of a section without those that obstacles affect; None if too few directions are unobstructed.
     fn cleared(&self, place: &SectionPlane, known: &Known) -> Option<Cleared> {
         let width = self.blur.width(place);
         let ellipse = &known.ellipse;

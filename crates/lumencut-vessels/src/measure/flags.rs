@@ -1,16 +1,16 @@
-//! Flags of a section, as bits. The facade has their words and colours.
+//! Flags of a section, as bits. The crate `lumencut` has their words and colours.
 
 /// The diameter is below 1.5 times the FWHM of the point spread.
 pub const AT_LIMIT: u32 = 1;
 /// Another vessel begins here, or the lumen continues sideways.
 pub const BRANCH: u32 = 1 << 1;
-/// Something in the wall is brighter than lumen.
+/// Something at the wall is brighter than lumen.
 pub const CALCIUM: u32 = 1 << 2;
-/// Something brighter than lumen surrounds it, or is brighter than calcium.
+/// Metal: material at the wall that surrounds the lumen, forms a lattice, or is brighter than calcium.
 pub const METAL: u32 = 1 << 3;
 /// Another lumen, or bone, touches the wall.
 pub const NEIGHBOR: u32 = 1 << 4;
-/// The section reaches beyond the volume.
+/// Part of the section lies outside the volume.
 pub const OUTSIDE: u32 = 1 << 5;
 /// No wall was found, or the contour does not enclose lumen.
 pub const NO_EDGE: u32 = 1 << 6;
@@ -18,8 +18,8 @@ pub const NO_EDGE: u32 = 1 << 6;
 pub const RECENTERED: u32 = 1 << 7;
 /// The lumen is far from an ellipse.
 pub const IRREGULAR: u32 = 1 << 8;
-/// The line turns more sharply than a vessel.
+/// The centerline turns more sharply than a vessel can.
 pub const RESTLESS_LINE: u32 = 1 << 9;
 
-/// Sections with any of these are ignored for the largest, narrowest or suggested places.
+/// Sections with any of these flags are ignored when the widest, narrowest or suggested places are chosen.
 pub const LEFT_OUT: u32 = BRANCH | OUTSIDE | NO_EDGE | RECENTERED | RESTLESS_LINE;

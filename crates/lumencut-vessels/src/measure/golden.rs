@@ -2,7 +2,7 @@
 
 const GOLDEN: f64 = 0.618_033_988_749_895;
 
-/// Argument of the minimum in a range; each round leaves 0.62 of it. Returns the function's error.
+/// Position of the minimum in a range. Each round leaves 0.62 of the range. Passes errors of the function on.
 pub(crate) fn least<E>(
     [mut low, mut high]: [f64; 2],
     rounds: usize,

@@ -1,10 +1,10 @@
-//! Grades of stenoses used in the field, as text with their source.
+//! Grades of stenoses in common use, as text with their source.
 
 use super::stenosis::{Method, Stenosis};
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::named::Named;
 
-/// A vessel territory with defined grades.
+/// A vessel territory for which grades are defined.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Territory {
     /// Internal carotid artery.
@@ -26,7 +26,7 @@ impl Stenosis {
             let expected = "'nascet', because the groups refer to a normal diameter";
             return Err(Error::new(ErrorKind::Measuring, "method of the stenosis", found, expected));
         }
-        // Grades are defined for whole percents.
+        // Grades are defined for integer percentages.
         let percent = self.percent.round();
         Ok(match territory {
             Territory::Carotid => carotid(percent),

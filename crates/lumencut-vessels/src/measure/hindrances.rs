@@ -1,15 +1,15 @@
-//! Reasons, besides flags, not to suggest a section as the narrowest place or as a reference.
+//! Reasons, besides the flags, not to suggest a section as the narrowest place or as a reference.
 
 use std::f64::consts::PI;
 
 use super::flags::{CALCIUM, IRREGULAR, LEFT_OUT, METAL, NEIGHBOR};
 use super::profile::Profile;
 
-/// The lumen differs from that of the previous section in position, level or width.
+/// The lumen differs from that of the previous section in position, and possibly in level or width.
 pub const CHANGE_OF_LUMEN: u32 = 1 << 16;
 /// Another lumen lies next to an irregular wall, as at the flap of a dissection.
 pub const FLAP: u32 = 1 << 17;
-/// The standard deviation of the diameter exceeds a third of it.
+/// The standard deviation of the diameter exceeds a third of the diameter.
 pub const UNSURE: u32 = 1 << 18;
 
 const FLAGGED: u32 = LEFT_OUT | METAL | CALCIUM;
@@ -17,15 +17,16 @@ const FLAGGED: u32 = LEFT_OUT | METAL | CALCIUM;
 /// Maximum relative standard deviation of a suggested diameter.
 const UNSURE_SHARE: f64 = 1.0 / 3.0;
 
-/// Sideways movement of the centre that counts as a jump, as a share of the radius. It must also exceed the
-/// distance of the sections, which allows a vessel at 45° to its line.
+/// Sideways movement of the centre that counts as a jump, as a share of the radius. It is added to the
+/// distance of the sections, so that a vessel at 45° to its centerline does not count.
 const JUMP: f64 = 0.5;
 
 /// Half of that suffices if the diameter changes by this factor, or the level by this share of the contrast.
 const OTHER: (f64, f64) = (1.4, 0.25);
 
 impl Profile {
-    /// Reasons not to suggest each section, as bits. Changes of lumen and flaps extend by one diameter.
+    /// Reasons not to suggest each section, as bits. Changes of lumen and flaps reach one diameter around
+    /// them.
     pub fn hindrances(&self) -> Vec<u32> {
         let mut found: Vec<u32> = (0..self.len()).map(|n| self.flags[n] & FLAGGED | self.unsure(n)).collect();
         let measured: Vec<usize> = (0..self.len()).filter(|n| self.area[*n].is_finite()).collect();

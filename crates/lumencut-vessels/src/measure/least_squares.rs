@@ -1,11 +1,11 @@
-//! Nonlinear least squares with few parameters (Levenberg-Marquardt; Marquardt 1963, doi:10.1137/0111030).
+//! Nonlinear least squares for few parameters (Levenberg-Marquardt; Marquardt 1963, doi:10.1137/0111030).
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Normal<const N: usize> {
     pub cost: f64,
-    /// Products of the derivatives by each pair of parameters.
+    /// Sum of the products of the derivatives by each pair of parameters.
     pub matrix: [[f64; N]; N],
-    /// Products of derivatives and residuals.
+    /// Sum of the products of derivatives and residuals.
     pub slope: [f64; N],
 }
 
@@ -15,7 +15,7 @@ impl<const N: usize> Normal<N> {
         Self { cost: 0.0, matrix: [[0.0; N]; N], slope: [0.0; N] }
     }
 
-    /// Adds a prior: the squared residual of a linear combination, in standard deviations.
+    /// Adds a prior: coefficients, residual and standard deviation of a linear combination of parameters.
     pub(crate) fn expect(&mut self, by: &[f64; N], missing: f64, deviation: f64) {
         let weight = 1.0 / (deviation * deviation);
         self.cost += weight * missing * missing;
@@ -34,13 +34,13 @@ pub(crate) struct Minimum<const N: usize> {
     pub normal: Normal<N>,
 }
 
-/// Minimizes from `start` in at most `steps` steps; `evaluate` returns None for invalid parameters.
+/// Finds a minimum from `start` in at most `steps` steps; `evaluate` returns None for invalid parameters.
 pub(crate) fn minimum<const N: usize>(
     start: [f64; N],
     steps: usize,
     mut evaluate: impl FnMut(&[f64; N]) -> Option<Normal<N>>,
 ) -> Option<Minimum<N>> {
-    /// Relative decrease below which the iteration stops.
+    /// The iteration stops if the relative decrease is smaller.
     const ENOUGH: f64 = 1e-4;
     let mut best = Minimum { at: start, normal: evaluate(&start)? };
     let mut damping = 1e-3;
@@ -90,7 +90,7 @@ fn cholesky<const N: usize>(matrix: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
     Some(lower)
 }
 
-/// Solution of a symmetric positive definite system; None otherwise.
+/// Solves a symmetric positive definite system; None if the matrix is not positive definite.
 pub(crate) fn solved<const N: usize>(matrix: &[[f64; N]; N], right: &[f64; N]) -> Option<[f64; N]> {
     let lower = cholesky(matrix)?;
     let mut solution = *right;

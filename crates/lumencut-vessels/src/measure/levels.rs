@@ -1,7 +1,7 @@
 //! The lumen level along a vessel.
 //!
-//! A lumen narrower than two blur widths peaks below its level, so level and width cannot be separated in one
-//! section. Wider sections nearby give the level; otherwise all sections share one.
+//! A lumen narrower than two blur widths peaks below its level, so one section cannot separate level and
+//! width. Wider sections nearby give the level; if there are none, all sections share one level.
 
 use rayon::prelude::*;
 
@@ -13,22 +13,22 @@ use super::sections::{Bench, Known, noise};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Maximum standard deviation (share), and minimum number, of sections that give the level.
+/// Maximum standard deviation (share of the contrast) of sections that give the level; their minimum number.
 const LEVEL_SECTIONS: (f64, usize) = (0.05, 3);
 
 /// Maximum number of sections fitted with a common level.
 const TOGETHER: usize = 48;
 
-/// Search range of the level, as a share; the first guess is about 1.
+/// Search range of the level (share of the contrast); the first guess is about 1.
 const LEVEL_RANGE: [f64; 2] = [0.6, 4.0];
 
 /// Relative standard deviation of a common level.
 const DEVIATION: f64 = 0.05;
 
-/// Rounds of the search.
+/// Rounds of the golden-section search.
 const ROUNDS: usize = 11;
 
-/// Lumen level and its standard deviation at each section, as shares.
+/// Lumen level and its standard deviation at each section, as shares of the contrast.
 pub(crate) fn lumen_levels(
     bench: &Bench,
     places: &[SectionPlane],
@@ -47,7 +47,7 @@ pub(crate) fn lumen_levels(
     Ok(vec![[level, DEVIATION * level]; places.len()])
 }
 
-/// Common level with which the sections fit best.
+/// The common level for which the sections fit best.
 fn together(bench: &Bench, places: &[SectionPlane], fits: &[Option<Fit>], stop: Stop) -> Result<f64> {
     let noise = noise(fits);
     let fitted: Vec<(&SectionPlane, Fit)> =

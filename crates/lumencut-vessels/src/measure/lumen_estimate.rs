@@ -1,4 +1,4 @@
-//! Approximate centre and width of the lumen, before fitting.
+//! Approximate centre and radius of the lumen, before the fit.
 
 use std::f64::consts::PI;
 
@@ -9,26 +9,26 @@ use super::section_plane::SectionPlane;
 use crate::voxels::Voxels;
 use lumencut_core::math::statistics::median;
 
-/// Minimum level of a lumen, as a share of the whole vessel's.
+/// Minimum level of a lumen, as a share of the level of the vessel.
 const LEAST_LUMEN: f64 = 0.25;
 
-/// Rays are cut at this multiple of their median, because they escape into branches.
+/// Rays are cut at this multiple of their median length, because some escape into branches.
 const LONGEST_RAY: f64 = 1.6;
 
-/// Maximum rounds of recentring.
+/// Maximum number of times that the rays are moved to the new centre.
 const ROUNDS: usize = 4;
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LumenEstimate {
-    /// Centre (mm in the plane).
+    /// Centre (mm, in the plane).
     pub center: DVec2,
     /// Radius (mm).
     pub radius: f64,
-    /// Level of the lumen, as a share.
+    /// Level of the lumen, as a share of the contrast.
     pub lumen: f64,
 }
 
-/// Share above which there is metal or calcium.
+/// Minimum level of metal or calcium, as a share of the contrast.
 const BRIGHT: f64 = 1.6;
 
 impl LumenEstimate {
@@ -54,7 +54,7 @@ impl LumenEstimate {
     }
 }
 
-/// Start of the rays: the centerline point if it is lumen, otherwise the best point nearby.
+/// Start of the rays: the centerline point if it lies in lumen, otherwise the best point nearby.
 fn start(rays: &Rays, place: &SectionPlane, search: f64) -> Option<DVec2> {
     if level(rays, place, DVec2::ZERO) > 0.5 {
         return Some(DVec2::ZERO);
@@ -79,7 +79,7 @@ fn start(rays: &Rays, place: &SectionPlane, search: f64) -> Option<DVec2> {
     best.map(|(_, point)| point)
 }
 
-/// Step of the search grid (mm), limited to as many points as voxels, whatever radius a file states.
+/// Step of the search grid (mm): at most as many points as voxels, because a file may state any radius.
 fn search_step(voxels: &Voxels, search: f64) -> f64 {
     let count: f64 = voxels.size.iter().map(|n| *n as f64).product();
     voxels.sampling_side.max(2.0 * search / count.sqrt())
@@ -93,7 +93,7 @@ fn level(rays: &Rays, place: &SectionPlane, center: DVec2) -> f64 {
     median(&mut values).unwrap_or(f64::NAN)
 }
 
-/// Centroid of the polygon of the ray ends, and its equivalent radius.
+/// Centroid and equivalent radius of the polygon whose corners are the ends of the rays.
 fn polygon(rays: &[Ray]) -> Option<(DVec2, f64)> {
     let mut edges: Vec<f64> = rays.iter().filter_map(Ray::end).collect();
     if edges.len() < RAYS / 4 {

@@ -1,15 +1,15 @@
-//! The measurable part of a vessel: all of it, or the longest stretch with a wall.
+//! The measurable part of a vessel: all of it, or the longest stretch that has a wall.
 
 use super::scale::Scale;
 use super::section_plane::SectionPlane;
 use crate::voxels::Voxels;
 use lumencut_core::error::Result;
 
-/// Length of a piece (mm), and the maximum number of pieces.
+/// Length of the pieces that are checked (mm), and their maximum number.
 const PIECE: f64 = 10.0;
 const MOST_PIECES: usize = 40;
 
-/// Shorter stretches (in pieces) do not show the lumen reliably.
+/// Minimum number of consecutive pieces; shorter stretches do not show the lumen reliably.
 const LEAST_PIECES: usize = 2;
 
 #[derive(Clone, Copy, Debug)]
@@ -20,8 +20,8 @@ pub(crate) struct MeasuredPart {
 }
 
 impl MeasuredPart {
-    /// The measurable part; `radius` is the approximate radius (mm), if known. If the whole vessel has no
-    /// wall, it is the longest run of pieces of 10 mm with a wall.
+    /// The measurable part; `radius` is the approximate radius (mm), if known. If the vessel as a whole shows
+    /// no wall, it is the longest run of 10 mm pieces that show one.
     pub(crate) fn of(voxels: &Voxels, places: &[SectionPlane], radius: Option<f64>) -> Result<Self> {
         let whole = Scale::of(voxels, places, radius);
         match whole {
@@ -34,7 +34,7 @@ impl MeasuredPart {
         (self.ends[0]..=self.ends[1]).contains(&place.at)
     }
 
-    /// Stretches before and after it (arc lengths, mm).
+    /// The stretches before and after the measured part (arc lengths, mm).
     pub(crate) fn left_out(&self, places: &[SectionPlane]) -> Vec<[f64; 2]> {
         let [first, last] = ends(places);
         let beside = [[first, self.ends[0]], [self.ends[1], last]];

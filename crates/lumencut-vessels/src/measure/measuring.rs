@@ -1,4 +1,4 @@
-//! Entry points of measuring: a vessel alone, or with the point spread and walls found on its tree.
+//! Entry points of measuring: of a single vessel, or with the point spread and walls found on its tree.
 
 use std::cmp::Ordering;
 use std::sync::OnceLock;
@@ -20,13 +20,13 @@ use lumencut_core::stop::{Stop, go_on};
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::Volume;
 
-/// Default distance of sections (mm), at most.
+/// Default maximum distance between sections (mm).
 pub const STEP: f64 = 0.5;
 
-/// Relative standard deviation of an assumed point spread.
+/// Relative standard deviation of the point spread if it is assumed.
 const ASSUMED_DEVIATION: f64 = 0.2;
 
-/// Maximum number of vessels, the widest ones, that estimate point spread and wall level.
+/// Maximum number of vessels on which point spread and wall level are estimated; the widest ones are taken.
 const MAX_CONTRIBUTING: usize = 8;
 
 /// Measures the profile of a vessel. Errors: [`ErrorKind::Measuring`] for a vessel outside the volume or
@@ -49,7 +49,7 @@ pub fn measure(volume: &Volume, vessel: &Vessel, request: &MeasureRequest) -> Re
     prepared.profile(&voxels, vessel, request, found)
 }
 
-/// As [`measure`], with the result of [`tree_findings`] instead of computing it again. Errors: As [`measure`].
+/// Like [`measure`], but uses an existing result of [`tree_findings`]. Errors: As [`measure`].
 pub fn measure_with(
     findings: TreeFindings,
     volume: &Volume,
@@ -60,13 +60,13 @@ pub fn measure_with(
     PreparedVessel::new(&voxels, vessel, request)?.profile(&voxels, vessel, request, findings)
 }
 
-/// Estimates the point spread (unless given) and the wall levels on the widest vessels of a tree. Errors:
-/// [`ErrorKind::Settings`] for an invalid width, [`ErrorKind::Interrupted`].
+/// Estimates the point spread (unless it is given) and the wall levels on the widest vessels of a tree.
+/// Errors: [`ErrorKind::Settings`] for an invalid width, [`ErrorKind::Interrupted`].
 pub fn tree_findings(volume: &Volume, request: &MeasureRequest) -> Result<TreeFindings> {
     TreeMeasuring::new(volume, request)?.findings(request.stop)
 }
 
-/// The vessels of a tree in a volume, with their intermediate results cached.
+/// The vessels of a tree in a volume; intermediate results are cached.
 pub struct TreeMeasuring<'a, 'v> {
     voxels: Voxels<'v>,
     request: MeasureRequest<'a>,
@@ -98,7 +98,7 @@ impl<'a, 'v> TreeMeasuring<'a, 'v> {
         self.prepared(n, &request)?.profile(&self.voxels, &request.tree[n], &request, findings)
     }
 
-    /// Numbers of the widest vessels, independent of their order in the tree.
+    /// Numbers of the widest vessels; their order in the tree does not matter.
     fn widest_vessels(&self) -> Vec<usize> {
         let tree = self.request.tree;
         let mut order: Vec<usize> = (0..tree.len()).collect();
@@ -107,7 +107,7 @@ impl<'a, 'v> TreeMeasuring<'a, 'v> {
         order
     }
 
-    /// Wall levels of the widest vessels under a point spread (FWHM, mm). Needs at least two vessels.
+    /// Wall levels of the widest vessels for a point spread (FWHM, mm); none for a single vessel.
     fn wall_levels(&self, fwhm: f64, request: &MeasureRequest) -> Result<Vec<VesselWall>> {
         if request.tree.len() < 2 || request.wall == WallRequest::Off {
             return Ok(Vec::new());
@@ -139,7 +139,7 @@ impl<'a, 'v> TreeMeasuring<'a, 'v> {
         Ok(default(&self.voxels, why))
     }
 
-    /// None if the vessel cannot be measured.
+    /// The prepared vessel; None if it cannot be measured.
     fn prepared_or_none(&self, n: usize, request: &MeasureRequest) -> Result<Option<&PreparedVessel>> {
         match self.prepared(n, request) {
             Ok(prepared) => Ok(Some(prepared)),
@@ -157,7 +157,7 @@ impl<'a, 'v> TreeMeasuring<'a, 'v> {
     }
 }
 
-/// Order of vessels: wider, then longer, then by coordinates.
+/// Orders vessels: wider ones first, then longer ones, then by coordinates.
 fn wider(one: &Vessel, other: &Vessel) -> Ordering {
     let radius = |vessel: &Vessel| known_radius(vessel).unwrap_or(0.0);
     let length = |vessel: &Vessel| vessel.arc_length().last().copied().unwrap_or(0.0);

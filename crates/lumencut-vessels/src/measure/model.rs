@@ -7,19 +7,19 @@ use super::parameters::{BACKGROUND, HARMONICS, LUMEN, PLAIN, SECTORS, THICKNESS,
 use super::wall::Wall;
 use lumencut_core::math::lanes::FAN;
 
-/// Range of wall thickness (mm): anything thicker is thrombus or other tissue.
+/// Range of the wall thickness (mm). Thicker layers are thrombus or other tissue.
 const THINNEST: f64 = 0.2;
 const THICKEST: f64 = 3.3;
 
-/// Model values (shares) at sixteen points, and their derivatives.
+/// Model values at sixteen points (shares of the contrast), and their derivatives.
 pub(crate) struct Modelled<const N: usize> {
     pub share: [f32; FAN],
-    /// In the order of the parameters.
+    /// Derivative by each parameter.
     pub by: [[f32; FAN]; N],
 }
 
 pub(crate) trait Model<const N: usize>: Sized + Sync {
-    /// Directions are measured from `origin` (mm).
+    /// The model for the parameters `at`; directions are measured from `origin` (mm).
     fn new(at: &[f64; N], ellipse: &Ellipse, whitening: Whitening, origin: DVec2) -> Self;
 
     fn allows(_: &[f64; N]) -> bool {
@@ -66,7 +66,7 @@ impl Model<PLAIN> for TwoLevels {
     }
 }
 
-/// A lumen with a wall of constant thickness, in surroundings that differ from side to side.
+/// The model of a lumen with a wall of constant thickness, in surroundings that differ from side to side.
 pub(crate) struct ThreeLevels {
     inner: Boundary,
     outer: Boundary,
@@ -96,7 +96,7 @@ impl ThreeLevels {
     #[inline(always)]
     fn harmonics(&self, x: f32, y: f32) -> [f32; HARMONICS] {
         let (dx, dy) = (x - self.origin[0], y - self.origin[1]);
-        // 1e-6 avoids division by 0 at the centre, where the surroundings do not show.
+        // 1e-6 avoids a division by 0 at the centre, where the surroundings do not show.
         let length = (dx * dx + dy * dy + 1e-6).sqrt();
         let (cos, sin) = (dx / length, dy / length);
         let (cos_2, sin_2) = (cos * cos - sin * sin, 2.0 * cos * sin);
@@ -150,7 +150,7 @@ impl Model<WALLED> for ThreeLevels {
             all.by[LUMEN][l] = within[l];
             all.by[WALL][l] = enclosed[l] - within[l];
             all.by[BACKGROUND][l] = 1.0 - enclosed[l];
-            // The mean outer semi-axis grows with the thickness.
+            // The mean outer semi-axis grows as much as the thickness.
             all.by[THICKNESS][l] = (self.wall - background[l]) * outwards[2][l] * self.thickness;
             all.share[l] = self.lumen * within[l]
                 + self.wall * (enclosed[l] - within[l])

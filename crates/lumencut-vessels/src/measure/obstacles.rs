@@ -1,4 +1,4 @@
-//! Finds obstacles across a section, and the voxels they affect.
+//! Finds obstacles in a section, and the voxels that they affect.
 
 use std::f64::consts::TAU;
 
@@ -8,33 +8,33 @@ use super::flags::{BRANCH, CALCIUM, METAL, NEIGHBOR, OUTSIDE};
 use super::rays::{RAYS, Ray};
 use lumencut_core::math::statistics::median;
 
-/// Margin around bright obstacles, in blur widths.
+/// Width of the margin around bright obstacles, in blur widths.
 const BRIGHT_MARGIN: f64 = 0.8;
 
-/// Calcium up to this distance (mm) belongs to the wall; other structures are neighbours.
+/// Calcium up to this distance from the lumen (mm) belongs to the wall; other structures are neighbours.
 const WALL_CALCIUM_MM: f64 = 1.5;
 
-/// Minimum number of rays for any obstacle, and for a stent that surrounds the lumen.
+/// Minimum number of rays that meet an obstacle, and minimum number that meet a stent around the lumen.
 const LEAST_RAYS: usize = 3;
 const ALL_AROUND: usize = RAYS * 3 / 5;
 
-/// Struts are a stent if this many rays in all, and per quarter, are bright; calcium lies on one or two
-/// sides.
+/// Bright places are the struts of a stent if at least this many rays meet them, in all and in each quarter.
+/// Calcium lies on one or two sides.
 const LATTICE: [usize; 2] = [RAYS * 2 / 5, RAYS / 16];
 
-/// Share above which bright material is metal: four times the contrast above the lumen level.
+/// Metal is brighter than this share: its excess over the lumen is at least four times the contrast.
 const METAL_SHARE: f64 = 5.0;
 
-/// The lumen continues sideways if rays stay in it farther than others by this factor.
+/// The lumen continues sideways if some rays stay in it for this many times the distance of the wall.
 const OPEN: f64 = 1.6;
 
-/// Radius per direction within which voxels count.
+/// Maximum distance from the centre, per direction, at which voxels count.
 #[derive(Clone, Debug)]
 pub(crate) struct Obstacles {
     center: DVec2,
     limit: [f64; RAYS],
     nearest: f64,
-    /// Share of directions with an unobstructed wall.
+    /// Share of directions in which nothing obstructs the wall.
     pub free: f64,
 }
 
@@ -48,7 +48,7 @@ impl Obstacles {
             if !limit.is_finite() {
                 continue;
             }
-            // Blur spreads obstacles to the neighbouring directions.
+            // Blur makes an obstacle affect neighbouring directions.
             let beside = (0.5 * width / limit.max(0.5 * width)).asin();
             let count = ((beside / TAU * RAYS as f64).ceil() as usize).min(RAYS / 4);
             for m in n + RAYS - count..=n + RAYS + count {
@@ -83,7 +83,7 @@ fn limit(ray: &Ray, middle: f64, width: f64) -> f64 {
     }
 }
 
-/// Whether a ray meets calcium or metal at a wall (mm from its start), under a blur of `width` mm.
+/// Whether a ray meets calcium or metal at a wall `wall` mm from its start, for a blur of `width` mm.
 pub(crate) fn is_bright(ray: &Ray, wall: f64, width: f64) -> bool {
     ray.bright_at.is_some_and(|at| at < wall + WALL_CALCIUM_MM.max(width))
 }
@@ -96,7 +96,7 @@ fn is_lattice(is_bright: impl Fn(usize) -> bool) -> bool {
     counts.iter().sum::<usize>() >= all && counts.iter().all(|count| *count >= each)
 }
 
-/// Flags of a section from its rays, with the wall per ray (mm), under a blur of `width` mm.
+/// Flags of a section from its rays; `wall` gives the wall of each ray (mm), `width` is the blur (mm).
 pub(crate) fn flags_of(rays: &[Ray], wall: impl Fn(usize) -> f64, width: f64) -> u32 {
     let count = |is: &dyn Fn(usize, &Ray) -> bool| rays.iter().enumerate().filter(|(n, r)| is(*n, r)).count();
     let beside = WALL_CALCIUM_MM.max(width);
@@ -131,9 +131,9 @@ mod tests {
 
     #[test]
     fn struts_all_around_are_a_stent_and_calcium_on_one_or_two_sides_is_none() {
-        // Struts of four rays with gaps of five.
+        // Struts on four rays each, with gaps of five rays.
         assert!(is_lattice(|n| n % 9 < 4));
-        // Half of the wall; two opposite quarters; few struts.
+        // One half of the wall; two opposite quarters; few struts.
         assert!(!is_lattice(|n| n < 32));
         assert!(!is_lattice(|n| n % 32 < 16));
         assert!(!is_lattice(|n| n % 9 < 3));

@@ -5,7 +5,7 @@ use super::ellipse::SHAPE;
 pub(crate) const LUMEN: usize = SHAPE;
 pub(crate) const BACKGROUND: usize = SHAPE + 1;
 
-/// Number of parameters without a wall.
+/// Number of parameters of the model without a wall.
 pub(crate) const PLAIN: usize = SHAPE + 2;
 
 /// Index of the logarithm of the wall thickness (mm).
@@ -14,8 +14,8 @@ pub(crate) const WALL: usize = PLAIN + 1;
 /// Index of the first harmonic of the surroundings.
 pub(crate) const SECTORS: usize = PLAIN + 2;
 
-/// Cosine and sine of one, two and three times the direction.
+/// Number of harmonics of the surroundings: cosine and sine of one, two and three times the direction.
 pub(crate) const HARMONICS: usize = 6;
 
-/// Number of parameters with a wall.
+/// Number of parameters of the model with a wall.
 pub(crate) const WALLED: usize = SECTORS + HARMONICS;

@@ -1,17 +1,17 @@
 //! The parts of a diameter's standard deviation.
 
-/// Parts of the standard deviation of a diameter (mm), added as squares.
+/// Parts of the standard deviation of a diameter (mm); their squares add up.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Parts {
-    /// Noise.
+    /// Effect of noise.
     pub noise: f64,
-    /// Width of the point spread; signed by the effect of a wider one.
+    /// Effect of the width of the point spread; the sign is that of the effect of a wider one.
     pub point_spread: f64,
-    /// Level and thickness of the wall.
+    /// Effect of the level and thickness of the wall.
     pub wall: f64,
-    /// Level of the lumen.
+    /// Effect of the level of the lumen.
     pub lumen: f64,
-    /// Model errors: uneven surroundings and lumens that are no ellipses.
+    /// Effect of errors of the model: uneven surroundings, or a lumen that is not an ellipse.
     pub surroundings: f64,
 }
 
@@ -31,7 +31,7 @@ impl Parts {
         }
     }
 
-    /// Root of the sum of squares.
+    /// The root of the sum of squares.
     pub fn total(&self) -> f64 {
         let Self { noise, point_spread, wall, lumen, surroundings } = self;
         [noise, point_spread, wall, lumen, surroundings].map(|part| part * part).iter().sum::<f64>().sqrt()
@@ -69,10 +69,10 @@ pub enum Part {
 }
 
 impl Part {
-    /// All, in the order of tables.
+    /// All parts, in the order of table columns.
     pub const ALL: [Self; 5] = [Self::Noise, Self::PointSpread, Self::Wall, Self::Lumen, Self::Surroundings];
 
-    /// The name in files and programs.
+    /// The name of the part in files and programs.
     pub fn name(self) -> &'static str {
         match self {
             Self::Noise => "noise",
@@ -95,8 +95,8 @@ impl Part {
     }
 }
 
-/// Standard deviation of a weighted sum of diameters of one vessel. Errors of point spread, wall and lumen
-/// level are common to all places and add with their signs; noise and surroundings are independent.
+/// Standard deviation of a weighted sum of diameters of one vessel. The errors of point spread, wall and
+/// lumen level are the same everywhere, so they add with their signs. Noise and surroundings are independent.
 pub(crate) fn deviation_of_sum(diameters: &[(f64, Parts)]) -> f64 {
     let together =
         |part: Part| diameters.iter().map(|(weight, parts)| weight * part.of(parts)).sum::<f64>().powi(2);

@@ -1,4 +1,4 @@
-//! Measures a vessel: intensity scale, approximate lumen, levels, then each section.
+//! Measures a vessel in steps: intensity scale, approximate lumen, levels, then each section.
 
 use std::sync::OnceLock;
 
@@ -37,7 +37,7 @@ use lumencut_core::math::statistics::median;
 use lumencut_core::stop::{Stop, go_on};
 use lumencut_core::vessel_tree::Vessel;
 
-/// Assumed FWHM of the point spread in voxel sides, if nothing else is known.
+/// FWHM of the point spread (voxel sides) that is assumed if nothing else is known.
 pub(crate) const DEFAULT_FWHM: f64 = 1.2;
 
 /// Number of sections that decide whether walls are visible.
@@ -46,16 +46,16 @@ const WALL_SECTIONS: usize = 48;
 /// Number of sections from which the noise texture is estimated.
 const TEXTURE_SECTIONS: usize = 32;
 
-/// Minimum distance of separately fitted sections in blur widths: sections in between see the same voxels.
+/// Minimum distance of separately fitted sections in blur widths; closer sections see the same voxels.
 const FIT_SPACING: f64 = 0.7;
 
-/// Minimum search radius for the lumen around the centerline (mm).
+/// Minimum distance around the centerline (mm) within which the lumen is searched.
 const MIN_SEARCH_MM: f64 = 3.0;
 
 /// Maximum radius of a lumen (mm).
 const MAX_RADIUS_MM: f64 = 45.0;
 
-/// Separate fits under a point spread, and the possible wall where none is visible.
+/// Separate fits for a point spread, and the possible wall if none is visible.
 #[derive(Clone)]
 struct FirstFits {
     fwhm: f64,
@@ -71,7 +71,7 @@ pub(crate) struct PreparedVessel {
     wall_source: WallSource,
     places: Vec<SectionPlane>,
     estimates: Vec<Option<LumenEstimate>>,
-    /// Fits under the assumed point spread, and under the estimated or given one.
+    /// Fits for the assumed point spread, and for the estimated or given one.
     first: [OnceLock<FirstFits>; 2],
 }
 
@@ -103,7 +103,7 @@ impl PreparedVessel {
         })
     }
 
-    /// Separate fits under a point spread (FWHM, mm), cached.
+    /// Separate fits for a point spread (FWHM, mm), cached.
     fn kept_fits(&self, voxels: &Voxels, fwhm: f64, stop: Stop) -> Result<FirstFits> {
         let kept = self.first.iter().filter_map(OnceLock::get).find(|first| first.fwhm == fwhm);
         if let Some(kept) = kept {
@@ -117,8 +117,8 @@ impl PreparedVessel {
         Ok(found)
     }
 
-    /// Separate fits of all sections under a point spread (FWHM, mm). A subset decides first whether walls
-    /// are visible; if they are as bright as their surroundings, all sections are fitted without a wall.
+    /// Separate fits of all sections for a point spread (FWHM, mm). Some sections decide first whether walls
+    /// are visible. If walls are as bright as their surroundings, all sections are fitted without a wall.
     fn first_fits(&self, voxels: &Voxels, fwhm: f64, stop: Stop) -> Result<FirstFits> {
         let mut bench = bench(voxels, self.scale, self.wall, fwhm);
         let Some(known) = self.wall else {
@@ -155,7 +155,7 @@ impl PreparedVessel {
         bench(voxels, self.scale, self.wall.filter(|_| hidden.is_none()), fwhm)
     }
 
-    /// The sections that are fitted separately under a point spread (FWHM, mm), and their interval.
+    /// Interval of the sections that are fitted separately for a point spread (FWHM, mm), and those sections.
     fn fitted(&self, voxels: &Voxels, fwhm: f64) -> (usize, Self) {
         let blur = Blur::new(fwhm, voxels.world_from_index.matrix3);
         let width = self.places.iter().map(|place| blur.width(place)).fold(f64::INFINITY, f64::min);
@@ -174,7 +174,7 @@ impl PreparedVessel {
         }
     }
 
-    /// The possible wall, if it is as bright as its surroundings; None if walls are visible.
+    /// The possible wall, if walls are as bright as their surroundings; None if walls are visible.
     fn hidden_wall(
         &self,
         bench: &Bench,
@@ -199,7 +199,7 @@ impl PreparedVessel {
         estimated(&bench, voxels.world_from_index.matrix3, &fitted.places, &fits, stop)
     }
 
-    /// Wall level (in the volume's unit) without the prior; None if walls are not visible.
+    /// Wall level (in the volume's unit) from the sections, without the prior; None if walls are not visible.
     pub(crate) fn wall_level(&self, voxels: &Voxels, fwhm: f64, stop: Stop) -> Result<Option<Level>> {
         let Some(known) = self.wall else { return Ok(None) };
         let FirstFits { hidden, fits, texture, .. } = self.kept_fits(voxels, fwhm, stop)?;
@@ -274,7 +274,7 @@ impl PreparedVessel {
         is_below_lumen(&by_others, &self.scale).then_some(by_others)
     }
 
-    /// Pools the separate fits with the wall level from other vessels.
+    /// Pools the separate fits of a vessel, together with the wall level from other vessels.
     fn all_sections(
         &self,
         bench: &Bench,
@@ -296,7 +296,7 @@ impl PreparedVessel {
         Ok(AllSections { fits, noise, lumen, walls, texture })
     }
 
-    /// Factor by which correlated noise raises the variance of wall estimates.
+    /// Factor by which the correlation of noise increases the variance of wall estimates.
     fn inflation(&self, bench: &Bench, texture: &Texture) -> f64 {
         let sides = bench.rays.voxels.world_from_index.matrix3;
         self.places.first().map_or(1.0, |place| texture.inflation(sides, bench.blur.width(place)))
@@ -329,7 +329,7 @@ fn bench<'a, 'v>(voxels: &'a Voxels<'v>, scale: Scale, wall: Option<KnownWall>, 
     Bench { rays: Rays { voxels, scale }, blur, fwhm, wall, doubt: None }
 }
 
-/// Assumed point spread (FWHM, mm), from the middle voxel side.
+/// The assumed point spread (FWHM, mm), a multiple of the middle voxel side.
 pub(crate) fn assumed(voxels: &Voxels) -> f64 {
     let sides = voxels.world_from_index.matrix3;
     let mut lengths = [sides.x_axis, sides.y_axis, sides.z_axis].map(DVec3::length);
@@ -345,9 +345,9 @@ fn no_lumen(scale: &Scale) -> Error {
     Error::new(ErrorKind::Measuring, "lumen of the vessel", found, expected).mend(mend)
 }
 
-/// Limits estimates much wider than their neighbours, because rays escape where a branch begins.
+/// Reduces estimates much wider than their neighbours: rays escape at the start of a branch.
 fn tamed(estimates: &[Option<LumenEstimate>]) -> Vec<Option<LumenEstimate>> {
-    /// Neighbours on each side, and the maximum ratio to their median.
+    /// Number of neighbours on each side, and the maximum ratio of a radius to their median.
     const AROUND: (usize, f64) = (6, 1.5);
     (0..estimates.len())
         .map(|n| {

@@ -1,4 +1,4 @@
-//! The profile of a vessel: its lumen by arc length.
+//! The profile of a vessel: its lumen at each arc length.
 
 use glam::{DVec2, DVec3};
 
@@ -14,17 +14,17 @@ use super::sections::{Section, center};
 use super::wall::Wall;
 use super::wall_level::WallSource;
 
-/// Source of the point spread width.
+/// Where the width of the point spread comes from.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Source {
     /// Given by the caller.
     Given,
     /// Estimated on wide stretches of the vessel.
     Estimated {
-        /// The sections used.
+        /// Text about the sections used.
         on: String,
     },
-    /// Assumed.
+    /// Assumed, because it was neither given nor could be estimated.
     Assumed {
         /// The basis of the assumption.
         from: String,
@@ -42,7 +42,7 @@ pub struct PointSpread {
     pub source: Source,
 }
 
-/// The lumen of a vessel by arc length. NaN where not measured.
+/// The lumen of a vessel at each arc length. Values are NaN if not measured.
 #[derive(Clone, Debug)]
 pub struct Profile {
     /// Arc length (mm).
@@ -55,27 +55,27 @@ pub struct Profile {
     pub area: Vec<f64>,
     /// Standard deviation of the equivalent diameter (mm).
     pub uncertainty: Vec<f64>,
-    /// Parts of that (mm).
+    /// Parts of that standard deviation (mm).
     pub uncertainty_parts: Vec<Parts>,
     /// Wall thickness and its standard deviation (mm); NaN if the wall is not visible.
     pub wall: Vec<[f64; 2]>,
-    /// Equivalent diameter of the outer wall and its standard deviation (mm); NaN like `wall`.
+    /// Equivalent diameter of the outer wall and its standard deviation (mm); NaN if the wall is not visible.
     pub diameter_outer: Vec<[f64; 2]>,
-    /// Equivalent diameter (mm) without, and with, everything at the wall brighter than lumen; otherwise NaN.
+    /// Equivalent diameter (mm) without, and with, bright material at the wall; NaN if there is none.
     pub bounds: Vec<[f64; 2]>,
     /// Flags; see [`super::flags`].
     pub flags: Vec<u32>,
-    /// Lumen centre (mm, LPS); the centerline point if there is none.
+    /// Centre of the lumen (mm, LPS); the centerline point if no lumen was found.
     pub center: Vec<DVec3>,
     /// Unit vector along the vessel, normal to the section.
     pub normal: Vec<DVec3>,
-    /// In-plane unit vectors (LPS): right and down in the image.
+    /// Unit vectors within the section (LPS) that point right and down in its image.
     pub axes: Vec<[DVec3; 2]>,
     /// Wall points (mm, LPS), one per ray.
     pub contour: Vec<Vec<DVec3>>,
-    /// From the centre to the ends of the shortest and the longest diameter (mm, LPS).
+    /// Vectors from the centre to the ends of the shortest and the longest diameter (mm, LPS).
     pub half_axes: Vec<[DVec3; 2]>,
-    /// Radius of the largest ball around the centre within the lumen (mm).
+    /// Radius of the largest ball around the centre that fits into the lumen (mm).
     pub inscribed_radius: Vec<f64>,
     /// Levels of lumen and background, in the volume's unit.
     pub levels: Vec<[f64; 2]>,
@@ -83,15 +83,15 @@ pub struct Profile {
     pub noise: f64,
     /// FWHM of the point spread (mm).
     pub fwhm: f64,
-    /// Its standard deviation (mm); 0 if given.
+    /// Standard deviation of the FWHM (mm); 0 if the FWHM was given.
     pub fwhm_deviation: f64,
-    /// Its source.
+    /// Where the FWHM comes from.
     pub fwhm_source: Source,
     /// Whether walls were modelled, and with which level.
     pub wall_source: WallSource,
-    /// Centerline points of the sections (mm, LPS).
+    /// Points of the centerline at the sections (mm, LPS).
     pub on_vessel: Vec<DVec3>,
-    /// Unmeasured stretches at the ends, where lumen and surroundings look alike (arc lengths, mm).
+    /// End stretches that were not measured: lumen and surroundings look alike there (arc lengths, mm).
     pub without_wall: Vec<[f64; 2]>,
 }
 
@@ -157,7 +157,7 @@ impl Profile {
         self.arc_length.len()
     }
 
-    /// Always false.
+    /// Always false: a profile has at least one section.
     pub fn is_empty(&self) -> bool {
         self.arc_length.is_empty()
     }
@@ -172,7 +172,7 @@ impl Profile {
         self.diameter_min.iter().zip(&self.diameter_max).map(|(a, b)| f64::midpoint(*a, *b)).collect()
     }
 
-    /// Number of the section nearest to an arc length (mm), the first of two.
+    /// Number of the section nearest to an arc length (mm); the first one of two equally near ones.
     pub fn nearest_section(&self, at: f64) -> usize {
         let away = |n: &usize| (self.arc_length[*n] - at).abs();
         (0..self.len()).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(0)
@@ -193,16 +193,16 @@ impl Profile {
         self.arc_length.last().copied().unwrap_or(0.0)
     }
 
-    /// Whether a section counts for the largest, narrowest or suggested places.
+    /// Whether a section may be the widest, narrowest or a suggested place.
     pub fn counts(&self, n: usize) -> bool {
         self.flags[n] & LEFT_OUT == 0 && self.area[n].is_finite()
     }
 }
 
-/// Maximum standard deviation of the log thickness of a reported wall.
+/// Walls are reported only if the standard deviation of the logarithm of their thickness is at most this.
 const MAX_WALL_DEVIATION: f64 = 0.35;
 
-/// Anything thicker (mm) is thrombus or other tissue.
+/// Maximum thickness of a reported wall (mm); thicker layers are thrombus or other tissue.
 const THICKEST_WALL: f64 = 3.0;
 
 /// No wall is reported in sections with these flags.

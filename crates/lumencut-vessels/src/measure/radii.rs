@@ -1,4 +1,4 @@
-//! Measured radii for the points of a tree.
+//! Replaces the radii of a tree by measured ones.
 
 use std::f64::consts::PI;
 
@@ -32,7 +32,7 @@ pub struct Radii {
     pub kept: usize,
 }
 
-/// Measures all radii of a tree; a vessel that cannot be measured keeps its radii. [`ErrorKind::Settings`]
+/// Measures all radii of a tree. A vessel that cannot be measured keeps its radii. [`ErrorKind::Settings`]
 /// for an invalid step, wall or point spread, [`ErrorKind::Interrupted`].
 pub fn measured_radii(
     volume: &Volume,
@@ -80,7 +80,7 @@ fn of_profile(vessel: &Vessel, profile: &Profile) -> Radii {
     Radii { radius: radius.into_iter().collect(), measured, kept }
 }
 
-/// Radius interpolated between two sections that are close enough.
+/// Radius interpolated between two sections; None if they are too far apart.
 fn between(known: &[(f64, f64)], at: f64) -> Option<f64> {
     let after = known.partition_point(|(there, _)| *there < at);
     let next = known.get(after);

@@ -1,4 +1,4 @@
-//! Intensities along rays across a vessel: the edge of the lumen, and obstacles.
+//! Values along rays from the centre of a section: they show the edge of the lumen, and obstacles.
 
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
@@ -10,24 +10,24 @@ use super::section_plane::SectionPlane;
 use crate::voxels::Voxels;
 use lumencut_core::math::lanes::FAN;
 
-/// Rays per section, and points per contour.
+/// Number of rays of a section, and of points of a contour.
 pub(crate) const RAYS: usize = 64;
 
-/// Sampling distance along a ray, in [`Voxels::sampling_side`].
+/// Sampling distance along a ray, in units of [`Voxels::sampling_side`].
 const SAMPLE: f64 = 0.4;
 
 /// What a ray meets; distances in mm from its start.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ray {
-    /// Edge of the lumen.
+    /// Edge of the lumen; None if the ray does not reach it.
     pub edge: Option<f64>,
-    /// Start of anything else (neighbour, calcium, metal); infinite if none.
+    /// Start of anything but plain surroundings (neighbour, calcium, metal); infinite if there is none.
     pub limit: f64,
     /// Start of material too bright for lumen.
     pub(crate) bright_at: Option<f64>,
-    /// Largest share within a millimetre of that; 0 if none.
+    /// Largest value within a millimetre of that (share of the contrast); 0 if there is no such material.
     pub brightest: f64,
-    /// Where the profile crosses midway between lumen level and `brightest`, going up and coming down.
+    /// Where the values rise above, and fall below, midway between lumen level and `brightest`.
     pub rim: [f64; 2],
     /// Where the ray leaves the volume.
     pub(crate) outside_at: Option<f64>,
@@ -39,14 +39,14 @@ impl Ray {
     }
 }
 
-/// Parameters of a ray search; levels are shares.
+/// Parameters of a search along a ray; levels are shares of the contrast.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Look {
     /// Levels of lumen and surroundings.
     pub levels: [f64; 2],
-    /// Above this, there is no lumen.
+    /// Higher values are not lumen.
     pub bright: f64,
-    /// Rise that marks the start of a neighbour.
+    /// A rise by this amount marks the start of a neighbour.
     pub rise: f64,
     /// Search distance for the edge (mm).
     pub reach: f64,
@@ -66,7 +66,7 @@ pub(crate) struct Rays<'a, 'v> {
 }
 
 impl Rays<'_, '_> {
-    /// Share at a point of a plane; NaN outside the volume.
+    /// Value at a point of a plane, as a share of the contrast; NaN outside the volume.
     pub(crate) fn at(&self, place: &SectionPlane, point: DVec2) -> f64 {
         self.scale.share(f64::from(self.voxels.at(place.point(point))))
     }
@@ -97,7 +97,7 @@ impl Rays<'_, '_> {
                 ray.outside_at = Some(here);
                 break;
             }
-            // Two samples in a row, because noise alone does not reach that far twice.
+            // Requires two consecutive samples, because noise alone rarely exceeds the limit twice.
             if value > look.bright && samples.at(n + 1) > look.bright {
                 ray.bright_at = Some(here);
                 let last = n + (1.0 / self.step()).ceil() as usize;
@@ -128,9 +128,9 @@ impl Rays<'_, '_> {
     }
 }
 
-/// Where a ray rises above `level` and falls below it again (mm), from sample `first`.
+/// Distances (mm) at which a ray rises above `level` and falls below it again, searched from sample `first`.
 fn rim(samples: &mut Samples, first: usize, level: f64) -> [f64; 2] {
-    /// Maximum number of samples.
+    /// Maximum number of samples to search.
     const FAR: usize = 24;
     let mut crossing = |from: usize, rises: bool| {
         let is_beyond = |value: f64| (value > level) == rises;
@@ -143,7 +143,7 @@ fn rim(samples: &mut Samples, first: usize, level: f64) -> [f64; 2] {
     [begins.max(0.0), crossing(inner, false).1]
 }
 
-/// Samples of a ray as shares, read on demand; NaN outside the volume.
+/// Samples of a ray as shares of the contrast, read on demand; NaN outside the volume.
 struct Samples<'a, 'v> {
     rays: &'a Rays<'a, 'v>,
     start: DVec3,

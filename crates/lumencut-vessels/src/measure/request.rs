@@ -15,16 +15,16 @@ pub struct MeasureRequest<'a> {
     pub step: f64,
     /// FWHM of the scanner's point spread (mm), if known.
     pub fwhm: Option<f64>,
-    /// Level of walls.
+    /// How the level of walls is chosen.
     pub wall: WallRequest,
-    /// The tree of the vessel; may contain the vessel.
+    /// The tree of the vessel; the vessel itself may be part of it.
     pub tree: &'a [Vessel],
-    /// Asked whether to stop.
+    /// Called often; tells whether to stop.
     pub stop: Stop<'a>,
 }
 
 impl MeasureRequest<'_> {
-    /// Errors: [`ErrorKind::Settings`] for an invalid wall or point spread.
+    /// Checks the request. Errors: [`ErrorKind::Settings`] for an invalid wall or point spread.
     pub fn check(&self) -> Result<()> {
         self.wall.check()?;
         let Some(fwhm) = self.fwhm else { return Ok(()) };

@@ -1,4 +1,4 @@
-//! The sections of a vessel: first fits, then fits with what all sections share.
+//! The sections of a vessel: first separate fits, then fits with the values that all sections share.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -23,58 +23,58 @@ use lumencut_core::error::Result;
 use lumencut_core::math::statistics::median;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Excess over the lumen level that is not lumen: a share of the contrast (mixing contrast medium and
-/// enhanced edges stay below it), and a multiple of the noise.
+/// Values are too bright for lumen if they exceed its level by this share of the contrast, or this multiple
+/// of the noise if larger. Mixing contrast medium and enhanced edges stay below it.
 pub(crate) const BRIGHT: (f64, f64) = (0.15, 5.0);
 
-/// Rise at the start of a neighbour: a share of the contrast, and a multiple of the noise.
+/// A neighbour starts where values rise by this share of the contrast, or multiple of the noise if larger.
 const RISE: (f64, f64) = (0.2, 4.0);
 
-/// Rays continue beyond the wall by this many mm plus blur widths.
+/// Rays continue beyond the wall by this many mm plus this many blur widths.
 const RAY_BEYOND: (f64, f64) = (2.0, 1.5);
 
-/// Diameters below this multiple of the point spread are at the limit.
+/// Diameters below this multiple of the point spread get the flag [`AT_LIMIT`].
 pub(crate) const LIMIT: f64 = 1.5;
 
-/// Relative deviation from the ellipse that counts as irregular.
+/// A contour is irregular if its root mean square relative difference from the ellipse is larger.
 const ROUGH_WALL: f64 = 0.12;
 
-/// Minimum contrast, in multiples of the noise.
+/// Minimum contrast of a lumen, in multiples of the noise.
 pub(crate) const LEAST_CONTRAST: f64 = 2.0;
 
-/// Uncertainty of diameters without a blur model, in blur widths.
+/// Standard deviation of diameters that are measured without a blur model, in blur widths.
 const UNMODELLED_WIDTHS: f64 = 0.5;
 
-/// Initial noise, as a share.
+/// Noise before it is estimated, as a share of the contrast.
 const FIRST_NOISE: f64 = 0.1;
 
 pub(crate) struct Bench<'a, 'v> {
     pub rays: Rays<'a, 'v>,
     pub blur: Blur,
-    /// Point spread alone (FWHM, mm).
+    /// FWHM of the point spread, without voxels and interpolation (mm).
     pub fwhm: f64,
-    /// None where walls are not visible.
+    /// None if walls are not visible.
     pub wall: Option<KnownWall>,
-    /// Set if uncertainties are wanted.
+    /// Given if uncertainties are wanted.
     pub doubt: Option<Doubt>,
 }
 
 pub(crate) struct Doubt {
     pub texture: Texture,
-    /// Blur with the point spread wider by its standard deviation; None if it is known.
+    /// The blur if the point spread is wider by its standard deviation; None if its width is known exactly.
     pub wider: Option<Blur>,
-    /// A possible wall where none is visible.
+    /// A possible wall, if none is visible.
     pub wall: Option<KnownWall>,
 }
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Known {
     pub ellipse: Ellipse,
-    /// As a share.
+    /// Lumen level, as a share of the contrast.
     pub lumen: Level,
-    /// As a share; None before it is estimated.
+    /// Noise, as a share of the contrast; None before it is estimated.
     pub noise: Option<f64>,
-    /// The pooled wall; None to use the general prior.
+    /// The pooled wall; None if the general prior is used.
     pub wall: Option<KnownWall>,
 }
 
@@ -155,7 +155,7 @@ impl Bench<'_, '_> {
         let bright = known.lumen[0].max(0.5) + BRIGHT.0.max(BRIGHT.1 * noise);
         Look {
             levels: [known.lumen[0], 0.0],
-            // Dark lumens have no calcium rule.
+            // For dark lumens, bright values do not mean calcium.
             bright: if is_bright_lumen { bright } else { f64::INFINITY },
             rise: RISE.0.max(RISE.1 * noise),
             reach: known.ellipse.semi_axes()[1] * 2.0 + RAY_BEYOND.0 + RAY_BEYOND.1 * width,
@@ -163,7 +163,7 @@ impl Bench<'_, '_> {
         }
     }
 
-    /// Measures a section with prior knowledge; `other` is its second solution ([`Fit::other`]).
+    /// Measures a section with prior knowledge; `other` is the second solution of its fit ([`Fit::other`]).
     pub(crate) fn section(&self, place: &SectionPlane, known: &Known, other: Option<Ellipse>) -> Section {
         let fitted = self.fit_of_either(place, known, other).map(|fit| self.fitted(place, known, fit));
         match fitted {
@@ -175,7 +175,7 @@ impl Bench<'_, '_> {
     fn fitted(&self, place: &SectionPlane, known: &Known, fit: Fit) -> Section {
         let (ellipse, width) = (fit.ellipse, self.blur.width(place));
         let boundary = Boundary::new(&ellipse, Whitening::new(self.blur.interpolated(place)));
-        // A narrow lumen peaks below its level.
+        // A lumen narrower than the blur peaks below its level.
         let level = 0.5 * boundary.value(ellipse.center);
         let beside = fit.wall.map_or(fit.background, |wall| wall.level[0]);
         let half = beside + level * (fit.lumen[0] - beside);
@@ -216,7 +216,7 @@ impl Bench<'_, '_> {
         let ellipse = ellipse_within(known.ellipse.center, &walls)?;
         let mut flags = flags_of(&rays, |n| walls[n], width);
         let bounds = bounds(flags, &ellipse, || blooming::bounds(&rays, |n| walls[n], width));
-        // Struts inside may have any brightness.
+        // Between struts, values of any brightness are allowed.
         let shares = [lumen_shares(known.lumen[0], 0.0)[0], f64::INFINITY];
         let is_lumen = encloses_lumen(&self.rays, place, known.ellipse.center, &walls, width, shares);
         if known.lumen[0] < LEAST_CONTRAST * known.noise() || !is_lumen {
@@ -246,7 +246,7 @@ impl Bench<'_, '_> {
     }
 }
 
-/// Bounds of the diameter (mm), only with calcium or metal.
+/// Bounds of the diameter (mm); NaN unless calcium or metal is flagged.
 fn bounds(flags: u32, ellipse: &Ellipse, factors: impl FnOnce() -> [f64; 2]) -> [f64; 2] {
     if flags & (CALCIUM | METAL) == 0 {
         return [f64::NAN; 2];

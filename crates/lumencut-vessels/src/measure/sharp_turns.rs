@@ -1,4 +1,4 @@
-//! Finds sharp turns of a line, where section planes intersect inside the lumen.
+//! Finds turns of a centerline so sharp that section planes intersect inside the lumen.
 
 use super::flags::RESTLESS_LINE;
 use super::section_plane::SectionPlane;
@@ -19,7 +19,7 @@ pub(crate) fn flag_sharp_turns(places: &[SectionPlane], sections: &mut [Section]
     }
 }
 
-/// Total turn within a window of `within` mm around each section (degrees).
+/// Total turn (degrees) within a window of `within` mm around each section.
 fn turns(places: &[SectionPlane], within: f64) -> Vec<f64> {
     let mut turned = vec![0.0];
     for two in places.windows(2) {

@@ -1,7 +1,7 @@
 //! The voxels near the plane of a section, projected onto it.
 //!
-//! A straight vessel looks the same along its axis, so every voxel shows the blurred section at its own
-//! position. Nothing is interpolated, and noise stays independent.
+//! A straight vessel looks the same everywhere along its axis, so each voxel shows the blurred section at its
+//! own position. Values are not interpolated, so the noise of the voxels stays independent.
 
 use glam::DVec2;
 
@@ -10,29 +10,29 @@ use super::section_plane::SectionPlane;
 use crate::voxels::Voxels;
 use lumencut_core::math::lanes::FAN;
 
-/// Maximum number of voxels near the wall, and elsewhere.
+/// Maximum number of voxels near the wall, and of other voxels.
 const MAX_VOXELS: [usize; 2] = [448, 160];
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Window {
-    /// Centre (mm in the plane).
+    /// Centre (mm, in the plane).
     pub center: DVec2,
     /// Radius (mm).
     pub reach: f64,
-    /// Approximate radius of the wall, and the distance from it that counts as near (mm).
+    /// Approximate radius of the wall, and the distance from it within which voxels are near the wall (mm).
     pub wall: [f64; 2],
 }
 
-/// Voxels in groups of sixteen; padding has weight 0.
+/// Voxels in groups of sixteen; the last group is filled up with voxels of weight 0.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Samples {
-    /// In-plane position (mm).
+    /// Position within the plane (mm).
     pub x: Vec<[f32; FAN]>,
     pub y: Vec<[f32; FAN]>,
     pub share: Vec<[f32; FAN]>,
-    /// Falls linearly with the distance from the plane.
+    /// Weight, which falls linearly with the distance from the plane.
     pub weight: Vec<[f32; FAN]>,
-    /// Voxel indices relative to the first voxel of the window.
+    /// Index of each voxel relative to the first voxel of the window.
     pub voxel: Vec<[[i16; 3]; FAN]>,
     pub count: usize,
 }
@@ -41,7 +41,7 @@ pub(crate) struct Samples {
 struct Sample {
     numbers: [f32; 4],
     voxel: [i16; 3],
-    /// Pseudo-random number of the voxel, the same in every window.
+    /// A pseudo-random number that a voxel has in every window.
     key: u32,
 }
 
@@ -102,13 +102,13 @@ impl Samples {
     }
 }
 
-/// Distance from the plane up to which voxels count (mm): the reach of linear interpolation.
+/// Maximum distance of voxels from the plane (mm): that of the voxels which linear interpolation would use.
 pub(crate) fn thickness(voxels: &Voxels, place: &SectionPlane) -> f64 {
     let sides = voxels.world_from_index.matrix3;
     [sides.x_axis, sides.y_axis, sides.z_axis].iter().map(|side| side.dot(place.normal).abs()).sum()
 }
 
-/// Voxels of a row within `thickness` of the plane; the distance starts at `z` and grows by `dz`.
+/// Voxels of a row within `thickness` of the plane; `z` is the distance of the first, `dz` its increase.
 fn within(z: f64, dz: f64, thickness: f64, count: i32) -> Option<(i32, i32)> {
     let last = f64::from(count - 1);
     if dz.abs() < 1e-9 {
@@ -119,7 +119,7 @@ fn within(z: f64, dz: f64, thickness: f64, count: i32) -> Option<(i32, i32)> {
     (low <= high).then_some((low as i32, high as i32))
 }
 
-/// Keeps about `most` samples, nearly the same ones for a slightly different window.
+/// Keeps about `most` samples. A slightly different window keeps nearly the same ones.
 fn thinned(samples: Vec<Sample>, most: usize) -> Vec<Sample> {
     if samples.len() <= most {
         return samples;
@@ -128,7 +128,7 @@ fn thinned(samples: Vec<Sample>, most: usize) -> Vec<Sample> {
     samples.into_iter().filter(|sample| sample.key <= limit).collect()
 }
 
-/// Pseudo-random number of a voxel (primes of Teschner et al. 2003, final mix of MurmurHash3).
+/// A pseudo-random number per voxel (primes of Teschner et al. 2003, final mix of MurmurHash3).
 fn key([i, j, k]: [i32; 3]) -> u32 {
     let [i, j, k] =
         [(i, 73_856_093), (j, 19_349_663), (k, 83_492_791)].map(|(n, by)| (n as u32).wrapping_mul(by));

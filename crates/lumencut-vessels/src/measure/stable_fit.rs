@@ -1,27 +1,27 @@
-//! Fits that do not depend on their start.
+//! Makes fits independent of their start.
 //!
-//! The start of a fit decides which voxels count, what obstructs them, the shape prior and the limits. The
-//! fit is therefore restarted from its own result until it stays there. If it does not, two lumens fit about
-//! as well and the residual cannot decide between them (on a dissection the lower residual was farther from
-//! the reference in 7 of 10 sections), so the second solution only adds uncertainty.
+//! The start of a fit determines which voxels count, what obstructs them, the prior of the shape and the
+//! limits. So the fit is restarted from its own result until it stays there. If it does not, two lumens fit
+//! about equally well. The residual cannot decide between them: on a dissection the lower residual was
+//! farther from the reference in 7 of 10 sections. So the second solution only increases the uncertainty.
 
 use super::ellipse::Ellipse;
 use super::fit::Fit;
 use super::section_plane::SectionPlane;
 use super::sections::{Bench, Known};
 
-/// Largest movement of a parameter in blur widths for a fit that stays.
+/// A fit stays if no parameter moves by more than this (blur widths).
 const MAX_MOVEMENT: f64 = 0.05;
 
 /// Maximum number of restarts.
 const MAX_RESTARTS: usize = 3;
 
-/// Two fits show the same lumen within this ratio of sizes and this distance of centres (radii).
+/// Two fits show the same lumen up to this ratio of sizes and this distance of centres (radii).
 const SAME_LUMEN: (f64, f64) = (1.6, 0.6);
 
 impl Bench<'_, '_> {
-    /// Restarts the fit until it stays; otherwise reports a second solution. Jumps to another lumen are
-    /// discarded.
+    /// Restarts the fit until it stays; if it does not, the result has a second solution. Fits that jump to
+    /// another lumen are discarded.
     pub(crate) fn stable_fit(&self, place: &SectionPlane, known: &Known) -> Option<Fit> {
         let least = MAX_MOVEMENT * self.blur.width(place);
         let first = self.fit(place, known)?;
@@ -40,7 +40,7 @@ impl Bench<'_, '_> {
         Some(Fit { other, ..fit })
     }
 
-    /// Fit with the second solution, if any, added to its uncertainty.
+    /// The fit; a second solution, if any, increases its uncertainty.
     pub(crate) fn fit_of_either(
         &self,
         place: &SectionPlane,

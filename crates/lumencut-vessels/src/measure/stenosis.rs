@@ -1,7 +1,7 @@
-//! Stenoses at places named by the caller.
+//! Grades stenoses at places that the caller chooses.
 //!
 //! - NASCET: 1 - narrowest / normal distal diameter (NASCET 1991, doi:10.1056/NEJM199108153250701). It does
-//!   not apply beyond a near-occlusion, where the distal vessel is narrowed (Fox et al. 2005, AJNR 26:2086).
+//!   not apply to a near-occlusion, beyond which the vessel is narrowed (Fox et al. 2005, AJNR 26:2086).
 //! - ECST: 1 - narrowest / assumed original diameter (ECST 1998, doi:10.1016/S0140-6736(97)09292-1).
 //! - Area: 1 - narrowest / normal area.
 
@@ -16,7 +16,7 @@ use lumencut_core::math::same_place::ALONG_LINE;
 use lumencut_core::math::statistics::median;
 use lumencut_core::named::Named;
 
-/// A reference is the median of the sections within this distance (mm).
+/// The reference diameter is the median of the sections within this distance (mm).
 pub(crate) const REFERENCE_REACH: f64 = 1.5;
 
 /// A distal vessel below this share of the vessel on the other side of the stenosis is itself narrowed.
@@ -25,20 +25,20 @@ pub(crate) const NARROWED: f64 = 0.5;
 /// The same limit for a comparison vessel, such as the contralateral one (Bartlett et al. 2006, AJNR 27:632).
 pub(crate) const NARROWED_BESIDE: f64 = 0.87;
 
-/// Range of the other side of a stenosis (mm from it).
+/// Range of distances from the stenosis (mm) in which the vessel on its other side is measured.
 const OTHER_SIDE: [f64; 2] = [3.0, 50.0];
 
-/// Tolerance for being at a section, as a share of the section distance.
+/// A place this close to a section (share of the section distance) lies at the section.
 const AT_SECTION: f64 = 1e-6;
 
 /// Grading method of a stenosis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
-    /// By the diameter of the normal vessel.
+    /// Relative to the diameter of the normal vessel.
     Nascet,
-    /// By the assumed original diameter at the stenosis.
+    /// Relative to the assumed original diameter at the stenosis.
     Ecst,
-    /// By the area of the normal vessel.
+    /// Relative to the area of the normal vessel.
     Area,
 }
 
@@ -47,10 +47,10 @@ impl Named for Method {
         &[("nascet", Self::Nascet), ("ecst", Self::Ecst), ("area", Self::Area)];
 }
 
-/// What a stenosis is compared with.
+/// Values with which a stenosis is compared.
 #[derive(Clone, Debug, Default)]
 pub struct Compared {
-    /// Arc lengths of one normal place, or of one on each side (mm).
+    /// Arc lengths of one normal place, or of one on each side of the stenosis (mm).
     pub reference: Vec<f64>,
     /// Assumed original diameter (mm), for ECST.
     pub original: Option<f64>,
@@ -58,12 +58,12 @@ pub struct Compared {
     pub comparison: Option<f64>,
 }
 
-/// Reasons to doubt a percentage, shown with it.
+/// Reasons to doubt a percentage, to be shown with it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Doubts {
     /// Flags of the sections used; see [`super::flags`].
     pub flags: u32,
-    /// Whether a branch lies between the place and a reference; the calibre may change there.
+    /// Whether a branch lies between the stenosis and a reference; the calibre may change there.
     pub is_branch_between: bool,
 }
 
@@ -74,13 +74,13 @@ pub struct Stenosis {
     pub percent: f64,
     /// Standard deviation of the percentage.
     pub percent_uncertainty: f64,
-    /// Arc length (mm).
+    /// Arc length of the stenosis (mm).
     pub at: f64,
-    /// Equivalent diameter (mm).
+    /// Equivalent diameter at the stenosis (mm).
     pub diameter: f64,
     /// Standard deviation of the diameter (mm).
     pub uncertainty: f64,
-    /// Reference diameter (mm); for areas, of a circle of that area.
+    /// Reference diameter (mm); for the method [`Method::Area`] that of a circle of the reference area.
     pub reference: f64,
     /// Arc length and diameter of each reference (mm).
     pub references: Vec<[f64; 2]>,
@@ -151,15 +151,15 @@ impl Profile {
         Ok((diameter, place.between(ends.map(|n| self.uncertainty[n]))))
     }
 
-    /// Parts of the standard deviation at an arc length (mm), interpolated.
+    /// Parts of the standard deviation at an arc length (mm), interpolated between sections.
     pub(crate) fn uncertainty_at(&self, at: f64) -> Parts {
         let (place, ends) = self.sections_around(at);
         let [a, b] = ends.map(|n| &self.uncertainty_parts[n]);
         a.with(b, |a, b| place.between([a, b]))
     }
 
-    /// The sections before and after an arc length (mm); twice the same if only one of them counts. A place
-    /// at a section uses that section in any case.
+    /// The sections before and after an arc length (mm); twice the same section if only one of them counts. A
+    /// place at a section always uses that section.
     fn sections_around(&self, at: f64) -> (LinePlace, [usize; 2]) {
         let place = LinePlace::at(&self.arc_length, at);
         let ends = [place.segment, (place.segment + 1).min(self.len() - 1)];
@@ -172,7 +172,7 @@ impl Profile {
         (place, ends)
     }
 
-    /// Standard deviation of a percentage times the reference diameter (mm); `share` is the remaining lumen.
+    /// Standard deviation of the percentage times the reference diameter (mm); `share` of the lumen remains.
     fn percent_uncertainty(&self, at: f64, method: Method, share: f64, references: &[[f64; 2]]) -> f64 {
         let place = self.uncertainty_at(at);
         let known: Vec<(f64, Parts)> = match (method, references) {
@@ -189,13 +189,13 @@ impl Profile {
         100.0 * by_area * deviation_of_sum(&all)
     }
 
-    /// Median diameter around an arc length (mm), of the sections that count.
+    /// Median diameter of the sections that count around an arc length (mm).
     pub(crate) fn reference_at(&self, at: f64) -> Result<f64> {
         self.check_place("reference of the stenosis", at)?;
         let around = |n: &usize| (self.arc_length[*n] - at).abs() <= REFERENCE_REACH;
         let mut widths = self.widths((0..self.len()).filter(around));
         if widths.is_empty() {
-            // The sections may be farther apart than the window.
+            // If sections are far apart, the window may contain none.
             return self.diameter_at(at).map(|(diameter, _)| diameter);
         }
         median(&mut widths)
@@ -205,7 +205,7 @@ impl Profile {
     /// Reasons to doubt a percentage at an arc length with references (mm), from the nearest sections.
     pub fn doubts(&self, at: f64, method: Method, references: &[f64]) -> Doubts {
         let place = self.nearest_section(at);
-        // ECST uses no reference place.
+        // ECST does not use a reference place.
         let told_by = if method == Method::Ecst { &[] } else { references };
         let others: Vec<usize> = told_by.iter().map(|reference| self.nearest_section(*reference)).collect();
         let between = |other: usize| (place.min(other) + 1)..place.max(other);
@@ -222,7 +222,7 @@ impl Profile {
 
     pub(crate) fn check_place(&self, subject: &str, at: f64) -> Result<()> {
         let length = self.arc_length[self.len() - 1];
-        // Tolerates rounding of lengths.
+        // Lengths may be rounded.
         if at >= -ALONG_LINE && at <= length + ALONG_LINE {
             return Ok(());
         }
@@ -274,10 +274,10 @@ fn original(diameter: Option<f64>) -> Result<f64> {
     Err(measuring("original diameter of the stenosis", found, "the assumed diameter (mm), for ECST"))
 }
 
-/// Rejects a reference within its own diameter of the stenosis, because it still belongs to the narrowing.
+/// Rejects a reference closer to the stenosis than the reference diameter: it still belongs to the narrowing.
 fn refuse_near(at: f64, [place, diameter]: [f64; 2]) -> Result<()> {
     let away = (place - at).abs();
-    // Tolerates rounding of lengths.
+    // Lengths may be rounded.
     if away + ALONG_LINE >= diameter {
         return Ok(());
     }
@@ -287,7 +287,7 @@ fn refuse_near(at: f64, [place, diameter]: [f64; 2]) -> Result<()> {
     Err(measuring("reference of the stenosis", found, &expected).mend(mend))
 }
 
-/// The reference at a stenosis, interpolated between two by distance.
+/// The reference diameter at the stenosis, interpolated between two references by distance.
 fn at_stenosis(at: f64, references: &[[f64; 2]]) -> Result<f64> {
     match references {
         [[_, diameter]] => Ok(*diameter),

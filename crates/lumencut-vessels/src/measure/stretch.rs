@@ -9,14 +9,14 @@ use lumencut_core::math::arc_length::point_at;
 /// The length of a segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stretch {
-    /// Along the vessel (mm).
+    /// Length along the vessel (mm).
     pub length: f64,
-    /// Straight distance of the ends (mm).
+    /// Straight distance between the ends (mm).
     pub straight: f64,
 }
 
 impl Stretch {
-    /// Length over straight distance; infinite if both ends coincide.
+    /// Length divided by straight distance; infinite if both ends coincide.
     pub fn tortuosity(&self) -> f64 {
         if self.straight > 0.0 { self.length / self.straight } else { f64::INFINITY }
     }
@@ -25,21 +25,21 @@ impl Stretch {
 /// C-arm angles (radians).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CArm {
-    /// Left anterior oblique; negative for RAO.
+    /// Left anterior oblique rotation; negative for right anterior oblique.
     pub lao: f64,
-    /// Cranial; negative for caudal.
+    /// Cranial angulation; negative for caudal.
     pub cranial: f64,
 }
 
 impl Profile {
-    /// Length between two arc lengths (mm). [`ErrorKind::Measuring`] for wrong or equal places.
+    /// Length between two arc lengths (mm). [`ErrorKind::Measuring`] for invalid or equal places.
     pub fn stretch(&self, [from, to]: [f64; 2]) -> Result<Stretch> {
         self.check_stretch([from, to])?;
         let straight = self.point_at(from).distance(self.point_at(to));
         Ok(Stretch { length: (to - from).abs(), straight })
     }
 
-    /// Direction from one arc length to another (mm): that of the line fitted to the section centres. Errors:
+    /// Direction from one arc length to another (mm), of a line fitted to the section centres. Errors:
     /// [`ErrorKind::Measuring`] for places beyond the vessel, or the same place twice.
     pub fn direction(&self, [from, to]: [f64; 2]) -> Result<DVec3> {
         self.check_stretch([from, to])?;
@@ -51,7 +51,7 @@ impl Profile {
         }
         let count = line.len() as f64;
         let middle = line.iter().map(|(at, _)| at).sum::<f64>() / count;
-        // Least-squares slope by arc length.
+        // The direction is the least-squares slope of the points by arc length.
         let slope: DVec3 = line.iter().map(|(at, point)| *point * (at - middle)).sum();
         let direction = (slope * (to - from).signum()).try_normalize();
         direction.ok_or_else(|| {
@@ -70,8 +70,8 @@ impl Profile {
         Ok(self.direction(first)?.angle_between(self.direction(second)?))
     }
 
-    /// C-arm angles that show a segment in full length: at rotation `lao` (radians) if given, otherwise with
-    /// the smallest turn. Errors: As [`Profile::direction`], and for a rotation at which no angulation does.
+    /// C-arm angles that show a segment in full length: at rotation `lao` (radians) if given, otherwise
+    /// nearest to the frontal view. Errors: As [`Profile::direction`], or no angulation does so at `lao`.
     pub fn c_arm(&self, stretch: [f64; 2], lao: Option<f64>) -> Result<CArm> {
         let along = self.direction(stretch)?;
         match lao {
@@ -102,26 +102,26 @@ impl Profile {
     }
 }
 
-/// Direction to the detector (LPS): (sin α cos β, -cos α cos β, sin β) for LAO α and cranial β.
+/// Direction towards the detector (LPS): (sin α cos β, -cos α cos β, sin β) for LAO α and cranial β.
 pub fn towards_detector(CArm { lao, cranial }: CArm) -> DVec3 {
     DVec3::new(lao.sin() * cranial.cos(), -lao.cos() * cranial.cos(), cranial.sin())
 }
 
-/// Up in the C-arm image (LPS): towards the head. From directly above or below, the limit of turning there
-/// applies: the back from above, the front from below.
+/// The direction that is up in the C-arm image (LPS), towards the head. For views from directly above or
+/// below, it is the limit of neighbouring views: the back from above, the front from below.
 pub fn up_at_detector(CArm { lao, cranial }: CArm) -> DVec3 {
     DVec3::new(-lao.sin() * cranial.sin(), lao.cos() * cranial.sin(), cranial.cos())
 }
 
 fn least_turned(along: DVec3) -> CArm {
     let front = DVec3::NEG_Y;
-    // A vessel along the frontal view is seen from the patient's left.
+    // A vessel along the frontal view is shown from the patient's left.
     let view = front.reject_from_normalized(along).try_normalize().unwrap_or(DVec3::X);
     let view = if (front.dot(along).abs() - 1.0).abs() < 1e-9 { DVec3::X } else { view };
     CArm { lao: view.x.atan2(-view.y), cranial: view.z.clamp(-1.0, 1.0).asin() }
 }
 
-/// Angulation at a rotation that shows a direction in full length.
+/// Angles at the rotation `lao` that show a direction in full length.
 fn angulated(along: DVec3, lao: f64) -> Result<CArm> {
     let flat = along.x * lao.sin() - along.y * lao.cos();
     if !lao.is_finite() || (along.z.abs() < 1e-9 && flat.abs() > 1e-9) {

@@ -1,4 +1,4 @@
-//! Suggestions for the reader: narrowest and widest place, and references. They do not detect stenoses.
+//! Suggests the narrowest and widest place and references to the reader; does not detect stenoses.
 
 use std::cmp::Ordering;
 
@@ -8,31 +8,31 @@ use super::stenosis::REFERENCE_REACH;
 use lumencut_core::error::Result;
 use lumencut_core::math::statistics::{median, quantile};
 
-/// Walls are parallel if diameters within this distance (mm) on both sides differ by at most this share.
+/// Walls are parallel if diameters within this distance (mm) vary by at most this share of their median.
 const PARALLEL: (f64, f64) = (2.5, 0.06);
 
-/// Distance range of references (mm).
+/// Range of distances of a reference from the stenosis (mm).
 const REFERENCE_DISTANCE_MM: [f64; 2] = [3.0, 50.0];
 
 /// Minimum diameter of a reference, as a share of the typical diameter on its side.
 const NORMAL: f64 = 0.92;
 
-/// Ratio of neighbouring normal places that counts as a step of the calibre.
+/// The calibre changes if neighbouring normal places differ by this factor.
 const CALIBRE_STEP: f64 = 1.25;
 
-/// The longest diameter is not suggested within this distance (mm) of an irregular section or a branch.
+/// The longest diameter is not suggested if an irregular section or a branch lies within this distance (mm).
 const MIN_DISTANCE_MM: f64 = 1.0;
 
-/// Maximum ratio of the axes of a section: alone, and with similar neighbours, defined as at least this many
-/// within this distance (mm) that are at most this share shorter. Excludes isolated outliers of the fit.
+/// Maximum ratio of the axes of a section, to exclude isolated outliers of the fit: alone, and with similar
+/// neighbours. `NEIGHBOURS` requires this many within this distance (mm) that are at most this share shorter.
 const ROUND: [f64; 2] = [1.3, 2.0];
 const NEIGHBOURS: (f64, usize, f64) = (2.5, 4, 0.1);
 
-/// A tapering end: the vessel is wider by the first factor on one side, and nowhere by the second on the
-/// other.
+/// At a tapering end, the vessel on one side is wider by at least the first factor, and on the other side
+/// nowhere by the second.
 const THIN_END: [f64; 2] = [1.25, 1.1];
 
-/// Sections on each side for a median width, because single ones may be outliers.
+/// Number of sections on each side for a median width, because single sections may be outliers.
 const MEDIAN_SECTIONS: usize = 2;
 
 /// A place on a vessel.
@@ -45,8 +45,8 @@ pub struct Spot {
 }
 
 impl Profile {
-    /// Narrowest place (median of three sections) without [`Profile::hindrances`], except a tapering end.
-    /// None if there is none ([`Profile::none_safe`], [`Profile::thin_end`]).
+    /// Narrowest place (median of three sections) that has no [`Profile::hindrances`] and is not a tapering
+    /// end. None if there is no such place ([`Profile::none_safe`], [`Profile::thin_end`]).
     pub fn narrowest(&self) -> Option<Spot> {
         let spots = self.safe_spots();
         let narrowest = spots.iter().copied().min_by(thinner)?;
@@ -56,18 +56,18 @@ impl Profile {
         if before.max(after) < THIN_END[0] || before.min(after) >= THIN_END[1] {
             return Some(narrowest.1);
         }
-        // In a tapering vessel, a narrowing is thinner than both sides.
+        // In a tapering vessel, the narrowest place must be thinner than the vessel on both sides.
         let is_narrowing = |one: &(usize, Spot)| wider(one).iter().all(|factor| *factor >= THIN_END[1]);
         spots.into_iter().filter(is_narrowing).min_by(thinner).map(|(_, spot)| spot)
     }
 
-    /// Narrowest place of a vessel that only tapers towards an end; None otherwise.
+    /// Narrowest place of a vessel that only tapers towards an end; None for other vessels.
     pub fn thin_end(&self) -> Option<Spot> {
         let narrowest = self.safe_spots().into_iter().min_by(thinner);
         narrowest.map(|(_, spot)| spot).filter(|_| self.narrowest().is_none())
     }
 
-    /// Sections without hindrances, with the median diameter of three.
+    /// Sections that count and have no hindrances; the diameter is the median of three.
     fn safe_spots(&self) -> Vec<(usize, Spot)> {
         let hindrances = self.hindrances();
         let spot = |n: usize| {
@@ -77,7 +77,7 @@ impl Profile {
         (0..self.len()).filter(|n| self.counts(*n) && hindrances[*n] == 0).filter_map(spot).collect()
     }
 
-    /// Largest width before and after each section, by medians of five; 0 if none counts.
+    /// Largest width before and after each section, from medians of five; 0 if no section there counts.
     fn widest_beside(&self) -> Vec<[f64; 2]> {
         let width = |n: usize| median(&mut self.widths(self.around(n, MEDIAN_SECTIONS))).unwrap_or(0.0);
         let widths: Vec<f64> = (0..self.len()).map(width).collect();
@@ -95,7 +95,7 @@ impl Profile {
         n.saturating_sub(count)..(n + count + 1).min(self.len())
     }
 
-    /// All hindrances of the vessel as bits, if no section is free of them; None otherwise.
+    /// Union of all hindrances as bits if no section is free of them; None otherwise.
     pub fn none_safe(&self) -> Option<u32> {
         let hindrances = self.hindrances();
         let is_safe = |n: usize| self.counts(n) && hindrances[n] == 0;
@@ -110,8 +110,8 @@ impl Profile {
         spots.reduce(|a, b| if b.diameter > a.diameter { b } else { a })
     }
 
-    /// Longest diameter to suggest: [`Profile::widest`], or the section of largest area if that is an
-    /// outlier. None if both are outliers, or next to an irregular section or a branch.
+    /// Longest diameter to suggest: that of [`Profile::widest`], or of the section of largest area if that is
+    /// an outlier. None if both are outliers, or if an irregular section or a branch is near.
     pub fn offered_widest(&self) -> Option<Spot> {
         let largest = (0..self.len())
             .filter(|n| self.counts(*n))
@@ -134,10 +134,10 @@ impl Profile {
         longest <= ROUND[usize::from(agree)] * self.diameter_min[n]
     }
 
-    /// Suggested references before and after an arc length (mm): the nearest places at least their own
-    /// diameter away, with parallel walls, typical width, not narrower than the place, and without
-    /// [`Profile::hindrances`]. They lie before the next branch or step of the calibre, unless neither side
-    /// has such a place. Errors: `ErrorKind::Measuring` for a place beyond the vessel.
+    /// Suggested references before and after an arc length (mm). A reference is the nearest place at least
+    /// its own diameter away that has parallel walls and a typical width, is not narrower than the stenosis,
+    /// and has no [`Profile::hindrances`]. It lies before the next branch or step of the calibre, unless
+    /// neither side has such a place. Errors: `ErrorKind::Measuring` for a place beyond the vessel.
     pub fn suggested_references(&self, at: f64) -> Result<[Option<Spot>; 2]> {
         self.check_place("place on the vessel", at)?;
         let normal = self.normal_places(at);
@@ -153,7 +153,7 @@ impl Profile {
         Ok(if segment == [None, None] { within([f64::INFINITY; 2]) } else { segment })
     }
 
-    /// All possible references, in order: safe, with parallel walls, not narrower.
+    /// All possible references by arc length: no hindrances, parallel walls, not narrower than the stenosis.
     fn normal_places(&self, at: f64) -> Vec<Spot> {
         let hindrances = self.hindrances();
         let least = self.diameter_at(at).map_or(0.0, |(diameter, _)| diameter);
@@ -169,7 +169,7 @@ impl Profile {
         (0..self.len()).filter_map(spot).collect()
     }
 
-    /// Distance (mm) to the nearest branch on a side, ignoring one at the place itself.
+    /// Distance (mm) to the nearest branch on a side, except a branch at the place itself.
     fn nearest_branch(&self, at: f64, side: f64) -> f64 {
         let away = (0..self.len()).filter(|n| self.flags[*n] & BRANCH != 0);
         let away =
@@ -193,7 +193,7 @@ impl Profile {
         offered.min_by(|a, b| away(a.at).total_cmp(&away(b.at))).copied()
     }
 
-    /// Median diameter around a section with parallel walls; None if `but` is among them.
+    /// Median diameter around a section, if its walls are parallel and `but` does not lie among them.
     fn parallel(&self, n: usize, but: f64) -> Option<f64> {
         let here = self.arc_length[n];
         let (reach, share) = PARALLEL;

@@ -1,11 +1,11 @@
-//! Kernels that sum residuals and normal equations over the samples.
+//! Kernels that compute residuals and normal equations of the samples.
 
 use super::least_squares::Normal;
 use super::model::{Model, Modelled};
 use super::slab::Samples;
 use lumencut_core::math::lanes::{FAN, Kernel};
 
-/// Kernel: normal equations over all samples.
+/// Kernel that adds up the normal equations of all samples.
 pub(crate) struct Sums<'a, M, const N: usize> {
     pub samples: &'a Samples,
     pub kept: &'a [[f32; FAN]],
@@ -52,7 +52,7 @@ impl<M: Model<N>, const N: usize> Kernel for Sums<'_, M, N> {
     }
 }
 
-/// Kernel: residual of each sample.
+/// Kernel that computes the residual of each sample.
 pub(crate) struct Missing<'a, M, const N: usize> {
     pub samples: &'a Samples,
     pub model: &'a M,
@@ -73,12 +73,12 @@ impl<M: Model<N>, const N: usize> Kernel for Missing<'_, M, N> {
     }
 }
 
-/// Kernel: shift of a combination of parameters per sample.
+/// Kernel that computes by how much each sample shifts a combination of parameters.
 pub(crate) struct Moves<'a, M, const N: usize> {
     pub samples: &'a Samples,
     pub kept: &'a [[f32; FAN]],
     pub model: &'a M,
-    /// The combination's factor for each derivative.
+    /// Factor of each derivative in the combination.
     pub towards: [f32; N],
 }
 

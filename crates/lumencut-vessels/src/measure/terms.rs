@@ -22,7 +22,7 @@ impl<const N: usize> Term<N> {
         Self { parameter, by: unit(parameter), level, start: level[0] }
     }
 
-    /// Subtracts `share` times the deviation of another parameter from its mean.
+    /// Reduces the prior by `share` times the difference between another parameter and its mean.
     #[must_use]
     pub(crate) fn less(mut self, other: usize, share: f64, mean: f64) -> Self {
         self.by[other] = -share;

@@ -1,22 +1,22 @@
 //! The spatial correlation of image noise.
 //!
-//! CT kernels correlate neighbouring voxels, so a mean is less certain than with independent noise.
+//! The kernels of CT correlate neighbouring voxels, so a mean is less certain than with independent noise.
 
 use glam::{DMat3, DVec3};
 
 use super::slab::Samples;
 use lumencut_core::math::lanes::{FAN, Isa, Kernel, dispatch};
 
-/// Distance (voxels) from which noise counts as independent.
+/// From this distance (voxels), noise counts as independent.
 const CORRELATED_VOXELS: usize = 5;
 
-/// Minimum number of pairs, and minimum significance in standard deviations, of a correlation.
+/// Minimum number of voxel pairs, and minimum significance (standard deviations), of a correlation.
 const MIN_EVIDENCE: (f64, f64) = (100.0, 2.0);
 
 /// Residuals above this multiple of the typical value are not noise.
 const LARGEST: f32 = 4.0;
 
-/// Autocorrelation of the noise by the absolute offsets along the grid axes.
+/// Autocorrelation of the noise by the absolute offsets along the axes of the grid.
 #[derive(Clone, Debug)]
 pub(crate) struct Texture {
     correlation: [[[f32; CORRELATED_VOXELS]; CORRELATED_VOXELS]; CORRELATED_VOXELS],
@@ -26,7 +26,7 @@ pub(crate) struct Texture {
 pub(crate) struct Pairs {
     products: [[[f64; CORRELATED_VOXELS]; CORRELATED_VOXELS]; CORRELATED_VOXELS],
     count: [[[f64; CORRELATED_VOXELS]; CORRELATED_VOXELS]; CORRELATED_VOXELS],
-    /// Sum and number of the products of distant pairs.
+    /// Sum and number of the products of pairs of distant voxels.
     far: [f64; 2],
 }
 
@@ -53,7 +53,7 @@ impl Pairs {
             all.count[i][j][k] += 1.0;
             near = [near[0] + miss * beside, near[1] + 1.0];
         });
-        // All pairs are half of (squared sum - sum of squares); the rest after the near ones is far.
+        // All pairs sum to half of (squared sum - sum of squares); those that are not near are distant.
         let number = each.len() as f64;
         all.far = [(sum * sum - squares) / 2.0 - near[0], number * (number - 1.0) / 2.0 - near[1]];
         all
@@ -74,7 +74,7 @@ impl Pairs {
     }
 }
 
-/// Visits each pair of near voxels with their offset; sorting along the longest axis skips most others.
+/// Visits each pair of near voxels with their offset. Sorting along the longest axis skips most other pairs.
 fn for_near_pairs<T: Copy>(samples: &mut [([i16; 3], T)], mut visit: impl FnMut([usize; 3], T, T)) {
     let axis = put_in_order(samples);
     for (n, (voxel, value)) in samples.iter().enumerate() {
@@ -89,7 +89,7 @@ fn for_near_pairs<T: Copy>(samples: &mut [([i16; 3], T)], mut visit: impl FnMut(
     }
 }
 
-/// Sorts samples along the axis of largest extent and returns that axis.
+/// Sorts samples along the axis of their largest extent and returns that axis.
 fn put_in_order<T: Copy>(samples: &mut [([i16; 3], T)]) -> usize {
     let extent = |axis: usize| {
         let along = || samples.iter().map(move |(voxel, _)| voxel[axis]);
@@ -100,7 +100,7 @@ fn put_in_order<T: Copy>(samples: &mut [([i16; 3], T)]) -> usize {
     axis
 }
 
-/// Absolute offset of two voxels; None if far.
+/// Absolute offset of two voxels; None if they are distant.
 #[inline(always)]
 fn apart(a: [i16; 3], b: [i16; 3]) -> Option<[usize; 3]> {
     let apart: [usize; 3] = std::array::from_fn(|n| usize::from(a[n].abs_diff(b[n])));
@@ -108,15 +108,15 @@ fn apart(a: [i16; 3], b: [i16; 3]) -> Option<[usize; 3]> {
         .then_some(apart)
 }
 
-/// Cells of the correlation in one row, padded to a power of two.
+/// Number of cells of the correlation in one row, padded to a power of two.
 const CELLS: usize = 128;
 
-/// Cell of far pairs, whose value is 0.
+/// The cell that distant pairs use; its value is 0.
 const FAR_CELL: i32 = (CORRELATED_VOXELS * CORRELATED_VOXELS * CORRELATED_VOXELS) as i32;
 
-/// Kernel of the noise variance: Σᵢⱼ wᵢ wⱼ ρ(i - j) over near pairs.
+/// Kernel that computes the variance of the noise, Σᵢⱼ wᵢ wⱼ ρ(i - j), over near pairs.
 struct NearProducts {
-    /// Sorted along the first axis, then sixteen far ones as padding.
+    /// Voxels sorted along the first axis, then sixteen distant ones as padding.
     voxel: [Vec<i32>; 3],
     weight: Vec<f32>,
     correlation: [f32; CELLS],
@@ -200,8 +200,8 @@ impl Texture {
 
     pub(crate) fn of(pairs: &Pairs) -> Self {
         let mut all = Self::white();
-        // The fit absorbs the slowest noise of a section, which lowers all correlations equally. Far pairs
-        // are independent, so they show that offset.
+        // The fit absorbs the slowest noise of a section, which lowers all correlations by the same offset.
+        // Distant pairs are independent, so they show that offset.
         let taken = -(pairs.far[0] / pairs.far[1].max(1.0)).min(0.0);
         let variance = pairs.products[0][0][0] / pairs.count[0][0][0].max(1.0) + taken;
         for i in 0..CORRELATED_VOXELS {
@@ -221,7 +221,7 @@ impl Texture {
         all
     }
 
-    /// Factor by which correlation raises the variance of wall estimates over the width of the blur (mm).
+    /// Factor by which correlation increases the variance of wall estimates over the width of the blur (mm).
     pub(crate) fn inflation(&self, sides: DMat3, width: f64) -> f64 {
         const SIGNS: [f64; 2] = [1.0, -1.0];
         let mut sum = 0.0;
@@ -229,7 +229,7 @@ impl Texture {
             for j in 0..CORRELATED_VOXELS {
                 for k in 0..CORRELATED_VOXELS {
                     let steps = [i, j, k];
-                    // Each offset stands for both signs of every nonzero component.
+                    // An offset stands for all sign combinations of its nonzero components.
                     let count = steps.iter().filter(|n| **n > 0).count();
                     let far = |signs: [f64; 3]| {
                         (0..3)
@@ -249,7 +249,7 @@ impl Texture {
         sum.max(1.0)
     }
 
-    /// Variance of a weighted sum of noise of variance 1; at least a tenth of the independent one.
+    /// Variance of a weighted sum of noise of variance 1; at least a tenth of that of independent noise.
     pub(crate) fn variance(&self, samples: &Samples, weights: &[[f32; FAN]]) -> f64 {
         let mut each: Vec<([i16; 3], f32)> = weights
             .iter()

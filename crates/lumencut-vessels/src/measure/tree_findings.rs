@@ -1,13 +1,13 @@
-//! What a tree says about everything measured along it.
+//! Values of a tree that all its vessels share.
 
 use super::profile::PointSpread;
 use super::tree_walls::VesselWall;
 
-/// Findings of a tree that apply to all its vessels.
+/// Values found on a tree that apply to all its vessels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TreeFindings {
     /// Point spread of the scan.
     pub spread: PointSpread,
-    /// Wall levels of the vessels that show them.
+    /// Wall levels of the vessels whose walls are visible.
     pub(crate) walls: Vec<VesselWall>,
 }

@@ -1,16 +1,16 @@
-//! Shares wall levels between the vessels of a tree.
+//! Combines the wall levels of the vessels of a tree.
 //!
-//! The level of a vessel is that of the tree plus its own difference. The size of these differences is
+//! The level of a vessel is that of the tree plus a difference of its own. The size of these differences is
 //! unknown, so several standard deviations are tried, each weighted by its likelihood.
 
 use super::branches::shares_line;
 use super::pooled::Level;
 use lumencut_core::vessel_tree::Vessel;
 
-/// Tried standard deviations of the differences, as shares of the prior standard deviation.
+/// Standard deviations of these differences that are tried, as shares of the prior standard deviation.
 const TRIED_DEVIATIONS: [f64; 6] = [0.16, 0.32, 0.48, 0.64, 0.8, 0.96];
 
-/// Wall level from the sections of a vessel, without the prior.
+/// Wall level found on the sections of a vessel, without the prior.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct VesselWall {
     /// Number of the vessel in its tree.
@@ -28,7 +28,7 @@ pub struct PooledWall {
     pub vessels: usize,
 }
 
-/// Wall level expected from other vessels, except those that share voxels.
+/// Wall level expected from the other vessels, except those that share voxels.
 pub(crate) fn wall_beside(
     walls: &[VesselWall],
     tree: &[Vessel],
@@ -45,7 +45,7 @@ pub(crate) fn wall_beside(
 
 fn by_others(expected: Level, levels: &[Level]) -> Level {
     let mut levels = levels.to_vec();
-    // Makes the result independent of the order of the vessels.
+    // The sorted order makes the result independent of the order of the vessels.
     levels.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     let tried =
         TRIED_DEVIATIONS.map(|share| by_others_with_deviation(expected, share * expected[1], &levels));
@@ -59,7 +59,7 @@ fn by_others(expected: Level, levels: &[Level]) -> Level {
     [mean, mean_of(&|level| level[1].powi(2) + (level[0] - mean).powi(2)).sqrt()]
 }
 
-/// Level if vessels differ from their tree by a standard deviation `apart`, and the log-likelihood.
+/// Log-likelihood that vessels differ from their tree by a standard deviation `apart`, and the level then.
 fn by_others_with_deviation([mean, deviation]: Level, apart: f64, levels: &[Level]) -> (f64, Level) {
     let between = apart.powi(2);
     let (mut level, mut variance, mut likely) = (mean, deviation.powi(2) - between, 0.0);

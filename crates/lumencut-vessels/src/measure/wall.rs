@@ -1,7 +1,7 @@
-//! The vessel wall: its prior and its fit.
+//! The prior of the vessel wall, and the result of its fit.
 //!
-//! An artery is lumen, wall and mostly fat around it. Midway from lumen to fat lies in the wall, so without a
-//! wall model a lumen of 3 mm measures 3.5 mm. In CT, walls have about the level of soft tissue.
+//! Mostly fat surrounds the wall of an artery. The value midway between lumen and fat lies in the wall, so
+//! without a wall model a lumen of 3 mm measures 3.5 mm. In CT, walls have about the level of soft tissue.
 
 use glam::DVec2;
 
@@ -12,26 +12,26 @@ use super::pooled::Level;
 use super::scale::Scale;
 use super::terms::unit;
 
-/// Expected thickness: factor of √diameter (mm), and standard deviation of its logarithm.
+/// Expected thickness of the wall as a factor of √diameter (mm), and the standard deviation of its logarithm.
 const THICKNESS: [f64; 2] = [0.45, 0.5];
 
-/// Range of the expected thickness (mm): wide arteries do not have thicker walls without limit.
+/// Range of the expected thickness (mm), because the walls of wide arteries are not thicker without limit.
 const MIDDLE: [f64; 2] = [0.4, 1.6];
 
-/// Minimum variance of a log thickness.
+/// Minimum variance of the logarithm of a thickness.
 const LEAST_THICKNESS: f64 = 1e-4;
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wall {
-    /// Level as a share, and standard deviation.
+    /// Level as a share of the contrast, and its standard deviation.
     pub level: Level,
-    /// Log of the thickness (mm), and standard deviation.
+    /// Logarithm of the thickness (mm), and its standard deviation.
     pub(crate) log_thickness: Level,
-    /// Change of log thickness per level: a thin, bright wall looks like a thick one.
+    /// Change of the log thickness with the level: a thin, bright wall looks like a thick one.
     pub slope: f64,
-    /// Harmonics of the surroundings, as shares; see [`super::model::ThreeLevels`].
+    /// Harmonics of the surroundings, as shares of the contrast; see [`super::model::ThreeLevels`].
     pub sectors: [f64; HARMONICS],
-    /// Origin of directions (mm in the plane).
+    /// The point from which directions are measured (mm, in the plane).
     pub origin: DVec2,
 }
 
@@ -55,7 +55,7 @@ impl Wall {
         Self { level, log_thickness, slope: 0.0, sectors: [0.0; HARMONICS], origin }
     }
 
-    /// Log thickness from the same voxels if the wall level (a share) is known.
+    /// Log thickness that the same voxels show if the wall level (a share of the contrast) is known.
     pub(crate) fn log_thickness_at(&self, level: f64) -> Level {
         let [mean, deviation] = self.log_thickness;
         let square = deviation.powi(2) - (self.slope * self.level[1]).powi(2);
@@ -70,9 +70,9 @@ impl Wall {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct KnownWall {
     pub level: Level,
-    /// None if only the lumen width gives it.
+    /// Log thickness and its standard deviation; None if only the width of the lumen predicts it.
     pub(crate) log_thickness: Option<Level>,
-    /// See [`Wall::slope`]; `log_thickness` applies at `level`.
+    /// See [`Wall::slope`]; `log_thickness` applies to a wall of level `level`.
     pub slope: f64,
 }
 

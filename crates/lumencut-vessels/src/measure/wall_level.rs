@@ -1,4 +1,4 @@
-//! The expected wall level of a volume, and its source.
+//! The expected wall level of a volume, and where it comes from.
 
 use super::pooled::Level;
 use super::scale::Scale;
@@ -8,29 +8,29 @@ use crate::voxels::Voxels;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::limits::Limits;
 
-/// Wall level in CT (HU) and standard deviation: soft tissue, in arteries with and without plaque.
+/// Wall level in CT (HU) and its standard deviation: soft tissue, in arteries with and without plaque.
 pub const CT_WALL: Level = [45.0, 25.0];
 
-/// In HU, contrast medium is above the first value and surroundings are between the other two.
+/// In a volume in HU, contrast medium is above `LUMEN` and the surroundings are within `AROUND`.
 const LUMEN: f64 = 80.0;
 const AROUND: [f64; 2] = [-400.0, 400.0];
 
-/// A wall is at least this share of the contrast below its lumen.
+/// A wall is darker than its lumen by at least this share of the contrast.
 const BELOW_LUMEN: f64 = 0.1;
 
 const DEVIATION: Limits =
     Limits::new(0.1, 1000.0, "(the standard deviation of the wall's level, in the volume's unit)");
 const LEVEL: Limits = Limits::new(-2000.0, 1e5, "(the wall's level, in the volume's unit)");
 
-/// The caller's choice of wall level.
+/// How the caller chooses the wall level.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum WallRequest {
-    /// [`CT_WALL`] in CT, otherwise no wall.
+    /// [`CT_WALL`] in CT; no wall in other volumes.
     #[default]
     Automatic,
     /// No wall.
     Off,
-    /// Level and standard deviation, in the volume's unit.
+    /// This level and standard deviation, in the volume's unit.
     Level(Level),
 }
 
@@ -43,32 +43,32 @@ impl WallRequest {
     }
 }
 
-/// Whether walls were modelled, and the source of their level.
+/// Whether walls were modelled, and where their level comes from.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum WallSource {
-    /// The volume is in HU.
+    /// The level in CT, because the volume is in HU.
     Hounsfield,
-    /// Given by the caller.
+    /// The caller gave this level.
     Given(Level),
-    /// Refined by other vessels of the tree.
+    /// Other vessels of the tree changed the expected level.
     Pooled {
         /// The caller's level, if any.
         given: Option<Level>,
-        /// The level from the other vessels.
+        /// The level that the other vessels show.
         by_others: PooledWall,
     },
-    /// Turned off by the caller.
+    /// No walls: the caller turned them off.
     NotAsked,
-    /// The lumen is darker than its surroundings.
+    /// No walls: the lumen is darker than its surroundings.
     DarkLumen,
-    /// Nothing shows that the volume is in HU.
+    /// No walls: nothing shows that the volume is in HU.
     OtherUnit,
-    /// The surroundings are as bright as walls.
+    /// No walls: the surroundings are as bright as walls.
     AsBright,
 }
 
 impl WallSource {
-    /// Prior level in the volume's unit, if walls are modelled.
+    /// The prior level in the volume's unit; None if no walls are modelled.
     pub fn expected(&self) -> Option<Level> {
         match self {
             Self::Hounsfield => Some(CT_WALL),
@@ -113,7 +113,7 @@ pub(crate) fn expected(
     }
 }
 
-/// Whether a volume is in HU: it has negative values, and contrast medium and tissue have CT levels.
+/// Whether a volume is in HU: it has negative values, and lumen and surroundings have levels of CT.
 fn is_hounsfield(voxels: &Voxels, scale: &Scale) -> bool {
     let around = (AROUND[0]..=AROUND[1]).contains(&scale.outside);
     around

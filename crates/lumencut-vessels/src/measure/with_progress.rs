@@ -1,15 +1,15 @@
-//! Progress of measuring: every section asks whether to stop once per pass, and these calls are counted.
+//! Progress of measuring. Each section asks once per pass whether to stop, and these calls are counted.
 
 use lumencut_core::error::Result;
 use lumencut_core::progress::Progress;
 use lumencut_core::stop::Stop;
 use lumencut_core::vessel_tree::Vessel;
 
-/// Approximate number of passes over each section.
+/// Approximate number of times that each section is visited.
 const PASSES: f64 = 3.0;
 
-/// Measures vessels in sections `step` mm apart and reports progress as one of the expected views. `measure`
-/// receives the stop function to use. Errors: Those of `measure`.
+/// Measures vessels in sections `step` mm apart and reports the share of the expected calls as progress.
+/// `measure` receives the stop function that it must use. Errors: Those of `measure`.
 pub fn with_progress<T>(
     progress: Option<&Progress>,
     (vessels, step): (&[Vessel], f64),

@@ -1,4 +1,4 @@
-//! Finds all vessels of an angiography without a seed. The thresholds are the same for all scans.
+//! Finds all vessels of an angiography without a seed. All scans use the same thresholds.
 
 pub(crate) mod bone;
 pub(crate) mod candidates;
@@ -39,27 +39,27 @@ use lumencut_core::progress::Progress;
 use lumencut_core::stop::Stop;
 use lumencut_core::volume::Volume;
 
-/// Default radius at which vessels end (mm).
+/// Default of [`FindRequest::smallest_radius`] (mm).
 pub const SMALLEST_RADIUS: f64 = 1.0;
 
-/// What to find.
+/// Which vessels to find.
 pub struct FindRequest<'a> {
-    /// Vessels end where they stay narrower (mm).
+    /// A vessel ends where its radius stays smaller (mm).
     pub smallest_radius: f64,
-    /// Asked whether to stop.
+    /// Called often; tells whether to stop.
     pub stop: Stop<'a>,
     /// Receives the progress.
     pub progress: Option<&'a Progress>,
 }
 
-/// All vessels of a volume in connected parts, the most important first.
+/// Finds all vessels of a volume, as connected parts with the most important part first.
 pub fn find_vessels(volume: &Volume, request: &FindRequest) -> Result<Trees> {
     let voxels = &Voxels::new(volume);
     let trees = trees(voxels, None, request)?;
     Ok(Trees { vessels: doubted_where_scarce(voxels, trees.vessels, trees.is_angiography), ..trees })
 }
 
-/// All vessels of a volume; around a seed (mm, LPS) outside all of them, fainter ones are found too.
+/// Finds all vessels of a volume. Around a seed (mm, LPS) outside all of them, fainter ones are found too.
 pub fn trees(voxels: &Voxels, seed: Option<DVec3>, request: &FindRequest) -> Result<Trees> {
     let stages = Stages::begin(request.progress);
     let Some(tubes::Tubes { scan, tracks, shapes }) = tubes::tubes(voxels, seed, request, stages)? else {

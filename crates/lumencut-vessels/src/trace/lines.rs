@@ -1,4 +1,4 @@
-//! Arithmetic along lines: steps, directions, frames, smoothing and correspondence.
+//! Computations along lines: steps, directions, frames, smoothing and correspondence.
 
 pub mod centerline;
 pub mod correspondence;

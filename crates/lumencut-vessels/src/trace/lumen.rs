@@ -1,4 +1,4 @@
-//! Recognizes lumen: values, cross-sections along a line, and centring.
+//! Recognises lumen by its values, fits cross-sections along a line, and centres the line.
 
 pub mod across;
 pub mod cross_section;

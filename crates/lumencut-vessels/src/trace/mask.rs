@@ -1,4 +1,4 @@
-//! Traces centerlines of a mask, as vessels that meet in common points.
+//! Traces the centerlines of a mask, as vessels that meet in common points.
 
 pub mod grey_values;
 pub(crate) mod labels;
@@ -15,31 +15,31 @@ use lumencut_core::progress::Progress;
 use lumencut_core::stop::Stop;
 use lumencut_core::volume::Volume;
 
-/// What to trace, and how.
+/// How to trace a mask.
 pub struct MaskRequest<'a> {
-    /// Values of lumen; None for every value but 0.
+    /// The values that are lumen; if None, all values except 0.
     pub labels: Option<&'a [i64]>,
     /// Minimum length of a branch, in radii of its parent.
     pub parent_radii: f64,
     /// Maximum distance between neighbouring points (mm).
     pub step: f64,
-    /// Widest gap to bridge (mm).
+    /// Maximum width of a gap that is bridged (mm).
     pub bridge: f64,
-    /// Optional refinement of each vessel in a volume.
+    /// Refines each vessel in a volume, if given.
     pub refine: Option<Refine<'a>>,
-    /// Asked whether to stop.
+    /// Called often; tells whether to stop.
     pub stop: Stop<'a>,
     /// Receives the progress.
     pub progress: Option<&'a Progress>,
 }
 
-/// The vessels of a mask and findings about it.
+/// The vessels of a mask, and what was noticed in it.
 pub struct TracedMask {
-    /// Vessels; those that meet share end points, equal to the bit.
+    /// Vessels. Those that meet share bit-identical end points.
     pub vessels: Vec<MaskVessel>,
-    /// Gaps in the lumen, narrowest first.
+    /// Gaps in the lumen, the narrowest first.
     pub gaps: Vec<Gap>,
-    /// Number of filled cavities, and of their voxels.
+    /// Number of filled cavities, and of the voxels in them.
     pub filled: [usize; 2],
     /// Number of connected components of the lumen.
     pub pieces: usize,

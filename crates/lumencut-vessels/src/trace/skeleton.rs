@@ -1,4 +1,4 @@
-//! Thins lumen voxels to centred vessels that meet in common points.
+//! Thins the voxels of a lumen to centred vessels that meet in common points.
 
 pub(crate) mod centering;
 pub mod distance_transform;
@@ -37,7 +37,7 @@ use lumencut_core::math::arc_length::{arc_lengths, point_at};
 use lumencut_core::math::same_place::ALONG_LINE;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Maximum number of cells, which are numbered with 32 bits.
+/// Maximum number of cells, because cell numbers have 32 bits.
 const MOST_CELLS: usize = u32::MAX as usize;
 
 /// Default minimum length of a branch, in radii of its parent.
@@ -48,29 +48,29 @@ pub(crate) struct Skeletonization<'a> {
     pub parent_radii: f64,
     /// Maximum distance between neighbouring points (mm).
     pub step: f64,
-    /// Optional refinement of each vessel in a volume.
+    /// Refines each vessel in a volume, if given.
     pub refine: Option<Refine<'a>>,
-    /// Asked whether to stop.
+    /// Called often; tells whether to stop.
     pub stop: Stop<'a>,
-    /// Called when a step of [`COSTS`] begins.
+    /// Called with the number of a step of [`COSTS`] when that step begins.
     pub begin: &'a (dyn Fn(usize) + Sync),
 }
 
-/// Relative duration per lumen voxel of the steps: cavities and components, distances, thinning, lines.
+/// Relative duration of each step per lumen voxel: cavities and components, distances, thinning, lines.
 pub(crate) const COSTS: [usize; 4] = [2, 3, 6, 4];
 
 pub(crate) struct Skeleton {
-    /// Vessels; those that meet share end points, equal to the bit. Empty if no part is longer than wide.
+    /// Vessels. Those that meet share bit-identical end points. Empty if no part is longer than wide.
     pub vessels: Vec<MaskVessel>,
-    /// Number of filled cavities, and of their voxels.
+    /// Number of filled cavities, and of the voxels in them.
     pub filled: [usize; 2],
     /// Number of connected components.
     pub pieces: usize,
-    /// Number of lumen voxels, including filled cavities.
+    /// Number of lumen voxels, including those of filled cavities.
     pub voxels: usize,
 }
 
-/// A moved end takes the line along over this many radii.
+/// If an end is moved, the line moves with it over this many radii.
 const JOINED: f64 = 1.5;
 
 pub(crate) fn skeleton(mut foreground: Foreground, skeleton: &Skeletonization) -> Result<Skeleton> {
@@ -130,7 +130,7 @@ fn vessels(graph: &Graph, lumen: &Lumen, skeleton: &Skeletonization) -> Result<V
     Ok(made.into_iter().flatten().collect())
 }
 
-/// Moves ends that lie on other lines to where those pass, fading along the line.
+/// Moves ends that lie on another line to where that line passes; the shift fades out along the line.
 fn attach(line: &mut ThroughLine, node_place: &[Option<DVec3>], on_other: [Option<f64>; 2]) {
     let ways = arc_lengths(&line.points);
     let whole = ways[ways.len() - 1];
@@ -152,7 +152,7 @@ fn attach(line: &mut ThroughLine, node_place: &[Option<DVec3>], on_other: [Optio
     }
 }
 
-/// Leads a line from its exit of another lumen, `radius` mm from `place`, in one bend to `place`.
+/// Bends a line to `place`, from where it leaves the other lumen, `radius` mm away.
 fn lead_in(points: &mut [DVec3], end: usize, place: DVec3, radius: f64, next: usize) {
     let last = points.len() - 1;
     let from_end = |n: usize| if end == 0 { n } else { last - n };
@@ -161,7 +161,7 @@ fn lead_in(points: &mut [DVec3], end: usize, place: DVec3, radius: f64, next: us
     let outside = points[from_end((exit + 3).min(most))] - points[from_end(exit)];
     let direction = outside.normalize_or_zero();
     let from = points[from_end(exit)];
-    // Quadratic Bézier curve tangent to the line at the exit.
+    // A quadratic Bézier curve that is tangent to the line where it leaves.
     let control = from - direction * (from.distance(place) / 2.0);
     for n in 1..exit {
         let t = n as f64 / exit as f64;
@@ -208,8 +208,8 @@ fn bring_back(points: &mut [DVec3], ways: &[f64], end: usize, delta: DVec3, leng
     }
 }
 
-/// Radius at each point: equivalent radius of the section, at most half a voxel beyond the nearest wall.
-/// Within a voxel of a cap, where the section degenerates, the last good value.
+/// Radius at each point: that of a circle of the same area as the section, at most half a voxel beyond the
+/// nearest wall. Within a voxel of a cap the section degenerates, so the last good value is used.
 fn radii(points: &[DVec3], is_free: [bool; 2], lumen: &Lumen) -> Vec<f64> {
     let side = lumen.side();
     let reach = vec![2.0 * side; points.len()];

@@ -21,7 +21,7 @@ fn rays_that_see_the_blurred_ellipse_tell_its_own_wall() {
     let level = 0.5 * boundary.value(ellipse.center);
     let rays: Vec<Ray> = (0..RAYS)
         .map(|n| {
-            // True crossing by bisection.
+            // The true crossing, by bisection.
             let (mut low, mut high) = (0.0, 4.0);
             for _ in 0..40 {
                 let middle = f64::midpoint(low, high);
@@ -51,7 +51,7 @@ fn the_largest_ball_touches_the_nearest_wall_of_its_neighbours() {
     };
     let at: Vec<f64> = (0..9).map(f64::from).collect();
     let centers: Vec<DVec3> = at.iter().map(|at| DVec3::new(0.0, 0.0, *at)).collect();
-    // A tube of 3 mm, narrowed to 1 mm at 4 mm; nothing found at 8 mm.
+    // A tube of 3 mm, narrowed to 1 mm at 4 mm, without a wall at 8 mm.
     let contours: Vec<Vec<DVec3>> = at
         .iter()
         .map(|at| match *at {

@@ -127,7 +127,7 @@ fn half_axes_end_where_the_boundary_is_nearest_and_farthest() {
 
 #[test]
 fn nodes_far_away_count_as_much_as_those_of_one_place_alone() {
-    // Sixteen points near one side of a wide lumen, far from the other side.
+    // Sixteen points near one side of a wide lumen and far from its other side.
     let boundary = Boundary::new(&Ellipse::circle(DVec2::ZERO, 9.0), whitening());
     let x: [f32; FAN] = std::array::from_fn(|n| 8.0 + 0.15 * n as f32);
     let together = boundary.blurred(&x, &[0.2; FAN]);

@@ -3,7 +3,7 @@
 use super::super::made_profile::profile;
 use super::*;
 
-/// A vessel of 40 mm, 5 mm wide, and 3 mm from 19 to 21 mm.
+/// A vessel of 40 mm that is 5 mm wide, but 3 mm wide from 19 to 21 mm.
 fn narrowed() -> Profile {
     let width = |n: usize| if (38..=42).contains(&n) { 3.0 } else { 5.0 };
     profile(&(0..81).map(|n| [width(n), 0.1]).collect::<Vec<_>>())

@@ -10,7 +10,7 @@ fn sharpest(points: Vec<DVec3>, diameter: f64) -> f64 {
     turns(&places, diameter).into_iter().fold(0.0, f64::max)
 }
 
-/// A bend of 180° with this radius (mm), in steps of 0.5 mm.
+/// A bend of 180° with this radius (mm), with points every 0.5 mm.
 fn bend(radius: f64) -> Vec<DVec3> {
     let count = (std::f64::consts::PI * radius / 0.5) as usize;
     let angle = |n: usize| std::f64::consts::PI * n as f64 / count as f64;
@@ -19,7 +19,7 @@ fn bend(radius: f64) -> Vec<DVec3> {
 
 #[test]
 fn a_bend_is_no_restless_line() {
-    // Like a carotid siphon: the bend radius equals the diameter.
+    // A bend like a carotid siphon: its radius equals the diameter of the vessel.
     let siphon = sharpest(bend(5.0), 5.0);
     assert!((50.0..SHARP).contains(&siphon), "{siphon}");
     assert!(sharpest(bend(40.0), 25.0) < 45.0);
@@ -27,7 +27,7 @@ fn a_bend_is_no_restless_line() {
 
 #[test]
 fn a_line_along_voxels_is_no_restless_line() {
-    // Steps of a 0.7 mm voxel to the side, every 2 mm.
+    // A line with sideways steps of a voxel of 0.7 mm, one every 2 mm.
     let stairs = |n: i32| DVec3::new(0.7 * f64::from(n / 3), 0.0, 0.7 * f64::from(n));
     for diameter in [2.0, 6.0, 20.0] {
         let turned = sharpest((0..90).map(stairs).collect(), diameter);
@@ -37,7 +37,7 @@ fn a_line_along_voxels_is_no_restless_line() {
 
 #[test]
 fn a_line_that_jumps_from_one_vessel_to_the_next_is_restless() {
-    // From a graft of 20 mm into one of its limbs, and into a hook at the end.
+    // A line that jumps from a graft of 20 mm into a limb, and one with a hook at its end.
     let jump = |n: i32| DVec3::new(if n < 40 { 0.0 } else { 12.0 }, 0.0, f64::from(n));
     let turned = sharpest((0..80).map(jump).collect(), 20.0);
     assert!(turned > SHARP, "{turned}");

@@ -27,7 +27,7 @@ fn signs_are_those_of_the_field() {
     assert!(towards_detector(CArm { lao: FRAC_PI_2, cranial: 0.0 }).abs_diff_eq(DVec3::X, 1e-12));
     assert!(towards_detector(CArm { lao: 0.3, cranial: FRAC_PI_2 }).abs_diff_eq(DVec3::Z, 1e-12));
     assert!(towards_detector(CArm { lao: 0.0, cranial: 0.0 }).abs_diff_eq(DVec3::NEG_Y, 1e-12));
-    // A vessel towards the feet and the front is best seen from below.
+    // A vessel that runs towards the feet and the front is best seen from below.
     let neck = DVec3::new(0.0, -1.0, -1.0).normalize();
     let arm = least_turned(neck);
     assert!(arm.lao.abs() < 1e-12 && (arm.cranial.abs() - FRAC_PI_2 / 2.0).abs() < 1e-12);

@@ -46,7 +46,7 @@ fn vessels_on_the_same_line_are_not_asked() {
         let points = (0..=10).map(|n| DVec3::new(0.0, 0.0, from + (to - from) * f64::from(n) / 10.0));
         Vessel::new(points.collect(), None).unwrap()
     };
-    // The second vessel begins where the first ends; a path leads through both.
+    // The second vessel begins where the first ends; `path` leads through both.
     let tree = [vessel(0.0, 10.0), vessel(10.0, 20.0)];
     let path = Vessel::new((0..=20).map(|z| DVec3::new(0.0, 0.0, f64::from(z))).collect(), None).unwrap();
     let walls = [[30.0, 5.0], [60.0, 5.0]];

@@ -1,4 +1,4 @@
-//! The request to trace clicks, and checks that do not need voxel values.
+//! The request to trace vessels through clicks, and checks of it that do not need voxel values.
 
 use glam::DVec3;
 
@@ -8,16 +8,16 @@ use crate::trace::ways::region::Stopper;
 use crate::voxels::Voxels;
 use lumencut_core::error::{Clicked, Error, ErrorKind, Result};
 
-/// What to trace.
+/// The vessels to trace.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Clicks {
     /// At least two points per vessel, in order (mm, LPS).
     pub vessels: Vec<Vec<DVec3>>,
     /// Places that no vessel may pass.
     pub stoppers: Vec<Stopper>,
-    /// Whether to bridge stretches without lumen of any length.
+    /// Whether tracing may cross stretches without lumen of any length by straight bridges.
     pub bridge: bool,
-    /// Existing vessels, which stay unchanged: new ones end at their points. Confidence is not used.
+    /// Existing vessels, which stay unchanged: new vessels end at their points. Their confidence is not used.
     pub beside: Vec<Centerline>,
 }
 

@@ -1,4 +1,4 @@
-//! Handles stretches of a path without lumen: short ones are accepted, others rejected or bridged.
+//! Handles stretches of a path without lumen: short ones are accepted, longer ones rejected or bridged.
 
 use std::ops::Range;
 
@@ -10,20 +10,20 @@ use crate::voxels::Voxels;
 use lumencut_core::error::{Error, ErrorKind, Mend};
 use lumencut_core::math::arc_length::arc_lengths;
 
-/// Longest accepted stretch without lumen (mm): where the vessel continues straight, and elsewhere.
+/// Longest accepted stretch without lumen (mm), if the vessel continues straight, and if it turns there.
 pub(crate) const LONGEST_GAP: f64 = 5.0;
 const LONGEST_TURN: f64 = 1.2;
 
-/// Thickest wall between two vessels that a path might cross (mm).
+/// Maximum length of a stretch (mm) that may be the wall between two vessels.
 const LONGEST_WALL: f64 = 5.0;
 
-/// A turn: distances from a gap between which the direction is taken (mm), and the cosine limit.
+/// Finds turns: directions beside a gap are taken between these distances from it (mm); cosine limit.
 struct Turn {
     beside: [f64; 2],
     least: f64,
 }
 
-/// At a wall crossing the line runs from centre to centre, so the direction next to the wall is ignored.
+/// A line that crosses a wall runs from centre to centre, so its direction right next to the wall is ignored.
 const TURN: Turn = Turn { beside: [0.0, 5.0], least: 0.6 };
 const CROSSING: Turn = Turn { beside: [3.0, 8.0], least: 0.7 };
 
@@ -31,10 +31,10 @@ const CROSSING: Turn = Turn { beside: [3.0, 8.0], least: 0.7 };
 pub(crate) struct Gap {
     pub points: Range<usize>,
     pub length: f64,
-    /// Position of the lowest membership.
+    /// Position of the lowest membership in lumen.
     pub place: DVec3,
     pub value: f32,
-    /// Whether it is too long to accept.
+    /// Whether the gap is too long to accept.
     pub is_open: bool,
 }
 
@@ -65,10 +65,10 @@ impl<'a, 'v> Line<'a, 'v> {
         stretches(weak).into_iter().map(|points| self.gap(points)).collect()
     }
 
-    /// Finds a crossing through the wall into another vessel: the line turns on both sides of a short stretch
-    /// that looks less like lumen than its surroundings.
+    /// Finds a crossing through the wall into another vessel: a short stretch that looks less like lumen than
+    /// what surrounds it, with a turn of the line on both sides.
     pub(crate) fn crossing(&self) -> Option<Gap> {
-        // Walls are darker than lumen; brighter calcium and stents do not indicate a crossing.
+        // Walls are darker than lumen. The cap keeps bright calcium and stents from looking like walls.
         let value = |place: &DVec3| self.voxels.at(*place).min(self.model.high as f32);
         let shares: Vec<f32> = self.way.iter().map(|place| self.model.membership(value(place))).collect();
         let below = |limit: f64| shares.iter().map(|share| f64::from(*share) < limit).collect::<Vec<_>>();
@@ -104,7 +104,7 @@ impl<'a, 'v> Line<'a, 'v> {
         (points.start.saturating_sub(1), points.end.min(self.way.len() - 1))
     }
 
-    /// Whether the vessel runs in another direction than the gap, before and after it.
+    /// Whether the vessel before, and after, the gap runs in another direction than the gap.
     fn turns(&self, gap: &Gap, turn: &Turn) -> [bool; 2] {
         let (way, lengths) = (self.way, &self.lengths);
         let (before, after) = self.beside(&gap.points);

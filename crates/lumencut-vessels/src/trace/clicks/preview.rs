@@ -1,4 +1,4 @@
-//! A quick path to the pointer: not centred, and not always the cheapest.
+//! A quick path to the pointer. It is not centred, and not always the cheapest one.
 
 use glam::DVec3;
 
@@ -10,24 +10,24 @@ use crate::trace::ways::region::{FORBIDDEN, Region, Stopper, Strictness, WEAK};
 use crate::voxels::Voxels;
 use lumencut_core::stop::Stop;
 
-/// Maximum voxels of a front; fronts are kept while the pointer moves.
+/// Maximum number of voxels of a front. Fronts are kept while the pointer moves.
 const MOST_VOXELS: usize = 4_000_000;
 
-/// Factors of the straight distance: a fast search, and the exact one if that crosses a wall. Between aorta
-/// and iliac artery (290 mm) 1.5 visits 65,000 voxels instead of 101,000; more saves little and swings.
+/// Weights of the straight distance: a fast search, then the exact one if the fast path crosses a wall. With
+/// 1.5, aorta to iliac artery (290 mm) visits 65,000 voxels instead of 101,000; more saves little.
 const PULLS: [f32; 2] = [1.5, 1.0];
 
-/// Smoothing rounds that hide the steps between voxels.
+/// Number of smoothing rounds, which hide the steps between voxels.
 const ROUNDS: usize = 6;
 
-/// The path to find.
+/// The path to find for a preview.
 #[derive(Clone, Copy, Debug)]
 pub struct Sought<'a> {
-    /// From a click to the pointer (mm, LPS).
+    /// The click and the position of the pointer (mm, LPS).
     pub between: [DVec3; 2],
     /// Places that no path may pass.
     pub stoppers: &'a [Stopper],
-    /// Whether stretches without lumen are allowed.
+    /// Whether the path may cross stretches without lumen.
     pub bridge: bool,
 }
 
@@ -39,7 +39,7 @@ pub(crate) struct Live {
 }
 
 impl Live {
-    /// Reuses the known region if it fits the click; None if the click is not in lumen.
+    /// Reuses the known region if its model fits the click; None if the click is not in lumen.
     pub(crate) fn new(
         voxels: &Voxels,
         sought: &Sought,
@@ -75,7 +75,7 @@ impl Live {
             return None;
         }
         for front in fronts {
-            // For a preview, any path already reached is good enough.
+            // For a preview, any path that already reaches the target is good enough.
             let is_found = front.has_come_to(target)
                 || matches!(front.grow(voxels, region, target, stop, &|_| ()), Ok(Found::Target));
             let way = is_found.then(|| Way::of(voxels, region, &front.way_to(target)))?;

@@ -11,6 +11,6 @@ pub struct Traced {
     pub line: Centerline,
     /// Whether each point lies on a bridged stretch without lumen.
     pub bridged: Vec<bool>,
-    /// First and last click.
+    /// The first and the last click.
     pub ends: [DVec3; 2],
 }

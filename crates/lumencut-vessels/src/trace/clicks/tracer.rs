@@ -1,4 +1,4 @@
-//! Traces centerlines between clicks, with caches so that a change re-routes only its neighbours.
+//! Traces centerlines between clicks. Caches make a changed click affect only the paths next to it.
 
 use std::collections::HashMap;
 
@@ -23,16 +23,16 @@ use lumencut_core::progress::Progress;
 use lumencut_core::stop::Stop;
 use lumencut_core::volume::Volume;
 
-/// Maximum voxels of a front (7 bytes each), and of a search that only explains a missing path.
+/// Maximum number of voxels of a front (7 bytes each), and of a search that only explains why no path exists.
 const MOST_VOXELS: usize = 40_000_000;
 const MOST_VOXELS_OF_DOUBT: usize = 4_000_000;
 
-/// Number of fronts for the pointer: one per neighbour of a dragged point.
+/// Number of fronts cached for the pointer: one for each neighbour of a dragged point.
 const MOST_LIVE: usize = 2;
 
 type Ends = [[i32; 3]; 2];
 
-/// Cached fronts of clicks and paths between them, for one volume.
+/// Caches the fronts of clicks, and the paths between clicks, for one volume.
 #[derive(Debug, Default)]
 pub struct Tracer {
     surroundings: Option<Surroundings>,
@@ -52,9 +52,9 @@ struct Search<'a, 'v> {
 }
 
 impl Tracer {
-    /// Traces all vessels of `clicks`, in order; a later vessel that meets an earlier one ends at one of its
-    /// points. Every call must use the same volume. Errors: `ErrorKind::Tracing` for clicks outside lumen,
-    /// or without lumen between them; `ErrorKind::Interrupted`.
+    /// Traces all vessels of `clicks`, in order. A later vessel that meets an earlier one ends at a point of
+    /// the earlier one. Every call must use the same volume. Errors: `ErrorKind::Tracing` for clicks outside
+    /// lumen, or without lumen between them; `ErrorKind::Interrupted`.
     pub fn trace(
         &mut self,
         volume: &Volume,
@@ -84,8 +84,8 @@ impl Tracer {
         joined(&clicks.beside, self.lines.iter().map(|(_, line)| line.clone()).collect())
     }
 
-    /// Quick path through the lumen for a pointer; None if it is not found before `stop`, or if
-    /// [`Tracer::trace`] would reject it. Caches the last two clicks. Every call must use the traced volume.
+    /// Quick path through the lumen to the pointer. None if `stop` comes first, or if [`Tracer::trace`] would
+    /// reject it. Caches the last two clicks. Every call must use the traced volume.
     pub fn preview(&mut self, volume: &Volume, sought: &Sought, stop: Stop) -> Option<Vec<DVec3>> {
         let voxels = &Voxels::new(volume);
         let known = self.live.iter().position(|live| live.is_from(sought));
@@ -98,8 +98,8 @@ impl Tracer {
         way
     }
 
-    /// Checks a first click alone, as [`Tracer::trace`] would in the same volume. `ErrorKind::Tracing` for
-    /// a click outside the volume, or whose value excludes lumen.
+    /// Checks a single first click as [`Tracer::trace`] would in the same volume. `ErrorKind::Tracing` for a
+    /// click outside the volume, or with a value that cannot be lumen.
     pub fn check_click(&self, volume: &Volume, click: DVec3) -> Result<()> {
         let voxels = &Voxels::new(volume);
         check_place(voxels, click, || (format!("point {}", in_words(click)), Clicked::Single))?;
@@ -112,10 +112,10 @@ impl Tracer {
         self.surroundings.unwrap_or_else(|| Surroundings::of(voxels, clicks))
     }
 
-    /// Fits the lumen model to the clicks; drops caches of another model.
+    /// Fits the lumen model to the clicks, and drops caches of a model that differs.
     fn prepare(&mut self, voxels: &Voxels, surroundings: Surroundings, clicks: &Clicks) -> Result<()> {
         let model = surroundings.model(voxels, &all_of(clicks))?;
-        // Stored only now, because rejected clicks would mislead the next ones.
+        // The surroundings are stored only now, because those of rejected clicks would mislead later clicks.
         self.surroundings = Some(surroundings);
         let fits = |region: &Region| region.model.covers(&model);
         if !self.region.as_ref().is_some_and(fits) {
@@ -232,7 +232,7 @@ impl Search<'_, '_> {
         found
     }
 
-    /// Bridges non-lumen if requested; otherwise returns the error that locates it.
+    /// Bridges stretches without lumen if requested; otherwise returns an error that states their place.
     fn bridge(&self, region: &Region, between: [DVec3; 2], ends: Ends) -> Result<Way> {
         let model = region.model;
         let stoppers = self.clicks.stoppers.clone();
@@ -248,7 +248,7 @@ impl Search<'_, '_> {
     }
 }
 
-/// Progress steps of a path.
+/// Number of progress steps of a path.
 const PARTS: usize = 1000;
 
 fn refusal(between: [DVec3; 2], way: &Way, model: &LumenModel) -> Error {

@@ -1,4 +1,4 @@
-//! Finds candidates: places where both the gradient flux and a cross-section show a tube.
+//! Finds candidates: places at which both the gradient flux and a cross-section look like a tube.
 
 use std::ops::Range;
 
@@ -12,52 +12,52 @@ use crate::trace::find::stages::{Stage, Stages};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Voxels per tile.
+/// Number of voxels of a tile along each axis.
 const TILE: [usize; 3] = [64, 24, 24];
 
-/// Minimum response: multiple of the noise, and share of the vessel contrast.
+/// Minimum response of a candidate: a multiple of the noise, and a share of the vessel contrast.
 const NOISES: f64 = 3.5;
 const OF_CONTRAST: f64 = 0.15;
 
-/// The same for the contrast of a section.
+/// Minimum contrast of its section, in the same units.
 const SECTION_NOISES: f64 = 3.0;
 const SECTION_OF_CONTRAST: f64 = 0.2;
 
-/// Minimum closure and share of contrasting rays, and the range of the radius relative to that of the flux.
+/// Minimum closure and share of contrasting rays; range of the section radius relative to the flux radius.
 const LEAST_CLOSURE: f64 = 0.65;
 const LEAST_CONTRAST_SHARE: f64 = 0.6;
 const RADIUS_RATIO: [f64; 2] = [0.5, 1.9];
 
-/// Maximum movement to the centre in radii, and for tubes wider than two voxels.
+/// Maximum shift to the centre (radii), and the same for tubes wider than two voxels.
 const MOST_SHIFT: f64 = 1.0;
 const MOST_WIDE_SHIFT: f64 = 1.5;
 const WIDE_RADIUS: f64 = 2.0;
 
-/// Centring rounds, and minimum radius (finest voxels).
+/// Number of centring rounds, and minimum radius (finest voxels).
 const ROUNDS: usize = 3;
 const LEAST_RADIUS: f64 = 0.5;
 
-/// Search distance around a place, in radii.
+/// Candidates are searched up to this distance from a place (radii).
 const SEARCH_RADII: f64 = 2.0;
 
-/// Noise estimate: number of samples, share of bright ones, quantile of the local spread (higher ones contain
-/// edges), and its expected value for white noise.
+/// Noise is estimated from samples. The brightest share of them counts, at a low quantile of the local
+/// spread, because higher ones contain edges. White noise has a known value of that quantile.
 const NOISE_SAMPLES: usize = 60_000;
 const BRIGHTEST: f64 = 0.4;
 const EVENEST: f64 = 0.15;
 const EVENEST_OF_NOISE: f64 = 0.855;
 
-/// A possible tube. Lengths in finest voxels.
+/// A place that may lie in a tube. Lengths are in finest voxels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Candidate {
     pub place: DVec3,
     pub direction: DVec3,
     pub radius: f64,
-    /// Flux response, a contrast in the unit of the volume.
+    /// Response of the flux: a contrast in the unit of the volume.
     pub(crate) response: f64,
-    /// Ball radius of that response.
+    /// Radius of the ball with that response.
     pub(crate) flux_radius: f64,
-    /// Shares of rays with a wall about one radius away, and with half of the contrast lost.
+    /// Share of rays with a wall about one radius away, and share of rays that lose half of the contrast.
     pub closure: f64,
     pub(crate) contrast_share: f64,
 }
@@ -65,7 +65,7 @@ pub(crate) struct Candidate {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Floors {
     pub noise: f64,
-    /// Vessel contrast; in the first pass a share of the value range.
+    /// Contrast of vessels; in the first pass it is assumed as a share of the value range.
     pub contrast: f64,
 }
 
@@ -105,7 +105,7 @@ pub(crate) fn candidates(
     Ok(in_order(found, floors))
 }
 
-/// Candidates within two radii of a place (finest voxels).
+/// Candidates up to two radii from a place (finest voxels).
 pub(crate) fn candidates_near(
     pyramid: &Pyramid,
     levels_examined: &Range<usize>,
@@ -131,7 +131,7 @@ fn in_order(mut candidates: Vec<Candidate>, floors: &Floors) -> Vec<Candidate> {
     candidates
 }
 
-/// Flux radii of a level, each with response factor and threshold.
+/// The ball radii used on a level, each with the factor and the threshold of its response.
 fn limits(
     level: &Level,
     number: usize,
@@ -149,7 +149,7 @@ fn limits(
     let limit = |&radius: &usize| {
         let gain = gains()[radius];
         let least = (NOISES * noise * f64::from(gain.noise)).max(OF_CONTRAST * floors.contrast);
-        // One quantization step is the least visible response.
+        // The smallest visible response is one quantization step.
         (radius, gain.factor, (least as f32 / level.unit).max(1.0))
     };
     radii.iter().map(limit).collect()
@@ -174,7 +174,7 @@ pub(crate) fn noise(level: &Level) -> f64 {
             (sum / 27.0, ((squares - sum * sum / 27.0).max(0.0) / 26.0).sqrt())
         })
         .collect();
-    // Clamped voxels show no noise.
+    // Clamped voxels would hide the noise.
     samples.retain(|sample| sample.0 > 0.5);
     if samples.is_empty() {
         return 0.0;
@@ -196,7 +196,7 @@ fn tiles(size: [usize; 3]) -> Vec<[usize; 3]> {
         .collect()
 }
 
-/// Voxels of a tile with the greatest response across their direction.
+/// Voxels of a tile whose response is the greatest across their direction.
 fn peaks(level: &Level, first: [usize; 3], radii: &[(usize, f32, f32)]) -> Vec<Candidate> {
     let size: [usize; 3] = std::array::from_fn(|a| TILE[a].min(level.size[a] - first[a]));
     let least = radii.iter().map(|(_, _, least)| *least).fold(f32::MAX, f32::min);
@@ -206,7 +206,7 @@ fn peaks(level: &Level, first: [usize; 3], radii: &[(usize, f32, f32)]) -> Vec<C
     for k in 0..size[2] {
         for j in 0..size[1] {
             for i in 0..size[0] {
-                // Responses have a border of one voxel.
+                // Responses include a border of one voxel.
                 let voxel = [i + 1, j + 1, k + 1];
                 let number = responses.number(voxel);
                 if responses.strongest[number] <= 0.0 {
@@ -234,7 +234,7 @@ fn peaks(level: &Level, first: [usize; 3], radii: &[(usize, f32, f32)]) -> Vec<C
     found
 }
 
-/// Values of a tile, clamped at the edge; None if their range is below the threshold.
+/// Values of a tile, clamped at the edge of the volume; None if their range is below `least`.
 fn values(level: &Level, first: [usize; 3], size: [usize; 3], least: f32) -> Option<Vec<f32>> {
     let [nx, ny, nz] = level.size;
     let at = |n: usize, first: usize, count: usize| (first + n).saturating_sub(HALO).min(count - 1);
@@ -253,7 +253,7 @@ fn values(level: &Level, first: [usize; 3], size: [usize; 3], least: f32) -> Opt
     (f32::from(high.saturating_sub(low)) >= least).then_some(values)
 }
 
-/// Non-maximum suppression across the direction; on ties the first voxel wins.
+/// Whether a voxel has the greatest response across the direction; of equal ones, the first one has.
 fn is_peak(responses: &Responses, voxel: [usize; 3], direction: DVec3) -> bool {
     let own = responses.number(voxel);
     let strength = responses.strongest[own];

@@ -1,4 +1,4 @@
-//! Chooses the vessels of a seed among those found without it.
+//! Chooses the vessels that belong to a seed, among those found without a seed.
 
 use glam::DVec3;
 
@@ -8,7 +8,7 @@ use crate::voxels::Voxels;
 use lumencut_core::error::Result;
 use lumencut_core::volume::Volume;
 
-/// Distance (in radii, at least a voxel) up to which a seed selects a vessel.
+/// A seed selects a vessel up to this many radii away, or a voxel if larger.
 pub const SELECT_RADII: f64 = 1.5;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,9 +19,9 @@ struct Near {
     radii: f64,
 }
 
-/// Vessels of the part that contains a seed (mm, LPS), found as without it; outside all of them, fainter ones
-/// around it are found too. Errors: Those of [`trees`]; `ErrorKind::Tracing` for a seed outside the volume,
-/// in no vessel, or in a part without a sure vessel.
+/// Finds the vessels of the part that contains a seed (mm, LPS); they do not depend on the seed. If it lies
+/// outside all of them, fainter ones around it are found too. Errors: Those of [`trees`];
+/// `ErrorKind::Tracing` for a seed outside the volume, in no vessel, or in a part without a sure vessel.
 pub fn find_from(volume: &Volume, seed: DVec3, request: &FindRequest) -> Result<Trees> {
     let voxels = Voxels::new(volume);
     if !seed.is_finite() || voxels.voxel_at(seed).is_none() {
@@ -39,8 +39,8 @@ pub fn find_from(volume: &Volume, seed: DVec3, request: &FindRequest) -> Result<
     }
 }
 
-/// The part with the vessel nearest to a seed in radii, preferring parts with a sure vessel. `voxel` (mm) is
-/// the minimum reach of a seed. Errors: The nearest vessel point and its distance (mm) if none is in reach.
+/// The part whose vessel is nearest to a seed in radii, preferably a sure one. `voxel` (mm) is the minimum
+/// reach of a seed. Errors: If no vessel is in reach, the nearest point of one and its distance (mm).
 pub fn part_at(trees: &Trees, seed: DVec3, voxel: f64) -> std::result::Result<usize, (DVec3, f64)> {
     let sure_parts: Vec<usize> =
         trees.vessels.iter().filter(|vessel| vessel.doubt.is_none()).map(|vessel| vessel.part).collect();
@@ -48,8 +48,8 @@ pub fn part_at(trees: &Trees, seed: DVec3, voxel: f64) -> std::result::Result<us
     Ok(trees.vessels[vessel].part)
 }
 
-/// The vessel nearest to a place in radii, preferring those accepted by `comes_first`. `voxel` (mm) is the
-/// minimum reach. Errors: The nearest vessel point and its distance (mm) if none is in reach.
+/// The vessel nearest to a place in radii, preferably one that `comes_first` accepts. `voxel` (mm) is the
+/// minimum reach. Errors: If no vessel is in reach, the nearest point of one and its distance (mm).
 pub fn vessel_at(
     trees: &Trees,
     place: DVec3,
@@ -73,7 +73,7 @@ pub fn vessel_at(
     })
 }
 
-/// Nearest point of a vessel in radii, which are at least `least` mm.
+/// The point of a vessel that is nearest in radii; radii count as at least `least` mm.
 fn near(vessel: usize, found: &FoundVessel, seed: DVec3, least: f64) -> Near {
     let line = &found.line;
     let of = |n: usize| {

@@ -1,4 +1,4 @@
-//! Confidence that a track is a vessel: a weighted product of criteria.
+//! The confidence that a track is a vessel: a product of criteria with exponents as weights.
 
 use std::f64::consts::TAU;
 
@@ -10,55 +10,55 @@ use crate::trace::find::section::{TOUCHED, across};
 use crate::trace::find::track::{TrackDoubt, TrackPoint, length, usual};
 use crate::voxels::Voxels;
 
-/// Typical level and contrast of the vessels, in the unit of the volume.
+/// The level and contrast that vessels usually have, in the unit of the volume.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct UsualVessels {
     pub level: f64,
     pub contrast: f64,
 }
 
-/// Exponent of the product, and minimum of a factor.
+/// Exponent of the whole product, and minimum of each factor.
 const POWER: f64 = 0.6;
 const MIN_FACTOR: f64 = 0.02;
 
-/// Ring around the lumen, in radii plus voxels.
+/// The ring around the lumen starts and ends at these distances: radii plus voxels.
 const RING_FROM: [f64; 2] = [1.25, 0.7];
 const RING_TO: [f64; 2] = [2.05, 2.0];
 const RAYS: usize = 16;
-/// Around narrow tubes, rays that meet bone are ignored if this many others remain.
+/// Around narrow tubes, rays that meet bone are ignored if at least this many others remain.
 const LEAST_LEFT: usize = 6;
 const SAMPLES: usize = 4;
 
-/// Maximum number of sections.
+/// Maximum number of sections that are sampled.
 const MOST_SECTIONS: usize = 60;
 
-/// Range of radii (voxels) over which a tube counts as wide.
+/// A tube becomes wide over this range of radii (voxels).
 const WIDE_VOXELS: [f64; 2] = [2.5, 5.5];
 
-/// Search distance for bone (radii plus voxels); its excess over the vessel level (share of the contrast).
+/// Bone is searched up to this distance (radii plus voxels); it exceeds the vessel level by this share.
 const BONE_REACH: [f64; 2] = [1.5, 1.5];
 const BONE: f64 = 0.4;
 const BRIGHT_INSIDE: f64 = 0.5;
-/// Range of level differences (shares of the contrast) that excuses bright walls, as in a stent.
+/// A wide tube whose level differs this little (shares of the contrast) may have bright walls, as in a stent.
 const STENT_INSIDE: [f64; 2] = [0.25, 0.55];
 
 struct Around {
-    /// Share of dark directions, and median interquartile range over contrast.
+    /// Share of directions with a dark ring, and median interquartile range of the ring over the contrast.
     dark: f64,
     even: f64,
-    /// Contrast to the ring over vessel contrast.
+    /// Contrast to the ring, divided by the vessel contrast.
     contrast: f64,
     /// Share of rays that meet bone.
     bone: f64,
     inside: f64,
 }
 
-/// Linear from 0 to 1 between two limits.
+/// Rises linearly from 0 at `from` to 1 at `to`.
 pub(crate) fn ramp(value: f64, from: f64, to: f64) -> f64 {
     ((value - from) / (to - from)).clamp(0.0, 1.0)
 }
 
-/// Confidence (0 to 1) and the main doubt. Points are in finest voxels.
+/// Confidence (0 to 1) and main doubt of a track, whose points are in finest voxels.
 pub(crate) fn confidence(
     pyramid: &Pyramid,
     voxels: &Voxels,
@@ -100,7 +100,7 @@ fn radius_roughness(good: &[&TrackPoint], radius: f64) -> f64 {
     square.sqrt() / radius
 }
 
-/// 1 if neither the inside nor the walls are as bright as bone.
+/// Factor that is 1 if neither the inside nor the walls are as bright as bone.
 fn no_bone(around: &Around, wide: f64, usual: &UsualVessels) -> f64 {
     let bright = ramp(-around.bone, -0.75, -0.40);
     let away = (around.inside - usual.level).abs() / usual.contrast;

@@ -1,8 +1,8 @@
-//! Optimally oriented flux: inward gradient flow through balls of several radii.
+//! Optimally oriented flux: the flow of the gradient into balls of several radii.
 //!
 //! Law and Chung, "Three dimensional curvilinear structure detection using optimally oriented flux", ECCV
-//! 2008, doi:10.1007/978-3-540-88693-8_27. The flux through a ball is the integral of the second derivatives
-//! inside, so the volume is averaged over the ball and then differentiated.
+//! 2008, doi:10.1007/978-3-540-88693-8_27. The flux into a ball is the integral of the second derivatives
+//! within it. So the volume is averaged over the ball, and then differentiated.
 
 use std::sync::OnceLock;
 
@@ -11,43 +11,43 @@ use lumencut_core::math::lanes::{Isa, Kernel, dispatch};
 /// Ball radii (voxels): the first three on the finest level, the last three on the coarsest, else the middle.
 pub(crate) const RADII: [f64; 4] = [1.0, 1.5, 2.1, 3.0];
 
-/// Gaussian of 0.7 voxels.
+/// Weights of a Gaussian of 0.7 voxels.
 const SMOOTHING: [f32; 3] = [0.561_8, 0.202_5, 0.016_6];
 
-/// Blur of the calibration cylinder (voxels).
+/// Blur of the cylinder used for calibration (voxels).
 const BLUR: f64 = 0.6;
 
-/// Extent of the largest ball, and border of a tile (voxels).
+/// Reach of the largest ball, and border that a tile needs (voxels).
 const TILE_BORDER: usize = 3;
 pub(crate) const HALO: usize = 2 + TILE_BORDER + 2;
 
-/// The weaker inflow of a tube is at least this share of the trace, which skips most eigenvalues.
+/// In a tube the trace is at least this multiple of the weaker inflow; this saves most eigenvalues.
 const LEAST_TRACE: f32 = 1.2;
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Gain {
-    /// Scales the response of a cylinder of contrast 1 to 1.
+    /// Factor that makes the response of a cylinder of contrast 1 equal to 1.
     pub factor: f32,
-    /// Response to unit noise.
+    /// Response to noise of standard deviation 1.
     pub noise: f32,
 }
 
 pub(crate) struct Responses {
     pub size: [usize; 3],
-    /// A contrast; 0 for none.
+    /// Strongest response of each voxel, as a contrast; 0 if there is none.
     pub strongest: Vec<f32>,
     pub radius: Vec<u8>,
-    /// Ball averages with their radius numbers.
+    /// Number of each ball radius, with the averages over that ball.
     averages: Vec<(usize, Vec<f32>)>,
     average_size: [usize; 3],
 }
 
-/// Kernel: responses of a tile.
+/// Kernel that computes the responses of a tile.
 pub(crate) struct FluxOf<'a> {
-    /// With a border of `HALO` voxels.
+    /// Values of the tile with a border of `HALO` voxels.
     pub values: Vec<f32>,
     pub size: [usize; 3],
-    /// Radius numbers with factor and threshold.
+    /// Number of each ball radius, with the factor and the threshold of its response.
     pub radii: &'a [(usize, f32, f32)],
 }
 
@@ -99,7 +99,7 @@ impl Responses {
     }
 }
 
-/// Separable smoothing; loses two voxels per side.
+/// Smooths along each axis; the result is smaller by two voxels on each side.
 #[inline(always)]
 fn smoothed(values: &[f32], size: [usize; 3]) -> Vec<f32> {
     let mut made = values.to_vec();
@@ -157,7 +157,7 @@ fn share_within(voxel: [i32; 3], radius: f64) -> f32 {
     inside as f32 / (PARTS * PARTS * PARTS) as f32
 }
 
-/// Ball average; loses `TILE_BORDER` voxels per side.
+/// Averages over a ball; the result is smaller by `TILE_BORDER` voxels on each side.
 #[inline(always)]
 fn averaged(values: &[f32], size: [usize; 3], ball: &[([i32; 3], f32)]) -> Vec<f32> {
     let next = size.map(|n| n - 2 * TILE_BORDER);
@@ -264,14 +264,14 @@ fn gain(number: usize) -> Gain {
     let wide = 2 * HALO + 24;
     let noise = response(noise(wide * wide * wide), [wide; 3]);
     let square: f32 = noise.strongest.iter().map(|r| r * r).sum();
-    // Only positive responses, half of them, are recorded.
+    // Only positive responses are recorded, which are half of all.
     let spread = (2.0 * square / noise.strongest.len() as f32).sqrt();
     Gain { factor: 1.0 / peak, noise: spread / peak }
 }
 
 fn blurred_disc(x: f64, y: f64, radius: f64) -> f32 {
     let distance = x.hypot(y);
-    // Half-plane approximation, good for radii above one standard deviation of the blur.
+    // Approximates the edge by a half-plane, good for radii above one standard deviation of the blur.
     let edge = (radius - distance) / (BLUR * std::f64::consts::SQRT_2);
     (0.5 * (1.0 + (std::f64::consts::FRAC_2_SQRT_PI * edge * (1.0 + 0.089 * edge * edge)).tanh())) as f32
 }

@@ -3,18 +3,18 @@
 use crate::trace::find::track::TrackDoubt;
 use crate::trace::lines::centerline::Centerline;
 
-/// The vessels of a scan.
+/// All vessels found in a scan.
 #[derive(Clone, Debug)]
 pub struct Trees {
-    /// Vessels by part, the most important part first, its root first.
+    /// Vessels ordered by part; the most important part comes first, and in each part its root.
     pub vessels: Vec<FoundVessel>,
-    /// Typical vessel level, in the unit of the volume.
+    /// Level that vessels usually have, in the unit of the volume.
     pub level: f64,
-    /// Typical contrast to the surroundings, in the unit of the volume.
+    /// Contrast that vessels usually have to their surroundings, in the unit of the volume.
     pub contrast: f64,
     /// Noise, in the unit of the volume.
     pub noise: f64,
-    /// Whether the scan looks like an angiography; otherwise no vessel is sure without a seed.
+    /// Whether the scan looks like an angiography. If not, no vessel is sure without a seed.
     pub is_angiography: bool,
 }
 
@@ -27,16 +27,16 @@ pub struct FoundVessel {
     pub part: usize,
     /// Confidence that it is a vessel, 0 to 1.
     pub confidence: f64,
-    /// Reason for doubt; None if sure.
+    /// Reason to doubt the vessel; None if it is sure.
     pub doubt: Option<TrackDoubt>,
 }
 
 /// Why a click gives no vessel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NoVessel {
-    /// None was found there; distance of the nearest (mm), infinite if there is none at all.
+    /// No vessel was found at the click. Distance of the nearest one (mm), infinite if none exists.
     NotHere(f64),
-    /// The click, or everything it would add, lies in an existing vessel.
+    /// The click, or everything that it would add, lies in an existing vessel.
     Already,
 }
 
@@ -44,7 +44,7 @@ pub enum NoVessel {
 pub(crate) const SURE: f64 = 0.7;
 
 impl TrackDoubt {
-    /// Every reason.
+    /// All reasons for doubt.
     pub const ALL: [Self; 10] = [
         Self::BrightSides,
         Self::Flat,

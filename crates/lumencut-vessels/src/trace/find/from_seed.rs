@@ -9,10 +9,10 @@ use crate::trace::find::track::Track;
 use crate::trace::find::tracking::Tracking;
 use lumencut_core::error::Result;
 
-/// Contrast threshold around a seed, relative to the normal one.
+/// Threshold of the contrast around a seed, as a share of the normal one.
 const FAINTER: f64 = 1.0 / 3.0;
 
-/// Tracks through a seed (finest voxels); empty if it lies in a known track.
+/// Tracks through a seed (finest voxels); none if a known track already contains the seed.
 pub(crate) fn from_seed(tracking: &Tracking, seed: DVec3, known: &[Track]) -> Result<Vec<Track>> {
     if known.iter().any(|track| holds(track, seed)) {
         return Ok(Vec::new());

@@ -1,29 +1,29 @@
-//! The isotropic grid for finding tubes: cubes along the volume's axes, orthogonal if those are sheared.
+//! The isotropic grid for finding tubes, along the axes of the volume (made orthogonal if sheared).
 
 use glam::{DAffine3, DMat3, DVec3};
 
 use crate::voxels::Voxels;
 
-/// Voxels per smallest radius, since finer ones show nothing more; the maximum side (mm) keeps the
-/// surroundings visible when only wide vessels are wanted.
+/// Voxels per smallest radius, since finer voxels show nothing more. The maximum side for this (mm) keeps the
+/// surroundings visible if only wide vessels are wanted.
 const VOXELS_PER_RADIUS: f64 = 1.25;
 const LARGEST_FOR_RADIUS: f64 = 0.8;
 
-/// Maximum number of voxels; larger volumes get larger voxels.
+/// Maximum number of voxels; a larger volume gets larger voxels.
 const MOST_VOXELS: f64 = 160e6;
 
 #[derive(Clone, Debug)]
 pub(crate) struct Grid {
     pub size: [usize; 3],
-    /// Voxel side (mm).
+    /// Side of a voxel (mm).
     pub side: f64,
-    /// World position (LPS, mm) of a grid position; (0, 0, 0) is the first voxel centre.
+    /// World position (LPS, mm) of a grid position. The centre of the first voxel is at (0, 0, 0).
     pub(crate) world_from_grid: DAffine3,
     pub(crate) grid_from_world: DAffine3,
 }
 
 impl Grid {
-    /// Voxels have the mean side of the volume's, or what the smallest radius (mm) needs if larger.
+    /// Voxels have the mean side of the volume's, or a larger one if the smallest radius (mm) allows it.
     pub(crate) fn over(voxels: &Voxels, smallest_radius: f64) -> Self {
         let matrix = voxels.world_from_index.matrix3;
         let axes = square(matrix);
@@ -33,7 +33,7 @@ impl Grid {
         let least = (extent.max(DVec3::splat(mean)).element_product() / MOST_VOXELS).cbrt();
         let side = mean.max((smallest_radius / VOXELS_PER_RADIUS).min(LARGEST_FOR_RADIUS)).max(least);
         let size = extent.to_array().map(|length| (length / side + 1e-6).floor() as usize + 1);
-        // Centres the grid in the volume.
+        // The grid is centred in the volume.
         let spare = extent - DVec3::from_array(size.map(|n| (n - 1) as f64 * side));
         let origin = axes * (corners[0] + spare.max(DVec3::ZERO) / 2.0);
         let world_from_grid = DAffine3 { matrix3: axes * side, translation: origin };
@@ -49,7 +49,7 @@ impl Grid {
     }
 }
 
-/// Orthonormal axes: the first along the grid's first axis, the second in the plane of its first two.
+/// Orthonormal axes: the first one along that of the volume, the second one in the plane of its first two.
 fn square(matrix: DMat3) -> DMat3 {
     let x = matrix.x_axis.normalize_or(DVec3::X);
     let y = (matrix.y_axis - x * matrix.y_axis.dot(x)).normalize_or(x.any_orthonormal_vector());

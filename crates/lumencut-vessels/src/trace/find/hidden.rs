@@ -1,4 +1,4 @@
-//! Tracks narrow tubes hidden in wide tracks that are no vessels, such as arteries at bone.
+//! Tracks narrow tubes inside wide tracks that are not vessels, such as arteries next to bone.
 
 use glam::DVec3;
 
@@ -9,13 +9,13 @@ use crate::trace::find::track::{Track, TrackPoint};
 use crate::trace::find::tracking::Tracking;
 use lumencut_core::error::Result;
 
-/// Tracks judged below this confidence hide nothing.
+/// Tracks with at least this confidence may be vessels, so nothing is searched inside.
 const DISMISSED: f64 = 0.3;
 
-/// Maximum radius of a hidden tube, relative to the track.
+/// Maximum radius of a hidden tube, relative to the radius of the track.
 const NARROWER: f64 = 0.5;
 
-/// Tubes inside dismissed tracks. `judged` are the `tracks` (finest voxels) with their final confidence.
+/// Finds tubes inside dismissed tracks. `judged` are the `tracks` (finest voxels) with final confidence.
 pub(crate) fn hidden(
     tracking: &Tracking,
     candidates: &[Candidate],
@@ -31,7 +31,7 @@ pub(crate) fn hidden(
     let dismissed = those(true);
     let radii: Vec<f64> = dismissed.iter().map(Track::radius).collect();
     let paint = tracking.painted(&dismissed);
-    // Maximum radius of a hidden tube at a place; None if nothing hides it.
+    // Maximum radius of a hidden tube at a place; None if no track hides it.
     let most = |place: DVec3| match paint.at(place) {
         Painted::Lumen(number) => Some(NARROWER * radii[number as usize]),
         Painted::Empty | Painted::Rejected => None,
@@ -41,7 +41,7 @@ pub(crate) fn hidden(
     let within: Vec<Candidate> = candidates.iter().filter(is_hidden).copied().collect();
     let judge = |points: Vec<TrackPoint>| {
         let is_wide = |point: &&TrackPoint| most(point.place).is_some_and(|most| point.radius >= most);
-        // Does not find the dismissed track again.
+        // The dismissed track itself must not be found again.
         let is_known = 2 * points.iter().filter(is_wide).count() > points.len();
         let track = (tracking.judge)(points);
         if is_known { Track { confidence: 0.0, ..track } } else { track }

@@ -1,10 +1,10 @@
-//! Painted lumens of tracks, which show where a track meets another and what is already tracked.
+//! The painted lumens of tracks. They show where a track meets another one, and what is already tracked.
 
 use std::collections::HashMap;
 
 use glam::DVec3;
 
-/// Block side (voxels) and its bits.
+/// Side of a block (voxels), and its number of bits.
 const SIDE: i32 = 16;
 const BITS: u32 = 4;
 
@@ -12,14 +12,14 @@ const BITS: u32 = 4;
 pub(crate) enum Painted {
     Empty,
     Lumen(u32),
-    /// Centre of a track that is no vessel.
+    /// The centerline of a track that is not a vessel.
     Rejected,
 }
 
 const EMPTY: u32 = u32::MAX;
 const REJECTED: u32 = u32::MAX - 1;
 
-/// Painted voxels of the finest level.
+/// Painted voxels on the finest level.
 #[derive(Default)]
 pub(crate) struct Paint {
     blocks: HashMap<[i32; 3], Box<[u32]>>,
@@ -36,7 +36,7 @@ impl Paint {
         }
     }
 
-    /// Paints over empty or rejected voxels, and lumens that `gives_way` allows.
+    /// Paints voxels that are empty or rejected, or belong to lumens that `gives_way` accepts.
     pub(crate) fn lumen(&mut self, track: u32, center: DVec3, radius: f64, gives_way: &dyn Fn(u32) -> bool) {
         self.ball(center, radius, &mut |number| {
             if *number >= REJECTED || (*number != track && gives_way(*number)) {

@@ -2,13 +2,13 @@
 
 use glam::DVec3;
 
-/// Bits per cell coordinate.
+/// Number of bits per cell coordinate.
 const BITS: u32 = 21;
 const MAX_CELL: f64 = ((1_u64 << BITS) - 1) as f64;
 
 pub(crate) struct PointGrid {
     places: Vec<DVec3>,
-    /// Sorted pairs of cell number and point.
+    /// Pairs of cell number and point number, sorted.
     cells: Vec<(u64, u32)>,
     low: DVec3,
     high: DVec3,

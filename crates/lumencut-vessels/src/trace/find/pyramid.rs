@@ -1,4 +1,4 @@
-//! The clamped volume at several resolutions, so that every vessel is a few voxels wide somewhere.
+//! The clamped volume at several resolutions, so that every vessel is a few voxels wide at one of them.
 
 use std::ops::Range;
 
@@ -11,25 +11,25 @@ use lumencut_core::error::Result;
 use lumencut_core::math::lanes::{FAN, larger, smaller};
 use lumencut_core::stop::{Stop, go_on};
 
-/// Halving stops at the width (voxels) of the widest vessel (mm), or at the minimum size per axis.
+/// Halving stops when the widest vessel (mm) is this many voxels wide, or at the minimum size per axis.
 const VOXELS_OF_WIDEST: f64 = 3.2;
 const WIDEST: f64 = 18.0;
 const LEAST_SIZE: usize = 10;
 
-/// Gaussian of 0.8 voxels.
+/// Weights of a Gaussian of 0.8 voxels.
 const HALVING: [f32; 3] = [0.495_4, 0.226_7, 0.025_6];
 
-/// Largest stored number.
+/// The largest number that is stored.
 const FULL: f32 = 65_535.0;
 
 #[derive(Clone, Debug)]
 pub(crate) struct Level {
     pub size: [usize; 3],
-    /// In finest voxels.
+    /// Side of a voxel, in finest voxels.
     pub side: f64,
-    /// 0 to 65535 over the value range, the first axis fastest.
+    /// Numbers 0 to 65535 that cover the value range; the first axis is fastest.
     pub voxels: Vec<u16>,
-    /// Value of 0, and of each step, in the unit of the volume.
+    /// The value of the number 0, and of a step by 1, in the unit of the volume.
     pub lowest: f32,
     pub unit: f32,
 }
@@ -41,7 +41,7 @@ pub(crate) struct Pyramid {
 }
 
 impl Level {
-    /// Trilinear value at a position in the finest grid, clamped at the edge.
+    /// Trilinear value at a position of the finest grid, clamped at the edge.
     #[inline]
     pub(crate) fn at(&self, place: DVec3) -> f32 {
         let scale = 1.0 / self.side;
@@ -69,14 +69,14 @@ impl Level {
         self.lowest + self.unit * (a + (b - a) * share[2])
     }
 
-    /// Trilinear values at positions in this level, clamped at the edge.
+    /// Trilinear values at positions of this level, clamped at the edge.
     #[inline(always)]
     pub(crate) fn at_lanes<const N: usize>(&self, places: &[[f32; N]; 3]) -> [f32; N] {
         let (mut first, mut share) = ([0_u32; N], [[0.0_f32; N]; 3]);
         let strides = [1, self.size[0], self.size[0] * self.size[1]];
         for a in 0..3 {
             let last = (self.size[a] - 1) as f32;
-            // Levels of one voxel use it twice (`steps`).
+            // On an axis of one voxel, that voxel is used twice (`steps`).
             let most = last.max(1.0) - 1.0;
             for n in 0..N {
                 let along = larger(smaller(places[a][n], last), 0.0);
@@ -189,7 +189,7 @@ impl Pyramid {
         }
     }
 
-    /// Level for a tube of a radius (finest voxels): the finest where it is narrower than four voxels.
+    /// The level for a tube of a radius (finest voxels): the finest on which the radius is below four voxels.
     pub(crate) fn level_for(&self, radius: f64, levels_examined: &Range<usize>) -> &Level {
         let last = levels_examined.end - 1;
         let number = (levels_examined.start..last)
@@ -203,7 +203,7 @@ impl Pyramid {
     }
 }
 
-/// Radius (voxels) from which a tube is examined on the next level.
+/// From this radius (voxels) on, a tube is examined on the next coarser level.
 const NEXT_LEVEL_RADIUS: f64 = 4.0;
 
 /// Resamples the volume; NaN becomes the lowest value.
@@ -223,7 +223,7 @@ fn finest(voxels: &Voxels, grid: &Grid, [lowest, highest]: [f64; 2], stop: Stop)
             voxels.along(start, stride, &mut samples);
         }
         for (value, sample) in values.iter_mut().zip(&samples) {
-            // The cast maps NaN to 0.
+            // The cast turns NaN into 0.
             *value = ((sample - lowest) / unit).round() as u16;
         }
         Ok(())

@@ -1,20 +1,20 @@
-//! Medians and quantiles that are members of the values.
+//! Medians and quantiles that are always one of the values.
 //!
-//! With the core's interpolating versions, the dissection of one test patient falls into other trees.
+//! With the interpolating versions of the core, the dissection of one test patient is split otherwise.
 
-/// Nearest-rank quantile; None if empty.
+/// Quantile by nearest rank; None if there are no values.
 pub(crate) fn quantile(values: &mut [f64], share: f64) -> Option<f64> {
     let last = values.len().checked_sub(1)?;
     let rank = (last as f64 * share).round() as usize;
     Some(*values.select_nth_unstable_by(rank, f64::total_cmp).1)
 }
 
-/// Upper median; None if empty.
+/// The upper one of two middle values; None if there are no values.
 pub(crate) fn median(values: &mut [f64]) -> Option<f64> {
     quantile(values, 0.5)
 }
 
-/// Lower median; None if empty.
+/// The lower one of two middle values; None if there are no values.
 pub(crate) fn lower_median(values: &mut [f64]) -> Option<f64> {
     let last = values.len().checked_sub(1)?;
     Some(*values.select_nth_unstable_by(last / 2, f64::total_cmp).1)

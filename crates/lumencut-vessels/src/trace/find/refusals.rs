@@ -1,4 +1,4 @@
-//! Error messages of finding vessels.
+//! Error messages if vessels cannot be found.
 
 use glam::DVec3;
 
@@ -6,7 +6,7 @@ use crate::trace::find::found::NoVessel;
 use crate::trace::lumen::lumen_model::in_words;
 use lumencut_core::error::{Error, ErrorKind, Mend};
 
-/// Error if no vessel is sure, with the number of doubtful ones; `smallest_radius` in mm.
+/// The error if no vessel is sure. It states the number of doubtful ones; `smallest_radius` is in mm.
 pub fn no_vessel(doubtful: usize, smallest_radius: f64) -> Error {
     let found = match doubtful {
         0 => format!("none whose radius is {smallest_radius} mm or more"),
@@ -19,13 +19,13 @@ pub fn no_vessel(doubtful: usize, smallest_radius: f64) -> Error {
     error.mend("trace between two points along a vessel").mended_by(mend)
 }
 
-/// Error for a seed outside the volume.
+/// The error for a seed outside the volume.
 pub fn outside(seed: DVec3) -> Error {
     let found = format!("{}, outside the volume", in_words(seed));
     Error::new(ErrorKind::Tracing, "seed", found, "a point within the volume")
 }
 
-/// Error for a seed in no vessel, with its value, the nearest vessel point, and its distance (mm).
+/// The error for a seed in no vessel. It states value, nearest vessel point, and distance of that point (mm).
 pub(crate) fn not_here(seed: DVec3, value: f64, nearest: DVec3, distance: f64) -> Error {
     let found = format!("no vessel here; the nearest one is {distance:.1} mm away, at {}", in_words(nearest));
     let expected = "a point within a vessel";
@@ -33,7 +33,7 @@ pub(crate) fn not_here(seed: DVec3, value: f64, nearest: DVec3, distance: f64) -
     error.mend("put the seed into a vessel, or trace between two points along it").at(seed, value)
 }
 
-/// Error for a click (mm, LPS) without a whole vessel, with its value.
+/// The error for a click (mm, LPS) that gives no whole vessel. It states the value there.
 pub fn no_whole_vessel(click: DVec3, value: f64, reason: NoVessel) -> Error {
     let (found, expected) = match reason {
         NoVessel::NotHere(distance) if distance.is_infinite() => {
@@ -52,7 +52,7 @@ pub fn no_whole_vessel(click: DVec3, value: f64, reason: NoVessel) -> Error {
     }
 }
 
-/// Error for a seed whose part has only doubtful vessels; `doubt` is the reason of the first.
+/// The error for a seed whose part has only doubtful vessels. `doubt` is the reason of the first one.
 pub(crate) fn only_doubtful(seed: DVec3, value: f64, doubt: &str) -> Error {
     let found = format!("a doubtful vessel there: {doubt}");
     let error = Error::new(ErrorKind::Tracing, format!("seed {}", in_words(seed)), found, "one that is sure");

@@ -1,4 +1,4 @@
-//! Properties of a scan used to judge its vessels.
+//! Properties of a scan that are used to assess its vessels.
 
 use glam::DVec3;
 
@@ -8,18 +8,18 @@ pub(crate) struct Scan<'v> {
     pub voxels: &'v Voxels<'v>,
     /// Side of the isotropic voxels (mm).
     pub side: f64,
-    /// Lower clamp: fat, lung and air do not count as contrast.
+    /// Lower values are raised to this one, so that fat, lung and air do not count as contrast.
     pub lowest: f64,
-    /// Typical vessel level, in the unit of the volume.
+    /// Level that vessels usually have, in the unit of the volume.
     pub level: f64,
-    /// Typical contrast to the surroundings.
+    /// Contrast that vessels usually have, in the unit of the volume.
     pub contrast: f64,
     pub noise: f64,
     pub is_hounsfield: bool,
 }
 
 impl Scan<'_> {
-    /// Trilinear value (mm, LPS), at least `lowest`; NaN outside.
+    /// Trilinear value at a position (mm, LPS), at least `lowest`; NaN outside.
     pub(crate) fn value(&self, place: DVec3) -> f64 {
         let value = f64::from(self.voxels.at(place));
         if value < self.lowest { self.lowest } else { value }

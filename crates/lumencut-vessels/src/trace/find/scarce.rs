@@ -1,4 +1,4 @@
-//! Doubts short parts, and all vessels of a scan that is no angiography.
+//! Marks short parts, and all vessels of a scan that is not an angiography, as doubtful.
 
 use crate::trace::find::bone::Shape;
 use crate::trace::find::found::{FoundVessel, SURE};
@@ -8,24 +8,24 @@ use crate::voxels::Voxels;
 use glam::DVec3;
 use lumencut_core::math::arc_length::arc_lengths;
 
-/// Minimum length (mm, or share of the diagonal if less) of sure vessels in some part of an angiography.
+/// In an angiography, some part has sure vessels of this length (mm, or share of the diagonal if less).
 const LEAST_LENGTH: f64 = 100.0;
 const OF_DIAGONAL: f64 = 0.3;
 
-/// The same for any part; shorter ones are as often specks of calcium as vessels.
+/// Minimum length of any part, likewise; shorter ones are as often specks of calcium as vessels.
 const LEAST_PART: f64 = 15.0;
 const PART_OF_DIAGONAL: f64 = 0.15;
 
-/// Pairs of minimum length (radii) and maximum elongation of tubes. Tissue bodies meet one, not both.
+/// Pairs of minimum length (radii) and maximum elongation; a tube meets one pair, bodies of tissue meet none.
 const LONG_AND_ROUND: [[f64; 2]; 2] = [[10.0, 1.5], [6.0, 1.25]];
 
-/// Share of the diagonal that counts as long for any width, because a small volume shows no more.
+/// This share of the diagonal counts as long for any width, because a small volume cannot show more.
 const LONG_OF_DIAGONAL: f64 = 0.5;
 
-/// Upper level (HU) of plain blood and muscle; 120 HU would lose CTs with arteries of 115 HU.
+/// Upper level (HU) of blood without contrast medium and of muscle; 120 would exclude arteries of 115 HU.
 const BLOOD: f64 = 75.0;
 
-/// Whether sure, long, round tracks reach the minimum length and, in CT, exceed plain blood.
+/// Whether sure, long, round tracks reach the minimum length and, in CT, are brighter than plain blood.
 pub(crate) fn is_angiography(scan: &Scan, tracks: &[Track], shapes: &[Option<Shape>]) -> bool {
     let diagonal = diagonal(scan.voxels);
     let length = |(track, shape): (&Track, &Option<Shape>)| {
@@ -75,7 +75,7 @@ mod tests {
     use crate::trace::find::made::{straight_track, with_scan};
     use crate::trace::lines::centerline::Centerline;
 
-    /// Doubts of vessels with these lengths (mm), one per part, in a cube with a diagonal of 69.3 mm.
+    /// Doubts of vessels of these lengths (mm), each one part, in a cube with a diagonal of 69.3 mm.
     fn doubts(lengths: &[f64]) -> Vec<Option<TrackDoubt>> {
         let vessel = |(part, length): (usize, &f64)| {
             let points = vec![DVec3::ZERO, DVec3::X * *length];
@@ -96,7 +96,7 @@ mod tests {
         assert!(doubts(&[]).is_empty());
     }
 
-    /// Whether one track makes a scan an angiography, in a cube with a diagonal of 207.8 mm.
+    /// Whether a single track makes a scan an angiography, in a cube with a diagonal of 207.8 mm.
     fn shows(length: f64, radius: f64, elongation: f64, level_in_hounsfield: Option<f64>) -> bool {
         let track = straight_track(DVec3::ZERO, DVec3::X * length, radius);
         with_scan(
@@ -116,9 +116,9 @@ mod tests {
         // 0.3 of the diagonal is 62.4 mm.
         assert!(shows(65.0, 6.0, 1.4, None) && !shows(60.0, 6.0, 1.4, None));
         assert!(!shows(65.0, 7.0, 1.4, None) && !shows(65.0, 6.0, 1.6, None));
-        // Rounder tubes may be shorter.
+        // A rounder tube may be shorter.
         assert!(shows(65.0, 10.5, 1.2, None) && !shows(65.0, 11.5, 1.2, None));
-        // Half of the diagonal is long for any width.
+        // For any width, half of the diagonal is long.
         assert!(shows(104.5, 12.0, 1.4, None) && !shows(103.0, 12.0, 1.4, None));
         assert!(shows(65.0, 6.0, 1.4, Some(80.0)) && !shows(65.0, 6.0, 1.4, Some(70.0)));
     }

@@ -1,4 +1,4 @@
-//! Cross-section of a tube with its own level: walls along rays, and centre.
+//! Cross-section of a tube: its own level, the walls along rays, and its centre.
 
 use std::f64::consts::TAU;
 
@@ -8,43 +8,43 @@ use crate::trace::find::pyramid::Level;
 use crate::trace::find::quantiles::lower_median;
 use lumencut_core::math::lanes::{Isa, Kernel, dispatch};
 
-/// Opposite rays form pairs.
+/// Number of rays; opposite rays form pairs.
 const RAYS: usize = 24;
 
 /// Sampling distance (voxels of the level).
 const STEP: f64 = 0.5;
 
-/// Ray length: radii plus voxels.
+/// Length of a ray: radii plus voxels.
 const REACH_RADII: f64 = 1.6;
 const REACH_VOXELS: f64 = 2.0;
 
-/// The wall is at half of the ray's contrast, which is at least this share of the whole contrast.
+/// The wall is at half of the ray's own contrast, which counts as at least this share of the whole contrast.
 const LEAST_OF_CONTRAST: f64 = 0.4;
 
-/// Range of valid walls: radii, less a quarter voxel and plus half a voxel.
+/// Walls are valid between these factors of the radius, minus a quarter and plus half a voxel.
 const NEAR_WALL: f64 = 0.55;
 const FAR_WALL: f64 = 1.6;
 
-/// Farther walls are clamped to this many radii, so that a branch cannot move the centre.
+/// Farther walls are moved to this many radii, so that a branch does not shift the centre.
 const MAX_WALL_RADII: f64 = 1.5;
 
-/// Maximum radius (finest voxels) of a tube whose rays may end at bone.
+/// Rays end at bone only in tubes up to this radius (finest voxels).
 pub(crate) const TOUCHED: f64 = 3.0;
 
-/// Excess of bone over lumen (share of the contrast): such rays end at the darkest place before it, because
-/// the wall between is too thin to resolve. Up to this many are exempt from the contrast test.
+/// Bone is brighter than lumen by this share of the contrast. Rays that meet it end at the darkest place
+/// before it, because the wall is too thin to resolve. Up to `MOST_BONE` of them skip the contrast test.
 const ABOVE: f64 = 0.15;
 const MOST_BONE: usize = 4;
 
-/// Lengths in finest voxels, values in the unit of the volume.
+/// Lengths are in finest voxels, values in the unit of the volume.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Section {
     pub level: f64,
     /// Contrast to the surrounding tissue.
     pub contrast: f64,
-    /// Median wall distance.
+    /// Median distance of the walls.
     pub radius: f64,
-    /// From the given place to the centre.
+    /// Vector from the given place to the centre.
     pub shift: DVec3,
     /// Share of rays with a wall about one radius away.
     pub closure: f64,
@@ -62,7 +62,7 @@ impl Section {
         Walls::seen(level, place, direction, radius).section()
     }
 
-    /// Also ends rays at material brighter than the lumen.
+    /// Like `look`, but rays also end at material brighter than the lumen.
     pub(crate) fn beside_bone(level: &Level, place: DVec3, direction: DVec3, radius: f64) -> Self {
         Walls::seen(level, place, direction, radius).ending_at_bone().section()
     }
@@ -71,12 +71,12 @@ impl Section {
 struct Walls {
     rays: Rays,
     plane: [DVec3; 2],
-    /// Approximate radius, and voxel side of the level (finest voxels).
+    /// Approximate radius of the tube, and voxel side of the level (finest voxels).
     radius: f64,
     side: f64,
     lumen: f64,
     contrast: f64,
-    /// Wall distance per ray, and whether it is bone.
+    /// Distance of the wall of each ray, and whether it is bone.
     walls: [f64; RAYS],
     is_bone: [bool; RAYS],
 }
@@ -105,7 +105,7 @@ impl Walls {
         [NEAR_WALL * usual - 0.25 * self.side, FAR_WALL * usual + 0.5 * self.side]
     }
 
-    /// Ends rays without a valid wall at bone.
+    /// Rays without a valid wall end at bone, if they meet any.
     fn ending_at_bone(mut self) -> Self {
         let [_, far] = self.counted();
         let above = self.lumen + ABOVE * self.contrast;
@@ -145,12 +145,12 @@ fn lumen(level: &Level, place: DVec3, plane: [DVec3; 2], radius: f64) -> f64 {
 }
 
 struct Rays {
-    /// Values by step, then ray.
+    /// Values by step; each row has one value per ray.
     values: Vec<[f32; RAYS]>,
-    /// Sampling distance and ray length (finest voxels).
+    /// Distance between samples, and length of the rays (finest voxels).
     step: f64,
     reach: f64,
-    /// Minimum of each ray.
+    /// Lowest value of each ray.
     darkest: [f64; RAYS],
 }
 
@@ -176,7 +176,7 @@ impl Rays {
         Self { values, step, reach: step * count as f64, darkest: darkest.map(f64::from) }
     }
 
-    /// Distance at which a ray first falls below a value, or the ray length.
+    /// Distance at which a ray first falls below a value; the length of the ray if it never does.
     fn wall(&self, ray: usize, start: f64, below: f64) -> f64 {
         let is_below = |row: &[f32; RAYS]| f64::from(row[ray]) < below;
         let Some(n) = self.values.iter().position(is_below) else { return self.reach };
@@ -186,20 +186,20 @@ impl Rays {
         (n as f64 + share) * self.step
     }
 
-    /// Darkest place before a ray first rises above a value; None if it does not.
+    /// Distance of the darkest place before a ray first rises above a value; None if it never rises.
     fn wall_at_bone(&self, ray: usize, above: f64) -> Option<f64> {
         let value = |n: &usize| self.values[*n][ray];
         let bone = (0..self.values.len()).find(|n| f64::from(value(n)) > above)?;
-        // In the outer half; the last of equals, so that without a wall the ray ends at bone.
+        // Of equally dark places the last one is taken, so that without a wall the ray ends at bone.
         let darkest = (bone / 2..bone).rev().min_by(|a, b| value(a).total_cmp(&value(b))).unwrap_or(bone);
         Some((darkest + 1) as f64 * self.step)
     }
 }
 
-/// Kernel: samples along all rays.
+/// Kernel that samples all rays.
 struct Sampled<'a> {
     level: &'a Level,
-    /// In voxels of the level.
+    /// Start of the rays, in voxels of the level.
     start: [f32; 3],
     strides: [[f32; RAYS]; 3],
     count: usize,
@@ -224,7 +224,7 @@ impl Kernel for Sampled<'_> {
     }
 }
 
-/// Mean difference of opposite walls, at most half a radius.
+/// Mean difference between opposite walls, at most half a radius.
 fn shift(walls: &[f64; RAYS], plane: [DVec3; 2], radius: f64) -> DVec3 {
     let pairs = RAYS / 2;
     let mut sum = DVec3::ZERO;
@@ -232,7 +232,7 @@ fn shift(walls: &[f64; RAYS], plane: [DVec3; 2], radius: f64) -> DVec3 {
         let (sin, cos) = (TAU * n as f64 / RAYS as f64).sin_cos();
         sum += (plane[0] * cos + plane[1] * sin) * (walls[n] - walls[n + pairs]);
     }
-    // The average over a half circle gives half of the shift.
+    // Averaged over a half circle, differences give half of the shift.
     (sum / pairs as f64).clamp_length_max(0.5 * radius)
 }
 

@@ -1,4 +1,4 @@
-//! Progress of finding vessels.
+//! Progress of finding vessels, in stages.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -6,9 +6,9 @@ use lumencut_core::progress::Progress;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Stage {
-    /// Pyramid levels.
+    /// Making the levels of the pyramid.
     Levels,
-    /// First pass for the vessel level.
+    /// First pass, which estimates the vessel level.
     FirstPass,
     Candidates,
     Tracks,
@@ -17,10 +17,10 @@ pub(crate) enum Stage {
     Vessels,
 }
 
-/// Relative durations.
+/// Relative durations of the stages.
 const COSTS: [usize; 7] = [4, 18, 28, 38, 7, 2, 3];
 
-/// Progress steps per stage.
+/// Number of progress steps per stage.
 const PARTS: usize = 1000;
 
 #[derive(Clone, Copy, Debug, Default)]

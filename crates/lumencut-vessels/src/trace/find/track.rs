@@ -1,4 +1,4 @@
-//! Tracked tubes: centre points, each with its local lumen.
+//! Tracked tubes: centre points, each with the lumen around it.
 
 use glam::DVec3;
 
@@ -18,40 +18,40 @@ pub(crate) struct TrackPoint {
     pub contrast: f64,
     /// Share of rays with a wall about one radius away.
     pub closure: f64,
-    /// Whether its section is that of a tube.
+    /// Whether the section at this point looks like that of a tube.
     pub(crate) is_good: bool,
 }
 
 #[derive(Clone, Debug)]
 pub(crate) struct Track {
-    /// At least two.
+    /// The points of the track, at least two.
     pub points: Vec<TrackPoint>,
     /// Confidence that it is a vessel, 0 to 1.
     pub confidence: f64,
-    /// Main doubt, if any.
+    /// Main reason for doubt, if any.
     pub doubt: Option<TrackDoubt>,
 }
 
 /// Why a track may not be a vessel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TrackDoubt {
-    /// Bright surroundings on most sides, as in bone.
+    /// The surroundings are bright on most sides, as in bone.
     BrightSides,
-    /// Flat section, as of a plate of bone.
+    /// The section is flat, as that of a plate of bone.
     Flat,
-    /// Uneven inside, like marrow.
+    /// The inside is uneven, like marrow.
     Uneven,
-    /// Pale and wide, like an organ.
+    /// The track is pale and wide, like an organ.
     PaleAndWide,
-    /// Short.
+    /// The track is short.
     Short,
-    /// Radius varies between sections.
+    /// The radius varies between sections.
     Rough,
-    /// Low contrast.
+    /// The contrast is low.
     Faint,
-    /// Few visible walls.
+    /// Few walls are visible.
     Open,
-    /// Bridges a gap.
+    /// The vessel bridges a gap.
     Gap,
     /// No part of the scan has sure vessels as long as in an angiography.
     Scarce,
@@ -71,7 +71,7 @@ pub(crate) fn length(points: &[TrackPoint]) -> f64 {
     points.windows(2).map(|pair| pair[0].place.distance(pair[1].place)).sum()
 }
 
-/// Lower median; 0 if empty.
+/// Lower median of a value of the points; 0 if there are none.
 pub(crate) fn usual<'p>(points: impl IntoIterator<Item = &'p TrackPoint>, of: fn(&TrackPoint) -> f64) -> f64 {
     lower_median(&mut points.into_iter().map(of).collect::<Vec<_>>()).unwrap_or(0.0)
 }

@@ -1,4 +1,4 @@
-//! Follows a tube both ways from a candidate, with running level, contrast and radius.
+//! Follows a tube in both directions from a candidate, with running estimates of level, contrast and radius.
 
 use std::ops::Range;
 
@@ -10,58 +10,58 @@ use crate::trace::find::pyramid::{Level, Pyramid};
 use crate::trace::find::section::{Section, TOUCHED};
 use crate::trace::find::track::TrackPoint;
 
-/// Step: share of the radius, at most this many voxels of the level, at least this many finest voxels.
+/// Step: this share of the radius, at most in voxels of the level, and at least in finest voxels.
 const STEP: f64 = 0.45;
 const LONGEST_STEP: f64 = 1.5;
 const SHORTEST_STEP: f64 = 0.5;
 
-/// Centring rounds per step.
+/// Number of centring rounds per step.
 const ROUNDS: usize = 2;
 
-/// Requirements of a good section: closure, share of contrasting rays, radius relative to the previous one
-/// (factor and voxels), and shift (radii plus voxels).
+/// Requirements of a good section: closure, share of contrasting rays, radius relative to the running one
+/// (factor and voxels), and shift from the expected place (radii plus voxels).
 const LEAST_CLOSURE: f64 = 0.6;
 const LEAST_CONTRAST_SHARE: f64 = 0.6;
 const NARROWER: [f64; 2] = [0.6, 0.3];
 const WIDER: [f64; 2] = [1.5, 0.3];
 const MOST_SHIFT: [f64; 2] = [0.6, 0.4];
 
-/// Maximum radius (mm).
+/// Maximum radius of a tube (mm).
 const WIDEST: f64 = 22.0;
 
-/// Maximum level difference and minimum contrast (running contrast); minimum contrast (noise).
+/// Limits of a section: level difference and contrast (shares of the running contrast), contrast in noises.
 const LEVEL: f64 = 0.45;
 const CONTRAST: f64 = 0.45;
 const NOISES: f64 = 3.0;
 
-/// Weights of a section in the running level and contrast, and in the running radius.
+/// Weight of a new section in the running level and contrast, and in the running radius.
 const OF_LEVEL: f64 = 0.15;
 const OF_RADIUS: f64 = 0.3;
 
-/// Chord that gives the direction: radii plus voxels.
+/// Length of the chord that gives the direction: radii plus voxels.
 const CHORD: [f64; 2] = [1.2, 1.0];
 
-/// Maximum gap: radii or voxels. Steps darker than this share of the contrast count twice.
+/// Maximum length of a gap (radii or voxels). Steps darker than this share of the contrast count twice.
 const GAP_RADII: f64 = 2.2;
 const GAP_VOXELS: f64 = 3.0;
 const DARK: f64 = 0.6;
 
-/// A track ends in another that is darker by at most this share of its contrast.
+/// A track ends at another one unless that is darker by more than this share of the contrast.
 pub(crate) const DARKER: f64 = 0.35;
 
-/// Maximum steps per direction.
+/// Maximum number of steps per direction.
 pub(crate) const MOST_STEPS: usize = 20_000;
 
-/// A track returned to itself within this many radii of a point this many radii back.
+/// A track has returned to itself if it comes this close (radii) to a point this far back (radii).
 const RETURNED: f64 = 0.8;
 const BEHIND: f64 = 4.0;
 
-/// Data for tracking. Lengths in finest voxels.
+/// Data for tracking. Lengths are in finest voxels.
 pub(crate) struct Tracker<'a> {
     pub(crate) pyramid: &'a Pyramid,
     pub levels_examined: Range<usize>,
     pub paint: &'a Paint,
-    /// Levels of the painted tracks.
+    /// Level of each painted track.
     pub levels: &'a [f64],
     pub(crate) floors: Floors,
 }
@@ -85,7 +85,7 @@ enum Seen {
 type Look = fn(&Level, DVec3, DVec3, f64) -> Section;
 
 impl Tracker<'_> {
-    /// Track points through a candidate (finest voxels), at most `most_steps` per direction.
+    /// Points of the track through a candidate (finest voxels), with at most `most_steps` per direction.
     pub(crate) fn track(&self, from: &Candidate, most_steps: usize) -> Option<Vec<TrackPoint>> {
         let level = self.pyramid.level_for(from.radius, &self.levels_examined);
         let section = Section::look(level, from.place, from.direction, from.radius);
@@ -126,7 +126,7 @@ impl Tracker<'_> {
         let mut points: Vec<TrackPoint> = Vec::new();
         let mut way: Vec<DVec3> = before.to_vec();
         way.push(running.place);
-        // Sections at bone count only if the tube continues or meets another track.
+        // Sections at bone count only if the tube continues after them or meets another track.
         let (mut gap, mut sure, mut last) = (0.0, 0, 0);
         for _ in 0..most_steps {
             let step = self.step(running.radius);
@@ -171,7 +171,7 @@ impl Tracker<'_> {
         }
     }
 
-    /// Centred section and its kind; if it is no tube, tries it as a small artery touched by bone.
+    /// The centred section and its kind. A section that is no tube is tried again as a small artery at bone.
     fn best(&self, ahead: DVec3, running: &Running) -> (DVec3, Section, Seen) {
         let good = |look: Look, seen: Seen| {
             let (place, section) = self.centered(ahead, running, look);
@@ -215,7 +215,7 @@ impl Tracker<'_> {
         let reach = CHORD[0] * running.radius + CHORD[1] * self.side();
         let from = way.iter().rev().find(|point| point.distance(place) >= reach).or(way.first());
         let chord = from.map_or(DVec3::ZERO, |from| (place - *from).normalize_or_zero());
-        // Points behind the start, tracked the other way, give no direction ahead.
+        // Points behind the start were tracked the other way, so they give no direction.
         let chord = if chord.dot(running.direction) > 0.0 { chord } else { DVec3::ZERO };
         let toward = |old: f64, new: f64, share: f64| old + share * (new - old);
         Running {

@@ -1,4 +1,4 @@
-//! Tracks candidates, the most promising first, and paints them, so that no tube is found twice.
+//! Tracks the most promising candidates first and paints the tracks, so that no tube is found twice.
 
 use std::collections::VecDeque;
 use std::ops::Range;
@@ -15,41 +15,41 @@ use crate::trace::find::tracker::{DARKER, MOST_STEPS, Tracker};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Minimum length in radii and voxels, and minimum share of good sections.
+/// Minimum length of a track in radii and in voxels, and minimum share of good sections.
 const LEAST_RADII: f64 = 3.0;
 const LEAST_VOXELS: f64 = 5.0;
 const LEAST_GOOD: f64 = 0.6;
 
-/// Minimum confidence.
+/// Minimum confidence of a track.
 const LEAST_CONFIDENCE: f64 = 0.3;
 
-/// Steps of a first look, and its minimum confidence relative to a whole track.
+/// Steps of a short first track, and its minimum confidence relative to that of a complete one.
 const FIRST_STEPS: usize = 16;
 const LEAST_OF_FIRST: f64 = 0.5;
 
-/// Painted radius in radii for narrow, wide and other tracks, and the two limits (voxels).
+/// Radius of the paint, in radii, of narrow, wide and other tracks; radii (voxels) that are narrow and wide.
 const PAINTED: [f64; 3] = [0.9, 1.1, 1.0];
 const NARROW_RADIUS: f64 = 2.0;
 const WIDE_RADIUS: f64 = 4.0;
 
-/// Painted radius of a rejected track (voxels).
+/// Radius of the paint of a rejected track (voxels).
 const THIN: f64 = 1.0;
 
-/// Minimum contrast (share) and maximum radius (voxels) of a candidate inside a darker track.
+/// Minimum contrast (share of that of vessels) and maximum radius (voxels) of a candidate in a darker track.
 const OVER_CONTRAST: f64 = 0.5;
 const OVER_RADIUS: f64 = 5.0;
 
-/// Candidates tracked in parallel before painting.
+/// Number of candidates tracked in parallel before painting.
 const BATCH: usize = 32;
 
-/// Candidates closer than this (radii, voxels) are tracked in sequence; maximum searched for others.
+/// Candidates closer than this (radii plus voxels) are tracked one after the other; most that are searched.
 const NEAR_RADII: f64 = 4.0;
 const NEAR_VOXELS: f64 = 8.0;
 const MAX_EXAMINED: usize = 128;
 
 pub(crate) struct Tracking<'a> {
     pub(crate) pyramid: &'a Pyramid,
-    /// Level range.
+    /// The range of pyramid levels that are examined.
     pub levels_examined: Range<usize>,
     pub(crate) floors: Floors,
     pub stop: Stop<'a>,
@@ -59,7 +59,7 @@ pub(crate) struct Tracking<'a> {
 
 struct Batch {
     candidates: Vec<Candidate>,
-    /// Number of candidates consumed.
+    /// Number of candidates that were examined.
     levels_examined: usize,
 }
 
@@ -84,8 +84,8 @@ impl Tracking<'_> {
         self.pyramid.levels[self.levels_examined.start].side
     }
 
-    /// Tracks in finest voxels. Candidates are tracked in independent batches and painted in order; those
-    /// that meet new paint are tracked again, so the result does not depend on threads.
+    /// Finds tracks in finest voxels. Candidates are tracked in independent batches and painted in order.
+    /// Those that meet new paint are tracked again, so the result does not depend on the number of threads.
     pub(crate) fn tracks(&self, candidates: &[Candidate]) -> Result<Vec<Track>> {
         self.tracks_beside(&[], candidates)
     }
@@ -131,7 +131,7 @@ impl Tracking<'_> {
         known
     }
 
-    /// Next independent candidates. Those near another one wait, because they may lie in the same tube.
+    /// The next independent candidates. Those near another one wait, because both may lie in the same tube.
     fn batch(
         &self,
         paint: &Paint,
@@ -170,7 +170,7 @@ impl Tracking<'_> {
         batch
     }
 
-    /// Whether nothing is painted there, or a darker lumen around a narrow candidate.
+    /// Whether the candidate's place is unpainted, or the candidate is a narrow one inside a darker lumen.
     fn is_open(&self, paint: &Paint, levels: &[f64], candidate: &Candidate) -> bool {
         match paint.at(candidate.place) {
             Painted::Empty => true,
@@ -190,11 +190,11 @@ impl Tracking<'_> {
     fn tried(&self, paint: &Paint, levels: &[f64], candidate: &Candidate) -> Tried {
         let (levels_examined, floors) = (self.levels_examined.clone(), self.floors);
         let tracker = Tracker { pyramid: self.pyramid, levels_examined, paint, levels, floors };
-        // The first steps reveal most non-vessels.
+        // The first steps are enough to reject most places that are not vessels.
         let Some(points) = tracker.track(candidate, FIRST_STEPS) else { return Tried::Nothing };
         let Some(first) = self.kept(&points, LEAST_OF_FIRST) else { return Tried::Rejected(points) };
         if points.len() <= FIRST_STEPS {
-            // It ended early, so it is complete.
+            // The track ended early, so it is complete.
             let is_sure = first.confidence >= LEAST_CONFIDENCE;
             return if is_sure { Tried::Kept(first) } else { Tried::Rejected(points) };
         }
@@ -202,7 +202,7 @@ impl Tracking<'_> {
         self.kept(&points, 1.0).map_or(Tried::Rejected(points), Tried::Kept)
     }
 
-    /// The track, if long, good and confident enough (`share` of the usual minimum).
+    /// The track, if it is long and good enough, and has at least `share` of the minimum confidence.
     fn kept(&self, points: &[TrackPoint], share: f64) -> Option<Track> {
         let radius = usual(points, |point| point.radius);
         let good = points.iter().filter(|point| point.is_good).count() as f64;
@@ -215,7 +215,7 @@ impl Tracking<'_> {
         (track.confidence >= share * LEAST_CONFIDENCE).then_some(track)
     }
 
-    /// Paints a track and stores it, or paints the centre of a rejected one.
+    /// Paints and stores a track, or paints only the centerline of a rejected one.
     fn commit(&self, tried: Tried, paint: &mut Paint, found: &mut Vec<Track>, levels: &mut Vec<f64>) {
         match tried {
             Tried::Nothing => (),

@@ -1,4 +1,4 @@
-//! Finds the tubes of a scan: a first pass estimates the vessel level, a second finds all.
+//! Finds the tubes of a scan: a first pass estimates the vessel level, a second pass finds all tubes.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -21,28 +21,28 @@ use crate::voxels::Voxels;
 use lumencut_core::error::Result;
 use lumencut_core::stop::Stop;
 
-/// Scans with values below the first limit (HU) are clamped at the second: fat, lung and air.
+/// If a scan has values below `AIR` (HU), values below `WATER` are raised to it: fat, lung and air.
 const AIR: f64 = -200.0;
 const WATER: f64 = 0.0;
 
-/// Upper clamp of the first pass (quantile), and number of samples for it.
+/// Quantile that caps the values of the first pass, and number of samples that give it.
 const BRIGHTEST: f64 = 0.999;
 const SAMPLES: usize = 400_000;
 
-/// Upper clamp of the second pass above the vessel level (share), against struts, calcium and bone.
+/// Cap of the second pass above the vessel level (share of the contrast), against struts, calcium and bone.
 const ABOVE: f64 = 0.25;
 
-/// Assumed contrast of the first pass, as a share of the value range.
+/// Contrast that the first pass assumes, as a share of the value range.
 const FIRST_CONTRAST: f64 = 0.3;
 
 pub(crate) struct Tubes<'v> {
     pub scan: Scan<'v>,
     pub tracks: Vec<Track>,
-    /// Raw-voxel properties of each track.
+    /// Shape of each track in the raw voxels.
     pub shapes: Vec<Option<Shape>>,
 }
 
-/// None if there is no tube. Around a seed (mm, LPS) in no track, fainter tubes are found too.
+/// The tubes of a scan; None if there are none. Around a seed (mm, LPS) in no track, fainter ones are found.
 pub(crate) fn tubes<'v>(
     voxels: &'v Voxels<'v>,
     seed: Option<DVec3>,
@@ -73,7 +73,7 @@ pub(crate) fn tubes<'v>(
     of_pass(&pass, scan, seed.map(|seed| pyramid.grid.grid_from_world.transform_point3(seed))).map(Some)
 }
 
-/// Tubes of the second pass; `seed` in finest voxels.
+/// The tubes that the second pass finds; `seed` is in finest voxels.
 fn of_pass<'v>(pass: &Tracking, scan: Scan<'v>, seed: Option<DVec3>) -> Result<Tubes<'v>> {
     let candidates = pass.candidates()?;
     let mut tracks = pass.tracks(&candidates)?;
@@ -105,7 +105,7 @@ impl Tubes<'_> {
 
 struct Range {
     values: [f64; 2],
-    /// Whether there are values of air.
+    /// Whether some values are as low as those of air.
     is_hounsfield: bool,
 }
 
@@ -140,7 +140,7 @@ fn usual(pyramid: &Pyramid, range: f64, stop: Stop) -> Result<Option<[f64; 2]>> 
     Ok(vessel_level(&tracks, noise))
 }
 
-/// Converts finest voxels to mm and world positions.
+/// Converts a track from finest voxels to mm in world space.
 fn in_world(grid: &Grid, mut track: Track) -> Track {
     for point in &mut track.points {
         point.place = grid.world(point.place);

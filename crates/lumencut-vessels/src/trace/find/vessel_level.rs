@@ -1,18 +1,18 @@
-//! Estimates the typical level and contrast of vessels from tubes.
+//! Estimates the level and contrast that vessels usually have, from tubes.
 
 use crate::trace::find::track::{TrackPoint, length, usual};
 
 /// Requirements of a tube: radius (finest voxels), closure, contrast in multiples of the noise, length in
-/// radii. Without such tubes, others are used.
+/// radii. If no tube meets them, others are used.
 const LEAST_RADIUS: f64 = 2.0;
 const LEAST_CLOSURE: f64 = 0.85;
 const NOISES: f64 = 6.0;
 const LEAST_LENGTH: f64 = 4.0;
 
-/// Similar levels differ by this share of the contrast.
+/// Levels are similar if they differ by about this share of the contrast.
 const KERNEL: f64 = 0.2;
 
-/// Maximum radius in the weight (finest voxels).
+/// Larger radii do not raise the weight of a tube further (finest voxels).
 const WIDEST: f64 = 10.0;
 
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +22,7 @@ struct Tube {
     weight: f64,
 }
 
-/// Most frequent level and contrast, weighted by length, width and contrast; None without tubes.
+/// The most frequent level, and its contrast, weighted by length, width and contrast; None without tubes.
 pub(crate) fn vessel_level(tracks: &[Vec<TrackPoint>], noise: f64) -> Option<[f64; 2]> {
     let strict: Vec<Tube> = tracks.iter().filter_map(|points| tube(points, noise, true)).collect();
     let tubes = if strict.is_empty() {
@@ -46,7 +46,7 @@ pub(crate) fn vessel_level(tracks: &[Vec<TrackPoint>], noise: f64) -> Option<[f6
     Some([mean(|tube| tube.level), mean(|tube| tube.contrast)])
 }
 
-/// None if the track is too short, narrow or open.
+/// The tube of a track; None if the track is too short, too narrow or too open.
 fn tube(points: &[TrackPoint], noise: f64, is_strict: bool) -> Option<Tube> {
     let good = || points.iter().filter(|point| point.is_good);
     good().next()?;

@@ -1,4 +1,4 @@
-//! A centerline with radii and confidence per point.
+//! A centerline: points with radii and confidence.
 
 use glam::DVec3;
 
@@ -11,12 +11,12 @@ pub struct Centerline {
     pub points: Vec<DVec3>,
     /// Lumen radius (mm).
     pub radius: Vec<f64>,
-    /// Confidence, 0 to 1.
+    /// Confidence that the point is in the centre of a lumen, 0 to 1.
     pub confidence: Vec<f64>,
 }
 
 impl Centerline {
-    /// Resamples in even steps of at most `step` mm; the ends stay equal to the bit.
+    /// Resamples in even steps of at most `step` mm; the end points stay bit-identical.
     pub fn resampled(&self, step: f64) -> Self {
         let places = even_places(&self.points, step);
         let between = |values: &[f64]| places.iter().map(|place| place.value(values)).collect();
@@ -26,7 +26,7 @@ impl Centerline {
         Self { points, radius: between(&self.radius), confidence: between(&self.confidence) }
     }
 
-    /// Reverses the direction.
+    /// Reverses the direction of the line.
     #[must_use]
     pub fn reversed(mut self) -> Self {
         self.points.reverse();
@@ -35,7 +35,7 @@ impl Centerline {
         self
     }
 
-    /// Appends another line.
+    /// Appends another line at the end.
     pub fn append(&mut self, mut other: Self) {
         self.points.append(&mut other.points);
         self.radius.append(&mut other.radius);

@@ -1,22 +1,22 @@
 //! Finds corresponding points of two centerlines.
 //!
 //! Schaap et al., "Standardized evaluation methodology and reference database for evaluating coronary artery
-//! centerline extraction algorithms", Medical Image Analysis 13(5), 2009, doi:10.1016/j.media.2009.06.003. A
-//! connection joins one point of each line, from both starts to both ends; each step advances one line by one
-//! point. The chain with the smallest sum of lengths is found by dynamic programming.
+//! centerline extraction algorithms", Medical Image Analysis 13(5), 2009, doi:10.1016/j.media.2009.06.003.
+//! Connections join a point of each line, from both starts to both ends. Each step advances one line by one
+//! point. Dynamic programming finds the smallest sum of lengths.
 
 use glam::DVec3;
 
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::stop::{Stop, go_on};
 
-/// Maximum number of point pairs: one bit each, 512 MiB in all; countable on 32-bit machines.
+/// Maximum number of point pairs. Each needs one bit, 512 MiB in all, and 32-bit machines can count them.
 const MOST_PAIRS: usize = usize::MAX >> (usize::BITS - 32);
 
-/// Pairs between two checks of `stop`.
+/// Number of pairs between two checks of `stop`.
 const PAIRS_BETWEEN_STOPS: usize = 1 << 24;
 
-/// Connections between two lines as point indices, from the starts to the ends. Errors:
+/// Connections between two lines as pairs of point numbers, from the starts to the ends. Errors:
 /// [`ErrorKind::VesselTree`] for a line without points or too many pairs; [`ErrorKind::Interrupted`].
 pub fn correspondence(first: &[DVec3], second: &[DVec3], stop: Stop) -> Result<Vec<[usize; 2]>> {
     let (rows, columns) = (first.len(), second.len());
@@ -47,7 +47,7 @@ impl Steps {
     }
 }
 
-/// On equal sums the first line advances.
+/// Finds the steps with the smallest sum; of equal sums, the first line advances.
 fn cheapest_steps(first: &[DVec3], second: &[DVec3], stop: Stop) -> Result<Steps> {
     let columns = second.len();
     let mut steps = Steps { bits: vec![0; (first.len() * columns).div_ceil(64)], columns };

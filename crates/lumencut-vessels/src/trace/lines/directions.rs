@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use lumencut_core::math::arc_length::{arc_lengths, point_at};
 
-/// Direction at each point, from the first to the last point within `reach` mm.
+/// Direction at each point: from the first to the last point that is within `reach` mm of it along the line.
 pub fn point_directions(points: &[DVec3], reach: f64) -> Vec<DVec3> {
     let lengths = arc_lengths(points);
     let last = points.len() - 1;
@@ -19,8 +19,8 @@ pub fn point_directions(points: &[DVec3], reach: f64) -> Vec<DVec3> {
     found
 }
 
-/// Direction at each point: the chord from `reach` mm before to `reach` mm after, interpolated between
-/// points. A closed line (last point equals the first) wraps around.
+/// Direction at each point: the chord from `reach` mm before it to `reach` mm after it, with interpolated
+/// ends. On a closed line (whose last point equals the first), chords continue across the start.
 pub fn chord_directions(points: &[DVec3], reach: &[f64], is_closed: bool) -> Vec<DVec3> {
     let ways = arc_lengths(points);
     let whole = ways[ways.len() - 1];

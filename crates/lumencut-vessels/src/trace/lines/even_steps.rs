@@ -1,13 +1,13 @@
-//! Points at even steps along a line: straight between its points, or on a smooth curve.
+//! Points at even steps along a line, either straight between its points or on a smooth curve.
 
 use glam::DVec3;
 
 use lumencut_core::math::arc_length::{LinePlace, arc_lengths, point_at};
 
-/// Share of a step that rounding may cause; adds no point.
+/// A length that exceeds the steps by less than this share of a step (rounding) adds no point.
 const TINY: f64 = 1e-6;
 
-/// Positions at even steps of at most `step` mm from start to end, at least two.
+/// Positions at even steps of at most `step` mm, from start to end; at least two.
 pub(crate) fn even_places(points: &[DVec3], step: f64) -> Vec<LinePlace> {
     let lengths = arc_lengths(points);
     let total = lengths[lengths.len() - 1];
@@ -15,14 +15,14 @@ pub(crate) fn even_places(points: &[DVec3], step: f64) -> Vec<LinePlace> {
     (0..=parts).map(|n| LinePlace::at(&lengths, total * n as f64 / parts as f64)).collect()
 }
 
-/// The line in even steps of at most `step` mm, straight between its points; at least two points.
+/// The line in even steps of at most `step` mm, straight between its points. Has at least two points.
 pub fn in_even_steps(points: &[DVec3], step: f64) -> Vec<DVec3> {
     even_places(points, step).into_iter().map(|place| place.point(points)).collect()
 }
 
-/// A smooth curve through `points` in even steps of at most `step` mm, with both ends kept.
+/// A smooth curve through `points` in even steps of at most `step` mm; both ends are kept.
 ///
-/// Catmull-Rom by arc length: the slopes are nearly those of circles through three neighbours.
+/// It is a Catmull-Rom curve by arc length: its slopes are nearly those of circles through three neighbours.
 pub fn curve_in_even_steps(points: &[DVec3], step: f64) -> Vec<DVec3> {
     let mut fine = vec![points[0]];
     for n in 1..points.len() {
@@ -42,7 +42,7 @@ pub fn curve_in_even_steps(points: &[DVec3], step: f64) -> Vec<DVec3> {
     made
 }
 
-/// The curve between points `n` - 1 and `n`.
+/// A point of the curve between points `n` - 1 and `n`.
 fn curve(points: &[DVec3], n: usize, t: f64) -> DVec3 {
     let [a, b] = [points[n - 1], points[n]];
     if t >= 1.0 {

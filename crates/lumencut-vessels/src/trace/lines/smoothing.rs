@@ -1,14 +1,14 @@
-//! Smoothing along a line: by parabolas, which keep bends, and by a Gaussian, which keeps ends.
+//! Smoothing along a line by parabolas, which does not cut bends, or by a Gaussian, which keeps the ends.
 
 use glam::DVec3;
 
 use lumencut_core::math::arc_length::arc_lengths;
 
-/// Cut-off of the Gaussian in standard deviations.
+/// The Gaussian ends at this many standard deviations.
 const CUTOFF_SIGMAS: f64 = 3.0;
 
-/// Smooths by local parabolas weighted by `weights` and a Gaussian of `width` mm. Unlike an average this does
-/// not cut bends. Values with almost no weight stay unchanged.
+/// Smooths values by local parabolas, weighted by `weights` and a Gaussian of `width` mm. Unlike averages,
+/// parabolas do not cut bends. Values with almost no weight around them stay unchanged.
 pub fn smoothed_by_parabolas<const N: usize>(
     lengths: &[f64],
     values: &[[f64; N]],
@@ -55,7 +55,7 @@ impl<const N: usize> Parabola<N> {
         }
     }
 
-    /// Value at 0; None if the weight is too small.
+    /// Value of the parabola at 0; None if the weight is too small.
     fn middle(&self) -> Option<[f64; N]> {
         let [m0, m1, m2, m3, m4] = self.powers;
         if m0 < 0.3 {
@@ -63,7 +63,7 @@ impl<const N: usize> Parabola<N> {
         }
         let matrix =
             glam::DMat3::from_cols(DVec3::new(m0, m1, m2), DVec3::new(m1, m2, m3), DVec3::new(m2, m3, m4));
-        // Values on one side only do not define a bend.
+        // Values on one side only do not determine a bend.
         if matrix.determinant() < 1e-2 * m0 * m0 * m0 {
             return None;
         }
@@ -73,7 +73,7 @@ impl<const N: usize> Parabola<N> {
 }
 
 /// Smooths points by a Gaussian of standard deviation `sigma` mm, or a third of the distance to the nearer
-/// end if less, so ends stay. A closed line (last point equals the first) has no ends.
+/// end if that is less, so that the ends stay. A closed line (whose last point equals the first) has no ends.
 pub fn smoothed_by_gaussian(points: &[DVec3], sigma: &[f64], is_closed: bool) -> Vec<DVec3> {
     let ways = arc_lengths(points);
     let whole = ways[ways.len() - 1];
@@ -95,7 +95,7 @@ pub fn smoothed_by_gaussian(points: &[DVec3], sigma: &[f64], is_closed: bool) ->
                     if away > CUTOFF_SIGMAS {
                         break;
                     }
-                    // Each point represents half of the distance between its neighbours.
+                    // The weight of a point is half of the distance between its neighbours.
                     let share = (ways[(m + 1).min(count - 1)] - ways[m.saturating_sub(1)]) / 2.0;
                     let weight = share * (-away * away / 2.0).exp();
                     sum += weight * points[m];

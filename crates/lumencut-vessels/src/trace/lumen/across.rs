@@ -1,4 +1,4 @@
-//! Whether the path between two clicks runs across a lumen instead of along it.
+//! Finds out whether the path between two clicks runs across a lumen instead of along it.
 
 use glam::DVec3;
 
@@ -6,15 +6,15 @@ use crate::trace::lumen::directions::half_sphere;
 use crate::trace::lumen::own_axis::{DIRECTIONS, OwnLumen};
 use crate::voxels::Voxels;
 
-/// A path runs across if its lumen is at most this many widths and less than this share of the length.
+/// A path runs across if it has at most this many widths, and less than this share of the lumen's length.
 const MOST_WIDTHS: f64 = 1.3;
 const LEAST_SHARE: f64 = 0.6;
 
-/// Search distance on each side: along the path (mm), and elsewhere in lengths along it.
+/// Search distance on each side: along the path in mm, in other directions in extents along the path.
 const SEARCH_MM: f64 = 60.0;
 const REACH_WIDTHS: f64 = 3.0;
 
-/// Whether the straight path between two clicks (mm, LPS) lies within one lumen and runs across it.
+/// Whether the straight path between two clicks (mm, LPS) stays within one lumen and runs across it.
 pub fn runs_across(voxels: &Voxels, [from, to]: [DVec3; 2]) -> bool {
     let lumen = OwnLumen::around(voxels, from.midpoint(to));
     let along = lumen.extent((to - from).normalize_or_zero(), SEARCH_MM);

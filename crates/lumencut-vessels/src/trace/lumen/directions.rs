@@ -1,13 +1,13 @@
-//! Directions spread over half a sphere, and the principal axis of weighted directions.
+//! Directions that cover half a sphere, and the principal axis of weighted directions.
 
 use std::f64::consts::PI;
 
 use glam::{DMat3, DVec3};
 
-/// Power iterations.
+/// Number of power iterations.
 const ROUNDS: usize = 50;
 
-/// Unit vectors spread evenly over half a sphere by the golden angle.
+/// Unit vectors that the golden angle spreads evenly over half a sphere.
 pub(crate) fn half_sphere(count: u32) -> impl Iterator<Item = DVec3> {
     let golden = PI * (3.0 - 5.0_f64.sqrt());
     (0..count).map(move |n| {
@@ -43,7 +43,7 @@ mod tests {
     fn the_directions_are_unit_vectors_and_lie_on_all_sides() {
         let mean = half_sphere(200).sum::<DVec3>() / 200.0;
         assert!(half_sphere(200).all(|way| way.is_normalized()));
-        // An even half sphere has its mean half a radius above its centre.
+        // The mean of an even half sphere lies half a radius above its centre.
         assert!(mean.distance(DVec3::Z / 2.0) < 0.02, "{mean}");
     }
 }

@@ -1,19 +1,19 @@
-//! Model of lumen values: a soft membership with bounds, and the tissue below.
+//! The values of lumen, as a gradual membership between bounds, and of the tissue around it.
 
 use glam::DVec3;
 
-/// Values of lumen and its surroundings.
+/// Values of a lumen and of its surroundings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LumenModel {
-    /// Level of the surrounding tissue, without fat and air.
+    /// Level of the surrounding tissue; fat and air are ignored.
     pub tissue: f64,
-    /// Smallest median of lumen at the clicks.
+    /// Lowest of the medians of the lumen at the clicks.
     pub low: f64,
-    /// Largest median of lumen at the clicks.
+    /// Highest of the medians of the lumen at the clicks.
     pub high: f64,
-    /// Standard deviation within the lumen.
+    /// Standard deviation of the values within the lumen.
     pub noise: f64,
-    /// Whether values are Hounsfield units.
+    /// Whether the values are Hounsfield units.
     pub is_hounsfield: bool,
 }
 
@@ -23,8 +23,8 @@ impl LumenModel {
         self.low - self.tissue
     }
 
-    /// Membership of a value in lumen, 0 to 1: 0 at a fifth of the contrast, 1 at three quarters. Brighter
-    /// values (bone, stents, calcium) keep 0.12, so that they can be crossed.
+    /// Membership of a value in lumen, 0 to 1: it is 0 at a fifth of the contrast and 1 at three quarters.
+    /// Brighter values (bone, stents, calcium) keep 0.12, so that paths can cross them.
     pub fn membership(&self, value: f32) -> f32 {
         let (contrast, value) = (self.contrast(), f64::from(value));
         let (empty, full) = (self.tissue + 0.2 * contrast, self.tissue + 0.75 * contrast);
@@ -34,7 +34,7 @@ impl LumenModel {
         } else {
             ((value - empty) / (full - empty)).clamp(0.0, 1.0)
         };
-        // NaN is not lumen.
+        // NaN does not count as lumen.
         if share.is_finite() { share as f32 } else { 0.0 }
     }
 
@@ -46,33 +46,33 @@ impl LumenModel {
         f64::from(value) >= self.far_above()
     }
 
-    /// Standard deviation of the membership due to noise, between tissue and lumen.
+    /// Standard deviation that noise causes in the membership, between tissue and lumen.
     pub(crate) fn noise_of_membership(&self) -> f64 {
         self.noise / (0.55 * self.contrast())
     }
 
-    /// Upper bound of certain lumen values.
+    /// Upper bound of the values that are certainly lumen.
     pub fn brightest(&self) -> f64 {
         self.high + (0.35 * self.contrast()).max(3.0 * self.noise)
     }
 
-    /// Whether another model's lumen lies within this one.
+    /// Whether the lumen of another model lies within that of this model.
     pub fn covers(&self, other: &Self) -> bool {
         let slack = 0.15 * self.contrast();
         other.low >= self.low - slack && other.high <= self.high + slack
     }
 }
 
-/// Membership lost by values far above the lumen.
+/// Membership that values far above the lumen lose.
 const ABOVE_IS_NOT: f64 = 0.88;
 
-/// Quantile of sorted values; NaN if empty.
+/// Quantile of sorted values; NaN if there are none.
 pub(crate) fn quantile(sorted: &[f32], share: f64) -> f64 {
     let last = sorted.len().saturating_sub(1) as f64;
     sorted.get((last * share).round() as usize).map_or(f64::NAN, |value| f64::from(*value))
 }
 
-/// Noise from small differences of neighbours, because most are not at an edge.
+/// Noise from small differences between neighbours, because most neighbours do not lie at an edge.
 pub(crate) fn noise_of(neighbours: &[f32]) -> f64 {
     let mut steps: Vec<f32> = neighbours.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
     steps.retain(|step| step.is_finite());
@@ -81,7 +81,7 @@ pub(crate) fn noise_of(neighbours: &[f32]) -> f64 {
     if steps.is_empty() { 0.0 } else { quantile(&steps, 0.25) / 0.451 }
 }
 
-/// Upper quartile of the sorted values darker than midway between their median and the lumen.
+/// Upper quartile of the sorted values that are darker than midway between their median and the lumen.
 pub(crate) fn tissue_level(tissue: &[f32], clicks: &[f64]) -> f64 {
     let median = quantile(tissue, 0.5);
     let values: Vec<f64> = clicks.iter().copied().filter(|value| value.is_finite()).collect();
@@ -91,7 +91,7 @@ pub(crate) fn tissue_level(tissue: &[f32], clicks: &[f64]) -> f64 {
     if below == 0 { quantile(tissue, 0.01) } else { quantile(&tissue[..below], 0.75) }
 }
 
-/// Median, the lower one of an even number; must not be empty.
+/// Median; of two middle values the lower one. There must be a value.
 pub(crate) fn lower_median(mut values: Vec<f64>) -> f64 {
     values.sort_unstable_by(f64::total_cmp);
     values[(values.len() - 1) / 2]

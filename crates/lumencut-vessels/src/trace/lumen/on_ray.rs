@@ -8,13 +8,13 @@ use crate::trace::lumen::surroundings::Surroundings;
 use crate::voxels::Voxels;
 use lumencut_core::volume::Volume;
 
-/// Sampling distance in smallest voxel sides.
+/// Distance between samples, in smallest voxel sides.
 const STEP: f64 = 0.5;
 
-/// Minimum height of a bright stretch, in multiples of the noise.
+/// Minimum height of a bright stretch above what is around it, in multiples of the noise.
 const TIMES_NOISE: f64 = 6.0;
 
-/// Maximum number of bright stretches, highest first; more are noise or stent struts.
+/// Maximum number of bright stretches that are tested, highest first. More are noise or stent struts.
 const MAX_STRETCHES: usize = 16;
 
 struct Bright {
@@ -23,8 +23,8 @@ struct Bright {
     height: f32,
 }
 
-/// Lumens on the line through a position (mm, LPS) along a unit vector, in order. Own method: each bright
-/// stretch is tested as lumen at its middle.
+/// Lumens on the line through a position (mm, LPS) along a unit vector, in their order on it. Own method: the
+/// middle of each bright stretch is tested for lumen.
 pub fn lumens_on_ray(volume: &Volume, from: DVec3, along: DVec3) -> Vec<SeenLumen> {
     let voxels = &Voxels::new(volume);
     let step = STEP * voxels.smallest_side;
@@ -48,7 +48,7 @@ pub fn lumens_on_ray(volume: &Volume, from: DVec3, along: DVec3) -> Vec<SeenLume
 }
 
 impl SeenLumen {
-    /// Point of a ray nearest to the centre.
+    /// The point of a ray that is nearest to the centre.
     pub fn on_ray(&self, from: DVec3, along: DVec3) -> DVec3 {
         from + along * (self.center - from).dot(along)
     }
@@ -62,7 +62,7 @@ impl SeenLumen {
     }
 }
 
-/// Range along the ray (mm) that can be inside the volume; None if it misses.
+/// The range along the ray (mm) that may lie inside the volume; None if the ray misses it.
 fn depths(volume: &Volume, from: DVec3, along: DVec3) -> Option<(f64, f64)> {
     let corners = volume.corners();
     let depth = corners.map(|corner| (corner - from).dot(along));
@@ -70,7 +70,7 @@ fn depths(volume: &Volume, from: DVec3, along: DVec3) -> Option<(f64, f64)> {
     (near < far).then_some((near, far))
 }
 
-/// Highest bright stretches of a ray, in order, down to half of their height.
+/// The highest bright stretches of a ray in their order; each extends down to half of its height.
 fn bright(values: &[f32]) -> Vec<Bright> {
     let least = (TIMES_NOISE * noise_of(values)) as f32;
     let mut found: Vec<Bright> = (0..values.len())

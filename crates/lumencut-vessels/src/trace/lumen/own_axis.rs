@@ -1,4 +1,4 @@
-//! Axis and extent of a lumen hardly longer than wide, in a scan of few slices.
+//! Axis and extent of a lumen that is hardly longer than wide, for scans of few slices.
 
 use std::f64::consts::PI;
 
@@ -9,27 +9,27 @@ use crate::trace::lumen::lumen_model::quantile;
 use crate::trace::lumen::surroundings::Surroundings;
 use crate::voxels::Voxels;
 
-/// Number of directions over half a sphere.
+/// Number of directions that cover half a sphere.
 pub const DIRECTIONS: u32 = 200;
 
 /// Search distance (mm).
 const SEARCH_MM: f64 = 60.0;
 
-/// Directions across the axis for the width.
+/// Number of directions across the axis in which the width is measured.
 const TURNS: u32 = 12;
 
-/// The lumen around a place, by its values.
+/// The lumen around a place, recognised by its values.
 pub struct OwnLumen<'a, 'v> {
     voxels: &'a Voxels<'v>,
     place: DVec3,
     value: f64,
-    /// Maximum difference of a lumen value.
+    /// Maximum difference between a lumen value and that at the place.
     most_away: f64,
     step: f64,
 }
 
 impl<'a, 'v> OwnLumen<'a, 'v> {
-    /// From a position (mm, LPS).
+    /// The lumen around a position (mm, LPS).
     pub fn around(voxels: &'a Voxels<'v>, place: DVec3) -> Self {
         let tissue = Surroundings::of(voxels, &[place]).tissue();
         let near = voxels.ball(place, 1.75 * voxels.smallest_side);
@@ -39,19 +39,19 @@ impl<'a, 'v> OwnLumen<'a, 'v> {
         Self { voxels, place, value, most_away: 0.5 * (value - tissue), step: 0.5 * voxels.smallest_side }
     }
 
-    /// Extent of the lumen in a direction (mm), at most `most`.
+    /// Distance to which the lumen extends in a direction (mm), at most `most`.
     pub fn reach(&self, direction: DVec3, most: f64) -> f64 {
         let value = |n: u32| f64::from(self.voxels.at(self.place + direction * (self.step * f64::from(n))));
         let is_lumen = |n: &u32| (value(*n) - self.value).abs() < self.most_away;
         self.step * (1..=(most / self.step) as u32).take_while(is_lumen).count() as f64
     }
 
-    /// Extent to both sides (mm), at most `most` each.
+    /// Distance to which the lumen extends along a direction and against it (mm), at most `most` each.
     pub fn extent(&self, direction: DVec3, most: f64) -> f64 {
         self.reach(direction, most) + self.reach(-direction, most)
     }
 
-    /// Ends of a lumen cut off by the scan, along its axis; None if it is not longer than wide.
+    /// The two ends, along its axis, of a lumen that the scan cuts off; None if it is not longer than wide.
     pub fn cut_ends(&self) -> Option<[DVec3; 2]> {
         let axis = self.axis();
         let reaches = [-1.0, 1.0].map(|side| self.reach(axis * side, SEARCH_MM));
@@ -70,7 +70,7 @@ impl<'a, 'v> OwnLumen<'a, 'v> {
 
     fn axis(&self) -> DVec3 {
         let weighted = half_sphere(DIRECTIONS).map(|way| (way, self.extent(way, SEARCH_MM).powi(3)));
-        // The start must not be symmetric to the sum.
+        // The start must not be symmetric to the directions, or the iteration could not leave it.
         longest_axis(weighted, DVec3::new(0.6, 0.5, 0.7)).unwrap_or_default()
     }
 }

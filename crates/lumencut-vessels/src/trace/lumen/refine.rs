@@ -1,4 +1,4 @@
-//! Refines a voxel path to a centerline: fits cross-sections, moves to their centres, and smooths.
+//! Refines a path of voxels to a centerline: fits cross-sections, moves points to their centres, and smooths.
 
 use glam::DVec3;
 
@@ -15,35 +15,35 @@ use lumencut_core::math::arc_length::arc_lengths;
 use lumencut_core::stop::{Stop, go_on};
 use rayon::prelude::*;
 
-/// Maximum distance of result points (mm).
+/// Maximum distance between points of the result (mm).
 pub const STEP: f64 = 0.5;
 
-/// Rounds: point distance (mm) and rays per section.
+/// Distance between points (mm) and number of rays per section, in each round.
 const ROUNDS: [(f64, usize); 4] = [(1.0, 16), (1.0, 16), (STEP, 24), (STEP, 24)];
 
-/// Smoothing width (mm): as effective against noise as a mean over 1 mm.
+/// Width of the smoothing (mm), which reduces noise as much as a mean over 1 mm.
 const SMOOTHING: f64 = 1.5;
 
-/// Window of sections with similar radius (mm).
+/// Neighbouring sections within this distance (mm) should have a similar radius.
 const RADIUS_WINDOW_MM: f64 = 1.75;
 
 /// Minimum quality of a section.
 const LEAST_TRUST: f64 = 0.1;
 
-/// Window over which centres must advance (mm).
+/// Within this distance along the line (mm), centres must advance.
 const ADVANCE_WINDOW_MM: f64 = 2.0;
 
-/// Weight of points without a section.
+/// Weight of points whose section is not visible.
 const UNSEEN: f64 = 0.1;
 
-/// Centres a path in its lumen.
+/// Centres a path in the lumen that contains it.
 pub fn refined(voxels: &Voxels, model: &LumenModel, way: &[DVec3], stop: Stop) -> Result<Centerline> {
     let points = in_even_steps(way, 2.0 * STEP);
     let line = Centerline { radius: vec![0.0; points.len()], confidence: vec![0.0; points.len()], points };
     in_rounds(voxels, model, line, &[0, 1, 2, 3], stop)
 }
 
-/// Centres a line whose radii are known, in half of the rounds.
+/// Centres a line whose radii are known, with half of the rounds.
 pub(crate) fn refined_near(
     voxels: &Voxels,
     model: &LumenModel,
@@ -93,7 +93,7 @@ fn moved(probe: &Probe, line: &Centerline, round: usize) -> Centerline {
         })
         .collect();
     let wide = if round == 0 { 0.5 } else { 0.15 };
-    // Points without a section keep some weight, so that the ends of visible parts do not swing out.
+    // Points without a section keep some weight, so that the ends of visible stretches do not swing out.
     let weights: Vec<f64> = trust.iter().map(|trust| trust.max(UNSEEN)).collect();
     let smooth = smoothed_by_parabolas(&lengths, &values, &weights, |i| SMOOTHING.max(wide * values[i][3]));
     let moved: Vec<DVec3> = smooth.iter().map(|v| DVec3::new(v[0], v[1], v[2])).collect();
@@ -101,7 +101,7 @@ fn moved(probe: &Probe, line: &Centerline, round: usize) -> Centerline {
     Centerline { points: moved, radius, confidence: trust }
 }
 
-/// Rejects sections whose centres do not advance; the line would fold back, as at a branch.
+/// Rejects sections whose centres do not advance, because the line would fold back, as at a branch.
 fn unfolded(points: &[DVec3], sections: &[Option<LumenSection>], trust: &[f64], lengths: &[f64]) -> Vec<f64> {
     let mut left = trust.to_vec();
     for i in 0..points.len() {
@@ -117,7 +117,7 @@ fn unfolded(points: &[DVec3], sections: &[Option<LumenSection>], trust: &[f64], 
     left
 }
 
-/// Quality of a section, reduced if its radius differs from its neighbours.
+/// Quality of a section. It is reduced if the radius differs from the median of the neighbours.
 fn trust_of(section: &Option<LumenSection>, median: Option<f64>) -> f64 {
     let (Some(section), Some(median)) = (section, median) else { return 0.0 };
     let odd = (section.radius / median).ln() / 0.3;

@@ -1,4 +1,4 @@
-//! Finds the lumen around one place from its values alone: direction, centre and radius.
+//! Finds the direction, centre and radius of the lumen around one place, only from the values.
 
 use glam::DVec3;
 
@@ -8,34 +8,34 @@ use crate::trace::lumen::surroundings::Surroundings;
 use crate::voxels::Voxels;
 use lumencut_core::volume::Volume;
 
-/// Search directions over half a sphere, and rays per section.
+/// Number of search directions over half a sphere, and of rays per section.
 const DIRECTIONS: u32 = 60;
 const RAYS: usize = 32;
 
-/// Lengths are capped at this multiple of the narrowest chord, enough to separate along from across.
+/// Chords count up to this multiple of the narrowest one, which is enough to tell along from across.
 const LENGTHWISE: f64 = 3.0;
 
-/// Rounds of searching from the new centre.
+/// Number of rounds, each of which searches from the new centre.
 const ROUNDS: usize = 2;
 
-/// Minimum quality of an offered lumen.
+/// Minimum quality of a lumen that is offered.
 const LEAST_TRUST: f64 = 0.4;
 
-/// The lumen around a place.
+/// The lumen found around a place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SeenLumen {
     /// Centre (mm, LPS).
     pub center: DVec3,
     /// Radius (mm).
     pub radius: f64,
-    /// Direction (unit vector, sign arbitrary).
+    /// Direction of the lumen (unit vector; its sign has no meaning).
     pub along: DVec3,
-    /// Median value near the centre.
+    /// Median of the values near the centre.
     pub value: f64,
 }
 
-/// Lumen around a position (mm, LPS); None if it does not look like lumen. Own method: the direction has the
-/// longest wall-to-wall chords; the circle across is that of traced lines.
+/// Lumen around a position (mm, LPS); None if it does not look like lumen. Own method: the direction is that
+/// of the longest chords between walls; the circle across it is found as for traced lines.
 pub fn lumen_at(volume: &Volume, place: DVec3) -> Option<SeenLumen> {
     let voxels = &Voxels::new(volume);
     voxels.voxel_at(place)?;
@@ -67,7 +67,7 @@ fn across(along: DVec3) -> [DVec3; 2] {
     [first, along.cross(first)]
 }
 
-/// Direction of the longest chords; None if hardly any wall is visible.
+/// Direction of the longest chords between walls; None if hardly any wall is visible.
 fn direction(probe: &Probe, place: DVec3) -> Option<DVec3> {
     let chords: Vec<(DVec3, f64)> = half_sphere(DIRECTIONS)
         .map(|way| (way, probe.chord(place, way, WIDEST).unwrap_or(f64::INFINITY)))

@@ -1,4 +1,4 @@
-//! Derives the lumen model from the surroundings of the clicks, or explains what a click hit instead.
+//! Derives the lumen model from the values around the clicks, or states what a click hit instead.
 
 use glam::DVec3;
 
@@ -8,48 +8,48 @@ use crate::trace::lumen::lumen_model::{
 use crate::voxels::Voxels;
 use lumencut_core::error::{Clicked, Error, ErrorKind, Result};
 
-/// A volume is in HU if this share of voxels is below the limit: fat and air are negative in CT only.
+/// A volume is in HU if this share of voxels is below the limit: only in CT are fat and air negative.
 const HOUNSFIELD_SHARE: f64 = 0.01;
 const HOUNSFIELD_LIMIT: f64 = -50.0;
 
-/// HU below which there is air, fat, tissue or plain blood; above the last, bone, metal or calcium.
+/// Upper limits (HU) of air, fat, and tissue or plain blood; above the last, bone, metal or calcium.
 const AIR: f64 = -400.0;
 const FAT: f64 = -20.0;
 const SOFT_TISSUE: f64 = 100.0;
 const BONE: f64 = 900.0;
 
-/// Maximum ratio of the contrasts at two clicks, because contrast medium fades.
+/// Maximum ratio of the contrasts at two clicks; they differ because contrast medium fades.
 const MOST_TIMES: f64 = 3.5;
 
-/// Minimum lumen contrast of a model, as a share of the typical click.
+/// Minimum contrast of the lumen of a model, as a share of the contrast at the median click.
 const LEAST_PART: f64 = 0.6;
 
-/// Minimum level of muscle, wall and blood without contrast medium (HU).
+/// Minimum level (HU) of tissue: muscle, vessel walls and blood without contrast medium.
 const LEAST_TISSUE: f64 = 50.0;
 
-/// Radius around the clicks (mm), and maximum number of voxels.
+/// The values within this radius around the clicks (mm) are sampled, up to a maximum number of voxels.
 const SURROUNDINGS: f64 = 30.0;
 const MOST_SAMPLES: f64 = 200_000.0;
 
-/// A rejected click moves to lumen within this distance (mm).
+/// A rejected click is moved to lumen within this distance (mm).
 const SNAP: f64 = 2.0;
 
-/// Minimum share of surroundings darker than lumen.
+/// Minimum share of the surroundings that must be darker than lumen.
 const DARKER: f64 = 0.75;
 
 type Mistake = (&'static str, String);
 
-/// Values around the clicks, before any is judged.
+/// The values around the clicks, before any click is checked.
 #[derive(Clone, Copy, Debug)]
 pub struct Surroundings {
     tissue: f64,
-    /// Quantiles of the values: 0.75 and 0.995.
+    /// The quantiles 0.75 and 0.995 of the values.
     most: f64,
     bright: f64,
     is_hounsfield: bool,
 }
 
-/// Values at a click: its own, median and spread of its lumen, and noise.
+/// Values at a click: its own value, median and spread of the lumen around it, and the noise.
 #[derive(Clone, Copy, Debug)]
 struct Hit {
     value: f64,
@@ -59,15 +59,15 @@ struct Hit {
 }
 
 impl Surroundings {
-    /// Samples the surroundings of the clicks.
+    /// Samples the values around the clicks.
     pub fn of(voxels: &Voxels, clicks: &[DVec3]) -> Self {
         Self::within(voxels, clicks, SURROUNDINGS)
     }
 
-    /// Samples up to `reach` mm around the clicks.
+    /// Samples the values up to `reach` mm around the clicks.
     pub fn within(voxels: &Voxels, clicks: &[DVec3], reach: f64) -> Self {
         let samples = samples_around(voxels, clicks, reach);
-        // Uses the whole scan, because the heart contains neither fat nor air.
+        // The whole scan is used, because a heart contains neither fat nor air.
         let is_hounsfield = are_hounsfield(voxels);
         let first = if is_hounsfield { samples.partition_point(|v| f64::from(*v) < AIR) } else { 0 };
         let values: Vec<f64> = clicks.iter().map(|click| value_at(voxels, *click)).collect();
@@ -84,8 +84,8 @@ impl Surroundings {
         self.tissue
     }
 
-    /// Lumen model of the clicks. Errors: [`ErrorKind::Tracing`] for a click outside lumen: of inconsistent
-    /// clicks the least lumen-like, in doubt the later one.
+    /// The lumen model of the clicks. Errors: [`ErrorKind::Tracing`] for a click outside lumen. Of clicks
+    /// that disagree, it names the one least like lumen, in doubt the later one.
     pub fn model(&self, voxels: &Voxels, clicks: &[DVec3]) -> Result<LumenModel> {
         for click in clicks {
             self.check_alone(voxels, *click)?;
@@ -94,7 +94,7 @@ impl Surroundings {
         let hits: Vec<Hit> = clicks.iter().map(hit).collect();
         let usual = lower_median(hits.iter().map(|hit| hit.lumen).collect());
         if hits.iter().any(|hit| self.unlike(hit, usual).is_some()) {
-            // If the typical lumen is itself implausible, it must not be the reference.
+            // If the median click is itself implausible, it must not be the reference.
             for expected in [self.reference_lumen(&hits), usual] {
                 for (click, hit) in clicks.iter().zip(&hits) {
                     self.check(voxels, *click, hit.value, self.unlike(hit, expected))?;
@@ -104,7 +104,7 @@ impl Surroundings {
         Ok(self.model_of(&hits, usual))
     }
 
-    /// Model at one place; None where [`Surroundings::model`] rejects it.
+    /// The model at one place; None if [`Surroundings::model`] would reject the place.
     pub(crate) fn model_at(&self, voxels: &Voxels, place: DVec3) -> Option<LumenModel> {
         let value = value_at(voxels, place);
         let hit = self.hit(voxels, place, value);
@@ -117,7 +117,7 @@ impl Surroundings {
         self.check(voxels, click, value, self.mistaken(value))
     }
 
-    /// Moves rejected clicks to adjacent lumen, which the user meant. Other clicks stay, even if rejected.
+    /// Moves rejected clicks to adjacent lumen, which the user meant. If there is none, the click stays.
     pub(crate) fn snapped(&self, voxels: &Voxels, clicks: &[DVec3]) -> Vec<DVec3> {
         let is_taken = |place: DVec3| self.mistaken(value_at(voxels, place)).is_none();
         let moved = clicks.iter().map(|click| self.taken(voxels, *click, is_taken));
@@ -139,20 +139,20 @@ impl Surroundings {
         Hit { value, lumen, spread, noise: noise(voxels, click) }
     }
 
-    /// Reference lumen for inconsistent clicks: brighter than most surroundings and similar to most others,
-    /// in doubt the earliest, because users begin in the vessel.
+    /// Reference lumen of clicks that disagree. It is brighter than most surroundings and similar to most
+    /// other clicks. In doubt it is that of the earliest click, because users begin in the vessel.
     fn reference_lumen(&self, hits: &[Hit]) -> f64 {
         let worth = |hit: &Hit| {
             let alike = hits.iter().filter(|other| self.unlike(other, hit.lumen).is_none()).count();
             (hit.lumen > self.most && self.unlike(hit, hit.lumen).is_none(), alike)
         };
-        // `max_by_key` returns the last maximum, here the earliest click.
+        // `max_by_key` returns the last maximum, which is the earliest click here.
         hits.iter().rev().max_by_key(|hit| worth(hit)).map_or(f64::NAN, |hit| hit.lumen)
     }
 
     fn model_of(&self, hits: &[Hit], usual: f64) -> LumenModel {
         let lumens = || hits.iter().map(|hit| hit.lumen);
-        // A click into the throat of a stenosis also hits tissue.
+        // A click in the throat of a stenosis also hits tissue, so the lowest level has a limit.
         let least = self.tissue + LEAST_PART * (usual - self.tissue);
         LumenModel {
             tissue: self.tissue,
@@ -193,7 +193,7 @@ impl Surroundings {
         Some((tissue, format!("lumen with contrast medium, from {SOFT_TISSUE:.0} to {BONE:.0} HU")))
     }
 
-    /// Reports a click unlike the typical lumen, or no brighter than tissue.
+    /// The mistake if a click is far brighter than the reference lumen, or no brighter than tissue.
     fn unlike(&self, hit: &Hit, usual: f64) -> Option<Mistake> {
         let contrast = usual - self.tissue;
         let least = self.tissue + (0.3 * contrast).max(1.5 * hit.noise);
@@ -203,13 +203,13 @@ impl Surroundings {
                 format!("lumen of about {usual:.0}, as at another point"),
             ));
         }
-        // False for NaN too.
+        // Also false for NaN.
         let is_bright = hit.lumen > least;
         (!is_bright)
             .then(|| ("tissue, or blood without contrast medium", format!("lumen, brighter than {least:.0}")))
     }
 
-    /// Nearest place within 10 mm whose surroundings have lumen values.
+    /// The nearest place within 10 mm that lumen values surround.
     fn nearest_lumen(&self, voxels: &Voxels, click: DVec3) -> Option<DVec3> {
         let (least, most) = if self.is_hounsfield {
             (SOFT_TISSUE * 1.5, BONE)
@@ -234,7 +234,7 @@ pub fn are_hounsfield(voxels: &Voxels) -> bool {
     dark > 0 && dark as f64 >= HOUNSFIELD_SHARE * samples.len() as f64
 }
 
-/// Drops contrast-filled blood from sorted values (HU), whose noise would pass for tissue.
+/// Drops blood with contrast medium from sorted values (HU), because its noise would count as tissue.
 fn without_blood<'a>(around: &'a [f32], clicks: &[f64]) -> &'a [f32] {
     let lumen = clicks.iter().copied().filter(|value| value.is_finite()).fold(f64::MAX, f64::min);
     let is_mostly_blood = quantile(around, 0.5) > SOFT_TISSUE && lumen < f64::MAX;
@@ -281,7 +281,7 @@ fn value_at(voxels: &Voxels, click: DVec3) -> f64 {
         return f64::from(voxels.at(click));
     }
     values.sort_unstable_by(f32::total_cmp);
-    // A click may lie at the wall, so the brighter neighbours count.
+    // A click may lie at the wall, so the brighter neighbours count more.
     quantile(&values, 0.6)
 }
 

@@ -1,4 +1,4 @@
-//! Smooths lines that wander within a wide lumen and centres them again.
+//! Smooths lines that wander within a wide lumen, and centres them again.
 
 use crate::trace::lines::centerline::Centerline;
 use crate::trace::lines::smoothing::smoothed_by_gaussian;
@@ -9,10 +9,10 @@ use crate::voxels::Voxels;
 use lumencut_core::error::Result;
 use lumencut_core::stop::Stop;
 
-/// Standard deviations tried in turn, in radii.
+/// Standard deviations of the smoothing that are tried in turn, in radii.
 const WIDTHS: [f64; 3] = [0.5, 1.0, 2.0];
 
-/// Returns the line unchanged if it never wanders; otherwise the smoothed and recentred version that wanders
+/// Returns the line unchanged if it never wanders, otherwise the smoothed and recentred version that wanders
 /// least. Sections of a line oblique in a wide lumen intersect, and their centres lead it back and forth.
 pub fn without_wander(
     voxels: &Voxels,

@@ -1,4 +1,4 @@
-//! Refines a mask vessel from grey values, because a mask is exact only to half a voxel.
+//! Refines the vessels of a mask by grey values, because a mask is accurate only to half a voxel.
 
 use std::f64::consts::TAU;
 
@@ -14,32 +14,32 @@ use lumencut_core::error::Result;
 use lumencut_core::math::arc_length::arc_lengths;
 use lumencut_core::stop::Stop;
 
-/// Distance range of compared tissue beyond the mask wall (mm; voxels if larger).
+/// Tissue is compared between these distances beyond the wall of the mask (mm; voxels if those are larger).
 const TISSUE: [f64; 2] = [1.0, 4.0];
 
-/// Directions and distances at which tissue is sampled.
+/// Number of directions, and of distances, in which tissue is sampled.
 const DIRECTIONS: usize = 12;
 const DISTANCES: usize = 3;
 
-/// Window of the lumen median along the vessel (mm).
+/// Length of the window along the vessel (mm) in which the median of the lumen is taken.
 const WINDOW_MM: f64 = 5.0;
 
-/// Minimum contrast in standard deviations of the lumen noise.
+/// Minimum contrast, in standard deviations of the noise in the lumen.
 const LEAST_CONTRAST: f64 = 2.0;
 
-/// Minimum share of points with a visible lumen.
+/// Minimum share of the points at which the lumen must be visible.
 const LEAST_SEEN: f64 = 0.5;
 
-/// The volume that shows the lumen of a mask.
+/// The volume in which the lumen of a mask is visible.
 pub struct GreyValues<'a, 'v> {
     /// The volume.
     pub voxels: &'a Voxels<'v>,
-    /// Asked whether to stop.
+    /// Called often; tells whether to stop.
     pub stop: Stop<'a>,
 }
 
 impl GreyValues<'_, '_> {
-    /// Refines a vessel (mm, LPS); None if the volume does not show it there.
+    /// Refines a vessel (mm, LPS); None if the volume does not show it.
     pub fn refined(&self, points: &[DVec3], radius: &[f64]) -> Result<Option<Centerline>> {
         let Some(model) = self.model(points, radius) else { return Ok(None) };
         let line = refined(self.voxels, &model, points, self.stop)?;
@@ -54,7 +54,7 @@ impl GreyValues<'_, '_> {
         Ok((is_seen && is_here && has_radius).then_some(line))
     }
 
-    /// Lumen model along the vessel; None without contrast.
+    /// Lumen model along the vessel; None if there is no contrast.
     fn model(&self, points: &[DVec3], radius: &[f64]) -> Option<LumenModel> {
         let lumen: Vec<(f64, f32)> = arc_lengths(points)
             .into_iter()

@@ -1,11 +1,11 @@
-//! Splits vessels where the label of a label map changes.
+//! Splits vessels of a label map where the label changes.
 
 use crate::trace::skeleton::label_value::label_at;
 use crate::trace::skeleton::mask_vessels::MaskVessel;
 use lumencut_core::math::arc_length::arc_lengths;
 use lumencut_core::volume::Volume;
 
-/// Minimum length of a separate label, in radii.
+/// Minimum length of a part with its own label, in radii.
 const SHORTEST: f64 = 2.0;
 
 #[derive(Clone, Copy)]
@@ -15,7 +15,7 @@ struct LabelRun {
     label: i64,
 }
 
-/// Splits a vessel into parts of one label; consecutive parts share a point.
+/// Splits a vessel into parts that each have one label; consecutive parts share a point.
 pub(crate) fn parted(vessel: &MaskVessel, mask: &Volume, labels: Option<&[i64]>) -> Vec<MaskVessel> {
     let ways = arc_lengths(&vessel.points);
     let mut runs = runs(vessel, mask, labels);
@@ -51,7 +51,7 @@ pub(crate) fn parted(vessel: &MaskVessel, mask: &Volume, labels: Option<&[i64]>)
     runs.into_iter().enumerate().map(part).collect()
 }
 
-/// Runs of one label that share end points. Points outside the lumen take the previous label.
+/// Stretches of one label, which share end points. Points outside the lumen take the label before them.
 fn runs(vessel: &MaskVessel, mask: &Volume, labels: Option<&[i64]>) -> Vec<LabelRun> {
     let is_lumen = |label: &i64| *label != 0 && labels.is_none_or(|labels| labels.contains(label));
     let at = |n: usize| {

@@ -1,4 +1,4 @@
-//! Gaps between the components of a mask, and their bridges.
+//! Finds the gaps between the components of a mask, and bridges them.
 
 use std::collections::HashMap;
 
@@ -12,18 +12,18 @@ use lumencut_core::stop::{Stop, go_on};
 /// A gap between two components.
 #[derive(Clone, Debug)]
 pub struct Gap {
-    /// Width (mm).
+    /// Width of the gap (mm).
     pub width: f64,
-    /// Vessels on both sides.
+    /// Numbers of the vessels on both sides.
     pub vessels: [usize; 2],
-    /// Centerline points on both sides (mm, LPS).
+    /// Points of the centerlines on both sides (mm, LPS).
     pub points: [DVec3; 2],
     radii: [f64; 2],
-    /// Whether it was bridged.
+    /// Whether the gap was bridged.
     pub is_bridged: bool,
 }
 
-/// Minimum spanning set of gaps between all components, each from an end to an end or a wall.
+/// The gaps of smallest total width that connect all components; each leads from an end to an end or a wall.
 pub(crate) fn gaps(vessels: &[MaskVessel], stop: Stop) -> Result<Vec<Gap>> {
     let piece_of = piece_of(vessels);
     let mut narrowest: HashMap<[usize; 2], Gap> = HashMap::new();
@@ -56,7 +56,7 @@ pub(crate) fn gaps(vessels: &[MaskVessel], stop: Stop) -> Result<Vec<Gap>> {
     Ok(kept)
 }
 
-/// Adds straight vessels over gaps up to `widest` mm, with points at most `step` mm apart.
+/// Bridges gaps up to `widest` mm by straight vessels, with points at most `step` mm apart.
 pub(crate) fn bridge(vessels: &mut Vec<MaskVessel>, gaps: &mut [Gap], widest: f64, step: f64) {
     for gap in gaps.iter_mut().filter(|gap| gap.width <= widest) {
         let [from, to] = gap.points;
@@ -88,7 +88,7 @@ fn gap(numbers: [usize; 2], vessel: &MaskVessel, from: usize, target: &MaskVesse
     let start = to_wall(vessel)[from];
     let inside = to_wall(target);
     let width = |n: usize| (point.distance(target.points[n]) - start - inside[n]).max(0.0);
-    // Rounded, so that of equally near places an end comes first.
+    // The width is rounded, so that an end comes first among equally near places.
     let rank = |n: usize| ((width(n) * 1e6).round() as u64, inside[n] > 0.0);
     let nearest = (0..target.points.len()).min_by_key(|&n| rank(n)).unwrap_or(0);
     Gap {
@@ -121,7 +121,7 @@ fn root(parent: &mut [usize], mut place: usize) -> usize {
     place
 }
 
-/// Extent of the lumen beyond each point (mm): to the wall, but not past a free end.
+/// Distance to which lumen extends beyond each point (mm): to the wall, but not past a free end.
 fn to_wall(vessel: &MaskVessel) -> Vec<f64> {
     let ways = arc_lengths(&vessel.points);
     let whole = ways[ways.len() - 1];

@@ -1,7 +1,7 @@
-//! Exact distance from lumen voxels to the nearest background voxel, on anisotropic grids.
+//! Exact distance from lumen voxels to the nearest background voxel, also for voxels with unequal sides.
 //!
 //! Felzenszwalb and Huttenlocher, "Distance Transforms of Sampled Functions", Theory of Computing 8, 2012,
-//! doi:10.4086/toc.2012.v008a019: one pass per axis, each a lower envelope of parabolas. Each run of lumen is
+//! doi:10.4086/toc.2012.v008a019: one pass per axis computes a lower envelope of parabolas. Runs of lumen are
 //! independent, so background is never visited.
 
 use crate::trace::skeleton::foreground::{Foreground, LUMEN};
@@ -9,14 +9,14 @@ use crate::trace::skeleton::nearest_background::NearestBackground;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Maximum cosine between axes of a rectangular grid: a shift of a thousandth of a voxel over 1000 voxels.
+/// Maximum cosine between the axes of a rectangular grid: an error of 0.001 voxels over 1000 voxels.
 const RIGHT_ANGLE: f64 = 1e-6;
 
-/// Cells between two checks of `stop`.
+/// Number of cells between two checks of `stop`.
 const CELLS_BETWEEN_STOPS: usize = 1 << 16;
 
 /// Squared distance (mm²) from each cell of `lumen` (sorted) to the nearest background centre; 0 in
-/// background. Sheared grids, where axis distances do not add up, use a k-d tree.
+/// background. Sheared grids, whose axis distances do not add up, use a k-d tree.
 pub fn squared_distances(foreground: &Foreground, lumen: &[u32], stop: Stop) -> Result<Vec<f32>> {
     let mut squares = vec![0.0; foreground.cells.len()];
     if is_sheared(foreground) {
@@ -55,9 +55,9 @@ struct Pass {
     stride: usize,
     /// Voxel side along the axis (mm).
     side: f64,
-    /// Results of previous passes along the run, with 0 at both ends.
+    /// Results of the previous passes along the run, with a 0 at both ends.
     values: Vec<f64>,
-    /// Lower envelope: apex of each parabola, and where it starts to be lowest.
+    /// Lower envelope: position of each parabola, and where it starts to be the lowest one.
     lowest: Vec<usize>,
     from: Vec<f64>,
 }

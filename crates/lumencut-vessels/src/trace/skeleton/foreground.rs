@@ -1,4 +1,4 @@
-//! The lumen of a mask in its own grid with a border, independent of the storage order.
+//! The lumen of a mask in a grid of its own with a border, independent of the storage order.
 
 use std::ops::Range;
 
@@ -9,27 +9,27 @@ use lumencut_core::error::{Error, ErrorKind, Mend, Result};
 use lumencut_core::stop::{Stop, go_on};
 use lumencut_core::volume::{Volume, Voxels};
 
-/// Background in [`Foreground::cells`].
+/// Value of background in [`Foreground::cells`].
 pub(crate) const BACKGROUND: u8 = 0;
-/// Lumen in [`Foreground::cells`].
+/// Value of lumen in [`Foreground::cells`].
 pub const LUMEN: u8 = 1;
 
-/// The lumen box of a mask.
+/// The box around the lumen of a mask.
 pub struct Foreground {
-    /// Lumen or background per voxel; i fastest, then j, then k.
+    /// Lumen or background of each voxel; i is fastest, then j, then k.
     pub cells: Vec<u8>,
-    /// Cells along (i, j, k), including the border.
+    /// Number of cells along (i, j, k), including the border.
     pub size: [usize; 3],
     /// World position (LPS, mm) of a continuous index of this grid.
     pub world_from_index: DAffine3,
 }
 
 impl Foreground {
-    /// Voxels of `mask` with a value in `labels`, or any but 0 without labels.
+    /// The voxels of `mask` whose value is in `labels`; without labels, all voxels except 0.
     ///
-    /// Each axis is flipped so that the lumen's centroid lies in its second half (on a tie: left, back,
-    /// head), so a mirrored storage order gives the same result. [`ErrorKind::Volume`] for fractional values,
-    /// a single slice, or if no voxel or every voxel is lumen.
+    /// Each axis is flipped if necessary, so that the centroid of the lumen lies in its second half (on a
+    /// tie: left, back, head). So a mirrored storage order gives the same result. [`ErrorKind::Volume`] for
+    /// fractional values, a single slice, or if no voxel or every voxel is lumen.
     pub fn new(mask: &Volume, labels: Option<&[i64]>, stop: Stop) -> Result<Self> {
         if mask.size().contains(&1) {
             let found = format!("{:?} voxels along i, j, k", mask.size());
@@ -80,7 +80,7 @@ impl Foreground {
         Err(error.mend("give the values that stand for lumen"))
     }
 
-    /// Distance of neighbours along each axis, in cells.
+    /// Distance between neighbours along each axis, in cells.
     pub fn strides(&self) -> [usize; 3] {
         [1, self.size[0], self.size[0] * self.size[1]]
     }
@@ -108,13 +108,13 @@ impl Foreground {
         self.sides().into_iter().fold(f64::INFINITY, f64::min)
     }
 
-    /// Cells of a row along i.
+    /// Range of the cells of a row along i.
     pub fn row(&self, row: usize) -> Range<usize> {
         row * self.size[0]..(row + 1) * self.size[0]
     }
 }
 
-/// Rejects fractional values: partial lumen, or the values of a scan.
+/// Rejects fractional values, which mean partial lumen or the values of a scan.
 fn check_whole<T: Copy + LabelValue>(rows: &Rows<T>, stop: Stop) -> Result<()> {
     if T::IS_WHOLE {
         return Ok(());
@@ -150,7 +150,7 @@ impl<T: Copy> Rows<'_, T> {
         self.voxels[place..end].iter().step_by(stride).copied()
     }
 
-    /// Branch-free test for all zeros, true for most rows.
+    /// Tests without branches whether all values are zero, which is true for most rows.
     fn is_empty(&self, along: usize, place: usize) -> bool
     where
         T: Default + PartialEq,

@@ -1,8 +1,8 @@
-//! The skeleton as a graph of branches with as many cycles as the mask.
+//! The skeleton as a graph of branches that has as many cycles as the mask.
 //!
-//! Touching voxels are joined by edges. Three mutually touching voxels bound no hole, so a spanning forest
-//! stays, plus one edge for each cycle that such triangles do not fill. Voxel cubes and these triangles have
-//! the same topology, because cubes that touch in pairs share a point.
+//! Touching voxels are joined by edges. Three voxels that touch each other enclose no hole. So a spanning
+//! forest stays, plus one edge for each cycle that such triangles do not fill. Voxel cubes have the same
+//! topology as these triangles, because cubes that touch in pairs share a point.
 
 use std::collections::HashMap;
 
@@ -11,20 +11,20 @@ use crate::trace::skeleton::foreground::Foreground;
 #[derive(Clone, Debug)]
 pub(crate) struct Branch {
     pub nodes: [usize; 2],
-    /// From start to end, inclusive; at least two.
+    /// Cells from start to end, including both; at least two.
     pub cells: Vec<u32>,
 }
 
 pub(crate) struct Graph {
     pub nodes: Vec<u32>,
-    /// None if removed.
+    /// Branches; None if removed.
     pub branches: Vec<Option<Branch>>,
-    /// Branches at each node, once per end.
+    /// Numbers of the branches at each node; a branch with both ends there is listed twice.
     pub(crate) incident: Vec<Vec<usize>>,
 }
 
 impl Graph {
-    /// `skeleton` has the cells left by [`crate::trace::skeleton::thinning::thin`].
+    /// `skeleton` are the cells that [`crate::trace::skeleton::thinning::thin`] leaves.
     pub(crate) fn new(foreground: &Foreground, skeleton: &[u32]) -> Self {
         let mut cells = skeleton.to_vec();
         cells.sort_unstable();
@@ -37,7 +37,7 @@ impl Graph {
                 graph.branches_from(place, &cells, &links, &mut node_of, &mut passed);
             }
         }
-        // The rest are rings without a junction.
+        // The cells that remain are rings without a junction.
         for place in 0..cells.len() {
             if links[place].len() == 2 && !passed[place] {
                 graph.branches_from(place, &cells, &links, &mut node_of, &mut passed);
@@ -65,7 +65,7 @@ impl Graph {
                 (before, place) = (place, next);
                 line.push(cells[place]);
             }
-            // Skips lines visited from the other end, and adjacent nodes already joined.
+            // Skips lines already followed from their other end, and adjacent nodes that are already joined.
             let walked = links[place].len() == 2 && place != start;
             if walked || (line.len() == 2 && place < start) {
                 continue;
@@ -98,7 +98,7 @@ impl Graph {
         Some(branch)
     }
 
-    /// Merges the two branches of a node without others.
+    /// Merges the two branches of a node that has no other branches.
     pub(crate) fn join_at(&mut self, node: usize) {
         let [a, b] = self.incident[node][..] else { return };
         if a == b {
@@ -147,7 +147,7 @@ fn links(foreground: &Foreground, cells: &[u32]) -> Vec<Vec<usize>> {
 
 fn edges(foreground: &Foreground, cells: &[u32]) -> Vec<[usize; 2]> {
     let [_, j, k] = foreground.strides();
-    // The later half of the 26 neighbours.
+    // The second half of the 26 neighbours, so that each pair is found once.
     let sides = foreground.world_from_index.matrix3;
     let mut edges = Vec::new();
     for step in 14..27_usize {
@@ -164,7 +164,7 @@ fn edges(foreground: &Foreground, cells: &[u32]) -> Vec<[usize; 2]> {
     edges.into_iter().map(|(_, edge)| edge).collect()
 }
 
-/// One closing edge per hole: those whose cycle is no sum of triangles.
+/// One closing edge per hole: edges whose cycle is not a sum of triangles.
 fn around_holes(edges: &[[usize; 2]], closing: &[[usize; 2]], places: usize) -> Vec<[usize; 2]> {
     let number_of: HashMap<[usize; 2], usize> =
         closing.iter().enumerate().map(|(n, &edge)| (edge, n)).collect();

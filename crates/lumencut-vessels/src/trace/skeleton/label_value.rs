@@ -1,8 +1,8 @@
-//! Mask values as labels, for any voxel type.
+//! The values of a mask as labels, for all voxel types.
 
 use lumencut_core::volume::{Volume, Voxels};
 
-/// Largest float up to which all integers are exact (2²⁴).
+/// Up to this value (2²⁴), single precision represents all integers exactly.
 const LARGEST_FLOAT: f64 = 16_777_216.0;
 
 pub(crate) trait LabelValue: Sized {

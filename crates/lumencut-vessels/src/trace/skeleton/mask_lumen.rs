@@ -1,4 +1,4 @@
-//! Geometry of a mask at a place: lumen, wall distance and cross-section.
+//! The lumen of a mask at a place: distance to the wall, and cross-section.
 
 use std::f64::consts::TAU;
 
@@ -7,13 +7,13 @@ use glam::{DAffine3, DVec3};
 use crate::trace::skeleton::foreground::Foreground;
 use lumencut_core::math::sampling::interpolate;
 
-/// Rays per section.
+/// Number of rays per section.
 const RAYS: usize = 24;
 
-/// Maximum ray in medians of all rays, where a branch leaves.
+/// Where a branch leaves, rays are cut at this multiple of their median length.
 const LONGEST_RAY: f64 = 1.5;
 
-/// Lumen share at the wall; below a half, so that symmetric points do not depend on rounding.
+/// Share of lumen at the wall. It is below a half, so that symmetric points do not depend on rounding.
 const WALL: f64 = 0.499;
 
 pub(crate) struct Lumen<'a> {
@@ -27,7 +27,7 @@ pub(crate) struct Lumen<'a> {
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct MaskSection {
-    /// Centroid (mm, LPS).
+    /// Centroid of the section (mm, LPS).
     pub center: DVec3,
     /// Radius of a circle of the same area (mm).
     pub radius: f64,
@@ -62,7 +62,7 @@ impl<'a> Lumen<'a> {
         cells.iter().map(|&cell| position(cell as usize)).collect()
     }
 
-    /// Wall distance at a cell centre (mm); the wall lies half a voxel before background.
+    /// Distance from the centre of a cell to the wall (mm), which is half a voxel nearer than background.
     pub(crate) fn radius_at_cell(&self, cell: u32) -> f64 {
         (f64::from(self.squares[cell as usize]).sqrt() - self.side / 2.0).max(0.0)
     }
@@ -71,7 +71,7 @@ impl<'a> Lumen<'a> {
         (self.interpolated(place, |square| f64::from(square).sqrt()) - self.side / 2.0).max(0.0)
     }
 
-    /// Lumen share around a place, 0 to 1.
+    /// Share of lumen around a place, 0 to 1.
     pub(crate) fn share(&self, place: DVec3) -> f64 {
         self.interpolated(place, |square| f64::from(u8::from(square > 0.0)))
     }
@@ -91,7 +91,7 @@ impl<'a> Lumen<'a> {
         interpolate(|r| [0, 1].map(|step| value(self.squares[first + rows[r] + step])), t.to_array())
     }
 
-    /// Distance to the wall along a unit vector (mm), at most `most`; 0 outside the lumen.
+    /// Distance along a unit vector to the wall (mm), at most `most`; 0 outside the lumen.
     pub(crate) fn way_to_wall(&self, place: DVec3, direction: DVec3, most: f64) -> f64 {
         let (mut way, mut before) = (0.0, self.share(place));
         if before < WALL {
@@ -99,7 +99,7 @@ impl<'a> Lumen<'a> {
         }
         let smallest = self.side / 2.0;
         while way < most {
-            // Safe step: everything nearer than background is lumen, minus the interpolation error.
+            // A safe step: all that is nearer than background is lumen, up to the interpolation error.
             let free = self.radius(place + way * direction) - 3.0 * self.half_diagonal;
             let step = free.max(smallest);
             let share = self.share(place + (way + step) * direction);
@@ -134,7 +134,7 @@ impl<'a> Lumen<'a> {
             area += triangle;
             moment += triangle * (a + b) / 3.0;
         }
-        // Converts the area of the inscribed polygon to that of the circle.
+        // Converts the area of the polygon inscribed in a circle to the area of the circle.
         let circle = area * (TAU / RAYS as f64) / (TAU / RAYS as f64).sin();
         let radius = (2.0 * circle / TAU).sqrt();
         (area > 0.0).then(|| MaskSection { center: place + moment / area, radius, shortest: sorted[0] })
@@ -142,7 +142,7 @@ impl<'a> Lumen<'a> {
 }
 
 fn across(direction: DVec3) -> [DVec3; 2] {
-    // Rounded, because in grids many directions are equally near to two axes.
+    // The values are rounded, because on grids many directions are equally near to two axes.
     let size = (direction.abs() * 1e6).round();
     let axis = if size.x <= size.y && size.x <= size.z {
         DVec3::X

@@ -1,4 +1,4 @@
-//! Orders and orients mask vessels.
+//! Puts the vessels of a mask in order, and directs them outwards.
 
 use std::collections::{HashMap, VecDeque};
 
@@ -15,13 +15,13 @@ pub struct MaskVessel {
     pub radius: Vec<f64>,
     /// Confidence per point, 0 to 1; empty if not refined.
     pub confidence: Vec<f64>,
-    /// Graph nodes at start and end.
+    /// Numbers of the graph nodes at start and end.
     pub nodes: [usize; 2],
-    /// Whether the first and last point are ends of the lumen.
+    /// Whether the first, and the last, point is an end of the lumen.
     pub is_free: [bool; 2],
-    /// Predominant mask value.
+    /// The most frequent mask value along the vessel.
     pub label: i64,
-    /// Whether it bridges a gap.
+    /// Whether the vessel bridges a gap.
     pub is_bridge: bool,
 }
 
@@ -45,7 +45,7 @@ impl MaskVessel {
     }
 }
 
-/// Sorts and orients vessels: longest component first, from the free end of the widest vessel outwards.
+/// Orders and directs vessels: the longest component first, from the free end of its widest vessel outwards.
 pub fn outwards(vessels: Vec<MaskVessel>) -> Vec<MaskVessel> {
     let mut at_node: HashMap<usize, Vec<usize>> = HashMap::new();
     for (number, vessel) in vessels.iter().enumerate() {
@@ -56,7 +56,7 @@ pub fn outwards(vessels: Vec<MaskVessel>) -> Vec<MaskVessel> {
     let mut by_width: Vec<usize> = (0..vessels.len()).collect();
     let is_inner = |number: usize| !vessels[number].is_free.contains(&true);
     by_width.sort_by(|&a, &b| {
-        // Rounded, to be independent of rounding errors.
+        // The values are rounded, so that rounding errors have no effect.
         let width = |number: usize| (vessels[number].mean_radius() * 1e6).round();
         is_inner(a).cmp(&is_inner(b)).then(width(b).total_cmp(&width(a)))
     });

@@ -1,13 +1,13 @@
-//! Nearest background voxel by a k-d tree, for sheared grids.
+//! Finds the nearest background voxel by a k-d tree, for sheared grids.
 
 use glam::DVec3;
 
 use crate::trace::skeleton::foreground::{BACKGROUND, Foreground};
 
-/// Points per leaf.
+/// Number of points per leaf.
 const LEAF: usize = 8;
 
-/// Background voxels that touch lumen, as a balanced k-d tree split along the longest axis.
+/// Background voxels that touch lumen, in a balanced k-d tree whose nodes split their longest axis.
 pub(super) struct NearestBackground {
     points: Vec<DVec3>,
     axes: Vec<u8>,

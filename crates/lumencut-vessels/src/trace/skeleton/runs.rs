@@ -1,4 +1,4 @@
-//! Connected components by runs along rows: cavities and pieces.
+//! Connected components, found by runs along rows: cavities and pieces.
 
 use crate::trace::skeleton::foreground::{BACKGROUND, Foreground, LUMEN};
 use lumencut_core::error::Result;
@@ -7,20 +7,20 @@ use lumencut_core::stop::{Stop, go_on};
 struct Run {
     start: u32,
     end: u32,
-    /// Union-find parent.
+    /// Parent in the union-find structure.
     parent: u32,
 }
 
 struct Runs {
     runs: Vec<Run>,
-    /// Index of the first run of each row, plus the end.
+    /// Number of the first run of each row, and the number of runs.
     first_of_row: Vec<u32>,
 }
 
-/// Fills background not face-connected to the outside; returns the number of cavities and cells.
+/// Fills background not face-connected to the outside; returns the number of cavities and of their cells.
 pub(crate) fn fill_cavities(foreground: &mut Foreground, stop: Stop) -> Result<[usize; 2]> {
     let mut runs = Runs::of(foreground, BACKGROUND, 0, stop)?;
-    // The border is background, so the first run is the outside.
+    // The border is background, so the first run belongs to the outside.
     let outside = runs.root(0);
     let (mut cavities, mut cells) = (0, 0);
     for row in 0..runs.first_of_row.len() - 1 {
@@ -39,14 +39,14 @@ pub(crate) fn fill_cavities(foreground: &mut Foreground, stop: Stop) -> Result<[
     Ok([cavities, cells])
 }
 
-/// Number of 26-connected components of lumen.
+/// Number of the 26-connected components of lumen.
 pub(crate) fn pieces(foreground: &Foreground, stop: Stop) -> Result<usize> {
     let mut runs = Runs::of(foreground, LUMEN, 1, stop)?;
     Ok((0..runs.runs.len() as u32).filter(|&number| runs.root(number) == number).count())
 }
 
 impl Runs {
-    /// A reach of 0 connects by faces, 1 also by edges and corners.
+    /// With a `reach` of 0, cells are connected by faces; with 1, also by edges and corners.
     fn of(foreground: &Foreground, value: u8, reach: u32, stop: Stop) -> Result<Self> {
         let [_, nj, nk] = foreground.size;
         let mut all = Self { runs: Vec::new(), first_of_row: vec![0] };

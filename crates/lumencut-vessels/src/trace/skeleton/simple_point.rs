@@ -1,22 +1,22 @@
-//! Simple points: lumen voxels whose removal preserves the topology.
+//! Simple points: voxels of the lumen that can be removed without changing the topology.
 //!
-//! Lumen is 26-connected, background 6-connected. Bertrand and Malandain, "A new characterization of
+//! Lumen is 26-connected, background is 6-connected. Bertrand and Malandain, "A new characterization of
 //! three-dimensional simple points", Pattern Recognition Letters 15(2), 1994,
-//! doi:10.1016/0167-8655(94)90046-9: a point is simple if the lumen around it is one component, and the
-//! background that touches it is one component among the 18 neighbours.
+//! doi:10.1016/0167-8655(94)90046-9. A point is simple if the lumen around it is one component, and the
+//! background that touches it by a face is one component within the 18 neighbours.
 
-/// Position in the 3 × 3 × 3 cube: i + 3 j + 9 k.
+/// Number of the middle of a 3 × 3 × 3 cube, whose positions are numbered i + 3 j + 9 k.
 const CENTER: usize = 13;
 
-/// 26-neighbours of each position.
+/// The 26-neighbours of each position, as bits.
 const TOUCHING: [u32; 27] = neighbours(3, 0);
-/// 6-neighbours of each position, without cube corners.
+/// The 6-neighbours of each position, as bits; corners of the cube do not count.
 const BY_FACES: [u32; 27] = neighbours(1, CORNERS);
 const CORNERS: u32 = 1 | 1 << 2 | 1 << 6 | 1 << 8 | 1 << 18 | 1 << 20 | 1 << 24 | 1 << 26;
 const FACES: u32 = 1 << 4 | 1 << 10 | 1 << 12 | 1 << 14 | 1 << 16 | 1 << 22;
 const NEIGHBORS: u32 = ((1 << 27) - 1) & !(1 << CENTER);
 
-/// Positions within one step per axis and `most` in all, except `left_out` and the centre.
+/// Positions within one step along each axis and `most` steps in all, without `left_out` and the centre.
 const fn neighbours(most: usize, left_out: u32) -> [u32; 27] {
     let mut all = [0; 27];
     let mut place = 0_usize;
@@ -39,7 +39,7 @@ const fn neighbours(most: usize, left_out: u32) -> [u32; 27] {
     all
 }
 
-/// Lumen bits of the 27 positions.
+/// One bit for each of the 27 positions, set if it is lumen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Neighbourhood(u32);
 

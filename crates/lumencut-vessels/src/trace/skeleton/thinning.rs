@@ -1,18 +1,18 @@
 //! Thins a mask by removing simple points, nearest to the wall first.
 //!
 //! Pudney, "Distance-Ordered Homotopic Thinning", Computer Vision and Image Understanding 72(3), 1998,
-//! doi:10.1006/cviu.1998.0680. Voxels at about the same distance are removed in turns from the six sides, so
-//! that a vessel two voxels wide is thinned before it is shortened. A voxel with one neighbour stays.
+//! doi:10.1006/cviu.1998.0680. Voxels at about the same distance are removed from the six sides in turn, so
+//! that a vessel two voxels wide is thinned before it is shortened. A voxel with only one neighbour stays.
 
 use crate::trace::skeleton::foreground::{BACKGROUND, Foreground, LUMEN};
 use crate::trace::skeleton::simple_point::Neighbourhood;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Distance range of one turn, in voxel sides.
+/// Range of distances that are removed together, in voxel sides.
 const TURN_RANGE: f64 = 0.5;
 
-/// Thins to sorted cells of voxel lines; `squares` are squared distances to background (mm²).
+/// Thins lumen to lines of voxels (sorted cells); `squares` are squared distances to background (mm²).
 pub(crate) fn thin(
     foreground: &mut Foreground,
     lumen: &[u32],
@@ -36,7 +36,7 @@ pub(crate) fn thin(
     Ok(front)
 }
 
-/// One turn from each side; returns whether any voxel was removed.
+/// Removes voxels once from each side; returns whether any voxel was removed.
 fn remove_from_all_sides(foreground: &mut Foreground, front: &mut Vec<u32>, stop: Stop) -> Result<bool> {
     let strides = foreground.strides();
     let mut removed = false;

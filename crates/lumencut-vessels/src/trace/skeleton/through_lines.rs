@@ -1,4 +1,4 @@
-//! Lines through junctions: the two best-aligned branches continue into each other, the others end there.
+//! Lines through junctions: the two branches that fit best continue each other, the other branches end there.
 
 use glam::DVec3;
 
@@ -7,9 +7,9 @@ use crate::trace::skeleton::mask_lumen::Lumen;
 use lumencut_core::math::same_place::ALONG_LINE;
 
 pub(crate) struct ThroughLine {
-    /// Points (mm, LPS), initially voxel centres.
+    /// Points (mm, LPS), which are voxel centres at first.
     pub points: Vec<DVec3>,
-    /// Nodes on the line, with their point numbers.
+    /// Nodes on the line, each with the number of its point.
     pub knots: Vec<Knot>,
     pub(crate) is_closed: bool,
 }
@@ -20,7 +20,7 @@ pub(crate) struct Knot {
     pub point: usize,
 }
 
-/// All branches as lines; at each junction the two that are straightest and most similar in width are joined.
+/// All branches as lines; each junction joins the two that are straightest and most similar in width.
 pub(crate) fn through_lines(graph: &Graph, lumen: &Lumen) -> Vec<ThroughLine> {
     let next: Vec<Option<[usize; 2]>> = (0..graph.nodes.len()).map(|node| pair(graph, lumen, node)).collect();
     let mut used = vec![false; graph.branches.len()];
@@ -73,7 +73,7 @@ fn line(
     made
 }
 
-/// The two branches joined at a node; the same twice for a ring.
+/// The two branches that are joined at a node; the same branch twice for a ring.
 fn pair(graph: &Graph, lumen: &Lumen, node: usize) -> Option<[usize; 2]> {
     let incident = &graph.incident[node];
     if incident.len() < 2 {
@@ -81,7 +81,7 @@ fn pair(graph: &Graph, lumen: &Lumen, node: usize) -> Option<[usize; 2]> {
     }
     let mut outwards = Vec::new();
     for (place, &number) in incident.iter().enumerate() {
-        // A loop leaves first by its start, then by its end.
+        // A loop is listed twice: the first time it leaves by its start, the second time by its end.
         let Some(branch) = &graph.branches[number] else { continue };
         let from_end = branch.nodes[0] != node || incident[..place].contains(&number);
         outwards.push((number, outward(lumen, &branch.cells, from_end, graph.nodes[node])));
@@ -94,7 +94,7 @@ fn pair(graph: &Graph, lumen: &Lumen, node: usize) -> Option<[usize; 2]> {
             }
             let likeness = radius.min(*width) / radius.max(*width).max(1e-9);
             let score = likeness - direction.dot(*other);
-            // Tolerance, so that ties depend on branch order and not on rounding.
+            // The tolerance makes ties depend on the order of the branches and not on rounding.
             if best.is_none_or(|(most, _)| score > most + 1e-6) {
                 best = Some((score, [*first, *second]));
             }

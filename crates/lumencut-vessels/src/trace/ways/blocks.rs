@@ -1,20 +1,20 @@
-//! A volume in blocks of voxels, stored on demand.
+//! A volume as blocks of voxels, which are stored when needed.
 
 use std::ops::{Index, IndexMut};
 
 /// Side of a block (voxels).
 pub(crate) const SIDE: usize = 16;
-/// Voxels of a block.
+/// Number of voxels of a block.
 pub(crate) const BLOCK: usize = SIDE * SIDE * SIDE;
 
 const NO_BLOCK: u32 = u32::MAX;
 
-/// Stored blocks. A block has a place in the volume and a number among the stored ones.
+/// The stored blocks. Each has a place in the volume, and a number among the stored blocks.
 #[derive(Clone, Debug)]
 pub(crate) struct Blocks<T> {
-    /// Blocks along (i, j, k).
+    /// Number of blocks along (i, j, k).
     count: [usize; 3],
-    /// Number of each block of the volume.
+    /// Number of each block of the volume among the stored ones.
     numbers: Vec<u32>,
     kept: Vec<Kept<T>>,
 }

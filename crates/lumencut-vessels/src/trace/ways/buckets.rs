@@ -1,10 +1,10 @@
-//! Bucket queue by path length: Dijkstra order to 0.25 mm without sorting.
+//! Queue with buckets of path lengths: the order of Dijkstra's algorithm to 0.25 mm, without sorting.
 
-/// Bucket width (mm of the cheapest path), and maximum number of buckets.
+/// Width of a bucket (mm of the cheapest path), and maximum number of buckets.
 const BUCKET: f32 = 0.25;
 const MOST_BUCKETS: usize = 400_000;
 
-/// Shortest first; last in, first out within a bucket.
+/// Shortest paths come first; within a bucket, the last one in is the first one out.
 #[derive(Clone, Debug)]
 pub(crate) struct Buckets<T> {
     buckets: Vec<Vec<T>>,
@@ -30,7 +30,7 @@ impl<T> Buckets<T> {
         self.buckets[bucket].push(waiting);
     }
 
-    /// Whether everything as short as `way` (mm) was taken, to the width of a bucket.
+    /// Whether all paths as short as `way` (mm) were taken, up to the width of a bucket.
     #[inline]
     pub(crate) fn have_passed(&mut self, way: f32) -> bool {
         self.advance();

@@ -1,6 +1,6 @@
-//! A front: Dijkstra's algorithm with buckets and the straight distance to the target as lower bound.
+//! A front: Dijkstra's algorithm with buckets. The straight distance to the target is the lower bound.
 //!
-//! Neighbours are the 26 around a voxel, with world distances, so any affine grid works.
+//! Neighbours are the 26 around a voxel, with their distances in world space, so any affine grid works.
 
 use glam::DVec3;
 
@@ -11,23 +11,23 @@ use crate::voxels::Voxels;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Parent codes of the start voxel, and of unreached voxels.
+/// Codes in place of a parent, for the start voxel and for voxels that were not reached.
 const START: u8 = 26;
 const NONE: u8 = 255;
 
-/// Voxels between two checks of `stop`.
+/// Number of voxels between two checks of `stop`.
 const BETWEEN_STOPS: usize = 1 << 10;
 
-/// Unit of stretches without lumen (mm).
+/// Unit in which lengths of stretches without lumen are stored (mm).
 const GAP_UNIT_MM: f64 = 0.1;
 
-/// Front data of one block: six bytes per voxel besides the costs.
+/// Data of a front in one block: six bytes per voxel, and the costs.
 #[derive(Clone, Debug)]
 struct Block {
     costs: BlockCosts,
     corner: [i32; 3],
     way: Box<[f32; BLOCK]>,
-    /// Bit per voxel whose neighbours were updated.
+    /// One bit per voxel, set if its neighbours were updated.
     offered: Box<[u64; BLOCK / 64]>,
     parent: Box<[u8; BLOCK]>,
     run: Box<[u8; BLOCK]>,
@@ -52,7 +52,8 @@ pub struct Reach {
     pub longest_gap: Option<f64>,
     /// Maximum number of voxels.
     pub most_voxels: usize,
-    /// Weight of the straight distance: 1 finds the cheapest path; more is faster, by that factor worse.
+    /// Weight of the straight distance: 1 finds the cheapest path; more is faster, but costs up to that
+    /// factor.
     pub pull: f32,
 }
 
@@ -67,7 +68,7 @@ pub enum Found {
     TooFar,
 }
 
-/// A front and everything it reached.
+/// A front, with all voxels that it reached.
 #[derive(Clone, Debug)]
 pub struct Front {
     source: [i32; 3],
@@ -75,14 +76,14 @@ pub struct Front {
     known: Blocks<Block>,
     waiting: Buckets<Waiting>,
     settled: usize,
-    /// Neighbour steps along (i, j, k) with their world lengths (mm).
+    /// Steps to the neighbours along (i, j, k), with their lengths in world space (mm).
     steps: [([i32; 3], f32); 26],
     costs: [f32; 256],
     weak: u8,
 }
 
 impl Front {
-    /// Starts at a voxel.
+    /// A front that starts at a voxel.
     pub fn new(voxels: &Voxels, region: &mut Region, source: [i32; 3], reach: Reach) -> Self {
         let mut front = Self {
             source,
@@ -101,12 +102,12 @@ impl Front {
         front
     }
 
-    /// Start voxel.
+    /// The voxel at which the front started.
     pub fn source(&self) -> [i32; 3] {
         self.source
     }
 
-    /// Grows until the path to `target` is known. `report` receives the remaining distance (mm).
+    /// Grows until the path to `target` is known. `report` is called with the remaining distance (mm).
     pub fn grow(
         &mut self,
         voxels: &Voxels,
@@ -122,7 +123,7 @@ impl Front {
         let mut until_stop = 0;
         loop {
             let way = self.known[block].way[voxel];
-            // Any cheaper path would lie in an earlier bucket.
+            // A cheaper path would be in an earlier bucket.
             if way.is_finite() && self.waiting.have_passed(way) {
                 return Ok(Found::Target);
             }
@@ -148,7 +149,7 @@ impl Front {
         self.find(target).is_some_and(|(block, voxel)| self.known[block].way[voxel].is_finite())
     }
 
-    /// Voxels from the source to `target`, which must be reached.
+    /// Voxels of the path from the start to `target`, which must have been reached.
     pub fn way_to(&self, target: [i32; 3]) -> Vec<[i32; 3]> {
         let mut way = vec![target];
         let mut here = target;
@@ -165,7 +166,7 @@ impl Front {
         way
     }
 
-    /// Whether any voxel of a ball was reached.
+    /// Whether the front reached a voxel of a ball.
     pub fn touches(&self, voxels: &Voxels, center: DVec3, radius: f64) -> bool {
         let ball = voxels.around(center, radius);
         self.known.places().any(|place| meets(self.known.corner(place), ball))
@@ -181,7 +182,7 @@ impl Front {
         }
     }
 
-    /// Updates the neighbours of a voxel; returns its distance to the goal (mm), or None if it is outdated.
+    /// Updates the neighbours of a voxel; returns its distance to the goal (mm), None for an outdated entry.
     fn settle(&mut self, voxels: &Voxels, region: &mut Region, waiting: Waiting, goal: DVec3) -> Option<f64> {
         let (block, voxel) = parts_of(waiting.place);
         if self.known[block].way[voxel] < waiting.way {
@@ -192,7 +193,7 @@ impl Front {
         let here = voxel_of(self.known[block].corner, voxel);
         let cost = self.costs[usize::from(self.known[block].costs[voxel])];
         let run = self.known[block].run[voxel];
-        // With pull, cheaper paths appear late and often, so voxels are not updated again.
+        // With pull, cheaper paths are often found late, so voxels are not updated again.
         let is_pulled = self.reach.pull > 1.0;
         for n in 0..26 {
             let (step, length) = self.steps[n];
@@ -222,7 +223,7 @@ impl Front {
         Some(voxels.center(here).distance(goal))
     }
 
-    /// Block and index of a voxel next to block `near`; None outside the volume.
+    /// Block and index of a voxel beside block `near`; None outside the volume.
     fn neighbour(
         &mut self,
         voxels: &Voxels,
@@ -267,10 +268,10 @@ fn parts_of(place: u32) -> (usize, usize) {
     (place as usize / BLOCK, place as usize % BLOCK)
 }
 
-/// Steps to the 26 neighbours, and their world lengths (mm).
+/// Steps to the 26 neighbours, with their lengths in world space (mm).
 pub fn steps(voxels: &Voxels) -> [([i32; 3], f32); 26] {
     std::array::from_fn(|n| {
-        // Skips the centre of the 27.
+        // Skips the centre, which is the 14th of the 27 positions.
         let n = if n < 13 { n } else { n + 1 };
         let step = [n % 3, n / 3 % 3, n / 9].map(|c| c as i32 - 1);
         let across = voxels.world_from_index.transform_vector3(DVec3::from_array(step.map(f64::from)));

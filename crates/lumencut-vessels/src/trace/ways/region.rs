@@ -1,4 +1,4 @@
-//! Path cost per millimetre at each voxel, in blocks computed on demand.
+//! Cost of a path per millimetre at each voxel, in blocks that are computed when needed.
 
 use std::sync::Arc;
 
@@ -9,33 +9,33 @@ use crate::trace::ways::blocks::{BLOCK, Blocks, SIDE, index_of, meets, voxel_of}
 use crate::trace::ways::shape::{HALO, PADDED_SIDE, bends, beside, blurred, raised, wall_between};
 use crate::voxels::Voxels;
 
-/// Membership of plain tissue, so that its cost is finite: for lumen paths, and for bridges.
+/// Membership of plain tissue, which keeps its cost finite: for paths in lumen, and for bridges.
 const LEAST_MEMBERSHIP: f64 = 0.05;
 const LEAST_OF_BRIDGES: f64 = 0.2;
 
-/// Extra cost far from the middle of a wide vessel.
+/// Additional share of the cost far from the middle of a wide vessel.
 const OFF_MIDDLE: f64 = 0.4;
 
-/// Extra cost in the wall between two vessels.
+/// Additional share of the cost in the wall between two vessels.
 const WALL: f64 = 15.0;
 
-/// Factor of the membership next to bone, calcium and metal, whose edges have lumen values.
+/// Factor of the membership next to bone, calcium and metal, because their edges have the values of lumen.
 const RIM_FACTOR: f64 = 0.5;
 
-/// Share of noise left after averaging neighbours.
+/// Share of the noise that averaging over neighbours leaves.
 const NOISE_LEFT: f64 = 0.23;
 
-/// Maximum cost: tissue far from lumen.
+/// Maximum cost: that of tissue far from lumen.
 const DEAREST: f64 = (1.0 + WALL) * (1.0 + OFF_MIDDLE) / (LEAST_MEMBERSHIP * LEAST_MEMBERSHIP);
 
-/// Code of forbidden voxels; other codes rise with the cost.
+/// Code of forbidden voxels. Other codes increase with the cost.
 pub(crate) const FORBIDDEN: u8 = 0;
 
-/// Mean membership below which a voxel is not lumen.
+/// A voxel with a lower mean membership is not lumen.
 pub(crate) const WEAK: f64 = 0.2;
-/// Mean membership below which lumen is thin.
+/// Lumen with a lower mean membership is thin.
 pub(crate) const THIN: f64 = 0.75;
-/// Membership well within lumen.
+/// Membership of a voxel well within lumen.
 pub(crate) const FULL: f64 = 0.9;
 
 /// Whether paths must stay in lumen.
@@ -67,7 +67,7 @@ fn code_of(cost: f64) -> u8 {
     (1.0 + 254.0 * cost.ln() / DEAREST.ln()).round().clamp(1.0, 255.0) as u8
 }
 
-/// A place that no path may pass.
+/// A ball that no path may enter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stopper {
     /// Centre (mm, LPS).
@@ -78,7 +78,7 @@ pub struct Stopper {
 
 pub(crate) type BlockCosts = Arc<[u8; BLOCK]>;
 
-/// Costs of the blocks used so far, one byte per voxel.
+/// Costs of the blocks that were needed so far, one byte per voxel.
 #[derive(Clone, Debug)]
 pub struct Region {
     /// The lumen model.
@@ -90,7 +90,7 @@ pub struct Region {
 }
 
 impl Region {
-    /// A region without computed blocks.
+    /// A region for which no block has been computed yet.
     pub fn new(size: [usize; 3], model: LumenModel, stoppers: Vec<Stopper>, strictness: Strictness) -> Self {
         Self { model, stoppers, strictness, made: Blocks::new(size) }
     }
@@ -114,7 +114,7 @@ impl Region {
         code_of((1.0 + 0.8 * OFF_MIDDLE) / (membership * membership))
     }
 
-    /// Drops the blocks that a ball touches.
+    /// Drops the computed blocks that a ball touches.
     pub fn forget(&mut self, voxels: &Voxels, ball: &Stopper) {
         let near = voxels.around(ball.center, ball.radius + 2.0 * voxels.smallest_side);
         let gone: Vec<usize> =

@@ -1,4 +1,4 @@
-//! Local shape around a voxel: wall between two lumens, ridge, or edge of bone.
+//! The shape of the values around a voxel: a wall between two lumens, a ridge, or the edge of bone.
 
 use crate::trace::ways::blocks::SIDE;
 
@@ -7,18 +7,18 @@ pub(crate) const HALO: usize = 3;
 /// Side of the cube with border (voxels).
 pub(crate) const PADDED_SIDE: usize = SIDE + 2 * HALO;
 
-/// Share of the missing membership that a ridge adds.
+/// A ridge adds up to this share of the missing membership.
 const RIDGE: f64 = 0.6;
 
 /// Minimum membership of a ridge.
 const FAINT: f64 = 0.05;
 
-/// Second derivative of the membership in a wall; a fall across by the second share marks a throat.
+/// Second derivative of the membership in a wall; factor of the second one that marks a throat.
 const DIP: f64 = 0.1;
 const THROAT: f64 = 0.3;
 
-/// Degree of being in a wall between two lumens, 0 to 1: darker than both neighbours in one direction, but
-/// not brighter than those across, as a throat is.
+/// Degree to which a voxel lies in a wall between two lumens, 0 to 1. In one direction it is darker than both
+/// neighbours. In the others it is not brighter than its neighbours, as it would be in a throat.
 pub(crate) fn wall_between(share: f64, bends: &[f64; 3]) -> f64 {
     if !(0.1..0.95).contains(&share) {
         return 0.0;
@@ -28,15 +28,15 @@ pub(crate) fn wall_between(share: f64, bends: &[f64; 3]) -> f64 {
     if most <= 0.0 || is_throat { 0.0 } else { (most / DIP).min(1.0) }
 }
 
-/// Raises the membership on ridges: a vessel thinner than a voxel is never as bright as its lumen. Noise
-/// below `noise` (standard deviation) is ignored.
+/// Raises the membership on ridges, because a vessel thinner than a voxel is never as bright as its lumen.
+/// Ridges below the noise (standard deviation `noise`) are ignored.
 pub(crate) fn raised(share: f64, bends: &[f64; 3], noise: f64) -> f64 {
     let is_seen = (share / (2.0 * noise).max(FAINT) - 1.0).clamp(0.0, 1.0);
     let ridge = ((-bends[1] - 2.0 * noise) / share.max(1e-6)).clamp(0.0, 1.0);
     share + (1.0 - share) * RIDGE * ridge * is_seen
 }
 
-/// Eigenvalues of the second derivatives, descending; positive where neighbours on both sides are brighter.
+/// Eigenvalues of the second derivatives, descending; positive if both neighbours are brighter.
 pub(crate) fn bends(shares: &[f32], at: usize) -> [f64; 3] {
     let share = f64::from(shares[at]);
     if !(0.02..0.98).contains(&share) {
@@ -56,7 +56,7 @@ pub(crate) fn bends(shares: &[f32], at: usize) -> [f64; 3] {
     eigenvalues(bends)
 }
 
-/// Dilates marked voxels by one, except at the border.
+/// Extends the marked voxels by one voxel, except at the border.
 pub(crate) fn beside(values: &[f32], is_marked: impl Fn(f32) -> bool) -> Vec<bool> {
     let mut marked: Vec<bool> = values.iter().map(|value| is_marked(*value)).collect();
     if !marked.contains(&true) {
@@ -88,7 +88,7 @@ fn eigenvalues(m: [[f64; 3]; 3]) -> [f64; 3] {
     [first, 3.0 * mean - first - last, last]
 }
 
-/// Separable average of the cube; valid where all weights lie inside.
+/// Averages over the cube, axis by axis; valid where all weights lie inside.
 pub(crate) fn blurred(shares: &[f32], weights: &[f32]) -> Vec<f32> {
     let reach = weights.len() / 2;
     let mut now = shares.to_vec();
@@ -112,7 +112,7 @@ pub(crate) fn blurred(shares: &[f32], weights: &[f32]) -> Vec<f32> {
 mod tests {
     use super::*;
 
-    /// A cube with membership by offset from its middle, and the middle.
+    /// A cube whose membership depends on the offset from its middle, and the number of the middle.
     fn cube(share: impl Fn([f64; 3]) -> f64) -> (Vec<f32>, usize) {
         let middle = PADDED_SIDE / 2;
         let steps = |n: usize| {

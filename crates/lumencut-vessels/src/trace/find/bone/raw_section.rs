@@ -1,6 +1,6 @@
-//! Raw-voxel cross-section of a track: elongation, evenness, and whether it is marrow in a cortex.
+//! Cross-section of a track in the raw voxels: its elongation, its evenness, and whether it is marrow.
 //!
-//! Tracking clips bright values, so a plate of bone can look like a tube; raw voxels show the difference.
+//! Tracking clips bright values, so a plate of bone may look like a tube; raw voxels show the difference.
 
 use std::f64::consts::TAU;
 
@@ -12,42 +12,42 @@ use crate::trace::find::section::{TOUCHED, across};
 use crate::trace::find::track::TrackPoint;
 use crate::trace::lumen::ray::Ray;
 
-/// Even, because opposite rays make a diameter.
+/// Number of rays, which is even because two opposite rays make a diameter.
 const RAYS: usize = 24;
 
 /// Sampling distance (voxels).
 const STEP: f64 = 0.5;
 
-/// Distance range of the surrounding tissue: radii, and voxels beyond.
+/// Tissue is searched between these distances: factors of the radius, plus voxels at the far end.
 const TISSUE: [f64; 2] = [0.8, 1.6];
 const TISSUE_BEYOND: f64 = 2.0;
 
-/// Quantile of the ray minima that counts as tissue, above fat and lung.
+/// Quantile of the lowest values of the rays that counts as tissue, because fat and lung are darker.
 const TISSUE_SHARE: f64 = 0.3;
 
-/// Maximum ray length: the smaller of two, each in radii plus mm.
+/// Maximum length of a ray: the smaller of two sums, each of radii and mm.
 const RAY_LENGTHS: [[f64; 2]; 2] = [[3.0, 4.0], [6.0, 1.5]];
 
-/// A lumen within the first share of the vessel level ends before bone, which exceeds it by the second.
+/// Lumen differs from the vessel level by less than the first share; bone exceeds it by the second.
 const ALIKE: f64 = 0.15;
 const BONE: f64 = 0.4;
 
-/// Minimum resolvable diameter (voxels).
+/// Smallest diameter that can be resolved (voxels).
 const LEAST_DIAMETER: f64 = 0.8;
 
-/// Sampling radii for level and spread.
+/// Distances from the centre (radii) at which values are sampled, for the level and for the spread.
 const LEVEL_WITHIN: [f64; 2] = [0.2, 0.4];
 const SPREAD_WITHIN: [f64; 3] = [0.25, 0.45, 0.65];
 
-/// Interquartile range of a normal distribution in standard deviations.
+/// Interquartile range of a normal distribution, in standard deviations.
 const QUARTILES: f64 = 1.35;
 
-/// Distance range of a cortex: radii, and mm beyond.
+/// Compact bone is searched between these distances: factors of the radius, plus mm at the far end.
 const CORTEX: [f64; 2] = [0.8, 2.5];
 const CORTEX_BEYOND: f64 = 2.0;
 
-/// Marrow in a cortex: a share of rays is brighter than inside (share of the contrast, multiple of the
-/// noise); the inside is dark and uneven, or very dark; minimum radius in voxels.
+/// Marrow: a share of the rays meets values above the inside, by a share of the contrast or a multiple of the
+/// noise. The inside is dark and uneven, or very dark. The radius has a minimum (voxels).
 const CORTEX_SHARE: f64 = 0.7;
 const CORTEX_ABOVE: f64 = 0.15;
 const CORTEX_NOISE: f64 = 3.0;
@@ -156,17 +156,17 @@ impl<'a, 'v> Rays<'a, 'v> {
     }
 }
 
-/// Ray length (steps) to the first value below `level`, at most `last`.
+/// Distance along a ray (steps) to the first value below `level`, at most `last`.
 fn length(ray: &mut Ray, level: f64, last: usize) -> f64 {
     let is_out = |value: f64| value < level || value.is_nan();
     let Some(out) = (0..=last).find(|n| is_out(ray.value(*n))) else { return last as f64 };
     let [inside, outside] = [out.saturating_sub(1), out].map(|n| ray.value(n));
     let share = (inside - level) / (inside - outside);
-    // The centre may be below `level`, and the outside may be NaN.
+    // The centre itself may be below `level`, and the value outside may be NaN.
     out.saturating_sub(1) as f64 + if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.0 }
 }
 
-/// Ray length (steps) to the darkest place in the outer half before bone, if any.
+/// Distance (steps) to the darkest place in the outer half of a ray before bone; None if it meets no bone.
 fn to_bone(ray: &mut Ray, level: f64, bone: f64, last: usize) -> Option<f64> {
     let first = (0..=last).find(|n| !(level..=bone).contains(&ray.value(*n)))?;
     let values: Vec<f64> = (0..=first).map(|n| ray.value(n)).collect();

@@ -1,4 +1,4 @@
-//! Bridges longer gaps between two ends that point at each other, as where bone touches an artery.
+//! Bridges longer gaps between two ends that point at each other, as at bone that touches an artery.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -16,12 +16,12 @@ use lumencut_core::stop::{Stop, go_on};
 /// Minimum confidence of both tracks.
 const CONFIDENCE: f64 = 0.3;
 
-/// Maximum length: radii of the wider end, and mm.
+/// Maximum length of a bridge: radii of the wider end, and mm.
 const RADII: f64 = 16.0;
 const LONGEST: f64 = 25.0;
 
-/// Limits: cosine, or lateral miss in radii; ratio of radii; difference of levels (share of the contrast);
-/// lowest level on the way (0 tissue, 1 lumen).
+/// Limits of both ends: minimum cosine, or maximum sideways miss in radii; ratio of radii; difference of
+/// levels (share of the contrast); lowest level along the bridge (0 tissue, 1 lumen).
 const STRAIGHT: f64 = 0.9;
 const PAST: f64 = 1.5;
 const ALIKE: f64 = 1.6;

@@ -5,21 +5,21 @@ use glam::DVec3;
 use crate::trace::find::quantiles::median;
 use crate::trace::find::track::{Track, TrackPoint};
 
-/// Tracks with less confidence are not linked: bone must not join trees.
+/// Tracks with less confidence are not linked, because bone must not join trees.
 const LEAST_CONFIDENCE: f64 = 0.3;
 
-/// Length in radii that gives the direction of an end.
+/// Length of the stretch that gives the direction of an end (radii).
 const DIRECTED: f64 = 1.5;
 
-/// Points that give the lumen of an end.
+/// Number of points that give the radius and level of an end.
 const LAST: usize = 5;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct End {
-    /// Track and point number.
+    /// Numbers of the track and of its point.
     pub of: [usize; 2],
     pub place: DVec3,
-    /// Unit vector outwards.
+    /// Unit vector that points out of the track.
     pub direction: DVec3,
     pub radius: f64,
     pub level: f64,

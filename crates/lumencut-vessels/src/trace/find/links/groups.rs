@@ -1,4 +1,4 @@
-//! Connected groups of tracks and distances within them.
+//! Groups of connected tracks, and distances along their tracks and links.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
@@ -7,18 +7,18 @@ use crate::trace::find::links::link::Link;
 use crate::trace::find::track::Track;
 use lumencut_core::math::arc_length::arc_lengths;
 
-/// Loops shorter than this, in radii at the closing link or in mm, enclose no tissue.
+/// Loops shorter than this (radii at the link that closes them, or mm if larger) enclose no tissue.
 pub(crate) const SMALL_LOOP: f64 = 12.0;
 const SMALL_LOOP_LENGTH: f64 = 10.0;
 
 pub(crate) struct Groups<'a> {
     tracks: &'a [Track],
     pub links: Vec<Link>,
-    /// Links of each track.
+    /// Numbers of the links at each track.
     at_track: Vec<Vec<usize>>,
-    /// Arc lengths of each track (mm).
+    /// Arc lengths of the points of each track (mm).
     lengths: Vec<Vec<f64>>,
-    /// Union-find parents.
+    /// Parents of the union-find structure.
     parents: Vec<usize>,
 }
 
@@ -53,7 +53,7 @@ impl<'a> Groups<'a> {
         }
     }
 
-    /// Keeps larger loops, such as the arterial circle of the brain.
+    /// Adds a link unless it closes a small loop. Larger ones stay, such as the arterial circle of the brain.
     pub(crate) fn add_unless_small_loop(&mut self, link: Link) {
         let radius = |[track, point]: [usize; 2]| self.tracks[track].points[point].radius;
         let length = self.length_of(&link);
@@ -81,7 +81,7 @@ impl<'a> Groups<'a> {
     fn way(&self, from: [usize; 2], to: [usize; 2], most: f64) -> Option<f64> {
         let along =
             |[track, a]: [usize; 2], b: usize| (self.lengths[track][a] - self.lengths[track][b]).abs();
-        // Bits of non-negative floats sort like the values.
+        // The bits of non-negative floats have the same order as their values.
         let mut open = BinaryHeap::from([Reverse((0, from))]);
         let mut done = BTreeSet::new();
         let mut shortest: Option<f64> = None;

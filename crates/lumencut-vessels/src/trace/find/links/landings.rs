@@ -1,4 +1,4 @@
-//! Possible link targets of an end, the cheapest first.
+//! Places of other tracks to which an end may be linked, the cheapest first.
 
 use crate::trace::find::links::ends::{End, may_link};
 use crate::trace::find::links::link::Link;
@@ -7,52 +7,52 @@ use crate::trace::find::point_grid::PointGrid;
 use crate::trace::find::scan::Scan;
 use crate::trace::find::track::{Track, TrackPoint};
 
-/// Maximum distance to the centre of another track: radii plus mm.
+/// Maximum distance from an end to the centre of another track: radii plus mm.
 const LANDING_RADII: f64 = 2.5;
 const REACH_BEYOND: f64 = 26.0;
 
-/// Maximum distance to its wall: radii, at least this many voxels, at most this many mm.
+/// Maximum distance from an end to the wall of a track: radii, but at least in voxels, at most in mm.
 const WALL: f64 = 3.0;
 const WALL_VOXELS: f64 = 4.0;
 const FARTHEST_WALL: f64 = 8.0;
 
-/// An end lies inside another track up to this many of its radii plus a voxel.
+/// An end lies inside another track up to this many radii of that track, plus a voxel.
 const INSIDE: f64 = 1.15;
 
-/// Minimum level along a link.
+/// Minimum level along a link (0 tissue, 1 lumen).
 const LEVEL: f64 = 0.45;
 
-/// Extra length of a link for a turn or a different level.
+/// Weight of turn and level difference in the cost of a link, relative to its length.
 const TURN: f64 = 0.5;
 
-/// Radius (voxels) below which an end is narrow.
+/// Ends with a smaller radius (voxels) are narrow.
 const NARROW_VOXELS: f64 = 2.5;
 
-/// Places tried per track.
+/// Maximum number of places tried per track.
 const PLACES_TRIED: usize = 3;
 
 pub(crate) struct Limits {
     /// Minimum confidence of both tracks.
     pub confidence: f64,
-    /// Minimum cosine, unless the end lies inside the other track.
+    /// Minimum cosine of the turn, unless the end lies inside the other track.
     pub turn: f64,
     /// Maximum difference of levels (share of the contrast).
     pub unlike: f64,
-    /// Factor of that difference for a narrow end at a brighter track, because it is darker than its lumen.
+    /// Factor of that difference for a narrow end at a brighter track: such an end is darker than its lumen.
     pub narrow: f64,
 }
 
-/// For the first link of an end: turns up to 60°.
+/// Limits for the first link of an end: turns up to 60°.
 pub(crate) const OPEN_ENDS: Limits = Limits { confidence: 0.3, turn: 0.5, unlike: 0.5, narrow: 1.0 };
 
-/// For links to another tree: turns up to 45°.
+/// Limits for links to another tree: turns up to 45°.
 pub(crate) const BETWEEN_TREES: Limits =
     Limits { confidence: 0.6, turn: std::f64::consts::FRAC_1_SQRT_2, unlike: 0.4, narrow: 0.5 };
 
 pub(crate) struct Landings<'a, 'v> {
     scan: &'a Scan<'v>,
     tracks: &'a [Track],
-    /// By width, because wide tracks are reached from farther away.
+    /// Tracks by width, because wide ones are reached from farther away.
     widths: Vec<Width>,
 }
 
@@ -62,7 +62,7 @@ struct Width {
     points: Vec<[usize; 2]>,
 }
 
-/// Exponents of the powers of two (mm).
+/// Exponents of the widths, which are powers of two (mm).
 const WIDTHS: std::ops::RangeInclusive<i32> = -3..=6;
 
 struct Landing {
@@ -87,7 +87,7 @@ impl<'a, 'v> Landings<'a, 'v> {
         Self { scan, tracks, widths: WIDTHS.map(of_width).filter(|width| !width.points.is_empty()).collect() }
     }
 
-    /// Visits points closer than `reach` whose wall is closer than `wall` (mm).
+    /// Visits points whose centre is closer than `reach` and whose wall is closer than `wall` (mm).
     pub(crate) fn near(
         &self,
         place: glam::DVec3,
@@ -144,7 +144,7 @@ impl<'a, 'v> Landings<'a, 'v> {
         places
     }
 
-    /// None if the limits exclude it.
+    /// A link from `end` to a point; None if the limits exclude it.
     fn place(&self, end: &End, limits: &Limits, to: [usize; 2], away: f64) -> Option<Landing> {
         let point: &TrackPoint = &self.tracks[to[0]].points[to[1]];
         let is_inside = away <= INSIDE * point.radius + self.scan.side;

@@ -2,15 +2,15 @@
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Link {
-    /// Track and point number.
+    /// Numbers of a track and its point.
     pub from: [usize; 2],
-    /// Track and point number.
+    /// Numbers of the other track and its point.
     pub to: [usize; 2],
-    /// Cost (mm).
+    /// Cost of the link (mm).
     pub cost: f64,
     /// Length outside both lumens (mm).
     pub gap: f64,
-    /// Lowest level on the way: 0 tissue, 1 lumen.
+    /// Lowest level along the link: 0 is tissue, 1 is lumen.
     pub level: f64,
 }
 

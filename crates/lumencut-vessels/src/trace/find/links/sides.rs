@@ -1,4 +1,4 @@
-//! Links from the side of a track to a wider track of another tree, as where a trunk divides in two.
+//! Links the side of a track to a wider track of another tree, as at a trunk that divides in two.
 
 use std::collections::BTreeMap;
 
@@ -13,22 +13,22 @@ use crate::trace::find::track::{Track, TrackPoint};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Minimum confidence of both, and minimum radius of the narrower (voxels).
+/// Minimum confidence of both tracks, and minimum radius of the narrower one (voxels).
 const CONFIDENCE: f64 = 0.7;
 const LEAST_RADIUS: f64 = 1.5;
 
-/// Maximum distance of the walls: radii of the narrower track, and mm.
+/// Maximum distance between the walls: radii of the narrower track, and mm.
 const WALLS: f64 = 3.0;
 const FARTHEST_WALL: f64 = 12.0;
 
-/// Maximum difference of levels (share of the contrast), and minimum level on the way.
+/// Maximum difference of the levels (share of the contrast), and minimum level along the link.
 const MAX_LEVEL_DIFFERENCE: f64 = 0.3;
 const MIN_LEVEL: f64 = 0.7;
 
-/// Maximum cosine: parallel tracks are an artery and its vein.
+/// Maximum cosine of the directions, because parallel tracks are an artery and its vein.
 const SIDE_BY_SIDE: f64 = 0.8;
 
-/// Places tried per pair of trees.
+/// Maximum number of places tried per pair of trees.
 const PLACES_TRIED: usize = 8;
 
 pub(crate) fn side_links(

@@ -4,7 +4,7 @@ use crate::trace::find::made::{TISSUE, away, blurred, with_scan};
 
 const FLOORS: Floors = Floors { noise: 0.0, contrast: 250.0 };
 
-/// Deterministic uniform numbers from -1 to 1.
+/// Reproducible uniform random numbers between -1 and 1.
 fn even(place: DVec3, number: u64) -> f64 {
     let voxel = place.round().to_array().map(|c| c as u64);
     let mixed = (voxel[0] + 1009 * voxel[1] + 2_000_003 * voxel[2] + 1_000_000_007 * number + 1)
@@ -22,7 +22,7 @@ fn with_levels<T>(value: impl Fn(DVec3) -> f64, work: impl FnOnce(&Pyramid) -> T
 
 #[test]
 fn the_noise_is_its_standard_deviation_with_and_without_an_edge() {
-    // The sum of three uniform numbers from -a to a has standard deviation a.
+    // The sum of three uniform random numbers from -a to a has the standard deviation a.
     let noisy = |place: DVec3| 300.0 + 20.0 * (even(place, 0) + even(place, 1) + even(place, 2));
     let flat = with_levels(noisy, |pyramid| noise(&pyramid.levels[0]));
     assert!((flat - 20.0).abs() < 1.5, "{flat}");

@@ -38,7 +38,7 @@ pub fn with_scan<T>(
     })
 }
 
-/// Value at `depth` mm below a surface, blurred over a millimetre.
+/// Value at `depth` mm below a surface that is blurred over a millimetre.
 pub fn blurred(depth: f64) -> f64 {
     TISSUE + (LEVEL - TISSUE) * (depth + 0.5).clamp(0.0, 1.0)
 }
@@ -53,7 +53,7 @@ pub fn away(place: DVec3, line: &[DVec3]) -> f64 {
     line.windows(2).map(from_segment).fold(f64::MAX, f64::min)
 }
 
-/// A straight track in steps of 0.5 mm.
+/// A straight track with points every 0.5 mm.
 pub(crate) fn straight_track(from: DVec3, to: DVec3, radius: f64) -> Track {
     let count = (2.0 * from.distance(to)).round();
     let point = |n: usize| TrackPoint {

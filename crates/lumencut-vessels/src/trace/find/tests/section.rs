@@ -5,7 +5,7 @@ use crate::trace::find::pyramid::Pyramid;
 
 const MIDDLE: DVec3 = DVec3::new(20.2, 19.7, 15.0);
 
-/// Section across z in voxels of 1 mm.
+/// A section across z, in voxels of 1 mm.
 fn look(value: impl Fn(DVec3) -> f64, place: DVec3, radius: f64) -> Section {
     looked(Section::look, value, place, radius)
 }
@@ -67,7 +67,7 @@ fn struts_on_some_sides_move_no_wall_and_a_plate_is_open() {
 
 #[test]
 fn where_bone_touches_a_tube_its_walls_are_seen_once_bone_ends_rays() {
-    // Bone on one side, behind a wall too thin to lose half of the contrast.
+    // Bone lies on one side, behind a wall too thin to lose half of the contrast.
     let beside = |place: DVec3| {
         let beyond = (place - MIDDLE).x - 3.0;
         if beyond > -0.8 { LEVEL - 40.0 + 140.0 * beyond.clamp(0.0, 1.0) } else { blurred(depth(place, 3.0)) }
@@ -77,7 +77,7 @@ fn where_bone_touches_a_tube_its_walls_are_seen_once_bone_ends_rays() {
     assert!(plain.shift.x > 0.4 && plain.closure < 0.9, "{plain:?}");
     assert!(seen.shift.length() < 0.3 && (seen.radius - 3.0).abs() < 0.15, "{seen:?}");
     assert!(seen.closure > 0.95 && seen.contrast_share > plain.contrast_share, "{seen:?} {plain:?}");
-    // Without bone nothing changes.
+    // If there is no bone, nothing changes.
     let tube = |place: DVec3| blurred(depth(place, 3.0));
     assert_eq!(looked(Section::beside_bone, tube, MIDDLE, 3.0), look(tube, MIDDLE, 3.0));
 }

@@ -6,7 +6,7 @@ const SIZE: [usize; 3] = [70, 50, 50];
 const TUBE: [DVec3; 2] = [DVec3::new(12.0, 22.0, 24.0), DVec3::new(58.0, 28.0, 24.0)];
 const RADIUS: f64 = 3.0;
 
-/// Track points (mm) from a place and direction in noisy 1 mm voxels; `painted` ends it.
+/// Track points (mm) from a place and direction in noisy 1 mm voxels; a painted lumen ends the track.
 fn track(
     value: impl Fn(DVec3) -> f64,
     noise: f64,
@@ -41,7 +41,7 @@ fn track(
     })
 }
 
-/// White noise with a deviation of 1.
+/// White noise with a standard deviation of 1.
 fn white(place: DVec3) -> f64 {
     let mixed = |n: u64| {
         let bits = place.to_array().iter().fold(n, |bits, side| {
@@ -115,7 +115,7 @@ fn a_track_of_a_branch_ends_in_the_painted_lumen_of_its_parent() {
     let start = (BRANCH[0].lerp(BRANCH[1], 0.7), BRANCH[1] - BRANCH[0]);
     let found = track(|place| forked(place, RADIUS), 0.0, start, &painted).expect("a track");
     assert!(found[found.len() - 1].distance(BRANCH[1]) < RADIUS);
-    // One step before the painted lumen.
+    // The track ends one step before the painted lumen.
     let met = away(found[0], &STRAIGHT);
     assert!(met > RADIUS - 1.0 && met < RADIUS + 2.0, "{met}");
 }

@@ -5,7 +5,7 @@ use glam::DVec3;
 
 const SIZE: [usize; 3] = [70, 60, 50];
 
-/// Level, contrast and tracks in voxels of 1 mm.
+/// Level, contrast and tracks found in voxels of 1 mm.
 fn found(value: impl Fn(DVec3) -> f64) -> Option<([f64; 2], Vec<Track>)> {
     with_scan(SIZE, 1.0, value, |scan| {
         let request = FindRequest { smallest_radius: 1.0, stop: &|| false, progress: None };

@@ -1,4 +1,4 @@
-//! Attaches runs to points of other runs, equal to the bit.
+//! Attaches runs to bit-identical points of other runs.
 
 use glam::DVec3;
 
@@ -9,15 +9,15 @@ use crate::trace::lumen::refine::STEP;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Segments of the bend out of a lumen.
+/// Number of segments of the bend that leads out of a lumen.
 const BEND: usize = 16;
 
 #[derive(Clone, Debug)]
 pub(crate) struct Attached {
     pub points: Vec<LinePoint>,
-    /// Runs at start and end; None if free.
+    /// The run met at the start, and at the end; None at a free end.
     pub met: [Option<usize>; 2],
-    /// Points at start and end between the other run's centre and its wall.
+    /// Number of points at the start, and at the end, between the centre and the wall of the run met there.
     pub leads: [usize; 2],
 }
 
@@ -60,7 +60,7 @@ pub(crate) fn attached(
     Ok(made)
 }
 
-/// Where another line meets this one at `knot`: its end, or otherwise the point nearest to the node.
+/// The point of this line at `knot`, where another line meets it: its end, or the point nearest to the node.
 fn joint(points: &[LinePoint], knot: usize, last: usize, place: DVec3) -> LinePoint {
     let away = |point: &&LinePoint| point.place.distance_squared(place);
     let nearest = points.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
@@ -73,7 +73,7 @@ fn lead_out(run: &mut Attached, joint: Option<LinePoint>, end: usize) {
     let from = run.points[0];
     let way = from.place.distance(joint.place);
     let outside = run.points[3.min(run.points.len() - 1)].place - from.place;
-    // Quadratic Bézier curve tangent to the run at the wall.
+    // A quadratic Bézier curve that is tangent to the run at the wall.
     let control = from.place - outside.normalize_or_zero() * (way / 2.0);
     let bend = |n: usize| {
         let t = n as f64 / BEND as f64;
@@ -108,11 +108,11 @@ fn lie_within(run: &mut Attached, joints: [Option<LinePoint>; 2]) {
         run.points.push(end);
         run.points[0].place = from.place;
     }
-    // All of it leads out of another lumen.
+    // The complete run lies inside another lumen.
     run.leads[usize::from(run.met[0].is_none())] = run.points.len() - 1;
 }
 
-/// Inserts end points of a run into the runs it meets, which may have moved since.
+/// Inserts the end points of a run into the runs that it meets, because those may have moved since.
 fn share_ends(runs: &mut [Attached], number: usize) {
     for end in 0..2 {
         let Some(owner) = runs[number].met[end] else { continue };

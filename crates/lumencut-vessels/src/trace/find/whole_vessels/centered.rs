@@ -1,4 +1,4 @@
-//! Centres each run outside the lumens at its ends.
+//! Centres the stretch of each run that lies outside the lumens at its ends.
 
 use std::ops::RangeInclusive;
 
@@ -15,19 +15,19 @@ use crate::trace::lumen::refine::{STEP, refined_near};
 use lumencut_core::error::Result;
 use lumencut_core::stop::Stop;
 
-/// Neighbouring points of another run whose lumen is checked.
+/// Number of points of another run, on each side of the node, whose lumen is checked.
 const NEAR_POINTS: usize = 200;
 
-/// Minimum length to centre (mm).
+/// Minimum length of a stretch that is centred (mm).
 const SHORTEST: f64 = 1.0;
 
-/// Maximum ratio of the refined radius to the tracked one.
+/// Maximum ratio between the refined and the tracked radius, in both directions.
 const OTHER_RADIUS: f64 = 2.0;
 
-/// Quantiles of the levels along a run.
+/// Quantiles of the levels along a run that limit the lumen values.
 const LEVELS: [f64; 2] = [0.1, 0.9];
 
-/// Minimum contrast relative to the median.
+/// Minimum contrast of a lumen value, relative to the median contrast.
 const LEAST_CONTRAST: f64 = 0.3;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,7 +41,7 @@ pub(crate) struct LinePoint {
 #[derive(Clone, Debug)]
 pub(crate) struct Centered {
     pub points: Vec<LinePoint>,
-    /// Whether any part lies outside the other lumens; otherwise the points are those of the tracks.
+    /// Whether a stretch lies outside the other lumens. If not, the points are those of the tracks.
     pub is_outside: bool,
 }
 
@@ -64,7 +64,7 @@ pub(crate) fn centered(scan: &Scan, runs: &Runs, number: usize, stop: Stop) -> R
     Ok(Centered { points: (0..line.points.len()).map(point).collect(), is_outside })
 }
 
-/// The run met at the start (0) or end (1), and its point; None at a free end.
+/// The run met at the start (0) or end (1), and the number of its point; None at a free end.
 pub(crate) fn met(runs: &Runs, number: usize, end: usize) -> Option<(usize, usize)> {
     let run = &runs.runs[number];
     let (node, _) = run.knots[if end == 0 { 0 } else { run.knots.len() - 1 }];
@@ -73,7 +73,7 @@ pub(crate) fn met(runs: &Runs, number: usize, end: usize) -> Option<(usize, usiz
     (owner != number).then_some((owner, knot.1))
 }
 
-/// Points outside the lumens at the ends; None if fewer than two.
+/// The points outside the lumens at both ends; None if there are fewer than two.
 fn outside(runs: &Runs, number: usize) -> Option<RangeInclusive<usize>> {
     let points = &runs.runs[number].points;
     let is_within = |n: usize, end: usize| {

@@ -1,4 +1,4 @@
-//! Closes rings: a run that returns to its start ends on its first point.
+//! Closes rings: a run that returns to its start is made to end on its first point.
 
 use crate::trace::find::links::groups::SMALL_LOOP;
 use crate::trace::find::whole_vessels::attached::Attached;
@@ -6,7 +6,7 @@ use crate::trace::find::whole_vessels::centered::LinePoint;
 use crate::trace::lumen::refine::STEP;
 use lumencut_core::math::arc_length::arc_lengths;
 
-/// Maximum distance of the ends of a ring, in radii.
+/// Maximum distance between the ends of a ring, in radii.
 const RING_GAP_RADII: f64 = 1.0;
 
 pub(crate) fn closed(mut run: Attached) -> Attached {
@@ -30,7 +30,7 @@ mod tests {
     use super::*;
     use glam::DVec3;
 
-    /// Most of a circle of 10 mm.
+    /// Most of a circle of radius 10 mm.
     fn circle(turn: f64, radius: f64) -> Attached {
         let point = |n: i32| {
             let (sin, cos) = (turn * f64::from(n) / 200.0).sin_cos();
@@ -41,7 +41,7 @@ mod tests {
 
     #[test]
     fn a_ring_ends_where_it_began_and_what_is_open_or_ends_on_others_does_not() {
-        // A gap of 1.3 mm.
+        // The gap is 1.3 mm.
         let almost = std::f64::consts::TAU - 0.13;
         let ring = closed(circle(almost, 1.5)).points;
         assert_eq!(ring[0], ring[ring.len() - 1]);

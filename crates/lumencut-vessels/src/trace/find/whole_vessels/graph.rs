@@ -1,4 +1,4 @@
-//! The graph of tracks and links; tracks are cut at links.
+//! The graph of tracks and links. Tracks are cut where links start or end.
 
 use std::collections::BTreeSet;
 
@@ -7,7 +7,7 @@ use glam::DVec3;
 use crate::trace::find::links::link::Link;
 use crate::trace::find::track::{Track, TrackPoint};
 
-/// Point distance on a link (mm).
+/// Distance between points on a link (mm).
 const STEP: f64 = 0.5;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,7 +17,7 @@ pub(crate) struct WayPoint {
     pub level: f64,
     pub contrast: f64,
     pub confidence: f64,
-    /// For a link, the less sure track.
+    /// Number of the track; for a link, that of the less sure track.
     pub track: usize,
     pub(crate) is_link: bool,
 }
@@ -25,16 +25,16 @@ pub(crate) struct WayPoint {
 #[derive(Clone, Debug)]
 pub(crate) struct Edge {
     pub nodes: [usize; 2],
-    /// Includes both nodes.
+    /// Points of the edge, including those at both nodes.
     pub points: Vec<WayPoint>,
 }
 
 pub(crate) struct Graph {
     pub places: Vec<DVec3>,
     pub(crate) incident: Vec<Vec<usize>>,
-    /// Track pieces first, in order.
+    /// Edges; the pieces of the tracks come first, in order.
     pub edges: Vec<Edge>,
-    /// Edge range of each track.
+    /// First edge of each track, and the edge after its last one.
     pub(crate) of_track: Vec<[usize; 2]>,
 }
 
@@ -127,7 +127,7 @@ fn on_track(tracks: &[Track], number: usize, point: &TrackPoint) -> WayPoint {
     }
 }
 
-/// As wide as the narrower track; confidence of the less sure one times the link's level.
+/// A link is as wide as the narrower track. Its confidence is that of the less sure one, times its level.
 fn along_link(tracks: &[Track], link: &Link) -> Vec<WayPoint> {
     let [from, to] =
         [link.from, link.to].map(|[track, point]| on_track(tracks, track, &tracks[track].points[point]));

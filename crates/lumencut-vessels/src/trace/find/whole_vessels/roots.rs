@@ -1,4 +1,4 @@
-//! Roots and ranks of the parts.
+//! Finds the root of each part, and ranks the parts.
 
 use crate::trace::find::scan::Scan;
 use crate::trace::find::track::{Track, usual};
@@ -8,21 +8,21 @@ use crate::trace::find::whole_vessels::runs::straightest;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Maximum radius in the rank (voxels).
+/// Larger radii (voxels) do not raise the rank further.
 const WIDEST: f64 = 10.0;
 
-/// Similar levels differ by this share of the contrast.
+/// Levels are similar if they differ by about this share of the contrast.
 const SIMILAR_LEVEL: f64 = 0.2;
 
 struct Part {
     rank: f64,
-    /// Track of largest lumen and its size (mm³).
+    /// The track with the largest lumen, and the size of that lumen (mm³).
     largest: (usize, f64),
-    /// Edge and node of the widest free end, and its radius (mm).
+    /// Edge and node of the widest free end, and the radius there (mm).
     free: Option<([usize; 2], f64)>,
 }
 
-/// Root of each part as edge and node (the free end of its widest run), the most important part first.
+/// Root of each part as edge and node: the free end of its widest run. The most important part is first.
 pub(crate) fn roots(scan: &Scan, tracks: &[Track], graph: &Graph, stop: Stop) -> Result<Vec<[usize; 2]>> {
     let (of_node, count) = graph.parts();
     let mut parts: Vec<Part> =
@@ -45,7 +45,7 @@ pub(crate) fn roots(scan: &Scan, tracks: &[Track], graph: &Graph, stop: Stop) ->
             *free = Some(([edge, node], radius));
         }
     }
-    // Stable sort: ties go to the part with the first track.
+    // The sort is stable: of equal parts, the one with the first track comes first.
     parts.sort_by(|a, b| b.rank.total_cmp(&a.rank));
     let root = |part| {
         go_on(stop)?;
@@ -54,7 +54,7 @@ pub(crate) fn roots(scan: &Scan, tracks: &[Track], graph: &Graph, stop: Stop) ->
     parts.iter().map(root).collect()
 }
 
-/// Rank of a track: length, confidence, width, contrast, and similarity to the vessel level.
+/// Rank of a track by length, confidence, width, contrast, and similarity to the vessel level.
 fn importance(scan: &Scan, track: &Track) -> f64 {
     let wide = (track.radius() / scan.side).min(WIDEST);
     let contrast = track.points.iter().map(|point| point.contrast).sum::<f64>() / track.points.len() as f64;
@@ -73,7 +73,7 @@ fn is_free(graph: &Graph, node: usize) -> bool {
     graph.incident[node].len() == 1
 }
 
-/// The wider free end of the run with the largest track; otherwise the widest free end; any end of a ring.
+/// The wider free end of the run with the largest track. Otherwise the widest free end, or any end of a ring.
 fn root(graph: &Graph, part: &Part) -> [usize; 2] {
     let [first, after] = graph.of_track[part.largest.0];
     let ways = [
@@ -89,7 +89,7 @@ fn root(graph: &Graph, part: &Part) -> [usize; 2] {
     }
 }
 
-/// Follows the straightest edges and returns the last edge and node.
+/// Follows the straightest edges to the last edge and node.
 fn walk(graph: &Graph, [mut edge, mut node]: [usize; 2]) -> [usize; 2] {
     let mut walked = vec![edge];
     loop {

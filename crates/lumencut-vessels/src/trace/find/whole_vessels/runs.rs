@@ -1,4 +1,4 @@
-//! Divides the graph into runs that follow the straightest and widest edges from the root outwards.
+//! Divides the graph into runs, which follow the straightest and widest edges from the root outwards.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -11,28 +11,28 @@ use crate::trace::find::whole_vessels::outlook::{Outlook, outlook};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// A run met from the side passes through if its edges are this straight (cosine) and this much wider.
+/// A run met from the side continues if its two edges are this straight (cosine) and this much wider.
 const STRAIGHT: f64 = -0.8;
 const WIDER: f64 = 1.5;
 
-/// Tolerance of ties.
+/// Scores that differ by less are equal.
 const ROUNDING: f64 = 1e-9;
 
-/// Points that give the width of an end.
+/// Number of points that give the width of an end.
 const LAST: usize = 5;
 
 #[derive(Clone, Debug)]
 pub(crate) struct Run {
-    /// From the root outwards.
+    /// Points of the run, from the root outwards.
     pub points: Vec<WayPoint>,
-    /// Nodes with their point numbers.
+    /// Nodes on the run, each with the number of its point.
     pub knots: Vec<(usize, usize)>,
 }
 
 pub(crate) struct Runs {
-    /// Each after the run it leaves, except those met from the side.
+    /// Runs; each comes after the run that it leaves, except runs that were met from the side.
     pub runs: Vec<Run>,
-    /// The run that passes each node.
+    /// Number of the run that passes each node.
     pub(crate) owners: Vec<usize>,
 }
 
@@ -101,7 +101,7 @@ impl Search<'_> {
         }
     }
 
-    /// Extends a run; returns node and edges of a run met from the side.
+    /// Extends a run. If it meets another run from the side, returns the node and the edges of that one.
     fn grow(
         &mut self,
         run: &mut Run,
@@ -136,13 +136,13 @@ impl Search<'_> {
     fn open_others(&mut self, edges: &[usize], node: usize) {
         for &edge in edges.iter().filter(|edge| !self.used[**edge]) {
             let radius = outlook(self.graph, edge, node, 0.0).radius;
-            // Bits of non-negative floats sort like the values.
+            // The bits of non-negative floats have the same order as their values.
             self.open.push((radius.to_bits(), Reverse(edge), node));
         }
     }
 }
 
-/// Index of the straightest and widest new edge, the first of equals.
+/// Number of the straightest and widest new edge; of equal ones, the first.
 pub(crate) fn straightest(
     before: &Outlook,
     ahead: &[Outlook],
@@ -179,7 +179,7 @@ impl Run {
             self.knots.push((node, 0));
             self.points.push(points[0]);
         }
-        // A link of length 0 has one point.
+        // A link of length 0 has only one point.
         let last = self.points[self.points.len() - 1].place;
         let skipped = points.iter().take_while(|point| point.place == last).count().max(1);
         self.points.extend_from_slice(&points[skipped.min(points.len())..]);

@@ -1,11 +1,11 @@
-//! Splits runs into sure and doubtful vessels where either stretch is long.
+//! Splits a run into sure and doubtful vessels if the stretches are long enough.
 
 use crate::trace::find::found::{FoundVessel, SURE};
 use crate::trace::find::track::{Track, TrackDoubt};
 use crate::trace::find::whole_vessels::centered::LinePoint;
 use crate::trace::lines::centerline::Centerline;
 
-/// Minimum length of a separate stretch: mm, and largest radii.
+/// Minimum length of a stretch that is split off: mm, and multiples of its largest radius.
 const SHORTEST: f64 = 15.0;
 const SHORTEST_RADII: f64 = 5.0;
 
@@ -19,7 +19,7 @@ fn cuts(points: &[LinePoint]) -> Vec<usize> {
     let mut cuts = vec![0];
     cuts.extend((1..points.len() - 1).filter(|n| is_sure(*n) != is_sure(n - 1)));
     cuts.push(points.len() - 1);
-    // Removes the shortest stretch first, which merges its neighbours.
+    // The shortest stretch is removed first, which merges its neighbours.
     while cuts.len() > 2 {
         let lack = |n: usize| {
             let stretch = &points[cuts[n]..=cuts[n + 1]];
@@ -53,7 +53,7 @@ fn mean_confidence(points: &[LinePoint]) -> f64 {
     if sums[1] > 0.0 { (sums[0] / sums[1]).min(1.0) } else { points[0].confidence }
 }
 
-/// Doubt of the least sure track; `Gap` if there is none.
+/// Doubt of the least sure track; `Gap` if no track is doubtful.
 fn worst_doubt(tracks: &[Track], points: &[LinePoint]) -> TrackDoubt {
     let doubtful = points.iter().map(|point| point.track).filter(|track| tracks[*track].doubt.is_some());
     let worst = doubtful.min_by(|a, b| {

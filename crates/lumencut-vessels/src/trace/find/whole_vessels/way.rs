@@ -1,4 +1,4 @@
-//! The path of a run along tracks and links, which limits its centring.
+//! The path of a run along tracks and links, from which its centred line must not stray.
 
 use glam::DVec3;
 
@@ -8,18 +8,18 @@ use crate::trace::lines::nearest_point::nearest_point;
 use crate::trace::lines::smoothing::smoothed_by_gaussian;
 use lumencut_core::math::arc_length::arc_lengths;
 
-/// Maximum deviation from the path (mm, or radii if more), and maximum lengthening.
+/// Maximum deviation from the path (mm, or radii if more), and maximum factor of its length.
 const STRAYED: f64 = 1.5;
 const STRAYED_RADII: f64 = 0.5;
 const ASTRAY: f64 = 1.25;
 
-/// Smoothing of the path itself, in radii.
+/// Standard deviation by which the path itself is smoothed, in radii.
 const SMOOTHED: f64 = 0.4;
 
 pub(crate) struct Way {
     pub points: Vec<WayPoint>,
     pub line: Centerline,
-    /// Whether each point is on or near a link, where a section may show several lumens.
+    /// Whether each point is on or near a link. Sections there may show several lumens.
     near_link: Vec<bool>,
 }
 
@@ -43,7 +43,7 @@ impl Way {
         length(&self.line.points)
     }
 
-    /// Replaces a centred line by the path where it strays or near links.
+    /// Replaces the centred line by the path near links and where the line strays.
     pub(crate) fn guarded(&self, line: &Centerline) -> Centerline {
         let way = &self.line;
         let nearest: Vec<usize> =
@@ -86,7 +86,7 @@ fn near_links(points: &[WayPoint]) -> Vec<bool> {
     let lengths = arc_lengths(&points.iter().map(|point| point.place).collect::<Vec<DVec3>>());
     let mut near = vec![false; points.len()];
     for n in (0..points.len()).filter(|n| points[*n].is_link) {
-        // The neighbours are track points with their own radii.
+        // The neighbours of a link are track points, which have radii of their own.
         let beside = [n.saturating_sub(1), (n + 1).min(points.len() - 1)];
         let reach = beside.map(|m| points[m].radius).into_iter().fold(0.0, f64::max);
         let first = lengths.partition_point(|length| *length < lengths[n] - reach);

@@ -29,13 +29,13 @@ fn a_plate_is_left_out_and_a_tube_stays_for_any_number_of_threads() {
     let judge = || with_scan(SIZE, SIDE, tube_and_plate, |scan| judged_in(scan, tracks.clone()));
     let found = judge();
     assert_eq!(found.len(), 1);
-    // Half of the doubts is forgiven, because it is a lumen inside.
+    // Half of the doubts are excused, because the inside looks like lumen.
     assert_eq!((found[0].confidence, found[0].doubt), (0.9_f64.sqrt(), None));
     let [one, two] = [1, 2].map(|count| with_threads(count, judge));
     assert_eq!(one[0].confidence.to_bits(), two[0].confidence.to_bits());
 }
 
-/// A tube elongated by `times` (1.5 mm): alone, and between plates 6 and 10 mm away.
+/// A tube of 1.5 mm, elongated by `times`: without neighbours, and between plates 6 and 10 mm away.
 fn alone_and_among_plates(times: f64) -> [Vec<Track>; 2] {
     let scene = |place: DVec3| {
         let tube = 1.5 - (place.x - 8.0).hypot((place.z - 15.0) / times);
@@ -58,7 +58,7 @@ fn flat_neighbours_are_held_against_an_oval_tube_and_not_against_a_round_one() {
     assert!(among.iter().all(|track| track.confidence < SURE && track.doubt == Some(TrackDoubt::Flat)));
 }
 
-/// Remaining confidence (thousandths) and doubt of a sure track.
+/// Confidence (in thousandths) and doubt of a sure track after the check.
 fn after(shape: Shape, radius: f64) -> (i32, Option<TrackDoubt>) {
     let mut track = along_y(8.0, 15.0, radius);
     with_scan([4, 4, 4], SIDE, |_| TISSUE, |scan| judge(scan, &mut track, shape));
@@ -69,7 +69,7 @@ fn below(share: f64) -> f64 {
     LEVEL - share * (LEVEL - TISSUE)
 }
 
-/// Paler than vessels, so that nothing is forgiven.
+/// An even shape that is paler than vessels, so that nothing is excused.
 const EVEN_AND_PALE: Shape =
     Shape { level: LEVEL - 0.3 * (LEVEL - TISSUE), elongation: 1.1, spread: 0.05, is_marrow: false };
 
@@ -86,7 +86,7 @@ fn doubts_take_confidence_between_their_limits() {
     assert_eq!(after(both, 3.0).0, 450);
     assert_eq!(after(Shape { elongation: 1.2 + 0.7 * 1.1, ..even }, 3.0), (900, None));
     assert_eq!(after(Shape { elongation: 9.0, ..even }, 3.0), (0, Some(TrackDoubt::Flat)));
-    // At 0.5 of the contrast, half of the organ's 85 % is lost.
+    // At half of the contrast, half of the 85 % that an organ loses are lost.
     assert_eq!(after(Shape { level: below(0.5), ..even }, 6.0), (518, Some(TrackDoubt::PaleAndWide)));
     assert_eq!(after(Shape { level: below(0.65), ..even }, 6.0), (135, Some(TrackDoubt::PaleAndWide)));
     assert_eq!(after(Shape { level: below(0.65), ..even }, 4.0), (900, None));
@@ -98,15 +98,15 @@ fn doubts_take_confidence_between_their_limits() {
 #[test]
 fn a_wide_even_lumen_as_bright_as_vessels_may_be_flat_and_marrow_may_not() {
     let flat = Shape { level: LEVEL, elongation: 2.5, ..EVEN_AND_PALE };
-    // Half of the doubts count: 0.9 to the power of a half.
+    // Half of the doubts are excused, so the confidence is 0.9 to the power of a half.
     assert_eq!(after(flat, 3.0), (949, None));
-    // A wide one is a body of even tissue.
+    // If it is wide, it is a body of even tissue.
     assert_eq!(after(flat, 8.0).0, 0);
     assert_eq!(after(Shape { elongation: 1.4, ..flat }, 8.0), (949, None));
     assert_eq!(after(Shape { level: below(0.2), ..flat }, 3.0).0, 0);
     assert_eq!(after(Shape { spread: 0.11, ..flat }, 3.0).0, 0);
     assert_eq!(after(Shape { is_marrow: true, ..flat }, 3.0).0, 0);
-    // Two voxels are too narrow to judge evenness.
+    // A radius of two voxels is too narrow to tell whether the inside is even.
     assert_eq!(after(flat, 2.0 * SIDE).0, 0);
 }
 

@@ -30,10 +30,10 @@ fn a_tube_is_round_and_even_whatever_its_width() {
 
 #[test]
 fn a_plate_is_as_long_as_it_is_wide_and_no_longer_than_is_looked() {
-    // Diameters are 15° apart; the longest is the plate's length.
+    // Diameters are measured every 15°; the longest one is the length of the plate.
     let found = section(1.0, |place| blurred(depth(place, [1.0, 5.0]))).expect("a plate");
     assert!((found.elongation - 5.0).abs() < 0.2, "{found:?}");
-    // Limited to 3 r + 4 mm or 6 r + 1.5 mm per side.
+    // The length of a ray is limited to 3 r + 4 mm or 6 r + 1.5 mm.
     let found = section(1.0, |place| blurred(depth(place, [1.0, 50.0]))).expect("a plate");
     assert!((found.elongation - 7.0).abs() < 0.2, "{found:?}");
     let found = section(0.6, |place| blurred(depth(place, [1.0, 50.0]))).expect("a plate");
@@ -69,7 +69,7 @@ fn what_is_no_brighter_than_its_surroundings_has_no_section() {
 
 #[test]
 fn a_lumen_as_bright_as_vessels_ends_where_bone_touches_it() {
-    // Bone beyond a wall of 0.5 mm on one side.
+    // On one side, bone lies beyond a wall of 0.5 mm.
     let beside = |lumen: f64| {
         move |place: DVec3| {
             let tube =
@@ -79,7 +79,7 @@ fn a_lumen_as_bright_as_vessels_ends_where_bone_touches_it() {
     };
     let found = section(1.5, beside(LEVEL)).expect("a tube");
     assert!(found.elongation < 1.15, "{found:?}");
-    // Much paler lumen may be marrow.
+    // A much paler inside may be marrow, so bone does not end its rays.
     let touching = |lumen: f64| move |place: DVec3| if place.x > 1.0 { 900.0 } else { beside(lumen)(place) };
     let found = section(1.5, touching(LEVEL)).expect("a tube");
     let pale = section(1.5, touching(LEVEL - 60.0)).expect("a tube");

@@ -48,7 +48,7 @@ fn ends_with_a_gap_between_them_are_linked_through_lumen_alone() {
 
 #[test]
 fn ends_that_lead_to_each_other_are_bridged_over_sixteen_radii_and_others_are_not() {
-    // A radius of 1 mm allows 3 mm to a wall, but more to an end that points here.
+    // A radius of 1 mm allows 3 mm to a wall, but more for an end that points at it.
     let tracks = |gap: f64, beside: f64| {
         [
             straight_track(at(5.0, 15.0), at(25.0, 15.0), 1.0),
@@ -60,7 +60,7 @@ fn ends_that_lead_to_each_other_are_bridged_over_sixteen_radii_and_others_are_no
         assert_eq!(joined(&linked(whole, &tracks(gap, 0.0))), [[0, 1]], "{gap} mm");
     }
     assert!(linked(whole, &tracks(16.5, 0.0)).is_empty());
-    // An end that passes 4 mm to the side is not linked.
+    // An end that would pass 4 mm beside its target is not linked.
     let plate: &[(&[DVec3], f64)] = &[(&[at(0.0, 17.0), at(60.0, 17.0)], 8.0)];
     assert_eq!(joined(&linked(plate, &tracks(6.0, 1.0))), [[0, 1]]);
     assert!(linked(plate, &tracks(6.0, 4.0)).is_empty());
@@ -94,7 +94,7 @@ fn doubtful_tracks_and_other_levels_are_not_linked() {
 #[test]
 fn a_turn_of_sixty_degrees_is_the_most_but_within_the_other_lumen() {
     for (degrees, count) in [(50.0_f64, 1), (75.0, 0)] {
-        // Perpendicular to the first track and to the way to it.
+        // The end is perpendicular to the first track and to the path to it.
         let start =
             at(20.0, 15.0) + 3.0 * DVec3::new(degrees.to_radians().cos(), degrees.to_radians().sin(), 0.0);
         let before = [at(3.0, 15.0), at(20.0, 15.0)];
@@ -115,14 +115,14 @@ fn a_turn_of_sixty_degrees_is_the_most_but_within_the_other_lumen() {
 
 #[test]
 fn tracks_are_linked_once_in_small_loops_and_twice_in_large_ones() {
-    // Two tracks in one lumen: a loop of 24 mm around 3 mm.
+    // Two tracks in one lumen make a loop of 24 mm around 3 mm.
     let tube: &[(&[DVec3], f64)] = &[(&[at(0.0, 15.0), at(60.0, 15.0)], 3.0)];
     let pair = [
         straight_track(at(20.0, 14.5), at(32.0, 14.5), 3.0),
         straight_track(at(20.0, 15.5), at(32.0, 15.5), 3.0),
     ];
     assert_eq!(joined(&linked(tube, &pair)), [[0, 1]]);
-    // A square with sides of 20 mm.
+    // A square whose sides are 20 mm long.
     let corners = [at(10.0, 5.0), at(30.0, 5.0), at(30.0, 25.0), at(10.0, 25.0), at(10.0, 5.0)];
     let tracks: Vec<Track> = corners.windows(2).map(|pair| straight_track(pair[0], pair[1], 1.0)).collect();
     assert_eq!(joined(&linked(&[(&corners, 1.0)], &tracks)), [[0, 1], [0, 3], [1, 2], [2, 3]]);
@@ -140,7 +140,7 @@ fn the_side_of_a_track_is_linked_with_a_wider_one_across_and_not_along() {
     let narrow = tracks[1].points[links[0].from[1]];
     assert!((narrow.place.z - 10.0).abs() < 1.1, "{narrow:?}");
     assert!(linked(&[(&wide, 4.0), (&arms, 1.5)], &tracks).is_empty());
-    // A vein that touches an artery along its course is another tree.
+    // A vein that touches an artery along its course belongs to another tree.
     let beside = [at(15.4, 2.0), at(15.4, 28.0)];
     let tracks = [tracks[0].clone(), straight_track(beside[0] + DVec3::Y, beside[1] - DVec3::Y, 2.0)];
     assert!(linked(&[(&wide, 4.0), (&beside, 2.0)], &tracks).is_empty());

@@ -11,7 +11,7 @@ fn the_lowest_level_is_that_of_the_darkest_place_between_both_ends() {
         let lowest = |from, to| lowest_level(scan, from, to);
         assert!((lowest(end(4.0, LEVEL), end(16.0, LEVEL)) - 0.5).abs() < 1e-6);
         assert!((lowest(end(4.0, LEVEL), end(7.0, LEVEL)) - 1.0).abs() < 1e-6);
-        // A darker branch is as bright as the slab.
+        // For a darker branch, the slab is as bright as lumen.
         let darker = lowest(end(4.0, LEVEL), end(16.0, half));
         assert!((darker - 1.0).abs() < 1e-6, "{darker}");
         assert_eq!(lowest(end(4.0, LEVEL), end(40.0, LEVEL)), 0.0);

@@ -2,7 +2,7 @@ use super::*;
 use crate::trace::find::made::{straight_track, turned};
 use glam::DVec3;
 
-/// A trunk of 4 mm from 0 to `end` mm, with a branch linked at 30 mm.
+/// A trunk with a radius of 4 mm from 0 to `end` mm, and a branch linked to it at 30 mm.
 fn fork(end: f64, branch: f64) -> (Vec<Track>, Vec<Link>) {
     let trunk = straight_track(DVec3::ZERO, DVec3::new(end, 0.0, 0.0), 4.0);
     let branch = straight_track(DVec3::new(33.0, 4.0, 0.0), DVec3::new(50.0, 20.0, 0.0), branch);
