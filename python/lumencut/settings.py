@@ -83,8 +83,8 @@ class Settings(CheckedSettings):
     background : (int, int, int, int), default (0, 0, 0, 255)
         Colour of pixels that show nothing else. Red, green, blue and opacity.
     slab : Slab, optional
-        Show the largest, mean or smallest value in a slab centred on the cut surface (thickness in mm). If
-        not given: no slab.
+        Show the largest, mean or smallest value in a slab (mm) centred on the cut surface. If not given: no
+        slab.
     focus : Focus, optional
         Show the cut surface only near the vessels, surrounded by the context (mm). It fades over FADE mm,
         starting MARGIN mm beyond the nearest wall; both are measured in the picture. A negative margin lets
