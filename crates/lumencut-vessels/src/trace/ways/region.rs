@@ -13,10 +13,10 @@ use crate::voxels::Voxels;
 const LEAST_MEMBERSHIP: f64 = 0.05;
 const LEAST_OF_BRIDGES: f64 = 0.2;
 
-/// Additional share of the cost far from the middle of a wide vessel.
+/// Additional cost far from the middle of a wide vessel, relative to the cost by membership.
 const OFF_MIDDLE: f64 = 0.4;
 
-/// Additional share of the cost in the wall between two vessels.
+/// Additional cost in the wall between two vessels, relative to the cost by membership.
 const WALL: f64 = 15.0;
 
 /// Factor of the membership next to bone, calcium and metal, because their edges have the values of lumen.

@@ -161,6 +161,5 @@ fn judging_tells_how_far_it_is() {
     with_scan(SIZE, SIDE, tube_and_plate, |scan| {
         shapes(scan, &tracks, &|| false, Stages::begin(Some(&progress))).expect("shapes")
     });
-    // The share of 7 of 100 steps.
     assert_eq!(progress.share(), 0.07);
 }
