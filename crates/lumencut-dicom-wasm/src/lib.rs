@@ -6,7 +6,7 @@ use lumencut_dicom::{Keyword, json};
 use serde_json::{Map, Value};
 use wasm_bindgen::prelude::wasm_bindgen;
 
-/// See `lumencut_dicom::json::judge`.
+/// Plans a volume; see `lumencut_dicom::json::judge`.
 #[wasm_bindgen]
 pub fn judge_dicom(headers: &str, wanted: &str) -> String {
     json::judge(headers.as_bytes(), wanted.as_bytes())

@@ -29,7 +29,7 @@ pub struct Error {
     pub series: Box<[Report]>,
 }
 
-/// A kind of error.
+/// What kind of error it is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ErrorKind {

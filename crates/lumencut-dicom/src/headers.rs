@@ -29,7 +29,7 @@ pub struct Unlike {
     pub other: FrameOf,
 }
 
-/// A frame of a file.
+/// A frame, identified by its file and its number in that file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 pub struct FrameOf {
     /// Number of the file.
@@ -38,7 +38,7 @@ pub struct FrameOf {
     pub frame: usize,
 }
 
-/// One file.
+/// One examined file.
 #[derive(Debug, Deserialize)]
 pub struct File {
     /// The name of the file, without folders.

@@ -20,7 +20,7 @@ enum Answer<'a> {
     Error(&'a Error),
 }
 
-/// See [`crate::judge`].
+/// Plans a volume; see [`crate::judge`].
 pub fn judge(headers: &[u8], wanted: &[u8]) -> String {
     let judged = || judging::judge(&read::<Headers>(headers, "headers")?, &read::<Wanted>(wanted, "wishes")?);
     match judged() {
@@ -29,7 +29,7 @@ pub fn judge(headers: &[u8], wanted: &[u8]) -> String {
     }
 }
 
-/// See [`crate::describe`].
+/// Describes all series; see [`crate::describe`].
 pub fn describe(headers: &[u8]) -> String {
     match read::<Headers>(headers, "headers").and_then(|headers| judging::describe(&headers)) {
         Ok(series) => written(&Answer::Series(&series)),

@@ -1,13 +1,13 @@
 //! Plans how to read DICOM series from the values in their headers.
 //!
-//! A host (the Python package, a browser) finds files and reads headers. Pure functions here decide which
-//! files are images, which series to read, where slices lie, what is missing, repeated or uneven, and how
-//! stored numbers become values, so that every host gives the same results and messages. This crate opens no
-//! files and reads no pixels.
+//! A host (the Python package or a browser page) finds files and reads headers. Pure functions here decide
+//! which files are images, which series is read, and where its slices lie. They find missing, repeated and
+//! uneven slices, and how stored numbers become values. So every host gives the same results and messages.
+//! This crate opens no files and reads no pixels.
 //!
-//! [`judge`] turns [`Headers`] into a [`Plan`] for reading pixels, or an [`Error`]. If a plan equates two
-//! frames, the host compares their values ([`Plan::compared`]) and asks again with those that differ.
-//! [`describe`] returns a [`Report`] per series. [`json`] does the same with documents. [`Keyword::ALL`]
+//! [`judge`] turns [`Headers`] into a [`Plan`] for reading pixels, or an [`Error`]. If a plan treats two
+//! frames as equal, the host compares their values ([`Plan::compared`]), and asks again if some differ.
+//! [`describe`] returns a [`Report`] per series. [`json`] has the same functions for JSON. [`Keyword::ALL`]
 //! lists the attributes to read, [`Keyword::groups`] their functional groups.
 //!
 //! ```

@@ -1,4 +1,4 @@
-//! Rejects slices of several patients.
+//! Rejects slices that belong to several patients.
 
 use crate::error::{Error, Result};
 use crate::grouping::groups;

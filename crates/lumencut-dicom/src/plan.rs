@@ -85,7 +85,7 @@ pub struct Details {
     pub series: String,
     /// UID of the series.
     pub series_uid: String,
-    /// Modality.
+    /// Modality of the series.
     pub modality: String,
     /// Number of files that are read.
     pub files: String,

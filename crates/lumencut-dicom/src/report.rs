@@ -16,7 +16,7 @@ pub struct Report {
     pub uid: String,
     /// Description of the series.
     pub description: String,
-    /// Modality.
+    /// Modality of the series.
     pub modality: String,
     /// Number of images, or of frames.
     pub images: i64,

@@ -1,7 +1,7 @@
 //! Handles several slices at one position: phases, overlapping parts of a scan, or repeated images.
 //!
-//! Overlapping parts have equal values at shared positions, phases have not. So the host compares the values
-//! of the pairs that are returned.
+//! At shared positions, overlapping parts have equal values and phases have different ones. So the host
+//! compares the values of the pairs that are returned.
 
 use std::cmp::Ordering;
 use std::collections::BTreeSet;

@@ -6,7 +6,7 @@ use crate::error::{Error, Result};
 use crate::space::Space;
 use crate::unit::Unit;
 
-/// One polyline of a file.
+/// One polyline of a file, with its radii and names.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Line {
     /// Points in the space and unit of the file: at least two, all finite; neighbours are never equal.
@@ -16,7 +16,7 @@ pub struct Line {
     pub radius: Option<Vec<f64>>,
     /// Group that a branch splitter assigned; lines of one group run along the same vessel.
     pub group: Option<i64>,
-    /// Name in the file.
+    /// Name of the line in the file.
     pub name: Option<String>,
     /// Confidence of each point (0 to 1) of a traced line. It is written, but not read.
     pub confidence: Option<Vec<f64>>,
@@ -137,9 +137,9 @@ impl Centerlines {
         Ok(out)
     }
 
-    /// Multiplies points and radii by `factor`, which converts them to mm as
+    /// Multiplies points and radii by `factor`, so that they are in mm, as
     /// [`junctions::vessels`](crate::junctions::vessels) requires. Fails for an invalid factor, or a result
-    /// beyond 1e6 mm.
+    /// above 1e6 mm.
     pub fn scaled(mut self, factor: f64) -> Result<Self> {
         if !(factor > 0.0 && factor.is_finite()) {
             return Err(Error::new("scale", format!("{factor}"), "a finite factor above 0"));

@@ -116,7 +116,7 @@ fn values(object: &MetaObject, cursor: &mut Cursor, columns: usize) -> Result<Ve
     let msb = object.is_true("BinaryDataByteOrderMSB") || object.is_true("ElementByteOrderMSB");
     let order = if msb { ByteOrder::Big } else { ByteOrder::Little };
     let bytes = cursor.bytes("Points", count.saturating_mul(NumberType::F32.size()))?;
-    // Older writers leave unused bytes after the points.
+    // Older programs leave unused bytes after the points.
     cursor.skip_to(b"ObjectType");
     Ok(NumberType::F32.numbers(bytes, order))
 }

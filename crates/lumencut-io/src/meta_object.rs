@@ -1,4 +1,4 @@
-//! The fields of a MetaIO object, and its transform.
+//! Reads the fields of a MetaIO object, and its transform.
 
 use glam::{DAffine3, DMat3, DVec3};
 

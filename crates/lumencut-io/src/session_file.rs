@@ -39,7 +39,7 @@ pub struct SessionFile {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Session {
-    /// Version of this structure.
+    /// Version of the field [`FIELD`].
     pub format: u32,
     /// Name and version of the program that wrote the file.
     pub software: String,
@@ -104,7 +104,7 @@ pub struct VesselState {
     pub confidence: Option<Vec<f64>>,
     /// Whether each point lies on a bridged stretch without lumen.
     pub bridged: Option<Vec<bool>>,
-    /// The reader's marks.
+    /// Marks that the reader set, if any.
     pub marks: Option<Marks>,
 }
 
@@ -118,7 +118,7 @@ pub struct Marks {
     pub references_mm: Vec<f64>,
     /// Grading method: `nascet`, `ecst` or `area`.
     pub method: String,
-    /// Assumed original diameter, for ECST.
+    /// Assumed original diameter at the stenosis, for ECST.
     pub original_mm: Option<f64>,
     /// Diameter of a comparable normal vessel, for NASCET.
     pub comparison_mm: Option<f64>,
@@ -145,7 +145,7 @@ pub struct DoubtfulBranch {
     pub doubt: String,
     /// Points of the branch.
     pub points: Vec<Point>,
-    /// Radius per point (mm).
+    /// Radius of each point (mm).
     pub radius: Option<Vec<f64>>,
     /// Confidence of each point, 0 to 1.
     pub confidence: Option<Vec<f64>>,

@@ -1,6 +1,6 @@
 //! Traces vessels in a volume or a mask, and measures them.
 //!
-//! Points are in world space (LPS, mm).
+//! All points are in world space (LPS, mm).
 
 pub mod measure;
 pub mod trace;

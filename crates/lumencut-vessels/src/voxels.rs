@@ -20,14 +20,14 @@ pub(crate) trait VoxelSource: Sync {
     fn goes_below(&self, limit: f32, every: usize) -> bool;
 }
 
-/// A volume with the transforms between index and world space.
+/// A volume with the transforms between voxel index and world space.
 pub struct Voxels<'a> {
     source: Box<dyn VoxelSource + 'a>,
     /// Number of voxels along (i, j, k).
     pub size: [usize; 3],
-    /// World position (LPS, mm) of a continuous index.
+    /// Transform from a continuous voxel index to a world position (LPS, mm).
     pub world_from_index: DAffine3,
-    /// Continuous index of a world position.
+    /// Transform from a world position (LPS, mm) to a continuous voxel index.
     pub index_from_world: DAffine3,
     /// Smallest voxel side (mm).
     pub smallest_side: f64,
@@ -54,7 +54,7 @@ fn middle_side(world_from_index: DAffine3) -> f64 {
 }
 
 impl<'a> Voxels<'a> {
-    /// Wraps `volume`.
+    /// Makes the voxels of `volume` readable as numbers.
     pub fn new(volume: &Volume<'a>) -> Self {
         let (size, strides) = (volume.size(), volume.strides());
         let source: Box<dyn VoxelSource + 'a> = with_voxels!(volume.voxels(), voxels => Box::new(Typed { voxels, grid: Grid::new(volume), size, strides }));
@@ -71,7 +71,7 @@ impl<'a> Voxels<'a> {
         }
     }
 
-    /// Values of a cube of voxels, i fastest; NaN outside the volume.
+    /// Writes the values of a cube of voxels, i fastest; NaN outside the volume.
     pub fn cube(&self, first: [i32; 3], side: usize, values: &mut [f32]) {
         self.source.cube(first, side, values);
     }
@@ -127,7 +127,7 @@ impl<'a> Voxels<'a> {
         (first, std::array::from_fn(|a| (last[a] - first[a] + 1).max(0)))
     }
 
-    /// Centres and values of the voxels within a ball.
+    /// Centres and values of the voxels whose centre lies within a ball.
     pub fn ball(&self, center: DVec3, radius: f64) -> Vec<(DVec3, f32)> {
         let (first, count) = self.around(center, radius);
         let mut found = Vec::new();

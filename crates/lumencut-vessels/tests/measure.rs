@@ -1,4 +1,4 @@
-//! Measures vessels whose blurred image has a closed form, and stops long work on request.
+//! Measures vessels whose blurred image is known exactly, and stops long work on request.
 #![allow(clippy::unwrap_used)]
 
 use std::sync::atomic::{AtomicUsize, Ordering};

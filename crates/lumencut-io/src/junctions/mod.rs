@@ -5,12 +5,12 @@
 //!
 //! 1. *Weld* (`weld.rs`): points closer than 1/1000 of the median spacing become one point.
 //! 2. *Segments* (`segments.rs`): if most lines are single segments, they are joined to chains.
-//! 3. *Follow* (`follow.rs`): a line that runs along another without shared points takes its points, within a
-//!    tenth of the radius (half of it within a group; without radius half the spacing, at most 0.5 mm). The
-//!    stretch must be long: vessels that diverge by more than 6° are never merged.
-//! 4. *Graph* (`graph.rs`): shared stretches are shared edges. A point is a junction where edges do not pair
-//!    off. Grouped lines, which are cut at other places too, are joined there. Lines that cross at a point
-//!    pair off and stay whole.
+//! 3. *Follow* (`follow.rs`): a line that runs along another without shared points takes its points. It
+//!    must be within a tenth of the radius (half of it in a group; without radius half the spacing, at most
+//!    0.5 mm), over a long stretch: vessels that diverge by more than 6° are never merged.
+//! 4. *Graph* (`graph.rs`): lines share the edges of shared stretches. A point is a junction unless all
+//!    its edges form pairs that continue each other, as where lines cross. Lines of a group, which are also
+//!    cut at other places, are joined there.
 //! 5. Chains between junctions are the vessels, in the order and direction of their lines.
 //!
 //! Only step 3 moves points by more than the distance of step 1. A tree that meets at shared points stays

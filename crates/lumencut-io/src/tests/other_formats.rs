@@ -157,7 +157,7 @@ fn binary_tubes_are_read_in_both_byte_orders() {
         let (head, _) = text.split_at(text.find('@').unwrap());
         let mut content = head.as_bytes().to_vec();
         content.extend(&bytes);
-        // Unused bytes, as older writers leave them, and a second tube.
+        // Unused bytes, as older programs leave them, and a second tube.
         content.extend([1; 9]);
         content.extend(tube("", TWO).as_bytes());
         let read = ok(&content, "a.tre");

@@ -23,7 +23,7 @@ pub fn line(i: usize) -> Vec<DVec3> {
     POINTS[range].iter().map(|p| DVec3::from(*p)).collect()
 }
 
-/// Encoding of a `.vtp`.
+/// How a `.vtp` is encoded.
 #[derive(Clone, Copy, Debug)]
 pub struct Style {
     /// `ascii`, `binary` (inline base64), `base64` or `raw` (both appended).

@@ -212,7 +212,7 @@ fn empty_last_fields_are_fields() {
             }
         }
     }
-    // Trailing separators are not missing fields.
+    // Separators at the end of a row are not missing fields.
     assert_eq!(ok("x,y,z\n1,2,3,,,\n1,2,4,,,\n").lines[0].points.len(), 2);
     assert!(
         message("x,y,z,name\n1,2,3\n").contains("line 2: found 3 column(s), '1,2,3'; expected 4 columns")

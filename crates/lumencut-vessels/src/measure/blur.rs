@@ -12,7 +12,7 @@ const AVERAGING: f64 = 1.0 / 12.0;
 /// Variance caused by linear interpolation, averaged over positions between voxels, in squared sides.
 const INTERPOLATION: f64 = 1.0 / 6.0;
 
-/// Variance of a Gaussian with this full width at half maximum.
+/// Variance of a Gaussian whose full width at half maximum is `fwhm`.
 pub fn variance_of(fwhm: f64) -> f64 {
     fwhm * fwhm / (8.0 * LN_2)
 }

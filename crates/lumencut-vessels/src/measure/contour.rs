@@ -155,7 +155,7 @@ pub(crate) fn inscribed(at: &[f64], centers: &[DVec3], contours: &[Vec<DVec3>]) 
             for step in [-1, 1] {
                 let mut m = n;
                 while let Some(next) = m.checked_add_signed(step).filter(|next| *next < at.len()) {
-                    // Sections farther away along the vessel cannot have a nearer wall.
+                    // Even the nearest wall of such a section is farther away.
                     if nearest.is_nan() || (at[next] - at[n]).abs() > nearest {
                         break;
                     }

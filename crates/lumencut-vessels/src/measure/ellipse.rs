@@ -27,8 +27,8 @@ const FAR_AWAY: f32 = 64.0;
 /// Maximum number of nodes, enough for a lumen whose radius is 40 times the blur.
 const MOST_NODES: usize = 400;
 
-/// The points centre + S (cos t, sin t) with the symmetric matrix S = [[mean + x, y], [y, mean - x]] and (x,
-/// y) = `stretch`. Unlike axes and an angle, these parameters have no singularity at a circle.
+/// The points centre + S (cos t, sin t) with the symmetric S = [[mean + x, y], [y, mean - x]], where x and y
+/// are those of `stretch`. Unlike axes and an angle, these parameters have no singularity at a circle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ellipse {
     /// Centre (mm).

@@ -184,7 +184,7 @@ struct Work<'a, M, const N: usize> {
     expected: &'a Expected<'a>,
     start: &'a Ellipse,
     terms: Vec<Term<N>>,
-    /// Weight of each sample.
+    /// Weight of each sample; 0 for outliers.
     kept: Vec<[f32; FAN]>,
     model: PhantomData<M>,
 }

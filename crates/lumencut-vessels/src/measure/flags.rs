@@ -16,7 +16,7 @@ pub const OUTSIDE: u32 = 1 << 5;
 pub const NO_EDGE: u32 = 1 << 6;
 /// The centerline lies outside the measured lumen.
 pub const RECENTERED: u32 = 1 << 7;
-/// The lumen is far from an ellipse.
+/// The contour of the lumen differs strongly from an ellipse.
 pub const IRREGULAR: u32 = 1 << 8;
 /// The centerline turns more sharply than a vessel can.
 pub const RESTLESS_LINE: u32 = 1 << 9;

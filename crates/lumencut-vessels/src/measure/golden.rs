@@ -1,4 +1,4 @@
-//! Minimum of a unimodal function by golden-section search (Kiefer 1953, doi:10.2307/2032161).
+//! Finds the minimum of a unimodal function by golden-section search (Kiefer 1953, doi:10.2307/2032161).
 
 const GOLDEN: f64 = 0.618_033_988_749_895;
 

@@ -21,7 +21,7 @@ const UNSURE_SHARE: f64 = 1.0 / 3.0;
 /// distance of the sections, so that a vessel at 45° to its centerline does not count.
 const JUMP: f64 = 0.5;
 
-/// Half of that suffices if the diameter changes by this factor, or the level by this share of the contrast.
+/// Half of that movement suffices if the diameter changes by this factor, or the level by this share.
 const OTHER: (f64, f64) = (1.4, 0.25);
 
 impl Profile {

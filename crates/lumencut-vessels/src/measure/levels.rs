@@ -1,4 +1,4 @@
-//! The lumen level along a vessel.
+//! Finds the lumen level along a vessel.
 //!
 //! A lumen narrower than two blur widths peaks below its level, so one section cannot separate level and
 //! width. Wider sections nearby give the level; if there are none, all sections share one level.

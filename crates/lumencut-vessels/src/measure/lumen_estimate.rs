@@ -69,7 +69,7 @@ fn start(rays: &Rays, place: &SectionPlane, search: f64) -> Option<DVec2> {
                 continue;
             }
             let lumen = level(rays, place, point);
-            // Points farther away need a higher level.
+            // A point farther away must have a higher level.
             let score = lumen.min(1.0) - 0.3 * point.length() / search;
             if lumen.is_finite() && best.is_none_or(|(most, _)| score > most) {
                 best = Some((score, point));

@@ -15,7 +15,7 @@ const LEAST_PIECES: usize = 2;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct MeasuredPart {
     pub scale: Scale,
-    /// Start and end (arc lengths, mm).
+    /// Start and end of the part (arc lengths, mm).
     pub ends: [f64; 2],
 }
 

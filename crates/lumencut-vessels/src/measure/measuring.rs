@@ -74,14 +74,14 @@ pub struct TreeMeasuring<'a, 'v> {
 }
 
 impl<'a, 'v> TreeMeasuring<'a, 'v> {
-    /// Errors: [`ErrorKind::Settings`] for an invalid point spread or wall.
+    /// Prepares the vessels. Errors: [`ErrorKind::Settings`] for an invalid point spread or wall.
     pub fn new(volume: &Volume<'v>, request: &MeasureRequest<'a>) -> Result<Self> {
         request.check()?;
         let prepared = request.tree.iter().map(|_| OnceLock::new()).collect();
         Ok(Self { voxels: Voxels::new(volume), request: *request, prepared })
     }
 
-    /// See [`tree_findings`].
+    /// Point spread and wall levels of the tree; see [`tree_findings`].
     pub fn findings(&self, stop: Stop) -> Result<TreeFindings> {
         let request = MeasureRequest { stop, ..self.request };
         let spread = match request.fwhm {

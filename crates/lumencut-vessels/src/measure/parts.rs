@@ -53,7 +53,7 @@ impl Parts {
     }
 }
 
-/// Names a part of [`Parts`].
+/// Name of a part of [`Parts`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
     /// [`Parts::noise`].
@@ -83,7 +83,7 @@ impl Part {
         }
     }
 
-    /// The value of this part (mm, signed).
+    /// The value of this part (mm, with sign).
     pub fn of(self, parts: &Parts) -> f64 {
         match self {
             Self::Noise => parts.noise,

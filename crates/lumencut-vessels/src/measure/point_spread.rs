@@ -13,7 +13,7 @@ use lumencut_core::error::Result;
 use lumencut_core::math::statistics::median;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Maximum and minimum number of sections.
+/// Maximum and minimum number of sections that are used.
 const SECTIONS: (usize, usize) = (16, 3);
 
 /// Minimum diameter of a section, in widths of the point spread.

@@ -26,7 +26,7 @@ pub enum Source {
     },
     /// Assumed, because it was neither given nor could be estimated.
     Assumed {
-        /// The basis of the assumption.
+        /// Text about what the assumption is based on.
         from: String,
     },
 }
@@ -38,20 +38,20 @@ pub struct PointSpread {
     pub fwhm: f64,
     /// Standard deviation of the FWHM (mm); 0 if given.
     pub deviation: f64,
-    /// Where it comes from.
+    /// Where the width comes from.
     pub source: Source,
 }
 
 /// The lumen of a vessel at each arc length. Values are NaN if not measured.
 #[derive(Clone, Debug)]
 pub struct Profile {
-    /// Arc length (mm).
+    /// Arc length of each section (mm).
     pub arc_length: Vec<f64>,
-    /// Shortest diameter (mm).
+    /// Shortest diameter of each lumen (mm).
     pub diameter_min: Vec<f64>,
-    /// Longest diameter (mm).
+    /// Longest diameter of each lumen (mm).
     pub diameter_max: Vec<f64>,
-    /// Area (mm²).
+    /// Area of each lumen (mm²).
     pub area: Vec<f64>,
     /// Standard deviation of the equivalent diameter (mm).
     pub uncertainty: Vec<f64>,
@@ -63,7 +63,7 @@ pub struct Profile {
     pub diameter_outer: Vec<[f64; 2]>,
     /// Equivalent diameter (mm) without, and with, bright material at the wall; NaN if there is none.
     pub bounds: Vec<[f64; 2]>,
-    /// Flags; see [`super::flags`].
+    /// Flags of each section; see [`super::flags`].
     pub flags: Vec<u32>,
     /// Centre of the lumen (mm, LPS); the centerline point if no lumen was found.
     pub center: Vec<DVec3>,
@@ -71,7 +71,7 @@ pub struct Profile {
     pub normal: Vec<DVec3>,
     /// Unit vectors within the section (LPS) that point right and down in its image.
     pub axes: Vec<[DVec3; 2]>,
-    /// Wall points (mm, LPS), one per ray.
+    /// Points of the wall (mm, LPS), one per ray.
     pub contour: Vec<Vec<DVec3>>,
     /// Vectors from the centre to the ends of the shortest and the longest diameter (mm, LPS).
     pub half_axes: Vec<[DVec3; 2]>,
@@ -87,7 +87,7 @@ pub struct Profile {
     pub fwhm_deviation: f64,
     /// Where the FWHM comes from.
     pub fwhm_source: Source,
-    /// Whether walls were modelled, and with which level.
+    /// Whether walls were modelled, and where their level comes from.
     pub wall_source: WallSource,
     /// Points of the centerline at the sections (mm, LPS).
     pub on_vessel: Vec<DVec3>,

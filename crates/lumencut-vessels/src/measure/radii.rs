@@ -15,7 +15,7 @@ use lumencut_core::progress::Progress;
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::Volume;
 
-/// Maximum gap (mm) over which radii are interpolated.
+/// Maximum gap between sections (mm) over which radii are interpolated.
 const GAP: f64 = 10.0;
 
 /// Sections with this relative standard deviation or more are skipped.

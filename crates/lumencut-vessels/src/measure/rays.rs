@@ -23,13 +23,13 @@ pub(crate) struct Ray {
     pub edge: Option<f64>,
     /// Start of anything but plain surroundings (neighbour, calcium, metal); infinite if there is none.
     pub limit: f64,
-    /// Start of material too bright for lumen.
+    /// Start of material that is too bright for lumen, if any.
     pub(crate) bright_at: Option<f64>,
     /// Largest value within a millimetre of that (share of the contrast); 0 if there is no such material.
     pub brightest: f64,
     /// Where the values rise above, and fall below, midway between lumen level and `brightest`.
     pub rim: [f64; 2],
-    /// Where the ray leaves the volume.
+    /// Distance at which the ray leaves the volume, if it does.
     pub(crate) outside_at: Option<f64>,
 }
 
@@ -48,9 +48,9 @@ pub(crate) struct Look {
     pub bright: f64,
     /// A rise by this amount marks the start of a neighbour.
     pub rise: f64,
-    /// Search distance for the edge (mm).
+    /// Maximum distance at which the edge is searched (mm).
     pub reach: f64,
-    /// Search distance for obstacles beyond the edge (mm).
+    /// Maximum distance beyond the edge at which obstacles are searched (mm).
     pub beyond: f64,
 }
 

@@ -11,7 +11,7 @@ const FWHM: Limits = Limits::new(0.0, 20.0, "mm");
 /// How to measure a vessel.
 #[derive(Clone, Copy)]
 pub struct MeasureRequest<'a> {
-    /// Maximum distance of sections (mm).
+    /// Maximum distance between sections (mm).
     pub step: f64,
     /// FWHM of the scanner's point spread (mm), if known.
     pub fwhm: Option<f64>,

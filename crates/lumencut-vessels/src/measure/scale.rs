@@ -101,7 +101,7 @@ fn scatter(voxels: &Voxels, places: &[SectionPlane], lumen: f64) -> f64 {
     1.4826 * median(&mut off).unwrap_or(f64::INFINITY)
 }
 
-/// Median at each distance from the vessel, over all sections and directions.
+/// Median value at each distance from the vessel, over all sections and directions.
 fn rings(voxels: &Voxels, places: &[SectionPlane], step: f64, count: usize) -> Vec<Option<f64>> {
     let every = places.len().div_ceil(MOST_PLACES);
     (0..=count)

@@ -86,9 +86,9 @@ impl Known {
 
 #[derive(Clone, Debug)]
 pub(crate) struct Section {
-    /// None if no lumen was found.
+    /// The fitted lumen; None if none was found.
     pub(crate) fit: Option<Fit>,
-    /// Wall points (mm, LPS), one per ray; empty without a lumen.
+    /// Points of the wall (mm, LPS), one per ray; empty if no lumen was found.
     pub contour: Vec<DVec3>,
     pub flags: u32,
     /// See [`super::profile::Profile::bounds`].

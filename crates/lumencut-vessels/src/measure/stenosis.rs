@@ -61,13 +61,13 @@ pub struct Compared {
 /// Reasons to doubt a percentage, to be shown with it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Doubts {
-    /// Flags of the sections used; see [`super::flags`].
+    /// Flags of the sections that were used; see [`super::flags`].
     pub flags: u32,
     /// Whether a branch lies between the stenosis and a reference; the calibre may change there.
     pub is_branch_between: bool,
 }
 
-/// A graded stenosis.
+/// A stenosis with its grade and the values behind it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stenosis {
     /// Narrowing of diameter or area, 0 to 100.
@@ -92,8 +92,8 @@ pub struct Stenosis {
 
 impl Profile {
     /// Grades the stenosis at an arc length (mm). Errors: [`ErrorKind::Measuring`] for places beyond the
-    /// vessel or not measured; references that are narrower than the stenosis, both on one side, or within
-    /// one diameter; a missing original diameter; NASCET at a near-occlusion.
+    /// vessel or not measured; a missing original diameter; NASCET at a near-occlusion. Also for references
+    /// narrower than the stenosis, both on one side of it, or within one diameter of it.
     pub fn stenosis(&self, at: f64, method: Method, compared: &Compared) -> Result<Stenosis> {
         let (diameter, uncertainty) = self.diameter_at(at)?;
         let references = compared

@@ -35,7 +35,7 @@ const THIN_END: [f64; 2] = [1.25, 1.1];
 /// Number of sections on each side for a median width, because single sections may be outliers.
 const MEDIAN_SECTIONS: usize = 2;
 
-/// A place on a vessel.
+/// A place on a vessel, with its diameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spot {
     /// Arc length (mm).
@@ -145,7 +145,7 @@ impl Profile {
             [(0, -1.0), (1, 1.0)].map(|(n, side)| self.suggested_on((at, side), reach[n], &normal))
         };
         let place = self.diameter_at(at).map_or(0.0, |(diameter, _)| diameter);
-        // Places about as wide as this one belong to the narrowing.
+        // Places that are only little wider belong to the narrowing.
         let wider = normal.iter().filter(|spot| spot.diameter > CALIBRE_STEP * place);
         let wider: Vec<Spot> = wider.copied().collect();
         let end = |side: f64| self.nearest_branch(at, side).min(calibre_step((at, side), &wider));
@@ -185,7 +185,7 @@ impl Profile {
         let mut widths = self.widths((0..self.len()).filter(|n| is_there(self.arc_length[*n])));
         let most = quantile(&mut widths, 0.75)?;
         let is_offered = |spot: &&Spot| {
-            // Closer references would be rejected.
+            // References that are closer would be rejected.
             let is_apart = self.reference_at(spot.at).is_ok_and(|reference| away(spot.at) >= reference);
             is_there(spot.at) && is_apart && spot.diameter >= NORMAL * most
         };

@@ -10,7 +10,7 @@ pub(crate) fn unit<const N: usize>(n: usize) -> [f64; N] {
 #[derive(Clone, Debug)]
 pub(crate) struct Term<const N: usize> {
     pub parameter: usize,
-    /// Coefficient per parameter.
+    /// Coefficient of each parameter.
     pub by: [f64; N],
     pub level: Level,
     /// Initial value of the parameter.

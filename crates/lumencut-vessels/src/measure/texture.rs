@@ -1,4 +1,4 @@
-//! The spatial correlation of image noise.
+//! Estimates the spatial correlation of image noise.
 //!
 //! The kernels of CT correlate neighbouring voxels, so a mean is less certain than with independent noise.
 

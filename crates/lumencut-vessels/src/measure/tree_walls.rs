@@ -24,7 +24,7 @@ pub(crate) struct VesselWall {
 pub struct PooledWall {
     /// Level and standard deviation, in the volume's unit.
     pub level: Level,
-    /// Number of other vessels used.
+    /// Number of the other vessels that were used.
     pub vessels: usize,
 }
 

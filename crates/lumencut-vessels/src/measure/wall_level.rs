@@ -28,14 +28,14 @@ pub enum WallRequest {
     /// [`CT_WALL`] in CT; no wall in other volumes.
     #[default]
     Automatic,
-    /// No wall.
+    /// Walls are not modelled.
     Off,
     /// This level and standard deviation, in the volume's unit.
     Level(Level),
 }
 
 impl WallRequest {
-    /// Errors: [`ErrorKind::Settings`] for an invalid level or standard deviation.
+    /// Checks the choice. Errors: [`ErrorKind::Settings`] for an invalid level or standard deviation.
     pub fn check(&self) -> Result<()> {
         let Self::Level([level, deviation]) = self else { return Ok(()) };
         LEVEL.check("wall", *level)?;
@@ -52,7 +52,7 @@ pub enum WallSource {
     Given(Level),
     /// Other vessels of the tree changed the expected level.
     Pooled {
-        /// The caller's level, if any.
+        /// The level that the caller gave, if any.
         given: Option<Level>,
         /// The level that the other vessels show.
         by_others: PooledWall,
@@ -84,7 +84,7 @@ impl WallSource {
     }
 }
 
-/// Whether a level from other vessels is plausible for a wall here.
+/// Whether a wall level from other vessels is plausible for this vessel.
 pub(crate) fn is_below_lumen(wall: &PooledWall, scale: &Scale) -> bool {
     scale.share(wall.level[0]) <= 1.0 - BELOW_LUMEN
 }

@@ -48,7 +48,7 @@ pub struct FindRequest<'a> {
     pub smallest_radius: f64,
     /// Called often; tells whether to stop.
     pub stop: Stop<'a>,
-    /// Receives the progress.
+    /// Receives the progress, if given.
     pub progress: Option<&'a Progress>,
 }
 

@@ -29,7 +29,7 @@ pub struct MaskRequest<'a> {
     pub refine: Option<Refine<'a>>,
     /// Called often; tells whether to stop.
     pub stop: Stop<'a>,
-    /// Receives the progress.
+    /// Receives the progress, if given.
     pub progress: Option<&'a Progress>,
 }
 

@@ -64,7 +64,7 @@ pub(crate) struct Skeleton {
     pub vessels: Vec<MaskVessel>,
     /// Number of filled cavities, and of the voxels in them.
     pub filled: [usize; 2],
-    /// Number of connected components.
+    /// Number of connected components of the lumen.
     pub pieces: usize,
     /// Number of lumen voxels, including those of filled cavities.
     pub voxels: usize,

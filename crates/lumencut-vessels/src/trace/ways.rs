@@ -1,4 +1,4 @@
-//! Cheapest paths through the voxels of a volume.
+//! Finds the cheapest paths through the voxels of a volume.
 
 pub(crate) mod blocks;
 pub(crate) mod buckets;

@@ -26,7 +26,7 @@ fn uneven_voxels_blur_by_their_sides() {
 
 #[test]
 fn sheared_voxels_blur_as_their_corners_lie() {
-    // The variance of a cell is a twelfth of the sum of its squared sides along a direction.
+    // The variance along a direction is a twelfth of the sum of the squared components of the voxel sides.
     let sides = DMat3::from_cols(DVec3::X, DVec3::Y, DVec3::new(0.0, 0.5, 2.0));
     let found = Blur::new(1e-9, sides).of_voxels(&across([DVec3::Y, DVec3::Z]));
     assert!((found.x_axis.x - 1.25 / 12.0).abs() < 1e-12);

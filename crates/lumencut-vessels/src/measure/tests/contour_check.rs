@@ -28,7 +28,7 @@ fn is_plausible(share: impl Fn(DVec2) -> f32) -> bool {
 fn a_lumen_is_believed_however_its_medium_mixes() {
     assert!(is_plausible(|_| 1.0));
     assert!(is_plausible(|place| 1.0 + 0.05 * place.x as f32));
-    // Values beyond the contour do not matter.
+    // Values outside the contour do not matter.
     assert!(is_plausible(|place| if place.length() < 7.5 { 1.0 } else { 0.0 }));
 }
 

@@ -133,7 +133,6 @@ fn nodes_far_away_count_as_much_as_those_of_one_place_alone() {
     let together = boundary.blurred(&x, &[0.2; FAN]);
     for l in 0..FAN {
         let mut beside = x;
-        // One point on the other side.
         beside[(l + 1) % FAN] = -9.0;
         let apart = boundary.blurred(&beside, &[0.2; FAN]);
         assert_eq!(together.value[l], apart.value[l]);

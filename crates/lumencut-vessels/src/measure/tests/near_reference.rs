@@ -1,4 +1,4 @@
-//! Tests: references within one diameter of the stenosis are rejected.
+//! Tests that references within one diameter of the stenosis are rejected.
 
 use super::super::made_profile::profile;
 use super::*;

@@ -14,7 +14,7 @@ fn every_view_lies_across_the_stretch() {
                 continue;
             };
             assert!(towards_detector(turned).dot(along).abs() < 1e-9);
-            // No other perpendicular view is nearer to the frontal one.
+            // No other view perpendicular to the vessel is nearer to the frontal one.
             let cosine = |arm| -towards_detector(arm).y;
             assert!(cosine(turned) <= cosine(least) + 1e-9);
         }
@@ -23,7 +23,7 @@ fn every_view_lies_across_the_stretch() {
 
 #[test]
 fn signs_are_those_of_the_field() {
-    // Detector on the patient's left, and towards the head.
+    // The detector is on the patient's left, and above the head.
     assert!(towards_detector(CArm { lao: FRAC_PI_2, cranial: 0.0 }).abs_diff_eq(DVec3::X, 1e-12));
     assert!(towards_detector(CArm { lao: 0.3, cranial: FRAC_PI_2 }).abs_diff_eq(DVec3::Z, 1e-12));
     assert!(towards_detector(CArm { lao: 0.0, cranial: 0.0 }).abs_diff_eq(DVec3::NEG_Y, 1e-12));

@@ -7,7 +7,7 @@ use crate::trace::lines::centerline::Centerline;
 /// A centerline between clicks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Traced {
-    /// Points, radii and confidence.
+    /// The line with radii and confidence.
     pub line: Centerline,
     /// Whether each point lies on a bridged stretch without lumen.
     pub bridged: Vec<bool>,

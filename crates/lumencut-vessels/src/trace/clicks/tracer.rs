@@ -40,7 +40,7 @@ pub struct Tracer {
     fronts: HashMap<[i32; 3], Front>,
     ways: HashMap<Ends, Way>,
     lines: Vec<(Vec<DVec3>, Traced)>,
-    /// Fronts for the pointer, most recently used first.
+    /// Fronts for the pointer; the one used last is first.
     live: Vec<Live>,
 }
 

@@ -8,9 +8,9 @@ use crate::voxels::Voxels;
 
 #[derive(Clone, Debug)]
 pub(crate) struct Way {
-    /// Voxel centres (mm, LPS).
+    /// Centres of the voxels on the path (mm, LPS).
     pub points: Vec<DVec3>,
-    /// Stretches without lumen.
+    /// Stretches of the path without lumen.
     pub gaps: Vec<Gap>,
 }
 

@@ -105,7 +105,7 @@ pub(crate) fn candidates(
     Ok(in_order(found, floors))
 }
 
-/// Candidates up to two radii from a place (finest voxels).
+/// Candidates that lie within two radii of a place (finest voxels).
 pub(crate) fn candidates_near(
     pyramid: &Pyramid,
     levels_examined: &Range<usize>,

@@ -17,7 +17,7 @@ pub(crate) struct UsualVessels {
     pub contrast: f64,
 }
 
-/// Exponent of the whole product, and minimum of each factor.
+/// Exponent of the product, and minimum of each factor.
 const POWER: f64 = 0.6;
 const MIN_FACTOR: f64 = 0.02;
 

@@ -12,20 +12,20 @@ pub struct Trees {
     pub level: f64,
     /// Contrast that vessels usually have to their surroundings, in the unit of the volume.
     pub contrast: f64,
-    /// Noise, in the unit of the volume.
+    /// Noise of the voxels, in the unit of the volume.
     pub noise: f64,
     /// Whether the scan looks like an angiography. If not, no vessel is sure without a seed.
     pub is_angiography: bool,
 }
 
-/// A found vessel.
+/// A vessel that was found.
 #[derive(Clone, Debug)]
 pub struct FoundVessel {
     /// Points, radii and confidence, from the root outwards.
     pub line: Centerline,
-    /// Number of its part; 0 is the most important.
+    /// Number of the part of the vessel; 0 is the most important part.
     pub part: usize,
-    /// Confidence that it is a vessel, 0 to 1.
+    /// Confidence that the line is a vessel, 0 to 1.
     pub confidence: f64,
     /// Reason to doubt the vessel; None if it is sure.
     pub doubt: Option<TrackDoubt>,
@@ -58,7 +58,7 @@ impl TrackDoubt {
         Self::Scarce,
     ];
 
-    /// The reason as a phrase.
+    /// The reason as a phrase for sentences.
     pub fn words(self) -> &'static str {
         match self {
             Self::Scarce => {

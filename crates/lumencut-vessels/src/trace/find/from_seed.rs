@@ -1,4 +1,4 @@
-//! Searches for fainter tubes around a seed that lies in no track.
+//! Searches for fainter tubes around a seed that no track contains.
 
 use glam::DVec3;
 

@@ -1,4 +1,4 @@
-//! Finds the whole vessel of one click: back to the nearest existing vessel, and on to its end.
+//! Finds the complete vessel of one click: back to the nearest existing vessel, and on to its end.
 
 use glam::DVec3;
 

@@ -1,4 +1,4 @@
-//! Spatial index of points in cubic cells.
+//! An index that finds points near a place by cubic cells.
 
 use glam::DVec3;
 

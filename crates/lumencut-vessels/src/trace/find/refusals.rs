@@ -33,7 +33,7 @@ pub(crate) fn not_here(seed: DVec3, value: f64, nearest: DVec3, distance: f64) -
     error.mend("put the seed into a vessel, or trace between two points along it").at(seed, value)
 }
 
-/// The error for a click (mm, LPS) that gives no whole vessel. It states the value there.
+/// The error for a click (mm, LPS) that gives no vessel. It states the value there.
 pub fn no_whole_vessel(click: DVec3, value: f64, reason: NoVessel) -> Error {
     let (found, expected) = match reason {
         NoVessel::NotHere(distance) if distance.is_infinite() => {

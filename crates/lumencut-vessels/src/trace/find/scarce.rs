@@ -22,7 +22,7 @@ const LONG_AND_ROUND: [[f64; 2]; 2] = [[10.0, 1.5], [6.0, 1.25]];
 /// This share of the diagonal counts as long for any width, because a small volume cannot show more.
 const LONG_OF_DIAGONAL: f64 = 0.5;
 
-/// Upper level (HU) of blood without contrast medium and of muscle; 120 would exclude arteries of 115 HU.
+/// Upper level (HU) of plain blood and muscle; a limit of 120 would exclude scans with arteries of 115 HU.
 const BLOOD: f64 = 75.0;
 
 /// Whether sure, long, round tracks reach the minimum length and, in CT, are brighter than plain blood.

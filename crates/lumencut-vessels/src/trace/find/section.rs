@@ -18,7 +18,7 @@ const STEP: f64 = 0.5;
 const REACH_RADII: f64 = 1.6;
 const REACH_VOXELS: f64 = 2.0;
 
-/// The wall is at half of the ray's own contrast, which counts as at least this share of the whole contrast.
+/// The wall is at half of a ray's own contrast; at least this share of the section's contrast counts.
 const LEAST_OF_CONTRAST: f64 = 0.4;
 
 /// Walls are valid between these factors of the radius, minus a quarter and plus half a voxel.

@@ -26,7 +26,7 @@ pub(crate) struct TrackPoint {
 pub(crate) struct Track {
     /// The points of the track, at least two.
     pub points: Vec<TrackPoint>,
-    /// Confidence that it is a vessel, 0 to 1.
+    /// Confidence that the track is a vessel, 0 to 1.
     pub confidence: f64,
     /// Main reason for doubt, if any.
     pub doubt: Option<TrackDoubt>,

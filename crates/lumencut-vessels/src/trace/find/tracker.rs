@@ -10,7 +10,7 @@ use crate::trace::find::pyramid::{Level, Pyramid};
 use crate::trace::find::section::{Section, TOUCHED};
 use crate::trace::find::track::TrackPoint;
 
-/// Step: this share of the radius, at most in voxels of the level, and at least in finest voxels.
+/// Step as a share of the radius; its maximum (voxels of the level) and minimum (finest voxels).
 const STEP: f64 = 0.45;
 const LONGEST_STEP: f64 = 1.5;
 const SHORTEST_STEP: f64 = 0.5;

@@ -1,4 +1,4 @@
-//! Turns linked tracks into whole vessels from the root outwards, in ranked parts.
+//! Turns linked tracks into complete vessels, from the root outwards, in ranked parts.
 //!
 //! Tracks and links form a graph. From each root, runs follow the straightest and widest edges. Runs are then
 //! centred, and start and end on points of the runs that they meet.

@@ -4,12 +4,12 @@ use glam::DVec3;
 
 use crate::trace::lines::even_steps::even_places;
 
-/// A centerline with values per point.
+/// A centerline with a radius and a confidence for each point.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Centerline {
     /// Points (mm, LPS).
     pub points: Vec<DVec3>,
-    /// Lumen radius (mm).
+    /// Radius of the lumen at each point (mm).
     pub radius: Vec<f64>,
     /// Confidence that the point is in the centre of a lumen, 0 to 1.
     pub confidence: Vec<f64>,

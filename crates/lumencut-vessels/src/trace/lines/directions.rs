@@ -1,4 +1,4 @@
-//! Directions of a line at its points.
+//! Computes the directions of a line at its points.
 
 use glam::DVec3;
 

@@ -1,4 +1,4 @@
-//! Frames across a line.
+//! Computes directions across a line at its points.
 
 use glam::DVec3;
 

@@ -1,4 +1,4 @@
-//! The nearest point of a line.
+//! Finds the nearest point of a line.
 
 use glam::DVec3;
 

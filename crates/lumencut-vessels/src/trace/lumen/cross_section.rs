@@ -28,7 +28,7 @@ pub struct LumenSection {
     pub center: DVec3,
     /// Radius (mm).
     pub radius: f64,
-    /// Quality, 0 to 1.
+    /// Quality of the section, 0 to 1.
     pub(crate) trust: f64,
     /// Median of the values near the centre.
     pub value: f64,
@@ -38,11 +38,11 @@ pub struct LumenSection {
 
 /// The volume and the lumen model with which cross-sections are fitted.
 pub struct Probe<'a, 'v> {
-    /// The volume.
+    /// The volume in which sections are fitted.
     pub voxels: &'a Voxels<'v>,
-    /// The lumen model.
+    /// The values of lumen and tissue.
     pub model: &'a LumenModel,
-    /// Number of rays.
+    /// Number of rays of a section.
     pub rays: usize,
 }
 

@@ -53,7 +53,7 @@ struct Side {
     median: f64,
     noise: f64,
     mean: f64,
-    /// Mean arc length (mm).
+    /// Mean of the arc lengths (mm).
     middle: f64,
     /// Sums of arc length × value, and of arc length squared, both relative to the means.
     products: [f64; 2],

@@ -12,7 +12,7 @@ use crate::voxels::Voxels;
 /// Number of directions that cover half a sphere.
 pub const DIRECTIONS: u32 = 200;
 
-/// Search distance (mm).
+/// Maximum distance that is searched (mm).
 const SEARCH_MM: f64 = 60.0;
 
 /// Number of directions across the axis in which the width is measured.

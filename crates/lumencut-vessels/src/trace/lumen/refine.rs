@@ -27,7 +27,7 @@ const SMOOTHING: f64 = 1.5;
 /// Neighbouring sections within this distance (mm) should have a similar radius.
 const RADIUS_WINDOW_MM: f64 = 1.75;
 
-/// Minimum quality of a section.
+/// Sections of lower quality are ignored.
 const LEAST_TRUST: f64 = 0.1;
 
 /// Within this distance along the line (mm), centres must advance.

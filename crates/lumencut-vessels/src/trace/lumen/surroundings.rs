@@ -67,7 +67,7 @@ impl Surroundings {
     /// Samples the values up to `reach` mm around the clicks.
     pub fn within(voxels: &Voxels, clicks: &[DVec3], reach: f64) -> Self {
         let samples = samples_around(voxels, clicks, reach);
-        // The whole scan is used, because a heart contains neither fat nor air.
+        // All of the scan is used, because a heart contains neither fat nor air.
         let is_hounsfield = are_hounsfield(voxels);
         let first = if is_hounsfield { samples.partition_point(|v| f64::from(*v) < AIR) } else { 0 };
         let values: Vec<f64> = clicks.iter().map(|click| value_at(voxels, *click)).collect();

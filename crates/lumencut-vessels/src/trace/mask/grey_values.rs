@@ -32,7 +32,7 @@ const LEAST_SEEN: f64 = 0.5;
 
 /// The volume in which the lumen of a mask is visible.
 pub struct GreyValues<'a, 'v> {
-    /// The volume.
+    /// The volume with grey values.
     pub voxels: &'a Voxels<'v>,
     /// Called often; tells whether to stop.
     pub stop: Stop<'a>,

@@ -28,7 +28,7 @@ const LEAST_ROOM: f64 = 0.8;
 /// The radius at each end that lies on another line; within that lumen a branch has no own sections.
 pub(crate) type OnOther = [Option<f64>; 2];
 
-/// Centres a line in the lumen. Errors: [`lumencut_core::error::ErrorKind::Interrupted`].
+/// Centres a line in the lumen. Errors: [`lumencut_core::error::ErrorKind::Interrupted`] if stopped.
 pub(crate) fn center(line: &mut ThroughLine, lumen: &Lumen, on_other: OnOther, stop: Stop) -> Result<()> {
     let closed = line.is_closed;
     let radii: Vec<f64> =

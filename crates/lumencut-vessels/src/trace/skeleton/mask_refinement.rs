@@ -9,7 +9,7 @@ use crate::trace::skeleton::mask_lumen::Lumen;
 use lumencut_core::error::Result;
 use lumencut_core::math::arc_length::{LinePlace, arc_lengths};
 
-/// Finds a better centerline from points (mm, LPS) and radii (mm).
+/// Finds a better centerline, given points (mm, LPS) and radii (mm) of a line.
 pub type Refine<'a> = &'a (dyn Fn(&[DVec3], &[f64]) -> Result<Option<Centerline>> + Sync);
 
 /// A vessel has left another one where it narrows by at most this share over the length of a radius.

@@ -11,9 +11,9 @@ use lumencut_core::math::arc_length::arc_lengths;
 pub struct MaskVessel {
     /// Points (mm, LPS), at least two.
     pub points: Vec<DVec3>,
-    /// Radius per point (mm).
+    /// Radius of each point (mm).
     pub radius: Vec<f64>,
-    /// Confidence per point, 0 to 1; empty if not refined.
+    /// Confidence of each point, 0 to 1; empty if the vessel was not refined.
     pub confidence: Vec<f64>,
     /// Numbers of the graph nodes at start and end.
     pub nodes: [usize; 2],
@@ -34,12 +34,12 @@ impl MaskVessel {
         self.is_free.reverse();
     }
 
-    /// Length (mm).
+    /// Length of the vessel (mm).
     pub fn length(&self) -> f64 {
         arc_lengths(&self.points).last().copied().unwrap_or(0.0)
     }
 
-    /// Mean radius (mm).
+    /// Mean radius of the points (mm).
     pub fn mean_radius(&self) -> f64 {
         self.radius.iter().sum::<f64>() / self.radius.len() as f64
     }

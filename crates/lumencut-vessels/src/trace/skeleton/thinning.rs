@@ -1,4 +1,4 @@
-//! Thins a mask by removing simple points, nearest to the wall first.
+//! Thins a mask by removing simple points; those nearest to the wall are removed first.
 //!
 //! Pudney, "Distance-Ordered Homotopic Thinning", Computer Vision and Image Understanding 72(3), 1998,
 //! doi:10.1006/cviu.1998.0680. Voxels at about the same distance are removed from the six sides in turn, so

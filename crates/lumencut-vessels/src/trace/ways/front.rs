@@ -45,12 +45,12 @@ struct Waiting {
     way: f32,
 }
 
-/// Limits of a front.
+/// How far a front may grow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reach {
-    /// Longest stretch without lumen (mm), at most 25; None for no limit.
+    /// Longest allowed stretch without lumen (mm), at most 25; None if it is not limited.
     pub longest_gap: Option<f64>,
-    /// Maximum number of voxels.
+    /// Maximum number of voxels of the front.
     pub most_voxels: usize,
     /// Weight of the straight distance: 1 finds the cheapest path; more is faster, but costs up to that
     /// factor.
@@ -64,7 +64,7 @@ pub enum Found {
     Target,
     /// There is no path.
     NoWay,
-    /// The front reached its size limit.
+    /// The front reached its maximum size.
     TooFar,
 }
 

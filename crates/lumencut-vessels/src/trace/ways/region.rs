@@ -13,10 +13,10 @@ use crate::voxels::Voxels;
 const LEAST_MEMBERSHIP: f64 = 0.05;
 const LEAST_OF_BRIDGES: f64 = 0.2;
 
-/// Additional share of the cost far from the middle of a wide vessel.
+/// Additional cost far from the middle of a wide vessel, relative to the cost by membership.
 const OFF_MIDDLE: f64 = 0.4;
 
-/// Additional share of the cost in the wall between two vessels.
+/// Additional cost in the wall between two vessels, relative to the cost by membership.
 const WALL: f64 = 15.0;
 
 /// Factor of the membership next to bone, calcium and metal, because their edges have the values of lumen.
@@ -38,7 +38,7 @@ pub(crate) const THIN: f64 = 0.75;
 /// Membership of a voxel well within lumen.
 pub(crate) const FULL: f64 = 0.9;
 
-/// Whether paths must stay in lumen.
+/// How strictly paths must stay in lumen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Strictness {
     /// Tissue costs 400 times as much as lumen.
@@ -56,7 +56,7 @@ impl Strictness {
     }
 }
 
-/// Cost of each code.
+/// The cost that each code means.
 pub fn costs() -> [f32; 256] {
     std::array::from_fn(|code| {
         if code == 0 { f32::INFINITY } else { DEAREST.powf((code as f64 - 1.0) / 254.0) as f32 }
@@ -81,7 +81,7 @@ pub(crate) type BlockCosts = Arc<[u8; BLOCK]>;
 /// Costs of the blocks that were needed so far, one byte per voxel.
 #[derive(Clone, Debug)]
 pub struct Region {
-    /// The lumen model.
+    /// The values of lumen and tissue.
     pub model: LumenModel,
     /// Places that no path may pass.
     pub stoppers: Vec<Stopper>,

@@ -10,7 +10,7 @@ pub(crate) const PADDED_SIDE: usize = SIDE + 2 * HALO;
 /// A ridge adds up to this share of the missing membership.
 const RIDGE: f64 = 0.6;
 
-/// Minimum membership of a ridge.
+/// Minimum membership of a visible ridge.
 const FAINT: f64 = 0.05;
 
 /// Second derivative of the membership in a wall; factor of the second one that marks a throat.

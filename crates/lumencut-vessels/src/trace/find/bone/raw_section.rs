@@ -65,7 +65,7 @@ pub(crate) struct RawSection {
 }
 
 impl RawSection {
-    /// None if the section is no brighter than its surroundings.
+    /// The section at a point; None if it is no brighter than its surroundings.
     pub(crate) fn at(scan: &Scan, point: &TrackPoint) -> Option<Self> {
         let [u, v] = across(point.direction);
         let level = median(&mut inside(scan, point, [u, v], &LEVEL_WITHIN))?;

@@ -32,7 +32,7 @@ const NARROW_VOXELS: f64 = 2.5;
 const PLACES_TRIED: usize = 3;
 
 pub(crate) struct Limits {
-    /// Minimum confidence of both tracks.
+    /// Minimum confidence of the tracks.
     pub confidence: f64,
     /// Minimum cosine of the turn, unless the end lies inside the other track.
     pub turn: f64,

@@ -47,7 +47,7 @@ fn needed(runs: &[Attached], stays: &[bool], number: usize) -> Option<[usize; 2]
 fn trim(run: &mut Attached, needed: Option<[usize; 2]>, smallest_radius: f64) -> bool {
     let [start, end] = run.met;
     if start.is_some() && end.is_some() {
-        // The run joins two others. It goes only if it returns to the same run within the lumen of that run.
+        // The run joins two others. It is removed only if it returns to the same run within the same lumen.
         let is_outside = run.leads[0] + run.leads[1] + 1 < run.points.len();
         return start != end || is_outside || needed.is_some();
     }

@@ -138,7 +138,7 @@ fn judging_stops_where_it_is_asked_to() {
 
 #[test]
 fn a_wide_track_that_is_broken_by_other_sections_is_doubtful_and_a_narrow_one_is_not() {
-    // Every fifth section is not tubular.
+    // Every fifth section does not look like a tube.
     let broken = |radius: f64| {
         let mut track = along_y(8.0, 15.0, radius);
         track.points.iter_mut().step_by(5).for_each(|point| point.is_good = false);
@@ -161,6 +161,5 @@ fn judging_tells_how_far_it_is() {
     with_scan(SIZE, SIDE, tube_and_plate, |scan| {
         shapes(scan, &tracks, &|| false, Stages::begin(Some(&progress))).expect("shapes")
     });
-    // 7 of 100.
     assert_eq!(progress.share(), 0.07);
 }
