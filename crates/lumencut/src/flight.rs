@@ -13,7 +13,7 @@ pub(crate) const MOST_FRAMES: usize = 1_000_000;
 /// on screen, at a constant speed in pixels, so a flight back retraces the path.
 ///
 /// # Errors
-/// [`ErrorKind::Camera`] for fewer than two or more than [`MOST_FRAMES`] frames, or cameras of different sizes.
+/// [`ErrorKind::Camera`] for fewer than two or more than `MOST_FRAMES` frames, or cameras of different sizes.
 pub fn flight(from: &Camera, to: &Camera, frames: usize) -> Result<Vec<Camera>> {
     if !(2..=MOST_FRAMES).contains(&frames) {
         let expected = format!("2 to {MOST_FRAMES} frames");

@@ -11,15 +11,15 @@ use crate::windows;
 /// A window that is computed from the data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DataWindow {
-    /// Separates lumen from surroundings: [`windows::along`] vessels, or [`windows::of_volume`] if there are none.
+    /// Separates lumen from surroundings: [`windows::along`] vessels, or `windows::of_volume` if there are none.
     Auto,
-    /// [`windows::of_mip`].
+    /// `windows::of_mip`.
     Mip,
     /// [`windows::whole`].
     Whole,
     /// [`windows::full`].
     Full,
-    /// [`windows::mra`].
+    /// `windows::mra`.
     Mra,
 }
 

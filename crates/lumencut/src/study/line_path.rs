@@ -18,7 +18,7 @@ struct Meeting {
 /// line in between. Errors name the lines by `words`.
 ///
 /// # Errors
-/// `vessel tree` if neighbours are farther apart than [`MEETING`].
+/// `vessel tree` if neighbours are farther apart than `MEETING`.
 pub fn path(lines: &[Line], words: &[String]) -> Result<Line> {
     let all: Vec<Vec<Knot>> = lines.iter().map(knots).collect();
     let mut joined: Vec<Knot> = Vec::new();
