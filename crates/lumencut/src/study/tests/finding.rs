@@ -29,7 +29,8 @@ fn where_no_vessel_is_sure_the_doubtful_ones_are_given_to_who_wants_them() {
     }
     let mut study = holding(scan);
     let find = |doubtful: bool| json!({"kind": "find_vessels", "doubtful": doubtful});
-    let refused = tried(&mut study, &Document::default(), &find(false), false).expect_err("no certain vessel");
+    let refused =
+        tried(&mut study, &Document::default(), &find(false), false).expect_err("no certain vessel");
     assert!(refused.found.starts_with("no certain vessel, but "), "{refused:?}");
     assert_eq!(refused.mend, "trace between two points along a vessel");
     let mends: Vec<&str> = refused.more.mends.iter().map(crate::mends::Mend::name).collect();
