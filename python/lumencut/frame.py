@@ -206,7 +206,7 @@ class Frame(KeepsReadOnly):
         compress: bool = False,
         values: bool = False,
     ) -> None:
-        """Write the picture, or with the ending ``.npz`` all arrays; a file appears only when complete.
+        """Write the picture, or with the extension ``.npz`` all arrays; a file appears only when complete.
 
         A ``.png`` says how large its pixels are, where the source of the volume states a spacing, and how it
         was rendered, for ``lumencut render --like``: with which view, settings and version. It names no file
@@ -216,7 +216,7 @@ class Frame(KeepsReadOnly):
         Parameters
         ----------
         path : path-like
-            The ending names the format: a picture format of Pillow (``.png``, ``.tif``, …), ``.npz``, or
+            The extension selects the format: a picture format of Pillow (``.png``, ``.tif``, …), ``.npz``, or
             ``.dcm`` for a DICOM Secondary Capture in the study of the scan.
         annotate : bool, default False
             Write the picture with labels, see :meth:`annotated`. The arrays of ``.npz`` have none.
@@ -240,10 +240,10 @@ class Frame(KeepsReadOnly):
         Raises
         ------
         FormatError
-            For an ending that names no format; for ``.dcm`` where there is no one study to belong to, or that
+            For an unknown extension; for ``.dcm`` without exactly one study, or that
             of another patient.
         FileError
-            Where the file cannot be written.
+            If the file cannot be written.
         SettingsError
             For names of vessels on a picture without labels, and for what only ``.dcm`` can hold.
         """
@@ -294,7 +294,7 @@ class Frame(KeepsReadOnly):
         write_picture(path, made, found, number=number, compress=compress)
 
     def _as_object(self, *, annotate: bool, vessel_names: bool) -> Picture:
-        """The picture with what its DICOM object says of it."""
+        """The picture with the description for its DICOM object."""
         from lumencut.dicom_objects.views import view_picture
 
         image = self.annotated(vessel_names=vessel_names) if annotate else self.image
@@ -337,8 +337,8 @@ def check_dicom_alone(path: Path, **given: Any) -> None:
     """Reject options of DICOM files for a file of another format."""
     for name, value in given.items():
         if value is not None and value is not False:
-            found = f"{value!r}, with the ending {path.suffix!r}"
-            raise SettingsError(name, found, "the ending .dcm", "leave it out for other files")
+            found = f"{value!r}, with the extension {path.suffix!r}"
+            raise SettingsError(name, found, "the extension .dcm", f"leave out {name} for other files")
 
 
 def check_values(annotate: bool, compress: bool) -> None:
@@ -364,7 +364,7 @@ def save_picture(image: npt.NDArray[np.uint8], path: Path, png_options: dict[str
     expected = "a picture format such as .png, .tif or .webp"
     kind = Image.registered_extensions().get(path.suffix.lower())
     if kind is None or kind not in Image.SAVE:
-        raise FormatError(str(path), f"the ending {path.suffix!r}", expected)
+        raise FormatError(str(path), f"the extension {path.suffix!r}", expected)
     picture = Image.fromarray(image)
     if kind in _OPAQUE:
         picture = picture.convert("RGB")

@@ -79,7 +79,7 @@ def lumen_map(
         From which level on something at the wall is calcium or metal, in the volume's unit; the lumen's level
         and half of its contrast by default, and at least 130.
     profile : Profile, optional
-        What :func:`lumencut.measure` found for this vessel, so that it need not be measured again.
+        The result of :func:`lumencut.measure` for this vessel, to avoid measuring again.
     tree : VesselTree, optional
         Vessels whose openings are named: :attr:`LumenMap.ostia`.
     up : array_like, shape (3,), default (0, 0, 1)
@@ -91,7 +91,7 @@ def lumen_map(
     degrees : float, optional
         The angle in degrees, instead of ``angle``.
     device : {"auto", "cpu", "gpu"}, default "auto"
-        What computes, as for :class:`lumencut.Renderer`.
+        The device that computes, as for :class:`lumencut.Renderer`.
 
     Raises
     ------
@@ -105,7 +105,7 @@ def lumen_map(
     MeasuringError
         For an invalid profile, and for ``"thickness"`` if the level of calcium is unknown.
     VolumeError
-        For an image that is no volume.
+        For an image that is not a volume.
     """
     check_vessel(vessel)
     turned = (

@@ -54,7 +54,7 @@ def open_mask(path: str | os.PathLike[str], words: Iterable[str] = ()) -> MaskFi
     Raises
     ------
     SettingsError
-        For a word that is no value and no name of the file.
+        For a word that is neither a value nor a name of the file.
     FormatError
         For an unreadable mask.
     FileError
@@ -69,4 +69,4 @@ def open_mask(path: str | os.PathLike[str], words: Iterable[str] = ()) -> MaskFi
 
 
 def _silent(done: int, total: int) -> None:
-    """Report progress to nobody."""
+    """Ignore progress."""

@@ -68,7 +68,7 @@ def trace_mask(
         The widest gap (mm) between pieces that a straight vessel bridges, whose points are all marked as
         :attr:`Vessel.bridged`. Gaps are listed in :attr:`VesselTree.gaps` whether or not they are bridged.
     progress : callable, optional
-        Called now and then with how much is done and how much there is to do.
+        Called at intervals with the work done and the total work.
 
     Returns
     -------

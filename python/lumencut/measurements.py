@@ -94,7 +94,7 @@ class Measurements:
             The id or the name of a vessel of the tree, or another vessel, such as one that
             :meth:`VesselTree.path` made of several.
         progress : callable, optional
-            Called now and then with how much is done and how much there is to do.
+            Called at intervals with the work done and the total work.
 
         Returns
         -------

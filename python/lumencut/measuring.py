@@ -21,7 +21,7 @@ from lumencut.vessel_tree import VesselTree
 from lumencut.volume import Volume
 from lumencut.volume_files.memory import as_volume
 
-#: Called with how much is done and how much there is to do.
+#: Called with the work done and the total work.
 Progress = Callable[[int, int], object]
 
 
@@ -70,7 +70,7 @@ def measure(
         in fat is then measured too wide, as a part of its wall is taken for lumen.
         :attr:`Profile.wall_source` says which.
     progress : callable, optional
-        Called now and then with how much is done and how much there is to do.
+        Called at intervals with the work done and the total work.
 
     Returns
     -------
@@ -193,7 +193,7 @@ def cross_section(
     pixel_spacing : float, optional
         The side of a pixel (mm); half of the smallest side of a voxel by default.
     profile : Profile, optional
-        What :func:`lumencut.measure` found for this vessel.
+        The result of :func:`lumencut.measure` for this vessel.
 
     Raises
     ------

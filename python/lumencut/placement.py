@@ -56,7 +56,7 @@ class Placement:
     space, unit : str
         The space and unit in which they are read.
     space_from, unit_from : "asked", "stated", "volume", "values" or "assumed"
-        Who said so: the caller, the file, the extent of the volume, its values along the lines, or nobody.
+        Who decided it: the caller, the file, the extent of the volume, its values along the lines, or nobody.
     decision : Told
         The decision, its reason, and how to confirm it; empty if file or caller stated everything.
     is_unusual : bool

@@ -66,7 +66,7 @@ def save(sections: Sections, path: str | os.PathLike[str], **of_objects: Any) ->
     """Write one profile as ``.csv`` or ``.json``; reject options of DICOM."""
     checked = checked_path(path, WRITABLE)
     if not is_profile_file(checked):
-        raise FormatError(str(checked), f"the ending {checked.suffix!r}", ", ".join((*_ENDINGS, ".dcm")))
+        raise FormatError(str(checked), f"the extension {checked.suffix!r}", ", ".join((*_ENDINGS, ".dcm")))
     check_dicom_alone(checked, **of_objects)
     is_table = checked.suffix.lower() == ".csv"
     write_text(checked, csv_text(sections) if is_table else json_text(sections))

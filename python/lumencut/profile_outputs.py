@@ -43,7 +43,7 @@ class ProfileOutputs:
         Parameters
         ----------
         path : path-like
-            The ending names the format.
+            The extension selects the format.
         study, anonymous, other_patient
             For ``.dcm``, as in :meth:`Frame.save`; with ``anonymous`` the name of the vessel is left out.
         stenoses : sequence of Stenosis, default ()
@@ -52,15 +52,15 @@ class ProfileOutputs:
         Raises
         ------
         FormatError
-            For another ending; for ``.dcm`` where there is no one study with a frame of reference.
+            For another extension; for ``.dcm`` where there is no one study with a frame of reference.
         MeasuringError
             For stenoses of another vessel.
         SettingsError
-            For what only ``.dcm`` can hold.
+            For options that only ``.dcm`` supports.
         MissingPackageError
             For ``.dcm`` without highdicom.
         FileError
-            Where the file cannot be written.
+            If the file cannot be written.
         """
         from lumencut.profile_files import save, save_object
 

@@ -1,8 +1,8 @@
 """The text in a PNG that describes how the picture was rendered, and its parser.
 
 It holds the camera, the settings with the windows that were used, what is labelled, the number of vessels,
-and the version. It names no file and no vessel, and takes over nothing that the files say of the patient or
-the scan.
+and the version. It names no file and no vessel, and repeats nothing from the files about patient or
+scan.
 """
 
 from __future__ import annotations
@@ -123,5 +123,5 @@ def _camera(content: dict[str, Any]) -> Camera:
     stated = {name: np.asarray(content[name], dtype=np.float64) for name in _PLACE[:-1]}
     for name in ("direction", "right_axis", "up"):
         if not np.allclose(stated[name], getattr(made, name), rtol=0, atol=1e-9):
-            raise CameraError(name, "another vector", "a unit vector that goes with the others")
+            raise CameraError(name, "a vector that does not fit", "a unit vector perpendicular to the others")
     return made._moved({**stated, "pixel_spacing": made.pixel_spacing})

@@ -1,6 +1,6 @@
 """The text in a picture of a reformation: its axes, and how it was made.
 
-It names no file and no vessel, and takes over nothing that the files say of the patient or the scan.
+It names no file and no vessel, and repeats nothing from the files about patient or scan.
 """
 
 from __future__ import annotations

@@ -40,13 +40,13 @@ def trace_from(
         Vessels end about where they are narrower from there on (mm). Those less than about two voxels wide
         are not found.
     progress : callable, optional
-        Called now and then with how much is done and how much there is to do.
+        Called at intervals with the work done and the total work.
 
     Returns
     -------
     VesselTree
         Whole vessels from the root of the part outwards, with ``radius`` and ``confidence``, points at most
-        0.5 mm apart; the first point of a branch is a point of its parent to the bit. A ring ends on its
+        0.5 mm apart; the first point of a branch is exactly a point of its parent. A ring ends on its
         first point. :attr:`VesselTree.doubtful` has the vessels of the part that are not sure,
         :attr:`VesselTree.doubts` says why, and :attr:`VesselTree.notes` which level and contrast vessels were
         found to have.

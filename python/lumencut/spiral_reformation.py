@@ -148,7 +148,7 @@ def spiral(
     degrees : float, optional
         The angle in degrees, instead of ``angle``.
     device : {"auto", "cpu", "gpu"}, default "auto"
-        What computes, as for :class:`lumencut.Renderer`.
+        The device that computes, as for :class:`lumencut.Renderer`.
 
     Raises
     ------
@@ -159,7 +159,7 @@ def spiral(
     SettingsError
         For another sampling, or a smoothing out of range.
     VolumeError
-        For an image that is no volume.
+        For an image that is not a volume.
     """
     check_vessel(vessel)
     return spiral_of(

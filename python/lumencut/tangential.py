@@ -63,7 +63,7 @@ class TangentialReformation(Reformation):
         Raises
         ------
         CameraError
-            For both angles or neither, or one that is no finite number.
+            For both angles or neither, or one that is not a finite number.
         """
         camera = self.camera.rotated(rotation(angle, degrees), "up")
         return TangentialReformation(self._renderer, self._vessel, camera, self._smoothing, self._given)

@@ -55,13 +55,13 @@ def trace(
     stopper_radius : float, default 3.0
         How far around a stopper is forbidden (mm).
     bridge : bool, default False
-        Whether vessels may continue where no lumen is to be seen, as in an occlusion. Without it a stretch of
+        Whether vessels may continue where no lumen is visible, as in an occlusion. Without it a stretch of
         more than 5 mm is an error, and one of more than 1.2 mm where the vessel does not continue in the same
         direction.
     names : sequence of str or None, optional
         The names of the vessels.
     progress : callable, optional
-        Called now and then with how much is done and how much there is to do.
+        Called at intervals with the work done and the total work.
 
     Returns
     -------

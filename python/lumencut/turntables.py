@@ -146,11 +146,11 @@ def save_animation(
     Raises
     ------
     FormatError
-        For an ending that names no animation, no frames, or frames of several sizes.
+        For an unknown extension, no frames, or frames of several sizes.
     SettingsError
         For frames per second beyond their range, or names of vessels without labels.
     FileError
-        Where the file cannot be written.
+        If the file cannot be written.
     MissingPackageError
         For a video without the extra ``[video]``.
     """

@@ -124,7 +124,7 @@ def uncurl(
     settings : Settings, optional
         Window, opacity and slab; a focus and chosen vessels are refused.
     device : {"auto", "cpu", "gpu"}, default "auto"
-        What computes, as for :class:`lumencut.Renderer`.
+        The device that computes, as for :class:`lumencut.Renderer`.
 
     Raises
     ------
@@ -135,7 +135,7 @@ def uncurl(
     SettingsError
         For an amount outside 0 to 1, a smoothing out of range, an invalid slab, or a focus.
     VolumeError
-        For an image that is no volume.
+        For an image that is not a volume.
     """
     check_vessel(vessel)
     return uncurl_of(

@@ -80,7 +80,7 @@ def untangled(
     SettingsError
         For another device, a slab that is invalid or not thicker than 0, or a focus.
     VolumeError
-        For an image that is no volume.
+        For an image that is not a volume.
     KeyboardInterrupt
         At Ctrl-C.
     """

@@ -30,7 +30,7 @@ class Vessel(Value):
     confidence : array_like, shape (n,), optional
         How sure each point is, 0 to 1, where the vessel was traced.
     bridged : array_like of bool, shape (n,), optional
-        Which points lie where no lumen was to be seen, and were put there because a bridge was asked for.
+        Which points lie where no lumen was visible, and were put there because a bridge was asked for.
 
     Raises
     ------
@@ -81,7 +81,7 @@ class Vessel(Value):
 
     @property
     def bridged(self) -> npt.NDArray[np.bool_] | None:
-        """Which points lie where no lumen was to be seen, shape (n,), where known."""
+        """Which points lie where no lumen was visible, shape (n,), where known."""
         return self._bridged
 
     def named(self, name: str | None) -> Vessel:

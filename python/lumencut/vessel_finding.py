@@ -36,13 +36,13 @@ def find_vessels(
         Vessels end about where they are narrower from there on (mm). Those less than about two voxels wide
         are not found.
     progress : callable, optional
-        Called now and then with how much is done and how much there is to do.
+        Called at intervals with the work done and the total work.
 
     Returns
     -------
     VesselTree
         Whole vessels from their roots outwards, with ``radius`` and ``confidence``, points at most 0.5 mm
-        apart; the first point of a branch is a point of its parent to the bit. :attr:`VesselTree.parts` lists
+        apart; the first point of a branch is exactly a point of its parent. :attr:`VesselTree.parts` lists
         which are connected, the most important part first. :attr:`VesselTree.doubtful` has those that are not
         sure, :attr:`VesselTree.doubts` says why, and :attr:`VesselTree.notes` which level and contrast
         vessels were found to have. The result is the same for any number of threads.

@@ -136,7 +136,7 @@ class VesselTree(Value):
         wall : pair of float or "off", optional
             The level of walls, as for :func:`lumencut.measure`.
         progress : callable, optional
-            Called now and then with how much is done and how much there is to do.
+            Called at intervals with the work done and the total work.
 
         Raises
         ------

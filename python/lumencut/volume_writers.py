@@ -34,9 +34,9 @@ def write_volume(volume: Volume, path: str | os.PathLike[str], mark: str = "") -
     Raises
     ------
     FormatError
-        For another ending.
+        For another extension.
     FileError
-        Where the file cannot be written.
+        If the file cannot be written.
     """
     path = checked_path(path, WRITABLE)
     name = path.name.lower()
@@ -45,7 +45,7 @@ def write_volume(volume: Volume, path: str | os.PathLike[str], mark: str = "") -
     elif name.endswith((".nii", ".nii.gz")):
         replace_whole(path, lambda whole: _write_nifti(volume, whole, mark, is_packed=name.endswith(".gz")))
     else:
-        raise FormatError(str(path), f"the ending {path.suffix!r}", ".nrrd, .nii or .nii.gz")
+        raise FormatError(str(path), f"the extension {path.suffix!r}", ".nrrd, .nii or .nii.gz")
 
 
 def _write_nrrd(volume: Volume, whole: Path, mark: str) -> None:

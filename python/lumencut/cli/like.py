@@ -47,7 +47,7 @@ def recipe_from(path: Path | None) -> Recipe | None:
     recipe = read_session(path).recipe
     if recipe is None:
         found = "a session without a view"
-        raise FormatError(str(path), found, "one that stores a view", "name --view")
+        raise FormatError(str(path), found, "one that stores a view", "give --view")
     return recipe
 
 
@@ -85,7 +85,7 @@ def views_of(chosen: dict[str, Any], recipe: Recipe | None) -> list[tuple[Any, C
     views = given.pop("view", (None,))
     if len(views) > 1:
         found = f"--view is given {len(views)} times with --like, which renders the view of one picture"
-        raise click.UsageError(f"{found}; give it once or not at all, or leave --like out")
+        raise click.UsageError(f"{found}; give --view at most once, or leave out --like")
     if views[0] is not None:
         given["view"] = views[0]
     return [(views[0], camera_like(recipe.camera, given))]

@@ -282,7 +282,7 @@ def check_picture(path: Path) -> None:
     kind = Image.registered_extensions().get(path.suffix.lower())
     if path.suffix.lower() not in (".npz", ".dcm") and kind not in Image.SAVE:
         known = "a picture format such as .png, .tif or .webp, .dcm (DICOM), or .npz"
-        raise click.UsageError(f"{path}: found the ending {path.suffix!r}; expected {known}")
+        raise click.UsageError(f"{path}: found the extension {path.suffix!r}; expected {known}")
     check_folder(path)
 
 

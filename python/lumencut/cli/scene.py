@@ -56,13 +56,15 @@ def check_scene(files: SceneFiles, chosen: dict[str, Any], settings: Settings) -
     found = found_by(chosen)
     has_centerlines = bool(files.centerlines) or found is not None
     if files.centerlines and found is not None:
-        raise click.UsageError(f"found CENTERLINES and {found}; expected one of them: {found} traces its own")
+        words = f"found CENTERLINES and {found}; expected only one of them"
+        raise click.UsageError(f"{words}, because {found} traces centerlines itself")
     check_files(files.volume, files.centerlines)
     volumes = [] if files.volume is None else [files.volume]
     check_reading(chosen, volumes, has_centerlines=has_centerlines)
     check_options(chosen, settings, has_centerlines=has_centerlines)
     if settings.context is None and not has_centerlines:
-        raise click.UsageError("--context none without CENTERLINES shows nothing; give one of them")
+        found = "--context none without CENTERLINES shows nothing"
+        raise click.UsageError(f"{found}; give CENTERLINES or another --context")
 
 
 def read_scene(files: SceneFiles, chosen: dict[str, Any]) -> tuple[Renderer, VesselTree | Volume]:

@@ -70,7 +70,7 @@ def write_parquet(table: Path, words: frozenset[str] = frozenset()) -> None:
             ),
         )
     else:
-        # A cohort without measures has no sections, and no columns for them.
+        # If nothing in the cohort was measured, the table is empty and has no header.
         found = pa.table({})
     found = _unmarked(found)
     replace_whole(table.with_suffix(".parquet"), lambda whole: parquet.write_table(found, whole))

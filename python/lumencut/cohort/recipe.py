@@ -257,7 +257,7 @@ def _choices(key: str) -> tuple[str, ...]:
 def _names(subject: str, value: Any, choices: tuple[str, ...]) -> tuple[str, ...]:
     names = [value] if isinstance(value, str) else value
     if not isinstance(names, list) or not all(name in choices for name in names):
-        raise FormatError(subject, f"{value!r:.80}", f"a list of some of {', '.join(choices)}")
+        raise FormatError(subject, f"{value!r:.80}", f"a list of names from: {', '.join(choices)}")
     if len(set(names)) < len(names):
         raise FormatError(subject, f"{value!r:.80}", "each name once")
     return tuple(names)

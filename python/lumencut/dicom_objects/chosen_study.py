@@ -57,9 +57,11 @@ def chosen_study(origin: Origin, study: Any, *, anonymous: bool, other_patient: 
         For both a study and ``anonymous``, a study of another kind, and ``other_patient`` without a study.
     """
     if anonymous and study is not None:
-        raise SettingsError("study", "a study with anonymous=True", "one of them", "leave one of them out")
+        raise SettingsError("study", "a study with anonymous=True", "one of them", "leave out one of them")
     if other_patient and study is None:
-        raise SettingsError("other_patient", "True without a study", "study=FOLDER too", "leave it out")
+        raise SettingsError(
+            "other_patient", "True without a study", "study=FOLDER too", "leave out other_patient"
+        )
     if anonymous:
         return _anonymous(origin)
     if study is None:

@@ -171,7 +171,7 @@ def write(data: Any, target: Target, encode: Callable[[Any], None] | None = None
     data : pydicom.Dataset
         The object with its UID.
     target : Path or binary file
-        The file, or what takes its bytes.
+        The file or binary stream to write to.
     encode : callable, optional
         Compresses the pixels of the object.
     """

@@ -86,7 +86,7 @@ def write_picture(
     Parameters
     ----------
     target : Path or binary file
-        The file, or what takes its bytes.
+        The file or binary stream to write to.
     picture : Picture
         The picture.
     study : Study

@@ -46,7 +46,7 @@ def write_report(target: Target, vessels: Sequence[Measured], study: Study, *, n
     Parameters
     ----------
     target : Path or binary file
-        The file, or what takes its bytes.
+        The file or binary stream to write to.
     vessels : sequence of Measured
         The content.
     study : Study

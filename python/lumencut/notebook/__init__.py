@@ -56,7 +56,7 @@ def show(
     names : bool, default True
         Whether to write the names of the vessels into the picture.
     device : {"auto", "cpu", "gpu"}, default "auto"
-        What computes, as for :class:`lumencut.Renderer`.
+        The device that computes, as for :class:`lumencut.Renderer`.
     **changes
         Settings by name that shall have other values, such as ``context="dvr"``.
 

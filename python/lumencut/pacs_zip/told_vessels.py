@@ -160,7 +160,7 @@ def told_vessel(numbers: Given, finding: Given, *, has_name: bool) -> ToldVessel
     Raises
     ------
     FormatError
-        For anything that is not a such vessel.
+        For anything that is not such a vessel.
     """
     profile = ToldProfile(numbers, finding.items("contours"))
     marks = tuple(_mark(one, profile) for one in finding.items("marks"))
@@ -190,7 +190,9 @@ def _bits(words: Any) -> int:
 def _mark(given: Any, profile: ToldProfile) -> Mark:
     """A place that the page tells by its name, its arc length (mm), and whether it is but offered."""
     is_place = isinstance(given, list) and [type(one) for one in given[::2]] == [str, bool]
-    place = checked(given, "a mark", "a name, an arc length and whether it is offered", lambda _: is_place)
+    place = checked(
+        given, "a mark", "a name, an arc length and whether it is a suggestion", lambda _: is_place
+    )
     name, at, is_offered = place
     at = checked(at, "a mark", "an arc length", is_number)
     diameter = float(profile.diameter_equivalent[profile._core.nearest(at)])

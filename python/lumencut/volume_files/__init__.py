@@ -287,7 +287,7 @@ def list_series(path: str | os.PathLike[str]) -> list[SeriesReport]:
 
 
 def _silent(done: int, total: int) -> None:
-    """Report progress to nobody."""
+    """Ignore progress."""
 
 
 def _finite_range(array: npt.NDArray[Any], notes: list[str]) -> tuple[float, float] | None:
@@ -374,8 +374,9 @@ def _fetched(given: str | os.PathLike[str], wanted: Wanted, progress: Progress) 
 def _unknown(path: Path) -> FormatError:
     kind = kind_of(path)
     if kind is None:
-        return FormatError(str(path), "a file of no known format", _KNOWN)
-    mend = "read_centerlines reads centerlines" if kind.role == "centerlines" and not kind.mend else kind.mend
+        return FormatError(str(path), "a file of unknown format", _KNOWN)
+    is_readable = kind.role == "centerlines" and not kind.mend
+    mend = "read centerlines with read_centerlines" if is_readable else kind.mend
     return FormatError(str(path), kind.name, _KNOWN, mend)
 
 

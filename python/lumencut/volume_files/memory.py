@@ -105,9 +105,10 @@ def _stated(spacing: Any, origin: Any, direction: Any) -> dict[str, bool]:
 
 def _require(name: str, dimension: int, components: int) -> None:
     if dimension != 3:
-        raise VolumeError(name, f"{dimension} dimensions", "3", "take one time point out of it")
+        mend = "pass a 3D image; of a time series, pass a single time point"
+        raise VolumeError(name, f"{dimension} dimensions", "3", mend)
     if components != 1:
-        raise VolumeError(name, f"{components} components per voxel", "one", "take one component out of it")
+        raise VolumeError(name, f"{components} components per voxel", "one", "pass an image of one component")
 
 
 class _Kept:

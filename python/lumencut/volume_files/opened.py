@@ -283,7 +283,7 @@ def inside(header: Path, name: str, field: str) -> Path:
     windows = PureWindowsPath(name)
     parts = windows.parts
     if not parts or not name.isprintable():
-        raise FormatError(str(header), f"no file's name in {field}", "the name of a file next to the header")
+        raise FormatError(str(header), f"no file name in {field}", "the name of a file next to the header")
     leaves = windows.drive or windows.root or ".." in parts or name.startswith("~")
     home = header.parent.resolve()
     place = header.parent.joinpath(*parts)

@@ -42,7 +42,7 @@ def has_segments(lines: Iterable[bytes]) -> bool:
 def no_segmentation(path: Path) -> FormatError:
     """Return the error for segments of a file without segments."""
     expected = "a segmentation (DICOM SEG, or .seg.nrrd of 3D Slicer), to choose segments"
-    return FormatError(str(path), "no segmentation", expected, "leave segments out")
+    return FormatError(str(path), "no segmentation", expected, "leave out segments")
 
 
 def segmentation_file(

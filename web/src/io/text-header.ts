@@ -34,7 +34,7 @@ export function wordsOf(text: string): string[] {
 export async function dataFile(header: Source, name: string, field: string, beside: Beside): Promise<Source> {
   const parts = name.split(/[\\/]+/).filter((part) => part !== '.' && part !== '');
   if (parts.length === 0 || name !== shownWhole(name)) {
-    throw formatFailure(header.path, `no file's name in ${field}`, 'the name of a file beside the header');
+    throw formatFailure(header.path, `no file name in ${field}`, 'the name of a file next to the header');
   }
   if (/^([\\/~]|[a-z]:)/i.test(name) || parts.includes('..')) {
     const found = `${field}: a path that leaves the folder (${shown(name)})`;

@@ -109,5 +109,5 @@ def _of_group(group: Header, tag: int) -> Any:
     """A value of a functional group, true if damaged; the judge reports it if needed."""
     try:
         return plain(group[tag].value)
-    except Exception:  # what pydicom raises for damaged values is nearly everything
+    except Exception:  # pydicom raises almost any exception for damaged values
         return True

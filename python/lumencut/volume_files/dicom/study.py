@@ -62,7 +62,7 @@ def comments_of(image: Image) -> str:
     """Return the comments of an image, which may name a patient; empty if unreadable."""
     try:
         return str(image.source.attributes([_IMAGE_COMMENTS]).get("ImageComments") or "")
-    except Exception:  # what pydicom raises for damaged values is nearly everything
+    except Exception:  # pydicom raises almost any exception for damaged values
         return ""
 
 
@@ -128,7 +128,7 @@ def _box_in(header: Any, size: int) -> Box | None:
     image = Image(Source(Path("header"), size), header, 0, "", "")
     try:
         return box_of_slices([header_record(image)])
-    except Exception:  # what pydicom raises for damaged values is nearly everything
+    except Exception:  # pydicom raises almost any exception for damaged values
         return None
 
 
@@ -146,6 +146,6 @@ def _readable(header: Any) -> Any:
     for tag in sorted(set(_tags()) & set(header.keys())):
         try:
             kept[tag] = header[tag]
-        except Exception:  # what pydicom raises for damaged values is nearly everything
+        except Exception:  # pydicom raises almost any exception for damaged values
             continue
     return kept
