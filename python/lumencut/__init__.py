@@ -252,8 +252,8 @@ def __getattr__(name: str) -> Any:
 
 
 def _restored(name: str, *arguments: Any) -> Any:
-    """Create an object of a class by its name; pickles refer only to this function, so that modules can
-    move.""" from lumencut._pickles import part
+    """Create an object of a class by name; pickles refer only to this function, so modules can move."""
+    from lumencut._pickles import part
 
     kind = __getattr__(name) if name in _MODULE else part(name)
     return kind.__new__(kind, *arguments)

@@ -12,8 +12,7 @@ Wall: TypeAlias = tuple[float, float] | Literal["off"] | None
 
 
 def wall_level(wall: Wall) -> tuple[float, float] | None:
-    """Return the level of walls for the core: a standard deviation of 0 means that walls are not
-    distinguished.
+    """Return the wall level for the core; a standard deviation of 0 means no distinct walls.
 
     Raises
     ------

@@ -11,8 +11,8 @@ from lumencut._pickles import restored
 class Flag(IntFlag):
     """Flags of a section; sections keep their numbers with any flag.
 
-    Sections with `BRANCH`, `OUTSIDE`, `NO_EDGE`, `RECENTERED` or `RESTLESS_LINE` are left out of what is
-    narrowest, widest or suggested, and of references.
+    Sections with `BRANCH`, `OUTSIDE`, `NO_EDGE`, `RECENTERED` or `RESTLESS_LINE` are excluded from extrema,
+    suggestions and references.
     """
 
     def __reduce_ex__(self, protocol: Any) -> Any:

@@ -75,7 +75,7 @@ def typed(chosen: dict[str, Any]) -> dict[str, Any]:
 
 
 def views_of(chosen: dict[str, Any], recipe: Recipe | None) -> list[tuple[Any, Camera]]:
-    """Return each requested view and its camera, whose place is open unless a recipe gives it.
+    """Return each requested view and its camera, which has no place yet unless a recipe gives it.
 
     The view of a recipe is None without ``--view``.
     """
@@ -99,7 +99,7 @@ def camera_of(
 
 
 def warn_of_vessels(chosen: dict[str, Any], recipe: Recipe | None, renderer: Renderer) -> None:
-    """Warn if a picture showed another number of vessels, because it does not store their choice.
+    """Warn if the picture showed another number of vessels, since it does not store which ones.
 
     There is no warning if the user chooses vessels.
     """

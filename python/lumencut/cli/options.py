@@ -232,7 +232,7 @@ def _camera_options(command: Command) -> Command:
 
 
 def view_from(chosen: dict[str, Any]) -> Camera:
-    """Return a camera with the direction, up and size of the options; its place is still open."""
+    """Return a camera with the direction, up and size of the options; its place is not set yet."""
     import numpy as np
 
     from lumencut.camera import VIEWS, Camera, upright
@@ -289,7 +289,7 @@ def check_picture(path: Path) -> None:
 def check_folder(path: Path) -> None:
     """Reject a file in a folder that does not exist."""
     if not path.parent.is_dir():
-        raise FileError(str(path), f"no folder {path.parent}", "a folder to write into", "make it first")
+        raise FileError(str(path), f"no folder {path.parent}", "a folder to write into", "create it first")
 
 
 def added(parts: tuple[Callable[[Command], Command], ...], command: Command) -> Command:

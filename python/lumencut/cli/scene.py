@@ -78,7 +78,7 @@ def read_scene(files: SceneFiles, chosen: dict[str, Any]) -> tuple[Renderer, Ves
     shown, fitted = vessels.chosen_of(tree, chosen)
     # The renderer compares the tree with the volume and warns if the space looks wrong.
     renderer = Renderer(voxels, tree, files.device)
-    # A part of the tree has the window of the whole: its brightness does not depend on the choice.
+    # Chosen vessels keep the window of the whole tree, so brightness does not depend on the choice.
     return (renderer if shown is tree else renderer.with_tree(shown)), fitted
 
 
@@ -99,7 +99,7 @@ def read_files(files: SceneFiles, chosen: dict[str, Any]) -> tuple[Volume | None
 
 
 def centerlines_of(paths: tuple[Path, ...]) -> CenterlineFile | CenterlineFiles | None:
-    """Read the files of centerlines. A single one is compared with the volume by the renderer alone."""
+    """Read the files of centerlines. Only the renderer compares a single one with the volume."""
     from lumencut.centerline_file import CenterlineFile
 
     if len(paths) < 2:

@@ -1,4 +1,4 @@
-"""What speaks against results of a scan in a chosen study: another patient, another study, another place."""
+"""Doubts about putting results of a scan into a chosen study: another patient, study or place."""
 
 from __future__ import annotations
 
