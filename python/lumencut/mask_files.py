@@ -19,7 +19,7 @@ class MaskFile:
     Attributes
     ----------
     file : VolumeFile
-        The file; of a segmentation no more than the chosen segments are read.
+        The file; only the chosen segments of a segmentation are read.
     labels : dict of int to str, or None
         The labels that are lumen, with their names; None for every value but 0.
     """

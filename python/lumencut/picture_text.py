@@ -1,4 +1,4 @@
-"""The text that a PNG of Lumencut carries, and settings as its JSON has them."""
+"""The text in a PNG of Lumencut, and settings as JSON."""
 
 from __future__ import annotations
 

@@ -35,7 +35,7 @@ class ScanDetails:
     kernel: str | None = None
 
     def __str__(self) -> str:
-        """All of it in words, with what is not stated."""
+        """All details in words, including which are not stated."""
         from lumencut import _lumencut
 
         return _lumencut.scan_words(self)

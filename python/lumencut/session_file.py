@@ -68,7 +68,7 @@ def read_session(path: str | Path) -> SessionFile:
     Raises
     ------
     FormatError
-        For a file that is no session, is damaged, or shows what a picture cannot be rendered like.
+        For a file that is no session, is damaged, or has a view that cannot be rendered.
     FileError
         For a file that cannot be read.
     """

@@ -25,7 +25,7 @@ SAMPLINGS = ("arc", "angle")
 _AREAS, _WIDEST = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000), 0.4
 
 
-#: The most columns that a default pitch makes.
+#: Largest number of columns with a default pitch.
 _MOST_COLUMNS = 16_000
 
 #: Largest default pixel side (mm).
@@ -191,7 +191,7 @@ def spiral_of(
     smoothing: float = 0.0,
     settings: Settings | None = None,
 ) -> SpiralReformation:
-    """Return the spiral CPR by a renderer, whose window it has; parameters are those of :func:`spiral`."""
+    """Return the spiral CPR in the scene and window of a renderer; parameters as for :func:`spiral`."""
     check_vessel(vessel)
     choice(SettingsError, "sampling of the spiral CPR", sampling, SAMPLINGS)
     volume = renderer.volume

@@ -81,7 +81,7 @@ def fitted_turn(camera: Camera, scene: Any, degrees: float = 360.0, axis: Axis =
     camera : Camera
         The first view; its direction, up and size are kept.
     scene : VesselTree, Vessel, Volume, or anything :func:`lumencut.render` takes as a volume
-        What is to fit.
+        The object to fit.
     degrees, axis
         As for :func:`turntable`.
 
@@ -141,7 +141,7 @@ def save_animation(
     study, anonymous, other_patient, compress
         For ``.dcm``, as for :meth:`Frame.save`.
     grey : bool, default False
-        For ``.dcm``: write grey frames, which some programs read alone.
+        For ``.dcm``: write grey frames; some programs read only these.
 
     Raises
     ------

@@ -97,8 +97,8 @@ def uncurl(
 
     The curvature of the vessel, in the frame that does not turn about it, is made smaller by the amount, and
     the vessel is drawn again with it: its lengths stay true, and a helix stays a helix of the same torsion.
-    Its line from end to end turns from its own direction to downwards. Each pixel takes the nearest place of
-    the bent vessel in the image, and what lies as far beside that place of the true one.
+    Its line from end to end turns from its own direction to downwards. Each pixel finds the nearest place of
+    the bent vessel in the image, and shows the tissue at the same offset from that place of the true vessel.
 
     Parameters
     ----------
@@ -112,8 +112,7 @@ def uncurl(
         From 0, the tangential CPR of ``cpr(mode="tangential", camera=camera)``, to 1, the straightened CPR of
         ``cpr(mode="straightened", normal=-camera.direction)``.
     width : float, optional
-        How far apart the outermost pixels beside the vessel are that show something (mm); all where not
-        given.
+        Width around the vessel that is shown (mm); everything by default.
     pixel_spacing : float, optional
         Side of a pixel (mm) instead of the camera's, whose image keeps the length of its sides.
     smoothing : float, default 0
@@ -163,7 +162,7 @@ def uncurl_of(
     slab: SlabArgument = None,
     settings: Settings | None = None,
 ) -> Uncurled:
-    """Return an uncurled vessel by a renderer, whose window it has; parameters as for :func:`uncurl`."""
+    """Return an uncurled vessel in the scene and window of a renderer; parameters as for :func:`uncurl`."""
     check_vessel(vessel)
     if not isinstance(camera, (Camera, type(None))):
         raise CameraError("camera of the uncurling", type(camera).__name__, "a Camera or None")

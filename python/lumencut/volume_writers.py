@@ -13,7 +13,7 @@ from lumencut._files import WRITABLE, checked_path, replace_whole
 from lumencut.errors import FormatError
 from lumencut.volume import Volume
 
-#: NIfTI counts to the right and to the front, volumes to the left and to the back.
+#: Axes of NIfTI run to the right and the front (RAS), those of volumes to the left and the back (LPS).
 _RAS_FROM_LPS = np.diag([-1.0, -1.0, 1.0, 1.0])
 #: The fastest level of gzip. The highest one takes six times as long and saves 0.5 % of a noisy scan.
 _FAST = 1

@@ -68,7 +68,7 @@ def _plan(path: Path, files: Sequence[File], wanted: Wanted, unlike: Sequence[Re
 
 
 def _unlike(plan: Record, files: Sequence[File], notes: list[str]) -> list[Record]:
-    """The pairs of a plan that it takes for one slice, and whose values differ."""
+    """The pairs of a plan that count as one slice although their values differ."""
     pairs = plan["compared"]
     slices = [(_slice(files, pair["kept"]), _slice(files, pair["other"])) for pair in pairs]
     return [pair for pair, is_same in zip(pairs, same_values(slices, notes), strict=True) if not is_same]
@@ -99,7 +99,7 @@ def headers_document(files: Sequence[File], unlike: Sequence[Record] = ()) -> by
 
 def wanted_document(wanted: Wanted) -> bytes:
     """Return the choice in the form of the core."""
-    # Segments are no matter of series, which the core judges.
+    # The core checks only series, which have no segments.
     return _document({name: value for name, value in asdict(wanted).items() if name != "segments"})
 
 

@@ -48,7 +48,7 @@ def study_of(images: Sequence[Image]) -> Study:
 
 
 def _few(firsts: list[Image]) -> list[Image]:
-    """Some of the first images of series: where each image is its own series, all would take too long."""
+    """The first images of some series: if each image is its own series, reading all would take too long."""
     return firsts[:: -(-len(firsts) // _MOST_SERIES)]
 
 
@@ -69,8 +69,8 @@ def comments_of(image: Image) -> str:
 def study_below(path: str | os.PathLike[str]) -> Study:
     """Return the one study of all DICOM files below a folder, in a zip archive, or of a single file.
 
-    Its images are those of the scan where they belong to one series, else none: which series the scan is
-    cannot be told.
+    Its images are those of the scan if all belong to one series, else none, since the series of the scan is
+    unknown.
 
     Raises
     ------
