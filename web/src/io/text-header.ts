@@ -1,9 +1,9 @@
-/** What headers that are text have in common. */
+/** Parts shared by readers of text headers. */
 import { Failure } from '../core/failure';
 import { type Beside, besidePath, type Source } from './source';
 import { formatFailure, shown } from './words';
 
-/** A line of a header as UTF-8 unless it cannot be: names of files have letters of either kind. */
+/** A line of a header as UTF-8, or as Latin-1 if it is invalid, since file names may use either. */
 export function decoded(line: Uint8Array): string {
   try {
     return new TextDecoder('utf-8', { fatal: true }).decode(line);
