@@ -1,4 +1,4 @@
-"""How alike traced centerlines are to a reference, by the measures of the Rotterdam coronary evaluation.
+"""Comparison of traced centerlines with a reference, by the measures of the Rotterdam coronary evaluation.
 
 Schaap et al., "Standardized evaluation methodology and reference database for evaluating coronary artery
 centerline extraction algorithms", Medical Image Analysis 13(5), 2009, doi:10.1016/j.media.2009.06.003.

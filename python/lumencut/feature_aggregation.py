@@ -51,7 +51,7 @@ class FeatureAggregation(Reformation):
     Attributes
     ----------
     feature : {"max", "mean", "min", "range", "share"}
-        What of a half circle is shown.
+        The value of a half circle that is shown.
     level : float or None
         The value above which ``"share"`` counts.
     radius : numpy.ndarray, float64, shape (W,)
@@ -132,10 +132,10 @@ def cfa(
     radius : float, default 10
         The largest circle (mm).
     feature : {"max", "mean", "min", "range", "share"}, default "max"
-        What of a half circle is shown: its largest, mean or smallest value; ``"range"``, by how much the
-        largest exceeds the smallest, which shows uneven surroundings; or ``"share"``, how much
-        of it lies above ``level``, from 0 to 1. Its samples are no farther apart than a pixel, and one of
-        them is the pixel of the straightened CPR.
+        The value of a half circle that is shown: its largest, mean or smallest value; ``"range"``, by how
+        much the largest exceeds the smallest, which shows uneven surroundings; or ``"share"``, how much of it
+        lies above ``level``, from 0 to 1. Its samples are no farther apart than a pixel, and one of them is
+        the pixel of the straightened CPR.
     level : float, optional
         The value above which ``"share"`` counts, in the volume's unit; only for ``"share"``.
 

@@ -28,7 +28,7 @@ class Marked:
     references : tuple of float
         One or two places to compare it with (mm).
     method : {"nascet", "ecst", "area"}
-        How it is graded.
+        The method of grading.
     original, comparison : float or None
         The assumed original diameter, and that of a vessel like the normal one (mm).
     group : {"carotid", "coronary"} or None

@@ -50,7 +50,7 @@ def as_argument(option: Option) -> str:
     }[option.form]
 
 
-#: What the help of the command line calls the values of options.
+#: Names of the values of options in the help of the command line.
 _VALUES = {"series": "NUMBER|UID", "phase": "VALUE"}
 
 

@@ -227,7 +227,7 @@ def _warn_if_another_fits(tree: VesselTree, volume: Volume, subject: str, stackl
 
 
 def _misread(subject: str, found: str, meant: tuple[Coordinates, Unit]) -> Told:
-    """What was found, and how lines that were read as LPS in mm are to be read, by the place that fits."""
+    """The finding, and the options to read the centerlines in the space and unit that fit."""
     space, unit = meant
     parts: list[str | Option] = [f"{subject}: {found}; read the centerlines with "]
     if space == "ras":

@@ -130,7 +130,7 @@ class PlanarReformation(Reformation):
     def annotated(self, *, vessel_names: bool = True) -> npt.NDArray[np.uint8]:
         """Return the picture with labels as every reformation has them; see `Reformation.annotated`.
 
-        Where the rows follow a side of the lumen, a strip to the right of the picture shows their angle: from
+        If the rows follow a side of the lumen, a strip to the right of the picture shows their angle: from
         0 at its left edge to half of a turn at its right one.
         """
         image = super().annotated(vessel_names=vessel_names)
@@ -203,7 +203,7 @@ def cpr(
         Upwards in space (LPS); any length. At angle 0 the view runs to the patient's back as far as that is
         perpendicular to up; where up is the patient's front or back, to the head.
     slab : Slab, (mm, mode) or mm, optional
-        How thick the surface is, and what is shown of its thickness; that of the settings by default. It
+        Thickness of the surface, and which value of it is shown; by default as in the settings. It
         is thick along the view where projected, else perpendicular to the surface.
     smoothing : float, default 0
         Standard deviation of the Gaussian that smooths the centerline along its length (mm, 0 to 1000); its

@@ -254,7 +254,7 @@ class Profile(ProfileNumbers, ProfileOutputs):
         Parameters
         ----------
         first, second : pair of float
-            Where each begins and ends, arc lengths (mm); such as neck and sac of an aneurysm.
+            Start and end of each, arc lengths (mm); such as neck and sac of an aneurysm.
 
         Returns
         -------
@@ -274,7 +274,7 @@ class Profile(ProfileNumbers, ProfileOutputs):
         Parameters
         ----------
         start, end : float
-            Where the stretch begins and ends, arc lengths (mm).
+            Start and end of the stretch, arc lengths (mm).
         lao : float, optional
             The rotation (radians), to the patient's left above 0; the angulation follows from it. By default
             the view nearest to the front is returned.

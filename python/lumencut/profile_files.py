@@ -35,7 +35,7 @@ def csv_text(sections: Sections) -> str:
 def json_text(sections: Sections) -> str:
     """Return a profile as JSON, with the version of the software and a disclaimer.
 
-    What could not be measured is null.
+    Unmeasured values are null.
     """
     return _lumencut.profile_json(sections._core)
 

@@ -89,7 +89,7 @@ class ProfileOutputs:
         Parameters
         ----------
         axes : matplotlib.axes.Axes, optional
-            Where to draw; axes of a new figure of ``matplotlib.pyplot`` by default.
+            The axes to draw in; by default those of a new figure of ``matplotlib.pyplot``.
 
         Returns
         -------

@@ -62,7 +62,7 @@ class Mark:
     name : str
         Its kind: the place of a stenosis, a reference, the narrowest place, or a noted diameter.
     arc_length, diameter : float
-        Where it is, and the diameter of a circle of the same area there (mm).
+        Its place, and the diameter of a circle of the same area there (mm).
     is_suggestion : bool
         Whether Lumencut suggested it; otherwise a reader marked it.
     """

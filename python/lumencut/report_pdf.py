@@ -53,7 +53,7 @@ def report_pdf(html: str, measured: Sequence[Plotted]) -> bytes:
     Parameters
     ----------
     html : str
-        What :func:`lumencut.measure_report.report` wrote of the vessels.
+        The report of the vessels by :func:`lumencut.measure_report.report`.
     measured : sequence of Plotted
         The vessels, such as MeasuredVessel, whose plots are drawn again.
 

@@ -23,7 +23,7 @@ class ScanDetails:
         The phase of the heart, of the contrast medium and of the series in words, as far as they are stated:
         such as ``"70 % of the cardiac cycle"``.
     slice_thickness : float or None
-        How thick slices are (mm); they may lie nearer to each other.
+        Thickness of slices (mm); the distance between slices may be smaller.
     kernel : str or None
         The kernel of the reconstruction, such as ``"B30f"``.
     """

@@ -38,7 +38,7 @@ def fitting_size(profile: Profile) -> float:
 
 @dataclass(frozen=True, eq=False)
 class SectionView:
-    """How sections are shown.
+    """The display of sections: volume, window and size.
 
     Attributes
     ----------

@@ -75,7 +75,7 @@ class Stenosis:
 
     @property
     def method(self) -> Method:
-        """How it is graded: ``"nascet"``, ``"ecst"`` or ``"area"``."""
+        """The method of grading: ``"nascet"``, ``"ecst"`` or ``"area"``."""
         return self._graded.method
 
     @property

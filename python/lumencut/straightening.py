@@ -29,7 +29,7 @@ _MOST_VOXELS = 1 << 29
 #: Voxels that are sampled together.
 _TOGETHER = 1 << 20
 
-#: What viewers show next to each image of the series, after its sides.
+#: Comment that viewers show with each image of the series, after its sides.
 _PLACE = "Position and sides are those of a patient whose vessel is straight"
 
 

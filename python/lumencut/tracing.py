@@ -53,7 +53,7 @@ def trace(
     stoppers : array_like, shape (m, 3), default none
         Points (mm, LPS) around which no vessel may pass.
     stopper_radius : float, default 3.0
-        How far around a stopper is forbidden (mm).
+        Radius of the forbidden region around each stopper (mm).
     bridge : bool, default False
         Whether vessels may continue where no lumen is visible, as in an occlusion. Without it a stretch of
         more than 5 mm is an error, and one of more than 1.2 mm where the vessel does not continue in the same

@@ -102,7 +102,7 @@ def cr(
     volume, tree, camera, settings, device
         As for :func:`mpcpr`.
     radius_offset : float, default 50
-        How much larger than the vessel its disc is (pixels), 0 or more.
+        Radius of the disc beyond that of its vessel (pixels), 0 or more.
     arc_threshold : float, default 150
         Largest distance along the tree, through its junctions, between two places of one stretch (pixels of
         arc length), 0 or more. Within a stretch the nearer one in the image is shown, regardless of the

@@ -45,9 +45,9 @@ def turntable(
     settings : Settings, optional
         The settings; defaults if omitted.
     frames : int, default 72
-        How many frames. Whole turns leave out the last one, which would repeat the first.
+        Number of frames. Complete turns omit the last one, which would repeat the first.
     degrees : float, default 360
-        How far the viewer moves in all (degrees); from anterior about superior to the patient's left.
+        Total rotation of the viewer (degrees); from anterior about superior to the patient's left.
     axis : {"superior", "up", "right", "direction"} or array_like of shape (3,), default "superior"
         The axis of the patient or of the first view, or a vector (LPS).
 

@@ -118,8 +118,8 @@ def uncurl(
     smoothing : float, default 0
         Standard deviation of the Gaussian that smooths the centerline along its length (mm, 0 to 1000).
     slab : Slab, (mm, mode) or mm, optional
-        How thick the image is along the view, in the true surroundings of each place; that of the settings
-        by default.
+        Thickness of the image along the view, in the true surroundings of each place; by default as in the
+        settings.
     settings : Settings, optional
         Window, opacity and slab; a focus and chosen vessels are refused.
     device : {"auto", "cpu", "gpu"}, default "auto"
@@ -185,7 +185,7 @@ def fitted_uncurling(camera: Camera, vessel: Vessel, smoothing: float = 0.0) -> 
     camera : Camera
         The view; its direction, up and size are kept.
     vessel : Vessel
-        What is uncurled.
+        The vessel to uncurl.
     smoothing : float, default 0
         As for :func:`uncurl` (mm).
     """

@@ -42,7 +42,7 @@ _DIMMED = 0.55
 @by_name
 @dataclass(frozen=True)
 class Ostium:
-    """Where another vessel of the tree opens into the mapped one.
+    """The opening of another vessel of the tree into the mapped one.
 
     Attributes
     ----------
@@ -166,7 +166,7 @@ class LumenMap(Reformation):
 
     @functools.cached_property
     def ostia(self) -> tuple[Ostium, ...]:
-        """Where the other vessels of the tree open into this one, in the order of their ids."""
+        """The openings of other vessels of the tree into this one, in the order of their ids."""
         tree = self._mapped.tree
         if tree is None:
             return ()
@@ -188,7 +188,7 @@ class LumenMap(Reformation):
 
     @functools.cached_property
     def value(self) -> npt.NDArray[np.float32]:
-        """What is shown, float32, shape (H, W), NaN in openings of branches and outside the volume.
+        """The shown quantity, float32, shape (H, W), NaN in openings of branches and outside the volume.
 
         ``"wall"``: the volume in its unit; ``"radius"`` and ``"thickness"``: mm; ``"shaded"``: 0 to 1.
         """
@@ -198,7 +198,7 @@ class LumenMap(Reformation):
         return np.where(self.open, np.float32(np.nan), self._measured())
 
     def _measured(self) -> npt.NDArray[np.float32]:
-        """What is shown where it is no value of the volume."""
+        """The shown quantity of the modes other than ``"wall"``."""
         if self.mode == "radius":
             return self.wall.astype(np.float32)
         if self.mode == "shaded":

@@ -70,7 +70,7 @@ class UntangledTree(Reformation):
     parts : tuple of LaidOut
         The vessels in the image, in the order of their ids and along them.
     closures : tuple of numpy.ndarray, shape (2, 2)
-        Where cycles are cut open: column and row of two places that are one place of the body.
+        The cuts of cycles: column and row of two places that are one place of the body.
     """
 
     _core: _lumencut.Untangled

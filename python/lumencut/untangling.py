@@ -61,7 +61,7 @@ def untangled(
         without it, the free end with the largest mean radius over 10 mm; on equal ones that of the smallest
         id, its first point before its last one.
     slab : Slab, (mm, mode) or mm, optional
-        How thick the surface is, and what is shown of its thickness; that of the settings by default.
+        Thickness of the surface, and which value of it is shown; by default as in the settings.
     settings : Settings, optional
         Window, opacity, background and slab, and ``unknown_radius`` for vessels without radii. A focus and
         chosen vessels are refused.

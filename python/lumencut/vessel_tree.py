@@ -73,7 +73,7 @@ class VesselTree(Value):
         Parameters
         ----------
         count : int, default 6
-            How many levels beyond the finest.
+            Number of levels beyond the finest.
         """
         (checked,) = integers(VesselTreeError, "count of levels", [count], 0, 64, 1)
         made = _lumencut.levels(self._arrays(), checked)
@@ -192,7 +192,7 @@ class VesselTree(Value):
         ids : iterable of int or str
             Ids and names in their order along the path. Each vessel begins where the one before ends,
             regardless of the order of its points: ends at most 0.1 mm apart meet, and become one point.
-            Where a branch begins at a point between the ends of its parent, the path leaves the parent there:
+            If a branch begins at a point between the ends of its parent, the path leaves the parent there:
             it comes from the first point of the parent, or from the vessel before it.
 
         Returns

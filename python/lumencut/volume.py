@@ -155,7 +155,7 @@ class Volume(KeepsReadOnly):
     def states_orientation(self) -> bool:
         """Whether its source states where the patient's left, back and head are.
 
-        Where it does not, the axes i, j, k are taken to run to the left, to the back and to the head.
+        If it does not, the axes i, j, k are assumed to run to the left, to the back and to the head.
         """
         return self._states_orientation
 

@@ -1,4 +1,4 @@
-"""What all objects have in common: patient, study, series, equipment, sources, and the file."""
+"""Parts common to all objects: patient, study, series, equipment, sources, and the file."""
 
 from __future__ import annotations
 

@@ -49,7 +49,7 @@ class Credentials:
 
     @property
     def mend(self) -> str:
-        """What to do if they are rejected."""
+        """The remedy if they are rejected."""
         return f"give a valid token in {_WAYS}"
 
     def renewed(self) -> bool:

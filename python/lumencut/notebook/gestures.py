@@ -1,4 +1,4 @@
-"""What drags, the wheel and keys do to a camera and a window, as in the viewer."""
+"""Changes of a camera and a window by drags, the wheel and keys, as in the viewer."""
 
 from __future__ import annotations
 

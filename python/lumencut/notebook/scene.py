@@ -50,7 +50,7 @@ class Scene:
     tree : VesselTree or None
         Its centerlines.
     device : {"auto", "cpu", "gpu"}
-        What computes.
+        The device that computes.
 
     Raises
     ------

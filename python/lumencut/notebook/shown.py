@@ -226,7 +226,7 @@ class Shown:
         ]
 
     def _words(self) -> str:
-        """What is picked."""
+        """The picked vessel, place and value as text."""
         if self.picked is None:
             return ""
         value = float(self.scene.volume.sample(np.array([self.picked]))[0])

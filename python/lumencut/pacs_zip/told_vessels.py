@@ -112,7 +112,7 @@ class _ToldGrade:
 
     @property
     def method(self) -> str:
-        """How it is graded."""
+        """The method of grading."""
         return checked(self.told.text("method"), "a method", " or ".join(METHODS), METHODS.__contains__)
 
     @property
@@ -136,7 +136,7 @@ class ToldVessel:
     marks : tuple of Mark
         The places of its plot.
     measured : Measured
-        What a structured report holds of it.
+        Its content in a structured report.
     """
 
     profile: ToldProfile

@@ -31,7 +31,7 @@ def require_memory(subject: object, needed: int) -> None:
     Raises
     ------
     FormatError
-        Where less is available.
+        If less is available.
     """
     if needed <= _SMALL:
         return
