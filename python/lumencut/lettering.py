@@ -25,7 +25,7 @@ _LIGHT, _DARK = (255, 255, 255, 255), (0, 0, 0, 255)
 #: Height of the letters (pixels): a fortieth of the shorter side, within these.
 _SMALLEST, _LARGEST, _PART = 12, 64, 40
 
-#: How much larger the letters of the sides are.
+#: Size of the letters of the sides, relative to other letters.
 _LARGER = 1.3
 
 #: Widest name (letters) that is written in full.

@@ -52,7 +52,7 @@ def trace_mask(
     Parameters
     ----------
     mask : Volume, or an image that :func:`lumencut.render` takes as a volume
-        Whole numbers: 0 is background.
+        Integers; 0 is background.
     volume : Volume or such an image, optional
         The angiography of the mask, with lumen brighter than the tissue around it. The voxels of the mask
         must be voxels of it, to a tenth of a voxel: all or a part, in any order and direction of the axes.

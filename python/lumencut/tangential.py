@@ -56,7 +56,7 @@ class TangentialReformation(Reformation):
         Parameters
         ----------
         angle : float
-            By how much (radians), as for :meth:`Camera.rotated`.
+            The angle (radians), as for :meth:`Camera.rotated`.
         degrees : float
             The angle in degrees, instead of ``angle``.
 

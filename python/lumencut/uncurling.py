@@ -28,9 +28,9 @@ class Uncurled(Reformation):
     """One vessel straightened by degrees in the pixels of a camera, made by :func:`lumencut.uncurl`.
 
     At an amount of 0 it is the tangential CPR, at 1 the straightened CPR in the middle of the image, seen
-    from where the camera looks at the vessel's first point. In between, the vessel is as long as it is, and
-    turns less. A pixel is folded where another part of the vessel is nearer to what it shows. A world point
-    that is not shown has no pixel (NaN).
+    from the camera's side of the vessel's first point. In between, the vessel keeps its length and bends
+    less. A pixel is folded where another part of the vessel is nearer to what it shows. A world point that is
+    not shown has no pixel (NaN).
 
     Attributes
     ----------

@@ -65,8 +65,8 @@ class UntangledTree(Reformation):
     Attributes
     ----------
     overlaps : tuple of int
-        The ids of vessels whose lumen, with the hull margin, could not be set apart from others, or from
-        themselves; empty where there are none.
+        The ids of vessels whose lumen, with the hull margin, could not be separated from others, or from
+        themselves; may be empty.
     parts : tuple of LaidOut
         The vessels in the image, in the order of their ids and along them.
     closures : tuple of numpy.ndarray, shape (2, 2)

@@ -35,9 +35,7 @@ _COARSEST = 0.25
 @click.option(
     "--radius", type=float, default=10.0, show_default=True, metavar="MM", help="The largest circle (mm)."
 )
-@click.option(
-    "--level", type=float, metavar="VALUE", help="The value of the volume above which --feature share counts."
-)
+@click.option("--level", type=float, metavar="VALUE", help="--feature share counts values above this level.")
 @click.option(
     "--beside",
     type=click.Choice(("cpr",)),

@@ -81,7 +81,7 @@ def check_options(chosen: dict[str, Any], settings: Settings, *, has_centerlines
 
 
 def check_measured(chosen: dict[str, Any]) -> None:
-    """Reject options of looks if no picture is written and only the cut surface is measured."""
+    """Reject options of looks if only the cut surface is measured and no picture is written."""
     _refuse(chosen, _PICTURE, "without --pictures: it changes no measure", "give --pictures, or leave out")
 
 

@@ -180,7 +180,7 @@ def _check_flight(chosen: dict[str, Any], frames: int) -> None:
             found = f"--{name} does nothing with --fly-to"
             raise click.UsageError(f"{found}, which sets the movement; leave out --{name}")
     if frames < 2:
-        raise click.UsageError("a flight has at least 2 frames; give --frames 2 or more")
+        raise click.UsageError("a flight needs at least 2 frames; give --frames 2 or more")
 
 
 def _flight(

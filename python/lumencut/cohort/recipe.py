@@ -127,7 +127,7 @@ class Outputs:
 
 @dataclass(frozen=True)
 class CohortRecipe:
-    """What to do with every study; by default the tree, one view of the look *focus*, and measures."""
+    """The work on every study; by default the tree, one view of the look *focus*, and measures."""
 
     reading: Reading = field(default_factory=Reading)
     centerlines: Centerlines = field(default_factory=Centerlines)

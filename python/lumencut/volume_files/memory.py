@@ -23,7 +23,7 @@ _ACCEPTED = "a lumencut.Volume, SimpleITK, itk, nibabel or vtkImageData image, o
 
 
 def as_volume(image: Any) -> Volume:
-    """Give a volume on the voxels and the grid of an image in memory.
+    """Return a volume with the voxels and the grid of an image in memory.
 
     Parameters
     ----------

@@ -91,7 +91,7 @@ def described(path: Path, files: Sequence[File]) -> list[SeriesReport]:
 
 
 def headers_document(files: Sequence[File], unlike: Sequence[Record] = ()) -> bytes:
-    """Give the headers of files as the core takes them, with the pairs whose values were found to differ."""
+    """Return the headers of files in the form of the core, with the pairs whose values differ."""
     records = [file.record for file in files]
     syntaxes = [*NATIVE, *PLUGINS]
     return _document({"transfer_syntaxes": syntaxes, "files": records, "unlike": list(unlike)})

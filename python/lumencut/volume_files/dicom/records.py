@@ -17,7 +17,7 @@ Record = dict[str, Any]
 
 
 def header_record(image: Image) -> Record:
-    """Give a header as a record; every value is read, and one that is damaged raises what pydicom raises."""
+    """Return a header as a record; every value is read, and damaged values raise errors of pydicom."""
     header, keywords = image.header, _keywords()
     attributes = {}
     for tag in tuple(header.keys()):
