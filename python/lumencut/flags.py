@@ -23,7 +23,7 @@ class Flag(IntFlag):
     AT_LIMIT = 1
     #: The section lies within a junction, or the lumen continues sideways.
     BRANCH = 2
-    #: Something in the wall is brighter than lumen; it does not count as lumen, and what it touches is not fitted.
+    #: Something in the wall is brighter than lumen; it is not lumen, and what it touches is not fitted.
     CALCIUM = 4
     #: Something brighter than lumen goes all around it, or is far brighter: a stent, or metal.
     METAL = 8
