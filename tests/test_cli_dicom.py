@@ -99,7 +99,9 @@ def test_options_of_dicom_that_do_nothing_are_refused(line, tmp_path):
     picture, path = tmp_path / "a.png", tmp_path / "a.dcm"
     for option in (("--like-study", series()), ("--anonymous",), ("--compress",)):
         said = run("render", series(), line, "-o", picture, *option, code=2)
-        assert f"{option[0]} does nothing without an output .dcm" in said
-        assert "does nothing without" in run("cpr", series(), line, "-o", picture, *option, code=2)
+        assert f"{option[0]} needs an output that ends in .dcm" in said
+        assert "needs an output that ends in .dcm" in run(
+            "cpr", series(), line, "-o", picture, *option, code=2
+        )
     said = run("render", series(), line, "-o", path, "--like-study", series(), "--anonymous", code=2)
     assert "exclude each other" in said

@@ -86,7 +86,7 @@ def test_arrays_are_never_labelled(rendered, files):
             True,
             "--vessel-names does nothing with --no-annotate",
         ),
-        (("--vessel-names",), "out.png", False, "--vessel-names does nothing without CENTERLINES"),
+        (("--vessel-names",), "out.png", False, "--vessel-names needs CENTERLINES"),
         (("--annotate",), "out.npz", True, "--annotate does nothing with .npz"),
         (("--vessel-names",), "out.npz", True, "--vessel-names does nothing with .npz"),
     ],

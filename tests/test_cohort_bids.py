@@ -111,7 +111,7 @@ LEFT_OUT = {
     "sub-04_ses-a": "no name that ends with _angio.nii.gz, _cta.nii.gz, _ct.nii.gz; "
     "found sub-04_ses-a_T1w.nii.gz",
     "sub-04_ses-c": "no folder ses-c of this session of the table of sessions",
-    "sub-05": "no folder of this participant of participants.tsv",
+    "sub-05": "participants.tsv lists it, but there is no folder",
 }
 
 

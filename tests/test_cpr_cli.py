@@ -109,7 +109,7 @@ def test_a_path_is_one_vessel(files, tmp_path):
 @pytest.mark.parametrize(
     ("words", "code", "message"),
     [
-        (["-o", "{}/one.txt"], 2, "found the ending '.txt'"),
+        (["-o", "{}/one.txt"], 2, "found the extension '.txt'"),
         (["-o", "{}/nowhere/one.png"], 1, "no folder"),
         (["-o", "{}/one.png", "--volume-out", "{}/one.mha"], 2, "expected .nrrd, .nii or .nii.gz"),
         (["-o", "{}/one.png", "--width", "0"], 1, "width of the CPR: found 0 mm"),

@@ -161,7 +161,7 @@ def test_a_scan_without_a_study_is_refused_unless_one_is_named(tmp_path):
         frame.save(path, study=scan(), anonymous=True)
     with pytest.raises(SettingsError, match="found int"):
         frame.save(path, study=5)
-    with pytest.raises(SettingsError, match=r"study: found .*with the ending '.png'"):
+    with pytest.raises(SettingsError, match=r"study: found .*with the extension '.png'"):
         frame.save(tmp_path / "a.png", study=scan())
     (tmp_path / "empty").mkdir()
     with pytest.raises(FormatError, match="no DICOM file"):

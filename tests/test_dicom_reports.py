@@ -259,7 +259,7 @@ def test_what_cannot_be_reported_is_refused(tmp_path):
         profile().save(path, stenoses=[other.stenosis(52.0, method="ecst", original=9.0)])
     with pytest.raises(FormatError, match="not read from DICOM"):
         other.save(path)
-    with pytest.raises(SettingsError, match=r"stenoses: found .*the ending '.csv'"):
+    with pytest.raises(SettingsError, match=r"stenoses: found .*the extension '.csv'"):
         profile().save(tmp_path / "a.csv", stenoses=[graded()])
     assert not path.exists()
 

@@ -79,7 +79,7 @@ def test_the_command_line_writes_turntables(line, tmp_path):
     # With labels, where nobody says otherwise.
     assert (data.pixel_array[0] != bare).any()
     said = run("turntable", series(), line, "-o", tmp_path / "a.webp", *words, "--grey", code=2)
-    assert "--grey does nothing without an output .dcm" in said
+    assert "--grey needs an output that ends in .dcm" in said
 
 
 def test_the_command_line_writes_a_vessel_that_becomes_straight(line, tmp_path):

@@ -122,7 +122,7 @@ def test_the_command_line_writes_values_and_series(line, tmp_path):
     run("render", series(), line, "-o", path, "--values", "--size", "64x64")
     assert pydicom.dcmread(path).SamplesPerPixel == 1
     said = run("render", series(), line, "-o", tmp_path / "a.png", "--values", code=2)
-    assert "--values does nothing without an output .dcm" in said
+    assert "--values needs an output that ends in .dcm" in said
     said = run("render", series(), line, "-o", path, "--values", "--annotate", code=2)
     assert "--values has no labels" in said
     folder = tmp_path / "straight"

@@ -65,7 +65,7 @@ def test_kinds_of_volumes_and_of_nothing(tmp_path):
 
 def test_centerlines_and_foreign_images_as_a_volume(tmp_path):
     lines = write_lines(tmp_path / "lines.vtk")
-    with pytest.raises(FormatError, match=r"found VTK PolyData; expected a DICOM.*; read_centerlines reads"):
+    with pytest.raises(FormatError, match=r"found VTK PolyData; expected a DICOM.*; read centerlines with"):
         read_volume(lines)
     for name in ("a.vti", "b.vtk", "c.json"):
         (tmp_path / name).write_bytes(KINDS[name][0])
@@ -76,7 +76,7 @@ def test_centerlines_and_foreign_images_as_a_volume(tmp_path):
 
 
 def test_volumes_and_foreign_lines_as_centerlines(tmp_path):
-    with pytest.raises(FormatError, match=r"found a NIfTI volume; expected .*; read_volume reads volumes"):
+    with pytest.raises(FormatError, match=r"found a NIfTI volume; expected .*; read volumes with"):
         read_centerlines(write_volume(tmp_path / "ct.nii.gz"))
     with pytest.raises(FileError):
         read_centerlines(tmp_path)

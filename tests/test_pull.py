@@ -40,7 +40,7 @@ def test_a_series_is_pulled_whole_and_only_once(pacs, scan, tmp_path):
     assert all(headers["Accept-Encoding"] == "identity" for headers in pacs.headers)
     again = run("pull", f"dicomweb:{pacs.base}/studies/{pacs.study}", "-o", out)
     assert again.exit_code == 0, again.output
-    assert "24 were there" in again.output
+    assert "24 existed before" in again.output
     assert set(pacs.asked.values()) == {1}
 
 

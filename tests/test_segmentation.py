@@ -218,7 +218,7 @@ def test_the_command_line_takes_segments_by_name_number_or_all(tmp_path, scan):
     assert "a name of the file: aorta, left renal artery" in unknown.output
     threshold = run("trace", "--mask", path, "--threshold", "0.5", "-o", out)
     assert threshold.exit_code == 2
-    assert "a segmentation; leave it out" in threshold.output
+    assert "a segmentation; leave out --threshold" in threshold.output
     told = run("info", path)
     assert "1 aorta; 7 left renal artery" in told.output
 

@@ -315,7 +315,7 @@ def test_unknown_and_missing(tmp_path):
     (tmp_path / "readme.txt").write_text("hello")
     (tmp_path / "odd.bin").write_bytes(bytes(9))
     for path in (tmp_path / "readme.txt", tmp_path / "odd.bin"):
-        with pytest.raises(FormatError, match=r"no known format; expected .*NIfTI.*NRRD.*MetaImage"):
+        with pytest.raises(FormatError, match=r"unknown format; expected .*NIfTI.*NRRD.*MetaImage"):
             read_volume(path)
 
 

@@ -311,7 +311,7 @@ def test_metaimage_long_types(tmp_path, kind, dtype):
 META_REFUSALS = {
     "pattern": ({"ElementDataFile": "x%03d.raw 1 5 1"}, "x%03d.raw 1 5 1; .*; write a single"),
     "list": ({"ElementDataFile": "LIST 2"}, "LIST 2; .*; write a single"),
-    "nothing": ({"ElementDataFile": ""}, "no file's name in ElementDataFile"),
+    "nothing": ({"ElementDataFile": ""}, "no file name in ElementDataFile"),
     "half voxels": ({"DimSize": "4.5 3 5"}, r"DimSize = 4\.5 3 5; expected whole"),
     "dimensions": ({"NDims": 30000}, "NDims = 30000"),
     "header in itself": ({"HeaderSize": 4}, "HeaderSize = 4"),

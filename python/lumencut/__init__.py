@@ -82,7 +82,7 @@ if TYPE_CHECKING:
     from lumencut.volume_files import SeriesReport, list_series, read_volume
     from lumencut.window import Opacity, Window
 
-#: Where each public name lives; modules are imported on first use, so that ``import lumencut`` is quick.
+#: Module of each public name; modules are imported on first use, so that ``import lumencut`` is fast.
 _HOME = {
     "_lumencut": ("__version__",),
     "camera": ("VIEWS", "Camera"),
@@ -252,7 +252,7 @@ def __getattr__(name: str) -> Any:
 
 
 def _restored(name: str, *arguments: Any) -> Any:
-    """Make an object of the class of this name, for pickles, which name this function and no other module."""
+    """Create an object of a class by name; pickles refer only to this function, so modules can move."""
     from lumencut._pickles import part
 
     kind = __getattr__(name) if name in _MODULE else part(name)

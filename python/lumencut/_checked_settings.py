@@ -106,7 +106,7 @@ class CheckedSettings:
         Raises
         ------
         FileError
-            Where the file cannot be read.
+            If the file cannot be read.
         FormatError
             For a file that is no TOML.
         SettingsError
@@ -131,7 +131,7 @@ class CheckedSettings:
         Raises
         ------
         FileError
-            Where the file cannot be written.
+            If the file cannot be written.
         """
         from lumencut.settings_file import write_settings
 

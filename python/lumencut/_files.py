@@ -17,7 +17,7 @@ WRITABLE = "a place where files can be written"
 
 
 def checked_path(path: Any, expected: str) -> Path:
-    """Return ``path`` as one that a file or a folder has or could have; nothing is opened, nothing waits.
+    """Return ``path``, checked as the path of a file or folder that may not exist; nothing is opened.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ def checked_path(path: Any, expected: str) -> Path:
         os.fsencode(text)
         mode = checked.stat().st_mode
     except UnicodeEncodeError as error:
-        raise FileError(_short(text), "letters that no file's name can have", expected) from error
+        raise FileError(_short(text), "characters that no file name can have", expected) from error
     except (FileNotFoundError, NotADirectoryError):
         return checked
     except OSError as error:
@@ -72,11 +72,11 @@ def write_text(path: str | os.PathLike[str], text: str) -> None:
 
 @contextmanager
 def private_folder(subject: Path, home: Path) -> Iterator[Path]:
-    """Make a hidden folder in ``home`` that only this user can enter, and leave none behind.
+    """Create a hidden folder in ``home`` that only this user can enter, and remove it at the end.
 
-    Errors of the system name ``subject``.
+    System errors are reported for ``subject``.
     """
-    # Its name is known before it is made: a signal that comes right after leaves none behind either.
+    # The name is known before the folder is created, so a signal right afterwards cannot leave it behind.
     folder = home / f".lumencut.{secrets.token_hex(8)}.part"
     try:
         folder.mkdir(mode=0o700)

@@ -16,10 +16,10 @@ _T = TypeVar("_T")
 
 
 class FoundOnce(Generic[_T]):
-    """What was found in one volume, by what was asked for and by the vessels: the same objects in order.
+    """Cache of values found in one volume, by name and by vessels (the same objects in order).
 
-    The tree of each is kept, so that no other vessels take its place in memory. Voxels may be written to by
-    whoever holds their array: where evenly spread ones have changed, all is found again.
+    The cache keeps each tree, so that no other vessels get its address in memory. Callers may write to the
+    voxels: if any of the evenly spread samples changed, all values are found again.
     """
 
     def __init__(self) -> None:
@@ -32,7 +32,7 @@ class FoundOnce(Generic[_T]):
         return len(self._found)
 
     def once(self, voxels: npt.NDArray[Any], name: str, tree: Any, find: Callable[[], _T]) -> _T:
-        """Return what has this name along the vessels of a tree, or in the volume alone.
+        """Return the value of this name for the vessels of a tree, or for the volume only.
 
         Parameters
         ----------

@@ -1,8 +1,8 @@
 """Moving pictures written frame by frame: WebP and APNG, with one frame in memory at a time.
 
-Pillow encodes each frame as a picture of its own; here its parts are put into the file of all frames, as the
-WebP container specification and the third edition of the PNG specification say. (Pillow itself wants all
-frames at once.)
+Pillow encodes each frame as a separate picture; its chunks are copied into the animation, according to the
+WebP container specification and the third edition of the PNG specification. (Pillow itself needs all frames
+at once.)
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from typing import IO, TYPE_CHECKING, Any, Protocol
 if TYPE_CHECKING:
     from PIL.Image import Image
 
-# Lossless is five times larger without a difference that an eye finds at this quality.
+# Lossless files are five times larger, without a visible difference at this quality.
 _WEBP = {"quality": 90, "method": 4}
 #: Flags of the chunk VP8X: an animation with transparency.
 _HAS_ANIMATION, _HAS_ALPHA = 0x02, 0x10
@@ -76,7 +76,7 @@ class Apng:
 
     def add(self, picture: Image, milliseconds: int) -> None:
         """Add a frame, of the same size as all others."""
-        # All frames are of the kind that the first chunk states, and a later one may have an opacity.
+        # The first chunk states the pixel type of all frames, and a later frame may be transparent.
         parts = list(_png_chunks(_encoded(picture.convert("RGBA"), "PNG")))
         if not self._frames:
             self._file.write(_SIGNATURE + _png_chunk(b"IHDR", parts[0][1]))

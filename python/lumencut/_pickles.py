@@ -22,7 +22,7 @@ _Kind = TypeVar("_Kind", bound=type)
 
 
 def by_name(kind: _Kind) -> _Kind:
-    """Have objects of a class pickled by the name of the class: a decorator.
+    """Decorate a class so that its objects are pickled by the name of the class.
 
     The name is public, or one of the parts listed in this file. A subclass is pickled by its own path.
     """
@@ -39,17 +39,17 @@ def by_name(kind: _Kind) -> _Kind:
 
 
 def restored() -> Any:
-    """Return the function that pickles name, which stands in the package itself."""
+    """Return the function of the package that pickles refer to."""
     return vars(sys.modules["lumencut"])["_restored"]
 
 
 def part(name: str) -> type:
-    """Return the class of a part by its name.
+    """Return a class listed in this file by its name.
 
     Raises
     ------
     AttributeError
-        For a name that is no part.
+        For a name that is not listed.
     """
     if name not in _PARTS:
         raise AttributeError(f"module 'lumencut' has no attribute {name!r}")

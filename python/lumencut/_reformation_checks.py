@@ -1,4 +1,4 @@
-"""What reformations of one vessel are given, checked: the vessel, angles, and the settings with a slab."""
+"""Checks of the arguments of reformations of one vessel: vessel, angles, and settings with a slab."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from lumencut.slab import Slab
 from lumencut.vessel import Vessel
 from lumencut.vessel_tree import VesselTree
 
-#: A slab as users give it: itself, its thickness with a mode, or its thickness (mm).
+#: A slab as users pass it: a Slab, a thickness (mm) with a mode, or only a thickness (mm).
 SlabArgument: TypeAlias = "Slab | tuple[float, str] | float | None"
 
 
@@ -58,7 +58,7 @@ def _thick(settings: Settings, slab: SlabArgument) -> Settings:
 
 
 def radians(subject: str, angle: float | None, degrees: float | None) -> float:
-    """Return the one of two angles that is given, in radians."""
+    """Return the angle that was given, in radians."""
     if degrees is not None:
         return math.radians(number(CameraError, subject.replace("angle", "degrees"), degrees))
     return number(CameraError, subject, angle)
@@ -70,7 +70,7 @@ def rotation(angle: float | None, degrees: float | None) -> float:
     Raises
     ------
     CameraError
-        For both angles or neither, or one that is no finite number.
+        For both angles or neither, or one that is not a finite number.
     """
     if (angle is None) == (degrees is None):
         found = "neither" if angle is None else "an angle in radians and one in degrees"

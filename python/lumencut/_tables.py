@@ -6,10 +6,10 @@ import csv
 import re
 from collections.abc import Iterable, Iterator, Sequence
 
-#: How cells begin that spreadsheets run as formulas, behind apostrophes that the text itself has.
+#: Start of cells that spreadsheets run as formulas, after any apostrophes of the text itself.
 FORMULA = r"'*[=+\-@\t\r]"
 _FORMULA = re.compile(FORMULA)
-#: What begins with a sign and is no formula.
+#: Numbers, which may begin with a sign but are not formulas.
 _NUMBER = re.compile(r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?")
 _PARTED = re.compile(r'[",\n\r]')
 
@@ -31,7 +31,7 @@ def marked(text: str) -> str:
 
 
 def unmarked(cell: str) -> str:
-    """Return the text that `marked` made this cell of."""
+    """Return the original text of a cell that `marked` wrote."""
     return cell[1:] if cell.startswith("'") and _FORMULA.match(cell) else cell
 
 
@@ -41,7 +41,7 @@ def read_rows(lines: Iterable[str]) -> Iterator[list[str]]:
     Raises
     ------
     csv.Error
-        For quotes that do not fit.
+        For unbalanced quotes.
     """
     for row in csv.reader(lines, strict=True):
         yield [unmarked(cell) for cell in row]

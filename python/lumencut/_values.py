@@ -30,7 +30,7 @@ class KeepsReadOnly:
 class Value(KeepsReadOnly):
     """A base of objects that are equal if class and content are equal.
 
-    `_content` gives it as what can be compared and hashed.
+    `_content` returns the content in comparable and hashable form.
     """
 
     __slots__ = ()

@@ -7,12 +7,12 @@ from typing import Literal, TypeAlias
 from lumencut._checks import choice, numbers
 from lumencut.errors import SettingsError
 
-#: A level and its standard deviation in the unit of the volume, no wall, or, in CT, that of soft tissue.
+#: Level and standard deviation in the unit of the volume; "off" for no wall; None for the default in CT.
 Wall: TypeAlias = tuple[float, float] | Literal["off"] | None
 
 
 def wall_level(wall: Wall) -> tuple[float, float] | None:
-    """Return the level of walls for the core: with a standard deviation of 0 they are not distinguished.
+    """Return the wall level for the core; a standard deviation of 0 means no distinct walls.
 
     Raises
     ------

@@ -41,7 +41,7 @@ def writer_for(
 ) -> Writer:
     """Return the writer of frames for the format of the path; an error before anything is rendered.
 
-    `dicom` says how frames become a DICOM object (`study`, `anonymous`, `other_patient`, `grey`, `compress`);
+    `dicom` holds the options of a DICOM object (`study`, `anonymous`, `other_patient`, `grey`, `compress`);
     without it none can be written.
     """
     checked = checked_path(path, WRITABLE)
@@ -112,7 +112,7 @@ def _writer(name: str, path: Path, labels: dict[str, bool]) -> Writer:
     if suffix == ".mp4":
         return partial(_save_video, path, _av())
     expected = ".webp, .png, .apng, .mp4, .dcm, a name such as frame-%03d.png, or a folder"
-    raise FormatError(name, f"the ending {path.suffix!r}", expected)
+    raise FormatError(name, f"the extension {path.suffix!r}", expected)
 
 
 def _is_folder(name: str, path: Path) -> bool:
@@ -158,7 +158,7 @@ def _save_sequence(pattern: Path, labels: dict[str, bool], frames: Iterable[Fram
 
 
 def _save_object(path: Path, dicom: dict[str, Any], frames: Iterable[Frame], fps: float) -> None:
-    """Write frames, whose labels are on them, as one DICOM object."""
+    """Write frames that already have labels as one DICOM object."""
     from lumencut.dicom_objects.picture import write_turning
 
     frames = iter(frames)
@@ -216,7 +216,7 @@ def _checked_pattern(path: Path) -> Path:
 
 
 def _without_idle_alpha(image: Any) -> Any:
-    """The picture without its alpha where all is opaque: smaller in memory and on disk."""
+    """The picture without alpha if it is fully opaque: smaller in memory and on disk."""
     return image if (image[:, :, 3] != 255).any() else np.ascontiguousarray(image[:, :, :3])
 
 

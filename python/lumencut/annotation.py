@@ -101,5 +101,5 @@ def window_words(window: Window) -> str:
 
 
 def _short(value: float) -> str:
-    """A number in about four digits, without an exponent where it is an intensity of a usual scale."""
+    """A number with about four digits; intensities of usual scales have no exponent."""
     return f"{value:.0f}" if 100 <= abs(value) < 1e7 else f"{value:.3g}"

@@ -78,7 +78,7 @@ class Camera(Value):
         object.__setattr__(self, name, value)
 
     def _moved(self, place: dict[str, Any]) -> Camera:
-        """The camera at another place, which is taken to the last bit: its axes are unit vectors already."""
+        """The camera at another place; its unit axes are copied without normalising them again."""
         moved = copy(self)
         moved._set("pixel_spacing", place["pixel_spacing"])
         for name in ("center", "direction", "right_axis", "up"):
@@ -109,9 +109,9 @@ class Camera(Value):
         Raises
         ------
         CameraError
-            For a scene of another kind, or vectors or a size that make no camera.
+            For a scene of another kind, or invalid vectors or size.
         VolumeError
-            For an image that is no volume, such as one of several time points.
+            For an image that is not a volume, such as one of several time points.
         """
         points = scene_points(scene)
         ahead = numbers(CameraError, "direction of the camera", direction, (3,))
@@ -165,10 +165,10 @@ class Camera(Value):
         degrees: float | None = None,
         size: tuple[int, int] = (512, 512),
     ) -> Camera:
-        """Return the view about a place on a vessel, which runs upwards through the middle of the picture.
+        """Return the view centred on a place on a vessel, with the vessel running upwards.
 
-        Turned by an angle it shows another diameter of the place, which stays where it is. The picture
-        reaches eight radii of the vessel there to each side (8 mm where its radius is not known).
+        Each angle shows another diameter of the vessel at that place. The picture extends eight radii of the
+        vessel to each side (8 mm if its radius is unknown).
 
         Parameters
         ----------
@@ -177,8 +177,8 @@ class Camera(Value):
         at : float
             The place (mm from the vessel's first point).
         angle : float, default 0
-            How far the viewer moves about the vessel (radians), counted as by :meth:`rotated` about "up". 0
-            is the one of these views that is nearest to the anterior view, the head up.
+            How far the viewer moves about the vessel (radians), with the sign of :meth:`rotated` about "up".
+            Of all these views, 0 is the one nearest to the anterior view with the head up.
         degrees : float
             The angle in degrees, instead of ``angle``.
         size : (int, int), default (512, 512)
@@ -208,10 +208,11 @@ class Camera(Value):
         *,
         start: Camera | None = None,
     ) -> Camera:
-        """Return the view from which most of a vessel is seen, fitted to all within two radii of it.
+        """Return the view that shows most of a vessel, fitted to everything within two radii of it.
 
-        Of 256 directions all around it is the one along which the vessel is longest where no other stretch of
-        itself lies before it. Half a turn away from ``start`` costs a fifth of the vessel's length.
+        Of 256 directions all around, the projected length of the vessel, without parts hidden by the vessel
+        itself, is largest. A direction half a turn away from ``start`` is penalised by a fifth of the
+        vessel's length.
 
         Parameters
         ----------
@@ -222,15 +223,15 @@ class Camera(Value):
         size : (int, int), default (512, 512)
             Width and height (pixels).
         start : Camera, optional
-            The view before; the anterior one by default.
+            The previous view; by default the anterior one.
 
         Raises
         ------
         VesselTreeError
-            For an id or a name that no vessel has (the error lists near ones), or a vessel without length.
+            For an id or a name that no vessel has (the error lists similar ones), or a vessel without length.
         """
         if not (start is None or isinstance(start, Camera)):
-            raise CameraError("start of the camera", type(start).__name__, "a Camera or None")
+            raise CameraError("start (the view before)", type(start).__name__, "a Camera or None")
         if not isinstance(tree, VesselTree):
             raise VesselTreeError("vessel tree", type(tree).__name__, "a VesselTree")
         chosen = vessel if isinstance(vessel, Vessel) else tree[tree._id(vessel)]
@@ -279,7 +280,7 @@ class Camera(Value):
         return self._moved(_lumencut.panned(self, *shift))
 
     def project(self, points: npt.ArrayLike) -> npt.NDArray[np.float64]:
-        """Return where world points are seen.
+        """Return the pixels and depths of world points.
 
         The inverse of ``Frame.position``: a point that a frame shows in row j and column i is projected to
         (i, j) and the depth there.
@@ -294,8 +295,8 @@ class Camera(Value):
         numpy.ndarray, shape (n, 3)
             For each point its column and its row (pixels, with fractions), and its depth (mm), which grows
             away from the viewer and is 0 at the camera's center. The centre of the pixel in column i and row
-            j is at (i, j), the first one at (0, 0): the image reaches from -0.5 to its width and height less
-            0.5. Points beyond it are projected too.
+            j is at (i, j), the first one at (0, 0): the image extends from -0.5 to width - 0.5 and height -
+            0.5. Points outside it are projected too.
 
         Raises
         ------
@@ -324,16 +325,16 @@ def _radians(angle: float | None, degrees: float | None) -> float:
 
 
 def upright(direction: Sequence[float] | npt.NDArray[np.float64]) -> tuple[float, float, float]:
-    """Return what points upwards in a view along ``direction``, shape (3,).
+    """Return the up vector of a view along ``direction``, shape (3,).
 
-    It is the head, or the patient's front where the view runs along the body.
+    Up is towards the head, or towards the patient's front if the view runs along the body.
     """
     across = math.hypot(direction[0], direction[1])
     return (0.0, 0.0, 1.0) if across > 0.05 * abs(direction[2]) else (0.0, -1.0, 0.0)
 
 
 def scene_points(scene: Scene) -> npt.NDArray[np.float64]:
-    """Return the points (mm, LPS) that a view shows all of when it shows all of ``scene``, shape (n, 3)."""
+    """Return the points (mm, LPS) that a view must contain to show all of ``scene``, shape (n, 3)."""
     if isinstance(scene, (VesselTree, Vessel)):
         return scene.points
     from lumencut.volume_files.memory import as_volume, is_image

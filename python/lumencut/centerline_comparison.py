@@ -1,4 +1,4 @@
-"""How alike traced centerlines are to a reference, by the measures of the Rotterdam coronary evaluation.
+"""Comparison of traced centerlines with a reference, by the measures of the Rotterdam coronary evaluation.
 
 Schaap et al., "Standardized evaluation methodology and reference database for evaluating coronary artery
 centerline extraction algorithms", Medical Image Analysis 13(5), 2009, doi:10.1016/j.media.2009.06.003.
@@ -21,10 +21,10 @@ from lumencut.errors import SettingsError, VesselTreeError
 from lumencut.vessel import Vessel
 from lumencut.vessel_tree import VesselTree
 
-#: Errors nearer to the start of the reference do not count as the first one (mm).
+#: Errors closer than this to the start of the reference (mm) do not count as the first error.
 _FREE_START = 5.0
 
-#: From the last point that is at least so wide to its start a reference is clinically relevant (mm).
+#: A reference is clinically relevant from its start to its last point with at least this radius (mm).
 _RELEVANT_RADIUS = 0.75
 
 #: The disc at the start of the reference is wider than the vessel there by this factor.
@@ -36,7 +36,7 @@ _Points = npt.NDArray[np.float64]
 @by_name
 @dataclass(frozen=True)
 class CenterlineComparison:
-    """What :func:`lumencut.compare_centerlines` found; shares are from 0 to 1, NaN if nothing counts.
+    """Result of :func:`lumencut.compare_centerlines`; shares are from 0 to 1, NaN if nothing counts.
 
     Attributes
     ----------
@@ -44,22 +44,22 @@ class CenterlineComparison:
         Overlap: the share of points of both lines that are connected to a point of the other line nearer
         than the radius of the reference there.
     of : float
-        Overlap until the first error: the share of the reference before the first of its points, 5 mm or
-        more from its start, that is not.
+        Overlap until the first error: the share of the reference before its first unconnected point; points
+        in the first 5 mm do not count.
     ot : float
-        Overlap of the clinically relevant part: as ``ov``, of the reference from its start to its last
-        point whose radius is 0.75 mm or more, and of what is connected to it.
+        Overlap of the clinically relevant part: as ``ov``, for the reference up to its last point with a
+        radius of at least 0.75 mm, and for the points connected to that part.
     ai : float
         Accuracy inside: the mean length of the connections that are shorter than the radius (mm).
     length : float
         Length of the reference (mm).
     first_error : float or None
-        Where the first error lies along the reference (mm), None where there is none; for a tree always None.
+        Position of the first error along the reference (mm); None without an error, and always for a tree.
     false_length : float
-        Length of traced vessels in no lumen of the reference (mm): where each point of the reference is
-        farther away than the radius there.
+        Length of traced vessels outside the lumen of the reference (mm): every point of the reference is
+        farther away than its radius.
     vessels : tuple of CenterlineComparison
-        For a tree the same for each vessel of the reference, in its order.
+        For a tree, the comparison of each vessel of the reference, in order.
     """
 
     ov: float
@@ -77,29 +77,29 @@ def compare_centerlines(
 ) -> CenterlineComparison:
     """Compare traced centerlines with a reference, as the Rotterdam coronary evaluation does.
 
-    Both lines are sampled at equal distances. What the traced one has before it first passes through the disc
-    at the start of the reference, across it and twice as wide as the vessel, is left out. Connections join
-    points of both lines, from both starts to both ends, so that either line advances by one point from each
-    connection to the next, and the sum of their lengths is the smallest. A connection counts where it
-    is shorter than the radius of the reference at its point. Even lines in the same place have connections of
-    one sampling distance between them, so ``ai`` is never below half of that.
+    Both lines are sampled at equal distances. The part of the traced line before it first crosses the disc at
+    the start of the reference is left out; the disc is perpendicular to the reference and twice as wide as
+    the vessel. Connections join points of both lines, from both starts to both ends: from each connection to
+    the next, one of the lines advances by a point, and the total length is minimal. A connection counts if it
+    is shorter than the radius of the reference at its point. Even identical lines have connections of one
+    sampling distance, so ``ai`` is at least half of it.
 
-    Two vessels are compared as they are; the traced one is turned round where its ends fit better then. In
-    a tree each vessel of the reference is compared with a way through the traced tree: through the piece that
-    is nearest to most of the reference, from its point nearest to the start of the reference the
-    shortest way to the point nearest to its end. So it does not matter where vessels are parted. ``ov``,
-    ``ot`` and ``ai`` are then those of all points and connections together, ``of`` is the mean over the
-    length of the reference. ``false_length`` alone covers the traced tree elsewhere.
+    Two vessels are compared as they are; the traced one is reversed if its ends fit better then. In a tree
+    each vessel of the reference is compared with the shortest path through the traced tree: within the
+    connected piece nearest to most of the reference, from the point nearest to its start to the point nearest
+    to its end. So it does not matter where vessels are split. ``ov``, ``ot`` and ``ai`` then cover all points
+    and connections together, and ``of`` is the mean over the length of the reference. Only ``false_length``
+    covers the rest of the traced tree.
 
     Parameters
     ----------
     traced : Vessel or VesselTree
-        The centerlines to judge (mm, LPS).
+        The centerlines to evaluate (mm, LPS).
     reference : Vessel or VesselTree
-        The centerlines that are held to be true, with radii.
+        The true centerlines, with radii.
     sampling : float, default 0.03
         Distance between the sampled points (mm), as in the paper. Time and memory grow with the square of the
-        number of points: a bit for each pair of them.
+        number of points: one bit for each pair.
 
     Returns
     -------
@@ -204,7 +204,7 @@ def _counted(traced: _Points | None, reference: Vessel, step: float) -> _Counts:
 def _sampled(
     points: _Points, step: float, values: npt.NDArray[np.float64] | None = None
 ) -> tuple[_Points, npt.NDArray[np.float64]]:
-    """Points at equal distances of about ``step`` along a line, both ends among them, and values there."""
+    """Points at equal distances of about ``step`` along a line, including both ends, and the values there."""
     ways = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
     count = max(2, round(float(ways[-1]) / step) + 1)
     wanted = np.linspace(0.0, ways[-1], count)
@@ -213,7 +213,7 @@ def _sampled(
 
 
 def _clipped(line: _Points, reference: _Points, width: float) -> _Points:
-    """Leave out what comes before a line first passes through the disc at the start of the reference."""
+    """Leave out the part of a line before it first crosses the disc at the start of the reference."""
     normal = reference[1] - reference[0]
     height = (line - reference[0]) @ normal
     crosses = np.flatnonzero(height[:-1] * height[1:] <= 0)
@@ -236,7 +236,7 @@ def _like(points: _Points, reference: _Points) -> _Points:
 
 
 def _false_length(traced: Vessel | VesselTree, references: Sequence[Any], step: float = 0.5) -> float:
-    """Length of traced vessels (mm) that no lumen of the reference holds."""
+    """Length of traced vessels outside all lumens of the reference (mm)."""
     known = [_sampled(vessel.points, step, vessel.radius) for vessel in references]
     points = np.concatenate([points for points, _ in known])
     radius = np.concatenate([radius for _, radius in known])

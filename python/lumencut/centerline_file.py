@@ -50,7 +50,7 @@ class CenterlineReport:
     stated, stated_unit : str or None
         The space and unit that the file itself states.
     space_from, unit_from : "asked", "stated", "volume", "values" or "assumed"
-        Who said so: the caller, the file, the extent of the volume, its values along the lines, or nobody.
+        Who decided it: the caller, the file, the extent of the volume, its values along the lines, or nobody.
     vessels, points : int
         The number of vessels, and of their points.
     radius : bool
@@ -93,7 +93,7 @@ class CenterlineReport:
 
 
 class CenterlineFile:
-    """A centerline file whose content is read and checked, and whose place is still to be decided.
+    """A centerline file with checked content, before its space and unit are decided.
 
     Parameters
     ----------
@@ -103,9 +103,9 @@ class CenterlineFile:
     Raises
     ------
     FileError
-        Where the file cannot be read.
+        If the file cannot be read.
     FormatError
-        Where its content is not what its format promises, or holds no centerline.
+        If its content does not match its format, or holds no centerline.
     """
 
     def __init__(self, source: str | os.PathLike[str] | Any) -> None:
@@ -121,7 +121,7 @@ class CenterlineFile:
             raise FileError(str(self.path), error.strerror or str(error), expected) from error
         kind = kind_of(self.path)
         if kind is not None and (kind.mend or (kind.role == "volume" and not kind.is_dicom)):
-            mend = kind.mend if kind.role == "centerlines" else "read_volume reads volumes"
+            mend = kind.mend if kind.role == "centerlines" else "read volumes with read_volume"
             raise FormatError(str(self.path), kind.name, "a file of centerlines", mend)
         self._content = _lumencut.CenterlineFile(content, self.path.name)
         self._session = content if _lumencut.is_session_file(content) else b""

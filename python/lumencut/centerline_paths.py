@@ -1,4 +1,4 @@
-"""Ways through a vessel tree from one of its points to another."""
+"""Paths through a vessel tree between two of its points."""
 
 from __future__ import annotations
 
@@ -11,23 +11,23 @@ import numpy.typing as npt
 
 from lumencut.vessel import Vessel
 
-#: Points nearer than this are one (mm).
+#: Points closer than this are merged (mm).
 _SAME = 1e-3
 
-#: Segments are parted so that neighbouring points are at most so far apart (mm).
+#: Largest distance of neighbouring points after splitting segments (mm).
 _STEP = 0.5
 
-#: Distance of the points of a line that decide its piece (mm).
+#: Distance between sampled points of a line, which decide its connected piece (mm).
 _VOTES = 1.0
 
-#: A way that is shorter than this share of a line may lead around the wrong side of a cycle.
+#: A path shorter than this share of the line may run along the wrong side of a cycle.
 _AS_LONG = 0.8
 
 _Points = npt.NDArray[np.float64]
 
 
 class CenterlinePaths:
-    """The points of vessels as a graph: neighbours along a vessel are joined, points in one place are one.
+    """The points of vessels as a graph: neighbours along a vessel are joined, points at one place are merged.
 
     Parameters
     ----------
@@ -52,11 +52,11 @@ class CenterlinePaths:
         self._piece = self._pieces()
 
     def along(self, line: _Points) -> _Points | None:
-        """Return the shortest way from the point nearest to a line's start to the one nearest to its end.
+        """Return the shortest path from the point nearest to a line's start to the one nearest to its end.
 
-        Both are points of the piece that is nearest to most of the line. Where the way is shorter than four
-        fifths of the line, as on the other side of a cycle, it leads through the points nearest to both
-        thirds of the line if that comes nearer to its length.
+        Both points belong to the connected piece nearest to most of the line. A path shorter than four fifths
+        of the line may run along the other side of a cycle: it is led through the points nearest to both
+        thirds of the line if its length then fits better.
 
         Parameters
         ----------
@@ -66,7 +66,7 @@ class CenterlinePaths:
         Returns
         -------
         ndarray of shape (m, 3) or None
-            The points of the way; None where start and end are the same point.
+            The points of the path; None if start and end are the same point.
         """
         votes = [self._piece[self._nearest(point, None)] for point in _parted(line, _VOTES)]
         piece = int(np.bincount(votes).argmax())
@@ -81,7 +81,7 @@ class CenterlinePaths:
         return way if len(way) > 1 else None
 
     def _through(self, stops: Sequence[int]) -> list[int]:
-        """The shortest way through points in their order."""
+        """The shortest path through points in their order."""
         ways = (self._shortest(start, end)[1:] for start, end in itertools.pairwise(stops))
         return [stops[0], *itertools.chain.from_iterable(ways)]
 
@@ -92,7 +92,7 @@ class CenterlinePaths:
         return int(distance.argmin())
 
     def _pieces(self) -> npt.NDArray[np.int64]:
-        """Number the parts of the graph that are connected, from 0."""
+        """Number the connected parts of the graph, from 0."""
         piece = np.full(len(self._points), -1, dtype=np.int64)
         count = 0
         for start in range(len(piece)):

@@ -15,16 +15,16 @@ _FORMATS = ("vtp", "mrk.json", "vtk", "csv", "swc")
 def write_centerlines(tree: VesselTree, path: str | os.PathLike[str]) -> None:
     """Write a tree as a centerline file (mm, LPS), which appears only when complete.
 
-    Of ``.vtp`` and ``.mrk.json`` `read_centerlines` gives the same vessels back to the bit, in their order
-    and direction and with their names: the file is marked as vessels, so that none is joined to another.
-    The other formats are for other programs and hold less:
+    From ``.vtp`` and ``.mrk.json``, `read_centerlines` returns bit-identical vessels with their order,
+    direction and names: a mark in the file prevents that vessels are joined. The other formats are for other
+    programs and hold less:
 
-    * ``.vtk`` (legacy): the same but for names, which VTK reads and `read_centerlines` does not.
+    * ``.vtk`` (legacy): the same, but only VTK reads the names, `read_centerlines` does not.
     * ``.csv``: a row per point with the columns ``line`` (the vessel's id), ``name``, ``l (mm)``, ``p (mm)``,
       ``s (mm)`` and ``radius (mm)``; name and radius if any vessel has one. Unknown radii among known
       ones are 0. Names are not read back, and lines that meet are joined again.
     * ``.swc``: a node per point. Vessels that begin at a point of another one become its branches; there are
-      no names, and a reader has a branch from each forking to the next. Unknown radii are 0. The format
+    no names, and a reader returns one branch from each fork to the next. Unknown radii are 0. The format
       states no space: read it with ``coordinates="lps"``.
 
     The confidence of traced vessels is written too, for other programs: as the array of points
@@ -37,13 +37,13 @@ def write_centerlines(tree: VesselTree, path: str | os.PathLike[str]) -> None:
     tree : VesselTree
         Neighbouring points of its vessels must differ.
     path : path-like
-        The ending names the format: ``.vtp`` or ``.vtk`` (one polyline per vessel), ``.mrk.json`` (one curve
-        each), ``.csv`` or ``.swc``.
+        The extension selects the format: ``.vtp``, ``.vtk`` (one polyline per vessel), ``.mrk.json`` (one
+        curve each), ``.csv`` or ``.swc``.
 
     Raises
     ------
     FormatError
-        For an ending that names none of these formats.
+        For another extension.
     VesselTreeError
         For a tree with equal neighbouring points, or a name that the format cannot hold.
     FileError
@@ -55,7 +55,7 @@ def write_centerlines(tree: VesselTree, path: str | os.PathLike[str]) -> None:
     kind = next((kind for kind in _FORMATS if place.name.lower().endswith(f".{kind}")), None)
     if kind is None:
         raise FormatError(
-            str(place), f"the ending {place.suffix!r}", "'.vtp', '.mrk.json', '.vtk', '.csv' or '.swc'"
+            str(place), f"the extension {place.suffix!r}", "'.vtp', '.mrk.json', '.vtk', '.csv' or '.swc'"
         )
     content = centerline_content(tree, kind)
     replace_whole(place, lambda temporary: temporary.write_bytes(content))
@@ -69,4 +69,4 @@ def centerline_content(tree: VesselTree, kind: str) -> bytes:
         )
     except UnicodeEncodeError as error:
         found = ascii(error.object)
-        raise VesselTreeError("name of a vessel", found, "letters that a file can hold") from error
+        raise VesselTreeError("name of a vessel", found, "characters that a file can hold") from error

@@ -24,10 +24,9 @@ def read_centerlines(
 
     Lines of one file that repeat a trunk are joined. Coordinates in RAS get x and y negated.
 
-    The vessels of several files follow each other in the order of the files. Space and unit are decided for
-    each file by itself, and vessels of several files are kept as they were read: none is joined to one of
-    another file, and those with the same name keep it. A vessel without a name that is the only one of its
-    file gets the name of the file, as 3D Slicer shows it.
+    Several files give one tree, in the order of the files. Space and unit are decided for each file
+    separately; vessels of different files are not joined, and may share a name. A single vessel without a
+    name gets the name of its file, as 3D Slicer shows it.
 
     Parameters
     ----------
@@ -43,40 +42,39 @@ def read_centerlines(
         The unit of the file's coordinates and radii. Default: as stated in the file, otherwise the one that
         fits the volume, otherwise that of its format: cm for `.pth`, mm for all others.
     volume : Volume, or anything :func:`lumencut.render` takes as one, optional
-        Where given, its extent decides what the file leaves open. Where both spaces fit the extent, the
-        values along the lines decide if at least three times as many points look like lumen in the one space
-        as in the other, and at least half of all and twenty of them. What the file states is compared with
-        both.
+        Its extent decides what the file does not state. If both spaces fit the extent, the values along the
+        lines decide, if one space has three times as many points that look like lumen as the other, half of
+        all points and twenty at least. Statements of the file are checked against extent and values.
     reorder : bool, default False
-        Whether the points of each line are put into their order along the vessel, with their radii. A log
+        Whether to sort the points of each line along the vessel, with their radii. A log
         message says how many points moved.
 
     Raises
     ------
     FileError
-        Where the file cannot be read.
+        If the file cannot be read.
     FormatError
-        Where its content is not what its format promises, or holds no centerline; where several spaces or
-        units fit the volume and its values do not tell which, or none does; with `reorder` where the order
-        of a line is doubtful and no other is found without doubt.
+        If its content does not match its format, or holds no centerline; if several spaces or units fit the
+        volume and its values cannot decide, or if none fits; with `reorder`, if the order of a line is
+        doubtful and no certain order is found.
     VolumeError
         For anything that is not a volume.
 
     Warns
     -----
     LineWarning
-        Where the points of a line seem to be in another order, a point lies far from all others, a part
-        seems to be missing, or two lines lie side by side in one vessel.
+        If the points of a line seem to be in another order, a point lies far from all others, a part seems to
+        be missing, or two lines lie side by side in one vessel.
     SpaceWarning
-        Where the volume decides against LPS or the usual unit, or the space by its values; where what the
-        file states fits the volume clearly worse than another space or unit, or makes lines of no size of
-        vessels, which is not repaired. The text names both counts.
-        What else was assumed (without a volume) or decided is logged.
+        If the volume decides against LPS or the usual unit, or its values decide the space; if the statements
+        of the file fit the volume clearly worse than another space or unit, or give lines of an impossible
+        size for vessels. Such statements are not corrected. The text names both counts. Other assumptions
+        (without a volume) and decisions are logged.
     """
     volume = None if volume is None else as_volume(volume)
     if isinstance(path, (list, tuple)):
         files, read = CenterlineFiles(path), []
-        # No further function between here and the warnings: they name the line of the caller.
+        # Warnings name the line of the caller, so no further function may be added in between.
         for file in files:
             read.append(file.within(volume, coordinates, unit, reorder=reorder))  # noqa: PERF401
         return files.joined(read)

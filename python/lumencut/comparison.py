@@ -27,9 +27,9 @@ OURS = "CSR (Lumencut)"
 #: Differences of depth (mm) at which each colour begins, and the colour of pixels that a method lacks.
 _COLORS = ((0.5, (255, 236, 120)), (2.0, (255, 160, 40)), (5.0, (230, 40, 40)), (20.0, (190, 40, 190)))
 _NOTHING = (70, 130, 255)
-#: From how much on (mm) a difference is counted.
+#: Smallest difference that is counted (mm).
 _COUNTED = 2.0
-#: How much of a marked pixel its colour covers, and how bright the rest is.
+#: Opacity of the colour of a marked pixel, and brightness of the picture below.
 _COVER, _DIM = 0.6, 0.6
 
 
@@ -72,11 +72,11 @@ def side_by_side(
 ) -> npt.NDArray[np.uint8]:
     """Return the panels as one picture, RGBA: the pictures above, differences of depth below.
 
-    The last panel is what the others are compared with. ``pictures`` are those of the panels, (H, W, 4), with
-    or without labels. In the lower row pixels are coloured where the depth differs from the last panel's, as
-    far as either shows a value of the volume; below the last panel is the legend of the colours.
-    ``further`` are titles and pictures with pixels of their own, which have no depth to compare: they stand
-    at the right, as large as they fit.
+    The other panels are compared with the last one. ``pictures`` are the pictures of the panels, (H, W, 4),
+    with or without labels. In the lower row colours mark pixels whose depth differs from that of the last
+    panel, if either shows a value of the volume; the legend is below the last panel. ``further`` are titles
+    and pictures with other pixels, which have no depth to compare; they are drawn at the right, as large as
+    they fit.
     """
     ours = shown[-1].frame
     marked = [marks(panel.frame, ours) for panel in shown[:-1]]

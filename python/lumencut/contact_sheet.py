@@ -14,7 +14,7 @@ from lumencut.lettering import Sheet, writable
 
 Picture: TypeAlias = npt.NDArray[np.uint8]
 
-#: Between the pictures of a sheet, and around them (pixels).
+#: Gap between the pictures of a sheet and around them (pixels).
 _GAP = 8
 
 _GROUND = (48, 48, 48, 255)
@@ -25,7 +25,7 @@ def contact_sheet(
 ) -> Picture:
     """Return pictures (H, W, 4) as one, each below its title, in lines from the upper left.
 
-    Of a long title the part before the last comma is cut. Pictures whose numbers are `starts` begin a line.
+    Long titles are shortened before the last comma. Pictures with numbers in `starts` begin a line.
     """
     panels = [_titled(picture, title) for picture, title in zip(pictures, titles, strict=True)]
     lines = _lines(panels, starts)
@@ -60,7 +60,7 @@ def _titled(picture: Picture, title: str) -> Picture:
 
 
 def _lines(panels: Sequence[Picture], starts: Collection[int]) -> list[list[Picture]]:
-    """The panels in lines no wider than makes the sheet about as wide as 1.5 times its height."""
+    """The panels in lines that make the sheet about 1.5 times as wide as high."""
     area = sum((panel.shape[0] + _GAP) * (panel.shape[1] + _GAP) for panel in panels)
     widest = max(math.sqrt(1.5 * area), max(panel.shape[1] for panel in panels) + 2 * _GAP)
     lines: list[list[Picture]] = []

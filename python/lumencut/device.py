@@ -20,14 +20,14 @@ class Device:
     name : str
         Its name.
     backend : str
-        The interface that it is reached by, such as ``"vulkan"``.
+        Its graphics interface, such as ``"vulkan"``.
     driver : str
         Its driver and the driver's version.
     is_software : bool
-        Whether it is a program that stands for a GPU; such a one computes where ``device="gpu"`` asks for it
-        and there is no other, never by ``"auto"``: the CPU's own kernels are faster.
+        Whether the GPU is emulated in software. Such a device is used only by ``device="gpu"`` if there is no
+        other, never by ``"auto"``: the CPU kernels are faster.
     volume_side : int
-        The most voxels along each side of a volume.
+        Largest number of voxels along each side of a volume.
     buffer_bytes : int
         The largest buffer (bytes), which bounds the size of a picture and a tree.
     """
@@ -41,7 +41,7 @@ class Device:
 
 
 def devices() -> list[Device]:
-    """Return the GPUs of this machine, the one that ``device="gpu"`` takes first.
+    """Return the GPUs of this machine; ``device="gpu"`` uses the first one.
 
     The list is empty without a GPU that has a driver for Vulkan, Metal or DirectX 12.
     """
@@ -50,7 +50,7 @@ def devices() -> list[Device]:
 
 
 def look_for_no_display() -> None:
-    """Keep a layer of Mesa from complaining on stderr that it finds no display to choose a GPU by."""
+    """Suppress the message of a Mesa layer on stderr that it finds no display to choose a GPU."""
     screens = ("DISPLAY", "WAYLAND_DISPLAY", "MESA_VK_DEVICE_SELECT")
     if sys.platform == "linux" and not any(os.environ.get(name) for name in screens):
         os.environ.setdefault("NODEVICE_SELECT", "1")

@@ -1,4 +1,4 @@
-"""Errors and warnings. Every error names its subject, what was found, what was expected and the mend."""
+"""Errors and warnings. Every error names its subject, what was found, what was expected and the remedy."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ class LumencutError(Exception):
     expected : str
         What was expected instead.
     mend : str, optional
-        What would mend it, such as the argument to give.
+        The remedy, such as the argument to pass.
 
     Attributes
     ----------
     mends : tuple of Mend
-        What of it a program can act on, by names that stay, such as ``Mend("fill_gaps")``; may be empty.
+        The remedies that programs can act on, by stable names, such as ``Mend("fill_gaps")``; may be empty.
     advice : str
-        The rest of `mend`, in words alone.
+        The rest of `mend`, only in words.
     """
 
     def __init__(self, subject: str, found: str, expected: str, mend: str = "") -> None:
@@ -40,12 +40,12 @@ class LumencutError(Exception):
 
     @property
     def mends(self) -> tuple[Mend, ...]:
-        """What mends it, by names that stay."""
+        """The remedies, by stable names."""
         return self.mend.mends if isinstance(self.mend, Told) else ()
 
     @property
     def advice(self) -> str:
-        """The mend as text."""
+        """The remedy as text."""
         return self.mend.advice if isinstance(self.mend, Told) else self.mend
 
     def written(self, write: Write) -> str:
@@ -71,11 +71,11 @@ class SettingsError(LumencutError, ValueError):
 
 
 class DeviceError(LumencutError, RuntimeError):
-    """A GPU that is not there, too small for the work, or failed."""
+    """A GPU that is missing, too small for the work, or failed."""
 
 
 class TracingError(LumencutError, ValueError):
-    """Points between which no centerline can be traced: outside the lumen, or with none between them."""
+    """Points between which no centerline can be traced: outside the lumen, or without lumen between them."""
 
 
 class MeasuringError(LumencutError, ValueError):
@@ -83,7 +83,7 @@ class MeasuringError(LumencutError, ValueError):
 
 
 class FormatError(LumencutError, ValueError):
-    """A file whose content is not what its format promises, or a format that is not read."""
+    """A file whose content does not match its format, or an unsupported format."""
 
 
 class SeriesError(FormatError):
@@ -105,7 +105,7 @@ class MissingPackageError(LumencutError, RuntimeError):
 
 
 class DeviceWarning(UserWarning):
-    """A GPU that was given up; the CPU continues in its place."""
+    """A GPU that failed or lacks memory; the CPU continues."""
 
 
 class StudyWarning(UserWarning):

@@ -45,19 +45,19 @@ class FeatureAggregation(Reformation):
     """A straightened vessel whose pixels stand for half circles; made by :func:`lumencut.cfa`.
 
     ``value`` holds the aggregated values, NaN if the whole half circle lies outside the volume; its middle
-    column is the vessel itself. ``position`` and both ways between pixels and world are those of the middle
-    of the half circle, which the straightened CPR shows.
+    column is the vessel itself. ``position`` and both conversions between pixels and world are those of the
+    middle of the half circle, which the straightened CPR shows.
 
     Attributes
     ----------
     feature : {"max", "mean", "min", "range", "share"}
-        What of a half circle is shown.
+        The value of a half circle that is shown.
     level : float or None
         The value above which ``"share"`` counts.
     radius : numpy.ndarray, float64, shape (W,)
         Radius of the circle of each column (mm), negative to the left.
     angles : int
-        How many directions a half circle has.
+        Number of sampled directions of a half circle.
     """
 
     _arrays = (*Reformation._arrays, "radius")
@@ -88,7 +88,7 @@ class FeatureAggregation(Reformation):
 
     @functools.cached_property
     def settings(self) -> Settings:
-        """The settings, with numbers for the window: that of the volume for a value of it.
+        """The settings, with numbers for the window; values of the volume have its window.
 
         The window of a range begins at 0, and a share is shown from 0 to 1.
         """
@@ -132,12 +132,12 @@ def cfa(
     radius : float, default 10
         The largest circle (mm).
     feature : {"max", "mean", "min", "range", "share"}, default "max"
-        What of a half circle is shown: its largest, mean or smallest value; ``"range"``, by how much the
-        largest exceeds the smallest, which shows uneven surroundings; or ``"share"``, how much
-        of it lies above ``level``, from 0 to 1. Its samples are no farther apart than a pixel, and one of
-        them is the pixel of the straightened CPR.
+        The value of a half circle that is shown: its largest, mean or smallest value; ``"range"``, by how
+        much the largest exceeds the smallest, which shows uneven surroundings; or ``"share"``, how much of it
+        lies above ``level``, from 0 to 1. Its samples are no farther apart than a pixel, and one of them is
+        the pixel of the straightened CPR.
     level : float, optional
-        The value above which ``"share"`` counts, in the volume's unit; given with it alone.
+        The value above which ``"share"`` counts, in the volume's unit; only for ``"share"``.
 
     Raises
     ------
@@ -172,7 +172,7 @@ def cfa_of(
     smoothing: float = 0.0,
     settings: Settings | None = None,
 ) -> FeatureAggregation:
-    """Return the CFA of a vessel by a renderer, whose window it has; parameters are those of :func:`cfa`."""
+    """Return the CFA of a vessel in the scene and window of a renderer; parameters as for :func:`cfa`."""
     choice(SettingsError, "feature of the CFA", feature, FEATURES)
     above = None if level is None else number(SettingsError, "level of the CFA", level)
     _lumencut.feature_window(feature, above, [0.0, 1.0])

@@ -1,6 +1,6 @@
 """Kinds of files by their first bytes, for errors about a wrong file.
 
-Which room reads a file is decided elsewhere: here a file may stay unknown.
+Another module chooses the reader of a file; here a file may remain unknown.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from typing import Literal
 _HEAD = 4096
 _CONVERT = "convert it to NIfTI, NRRD or MetaImage"
 _LINES = (".vtp", ".fcsv", ".pth", ".swc", ".tre", ".csv", ".mrk.json")
-#: By the length of the header: where its magic stands, and which there are.
+#: By the length of the header: position and values of its magic.
 _NIFTI: dict[int, tuple[int, tuple[bytes, ...]]] = {
     348: (344, (b"n+1\0", b"ni1\0")),
     540: (4, (b"n+2\0", b"ni2\0")),
@@ -28,7 +28,7 @@ class Kind:
     Attributes
     ----------
     role : "volume" or "centerlines"
-        As which of the two it can be meant.
+        Which of the two it can be.
     name : str
         Its description, such as ``a NIfTI volume``.
     mend : str

@@ -11,8 +11,8 @@ from lumencut._pickles import restored
 class Flag(IntFlag):
     """Flags of a section; sections keep their numbers with any flag.
 
-    Sections with `BRANCH`, `OUTSIDE`, `NO_EDGE`, `RECENTERED` or `RESTLESS_LINE` are left out of what is
-    narrowest, widest or suggested, and of references.
+    Sections with `BRANCH`, `OUTSIDE`, `NO_EDGE`, `RECENTERED` or `RESTLESS_LINE` are excluded from extrema,
+    suggestions and references.
     """
 
     def __reduce_ex__(self, protocol: Any) -> Any:
@@ -23,7 +23,7 @@ class Flag(IntFlag):
     AT_LIMIT = 1
     #: The section lies within a junction, or the lumen continues sideways.
     BRANCH = 2
-    #: Something in the wall is brighter than lumen; it is no lumen, and what it touches is not fitted.
+    #: Something in the wall is brighter than lumen; it is not lumen, and what it touches is not fitted.
     CALCIUM = 4
     #: Something brighter than lumen goes all around it, or is far brighter: a stent, or metal.
     METAL = 8

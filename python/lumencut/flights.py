@@ -26,8 +26,8 @@ def flight(
 ) -> Iterator[Frame]:
     """Render a flight from one view to another, one frame at a time.
 
-    It begins and ends at rest. The view turns by the shortest rotation, evenly with the way, and the pixel
-    spacing changes by equal factors on equal parts of it.
+    It begins and ends at rest. The view turns by the shortest rotation, in proportion to the distance
+    covered, and the pixel spacing changes by equal factors over equal distances.
 
     Parameters
     ----------

@@ -20,10 +20,10 @@ class Focus:
     Parameters
     ----------
     margin : float, default 2.0
-        How far beyond the nearest wall all of the cut surface is shown (mm, -1000000 to 1000000). Below 0
-        lumens fade too.
+        Distance beyond the nearest wall up to which the cut surface is fully shown (mm, -1000000 to 1000000).
+        Below 0 lumens fade too.
     fade : float, default 6.0
-        Over which distance from there the cut surface fades into the context (mm, 0 to 1000000). 0 is a hard
+        Further distance over which the cut surface fades into the context (mm, 0 to 1000000). 0 is a hard
         edge; any other fade is at least two pixels wide.
 
     Raises

@@ -55,7 +55,7 @@ class Frame(KeepsReadOnly):
     _image: npt.NDArray[np.uint8] | None = None
     _depth: npt.NDArray[np.float32] | None = None
     _vessel: npt.NDArray[np.int32] | None = None
-    # What makes it, until it is first asked for.
+    # A function that computes it, until it is first used.
     _distance: npt.NDArray[np.float32] | Callable[[], npt.NDArray[np.float32]] | None = None
     _value: npt.NDArray[np.float32] | None = None
     _context: npt.NDArray[np.uint8] | None = None
@@ -91,8 +91,8 @@ class Frame(KeepsReadOnly):
     def distance(self) -> npt.NDArray[np.float32]:
         """Projected distance to the nearest centerline (mm), float32, shape (H, W).
 
-        With the level choice ``own`` nothing else needs it: it is computed on first use, unless
-        ``images`` named it, and the frame holds on to its renderer until then.
+        With the level choice ``own`` it is computed on first use, unless ``images`` named it; until then the
+        frame keeps its renderer.
         """
         if not isinstance(self._distance, (np.ndarray, type(None))):
             object.__setattr__(self, "_distance", self._distance())
@@ -116,9 +116,9 @@ class Frame(KeepsReadOnly):
 
     @property
     def folded(self) -> npt.NDArray[np.bool_]:
-        """Where several points of one vessel share the row, of which the nearest is shown; bool, (H, W).
+        """Pixels whose row several points of one vessel share (the nearest is shown), bool, shape (H, W).
 
-        Frames of :func:`lumencut.mpcpr` alone have it.
+        Only frames of :func:`lumencut.mpcpr` have it.
         """
         folded: npt.NDArray[np.bool_] = self._present("folded", self._folded)
         return folded
@@ -175,10 +175,10 @@ class Frame(KeepsReadOnly):
 
         The edges are labelled with the sides of the patient: R, L, A, P, S and I for right, left,
         anterior, posterior, superior and inferior, several where the view is oblique, the main one first.
-        In the upper left corner stand the view and the window (W width, L level), in the lower left one a
-        scale bar of a round length in mm. Where the source of the volume states no orientation or no spacing
-        (`Volume.states_orientation`, `Volume.states_spacing`), the letters and the view, or the bar, are left
-        out, and words say so. Pictures with a side below 200 pixels get no labels.
+        The upper left corner shows the view and the window (W width, L level), the lower left one a scale bar
+        of a round length in mm. If the source of the volume states no orientation
+        (`Volume.states_orientation`) or no spacing (`Volume.states_spacing`), a text replaces letters and
+        view, or the bar. Pictures with a side below 200 pixels get no labels.
 
         Parameters
         ----------
@@ -206,17 +206,17 @@ class Frame(KeepsReadOnly):
         compress: bool = False,
         values: bool = False,
     ) -> None:
-        """Write the picture, or with the ending ``.npz`` all arrays; a file appears only when complete.
+        """Write the picture, or with the extension ``.npz`` all arrays; a file appears only when complete.
 
-        A ``.png`` says how large its pixels are, where the source of the volume states a spacing, and how it
-        was rendered, for ``lumencut render --like``: with which view, settings and version. It names no file
-        and nothing about the patient or the scan from the files. Pictures of mpCPR and CR, which that
-        command does not make, say nothing but the size of their pixels.
+        A ``.png`` states the size of its pixels, if the source of the volume states a spacing, and how it was
+        rendered (view, settings and version), for ``lumencut render --like``. It names no file, and repeats
+        nothing from the files about patient or scan. Pictures of mpCPR and CR, which that command cannot
+        make, state only the size of their pixels.
 
         Parameters
         ----------
         path : path-like
-            The ending names the format: a picture format of Pillow (``.png``, ``.tif``, …), ``.npz``, or
+            The extension selects the format: a picture format of Pillow (``.png``, ``.tif``, …), ``.npz``, or
             ``.dcm`` for a DICOM Secondary Capture in the study of the scan.
         annotate : bool, default False
             Write the picture with labels, see :meth:`annotated`. The arrays of ``.npz`` have none.
@@ -229,8 +229,8 @@ class Frame(KeepsReadOnly):
             For ``.dcm``: leave patient and study out, and the names of vessels too. A study of its own is
             made for each scan. That is not the Basic Profile of PS3.15.
         other_patient : bool, default False
-            For ``.dcm``: accept a `study` of another PatientID than that of the scan, which is refused
-            otherwise. A `StudyWarning` names what else differs, such as the study of a follow-up.
+            For ``.dcm``: accept a `study` of another PatientID than that of the scan, which is an error
+            otherwise. A `StudyWarning` names other differences, such as the study of a follow-up.
         compress : bool, default False
             For ``.dcm``: write the pixels as JPEG 2000, lossless.
         values : bool, default False
@@ -240,10 +240,10 @@ class Frame(KeepsReadOnly):
         Raises
         ------
         FormatError
-            For an ending that names no format; for ``.dcm`` where there is no one study to belong to, or that
+            For an unknown extension; for ``.dcm`` without exactly one study, or that
             of another patient.
         FileError
-            Where the file cannot be written.
+            If the file cannot be written.
         SettingsError
             For names of vessels on a picture without labels, and for what only ``.dcm`` can hold.
         """
@@ -294,7 +294,7 @@ class Frame(KeepsReadOnly):
         write_picture(path, made, found, number=number, compress=compress)
 
     def _as_object(self, *, annotate: bool, vessel_names: bool) -> Picture:
-        """The picture with what its DICOM object says of it."""
+        """The picture with the description for its DICOM object."""
         from lumencut.dicom_objects.views import view_picture
 
         image = self.annotated(vessel_names=vessel_names) if annotate else self.image
@@ -322,7 +322,7 @@ class Frame(KeepsReadOnly):
         source = self._source
         labels = {"annotate": annotate, "vessel_names": vessel_names}
         if source.method != "csr":
-            # A picture made like this one would be made by another method.
+            # `--like` would render this picture by another method.
             return pixel_size(self.camera) if source.states_spacing else {}
         recipe = Recipe(self.camera, source.settings, **labels, vessels=source.vessels)
         return png_options(recipe, states_spacing=source.states_spacing)
@@ -337,8 +337,8 @@ def check_dicom_alone(path: Path, **given: Any) -> None:
     """Reject options of DICOM files for a file of another format."""
     for name, value in given.items():
         if value is not None and value is not False:
-            found = f"{value!r}, with the ending {path.suffix!r}"
-            raise SettingsError(name, found, "the ending .dcm", "leave it out for other files")
+            found = f"{value!r}, with the extension {path.suffix!r}"
+            raise SettingsError(name, found, "the extension .dcm", f"leave out {name} for other files")
 
 
 def check_values(annotate: bool, compress: bool) -> None:
@@ -364,7 +364,7 @@ def save_picture(image: npt.NDArray[np.uint8], path: Path, png_options: dict[str
     expected = "a picture format such as .png, .tif or .webp"
     kind = Image.registered_extensions().get(path.suffix.lower())
     if kind is None or kind not in Image.SAVE:
-        raise FormatError(str(path), f"the ending {path.suffix!r}", expected)
+        raise FormatError(str(path), f"the extension {path.suffix!r}", expected)
     picture = Image.fromarray(image)
     if kind in _OPAQUE:
         picture = picture.convert("RGB")

@@ -75,7 +75,7 @@ def frame_source(
 
 
 def _context_window(settings: Settings) -> Window | str | None:
-    """The window of the context, None where control points alone say what an intensity looks like."""
+    """The window of the context, None if only control points define the look of an intensity."""
     has_points = isinstance(settings.context_transfer, TransferFunction)
     return None if has_points and settings.context in ("dvr", "mip") else settings.context_window
 

@@ -26,7 +26,7 @@ HANGINGS: dict[str, tuple[tuple[int, int], ...]] = {
 
 
 def hanging_views(name: str, size: tuple[int, int]) -> list[tuple[str, Camera]]:
-    """Return the views of a hanging in their order, with what each is called in the names of files.
+    """Return the views of a hanging in their order, with their names in file names.
 
     The place and the magnification of the cameras are still open.
 
@@ -48,7 +48,7 @@ def hanging_views(name: str, size: tuple[int, int]) -> list[tuple[str, Camera]]:
 
 
 def fitted_alike(views: list[Camera], scene: VesselTree | Volume) -> list[Camera]:
-    """Return views at the middle of the scene in each, all with the pixels in which the largest just fits."""
+    """Return the views centred on the scene, all with the pixel spacing at which the largest just fits."""
     fitted = [Camera.fitted(scene, view.direction, view.up, view.size) for view in views]
     spacing = max(camera.pixel_spacing for camera in fitted)
     return [replace(camera, pixel_spacing=spacing) for camera in fitted]

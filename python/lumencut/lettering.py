@@ -1,4 +1,4 @@
-"""Writing and drawing on a picture so that it can be read on any ground: white with a dark outline."""
+"""Writing and drawing on a picture so that it can be read on any background: white with a dark outline."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _LIGHT, _DARK = (255, 255, 255, 255), (0, 0, 0, 255)
 #: Height of the letters (pixels): a fortieth of the shorter side, within these.
 _SMALLEST, _LARGEST, _PART = 12, 64, 40
 
-#: How much larger the letters of the sides are.
+#: Size of the letters of the sides, relative to other letters.
 _LARGER = 1.3
 
 #: Widest name (letters) that is written in full.
@@ -79,7 +79,7 @@ class Sheet:
         """Return a line in pieces that fit between the left edge and a letter in the middle."""
         room = self.size[0] / 2 - 2 * self.margin - self._fonts[1].getlength("SAL") / 2
         pieces: list[str] = []
-        # Words that begin with a letter: a number stays with the word before it.
+        # Lines break only before a letter, so that a number stays with the word before it.
         for word in re.split(" (?=[a-zA-Z])", line):
             longer = f"{pieces[-1]} {word}" if pieces else word
             if pieces and self._fonts[0].getlength(longer) <= room:

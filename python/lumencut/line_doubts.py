@@ -38,7 +38,7 @@ def line_doubts(vessels: Iterable[Vessel], *, parallel: bool = False) -> list[Li
 
 
 def worded(doubts: Iterable[tuple[int, int | None, str, Any]]) -> list[LineDoubt]:
-    """Return doubts of the facade with their mends in words."""
+    """Return doubts of the facade with their remedies in words."""
     return [LineDoubt(vessel, other, mend.after(f"{found}; ")) for vessel, other, found, mend in doubts]
 
 

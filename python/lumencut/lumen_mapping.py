@@ -46,11 +46,11 @@ def lumen_map(
 ) -> LumenMap:
     """Return the wall of a vessel cut open along it and unrolled.
 
-    Rays go out from the centerline in all directions of each section. Where they meet the wall is that of the
-    measured contour; where a section has none, where values first fall half of the way to those around the
-    vessel; and where no lumen can be measured, the radius of the centerline. A ray that meets no wall within
-    1.6 radii leaves through the opening of a branch, which is drawn as a hole. The idea of rays cast radially
-    from a curve is that of Lampe et al. 2009 (doi:10.1109/TVCG.2009.136), the formulas are ours.
+    Rays go out from the centerline in all directions of each section. The wall is the measured contour. In
+    sections without a contour it is where values first fall halfway to those around the vessel; if no lumen
+    can be measured, it is the radius of the centerline. A ray that meets no wall within 1.6 radii leaves
+    through the opening of a branch, which is drawn as a hole. Casting rays radially from a curve follows
+    Lampe et al. 2009 (doi:10.1109/TVCG.2009.136); the formulas are ours.
 
     Parameters
     ----------
@@ -72,14 +72,14 @@ def lumen_map(
     overlap : float, default 0
         How much of the other side is repeated beyond each edge (radians, 0 to 3), dimmed.
     band : (float, float), default (-1, 3)
-        From where to where beyond the wall ``"wall"`` and ``"thickness"`` look (mm).
+        Range beyond the wall that ``"wall"`` and ``"thickness"`` search (mm).
     show : {"max", "mean", "min"}, default "max"
         Which value of the band ``"wall"`` shows.
     calcium_level : float, optional
-        From which level on something at the wall is calcium or metal, in the volume's unit; the lumen's level
-        and half of its contrast by default, and at least 130.
+        Level from which something at the wall counts as calcium or metal, in the volume's unit; by default
+        the lumen's level plus half of its contrast, at least 130.
     profile : Profile, optional
-        What :func:`lumencut.measure` found for this vessel, so that it need not be measured again.
+        The result of :func:`lumencut.measure` for this vessel, to avoid measuring again.
     tree : VesselTree, optional
         Vessels whose openings are named: :attr:`LumenMap.ostia`.
     up : array_like, shape (3,), default (0, 0, 1)
@@ -91,7 +91,7 @@ def lumen_map(
     degrees : float, optional
         The angle in degrees, instead of ``angle``.
     device : {"auto", "cpu", "gpu"}, default "auto"
-        What computes, as for :class:`lumencut.Renderer`.
+        The device that computes, as for :class:`lumencut.Renderer`.
 
     Raises
     ------
@@ -105,7 +105,7 @@ def lumen_map(
     MeasuringError
         For an invalid profile, and for ``"thickness"`` if the level of calcium is unknown.
     VolumeError
-        For an image that is no volume.
+        For an image that is not a volume.
     """
     check_vessel(vessel)
     turned = (
@@ -148,7 +148,7 @@ def lumen_map_of(
     smoothing: float = 0.0,
     settings: Settings | None = None,
 ) -> LumenMap:
-    """Return the map of a vessel by a renderer, whose window it has; parameters as for :func:`lumen_map`."""
+    """Return the map of a vessel in the window of a renderer; parameters as for :func:`lumen_map`."""
     check_vessel(vessel)
     choice(SettingsError, "mode of the lumen map", mode, MODES)
     if not isinstance(profile, (Profile, type(None))):

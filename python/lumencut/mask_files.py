@@ -19,7 +19,7 @@ class MaskFile:
     Attributes
     ----------
     file : VolumeFile
-        The file; of a segmentation no more than the chosen segments are read.
+        The file; only the chosen segments of a segmentation are read.
     labels : dict of int to str, or None
         The labels that are lumen, with their names; None for every value but 0.
     """
@@ -54,7 +54,7 @@ def open_mask(path: str | os.PathLike[str], words: Iterable[str] = ()) -> MaskFi
     Raises
     ------
     SettingsError
-        For a word that is no value and no name of the file.
+        For a word that is neither a value nor a name of the file.
     FormatError
         For an unreadable mask.
     FileError
@@ -69,4 +69,4 @@ def open_mask(path: str | os.PathLike[str], words: Iterable[str] = ()) -> MaskFi
 
 
 def _silent(done: int, total: int) -> None:
-    """Report progress to nobody."""
+    """Ignore progress."""

@@ -30,7 +30,7 @@ class Grid(Protocol):
 
     @property
     def frame_of_reference(self) -> str:
-        """The UID of the space of DICOM; empty where none is stated."""
+        """The DICOM frame of reference UID; empty if none is stated."""
 
 
 @dataclass(frozen=True)
@@ -40,9 +40,9 @@ class MaskPlace:
     Attributes
     ----------
     axes : tuple of 3 int
-        For each axis i, j, k of the mask that of the scan.
+        The axis of the scan for each axis i, j, k of the mask.
     forward : tuple of 3 bool
-        For each axis of the scan whether that of the mask runs the same way.
+        For each axis of the scan, whether the mask runs in the same direction.
     low : tuple of 3 int
         The least index of the mask along each axis of the scan.
     note : str
@@ -97,7 +97,7 @@ def placed(mask: Volume, volume: Grid, place: MaskPlace) -> Volume:
 
 
 def other_patient(mask: Patient, scan: Patient) -> str | None:
-    """Say in a sentence that a mask is of another patient than its scan; None where both do not say so."""
+    """Return a sentence if a mask is of another patient than its scan; None if not, or if unknown."""
     return f"the mask is of {mask}, the scan of {scan}" if mask.differs_from(scan) else None
 
 
@@ -119,8 +119,7 @@ def place_within(mask: Grid, volume: Grid, *, always: bool) -> MaskPlace | None:
     Raises
     ------
     VolumeError
-        Where the frames of reference of both are stated and are not the same, and where voxels of the mask
-        are none of the scan.
+        If both state different frames of reference, or if voxels of the mask are not voxels of the scan.
     """
     stated, expected = mask.frame_of_reference, volume.frame_of_reference
     if stated and expected and stated != expected:

@@ -34,16 +34,16 @@ def trace_mask(
 ) -> VesselTree:
     """Trace the centerlines of a mask of the lumen, or of labels of a label map.
 
-    Cavities are filled. The mask is thinned to lines with its topology, those voxels first that are nearest
-    to the wall, so pieces and cycles stay. Short branches go, the lines are moved to the centres of gravity
-    of their cross-sections, smoothed over half a radius and led out to the caps of their ends.
-    Vessels that meet share their end points to the bit; neighbouring points are at most 0.5 mm apart. A
-    vessel leads away from the free end of the widest vessel of its piece.
+    Cavities are filled. The mask is thinned to lines, voxels nearest to the wall first; its topology, pieces
+    and cycles, is kept. Short branches are removed. Lines are moved to the centres of gravity of their
+    cross-sections, smoothed over half a radius, and extended to the caps of their ends. Vessels that meet
+    share identical end points; neighbouring points are at most 0.5 mm apart. Each vessel leads away from the
+    free end of the widest vessel of its piece.
 
     The radius is that of a circle with the area of the cross-section, but at most half a voxel beyond the
-    nearest wall. A mask tells it, and the middle, to about half a voxel. The values of a volume tell both
-    better: with one, lines move to the middles of cross-sections that :func:`lumencut.trace` fits, and take
-    their radii. A vessel that the volume does not show, or shows elsewhere, stays as the mask has it.
+    nearest wall. A mask gives radius and middle to about half a voxel. With a volume both are more accurate:
+    lines move to the middles of the cross-sections that :func:`lumencut.trace` fits, and take their radii. A
+    vessel that the volume does not show, or shows elsewhere, keeps the line of the mask.
 
     Sources: Felzenszwalb and Huttenlocher 2012, doi:10.4086/toc.2012.v008a019 (distances); Bertrand and
     Malandain 1994, doi:10.1016/0167-8655(94)90046-9 (simple points); Pudney 1998, doi:10.1006/cviu.1998.0680
@@ -52,23 +52,23 @@ def trace_mask(
     Parameters
     ----------
     mask : Volume, or an image that :func:`lumencut.render` takes as a volume
-        Whole numbers: 0 is background.
+        Integers; 0 is background.
     volume : Volume or such an image, optional
         The angiography of the mask, with lumen brighter than the tissue around it. The voxels of the mask
         must be voxels of it, to a tenth of a voxel: all or a part, in any order and direction of the axes.
     labels : mapping of int to str, or iterable of int, optional
         Which values are lumen. With a mapping vessels get its names, such as ``{52: "aorta"}``. Without it
         every value but 0 is lumen, and vessels are named ``"label 52"`` where there are several values, or as
-        the file of the mask names its segments or labels. A vessel with several labels is parted where one
-        ends and the other begins.
+        the file of the mask names its segments or labels. A vessel with several labels is split where the
+        label changes.
     shortest_branch : float, default 2
-        How long a branch must be to stay, from the centerline of its parent to its cap, in radii of the
-        parent. A branch that reaches four of its own radii beyond the parent's wall stays too.
+        Shortest branch that is kept, from the centerline of its parent to its cap, in radii of the parent. A
+        branch that extends four of its own radii beyond the parent's wall is kept too.
     bridge : float, default 0
         The widest gap (mm) between pieces that a straight vessel bridges, whose points are all marked as
         :attr:`Vessel.bridged`. Gaps are listed in :attr:`VesselTree.gaps` whether or not they are bridged.
     progress : callable, optional
-        Called now and then with how much is done and how much there is to do.
+        Called at intervals with the work done and the total work.
 
     Returns
     -------

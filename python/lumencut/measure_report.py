@@ -31,7 +31,7 @@ def report(
 ) -> str:
     """Return measured vessels as HTML: pictures are part of it, and it holds no script and no address.
 
-    Nothing of the patient stands in it but what the pictures show and how vessels are called.
+    About the patient it contains only the pictures and the names of vessels.
 
     Parameters
     ----------

@@ -19,7 +19,7 @@ GROUPS: tuple[Literal["carotid", "coronary"], ...] = ("carotid", "coronary")
 class Marked:
     """The marks of a reader on one vessel for grading; see :meth:`lumencut.Profile.stenosis`.
 
-    It may hold what another method than the chosen one needs: that is left aside.
+    Values that the chosen method does not need are ignored.
 
     Attributes
     ----------
@@ -28,11 +28,11 @@ class Marked:
     references : tuple of float
         One or two places to compare it with (mm).
     method : {"nascet", "ecst", "area"}
-        How it is graded.
+        The method of grading.
     original, comparison : float or None
         The assumed original diameter, and that of a vessel like the normal one (mm).
     group : {"carotid", "coronary"} or None
-        Which vessel it is, for the groups of the field.
+        The kind of vessel, which selects the severity groups.
     diameters : tuple of float
         Places with noted diameters, regardless of grading (mm).
     """
@@ -53,7 +53,7 @@ class MeasuredVessel:
     Attributes
     ----------
     number : str
-        Its id in the tree, or those of the vessels that it is made of.
+        Its id in the tree, or the ids of the vessels that it joins.
     vessel : Vessel
         Its centerline.
     profile : Profile
@@ -109,7 +109,7 @@ class MeasuredVessel:
 
     @property
     def parts(self) -> tuple[str, str | None, _lumencut.Profile, _lumencut.Grade | None]:
-        """What tables, JSON and reports are made of."""
+        """Content for tables, JSON and reports."""
         return self.number, self.vessel.name, self.profile._core, self._grade
 
     @property
@@ -131,8 +131,8 @@ class MeasuredVessel:
 def vessels_csv(measured: Sequence[MeasuredVessel]) -> str:
     """Return vessels as one table, a line for each section after the line of the names.
 
-    Columns that are the same in all lines of a vessel say which it is and give the place that a
-    reader marked on it: ``stenosis``, ``doubts`` or ``not_graded``.
+    Columns with equal values in all lines of a vessel identify it, and give the place that a reader marked on
+    it: ``stenosis``, ``doubts`` or ``not_graded``.
     """
     return _lumencut.vessels_csv([one.parts for one in measured])
 

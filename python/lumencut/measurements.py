@@ -19,11 +19,11 @@ from lumencut.volume_files.memory import as_volume
 
 @by_name
 class Measurements:
-    """The measured vessels of one volume and tree: each is measured when it is first asked for, and kept.
+    """The measured vessels of one volume and tree: each is measured on first request, and kept.
 
     The point spread is estimated once, from the vessels of the tree, and is the same for all of them, as in
-    the viewer. What was measured holds for this volume, tree, step, wall and width of the point spread; for
-    others make another object.
+    the viewer. Results apply to this volume, tree, step, wall and width of the point spread; for others
+    create another object.
 
     >>> measurements = lumencut.Measurements(volume, tree)
     >>> measurements.profile("LAD").narrowest()
@@ -86,7 +86,7 @@ class Measurements:
         *,
         progress: Callable[[int, int], object] | None = None,
     ) -> Profile:
-        """Return the profile of a vessel, measured where it was not asked for before.
+        """Return the profile of a vessel, which is measured on first request.
 
         Parameters
         ----------
@@ -94,7 +94,7 @@ class Measurements:
             The id or the name of a vessel of the tree, or another vessel, such as one that
             :meth:`VesselTree.path` made of several.
         progress : callable, optional
-            Called now and then with how much is done and how much there is to do.
+            Called at intervals with the work done and the total work.
 
         Returns
         -------

@@ -21,7 +21,7 @@ from lumencut.vessel_tree import VesselTree
 from lumencut.volume import Volume
 from lumencut.volume_files.memory import as_volume
 
-#: Called with how much is done and how much there is to do.
+#: Called with the work done and the total work.
 Progress = Callable[[int, int], object]
 
 
@@ -39,8 +39,8 @@ def measure(
 
     An ellipse, blurred as the scanner blurs, is fitted to the voxels around each section: its position and
     shape, and the levels of lumen and background. The levels of narrow sections come from wider ones around
-    them. So the diameter has no bias by the blur, as it has at half of the maximum. docs/method/measuring.md
-    describes the method.
+    them. So the blur does not bias the diameter, as it does with a threshold at half of the maximum.
+    docs/method/measuring.md describes the method.
 
     A lumen diameter is not that of the vessel: thrombus and plaque are not lumen.
 
@@ -50,27 +50,26 @@ def measure(
         The angiography, CT or MR; lumen may be brighter or darker than what is around it.
     vessel : Vessel
         The centerline. It need not be central; :meth:`VesselTree.path` makes one of several vessels that
-        meet. Radii help to find the lumen and are not believed.
+        meet. Radii only help to find the lumen.
     step : float, default 0.5
         The distance of sections (mm), at most; they lie evenly from the first point to the last.
     fwhm : float, optional
         The full width at half maximum of the scanner's point spread alone (mm), 0 excluded, at most 20.
-        Averaging over voxels is added to it. Without it, it is estimated where the vessel is wide, or else
-        assumed to be 1.2 sides of a voxel; :attr:`Profile.fwhm_source` says which, and why. With ``tree`` it
-        is found once on the widest vessels of the tree, and is then the same for all that is measured along
-        it, also for a path through several vessels.
+        Averaging over voxels is added. By default it is estimated where the vessel is wide, or else assumed
+        as 1.2 sides of a voxel; :attr:`Profile.fwhm_source` states which, and why. With ``tree`` it is
+        estimated once from the widest vessels of the tree, for all measurements along it, including paths
+        through several vessels.
     tree : VesselTree, optional
-        The tree that the vessel is of: sections within the lumen of its other vessels get
-        :attr:`Flag.BRANCH`, and the level of walls of its eight widest vessels helps those
-        with too few sections.
+        The tree of the vessel: sections within the lumen of its other vessels get
+        :attr:`Flag.BRANCH`, and the wall level of its eight widest vessels is used for vessels with too few
+        sections.
     wall : pair of float or "off", optional
-        The level of the vessel's wall and the standard deviation of that, in the unit of the volume. Without
-        it, it is 45 ± 25 HU where the values of the volume are HU (some are below -20) and the lumen is
-        bright; elsewhere, and with "off", walls count as surroundings of the vessel. An artery
-        in fat is then measured too wide, as a part of its wall is taken for lumen.
-        :attr:`Profile.wall_source` says which.
+        Level of the vessel's wall and its standard deviation, in the unit of the volume. Default: 45 ± 25 HU
+        if the values are HU (some are below -20) and the lumen is bright. Otherwise, and with "off", walls
+        count as surroundings; an artery in fat is then measured too wide, because part of its wall counts as
+        lumen. :attr:`Profile.wall_source` states which.
     progress : callable, optional
-        Called now and then with how much is done and how much there is to do.
+        Called at intervals with the work done and the total work.
 
     Returns
     -------
@@ -169,14 +168,14 @@ def cross_section(
 ) -> CrossSection:
     """Return the volume in a plane across a vessel, as a square image with the vessel in its middle.
 
-    With the profile of the vessel it is the plane of the measured section nearest to the place, the first of
-    two, so that contours lie in it. Without one, the plane follows the same rule as those that are measured:
+    With a profile, it is the plane of the measured section nearest to the place (the first of two equally
+    near), so it contains the contour. Without one, the plane follows the rule of measured sections:
     directions are smoothed over half of the radius of the vessel.
 
     Planes do not turn about the vessel from one place to the next (rotation-minimising frame, Wang et al.
-    2008). At its first point the patient's back is at the bottom, or the feet where it runs to the back or
-    front; a vessel that begins towards the head is seen along its way, others against it, so that the
-    patient's left is on the right of an axial section.
+    2008). At the first point the patient's back is at the bottom, or the feet if the vessel runs to the back
+    or front. A vessel that begins towards the head is seen along its direction, others against it, so that
+    the patient's left is on the right of an axial section.
 
     Parameters
     ----------
@@ -193,7 +192,7 @@ def cross_section(
     pixel_spacing : float, optional
         The side of a pixel (mm); half of the smallest side of a voxel by default.
     profile : Profile, optional
-        What :func:`lumencut.measure` found for this vessel.
+        The result of :func:`lumencut.measure` for this vessel.
 
     Raises
     ------

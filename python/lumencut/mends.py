@@ -1,4 +1,4 @@
-"""What mends an error: a name that every host knows, and the words that name arguments or options for it."""
+"""Remedies of errors: names shared by all hosts, and texts with arguments or options."""
 
 from __future__ import annotations
 
@@ -23,10 +23,10 @@ class Option(NamedTuple):
     name : str
         The argument.
     value : str, bool or None
-        What to give for it; None where the reader knows.
+        Its value; None if the user chooses it.
     form : "whole", "again", "quoted" or "plain"
-        Written as ``name=value``, as the value alone behind the same argument, or as the name alone, with
-        marks around it or plain.
+        Written as ``name=value``, as only the value after the same argument, or as only the name, quoted or
+        plain.
     """
 
     name: str
@@ -50,7 +50,7 @@ def as_argument(option: Option) -> str:
     }[option.form]
 
 
-#: What the help of the command line calls the values of options.
+#: Names of the values of options in the help of the command line.
 _VALUES = {"series": "NUMBER|UID", "phase": "VALUE"}
 
 
@@ -65,7 +65,7 @@ def as_option(option: Option) -> str:
 @by_name
 @dataclass(frozen=True)
 class Mend:
-    """A step that mends an error; as a text it is worded for Python.
+    """A remedy of an error; its text is worded for Python.
 
     Attributes
     ----------
@@ -75,7 +75,7 @@ class Mend:
         "reading" and "reorder" of centerlines; "series", "phase", "fill_gaps", "resample_slices" and
         "resample_and_fill" of DICOM.
     values : tuple of str
-        What can be chosen among, such as units or phases; empty where there is nothing to choose.
+        The choices, such as units or phases; empty if there are none.
     """
 
     name: MendName
@@ -158,7 +158,7 @@ class Told(str):
     advice : str
         The words that name no options.
     mends : tuple of Mend
-        The mends of the error; empty for text without an error.
+        The remedies of the error; empty for a text without an error.
     """
 
     advice: str
@@ -179,7 +179,7 @@ class Told(str):
         return _written(self._parts, write)
 
     def after(self, words: str) -> Told:
-        """Return the same behind other words."""
+        """Return the text after other words."""
         return Told(words, *self._parts, advice=self.advice, mends=self.mends)
 
 

@@ -1,4 +1,4 @@
-"""How a view lies to the patient: the sides that its edges look to, and its name."""
+"""Orientation of a view relative to the patient: the sides at its edges, and its name."""
 
 from __future__ import annotations
 
@@ -32,13 +32,13 @@ def edges(camera: Camera) -> dict[str, str]:
 
 
 def view_name(camera: Camera) -> str:
-    """Return what a view is called.
+    """Return the name of a view.
 
-    A view along an axis of the patient has its name, such as ``anterior``. All others have the angles at
-    which a C-arm sees the patient so: how far the viewer stands to the left (LAO) or right (RAO) of the
-    patient's front, and how far towards the head (CRA) or the feet (CAU). These are the positioner angles of
-    DICOM, in whole degrees; LAO and RAO go up to 180 degrees, at the patient's back. Where the head, or the
-    front in views along the body, is not on top, the view is turned in its plane, by that many degrees
+    A view along an axis of the patient has its name, such as ``anterior``. All others are named by the angles
+    of a C-arm with the same view: how far the viewer stands to the left (LAO) or right (RAO) of the patient's
+    front, and how far towards the head (CRA) or the feet (CAU). These are the positioner angles of DICOM, in
+    whole degrees; LAO and RAO go up to 180 degrees, at the patient's back. Where the head, or the front in
+    views along the body, is not on top, the view is turned in its plane, by that many degrees
     counterclockwise.
     """
     from lumencut.camera import VIEWS

@@ -1,4 +1,4 @@
-"""What a pixel of a picture means in the volume."""
+"""The place in the volume that a click on a pixel picks."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ def brightest(
     pixel: npt.ArrayLike,
     depths: npt.ArrayLike = (-np.inf, np.inf),
 ) -> npt.NDArray[np.float64]:
-    """Return the brightest place on the ray of a pixel: what a click into a MIP means, as in the viewer.
+    """Return the brightest place on the ray of a pixel, which a click into a MIP picks, as in the viewer.
 
-    The ray is looked at in steps of half the smallest side of a voxel, from the first voxel to the last. Of
+    The ray is sampled in steps of half the smallest side of a voxel, from the first voxel to the last. Of
     several places that are equally bright the nearest one to the viewer is taken.
 
     Parameters

@@ -1,4 +1,4 @@
-"""The text that a PNG of Lumencut carries, and settings as its JSON has them."""
+"""The text in a PNG of Lumencut, and settings as JSON."""
 
 from __future__ import annotations
 
@@ -52,7 +52,8 @@ def text_of(path: Path, expected: str) -> str:
         text = _unreadable(path, expected)
     if not isinstance(text, str):
         found = "a picture without a description of its rendering"
-        raise FormatError(str(path), found, expected, "programs that change a picture may drop its text")
+        mend = "use the file that Lumencut wrote: programs that change a picture may drop its description"
+        raise FormatError(str(path), found, expected, mend)
     if len(text) > _LONGEST:
         raise FormatError(str(path), f"a text of {len(text)} letters", f"at most {_LONGEST}")
     return text

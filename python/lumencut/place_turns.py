@@ -71,13 +71,13 @@ def radius_at(vessel: Vessel, at: float) -> float:
 
 
 def cut_diameter(volume: Volume, camera: Camera, radius: float) -> float:
-    """Return the diameter of a vessel (mm) that the view of a place cuts; NaN where it has no two walls.
+    """Return the diameter of a vessel (mm) in the cut of a view about a place; NaN without two walls.
 
-    It is read along the line through the camera's center to the right: the cut runs through it within the
-    lumen, and no other vessel of the picture lies on it unless it touches this one. On each side the wall is
-    where the values first pass half way between the lumen, their median within half a radius of the middle,
-    and the value within three radii that differs from it most towards the tissue. A wall that would lie
-    beyond 1.5 radii is that of another vessel which touches this one: then the diameter is NaN, too.
+    It is measured along the line through the camera's center to the right: within the lumen the line lies in
+    the cut, and no other vessel of the picture lies on it unless it touches this one. On each side the wall
+    is where values first pass halfway between the lumen (their median within half a radius of the middle) and
+    the value within three radii that differs from it most towards the tissue. A wall beyond 1.5 radii would
+    belong to a touching vessel: the diameter is then NaN, too.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ def cut_diameter(volume: Volume, camera: Camera, radius: float) -> float:
     camera : Camera
         The view, whose center is the place and whose up axis is the direction of the vessel.
     radius : float
-        About the radius of the vessel (mm).
+        The approximate radius of the vessel (mm).
     """
     return _lumencut.cut_diameter(volume, camera, radius)
 

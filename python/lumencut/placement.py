@@ -34,7 +34,7 @@ MILLIMETRES: dict[Unit, float] = _lumencut.MILLIMETRES
 
 _NOTHING = Told()
 
-#: Extents between these (mm) pass for vessels of a body.
+#: Plausible extents of the vessels of a body (mm).
 SMALLEST, LARGEST = _lumencut.SMALLEST_EXTENT, _lumencut.LARGEST_EXTENT
 
 
@@ -56,7 +56,7 @@ class Placement:
     space, unit : str
         The space and unit in which they are read.
     space_from, unit_from : "asked", "stated", "volume", "values" or "assumed"
-        Who said so: the caller, the file, the extent of the volume, its values along the lines, or nobody.
+        Who decided it: the caller, the file, the extent of the volume, its values along the lines, or nobody.
     decision : Told
         The decision, its reason, and how to confirm it; empty if file or caller stated everything.
     is_unusual : bool
@@ -78,7 +78,7 @@ class Placement:
 
     @property
     def signs(self) -> npt.NDArray[np.float64]:
-        """What brings coordinates of the space to LPS, shape (3,)."""
+        """Factors that convert coordinates of the space to LPS, shape (3,)."""
         return np.array(_lumencut.SIGNS[self.space])
 
 
@@ -135,7 +135,7 @@ def _units(units: Sequence[Unit]) -> list[str | Option]:
 
 
 def _doubt(found: tuple[str, Sequence[Unit]] | None) -> Told:
-    """What speaks against the unit, and what would read the lines in another one."""
+    """Reasons against the unit, and the option that reads the lines in another one."""
     if found is None:
         return _NOTHING
     words, units = found
@@ -172,10 +172,10 @@ def check_space(tree: VesselTree, volume: Volume, subject: str = "vessel tree") 
     Warns
     -----
     SpaceWarning
-        Where clearly more points lie inside the volume with x and y negated, or in another unit, as when RAS
-        was read as LPS or centimetres as millimetres; or where both spaces fit the volume, and at least three
-        times as many points look like lumen with x and y negated. The text names both counts and the option
-        that mends it.
+        If clearly more points lie inside the volume with x and y negated, or in another unit, as when RAS was
+        read as LPS or centimetres as millimetres; or if both spaces fit the volume, and at least three times
+        as many points look like lumen with x and y negated. The text names both counts and the option to
+        give.
     """
     tree._space_settled |= _warn_if_another_fits(tree, volume, subject)
 
@@ -214,9 +214,9 @@ def _as_ras(count: int) -> Told:
 
 
 def _warn_if_another_fits(tree: VesselTree, volume: Volume, subject: str, stacklevel: int = 2) -> bool:
-    """Warn where another place brings twice as many points into the volume, and a tenth of all more.
+    """Warn if another place brings twice as many points into the volume, and at least a tenth of all more.
 
-    Or where the values of the volume evidently speak for the other space. Returns whether it warned.
+    It also warns if the values of the volume clearly favour the other space. Returns whether it warned.
     `stacklevel` counts as for `warnings.warn` from the caller.
     """
     lines = Lines.of((vessel.points, vessel.radius) for vessel in tree)
@@ -227,7 +227,7 @@ def _warn_if_another_fits(tree: VesselTree, volume: Volume, subject: str, stackl
 
 
 def _misread(subject: str, found: str, meant: tuple[Coordinates, Unit]) -> Told:
-    """What was found, and how lines that were read as LPS in mm are to be read, by the place that fits."""
+    """The finding, and the options to read the centerlines in the space and unit that fit."""
     space, unit = meant
     parts: list[str | Option] = [f"{subject}: {found}; read the centerlines with "]
     if space == "ras":

@@ -57,23 +57,22 @@ class PlanarReformation(Reformation):
     the lowest). The vessel lies in or about the middle column. No picture is mirrored. Where several points
     of the vessel share a row (projected), its arc length is that of the first of them.
 
-    A pixel is folded, straightened and stretched, where lines across the vessel have met before they reach
-    it, so that the image runs backwards there, or shows what it shows nearer to the vessel in another row;
-    projected, where several points of the vessel share the row.
+    A pixel of a straightened or stretched image is folded if lines across the vessel meet before they reach
+    it: the image runs backwards there, or repeats what another row shows nearer to the vessel. A pixel of a
+    projected image is folded if several points of the vessel share its row.
 
-    Every world point has a pixel. One that the image shows several times lies where it is nearest to the
-    vessel. One that it does not show lies, projected, where the viewer sees it; stretched, where the surface
-    of the image is nearest; straightened, in that of the sections through the point whose centre is nearest.
+    Every world point has a pixel: of several, the one nearest to the vessel. A point that the image does not
+    show has the pixel where the viewer sees it (projected), of the nearest place of the surface (stretched),
+    or of the section through the point with the nearest centre (straightened).
 
     Attributes
     ----------
     mode : {"projected", "stretched", "straightened"}
-        How the vessel is laid out. Distances are true but for ``"projected"``.
+        How the vessel is laid out. Distances are true except in ``"projected"``.
     angle : float
         By how much the viewer has moved to the right (radians).
     roll : numpy.ndarray, float64, shape (H,), or None
-        The angle of each row (radians, counted on through whole turns), where the rows follow a side of the
-        lumen.
+        The angle of each row (radians, without jumps at full turns), if the rows follow a side of the lumen.
     """
 
     _core: _lumencut.Cpr
@@ -96,9 +95,9 @@ class PlanarReformation(Reformation):
         )
 
     def rotated(self, angle: float | None = None, *, degrees: float | None = None) -> PlanarReformation:
-        """Return the same vessel seen from another side; renderer, volume and frames are used again.
+        """Return the same vessel seen from another side; renderer, volume and frames are reused.
 
-        Without a width of its own a projected or stretched image is as wide as the vessel from that side.
+        Unless a width was given, a projected or stretched image is as wide as the vessel from that side.
 
         Parameters
         ----------
@@ -111,7 +110,7 @@ class PlanarReformation(Reformation):
         Raises
         ------
         CameraError
-            For both angles or neither, one that is no finite number, or where the rows follow a side of the
+            For both angles or neither, an angle that is not finite, or if the rows follow a side of the
             lumen.
         """
         if self.roll is not None:
@@ -131,7 +130,7 @@ class PlanarReformation(Reformation):
     def annotated(self, *, vessel_names: bool = True) -> npt.NDArray[np.uint8]:
         """Return the picture with labels as every reformation has them; see `Reformation.annotated`.
 
-        Where the rows follow a side of the lumen, a strip to the right of the picture shows their angle: from
+        If the rows follow a side of the lumen, a strip to the right of the picture shows their angle: from
         0 at its left edge to half of a turn at its right one.
         """
         image = super().annotated(vessel_names=vessel_names)
@@ -190,8 +189,8 @@ def cpr(
         surface of the lines, so that distances on it are true. ``"straightened"`` has rows by arc length and
         the vessel in the middle column; the lines are perpendicular to it and do not turn about it
         (rotation-minimising frame, Wang et al. 2008). Only these two are measurable. ``"tangential"`` shows
-        the vessel in the pixels of ``camera``, and beside it what lies at the depth of its nearest place
-        (named by Mistelbauer et al. 2012, the definition is ours); see :class:`TangentialReformation`.
+        the vessel in the pixels of ``camera``, and around it the tissue at the depth of its nearest place
+        (name by Mistelbauer et al. 2012, definition ours); see :class:`TangentialReformation`.
     width : float, optional
         Distance of the outermost columns (mm), at most; an odd number of pixels is taken. By default,
         the image shows 25 mm on each side of the vessel: 50 mm where it is straightened.
@@ -204,7 +203,7 @@ def cpr(
         Upwards in space (LPS); any length. At angle 0 the view runs to the patient's back as far as that is
         perpendicular to up; where up is the patient's front or back, to the head.
     slab : Slab, (mm, mode) or mm, optional
-        How thick the surface is, and what is shown of its thickness; that of the settings by default. It
+        Thickness of the surface, and which value of it is shown; by default as in the settings. It
         is thick along the view where projected, else perpendicular to the surface.
     smoothing : float, default 0
         Standard deviation of the Gaussian that smooths the centerline along its length (mm, 0 to 1000); its
@@ -213,13 +212,13 @@ def cpr(
         Window, opacity, background and slab count; silhouettes, context and samples do nothing here. A focus
         and chosen vessels are refused.
     device : {"auto", "cpu", "gpu"}, default "auto"
-        What computes, as for :class:`lumencut.Renderer`.
+        The device that computes, as for :class:`lumencut.Renderer`.
     degrees : float, optional
         The angle in degrees, instead of ``angle``.
     normal : array_like, shape (3,), optional
-        Towards the viewer at the vessel's first point, at angle 0, where it is straightened (LPS); any
-        length. By default it is the viewer's side as ``up`` says it. A vessel that begins along the view
-        is seen against ``up`` there.
+        Direction to the viewer at the vessel's first point, at angle 0, for straightened images (LPS); any
+        length. By default ``up`` determines it. A vessel that begins along the view is seen against ``up``
+        there.
     roll : {"narrowest", "widest"}, optional
         Each section of the straightened vessel is seen from its own angle: from that at which its
         lumen is narrowest, or widest, through the vessel, so that no eccentric stenosis or slit hides in the
@@ -227,7 +226,7 @@ def cpr(
         is smoothed along the vessel by a Gaussian with a standard deviation of 2 mm;
         :attr:`PlanarReformation.roll` holds it.
     profile : Profile, optional
-        What :func:`lumencut.measure` found for this vessel, so that it need not be measured again for a roll.
+        The result of :func:`lumencut.measure` for this vessel, to avoid measuring again for a roll.
 
     camera : Camera, optional
         The view of ``"tangential"``, which takes no width, pixel spacing, angle, up, normal or roll; from the
@@ -245,7 +244,7 @@ def cpr(
         For another mode or device, a smoothing out of range, a slab that is invalid or not thicker than 0, or
         a focus.
     VolumeError
-        For an image that is no volume.
+        For an image that is not a volume.
     """
     check_vessel(vessel)
     choice(SettingsError, "mode of the CPR", mode, ALL_MODES)
@@ -258,7 +257,7 @@ def cpr(
         return tangential_of(renderer, vessel, camera, slab=slab, smoothing=smoothing, settings=settings)
     if camera is not None:
         found = f"a camera with the mode {mode!r}"
-        raise CameraError("camera of the CPR", found, "the mode 'tangential'", "leave the camera out")
+        raise CameraError("camera of the CPR", found, "the mode 'tangential'", "leave out the camera")
     return cpr_of(
         renderer,
         vessel,
@@ -292,7 +291,7 @@ def cpr_of(
     roll: Literal["narrowest", "widest"] | None = None,
     profile: Profile | None = None,
 ) -> PlanarReformation:
-    """Return the CPR of a vessel by a renderer, whose window it has; parameters are those of :func:`cpr`."""
+    """Return the CPR of a vessel in the scene and window of a renderer; parameters as for :func:`cpr`."""
     check_vessel(vessel)
     choice(SettingsError, "mode of the CPR", mode, MODES)
     volume = renderer.volume
@@ -331,16 +330,14 @@ def cpr_of(
 
 
 def _rolled(volume: Volume, vessel: Vessel, parameters: dict[str, Any], profile: Profile | None) -> _Rolled:
-    """Arc lengths (mm) and angles (radians) at which the side that is asked for is cut."""
+    """Arc lengths (mm), and the angles (radians) that cut the requested side."""
     from lumencut.measuring import measure
 
     choice(CameraError, "roll of the CPR", parameters["roll"], ROLLS)
     for name, expected in (("mode", "straightened"), ("angle", 0.0), ("normal", None)):
         if parameters[name] != expected:
             found = f"a roll with the {name} {parameters[name]!r}"
-            raise CameraError(
-                "roll of the CPR", found, f"{name} {expected!r}", "leave roll out, or the other"
-            )
+            raise CameraError("roll of the CPR", found, f"{name} {expected!r}", f"leave out roll or {name}")
     known = profile or measure(volume, vessel)
     smoothing, up = parameters["smoothing"], parameters["up"]
     wall = _lumencut.LumenWall(volume, (vessel.points, vessel.radius), smoothing, up, known._core)
@@ -348,7 +345,7 @@ def _rolled(volume: Volume, vessel: Vessel, parameters: dict[str, Any], profile:
 
 
 def one_angle(angle: float, degrees: float | None) -> float:
-    """Return the angle in radians; one in degrees takes the place of an angle of 0 and of no other."""
+    """Return the angle in radians; degrees may only be given with an angle of 0."""
     if degrees is not None and angle != 0:
         found = "an angle in radians and one in degrees"
         raise CameraError("angle of the CPR", found, "one of angle= (radians) and degrees=")
@@ -356,7 +353,7 @@ def one_angle(angle: float, degrees: float | None) -> float:
 
 
 def _width(width: float | None, volume: Volume) -> float | None:
-    """The width, which no volume can fill beyond its diagonal."""
+    """The width; an error if it exceeds the diagonal of the volume."""
     if width is None:
         return None
     checked = number(CameraError, "width of the CPR", width)

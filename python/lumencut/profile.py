@@ -86,12 +86,12 @@ class Profile(ProfileNumbers, ProfileOutputs):
 
     @property
     def fwhm(self) -> float:
-        """The full width at half maximum of the point spread that was reckoned with (mm)."""
+        """The full width at half maximum of the point spread that was used (mm)."""
         return self._core.fwhm[0]
 
     @property
     def fwhm_source(self) -> str:
-        """How that was found: ``"given"``, ``"estimated on …"`` or ``"assumed: …"``."""
+        """How :attr:`fwhm` was found: ``"given"``, ``"estimated on …"`` or ``"assumed: …"``."""
         return self._core.fwhm[1]
 
     @property
@@ -160,12 +160,11 @@ class Profile(ProfileNumbers, ProfileOutputs):
         return Stenosis(graded)
 
     def narrowest(self) -> Spot | None:
-        """Return where the vessel is narrowest, of the sections that are safe: a suggestion, not a finding.
+        """Return the narrowest place among safe sections: a suggestion, not a finding.
 
-        A section is safe that counts, has no flag `METAL` or `CALCIUM`, whose uncertainty is at most a third
-        of its diameter, and that lies more than one diameter from a change of lumen and from a flap. None
-        where no section is safe, and where the vessel only gets thinner towards an end of it;
-        :meth:`not_suggested` says why.
+        A safe section counts, has no flag `METAL` or `CALCIUM`, has an uncertainty of at most a third of its
+        diameter, and lies more than one diameter from a change of lumen and from a flap. None if no section
+        is safe, or if the vessel only tapers towards an end; :meth:`not_suggested` says why.
         """
         found = self._core.narrowest()
         return None if found is None else Spot(*found)
@@ -182,31 +181,31 @@ class Profile(ProfileNumbers, ProfileOutputs):
         return tuple(_lumencut.not_suggested_places(self._core, place, []))
 
     def not_measured(self) -> tuple[str, ...]:
-        """Return what of the vessel was not measured, and why, a sentence for each stretch; mostly empty.
+        """Return which stretches were not measured and why, a sentence each; mostly empty.
 
-        A line that runs on where nothing tells lumen from tissue is measured as far as there is a wall: over
-        its longest stretch of pieces of 10 mm each of which has one. Sections elsewhere are NaN. Ends of
-        10 mm and more without a wall are reported as well.
+        A line that continues where lumen and tissue cannot be distinguished is measured only over its longest
+        stretch of 10 mm pieces that each have a wall. Sections elsewhere are NaN. Ends of 10 mm and more
+        without a wall are reported as well.
         """
         return tuple(_lumencut.not_measured_stretches(self._core))
 
     def widest(self) -> Spot | None:
         """Return the place of the longest diameter of all sections that count, and that diameter.
 
-        It is the largest number regardless of flags: an odd outline, a nearby branch, or an outlier of the
-        fit may be what makes it so. Files, reports and the viewer leave it out where a section within 1 mm
-        is not round or lies in a branch; and a section that is more than 1.3 times as long as wide counts
-        for them only where its neighbours agree, else that with the largest area does.
+        It ignores flags: an odd outline, a nearby branch, or an outlier of the fit may cause it. Files,
+        reports and the viewer omit it if a section within 1 mm is not round or lies in a branch. They accept
+        a section more than 1.3 times as long as wide only if its neighbours agree; otherwise they take the
+        section with the largest area.
         """
         found = self._core.widest()
         return None if found is None else Spot(*found)
 
     def suggested_references(self, at: float) -> tuple[Spot | None, Spot | None]:
-        """Return places before and after an arc length (mm) that it could be compared with.
+        """Return suggested references before and after an arc length (mm).
 
-        Each is the nearest one, 3 to 50 mm and at least its own diameter away, whose walls are parallel over
-        5 mm and that is about as wide as most of the vessel on its side; None where there is none. No branch
-        lies between, unless both sides would then have none. These are suggestions: a reader must look.
+        Each is the nearest place, 3 to 50 mm and at least its own diameter away, with parallel walls over 5
+        mm and about as wide as most of the vessel on its side; None if there is none. No branch lies between,
+        unless both sides would then have no reference. A reader must check these suggestions.
 
         Raises
         ------
@@ -255,7 +254,7 @@ class Profile(ProfileNumbers, ProfileOutputs):
         Parameters
         ----------
         first, second : pair of float
-            Where each begins and ends, arc lengths (mm); such as neck and sac of an aneurysm.
+            Start and end of each, arc lengths (mm); such as neck and sac of an aneurysm.
 
         Returns
         -------
@@ -270,15 +269,15 @@ class Profile(ProfileNumbers, ProfileOutputs):
         return Angle(self._core.angle_between(_ends(first), _ends(second)))
 
     def c_arm(self, start: float, end: float, lao: float | None = None) -> CArm:
-        """Return how a C-arm is turned that shows a stretch in its whole length, in the plane of the image.
+        """Return the angles of a C-arm that shows a stretch without foreshortening.
 
         Parameters
         ----------
         start, end : float
-            Where the stretch begins and ends, arc lengths (mm).
+            Start and end of the stretch, arc lengths (mm).
         lao : float, optional
-            The rotation (radians), to the patient's left above 0; the angulation follows from it. Without
-            it the view nearest to that from the front is given.
+            The rotation (radians), to the patient's left above 0; the angulation follows from it. By default
+            the view nearest to the front is returned.
 
         Raises
         ------

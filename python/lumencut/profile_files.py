@@ -35,7 +35,7 @@ def csv_text(sections: Sections) -> str:
 def json_text(sections: Sections) -> str:
     """Return a profile as JSON, with the version of the software and a disclaimer.
 
-    What could not be measured is null.
+    Unmeasured values are null.
     """
     return _lumencut.profile_json(sections._core)
 
@@ -66,7 +66,7 @@ def save(sections: Sections, path: str | os.PathLike[str], **of_objects: Any) ->
     """Write one profile as ``.csv`` or ``.json``; reject options of DICOM."""
     checked = checked_path(path, WRITABLE)
     if not is_profile_file(checked):
-        raise FormatError(str(checked), f"the ending {checked.suffix!r}", ", ".join((*_ENDINGS, ".dcm")))
+        raise FormatError(str(checked), f"the extension {checked.suffix!r}", ", ".join((*_ENDINGS, ".dcm")))
     check_dicom_alone(checked, **of_objects)
     is_table = checked.suffix.lower() == ".csv"
     write_text(checked, csv_text(sections) if is_table else json_text(sections))

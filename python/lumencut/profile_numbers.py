@@ -85,18 +85,17 @@ class ProfileNumbers:
     def uncertainty(self) -> _Floats:
         """The standard deviation of :attr:`diameter_equivalent`, shape (n,), mm.
 
-        :attr:`uncertainty_parts` says what it is made of.
+        :attr:`uncertainty_parts` lists its components.
         """
         return self._numbers["uncertainty"]
 
     @property
     def uncertainty_parts(self) -> dict[str, _Floats]:
-        """What :attr:`uncertainty` is made of, each of shape (n,), mm: the sum of the squares is its square.
+        """Components of :attr:`uncertainty`, each of shape (n,), mm; their squares add up to its square.
 
-        ``noise`` is the noise of the voxels as it is correlated in this scan; ``point_spread`` what is not
-        known of the FWHM (0 where it was given); ``wall`` what is not known of the level and the thickness of
-        the wall; ``lumen_level`` what is not known of the level of a narrow lumen; ``surroundings`` what is
-        not as the model has it, such as patches of another tissue.
+        ``noise``: the correlated noise of the voxels; ``point_spread``: the uncertainty of the FWHM (0 if it
+        was given); ``wall``: that of the level and thickness of the wall; ``lumen_level``: that of the level
+        of a narrow lumen; ``surroundings``: deviations from the model, such as patches of another tissue.
         """
         return self._parts
 
@@ -115,8 +114,8 @@ class ProfileNumbers:
         """The diameter of a circle of the same area if nothing brighter than lumen at its wall is lumen.
 
         Calcium and metal look larger than they are and hide where the lumen ends; this is the smallest
-        diameter that they leave, and :attr:`diameter_calcium_included` the largest one. Shape (n,), mm; NaN
-        where no flag `CALCIUM` or `METAL` is set. :attr:`diameter_equivalent` lies between them.
+        possible diameter, and :attr:`diameter_calcium_included` the largest one. Shape (n,), mm; NaN where no
+        flag `CALCIUM` or `METAL` is set. :attr:`diameter_equivalent` lies between them.
         """
         return self._numbers["diameter_calcium_excluded"]
 

@@ -32,35 +32,35 @@ class ProfileOutputs:
         The file appears when complete.
 
         The table has a line for each section. Names of columns state the unit, flags are words separated by
-        ``"; "``, ``counts`` says whether a section counts for what is narrowest, widest or suggested, numbers
-        have seven digits, and what could not be measured is empty. JSON is that of :meth:`to_json`.
+        ``"; "``, ``counts`` states whether a section counts for extrema and suggestions, numbers have seven
+        digits, and unmeasured cells are empty. JSON is that of :meth:`to_json`.
 
         DICOM is a structured report (TID 1500), PRELIMINARY and UNVERIFIED: the centerline with its length,
         and of each stenosis the percentage with its method and its doubts, and diameters, area and contour at
-        its place and its references. What Lumencut suggests is not written. It needs highdicom:
+        its place and its references. Suggestions are not written. It needs highdicom:
         ``pip install lumencut[dicom]``.
 
         Parameters
         ----------
         path : path-like
-            The ending names the format.
+            The extension selects the format.
         study, anonymous, other_patient
             For ``.dcm``, as in :meth:`Frame.save`; with ``anonymous`` the name of the vessel is left out.
         stenoses : sequence of Stenosis, default ()
-            For ``.dcm``: what :meth:`Profile.stenosis` graded.
+            For ``.dcm``: results of :meth:`Profile.stenosis`.
 
         Raises
         ------
         FormatError
-            For another ending; for ``.dcm`` where there is no one study with a frame of reference.
+            For another extension; for ``.dcm`` without exactly one study with a frame of reference.
         MeasuringError
             For stenoses of another vessel.
         SettingsError
-            For what only ``.dcm`` can hold.
+            For options that only ``.dcm`` supports.
         MissingPackageError
             For ``.dcm`` without highdicom.
         FileError
-            Where the file cannot be written.
+            If the file cannot be written.
         """
         from lumencut.profile_files import save, save_object
 
@@ -89,7 +89,7 @@ class ProfileOutputs:
         Parameters
         ----------
         axes : matplotlib.axes.Axes, optional
-            Where to draw; axes of a new figure of ``matplotlib.pyplot`` by default.
+            The axes to draw in; by default those of a new figure of ``matplotlib.pyplot``.
 
         Returns
         -------

@@ -19,10 +19,10 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-#: How many standard deviations the band reaches to both sides, and how wide (pixels per inch) pictures are.
+#: Half width of the band in standard deviations, and resolution of pictures (pixels per inch).
 _DEVIATIONS, _DPI = 2, 150
 
-#: The size of a plot, where its axes lie in it from left to right (shares), and its other edges (inches).
+#: Size of a plot (inches), left and right edge of its axes (shares), and the other edges (inches).
 _WIDTH, _HEIGHT = 10.0, 3.8
 _SIDES, _BELOW, _ABOVE = (0.075, 0.65), 0.55, 0.55
 
@@ -72,7 +72,7 @@ def draw(axes: Axes, sections: Sections, marks: Sequence[Mark]) -> None:
         label=f"± {_DEVIATIONS} standard deviations (noise and fit)",
     )
     axes.plot(x, wide, color=_LINE, lw=1.6, label="diameter of a circle of the same area")
-    # Sections between two that do not count are no line: each is a dot.
+    # A section between two that do not count is drawn as a dot, not as a line.
     lonely = counted & ~np.append(counted[1:], False) & ~np.append(False, counted[:-1])
     axes.plot(x[lonely], wide[lonely], ".", color=_LINE, ms=4)
     top = _top(sections, counted)
@@ -139,7 +139,7 @@ def _edges(height: float) -> tuple[float, float, float, float]:
 
 
 def _top(sections: Sections, counted: npt.NDArray[np.bool_]) -> float:
-    """The largest diameter (mm) that has room."""
+    """The largest diameter that fits into the plot (mm)."""
     wide = sections.diameter_max[counted]
     if not len(wide):
         wide = sections.diameter_max[np.isfinite(sections.diameter_max)]

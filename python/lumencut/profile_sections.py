@@ -1,4 +1,4 @@
-"""What plots and reports of a profile are made of: words of its flags, and marked places."""
+"""Content for plots and reports of a profile: words of its flags, and marked places."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Floats = npt.NDArray[np.float64]
 
 
 class Sections(Protocol):
-    """The measured sections of a vessel: what :class:`lumencut.Profile` has of them for plots and files."""
+    """The measured sections of a vessel: the part of :class:`lumencut.Profile` that plots and files need."""
 
     _core: _lumencut.Profile
     _origin: Origin | None
@@ -60,11 +60,11 @@ class Mark:
     Attributes
     ----------
     name : str
-        What it is: the place of a stenosis, a reference, the narrowest place, or a noted diameter.
+        Its kind: the place of a stenosis, a reference, the narrowest place, or a noted diameter.
     arc_length, diameter : float
-        Where it is, and the diameter of a circle of the same area there (mm).
+        Its place, and the diameter of a circle of the same area there (mm).
     is_suggestion : bool
-        Whether Lumencut offers it; a reader named it otherwise.
+        Whether Lumencut suggested it; otherwise a reader marked it.
     """
 
     name: str
@@ -74,7 +74,7 @@ class Mark:
 
     @property
     def is_reference(self) -> bool:
-        """Whether the place of a stenosis is compared with it."""
+        """Whether it is a reference of a stenosis."""
         return self.name == "reference"
 
     @property
@@ -84,7 +84,7 @@ class Mark:
 
     @property
     def title(self) -> str:
-        """What it is, and whether it is only a suggestion."""
+        """Its name, and whether it is only a suggestion."""
         return f"{self.name} (suggestion)" if self.is_suggestion else self.name
 
     def __str__(self) -> str:

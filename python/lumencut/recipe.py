@@ -1,8 +1,8 @@
 """The text in a PNG that describes how the picture was rendered, and its parser.
 
 It holds the camera, the settings with the windows that were used, what is labelled, the number of vessels,
-and the version. It names no file and no vessel, and takes over nothing that the files say of the patient or
-the scan.
+and the version. It names no file and no vessel, and repeats nothing from the files about patient or
+scan.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ class Recipe:
 
 
 def png_options(recipe: Recipe, *, states_spacing: bool) -> dict[str, Any]:
-    """Return what Pillow takes to write the recipe, and the size of a pixel where the source states one."""
+    """Return the PNG metadata with the recipe, and with the pixel size if the source states one."""
     from PIL.PngImagePlugin import PngInfo
 
     info = PngInfo()
@@ -49,9 +49,9 @@ def png_options(recipe: Recipe, *, states_spacing: bool) -> dict[str, Any]:
 
 
 def pixel_size(camera: Camera) -> dict[str, Any]:
-    """Return what Pillow takes to write the size of a pixel into a PNG, nothing where it has no room."""
+    """Return the PNG metadata with the pixel size; empty if PNG cannot hold it."""
     per_metre = round(1000 / camera.pixel_spacing)
-    # PNG counts whole pixels in a metre: longer ones have their size in the recipe alone.
+    # PNG stores whole pixels per metre; the size of larger pixels is only in the recipe.
     return {"dpi": (per_metre * 0.0254,) * 2} if per_metre else {}
 
 
@@ -94,7 +94,7 @@ def read_recipe(path: str | Path) -> Recipe:
             raise FormatError(str(place), found, f"a text of format {_FORMAT}", "give the options themselves")
         return _recipe(content)
     except (CameraError, SettingsError) as error:
-        # What the text says is not repeated: anybody may have written it.
+        # The text is not quoted, because anybody may have written it.
         found = f"a text whose {error.subject.partition(' of ')[0]} cannot be used"
     except (ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError) as error:
         if isinstance(error, FormatError):
@@ -118,10 +118,10 @@ def _recipe(content: dict[str, Any]) -> Recipe:
 
 
 def _camera(content: dict[str, Any]) -> Camera:
-    """The camera to the last bit; normalizing its unit axes again would round them."""
+    """The exact camera; normalising its unit axes again would round them."""
     made = Camera(**{name: content[name] for name in ("center", "direction", "up", "size", "pixel_spacing")})
     stated = {name: np.asarray(content[name], dtype=np.float64) for name in _PLACE[:-1]}
     for name in ("direction", "right_axis", "up"):
         if not np.allclose(stated[name], getattr(made, name), rtol=0, atol=1e-9):
-            raise CameraError(name, "another vector", "a unit vector that goes with the others")
+            raise CameraError(name, "a vector that does not fit", "a unit vector perpendicular to the others")
     return made._moved({**stated, "pixel_spacing": made.pixel_spacing})

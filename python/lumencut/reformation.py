@@ -1,4 +1,4 @@
-"""Vessels laid out as an image: what every reformation that does so leaves behind."""
+"""Base of all reformations that lay vessels out as an image."""
 
 from __future__ import annotations
 
@@ -40,20 +40,20 @@ class Reformation:
     Attributes
     ----------
     recipe : ReformationRecipe
-        The name of the reformation, the words that say what its rows and columns are, and its parameters.
+        The name of the reformation, a description of its rows and columns, and its parameters.
     pixel_spacing : float
         Side of a pixel (mm).
     measurable : bool
         Whether distances along rows and columns are true in the image.
     settings : Settings
-        The settings, with numbers for the window; one from the data is found when they, or the picture, are
-        first asked for.
+        The settings, with numbers for the window; one from the data is found on first use of settings or
+        picture.
     timings : dict of str to float
-        Wall time of each stage of what was last made (ms): ``"places"`` found where the pixels look. Empty
-        before anything was made.
+        Wall time of each stage of the last computation (ms); ``"places"`` finds the places that pixels show.
+        Empty at first.
     """
 
-    #: Whether distances in the image are those that a viewer sees, so that a ruler may measure them.
+    #: Whether distances in the image are projected ones, so that a ruler may measure them.
     is_projection: bool = False
     _arrays: tuple[str, ...] = ("image", "value", "position", "arc_length", "folded")
 
@@ -101,7 +101,7 @@ class Reformation:
 
     @functools.cached_property
     def image(self) -> npt.NDArray[np.uint8]:
-        """RGBA picture, uint8, shape (H, W, 4); what lies outside the volume is transparent."""
+        """RGBA picture, uint8, shape (H, W, 4); transparent outside the volume."""
         made = self._look(self.settings, "image", "value")
         self.__dict__.setdefault("value", made["value"])
         image: npt.NDArray[np.uint8] = made["image"]
@@ -109,7 +109,7 @@ class Reformation:
 
     @functools.cached_property
     def value(self) -> npt.NDArray[np.float32]:
-        """The volume where the pixels look, float32, shape (H, W), NaN outside the volume."""
+        """The volume at the places of the pixels, float32, shape (H, W), NaN outside the volume."""
         value: npt.NDArray[np.float32] = self._look(self._given, "value")["value"]
         return value
 
@@ -136,9 +136,9 @@ class Reformation:
 
     @functools.cached_property
     def folded(self) -> npt.NDArray[np.bool_]:
-        """Which pixels are not to be trusted, bool, shape (H, W).
+        """Unreliable pixels, bool, shape (H, W).
 
-        The image runs backwards there, or shows what it shows elsewhere too.
+        The image runs backwards there, or repeats what it shows elsewhere.
         """
         return self._core.folded()
 
@@ -186,14 +186,14 @@ class Reformation:
     def annotated(self, *, vessel_names: bool = True) -> npt.NDArray[np.uint8]:
         """Return the picture with labels, RGBA, uint8, shape (H, W, 4); a side below 200 pixels gets none.
 
-        The labels are what the reformation is called, the window, what rows and columns are (on pictures of
-        at least 400 columns), a scale bar where distances can be measured, and the sides of the patient
-        where edges look to them.
+        The labels are the name of the reformation, the window, the meaning of rows and columns (on pictures
+        of at least 400 columns), a scale bar if distances can be measured, and the sides of the patient at
+        the edges.
 
         Parameters
         ----------
         vessel_names : bool, default True
-            Where a reformation writes the names of vessels; without them their ids stand there.
+            Whether a reformation that labels vessels writes their names; otherwise it writes their ids.
         """
         from lumencut.annotation import window_words, with_labels
 
@@ -224,14 +224,14 @@ class Reformation:
         other_patient: bool = False,
         compress: bool = False,
     ) -> None:
-        """Write the picture, or with the ending ``.npz`` all arrays; a file appears only when complete.
+        """Write the picture, or with the extension ``.npz`` all arrays; a file appears only when complete.
 
         Parameters
         ----------
         path : path-like
-            The ending names the format: a picture format of Pillow (``.png``, ``.tif``, …) or ``.npz``, which
-            holds ``image``, ``value``, ``position``, ``arc_length`` and ``folded``. A ``.png`` also says in
-            words what its rows and columns are, and how it was made. ``.dcm`` is a DICOM Secondary Capture.
+            The extension selects the format: one of Pillow (``.png``, ``.tif``, …) or ``.npz``, which holds
+            ``image``, ``value``, ``position``, ``arc_length`` and ``folded``. A ``.png`` also states the
+            meaning of its rows and columns, and how it was made. ``.dcm`` is a DICOM Secondary Capture.
         annotate : bool, default False
             Write the picture with labels, see :meth:`annotated`.
         study, anonymous, other_patient, compress
@@ -241,11 +241,11 @@ class Reformation:
         Raises
         ------
         FormatError
-            For an ending that names no format; for ``.dcm`` where there is no one study to belong to.
+            For an unknown extension; for ``.dcm`` without exactly one study.
         FileError
-            Where the file cannot be written.
+            If the file cannot be written.
         SettingsError
-            For what only ``.dcm`` can hold.
+            For options that only ``.dcm`` supports.
         """
         path = checked_path(path, WRITABLE)
         flag(SettingsError, "annotate", annotate)
@@ -267,7 +267,7 @@ class Reformation:
             save_picture(image, path, png_options(self.recipe, self.settings))
 
     def _as_object(self, *, annotate: bool, vessel_names: bool) -> Picture:
-        """The picture with what its DICOM object says of it."""
+        """The picture with the description for its DICOM object."""
         from lumencut.dicom_objects.views import reformed_picture
 
         volume = self._renderer.volume

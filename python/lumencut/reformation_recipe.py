@@ -1,6 +1,6 @@
 """The text in a picture of a reformation: its axes, and how it was made.
 
-It names no file and no vessel, and takes over nothing that the files say of the patient or the scan.
+It names no file and no vessel, and repeats nothing from the files about patient or scan.
 """
 
 from __future__ import annotations
@@ -31,11 +31,11 @@ class ReformationRecipe:
     name : str
         The name of the reformation, such as ``"straightened CPR"``.
     axes : str
-        What rows and columns are, in words.
+        The meaning of rows and columns, in words.
     parameters : dict
         The parameters of the function that made it, by their names, as JSON holds them.
     command : str
-        The command of the shell that makes it, such as ``"cpr"``.
+        The subcommand that makes it, such as ``"cpr"``.
     """
 
     name: str
@@ -56,7 +56,7 @@ def recipe_camera(parameters: dict[str, Any]) -> Camera:
     Raises
     ------
     CameraError
-        For parameters that make none.
+        For invalid parameters.
     """
     from lumencut.camera import Camera
 
@@ -70,7 +70,7 @@ def recipe_camera(parameters: dict[str, Any]) -> Camera:
 
 
 def png_options(recipe: ReformationRecipe, settings: Settings) -> dict[str, Any]:
-    """Return what Pillow takes to write the recipe into a PNG."""
+    """Return the PNG metadata with the recipe."""
     from PIL.PngImagePlugin import PngInfo
 
     content = {

@@ -23,19 +23,19 @@ from lumencut.vessel_tree import VesselTree
 from lumencut.volume import Volume
 from lumencut.window import Window
 
-#: The images that a window makes grey.
+#: The images that need a window.
 _WINDOWED = frozenset(("image", "context"))
 
 
 class Renderer:
     """Renders views of one volume and one vessel tree, or of a volume alone.
 
-    What does not depend on the view is made once; a further view allocates nothing of the size of the volume
-    or the tree, unless one of another tree that :meth:`with_tree` made was rendered in between. Views may be
+    Everything that does not depend on the view is computed once; a further view allocates nothing of the size
+    of the volume or the tree, unless a renderer made by :meth:`with_tree` rendered in between. Views may be
     rendered from several threads; they take turns.
 
-    The voxels must not be changed after the first view with a context: what that view has learnt of them is
-    used again. For changed voxels make a new renderer.
+    The voxels must not be changed after the first view with a context: data derived from them are reused. For
+    changed voxels create a new renderer.
 
     Parameters
     ----------
@@ -44,10 +44,10 @@ class Renderer:
     tree : VesselTree or None
         Its centerlines; without them :meth:`render` shows the context alone, all of the volume.
     device : {"auto", "cpu", "gpu"}, default "auto"
-        What computes. ``"auto"`` takes the first GPU of :func:`lumencut.devices` that is hardware, and the
-        CPU where there is none; where the GPU fails, or has no room for the scene, the CPU renders that view
-        and all further ones, and warns once with a :class:`DeviceWarning`. ``"gpu"`` takes the first GPU,
-        software too, and raises what goes wrong on it. The pictures are the same but for rounding.
+        The device that computes. ``"auto"`` uses the first hardware GPU of :func:`lumencut.devices`, or the
+        CPU if there is none; if the GPU fails, or lacks memory for the scene, the CPU renders that view and
+        all further ones, with one :class:`DeviceWarning`. ``"gpu"`` uses the first GPU, even a software one,
+        and raises its errors. Pictures differ only by rounding.
 
     Raises
     ------
@@ -74,7 +74,7 @@ class Renderer:
         self._core = _lumencut.Renderer(None if tree is None else tree._arrays(), device)
 
     def _set_scene(self, volume: Volume | None, tree: VesselTree | None) -> None:
-        """Take over what is shown, once it is known that there is something and that both meet."""
+        """Set the scene, after checking that it is not empty and that volume and tree meet."""
         scene = volume if tree is None else tree
         if scene is None:
             raise VolumeError("scene of the renderer", "neither a volume nor a tree", "one of them or both")
@@ -91,9 +91,9 @@ class Renderer:
     def with_tree(self, tree: VesselTree | None) -> Renderer:
         """Return a renderer of the same volume on the same device with another tree, or without one.
 
-        What is known of the volume stays: on a GPU its voxels are not sent again, and where the settings name
-        no window, that of this renderer is used, so that the picture does not become lighter or darker with
-        the tree. Both renderers can be used; their views take turns.
+        Data of the volume are reused: on a GPU its voxels are not sent again, and if the settings name no
+        window, that of this renderer is used, so that brightness does not change with the tree. Both
+        renderers can be used; their views take turns.
 
         Raises
         ------
@@ -115,7 +115,7 @@ class Renderer:
         return self._sharing(other)
 
     def _sharing(self, other: Renderer) -> Renderer:
-        """Give another renderer of the same volume what computes, and the windows."""
+        """Share the device and the windows with another renderer of the same volume."""
         other._core = self._core.with_tree(None if other._tree is None else other._tree._arrays())
         other._windows = self._windows
         return other
@@ -135,12 +135,12 @@ class Renderer:
 
     @property
     def device(self) -> str:
-        """What computes: ``"cpu"``, or the name of the GPU as in :func:`lumencut.devices`."""
+        """The device that computes: ``"cpu"``, or the name of the GPU as in :func:`lumencut.devices`."""
         return self._core.device
 
     @property
     def scene(self) -> VesselTree | Volume:
-        """What views are fitted to: the tree, or the volume where there is no tree."""
+        """The object that views are fitted to: the tree, or the volume if there is no tree."""
         return self._scene
 
     def render(
@@ -161,9 +161,9 @@ class Renderer:
             The settings; defaults if omitted. Without a tree those of the cut surface do nothing.
         images : iterable of str, optional
             The images that the frame is to have, of ``"image"``, ``"depth"``, ``"vessel"``, ``"distance"``,
-            ``"value"`` and ``"context"``; all by default. On a GPU each one that is not asked for saves
-            its way back. ``Frame.position`` needs the depth. The distance is computed at once where it is
-            named here; where nothing is, ``Frame.distance`` may compute it when it is first asked for.
+            ``"value"`` and ``"context"``; all by default. On a GPU each omitted image saves its transfer.
+            ``Frame.position`` needs the depth. The distance is computed at once if it is named here; by
+            default ``Frame.distance`` may compute it on first use.
         progress : callable, optional
             Called with (done, total) about every 50 ms, and once at the end: how much of the view is
             rendered, in parts of which the total is always 1000. A GPU reports nothing before the end of each
@@ -241,9 +241,9 @@ class Renderer:
     def _with_source(
         self, settings: Settings, asked: list[str] | None, method: str = "csr"
     ) -> tuple[Settings, FrameSource | None]:
-        """The settings with windows, and what a picture is made from, where what is asked for needs them.
+        """The settings with windows, and the source of a picture, if a requested image needs them.
 
-        Depth, vessel, distance and value need no window: none is found for them.
+        Depth, vessel, distance and value need no window.
         """
         if self._volume is None or (asked is not None and not _WINDOWED.intersection(asked)):
             return settings, None
@@ -254,7 +254,7 @@ class Renderer:
         """The images that are made where none are named; None stands for all."""
         if self._tree is None or settings.level_choice != "own":
             return None
-        # Nothing but its own image needs the distance then, and few look at that.
+        # The distance is then needed only for its own image, which is rarely used.
         return [name for name in IMAGES if name != "distance"]
 
     def _frame(
@@ -265,7 +265,7 @@ class Renderer:
         asked: list[str] | None,
         source: FrameSource | None = None,
     ) -> Frame:
-        """The frame of some images, with a distance that comes later where it was left out."""
+        """The frame of some images; an omitted distance is computed on first use."""
         arrays = {f"_{name}": array for name, array in buffers.items() if name != "timings"}
         if asked is None and self._at_once(settings) is not None:
             core = self._core

@@ -26,11 +26,11 @@ class Block:
     text : str
         The words of a heading, paragraph or caption.
     style : str
-        How a paragraph is meant: ``"notice"``, ``"finding"``, ``"doubt"``, ``"small"`` or nothing.
+        The kind of a paragraph: ``"notice"``, ``"finding"``, ``"doubt"``, ``"small"`` or nothing.
     rows : list of list of str
         The cells of a table.
     picture : numpy.ndarray or None
-        A picture; of a plot that of the vessel, which lies from left to right.
+        A picture; for a plot, the vessel from left to right.
     """
 
     kind: str

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 #: A4, its margin and the height that a plot takes (inches).
 _WIDTH, _HEIGHT, _MARGIN, _PLOT = 8.27, 11.69, 0.55, 2.6
-#: The size of letters (points), and whether they are bold, by what a text is.
+#: Font size (points) and whether letters are bold, by kind of text.
 _SIZES = {
     "h1": (15, True),
     "h2": (10.5, True),
@@ -27,16 +27,16 @@ _SIZES = {
     "doubt": (9, True),
 }
 _USUAL, _SMALL = (9, False), (7.5, False)
-#: The width of a letter and the height of a line in sizes of letters, and the size of a point (inches).
+#: Width of a letter and height of a line in font sizes, and the size of a point (inches).
 _LETTER, _LINE, _POINT = 0.6, 1.4, 1 / 72
-#: What a heading and the beginning of what follows take (inches).
+#: Height of a heading and of the beginning of its text (inches).
 _WITH_HEADING = 1.7
 #: Pictures of a row, and the share of the width that the first column of a table takes.
 _IN_A_ROW, _FIRST = 3, 0.26
 
 
 class Plotted(Protocol):
-    """A vessel of a report, as far as its plot needs it."""
+    """The data of a vessel that its plot needs."""
 
     @property
     def profile(self) -> Sections:
@@ -53,7 +53,7 @@ def report_pdf(html: str, measured: Sequence[Plotted]) -> bytes:
     Parameters
     ----------
     html : str
-        What :func:`lumencut.measure_report.report` wrote of the vessels.
+        The report of the vessels by :func:`lumencut.measure_report.report`.
     measured : sequence of Plotted
         The vessels, such as MeasuredVessel, whose plots are drawn again.
 
@@ -69,7 +69,7 @@ def report_pdf(html: str, measured: Sequence[Plotted]) -> bytes:
     content = io.BytesIO()
     software = f"Lumencut {_lumencut.__version__}"
     about = {"Title": "Lumencut: measured vessels", "Creator": software, "CreationDate": None}
-    # Fonts as they are, not as drawings of letters; text in them is found and copied.
+    # Fonts are embedded, not drawn as outlines, so that text can be searched and copied.
     with mpl.rc_context({"pdf.fonttype": 42}), warnings.catch_warnings():
         # A letter that the font lacks becomes a box, without a warning of the font library.
         warnings.filterwarnings("ignore", message="Glyph .* missing")
@@ -107,7 +107,7 @@ def _lay_out(sheet: _Sheet, blocks: list[Block], measured: list[Plotted]) -> Non
 
 
 class _Sheet:
-    """The page that is written on, from its top."""
+    """The current page, filled from its top."""
 
     def __init__(self, pages: Any) -> None:
         self._pages = pages
@@ -134,7 +134,7 @@ class _Sheet:
         size = _SIZES.get(block.style, _SIZES.get(block.kind, _USUAL))
         size = _SMALL if block.style == "small" or block.kind == "figcaption" else size
         if block.kind == "h2":
-            # What it is the heading of begins on the same page.
+            # A heading stays on the page of its text.
             self._room(_WITH_HEADING)
             self._top -= 0.08
         letters = int((_WIDTH - 2 * _MARGIN) / (size[0] * _LETTER * _POINT))

@@ -23,7 +23,7 @@ class ScanDetails:
         The phase of the heart, of the contrast medium and of the series in words, as far as they are stated:
         such as ``"70 % of the cardiac cycle"``.
     slice_thickness : float or None
-        How thick slices are (mm); they may lie nearer to each other.
+        Thickness of slices (mm); the distance between slices may be smaller.
     kernel : str or None
         The kernel of the reconstruction, such as ``"B30f"``.
     """
@@ -35,7 +35,7 @@ class ScanDetails:
     kernel: str | None = None
 
     def __str__(self) -> str:
-        """All of it in words, with what is not stated."""
+        """All details in words, including which are not stated."""
         from lumencut import _lumencut
 
         return _lumencut.scan_words(self)

@@ -1,4 +1,4 @@
-"""The windows of a scene: those that settings leave to the data, or name, as numbers."""
+"""Windows of a scene as numbers, for settings that name a window or leave it to the data."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class SceneWindows:
     Parameters
     ----------
     volume : Volume or None
-        What is shown; without it every window is a ``VolumeError``.
+        The volume shown; without it every window is a ``VolumeError``.
     tree : VesselTree or None
         The vessels along which the main window is taken. Renderers of other trees of the same volume share
         it, so that the picture does not become lighter or darker with the tree.
@@ -51,7 +51,7 @@ class SceneWindows:
         return self.main if name == "auto" else self._kept(name)
 
     def _known(self, window: Window | str | None) -> Window | None:
-        """A window that is no name any more; one that a name stands for is taken from all of the volume."""
+        """A window as numbers; a named one is computed from the whole volume."""
         return self._kept(window) if isinstance(window, str) else window
 
     def _kept(self, name: str) -> Window:

@@ -19,10 +19,10 @@ from lumencut.window import Window
 #: Contours of sections that count, and of others.
 _COUNTED, _LEFT_OUT = (64, 220, 255, 255), (255, 150, 40, 255)
 
-#: Contours are drawn larger by this factor and made smaller: their edges are smooth.
+#: Contours are drawn larger by this factor and scaled down, for smooth edges.
 _FINER = 3
 
-#: A picture is this many times as wide as the lumen, and within these (mm).
+#: Width of a picture in lumen diameters, and its limits (mm).
 _ROOM, _SIZES = 2.5, (12.0, 120.0)
 
 
@@ -38,14 +38,14 @@ def fitting_size(profile: Profile) -> float:
 
 @dataclass(frozen=True, eq=False)
 class SectionView:
-    """How sections are shown.
+    """The display of sections: volume, window and size.
 
     Attributes
     ----------
     volume : Volume
-        What is shown.
+        The volume shown.
     window : Window
-        How bright it is.
+        Its window.
     side : int
         The side of a picture (pixels).
     """

@@ -1,4 +1,4 @@
-"""The vessels that are connected to the one that a seed lies in."""
+"""Tracing of all vessels connected to the vessel that contains a seed."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ def trace_from(
     smallest_radius: float = 1.0,
     progress: Callable[[int, int], object] | None = None,
 ) -> VesselTree:
-    """Find the vessels that are connected to the one that a point lies in.
+    """Find all vessels connected to the vessel that contains a point.
 
     All vessels of the scan are found as :func:`lumencut.find_vessels` does, and the seed chooses among them:
-    the part that has the vessel nearest to it, up to 1.5 radii or a voxel away. So every seed in one part
-    gives the same vessels to the bit. Around a seed that lies in none of them fainter vessels are looked for.
+    the part of the vessel nearest to it, at most 1.5 radii or a voxel away. So all seeds in one part give
+    bit-identical vessels. Around a seed outside all of them, fainter vessels are searched.
     docs/method/tracing.md describes the method.
 
     Parameters
@@ -37,25 +37,25 @@ def trace_from(
     seed : array_like, shape (3,)
         A point in a vessel (mm, LPS). It need not be central.
     smallest_radius : float, default 1.0
-        Vessels end about where they are narrower from there on (mm). Those less than about two voxels wide
+        Vessels end about where they become narrower than this (mm). Vessels less than about two voxels wide
         are not found.
     progress : callable, optional
-        Called now and then with how much is done and how much there is to do.
+        Called at intervals with the work done and the total work.
 
     Returns
     -------
     VesselTree
         Whole vessels from the root of the part outwards, with ``radius`` and ``confidence``, points at most
-        0.5 mm apart; the first point of a branch is a point of its parent to the bit. A ring ends on its
-        first point. :attr:`VesselTree.doubtful` has the vessels of the part that are not sure,
-        :attr:`VesselTree.doubts` says why, and :attr:`VesselTree.notes` which level and contrast vessels were
-        found to have.
+        0.5 mm apart; the first point of a branch is exactly a point of its parent. A ring ends on its
+        first point. :attr:`VesselTree.doubtful` has the uncertain vessels of the part,
+        :attr:`VesselTree.doubts` says why, and :attr:`VesselTree.notes` the level and contrast of the
+        vessels.
 
     Raises
     ------
     TracingError
         For a seed outside the volume, one in no vessel (the error says how far the nearest one is), and one
-        whose part has no vessel that is sure.
+        whose part has only uncertain vessels.
     SettingsError
         For a smallest radius below 0.
     VolumeError

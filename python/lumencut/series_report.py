@@ -1,4 +1,4 @@
-"""What a DICOM series is, in a few words and numbers: listed before one is chosen, and part of an error."""
+"""Short description of a DICOM series, for lists and for errors."""
 
 from __future__ import annotations
 

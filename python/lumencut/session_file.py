@@ -37,7 +37,7 @@ class SessionFile:
     recipe : Recipe or None
         The view; None if the file has none.
     marks : tuple of Marked
-        What was marked on each vessel, in the order of the file.
+        The marks on each vessel, in the order of the file.
     hidden : tuple of int
         The ids of the vessels that the viewer did not show.
     fwhm : float or None
@@ -68,7 +68,7 @@ def read_session(path: str | Path) -> SessionFile:
     Raises
     ------
     FormatError
-        For a file that is no session, is damaged, or shows what a picture cannot be rendered like.
+        For a file that is no session, is damaged, or has a view that cannot be rendered.
     FileError
         For a file that cannot be read.
     """

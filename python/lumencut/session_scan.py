@@ -12,7 +12,7 @@ from lumencut.dicom_objects.extents import Box
 from lumencut.errors import FormatError
 from lumencut.volume import Volume
 
-#: The viewer may take every second voxel, so that the outermost ones lie up to this many steps apart.
+#: The viewer may load every second voxel, so the outermost voxels may differ by this number of steps.
 _STEPS = 2.0
 
 
@@ -32,7 +32,7 @@ def other_scan(content: bytes, name: str, volume: Volume) -> str | None:
         return None
     try:
         scan = json.loads(_lumencut.read_session_file(content, name))["scan"]
-    except FormatError:  # its lines can be read all the same
+    except FormatError:  # its lines can still be read
         return None
     if scan is None or not (volume.states_spacing and volume.states_orientation):
         return None

@@ -36,7 +36,7 @@ _TABLES: dict[str, tuple[Callable[..., Any], tuple[str, ...]]] = {
 }
 _POINT = ("intensity", "color", "opacity")
 
-#: How values are written that no file shows, because they are taken from the data.
+#: Example values of settings whose defaults are taken from the data.
 _EXAMPLES = {
     "number": "0.5",
     "window": "{ level = 300.0, width = 900.0 }",
@@ -68,7 +68,7 @@ def write_settings(settings: Any, path: str | os.PathLike[str]) -> None:
 
 
 def read_settings(path: str | os.PathLike[str], make: Callable[..., _Settings]) -> _Settings:
-    """Return what ``make``, the class of the settings, makes of a file; all errors name the file."""
+    """Return the settings of a file, created by ``make``, their class; all errors name the file."""
     place = checked_path(path, _EXPECTED)
     found = _parsed(place)
     for name in found:
@@ -148,7 +148,7 @@ def _unknown(path: Path, name: str) -> SettingsError:
 
 
 def _read(subject: str, setting: _lumencut.Setting, value: Any) -> Any:
-    """A value of TOML as what the setting takes."""
+    """A TOML value in the form that the setting takes."""
     if value == _NONE and setting.optional:
         return None
     match setting.kind:
@@ -199,7 +199,7 @@ def _point(subject: str, value: Any) -> tuple[Any, Any, Any]:
 
 
 def _fields(subject: str, value: Any, names: tuple[str, ...]) -> dict[str, Any]:
-    """The values of a table that has just these names."""
+    """The values of a table with exactly these names."""
     if not isinstance(value, dict) or set(value) != set(names):
         found = listed([repr(name) for name in value]) if isinstance(value, dict) and value else repr(value)
         raise SettingsError(subject, f"{found:.80}", f"a table of {', '.join(names)}")

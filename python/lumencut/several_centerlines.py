@@ -21,7 +21,7 @@ _log = logging.getLogger("lumencut")
 
 
 class CenterlineFiles:
-    """Centerline files whose content is read and checked, and whose places are still to be decided.
+    """Centerline files with checked content, before their spaces and units are decided.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ class CenterlineFiles:
             if assumed and report.space != "lps":
                 either = Option("coordinates", "lps"), " or ", Option("coordinates", "ras", "again")
                 mend = Told("give a volume, or read them with ", *either)
-                found = f"taken as lps for want of a statement, while {other.path.name} is in {report.space}"
+                found = f"read as LPS, since no space is stated, while {other.path.name} is in {report.space}"
                 _log.warning("%s: %s; %s", assumed[0].path, found, mend)
                 return
 

@@ -22,7 +22,7 @@ class Slab:
         The whole slab along the view direction, the cut surface in its middle (mm, 0 to 1000): 4 mm show what
         is up to 2 mm before and 2 mm behind.
     mode : {"max", "mean", "min"}, default "max"
-        Which of the values along the view direction is shown.
+        The value along the view direction that is shown.
 
     Raises
     ------

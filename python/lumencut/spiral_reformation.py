@@ -25,7 +25,7 @@ SAMPLINGS = ("arc", "angle")
 _AREAS, _WIDEST = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000), 0.4
 
 
-#: The most columns that a default pitch makes.
+#: Largest number of columns with a default pitch.
 _MOST_COLUMNS = 16_000
 
 #: Largest default pixel side (mm).
@@ -47,7 +47,7 @@ class SpiralReformation(Reformation):
     radius : float
         How far from the vessel the windings reach (mm).
     sampling : {"arc", "angle"}
-        How samples lie on the spirals.
+        The spacing of samples on the spirals.
     """
 
     def __init__(
@@ -66,7 +66,7 @@ class SpiralReformation(Reformation):
         Raises
         ------
         SettingsError
-            Where samples lie at even angles, so that columns do not stand for even areas.
+            If samples lie at even angles: columns then do not represent equal areas.
         """
         if self.sampling != "arc":
             raise SettingsError("sampling of the spiral CPR", repr(self.sampling), "'arc', for areas")
@@ -90,7 +90,7 @@ class SpiralReformation(Reformation):
         return sheet.pixels()
 
     def _ruler(self, area: float) -> float:
-        """How wide an area is (pixels)."""
+        """The width of an area in a row (pixels)."""
         return area / self.pitch / self.pixel_spacing
 
 
@@ -127,8 +127,7 @@ def spiral(
         The distance of neighbouring windings (mm); a quarter of the vessel's median radius by default,
         but no less than the smallest side of a voxel, and no finer than fits into 16,000 columns.
     radius : float, optional
-        How far from the vessel the windings reach (mm); 1.25 times its largest radius and 2 mm more where not
-        given.
+        How far from the vessel the windings reach (mm); by default 1.25 times its largest radius plus 2 mm.
     sampling : {"arc", "angle"}, default "arc"
         ``"arc"``: samples are a pixel apart along the spirals. ``"angle"``: they are an even angle apart, so
         that every winding has the same width.
@@ -141,14 +140,13 @@ def spiral(
     smoothing : float, default 0
         Standard deviation of the Gaussian that smooths the centerline along its length (mm).
     slab : Slab, (mm, mode) or mm, optional
-        How thick the spirals are across them, and what is shown of that; as the settings say where not
-        given.
+        Thickness across the spirals, and which value of it is shown; by default as in the settings.
     settings : Settings, optional
         Window, opacity, background and slab.
     degrees : float, optional
         The angle in degrees, instead of ``angle``.
     device : {"auto", "cpu", "gpu"}, default "auto"
-        What computes, as for :class:`lumencut.Renderer`.
+        The device that computes, as for :class:`lumencut.Renderer`.
 
     Raises
     ------
@@ -159,7 +157,7 @@ def spiral(
     SettingsError
         For another sampling, or a smoothing out of range.
     VolumeError
-        For an image that is no volume.
+        For an image that is not a volume.
     """
     check_vessel(vessel)
     return spiral_of(
@@ -191,7 +189,7 @@ def spiral_of(
     smoothing: float = 0.0,
     settings: Settings | None = None,
 ) -> SpiralReformation:
-    """Return the spiral CPR by a renderer, whose window it has; parameters are those of :func:`spiral`."""
+    """Return the spiral CPR in the scene and window of a renderer; parameters as for :func:`spiral`."""
     check_vessel(vessel)
     choice(SettingsError, "sampling of the spiral CPR", sampling, SAMPLINGS)
     volume = renderer.volume

@@ -1,4 +1,4 @@
-"""A stenosis, graded by the rules of the field."""
+"""A stenosis, graded by standard methods."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class Stenosis:
     def percent_uncertainty(self) -> float:
         """The standard deviation of the percentage, in percent; NaN if unknown.
 
-        What is wrong of the point spread or of the wall is wrong at the place and its reference together.
+        Errors of point spread and wall affect the place and its reference together.
         """
         return self._numbers[5]
 
@@ -75,15 +75,15 @@ class Stenosis:
 
     @property
     def method(self) -> Method:
-        """How it is graded: ``"nascet"``, ``"ecst"`` or ``"area"``."""
+        """The method of grading: ``"nascet"``, ``"ecst"`` or ``"area"``."""
         return self._graded.method
 
     @property
     def doubts(self) -> tuple[str, ...]:
         """Doubts about the percentage, a sentence each; empty if none.
 
-        The flags of the sections at the places that it comes from (:class:`lumencut.Flag`), and a branch
-        between the place and a reference. With ``"ecst"`` the percentage comes from the place alone.
+        They come from the flags of the sections used (:class:`lumencut.Flag`), and from a branch between the
+        place and a reference. With ``"ecst"`` only the place is used.
         """
         return tuple(self._graded.doubts)
 

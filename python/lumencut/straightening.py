@@ -1,4 +1,4 @@
-"""The straightened volume: sections across a vessel, and the way between its voxels and the world."""
+"""The straightened volume: sections across a vessel, and the conversion between its voxels and the world."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _MOST_VOXELS = 1 << 29
 #: Voxels that are sampled together.
 _TOGETHER = 1 << 20
 
-#: What viewers show next to each image of the series, after its sides.
+#: Comment that viewers show with each image of the series, after its sides.
 _PLACE = "Position and sides are those of a patient whose vessel is straight"
 
 
@@ -47,7 +47,7 @@ class StraightenedVolume:
     sides : str
         The letters of the sides that i, j and k state, such as ``"RPS"`` for a vessel that runs to the head.
     notes : tuple of str
-        What must be known of these sides, a sentence each: that the vessel runs across the body at its
+        Notes on these sides, a sentence each: that the vessel runs across the body at its
         middle, that along it a true axis is more than 45° off its side, or that the scan states no
         orientation.
     """
@@ -91,10 +91,10 @@ class StraightenedVolume:
     ) -> None:
         """Write the volume as ``.nrrd``, ``.nii`` or ``.nii.gz``; the file appears only when complete.
 
-        A name without an ending is a folder, which must not be there yet: a series of derived CT or MR images
-        is written into it, one for each section, with its own frame of reference. The letters of sides
-        that viewers show on them are those of the straightened patient. Each file also says its
-        :attr:`notes`, which ``lumencut info`` repeats.
+        A name without an extension is a folder, which must not exist yet: a series of derived CT or MR images
+        is written into it, one for each section, with its own frame of reference. The letters of sides that
+        viewers show on them are those of the straightened patient. Each file also says its :attr:`notes`,
+        which ``lumencut info`` repeats.
 
         Parameters
         ----------
@@ -106,11 +106,11 @@ class StraightenedVolume:
         Raises
         ------
         FormatError
-            For another ending; for a folder where there is no one study of CT or MR to belong to.
+            For another extension; for a folder without exactly one study of CT or MR.
         SettingsError
             For what only a folder can hold.
         FileError
-            Where the file cannot be written.
+            If the file cannot be written.
         """
         place = checked_path(path, WRITABLE)
         if place.suffix:
@@ -151,7 +151,7 @@ def straightened_volume(
 ) -> StraightenedVolume:
     """Return the sections across a vessel as a volume.
 
-    The slices j in its middle are the straightened CPR of the same parameters.
+    The middle slice along j is the straightened CPR with the same parameters.
 
     Parameters
     ----------

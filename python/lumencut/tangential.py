@@ -56,14 +56,14 @@ class TangentialReformation(Reformation):
         Parameters
         ----------
         angle : float
-            By how much (radians), as for :meth:`Camera.rotated`.
+            The angle (radians), as for :meth:`Camera.rotated`.
         degrees : float
             The angle in degrees, instead of ``angle``.
 
         Raises
         ------
         CameraError
-            For both angles or neither, or one that is no finite number.
+            For both angles or neither, or one that is not a finite number.
         """
         camera = self.camera.rotated(rotation(angle, degrees), "up")
         return TangentialReformation(self._renderer, self._vessel, camera, self._smoothing, self._given)

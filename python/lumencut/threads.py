@@ -1,4 +1,4 @@
-"""How many threads compute on the CPU, in all of this process."""
+"""Number of CPU threads of this process."""
 
 from __future__ import annotations
 
@@ -11,16 +11,15 @@ _MOST = 1024
 
 
 def set_threads(count: int | None) -> None:
-    """Let ``count`` threads compute from now on, in all of this process; results do not depend on it.
+    """Set the number of CPU threads of this process; results do not depend on it.
 
-    It holds for renderers that are already there too, and bounds the processes that decode DICOM slices. A
-    GPU is not concerned. Without a call the environment variable ``RAYON_NUM_THREADS`` counts, else the
-    number of cores.
+    It also applies to existing renderers, and limits the processes that decode DICOM slices; a GPU is not
+    affected. The default is the environment variable ``RAYON_NUM_THREADS``, or the number of cores.
 
     Parameters
     ----------
     count : int or None
-        How many threads, 1 to 1024; with None what holds without a call.
+        Number of threads, 1 to 1024; None for the default.
 
     Raises
     ------
@@ -37,5 +36,5 @@ def set_threads(count: int | None) -> None:
 
 
 def get_threads() -> int:
-    """Return how many threads compute on the CPU; see :func:`set_threads`."""
+    """Return the number of CPU threads; see :func:`set_threads`."""
     return _lumencut.threads()

@@ -37,8 +37,8 @@ def trace(
     """Trace the centerlines of vessels from two or more points along each.
 
     The points need not be central: each line runs in the middle of the lumen, from the cross-section of its
-    first point to that of its last one. A minimal path leads from point to point, where lumen is cheap by its
-    likeness to the values at the points and by how much lumen is around it; it is then moved to the middle of
+    first point to that of its last one. A minimal path leads from point to point; its cost is low where
+    values resemble those at the points and lumen surrounds them. It is then moved to the middle of
     cross-sections and smoothed over about 1 mm. The outline is that of Tang et al. 2012, Metz et al. 2009 and
     Manniesing et al. 2010; docs/method/tracing.md describes the differences.
 
@@ -48,20 +48,20 @@ def trace(
         The angiography; lumen must be brighter than the tissue around it.
     points : array_like, shape (n, 3), or a sequence of several such
         Two or more points in order along one vessel (mm, LPS), or a list of them for each of several vessels.
-        A later vessel that begins or ends within an earlier one is joined to it: its end is equal to the bit
-        to a point of the earlier one.
+        A later vessel that begins or ends within an earlier one is joined to it: its end is exactly a point
+        of the earlier one.
     stoppers : array_like, shape (m, 3), default none
         Points (mm, LPS) around which no vessel may pass.
     stopper_radius : float, default 3.0
-        How far around a stopper is forbidden (mm).
+        Radius of the forbidden region around each stopper (mm).
     bridge : bool, default False
-        Whether vessels may continue where no lumen is to be seen, as in an occlusion. Without it a stretch of
+        Whether vessels may continue where no lumen is visible, as in an occlusion. Without it a stretch of
         more than 5 mm is an error, and one of more than 1.2 mm where the vessel does not continue in the same
         direction.
     names : sequence of str or None, optional
         The names of the vessels.
     progress : callable, optional
-        Called now and then with how much is done and how much there is to do.
+        Called at intervals with the work done and the total work.
 
     Returns
     -------
@@ -91,9 +91,9 @@ def trace(
 class Tracer:
     """Centerlines of one volume that follow points and stoppers as they are added, moved and removed.
 
-    Asked for its :attr:`tree` after a change, it finds the ways between points next to the change again and
-    keeps those of all other points. Lines may differ from those of :func:`trace` by small parts of a voxel:
-    what lumen looks like is not judged again as long as all points fit. Changes must not come from several
+    Asked for its :attr:`tree` after a change, it recomputes the paths between points next to the change and
+    keeps all others. Lines may differ from those of :func:`trace` by small parts of a voxel, because the
+    values of lumen are not estimated again as long as all points fit. Changes must not come from several
     threads at a time.
 
     Parameters
@@ -169,7 +169,7 @@ class Tracer:
         self._tree = None
 
     def stop(self, point: npt.ArrayLike, radius: float = 3.0) -> int:
-        """Forbid what lies within a radius (mm) of a place (mm, LPS); return the stopper's index."""
+        """Add a stopper of a radius (mm) at a place (mm, LPS), and return its index."""
         self._stoppers.append(
             (_place("stopper", point), number(TracingError, "radius of the stopper", radius))
         )
@@ -177,7 +177,7 @@ class Tracer:
         return len(self._stoppers) - 1
 
     def remove_stopper(self, index: int) -> None:
-        """Allow again what a stopper forbids."""
+        """Remove a stopper."""
         del self._stoppers[_index("index of the stopper", index, len(self._stoppers))]
         self._tree = None
 
@@ -242,7 +242,7 @@ def _lists(points: Any) -> list[_Points]:
 def _rows(subject: str, points: Any) -> _Points:
     """Points as an array (n, 3), with n = 0 for an empty list."""
     with suppress(ValueError):
-        # Of lists of several lengths no array can be made.
+        # Lists of several lengths make no array.
         if np.size(points) == 0:
             return np.empty((0, 3))
     return numbers(TracingError, subject, points, (-1, 3))

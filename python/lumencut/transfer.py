@@ -23,7 +23,7 @@ class TransferFunction:
     ----------
     points : sequence of (float, (int, int, int), float), 1 to 64 of them
         For each control point its intensity (the volume's unit, HU for CT), its colour (RGB, 0 to 255) and
-        the opacity of one millimetre of it (0 to 1). Intensities rise; two equal ones make a step.
+        the opacity of one millimetre of it (0 to 1). Intensities must rise; two equal ones make a step.
 
     Raises
     ------

@@ -47,18 +47,18 @@ def mpcpr(
     Parameters
     ----------
     volume : Volume, an image of SimpleITK, itk, nibabel or vtk, datasets of pydicom, or None
-        The angiography; without it the frame has depth and vessel alone.
+        The angiography; without it the frame has only depth and vessel.
     tree : VesselTree
         Its centerlines.
     camera : Camera, optional
         The view; from the front, fitted to the tree by default.
     settings : Settings, optional
-        The settings; by default with windows from the data. Those that make the cut
-        surface of CSR do nothing but for ``centerline_smoothing``, ``silhouette_rule``, and
-        ``unknown_radius``, which defines the lumen for silhouettes. There is no depth filter, silhouettes are
-        drawn everywhere, and a focus and chosen vessels are refused.
+        The settings; by default with windows from the data. Those of the cut surface of CSR have no effect
+        except ``centerline_smoothing``, ``silhouette_rule``, and ``unknown_radius``, which defines the lumen
+        for silhouettes. There is no depth filter, silhouettes are drawn everywhere, and a focus and chosen
+        vessels are refused.
     device : {"auto", "cpu", "gpu"}, default "auto"
-        What shows the volume, as for :class:`Renderer`; where the pixels look the CPU finds.
+        The device that shows the volume, as for :class:`Renderer`; the CPU finds the places of the pixels.
 
     Returns
     -------
@@ -102,11 +102,11 @@ def cr(
     volume, tree, camera, settings, device
         As for :func:`mpcpr`.
     radius_offset : float, default 50
-        How much larger than the vessel its disc is (pixels), 0 or more.
+        Radius of the disc beyond that of its vessel (pixels), 0 or more.
     arc_threshold : float, default 150
-        Up to how far from each other along the tree, through its junctions, two places belong to one stretch
-        (pixels of arc length), 0 or more. Within a stretch the nearer one in the image is shown, regardless
-        of the depth.
+        Largest distance along the tree, through its junctions, between two places of one stretch (pixels of
+        arc length), 0 or more. Within a stretch the nearer one in the image is shown, regardless of the
+        depth.
 
     Returns
     -------

@@ -45,9 +45,9 @@ def turntable(
     settings : Settings, optional
         The settings; defaults if omitted.
     frames : int, default 72
-        How many frames. Whole turns leave out the last one, which would repeat the first.
+        Number of frames. Complete turns omit the last one, which would repeat the first.
     degrees : float, default 360
-        How far the viewer moves in all (degrees); from anterior about superior to the patient's left.
+        Total rotation of the viewer (degrees); from anterior about superior to the patient's left.
     axis : {"superior", "up", "right", "direction"} or array_like of shape (3,), default "superior"
         The axis of the patient or of the first view, or a vector (LPS).
 
@@ -81,7 +81,7 @@ def fitted_turn(camera: Camera, scene: Any, degrees: float = 360.0, axis: Axis =
     camera : Camera
         The first view; its direction, up and size are kept.
     scene : VesselTree, Vessel, Volume, or anything :func:`lumencut.render` takes as a volume
-        What is to fit.
+        The object to fit.
     degrees, axis
         As for :func:`turntable`.
 
@@ -141,16 +141,16 @@ def save_animation(
     study, anonymous, other_patient, compress
         For ``.dcm``, as for :meth:`Frame.save`.
     grey : bool, default False
-        For ``.dcm``: write grey frames, which some programs read alone.
+        For ``.dcm``: write grey frames; some programs read only these.
 
     Raises
     ------
     FormatError
-        For an ending that names no animation, no frames, or frames of several sizes.
+        For an unknown extension, no frames, or frames of several sizes.
     SettingsError
         For frames per second beyond their range, or names of vessels without labels.
     FileError
-        Where the file cannot be written.
+        If the file cannot be written.
     MissingPackageError
         For a video without the extra ``[video]``.
     """

@@ -28,9 +28,9 @@ class Uncurled(Reformation):
     """One vessel straightened by degrees in the pixels of a camera, made by :func:`lumencut.uncurl`.
 
     At an amount of 0 it is the tangential CPR, at 1 the straightened CPR in the middle of the image, seen
-    from where the camera looks at the vessel's first point. In between, the vessel is as long as it is, and
-    turns less. A pixel is folded where another part of the vessel is nearer to what it shows. A world point
-    that is not shown has no pixel (NaN).
+    from the camera's side of the vessel's first point. In between, the vessel keeps its length and bends
+    less. A pixel is folded where another part of the vessel is nearer to what it shows. A world point that is
+    not shown has no pixel (NaN).
 
     Attributes
     ----------
@@ -97,8 +97,8 @@ def uncurl(
 
     The curvature of the vessel, in the frame that does not turn about it, is made smaller by the amount, and
     the vessel is drawn again with it: its lengths stay true, and a helix stays a helix of the same torsion.
-    Its line from end to end turns from its own direction to downwards. Each pixel takes the nearest place of
-    the bent vessel in the image, and what lies as far beside that place of the true one.
+    Its line from end to end turns from its own direction to downwards. Each pixel finds the nearest place of
+    the bent vessel in the image, and shows the tissue at the same offset from that place of the true vessel.
 
     Parameters
     ----------
@@ -112,19 +112,18 @@ def uncurl(
         From 0, the tangential CPR of ``cpr(mode="tangential", camera=camera)``, to 1, the straightened CPR of
         ``cpr(mode="straightened", normal=-camera.direction)``.
     width : float, optional
-        How far apart the outermost pixels beside the vessel are that show something (mm); all where not
-        given.
+        Width around the vessel that is shown (mm); everything by default.
     pixel_spacing : float, optional
         Side of a pixel (mm) instead of the camera's, whose image keeps the length of its sides.
     smoothing : float, default 0
         Standard deviation of the Gaussian that smooths the centerline along its length (mm, 0 to 1000).
     slab : Slab, (mm, mode) or mm, optional
-        How thick the image is along the view, in the true surroundings of each place; that of the settings
-        by default.
+        Thickness of the image along the view, in the true surroundings of each place; by default as in the
+        settings.
     settings : Settings, optional
         Window, opacity and slab; a focus and chosen vessels are refused.
     device : {"auto", "cpu", "gpu"}, default "auto"
-        What computes, as for :class:`lumencut.Renderer`.
+        The device that computes, as for :class:`lumencut.Renderer`.
 
     Raises
     ------
@@ -135,7 +134,7 @@ def uncurl(
     SettingsError
         For an amount outside 0 to 1, a smoothing out of range, an invalid slab, or a focus.
     VolumeError
-        For an image that is no volume.
+        For an image that is not a volume.
     """
     check_vessel(vessel)
     return uncurl_of(
@@ -163,7 +162,7 @@ def uncurl_of(
     slab: SlabArgument = None,
     settings: Settings | None = None,
 ) -> Uncurled:
-    """Return an uncurled vessel by a renderer, whose window it has; parameters as for :func:`uncurl`."""
+    """Return an uncurled vessel in the scene and window of a renderer; parameters as for :func:`uncurl`."""
     check_vessel(vessel)
     if not isinstance(camera, (Camera, type(None))):
         raise CameraError("camera of the uncurling", type(camera).__name__, "a Camera or None")
@@ -186,7 +185,7 @@ def fitted_uncurling(camera: Camera, vessel: Vessel, smoothing: float = 0.0) -> 
     camera : Camera
         The view; its direction, up and size are kept.
     vessel : Vessel
-        What is uncurled.
+        The vessel to uncurl.
     smoothing : float, default 0
         As for :func:`uncurl` (mm).
     """

@@ -27,7 +27,7 @@ Mode: TypeAlias = Literal["wall", "radius", "thickness", "shaded"]
 
 MODES = ("wall", "radius", "thickness", "shaded")
 
-#: What a map shows, and the unit of what it shows in colour.
+#: The name of each map, and the unit of its colours.
 _SHOWN = {
     "wall": ("lumen map of the wall", None),
     "radius": ("lumen map of the radius", "mm"),
@@ -35,14 +35,14 @@ _SHOWN = {
     "shaded": ("lumen map, shaded", None),
 }
 
-#: How dark the columns are that repeat the other side.
+#: Brightness of the columns that repeat the other side.
 _DIMMED = 0.55
 
 
 @by_name
 @dataclass(frozen=True)
 class Ostium:
-    """Where another vessel of the tree opens into the mapped one.
+    """The opening of another vessel of the tree into the mapped one.
 
     Attributes
     ----------
@@ -67,7 +67,7 @@ class Ostium:
 
 @dataclass(frozen=True)
 class MappedVessel:
-    """What maps of one vessel share."""
+    """Data shared by the maps of one vessel."""
 
     renderer: Renderer
     wall: _lumencut.LumenWall
@@ -94,11 +94,11 @@ class LumenMap(Reformation):
     overlap : int
         How many columns on each side repeat the other side, dimmed in the picture.
     calcium_level : float or None
-        From which level on something at the wall counts as calcium or metal, in the volume's unit; None where
-        no lumen could be measured to tell it, and none was given.
+        Level from which something at the wall counts as calcium or metal, in the volume's unit; None if none
+        was given and no lumen could be measured.
     profile : Profile or None
-        What was measured of the vessel. None where no lumen could be measured: then the wall is the radius of
-        the centerline.
+        The measured profile. None if no lumen could be measured: the wall is then the radius of the
+        centerline.
     """
 
     _core: _lumencut.LumenMap
@@ -124,14 +124,14 @@ class LumenMap(Reformation):
     def changed(
         self, mode: Mode | None = None, angle: float | None = None, *, degrees: float | None = None
     ) -> LumenMap:
-        """Return the map of the same wall in another mode or turned; the wall is not looked for again.
+        """Return the map of the same wall in another mode or turned; the wall is reused.
 
         Parameters
         ----------
         mode : {"wall", "radius", "thickness", "shaded"}, optional
-            What is shown; as it is by default.
+            What is shown; unchanged by default.
         angle : float, optional
-            The direction of the middle column (radians); as it is by default.
+            The direction of the middle column (radians); unchanged by default.
         degrees : float, optional
             The angle in degrees, instead of ``angle``.
 
@@ -166,7 +166,7 @@ class LumenMap(Reformation):
 
     @functools.cached_property
     def ostia(self) -> tuple[Ostium, ...]:
-        """Where the other vessels of the tree open into this one, in the order of their ids."""
+        """The openings of other vessels of the tree into this one, in the order of their ids."""
         tree = self._mapped.tree
         if tree is None:
             return ()
@@ -188,7 +188,7 @@ class LumenMap(Reformation):
 
     @functools.cached_property
     def value(self) -> npt.NDArray[np.float32]:
-        """What is shown, float32, shape (H, W), NaN in openings of branches and outside the volume.
+        """The shown quantity, float32, shape (H, W), NaN in openings of branches and outside the volume.
 
         ``"wall"``: the volume in its unit; ``"radius"`` and ``"thickness"``: mm; ``"shaded"``: 0 to 1.
         """
@@ -198,7 +198,7 @@ class LumenMap(Reformation):
         return np.where(self.open, np.float32(np.nan), self._measured())
 
     def _measured(self) -> npt.NDArray[np.float32]:
-        """What is shown where it is no value of the volume."""
+        """The shown quantity of the modes other than ``"wall"``."""
         if self.mode == "radius":
             return self.wall.astype(np.float32)
         if self.mode == "shaded":
@@ -240,5 +240,5 @@ class LumenMap(Reformation):
 
 
 def _band_of(mode: Mode, band: list[float]) -> tuple[float, float]:
-    """Where the pixels of a mode look: about the wall itself where it is what is shown."""
+    """The band beyond the wall that a mode searches; only the wall itself in modes that show it."""
     return (band[0], band[1]) if mode in ("wall", "thickness") else (0.0, 0.0)

@@ -1,4 +1,4 @@
-"""Untangled CPR: every vessel of a tree cut open in one image, none before another."""
+"""Untangled CPR: every vessel of a tree cut open in one image, without overlap."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from lumencut.vessel_tree import VesselTree
 if TYPE_CHECKING:
     from lumencut.lettering import Box
 
-#: Turns from this on are drawn (radians).
+#: Smallest turn that is drawn (radians).
 _DRAWN_FROM = math.radians(5.0)
 
 #: The radius of an arc that shows a turn, in heights of a line of letters.
@@ -41,8 +41,8 @@ class LaidOut:
     pixels : numpy.ndarray, float64, shape (n, 2)
         Column and row of each (pixels).
     turn : float
-        By how much the part is turned where it begins, with all that follows it (radians, counter-clockwise
-        in the picture).
+        Turn of the part at its beginning, with all that follows it (radians, counter-clockwise in the
+        picture).
     is_reversed : bool
         Whether it begins at its last place.
     """
@@ -65,12 +65,12 @@ class UntangledTree(Reformation):
     Attributes
     ----------
     overlaps : tuple of int
-        The ids of vessels whose lumen, with the hull margin, could not be set apart from others, or from
-        themselves; empty where there are none.
+        The ids of vessels whose lumen, with the hull margin, could not be separated from others, or from
+        themselves; may be empty.
     parts : tuple of LaidOut
         The vessels in the image, in the order of their ids and along them.
     closures : tuple of numpy.ndarray, shape (2, 2)
-        Where cycles are cut open: column and row of two places that are one place of the body.
+        The cuts of cycles: column and row of two places that are one place of the body.
     """
 
     _core: _lumencut.Untangled
@@ -97,9 +97,9 @@ class UntangledTree(Reformation):
 
     @property
     def rotations(self) -> dict[int, float]:
-        """By how much each vessel is turned where it begins (radians, counter-clockwise in the picture).
+        """The turn of each vessel at its beginning, by id (radians, counter-clockwise in the picture).
 
-        The ids of all vessels; of a vessel that is turned at several places the largest turn.
+        A vessel that is turned at several places has its largest turn.
         """
         return dict(enumerate(self._core.rotations))
 

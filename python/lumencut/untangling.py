@@ -30,13 +30,12 @@ def untangled(
     settings: Settings | None = None,
     device: Literal["auto", "cpu", "gpu"] = "auto",
 ) -> UntangledTree:
-    """Return every vessel of a tree cut open in one image, none before another: untangled CPR.
+    """Return every vessel of a tree cut open in one image, without overlap: untangled CPR.
 
-    Each vessel keeps the direction in which the camera sees it, but has its true length, however much of it
-    runs along the view. Where branches would lie before one another they turn about the place where they
-    branch off, by as little as sets them apart. Kanitsar et al. 2003 (doi:10.1109/VISUAL.2003.1250353) show
-    trees so, of which only the abstract could be read: layout and search are ours
-    (docs/method/reformations.md).
+    Each vessel keeps its direction in the view, but has its true length, even if it runs along the view.
+    Branches that would overlap are turned about their origin by the smallest angle that separates them.
+    Kanitsar et al. 2003 (doi:10.1109/VISUAL.2003.1250353) show trees this way; we could read only their
+    abstract, so layout and search are ours (docs/method/reformations.md).
 
     Parameters
     ----------
@@ -51,7 +50,7 @@ def untangled(
     width : float, default 25
         How far from each vessel the image shows what surrounds it (mm), on each side.
     hull_margin : float, default 2
-        How much beyond the lumen no other vessel may lie (mm).
+        Margin around the lumen that no other vessel may enter (mm).
     smoothing : float, default 4
         Standard deviation of the Gaussian that smooths the directions in which vessels are seen, along them
         (mm, 0 to 1000). Positions are not smoothed.
@@ -62,12 +61,13 @@ def untangled(
         without it, the free end with the largest mean radius over 10 mm; on equal ones that of the smallest
         id, its first point before its last one.
     slab : Slab, (mm, mode) or mm, optional
-        How thick the surface is, and what is shown of its thickness; that of the settings by default.
+        Thickness of the surface, and which value of it is shown; by default as in the settings.
     settings : Settings, optional
         Window, opacity, background and slab, and ``unknown_radius`` for vessels without radii. A focus and
         chosen vessels are refused.
     device : {"auto", "cpu", "gpu"}, default "auto"
-        What shows the volume, as for :class:`lumencut.Renderer`; where the pixels look the CPU finds.
+        The device that shows the volume, as for :class:`lumencut.Renderer`; the CPU finds the places of the
+        pixels.
 
     Raises
     ------
@@ -80,7 +80,7 @@ def untangled(
     SettingsError
         For another device, a slab that is invalid or not thicker than 0, or a focus.
     VolumeError
-        For an image that is no volume.
+        For an image that is not a volume.
     KeyboardInterrupt
         At Ctrl-C.
     """
@@ -111,7 +111,7 @@ def untangled_of(
     slab: SlabArgument = None,
     settings: Settings | None = None,
 ) -> UntangledTree:
-    """Return the untangled tree of a renderer, whose window it has; parameters as for :func:`untangled`."""
+    """Return the untangled tree of a renderer, in its window; parameters as for :func:`untangled`."""
     volume, tree = renderer.volume, renderer.tree
     if volume is None or tree is None:
         missing = "a volume" if volume is None else "a tree"

@@ -28,9 +28,9 @@ class Vessel(Value):
     name : str, optional
         The vessel's name.
     confidence : array_like, shape (n,), optional
-        How sure each point is, 0 to 1, where the vessel was traced.
+        Confidence of each point, 0 to 1, if the vessel was traced.
     bridged : array_like of bool, shape (n,), optional
-        Which points lie where no lumen was to be seen, and were put there because a bridge was asked for.
+        Which points lie where no lumen was visible, because a bridge was requested.
 
     Raises
     ------
@@ -38,7 +38,7 @@ class Vessel(Value):
         For points or radii of another shape or value.
     """
 
-    #: Whether it was said what is doubtful about its line.
+    #: Whether doubts about its line were reported.
     _line_settled = False
 
     def __init__(
@@ -76,12 +76,12 @@ class Vessel(Value):
 
     @property
     def confidence(self) -> npt.NDArray[np.float64] | None:
-        """How sure each point is, 0 to 1, shape (n,), where known."""
+        """Confidence of each point, 0 to 1, shape (n,), if known."""
         return self._confidence
 
     @property
     def bridged(self) -> npt.NDArray[np.bool_] | None:
-        """Which points lie where no lumen was to be seen, shape (n,), where known."""
+        """Which points lie where no lumen was visible, shape (n,), where known."""
         return self._bridged
 
     def named(self, name: str | None) -> Vessel:

@@ -22,7 +22,7 @@ def find_vessels(
 ) -> VesselTree:
     """Find all vessels of an angiography, with no point given.
 
-    Tubes that are brighter than what is around them are found at all widths and followed along their middle,
+    Tubes brighter than their surroundings are found at all widths and followed along their middle,
     each with its own levels. Those that are bone, organ or noise are left out or marked as doubtful,
     the others are joined where they meet, and connected vessels form a part. The steps are in
     docs/method/tracing.md.
@@ -33,24 +33,24 @@ def find_vessels(
         The angiography; lumen must be brighter than the tissue around it. Nothing depends on the unit of its
         values.
     smallest_radius : float, default 1.0
-        Vessels end about where they are narrower from there on (mm). Those less than about two voxels wide
+        Vessels end about where they become narrower than this (mm). Vessels less than about two voxels wide
         are not found.
     progress : callable, optional
-        Called now and then with how much is done and how much there is to do.
+        Called at intervals with the work done and the total work.
 
     Returns
     -------
     VesselTree
         Whole vessels from their roots outwards, with ``radius`` and ``confidence``, points at most 0.5 mm
-        apart; the first point of a branch is a point of its parent to the bit. :attr:`VesselTree.parts` lists
-        which are connected, the most important part first. :attr:`VesselTree.doubtful` has those that are not
-        sure, :attr:`VesselTree.doubts` says why, and :attr:`VesselTree.notes` which level and contrast
-        vessels were found to have. The result is the same for any number of threads.
+        apart; the first point of a branch is exactly a point of its parent. :attr:`VesselTree.parts` lists
+        which are connected, the most important part first. :attr:`VesselTree.doubtful` has the uncertain
+        ones, :attr:`VesselTree.doubts` says why, and :attr:`VesselTree.notes` the level and contrast of the
+        vessels. The result is the same for any number of threads.
 
     Raises
     ------
     TracingError
-        Where no vessel is found that is sure.
+        If no certain vessel is found.
     SettingsError
         For a smallest radius below 0.
     VolumeError

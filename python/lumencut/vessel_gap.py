@@ -15,14 +15,14 @@ class Gap:
     Attributes
     ----------
     width : float
-        How far apart the two pieces are there (mm): from the end of one centerline to the end of the other,
-        or to the wall of the other vessel where it is nearest between its ends.
+        Distance of the two pieces there (mm): from the end of one centerline to the end of the other, or to
+        the wall of the other vessel if its nearest point is not an end.
     vessels : tuple of 2 int
         The ids of the vessels on both sides.
     points : tuple of 2 tuples of 3 float
         The points of their centerlines there (mm, LPS).
     bridged : bool
-        Whether a vessel of the tree bridges it, because that was asked for.
+        Whether a vessel of the tree bridges it, because a bridge was requested.
     """
 
     width: float

@@ -73,7 +73,7 @@ class VesselTree(Value):
         Parameters
         ----------
         count : int, default 6
-            How many levels beyond the finest.
+            Number of levels beyond the finest.
         """
         (checked,) = integers(VesselTreeError, "count of levels", [count], 0, 64, 1)
         made = _lumencut.levels(self._arrays(), checked)
@@ -86,7 +86,7 @@ class VesselTree(Value):
         ]
 
     def smoothed(self, radii: float) -> VesselTree:
-        """Return the tree with quiet centerlines, as the setting ``centerline_smoothing`` makes them.
+        """Return the tree with smooth centerlines, as the setting ``centerline_smoothing`` makes them.
 
         Each vessel is smoothed along its arc length by a Gaussian whose standard deviation at each point is
         ``radii`` times the radius there. Ends, points where another vessel ends, and points whose radius is 0
@@ -122,8 +122,9 @@ class VesselTree(Value):
     ) -> VesselTree:
         """Return the tree with radii measured in a volume, those of circles with the area of the lumen.
 
-        Between sections at most 10 mm apart radii are interpolated, as within junctions. Beyond, points keep
-        their radius; those without one get that of the nearest section. :attr:`notes` says how many they are.
+        Between sections at most 10 mm apart radii are interpolated, as within junctions. Elsewhere points
+        keep their radius; points without one get that of the nearest section. :attr:`notes` states their
+        number.
 
         Parameters
         ----------
@@ -136,7 +137,7 @@ class VesselTree(Value):
         wall : pair of float or "off", optional
             The level of walls, as for :func:`lumencut.measure`.
         progress : callable, optional
-            Called now and then with how much is done and how much there is to do.
+            Called at intervals with the work done and the total work.
 
         Raises
         ------
@@ -191,14 +192,13 @@ class VesselTree(Value):
         ids : iterable of int or str
             Ids and names in their order along the path. Each vessel begins where the one before ends,
             regardless of the order of its points: ends at most 0.1 mm apart meet, and become one point.
-            Where a branch begins at a point between the ends of its parent, the path leaves the parent there:
+            If a branch begins at a point between the ends of its parent, the path leaves the parent there:
             it comes from the first point of the parent, or from the vessel before it.
 
         Returns
         -------
         Vessel
-            It has radii where all of the vessels have, and their names with ``" + "`` between them where all
-            have one.
+            It has radii if all of the vessels have them, and their names joined by ``" + "`` if all have one.
 
         Raises
         ------
@@ -252,8 +252,8 @@ class VesselTree(Value):
     def joined(self, first: SupportsIndex | str, second: SupportsIndex | str) -> VesselTree:
         """Return the tree with two vessels joined to one, at the ends that are nearest to each other.
 
-        The new vessel has the place, the name and the direction of the first one, and the second one is no
-        longer there. Where the ends are apart it goes straight on, and the points between count as bridged.
+        The new vessel has the place, the name and the direction of the first one, and the second one is
+        removed. A gap between the ends is crossed straight, and the points in it count as bridged.
 
         Parameters
         ----------
@@ -339,9 +339,9 @@ class VesselTree(Value):
     def parts(self) -> tuple[tuple[int, ...], ...]:
         """The ids of vessels that are connected, one tuple for each part, the most important part first.
 
-        In a tree of :func:`lumencut.find_vessels` each part begins with its root. In other trees vessels hang
-        together where an end of one is a point of the other, to 0.001 mm; ids rise, and the longest part is
-        the first.
+        In a tree of :func:`lumencut.find_vessels` each part begins with its root. In other trees vessels are
+        connected if an end of one is a point of the other, to 0.001 mm; ids rise, and the longest part is the
+        first.
         """
         if self._parts is None:
             made = _lumencut.parts([vessel.points for vessel in self._vessels])

@@ -67,7 +67,7 @@ class Volume(KeepsReadOnly):
     _is_segmentation = False
     _label_names: Mapping[int, str] = MappingProxyType({})
     _study: Study | None = None
-    #: Whose it is, as DICOM says it.
+    #: The patient, from DICOM.
     _patient = Patient()
 
     def __init__(
@@ -155,13 +155,13 @@ class Volume(KeepsReadOnly):
     def states_orientation(self) -> bool:
         """Whether its source states where the patient's left, back and head are.
 
-        Where it does not, the axes i, j, k are taken to run to the left, to the back and to the head.
+        If it does not, the axes i, j, k are assumed to run to the left, to the back and to the head.
         """
         return self._states_orientation
 
     @property
     def filled_slices(self) -> tuple[int, ...]:
-        """The indices k of slices that the file lacked and its reader interpolated, as it was asked to."""
+        """The indices k of missing slices that the reader interpolated on request."""
         return self._filled_slices
 
     @property
@@ -171,7 +171,7 @@ class Volume(KeepsReadOnly):
 
     @property
     def frame_of_reference(self) -> str:
-        """The UID of the space of DICOM in which it lies; empty where its source states none."""
+        """The DICOM frame of reference UID; empty if its source states none."""
         return self._frame_of_reference
 
     @property
@@ -301,7 +301,7 @@ def _checked_affine(world_from_index: npt.ArrayLike, shape: tuple[int, ...]) -> 
 
 def _checked_voxels(array: npt.ArrayLike) -> npt.NDArray[Any]:
     if isinstance(array, Volume):
-        mend = "give its array, or take it as it is"
+        mend = "give its array, or use it directly"
         raise VolumeError("array of the volume", "a Volume, which has a grid", "voxels alone", mend)
     if isinstance(array, np.ma.MaskedArray) and np.ma.is_masked(array):
         mend = "give array.filled(value)"

@@ -13,7 +13,7 @@ from lumencut._files import WRITABLE, checked_path, replace_whole
 from lumencut.errors import FormatError
 from lumencut.volume import Volume
 
-#: NIfTI counts to the right and to the front, volumes to the left and to the back.
+#: Axes of NIfTI run to the right and the front (RAS), those of volumes to the left and the back (LPS).
 _RAS_FROM_LPS = np.diag([-1.0, -1.0, 1.0, 1.0])
 #: The fastest level of gzip. The highest one takes six times as long and saves 0.5 % of a noisy scan.
 _FAST = 1
@@ -34,9 +34,9 @@ def write_volume(volume: Volume, path: str | os.PathLike[str], mark: str = "") -
     Raises
     ------
     FormatError
-        For another ending.
+        For another extension.
     FileError
-        Where the file cannot be written.
+        If the file cannot be written.
     """
     path = checked_path(path, WRITABLE)
     name = path.name.lower()
@@ -45,7 +45,7 @@ def write_volume(volume: Volume, path: str | os.PathLike[str], mark: str = "") -
     elif name.endswith((".nii", ".nii.gz")):
         replace_whole(path, lambda whole: _write_nifti(volume, whole, mark, is_packed=name.endswith(".gz")))
     else:
-        raise FormatError(str(path), f"the ending {path.suffix!r}", ".nrrd, .nii or .nii.gz")
+        raise FormatError(str(path), f"the extension {path.suffix!r}", ".nrrd, .nii or .nii.gz")
 
 
 def _write_nrrd(volume: Volume, whole: Path, mark: str) -> None:

@@ -1,4 +1,4 @@
-"""Centerlines that VTK holds in memory, as the bytes of the file that it would write of them."""
+"""Centerlines of VTK in memory, as the bytes of the file that VTK would write."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ def is_poly_data(source: Any) -> bool:
 
 
 def file_of(poly_data: Any) -> bytes:
-    """Return the content of the `.vtp` file that VTK writes of poly data, every number to the bit."""
+    """Return the content of the `.vtp` file that VTK writes of poly data, with exact numbers."""
     writer = importlib.import_module("vtkmodules.vtkIOXML").vtkXMLPolyDataWriter()
     writer.SetInputData(poly_data)
     writer.SetDataModeToBinary()

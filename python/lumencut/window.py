@@ -172,7 +172,7 @@ class Opacity:
 
 
 def checked_window(name: str, value: Any) -> Window | str | None:
-    """Return what a setting keeps of a window or its name: a name only where a volume is needed to know it.
+    """Return the stored form of a window setting: only names that need a volume stay names.
 
     None stands for ``"auto"``, which differs with the context.
     """

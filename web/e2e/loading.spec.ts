@@ -131,7 +131,7 @@ test.describe('streams', () => {
     [
       'is another file',
       Buffer.from('not a stream at all'),
-      /Found (another file|a file of no known format); expected /,
+      /Found (another file|a file of unknown format); expected /,
     ],
     ['is empty', Buffer.alloc(0), /Found (another|an empty) file; expected /],
     ['has voxels of no known type', anotherType(), /type of the voxels.*Found complex64; expected uint8/],

@@ -89,7 +89,7 @@ test('the report opens offline, on one page of paper', async ({ browser }) => {
 
 test('the name of the scan is in the report where it is ticked', async () => {
   await menu(tube.viewer).click();
-  await tube.viewer.page.getByLabel('with the name of the scan').check();
+  await tube.viewer.page.getByLabel('include the name of the scan').check();
   await menu(tube.viewer).click();
   expect(await tube.saved(REPORT)).toMatch(/<h1>phantom stenosis – /);
 });

@@ -140,7 +140,7 @@ describe('what is given', { timeout: 60_000 }, () => {
   });
 
   test('files of no known kind are named', async () => {
-    expect(await refusal(file('a.pdf', '%PDF-1.7 ...'))).toContain('a.pdf: found a file of no known format');
+    expect(await refusal(file('a.pdf', '%PDF-1.7 ...'))).toContain('a.pdf: found a file of unknown format');
     expect(await refusal(file('empty', ''))).toContain('an empty file');
     expect(await refusal(file('v.vti', '<VTKFile type="ImageData">'))).toContain(
       'a VTK image, which is not read',

@@ -1,4 +1,4 @@
-"""The command ``lumencut``: one room per subcommand.
+"""The command ``lumencut``: one module per subcommand.
 
 Nothing heavy is imported before a subcommand runs, so that ``--help`` answers at once.
 """

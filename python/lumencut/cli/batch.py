@@ -69,7 +69,9 @@ class _Part(_Type):
 @click.argument("manifest")
 @click.option("-o", "--output", type=FILE, help="The folder of the results; created if missing.")
 @click.option("--recipe", type=FILE, help="A TOML file that defines what to do with each study.")
-@click.option("--centerlines", metavar="PATTERN", help="With a pattern of volumes: that of centerlines.")
+@click.option(
+    "--centerlines", metavar="PATTERN", help="The pattern of centerlines, if MANIFEST is a pattern."
+)
 @click.option("--mask", metavar="PATTERN", help="The same for masks of the lumen.")
 @click.option("--points", metavar="PATTERN", help="The same for files of points along vessels.")
 @click.option("--seeds", metavar="PATTERN", help="The same for files of seeds.")
@@ -79,7 +81,9 @@ class _Part(_Type):
 @click.option("--jobs", type=click.IntRange(1, 1024), default=1, show_default=True, metavar="N",
               help="How many studies to process at once.")  # fmt: skip
 @click.option("--shard", type=_Part(), help="Process one part of N; parts may run at the same time.")
-@click.option("--retry", type=click.Choice(["failed", "all"]), help="Process these again in any case.")
+@click.option(
+    "--retry", type=click.Choice(["failed", "all"]), help="Process these again, even if nothing has changed."
+)
 @click.option("--threads", type=click.IntRange(1, 1024), metavar="N",
               help="Threads per study; default: a fair share of the cores.")  # fmt: skip
 @click.option("--memory", type=_Quantity("SIZE", _UNITS, "8GB"), help="Memory limit per study.")
@@ -92,7 +96,7 @@ class _Part(_Type):
     help="Run in --jobs jobs of SLURM, such as partition=long,memory=8GB,walltime=24:00:00,cores=2.",
 )
 @click.option("--parquet", is_flag=True, help="Write the tables as Parquet too; needs pyarrow.")
-@click.option("--one", metavar="ID", help="Process this study alone, in this process.")
+@click.option("--one", metavar="ID", help="Process only this study, in this process.")
 @device_option
 @verbose_option
 def batch(manifest: str, output: Path | None, **chosen: Any) -> None:
@@ -119,7 +123,7 @@ def batch(manifest: str, output: Path | None, **chosen: Any) -> None:
         found = _manifest(manifest, given)
         recipe = read_cohort_recipe(chosen["recipe"])
     except FormatError as error:
-        # A manifest or a recipe with mistakes is a wrong use of the command.
+        # Mistakes in a manifest or recipe are reported as usage errors.
         raise click.UsageError(str(error)) from error
     if chosen.pop("check"):
         _refuse(chosen, "--check", (*_OF_ALL, "one"))
@@ -144,7 +148,7 @@ def _refuse(chosen: dict[str, Any], beside: str, names: Sequence[str]) -> None:
     """Reject options that have no effect with another one."""
     for name in names:
         if chosen.get(name):
-            raise click.UsageError(f"--{name} with {beside} does nothing; leave it out")
+            raise click.UsageError(f"--{name} with {beside} does nothing; leave out --{name}")
 
 
 def _manifest(manifest: str, sources: dict[str, str]) -> Manifest:

@@ -65,8 +65,8 @@ def bids(
     from lumencut.cohort.recipe import read_cohort_recipe
 
     if level == "group" and participant_label:
-        found = "--participant-label with group does nothing: its tables hold all participants"
-        raise click.UsageError(f"{found}; leave it out")
+        found = "--participant-label with group does nothing: group tables hold all participants"
+        raise click.UsageError(f"{found}; leave out --participant-label")
     try:
         studies = read_bids(data, suffix, participant_label)
         how = read_cohort_recipe(recipe)

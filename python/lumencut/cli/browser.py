@@ -45,9 +45,7 @@ def open_or_explain(place: Place, *, is_wanted: bool) -> Iterator[None]:
 def _open(file: Path | None) -> None:
     """Open a file in the browser of the user."""
     if file is None:
-        inform(
-            "no folder is closed to other users: open the address above in a browser; Ctrl-C ends the viewer"
-        )
+        inform("no folder is private to you: open the address above in a browser; Ctrl-C ends the viewer")
         return
     inform("the address opens in your browser; Ctrl-C ends the viewer")
     # Some launchers return only once the browser is closed.

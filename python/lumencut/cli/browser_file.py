@@ -87,7 +87,7 @@ def _user() -> int:
 def _is_private(folder: Path) -> bool:
     """Return whether a folder belongs to this user, and is closed to all others."""
     if os.name != "posix":
-        # User folders are closed to others there, and modes do not show it.
+        # On Windows user folders are private, which file modes do not show.
         return True
     try:
         found = folder.lstat()

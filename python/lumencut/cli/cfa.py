@@ -35,9 +35,7 @@ _COARSEST = 0.25
 @click.option(
     "--radius", type=float, default=10.0, show_default=True, metavar="MM", help="The largest circle (mm)."
 )
-@click.option(
-    "--level", type=float, metavar="VALUE", help="The value of the volume above which --feature share counts."
-)
+@click.option("--level", type=float, metavar="VALUE", help="--feature share counts values above this level.")
 @click.option(
     "--beside",
     type=click.Choice(("cpr",)),
@@ -87,11 +85,11 @@ def _check(chosen: dict[str, Any], beside: str | None) -> None:
     """Reject options that contradict each other before any file is read."""
     shares = beside is None and chosen["feature"] == "share"
     if shares and chosen["level"] is None:
-        raise click.UsageError("--feature share needs --level, the value above which it counts")
+        raise click.UsageError("--feature share needs --level, the value above which a voxel counts")
     if chosen["level"] is not None and not shares:
-        raise click.UsageError("--level does nothing without --feature share; leave it out")
+        raise click.UsageError("--level does nothing without --feature share; leave out --level")
     if beside is not None and chosen["output"].suffix.lower() == ".npz":
-        raise click.UsageError(f"{chosen['output']} holds one picture; --beside makes three of each vessel")
+        raise click.UsageError(f"{chosen['output']} holds one picture; --beside makes three per vessel")
 
 
 def _made(

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Place:
-    """Where a file of centerlines lies, decided by one volume or by none.
+    """Space and unit of a centerline file, decided by one volume or by none.
 
     Attributes
     ----------
@@ -29,7 +29,7 @@ class Place:
     undecided : tuple of str
         What the volume could not decide.
     choice : str
-        Why this volume, where there are several.
+        Why this volume was chosen, if there are several.
     """
 
     tree: VesselTree

@@ -47,7 +47,7 @@ if TYPE_CHECKING:
     multiple=True,
     required=True,
     help="Picture (.png, .tif, .webp, …) or .dcm (DICOM); may be repeated. Each of several views is written "
-    "to every output, with its name before the ending or in the place of {view}.",
+    "to every output, with its name before the extension or in the place of {view}.",
 )
 @click.option(
     "--radius-offset",
@@ -158,7 +158,9 @@ def _check(
         raise click.UsageError("found no CENTERLINES; expected VOLUME, then CENTERLINES to compare along")
     arrays = next((path for path in output if path.suffix.lower() == ".npz"), None)
     if arrays is not None:
-        raise click.UsageError(f"{arrays}: found the ending '.npz'; expected a picture format such as .png")
+        raise click.UsageError(
+            f"{arrays}: found the extension '.npz'; expected a picture format such as .png"
+        )
     if min(size) < SMALLEST_SIDE:
         width, height = size
         raise click.UsageError(

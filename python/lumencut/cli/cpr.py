@@ -122,7 +122,7 @@ def _check_outputs(output: Path, volume_out: Path | None) -> None:
     if volume_out is None:
         return
     if volume_out.suffix and not volume_out.name.lower().endswith((".nrrd", ".nii", ".nii.gz")):
-        found = f"{volume_out}: found the ending {volume_out.suffix!r}"
+        found = f"{volume_out}: found the extension {volume_out.suffix!r}"
         raise click.UsageError(f"{found}; expected .nrrd, .nii or .nii.gz, or none for a DICOM series")
     options.check_folder(volume_out)
 

@@ -31,7 +31,7 @@ _SIZE, _TURN_SIZE, _TURN_FRAMES = (768, 768), (384, 384), 24
     type=click.Path(path_type=Path, file_okay=False),
     help="The folder for the CT; default: lumencut in the user's cache folder.",
 )
-@click.option("--no-annotate", is_flag=True, help="Leave the labels of the pictures out.")
+@click.option("--no-annotate", is_flag=True, help="Omit the labels of the pictures.")
 @device_option
 @verbose_option
 def demo(

@@ -51,11 +51,11 @@ def study_options(command: Command) -> Command:
 
 
 compress_option = click.option(
-    "--compress", is_flag=True, help="For .dcm: pixels as JPEG 2000, lossless; default: bare."
+    "--compress", is_flag=True, help="For .dcm: pixels as JPEG 2000, lossless; default: uncompressed."
 )
 
 grey_option = click.option(
-    "--grey", is_flag=True, help="For .dcm: grey frames, which some programs read alone."
+    "--grey", is_flag=True, help="For .dcm: grey frames; some programs read only these."
 )
 
 
@@ -71,16 +71,17 @@ def check_objects(chosen: dict[str, Any], outputs: Iterable[Path], *, has_series
     """
     asked = [f"--{name.replace('_', '-')}" for name in _OPTIONS if chosen.get(name)]
     if asked and not has_series and not any(is_object(path) for path in outputs):
-        raise click.UsageError(f"{asked[0]} does nothing without an output .dcm; name one, or leave it out")
+        found = f"{asked[0]} needs an output that ends in .dcm"
+        raise click.UsageError(f"{found}; add one, or leave out {asked[0]}")
     check_study_options(chosen)
 
 
 def check_study_options(chosen: dict[str, Any]) -> None:
     """Reject options of a study that exclude or need each other."""
     if chosen["like_study"] is not None and chosen["anonymous"]:
-        raise click.UsageError("--like-study and --anonymous exclude each other; leave one of them out")
+        raise click.UsageError("--like-study and --anonymous exclude each other; leave out one of them")
     if chosen["other_patient"] and chosen["like_study"] is None:
-        raise click.UsageError("--other-patient does nothing without --like-study; leave it out")
+        raise click.UsageError("--other-patient does nothing without --like-study; leave out --other-patient")
 
 
 def study_of(chosen: dict[str, Any]) -> dict[str, Any]:

@@ -199,7 +199,7 @@ def _largest_shift(tree: VesselTree) -> dict[str, Any] | None:
 
 
 def _with(read: Iterable[str], seen: Iterable[str]) -> list[str]:
-    """Both, without repeating what the reader has said of a shear."""
+    """The notes of both, without repeating the reader's note on a shear."""
     read = list(read)
     known = any("sheared" in note for note in read)
     return read + [note for note in seen if not (known and "sheared" in note)]

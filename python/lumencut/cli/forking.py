@@ -32,7 +32,7 @@ def serve() -> NoReturn:
     end_with_parent()
     for name in _LOADED:
         importlib.import_module(name)
-    # The formats that it writes, of which the library has many.
+    # Loads the picture formats of Pillow.
     sys.modules["PIL.Image"].init()
     # Loaded objects are never collected, so that forks share their memory.
     gc.freeze()

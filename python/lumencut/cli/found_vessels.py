@@ -65,14 +65,14 @@ def check_found(chosen: dict[str, Any]) -> None:
     seeds = [name for name in ("seed", "seed_index") if chosen[name] is not None]
     given = [f"--{name.replace('_', '-')}" for name in seeds] + ["--find"] * chosen["find"]
     if len(given) > 1:
-        raise click.UsageError(f"found {' and '.join(given)}; expected one of them")
+        raise click.UsageError(f"found {' and '.join(given)}; expected only one of them")
     if chosen.get("all_parts") and not chosen["find"]:
-        raise click.UsageError("--all-parts without --find does nothing; leave it out")
+        raise click.UsageError("--all-parts without --find does nothing; leave out --all-parts")
     if not given:
         for name in WITH_FOUND:
             if chosen[name]:
                 option = f"--{name.replace('_', '-')}"
-                raise click.UsageError(f"{option} without --seed or --find does nothing; leave it out")
+                raise click.UsageError(f"{option} without --seed or --find does nothing; leave out {option}")
 
 
 def shown_vessels(chosen: dict[str, Any], voxels: Volume) -> VesselTree:

@@ -141,7 +141,7 @@ def _block(one: dict[str, Any]) -> str:
 
 
 def _ranges(numbers: list[int]) -> str:
-    """Whole numbers that rise, as ranges where they follow each other."""
+    """Rising integers as text; consecutive ones become ranges."""
     starts = [n for n, number in enumerate(numbers) if n == 0 or number != numbers[n - 1] + 1]
     parts = [numbers[a:b] for a, b in zip(starts, [*starts[1:], len(numbers)], strict=True)]
     return ", ".join(str(part[0]) if len(part) == 1 else f"{part[0]} to {part[-1]}" for part in parts)

@@ -43,11 +43,11 @@ def check_labels(chosen: dict[str, Any], outputs: Iterable[Path], size: tuple[in
         return
     option = f"--{asked[-1].replace('_', '-')}"
     if chosen["annotate"] is False:
-        raise click.UsageError("--vessel-names does nothing with --no-annotate; leave one of them out")
+        raise click.UsageError("--vessel-names does nothing with --no-annotate; leave out one of them")
     if asked[-1] == "vessel_names" and not chosen["centerlines"]:
-        raise click.UsageError("--vessel-names does nothing without CENTERLINES; name them, or leave it out")
+        raise click.UsageError("--vessel-names needs CENTERLINES; give them, or leave out --vessel-names")
     if all(path.suffix.lower() == ".npz" for path in outputs):
-        raise click.UsageError(f"{option} does nothing with .npz, which holds arrays; name a picture too")
+        raise click.UsageError(f"{option} does nothing with .npz, which holds arrays; add a picture output")
     if min(size) < SMALLEST_SIDE:
         width, height = size
         warn(f"no labels on {width} × {height} pixels: they need {SMALLEST_SIDE} on the shorter side")

@@ -47,7 +47,7 @@ def recipe_from(path: Path | None) -> Recipe | None:
     recipe = read_session(path).recipe
     if recipe is None:
         found = "a session without a view"
-        raise FormatError(str(path), found, "one that stores a view", "name --view")
+        raise FormatError(str(path), found, "one that stores a view", "give --view")
     return recipe
 
 
@@ -75,7 +75,7 @@ def typed(chosen: dict[str, Any]) -> dict[str, Any]:
 
 
 def views_of(chosen: dict[str, Any], recipe: Recipe | None) -> list[tuple[Any, Camera]]:
-    """Return each requested view and its camera, whose place is open unless a recipe gives it.
+    """Return each requested view and its camera, which has no place yet unless a recipe gives it.
 
     The view of a recipe is None without ``--view``.
     """
@@ -85,7 +85,7 @@ def views_of(chosen: dict[str, Any], recipe: Recipe | None) -> list[tuple[Any, C
     views = given.pop("view", (None,))
     if len(views) > 1:
         found = f"--view is given {len(views)} times with --like, which renders the view of one picture"
-        raise click.UsageError(f"{found}; give it once or not at all, or leave --like out")
+        raise click.UsageError(f"{found}; give --view at most once, or leave out --like")
     if views[0] is not None:
         given["view"] = views[0]
     return [(views[0], camera_like(recipe.camera, given))]
@@ -99,7 +99,7 @@ def camera_of(
 
 
 def warn_of_vessels(chosen: dict[str, Any], recipe: Recipe | None, renderer: Renderer) -> None:
-    """Warn if a picture showed another number of vessels, because it does not store their choice.
+    """Warn if the picture showed another number of vessels, since it does not store which ones.
 
     There is no warning if the user chooses vessels.
     """

@@ -58,7 +58,7 @@ MODES = ("wall", "radius", "thickness", "shaded")
     type=click.Choice(("max", "mean", "min")),
     default="max",
     show_default=True,
-    help="The value of that band that --mode wall shows.",
+    help="Which value of this band --mode wall shows.",
 )
 @click.option(
     "--calcium-level",

@@ -29,7 +29,7 @@ def check_dicom(chosen: dict[str, Any]) -> None:
             if chosen[name]:
                 option = f"--{name.replace('_', '-')}"
                 raise click.UsageError(
-                    f"{option} does nothing without --dicom; name a folder, or leave it out"
+                    f"{option} does nothing without --dicom; give it a folder, or leave out {option}"
                 )
         return
     check_study_options(chosen)

@@ -35,14 +35,14 @@ def check_outputs(output: Sequence[Path], chosen: dict[str, Any]) -> None:
     named += [(name, chosen[name]) for name in ("plot", "report") if chosen[name] is not None]
     for name, path in named:
         if path.suffix.lower() not in _ENDINGS[name]:
-            found = f"{path}: found the ending {path.suffix!r}"
+            found = f"{path}: found the extension {path.suffix!r}"
             raise click.UsageError(f"{found}; expected {' or '.join(_ENDINGS[name])}")
         options.check_folder(path)
     if chosen["sections"] is not None:
         _check_sheet(chosen["sections"])
     if chosen["device"] != "auto" and chosen["report"] is chosen["dicom"] is None:
         raise click.UsageError(
-            "--device does nothing without --report or --dicom: the CPU measures; leave it out"
+            "--device only affects --report and --dicom, since measuring runs on the CPU; leave out --device"
         )
     _check_twice([path for _, path in named] + [chosen["sections"]])
     if chosen["plot"] is not None:
@@ -71,7 +71,7 @@ def write_outputs(
 
 def _check_sheet(path: Path) -> None:
     if path.suffix.lower() == ".npz":
-        raise click.UsageError(f"{path}: found the ending '.npz'; expected a picture format such as .png")
+        raise click.UsageError(f"{path}: found the extension '.npz'; expected a picture format such as .png")
     options.check_picture(path)
 
 

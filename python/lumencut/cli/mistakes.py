@@ -43,7 +43,7 @@ def check_files(volume: Path | None, centerlines: Sequence[Path]) -> None:
             raise _wrong(found, "name the volume before it")
         raise _wrong(f"{found} as VOLUME", "name the volume first")
     if swapped is not None:
-        mend = "leave it out to show the volume alone, or name a file of centerlines"
+        mend = "give a file of centerlines, or leave out CENTERLINES to show only the volume"
         raise _wrong(f"{_name(kinds[swapped])} in {swapped} as CENTERLINES", mend)
     if len(kinds) < len(centerlines):
         twice = next(path for path in centerlines if centerlines.count(path) > 1)
@@ -58,11 +58,11 @@ def check_reading(chosen: dict[str, Any], volumes: Iterable[Path], *, has_center
     if all(kind is not None and not kind.is_dicom for kind in kinds.values()):
         with_what = ", ".join(f"{path}, {_name(kind)}" for path, kind in kinds.items())
         why = f"with {with_what}" if with_what else "without VOLUME"
-        _refuse(chosen, _DICOM, f"{why}: it is for DICOM series", "leave it out")
+        _refuse(chosen, _DICOM, f"{why}: it is for DICOM series", "leave out")
     if not has_centerlines:
         why = "without CENTERLINES, which it interprets"
-        _refuse(chosen, ("coordinates", "unit", "reorder"), why, "name their file, or leave it out")
-        _refuse(chosen, _VESSELS, "without CENTERLINES", "name their file, or leave it out")
+        _refuse(chosen, ("coordinates", "unit", "reorder"), why, "give their file, or leave out")
+        _refuse(chosen, _VESSELS, "without CENTERLINES", "give their file, or leave out")
 
 
 def check_options(chosen: dict[str, Any], settings: Settings, *, has_centerlines: bool) -> None:
@@ -72,19 +72,17 @@ def check_options(chosen: dict[str, Any], settings: Settings, *, has_centerlines
             chosen,
             ("window",),
             "without CENTERLINES: there is no cut surface",
-            "--context-window is the window of what is shown",
+            "use --context-window, or leave out",
         )
         why = "without CENTERLINES: there is no cut surface"
-        _refuse(chosen, _CUT_SURFACE, why, "name centerlines, or leave it out")
+        _refuse(chosen, _CUT_SURFACE, why, "give CENTERLINES, or leave out")
     for names, why, mend in (*_idle_context(settings), *_idle_rules(settings)):
-        _refuse(chosen, names, why, f"{mend}, or leave it out")
+        _refuse(chosen, names, why, f"{mend}, or leave out")
 
 
 def check_measured(chosen: dict[str, Any]) -> None:
-    """Reject options of looks if no picture is written and only the cut surface is measured."""
-    _refuse(
-        chosen, _PICTURE, "without --pictures: it changes no measure", "ask for pictures, or leave it out"
-    )
+    """Reject options of looks if only the cut surface is measured and no picture is written."""
+    _refuse(chosen, _PICTURE, "without --pictures: it changes no measure", "give --pictures, or leave out")
 
 
 def check_radii(chosen: dict[str, Any], tree: VesselTree | None) -> None:
@@ -92,11 +90,11 @@ def check_radii(chosen: dict[str, Any], tree: VesselTree | None) -> None:
     if tree is None or any(vessel.radius is not None for vessel in tree):
         return
     why = "with centerlines without radius"
-    _refuse(chosen, ("centerline_smoothing",), f"{why}, by which it smooths", "leave it out")
-    _refuse(chosen, ("preserve_lumen",), f"{why}, from which no wall is known", "leave it out")
+    _refuse(chosen, ("centerline_smoothing",), f"{why}, by which it smooths", "leave out")
+    _refuse(chosen, ("preserve_lumen",), f"{why}, from which no wall is known", "leave out")
 
 
-#: Names of settings without effect with others, the reason, and the mend.
+#: Names of settings without effect, the reason, and the remedy.
 _Idle: TypeAlias = tuple[tuple[str, ...], str, str]
 
 
@@ -147,7 +145,8 @@ def _idle_rules(settings: Settings) -> Iterator[_Idle]:
 def _refuse(chosen: dict[str, Any], names: Iterable[str], why: str, mend: str) -> None:
     for name in names:
         if chosen.get(name) not in _NOTHING:
-            raise click.UsageError(f"--{name.replace('_', '-')} does nothing {why}; {mend}")
+            option = f"--{name.replace('_', '-')}"
+            raise click.UsageError(f"{option} does nothing {why}; {mend} {option}")
 
 
 def _wrong(found: str, mend: str) -> click.UsageError:

@@ -232,7 +232,7 @@ def _camera_options(command: Command) -> Command:
 
 
 def view_from(chosen: dict[str, Any]) -> Camera:
-    """Return a camera with the direction, up and size of the options; its place is still open."""
+    """Return a camera with the direction, up and size of the options; its place is not set yet."""
     import numpy as np
 
     from lumencut.camera import VIEWS, Camera, upright
@@ -282,14 +282,14 @@ def check_picture(path: Path) -> None:
     kind = Image.registered_extensions().get(path.suffix.lower())
     if path.suffix.lower() not in (".npz", ".dcm") and kind not in Image.SAVE:
         known = "a picture format such as .png, .tif or .webp, .dcm (DICOM), or .npz"
-        raise click.UsageError(f"{path}: found the ending {path.suffix!r}; expected {known}")
+        raise click.UsageError(f"{path}: found the extension {path.suffix!r}; expected {known}")
     check_folder(path)
 
 
 def check_folder(path: Path) -> None:
     """Reject a file in a folder that does not exist."""
     if not path.parent.is_dir():
-        raise FileError(str(path), f"no folder {path.parent}", "a folder to write into", "make it first")
+        raise FileError(str(path), f"no folder {path.parent}", "a folder to write into", "create it first")
 
 
 def added(parts: tuple[Callable[[Command], Command], ...], command: Command) -> Command:

@@ -33,7 +33,7 @@ class Picture:
 def pictures(views: Sequence[Any], outputs: Sequence[Path]) -> list[Picture]:
     """Return the files of each view, and reject those that cannot be written before any file is read.
 
-    The name of the view replaces ``{view}`` in an output. With several views it comes before the ending of an
+    The name of the view replaces ``{view}`` in an output. With several views it precedes the extension of an
     output without ``{view}``.
     """
     planned = [

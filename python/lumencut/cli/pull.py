@@ -137,10 +137,10 @@ def _pull(client: Client, place: Address, folder: Path) -> bool:
     _warn_of_patients(client, place)
     with bar(f"fetching {len(instances)} instances", "instance") as progress:
         done = pull_instances(client, instances, folder, progress)
-    already = f", {done.before} were there" if done.before else ""
+    already = f", {done.before} existed before" if done.before else ""
     say(f"{folder}: {done.fetched} of {done.listed} instances fetched{already}")
     if not done.is_complete:
-        warn(f"{len(done.missing)} instances are missing: {done.reasons}; run it again to fetch only these")
+        warn(f"{len(done.missing)} instances are missing: {done.reasons}; run pull again to fetch only these")
     return done.is_complete
 
 

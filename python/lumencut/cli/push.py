@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from lumencut.dicomweb.client import Client
     from lumencut.dicomweb.objects import Outgoing
 
+_NO_TERMINAL = "no terminal in which to confirm the first push to this address"
 _NOT_BACK = "objects in a PACS cannot be removed from here"
 
 
@@ -113,8 +114,8 @@ def _ask(address: Address, *, is_sure: bool) -> None:
 
     if not is_sure and not is_known(address.base):
         if not sys.stdin.isatty():
-            mend = "give --yes to send without a question"
-            raise PacsError(address.base, "no terminal to ask before the first push to it", "an answer", mend)
+            mend = "give --yes to send without confirmation"
+            raise PacsError(address.base, _NO_TERMINAL, "a confirmation", mend)
         click.confirm(f"Send them to {address.base}, for the first time? {_NOT_BACK}.", abort=True)
     remember(address.base)
 

@@ -52,8 +52,8 @@ HANGINGS = ("evar", "carotid", "runoff", "coronary", "head")
     multiple=True,
     required=True,
     help="Picture (.png, .tif, .webp, …), .dcm (DICOM), or .npz for depth, vessels, values and positions; "
-    "may be repeated. Each of several views is written to every output, with its name before the ending or "
-    "in the place of {view}.",
+    "may be repeated. Each of several views is written to every output, with its name before the extension "
+    "or in place of {view}.",
 )
 @options.several_views_options
 @click.option(
@@ -112,12 +112,12 @@ def render(
     files = scene_from(chosen)
     check_found(chosen)
     if chosen["ras"] and chosen["seed"] is None:
-        raise click.UsageError("--ras without --seed does nothing; leave it out")
+        raise click.UsageError("--ras without --seed does nothing; leave out --ras")
     check_scene(files, chosen, settings)
     check_labels(chosen, output, views[0][1].size)
     check_objects(chosen, output)
     if chosen["values"] and (chosen["annotate"] or chosen["compress"]):
-        raise click.UsageError("--values has no labels and is not compressed; leave the other option out")
+        raise click.UsageError("--values has no labels and is not compressed; leave out these options")
     renderer, scene = read_scene(files, chosen)
     warn_of_window(settings, renderer)
     warn_of_vessels(chosen, recipe, renderer)
@@ -147,7 +147,7 @@ def _hanging(name: str, chosen: dict[str, Any]) -> list[tuple[Any, Camera]]:
     for other in ("view", "like", "up", "rotate", "tilt", "center", "zoom_to"):
         if other in typed(chosen):
             found = f"--{other.replace('_', '-')} does nothing with --hanging"
-            raise click.UsageError(f"{found}, which sets the views; leave it out")
+            raise click.UsageError(f"{found}, which sets the views; leave out --{other.replace('_', '-')}")
     from lumencut.hanging import hanging_views
 
     return list(hanging_views(name, chosen["size"]))

@@ -23,12 +23,12 @@ FAILED, INCOMPLETE, INTERRUPTED = 1, 3, 130
 _VERBOSE = "lumencut.verbose"
 _WITH_OPTIONS = (Told, LumencutError)
 
-#: Format of bars whose steps are not countable things.
+#: Format of progress bars without countable steps.
 _BAR = {"share": "{desc}: {percentage:3.0f}%|{bar}| {elapsed}<{remaining}"}
 
 
 def _remember(ctx: click.Context, _: click.Parameter, verbose: bool) -> None:
-    # The meta of a context is shared with its subcommands: the option counts before and after their name.
+    # A context shares its meta with subcommands, so the option works before and after their names.
     ctx.meta[_VERBOSE] = verbose or ctx.meta.get(_VERBOSE, False)
 
 
@@ -124,7 +124,7 @@ def one_line(text: object) -> str:
 
 
 def _shown_once() -> Callable[..., None]:
-    """Return a function that shows warnings, those of a study once for all of its objects."""
+    """Return a function that shows warnings; warnings of one study appear only once."""
     shown: set[str] = set()
 
     def show(message: Warning | str, category: type[Warning], *_: object) -> None:

@@ -56,13 +56,15 @@ def check_scene(files: SceneFiles, chosen: dict[str, Any], settings: Settings) -
     found = found_by(chosen)
     has_centerlines = bool(files.centerlines) or found is not None
     if files.centerlines and found is not None:
-        raise click.UsageError(f"found CENTERLINES and {found}; expected one of them: {found} traces its own")
+        words = f"found CENTERLINES and {found}; expected only one of them"
+        raise click.UsageError(f"{words}, because {found} traces centerlines itself")
     check_files(files.volume, files.centerlines)
     volumes = [] if files.volume is None else [files.volume]
     check_reading(chosen, volumes, has_centerlines=has_centerlines)
     check_options(chosen, settings, has_centerlines=has_centerlines)
     if settings.context is None and not has_centerlines:
-        raise click.UsageError("--context none without CENTERLINES shows nothing; give one of them")
+        found = "--context none without CENTERLINES shows nothing"
+        raise click.UsageError(f"{found}; give CENTERLINES or another --context")
 
 
 def read_scene(files: SceneFiles, chosen: dict[str, Any]) -> tuple[Renderer, VesselTree | Volume]:
@@ -76,7 +78,7 @@ def read_scene(files: SceneFiles, chosen: dict[str, Any]) -> tuple[Renderer, Ves
     shown, fitted = vessels.chosen_of(tree, chosen)
     # The renderer compares the tree with the volume and warns if the space looks wrong.
     renderer = Renderer(voxels, tree, files.device)
-    # A part of the tree has the window of the whole: its brightness does not depend on the choice.
+    # Chosen vessels keep the window of the whole tree, so brightness does not depend on the choice.
     return (renderer if shown is tree else renderer.with_tree(shown)), fitted
 
 
@@ -97,7 +99,7 @@ def read_files(files: SceneFiles, chosen: dict[str, Any]) -> tuple[Volume | None
 
 
 def centerlines_of(paths: tuple[Path, ...]) -> CenterlineFile | CenterlineFiles | None:
-    """Read the files of centerlines. A single one is compared with the volume by the renderer alone."""
+    """Read the files of centerlines. Only the renderer compares a single one with the volume."""
     from lumencut.centerline_file import CenterlineFile
 
     if len(paths) < 2:

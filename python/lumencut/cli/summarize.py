@@ -54,12 +54,12 @@ def summarize(out: Path, second: Path | None, output: Path | None, plot: Path | 
 def _check(second: Path | None, output: Path | None, plot: Path | None) -> None:
     """Reject outputs that cannot be written before any file is read."""
     if plot is not None and second is None:
-        raise click.UsageError("--plot without SECOND does nothing; name two runs, or leave it out")
+        raise click.UsageError("--plot without SECOND does nothing; give SECOND, or leave out --plot")
     for path, endings in ((output, (".csv",)), (plot, (".png", ".svg"))):
         if path is None:
             continue
         if path.suffix.lower() not in endings:
-            found = f"{path}: found the ending {path.suffix!r}"
+            found = f"{path}: found the extension {path.suffix!r}"
             raise click.UsageError(f"{found}; expected {' or '.join(endings)}")
         check_folder(path)
 

@@ -28,7 +28,7 @@ def check_view(chosen: dict[str, Any]) -> None:
     is_own = chosen["mode"] == MODE
     idle = [name for name in (_OTHERS if is_own else _OWN) if name in typed(chosen)]
     if idle:
-        mend = "leave it out, or choose another mode" if is_own else f"leave it out, or choose --mode {MODE}"
+        mend = f"leave out --{idle[0]}, or choose {'another mode' if is_own else f'--mode {MODE}'}"
         raise click.UsageError(f"--{idle[0]} does nothing with --mode {chosen['mode']}; {mend}")
 
 

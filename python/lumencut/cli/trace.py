@@ -138,12 +138,13 @@ def _check(volume: Path | None, output: Path, preview: Path | None, chosen: dict
     for name in (*_WITH_POINTS, *_WITH_FOUND, "ras") if has_mask else WITH_MASK:
         if chosen[name]:
             where = "with" if has_mask else "without"
-            raise click.UsageError(f"--{name.replace('_', '-')} {where} --mask does nothing; leave it out")
+            option = f"--{name.replace('_', '-')}"
+            raise click.UsageError(f"{option} {where} --mask does nothing; leave out {option}")
     check_found(chosen)
     if volume is None and not has_mask:
         raise click.UsageError("found no VOLUME; expected one, or --mask")
     if volume is None and preview is not None:
-        raise click.UsageError("--preview without VOLUME: a mask alone has no picture")
+        raise click.UsageError("--preview needs VOLUME: a mask has no picture")
     found = found_by(chosen)
     if found is not None:
         _check_alone(chosen, found)
@@ -160,10 +161,10 @@ def _check_alone(chosen: dict[str, Any], found: str) -> None:
     """Reject options without effect on vessels found by this option."""
     for name in _WITH_POINTS:
         if chosen[name]:
-            raise click.UsageError(f"--{name} with {found} does nothing; leave one of them out")
+            raise click.UsageError(f"--{name} with {found} does nothing; leave out one of them")
     if chosen["ras"] and chosen["seed"] is None:
         given = "--find" if chosen["find"] else "--seed-index"
-        raise click.UsageError(f"--ras with {given} does nothing; leave it out")
+        raise click.UsageError(f"--ras with {given} does nothing; leave out --ras")
 
 
 def _check_points(chosen: dict[str, Any]) -> None:

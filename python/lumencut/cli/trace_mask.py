@@ -73,7 +73,8 @@ def traced_from_mask(chosen: dict[str, Any], volume: Volume | None) -> VesselTre
         if chosen["label"]:
             raise click.UsageError("--label and --threshold: a mask has either labels or a threshold")
         if opened.file.is_segmentation:
-            raise click.UsageError(f"--threshold does nothing with {path}, a segmentation; leave it out")
+            found = f"--threshold does nothing with {path}, a segmentation"
+            raise click.UsageError(f"{found}; leave out --threshold")
     with bar(f"reading {path.name}", "slice") as progress:
         mask = opened.read(progress)
     detail(f"{path}: {mask!r}")

@@ -146,8 +146,9 @@ def _check_about(chosen: dict[str, Any]) -> None:
         return
     for name in ("axis", "center", "up", "tilt", "zoom_to"):
         if chosen[name] not in (None, 0, 0.0, ()):
-            found = f"--{name.replace('_', '-')} does nothing with --about"
-            raise click.UsageError(f"{found}, which sets the middle and the up axis; leave it out")
+            option = f"--{name.replace('_', '-')}"
+            found = f"{option} does nothing with --about, which sets the middle and the up axis"
+            raise click.UsageError(f"{found}; leave out {option}")
 
 
 def _about(
@@ -161,7 +162,7 @@ def _about(
     word, at = chosen["about"]
     tree = renderer.tree
     if tree is None:
-        raise click.UsageError("--about does nothing without CENTERLINES; name them, or leave it out")
+        raise click.UsageError("--about needs CENTERLINES; give them, or leave out --about")
     vessel = tree[id_or_name(tree, word)]
     first = Camera.about(vessel, at, degrees=chosen["rotate"], size=view.size)
     camera = options.placed_like(first, chosen)
@@ -177,9 +178,9 @@ def _check_flight(chosen: dict[str, Any], frames: int) -> None:
     for name, idle in (("about", None), ("axis", None), ("degrees", 360.0)):
         if chosen[name] != idle:
             found = f"--{name} does nothing with --fly-to"
-            raise click.UsageError(f"{found}, which sets the movement; leave it out")
+            raise click.UsageError(f"{found}, which sets the movement; leave out --{name}")
     if frames < 2:
-        raise click.UsageError("a flight has at least 2 frames; give --frames 2 or more")
+        raise click.UsageError("a flight needs at least 2 frames; give --frames 2 or more")
 
 
 def _flight(
@@ -192,7 +193,7 @@ def _flight(
 
     word, tree = chosen["fly_to"], renderer.tree
     if tree is None:
-        raise click.UsageError("--fly-to does nothing without CENTERLINES; name them, or leave it out")
+        raise click.UsageError("--fly-to needs CENTERLINES; give them, or leave out --fly-to")
     vessel = tree[id_or_name(tree, word)]
     return first, flight(renderer, first, Camera.refocused(tree, vessel, first.size, start=first), *how)
 
@@ -228,7 +229,7 @@ def _checked_writer(output: str, fps: float, how: dict[str, Any], *, is_timed: b
         write = writer_for(output, **how)
         if is_timed and is_sequence(output):
             found = f"--fps and --seconds do nothing with one picture per frame ({output})"
-            raise click.UsageError(f"{found}; leave them out, or name a moving file such as .webp")
+            raise click.UsageError(f"{found}; leave out both, or use an animation format such as .webp")
     except (FormatError, SettingsError) as error:
         raise click.UsageError(str(error)) from error
     options.check_folder(Path(output))

@@ -92,7 +92,7 @@ def _writer(output: Path, amount: float | None, fps: float, dicom: dict[str, Any
     """The writer of a film, None for one picture; reject what cannot be written."""
     if amount is not None:
         if dicom["grey"]:
-            raise click.UsageError("--grey does nothing with --amount; leave one of them out")
+            raise click.UsageError("--grey does nothing with --amount; leave out one of them")
         options.check_picture(output)
         return None
     from lumencut.animation import checked_fps, writer_for

@@ -165,7 +165,7 @@ def _of_vessels(tables: Sequence[ResultTable], quantity: str) -> Agreement | Non
 
 
 def _same_places(first: ResultTable, second: ResultTable) -> npt.NDArray[np.int64]:
-    """The rows of both tables that are sections of one place, shape (n, 2)."""
+    """Pairs of rows of both tables with sections at one place, shape (n, 2)."""
     others = _rows_of_vessels(second)
     centers, other_centers = _centers(first), _centers(second)
     pairs: list[tuple[int, int]] = []

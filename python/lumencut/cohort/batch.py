@@ -30,7 +30,7 @@ from lumencut.errors import FileError, SettingsError
 
 #: Called with the number of ended studies, the total, and how the last one ended.
 Progress = Callable[[int, int, Outcome], object]
-#: Runs jobs while a file, the lock, exists, and yields how they ended, or None at intervals.
+#: Runs jobs while the lock file exists; yields how each ended, or None at intervals.
 Engine = Callable[[Sequence[Job], Path], Iterator[Outcome | None]]
 
 #: An interpreter with its libraries needs this much address space.
@@ -173,7 +173,7 @@ def batch(
     limits = _limits(threads, 0 if is_cluster else _fair_threads(side), memory, time_limit)
     start, wanted = partial(cohort.job, words=words, limits=limits), Wanted(checked_shard(shard), retry)
     if parquet:
-        # Before hours of work, not after.
+        # Checked before hours of work.
         check_parquet()
     with _engine(side, dask, slurm) as engine:
         summary = cohort.run(start, engine, wanted, progress)
@@ -296,7 +296,7 @@ class Cohort:
             if progress is not None:
                 progress(ended, len(tasks), self._explained(one, outcome))
         if not has_room:
-            mend = "free some, and run the batch again: it continues"
+            mend = "free space, and run the batch again: it continues"
             raise FileError(str(self.layout.out), "no room left on the disk", "room for results", mend)
         return ended
 

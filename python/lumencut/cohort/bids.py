@@ -87,7 +87,7 @@ def _listed(path: Path, column: str, prefix: str, notes: list[str]) -> list[str]
 def _of_person(person: Path, suffixes: Sequence[str], notes: list[str]) -> list[Study]:
     """The studies of a participant: one for each session, or one without sessions."""
     if not person.is_dir():
-        return [Study(person.name, person, left_out="no folder of this participant of participants.tsv")]
+        return [Study(person.name, person, left_out="participants.tsv lists it, but there is no folder")]
     table = person / f"{person.name}_sessions.tsv"
     listed = _listed(table, "session_id", "ses-", notes)
     sessions = sorted({*(path.name for path in person.glob("ses-*") if path.is_dir()), *listed})

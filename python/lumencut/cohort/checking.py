@@ -32,7 +32,7 @@ class Verdict:
     Attributes
     ----------
     trouble : str
-        Why it will fail; empty without such a reason.
+        Why it will fail; empty if no failure is predicted.
     unsure : tuple of str
         Questions that only the run can decide, a sentence each; empty if the study will fail anyway.
     """
@@ -42,12 +42,12 @@ class Verdict:
 
 
 def trouble_of(study: Study, how: Reading) -> str:
-    """Return why a study will fail, judged by headers and sizes; empty without such a reason."""
+    """Return why a study will fail, predicted from headers and sizes; empty if no failure is predicted."""
     return verdict_of(study, how).trouble
 
 
 def verdict_of(study: Study, how: Reading, memory: int | None = None) -> Verdict:
-    """Judge a study by headers and sizes.
+    """Predict from headers and sizes whether a study will fail.
 
     The voxels of volumes and masks are not read; files of centerlines and points are.
 

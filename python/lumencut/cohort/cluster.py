@@ -96,7 +96,7 @@ class _Studies:
             self._client.sync(self._submit)
 
     async def _submit(self) -> None:
-        # Within the event loop of dask: after a lost connection in between, dask would forget them.
+        # In the event loop of dask: if the connection broke in between, dask would forget the studies.
         while self._waiting and self._client.status == "running":
             job = self._waiting[-1]
             key = f"lumencut-study-{job.id}-{os.urandom(4).hex()}"
@@ -114,7 +114,8 @@ class _Studies:
             outcome: Outcome | None = future.result(_ANSWER)
         except (Exception, asyncio.CancelledError) as error:
             if isinstance(error, OSError) and future.status not in ("error", "cancelled"):
-                # The worker was lost with the result, or the scheduler: dask or the watch will report it.
+                # The worker was lost with the result, or the scheduler was lost: dask or our check reports
+                # it.
                 return None
             outcome = self._after(self._asked[future], error)
         del self._asked[future]

@@ -14,7 +14,7 @@ from lumencut.cohort.nursery import Nursery, NurseryError
 
 #: Interval between checks of the processes, and between reports that all continue (s).
 _LOOK, _TICK = 0.02, 1.0
-#: How often a study restarts after its process was lost with the one that forked it.
+#: How often a study is restarted if its process was lost together with the process that forked it.
 _LOST = 3
 
 

@@ -17,7 +17,7 @@ from typing import Any
 from lumencut.cohort.layout import Layout
 from lumencut.errors import FileError
 
-#: Age at which a lock of another machine, whose processes are not visible here, is dead (s).
+#: Age at which a lock of another machine, whose processes are not visible here, counts as dead (s).
 _DEAD_AFTER = 180.0
 #: Interval at which a batch refreshes its lock (s).
 _ALIVE_EVERY = 30.0

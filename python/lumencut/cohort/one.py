@@ -1,4 +1,4 @@
-"""One study in this process: its limits, its folder that is renamed when whole, and its record."""
+"""One study in this process: its limits, its folder, which is renamed when complete, and its record."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ from lumencut.errors import MissingPackageError
 if TYPE_CHECKING:
     import pyarrow as pa
 
-#: Endings of the names of number columns, and those with other endings. Other columns hold text.
+#: Suffixes of names of number columns, and number columns without them. Other columns hold text.
 _ENDINGS = ("_mm", "_mm2", "_lps", "_level", "_mean")
 _NUMBERS = {
     *("seconds", "vessels", "doubtful_vessels", "not_measured_vessels", "suggested_narrowest_vessel"),
@@ -70,7 +70,7 @@ def write_parquet(table: Path, words: frozenset[str] = frozenset()) -> None:
             ),
         )
     else:
-        # A cohort without measures has no sections, and no columns for them.
+        # If nothing in the cohort was measured, the table is empty and has no header.
         found = pa.table({})
     found = _unmarked(found)
     replace_whole(table.with_suffix(".parquet"), lambda whole: parquet.write_table(found, whole))

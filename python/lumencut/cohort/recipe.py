@@ -127,7 +127,7 @@ class Outputs:
 
 @dataclass(frozen=True)
 class CohortRecipe:
-    """What to do with every study; by default the tree, one view of the look *focus*, and measures."""
+    """The work on every study; by default the tree, one view of the look *focus*, and measures."""
 
     reading: Reading = field(default_factory=Reading)
     centerlines: Centerlines = field(default_factory=Centerlines)
@@ -257,7 +257,7 @@ def _choices(key: str) -> tuple[str, ...]:
 def _names(subject: str, value: Any, choices: tuple[str, ...]) -> tuple[str, ...]:
     names = [value] if isinstance(value, str) else value
     if not isinstance(names, list) or not all(name in choices for name in names):
-        raise FormatError(subject, f"{value!r:.80}", f"a list of some of {', '.join(choices)}")
+        raise FormatError(subject, f"{value!r:.80}", f"a list of names from: {', '.join(choices)}")
     if len(set(names)) < len(names):
         raise FormatError(subject, f"{value!r:.80}", "each name once")
     return tuple(names)

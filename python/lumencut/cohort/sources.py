@@ -142,7 +142,7 @@ def _from_seeds(seeds: _Points, volume: Volume, how: Centerlines) -> StudyVessel
         if any(_reaches(tree, seed) for tree in trees):
             continue
         tree = trace_from(volume, seed, smallest_radius=how.smallest_radius)
-        # Seeds of one part give the same vessels to the bit.
+        # All seeds in one part give bit-identical vessels.
         if not any(np.array_equal(tree.points, other.points) for other in trees):
             trees.append(tree)
     if not trees:

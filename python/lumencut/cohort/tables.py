@@ -112,6 +112,8 @@ def _append(file: BinaryIO, rows: BinaryIO, head: bytes, part: Path) -> bytes:
         file.write(names)
     elif names != head:
         mend = "run the batch again with --retry all"
-        raise FormatError(str(part), "other columns than those of the studies before", "the same ones", mend)
+        raise FormatError(
+            str(part), "other columns than those of the studies before", "the same columns", mend
+        )
     shutil.copyfileobj(rows, file, 1 << 20)
     return names

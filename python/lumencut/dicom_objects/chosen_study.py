@@ -34,7 +34,7 @@ _METHOD = "Lumencut: patient and study left out, not the Basic Profile"
 
 
 def chosen_study(origin: Origin, study: Any, *, anonymous: bool, other_patient: bool = False) -> Study:
-    """Return the study that an object belongs to; warn of what speaks against a study that was chosen.
+    """Return the study that an object belongs to; warn of doubts about a chosen study.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ def chosen_study(origin: Origin, study: Any, *, anonymous: bool, other_patient: 
         Leave patient and study out. The new study's UID depends on the scan's voxels: all objects made from
         one scan belong to one study.
     other_patient : bool, default False
-        Take a study of another patient than that of the scan, without a doubt.
+        Accept a study of another patient than that of the scan.
 
     Raises
     ------
@@ -57,9 +57,11 @@ def chosen_study(origin: Origin, study: Any, *, anonymous: bool, other_patient: 
         For both a study and ``anonymous``, a study of another kind, and ``other_patient`` without a study.
     """
     if anonymous and study is not None:
-        raise SettingsError("study", "a study with anonymous=True", "one of them", "leave one of them out")
+        raise SettingsError("study", "a study with anonymous=True", "one of them", "leave out one of them")
     if other_patient and study is None:
-        raise SettingsError("other_patient", "True without a study", "study=FOLDER too", "leave it out")
+        raise SettingsError(
+            "other_patient", "True without a study", "study=FOLDER too", "leave out other_patient"
+        )
     if anonymous:
         return _anonymous(origin)
     if study is None:
@@ -182,7 +184,7 @@ def _anonymous(origin: Origin) -> Study:
 
 def _hide_scan(header: Any, origin: Origin) -> None:
     """Leave out the UIDs of the scan; coordinates are then in a separate frame."""
-    # An element that was not deleted would be changed in the header of the scan too.
+    # Elements are deleted first: changing them in place would also change the header of the scan.
     for keyword in ("SeriesInstanceUID", "FrameOfReferenceUID"):
         if keyword in header:
             delattr(header, keyword)

@@ -34,7 +34,7 @@ PROCEDURES = {
 OTHER_PROCEDURE = ("363679005", "SCT", "Imaging procedure")
 SIDES = {"left": ("7771000", "SCT", "Left"), "right": ("24028007", "SCT", "Right")}
 
-#: What vessels are called, the longer names before those that they hold.
+#: Patterns of vessel names; longer names come before the names that they contain.
 _VESSELS: tuple[tuple[str, Coded], ...] = (
     (r"ascending aorta", ("54247002", "SCT", "Ascending aorta")),
     (r"aortic arch", ("57034009", "SCT", "Aortic arch")),
@@ -74,7 +74,7 @@ def site_of(name: str | None) -> tuple[Coded | None, Coded | None]:
     names.
     """
     words = re.sub(r"[\s_\-.,()]+", " ", (name or "").lower()).strip()
-    # Pieces of one vessel are counted.
+    # A number at the end counts pieces of one vessel.
     words = re.sub(r" \d+$", "", words)
     for pattern, code in _VESSELS:
         if re.fullmatch(pattern, words):

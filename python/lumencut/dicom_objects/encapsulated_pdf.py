@@ -15,7 +15,7 @@ def write_pdf(target: Target, content: bytes, title: str, study: Study) -> None:
     Parameters
     ----------
     target : Path or binary file
-        The file, or what takes its bytes.
+        The file or binary stream to write to.
     content : bytes
         The PDF.
     title : str

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from lumencut._pickles import by_name
 
-#: An extent of less than this part of the other one is that of a slice or of a few, which show no length.
+#: An extent below this share of the other one is that of a few slices, which show no length.
 _THIN = 0.2
 
 
@@ -23,7 +23,7 @@ class Box:
     Attributes
     ----------
     low, high : tuple of 3 float
-        Its least and its greatest coordinates (mm, LPS).
+        Its smallest and largest coordinates (mm, LPS).
     """
 
     low: tuple[float, float, float]
@@ -53,7 +53,7 @@ class Box:
 
 
 def box_of_slices(records: Iterable[dict[str, Any]]) -> Box | None:
-    """Return the box around all slices of DICOM headers, None where none states its place.
+    """Return the box around all slices of DICOM headers, None if no header states a position.
 
     Parameters
     ----------

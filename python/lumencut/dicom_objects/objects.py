@@ -1,4 +1,4 @@
-"""What all objects have in common: patient, study, series, equipment, sources, and the file."""
+"""Parts common to all objects: patient, study, series, equipment, sources, and the file."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from lumencut._files import replace_whole
 from lumencut.dicom_objects.study import NEVER_ABSENT, PATIENT, SCAN, UNPAIRED, VISIT, Study
 from lumencut.dicom_objects.uids import uid_of
 
-#: What every series says of itself, so that nobody takes it for more.
+#: Part of the description of every series.
 RESEARCH = "(research, not for diagnosis)"
 #: Codes of the standard (DCM): why an image is named as a source, and how an object was derived.
 SOURCE_IMAGE = ("121322", "Source image for image processing operation")
@@ -39,9 +39,9 @@ class Kind:
     title : str
         The description of its series.
     series_number : int
-        Far from the numbers that scanners give.
+        The number of the series, far from those of scanners.
     modality : str
-        The modality; that of the scan where empty.
+        The modality; if empty, that of the scan.
     """
 
     sop_class: str
@@ -51,7 +51,7 @@ class Kind:
 
 
 def new_object(study: Study, kind: Kind, settings: str, number: int = 1) -> Any:
-    """Return a dataset with all but its content and its own UID.
+    """Return a dataset without its content and its UID.
 
     Parameters
     ----------
@@ -146,17 +146,17 @@ def _reference(instance: tuple[str, str]) -> Any:
 
 
 def cut(text: str, longest: int) -> str:
-    """Return a text in plain letters, as every character set has them, no longer than its element may be."""
+    """Return a text in ASCII letters, no longer than its element allows."""
     for letters, others in _PLAIN.items():
         text = text.replace(letters, others)
-    # Accents are left out, and what has no likeness at all becomes a question mark.
+    # Accents are dropped; characters without a similar letter become question marks.
     bare = "".join(one for one in unicodedata.normalize("NFKD", text) if not unicodedata.combining(one))
     plain = bare.encode("ascii", "replace").decode()
     return plain if len(plain) <= longest else f"{plain[: longest - 4]} ..."
 
 
 def sealed(data: Any, *content: bytes) -> Any:
-    """Give an object the UID that follows from its study and series, its words and its content."""
+    """Set the UID of an object, derived from its study, series, words and content."""
     about = ("SOPClassUID", "SeriesInstanceUID", "InstanceNumber", "DerivationDescription", "ImageComments")
     texts = [str(data.get(keyword, "")) for keyword in about]
     data.SOPInstanceUID = uid_of("instance", data.StudyInstanceUID, *texts, *content)
@@ -171,7 +171,7 @@ def write(data: Any, target: Target, encode: Callable[[Any], None] | None = None
     data : pydicom.Dataset
         The object with its UID.
     target : Path or binary file
-        The file, or what takes its bytes.
+        The file or binary stream to write to.
     encode : callable, optional
         Compresses the pixels of the object.
     """

@@ -36,9 +36,9 @@ class Patient:
         return bool(self.id and other.id)
 
     def differs_from(self, other: Patient) -> bool:
-        """Whether both have an ID and are not one patient.
+        """Whether both have an ID and are different patients.
 
-        Issuers count where both are stated: two hospitals can give one ID to two patients.
+        Issuers count if both are stated: two hospitals can give one ID to two patients.
         """
         has_other_issuer = bool(self.issuer and other.issuer) and self.issuer != other.issuer
         return self.is_comparable(other) and (self.id != other.id or has_other_issuer)

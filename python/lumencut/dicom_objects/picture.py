@@ -1,4 +1,4 @@
-"""Pictures as Secondary Capture: what every PACS shows, one picture or several that follow each other."""
+"""Pictures and sequences of pictures as Secondary Capture, which every PACS shows."""
 
 from __future__ import annotations
 
@@ -32,13 +32,13 @@ _COLOUR_FRAMES = f"{_CAPTURE}.4"
 _LARGEST = 2**32 - 2**16
 #: Placeholder for pixels that are already stored.
 _NO_IMAGE = np.empty((0, 0, 4), np.uint8)
-#: Parts of the body without a face; where none is stated, there may be one.
+#: Parts of the body without a face; an unstated part may include one.
 _FACELESS = ("CHEST", "ABDOMEN", "PELVIS", "AORTA", "LEG", "EXTREMITY", "HEART", "ARM", "KNEE", "FOOT", "HIP")
 
 
 @dataclass(frozen=True, eq=False)
 class Picture:
-    """A picture and what its object says of it.
+    """A picture and the description for its DICOM object.
 
     Attributes
     ----------
@@ -51,11 +51,11 @@ class Picture:
     settings : str
         Pictures of the same method and with the same text are put into one series.
     pixel_spacing : float or None
-        Side of a pixel (mm) where distances in the picture are those of the projection, else None: a ruler
-        across it would be wrong.
+        Side of a pixel (mm) if distances in the picture are projected ones; else None, since a ruler would be
+        wrong.
     sides : tuple of (str, str) or None
         The sides of the patient that rows (to the right) and columns (downwards) run to, as letters of
-        `lumencut.orientation`; None where they are not true in all of the picture.
+        `lumencut.orientation`; None if they do not hold in the whole picture.
     comments : str, default ""
         The label in a viewer, such as the view.
     shows_body : bool, default False
@@ -86,7 +86,7 @@ def write_picture(
     Parameters
     ----------
     target : Path or binary file
-        The file, or what takes its bytes.
+        The file or binary stream to write to.
     picture : Picture
         The picture.
     study : Study
@@ -166,7 +166,7 @@ def _described(picture: Picture, study: Study, kind: Kind, number: int) -> Any:
     add_laterality(data, study)
     data.ConversionType = "WSD"
     data.ImageType = ["DERIVED", "SECONDARY", picture.method.partition(" ")[0].upper()]
-    # This means text that identifies the patient; sides, view and scale do not.
+    # The attribute means text that identifies the patient; sides, view and scale do not.
     data.BurnedInAnnotation = "NO"
     data.RecognizableVisualFeatures = "YES" if picture.shows_body and _may_have_face(study) else "NO"
     data.PatientOrientation = [dicom_sides(side) for side in picture.sides] if picture.sides else None
@@ -185,12 +185,12 @@ def _may_have_face(study: Study) -> bool:
 
 
 def dicom_sides(letters: str) -> str:
-    """Return the letters of sides of the patient as DICOM has them: head and feet, and no other letters."""
+    """Return the letters of patient sides in DICOM form: H (head) and F (feet) instead of S and I."""
     return letters.replace("S", "H").replace("I", "F")
 
 
 def on_black(image: npt.NDArray[np.uint8]) -> npt.NDArray[np.uint8]:
-    """Return an RGBA picture (H, W, 4) before black, RGB (H, W, 3)."""
+    """Return an RGBA picture (H, W, 4) on black, RGB (H, W, 3)."""
     if (image[..., 3] == 255).all():
         return np.ascontiguousarray(image[..., :3])
     part = image[..., 3:].astype(np.float32) / 255
@@ -209,7 +209,7 @@ def _set_colours(data: Any, pixels: bytes, size: tuple[int, ...]) -> None:
 
 def _set_greys(data: Any, pixels: bytes, size: tuple[int, ...]) -> None:
     data.SamplesPerPixel, data.PhotometricInterpretation = 1, "MONOCHROME2"
-    # Grey frames must state the meaning of their numbers: plain shades.
+    # Grey frames must state that their numbers are plain grey levels.
     data.RescaleIntercept, data.RescaleSlope, data.RescaleType = "0", "1", "US"
     data.PresentationLUTShape = "IDENTITY"
     _set_bytes(data, pixels, size)
@@ -223,7 +223,7 @@ def _set_bytes(data: Any, pixels: bytes, size: tuple[int, ...]) -> None:
 
 
 def _set_timing(data: Any, count: int, fps: float) -> None:
-    """Say how fast frames follow each other, and that they begin again at the end."""
+    """State the frame rate, and that the frames repeat."""
     data.NumberOfFrames = count
     data.FrameIncrementPointer = 0x00181063
     data.FrameTime = f"{1000 / fps:.10g}"
@@ -236,7 +236,7 @@ def _packed(data: Any) -> None:
     from pydicom.uid import JPEG2000Lossless
 
     if data.PhotometricInterpretation == "RGB":
-        # The transform of colours that JPEG 2000 makes anyway is undone by every reader, if it is named.
+        # Every reader undoes the colour transform of JPEG 2000 if the object names it.
         data.PhotometricInterpretation = "YBR_RCT"
     sealed_uid = data.SOPInstanceUID
     data.compress(JPEG2000Lossless, encoding_plugin="pylibjpeg", generate_instance_uid=False)

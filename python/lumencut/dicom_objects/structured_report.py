@@ -19,13 +19,13 @@ from lumencut.dicom_objects.uids import uid_of
 from lumencut.errors import FormatError, MissingPackageError
 from lumencut.stenosis import Stenosis
 
-#: What highdicom says of the maker of the images, for whom it takes that of the report.
+#: Attributes of highdicom that are not copied; it states the maker of the report as that of the images.
 _OF_HIGHDICOM = ("ContributingEquipmentSequence", "InstanceCreationDate", "InstanceCreationTime")
 _REPORT = "1.2.840.10008.5.1.4.1.1.88.34"
 
 
 def check_highdicom() -> None:
-    """Reject to make a structured report without highdicom.
+    """Raise an error if highdicom is missing.
 
     Raises
     ------
@@ -46,7 +46,7 @@ def write_report(target: Target, vessels: Sequence[Measured], study: Study, *, n
     Parameters
     ----------
     target : Path or binary file
-        The file, or what takes its bytes.
+        The file or binary stream to write to.
     vessels : sequence of Measured
         The content.
     study : Study
@@ -114,7 +114,7 @@ class _Vessel:
         )
 
     def _stenosis(self, one: Stenosis) -> Any:
-        """A percentage with its method (TID 1501), and what makes it doubtful."""
+        """A percentage with its method (TID 1501) and its doubts."""
         from highdicom.sr import MeasurementsAndQualitativeEvaluations
 
         name = codes.AREA_STENOSIS if one.method == "area" else codes.DIAMETER_STENOSIS
@@ -134,7 +134,7 @@ class _Vessel:
     def _walls(self, one: Stenosis) -> list[Any]:
         """The walls that a percentage was inferred from: that of the narrow place first, then the references.
 
-        OHIF fails to open a report with a group that lies nowhere.
+        OHIF cannot open a report with a group without a position.
         """
         from highdicom.sr import CoordinatesForMeasurement3D
 
@@ -200,7 +200,7 @@ def _number(
         properties = MeasurementProperties(
             upper_measurement_uncertainty=spread, lower_measurement_uncertainty=spread
         )
-        # It is in the unit of the number, for which highdicom has no argument.
+        # The unit is that of the number; highdicom has no argument for the uncertainty.
         for item in properties:
             item.MeasuredValueSequence[0].MeasurementUnitsCodeSequence[0] = _unit(unit)
     return Measurement(
@@ -247,7 +247,7 @@ def _document(content: Any, data: Any, study: Study) -> Any:
 
     image = copy.deepcopy(data)
     image.SeriesInstanceUID = study.text("SeriesInstanceUID") or data.SeriesInstanceUID
-    # All of a long scan would make the report two hundred times as large.
+    # All images of a long scan would make the report two hundred times as large.
     kinds = study.instances or ((data.SOPClassUID, uid_of("nothing")),)
     image.SOPClassUID, image.SOPInstanceUID = kinds[len(kinds) // 2]
     return Comprehensive3DSR(
@@ -266,7 +266,7 @@ def _document(content: Any, data: Any, study: Study) -> Any:
 
 
 def _take(data: Any, document: Any) -> None:
-    """Take over what makes a document a report; whose it is and who wrote it is known already."""
+    """Copy the attributes of a report document, except patient and author, which are set already."""
     for element in document:
         if element.tag not in data and element.keyword not in _OF_HIGHDICOM:
             data[element.tag] = element

@@ -1,7 +1,7 @@
-"""The study of a scan: the header attributes that derived objects repeat, and those they never do.
+"""The study of a scan: the header attributes that derived objects repeat.
 
-An attribute that is in none of the lists below is left behind: private ones, institution, the scanner's
-serial number, the request, and how the slices were acquired.
+Attributes in none of the lists below are not copied: private ones, institution, the scanner's serial number,
+the request, and how the slices were acquired.
 """
 
 from __future__ import annotations
@@ -100,7 +100,7 @@ class Origin:
     is_whole : bool, default False
         Whether its voxels are integers.
     box : Box or None, default None
-        What holds the scan; None where its source does not state its place in the patient.
+        The bounding box of the scan; None if its source does not state its position in the patient.
     """
 
     study: Study | None

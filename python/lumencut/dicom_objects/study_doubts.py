@@ -1,4 +1,4 @@
-"""What speaks against results of a scan in a chosen study: another patient, another study, another place."""
+"""Doubts about putting results of a scan into a chosen study: another patient, study or place."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from lumencut.dicom_objects.study import Origin, Study
 from lumencut.errors import FormatError
 from lumencut.mends import Option, Told
 
-#: A box further away than this is that of another part of the body (mm); slices have a thickness.
+#: Boxes of scan and study further apart than this (mm) show different parts of the body; slices are thick.
 _APART = 10.0
-#: Share of the scan within the images of the study below which they show another region.
+#: If less than this share of the scan lies within the images of the study, they show another region.
 _LEAST_WITHIN = 0.5
 
 

@@ -10,7 +10,7 @@ import uuid
 
 
 def uid_of(*parts: str | bytes) -> str:
-    """Return the UID of these texts and bytes, whose order and borders count.
+    """Return the UID of these texts and bytes, whose order and boundaries matter.
 
     Parameters
     ----------

@@ -45,7 +45,7 @@ _ASKED: dict[str, dict[str, Any]] = {
 }
 #: The most slices of the scan that a plane names as its sources.
 _NAMED_BY_PLANE = 64
-#: The stored number without a value, and the range of the others.
+#: The stored number for missing values, and the range of all others.
 _NOTHING, _LOWEST, _HIGHEST = -32768, -32767, 32767
 
 
@@ -77,7 +77,7 @@ class Plane:
 
 @dataclass(frozen=True)
 class About:
-    """What all planes of a series say.
+    """The common description of the planes of a series.
 
     Attributes
     ----------
@@ -181,7 +181,7 @@ def _set_numbers(data: Any, values: npt.NDArray[np.float32], about: About, modal
         data.RescaleType = "HU"
     if about.window is not None:
         if about.window.width < 1:
-            # The usual function of a window is not defined for such.
+            # The usual window function is not defined for windows this narrow.
             data.VOILUTFunction = "LINEAR_EXACT"
         data.WindowCenter, data.WindowWidth = f"{about.window.level:.7g}", f"{about.window.width:.7g}"
     data.PixelData = stored.tobytes()

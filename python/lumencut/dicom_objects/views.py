@@ -37,7 +37,7 @@ _VOLUME_RENDERING = ("113074", "Volume rendering")
 def view_picture(
     image: npt.NDArray[np.uint8], camera: Camera, source: FrameSource, *, has_cut: bool
 ) -> Picture:
-    """Return the picture of a view with what its object says of it.
+    """Return the picture of a view with the description for its DICOM object.
 
     Parameters
     ----------
@@ -112,7 +112,7 @@ def reformed_picture(
     image: npt.NDArray[np.uint8], recipe: ReformationRecipe, settings: Settings, edges: dict[str, str],
     spacing: float | None,
 ) -> Picture:  # fmt: skip
-    """Return the picture of a reformation with what its object says of it.
+    """Return the picture of a reformation with the description for its DICOM object.
 
     Parameters
     ----------
@@ -160,7 +160,7 @@ def changed(settings: Settings) -> str:
 
 
 def _rounded(value: Any) -> Any:
-    """A value of JSON whose numbers have six digits: enough to make it again, and short."""
+    """A JSON value with numbers of six digits: short, and enough to reproduce the picture."""
     if isinstance(value, dict):
         return {name: _rounded(one) for name, one in value.items()}
     if isinstance(value, (list, tuple)):

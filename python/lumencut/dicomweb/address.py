@@ -83,7 +83,7 @@ def parsed_address(given: str | os.PathLike[str]) -> Address:
         raise FormatError("address", f"{text!r:.200}", _FORM)
     if parts.scheme == "http" and not is_loopback(host):
         found = f"http to {host}, which anybody on the network can read"
-        raise FormatError("address", found, "https, or http to this machine alone")
+        raise FormatError("address", found, "https, or http only to this machine")
     study, series = path["study"] or "", path["series"] or ""
     if "/studies" in path["root"] or not all(is_uid(uid) for uid in (study, series) if uid):
         raise FormatError("address", f"{text!r:.200}", _FORM)

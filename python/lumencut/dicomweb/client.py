@@ -140,7 +140,7 @@ class Client:
         raise PacsError(self._host, f"more than {_MOST_REDIRECTS} redirects", "an answer")
 
     def require(self, answer: httpx.Response, *expected: int) -> None:
-        """Reject an answer with an unexpected status, and name the mend."""
+        """Reject an answer with an unexpected status, with the remedy."""
         status = answer.status_code
         if status in expected:
             return

@@ -49,7 +49,7 @@ class Credentials:
 
     @property
     def mend(self) -> str:
-        """What to do if they are rejected."""
+        """The remedy if they are rejected."""
         return f"give a valid token in {_WAYS}"
 
     def renewed(self) -> bool:
@@ -73,7 +73,7 @@ class Credentials:
         except (netrc.NetrcParseError, UnicodeDecodeError):
             # The message of the parser would quote the line with the password.
             raise FileError(
-                str(place), "a line that is not valid in netrc", "machine, login and password"
+                str(place), "a line that netrc does not allow", "lines with machine, login and password"
             ) from None
         except OSError as error:
             raise FileError(str(place), error.strerror or str(error), "a readable file") from None

@@ -122,7 +122,7 @@ def _once(objects: Sequence[Outgoing]) -> list[Outgoing]:
         first = known.setdefault(one.uid, one)
         if first is not one and _lasting(first) != _lasting(one):
             found = f"the same UID in {first.source}, with other content"
-            raise FormatError(str(one.source), found, "a separate UID", "leave one of them out")
+            raise FormatError(str(one.source), found, "a separate UID", "leave out one of them")
     return list(known.values())
 
 

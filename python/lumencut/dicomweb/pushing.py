@@ -105,7 +105,7 @@ def push_objects(
         final = {uid: refusal for uid, refusal in failed.items() if refusal.is_final}
         failed = final | _sent(client, again, None)
     there = _found(client, address, objects)
-    # A search decides what is there, regardless of the answers.
+    # A search decides which objects are stored, regardless of the answers.
     for one in objects:
         if one.uid not in there:
             failed.setdefault(one.uid, _NOT_FOUND)

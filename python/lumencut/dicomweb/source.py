@@ -60,7 +60,7 @@ def fetched(
     address = parsed_address(given)
     if not address.study:
         mend = "lumencut pull lists the studies of a PACS, with their addresses"
-        raise PacsError(str(address), "a PACS", "a study of it: …/studies/UID", mend)
+        raise PacsError(str(address), "a PACS", "the address of one study: …/studies/UID", mend)
     with Client(address) as client:
         instances = [one for part in _parts(client, address, series) for one in find_instances(client, part)]
         folder = FetchedFolder()

@@ -1,4 +1,4 @@
-"""How far the cut shows connected surroundings next to vessel walls."""
+"""Extent of connected surroundings that the cut shows next to vessel walls."""
 
 from __future__ import annotations
 

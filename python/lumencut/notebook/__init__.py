@@ -27,7 +27,7 @@ def show(
     device: DeviceName = "auto",
     **changes: Any,
 ) -> VesselWidget:
-    """Return a view of an angiography for a notebook, which is turned with the mouse as in the viewer.
+    """Return a view of an angiography for a notebook, turned with the mouse as in the viewer.
 
     The kernel makes the pictures; no other server is contacted, and the volume stays there. Drags turn
     (left), pan (middle, or Shift) and change the window (right, or Ctrl); the wheel zooms. A click, or a
@@ -56,9 +56,9 @@ def show(
     names : bool, default True
         Whether to write the names of the vessels into the picture.
     device : {"auto", "cpu", "gpu"}, default "auto"
-        What computes, as for :class:`lumencut.Renderer`.
+        The device that computes, as for :class:`lumencut.Renderer`.
     **changes
-        Settings by name that shall have other values, such as ``context="dvr"``.
+        Settings to change, by name, such as ``context="dvr"``.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""What drags, the wheel and keys do to a camera and a window, as in the viewer."""
+"""Changes of a camera and a window by drags, the wheel and keys, as in the viewer."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from lumencut.window import Window
 
 Point = npt.NDArray[np.float64]
 
-#: How much of the window a drag of one pixel changes.
+#: Change of the window per dragged pixel.
 _WINDOW_PER_PIXEL = 0.004
 _NARROWEST = 1e-3
-#: The finest and the coarsest pixel that a zoom leads to (mm).
+#: Limits of the pixel spacing when zooming (mm).
 _FINEST, _COARSEST = 0.005, 20.0
 
 

@@ -1,4 +1,4 @@
-"""Pictures as a notebook is sent them: PNG, or while they move JPEG of as many pixels as the rate allows."""
+"""Pictures sent to a notebook: PNG at rest, JPEG while moving, with as many pixels as the rate allows."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-#: What cannot be seen in a picture that moves is left out.
+#: JPEG quality; the losses are invisible in a moving picture.
 _QUALITY = 80
-#: Below and above these a picture that moves gets more or fewer pixels (ms).
+#: Moving pictures get more or fewer pixels if their times are below or above these (ms).
 _QUICK, _SLOW, _VERY_SLOW = 25.0, 60.0, 200.0
-#: The shares of the pixels along a side: few, so that pictures do not pump.
+#: The shares of the pixels along a side: few, so that the resolution does not fluctuate.
 _SHARES = (1.0, 0.75, 0.5, 0.35, 0.25)
 #: Consecutive slow pictures that indicate a slow machine, not a short disturbance.
 _IN_A_ROW = 3

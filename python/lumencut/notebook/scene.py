@@ -50,7 +50,7 @@ class Scene:
     tree : VesselTree or None
         Its centerlines.
     device : {"auto", "cpu", "gpu"}
-        What computes.
+        The device that computes.
 
     Raises
     ------
@@ -98,8 +98,8 @@ class Scene:
     def picked(self, camera: Camera, settings: Settings, pixel: tuple[float, float]) -> Pick:
         """Return the place that a pixel (column, row) of a view shows.
 
-        It is the cut surface as ``Frame.position`` has it, or the brightest place on the ray where no cut
-        surface is shown, as with the viewer.
+        It is a point of the cut surface (``Frame.position``) or, without a cut surface, the brightest place
+        on the ray, as in the viewer.
 
         Raises
         ------
@@ -124,7 +124,7 @@ class Scene:
         return _lumencut.shows_cut(self.renderer._core, self.volume, camera, used, pixel)
 
     def at(self, point: Point, pixel_spacing: float) -> Pick:
-        """Return a point with the nearest place of the first vessel that a click there means."""
+        """Return a point with the nearest place of the first vessel that a click there may pick."""
         places = (self._place(vessel, point, pixel_spacing) for vessel in range(len(self.tree or ())))
         return Pick(point, next((place for place in places if place is not None), None))
 

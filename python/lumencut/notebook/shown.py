@@ -110,7 +110,7 @@ class Shown:
         return other if self.picked is None else other.with_pick(other.scene.at(np.array(self.picked), 1.0))
 
     def with_pick(self, pick: Pick) -> Shown:
-        """Return the cross-hair at another place with its vessel picked; in none the one before stays."""
+        """Return the state with the cross-hair moved and the vessel there picked, if there is one."""
         place = pick.place
         if place is None and self.place is not None:
             place = self.scene.nearest(self.place.vessel, pick.point)
@@ -226,7 +226,7 @@ class Shown:
         ]
 
     def _words(self) -> str:
-        """What is picked."""
+        """The picked vessel, place and value as text."""
         if self.picked is None:
             return ""
         value = float(self.scene.volume.sample(np.array([self.picked]))[0])

@@ -109,7 +109,7 @@ def _click(view: Shown, pane: str, column: float, row: float) -> Shown:
 
 
 def _double_click(view: Shown, pane: str, column: float, row: float) -> Shown:
-    """The first click of it has put the cross-hair there already, or set the last point of a vessel."""
+    """The first click has already moved the cross-hair there, or set the last point of a vessel."""
     if view.tracing is not None and pane == "vessels":
         view.tracing.end()
         return view.retraced()

@@ -30,7 +30,7 @@ _LINKED = ("straightened", "section")
 
 
 def _front(name: str) -> str:
-    """A part of the page's side."""
+    """The text of a file of the page."""
     return files("lumencut.notebook").joinpath("front", name).read_text("utf-8")
 
 
@@ -49,9 +49,9 @@ class VesselWidget(anywidget.AnyWidget):
     camera : Camera
         The view.
     settings : Settings
-        The knobs.
+        The settings of the view.
     tree : VesselTree or None
-        The vessels; while tracing, those that were traced so far too.
+        The vessels; while tracing, including those traced so far.
     picked : tuple of 3 floats, or None
         The world point of the cross-hair (mm, LPS).
     vessel : int or None
@@ -106,9 +106,9 @@ class VesselWidget(anywidget.AnyWidget):
             return self._view.frame(images=None)
 
     def replace(self, volume: Any, tree: VesselTree | None = None) -> None:
-        """Show another volume with its vessels; settings stay, and so does the view where both lie alike.
+        """Show another volume with its vessels; settings stay, and so does the view if both lie in one place.
 
-        Voxels that were changed in place are shown after a call with the same volume.
+        After changing voxels in place, call this with the same volume.
 
         Parameters
         ----------
@@ -127,7 +127,7 @@ class VesselWidget(anywidget.AnyWidget):
             self._take_over(other)
 
     def close(self) -> None:
-        """Take the widget out of the page; a picture under way is given up within 0.1 s."""
+        """Remove the widget from the page; running work stops within 0.1 s."""
         self._is_closed = True
         super().close()
 

@@ -1,1 +1,1 @@
-"""What "Save for PACS" of the viewer gives: pictures, report and numbers as DICOM, in one zip archive."""
+"""The output of "Save for PACS" of the viewer: pictures, report and numbers as DICOM, in one zip archive."""

@@ -83,7 +83,7 @@ def _check_findings(request: Given) -> None:
 
 @contextmanager
 def _mended() -> Iterator[None]:
-    """Say what mends a study that cannot be taken in the words of the page."""
+    """Word the remedy for an unusable study in the terms of the page."""
     try:
         yield
     except FormatError as error:

@@ -72,7 +72,7 @@ class Given:
         return None if self._fields.get(name) is None else self.text(name)
 
     def flag(self, name: str) -> bool:
-        """Return whether something is so."""
+        """Return a boolean."""
         return bool(self._checked(name, "true or false", lambda value: isinstance(value, bool)))
 
     def number(self, name: str) -> float:
@@ -140,7 +140,7 @@ class Given:
 
 
 def checked(value: _T, name: str, expected: str, is_so: Callable[[Any], bool]) -> _T:
-    """Return a value that is as it should be, or raise a `FormatError`."""
+    """Return a value if it is valid, or raise a `FormatError`."""
     if not is_so(value):
         raise refused(f"{_kind(value)} as {name}", expected)
     return value

@@ -47,7 +47,7 @@ def origin_of(request: Given, served: Volume | None) -> Origin:
     Raises
     ------
     FormatError
-        For a header that is no DICOM, and for the scan of a server that shows none.
+        For a header that is not DICOM, or if the server has no scan.
     """
     given = request.object("study")
     if given.flag("is_served"):

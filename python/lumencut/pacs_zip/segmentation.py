@@ -60,8 +60,8 @@ def segmentation_mask(content: bytes, served: Volume | None) -> bytes:
     Returns
     -------
     bytes
-        JSON: the mask as NRRD in base64 (``mask``), the names of its labels (``names``), and what is to be
-        known of it (``notes``).
+        JSON: the mask as NRRD in base64 (``mask``), the names of its labels (``names``), and notes on it
+        (``notes``).
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Vessels as the page measured them, in the form in which reports take what Python measured."""
+"""Vessels that the page measured, in the form of those that Python measured, for reports."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ _BITS = {words: bit for _, bit, words, *_ in _lumencut.MEASURING_FLAGS}
 
 
 class ToldProfile:
-    """The sections of a vessel as the page tells them: what plots and structured reports need of a profile.
+    """The sections of a vessel from the page, with the parts of a profile that plots and reports need.
 
     Parameters
     ----------
@@ -80,7 +80,7 @@ class ToldProfile:
 
 @dataclass(frozen=True)
 class _ToldCore:
-    """What is asked of sections beside their numbers."""
+    """The part of the core of a profile that plots and reports use."""
 
     arc_length: _Floats
     counts: npt.NDArray[np.bool_]
@@ -92,7 +92,7 @@ class _ToldCore:
 
 @dataclass(frozen=True)
 class _ToldGrade:
-    """A stenosis as the page tells it, instead of one that the core graded."""
+    """A stenosis from the page, in place of one graded by the core."""
 
     told: Given
     words: str
@@ -112,16 +112,16 @@ class _ToldGrade:
 
     @property
     def method(self) -> str:
-        """How it is graded."""
+        """The method of grading."""
         return checked(self.told.text("method"), "a method", " or ".join(METHODS), METHODS.__contains__)
 
     @property
     def doubts(self) -> list[str]:
-        """What makes it doubtful."""
+        """Doubts about it."""
         return self.told.texts("doubts")
 
     def doubtful_words(self) -> str:
-        """Return the sentence and what makes it doubtful, as the core has it."""
+        """Return the sentence and the doubts, as the core words them."""
         return f"{self.words}. {' '.join(self.doubts)}" if self.doubts else self.words
 
 
@@ -136,7 +136,7 @@ class ToldVessel:
     marks : tuple of Mark
         The places of its plot.
     measured : Measured
-        What a structured report holds of it.
+        Its content in a structured report.
     """
 
     profile: ToldProfile
@@ -150,7 +150,7 @@ def told_vessel(numbers: Given, finding: Given, *, has_name: bool) -> ToldVessel
     Parameters
     ----------
     numbers : Given
-        What ``lumencut measure -o x.json`` tells of it.
+        Its content in ``lumencut measure -o x.json``.
     finding : Given
         Its points (mm, LPS), its length (mm), the contours and the places that were marked, and the sentence
         of its stenosis, null where none is graded.
@@ -160,7 +160,7 @@ def told_vessel(numbers: Given, finding: Given, *, has_name: bool) -> ToldVessel
     Raises
     ------
     FormatError
-        For anything that is not a such vessel.
+        For anything that is not such a vessel.
     """
     profile = ToldProfile(numbers, finding.items("contours"))
     marks = tuple(_mark(one, profile) for one in finding.items("marks"))
@@ -188,9 +188,11 @@ def _bits(words: Any) -> int:
 
 
 def _mark(given: Any, profile: ToldProfile) -> Mark:
-    """A place that the page tells by its name, its arc length (mm), and whether it is but offered."""
+    """A place from the page: name, arc length (mm), and whether it is only a suggestion."""
     is_place = isinstance(given, list) and [type(one) for one in given[::2]] == [str, bool]
-    place = checked(given, "a mark", "a name, an arc length and whether it is offered", lambda _: is_place)
+    place = checked(
+        given, "a mark", "a name, an arc length and whether it is a suggestion", lambda _: is_place
+    )
     name, at, is_offered = place
     at = checked(at, "a mark", "an arc length", is_number)
     diameter = float(profile.diameter_equivalent[profile._core.nearest(at)])

@@ -21,7 +21,7 @@ from lumencut.volume_files.opened import VolumeFile
 
 _log = logging.getLogger("lumencut")
 
-#: How long the server waits at its end for the reader, which stops between two slices (s).
+#: Time that the closing server waits for the reader, which stops between two slices (s).
 _PATIENCE = 5.0
 
 

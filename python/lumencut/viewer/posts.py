@@ -116,7 +116,7 @@ async def _apart(work: Callable[[], bytes]) -> bytes:
         error, made = None, b""
         try:
             made = work()
-        except BaseException as raised:  # passed on to the waiting task
+        except BaseException as raised:  # handled by the waiting task
             error = raised
         # If the server has ended, no task waits.
         with contextlib.suppress(RuntimeError):

@@ -25,7 +25,7 @@ BACKLOG = 64
 _TOKEN_BYTES = 32
 #: Limit of headers (bytes); browsers also send the cookies of other servers of this machine.
 _MOST_HEADERS = 32 << 10
-#: How long the end waits for the thread, which checks ten times a second (s).
+#: Time that closing waits for the thread, which checks ten times a second (s).
 _PATIENCE = 5.0
 
 

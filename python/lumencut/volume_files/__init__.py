@@ -1,4 +1,4 @@
-"""Volume files: one room per format, one door for all of them."""
+"""Volume files: one reader per format, and one entry point for all of them."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ class VolumeReport:
     spacing : ndarray, shape (3,)
         Distance between neighbouring voxels along i, j, k (mm).
     dtype : numpy.dtype
-        Type of the voxels as read; as stored if the values were not asked for.
+        Type of the voxels as read; as stored if the values were not requested.
     space : str
         The patient space as the file states it.
     world_from_index : ndarray, shape (4, 4)
@@ -199,7 +199,7 @@ def inspect_volume(
     phase, fill_gaps, resample_slices
         As for `read_volume`.
     values : bool, default True
-        Read the voxels too, for their range and soundness; False reads headers only.
+        Read the voxels too, to check them and find their range; False reads headers only.
     progress : callable, optional
         Called with (slices read, slices in all); for DICOM with (files looked into, files in all) before.
 
@@ -280,14 +280,14 @@ def list_series(path: str | os.PathLike[str]) -> list[SeriesReport]:
     if is_address(path):
         from lumencut.dicomweb.source import fetched
 
-        # Held as long as it is read: with its last holder the folder goes.
+        # A reference is kept while reading: the folder is removed with the last one.
         folder = fetched(path)
         return list_dicom_series(folder.path)
     return list_dicom_series(_existing(path))
 
 
 def _silent(done: int, total: int) -> None:
-    """Report progress to nobody."""
+    """Ignore progress."""
 
 
 def _finite_range(array: npt.NDArray[Any], notes: list[str]) -> tuple[float, float] | None:
@@ -374,8 +374,9 @@ def _fetched(given: str | os.PathLike[str], wanted: Wanted, progress: Progress) 
 def _unknown(path: Path) -> FormatError:
     kind = kind_of(path)
     if kind is None:
-        return FormatError(str(path), "a file of no known format", _KNOWN)
-    mend = "read_centerlines reads centerlines" if kind.role == "centerlines" and not kind.mend else kind.mend
+        return FormatError(str(path), "a file of unknown format", _KNOWN)
+    is_readable = kind.role == "centerlines" and not kind.mend
+    mend = "read centerlines with read_centerlines" if is_readable else kind.mend
     return FormatError(str(path), kind.name, _KNOWN, mend)
 
 

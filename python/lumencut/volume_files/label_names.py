@@ -61,7 +61,7 @@ def chosen_labels(words: Iterable[str], known: Mapping[int, str]) -> dict[int, s
     Raises
     ------
     SettingsError
-        For a word that is no value and no name of the file.
+        For a word that is neither a value nor a name of the file.
     """
     labels: dict[int, str] = {}
     values = {name: value for value, name in known.items()}

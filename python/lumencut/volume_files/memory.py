@@ -23,7 +23,7 @@ _ACCEPTED = "a lumencut.Volume, SimpleITK, itk, nibabel or vtkImageData image, o
 
 
 def as_volume(image: Any) -> Volume:
-    """Give a volume on the voxels and the grid of an image in memory.
+    """Return a volume with the voxels and the grid of an image in memory.
 
     Parameters
     ----------
@@ -64,7 +64,7 @@ def is_image(image: Any) -> bool:
 
 
 def _room(image: Any) -> Callable[[Any], Volume] | None:
-    """What converts an image of this kind, None for other things."""
+    """The converter of images of this kind; None for other objects."""
     members = image if isinstance(image, (list, tuple)) else [image]
     if members and all(_is_of(member, "pydicom") and hasattr(member, "walk") for member in members):
         return _from_pydicom
@@ -92,9 +92,9 @@ def _affine(spacing: Any, origin: Any, direction: Any, first: Any) -> npt.NDArra
 
 
 def _stated(spacing: Any, origin: Any, direction: Any) -> dict[str, bool]:
-    """What an image states whose package gives every image a grid: nothing where it is that of new images.
+    """The parts of the grid that an image states: none if it has the default grid of new images.
 
-    Such an image was made of bare voxels, or read from a file without a grid.
+    Such an image was made from bare voxels, or read from a file without a grid.
     """
     sides = np.asarray(direction, dtype=np.float64).reshape(3, 3)
     return {
@@ -105,9 +105,10 @@ def _stated(spacing: Any, origin: Any, direction: Any) -> dict[str, bool]:
 
 def _require(name: str, dimension: int, components: int) -> None:
     if dimension != 3:
-        raise VolumeError(name, f"{dimension} dimensions", "3", "take one time point out of it")
+        mend = "pass a 3D image; of a time series, pass a single time point"
+        raise VolumeError(name, f"{dimension} dimensions", "3", mend)
     if components != 1:
-        raise VolumeError(name, f"{components} components per voxel", "one", "take one component out of it")
+        raise VolumeError(name, f"{components} components per voxel", "one", "pass an image of one component")
 
 
 class _Kept:
@@ -184,7 +185,7 @@ def _from_vtk(image: Any) -> Volume:
     matrix = image.GetDirectionMatrix()
     direction = [[matrix.GetElement(row, column) for column in range(3)] for row in range(3)]
     affine = _affine(image.GetSpacing(), image.GetOrigin(), direction, image.GetExtent()[::2])
-    # The world of vtk is no patient: neither its axes nor an identity says where left is.
+    # The world of VTK is not a patient: its axes do not define where left is.
     stated = _stated(image.GetSpacing(), image.GetOrigin(), direction)
     return Volume(
         voxels.reshape(nk, nj, ni), world_from_index=affine, **{**stated, "states_orientation": False}

@@ -1,4 +1,4 @@
-"""What every room of this package hands back, and how foreign failures become ours."""
+"""The result of every reader of this package, and the conversion of foreign errors."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ Filled = Callable[[npt.NDArray[Any], int], None]
 
 
 def unfollowed(voxels: npt.NDArray[Any], count: int) -> None:
-    """Take no notice of slices that are final."""
+    """Ignore final slices."""
 
 
 def unproven() -> bool:
@@ -63,20 +63,20 @@ class VolumeFile:
     settled_type: np.dtype[Any] | None = None
     """The type of the voxels, if the headers decide it."""
     frame_of_reference: str = ""
-    """The UID of the space that DICOM places the voxels in; empty where none is stated."""
+    """The DICOM frame of reference UID; empty if none is stated."""
     patient: Patient = field(default_factory=Patient)
-    """Whose it is, as DICOM says it."""
+    """The patient, from DICOM."""
     label_names: dict[int, str] = field(default_factory=dict)
     """The names of the labels, if the file has them."""
     is_segmentation: bool = False
-    """Whether it is one, whose segments can be chosen: it may hold a part of the voxels of its scan."""
+    """Whether it is a segmentation: its segments can be chosen, and it may cover a part of its scan."""
     check_length: Callable[[], bool] = unproven
     """Rejects files that are too short for their voxels; returns whether lengths prove completeness."""
     holds: object = None
-    """What must not go while the voxels are still to be read."""
+    """Object to keep alive until the voxels are read."""
 
     def volume(self, progress: Progress, filled: Filled = unfollowed) -> Volume:
-        """Read the voxels; what `progress` raises passes through.
+        """Read the voxels; exceptions of `progress` pass through.
 
         `filled` is called with voxels that others may use while the rest is read; not every reader calls it.
         """
@@ -99,7 +99,7 @@ class VolumeFile:
 
 
 def held_in_memory(volume: Volume, name: str) -> VolumeFile:
-    """Give a volume of a name as a file whose voxels are already read."""
+    """Return a named volume as a file whose voxels are already read."""
     return VolumeFile(
         Path(name), "memory", volume.size, volume.dtype, "LPS", volume.world_from_index,
         lambda progress, filled: volume.array,
@@ -181,7 +181,7 @@ _NOT_OF_FILES = (DeprecationWarning, PendingDeprecationWarning, ImportWarning, R
 class _Hearing:
     """Routes warnings to the reader in the same thread.
 
-    Python has one way for all threads: the first reader bends it, the last one puts it back.
+    Python has one handler for all threads: the first reader replaces it, the last one restores it.
     """
 
     def __init__(self) -> None:
@@ -255,7 +255,7 @@ def printable(text: str) -> str:
 
 
 def decoded(line: bytes) -> str:
-    """A line of a header as UTF-8 unless it cannot be: names of files have letters of either kind."""
+    """A line of a header as UTF-8, or as Latin-1 if it is invalid, since file names may use either."""
     try:
         return line.decode()
     except UnicodeDecodeError:
@@ -263,14 +263,14 @@ def decoded(line: bytes) -> str:
 
 
 def inside(header: Path, name: str, field: str) -> Path:
-    """Give the file that a header names, which must lie in the header's folder or a folder below it.
+    """Return the file that a header names, which must lie in the header's folder or a folder below it.
 
     Parameters
     ----------
     header : Path
         The file that names the other.
     name : str
-        What it writes there; Windows' separators are understood.
+        The name in the header; Windows separators are accepted.
     field : str
         The header's field, for the error.
 
@@ -283,7 +283,7 @@ def inside(header: Path, name: str, field: str) -> Path:
     windows = PureWindowsPath(name)
     parts = windows.parts
     if not parts or not name.isprintable():
-        raise FormatError(str(header), f"no file's name in {field}", "the name of a file next to the header")
+        raise FormatError(str(header), f"no file name in {field}", "the name of a file next to the header")
     leaves = windows.drive or windows.root or ".." in parts or name.startswith("~")
     home = header.parent.resolve()
     place = header.parent.joinpath(*parts)

@@ -1,4 +1,4 @@
-"""The refusal of segments that overlap, for a label map has one number in each voxel."""
+"""Rejects segments that overlap, because a label map has one number in each voxel."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How much memory is available, and the refusal of volumes that need more, before any of it is taken."""
+"""Available memory, and the rejection of volumes that need more, before any of it is allocated."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from lumencut.errors import FormatError
 _UNKNOWN = 1 << 48
 """The memory of a system that does not report it."""
 _SMALL = 16 << 20
-"""So much is never asked about: it takes longer to ask than to take it."""
+"""Smaller amounts are not checked: the check takes longer than the allocation."""
 _CONTROL_GROUPS = Path("/sys/fs/cgroup")
 _MEND = "crop or resample it, free memory, or raise the memory limit if there is one"
 
@@ -31,7 +31,7 @@ def require_memory(subject: object, needed: int) -> None:
     Raises
     ------
     FormatError
-        Where less is available.
+        If less is available.
     """
     if needed <= _SMALL:
         return
@@ -47,7 +47,7 @@ def in_words(count: int) -> str:
 
 
 def available_memory() -> int:
-    """Return the bytes that this process can still take: of the machine, its container and its own limit."""
+    """Return the bytes that this process can still allocate, by machine, container and its own limit."""
     return max(min((*_of_machine(), *_of_control_groups(), *_of_process()), default=_UNKNOWN), 0)
 
 

@@ -42,7 +42,7 @@ def has_segments(lines: Iterable[bytes]) -> bool:
 def no_segmentation(path: Path) -> FormatError:
     """Return the error for segments of a file without segments."""
     expected = "a segmentation (DICOM SEG, or .seg.nrrd of 3D Slicer), to choose segments"
-    return FormatError(str(path), "no segmentation", expected, "leave segments out")
+    return FormatError(str(path), "no segmentation", expected, "leave out segments")
 
 
 def segmentation_file(
@@ -60,7 +60,7 @@ def segmentation_file(
     segments : sequence of Segment
         The segments that it describes.
     stored : int, int or None
-        How many layers there are, and the axis of the stored array along which they lie.
+        The number of layers, and their axis in the stored array.
     numbers : collection of int, optional
         The numbers of the segments that are read; by default all.
     """
@@ -99,7 +99,7 @@ def segments_of(lines: Iterable[bytes], layers: int) -> tuple[Segment, ...]:
     lines : iterable of bytes
         The lines of the header.
     layers : int
-        How many values each voxel has. Files of before 2020 state neither layers nor labels: their segments
+        Number of values of each voxel. Files of before 2020 state neither layers nor labels: their segments
         have a layer each.
     """
     stated: dict[int, dict[str, str]] = {}

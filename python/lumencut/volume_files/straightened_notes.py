@@ -13,9 +13,9 @@ def note_sides(text: str, notes: list[str], remarks: list[str]) -> None:
     text : str
         The text of the header that may contain the mark.
     notes : list of str
-        Takes what every reader must know.
+        Receives notes that every reader must know.
     remarks : list of str
-        Takes what ``lumencut info`` shows.
+        Receives notes for ``lumencut info``.
     """
     found = _lumencut.straightened_mark(text)
     if found is not None:

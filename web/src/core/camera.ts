@@ -1,8 +1,8 @@
-/** What turning, panning and zooming do to a camera. All functions give another camera. */
+/** Turning, panning and zooming of a camera. All functions return a new camera. */
 import type { Camera, Pair, Vector } from './messages';
 import { add, cross, dot, scale, subtract, turned, unit } from './vectors';
 
-/** The finest and the coarsest pixel that a zoom leads to (mm). */
+/** Limits of the pixel spacing when zooming (mm). */
 const FINEST = 0.005;
 const COARSEST = 20;
 
@@ -18,14 +18,14 @@ export function turnedAbout(camera: Camera, pivot: Vector, axis: Vector, angle: 
   return { ...camera, center, direction, up };
 }
 
-/** The scene follows a drag over a ball that fills the view: the whole height of the view is half a turn. */
+/** Turns the scene by a drag over a ball that fills the view: the view height is half a turn. */
 export function trackballed(camera: Camera, pivot: Vector, [x, y]: Pair): Camera {
   const perPixel = Math.PI / Math.max(camera.size[1], 1);
   const axis = add(scale(camera.up, -x), scale(rightOf(camera), -y));
   return turnedAbout(camera, pivot, axis, Math.hypot(x, y) * perPixel);
 }
 
-/** The scene follows a drag by a number of pixels. */
+/** Pans the scene by a number of pixels. */
 export function panned(camera: Camera, [x, y]: Pair): Camera {
   const { pixel_spacing: side } = camera;
   const shift = add(scale(rightOf(camera), -x * side), scale(camera.up, y * side));
@@ -44,7 +44,7 @@ export function zoomed(camera: Camera, factor: number, pixel: Pair = middleOf(ca
   return { ...camera, pixel_spacing: spacing, center: add(camera.center, shift) };
 }
 
-/** The same view in another number of pixels; as much of the scene is seen along the shorter side. */
+/** The same view in another number of pixels; the shorter side keeps its extent. */
 export function resized(camera: Camera, size: Pair): Camera {
   const sides = (pixels: Pair) => Math.max(Math.min(pixels[0], pixels[1]), 1);
   return { ...camera, size, pixel_spacing: (camera.pixel_spacing * sides(camera.size)) / sides(size) };

@@ -1,4 +1,4 @@
-/** Typed errors of the page: what was found, what was expected, and what mends it. */
+/** Typed errors of the page: what was found, what was expected, and the remedy. */
 import { type Mend, type MendName, mendWords } from './mends';
 import type { Vector } from './messages';
 
@@ -43,7 +43,7 @@ export interface More {
 /** Kind of a crash of the module; afterwards the module answers nothing. */
 export const CRASH = 'crash';
 
-/** An error with advice and with mends, which the page words by their names. */
+/** An error with advice and with remedies, which the page words by their names. */
 export class Failure extends Error {
   readonly mends: readonly Mend[];
   readonly series: readonly SeriesChoice[];
@@ -91,7 +91,7 @@ export class Failure extends Error {
     return new Failure('unexpected', 'the page', text, 'no error', 'reload the page and open the scan again');
   }
 
-  /** Advice and mends in words; empty if none is known. */
+  /** Advice and remedies in words; empty if none is known. */
   get mending(): string {
     return mending(this.advice, this.mends);
   }

@@ -1,4 +1,4 @@
-/** The mends of failures: names shared by all hosts, and their wording in the page. */
+/** The remedies of failures: names shared by all hosts, and their wording in the page. */
 
 /** In the order of the crates. */
 export const MEND_NAMES = [

@@ -1,6 +1,6 @@
 /** Answers take precedence over views: they stop the current view, which restarts afterwards. */
 
-/** How long an answer waits for a view that changes, which is usually fast (ms). */
+/** How long an answer waits for a moving view, which usually finishes soon (ms). */
 const PATIENCE = 60;
 /** After this many stopped views in a row the next one runs to completion. */
 const MOST_STOPS = 6;

@@ -23,7 +23,7 @@ export const refusal = signal<Refusal | null>(null);
 export const searches = signal(0);
 const SEARCHES: readonly Edit['kind'][] = ['add_branches', 'find_vessels', 'add_mask'];
 
-/** Result of the last edit the engine made, even if dropped since; it saves a second request for the tree. */
+/** The last edit of the engine, even if dropped since; it saves a second request for the tree. */
 export const answered = signal<AfterEdit | null>(null);
 
 /** Progress is shown after this time (ms). */

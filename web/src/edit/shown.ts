@@ -14,7 +14,7 @@ import { answered, dropEdits } from './committing';
 /** Displayed vessels, in the order of `store.report`. */
 export const tree = signal<readonly DocumentVessel[]>([]);
 
-/** Key of all lines that vessels are measured among, including hidden ones. */
+/** Key of all lines that affect measurements, including hidden ones. */
 export const listedLines = signal('');
 const linesOf = (vessels: readonly DocumentVessel[]): string =>
   listOf(vessels)

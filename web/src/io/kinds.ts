@@ -57,7 +57,7 @@ function ofBytes(head: Uint8Array, name: string): Kind | null {
 
 type FileKind = Omit<Known, 'source'>;
 
-const NOTHING: FileKind = { kind: 'other', words: 'a file of no known format', mend: '' };
+const NOTHING: FileKind = { kind: 'other', words: 'a file of unknown format', mend: '' };
 
 function ofText(head: Uint8Array): FileKind | null {
   const text = new TextDecoder('latin1')

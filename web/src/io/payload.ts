@@ -1,4 +1,4 @@
-/** Voxels as bytes: plain, compressed or as text, never more memory than the file really fills. */
+/** Voxels as bytes (plain, compressed or text), without more memory than the file really fills. */
 import { EVERY_SECOND } from '../core/mends';
 import { inflated } from './inflating';
 import { ARRAYS, bytesOf, isInteger, type Kind, limits } from './numbers';
@@ -23,7 +23,7 @@ export type Bytes = Uint8Array<ArrayBuffer>;
 const CHUNK = 1 << 20;
 /** No byte of a deflate stream becomes more bytes than this. */
 const DEFLATE_LIMIT = 1032;
-/** Sizes up to this many times the compressed file need no proof before memory is taken. */
+/** Sizes up to this multiple of the compressed file need no check before memory is allocated. */
 const TRUSTED = 8;
 /** WebAssembly has no more memory than this. */
 const MEMORY = 2 ** 32;
@@ -34,7 +34,7 @@ interface Kept extends Place {
   readonly share: number;
 }
 
-/** Refuses a size that the file does not fill, before the memory for it is taken. */
+/** Rejects a size that the file does not fill, before allocating its memory. */
 export async function requireRoom(place: Kept, needed: number, kind: Kind, steps: Steps): Promise<void> {
   const { source, codec, share } = place;
   const held = Math.max(source.size - Math.max(place.start, 0), 0);
@@ -62,7 +62,7 @@ function refuseShort(source: Source, held: number, needed: number): void {
   }
 }
 
-/** Unpacks a stream that would have to grow much once only to count it. */
+/** Counts the bytes of a stream that would grow much, by unpacking it once. */
 async function count(place: Place, needed: number, steps: Steps): Promise<void> {
   for await (const piece of voxelBytes({ ...place, skip: 0 }, place.skip + needed, 'uint8')) {
     await steps.step('Checking the volume', piece.length, null);
@@ -127,7 +127,7 @@ async function* parsedText(
   }
 }
 
-/** The words of a text, of some of its bytes at a time. */
+/** The words of a text, read in pieces. */
 async function* wordsOf(source: Source, start: number): AsyncGenerator<string[]> {
   let begun = '';
   for (let at = start; at < source.size; at += CHUNK) {

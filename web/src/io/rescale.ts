@@ -1,5 +1,5 @@
-/** Stored numbers become values of the volume: integers stay integers wherever the engine has a type for them. */
-import {
+/** Scales stored numbers to values of the volume; integers stay integers if the engine has a type for them.
+ */ import {
   ARRAYS,
   bytesOf,
   holding,
@@ -18,7 +18,7 @@ export interface Scaling {
 
 export const UNSCALED: Scaling = { slope: 1, intercept: 0 };
 
-/** How the bytes of a file become those of the engine. */
+/** Conversion of bytes of a file to those of the engine. */
 export interface Conversion {
   /** The type that the engine gets. */
   readonly kind: Kind;
@@ -35,12 +35,12 @@ export function isIntegral({ slope, intercept }: Scaling): boolean {
   return Number.isInteger(slope) && Number.isInteger(intercept);
 }
 
-/** Whether the type of the result depends on the values that there are. */
+/** Whether the type of the result depends on the actual values. */
 export function needsRange(stored: Kind, scaling: Scaling): boolean {
   return isScaled(scaling) && isInteger(stored) && isIntegral(scaling);
 }
 
-/** The type that scaled numbers have in Python, where the smallest and the largest are known. */
+/** The type of scaled numbers in Python, given the smallest and the largest. */
 export function scaledKind(stored: Kind, scaling: Scaling, range: readonly [number, number] | null): Kind {
   if (!isScaled(scaling)) {
     return stored;
@@ -64,7 +64,7 @@ export function scaled(numbers: Numbers, { slope, intercept }: Scaling, kind: Ki
   return result;
 }
 
-/** How a file's bytes become those of the engine; `range` is asked for where `needsRange` says so. */
+/** Converts a file's bytes to those of the engine; `range` is required if `needsRange` is true. */
 export function conversion(
   stored: StoredKind,
   scaling: Scaling,

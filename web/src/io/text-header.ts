@@ -1,9 +1,9 @@
-/** What headers that are text have in common. */
+/** Parts shared by readers of text headers. */
 import { Failure } from '../core/failure';
 import { type Beside, besidePath, type Source } from './source';
 import { formatFailure, shown } from './words';
 
-/** A line of a header as UTF-8 unless it cannot be: names of files have letters of either kind. */
+/** A line of a header as UTF-8, or as Latin-1 if it is invalid, since file names may use either. */
 export function decoded(line: Uint8Array): string {
   try {
     return new TextDecoder('utf-8', { fatal: true }).decode(line);
@@ -34,7 +34,7 @@ export function wordsOf(text: string): string[] {
 export async function dataFile(header: Source, name: string, field: string, beside: Beside): Promise<Source> {
   const parts = name.split(/[\\/]+/).filter((part) => part !== '.' && part !== '');
   if (parts.length === 0 || name !== shownWhole(name)) {
-    throw formatFailure(header.path, `no file's name in ${field}`, 'the name of a file beside the header');
+    throw formatFailure(header.path, `no file name in ${field}`, 'the name of a file next to the header');
   }
   if (/^([\\/~]|[a-z]:)/i.test(name) || parts.includes('..')) {
     const found = `${field}: a path that leaves the folder (${shown(name)})`;

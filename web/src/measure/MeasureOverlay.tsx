@@ -11,7 +11,7 @@ import { PlaceHandles } from './PlaceHandles';
 import { RulerLayer } from './RulerLayer';
 import { centerAt, seenNearest } from './sections';
 
-/** Points closer to a slice than this lie in it (mm). */
+/** Points closer to a slice than this count as in it (mm). */
 const IN_SLICE = 1;
 
 export function TurningMeasures({ camera }: { readonly camera: Camera }) {

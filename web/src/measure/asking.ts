@@ -52,7 +52,7 @@ export function useMeasuring(): void {
     if (vessel && profile && marks) {
       latest.current.run(async () => {
         const found = await asked(vessel.line, profile, marks).catch(unlessGone);
-        // The pick may have changed meanwhile.
+        // The picked vessel may have changed meanwhile.
         if (found && currentVessel.value?.line === vessel.line) {
           answers.value = found;
         }

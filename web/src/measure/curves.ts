@@ -2,7 +2,7 @@
 import type { Profile } from '../core/messages';
 import { type Axis, pixelAt } from './scale';
 
-/** Half width of the band in standard deviations. */
+/** Half width of the uncertainty band in standard deviations. */
 export const DEVIATIONS = 2;
 const AXIS_HEADROOM = 1.12;
 

@@ -4,7 +4,7 @@ import type { Axis } from './scale';
 
 /** Narrowest and widest strip (mm). */
 const WIDTHS: Pair = [12, 90];
-/** Smallest visible share of the fitting width. */
+/** Smallest shown share of the width that fits the sections. */
 const MIN_FITTING_SHARE = 0.6;
 const FINEST = 0.05;
 

@@ -29,7 +29,7 @@ export interface SectionNumbers {
   readonly area: number | null;
   readonly counts: boolean;
   readonly flags: readonly string[];
-  /** What calcium or metal leaves uncertain, in words. */
+  /** The uncertainty due to calcium or metal, in words. */
   readonly bounds: string | null;
 }
 

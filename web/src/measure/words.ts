@@ -28,7 +28,7 @@ export function area(value: number | null): string {
   return value === null ? NOTHING : `${value.toFixed(1)}${unit('mm²')}`;
 }
 
-/** Engine text, without units if lengths have none. */
+/** Text of the engine, without " mm" and " mm²" if the scan has no known length unit. */
 export function withKnownUnits(words: string): string {
   return hasMillimetres.value ? words : words.replaceAll(' mm²', '').replaceAll(' mm', '');
 }

@@ -7,7 +7,7 @@ export async function copyWords(words: string): Promise<void> {
   showMessage('The sentence is copied');
 }
 
-/** The picture may still be pending, as the clipboard API allows. */
+/** Copies a picture that may still be pending, as the clipboard API allows. */
 export async function copyPicture(picture: Promise<Blob>): Promise<void> {
   await copied(() => navigator.clipboard.write([new ClipboardItem({ 'image/png': picture })]));
   showMessage('The picture is copied');

@@ -46,7 +46,7 @@ export async function keyPicture(finding: Finding): Promise<Blob> {
   const canvas = await keyImage(finding);
   const blob = await new Promise<Blob | null>((resolve) => canvas.toBlob(resolve, 'image/png'));
   if (!blob) {
-    throw new Failure('picture', 'key image', 'no PNG', 'a browser that writes one', 'close other pages');
+    throw new Failure('picture', 'key image', 'no PNG', 'a browser that can write PNG', 'close other pages');
   }
   return blob;
 }

@@ -83,7 +83,7 @@ async function requestOf(study: PacsStudy): Promise<object> {
   };
 }
 
-/** Identifies a scan without naming anyone. */
+/** Identifies a scan without naming a person. */
 function fingerprint(): string {
   const volume = store.report.value?.volume;
   return JSON.stringify([volume?.size, volume?.world_from_index, store.histogram.value]);

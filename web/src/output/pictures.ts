@@ -20,7 +20,13 @@ export async function composed(labels: 'labels' | 'plain'): Promise<HTMLCanvasEl
   [canvas.width, canvas.height] = [shown.width, shown.height];
   const context = canvas.getContext('2d');
   if (!context) {
-    throw new Failure('picture', 'picture', 'no canvas', 'a browser that can draw', 'close other pages');
+    throw new Failure(
+      'picture',
+      'picture',
+      'no canvas',
+      'a browser that can create a canvas',
+      'close other pages',
+    );
   }
   context.filter = store.isInverted.value ? 'invert(1)' : 'none';
   context.drawImage(shown, 0, 0);

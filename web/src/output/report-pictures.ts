@@ -30,7 +30,13 @@ export function canvasOf(width: number, height: number): [HTMLCanvasElement, Can
   [canvas.width, canvas.height] = [width, height];
   const context = canvas.getContext('2d');
   if (!context) {
-    throw new Failure('picture', 'report', 'no canvas', 'a browser that can draw', 'close other pages');
+    throw new Failure(
+      'picture',
+      'report',
+      'no canvas',
+      'a browser that can create a canvas',
+      'close other pages',
+    );
   }
   return [canvas, context];
 }

@@ -20,7 +20,7 @@ export async function saveReport(): Promise<void> {
   const findings = reported();
   if (findings.length === 0) {
     const mend = 'press m to measure the picked vessel, or include a finding';
-    throw new Failure('picture', 'report', 'no measured vessel', 'one', mend);
+    throw new Failure('picture', 'report', 'no measured vessel', 'a measured vessel', mend);
   }
   const html = await reportOf(findings);
   const name = fileName({ scan: namedScan(), content: 'report', ending: 'html' });

@@ -14,7 +14,13 @@ import { studyFileName } from './study-file-names';
 export async function saveNumbers(kind: 'csv' | 'json'): Promise<void> {
   const vessels = measuredVessels();
   if (vessels.length === 0) {
-    throw new Failure('picture', kind, 'no measured vessel', 'one', 'press m to measure the picked vessel');
+    throw new Failure(
+      'picture',
+      kind,
+      'no measured vessel',
+      'a measured vessel',
+      'press m to measure the picked vessel',
+    );
   }
   const asked = { vessels, is_millimetre_assumed: isMillimetreAssumed.value };
   const text = await (kind === 'csv'

@@ -14,7 +14,7 @@ export function changed(document: Document, id: number, to: Partial<DocumentVess
     : document;
 }
 
-/** Unchanged parts, or an unchanged document, keep their identity. */
+/** Parts without changes, or the whole document, keep their object identity. */
 export function afterEdit(now: Document, { document, without_marks: lost }: Edited): Document {
   const vessels = kept(now.vessels, document.vessels);
   const stoppers = kept(now.stoppers, document.stoppers);

@@ -9,7 +9,7 @@ import * as store from './store';
 /** Duration (ms). */
 const FLIGHT = 400;
 
-/** Number of views requested: one per frame at 120 Hz. */
+/** Number of views of a flight: one per frame at 120 Hz. */
 const VIEWS = 49;
 
 /** Destination of the current flight. */

@@ -1,7 +1,7 @@
 /** Cleaning up a tree: the limits for marking vessels, and the highlighted row. */
 import { signal } from '@preact/signals';
 
-/** Vessels below these (mm) are marked; 0 marks none. */
+/** Vessels below these limits (mm) are marked; 0 marks none. */
 export const shorterThan = signal(0);
 export const thinnerThan = signal(0);
 

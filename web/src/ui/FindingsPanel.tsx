@@ -88,7 +88,11 @@ function FindingPart({ finding }: { readonly finding: Finding }) {
       {sentences ? sentences.map((one) => <Words key={one.words} sentence={one} />) : <Pending line={line} />}
       {sentences && <KeyImage finding={finding} name={name} />}
       <div class="buttons">
-        <button type="button" title="Moves section and view there" onClick={() => show(finding)}>
+        <button
+          type="button"
+          title="Moves the section and the view to this finding"
+          onClick={() => show(finding)}
+        >
           Show
         </button>
         <button

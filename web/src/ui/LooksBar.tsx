@@ -52,7 +52,7 @@ function StentButton() {
     <button
       type="button"
       aria-pressed={isStentShown.value}
-      title="Shows the cut through the vessels in a wide window, which separates stent struts from the lumen"
+      title="Shows the cut in a wide window, which separates stent struts from the lumen"
       onClick={chooseStent}
     >
       Stent

@@ -1,4 +1,4 @@
-/** Buttons for the mends of a failure that the page can carry out. */
+/** Buttons for the remedies of a failure that the page can carry out. */
 import type { Failure, SeriesChoice } from '../core/failure';
 import { type Mend, type MendName, readingWords } from '../core/mends';
 import type { SeriesWish } from '../core/messages';
@@ -12,7 +12,7 @@ const NONE = (): readonly Button[] => [];
 const spaces = ({ values }: Mend): readonly Button[] =>
   values.map((space) => [`Read as ${space.toUpperCase()}`, { coordinates: space }]);
 
-/** No buttons for series, chosen from a list, nor for gaps, bridged in the tool. */
+/** No buttons for series, which are chosen from a list, nor for gaps, which the tool bridges. */
 const BUTTONS: Record<MendName, (mend: Mend) => readonly Button[]> = {
   bridge: NONE,
   every_second: () => [['Load every second voxel along each axis', { every_second: true }]],

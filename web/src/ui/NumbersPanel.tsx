@@ -73,7 +73,7 @@ function Blur({ fwhm, source }: { readonly fwhm: number; readonly source: string
     <section aria-label="Blur of the scan">
       <h3>Blur of the scan</h3>
       <p>{`FWHM of the point spread function: ${mm(fwhm)}, ${source}.`}</p>
-      <label title="Enter the FWHM if you know it; leave it empty to use the estimate">
+      <label title="Enter the FWHM if you know it; if empty, the estimate is used">
         Known FWHM
         <input
           class="number"

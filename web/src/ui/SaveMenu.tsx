@@ -23,7 +23,7 @@ export function SaveMenu() {
         {(isMeasured || listedFindings.value.length > 0) && <Report />}
         <Choice
           words="For PACS (DICOM, zip)"
-          title="Pictures, report and numbers for the study of the scan, in a zip archive; nothing is sent"
+          title="Pictures, report and measurements as DICOM objects of the scan's study, in a zip archive; nothing is sent"
           save={askForPacs}
         />
         <Choice

@@ -11,7 +11,7 @@ export function ScanNamed() {
           isScanNamed.value = event.currentTarget.checked;
         }}
       />
-      with the name of the scan
+      include the name of the scan
     </label>
   );
 }

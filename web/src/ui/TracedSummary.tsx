@@ -12,7 +12,7 @@ export function TracedSummary() {
   return tracedSummary.value && <Summary key={tracedSummary.value.words} summary={tracedSummary.value} />;
 }
 
-/** Shows one doubt at a time, since the bar has two lines. */
+/** Shows one doubt at a time, since the bar has room for two lines. */
 function Summary({ summary: { vessel, words, doubts } }: { readonly summary: Told }) {
   const number = useSignal(0);
   const doubt = doubts[number.value];

@@ -182,7 +182,7 @@ function VesselActions({ vessel }: RowProps) {
     <div class="buttons">
       <BestViewButton />
       {vessel.clicks && (
-        <button type="button" title="Adds points at its end" onClick={goOn}>
+        <button type="button" title="Adds points at the end of this vessel" onClick={goOn}>
           Extend
         </button>
       )}

@@ -9,7 +9,7 @@ import { pickedVessel } from '../state/store';
 import { type Disc, hullPath, thinned } from './hull';
 import type { Projection } from './projection';
 
-/** Distance of the outline from the wall (CSS pixels). */
+/** Distance of the outline from the vessel wall (CSS pixels). */
 const GAP = 2;
 const WIDTH = 2;
 const DEFAULT_RADIUS_MM = 1;

@@ -22,7 +22,7 @@ interface OverProps {
 export function VesselCurves({ projection }: OverProps) {
   const isOn = isTracing();
   const picked = tree.value[pickedVessel.value ?? -1]?.id;
-  // In a cut, curves would hide the vessels.
+  // In the cut, curves would hide the vessels.
   const isSeen = (vessel: DocumentVessel) =>
     vessel.id === highlighted.value ||
     (!vessel.isHidden &&

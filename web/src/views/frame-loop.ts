@@ -22,12 +22,12 @@ const SAMPLED_WITHIN = 700;
 type Stage = 'moving' | 'full' | 'samples' | 'done';
 
 export interface Shown {
-  /** The request, before its resolution was adapted. */
+  /** The requested view, before its resolution was adapted. */
   readonly wanted: View;
   readonly view: View;
   readonly drawn: Drawn;
   readonly stage: Stage;
-  /** Whether this completes a view that is still current. */
+  /** Whether this picture completes a view that is still current. */
   readonly isLast: boolean;
 }
 
@@ -37,9 +37,9 @@ export class FrameLoop {
   private stage: Stage = 'done';
   private isBusy = false;
   private isStopped = false;
-  /** The device changed during a frame: its result and failure are ignored. */
+  /** Whether the device changed during a frame, whose result and failure are then ignored. */
   private isOutdated = false;
-  /** The next frame at rest is the first of a device and includes shader compilation. */
+  /** Whether the next frame at rest is the first of a device, which includes shader compilation. */
   private isFirst = false;
   private factor = 1;
   private gaveWay = 0;
@@ -168,7 +168,7 @@ export class FrameLoop {
     }
   }
 
-  /** After a view was stopped by a newer one, or for an answer. */
+  /** Called after a view was stopped by a newer one, or for an answer. */
   private tryAgain(stage: Stage): void {
     if (stage === 'moving') {
       this.factor = Math.max(COARSEST, this.factor / 2);

@@ -161,7 +161,7 @@ async function lookUnder(view: Pointed, at: Pair): Promise<void> {
 
 const placeOf = (place: Pick | Vector): Vector => ('point' in place ? place.point : place);
 
-/** The pointer left, or the content under it moved. */
+/** Called when the pointer left, or the content under it moved. */
 export function forgetPointer(): void {
   pointed.value = null;
   lastPointer = null;

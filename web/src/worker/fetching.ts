@@ -205,7 +205,7 @@ async function readVoxels(
   }
 }
 
-/** Adds the server's explanation to a stream that ended early. */
+/** Throws the error of a stream that ended early, with the server's explanation. */
 async function refuseShort(
   address: string,
   signal: AbortSignal,

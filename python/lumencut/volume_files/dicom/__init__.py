@@ -36,7 +36,7 @@ def open_dicom(path: Path, wanted: Wanted, progress: Progress) -> VolumeFile:
 
 
 def opened(path: Path, wanted: Wanted, read: Callable[[list[str]], Sequence[File]]) -> VolumeFile:
-    """Make one volume of the files that `read` gives, which takes the notes; `path` names them."""
+    """Make one volume of the files that `read` returns, given a list for notes; `path` names them."""
     notes: list[str] = []
     remarks: list[str] = []
     with refusing(path, "DICOM", notes):

@@ -1,4 +1,4 @@
-"""Datasets of pydicom in memory, as the images that files of them would be."""
+"""Datasets of pydicom in memory, read as if they were files."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _PIXELS = ("PixelData", "FloatPixelData", "DoubleFloatPixelData")
 
 @dataclass(frozen=True, eq=False)
 class _Held(Source):
-    """The pixels of a dataset instead of a file; its first byte is the first of them."""
+    """The pixels of a dataset instead of a file; they begin at its first byte."""
 
     number: int = 0
     pixels: bytes = b""
@@ -58,8 +58,8 @@ def open_datasets(datasets: Sequence[Any]) -> VolumeFile:
     Parameters
     ----------
     datasets : sequence of pydicom.Dataset
-        Read with their pixels, in any order. Where they are of several series the only one is taken that can
-        be an angiography.
+        Read with their pixels, in any order. Of several series, the only one that can be an angiography is
+        used.
 
     Raises
     ------
@@ -105,7 +105,7 @@ def _chosen(dataset: Any, tags: Sequence[int]) -> Header:
 
 
 def _header(dataset: Any) -> Header:
-    """The attributes that files are asked for; a dataset that was never in a file says less of itself."""
+    """The attributes that are read from files; a dataset that was never in a file has fewer."""
     from pydicom.dataset import FileMetaDataset
 
     header = _chosen(dataset, header_tags())

@@ -42,7 +42,7 @@ def decode_frame(subject: str, syntax: str, frame: bytes, options: dict[str, Any
         return _decoded(syntax, frame, options)
     except ImportError:
         raise
-    except Exception:  # decoders raise nearly all there are, with words for programmers
+    except Exception:  # decoders raise almost any exception, with messages for programmers
         found, expected = "damaged pixels", "pixels that can be decoded"
         raise FormatError(subject, found, expected, "copy the file again") from None
 
@@ -62,7 +62,7 @@ def _decoded(syntax: str, frame: bytes, options: dict[str, Any]) -> npt.NDArray[
 
 
 def _jpeg_of_12_bits(frame: bytes, options: dict[str, Any]) -> npt.NDArray[Any]:
-    """Decode JPEG Extended beyond 8 bits, which GDCM can and pydicom's way to it cannot."""
+    """Decode JPEG Extended beyond 8 bits, which GDCM can decode, but not through pydicom."""
     import gdcm
 
     fragment = gdcm.Fragment()
@@ -88,7 +88,7 @@ def _jpeg_of_12_bits(frame: bytes, options: dict[str, Any]) -> npt.NDArray[Any]:
 
 
 def _require_codestream(subject: str, frame: bytes, options: dict[str, Any]) -> None:
-    """Reject a codestream of another size than the header's before its decoder sets memory aside."""
+    """Reject a codestream of another size than the header's before its decoder allocates memory."""
     start = frame.find(_SIZ_MARKER)
     fields = frame[start + 8 : start + 42]
     if start < 0 or len(fields) < 34:

@@ -36,7 +36,7 @@ def read_files(path: Path, notes: list[str], progress: Progress | None = None) -
 
 
 def recorded(source: Source, image: Image | None) -> File:
-    """Give a file its record, for which every value of its header is read."""
+    """Add the record to a file; this reads every value of its header."""
     if image is None:
         return File(source, None, {"name": source.name, "kind": not_dicom(source)})
     return File(source, image, {"name": source.name, "header": header_record(image)})

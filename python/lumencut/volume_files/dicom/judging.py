@@ -68,7 +68,7 @@ def _plan(path: Path, files: Sequence[File], wanted: Wanted, unlike: Sequence[Re
 
 
 def _unlike(plan: Record, files: Sequence[File], notes: list[str]) -> list[Record]:
-    """The pairs of a plan that it takes for one slice, and whose values differ."""
+    """The pairs of a plan that count as one slice although their values differ."""
     pairs = plan["compared"]
     slices = [(_slice(files, pair["kept"]), _slice(files, pair["other"])) for pair in pairs]
     return [pair for pair, is_same in zip(pairs, same_values(slices, notes), strict=True) if not is_same]
@@ -91,7 +91,7 @@ def described(path: Path, files: Sequence[File]) -> list[SeriesReport]:
 
 
 def headers_document(files: Sequence[File], unlike: Sequence[Record] = ()) -> bytes:
-    """Give the headers of files as the core takes them, with the pairs whose values were found to differ."""
+    """Return the headers of files in the form of the core, with the pairs whose values differ."""
     records = [file.record for file in files]
     syntaxes = [*NATIVE, *PLUGINS]
     return _document({"transfer_syntaxes": syntaxes, "files": records, "unlike": list(unlike)})
@@ -99,7 +99,7 @@ def headers_document(files: Sequence[File], unlike: Sequence[Record] = ()) -> by
 
 def wanted_document(wanted: Wanted) -> bytes:
     """Return the choice in the form of the core."""
-    # Segments are no matter of series, which the core judges.
+    # The core checks only series, which have no segments.
     return _document({name: value for name, value in asdict(wanted).items() if name != "segments"})
 
 

@@ -21,11 +21,11 @@ from lumencut.volume_files.dicom.workers import Request, Workers
 from lumencut.volume_files.opened import refusing
 
 _ALWAYS_ALLOWED = 16 << 20
-"""Bytes that any frame may become: an empty one of 2048 × 2048 pixels is packed to a hundred bytes."""
+"""Bytes always allowed per frame: an empty one of 2048 × 2048 pixels is packed to a hundred bytes."""
 _COMPRESSION_LIMIT = 10_000
-"""Beyond, no codec makes a real slice this much smaller; a header that claims more lies."""
+"""No codec compresses a real slice by this factor; a header that claims more is wrong."""
 _FEW = 40
-"""So many frames are decoded here about as fast as the first process starts."""
+"""Up to this number, frames are decoded here about as fast as the first process starts."""
 
 
 class PixelReader:
@@ -35,7 +35,7 @@ class PixelReader:
         self._slices, self._notes = iter(slices), notes
         self._last: _OpenImage | None = None
         self._workers: Workers | None = None
-        # To send what RLE unpacks would take longer than to unpack it.
+        # Sending unpacked frames of RLE between processes takes longer than unpacking them.
         packed = [one for one in slices if PLUGINS.get(one.image.transfer_syntax) in ("gdcm", "pylibjpeg")]
         if len(packed) > _FEW or any(PLUGINS[one.image.transfer_syntax] == "gdcm" for one in packed):
             self._workers = Workers(map(self._request, packed), len(packed) // 8 + 1)
@@ -127,7 +127,8 @@ class _OpenImage:
             if held < length * image.frame_count:
                 raise _too_short(image, held)
             return decode_native(syntax, self.stream, frame, options)
-        # Frames in their order pass by; those in another order, or of odd lengths, are held all together.
+        # Frames in order are read one by one; those in another order, or of odd lengths, are all kept in
+        # memory.
         if self._held is None and frame == self._next and length % 2 == 0:
             self._next += 1
             return decode_native(syntax, self._read(length, 1), 0, options | {"number_of_frames": 1})
@@ -138,7 +139,7 @@ class _OpenImage:
 
     def _read(self, needed: int, frames: int) -> bytes:
         """The bytes of some frames of a packed file; after the last one the checksum is verified."""
-        # An odd number of bytes is followed by one that fills it up.
+        # An odd number of bytes is padded by one.
         pixels = self.stream.read(needed + needed % 2)
         if len(pixels) < needed:
             raise _too_short(self.image, len(pixels))

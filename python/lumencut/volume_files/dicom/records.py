@@ -17,7 +17,7 @@ Record = dict[str, Any]
 
 
 def header_record(image: Image) -> Record:
-    """Give a header as a record; every value is read, and one that is damaged raises what pydicom raises."""
+    """Return a header as a record; every value is read, and damaged values raise errors of pydicom."""
     header, keywords = image.header, _keywords()
     attributes = {}
     for tag in tuple(header.keys()):
@@ -109,5 +109,5 @@ def _of_group(group: Header, tag: int) -> Any:
     """A value of a functional group, true if damaged; the judge reports it if needed."""
     try:
         return plain(group[tag].value)
-    except Exception:  # what pydicom raises for damaged values is nearly everything
+    except Exception:  # pydicom raises almost any exception for damaged values
         return True

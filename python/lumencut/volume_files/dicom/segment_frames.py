@@ -13,7 +13,7 @@ from lumencut._lumencut import dicom_directions
 from lumencut.errors import FormatError
 
 _EVEN = 0.05
-"""Places may be off the grid by this part of the distance of slices, or of pixels."""
+"""Largest offset of places from the grid, as a share of the distance of slices, or of pixels."""
 _PARALLEL = 1e-3
 _ONE_PLACE = 0.01
 """Frames closer than this (mm) are at one place."""

@@ -45,7 +45,7 @@ class Source:
 
     @property
     def is_packed(self) -> bool:
-        """Whether its bytes are unpacked as they are read, so that going back takes long."""
+        """Whether its bytes are unpacked as they are read, so that seeking backwards is slow."""
         return self.archive is not None
 
     def open(self) -> BinaryIO:
@@ -127,7 +127,7 @@ def _members(path: Path) -> list[Source]:
 
 @dataclass(frozen=True, eq=False)
 class Deflated(Source):
-    """The plain file that a file inflates to whose dataset is deflated."""
+    """The inflated form of a file whose dataset is deflated."""
 
     packed: Source | None = None
 
@@ -160,7 +160,7 @@ def is_deflated(head: bytes) -> bool:
 
 
 def inflated(source: Source) -> Deflated:
-    """Return the file that one inflates to whose dataset is deflated."""
+    """Return the inflated form of a file whose dataset is deflated."""
     return Deflated(source.path, _DEFLATE_LIMIT * source.size, source.member, packed=source)
 
 

@@ -23,7 +23,7 @@ class Slice:
 
 @dataclass(frozen=True)
 class Fill:
-    """A slice that none was measured for: (1 - part) · slice `before` + part · slice `after`."""
+    """An interpolated slice: (1 - part) · slice `before` + part · slice `after`."""
 
     k: int
     before: int

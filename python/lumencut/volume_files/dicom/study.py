@@ -48,7 +48,7 @@ def study_of(images: Sequence[Image]) -> Study:
 
 
 def _few(firsts: list[Image]) -> list[Image]:
-    """Some of the first images of series: where each image is its own series, all would take too long."""
+    """The first images of some series: if each image is its own series, reading all would take too long."""
     return firsts[:: -(-len(firsts) // _MOST_SERIES)]
 
 
@@ -62,15 +62,15 @@ def comments_of(image: Image) -> str:
     """Return the comments of an image, which may name a patient; empty if unreadable."""
     try:
         return str(image.source.attributes([_IMAGE_COMMENTS]).get("ImageComments") or "")
-    except Exception:  # what pydicom raises for damaged values is nearly everything
+    except Exception:  # pydicom raises almost any exception for damaged values
         return ""
 
 
 def study_below(path: str | os.PathLike[str]) -> Study:
     """Return the one study of all DICOM files below a folder, in a zip archive, or of a single file.
 
-    Its images are those of the scan where they belong to one series, else none: which series the scan is
-    cannot be told.
+    Its images are those of the scan if all belong to one series, else none, since the series of the scan is
+    unknown.
 
     Raises
     ------
@@ -128,7 +128,7 @@ def _box_in(header: Any, size: int) -> Box | None:
     image = Image(Source(Path("header"), size), header, 0, "", "")
     try:
         return box_of_slices([header_record(image)])
-    except Exception:  # what pydicom raises for damaged values is nearly everything
+    except Exception:  # pydicom raises almost any exception for damaged values
         return None
 
 
@@ -146,6 +146,6 @@ def _readable(header: Any) -> Any:
     for tag in sorted(set(_tags()) & set(header.keys())):
         try:
             kept[tag] = header[tag]
-        except Exception:  # what pydicom raises for damaged values is nearly everything
+        except Exception:  # pydicom raises almost any exception for damaged values
             continue
     return kept

@@ -1,4 +1,4 @@
-"""Packed bytes as a file that is read forwards: no more is unpacked than is asked for, none is kept."""
+"""Packed bytes as a file that is read forwards: only requested bytes are unpacked, and none are kept."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from lumencut.volume_files.room import require_memory
 _PIECE = 1 << 20
 _CHUNK = 1 << 16
 _BUFFER = 1 << 17
-"""So far parsers go back without that a stream begins again."""
+"""Distance that parsers can seek backwards without restarting a stream (bytes)."""
 TAIL = 1 << 20
-"""So much behind the pixels is read for the sake of a check sum at a near end."""
+"""Number of bytes read after the pixels to verify the checksum of a nearby end."""
 
 
 class Stream(Protocol):
-    """What unpacks."""
+    """An unpacker."""
 
     def read(self, size: int, /) -> bytes:
         """Return up to size bytes, none at the end."""
@@ -29,7 +29,7 @@ class Stream(Protocol):
 
 
 class BoundedFile(io.BufferedReader):
-    """A file that sets aside no more memory than it has bytes left, and than is available."""
+    """A file that allocates no more memory than it has bytes left, or than is available."""
 
     def __init__(self, raw: io.RawIOBase, size: int, subject: object) -> None:
         super().__init__(raw, _BUFFER)
@@ -44,12 +44,12 @@ class BoundedFile(io.BufferedReader):
 
 
 class Unpacked(io.RawIOBase):
-    """The bytes of a packed stream, which begins again where somebody goes back.
+    """The bytes of a packed stream, which restarts when a reader seeks backwards.
 
     Parameters
     ----------
     begin : callable
-        Gives the stream from its first byte on.
+        Returns the stream from its first byte.
     """
 
     name = ""

@@ -13,7 +13,7 @@ from lumencut.volume_files.dicom.decoding import decode_frame
 from lumencut.volume_files.opened import impersonal
 
 _MEMORY = 4 << 30
-"""Far above what one slice needs, far below what a damaged one may ask for."""
+"""Memory limit: far above the need of one slice, far below that of a damaged one."""
 
 
 def _limit_memory() -> None:

@@ -1,6 +1,6 @@
 """Decoders in separate processes, which work in parallel and may crash or hang without harm.
 
-GDCM, the only free decoder of lossless JPEG and JPEG-LS, brings its process down on some damaged files; no
+GDCM, the only free decoder of lossless JPEG and JPEG-LS, crashes its process on some damaged files; no
 decoder lets other threads of its process work meanwhile.
 """
 
@@ -29,7 +29,7 @@ _AHEAD = 2
 """Frames per process that are decoded before they are asked for."""
 _MOST = 4
 _START = "import sys; sys.path[:] = sys.argv[1:]; from lumencut.volume_files.dicom.worker import main; main()"
-"""Modules come from where ours came from: never from the current folder, which may be a stranger's."""
+"""Modules come from the same folders as ours, never from the current folder, which may be untrusted."""
 
 
 @dataclass(frozen=True)

@@ -73,7 +73,7 @@ export function decoderOf(name: CodecName): Promise<Decode> {
   return known;
 }
 
-/** Reloads the decoder for the next frame, since a failure leaves it in an unknown state. */
+/** Drops the decoder, since a failure leaves it in an unknown state; the next frame loads it again. */
 export function forgetDecoder(name: CodecName): void {
   loaded.delete(name);
 }

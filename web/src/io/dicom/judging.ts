@@ -27,7 +27,7 @@ export interface PlannedSlice {
   readonly intercept: number;
 }
 
-/** A slice that is kept, and its presumed copy. */
+/** The slice that is kept, and its presumed copy. */
 export interface Compared {
   readonly kept: PlannedSlice;
   readonly other: PlannedSlice;

@@ -14,7 +14,7 @@ export const TRANSFER_SYNTAXES: readonly string[] = [...NATIVE, RLE, ...Object.k
 
 /** Bytes always allowed per frame: an empty 2048 × 2048 frame compresses to a hundred bytes. */
 const ALWAYS_ALLOWED = 16 << 20;
-/** No codec compresses real slices more; a header that claims more is wrong. */
+/** No codec compresses real slices by this factor; a header that claims more is wrong. */
 const COMPRESSION_LIMIT = 10_000;
 
 /** Reads slices in sequence, and caches the last file. */
