@@ -56,7 +56,11 @@ def volume():
             CameraError,
             "lies in one row of the stretched",
         ),
-        ({"mode": "straightened", "normal": (0, 0, 1)}, CameraError, "normal of the CPR.*not parallel to the vessel"),
+        (
+            {"mode": "straightened", "normal": (0, 0, 1)},
+            CameraError,
+            "normal of the CPR.*not parallel to the vessel",
+        ),
         ({"mode": "straightened", "normal": (0, 0, 0)}, CameraError, "normal of the CPR"),
         ({"normal": (0, -1, 0)}, CameraError, "normal of the CPR: found a normal with the mode 'projected'"),
         ({"slab": 0}, SettingsError, "slab thickness: found 0 mm; expected a thickness above 0 mm"),
@@ -251,7 +255,10 @@ def test_a_path_leaves_a_whole_vessel_where_a_branch_begins_and_comes_back_to_it
 @pytest.mark.parametrize(
     ("ids", "words"),
     [
-        ([0, 2], "found a gap of 17 mm between vessel 0 and vessel 2; expected vessels in order along the path"),
+        (
+            [0, 2],
+            "found a gap of 17 mm between vessel 0 and vessel 2; expected vessels in order along the path",
+        ),
         (["trunk", 1, 3], "between vessel 1 and vessel 3"),
         ([], "found no vessels"),
         ([0, 1, 0], "found vessel 0 twice"),

@@ -282,9 +282,7 @@ def test_a_text_that_unpacks_to_more_than_memory_is_refused(tmp_path):
 
 def test_pictures_of_others_and_other_files(tmp_path):
     Image.new("RGB", (4, 3)).save(tmp_path / "bare.png")
-    with pytest.raises(
-        FormatError, match="without a description of its rendering; expected a PNG picture"
-    ):
+    with pytest.raises(FormatError, match="without a description of its rendering; expected a PNG picture"):
         read_recipe(tmp_path / "bare.png")
     for ending in ("jpg", "tif", "webp"):
         Image.new("RGB", (4, 3)).save(tmp_path / f"view.{ending}")

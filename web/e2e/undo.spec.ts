@@ -94,9 +94,7 @@ async function editMarks(): Promise<number> {
   await step(/choose the method/, () => numbers.getByLabel('Method').selectOption('ecst'));
   const original = numbers.getByLabel('Original diameter');
   await step(/give the original diameter/, () => original.fill('9').then(() => original.press('Enter')));
-  await step(/choose the severity group/, () =>
-    numbers.getByLabel('Severity group').selectOption('carotid'),
-  );
+  await step(/choose the severity group/, () => numbers.getByLabel('Severity group').selectOption('carotid'));
   await step(/stretch/, () => button(viewer, 'Mark a stretch').click());
   await step(/remove the reference/, () => button(viewer, 'Remove the reference after').click());
   await button(viewer, 'Ruler').click();
