@@ -170,7 +170,7 @@ def test_files(volume, tmp_path):
         arrays = dict(file)
     assert sorted(arrays) == ["arc_length", "folded", "image", "position", "value"]
     np.testing.assert_array_equal(arrays["position"], made.position)
-    with pytest.raises(FormatError, match="ending"):
+    with pytest.raises(FormatError, match="extension"):
         made.save(tmp_path / "one.txt")
     with pytest.raises(FileError):
         made.save(tmp_path / "nowhere" / "one.png")

@@ -201,7 +201,7 @@ CLAIMED = {
     "reads centerlines of 3D Slicer, VMTK and SimVascular": centerlines_of_others,
     "segmentations (DICOM SEG, `.seg.nrrd`, label maps) as masks": mask_takes_segmentations,
     "scans and results with a PACS over DICOMweb": has_commands("pull", "push"),
-    "many scans measured alike": has_commands("batch", "measure", "summarize"),
+    "many scans measured in the same way": has_commands("batch", "measure", "summarize"),
     "maps the thickness of calcium": lambda: '"thickness"' in source("python/lumencut/lumen_mapping.py"),
     "is not supported; DICOMweb is": has_commands("pull", "push"),
 }

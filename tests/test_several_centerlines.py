@@ -127,7 +127,7 @@ def test_a_file_that_states_no_space_beside_one_in_ras_is_told(tmp_path, caplog)
     ras = write_lines(tmp_path / "ras.vtk", bent_line() * (-1, -1, 1) + (0, 5, 0), title="SPACE=RAS")
     with caplog.at_level(logging.WARNING, "lumencut"):
         read_centerlines([silent, ras])
-    assert any("silent.vtk: taken as lps" in text and "ras.vtk is in ras" in text for text in caplog.messages)
+    assert any("silent.vtk: read as LPS" in text and "ras.vtk is in ras" in text for text in caplog.messages)
     caplog.clear()
     with caplog.at_level(logging.WARNING, "lumencut"):
         read_centerlines([silent, ras], "lps")
