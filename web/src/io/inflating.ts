@@ -3,7 +3,7 @@ import { Z_BUF_ERROR, Z_NO_FLUSH, Z_OK, Z_STREAM_END, ZStream, zlibInflate, zlib
 import type { Source } from './source';
 import { damaged } from './words';
 
-/** `wrapped` is gzip or zlib, detected by content. */
+/** `wrapped` is gzip or zlib, detected by content; `bare` is deflate without a header. */
 export type Wrapping = 'wrapped' | 'bare';
 
 const WINDOW_BITS: Readonly<Record<Wrapping, number>> = { wrapped: 47, bare: -15 };

@@ -24,7 +24,7 @@ export interface StoredKind {
 
 const OF_THE_ENGINE: readonly Kind[] = ['uint8', 'int16', 'uint16', 'float32'];
 
-/** Engine type for a file type: bytes exactly, wider numbers to 24 bits. */
+/** The engine's type for a file's type: exact for small integers; float32 (24 significant bits) for wider numbers. */
 export function inTheEngine(kind: Kind): Kind {
   return OF_THE_ENGINE.includes(kind) ? kind : kind === 'int8' ? 'int16' : 'float32';
 }

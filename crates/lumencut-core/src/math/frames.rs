@@ -73,7 +73,7 @@ pub struct Frames {
 }
 
 impl Frames {
-    /// The frame along a path that begins as `first`, whose tangent is that of the first segment.
+    /// The frame along `path`. It starts as `first`, whose tangent is that of the first segment.
     pub fn new(path: &CenterlinePath, first: MovingFrame) -> Self {
         let mut stations = vec![Station { at: 0.0, frame: first, turn: DVec3::ZERO }];
         for i in 1..path.direction().len() {

@@ -2,7 +2,7 @@
 // import math/blocks
 // import math/cell_walk
 
-// Parts of a ray that are followed together.
+// Number of parts of a ray that are followed together.
 const STRETCH: i32 = 8;
 
 // Number of stretches per partial sum: sums of few numbers lose fewer digits.

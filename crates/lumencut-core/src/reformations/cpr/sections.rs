@@ -8,7 +8,7 @@ use crate::math::centerline_path::CenterlinePath;
 use crate::math::frames::{Frames, MovingFrame, Station};
 use crate::math::same_place::ON_PICTURE;
 
-/// The largest number of bisections in the search for a section; so many reach the resolution of a number.
+/// The largest number of bisections in the search for a section; this many reach the resolution of an f64.
 const BISECTIONS: usize = 60;
 
 const MAX_TURN_RADIANS: f64 = 0.1;

@@ -77,7 +77,7 @@ const EVEN_AND_PALE: Shape =
 fn doubts_take_confidence_between_their_limits() {
     let even = EVEN_AND_PALE;
     assert_eq!(after(even, 3.0), (900, None));
-    // A doubt of 1.45 is halfway from 1.2 to 1.7.
+    // From doubt 1.2 to 1.7, confidence falls from 0.9 to 0; 1.45 is halfway.
     let flat = Shape { elongation: 1.2 + 0.7 * 1.45, ..even };
     assert_eq!(after(flat, 3.0), (450, Some(TrackDoubt::Flat)));
     let uneven = Shape { spread: 0.14 + 0.10 * 1.45, ..even };
