@@ -2,7 +2,7 @@
 
 Checks run in parallel lanes: the page is compiled while Rust is checked, since neither keeps both cores busy.
 The last line is ``N passed, N failed``: the tests of all languages; a red check without tests counts as one
-failed test. The script needs only Python itself. On two cores without a GPU it takes about 20 minutes.
+failed test. The script needs only Python itself. On two cores without a GPU it takes about 30 minutes.
 """
 
 from __future__ import annotations

@@ -169,7 +169,7 @@ def rows(text: str) -> list[str]:
 
 
 def words(text: str) -> int:
-    """The number of words; numbers and signs are none."""
+    """The number of words; numbers and signs do not count."""
     return sum(1 for word in text.split() if re.search(r"[^\W\d_]", word))
 
 
@@ -198,7 +198,7 @@ def long_sentences(texts: dict[str, str]) -> Iterator[Fault]:
 
 
 def repeated(texts: dict[str, str]) -> Iterator[Fault]:
-    """What a bad merge leaves: sentences and rows that stand twice, lines that start alike."""
+    """What a bad merge leaves: repeated sentences and rows, lines with the same start."""
     first: dict[str, str] = {}
     for name, text in texts.items():
         parts = [one for paragraph in paragraphs(text) for one in sentences(paragraph)]
@@ -206,7 +206,7 @@ def repeated(texts: dict[str, str]) -> Iterator[Fault]:
             if words(part) < REPEATED or name in SUMMARIES:
                 continue
             if part in first:
-                yield Fault(name, f"stands in {first[part]} too: {part}")
+                yield Fault(name, f"also appears in {first[part]}: {part}")
             first[part] = name
         for block in re.split(r"\n\s*\n", _FENCE.sub("", text)):
             every = block.splitlines()

@@ -64,12 +64,12 @@ def test_code_tables_headings_and_legal_texts_may_be_long(words, text):
 
 def test_leftovers_of_a_merge_are_found(words):
     sentence = "The renderer shows each of the vessels in its own colour."
-    assert "stands in a.md too" in said(words.repeated({"a.md": f"{sentence} More.", "b.md": sentence}))
-    assert "stands in a.md too" in said(words.repeated({"a.md": f"{sentence}\n\n* {sentence}"}))
+    assert "also appears in a.md" in said(words.repeated({"a.md": f"{sentence} More.", "b.md": sentence}))
+    assert "also appears in a.md" in said(words.repeated({"a.md": f"{sentence}\n\n* {sentence}"}))
     row = "| lines | the lines of each vessel with all their radii |\n"
-    assert "stands in a.md too" in said(words.repeated({"a.md": row + row}))
+    assert "also appears in a.md" in said(words.repeated({"a.md": row + row}))
     row = "lines | the lines of each vessel with all their radii\n"
-    assert "stands in a.md too" in said(words.repeated({"a.md": f"a | b\n---|---\n{row}{row}"}))
+    assert "also appears in a.md" in said(words.repeated({"a.md": f"a | b\n---|---\n{row}{row}"}))
     start = "(BSD-3-Clause) and SimpleITK (Apache-2.0) as oracles, the fuzz targets"
     texts = {"a.md": f"Tests use vtk\n{start} one of both\nand others\n{start} none of both\n"}
     assert "2 lines start with: (BSD-3-Clause) and SimpleITK" in said(words.repeated(texts))

@@ -11,7 +11,7 @@ use crate::spacing;
 use crate::value::Value;
 use crate::wording::{MENTIONED, counted, listed, quoted, shown};
 
-/// Attributes that may tell phases apart, the most reliable first.
+/// Attributes that may distinguish phases, the most reliable first.
 const PHASE_KEYWORDS: [Keyword; 17] = [
     Keyword::TemporalPositionIdentifier,
     Keyword::TemporalPositionIndex,

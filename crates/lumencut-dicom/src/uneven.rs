@@ -12,7 +12,7 @@ use crate::wording::{counted, rounded};
 
 /// Maximum number of slices of the grid, relative to that of the series.
 const MAX_GRID_RATIO: usize = 4;
-/// A distance that exceeds the distances beside it by this factor is a gap.
+/// A distance that exceeds the neighbouring distances by this factor is a gap.
 const GAP_RATIO: f64 = 3.0;
 /// Tolerance for rounding of step counts and equal distances (mm).
 const ROUNDING: f64 = 1e-6;

@@ -4,7 +4,7 @@ use crate::centerlines::{Centerlines, Line};
 
 /// Minimum length of a jump, as a multiple of the median step.
 const JUMP: f64 = 20.0;
-/// Minimum length of a jump relative to both steps beside it. Shorter ones only mean sparse points.
+/// Minimum length of a jump relative to both neighbouring steps. Shorter ones only mean sparse points.
 const LOCAL_JUMP: f64 = 5.0;
 /// Minimum number of points for which a median step is meaningful.
 const FEWEST_POINTS: usize = 8;

@@ -10,7 +10,7 @@ use crate::settings::{Context, ContextFrom, ContextMode, MAX_POINTS, Settings};
 /// The largest number of rises between the control points of a transfer function.
 const MAX_RISES: usize = MAX_POINTS - 1;
 const MAX_GAPS: usize = MAX_POINTS / 2 + 1;
-/// The largest number of block sizes; with so many, the largest block holds a volume of any size.
+/// The largest number of block sizes; with this many, the largest block holds a volume of any size.
 pub(crate) const MAX_BLOCK_LEVELS: usize = 16;
 
 /// Intensity change over two voxels (share of the window) that is half shaded: above noise, below borders.

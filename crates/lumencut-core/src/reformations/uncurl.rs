@@ -19,7 +19,7 @@ use crate::math::centerline_path::CenterlinePath;
 use crate::math::same_place::ON_PICTURE;
 use crate::stop::{Stop, filled};
 
-/// The largest number of bisections in the search for a foot; so many reach the resolution of a number.
+/// The largest number of bisections in the search for a foot; this many reach the resolution of a number.
 const BISECTIONS: usize = 60;
 
 /// One vessel, partly straightened, in the pixels of a camera.

@@ -123,7 +123,7 @@ fn ribs() -> Vec<Shape> {
     for (n, last) in [(0u8, 5usize), (1, 7), (2, 9), (3, 9), (4, 9), (5, 9)] {
         let top = 92.0 + 30.0 * f32::from(n);
         let knot = |i: usize| {
-            // A rib starts 0.2 rad beside the midline of the back and runs around to the front.
+            // A rib starts 0.2 rad from the midline of the back and runs around to the front.
             let turn = 0.2 + 0.27 * i as f32;
             let knot = [136.0 * turn.sin(), 3.0 + 89.0 * turn.cos(), top - 62.0 * (0.6 * turn).sin()];
             [knot[0], knot[1], knot[2], 5.2]

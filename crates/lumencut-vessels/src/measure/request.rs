@@ -19,7 +19,7 @@ pub struct MeasureRequest<'a> {
     pub wall: WallRequest,
     /// The tree of the vessel; the vessel itself may be part of it.
     pub tree: &'a [Vessel],
-    /// Called often; tells whether to stop.
+    /// Called often; returns whether to stop.
     pub stop: Stop<'a>,
 }
 

@@ -9,7 +9,7 @@ use crate::math::same_place::ON_PICTURE;
 use crate::reformations::cut_locus::MIN_DISTANCE_EXCESS;
 use crate::reformations::segments::Segments;
 
-/// The largest number of bisections in the search for a section; so many reach the resolution of a number.
+/// The largest number of bisections in the search for a section; this many reach the resolution of a number.
 const BISECTIONS: usize = 60;
 
 const MAX_MOVES: usize = 4;

@@ -64,7 +64,7 @@ impl<'a> LeapLines<'a> {
         })
     }
 
-    /// Lines cover a lumen only beside a leap to another lumen, along the row or column across the leap.
+    /// Lines cover a lumen only next to a leap to another lumen, along the row or column across the leap.
     fn cover_of_lumen(&self, here: PixelStep) -> f32 {
         let ends = |at: PixelStep, step| {
             let beyond = ahead(at, step);
@@ -91,7 +91,7 @@ impl<'a> LeapLines<'a> {
         let mut cover = 0f32;
         for down in -self.reach..=self.reach {
             for right in -self.reach..=self.reach {
-                // The pixel whose leaps these are: so many steps to the left of `here` and above it.
+                // The pixel whose leaps these are: that many steps to the left of `here` and above it.
                 let owner = [here[0] - right, here[1] - down];
                 let (bits, x, y) = (self.bits(owner), right as f32, down as f32);
                 if bits & TO_THE_RIGHT != 0 && self.shows_line_of(owner, [1, 0], right > 0) {

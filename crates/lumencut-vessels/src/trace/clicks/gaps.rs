@@ -17,7 +17,7 @@ const LONGEST_TURN: f64 = 1.2;
 /// Maximum length of a stretch (mm) that may be the wall between two vessels.
 const LONGEST_WALL: f64 = 5.0;
 
-/// Finds turns: directions beside a gap are taken between these distances from it (mm); cosine limit.
+/// Finds turns: directions next to a gap are taken between these distances from it (mm); cosine limit.
 struct Turn {
     beside: [f64; 2],
     least: f64,
