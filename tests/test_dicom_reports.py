@@ -21,6 +21,7 @@ from lumencut import (
     SettingsError,
     Vessel,
     VesselTree,
+    _lumencut,
     phantom,
 )
 from lumencut.dicom_objects import codes
@@ -86,9 +87,10 @@ def test_every_code_is_in_the_dictionary_of_the_standard():
         for name, one in vars(codes).items()
         if name.isupper() and isinstance(one, tuple) and len(one) == 3
     ]
-    used += [*codes.METHODS.values(), *codes.PROCEDURES.values(), *codes.SIDES.values()]
-    used += [one for _, one in codes._VESSELS]
-    assert len(used) > 40
+    used += [*codes.METHODS.values(), *codes.PROCEDURES.values()]
+    assert len(used) > 20
+    used += [one for name in _lumencut.VESSEL_NAMES for one in codes.site_of(name) if one is not None]
+    assert len(used) > 120
     assert [one for one in used if one[1] in ("DCM", "SCT") and one not in known] == []
 
 
@@ -232,6 +234,9 @@ def test_an_anonymous_report_names_nobody(tmp_path):
         ("abdominal aorta 12", "Abdominal aorta", None),
         ("coeliac trunk", "Celiac Axis", None),
         ("L CIA", "Common iliac artery", "Left"),
+        ("Left anterior tibial artery", "Anterior tibial artery", "Left"),
+        ("SFA r", "Superficial Femoral Artery", "Right"),
+        ("left aorta", None, None),
         ("Erica", None, None),
         ("aorta of Jane", None, None),
         ("left LAD", None, None),
@@ -241,6 +246,15 @@ def test_an_anonymous_report_names_nobody(tmp_path):
 def test_names_that_are_known_have_a_code(name, site, side):
     found = codes.site_of(name)
     assert tuple(None if one is None else one[2] for one in found) == (site, side)
+
+
+def test_every_name_that_the_viewer_offers_has_a_code_and_its_side():
+    for name in _lumencut.VESSEL_NAMES:
+        site, side = codes.site_of(name)
+        assert site is not None, name
+        is_single = site[2].startswith(("Left ", "Right ")) or name == "Left gastric artery"
+        is_sided = name.startswith(("Left ", "Right ")) and not is_single
+        assert (side is not None) == is_sided, name
 
 
 def test_what_cannot_be_reported_is_refused(tmp_path):

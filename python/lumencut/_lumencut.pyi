@@ -58,6 +58,7 @@ __all__ = [
     "SMALLEST_EXTENT",
     "STENOSIS_METHODS",
     "STENOSIS_TERRITORIES",
+    "VESSEL_NAMES",
     "VIEWS",
     "VIEW_METHODS",
     "WINDOW_PRESETS",
@@ -166,6 +167,7 @@ __all__ = [
     "trace_from",
     "trace_mask",
     "tree_findings",
+    "vessel_code",
     "vessels_csv",
     "vessels_json",
     "write_centerlines",
@@ -179,6 +181,7 @@ SETTINGS: dict[str, Setting]
 LOOKS: dict[str, dict[str, Any]]
 LOOK_SENTENCES: dict[str, str]
 PAPER: dict[str, Any]
+VESSEL_NAMES: list[str]
 WINDOW_PRESETS: list[tuple[str, str, tuple[float, float] | None]]
 
 @final
@@ -655,6 +658,7 @@ def trace_mask(
     lengths: tuple[float, float, float],
     callback: Callable[[int, int], object] | None = None,
 ) -> _TracedMask: ...
+def vessel_code(name: str) -> tuple[tuple[str, str], tuple[str, str] | None] | None: ...
 def vessels_csv(measured: list[_MeasuredParts]) -> str: ...
 def vessels_json(options: Mapping[str, Any], measured: list[_MeasuredParts]) -> str: ...
 def write_centerlines(vessels: list[_WrittenArrays], kind: str) -> bytes: ...

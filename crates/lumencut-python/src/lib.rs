@@ -37,6 +37,7 @@ mod tree_findings;
 mod uncurl;
 mod untangled;
 mod values;
+mod vessel_names;
 mod views;
 mod volume;
 mod wall_request;
@@ -138,6 +139,8 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(windows::find_window, module)?)?;
     module.add_function(wrap_pyfunction!(windows::context_window, module)?)?;
     windows::add_presets(module)?;
+    vessel_names::add_names(module)?;
+    module.add_function(wrap_pyfunction!(vessel_names::vessel_code, module)?)?;
     module.add_function(wrap_pyfunction!(placement::placement, module)?)?;
     module.add("REORDERED", lumencut::reordering::REORDERED)?;
     module.add_function(wrap_pyfunction!(centerlines::line_doubts, module)?)?;

@@ -58,6 +58,7 @@ pub mod turn;
 pub mod uncurling;
 pub mod value_colours;
 mod value_unit;
+pub mod vessel_names;
 pub mod vessel_views;
 pub mod views;
 pub mod window_presets;

@@ -1,20 +1,8 @@
-/** Vessel colours: first those of Okabe and Ito visible on dark. No yellow, orange or red, which signal warnings. */
+/** Vessel colours. */
+import { PALETTE } from '../core/generated/tables';
 import type { DocumentVessel } from '../core/messages';
 
-export const PALETTE: readonly (readonly [color: string, words: string])[] = [
-  ['#56b4e9', 'sky blue'],
-  ['#cc79a7', 'pink'],
-  ['#00b98a', 'green'],
-  ['#b18cff', 'violet'],
-  ['#8fdc6a', 'light green'],
-  ['#ffa6dc', 'rose'],
-  ['#3f6fe0', 'blue'],
-  ['#8ff0e8', 'turquoise'],
-  ['#c44df0', 'purple'],
-  ['#2f8f9f', 'teal'],
-  ['#9aa8b6', 'grey'],
-  ['#ffffff', 'white'],
-];
+export { PALETTE };
 
 export const DOUBTFUL = '#ffa500';
 

@@ -1,14 +1,24 @@
 //! Vessel colours of Okabe and Ito, in order of brightness on dark. Yellow, orange and red are omitted, since they mark warnings.
 
-/// Colours in the order in which vessels get them; hosts have names for them.
-pub(crate) const PALETTE: [&str; 12] = [
-    "#56b4e9", "#cc79a7", "#00b98a", "#b18cff", "#8fdc6a", "#ffa6dc", "#3f6fe0", "#8ff0e8", "#c44df0",
-    "#2f8f9f", "#9aa8b6", "#ffffff",
+/// Colours with their names, in the order in which vessels get them.
+pub(crate) const PALETTE: [(&str, &str); 12] = [
+    ("#56b4e9", "sky blue"),
+    ("#cc79a7", "pink"),
+    ("#00b98a", "green"),
+    ("#b18cff", "violet"),
+    ("#8fdc6a", "light green"),
+    ("#ffa6dc", "rose"),
+    ("#3f6fe0", "blue"),
+    ("#8ff0e8", "turquoise"),
+    ("#c44df0", "purple"),
+    ("#2f8f9f", "teal"),
+    ("#9aa8b6", "grey"),
+    ("#ffffff", "white"),
 ];
 
 pub(crate) fn next_color(taken: &[&str]) -> &'static str {
     let count = |color: &&str| taken.iter().filter(|taken| *taken == color).count();
-    PALETTE.into_iter().min_by_key(count).unwrap_or(PALETTE[0])
+    PALETTE.map(|(color, _)| color).into_iter().min_by_key(count).unwrap_or(PALETTE[0].0)
 }
 
 #[cfg(test)]
@@ -21,14 +31,14 @@ mod tests {
         for _ in 0..=PALETTE.len() {
             taken.push(next_color(&taken));
         }
-        assert_eq!(taken[..PALETTE.len()], PALETTE);
+        assert_eq!(taken[..PALETTE.len()], PALETTE.map(|(color, _)| color));
         assert_eq!(taken[PALETTE.len()], taken[0]);
     }
 
     #[test]
     fn a_color_that_no_vessel_has_any_longer_is_free_again() {
-        assert_eq!(next_color(&[PALETTE[0], PALETTE[2]]), PALETTE[1]);
-        assert_eq!(next_color(&["#123456"]), PALETTE[0]);
+        assert_eq!(next_color(&[PALETTE[0].0, PALETTE[2].0]), PALETTE[1].0);
+        assert_eq!(next_color(&["#123456"]), PALETTE[0].0);
     }
 
     /// Red, green and blue (0 to 1).
@@ -38,11 +48,11 @@ mod tests {
 
     #[test]
     fn no_color_is_one_that_warns_and_all_are_told_apart() {
-        for (n, color) in PALETTE.iter().enumerate() {
+        for (n, (color, _)) in PALETTE.iter().enumerate() {
             let [red, green, blue] = rgb(color);
             // In yellow, orange and red, blue is low relative to red.
             assert!(blue > 0.6 * red, "{color}");
-            for other in &PALETTE[..n] {
+            for (other, _) in &PALETTE[..n] {
                 let apart: f64 =
                     rgb(other).iter().zip([red, green, blue]).map(|(a, b)| (a - b).powi(2)).sum();
                 assert!(apart.sqrt() > 0.25, "{color} and {other}");

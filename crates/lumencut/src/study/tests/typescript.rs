@@ -3,13 +3,13 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::path::PathBuf;
 
 use lumencut_core::named::Named;
 use lumencut_vessels::measure::groups::Territory;
 use lumencut_vessels::measure::stenosis::Method;
 use ts_rs::{Config, TS, TypeVisitor};
 
+use super::generated::require_current;
 use super::pretty::{comment, pretty, with_readonly};
 use crate::study::asking::Turn;
 use crate::study::questions::declare;
@@ -107,16 +107,5 @@ import type { SavedSession } from '../session-file';
 
 #[test]
 fn the_types_of_the_page_are_those_of_the_table() {
-    let path = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../web/src/core/generated/questions.ts");
-    let expected = written();
-    if std::env::var_os("LUMENCUT_WRITE_TYPES").is_some() {
-        std::fs::write(&path, &expected).expect("a file that can be written");
-    }
-    let found = std::fs::read_to_string(&path).unwrap_or_default();
-    let stale = found.lines().zip(expected.lines()).position(|(found, expected)| found != expected);
-    assert!(
-        found == expected,
-        "web/src/core/generated/questions.ts is stale from line {}: run `make types`, and commit it",
-        stale.unwrap_or(found.lines().count().min(expected.lines().count())) + 1
-    );
+    require_current("questions.ts", &written());
 }

@@ -1,0 +1,25 @@
+//! Generates `web/src/core/generated/tables.ts`, the tables of the facade that the page reads before the engine has started.
+
+use super::generated::require_current;
+use crate::study::palette::PALETTE;
+use crate::vessel_names::{NamedVessel, VESSEL_NAMES};
+
+const HEAD: &str = "/** Tables of the facade, written from crates/lumencut by `make types`. */\n";
+
+fn table<T: serde::Serialize>(about: &str, name: &str, rows: &[T]) -> String {
+    let rows: String = rows
+        .iter()
+        .map(|row| format!("  {},\n", serde_json::to_string(row).expect("a row without maps")))
+        .collect();
+    format!("\n/** {about} */\nexport const {name} = [\n{rows}] as const;\n")
+}
+
+#[test]
+fn the_tables_of_the_page_are_those_of_the_facade() {
+    let names: Vec<String> = VESSEL_NAMES.iter().flat_map(NamedVessel::offered).collect();
+    let tables = [
+        table("Names of vessels that have a code in reports.", "VESSEL_NAMES", &names),
+        table("Colours of vessels with their names, in the order of their use.", "PALETTE", &PALETTE),
+    ];
+    require_current("tables.ts", &(HEAD.to_owned() + &tables.concat()));
+}
