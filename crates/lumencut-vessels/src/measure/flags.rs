@@ -1,6 +1,6 @@
 //! Flags of a section, as bits. The crate `lumencut` has their words and colours.
 
-/// The diameter is below 1.5 times the FWHM of the point spread.
+/// The diameter is below 1.5 times the FWHM of the point spread, the limit of what can be measured.
 pub const AT_LIMIT: u32 = 1;
 /// Another vessel begins here, or the lumen continues sideways.
 pub const BRANCH: u32 = 1 << 1;
@@ -21,5 +21,5 @@ pub const IRREGULAR: u32 = 1 << 8;
 /// The centerline turns more sharply than a vessel can.
 pub const RESTLESS_LINE: u32 = 1 << 9;
 
-/// Sections with any of these flags are ignored when the widest, narrowest or suggested places are chosen.
+/// Sections with any of these flags are ignored when the narrowest, widest or suggested sections are chosen.
 pub const LEFT_OUT: u32 = BRANCH | OUTSIDE | NO_EDGE | RECENTERED | RESTLESS_LINE;

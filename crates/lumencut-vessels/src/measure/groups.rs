@@ -19,7 +19,7 @@ impl Named for Territory {
 }
 
 impl Stenosis {
-    /// Grade of the stenosis, with its source. [`ErrorKind::Measuring`] for a method without grades.
+    /// Grade of the stenosis, with its source. Errors: [`ErrorKind::Measuring`] for a method without grades.
     pub fn group(&self, territory: Territory) -> Result<String> {
         if self.method != Method::Nascet {
             let found = format!("'{}'", self.method.name());

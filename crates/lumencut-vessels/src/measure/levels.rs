@@ -1,6 +1,6 @@
-//! Finds the lumen level along a vessel.
+//! Finds the intensity level of the lumen along a vessel.
 //!
-//! A lumen narrower than two blur widths peaks below its level, so one section cannot separate level and
+//! A lumen narrower than two blur widths peaks below its true level, so a single section cannot separate level and
 //! width. Wider sections nearby give the level; if there are none, all sections share one level.
 
 use rayon::prelude::*;
@@ -13,13 +13,14 @@ use super::sections::{Bench, Known, noise};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Maximum standard deviation (share of the contrast) of sections that give the level; their minimum number.
+/// Sections give the level if its standard deviation is at most this (fraction of the contrast) and there are at least
+/// this many of them.
 const LEVEL_SECTIONS: (f64, usize) = (0.05, 3);
 
 /// Maximum number of sections fitted with a common level.
 const TOGETHER: usize = 48;
 
-/// Search range of the level (share of the contrast); the first guess is about 1.
+/// Search range of the level, as fractions of the contrast; the first guess is about 1.
 const LEVEL_RANGE: [f64; 2] = [0.6, 4.0];
 
 /// Relative standard deviation of a common level.
@@ -47,7 +48,7 @@ pub(crate) fn lumen_levels(
     Ok(vec![[level, DEVIATION * level]; places.len()])
 }
 
-/// The common level for which the sections fit best.
+/// The common level with which the sections fit best.
 fn together(bench: &Bench, places: &[SectionPlane], fits: &[Option<Fit>], stop: Stop) -> Result<f64> {
     let noise = noise(fits);
     let fitted: Vec<(&SectionPlane, Fit)> =

@@ -1,4 +1,5 @@
-//! Entry points of measuring: of a single vessel, or with the point spread and walls found on its tree.
+//! Entry points of measuring, for a single vessel or for the vessels of a tree. A tree shares one point spread and wall
+//! level.
 
 use std::cmp::Ordering;
 use std::sync::OnceLock;
@@ -49,7 +50,7 @@ pub fn measure(volume: &Volume, vessel: &Vessel, request: &MeasureRequest) -> Re
     prepared.profile(&voxels, vessel, request, found)
 }
 
-/// Like [`measure`], but uses an existing result of [`tree_findings`]. Errors: As [`measure`].
+/// Like [`measure`], but uses an existing result of [`tree_findings`]. Errors: those of [`measure`].
 pub fn measure_with(
     findings: TreeFindings,
     volume: &Volume,
@@ -92,7 +93,7 @@ impl<'a, 'v> TreeMeasuring<'a, 'v> {
         Ok(TreeFindings { spread, walls })
     }
 
-    /// Measures vessel number `n` of the tree. Errors: As [`measure`].
+    /// Measures vessel number `n` of the tree. Errors: those of [`measure`].
     pub fn profile(&self, n: usize, findings: TreeFindings, stop: Stop) -> Result<Profile> {
         let request = MeasureRequest { stop, ..self.request };
         self.prepared(n, &request)?.profile(&self.voxels, &request.tree[n], &request, findings)

@@ -21,12 +21,12 @@ pub enum Source {
     Given,
     /// Estimated on wide stretches of the vessel.
     Estimated {
-        /// Text about the sections used.
+        /// Description of the sections used.
         on: String,
     },
     /// Assumed, because it was neither given nor could be estimated.
     Assumed {
-        /// Text about what the assumption is based on.
+        /// Description of what the assumption is based on.
         from: String,
     },
 }
@@ -61,13 +61,13 @@ pub struct Profile {
     pub wall: Vec<[f64; 2]>,
     /// Equivalent diameter of the outer wall and its standard deviation (mm); NaN if the wall is not visible.
     pub diameter_outer: Vec<[f64; 2]>,
-    /// Equivalent diameter (mm) without, and with, bright material at the wall; NaN if there is none.
+    /// Equivalent diameter (mm) without, and with, the bright material at the wall; NaN if there is no such material.
     pub bounds: Vec<[f64; 2]>,
     /// Flags of each section; see [`super::flags`].
     pub flags: Vec<u32>,
     /// Centre of the lumen (mm, LPS); the centerline point if no lumen was found.
     pub center: Vec<DVec3>,
-    /// Unit vector along the vessel, normal to the section.
+    /// Unit vector along the vessel, perpendicular to the section.
     pub normal: Vec<DVec3>,
     /// Unit vectors within the section (LPS) that point right and down in its image.
     pub axes: Vec<[DVec3; 2]>,
@@ -91,7 +91,7 @@ pub struct Profile {
     pub wall_source: WallSource,
     /// Points of the centerline at the sections (mm, LPS).
     pub on_vessel: Vec<DVec3>,
-    /// End stretches that were not measured: lumen and surroundings look alike there (arc lengths, mm).
+    /// End parts that were not measured because lumen and surroundings look alike (arc lengths, mm).
     pub without_wall: Vec<[f64; 2]>,
 }
 
@@ -193,7 +193,7 @@ impl Profile {
         self.arc_length.last().copied().unwrap_or(0.0)
     }
 
-    /// Whether a section may be the widest, narrowest or a suggested place.
+    /// Whether a section may be chosen as the widest, narrowest or a suggested place.
     pub fn counts(&self, n: usize) -> bool {
         self.flags[n] & LEFT_OUT == 0 && self.area[n].is_finite()
     }

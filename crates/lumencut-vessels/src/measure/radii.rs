@@ -18,22 +18,22 @@ use lumencut_core::volume::Volume;
 /// Maximum gap between sections (mm) over which radii are interpolated.
 const GAP: f64 = 10.0;
 
-/// Sections with this relative standard deviation or more are skipped.
+/// Sections whose relative standard deviation is this or more are skipped.
 const MAX_DEVIATION: f64 = 0.25;
 
 /// The radii of one vessel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Radii {
-    /// Radius per point (mm); None if nothing was measured or known.
+    /// Radius of each point (mm); None if nothing was measured or known.
     pub radius: Option<Vec<f64>>,
     /// Number of points whose radius was measured, or interpolated between two measured sections.
     pub measured: usize,
-    /// Number of points that kept their radius or took that of the nearest measured section.
+    /// Number of points that kept their previous radius, or took the radius of the nearest measured section.
     pub kept: usize,
 }
 
-/// Measures all radii of a tree. A vessel that cannot be measured keeps its radii. [`ErrorKind::Settings`]
-/// for an invalid step, wall or point spread, [`ErrorKind::Interrupted`].
+/// Measures all radii of a tree. A vessel that cannot be measured keeps its radii. Errors: [`ErrorKind::Settings`] for
+/// an invalid step, wall or point spread, [`ErrorKind::Interrupted`].
 pub fn measured_radii(
     volume: &Volume,
     request: &MeasureRequest,

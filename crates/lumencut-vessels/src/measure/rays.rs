@@ -1,4 +1,4 @@
-//! Values along rays from the centre of a section: they show the edge of the lumen, and obstacles.
+//! Values along rays from the centre of a section. They show the edge of the lumen, and obstacles.
 
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
@@ -16,18 +16,18 @@ pub(crate) const RAYS: usize = 64;
 /// Sampling distance along a ray, in units of [`Voxels::sampling_side`].
 const SAMPLE: f64 = 0.4;
 
-/// What a ray meets; distances in mm from its start.
+/// What a ray meets. Distances are measured from its start (mm).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ray {
     /// Edge of the lumen; None if the ray does not reach it.
     pub edge: Option<f64>,
-    /// Start of anything but plain surroundings (neighbour, calcium, metal); infinite if there is none.
+    /// Where anything but plain surroundings starts (neighbour, calcium, metal); infinite if nothing does.
     pub limit: f64,
-    /// Start of material that is too bright for lumen, if any.
+    /// Where material too bright for lumen starts, if any.
     pub(crate) bright_at: Option<f64>,
-    /// Largest value within a millimetre of that (share of the contrast); 0 if there is no such material.
+    /// Largest value in the millimetre after `bright_at` (fraction of the contrast); 0 if nothing is too bright.
     pub brightest: f64,
-    /// Where the values rise above, and fall below, midway between lumen level and `brightest`.
+    /// Where the values rise above, and fall below, the mean of lumen level and `brightest`.
     pub rim: [f64; 2],
     /// Distance at which the ray leaves the volume, if it does.
     pub(crate) outside_at: Option<f64>,
@@ -42,9 +42,9 @@ impl Ray {
 /// Parameters of a search along a ray; levels are shares of the contrast.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Look {
-    /// Levels of lumen and surroundings.
+    /// Levels of the lumen and of the surroundings.
     pub levels: [f64; 2],
-    /// Higher values are not lumen.
+    /// Values above this are too bright for lumen.
     pub bright: f64,
     /// A rise by this amount marks the start of a neighbour.
     pub rise: f64,
@@ -97,7 +97,7 @@ impl Rays<'_, '_> {
                 ray.outside_at = Some(here);
                 break;
             }
-            // Requires two consecutive samples, because noise alone rarely exceeds the limit twice.
+            // Two consecutive samples must be bright, because noise rarely exceeds the limit twice in a row.
             if value > look.bright && samples.at(n + 1) > look.bright {
                 ray.bright_at = Some(here);
                 let last = n + (1.0 / self.step()).ceil() as usize;

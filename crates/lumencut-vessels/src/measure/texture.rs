@@ -1,13 +1,14 @@
 //! Estimates the spatial correlation of image noise.
 //!
-//! The kernels of CT correlate neighbouring voxels, so a mean is less certain than with independent noise.
+//! The reconstruction kernels of CT correlate neighbouring voxels, so a mean is less certain than with independent
+//! noise.
 
 use glam::{DMat3, DVec3};
 
 use super::slab::Samples;
 use lumencut_core::math::lanes::{FAN, Isa, Kernel, dispatch};
 
-/// From this distance (voxels), noise counts as independent.
+/// The noise of voxels at least this far apart counts as independent.
 const CORRELATED_VOXELS: usize = 5;
 
 /// Minimum number of voxel pairs, and minimum significance (standard deviations), of a correlation.
@@ -16,7 +17,7 @@ const MIN_EVIDENCE: (f64, f64) = (100.0, 2.0);
 /// Residuals above this multiple of the typical value are not noise.
 const LARGEST: f32 = 4.0;
 
-/// Autocorrelation of the noise by the absolute offsets along the axes of the grid.
+/// Autocorrelation of the noise, indexed by the absolute offsets along the grid axes.
 #[derive(Clone, Debug)]
 pub(crate) struct Texture {
     correlation: [[[f32; CORRELATED_VOXELS]; CORRELATED_VOXELS]; CORRELATED_VOXELS],
@@ -26,7 +27,7 @@ pub(crate) struct Texture {
 pub(crate) struct Pairs {
     products: [[[f64; CORRELATED_VOXELS]; CORRELATED_VOXELS]; CORRELATED_VOXELS],
     count: [[[f64; CORRELATED_VOXELS]; CORRELATED_VOXELS]; CORRELATED_VOXELS],
-    /// Sum and number of the products of pairs of distant voxels.
+    /// Sum and number of the products of distant voxel pairs.
     far: [f64; 2],
 }
 
@@ -53,7 +54,8 @@ impl Pairs {
             all.count[i][j][k] += 1.0;
             near = [near[0] + miss * beside, near[1] + 1.0];
         });
-        // All pairs sum to half of (squared sum - sum of squares); those that are not near are distant.
+        // The products of all pairs sum to half of (squared sum - sum of squares). Without the near pairs, the distant
+        // ones remain.
         let number = each.len() as f64;
         all.far = [(sum * sum - squares) / 2.0 - near[0], number * (number - 1.0) / 2.0 - near[1]];
         all
@@ -200,8 +202,8 @@ impl Texture {
 
     pub(crate) fn of(pairs: &Pairs) -> Self {
         let mut all = Self::white();
-        // The fit absorbs the slowest noise of a section, which lowers all correlations by the same offset.
-        // Distant pairs are independent, so they show that offset.
+        // The fit absorbs the slowest variations of the noise in a section, which lowers all correlations by the same
+        // offset. Distant pairs are independent, so they show that offset.
         let taken = -(pairs.far[0] / pairs.far[1].max(1.0)).min(0.0);
         let variance = pairs.products[0][0][0] / pairs.count[0][0][0].max(1.0) + taken;
         for i in 0..CORRELATED_VOXELS {

@@ -11,7 +11,7 @@ use lumencut_core::limits::Limits;
 /// Wall level in CT (HU) and its standard deviation: soft tissue, in arteries with and without plaque.
 pub const CT_WALL: Level = [45.0, 25.0];
 
-/// In a volume in HU, contrast medium is above `LUMEN` and the surroundings are within `AROUND`.
+/// A volume may be in HU if its lumen is above `LUMEN` and its surroundings are within `AROUND`.
 const LUMEN: f64 = 80.0;
 const AROUND: [f64; 2] = [-400.0, 400.0];
 
@@ -54,7 +54,7 @@ pub enum WallSource {
     Pooled {
         /// The level that the caller gave, if any.
         given: Option<Level>,
-        /// The level that the other vessels show.
+        /// The level estimated from the other vessels.
         by_others: PooledWall,
     },
     /// No walls: the caller turned them off.
@@ -84,7 +84,7 @@ impl WallSource {
     }
 }
 
-/// Whether a wall level from other vessels is plausible for this vessel.
+/// Whether a wall level from other vessels is plausible for this vessel: clearly darker than the lumen.
 pub(crate) fn is_below_lumen(wall: &PooledWall, scale: &Scale) -> bool {
     scale.share(wall.level[0]) <= 1.0 - BELOW_LUMEN
 }
@@ -113,7 +113,7 @@ pub(crate) fn expected(
     }
 }
 
-/// Whether a volume is in HU: it has negative values, and lumen and surroundings have levels of CT.
+/// Whether a volume is in HU: it has negative values, and its lumen and surroundings have levels typical of CT.
 fn is_hounsfield(voxels: &Voxels, scale: &Scale) -> bool {
     let around = (AROUND[0]..=AROUND[1]).contains(&scale.outside);
     around

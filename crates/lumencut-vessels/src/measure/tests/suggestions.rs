@@ -12,7 +12,7 @@ fn narrowest(sections: &[[f64; 2]]) -> [f64; 2] {
 fn a_fit_that_is_not_sure_is_not_suggested() {
     let mut sections = vec![[12.0, 0.8]; 20];
     sections[4..7].fill([10.0, 0.8]);
-    // Fits between the struts of a stent.
+    // Fits between the struts of a stent are too narrow.
     sections[12..15].fill([1.0, 0.8]);
     assert_eq!(narrowest(&sections), [2.0, 10.0]);
 }
@@ -71,7 +71,7 @@ fn no_branch_lies_between_a_place_and_its_reference() {
 
 #[test]
 fn where_no_reference_lies_before_a_branch_it_is_passed() {
-    // The vessel ends soon after the narrowing, and the branch lies just before it.
+    // The vessel ends soon after the narrowing, and the branch lies just before the narrowing.
     let mut profile = branched(74);
     profile.flags[38..60].fill(BRANCH);
     let [before, after] = profile.suggested_references(35.0).expect("a place on it");
@@ -147,7 +147,7 @@ fn the_longest_diameter_that_is_not_offered_is_known_all_the_same() {
     assert_eq!(profile(&[[f64::NAN; 2]; 4]).offered_widest(), None);
 }
 
-/// A vessel of 24 mm with different diameters in some sections.
+/// A vessel of 24 mm whose `sections` have this longest and shortest diameter.
 fn spiked(longest: f64, shortest: f64, sections: std::ops::Range<usize>) -> Profile {
     let mut profile = profile(&[[24.0, 0.2]; 60]);
     for n in sections {
