@@ -9,12 +9,12 @@ use super::rays::{RAYS, Ray};
 /// Maximum distance (mm) between two rings of one stent.
 const RINGS: f64 = 6.0;
 
-/// Maximum distance (mm) between two rings if all sections between them contain bright material. Blurred struts look
-/// like calcium, but calcium does not start and end with metal.
+/// Maximum distance (mm) between two rings if all sections between them contain bright material. Blurred
+/// struts look like calcium, but calcium does not start and end with metal.
 const BRIGHT_BETWEEN: f64 = 40.0;
 
-/// Bounds of the diameter as factors of the measured one: without, and with, all bright material at the wall. `wall`
-/// gives the measured radius (mm) on each ray.
+/// Bounds of the diameter as factors of the measured one: without, and with, all bright material at the wall.
+/// `wall` gives the measured radius (mm) on each ray.
 pub(crate) fn bounds(rays: &[Ray], wall: impl Fn(usize) -> f64, width: f64) -> [f64; 2] {
     // Bright material beyond a visible edge of the lumen does not hide that edge.
     let hides = |n: usize| rays[n].edge.is_none() && is_bright(&rays[n], wall(n), width);

@@ -9,8 +9,8 @@ use super::section_plane::SectionPlane;
 use lumencut_core::math::lanes::{FAN, Isa, Kernel, dispatch};
 use lumencut_core::math::statistics::median;
 
-/// A wall farther from the ellipse than this belongs to another structure: a fraction of the radius, or mm if that is
-/// larger.
+/// A wall farther from the ellipse than this belongs to another structure: a fraction of the radius, or mm if
+/// that is larger.
 const MAX_OFFSET: (f64, f64) = (0.5, 0.5);
 
 pub(crate) trait Shares: Sync {
@@ -46,8 +46,9 @@ impl<S: Shares> Kernel for SharesAt<'_, S> {
     }
 }
 
-/// Distance (mm) from the centre to the wall on each ray: where the volume crosses `level`. The blurred model predicts
-/// by how much blur shifts this crossing, which is corrected. Rays without a plausible crossing use the ellipse.
+/// Distance (mm) from the centre to the wall on each ray: where the volume crosses `level`. The blurred model
+/// predicts by how much blur shifts this crossing, which is corrected. Rays without a plausible crossing use
+/// the ellipse.
 pub(crate) fn wall(ellipse: &Ellipse, values: &impl Shares, rays: &[Ray], level: f64) -> Vec<f64> {
     let walls: Vec<f64> = (0..RAYS)
         .map(|n| {
@@ -147,8 +148,8 @@ pub(crate) fn ellipse_within(center: DVec2, wall: &[f64]) -> Option<Ellipse> {
     is_one.then_some(ellipse)
 }
 
-/// Radius (mm) of the inscribed ball at each centre: the distance to the nearest wall point of this section and its
-/// neighbours. NaN if they have no wall.
+/// Radius (mm) of the inscribed ball at each centre: the distance to the nearest wall point of this section
+/// and its neighbours. NaN if they have no wall.
 pub(crate) fn inscribed(at: &[f64], centers: &[DVec3], contours: &[Vec<DVec3>]) -> Vec<f64> {
     (0..at.len())
         .map(|n| {

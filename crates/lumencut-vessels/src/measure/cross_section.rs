@@ -30,7 +30,8 @@ pub struct CrossSection {
 }
 
 impl CrossSection {
-    /// Samples a square with sides of `size` mm. Errors: [`ErrorKind::Settings`] for an invalid size or pixel spacing.
+    /// Samples a square with sides of `size` mm. Errors: [`ErrorKind::Settings`] for an invalid size or pixel
+    /// spacing.
     pub fn new(volume: &Volume, place: SectionPlane, size: f64, pixel_spacing: f64) -> Result<Self> {
         SIDE.check("size of the cross-section", size)?;
         SIDE.check("pixel_spacing of the cross-section", pixel_spacing)?;
@@ -54,9 +55,9 @@ impl CrossSection {
     }
 }
 
-/// Plane of the section at arc length `at` (mm): that of the nearest section of `profile` if given, otherwise the plane
-/// across the centerline. Errors: [`ErrorKind::Measuring`] for a wrong arc length or profile, [`ErrorKind::VesselTree`]
-/// for a vessel without length.
+/// Plane of the section at arc length `at` (mm): that of the nearest section of `profile` if given, otherwise
+/// the plane across the centerline. Errors: [`ErrorKind::Measuring`] for a wrong arc length or profile,
+/// [`ErrorKind::VesselTree`] for a vessel without length.
 pub fn section_place(vessel: &Vessel, at: f64, profile: Option<&Profile>) -> Result<SectionPlane> {
     let length = vessel.arc_length().last().copied().unwrap_or(0.0);
     if !(0.0..=length).contains(&at) {

@@ -1,10 +1,10 @@
 //! An ellipse blurred by a Gaussian, which is the image of a lumen with a sharp wall.
 //!
-//! Green's theorem turns the integral of the Gaussian over the ellipse into one along its boundary. Let r be the vector
-//! from a point to the boundary. The divergence of the field r (1 - exp(-r²/2)) / (2 π r²) is the Gaussian of standard
-//! deviation 1. The integrand is periodic and smooth, so the trapezoidal rule converges exponentially (Trefethen and
-//! Weideman 2014, doi:10.1137/130932132). The derivatives with respect to the shape are also integrals of Gaussians
-//! along the boundary.
+//! Green's theorem turns the integral of the Gaussian over the ellipse into one along its boundary. Let r be
+//! the vector from a point to the boundary. The divergence of the field r (1 - exp(-r²/2)) / (2 π r²) is the
+//! Gaussian of standard deviation 1. The integrand is periodic and smooth, so the trapezoidal rule converges
+//! exponentially (Trefethen and Weideman 2014, doi:10.1137/130932132). The derivatives with respect to the
+//! shape are also integrals of Gaussians along the boundary.
 
 use std::f64::consts::{PI, TAU};
 use std::sync::OnceLock;
@@ -27,8 +27,8 @@ const FAR_AWAY: f32 = 64.0;
 /// Maximum number of nodes, enough for a lumen whose radius is 40 times the blur.
 const MOST_NODES: usize = 400;
 
-/// An ellipse: the points centre + S (cos t, sin t), where S = [[mean + x, y], [y, mean - x]] and (x, y) is `stretch`.
-/// Unlike two axes and an angle, these parameters have no singularity at a circle.
+/// An ellipse: the points centre + S (cos t, sin t), where S = [[mean + x, y], [y, mean - x]] and (x, y) is
+/// `stretch`. Unlike two axes and an angle, these parameters have no singularity at a circle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ellipse {
     /// Centre (mm).

@@ -62,7 +62,8 @@ pub(crate) struct Fit {
     pub lumen: [f64; 2],
     pub background: f64,
     pub wall: Option<Wall>,
-    /// Root mean square of the residuals, as a fraction of the contrast. If the lumen is an ellipse, this is the noise.
+    /// Root mean square of the residuals, as a fraction of the contrast. If the lumen is an ellipse, this is
+    /// the noise.
     pub(crate) missed: f64,
     /// Standard deviation of the equivalent diameter (mm); NaN if not requested.
     pub uncertainty: f64,
@@ -226,8 +227,8 @@ impl<'a, M: Model<N>, const N: usize> Work<'a, M, N> {
         Some((last, missed, parts))
     }
 
-    /// Parts of the uncertainty. Let A be the normal matrix and c the derivatives of the diameter. Then a = A⁻¹ c gives
-    /// the shift of the diameter caused by each sample and each prior.
+    /// Parts of the uncertainty. Let A be the normal matrix and c the derivatives of the diameter. Then a =
+    /// A⁻¹ c gives the shift of the diameter caused by each sample and each prior.
     fn parts(&self, minimum: &Minimum<N>, missed: f64, unsure: &Unsure) -> Option<Parts> {
         let ellipse = Ellipse::from_parameters(&minimum.at)?;
         let towards = solved(&minimum.normal.matrix, &diameter_by(&ellipse))?;

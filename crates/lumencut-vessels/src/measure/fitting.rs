@@ -71,8 +71,8 @@ impl Bench<'_, '_> {
         let cleared = self.cleared(place, known)?;
         let seen = self.level_seen(place, known, |point| cleared.obstacles.keeps(point));
         let expected = Expected {
-            // A smaller ellipse with a higher level fits a sharp wall as well, so the level visible in the middle is
-            // used.
+            // A smaller ellipse with a higher level fits a sharp wall as well, so the level visible in the
+            // middle is used.
             lumen: seen.filter(|seen| seen[1] < known.lumen[1]).unwrap_or(known.lumen),
             background: [0.0, 0.5],
             stretch: stretch(2.0 * known.ellipse.mean, self.blur.width(place)),

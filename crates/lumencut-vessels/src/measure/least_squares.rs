@@ -15,8 +15,8 @@ impl<const N: usize> Normal<N> {
         Self { cost: 0.0, matrix: [[0.0; N]; N], slope: [0.0; N] }
     }
 
-    /// Adds a prior on a linear combination of parameters, with coefficients `by`, residual `missing` and a standard
-    /// deviation.
+    /// Adds a prior on a linear combination of parameters, with coefficients `by`, residual `missing` and a
+    /// standard deviation.
     pub(crate) fn expect(&mut self, by: &[f64; N], missing: f64, deviation: f64) {
         let weight = 1.0 / (deviation * deviation);
         self.cost += weight * missing * missing;

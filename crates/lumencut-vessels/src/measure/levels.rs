@@ -1,7 +1,7 @@
 //! Finds the intensity level of the lumen along a vessel.
 //!
-//! A lumen narrower than two blur widths peaks below its true level, so a single section cannot separate level and
-//! width. Wider sections nearby give the level; if there are none, all sections share one level.
+//! A lumen narrower than two blur widths peaks below its true level, so a single section cannot separate
+//! level and width. Wider sections nearby give the level; if there are none, all sections share one level.
 
 use rayon::prelude::*;
 
@@ -13,8 +13,8 @@ use super::sections::{Bench, Known, noise};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Sections give the level if its standard deviation is at most this (fraction of the contrast) and there are at least
-/// this many of them.
+/// Sections give the level if its standard deviation is at most this (fraction of the contrast) and there are
+/// at least this many of them.
 const LEVEL_SECTIONS: (f64, usize) = (0.05, 3);
 
 /// Maximum number of sections fitted with a common level.

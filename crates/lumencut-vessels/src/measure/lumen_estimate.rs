@@ -79,8 +79,8 @@ fn start(rays: &Rays, place: &SectionPlane, search: f64) -> Option<DVec2> {
     best.map(|(_, point)| point)
 }
 
-/// Step of the search grid (mm). It has at most as many points as the volume has voxels, because a file may contain any
-/// radius.
+/// Step of the search grid (mm). It has at most as many points as the volume has voxels, because a file may
+/// contain any radius.
 fn search_step(voxels: &Voxels, search: f64) -> f64 {
     let count: f64 = voxels.size.iter().map(|n| *n as f64).product();
     voxels.sampling_side.max(2.0 * search / count.sqrt())

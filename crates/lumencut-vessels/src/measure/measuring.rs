@@ -1,5 +1,5 @@
-//! Entry points of measuring, for a single vessel or for the vessels of a tree. A tree shares one point spread and wall
-//! level.
+//! Entry points of measuring, for a single vessel or for the vessels of a tree. A tree shares one point
+//! spread and wall level.
 
 use std::cmp::Ordering;
 use std::sync::OnceLock;

@@ -18,8 +18,8 @@ const WALL_CALCIUM_MM: f64 = 1.5;
 const LEAST_RAYS: usize = 3;
 const ALL_AROUND: usize = RAYS * 3 / 5;
 
-/// Bright spots are the struts of a stent if at least this many rays meet them, in total and in each quarter of the
-/// circle. Calcium lies on only one or two sides.
+/// Bright spots are the struts of a stent if at least this many rays meet them, in total and in each quarter
+/// of the circle. Calcium lies on only one or two sides.
 const LATTICE: [usize; 2] = [RAYS * 2 / 5, RAYS / 16];
 
 /// Values above this are metal: they exceed the lumen by at least four times the contrast.

@@ -95,8 +95,8 @@ impl Part {
     }
 }
 
-/// Standard deviation of a weighted sum of diameters of one vessel. Errors of point spread, wall and lumen level are
-/// the same in all sections, so they add with their signs. Noise and surroundings are independent.
+/// Standard deviation of a weighted sum of diameters of one vessel. Errors of point spread, wall and lumen
+/// level are the same in all sections, so they add with their signs. Noise and surroundings are independent.
 pub(crate) fn deviation_of_sum(diameters: &[(f64, Parts)]) -> f64 {
     let together =
         |part: Part| diameters.iter().map(|(weight, parts)| weight * part.of(parts)).sum::<f64>().powi(2);

@@ -25,7 +25,8 @@ const FREE: f64 = 0.95;
 const LEAST_MISSED: f64 = 1.5;
 const ROUND: f64 = 1.35;
 
-/// Search range: multiples of the smallest and of the largest voxel side, and at most `SHARE` of a section's diameter.
+/// Search range: multiples of the smallest and of the largest voxel side, and at most `SHARE` of a section's
+/// diameter.
 const SEARCH_RANGE: [f64; 2] = [0.3, 3.0];
 const SHARE: f64 = 0.5;
 
@@ -113,7 +114,8 @@ pub(crate) fn estimated(
     Ok(SpreadEstimate::Width(SharpEdges { fwhm, deviation, count: best.len(), ends: [first, last] }))
 }
 
-/// Median and standard deviation of the estimates if they agree and lie inside the range; otherwise the reason why not.
+/// Median and standard deviation of the estimates if they agree and lie inside the range; otherwise the
+/// reason why not.
 fn agreed(best: &mut [f64], [low, high]: [f64; 2]) -> std::result::Result<Level, &'static str> {
     let Some(fwhm) = median(best).filter(|_| best.len() >= SECTIONS.1) else { return Err(TOO_NARROW) };
     let margin = 0.02 * (high - low);

@@ -32,8 +32,8 @@ pub struct Radii {
     pub kept: usize,
 }
 
-/// Measures all radii of a tree. A vessel that cannot be measured keeps its radii. Errors: [`ErrorKind::Settings`] for
-/// an invalid step, wall or point spread, [`ErrorKind::Interrupted`].
+/// Measures all radii of a tree. A vessel that cannot be measured keeps its radii. Errors:
+/// [`ErrorKind::Settings`] for an invalid step, wall or point spread, [`ErrorKind::Interrupted`].
 pub fn measured_radii(
     volume: &Volume,
     request: &MeasureRequest,

@@ -22,8 +22,8 @@ const STEEP: f64 = 0.4;
 /// The surroundings are searched up to this distance beyond the wall (mm).
 const BEYOND: f64 = 1.5;
 
-/// Maximum width of a bright rim (mm). The values behind it must fall below the lumen by `RIM_SHARE` of the rim's
-/// excess.
+/// Maximum width of a bright rim (mm). The values behind it must fall below the lumen by `RIM_SHARE` of the
+/// rim's excess.
 const MAX_RIM_MM: f64 = 4.0;
 const RIM_SHARE: f64 = 0.1;
 

@@ -23,8 +23,8 @@ use lumencut_core::error::Result;
 use lumencut_core::math::statistics::median;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Values are too bright for lumen if they exceed its level by this fraction of the contrast, or this multiple of the
-/// noise if larger. Poorly mixed contrast medium and enhanced edges stay below this limit.
+/// Values are too bright for lumen if they exceed its level by this fraction of the contrast, or this
+/// multiple of the noise if larger. Poorly mixed contrast medium and enhanced edges stay below this limit.
 pub(crate) const BRIGHT: (f64, f64) = (0.15, 5.0);
 
 /// A neighbour starts where values rise by this share of the contrast, or multiple of the noise if larger.

@@ -1,9 +1,9 @@
 //! Makes the result of a fit independent of its start values.
 //!
-//! The start of a fit determines which voxels are used, what obstructs them, the prior of the shape, and the limits. So
-//! the fit is restarted from its own result until that no longer changes. If it keeps changing, two lumens fit about
-//! equally well. The residual cannot decide between them: in 7 of 10 sections of a dissection, the fit with the lower
-//! residual was farther from the reference. So the second solution only increases the uncertainty.
+//! The start of a fit determines which voxels are used, what obstructs them, the prior of the shape, and the limits.
+//! So the fit is restarted from its own result until that no longer changes. If it keeps changing, two lumens fit
+//! about equally well. The residual cannot decide between them: in 7 of 10 sections of a dissection, the fit with the
+//! lower residual was farther from the reference. So the second solution only increases the uncertainty.
 
 use super::ellipse::Ellipse;
 use super::fit::Fit;
@@ -20,8 +20,8 @@ const MAX_RESTARTS: usize = 3;
 const SAME_LUMEN: (f64, f64) = (1.6, 0.6);
 
 impl Bench<'_, '_> {
-    /// Restarts the fit until it no longer changes; if it keeps changing, the result has a second solution. Fits that
-    /// jump to another lumen are discarded.
+    /// Restarts the fit until it no longer changes; if it keeps changing, the result has a second solution.
+    /// Fits that jump to another lumen are discarded.
     pub(crate) fn stable_fit(&self, place: &SectionPlane, known: &Known) -> Option<Fit> {
         let least = MAX_MOVEMENT * self.blur.width(place);
         let first = self.fit(place, known)?;

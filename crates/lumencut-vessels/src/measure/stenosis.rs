@@ -19,7 +19,8 @@ use lumencut_core::named::Named;
 /// The reference diameter is the median of the sections within this distance (mm).
 pub(crate) const REFERENCE_REACH: f64 = 1.5;
 
-/// A vessel distal to the stenosis is itself narrowed if its diameter is below this fraction of that on the other side.
+/// A vessel distal to the stenosis is itself narrowed if its diameter is below this fraction of that on the
+/// other side.
 pub(crate) const NARROWED: f64 = 0.5;
 
 /// The same limit relative to a comparison vessel, such as the contralateral one (Bartlett et al. 2006, AJNR 27:632).
@@ -91,9 +92,9 @@ pub struct Stenosis {
 }
 
 impl Profile {
-    /// Grades the stenosis at an arc length (mm). Errors: [`ErrorKind::Measuring`] for a place beyond the vessel or not
-    /// measured, a missing original diameter, or NASCET at a near-occlusion. Also if a reference is narrower than the
-    /// stenosis or within one diameter of it, or both are on one side.
+    /// Grades the stenosis at an arc length (mm). Errors: [`ErrorKind::Measuring`] for a place beyond the
+    /// vessel or not measured, a missing original diameter, or NASCET at a near-occlusion. Also if a
+    /// reference is narrower than the stenosis or within one diameter of it, or both are on one side.
     pub fn stenosis(&self, at: f64, method: Method, compared: &Compared) -> Result<Stenosis> {
         let (diameter, uncertainty) = self.diameter_at(at)?;
         let references = compared
@@ -158,8 +159,8 @@ impl Profile {
         a.with(b, |a, b| place.between([a, b]))
     }
 
-    /// The sections before and after an arc length (mm); the same section twice if only one of them is usable. A place
-    /// at a section always uses that section.
+    /// The sections before and after an arc length (mm); the same section twice if only one of them is
+    /// usable. A place at a section always uses that section.
     fn sections_around(&self, at: f64) -> (LinePlace, [usize; 2]) {
         let place = LinePlace::at(&self.arc_length, at);
         let ends = [place.segment, (place.segment + 1).min(self.len() - 1)];
@@ -172,8 +173,8 @@ impl Profile {
         (place, ends)
     }
 
-    /// Standard deviation of the percentage times the reference diameter (mm). `share` is the diameter at the stenosis
-    /// divided by the reference diameter.
+    /// Standard deviation of the percentage times the reference diameter (mm). `share` is the diameter at the
+    /// stenosis divided by the reference diameter.
     fn percent_uncertainty(&self, at: f64, method: Method, share: f64, references: &[[f64; 2]]) -> f64 {
         let place = self.uncertainty_at(at);
         let known: Vec<(f64, Parts)> = match (method, references) {
@@ -203,8 +204,8 @@ impl Profile {
             .ok_or_else(|| measuring("reference of the stenosis", format!("nothing at {at:.1} mm"), MEASURED))
     }
 
-    /// Reasons to doubt the percentage of a stenosis at arc length `at` with these references (mm), from the nearest
-    /// sections.
+    /// Reasons to doubt the percentage of a stenosis at arc length `at` with these references (mm), from the
+    /// nearest sections.
     pub fn doubts(&self, at: f64, method: Method, references: &[f64]) -> Doubts {
         let place = self.nearest_section(at);
         // ECST does not use a reference place.

@@ -70,8 +70,8 @@ impl Profile {
         Ok(self.direction(first)?.angle_between(self.direction(second)?))
     }
 
-    /// C-arm angles that show a segment without foreshortening: at rotation `lao` (radians) if given, otherwise nearest
-    /// to the frontal view. Errors: those of [`Profile::direction`], or if no angulation does so at `lao`.
+    /// C-arm angles that show a segment without foreshortening: at rotation `lao` (radians) if given, otherwise
+    /// nearest to the frontal view. Errors: those of [`Profile::direction`], or if no angulation does so at `lao`.
     pub fn c_arm(&self, stretch: [f64; 2], lao: Option<f64>) -> Result<CArm> {
         let along = self.direction(stretch)?;
         match lao {
@@ -107,8 +107,8 @@ pub fn towards_detector(CArm { lao, cranial }: CArm) -> DVec3 {
     DVec3::new(lao.sin() * cranial.cos(), -lao.cos() * cranial.cos(), cranial.sin())
 }
 
-/// The direction that is up in the C-arm image (LPS), towards the head. Exactly from above or below it is the limit of
-/// neighbouring views: towards the back from above, towards the front from below.
+/// The direction that is up in the C-arm image (LPS), towards the head. Exactly from above or below it is the
+/// limit of neighbouring views: towards the back from above, towards the front from below.
 pub fn up_at_detector(CArm { lao, cranial }: CArm) -> DVec3 {
     DVec3::new(-lao.sin() * cranial.sin(), lao.cos() * cranial.sin(), cranial.cos())
 }

@@ -28,8 +28,8 @@ const MIN_DISTANCE_MM: f64 = 1.0;
 const ROUND: [f64; 2] = [1.3, 2.0];
 const NEIGHBOURS: (f64, usize, f64) = (2.5, 4, 0.1);
 
-/// A narrowest place is a tapering end if the vessel is at least the first factor wider on one side, and nowhere the
-/// second factor wider on the other.
+/// A narrowest place is a tapering end if the vessel is at least the first factor wider on one side, and
+/// nowhere the second factor wider on the other.
 const THIN_END: [f64; 2] = [1.25, 1.1];
 
 /// Number of sections on each side that enter a median width, because single sections may be outliers.
@@ -45,8 +45,8 @@ pub struct Spot {
 }
 
 impl Profile {
-    /// Narrowest place without [`Profile::hindrances`] that is not a tapering end; diameters are medians of three
-    /// sections. None if there is no such place ([`Profile::none_safe`], [`Profile::thin_end`]).
+    /// Narrowest place without [`Profile::hindrances`] that is not a tapering end; diameters are medians of
+    /// three sections. None if there is no such place ([`Profile::none_safe`], [`Profile::thin_end`]).
     pub fn narrowest(&self) -> Option<Spot> {
         let spots = self.safe_spots();
         let narrowest = spots.iter().copied().min_by(thinner)?;
@@ -110,8 +110,8 @@ impl Profile {
         spots.reduce(|a, b| if b.diameter > a.diameter { b } else { a })
     }
 
-    /// Longest diameter to suggest: that of [`Profile::widest`] or, if this is an outlier, that of the section with the
-    /// largest area. None if both are outliers, or if an irregular section or a branch is near.
+    /// Longest diameter to suggest: that of [`Profile::widest`] or, if this is an outlier, that of the section with
+    /// the largest area. None if both are outliers, or if an irregular section or a branch is near.
     pub fn offered_widest(&self) -> Option<Spot> {
         let largest = (0..self.len())
             .filter(|n| self.counts(*n))
@@ -153,7 +153,8 @@ impl Profile {
         Ok(if segment == [None, None] { within([f64::INFINITY; 2]) } else { segment })
     }
 
-    /// All possible references by arc length: without hindrances, with parallel walls, not narrower than the stenosis.
+    /// All possible references by arc length: without hindrances, with parallel walls, not narrower than the
+    /// stenosis.
     fn normal_places(&self, at: f64) -> Vec<Spot> {
         let hindrances = self.hindrances();
         let least = self.diameter_at(at).map_or(0.0, |(diameter, _)| diameter);

@@ -1,7 +1,7 @@
 //! Estimates the spatial correlation of image noise.
 //!
-//! The reconstruction kernels of CT correlate neighbouring voxels, so a mean is less certain than with independent
-//! noise.
+//! The reconstruction kernels of CT correlate neighbouring voxels, so a mean is less certain than with
+//! independent noise.
 
 use glam::{DMat3, DVec3};
 
@@ -54,8 +54,8 @@ impl Pairs {
             all.count[i][j][k] += 1.0;
             near = [near[0] + miss * beside, near[1] + 1.0];
         });
-        // The products of all pairs sum to half of (squared sum - sum of squares). Without the near pairs, the distant
-        // ones remain.
+        // The products of all pairs sum to half of (squared sum - sum of squares). Without the near pairs,
+        // the distant ones remain.
         let number = each.len() as f64;
         all.far = [(sum * sum - squares) / 2.0 - near[0], number * (number - 1.0) / 2.0 - near[1]];
         all
@@ -202,8 +202,8 @@ impl Texture {
 
     pub(crate) fn of(pairs: &Pairs) -> Self {
         let mut all = Self::white();
-        // The fit absorbs the slowest variations of the noise in a section, which lowers all correlations by the same
-        // offset. Distant pairs are independent, so they show that offset.
+        // The fit absorbs the slowest variations of the noise in a section, which lowers all correlations by
+        // the same offset. Distant pairs are independent, so they show that offset.
         let taken = -(pairs.far[0] / pairs.far[1].max(1.0)).min(0.0);
         let variance = pairs.products[0][0][0] / pairs.count[0][0][0].max(1.0) + taken;
         for i in 0..CORRELATED_VOXELS {

@@ -1,7 +1,7 @@
 //! Combines the wall levels of the vessels of a tree.
 //!
-//! The level of a vessel is that of the tree plus an individual difference. The spread of these differences is unknown,
-//! so several standard deviations are tried, each weighted by its likelihood.
+//! The level of a vessel is that of the tree plus an individual difference. The spread of these differences
+//! is unknown, so several standard deviations are tried, each weighted by its likelihood.
 
 use super::branches::shares_line;
 use super::pooled::Level;
@@ -59,8 +59,8 @@ fn by_others(expected: Level, levels: &[Level]) -> Level {
     [mean, mean_of(&|level| level[1].powi(2) + (level[0] - mean).powi(2)).sqrt()]
 }
 
-/// Log-likelihood of the levels if vessels differ from their tree by the standard deviation `apart`, and the level
-/// estimated then.
+/// Log-likelihood of the levels if vessels differ from their tree by the standard deviation `apart`, and the
+/// level estimated then.
 fn by_others_with_deviation([mean, deviation]: Level, apart: f64, levels: &[Level]) -> (f64, Level) {
     let between = apart.powi(2);
     let (mut level, mut variance, mut likely) = (mean, deviation.powi(2) - between, 0.0);

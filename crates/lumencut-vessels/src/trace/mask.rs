@@ -17,7 +17,7 @@ use lumencut_core::volume::Volume;
 
 /// How to trace a mask.
 pub struct MaskRequest<'a> {
-    /// The values that are lumen; if None, all values except 0.
+    /// The values of the mask that are lumen; if None, all values except 0.
     pub labels: Option<&'a [i64]>,
     /// Minimum length of a branch, in radii of its parent.
     pub parent_radii: f64,
@@ -27,13 +27,13 @@ pub struct MaskRequest<'a> {
     pub bridge: f64,
     /// Refines each vessel in a volume, if given.
     pub refine: Option<Refine<'a>>,
-    /// Called often; tells whether to stop.
+    /// Called often; returns whether to stop.
     pub stop: Stop<'a>,
     /// Receives the progress, if given.
     pub progress: Option<&'a Progress>,
 }
 
-/// The vessels of a mask, and what was noticed in it.
+/// The vessels of a mask, and findings about the mask.
 pub struct TracedMask {
     /// Vessels. Those that meet share bit-identical end points.
     pub vessels: Vec<MaskVessel>,

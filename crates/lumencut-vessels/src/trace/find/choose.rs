@@ -1,4 +1,4 @@
-//! Chooses the vessels that belong to a seed, among those found without a seed.
+//! Chooses the vessels that belong to a seed, among the vessels that were found without a seed.
 
 use glam::DVec3;
 
@@ -8,7 +8,7 @@ use crate::voxels::Voxels;
 use lumencut_core::error::Result;
 use lumencut_core::volume::Volume;
 
-/// A seed selects a vessel up to this many radii away, or a voxel if larger.
+/// A seed selects a vessel within this many radii, or within one voxel if that is larger.
 pub const SELECT_RADII: f64 = 1.5;
 
 #[derive(Clone, Copy, Debug, PartialEq)]

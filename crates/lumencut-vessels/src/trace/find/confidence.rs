@@ -1,4 +1,4 @@
-//! The confidence that a track is a vessel: a product of criteria with exponents as weights.
+//! The confidence that a track is a vessel: a product of criteria, weighted by exponents.
 
 use std::f64::consts::TAU;
 
@@ -21,7 +21,7 @@ pub(crate) struct UsualVessels {
 const POWER: f64 = 0.6;
 const MIN_FACTOR: f64 = 0.02;
 
-/// The ring around the lumen starts and ends at these distances: radii plus voxels.
+/// The ring around the lumen starts and ends at these distances: a multiple of the radius plus some voxels.
 const RING_FROM: [f64; 2] = [1.25, 0.7];
 const RING_TO: [f64; 2] = [2.05, 2.0];
 const RAYS: usize = 16;
@@ -35,18 +35,20 @@ const MOST_SECTIONS: usize = 60;
 /// A tube becomes wide over this range of radii (voxels).
 const WIDE_VOXELS: [f64; 2] = [2.5, 5.5];
 
-/// Bone is searched up to this distance (radii plus voxels); it exceeds the vessel level by this share.
+/// Bone is searched up to this distance (radii plus voxels). It exceeds the vessel level by `BONE` times the
+/// contrast.
 const BONE_REACH: [f64; 2] = [1.5, 1.5];
 const BONE: f64 = 0.4;
 const BRIGHT_INSIDE: f64 = 0.5;
-/// A wide tube whose level differs this little (shares of the contrast) may have bright walls, as in a stent.
+/// A wide tube may have bright walls, as in a stent, if its level differs this little from vessels (fractions
+/// of the contrast).
 const STENT_INSIDE: [f64; 2] = [0.25, 0.55];
 
 struct Around {
-    /// Share of directions with a dark ring, and median interquartile range of the ring over the contrast.
+    /// Fraction of directions with a dark ring; median interquartile range of the ring divided by the contrast.
     dark: f64,
     even: f64,
-    /// Contrast to the ring, divided by the vessel contrast.
+    /// Contrast between lumen and ring, divided by the vessel contrast.
     contrast: f64,
     /// Share of rays that meet bone.
     bone: f64,

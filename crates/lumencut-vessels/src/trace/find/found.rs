@@ -6,7 +6,7 @@ use crate::trace::lines::centerline::Centerline;
 /// All vessels found in a scan.
 #[derive(Clone, Debug)]
 pub struct Trees {
-    /// Vessels ordered by part; the most important part comes first, and in each part its root.
+    /// Vessels ordered by part, the most important part first. Each part begins with its root.
     pub vessels: Vec<FoundVessel>,
     /// Level that vessels usually have, in the unit of the volume.
     pub level: f64,
@@ -14,7 +14,7 @@ pub struct Trees {
     pub contrast: f64,
     /// Noise of the voxels, in the unit of the volume.
     pub noise: f64,
-    /// Whether the scan looks like an angiography. If not, no vessel is sure without a seed.
+    /// Whether the scan looks like an angiography. If not, and without a seed, no vessel is sure.
     pub is_angiography: bool,
 }
 
@@ -34,7 +34,7 @@ pub struct FoundVessel {
 /// Why a click gives no vessel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NoVessel {
-    /// No vessel was found at the click. Distance of the nearest one (mm), infinite if none exists.
+    /// No vessel was found at the click. The value is the distance to the nearest one (mm), infinite if none exists.
     NotHere(f64),
     /// The click, or everything that it would add, lies in an existing vessel.
     Already,

@@ -1,4 +1,4 @@
-//! Finds the complete vessel of one click: back to the nearest existing vessel, and on to its end.
+//! Finds the complete vessel at a click: back to the nearest existing vessel, and forward to the vessel's end.
 
 use glam::DVec3;
 
@@ -39,7 +39,7 @@ pub fn one_vessel(
         confidence: whole.confidence[range].to_vec(),
     };
     let end = line.points.len() - 1;
-    // Everything else lies in an existing vessel.
+    // Everything that would be added lies in an existing vessel.
     if end == 0 {
         return Err(NoVessel::Already);
     }
@@ -51,7 +51,7 @@ pub fn one_vessel(
     Ok(line)
 }
 
-/// The vessel with its ancestors in front, and the number of their points.
+/// The vessel after its ancestors in one line, and the number of points of the ancestors.
 fn with_ancestors(trees: &Trees, number: usize) -> (usize, Centerline) {
     let mut whole = trees.vessels[number].line.clone();
     let (mut before, mut of) = (0, number);

@@ -37,7 +37,7 @@ pub(crate) struct Track {
 pub enum TrackDoubt {
     /// The surroundings are bright on most sides, as in bone.
     BrightSides,
-    /// The section is flat, as that of a plate of bone.
+    /// The section is flat, like that of a plate of bone.
     Flat,
     /// The inside is uneven, like marrow.
     Uneven,

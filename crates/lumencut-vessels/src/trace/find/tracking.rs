@@ -23,11 +23,12 @@ const LEAST_GOOD: f64 = 0.6;
 /// Minimum confidence of a track.
 const LEAST_CONFIDENCE: f64 = 0.3;
 
-/// Steps of a short first track, and its minimum confidence relative to that of a complete one.
+/// Number of steps of a short first attempt, and its minimum confidence relative to that of a complete track.
 const FIRST_STEPS: usize = 16;
 const LEAST_OF_FIRST: f64 = 0.5;
 
-/// Radius of the paint, in radii, of narrow, wide and other tracks; radii (voxels) that are narrow and wide.
+/// Radius of the paint as a multiple of the track's: for narrow, for wide and for other tracks. Tracks are
+/// narrow below, and wide above, these radii (voxels).
 const PAINTED: [f64; 3] = [0.9, 1.1, 1.0];
 const NARROW_RADIUS: f64 = 2.0;
 const WIDE_RADIUS: f64 = 4.0;
@@ -35,14 +36,15 @@ const WIDE_RADIUS: f64 = 4.0;
 /// Radius of the paint of a rejected track (voxels).
 const THIN: f64 = 1.0;
 
-/// Minimum contrast (share of that of vessels) and maximum radius (voxels) of a candidate in a darker track.
+/// A candidate inside a darker track needs this fraction of the vessel contrast, and at most this radius (voxels).
 const OVER_CONTRAST: f64 = 0.5;
 const OVER_RADIUS: f64 = 5.0;
 
 /// Number of candidates tracked in parallel before painting.
 const BATCH: usize = 32;
 
-/// Candidates closer than this (radii plus voxels) are tracked one after the other; most that are searched.
+/// Candidates closer than this (radii plus voxels) are not tracked in parallel; number of candidates searched
+/// per batch.
 const NEAR_RADII: f64 = 4.0;
 const NEAR_VOXELS: f64 = 8.0;
 const MAX_EXAMINED: usize = 128;
@@ -84,8 +86,8 @@ impl Tracking<'_> {
         self.pyramid.levels[self.levels_examined.start].side
     }
 
-    /// Finds tracks in finest voxels. Candidates are tracked in independent batches and painted in order.
-    /// Those that meet new paint are tracked again, so the result does not depend on the number of threads.
+    /// Finds tracks in finest-level voxels. Candidates are tracked in independent batches and painted in order.
+    /// Candidates that meet new paint are tracked again, so the result does not depend on the number of threads.
     pub(crate) fn tracks(&self, candidates: &[Candidate]) -> Result<Vec<Track>> {
         self.tracks_beside(&[], candidates)
     }
@@ -131,7 +133,7 @@ impl Tracking<'_> {
         known
     }
 
-    /// The next independent candidates. Those near another one wait, because both may lie in the same tube.
+    /// The next independent candidates. A candidate near another one waits, because both may lie in the same tube.
     fn batch(
         &self,
         paint: &Paint,
@@ -170,7 +172,7 @@ impl Tracking<'_> {
         batch
     }
 
-    /// Whether the candidate's place is unpainted, or the candidate is a narrow one inside a darker lumen.
+    /// Whether the candidate's position is unpainted, or the candidate is a narrow one inside a darker lumen.
     fn is_open(&self, paint: &Paint, levels: &[f64], candidate: &Candidate) -> bool {
         match paint.at(candidate.place) {
             Painted::Empty => true,
@@ -202,7 +204,7 @@ impl Tracking<'_> {
         self.kept(&points, 1.0).map_or(Tried::Rejected(points), Tried::Kept)
     }
 
-    /// The track, if it is long and good enough, and has at least `share` of the minimum confidence.
+    /// The track if it is long and good enough, and has at least `share` of the minimum confidence.
     fn kept(&self, points: &[TrackPoint], share: f64) -> Option<Track> {
         let radius = usual(points, |point| point.radius);
         let good = points.iter().filter(|point| point.is_good).count() as f64;

@@ -1,7 +1,7 @@
 //! Turns linked tracks into complete vessels, from the root outwards, in ranked parts.
 //!
-//! Tracks and links form a graph. From each root, runs follow the straightest and widest edges. Runs are then
-//! centred, and start and end on points of the runs that they meet.
+//! Tracks and links form a graph. From each root, lines called runs follow the straightest and widest edges.
+//! The runs are then centred, and start and end on points of the runs that they meet.
 
 pub(crate) mod attached;
 pub(crate) mod centered;

@@ -12,7 +12,7 @@ pub(crate) struct Ray<'a, 'v> {
 }
 
 impl<'a, 'v> Ray<'a, 'v> {
-    /// Start and stride are in voxel index coordinates.
+    /// `start` and `stride` are in voxel index coordinates.
     pub(crate) fn new(voxels: &'a Voxels<'v>, start: DVec3, stride: DVec3) -> Self {
         Self { voxels, start, stride, values: Vec::with_capacity(64) }
     }

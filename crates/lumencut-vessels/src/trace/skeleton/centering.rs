@@ -1,4 +1,4 @@
-//! Centres and smooths lines of voxels, and extends them to the caps.
+//! Centres and smooths lines of voxels, and extends them to the end walls (caps) of the lumen.
 
 use glam::DVec3;
 
@@ -22,10 +22,10 @@ const SMOOTHING_VOXELS: f64 = 1.0;
 const CHORD_RADII: f64 = 0.75;
 const REACH_VOXELS: f64 = 1.5;
 
-/// A move must keep this share of the distance to the wall, so that the line of a crescent stays inside.
+/// A move must keep this fraction of the distance to the wall, so that the line stays inside a crescent.
 const LEAST_ROOM: f64 = 0.8;
 
-/// The radius at each end that lies on another line; within that lumen a branch has no own sections.
+/// Radius of the other line at each end that lies on one; inside that lumen a branch has no own sections.
 pub(crate) type OnOther = [Option<f64>; 2];
 
 /// Centres a line in the lumen. Errors: [`lumencut_core::error::ErrorKind::Interrupted`] if stopped.
@@ -67,7 +67,7 @@ fn shift(lumen: &Lumen, point: DVec3, direction: DVec3) -> DVec3 {
     fits.unwrap_or(DVec3::ZERO)
 }
 
-/// Weight of the move of each point: 0 within the lumen of another line, 1 from 1.5 of its radii on.
+/// Weight of the move of each point: 0 within the lumen of another line, 1 from 1.5 of that line's radii on.
 fn weights(points: &[DVec3], on_other: OnOther) -> Vec<f64> {
     let ways = arc_lengths(points);
     let whole = ways[ways.len() - 1];
@@ -77,7 +77,7 @@ fn weights(points: &[DVec3], on_other: OnOther) -> Vec<f64> {
     ways.iter().map(|way| weight(*way, on_other[0]).min(weight(whole - *way, on_other[1]))).collect()
 }
 
-/// Distance from an end (mm) to a point as far from the end as from the wall, at most `limit`.
+/// Distance (mm) from an end to the point that is as far from the end as from the wall, at most `limit`.
 fn way_inwards(radius: impl Fn(f64) -> f64, step: f64, limit: f64) -> f64 {
     let (mut way, mut missing) = (0.0, radius(0.0));
     while missing > ALONG_LINE && way < limit {
@@ -91,7 +91,8 @@ fn way_inwards(radius: impl Fn(f64) -> f64, step: f64, limit: f64) -> f64 {
     way.min(limit)
 }
 
-/// Extends the first point straight to the wall, from one radius inside; replaces at most `most` mm.
+/// Extends the start of the line straight to the wall, from one radius inside; replaces at most `most` mm of
+/// the line.
 pub(crate) fn lead_to_cap(points: &mut Vec<DVec3>, lumen: &Lumen, most: f64) {
     let ways = arc_lengths(points);
     let whole = ways[ways.len() - 1];

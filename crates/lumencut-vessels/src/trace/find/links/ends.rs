@@ -16,7 +16,7 @@ const LAST: usize = 5;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct End {
-    /// Numbers of the track and of its point.
+    /// Index of the track, and index of its point.
     pub of: [usize; 2],
     pub place: DVec3,
     /// Unit vector that points out of the track.

@@ -40,7 +40,7 @@ fn a_plate_a_slope_and_a_dark_cylinder_give_nothing() {
 fn eigenvalues_of_a_turned_diagonal_matrix_are_its_diagonal() {
     let [sin, cos] = [0.6_f32, 0.8];
     let (a, b, c) = (-3.0, 1.0, 2.0);
-    // The tensor rotated about z.
+    // The tensor after a rotation about z.
     let flows =
         [a * cos * cos + b * sin * sin, a * sin * sin + b * cos * cos, c, (a - b) * sin * cos, 0.0, 0.0];
     let found = eigenvalues(flows);

@@ -38,7 +38,7 @@ pub fn with_scan<T>(
     })
 }
 
-/// Value at `depth` mm below a surface that is blurred over a millimetre.
+/// Value at `depth` mm below a surface whose edge is blurred over 1 mm.
 pub fn blurred(depth: f64) -> f64 {
     TISSUE + (LEVEL - TISSUE) * (depth + 0.5).clamp(0.0, 1.0)
 }

@@ -30,7 +30,7 @@ mod tests {
     use super::*;
     use glam::DVec3;
 
-    /// Most of a circle of radius 10 mm.
+    /// An arc of `turn` radians on a circle with a radius of 10 mm.
     fn circle(turn: f64, radius: f64) -> Attached {
         let point = |n: i32| {
             let (sin, cos) = (turn * f64::from(n) / 200.0).sin_cos();

@@ -127,7 +127,8 @@ fn on_track(tracks: &[Track], number: usize, point: &TrackPoint) -> WayPoint {
     }
 }
 
-/// A link is as wide as the narrower track. Its confidence is that of the less sure one, times its level.
+/// Points of a link. It is as wide as the narrower track; its confidence is that of the less sure track,
+/// times its level.
 fn along_link(tracks: &[Track], link: &Link) -> Vec<WayPoint> {
     let [from, to] =
         [link.from, link.to].map(|[track, point]| on_track(tracks, track, &tracks[track].points[point]));

@@ -8,7 +8,7 @@ use crate::trace::find::whole_vessels::graph::Graph;
 /// Distance at which the direction is taken, in radii.
 const SAMPLE_RADII: f64 = 2.0;
 
-/// Maximum number of consecutive edges, if the first ones are short.
+/// Maximum number of consecutive edges that are followed if the first ones are short.
 const MOST_EDGES: usize = 4;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,7 +26,7 @@ pub(crate) fn outlook(graph: &Graph, edge: usize, node: usize, radius: f64) -> O
         for point in graph.points_from(edge, node) {
             radii.push(point.radius);
             seen = point.place;
-            // For a narrow edge less distance suffices, but it must first leave the lumen.
+            // A narrow edge needs less distance, but must first leave the lumen.
             if radii.len() > 2 && seen.distance(place) >= SAMPLE_RADII * radius.max(point.radius) {
                 return outlook_of(place, seen, radii);
             }

@@ -11,7 +11,7 @@ use crate::trace::find::whole_vessels::outlook::{Outlook, outlook};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// A run met from the side continues if its two edges are this straight (cosine) and this much wider.
+/// A run that is met from the side continues if its two edges are this straight (cosine) and this much wider.
 const STRAIGHT: f64 = -0.8;
 const WIDER: f64 = 1.5;
 
@@ -30,7 +30,7 @@ pub(crate) struct Run {
 }
 
 pub(crate) struct Runs {
-    /// Runs; each comes after the run that it leaves, except runs that were met from the side.
+    /// Runs. Each comes after the run that it leaves, except runs that were met from the side.
     pub runs: Vec<Run>,
     /// Number of the run that passes each node.
     pub(crate) owners: Vec<usize>,
@@ -101,7 +101,7 @@ impl Search<'_> {
         }
     }
 
-    /// Extends a run. If it meets another run from the side, returns the node and the edges of that one.
+    /// Extends a run. If it meets another run from the side, returns the node and the other run's edges.
     fn grow(
         &mut self,
         run: &mut Run,
@@ -142,7 +142,7 @@ impl Search<'_> {
     }
 }
 
-/// Number of the straightest and widest new edge; of equal ones, the first.
+/// Index of the straightest and widest new edge; of equal edges, the first.
 pub(crate) fn straightest(
     before: &Outlook,
     ahead: &[Outlook],

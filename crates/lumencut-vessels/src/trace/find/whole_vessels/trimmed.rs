@@ -1,4 +1,4 @@
-//! Trims runs where they are too narrow, and removes bumps of the walls of other runs.
+//! Trims runs where they are too narrow, and removes runs that are only bumps in the walls of other runs.
 
 use crate::trace::find::quantiles::median;
 use crate::trace::find::whole_vessels::attached::Attached;
@@ -6,7 +6,7 @@ use crate::trace::find::whole_vessels::centered::LinePoint;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Runs that are shorter outside the lumen of their parent are bumps: radii, and mm.
+/// Runs that are shorter than this outside their parent's lumen are bumps: radii, and mm.
 const SHORTEST_RADII: f64 = 2.0;
 const SHORTEST: f64 = 2.0;
 
@@ -43,11 +43,11 @@ fn needed(runs: &[Attached], stays: &[bool], number: usize) -> Option<[usize; 2]
     found
 }
 
-/// Trims the free ends; returns whether the run stays.
+/// Trims the free ends of a run; returns whether the run is kept.
 fn trim(run: &mut Attached, needed: Option<[usize; 2]>, smallest_radius: f64) -> bool {
     let [start, end] = run.met;
     if start.is_some() && end.is_some() {
-        // The run joins two others. It is removed only if it returns to the same run within the same lumen.
+        // A run that joins two others is removed only if it returns to the same run within the same lumen.
         let is_outside = run.leads[0] + run.leads[1] + 1 < run.points.len();
         return start != end || is_outside || needed.is_some();
     }
