@@ -79,7 +79,7 @@ fn a_point_spread_that_nobody_waited_for_is_not_told() {
     let volume = Volume::new(Voxels::F32(&values), [SIZE; 3], [1, SIZE, SIZE * SIZE], affine).unwrap();
     let tree =
         [Vessel::new([2.0, 15.0].map(|z| DVec3::new(9.2, 8.9, z)).to_vec(), Some(vec![2.0; 2])).unwrap()];
-    // Stops before, and during, the first steps of the only vessel.
+    // Interrupts the work at each of the first 40 calls of `stop`.
     for questions in 0..40 {
         let asked = AtomicUsize::new(0);
         let stop = || asked.fetch_add(1, Ordering::Relaxed) >= questions;

@@ -49,8 +49,7 @@ impl Blur {
         fwhm_of(self.of_voxels(place).determinant().sqrt())
     }
 
-    /// Blur variance along the vessel (mm²) if the weight of voxels falls linearly to 0 at `thickness` mm
-    /// from the plane.
+    /// Blur variance along the vessel (mm²) if voxel weights fall linearly to 0 at `thickness` mm from the plane.
     pub(crate) fn along(&self, place: &SectionPlane, thickness: f64) -> f64 {
         let voxel = place.normal.dot(self.voxel * place.normal) * AVERAGING;
         // t²/6 is the variance of weights that fall linearly from the plane to 0 at t.

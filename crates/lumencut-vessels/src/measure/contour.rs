@@ -9,8 +9,7 @@ use super::section_plane::SectionPlane;
 use lumencut_core::math::lanes::{FAN, Isa, Kernel, dispatch};
 use lumencut_core::math::statistics::median;
 
-/// A wall farther from the ellipse than this belongs to another structure: a fraction of the radius, or mm if
-/// that is larger.
+/// A wall farther from the ellipse than this (radii, or mm if larger) belongs to another structure.
 const MAX_OFFSET: (f64, f64) = (0.5, 0.5);
 
 pub(crate) trait Shares: Sync {

@@ -10,15 +10,13 @@ const BRIGHTER: f64 = 0.75;
 /// Maximum fraction of the enclosed area whose values do not look like lumen.
 const MOST_OTHER: f64 = 0.12;
 
-/// Points less than this many blur widths inside the contour are not checked: blur mixes lumen and
-/// surroundings there.
+/// Points within this many blur widths of the contour are not checked: blur mixes lumen and surroundings there.
 const BLURRED_WIDTHS: f64 = 0.75;
 
 /// Every n-th ray is checked (first number), at this many points (second number).
 const CHECKED: (usize, usize) = (2, 6);
 
-/// Lowest and highest value of lumen, for the levels of the `lumen` and of the tissue `beside` it. All are
-/// fractions of the contrast.
+/// Lowest and highest value of lumen, for a `lumen` level and the level `beside` it (fractions of the contrast).
 pub(crate) fn lumen_shares(lumen: f64, beside: f64) -> [f64; 2] {
     let contrast = lumen - beside;
     [beside + 0.5 * contrast, lumen + BRIGHTER * contrast]

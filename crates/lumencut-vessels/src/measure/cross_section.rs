@@ -13,7 +13,6 @@ use lumencut_core::volume::Volume;
 
 const SIDE: Limits = Limits::new(1e-3, 1e3, "mm");
 
-/// Maximum number of pixels along a side.
 const MOST_PIXELS: f64 = 4096.0;
 
 /// A section as an image of square pixels, centred on the vessel.
@@ -30,8 +29,7 @@ pub struct CrossSection {
 }
 
 impl CrossSection {
-    /// Samples a square with sides of `size` mm. Errors: [`ErrorKind::Settings`] for an invalid size or pixel
-    /// spacing.
+    /// Samples a square with sides of `size` mm. [`ErrorKind::Settings`] for an invalid size or pixel spacing.
     pub fn new(volume: &Volume, place: SectionPlane, size: f64, pixel_spacing: f64) -> Result<Self> {
         SIDE.check("size of the cross-section", size)?;
         SIDE.check("pixel_spacing of the cross-section", pixel_spacing)?;

@@ -58,12 +58,11 @@ const TRUSTED: (f64, [f64; 2]) = (1.0, [0.15, 2.0]);
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fit {
     pub ellipse: Ellipse,
-    /// Level of the lumen and its standard deviation, as shares of the contrast.
+    /// Level of the lumen and its standard deviation, as fractions of the contrast.
     pub lumen: [f64; 2],
     pub background: f64,
     pub wall: Option<Wall>,
-    /// Root mean square of the residuals, as a fraction of the contrast. If the lumen is an ellipse, this is
-    /// the noise.
+    /// Root mean square of the residuals (fraction of the contrast). It is the noise if the lumen is an ellipse.
     pub(crate) missed: f64,
     /// Standard deviation of the equivalent diameter (mm); NaN if not requested.
     pub uncertainty: f64,

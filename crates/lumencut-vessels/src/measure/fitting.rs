@@ -21,7 +21,7 @@ const BEYOND: f64 = 1.5;
 /// Standard deviation of the relative difference between the semi-axes: first for wide lumens, then for narrow ones.
 const STRETCH: (f64, f64) = (0.4, 0.06);
 
-/// Minimum share of directions in which nothing obstructs the wall.
+/// Minimum fraction of directions in which nothing obstructs the wall.
 const LEAST_FREE: f64 = 0.35;
 
 /// The lumen level is read within this fraction of the radius if the blurred peak reaches `LEAST_PEAK`.
@@ -71,8 +71,7 @@ impl Bench<'_, '_> {
         let cleared = self.cleared(place, known)?;
         let seen = self.level_seen(place, known, |point| cleared.obstacles.keeps(point));
         let expected = Expected {
-            // A smaller ellipse with a higher level fits a sharp wall as well, so the level visible in the
-            // middle is used.
+            // A smaller, brighter ellipse fits a sharp wall as well, so the level visible in the middle is used.
             lumen: seen.filter(|seen| seen[1] < known.lumen[1]).unwrap_or(known.lumen),
             background: [0.0, 0.5],
             stretch: stretch(2.0 * known.ellipse.mean, self.blur.width(place)),

@@ -15,8 +15,7 @@ impl<const N: usize> Normal<N> {
         Self { cost: 0.0, matrix: [[0.0; N]; N], slope: [0.0; N] }
     }
 
-    /// Adds a prior on a linear combination of parameters, with coefficients `by`, residual `missing` and a
-    /// standard deviation.
+    /// Adds a prior on a linear combination of parameters: its coefficients, residual and standard deviation.
     pub(crate) fn expect(&mut self, by: &[f64; N], missing: f64, deviation: f64) {
         let weight = 1.0 / (deviation * deviation);
         self.cost += weight * missing * missing;
@@ -70,7 +69,6 @@ pub(crate) fn minimum<const N: usize>(
     Some(best)
 }
 
-/// Cholesky factor; None if the matrix is not positive definite.
 fn cholesky<const N: usize>(matrix: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
     let mut lower = [[0.0; N]; N];
     for i in 0..N {

@@ -13,8 +13,7 @@ use super::sections::{Bench, Known, noise};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Sections give the level if its standard deviation is at most this (fraction of the contrast) and there are
-/// at least this many of them.
+/// Sections give the level if its standard deviation is at most this (fraction of the contrast); minimum number.
 const LEVEL_SECTIONS: (f64, usize) = (0.05, 3);
 
 /// Maximum number of sections fitted with a common level.
@@ -26,10 +25,9 @@ const LEVEL_RANGE: [f64; 2] = [0.6, 4.0];
 /// Relative standard deviation of a common level.
 const DEVIATION: f64 = 0.05;
 
-/// Rounds of the golden-section search.
 const ROUNDS: usize = 11;
 
-/// Lumen level and its standard deviation at each section, as shares of the contrast.
+/// Lumen level and its standard deviation at each section, as fractions of the contrast.
 pub(crate) fn lumen_levels(
     bench: &Bench,
     places: &[SectionPlane],

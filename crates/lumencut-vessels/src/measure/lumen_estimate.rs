@@ -24,11 +24,11 @@ pub(crate) struct LumenEstimate {
     pub center: DVec2,
     /// Radius of the lumen (mm).
     pub radius: f64,
-    /// Level of the lumen, as a share of the contrast.
+    /// Level of the lumen, as a fraction of the contrast.
     pub lumen: f64,
 }
 
-/// Minimum level of metal or calcium, as a share of the contrast.
+/// Minimum level of metal or calcium, as a fraction of the contrast.
 const BRIGHT: f64 = 1.6;
 
 impl LumenEstimate {
@@ -79,8 +79,7 @@ fn start(rays: &Rays, place: &SectionPlane, search: f64) -> Option<DVec2> {
     best.map(|(_, point)| point)
 }
 
-/// Step of the search grid (mm). It has at most as many points as the volume has voxels, because a file may
-/// contain any radius.
+/// Step of the search grid (mm): at most as many points as the volume has voxels, because any radius may be given.
 fn search_step(voxels: &Voxels, search: f64) -> f64 {
     let count: f64 = voxels.size.iter().map(|n| *n as f64).product();
     voxels.sampling_side.max(2.0 * search / count.sqrt())

@@ -1,5 +1,4 @@
-//! Entry points of measuring, for a single vessel or for the vessels of a tree. A tree shares one point
-//! spread and wall level.
+//! Entry points of measuring: for a single vessel, or for a tree with a common point spread and wall level.
 
 use std::cmp::Ordering;
 use std::sync::OnceLock;
@@ -99,7 +98,7 @@ impl<'a, 'v> TreeMeasuring<'a, 'v> {
         self.prepared(n, &request)?.profile(&self.voxels, &request.tree[n], &request, findings)
     }
 
-    /// Numbers of the widest vessels; their order in the tree does not matter.
+    /// Indices of the widest vessels; their order in the tree does not matter.
     fn widest_vessels(&self) -> Vec<usize> {
         let tree = self.request.tree;
         let mut order: Vec<usize> = (0..tree.len()).collect();
@@ -140,7 +139,6 @@ impl<'a, 'v> TreeMeasuring<'a, 'v> {
         Ok(default(&self.voxels, why))
     }
 
-    /// The prepared vessel; None if it cannot be measured.
     fn prepared_or_none(&self, n: usize, request: &MeasureRequest) -> Result<Option<&PreparedVessel>> {
         match self.prepared(n, request) {
             Ok(prepared) => Ok(Some(prepared)),

@@ -11,7 +11,7 @@ use lumencut_core::math::lanes::FAN;
 const THINNEST: f64 = 0.2;
 const THICKEST: f64 = 3.3;
 
-/// Model values at sixteen points (shares of the contrast), and their derivatives.
+/// Model values at sixteen points (fractions of the contrast), and their derivatives.
 pub(crate) struct Modelled<const N: usize> {
     pub share: [f32; FAN],
     /// Derivatives of the values with respect to each parameter.

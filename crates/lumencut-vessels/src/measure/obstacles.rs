@@ -34,7 +34,7 @@ pub(crate) struct Obstacles {
     center: DVec2,
     limit: [f64; RAYS],
     nearest: f64,
-    /// Share of directions in which nothing obstructs the wall.
+    /// Fraction of directions in which nothing obstructs the wall.
     pub free: f64,
 }
 

@@ -19,14 +19,12 @@ const SECTIONS: (usize, usize) = (16, 3);
 /// Minimum diameter of a section, in widths of the point spread.
 const MIN_WIDTH: f64 = 3.0;
 
-/// A section is suitable if its fraction of unobstructed directions is above `FREE`, its residual at most
-/// `LEAST_MISSED` times the noise, and the ratio of its axes below `ROUND`.
+/// Limits of suitable sections: unobstructed fraction of directions, residual (times the noise), ratio of the axes.
 const FREE: f64 = 0.95;
 const LEAST_MISSED: f64 = 1.5;
 const ROUND: f64 = 1.35;
 
-/// Search range: multiples of the smallest and of the largest voxel side, and at most `SHARE` of a section's
-/// diameter.
+/// Search range in smallest and in largest voxel sides; at most `SHARE` of a section's diameter.
 const SEARCH_RANGE: [f64; 2] = [0.3, 3.0];
 const SHARE: f64 = 0.5;
 
@@ -39,7 +37,6 @@ const LEAST_SPREAD: f64 = 0.03;
 /// Minimum length of the part that is used, in point spread widths, because neighbouring sections share voxels.
 const MIN_EXTENT: f64 = 3.0;
 
-/// Rounds of the golden-section search.
 const ROUNDS: usize = 14;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -114,8 +111,7 @@ pub(crate) fn estimated(
     Ok(SpreadEstimate::Width(SharpEdges { fwhm, deviation, count: best.len(), ends: [first, last] }))
 }
 
-/// Median and standard deviation of the estimates if they agree and lie inside the range; otherwise the
-/// reason why not.
+/// Median and standard deviation of estimates that agree and lie inside the range, otherwise the reason why not.
 fn agreed(best: &mut [f64], [low, high]: [f64; 2]) -> std::result::Result<Level, &'static str> {
     let Some(fwhm) = median(best).filter(|_| best.len() >= SECTIONS.1) else { return Err(TOO_NARROW) };
     let margin = 0.02 * (high - low);

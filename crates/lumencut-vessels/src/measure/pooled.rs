@@ -5,7 +5,7 @@
 /// Distance (mm) over which the weight of a section falls to 1/e.
 const DISTANCE: f64 = 25.0;
 
-/// Minimum and maximum standard deviation of the pooled level, as shares of the contrast.
+/// Minimum and maximum standard deviation of the pooled level, as fractions of the contrast.
 const DEVIATION: [f64; 2] = [0.01, 0.08];
 
 /// Larger differences between levels are clamped to this fraction of the contrast.
@@ -24,8 +24,7 @@ pub(crate) fn pooled(at: &[f64], levels: &[Option<Level>]) -> Vec<Level> {
     at.iter().map(|at| level(*at, &levels)).collect()
 }
 
-/// Weighted median of the sorted levels. Its standard deviation is the scatter of nearby levels beyond their
-/// own uncertainty.
+/// Weighted median of the sorted levels, and the scatter of nearby levels beyond their own uncertainty.
 fn level(at: f64, levels: &[(f64, Level)]) -> Level {
     let weights: Vec<f64> = levels
         .iter()

@@ -155,8 +155,7 @@ impl PreparedVessel {
         bench(voxels, self.scale, self.wall.filter(|_| hidden.is_none()), fwhm)
     }
 
-    /// Interval between separately fitted sections for a point spread (FWHM, mm), and the vessel with only
-    /// these sections.
+    /// Interval between separately fitted sections for a point spread (FWHM, mm), and only these sections.
     fn fitted(&self, voxels: &Voxels, fwhm: f64) -> (usize, Self) {
         let blur = Blur::new(fwhm, voxels.world_from_index.matrix3);
         let width = self.places.iter().map(|place| blur.width(place)).fold(f64::INFINITY, f64::min);

@@ -19,7 +19,7 @@ use super::wall_level::WallSource;
 pub enum Source {
     /// Given by the caller.
     Given,
-    /// Estimated on wide stretches of the vessel.
+    /// Estimated on wide parts of the vessel.
     Estimated {
         /// Description of the sections used.
         on: String,
@@ -172,7 +172,7 @@ impl Profile {
         self.diameter_min.iter().zip(&self.diameter_max).map(|(a, b)| f64::midpoint(*a, *b)).collect()
     }
 
-    /// Number of the section nearest to an arc length (mm); the first one of two equally near ones.
+    /// Index of the section nearest to an arc length (mm); the first one of two equally near ones.
     pub fn nearest_section(&self, at: f64) -> usize {
         let away = |n: &usize| (self.arc_length[*n] - at).abs();
         (0..self.len()).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(0)

@@ -39,7 +39,7 @@ impl Ray {
     }
 }
 
-/// Parameters of a search along a ray; levels are shares of the contrast.
+/// Parameters of a search along a ray; levels are fractions of the contrast.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Look {
     /// Levels of the lumen and of the surroundings.
@@ -66,7 +66,7 @@ pub(crate) struct Rays<'a, 'v> {
 }
 
 impl Rays<'_, '_> {
-    /// Value at a point of a plane, as a share of the contrast; NaN outside the volume.
+    /// Value at a point of a plane, as a fraction of the contrast; NaN outside the volume.
     pub(crate) fn at(&self, place: &SectionPlane, point: DVec2) -> f64 {
         self.scale.share(f64::from(self.voxels.at(place.point(point))))
     }
@@ -130,7 +130,6 @@ impl Rays<'_, '_> {
 
 /// Distances (mm) at which a ray rises above `level` and falls below it again, searched from sample `first`.
 fn rim(samples: &mut Samples, first: usize, level: f64) -> [f64; 2] {
-    /// Maximum number of samples to search.
     const FAR: usize = 24;
     let mut crossing = |from: usize, rises: bool| {
         let is_beyond = |value: f64| (value > level) == rises;
@@ -143,7 +142,7 @@ fn rim(samples: &mut Samples, first: usize, level: f64) -> [f64; 2] {
     [begins.max(0.0), crossing(inner, false).1]
 }
 
-/// Samples of a ray as shares of the contrast, read on demand; NaN outside the volume.
+/// Samples of a ray as fractions of the contrast, read on demand; NaN outside the volume.
 struct Samples<'a, 'v> {
     rays: &'a Rays<'a, 'v>,
     start: DVec3,

@@ -10,7 +10,6 @@ use lumencut_core::math::statistics::median;
 /// Number of directions that are sampled at each section.
 const DIRECTIONS: usize = 16;
 
-/// Maximum number of sections that are sampled.
 const MOST_PLACES: usize = 150;
 
 /// Search radius (mm) for a vessel whose radius is unknown.
@@ -22,8 +21,7 @@ const STEEP: f64 = 0.4;
 /// The surroundings are searched up to this distance beyond the wall (mm).
 const BEYOND: f64 = 1.5;
 
-/// Maximum width of a bright rim (mm). The values behind it must fall below the lumen by `RIM_SHARE` of the
-/// rim's excess.
+/// Maximum width of a bright rim (mm); minimum fall of the values behind it, as a fraction of its excess over lumen.
 const MAX_RIM_MM: f64 = 4.0;
 const RIM_SHARE: f64 = 0.1;
 

@@ -27,7 +27,7 @@ use lumencut_core::stop::{Stop, go_on};
 /// multiple of the noise if larger. Poorly mixed contrast medium and enhanced edges stay below this limit.
 pub(crate) const BRIGHT: (f64, f64) = (0.15, 5.0);
 
-/// A neighbour starts where values rise by this share of the contrast, or multiple of the noise if larger.
+/// A neighbour starts where values rise by this fraction of the contrast, or multiple of the noise if larger.
 const RISE: (f64, f64) = (0.2, 4.0);
 
 /// Rays continue this many mm plus this many blur widths beyond the wall.
@@ -45,7 +45,7 @@ pub(crate) const LEAST_CONTRAST: f64 = 2.0;
 /// Standard deviation of diameters that are measured without a blur model, in blur widths.
 const UNMODELLED_WIDTHS: f64 = 0.5;
 
-/// Noise before it is estimated, as a share of the contrast.
+/// Noise before it is estimated, as a fraction of the contrast.
 const FIRST_NOISE: f64 = 0.1;
 
 pub(crate) struct Bench<'a, 'v> {
@@ -70,9 +70,9 @@ pub(crate) struct Doubt {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Known {
     pub ellipse: Ellipse,
-    /// Lumen level, as a share of the contrast.
+    /// Lumen level, as a fraction of the contrast.
     pub lumen: Level,
-    /// Noise, as a share of the contrast; None before it is estimated.
+    /// Noise, as a fraction of the contrast; None before it is estimated.
     pub noise: Option<f64>,
     /// The wall pooled over sections; None if the general prior is used.
     pub wall: Option<KnownWall>,

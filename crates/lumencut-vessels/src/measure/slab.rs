@@ -108,8 +108,7 @@ pub(crate) fn thickness(voxels: &Voxels, place: &SectionPlane) -> f64 {
     [sides.x_axis, sides.y_axis, sides.z_axis].iter().map(|side| side.dot(place.normal).abs()).sum()
 }
 
-/// Range of voxels of a row within `thickness` of the plane; `z` is the distance of the first, `dz` the
-/// increase per voxel.
+/// Range of voxels of a row within `thickness` of the plane; the first is at distance `z`, which grows by `dz`.
 fn within(z: f64, dz: f64, thickness: f64, count: i32) -> Option<(i32, i32)> {
     let last = f64::from(count - 1);
     if dz.abs() < 1e-9 {

@@ -19,8 +19,7 @@ use lumencut_core::named::Named;
 /// The reference diameter is the median of the sections within this distance (mm).
 pub(crate) const REFERENCE_REACH: f64 = 1.5;
 
-/// A vessel distal to the stenosis is itself narrowed if its diameter is below this fraction of that on the
-/// other side.
+/// A distal vessel is itself narrowed if it is below this fraction of the vessel on the other side of the stenosis.
 pub(crate) const NARROWED: f64 = 0.5;
 
 /// The same limit relative to a comparison vessel, such as the contralateral one (Bartlett et al. 2006, AJNR 27:632).
@@ -173,8 +172,7 @@ impl Profile {
         (place, ends)
     }
 
-    /// Standard deviation of the percentage times the reference diameter (mm). `share` is the diameter at the
-    /// stenosis divided by the reference diameter.
+    /// Standard deviation of the percentage times the reference diameter (mm); `share` is the ratio of the diameters.
     fn percent_uncertainty(&self, at: f64, method: Method, share: f64, references: &[[f64; 2]]) -> f64 {
         let place = self.uncertainty_at(at);
         let known: Vec<(f64, Parts)> = match (method, references) {
@@ -204,11 +202,10 @@ impl Profile {
             .ok_or_else(|| measuring("reference of the stenosis", format!("nothing at {at:.1} mm"), MEASURED))
     }
 
-    /// Reasons to doubt the percentage of a stenosis at arc length `at` with these references (mm), from the
-    /// nearest sections.
+    /// Reasons to doubt a stenosis at arc length `at` with these references (mm), from the nearest sections.
     pub fn doubts(&self, at: f64, method: Method, references: &[f64]) -> Doubts {
         let place = self.nearest_section(at);
-        // ECST does not use a reference place.
+        // ECST needs no reference place.
         let told_by = if method == Method::Ecst { &[] } else { references };
         let others: Vec<usize> = told_by.iter().map(|reference| self.nearest_section(*reference)).collect();
         let between = |other: usize| (place.min(other) + 1)..place.max(other);

@@ -8,13 +8,13 @@ use super::stenosis::REFERENCE_REACH;
 use lumencut_core::error::Result;
 use lumencut_core::math::statistics::{median, quantile};
 
-/// Walls are parallel if diameters within this distance (mm) vary by at most this share of their median.
+/// Walls are parallel if diameters within this distance (mm) vary by at most this fraction of their median.
 const PARALLEL: (f64, f64) = (2.5, 0.06);
 
 /// Range of distances of a reference from the stenosis (mm).
 const REFERENCE_DISTANCE_MM: [f64; 2] = [3.0, 50.0];
 
-/// Minimum diameter of a reference, as a share of the typical diameter on its side.
+/// Minimum diameter of a reference, as a fraction of the typical diameter on its side.
 const NORMAL: f64 = 0.92;
 
 /// The calibre counts as changed if the diameters of neighbouring normal places differ by this factor.
@@ -153,8 +153,7 @@ impl Profile {
         Ok(if segment == [None, None] { within([f64::INFINITY; 2]) } else { segment })
     }
 
-    /// All possible references by arc length: without hindrances, with parallel walls, not narrower than the
-    /// stenosis.
+    /// Possible references by arc length: without hindrances, with parallel walls, not narrower than the stenosis.
     fn normal_places(&self, at: f64) -> Vec<Spot> {
         let hindrances = self.hindrances();
         let least = self.diameter_at(at).map_or(0.0, |(diameter, _)| diameter);

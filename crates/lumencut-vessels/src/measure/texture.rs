@@ -1,7 +1,6 @@
 //! Estimates the spatial correlation of image noise.
 //!
-//! The reconstruction kernels of CT correlate neighbouring voxels, so a mean is less certain than with
-//! independent noise.
+//! Reconstruction kernels of CT correlate neighbouring voxels, so a mean is less certain than with independent noise.
 
 use glam::{DMat3, DVec3};
 
@@ -54,8 +53,8 @@ impl Pairs {
             all.count[i][j][k] += 1.0;
             near = [near[0] + miss * beside, near[1] + 1.0];
         });
-        // The products of all pairs sum to half of (squared sum - sum of squares). Without the near pairs,
-        // the distant ones remain.
+        // All products sum to half of (squared sum - sum of squares). Without those of near pairs, distant
+        // pairs remain.
         let number = each.len() as f64;
         all.far = [(sum * sum - squares) / 2.0 - near[0], number * (number - 1.0) / 2.0 - near[1]];
         all
@@ -102,7 +101,6 @@ fn put_in_order<T: Copy>(samples: &mut [([i16; 3], T)]) -> usize {
     axis
 }
 
-/// Absolute offset of two voxels; None if they are distant.
 #[inline(always)]
 fn apart(a: [i16; 3], b: [i16; 3]) -> Option<[usize; 3]> {
     let apart: [usize; 3] = std::array::from_fn(|n| usize::from(a[n].abs_diff(b[n])));

@@ -13,7 +13,7 @@ const TRIED_DEVIATIONS: [f64; 6] = [0.16, 0.32, 0.48, 0.64, 0.8, 0.96];
 /// Wall level found on the sections of a vessel, without the prior.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct VesselWall {
-    /// Number of the vessel in its tree.
+    /// Index of the vessel in its tree.
     pub vessel: usize,
     /// Level and standard deviation, in the volume's unit.
     pub level: Level,
@@ -59,8 +59,7 @@ fn by_others(expected: Level, levels: &[Level]) -> Level {
     [mean, mean_of(&|level| level[1].powi(2) + (level[0] - mean).powi(2)).sqrt()]
 }
 
-/// Log-likelihood of the levels if vessels differ from their tree by the standard deviation `apart`, and the
-/// level estimated then.
+/// Log-likelihood that vessels differ from their tree by a standard deviation `apart`; the level estimated then.
 fn by_others_with_deviation([mean, deviation]: Level, apart: f64, levels: &[Level]) -> (f64, Level) {
     let between = apart.powi(2);
     let (mut level, mut variance, mut likely) = (mean, deviation.powi(2) - between, 0.0);

@@ -29,7 +29,7 @@ pub(crate) struct Wall {
     pub(crate) log_thickness: Level,
     /// Change of the log thickness per change of the level: a thin, bright wall looks like a thick one.
     pub slope: f64,
-    /// Harmonics of the surroundings, as shares of the contrast; see [`super::model::ThreeLevels`].
+    /// Harmonics of the surroundings, as fractions of the contrast; see [`super::model::ThreeLevels`].
     pub sectors: [f64; HARMONICS],
     /// The point from which directions are measured (mm, in the plane).
     pub origin: DVec2,

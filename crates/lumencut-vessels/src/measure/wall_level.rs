@@ -15,7 +15,7 @@ pub const CT_WALL: Level = [45.0, 25.0];
 const LUMEN: f64 = 80.0;
 const AROUND: [f64; 2] = [-400.0, 400.0];
 
-/// A wall is darker than its lumen by at least this share of the contrast.
+/// A wall is darker than its lumen by at least this fraction of the contrast.
 const BELOW_LUMEN: f64 = 0.1;
 
 const DEVIATION: Limits =

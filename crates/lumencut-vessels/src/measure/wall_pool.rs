@@ -8,7 +8,7 @@ use super::wall::{KnownWall, Wall, beforehand};
 /// Distance (mm) over which the weight of a section falls to 1/e; minimum standard deviation of the log thickness.
 const EVEN: (f64, f64) = (10.0, 0.1);
 
-/// Minimum standard deviation of the level, as a share of the contrast.
+/// Minimum standard deviation of the level, as a fraction of the contrast.
 const LEAST_LEVEL: f64 = 0.01;
 
 /// Sections within these distances (mm) count as one. The first is for the level, because errors of the model

@@ -152,7 +152,7 @@ fn attach(line: &mut ThroughLine, node_place: &[Option<DVec3>], on_other: [Optio
     }
 }
 
-/// Bends a line to `place`, starting where the line leaves the other lumen, which has a radius of `radius` mm.
+/// Bends a line to `place`, starting where it is `radius` mm away, outside the other lumen.
 fn lead_in(points: &mut [DVec3], end: usize, place: DVec3, radius: f64, next: usize) {
     let last = points.len() - 1;
     let from_end = |n: usize| if end == 0 { n } else { last - n };

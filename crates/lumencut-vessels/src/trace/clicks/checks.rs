@@ -17,8 +17,7 @@ pub struct Clicks {
     pub stoppers: Vec<Stopper>,
     /// Whether tracing may cross parts without lumen, of any length, by straight bridges.
     pub bridge: bool,
-    /// Existing vessels, which stay unchanged: new vessels that meet them end at their points. Their
-    /// confidence is ignored.
+    /// Existing vessels, which stay unchanged: new ones that meet them end at their points. Confidence is ignored.
     pub beside: Vec<Centerline>,
 }
 

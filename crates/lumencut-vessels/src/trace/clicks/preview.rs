@@ -27,7 +27,7 @@ pub struct Sought<'a> {
     pub between: [DVec3; 2],
     /// Places that no path may pass.
     pub stoppers: &'a [Stopper],
-    /// Whether the path may cross stretches without lumen.
+    /// Whether the path may cross parts without lumen.
     pub bridge: bool,
 }
 

@@ -248,7 +248,6 @@ impl Search<'_, '_> {
     }
 }
 
-/// Number of progress steps of a path.
 const PARTS: usize = 1000;
 
 fn refusal(between: [DVec3; 2], way: &Way, model: &LumenModel) -> Error {

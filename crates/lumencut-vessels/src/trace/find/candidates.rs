@@ -23,8 +23,8 @@ const OF_CONTRAST: f64 = 0.15;
 const SECTION_NOISES: f64 = 3.0;
 const SECTION_OF_CONTRAST: f64 = 0.2;
 
-/// Limits of a section: minimum closure (rays with a wall one radius away), minimum fraction of contrasting
-/// rays, and range of its radius relative to the flux radius.
+/// Minimum closure (rays with a wall one radius away) and contrasting fraction of rays; radius relative to
+/// the flux's.
 const LEAST_CLOSURE: f64 = 0.65;
 const LEAST_CONTRAST_SHARE: f64 = 0.6;
 const RADIUS_RATIO: [f64; 2] = [0.5, 1.9];
@@ -58,7 +58,7 @@ pub(crate) struct Candidate {
     pub(crate) response: f64,
     /// Radius of the ball whose flux has that response.
     pub(crate) flux_radius: f64,
-    /// Share of rays with a wall about one radius away, and share of rays that lose half of the contrast.
+    /// Fraction of rays with a wall about one radius away, and fraction of rays that lose half of the contrast.
     pub closure: f64,
     pub(crate) contrast_share: f64,
 }

@@ -48,7 +48,7 @@ pub fn part_at(trees: &Trees, seed: DVec3, voxel: f64) -> std::result::Result<us
     Ok(trees.vessels[vessel].part)
 }
 
-/// The vessel nearest to a place in radii, preferably one that `comes_first` accepts. `voxel` (mm) is the
+/// The vessel nearest to a position in radii, preferably one that `comes_first` accepts. `voxel` (mm) is the
 /// minimum reach. Errors: If no vessel is in reach, the nearest point of one and its distance (mm).
 pub fn vessel_at(
     trees: &Trees,

@@ -35,13 +35,11 @@ const MOST_SECTIONS: usize = 60;
 /// A tube becomes wide over this range of radii (voxels).
 const WIDE_VOXELS: [f64; 2] = [2.5, 5.5];
 
-/// Bone is searched up to this distance (radii plus voxels). It exceeds the vessel level by `BONE` times the
-/// contrast.
+/// Bone is searched up to this distance (radii plus voxels), and is this much above vessels (times the contrast).
 const BONE_REACH: [f64; 2] = [1.5, 1.5];
 const BONE: f64 = 0.4;
 const BRIGHT_INSIDE: f64 = 0.5;
-/// A wide tube may have bright walls, as in a stent, if its level differs this little from vessels (fractions
-/// of the contrast).
+/// A wide tube may have bright walls, like a stent, if its level differs by less than this (times the contrast).
 const STENT_INSIDE: [f64; 2] = [0.25, 0.55];
 
 struct Around {
@@ -50,7 +48,7 @@ struct Around {
     even: f64,
     /// Contrast between lumen and ring, divided by the vessel contrast.
     contrast: f64,
-    /// Share of rays that meet bone.
+    /// Fraction of rays that meet bone.
     bone: f64,
     inside: f64,
 }
@@ -60,7 +58,7 @@ pub(crate) fn ramp(value: f64, from: f64, to: f64) -> f64 {
     ((value - from) / (to - from)).clamp(0.0, 1.0)
 }
 
-/// Confidence (0 to 1) and main doubt of a track, whose points are in finest voxels.
+/// Confidence (0 to 1) and main doubt of a track, whose points are in finest-level voxels.
 pub(crate) fn confidence(
     pyramid: &Pyramid,
     voxels: &Voxels,

@@ -42,7 +42,6 @@ pub(crate) struct Responses {
     average_size: [usize; 3],
 }
 
-/// Kernel that computes the responses of a tile.
 pub(crate) struct FluxOf<'a> {
     /// Values of the tile with a border of `HALO` voxels.
     pub values: Vec<f32>,
@@ -271,8 +270,7 @@ fn gain(number: usize) -> Gain {
 
 fn blurred_disc(x: f64, y: f64, radius: f64) -> f32 {
     let distance = x.hypot(y);
-    // Approximates the disc's edge by a half-plane, which is accurate for radii above one standard deviation
-    // of the blur.
+    // Approximates the disc's edge by a half-plane: accurate for radii above one standard deviation of the blur.
     let edge = (radius - distance) / (BLUR * std::f64::consts::SQRT_2);
     (0.5 * (1.0 + (std::f64::consts::FRAC_2_SQRT_PI * edge * (1.0 + 0.089 * edge * edge)).tanh())) as f32
 }

@@ -23,7 +23,7 @@ pub struct Trees {
 pub struct FoundVessel {
     /// Points, radii and confidence, from the root outwards.
     pub line: Centerline,
-    /// Number of the part of the vessel; 0 is the most important part.
+    /// Index of the part of the vessel; 0 is the most important part.
     pub part: usize,
     /// Confidence that the line is a vessel, 0 to 1.
     pub confidence: f64,

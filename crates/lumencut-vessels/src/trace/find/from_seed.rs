@@ -12,7 +12,7 @@ use lumencut_core::error::Result;
 /// Contrast threshold around a seed, as a fraction of the normal threshold.
 const FAINTER: f64 = 1.0 / 3.0;
 
-/// Tracks through a seed (finest voxels); none if a known track already contains the seed.
+/// Tracks through a seed (finest-level voxels); none if a known track already contains the seed.
 pub(crate) fn from_seed(tracking: &Tracking, seed: DVec3, known: &[Track]) -> Result<Vec<Track>> {
     if known.iter().any(|track| holds(track, seed)) {
         return Ok(Vec::new());

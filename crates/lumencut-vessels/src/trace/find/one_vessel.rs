@@ -83,7 +83,7 @@ fn parent(trees: &Trees, number: usize) -> Option<(usize, usize)> {
     })
 }
 
-/// Whether a place lies in or on a vessel. Its ends do not count, because another vessel may continue there.
+/// Whether a position lies in or on a vessel. Its ends do not count, because another vessel may continue there.
 fn meets(beside: &[Centerline], place: DVec3) -> bool {
     beside.iter().any(|vessel| {
         let (points, last) = (&vessel.points, vessel.points.len() - 1);

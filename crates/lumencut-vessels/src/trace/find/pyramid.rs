@@ -25,7 +25,7 @@ const FULL: f32 = 65_535.0;
 #[derive(Clone, Debug)]
 pub(crate) struct Level {
     pub size: [usize; 3],
-    /// Side of a voxel, in finest voxels.
+    /// Side of a voxel, in finest-level voxels.
     pub side: f64,
     /// Values scaled to 0 to 65535 over the value range; the first axis varies fastest.
     pub voxels: Vec<u16>,
@@ -189,7 +189,7 @@ impl Pyramid {
         }
     }
 
-    /// The level for a tube of a radius (finest voxels): the finest on which the radius is below four voxels.
+    /// The level for a tube of a radius (finest-level voxels): the finest on which the radius is below four voxels.
     pub(crate) fn level_for(&self, radius: f64, levels_examined: &Range<usize>) -> &Level {
         let last = levels_examined.end - 1;
         let number = (levels_examined.start..last)

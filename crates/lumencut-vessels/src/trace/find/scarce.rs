@@ -22,12 +22,10 @@ const LONG_AND_ROUND: [[f64; 2]; 2] = [[10.0, 1.5], [6.0, 1.25]];
 /// A length of this fraction of the diagonal suffices for any width, because a small volume cannot show more.
 const LONG_OF_DIAGONAL: f64 = 0.5;
 
-/// Upper level (HU) of muscle and of blood without contrast medium. A limit of 120 would exclude scans with
-/// arteries of 115 HU.
+/// Upper level (HU) of muscle and of blood without contrast medium; 120 would exclude arteries of 115 HU.
 const BLOOD: f64 = 75.0;
 
-/// Whether sure, long, round tracks reach the minimum length and, in CT, are brighter than blood without
-/// contrast medium.
+/// Whether sure, long, round tracks reach the minimum length and, in CT, exceed blood without contrast medium.
 pub(crate) fn is_angiography(scan: &Scan, tracks: &[Track], shapes: &[Option<Shape>]) -> bool {
     let diagonal = diagonal(scan.voxels);
     let length = |(track, shape): (&Track, &Option<Shape>)| {

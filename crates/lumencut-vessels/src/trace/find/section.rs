@@ -28,7 +28,7 @@ const FAR_WALL: f64 = 1.6;
 /// Farther walls are moved to this many radii, so that a branch does not shift the centre.
 const MAX_WALL_RADII: f64 = 1.5;
 
-/// Rays end at bone only in tubes up to this radius (finest voxels).
+/// Rays end at bone only in tubes up to this radius (finest-level voxels).
 pub(crate) const TOUCHED: f64 = 3.0;
 
 /// Bone is brighter than lumen by this fraction of the contrast. Rays that meet bone end at the darkest sample before
@@ -36,7 +36,7 @@ pub(crate) const TOUCHED: f64 = 3.0;
 const ABOVE: f64 = 0.15;
 const MOST_BONE: usize = 4;
 
-/// Lengths are in finest voxels, values in the unit of the volume.
+/// Lengths are in finest-level voxels, values in the unit of the volume.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Section {
     pub level: f64,
@@ -46,9 +46,9 @@ pub(crate) struct Section {
     pub radius: f64,
     /// Vector from the given position to the centre.
     pub shift: DVec3,
-    /// Share of rays with a wall about one radius away.
+    /// Fraction of rays with a wall about one radius away.
     pub closure: f64,
-    /// Share of rays that lose at least half of the contrast.
+    /// Fraction of rays that lose at least half of the contrast.
     pub(crate) contrast_share: f64,
 }
 
@@ -71,7 +71,7 @@ impl Section {
 struct Walls {
     rays: Rays,
     plane: [DVec3; 2],
-    /// Approximate radius of the tube, and voxel side of the level (finest voxels).
+    /// Approximate radius of the tube, and voxel side of the level (finest-level voxels).
     radius: f64,
     side: f64,
     lumen: f64,
@@ -147,10 +147,9 @@ fn lumen(level: &Level, place: DVec3, plane: [DVec3; 2], radius: f64) -> f64 {
 struct Rays {
     /// Values by step; each row has one value per ray.
     values: Vec<[f32; RAYS]>,
-    /// Distance between samples, and length of the rays (finest voxels).
+    /// Distance between samples, and length of the rays (finest-level voxels).
     step: f64,
     reach: f64,
-    /// Lowest value of each ray.
     darkest: [f64; RAYS],
 }
 
@@ -196,7 +195,6 @@ impl Rays {
     }
 }
 
-/// Kernel that samples all rays.
 struct Sampled<'a> {
     level: &'a Level,
     /// Start of the rays, in voxels of the level.

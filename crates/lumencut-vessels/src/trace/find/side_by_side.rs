@@ -10,7 +10,7 @@ use crate::trace::find::tracking::Tracking;
 use lumencut_core::error::Result;
 use lumencut_core::stop::go_on;
 
-/// Minimum radius of a wide tube (finest voxels).
+/// Minimum radius of a wide tube (finest-level voxels).
 const MIN_WIDE_RADIUS: f64 = 4.0;
 
 /// Ranges for a lumen inside a wide tube: distance from its axis, and radius, both in radii of the wide tube.
@@ -27,14 +27,13 @@ const COARSE_LEVELS: usize = 2;
 /// Minimum confidence of the new tracks.
 const LEAST_CONFIDENCE: f64 = 0.5;
 
-/// Limits of a new part: distance from the wide axis (in its radii), length (own radii), fraction inside the
-/// wide tube.
+/// Limits of a new part: distance from the wide axis (its radii), length (own radii), fraction in the wide tube.
 const MIN_AXIS_DISTANCE: f64 = 0.33;
 const LEAST_RADII: f64 = 3.0;
 const LEAST_WITHIN: f64 = 0.3;
 const WITHIN: f64 = 1.15;
 
-/// Finds tracks of adjacent lumens inside wide tracks, in finest voxels.
+/// Finds tracks of adjacent lumens inside wide tracks, in finest-level voxels.
 pub(crate) fn side_by_side(
     tracking: &Tracking,
     candidates: &[Candidate],

@@ -20,7 +20,6 @@ pub(crate) enum Stage {
 /// Relative durations of the stages.
 const COSTS: [usize; 7] = [4, 18, 28, 38, 7, 2, 3];
 
-/// Number of progress steps per stage.
 const PARTS: usize = 1000;
 
 #[derive(Clone, Copy, Debug, Default)]

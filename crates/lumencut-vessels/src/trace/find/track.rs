@@ -16,7 +16,7 @@ pub(crate) struct TrackPoint {
     pub level: f64,
     /// Contrast to the surrounding tissue, in the unit of the volume.
     pub contrast: f64,
-    /// Share of rays with a wall about one radius away.
+    /// Fraction of rays with a wall about one radius away.
     pub closure: f64,
     /// Whether the section at this point looks like that of a tube.
     pub(crate) is_good: bool,

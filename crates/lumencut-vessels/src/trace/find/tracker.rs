@@ -10,12 +10,11 @@ use crate::trace::find::pyramid::{Level, Pyramid};
 use crate::trace::find::section::{Section, TOUCHED};
 use crate::trace::find::track::TrackPoint;
 
-/// Step as a share of the radius; its maximum (voxels of the level) and minimum (finest voxels).
+/// Step as a fraction of the radius; its maximum (voxels of the level) and minimum (finest-level voxels).
 const STEP: f64 = 0.45;
 const LONGEST_STEP: f64 = 1.5;
 const SHORTEST_STEP: f64 = 0.5;
 
-/// Number of centring rounds per step.
 const ROUNDS: usize = 2;
 
 /// Limits of a good section: closure, fraction of contrasting rays, radius relative to the running one
@@ -29,8 +28,7 @@ const MOST_SHIFT: [f64; 2] = [0.6, 0.4];
 /// Maximum radius of a tube (mm).
 const WIDEST: f64 = 22.0;
 
-/// Limits of a section: difference of level and contrast (fractions of the running contrast); contrast (times
-/// the noise).
+/// Limits of a section: level difference and contrast (times the running contrast), contrast (times the noise).
 const LEVEL: f64 = 0.45;
 const CONTRAST: f64 = 0.45;
 const NOISES: f64 = 3.0;
@@ -50,14 +48,13 @@ const DARK: f64 = 0.6;
 /// A track ends where it meets another one, unless that one is darker by more than this fraction of the contrast.
 pub(crate) const DARKER: f64 = 0.35;
 
-/// Maximum number of steps per direction.
 pub(crate) const MOST_STEPS: usize = 20_000;
 
 /// A track has returned to itself if it comes within `RETURNED` radii of a point `BEHIND` radii back on it.
 const RETURNED: f64 = 0.8;
 const BEHIND: f64 = 4.0;
 
-/// Data for tracking. Lengths are in finest voxels.
+/// Data for tracking. Lengths are in finest-level voxels.
 pub(crate) struct Tracker<'a> {
     pub(crate) pyramid: &'a Pyramid,
     pub levels_examined: Range<usize>,
@@ -86,7 +83,7 @@ enum Seen {
 type Look = fn(&Level, DVec3, DVec3, f64) -> Section;
 
 impl Tracker<'_> {
-    /// Points of the track through a candidate (finest voxels), with at most `most_steps` per direction.
+    /// Points of the track through a candidate (finest-level voxels), with at most `most_steps` per direction.
     pub(crate) fn track(&self, from: &Candidate, most_steps: usize) -> Option<Vec<TrackPoint>> {
         let level = self.pyramid.level_for(from.radius, &self.levels_examined);
         let section = Section::look(level, from.place, from.direction, from.radius);

@@ -15,20 +15,18 @@ use crate::trace::find::tracker::{DARKER, MOST_STEPS, Tracker};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Minimum length of a track in radii and in voxels, and minimum share of good sections.
+/// Minimum length of a track in radii and in voxels, and minimum fraction of good sections.
 const LEAST_RADII: f64 = 3.0;
 const LEAST_VOXELS: f64 = 5.0;
 const LEAST_GOOD: f64 = 0.6;
 
-/// Minimum confidence of a track.
 const LEAST_CONFIDENCE: f64 = 0.3;
 
 /// Number of steps of a short first attempt, and its minimum confidence relative to that of a complete track.
 const FIRST_STEPS: usize = 16;
 const LEAST_OF_FIRST: f64 = 0.5;
 
-/// Radius of the paint as a multiple of the track's: for narrow, for wide and for other tracks. Tracks are
-/// narrow below, and wide above, these radii (voxels).
+/// Paint radius of narrow, wide and other tracks, in track radii; limits (voxels) of narrow and wide tracks.
 const PAINTED: [f64; 3] = [0.9, 1.1, 1.0];
 const NARROW_RADIUS: f64 = 2.0;
 const WIDE_RADIUS: f64 = 4.0;
@@ -43,8 +41,7 @@ const OVER_RADIUS: f64 = 5.0;
 /// Number of candidates tracked in parallel before painting.
 const BATCH: usize = 32;
 
-/// Candidates closer than this (radii plus voxels) are not tracked in parallel; number of candidates searched
-/// per batch.
+/// Candidates closer than this (radii plus voxels) are not tracked in parallel; maximum number that is searched.
 const NEAR_RADII: f64 = 4.0;
 const NEAR_VOXELS: f64 = 8.0;
 const MAX_EXAMINED: usize = 128;

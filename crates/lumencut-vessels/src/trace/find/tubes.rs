@@ -32,7 +32,7 @@ const SAMPLES: usize = 400_000;
 /// The second pass caps values this far above the vessel level (fraction of the contrast): struts, calcium and bone.
 const ABOVE: f64 = 0.25;
 
-/// Contrast that the first pass assumes, as a share of the value range.
+/// Contrast that the first pass assumes, as a fraction of the value range.
 const FIRST_CONTRAST: f64 = 0.3;
 
 pub(crate) struct Tubes<'v> {
@@ -42,8 +42,7 @@ pub(crate) struct Tubes<'v> {
     pub shapes: Vec<Option<Shape>>,
 }
 
-/// The tubes of a scan; None if there are none. If no track contains the seed (mm, LPS), fainter tubes are
-/// found there.
+/// The tubes of a scan, if any. If no track contains the seed (mm, LPS), fainter tubes are found around it.
 pub(crate) fn tubes<'v>(
     voxels: &'v Voxels<'v>,
     seed: Option<DVec3>,
@@ -74,7 +73,7 @@ pub(crate) fn tubes<'v>(
     of_pass(&pass, scan, seed.map(|seed| pyramid.grid.grid_from_world.transform_point3(seed))).map(Some)
 }
 
-/// The tubes that the second pass finds; `seed` is in finest voxels.
+/// The tubes that the second pass finds; `seed` is in finest-level voxels.
 fn of_pass<'v>(pass: &Tracking, scan: Scan<'v>, seed: Option<DVec3>) -> Result<Tubes<'v>> {
     let candidates = pass.candidates()?;
     let mut tracks = pass.tracks(&candidates)?;
@@ -141,7 +140,6 @@ fn usual(pyramid: &Pyramid, range: f64, stop: Stop) -> Result<Option<[f64; 2]>> 
     Ok(vessel_level(&tracks, noise))
 }
 
-/// Converts a track from finest voxels to mm in world space.
 fn in_world(grid: &Grid, mut track: Track) -> Track {
     for point in &mut track.points {
         point.place = grid.world(point.place);

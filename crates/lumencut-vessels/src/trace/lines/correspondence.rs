@@ -13,7 +13,6 @@ use lumencut_core::stop::{Stop, go_on};
 /// Maximum number of point pairs. Each needs one bit, 512 MiB in all, and 32-bit machines can count them.
 const MOST_PAIRS: usize = usize::MAX >> (usize::BITS - 32);
 
-/// Number of pairs between two checks of `stop`.
 const PAIRS_BETWEEN_STOPS: usize = 1 << 24;
 
 /// Connections between two lines as pairs of point numbers, from the starts to the ends. Errors:

@@ -18,7 +18,7 @@ pub const WIDEST: f64 = 45.0;
 const TWO_SIDED: f64 = 0.25;
 const ROUND: f64 = 0.38;
 
-/// Minimum share of the rays that must meet a wall.
+/// Minimum fraction of the rays that must meet a wall.
 const LEAST_SEEN: f64 = 0.375;
 
 /// The lumen around a point.

@@ -4,7 +4,6 @@ use std::f64::consts::PI;
 
 use glam::{DMat3, DVec3};
 
-/// Number of power iterations.
 const ROUNDS: usize = 50;
 
 /// Unit vectors that the golden angle spreads evenly over half a sphere.

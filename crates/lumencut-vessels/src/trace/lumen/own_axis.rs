@@ -18,7 +18,7 @@ const SEARCH_MM: f64 = 60.0;
 /// Number of directions across the axis in which the width is measured.
 const TURNS: u32 = 12;
 
-/// The lumen around a place, recognised by its values.
+/// The lumen around a position, recognised by its values.
 pub struct OwnLumen<'a, 'v> {
     voxels: &'a Voxels<'v>,
     place: DVec3,

@@ -17,7 +17,6 @@ impl<'a, 'v> Ray<'a, 'v> {
         Self { voxels, start, stride, values: Vec::with_capacity(64) }
     }
 
-    /// Value number `n` along the ray; NaN outside the volume.
     pub(crate) fn value(&mut self, n: usize) -> f64 {
         while n >= self.values.len() {
             self.voxels.along(self.start, self.stride, &mut self.values);

@@ -21,7 +21,7 @@ const ROUNDS: usize = 2;
 /// Minimum quality of a lumen that is returned.
 const LEAST_TRUST: f64 = 0.4;
 
-/// The lumen found around a place.
+/// The lumen found around a position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SeenLumen {
     /// Centre (mm, LPS).

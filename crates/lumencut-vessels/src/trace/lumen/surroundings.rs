@@ -105,7 +105,7 @@ impl Surroundings {
         Ok(self.model_of(&hits, usual))
     }
 
-    /// The model at one place; None if [`Surroundings::model`] would reject the place.
+    /// The model at one position; None if [`Surroundings::model`] would reject the position.
     pub(crate) fn model_at(&self, voxels: &Voxels, place: DVec3) -> Option<LumenModel> {
         let value = value_at(voxels, place);
         let hit = self.hit(voxels, place, value);

@@ -1,4 +1,4 @@
-//! Tests whether a place lies within the lumen of a known vessel.
+//! Tests whether a position lies within the lumen of a known vessel.
 
 use glam::DVec3;
 

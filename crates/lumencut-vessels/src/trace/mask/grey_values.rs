@@ -27,7 +27,7 @@ const WINDOW_MM: f64 = 5.0;
 /// Minimum contrast, in standard deviations of the noise in the lumen.
 const LEAST_CONTRAST: f64 = 2.0;
 
-/// Minimum share of the points at which the lumen must be visible.
+/// Minimum fraction of the points at which the lumen must be visible.
 const LEAST_SEEN: f64 = 0.5;
 
 /// The volume in which the lumen of a mask is visible.

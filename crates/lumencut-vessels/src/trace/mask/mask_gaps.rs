@@ -14,7 +14,7 @@ use lumencut_core::stop::{Stop, go_on};
 pub struct Gap {
     /// Width of the gap (mm).
     pub width: f64,
-    /// Numbers of the vessels on both sides.
+    /// Indices of the vessels on both sides.
     pub vessels: [usize; 2],
     /// Points of the centerlines on both sides (mm, LPS).
     pub points: [DVec3; 2],

@@ -11,7 +11,6 @@ use lumencut_core::math::arc_length::{arc_lengths, point_at};
 use lumencut_core::math::same_place::ALONG_LINE;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Number of centring rounds.
 const ROUNDS: usize = 3;
 
 /// Standard deviation of the smoothing: in radii, but at least in voxels.

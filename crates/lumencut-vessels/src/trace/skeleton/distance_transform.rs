@@ -12,7 +12,6 @@ use lumencut_core::stop::{Stop, go_on};
 /// Maximum cosine between the axes of a rectangular grid; the error is then 0.001 voxels over 1000 voxels.
 const RIGHT_ANGLE: f64 = 1e-6;
 
-/// Number of cells between two checks of `stop`.
 const CELLS_BETWEEN_STOPS: usize = 1 << 16;
 
 /// Squared distance (mm²) from each cell of `lumen` (sorted) to the nearest background centre; 0 in

@@ -9,7 +9,6 @@ use lumencut_core::error::{Error, ErrorKind, Mend, Result};
 use lumencut_core::stop::{Stop, go_on};
 use lumencut_core::volume::{Volume, Voxels};
 
-/// Value of background in [`Foreground::cells`].
 pub(crate) const BACKGROUND: u8 = 0;
 /// Value of lumen in [`Foreground::cells`].
 pub const LUMEN: u8 = 1;

@@ -1,4 +1,4 @@
-//! The lumen of a mask at a place: distance to the wall, and cross-section.
+//! The lumen of a mask at a position: distance to the wall, and cross-section.
 
 use std::f64::consts::TAU;
 
@@ -7,7 +7,6 @@ use glam::{DAffine3, DVec3};
 use crate::trace::skeleton::foreground::Foreground;
 use lumencut_core::math::sampling::interpolate;
 
-/// Number of rays per section.
 const RAYS: usize = 24;
 
 /// Rays are cut at this multiple of their median length, because some escape into branches.

@@ -7,7 +7,6 @@ use lumencut_core::stop::{Stop, go_on};
 struct Run {
     start: u32,
     end: u32,
-    /// Parent in the union-find structure.
     parent: u32,
 }
 

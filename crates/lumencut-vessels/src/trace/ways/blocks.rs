@@ -4,7 +4,6 @@ use std::ops::{Index, IndexMut};
 
 /// Side of a block (voxels).
 pub(crate) const SIDE: usize = 16;
-/// Number of voxels of a block.
 pub(crate) const BLOCK: usize = SIDE * SIDE * SIDE;
 
 const NO_BLOCK: u32 = u32::MAX;

@@ -15,7 +15,6 @@ use lumencut_core::stop::{Stop, go_on};
 const START: u8 = 26;
 const NONE: u8 = 255;
 
-/// Number of voxels between two checks of `stop`.
 const BETWEEN_STOPS: usize = 1 << 10;
 
 /// Unit (mm) in which the lengths of gaps without lumen are stored.

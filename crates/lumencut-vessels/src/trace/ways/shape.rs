@@ -13,7 +13,8 @@ const RIDGE: f64 = 0.6;
 /// Minimum membership of a visible ridge.
 const FAINT: f64 = 0.05;
 
-/// Limits of the second derivative of the membership: in a wall, and the factor of the second eigenvalue in a throat.
+/// Second derivative of the membership in a clear wall. In a throat, the next eigenvalue is below -`THROAT`
+/// times the first.
 const DIP: f64 = 0.1;
 const THROAT: f64 = 0.3;
 

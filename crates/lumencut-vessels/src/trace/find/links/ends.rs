@@ -8,7 +8,7 @@ use crate::trace::find::track::{Track, TrackPoint};
 /// Tracks with less confidence are not linked, because bone must not join trees.
 const LEAST_CONFIDENCE: f64 = 0.3;
 
-/// Length of the stretch that gives the direction of an end (radii).
+/// Length of the part that gives the direction of an end (radii).
 const DIRECTED: f64 = 1.5;
 
 /// Number of points that give the radius and level of an end.

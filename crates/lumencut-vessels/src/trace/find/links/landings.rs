@@ -38,8 +38,7 @@ pub(crate) struct Limits {
     pub turn: f64,
     /// Maximum difference of levels (share of the contrast).
     pub unlike: f64,
-    /// Factor of that difference for a narrow end at a brighter track, because a narrow end looks darker than
-    /// its lumen.
+    /// Factor of that difference for a narrow end at a brighter track: narrow ends look darker than their lumen.
     pub narrow: f64,
 }
 

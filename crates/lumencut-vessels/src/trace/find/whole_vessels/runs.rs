@@ -32,7 +32,7 @@ pub(crate) struct Run {
 pub(crate) struct Runs {
     /// Runs. Each comes after the run that it leaves, except runs that were met from the side.
     pub runs: Vec<Run>,
-    /// Number of the run that passes each node.
+    /// Index of the run that passes each node.
     pub(crate) owners: Vec<usize>,
 }
 

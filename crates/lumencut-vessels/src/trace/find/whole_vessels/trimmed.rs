@@ -73,7 +73,7 @@ fn trim(run: &mut Attached, needed: Option<[usize; 2]>, smallest_radius: f64) ->
     true
 }
 
-/// Number of the last point up to which a line is wide enough.
+/// Index of the last point up to which a line is wide enough.
 fn wide_until<'a>(points: impl Iterator<Item = &'a LinePoint>, smallest_radius: f64) -> Option<usize> {
     let radii: Vec<f64> = points.map(|point| point.radius).collect();
     let last = radii.len() - 1;
