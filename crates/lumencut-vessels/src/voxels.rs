@@ -117,7 +117,7 @@ impl<'a> Voxels<'a> {
     /// Box of voxels around a ball: its first voxel, and the number of voxels along each axis.
     pub fn around(&self, center: DVec3, radius: f64) -> ([i32; 3], [i32; 3]) {
         let index = self.index_from_world.transform_point3(center);
-        // The lengths of the rows of the inverse matrix give the extent of a ball along each index axis.
+        // The row lengths of the inverse matrix give the extent of a ball along each index axis.
         let rows = self.index_from_world.matrix3.transpose();
         let reach = DVec3::new(rows.x_axis.length(), rows.y_axis.length(), rows.z_axis.length()) * radius;
         let low = (index - reach).ceil();

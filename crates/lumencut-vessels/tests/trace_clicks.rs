@@ -61,7 +61,7 @@ fn a_click_next_to_lumen_means_the_lumen_and_one_farther_away_is_refused() {
     }
     let refused = traced(&volume, &[from, DVec3::new(7.0, 0.0, 15.0)]).unwrap_err();
     assert!(refused.mend.contains("the nearest place that looks like lumen"), "{refused}");
-    // The check of a single first click gives the same answer.
+    // Checking a single first click gives the same answer.
     let tracer = Tracer::default();
     assert!(tracer.check_click(&volume, DVec3::new(4.6, 0.0, -15.0)).is_ok());
     assert!(tracer.check_click(&volume, DVec3::new(7.0, 0.0, -15.0)).is_err());

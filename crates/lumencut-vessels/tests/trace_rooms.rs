@@ -24,7 +24,7 @@ use lumencut_vessels::trace::ways::front::{Found, Front, Reach};
 use lumencut_vessels::trace::ways::region::{Region, Stopper, Strictness};
 use lumencut_vessels::voxels;
 
-/// A quarter of a circle of radius 20 mm.
+/// A quarter of a circle with a radius of 20 mm.
 fn arc(count: u32) -> Vec<DVec3> {
     let angle = |n: u32| PI / 2.0 * f64::from(n) / f64::from(count);
     (0..=count).map(|n| 20.0 * DVec3::new(angle(n).cos(), angle(n).sin(), 0.0)).collect()

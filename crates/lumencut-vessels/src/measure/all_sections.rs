@@ -12,7 +12,7 @@ pub(crate) struct AllSections {
     /// Noise of a voxel (standard deviation), as a fraction of the contrast.
     pub noise: f64,
     pub lumen: Vec<Level>,
-    /// None if walls cannot be separated from the surroundings.
+    /// The pooled walls; None if walls cannot be separated from the surroundings.
     pub walls: Option<Vec<KnownWall>>,
     pub texture: Texture,
 }

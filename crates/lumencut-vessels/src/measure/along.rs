@@ -28,7 +28,7 @@ fn second_derivative(at: &[f64], areas: &[f64], n: usize) -> Option<f64> {
     let (reach, least) = PARABOLA;
     let first = at.partition_point(|there| *there < at[n] - reach - REPEATED_POINT);
     let last = at.partition_point(|there| *there <= at[n] + reach + REPEATED_POINT);
-    // The window is symmetric, so that a slope of the areas does not change the result.
+    // The window is symmetric, so that linear growth of the areas does not change the result.
     let side = (n - first).min(last - 1 - n);
     let around = n - side..=n + side;
     if 2 * side + 1 < least || around.clone().any(|m| areas[m].is_nan()) {

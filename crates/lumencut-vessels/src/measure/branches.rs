@@ -1,4 +1,4 @@
-//! Finds sections that meet the lumen of another vessel.
+//! Tests whether a section meets the lumen of another vessel.
 
 use glam::DVec3;
 

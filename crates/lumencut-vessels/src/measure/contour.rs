@@ -1,4 +1,4 @@
-//! The contour of a lumen along rays, corrected for the shift caused by blur.
+//! Finds the contour of a lumen on rays, and corrects it for the shift caused by blur.
 
 use glam::{DVec2, DVec3};
 
@@ -135,7 +135,7 @@ pub(crate) fn ellipse_within(center: DVec2, wall: &[f64]) -> Option<Ellipse> {
     let middle = first / area;
     let [xx, yy, xy] =
         [xx / area - middle.x * middle.x, yy / area - middle.y * middle.y, xy / area - middle.x * middle.y];
-    // A filled ellipse with the matrix S has the covariance S S / 4.
+    // A filled ellipse with the matrix S has the covariance S² / 4.
     let root = (xx * yy - xy * xy).max(0.0).sqrt();
     let scale = 2.0 / (xx + yy + 2.0 * root).sqrt();
     let ellipse = Ellipse {

@@ -13,7 +13,7 @@ const MOST_OTHER: f64 = 0.12;
 /// Points within this many blur widths of the contour are not checked: blur mixes lumen and surroundings there.
 const BLURRED_WIDTHS: f64 = 0.75;
 
-/// Every n-th ray is checked (first number), at this many points (second number).
+/// Every `CHECKED.0`-th ray is checked, at `CHECKED.1` points.
 const CHECKED: (usize, usize) = (2, 6);
 
 /// Lowest and highest value of lumen, for a `lumen` level and the level `beside` it (fractions of the contrast).

@@ -77,13 +77,13 @@ impl Ellipse {
         2.0 * (self.area() / PI).max(0.0).sqrt()
     }
 
-    /// The ellipse with its semi-axes multiplied by `by`.
+    /// The ellipse with both semi-axes multiplied by `by`.
     #[must_use]
     pub fn scaled(&self, by: f64) -> Self {
         Self { center: self.center, mean: self.mean * by, stretch: self.stretch * by }
     }
 
-    /// Interpolates between this ellipse (`share` 0) and `other` (1).
+    /// Interpolates from this ellipse (`share` = 0) to `other` (`share` = 1).
     #[must_use]
     pub fn towards(&self, other: &Self, share: f64) -> Self {
         Self {
@@ -181,7 +181,7 @@ impl Boundary {
         }
     }
 
-    /// Value and derivatives at sixteen points (mm). Not inlined on the web, to save code size.
+    /// Blurred values and their derivatives at sixteen points (mm). Not inlined on the web, to save code size.
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     #[cfg_attr(target_arch = "wasm32", inline(never))]
     pub(crate) fn blurred(&self, x: &[f32; FAN], y: &[f32; FAN]) -> Blurred {
@@ -203,7 +203,7 @@ impl Boundary {
                 is_near |= squares[l] < FAR_AWAY;
             }
             if !is_near {
-                // Beyond FAR_AWAY the exponential is negligible next to 1.
+                // At distances beyond FAR_AWAY, the exponential is negligible compared with 1.
                 for l in 0..FAN {
                     let dx = node.place[0] - place[0][l];
                     let dy = node.place[1] - place[1][l];

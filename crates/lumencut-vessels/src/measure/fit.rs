@@ -34,9 +34,9 @@ pub(crate) struct Expected<'a> {
     pub noise: f64,
     /// Whether `noise` is only a guess, which the typical residual may replace.
     pub(crate) is_guessed: bool,
-    /// None if the wall cannot be separated from the surroundings.
+    /// The wall's prior; None if the wall cannot be separated from the surroundings.
     pub wall: Option<KnownWall>,
-    /// Given if the uncertainty of the diameter is wanted.
+    /// Data for the uncertainty of the diameter; None if it is not wanted.
     pub unsure: Option<&'a Unsure<'a>>,
 }
 
@@ -184,7 +184,7 @@ struct Work<'a, M, const N: usize> {
     expected: &'a Expected<'a>,
     start: &'a Ellipse,
     terms: Vec<Term<N>>,
-    /// Weight of each sample; 0 for outliers.
+    /// Weight that reweighting left to each sample; 0 for outliers.
     kept: Vec<[f32; FAN]>,
     model: PhantomData<M>,
 }
@@ -239,7 +239,7 @@ impl<'a, M: Model<N>, const N: usize> Work<'a, M, N> {
             Moves { samples: self.samples, kept: &self.kept, model: &model, towards: towards_shares };
         let moves = dispatch(Isa::widest(), kernel);
         let noise = expected.noise * unsure.texture.variance(self.samples, &moves).sqrt();
-        // Residuals above the noise show that the lumen is no ellipse or that the surroundings are uneven.
+        // Residuals above the noise mean that the lumen is no ellipse or that the surroundings are uneven.
         let excess = (missed / expected.noise).max(1.0);
         let wall = match unsure.wall {
             Some(hidden) => self.moved(&moves, &model, &self.with_wall(&minimum.at, &ellipse, &hidden)),
@@ -308,7 +308,7 @@ impl<'a, M: Model<N>, const N: usize> Work<'a, M, N> {
         Some(normal)
     }
 
-    /// Standard deviation of a normal distribution with the same median absolute residual as the samples.
+    /// Standard deviation of a normal distribution whose median absolute residual equals that of the samples.
     fn typical(&self, missing: &[[f32; FAN]]) -> Option<f64> {
         let weights = self.samples.weight.iter().flatten();
         let mut all: Vec<f64> = missing

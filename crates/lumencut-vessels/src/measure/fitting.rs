@@ -1,4 +1,4 @@
-//! Prepares the fit of a section: selects the voxels that count, and sets the priors.
+//! Prepares the fit of a section: selects the voxels to use, and sets the priors.
 
 use glam::DVec2;
 
@@ -52,7 +52,7 @@ impl Ready {
 }
 
 impl Bench<'_, '_> {
-    /// Fits a section; None if it is too obstructed or no ellipse fits.
+    /// Fits a section; None if obstacles hide too much of the wall or no ellipse fits.
     pub(crate) fn fit(&self, place: &SectionPlane, known: &Known) -> Option<Fit> {
         let ready = self.ready(place, known)?;
         let wider = self.doubt.as_ref().and_then(|doubt| doubt.wider);

@@ -2,7 +2,7 @@
 
 /// The diameter is below 1.5 times the FWHM of the point spread, the limit of what can be measured.
 pub const AT_LIMIT: u32 = 1;
-/// Another vessel begins here, or the lumen continues sideways.
+/// Another vessel starts at this section, or the lumen continues sideways.
 pub const BRANCH: u32 = 1 << 1;
 /// Something at the wall is brighter than lumen.
 pub const CALCIUM: u32 = 1 << 2;

@@ -1,4 +1,4 @@
-//! Approximate centre and radius of the lumen, before the fit.
+//! Estimates centre and radius of the lumen before the fit.
 
 use std::f64::consts::PI;
 
@@ -20,7 +20,7 @@ const ROUNDS: usize = 4;
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LumenEstimate {
-    /// Centre (mm, in the plane).
+    /// Centre of the lumen in the plane (mm).
     pub center: DVec2,
     /// Radius of the lumen (mm).
     pub radius: f64,

@@ -83,7 +83,8 @@ fn limit(ray: &Ray, middle: f64, width: f64) -> f64 {
     }
 }
 
-/// Whether a ray meets calcium or metal at a wall `wall` mm from its start, for a blur of `width` mm.
+/// Whether a ray meets calcium or metal near the wall. The wall is `wall` mm from the ray's start; `width` is
+/// the blur (mm).
 pub(crate) fn is_bright(ray: &Ray, wall: f64, width: f64) -> bool {
     ray.bright_at.is_some_and(|at| at < wall + WALL_CALCIUM_MM.max(width))
 }
@@ -96,7 +97,7 @@ fn is_lattice(is_bright: impl Fn(usize) -> bool) -> bool {
     counts.iter().sum::<usize>() >= all && counts.iter().all(|count| *count >= each)
 }
 
-/// Flags of a section from its rays; `wall` gives the wall of each ray (mm), `width` is the blur (mm).
+/// Flags of a section from its rays; `wall` gives the distance of the wall on each ray (mm), `width` the blur (mm).
 pub(crate) fn flags_of(rays: &[Ray], wall: impl Fn(usize) -> f64, width: f64) -> u32 {
     let count = |is: &dyn Fn(usize, &Ray) -> bool| rays.iter().enumerate().filter(|(n, r)| is(*n, r)).count();
     let beside = WALL_CALCIUM_MM.max(width);

@@ -53,23 +53,23 @@ impl Parts {
     }
 }
 
-/// Name of a part of [`Parts`].
+/// Names one part of [`Parts`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
-    /// [`Parts::noise`].
+    /// The part [`Parts::noise`].
     Noise,
-    /// [`Parts::point_spread`].
+    /// The part [`Parts::point_spread`].
     PointSpread,
-    /// [`Parts::wall`].
+    /// The part [`Parts::wall`].
     Wall,
-    /// [`Parts::lumen`].
+    /// The part [`Parts::lumen`].
     Lumen,
-    /// [`Parts::surroundings`].
+    /// The part [`Parts::surroundings`].
     Surroundings,
 }
 
 impl Part {
-    /// All parts, in the order of table columns.
+    /// All parts, in the order of their table columns.
     pub const ALL: [Self; 5] = [Self::Noise, Self::PointSpread, Self::Wall, Self::Lumen, Self::Surroundings];
 
     /// The name of the part in files and programs.

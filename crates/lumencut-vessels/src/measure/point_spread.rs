@@ -67,7 +67,7 @@ pub(crate) const TOO_NARROW: &str = "no vessel is wide enough to estimate it";
 /// Reason why nothing is estimated if the wide part is too short.
 const TOO_SHORT: &str = "free, round stretches of wide vessels are too short to estimate it";
 
-/// Estimates the point spread with which the widest sections fit best, given the lumen level visible in each.
+/// Estimates the point spread with which the widest sections fit best, given the lumen level visible in each section.
 pub(crate) fn estimated(
     bench: &Bench,
     sides: DMat3,

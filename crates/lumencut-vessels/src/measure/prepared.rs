@@ -103,7 +103,7 @@ impl PreparedVessel {
         })
     }
 
-    /// Separate fits for a point spread (FWHM, mm), cached.
+    /// Returns the separate fits for a point spread (FWHM, mm), and caches them.
     fn kept_fits(&self, voxels: &Voxels, fwhm: f64, stop: Stop) -> Result<FirstFits> {
         let kept = self.first.iter().filter_map(OnceLock::get).find(|first| first.fwhm == fwhm);
         if let Some(kept) = kept {

@@ -36,7 +36,7 @@ pub enum Source {
 pub struct PointSpread {
     /// FWHM (mm).
     pub fwhm: f64,
-    /// Standard deviation of the FWHM (mm); 0 if given.
+    /// Standard deviation of the FWHM (mm); 0 if the FWHM was given.
     pub deviation: f64,
     /// Where the width comes from.
     pub source: Source,
@@ -55,7 +55,7 @@ pub struct Profile {
     pub area: Vec<f64>,
     /// Standard deviation of the equivalent diameter (mm).
     pub uncertainty: Vec<f64>,
-    /// Parts of that standard deviation (mm).
+    /// Parts of the standard deviation of the equivalent diameter (mm).
     pub uncertainty_parts: Vec<Parts>,
     /// Wall thickness and its standard deviation (mm); NaN if the wall is not visible.
     pub wall: Vec<[f64; 2]>,
@@ -162,12 +162,12 @@ impl Profile {
         self.arc_length.is_empty()
     }
 
-    /// Diameter of a circle of the same area (mm).
+    /// Diameter of a circle with the area of the lumen (mm), per section.
     pub fn diameter_equivalent(&self) -> Vec<f64> {
         self.area.iter().map(|area| 2.0 * (area / std::f64::consts::PI).sqrt()).collect()
     }
 
-    /// Mean of the shortest and the longest diameter (mm).
+    /// Mean of the shortest and the longest diameter (mm), per section.
     pub fn diameter_mean(&self) -> Vec<f64> {
         self.diameter_min.iter().zip(&self.diameter_max).map(|(a, b)| f64::midpoint(*a, *b)).collect()
     }

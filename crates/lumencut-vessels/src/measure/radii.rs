@@ -1,4 +1,4 @@
-//! Replaces the radii of a tree by measured ones.
+//! Replaces the radii of the vessels of a tree by measured ones.
 
 use std::f64::consts::PI;
 
@@ -15,7 +15,7 @@ use lumencut_core::progress::Progress;
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::Volume;
 
-/// Maximum gap between sections (mm) over which radii are interpolated.
+/// Maximum gap (mm) between two sections across which radii are interpolated.
 const GAP: f64 = 10.0;
 
 /// Sections whose relative standard deviation is this or more are skipped.
@@ -80,7 +80,7 @@ fn of_profile(vessel: &Vessel, profile: &Profile) -> Radii {
     Radii { radius: radius.into_iter().collect(), measured, kept }
 }
 
-/// Radius interpolated between two sections; None if they are too far apart.
+/// Radius interpolated between two sections; None if the sections are too far apart.
 fn between(known: &[(f64, f64)], at: f64) -> Option<f64> {
     let after = known.partition_point(|(there, _)| *there < at);
     let next = known.get(after);

@@ -46,7 +46,7 @@ pub(crate) struct Look {
     pub levels: [f64; 2],
     /// Values above this are too bright for lumen.
     pub bright: f64,
-    /// A rise by this amount marks the start of a neighbour.
+    /// Values that rise by this amount mark the start of a neighbour.
     pub rise: f64,
     /// Maximum distance at which the edge is searched (mm).
     pub reach: f64,

@@ -76,14 +76,14 @@ impl Track {
         SectionPlane { at, origin: self.path.at(at), axes: [right, frame.ahead], normal: frame.tangent }
     }
 
-    /// Planes from the start to the end of the vessel, at most `step` mm apart.
+    /// Section planes from the start to the end of the vessel, at most `step` mm apart.
     pub(crate) fn places(&self, step: f64) -> Result<Vec<SectionPlane>> {
         if !(step > 0.0 && step.is_finite()) {
             let expected = "a number above 0 mm";
             return Err(Error::new(ErrorKind::Settings, "step", format!("{step} mm"), expected));
         }
         let count = (self.length() / step).ceil();
-        // There is one section more than steps, because both ends have one.
+        // The number of sections is the number of steps plus one, because both ends have a section.
         if count >= f64::from(MOST_SECTIONS) {
             return Err(too_many(self.length(), step, count + 1.0));
         }

@@ -1,4 +1,4 @@
-//! The sections of a vessel: first separate fits, then fits with the values that all sections share.
+//! Fits the sections of a vessel: first each one separately, then with the values that all of them share.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -55,7 +55,7 @@ pub(crate) struct Bench<'a, 'v> {
     pub fwhm: f64,
     /// The wall's prior; None if walls are not visible.
     pub wall: Option<KnownWall>,
-    /// Given if uncertainties are wanted.
+    /// Data for the uncertainties; None if they are not wanted.
     pub doubt: Option<Doubt>,
 }
 

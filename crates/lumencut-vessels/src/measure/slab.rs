@@ -15,9 +15,9 @@ const MAX_VOXELS: [usize; 2] = [448, 160];
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Window {
-    /// Centre (mm, in the plane).
+    /// Centre of the window in the plane (mm).
     pub center: DVec2,
-    /// Radius (mm).
+    /// Radius of the window (mm).
     pub reach: f64,
     /// Approximate radius of the wall, and the distance from it within which voxels are near the wall (mm).
     pub wall: [f64; 2],
@@ -26,11 +26,11 @@ pub(crate) struct Window {
 /// Voxels in groups of sixteen; the last group is filled up with voxels of weight 0.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Samples {
-    /// Position within the plane (mm).
+    /// Position of each voxel within the plane (mm).
     pub x: Vec<[f32; FAN]>,
     pub y: Vec<[f32; FAN]>,
     pub share: Vec<[f32; FAN]>,
-    /// Weight, which falls linearly with the distance from the plane.
+    /// Weight of each voxel, which falls linearly with its distance from the plane.
     pub weight: Vec<[f32; FAN]>,
     /// Index of each voxel relative to the first voxel of the window.
     pub voxel: Vec<[[i16; 3]; FAN]>,

@@ -16,7 +16,8 @@ const MAX_MOVEMENT: f64 = 0.05;
 /// Maximum number of restarts.
 const MAX_RESTARTS: usize = 3;
 
-/// Two fits show the same lumen up to this ratio of sizes and this distance of centres (radii).
+/// Two fits show the same lumen if the ratio of their sizes and the distance of their centres (radii) are at
+/// most these.
 const SAME_LUMEN: (f64, f64) = (1.6, 0.6);
 
 impl Bench<'_, '_> {
@@ -40,7 +41,7 @@ impl Bench<'_, '_> {
         Some(Fit { other, ..fit })
     }
 
-    /// The fit; a second solution, if any, increases its uncertainty.
+    /// Fits a section; if there is a second solution, it increases the uncertainty.
     pub(crate) fn fit_of_either(
         &self,
         place: &SectionPlane,

@@ -34,11 +34,11 @@ const AT_SECTION: f64 = 1e-6;
 /// Grading method of a stenosis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
-    /// Relative to the diameter of the normal vessel.
+    /// The diameter is compared with that of the normal vessel.
     Nascet,
-    /// Relative to the assumed original diameter at the stenosis.
+    /// The diameter is compared with the assumed original diameter at the stenosis.
     Ecst,
-    /// Relative to the area of the normal vessel.
+    /// The area is compared with that of the normal vessel.
     Area,
 }
 
@@ -58,7 +58,7 @@ pub struct Compared {
     pub comparison: Option<f64>,
 }
 
-/// Reasons to doubt a percentage, to be shown with it.
+/// Reasons to doubt a percentage. They should be shown with it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Doubts {
     /// Flags of the sections that were used; see [`super::flags`].
@@ -151,7 +151,7 @@ impl Profile {
         Ok((diameter, place.between(ends.map(|n| self.uncertainty[n]))))
     }
 
-    /// Parts of the standard deviation at an arc length (mm), interpolated between sections.
+    /// Parts of the diameter's standard deviation at an arc length (mm), interpolated between sections.
     pub(crate) fn uncertainty_at(&self, at: f64) -> Parts {
         let (place, ends) = self.sections_around(at);
         let [a, b] = ends.map(|n| &self.uncertainty_parts[n]);

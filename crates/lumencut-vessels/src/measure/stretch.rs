@@ -6,7 +6,7 @@ use super::profile::Profile;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::math::arc_length::point_at;
 
-/// The length of a segment.
+/// Lengths of a segment between two points of a vessel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stretch {
     /// Length along the vessel (mm).

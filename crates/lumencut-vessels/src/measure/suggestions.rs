@@ -20,7 +20,7 @@ const NORMAL: f64 = 0.92;
 /// The calibre counts as changed if the diameters of neighbouring normal places differ by this factor.
 const CALIBRE_STEP: f64 = 1.25;
 
-/// The longest diameter is not suggested if an irregular section or a branch lies within this distance (mm).
+/// The longest diameter is not suggested if an irregular section or a branch is within this distance (mm).
 const MIN_DISTANCE_MM: f64 = 1.0;
 
 /// Maximum ratio of the axes of a section, to exclude outliers of the fit: on its own, and with similar neighbours.
@@ -145,7 +145,7 @@ impl Profile {
             [(0, -1.0), (1, 1.0)].map(|(n, side)| self.suggested_on((at, side), reach[n], &normal))
         };
         let place = self.diameter_at(at).map_or(0.0, |(diameter, _)| diameter);
-        // Places that are only little wider belong to the narrowing.
+        // Places that are only a little wider still belong to the narrowing.
         let wider = normal.iter().filter(|spot| spot.diameter > CALIBRE_STEP * place);
         let wider: Vec<Spot> = wider.copied().collect();
         let end = |side: f64| self.nearest_branch(at, side).min(calibre_step((at, side), &wider));
@@ -185,7 +185,7 @@ impl Profile {
         let mut widths = self.widths((0..self.len()).filter(|n| is_there(self.arc_length[*n])));
         let most = quantile(&mut widths, 0.75)?;
         let is_offered = |spot: &&Spot| {
-            // References that are closer would be rejected.
+            // References closer to the stenosis would be rejected.
             let is_apart = self.reference_at(spot.at).is_ok_and(|reference| away(spot.at) >= reference);
             is_there(spot.at) && is_apart && spot.diameter >= NORMAL * most
         };

@@ -1,4 +1,4 @@
-//! Priors on fit parameters.
+//! The priors on the parameters of a fit.
 
 use super::pooled::Level;
 

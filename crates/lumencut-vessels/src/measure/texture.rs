@@ -10,7 +10,7 @@ use lumencut_core::math::lanes::{FAN, Isa, Kernel, dispatch};
 /// The noise of voxels at least this far apart counts as independent.
 const CORRELATED_VOXELS: usize = 5;
 
-/// Minimum number of voxel pairs, and minimum significance (standard deviations), of a correlation.
+/// Minimum number of voxel pairs for a correlation, and its minimum significance in standard deviations.
 const MIN_EVIDENCE: (f64, f64) = (100.0, 2.0);
 
 /// Residuals above this multiple of the typical value are not noise.
@@ -108,15 +108,15 @@ fn apart(a: [i16; 3], b: [i16; 3]) -> Option<[usize; 3]> {
         .then_some(apart)
 }
 
-/// Number of cells of the correlation in one row, padded to a power of two.
+/// Number of cells of the flattened correlation, padded to a power of two.
 const CELLS: usize = 128;
 
-/// The cell that distant pairs use; its value is 0.
+/// The cell used for distant pairs; its value is 0.
 const FAR_CELL: i32 = (CORRELATED_VOXELS * CORRELATED_VOXELS * CORRELATED_VOXELS) as i32;
 
 /// Kernel that computes the variance of the noise, Σᵢⱼ wᵢ wⱼ ρ(i - j), over near pairs.
 struct NearProducts {
-    /// Voxels sorted along the first axis, then sixteen distant ones as padding.
+    /// Voxels sorted along the first axis, followed by sixteen distant ones as padding.
     voxel: [Vec<i32>; 3],
     weight: Vec<f32>,
     correlation: [f32; CELLS],

@@ -15,7 +15,7 @@ use super::terms::unit;
 /// Expected thickness of the wall as a factor of √diameter (mm), and the standard deviation of its logarithm.
 const THICKNESS: [f64; 2] = [0.45, 0.5];
 
-/// Range of the expected thickness (mm), because the walls of wide arteries are not thicker without limit.
+/// Range of the expected thickness (mm), because even the walls of very wide arteries have limited thickness.
 const MIDDLE: [f64; 2] = [0.4, 1.6];
 
 /// Minimum variance of the logarithm of a thickness.
@@ -31,7 +31,7 @@ pub(crate) struct Wall {
     pub slope: f64,
     /// Harmonics of the surroundings, as fractions of the contrast; see [`super::model::ThreeLevels`].
     pub sectors: [f64; HARMONICS],
-    /// The point from which directions are measured (mm, in the plane).
+    /// The point in the plane from which directions are measured (mm).
     pub origin: DVec2,
 }
 

@@ -50,7 +50,7 @@ pub enum WallSource {
     Hounsfield,
     /// The caller gave this level.
     Given(Level),
-    /// Other vessels of the tree changed the expected level.
+    /// The level expected after including other vessels of the tree.
     Pooled {
         /// The level that the caller gave, if any.
         given: Option<Level>,
@@ -68,7 +68,7 @@ pub enum WallSource {
 }
 
 impl WallSource {
-    /// The prior level in the volume's unit; None if no walls are modelled.
+    /// The expected level in the volume's unit; None if no walls are modelled.
     pub fn expected(&self) -> Option<Level> {
         match self {
             Self::Hounsfield => Some(CT_WALL),

@@ -48,11 +48,11 @@ pub(crate) struct Skeletonization<'a> {
     pub parent_radii: f64,
     /// Maximum distance between neighbouring points (mm).
     pub step: f64,
-    /// Refines each vessel in a volume, if given.
+    /// Function that refines each vessel in a volume, if given.
     pub refine: Option<Refine<'a>>,
     /// Called often; returns whether to stop.
     pub stop: Stop<'a>,
-    /// Called with the number of a step of [`COSTS`] when that step begins.
+    /// Called at the start of each step with the step's index in [`COSTS`].
     pub begin: &'a (dyn Fn(usize) + Sync),
 }
 
@@ -130,7 +130,7 @@ fn vessels(graph: &Graph, lumen: &Lumen, skeleton: &Skeletonization) -> Result<V
     Ok(made.into_iter().flatten().collect())
 }
 
-/// Moves ends that lie on another line to where that line passes; the shift fades out along the line.
+/// Moves ends that lie on another line to where that line runs now; the shift fades out along the moved line.
 fn attach(line: &mut ThroughLine, node_place: &[Option<DVec3>], on_other: [Option<f64>; 2]) {
     let ways = arc_lengths(&line.points);
     let whole = ways[ways.len() - 1];

@@ -1,4 +1,4 @@
-//! The request to trace vessels through clicks, and checks of it that do not need voxel values.
+//! The request to trace vessels through clicks, and its checks that do not need voxel values.
 
 use glam::DVec3;
 

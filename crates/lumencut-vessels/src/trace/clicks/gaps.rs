@@ -34,7 +34,7 @@ pub(crate) struct Gap {
     /// Position in the gap where the membership in lumen is lowest.
     pub place: DVec3,
     pub value: f32,
-    /// Whether the gap is too long to accept.
+    /// Whether the gap is too long to be accepted.
     pub is_open: bool,
 }
 

@@ -23,9 +23,9 @@ const ROUNDS: usize = 6;
 /// The path to find for a preview.
 #[derive(Clone, Copy, Debug)]
 pub struct Sought<'a> {
-    /// The click and the position of the pointer (mm, LPS).
+    /// Position of the click, and of the mouse pointer (mm, LPS).
     pub between: [DVec3; 2],
-    /// Places that no path may pass.
+    /// Balls that no path may enter.
     pub stoppers: &'a [Stopper],
     /// Whether the path may cross parts without lumen.
     pub bridge: bool,

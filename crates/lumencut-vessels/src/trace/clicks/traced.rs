@@ -1,4 +1,4 @@
-//! The result of tracing one vessel.
+//! The result of tracing one vessel through its clicks.
 
 use glam::DVec3;
 

@@ -27,7 +27,7 @@ use lumencut_core::volume::Volume;
 const MOST_VOXELS: usize = 40_000_000;
 const MOST_VOXELS_OF_DOUBT: usize = 4_000_000;
 
-/// Number of fronts cached for the pointer: one for each neighbour of a dragged point.
+/// Number of fronts cached for the mouse pointer: one for each neighbour of a dragged point.
 const MOST_LIVE: usize = 2;
 
 type Ends = [[i32; 3]; 2];
@@ -115,7 +115,8 @@ impl Tracer {
     /// Fits the lumen model to the clicks, and drops caches that were made with a different model.
     fn prepare(&mut self, voxels: &Voxels, surroundings: Surroundings, clicks: &Clicks) -> Result<()> {
         let model = surroundings.model(voxels, &all_of(clicks))?;
-        // The surroundings are stored only now, because those of rejected clicks would mislead later clicks.
+        // The surroundings are stored only after the check, because those of rejected clicks would mislead
+        // later ones.
         self.surroundings = Some(surroundings);
         let fits = |region: &Region| region.model.covers(&model);
         if !self.region.as_ref().is_some_and(fits) {

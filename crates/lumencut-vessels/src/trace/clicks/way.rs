@@ -24,7 +24,7 @@ impl Way {
         let line = Line::new(voxels, &region.model, &points);
         let mut gaps = line.gaps(&weak);
         for gap in &mut gaps {
-            // A path must not avoid a stopper by a detour through tissue.
+            // A path must not avoid a stopper (a forbidden ball) by a detour through tissue.
             gap.is_open |= region.stoppers.iter().any(|stopper| gap.passes(&points, stopper));
         }
         Self { points, gaps }

@@ -85,7 +85,7 @@ const MIN_CONFIDENCE: f64 = 0.05;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Shape {
     level: f64,
-    /// Ratio of the longest to the shortest diameter at half level.
+    /// Ratio of the longest diameter to the shortest, both at half of the lumen's contrast.
     pub(crate) elongation: f64,
     /// Spread of the values inside the track, as a fraction of the vessel contrast.
     spread: f64,

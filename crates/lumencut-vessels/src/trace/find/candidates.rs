@@ -12,7 +12,7 @@ use crate::trace::find::stages::{Stage, Stages};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Number of voxels of a tile along each axis.
+/// Number of voxels along each axis of a tile.
 const TILE: [usize; 3] = [64, 24, 24];
 
 /// Minimum response of a candidate: a multiple of the noise, and a fraction of the vessel contrast.
@@ -150,7 +150,7 @@ fn limits(
     let limit = |&radius: &usize| {
         let gain = gains()[radius];
         let least = (NOISES * noise * f64::from(gain.noise)).max(OF_CONTRAST * floors.contrast);
-        // The smallest visible response is one quantization step.
+        // The smallest possible response is one quantization step.
         (radius, gain.factor, (least as f32 / level.unit).max(1.0))
     };
     radii.iter().map(limit).collect()
@@ -207,7 +207,7 @@ fn peaks(level: &Level, first: [usize; 3], radii: &[(usize, f32, f32)]) -> Vec<C
     for k in 0..size[2] {
         for j in 0..size[1] {
             for i in 0..size[0] {
-                // Responses include a border of one voxel.
+                // The responses include a border of one voxel around the tile.
                 let voxel = [i + 1, j + 1, k + 1];
                 let number = responses.number(voxel);
                 if responses.strongest[number] <= 0.0 {

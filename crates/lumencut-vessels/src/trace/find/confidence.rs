@@ -17,7 +17,7 @@ pub(crate) struct UsualVessels {
     pub contrast: f64,
 }
 
-/// Exponent of the product, and minimum of each factor.
+/// Exponent of the product of all criteria, and minimum of each factor.
 const POWER: f64 = 0.6;
 const MIN_FACTOR: f64 = 0.02;
 
@@ -29,7 +29,7 @@ const RAYS: usize = 16;
 const LEAST_LEFT: usize = 6;
 const SAMPLES: usize = 4;
 
-/// Maximum number of sections that are sampled.
+/// Maximum number of sections that are sampled per track.
 const MOST_SECTIONS: usize = 60;
 
 /// A tube becomes wide over this range of radii (voxels).

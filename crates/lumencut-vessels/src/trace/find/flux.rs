@@ -14,7 +14,7 @@ pub(crate) const RADII: [f64; 4] = [1.0, 1.5, 2.1, 3.0];
 /// Weights of a Gaussian with a standard deviation of 0.7 voxels.
 const SMOOTHING: [f32; 3] = [0.561_8, 0.202_5, 0.016_6];
 
-/// Blur of the cylinder used for calibration (voxels).
+/// Blur of the cylinder with which responses are calibrated (voxels).
 const BLUR: f64 = 0.6;
 
 /// Voxels that the largest ball reaches from its centre, and border that a tile needs.

@@ -23,7 +23,7 @@ pub struct Trees {
 pub struct FoundVessel {
     /// Points, radii and confidence, from the root outwards.
     pub line: Centerline,
-    /// Index of the part of the vessel; 0 is the most important part.
+    /// Index of the connected part to which the vessel belongs; 0 is the most important one.
     pub part: usize,
     /// Confidence that the line is a vessel, 0 to 1.
     pub confidence: f64,
@@ -44,7 +44,7 @@ pub enum NoVessel {
 pub(crate) const SURE: f64 = 0.7;
 
 impl TrackDoubt {
-    /// All reasons for doubt.
+    /// All reasons to doubt a vessel.
     pub const ALL: [Self; 10] = [
         Self::BrightSides,
         Self::Flat,

@@ -9,15 +9,16 @@ use crate::voxels::Voxels;
 const VOXELS_PER_RADIUS: f64 = 1.25;
 const LARGEST_FOR_RADIUS: f64 = 0.8;
 
-/// Maximum number of voxels; a larger volume gets larger voxels.
+/// Maximum number of voxels of the grid; a larger volume gets larger voxels.
 const MOST_VOXELS: f64 = 160e6;
 
 #[derive(Clone, Debug)]
 pub(crate) struct Grid {
     pub size: [usize; 3],
-    /// Side of a voxel (mm).
+    /// Side of a grid voxel (mm).
     pub side: f64,
-    /// World position (LPS, mm) of a grid position. The centre of the first voxel is at (0, 0, 0).
+    /// Maps grid positions to world positions (LPS, mm). The centre of the first voxel is the grid position
+    /// (0, 0, 0).
     pub(crate) world_from_grid: DAffine3,
     pub(crate) grid_from_world: DAffine3,
 }

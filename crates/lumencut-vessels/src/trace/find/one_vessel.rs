@@ -8,7 +8,7 @@ use crate::trace::lines::centerline::Centerline;
 use crate::trace::lines::nearest_point::nearest_point;
 use crate::trace::lumen::within::holds;
 
-/// Points this close (mm) are the same point, apart from rounding.
+/// Points less than this far apart (mm) differ only by rounding.
 const SAME_POINT_MM: f64 = 1e-6;
 
 /// The vessel that contains a click (mm, LPS): the nearest one in radii, sure ones first. It starts on an
@@ -78,7 +78,7 @@ fn parent(trees: &Trees, number: usize) -> Option<(usize, usize)> {
     others.filter(|(n, other)| *n != number && other.part == child.part).find_map(|(n, other)| {
         let points = &other.line.points;
         let at = nearest_point(points, start);
-        // If two vessels start at one point, neither is the parent of the other.
+        // If two vessels start at the same point, neither is the parent of the other.
         (at > 0 && points[at].distance(start) <= SAME_POINT_MM).then_some((n, at))
     })
 }

@@ -76,7 +76,7 @@ impl Level {
         let strides = [1, self.size[0], self.size[0] * self.size[1]];
         for a in 0..3 {
             let last = (self.size[a] - 1) as f32;
-            // On an axis of one voxel, that voxel is used twice (`steps`).
+            // If an axis has only one voxel, that voxel is used twice (`steps`).
             let most = last.max(1.0) - 1.0;
             for n in 0..N {
                 let along = larger(smaller(places[a][n], last), 0.0);

@@ -25,7 +25,8 @@ const LONG_OF_DIAGONAL: f64 = 0.5;
 /// Upper level (HU) of muscle and of blood without contrast medium; 120 would exclude arteries of 115 HU.
 const BLOOD: f64 = 75.0;
 
-/// Whether sure, long, round tracks reach the minimum length and, in CT, exceed blood without contrast medium.
+/// Whether sure, long, round tracks reach the minimum length. In CT they must also be brighter than blood
+/// without contrast medium.
 pub(crate) fn is_angiography(scan: &Scan, tracks: &[Track], shapes: &[Option<Shape>]) -> bool {
     let diagonal = diagonal(scan.voxels);
     let length = |(track, shape): (&Track, &Option<Shape>)| {
@@ -91,12 +92,12 @@ mod tests {
     fn all_is_doubtful_where_no_part_is_long_and_else_what_is_very_short() {
         assert_eq!(doubts(&[20.7, 10.0]), [Some(TrackDoubt::Scarce); 2]);
         assert_eq!(doubts(&[20.9, 10.5]), [None; 2]);
-        // 0.15 of the diagonal is 10.4 mm.
+        // The limit of 0.15 of the diagonal is 10.4 mm.
         assert_eq!(doubts(&[20.9, 10.3]), [None, Some(TrackDoubt::Short)]);
         assert!(doubts(&[]).is_empty());
     }
 
-    /// Whether a single track makes a scan an angiography, in a cube with a diagonal of 207.8 mm.
+    /// Whether a scan with this single track is an angiography, in a cube with a diagonal of 207.8 mm.
     fn shows(length: f64, radius: f64, elongation: f64, level_in_hounsfield: Option<f64>) -> bool {
         let track = straight_track(DVec3::ZERO, DVec3::X * length, radius);
         with_scan(
@@ -113,7 +114,7 @@ mod tests {
 
     #[test]
     fn an_angiography_has_tubes_that_are_long_and_round_and_in_a_ct_brighter_than_plain_blood() {
-        // 0.3 of the diagonal is 62.4 mm.
+        // The limit of 0.3 of the diagonal is 62.4 mm.
         assert!(shows(65.0, 6.0, 1.4, None) && !shows(60.0, 6.0, 1.4, None));
         assert!(!shows(65.0, 7.0, 1.4, None) && !shows(65.0, 6.0, 1.6, None));
         // A rounder tube may be shorter.

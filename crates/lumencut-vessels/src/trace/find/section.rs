@@ -11,7 +11,7 @@ use lumencut_core::math::lanes::{Isa, Kernel, dispatch};
 /// Number of rays; opposite rays form pairs.
 const RAYS: usize = 24;
 
-/// Sampling distance (voxels of the level).
+/// Distance between samples of a ray (voxels of the level).
 const STEP: f64 = 0.5;
 
 /// Length of a ray: a multiple of the radius plus some voxels.
@@ -40,9 +40,9 @@ const MOST_BONE: usize = 4;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Section {
     pub level: f64,
-    /// Contrast to the surrounding tissue.
+    /// Contrast between lumen and surrounding tissue.
     pub contrast: f64,
-    /// Median distance of the walls.
+    /// Median distance of the walls from the centre.
     pub radius: f64,
     /// Vector from the given position to the centre.
     pub shift: DVec3,
@@ -62,7 +62,7 @@ impl Section {
         Walls::seen(level, place, direction, radius).section()
     }
 
-    /// Like `look`, but rays also end at material brighter than the lumen.
+    /// Like `look`, but rays also end at bone, which is brighter than the lumen.
     pub(crate) fn beside_bone(level: &Level, place: DVec3, direction: DVec3, radius: f64) -> Self {
         Walls::seen(level, place, direction, radius).ending_at_bone().section()
     }
@@ -145,7 +145,7 @@ fn lumen(level: &Level, place: DVec3, plane: [DVec3; 2], radius: f64) -> f64 {
 }
 
 struct Rays {
-    /// Values by step; each row has one value per ray.
+    /// Values of all rays by step; each row has one value per ray.
     values: Vec<[f32; RAYS]>,
     /// Distance between samples, and length of the rays (finest-level voxels).
     step: f64,

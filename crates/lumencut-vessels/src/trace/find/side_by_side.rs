@@ -1,4 +1,4 @@
-//! Separates lumens that lie side by side in a wide tube: the limbs of a stent graft, true and false lumen.
+//! Separates lumens that lie side by side in a wide tube: the limbs of a stent graft, or true and false lumen.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -24,7 +24,7 @@ const LEAST_RESPONSE: f64 = 0.5;
 /// Number of coarsest levels that are skipped, because they would merge adjacent lumens.
 const COARSE_LEVELS: usize = 2;
 
-/// Minimum confidence of the new tracks.
+/// Minimum confidence of the tracks that are added.
 const LEAST_CONFIDENCE: f64 = 0.5;
 
 /// Limits of a new part: distance from the wide axis (its radii), length (own radii), fraction in the wide tube.

@@ -6,9 +6,9 @@ use lumencut_core::progress::Progress;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Stage {
-    /// Making the levels of the pyramid.
+    /// Computing the pyramid of resolutions.
     Levels,
-    /// First pass, which estimates the vessel level.
+    /// The first pass, which estimates the vessel level.
     FirstPass,
     Candidates,
     Tracks,

@@ -1,4 +1,4 @@
-//! Tracked tubes: centre points, each with the lumen around it.
+//! Tracks of tubes: centre points, each with the radius, level and contrast of the lumen there.
 
 use glam::DVec3;
 
@@ -71,7 +71,7 @@ pub(crate) fn length(points: &[TrackPoint]) -> f64 {
     points.windows(2).map(|pair| pair[0].place.distance(pair[1].place)).sum()
 }
 
-/// Lower median of a value of the points; 0 if there are none.
+/// Lower median of one property of the points; 0 if there are none.
 pub(crate) fn usual<'p>(points: impl IntoIterator<Item = &'p TrackPoint>, of: fn(&TrackPoint) -> f64) -> f64 {
     lower_median(&mut points.into_iter().map(of).collect::<Vec<_>>()).unwrap_or(0.0)
 }

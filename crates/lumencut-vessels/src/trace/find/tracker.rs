@@ -25,7 +25,7 @@ const NARROWER: [f64; 2] = [0.6, 0.3];
 const WIDER: [f64; 2] = [1.5, 0.3];
 const MOST_SHIFT: [f64; 2] = [0.6, 0.4];
 
-/// Maximum radius of a tube (mm).
+/// Maximum radius of a tracked tube (mm).
 const WIDEST: f64 = 22.0;
 
 /// Limits of a section: level difference and contrast (times the running contrast), contrast (times the noise).
@@ -59,7 +59,7 @@ pub(crate) struct Tracker<'a> {
     pub(crate) pyramid: &'a Pyramid,
     pub levels_examined: Range<usize>,
     pub paint: &'a Paint,
-    /// Level of each painted track.
+    /// Intensity level of each painted track.
     pub levels: &'a [f64],
     pub(crate) floors: Floors,
 }

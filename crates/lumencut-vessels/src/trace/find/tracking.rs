@@ -189,7 +189,7 @@ impl Tracking<'_> {
     fn tried(&self, paint: &Paint, levels: &[f64], candidate: &Candidate) -> Tried {
         let (levels_examined, floors) = (self.levels_examined.clone(), self.floors);
         let tracker = Tracker { pyramid: self.pyramid, levels_examined, paint, levels, floors };
-        // The first steps are enough to reject most places that are not vessels.
+        // The first steps are enough to reject most positions outside vessels.
         let Some(points) = tracker.track(candidate, FIRST_STEPS) else { return Tried::Nothing };
         let Some(first) = self.kept(&points, LEAST_OF_FIRST) else { return Tried::Rejected(points) };
         if points.len() <= FIRST_STEPS {

@@ -1,4 +1,4 @@
-//! Finds turns that are too tight for the width of the vessel, where a line wanders within the lumen.
+//! Finds turns too tight for the width of the vessel: there the line wanders within the lumen.
 
 use lumencut_core::math::arc_length::arc_lengths;
 
@@ -8,7 +8,7 @@ use crate::trace::lines::centerline::Centerline;
 /// its arc length. It is 0.84 in a bend as tight as the vessel is wide; 0.6 is a circle of 0.6 radii.
 const LEAST_STRAIGHT: f64 = 0.6;
 
-/// Minimum half-length of the chord (mm), because the lines of thin vessels are only as smooth as voxels.
+/// Minimum half-length of the chord (mm), because lines of thin vessels are no smoother than the voxels.
 const LEAST_REACH: f64 = 2.0;
 
 /// Marks points at which the line turns more tightly than its vessel is wide. The criterion is our own: a

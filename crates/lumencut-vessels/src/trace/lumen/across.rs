@@ -15,7 +15,7 @@ const LEAST_SHARE: f64 = 0.6;
 const SEARCH_MM: f64 = 60.0;
 const REACH_WIDTHS: f64 = 3.0;
 
-/// Whether the straight path between two clicks (mm, LPS) stays within one lumen and runs across it.
+/// Whether the straight line between two clicks (mm, LPS) stays within one lumen and runs across it.
 pub fn runs_across(voxels: &Voxels, [from, to]: [DVec3; 2]) -> bool {
     let lumen = OwnLumen::around(voxels, from.midpoint(to));
     let along = lumen.extent((to - from).normalize_or_zero(), SEARCH_MM);

@@ -21,7 +21,7 @@ const ROUND: f64 = 0.38;
 /// Minimum fraction of the rays that must meet a wall.
 const LEAST_SEEN: f64 = 0.375;
 
-/// The lumen around a point.
+/// The lumen in a plane around a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LumenSection {
     /// Centre (mm, LPS).

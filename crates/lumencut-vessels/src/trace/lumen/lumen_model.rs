@@ -5,11 +5,11 @@ use glam::DVec3;
 /// Values of a lumen and of its surroundings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LumenModel {
-    /// Level of the surrounding tissue; fat and air are ignored.
+    /// Level of the surrounding tissue, without fat and air.
     pub tissue: f64,
-    /// Lowest of the medians of the lumen at the clicks.
+    /// Lowest of the lumen medians at the clicks.
     pub low: f64,
-    /// Highest of the medians of the lumen at the clicks.
+    /// Highest of the lumen medians at the clicks.
     pub high: f64,
     /// Standard deviation of the values within the lumen.
     pub noise: f64,
@@ -34,7 +34,7 @@ impl LumenModel {
         } else {
             ((value - empty) / (full - empty)).clamp(0.0, 1.0)
         };
-        // NaN does not count as lumen.
+        // NaN is not lumen.
         if share.is_finite() { share as f32 } else { 0.0 }
     }
 
@@ -51,7 +51,7 @@ impl LumenModel {
         self.noise / (0.55 * self.contrast())
     }
 
-    /// Upper bound of the values that are certainly lumen.
+    /// Upper limit of the values that are certainly lumen.
     pub fn brightest(&self) -> f64 {
         self.high + (0.35 * self.contrast()).max(3.0 * self.noise)
     }

@@ -48,7 +48,7 @@ pub fn lumens_on_ray(volume: &Volume, from: DVec3, along: DVec3) -> Vec<SeenLume
 }
 
 impl SeenLumen {
-    /// The point of a ray that is nearest to the centre.
+    /// The point of a ray that is nearest to the centre of the lumen.
     pub fn on_ray(&self, from: DVec3, along: DVec3) -> DVec3 {
         from + along * (self.center - from).dot(along)
     }
@@ -62,7 +62,7 @@ impl SeenLumen {
     }
 }
 
-/// The range along the ray (mm) that may lie inside the volume; None if the ray misses it.
+/// The range along the ray (mm) that may be inside the volume; None if the ray misses the volume.
 fn depths(volume: &Volume, from: DVec3, along: DVec3) -> Option<(f64, f64)> {
     let corners = volume.corners();
     let depth = corners.map(|corner| (corner - from).dot(along));

@@ -1,4 +1,4 @@
-//! Axis and extent of a lumen that is hardly longer than wide, for scans of few slices.
+//! Finds axis and extent of a lumen that is hardly longer than wide, for scans of few slices.
 
 use std::f64::consts::PI;
 
@@ -12,7 +12,7 @@ use crate::voxels::Voxels;
 /// Number of directions that cover half a sphere.
 pub const DIRECTIONS: u32 = 200;
 
-/// Maximum distance that is searched (mm).
+/// Maximum distance to which a lumen is followed (mm).
 const SEARCH_MM: f64 = 60.0;
 
 /// Number of directions across the axis in which the width is measured.

@@ -30,7 +30,7 @@ const RADIUS_WINDOW_MM: f64 = 1.75;
 /// Sections of lower quality (`trust`) are ignored.
 const LEAST_TRUST: f64 = 0.1;
 
-/// Within this distance along the line (mm), centres must advance.
+/// Over this distance along the line (mm), centres must advance.
 const ADVANCE_WINDOW_MM: f64 = 2.0;
 
 /// Weight of points whose section is not visible.

@@ -1,4 +1,4 @@
-//! Derives the lumen model from the values around the clicks, or states what a click hit instead.
+//! Derives the lumen model from the values around the clicks, or explains what a click hit instead.
 
 use glam::DVec3;
 
@@ -32,7 +32,7 @@ const LEAST_TISSUE: f64 = 50.0;
 const SURROUNDINGS: f64 = 30.0;
 const MOST_SAMPLES: f64 = 200_000.0;
 
-/// A rejected click is moved to lumen within this distance (mm).
+/// A rejected click is moved to lumen if there is some within this distance (mm).
 const SNAP: f64 = 2.0;
 
 /// Minimum fraction of the surroundings that must be darker than the lumen.

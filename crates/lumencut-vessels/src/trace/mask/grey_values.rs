@@ -30,7 +30,7 @@ const LEAST_CONTRAST: f64 = 2.0;
 /// Minimum fraction of the points at which the lumen must be visible.
 const LEAST_SEEN: f64 = 0.5;
 
-/// The volume in which the lumen of a mask is visible.
+/// Grey values in which the lumen of a mask is visible.
 pub struct GreyValues<'a, 'v> {
     /// The volume with grey values.
     pub voxels: &'a Voxels<'v>,
@@ -54,7 +54,7 @@ impl GreyValues<'_, '_> {
         Ok((is_seen && is_here && has_radius).then_some(line))
     }
 
-    /// Lumen model along the vessel; None if there is no contrast.
+    /// Lumen model along the vessel; None if the lumen has no contrast.
     fn model(&self, points: &[DVec3], radius: &[f64]) -> Option<LumenModel> {
         let lumen: Vec<(f64, f32)> = arc_lengths(points)
             .into_iter()

@@ -13,11 +13,11 @@ use lumencut_core::stop::{Stop, go_on};
 
 const ROUNDS: usize = 3;
 
-/// Standard deviation of the smoothing: in radii, but at least in voxels.
+/// Standard deviation of the smoothing: in radii, but at least some voxels.
 const SMOOTHING: f64 = 0.5;
 const SMOOTHING_VOXELS: f64 = 1.0;
 
-/// Half-length of the chord that gives the direction: in radii, but at least in voxels.
+/// Half-length of the chord that gives the direction: in radii, but at least some voxels.
 const CHORD_RADII: f64 = 0.75;
 const REACH_VOXELS: f64 = 1.5;
 
@@ -106,7 +106,7 @@ pub(crate) fn lead_to_cap(points: &mut Vec<DVec3>, lumen: &Lumen, most: f64) {
     let (from, direction, way) = if kept > 0.0 {
         (from, direction, way)
     } else {
-        // The end bends, so the line continues from its own end point.
+        // The end bends, so the line continues from its own last point.
         let behind = point_at(points, &ways, radius.min(whole));
         let direction = (points[0] - behind).normalize_or_zero();
         (points[0], direction, lumen.way_to_wall(points[0], direction, 4.0 * radius))

@@ -13,13 +13,13 @@ pub(crate) const BACKGROUND: u8 = 0;
 /// Value of lumen in [`Foreground::cells`].
 pub const LUMEN: u8 = 1;
 
-/// The box around the lumen of a mask.
+/// The box of voxels around the lumen of a mask.
 pub struct Foreground {
     /// Lumen or background of each voxel; i is fastest, then j, then k.
     pub cells: Vec<u8>,
     /// Number of cells along (i, j, k), including the border.
     pub size: [usize; 3],
-    /// World position (LPS, mm) of a continuous index of this grid.
+    /// Maps a continuous index of this grid to a world position (LPS, mm).
     pub world_from_index: DAffine3,
 }
 

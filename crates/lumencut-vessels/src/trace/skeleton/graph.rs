@@ -11,13 +11,13 @@ use crate::trace::skeleton::foreground::Foreground;
 #[derive(Clone, Debug)]
 pub(crate) struct Branch {
     pub nodes: [usize; 2],
-    /// Cells from start to end, including both; at least two.
+    /// Cells of the branch from start to end, including both; at least two.
     pub cells: Vec<u32>,
 }
 
 pub(crate) struct Graph {
     pub nodes: Vec<u32>,
-    /// Branches; None if removed.
+    /// Branches; None for those that were removed.
     pub branches: Vec<Option<Branch>>,
     /// Indices of the branches at each node; a branch with both ends there is listed twice.
     pub(crate) incident: Vec<Vec<usize>>,

@@ -28,7 +28,7 @@ pub(crate) struct Lumen<'a> {
 pub(crate) struct MaskSection {
     /// Centroid of the section (mm, LPS).
     pub center: DVec3,
-    /// Radius of a circle of the same area (mm).
+    /// Radius of a circle with the area of the section (mm).
     pub radius: f64,
     pub shortest: f64,
 }

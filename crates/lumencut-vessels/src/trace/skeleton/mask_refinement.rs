@@ -9,13 +9,13 @@ use crate::trace::skeleton::mask_lumen::Lumen;
 use lumencut_core::error::Result;
 use lumencut_core::math::arc_length::{LinePlace, arc_lengths};
 
-/// Finds a better centerline, given points (mm, LPS) and radii (mm) of a line.
+/// A function that finds a better centerline, given the points (mm, LPS) and radii (mm) of a line.
 pub type Refine<'a> = &'a (dyn Fn(&[DVec3], &[f64]) -> Result<Option<Centerline>> + Sync);
 
 /// A vessel has left another one where it narrows by at most this fraction over the length of a radius.
 const NARROWER: f64 = 0.2;
 
-/// Minimum number of points of a line that is refined.
+/// Minimum number of points of a line for it to be refined.
 const FEWEST: usize = 5;
 
 /// Refines a vessel. Inside other vessels at its ends the line stays unchanged; over one radius it then

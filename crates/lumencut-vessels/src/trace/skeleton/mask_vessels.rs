@@ -56,7 +56,7 @@ pub fn outwards(vessels: Vec<MaskVessel>) -> Vec<MaskVessel> {
     let mut by_width: Vec<usize> = (0..vessels.len()).collect();
     let is_inner = |number: usize| !vessels[number].is_free.contains(&true);
     by_width.sort_by(|&a, &b| {
-        // The values are rounded, so that rounding errors have no effect.
+        // The mean radii are rounded, so that rounding errors have no effect.
         let width = |number: usize| (vessels[number].mean_radius() * 1e6).round();
         is_inner(a).cmp(&is_inner(b)).then(width(b).total_cmp(&width(a)))
     });

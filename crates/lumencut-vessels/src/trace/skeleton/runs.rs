@@ -19,7 +19,7 @@ struct Runs {
 /// Fills background that no faces connect to the outside; returns the number of cavities and of their cells.
 pub(crate) fn fill_cavities(foreground: &mut Foreground, stop: Stop) -> Result<[usize; 2]> {
     let mut runs = Runs::of(foreground, BACKGROUND, 0, stop)?;
-    // The border is background, so the first run belongs to the outside.
+    // The border is background, so the first run of cells belongs to the outside.
     let outside = runs.root(0);
     let (mut cavities, mut cells) = (0, 0);
     for row in 0..runs.first_of_row.len() - 1 {

@@ -36,7 +36,7 @@ pub(crate) fn thin(
     Ok(front)
 }
 
-/// Removes voxels once from each side; returns whether any voxel was removed.
+/// Removes voxels from each side in turn; returns whether any voxel was removed.
 fn remove_from_all_sides(foreground: &mut Foreground, front: &mut Vec<u32>, stop: Stop) -> Result<bool> {
     let strides = foreground.strides();
     let mut removed = false;

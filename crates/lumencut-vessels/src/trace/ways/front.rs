@@ -20,7 +20,7 @@ const BETWEEN_STOPS: usize = 1 << 10;
 /// Unit (mm) in which the lengths of gaps without lumen are stored.
 const GAP_UNIT_MM: f64 = 0.1;
 
-/// Data of a front in one block: six bytes per voxel, and the costs.
+/// Data of a front for one block of voxels: six bytes per voxel, and the costs.
 #[derive(Clone, Debug)]
 struct Block {
     costs: BlockCosts,
@@ -63,7 +63,7 @@ pub enum Found {
     Target,
     /// There is no path.
     NoWay,
-    /// The front reached its maximum size.
+    /// The front reached its maximum number of voxels.
     TooFar,
 }
 
@@ -82,7 +82,7 @@ pub struct Front {
 }
 
 impl Front {
-    /// A front that starts at a voxel.
+    /// A front that starts at the voxel `source`.
     pub fn new(voxels: &Voxels, region: &mut Region, source: [i32; 3], reach: Reach) -> Self {
         let mut front = Self {
             source,
@@ -106,7 +106,7 @@ impl Front {
         self.source
     }
 
-    /// Grows until the path to `target` is known. `report` is called with the remaining distance (mm).
+    /// Grows the front until the path to `target` is known. `report` receives the remaining distance (mm).
     pub fn grow(
         &mut self,
         voxels: &Voxels,

@@ -35,7 +35,7 @@ pub(crate) const FORBIDDEN: u8 = 0;
 pub(crate) const WEAK: f64 = 0.2;
 /// Lumen is thin if the mean membership is below this.
 pub(crate) const THIN: f64 = 0.75;
-/// Membership of a voxel well within lumen.
+/// Membership of a voxel deep inside lumen.
 pub(crate) const FULL: f64 = 0.9;
 
 /// How strictly paths must stay in lumen.

@@ -10,7 +10,7 @@ pub(crate) const PADDED_SIDE: usize = SIDE + 2 * HALO;
 /// A ridge adds up to this fraction of the missing membership.
 const RIDGE: f64 = 0.6;
 
-/// Minimum membership of a visible ridge.
+/// Minimum membership for a ridge to be visible.
 const FAINT: f64 = 0.05;
 
 /// Second derivative of the membership in a clear wall. In a throat, the next eigenvalue is below -`THROAT`

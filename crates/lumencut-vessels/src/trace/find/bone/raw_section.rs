@@ -1,6 +1,6 @@
 //! Cross-section of a track in the raw voxels: its elongation, its evenness, and whether it is marrow.
 //!
-//! Tracking clips bright values, so a plate of bone may look like a tube; raw voxels show the difference.
+//! Tracking uses clipped values, so a plate of bone may look like a tube; raw voxels show the difference.
 
 use std::f64::consts::TAU;
 
@@ -22,7 +22,7 @@ const STEP: f64 = 0.5;
 const TISSUE: [f64; 2] = [0.8, 1.6];
 const TISSUE_BEYOND: f64 = 2.0;
 
-/// This quantile of the lowest values of the rays counts as tissue, because fat and lung are darker.
+/// Quantile of the lowest values of all rays that counts as tissue, because fat and lung are darker.
 const TISSUE_SHARE: f64 = 0.3;
 
 /// Maximum length of a ray: the smaller of two sums, each of a multiple of the radius and some mm.

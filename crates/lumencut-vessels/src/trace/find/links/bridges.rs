@@ -13,7 +13,7 @@ use crate::trace::find::track::Track;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Minimum confidence of both tracks.
+/// Minimum confidence of both tracks at a bridge.
 const CONFIDENCE: f64 = 0.3;
 
 /// A bridge is no longer than this many radii of the wider end, and than this many mm.

@@ -11,7 +11,7 @@ const LEAST_CONFIDENCE: f64 = 0.3;
 /// Length of the part that gives the direction of an end (radii).
 const DIRECTED: f64 = 1.5;
 
-/// Number of points that give the radius and level of an end.
+/// Number of points at an end from which its radius and level are taken.
 const LAST: usize = 5;
 
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -22,7 +22,7 @@ const INSIDE: f64 = 1.15;
 /// Minimum level along a link (0 tissue, 1 lumen).
 const LEVEL: f64 = 0.45;
 
-/// Weight of turn and level difference in the cost of a link, relative to its length.
+/// Weight of turn and level difference in the cost of a link, relative to the link's length.
 const TURN: f64 = 0.5;
 
 /// Ends with a smaller radius (voxels) are narrow.
@@ -32,11 +32,11 @@ const NARROW_VOXELS: f64 = 2.5;
 const PLACES_TRIED: usize = 3;
 
 pub(crate) struct Limits {
-    /// Minimum confidence of the tracks.
+    /// Minimum confidence of both tracks.
     pub confidence: f64,
     /// Minimum cosine of the turn, unless the end lies inside the other track.
     pub turn: f64,
-    /// Maximum difference of levels (share of the contrast).
+    /// Maximum difference of levels (fraction of the contrast).
     pub unlike: f64,
     /// Factor of that difference for a narrow end at a brighter track: narrow ends look darker than their lumen.
     pub narrow: f64,

@@ -21,7 +21,7 @@ const LEAST_RADIUS: f64 = 1.5;
 const WALLS: f64 = 3.0;
 const FARTHEST_WALL: f64 = 12.0;
 
-/// Maximum difference of the levels (share of the contrast), and minimum level along the link.
+/// Maximum difference of the levels (fraction of the contrast), and minimum level along the link.
 const MAX_LEVEL_DIFFERENCE: f64 = 0.3;
 const MIN_LEVEL: f64 = 0.7;
 

@@ -4,10 +4,10 @@ use glam::DVec3;
 
 use crate::trace::find::scan::Scan;
 
-/// Sampling distance (voxels).
+/// Distance between samples on the line (voxels).
 const STEP: f64 = 0.5;
 
-/// Smoothing (standard deviation in voxels).
+/// Standard deviation of the smoothing (voxels).
 const SMOOTHED: f64 = 0.6;
 
 #[derive(Clone, Copy, Debug)]

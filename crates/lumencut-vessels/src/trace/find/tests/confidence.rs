@@ -4,7 +4,7 @@ use crate::trace::find::made::{LEVEL, TISSUE, away, blurred, straight_track, wit
 
 const LINE: [DVec3; 2] = [DVec3::new(4.0, 20.0, 20.0), DVec3::new(56.0, 20.0, 20.0)];
 
-/// Confidence and doubt of a track along the line, in voxels of 1 mm, shortened to `length` mm.
+/// Confidence and doubt of a track on the test line, shortened to `length` mm, in voxels of 1 mm.
 fn judged(value: impl Fn(DVec3) -> f64, radius: f64, length: f64) -> (f64, Option<TrackDoubt>) {
     with_scan([60, 40, 40], 1.0, value, |scan| {
         let grid = Grid::over(scan.voxels, 0.5);

@@ -19,7 +19,7 @@ fn a_cylinder_of_contrast_one_gives_one_whichever_way_it_runs() {
         let along_z = response(number, |[x, y, _]| blurred_disc(x, y, RADII[number]));
         assert!((along_z.0 - 1.0).abs() < 1e-3, "{number}: {along_z:?}");
         assert!(along_z.1[2].abs() > 0.999, "{along_z:?}");
-        // A tube along the diagonal of x and y.
+        // A tube parallel to the diagonal of x and y.
         let half = std::f64::consts::FRAC_1_SQRT_2;
         let oblique = response(number, |[x, y, z]| blurred_disc((x - y) * half, z, RADII[number]));
         assert!((oblique.0 - 1.0).abs() < 0.1, "{number}: {oblique:?}");

@@ -9,7 +9,7 @@ use crate::trace::lumen::refine::STEP;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Number of segments of the bend that leads out of a lumen.
+/// Number of segments of the curve that leads a run out of another lumen.
 const BEND: usize = 16;
 
 #[derive(Clone, Debug)]
@@ -108,7 +108,7 @@ fn lie_within(run: &mut Attached, joints: [Option<LinePoint>; 2]) {
         run.points.push(end);
         run.points[0].place = from.place;
     }
-    // The complete run lies inside another lumen.
+    // The entire run lies inside another lumen.
     run.leads[usize::from(run.met[0].is_none())] = run.points.len() - 1;
 }
 

@@ -15,7 +15,7 @@ use crate::trace::lumen::refine::{STEP, refined_near};
 use lumencut_core::error::Result;
 use lumencut_core::stop::Stop;
 
-/// Number of points of another run, on each side of the node, whose lumen is checked.
+/// Number of points of the other run, on each side of the node, whose lumen is checked.
 const NEAR_POINTS: usize = 200;
 
 /// Minimum length of a part that is centred (mm).
@@ -64,7 +64,7 @@ pub(crate) fn centered(scan: &Scan, runs: &Runs, number: usize, stop: Stop) -> R
     Ok(Centered { points: (0..line.points.len()).map(point).collect(), is_outside })
 }
 
-/// The run met at the start (0) or end (1), and the number of its point; None at a free end.
+/// The run met at the start (`end` 0) or end (1), and the index of its point; None at a free end.
 pub(crate) fn met(runs: &Runs, number: usize, end: usize) -> Option<(usize, usize)> {
     let run = &runs.runs[number];
     let (node, _) = run.knots[if end == 0 { 0 } else { run.knots.len() - 1 }];

@@ -34,7 +34,7 @@ pub(crate) struct Graph {
     pub(crate) incident: Vec<Vec<usize>>,
     /// Edges; the pieces of the tracks come first, in order.
     pub edges: Vec<Edge>,
-    /// First edge of each track, and the edge after its last one.
+    /// Index of the first edge of each track, and of the edge after its last one.
     pub(crate) of_track: Vec<[usize; 2]>,
 }
 

@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::trace::find::quantiles::median;
 use crate::trace::find::whole_vessels::graph::Graph;
 
-/// Distance at which the direction is taken, in radii.
+/// Distance from the node at which the direction is taken, in radii.
 const SAMPLE_RADII: f64 = 2.0;
 
 /// Maximum number of consecutive edges that are followed if the first ones are short.
@@ -32,7 +32,7 @@ pub(crate) fn outlook(graph: &Graph, edge: usize, node: usize, radius: f64) -> O
             }
         }
         node = graph.far(edge, node);
-        // Beyond a junction, the continuation is not known.
+        // Behind a junction, the continuation is not known.
         let Some(next) = only_other(graph, node, edge) else { break };
         edge = next;
     }

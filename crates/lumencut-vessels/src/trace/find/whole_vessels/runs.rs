@@ -15,17 +15,17 @@ use lumencut_core::stop::{Stop, go_on};
 const STRAIGHT: f64 = -0.8;
 const WIDER: f64 = 1.5;
 
-/// Scores that differ by less are equal.
+/// Scores that differ by less than this count as equal.
 const ROUNDING: f64 = 1e-9;
 
-/// Number of points that give the width of an end.
+/// Number of points at an end from which its width is taken.
 const LAST: usize = 5;
 
 #[derive(Clone, Debug)]
 pub(crate) struct Run {
     /// Points of the run, from the root outwards.
     pub points: Vec<WayPoint>,
-    /// Nodes on the run, each with the number of its point.
+    /// Nodes on the run, each with the index of its point.
     pub knots: Vec<(usize, usize)>,
 }
 

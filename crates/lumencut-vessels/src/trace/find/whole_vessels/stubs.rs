@@ -5,7 +5,7 @@ use crate::trace::find::track::{Track, length};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Maximum length of a stub, in radii at the link.
+/// Maximum length of a stub, in radii of the track at the link.
 const LONGEST: f64 = 1.5;
 
 /// Minimum width of the fork's other branch, relative to the track.

@@ -10,17 +10,17 @@ use lumencut_core::stop::{Stop, go_on};
 const SHORTEST_RADII: f64 = 2.0;
 const SHORTEST: f64 = 2.0;
 
-/// Number of neighbours on each side that give the median radius.
+/// Number of neighbours on each side from which the median radius is taken.
 const NEIGHBORS: usize = 4;
 
-/// Trims runs to a minimum radius (mm). Parts that other runs need always stay.
+/// Trims runs to a minimum radius (mm). Parts to which other runs are attached are always kept.
 pub(crate) fn trimmed(
     mut runs: Vec<Attached>,
     smallest_radius: f64,
     stop: Stop,
 ) -> Result<Vec<Option<Attached>>> {
     let mut stays = vec![true; runs.len()];
-    // In reverse order, most branches come before their parents.
+    // In reverse order, most branches are handled before their parents.
     for number in (0..runs.len()).rev() {
         go_on(stop)?;
         let needed = needed(&runs, &stays, number);
@@ -65,7 +65,7 @@ fn trim(run: &mut Attached, needed: Option<[usize; 2]>, smallest_radius: f64) ->
     if needed.is_none() && (range[0] >= range[1] || is_bump(run, range)) {
         return false;
     }
-    // At least two points must stay.
+    // At least two points are kept.
     let range =
         if range[0] < range[1] { range } else { [range[0].min(last - 1), range[0].min(last - 1) + 1] };
     run.points.truncate(range[1] + 1);

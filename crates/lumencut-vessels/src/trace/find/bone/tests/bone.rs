@@ -98,7 +98,7 @@ fn doubts_take_confidence_between_their_limits() {
 #[test]
 fn a_wide_even_lumen_as_bright_as_vessels_may_be_flat_and_marrow_may_not() {
     let flat = Shape { level: LEVEL, elongation: 2.5, ..EVEN_AND_PALE };
-    // Half of the doubts are excused, so the confidence is 0.9 to the power of a half.
+    // Half of the doubts are excused, so the confidence is the square root of 0.9.
     assert_eq!(after(flat, 3.0), (949, None));
     // A wide flat track is a body of even tissue.
     assert_eq!(after(flat, 8.0).0, 0);

@@ -118,7 +118,7 @@ fn a_cycle_is_closed_to_the_bit() {
     let corners = [at(15.0, 8.0), at(55.0, 8.0), at(55.0, 40.0), at(15.0, 40.0), at(15.0, 8.0)];
     let mut tubes: Vec<([DVec3; 2], Track)> =
         corners.windows(2).map(|pair| tube(pair[0], pair[1], 2.0)).collect();
-    // All ends except the root lie on other vessels.
+    // Checks that all ends except the root lie on other vessels.
     let check = |tubes: &[([DVec3; 2], Track)], expected: f64, free: usize| {
         let vessels = of_tubes(tubes);
         assert_eq!(vessels.iter().map(|vessel| vessel.part).max(), Some(0));
@@ -196,7 +196,7 @@ fn nothing_makes_no_vessels_and_work_stops_where_it_is_asked_to() {
 
 #[test]
 fn making_vessels_whole_asks_whether_to_stop_for_every_track_in_each_step() {
-    // Parallel tubes that do not touch.
+    // The tubes are parallel and do not touch.
     let line = |n: usize| [5.0, 65.0].map(|x| at(x, 3.0 + 6.0 * n as f64));
     let tracks: Vec<Track> = (0..8).map(line).map(|[from, to]| straight_track(from, to, 1.5)).collect();
     let lines: Vec<[DVec3; 2]> = (0..8).map(line).collect();
