@@ -58,7 +58,7 @@ const TRUSTED: (f64, [f64; 2]) = (1.0, [0.15, 2.0]);
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fit {
     pub ellipse: Ellipse,
-    /// Level of the lumen and its standard deviation, as fractions of the contrast.
+    /// Intensity level of the lumen and its standard deviation, as fractions of the contrast.
     pub lumen: [f64; 2],
     pub background: f64,
     pub wall: Option<Wall>,

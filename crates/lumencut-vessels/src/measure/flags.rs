@@ -1,6 +1,6 @@
 //! Flags of a section, as bits. The crate `lumencut` has their words and colours.
 
-/// The diameter is below 1.5 times the FWHM of the point spread, the limit of what can be measured.
+/// The diameter is below 1.5 times the FWHM of the point spread.
 pub const AT_LIMIT: u32 = 1;
 /// Another vessel starts at this section, or the lumen continues sideways.
 pub const BRANCH: u32 = 1 << 1;

@@ -13,7 +13,7 @@ use super::sections::{Bench, Known, noise};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Sections give the level if its standard deviation is at most this (fraction of the contrast); minimum number.
+/// Sections that give the level: maximum standard deviation (fraction of the contrast), and minimum number.
 const LEVEL_SECTIONS: (f64, usize) = (0.05, 3);
 
 /// Maximum number of sections fitted with a common level.
@@ -27,7 +27,7 @@ const DEVIATION: f64 = 0.05;
 
 const ROUNDS: usize = 11;
 
-/// Lumen level and its standard deviation at each section, as fractions of the contrast.
+/// Intensity level of the lumen and its standard deviation at each section, as fractions of the contrast.
 pub(crate) fn lumen_levels(
     bench: &Bench,
     places: &[SectionPlane],

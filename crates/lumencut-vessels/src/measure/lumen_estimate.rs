@@ -9,7 +9,7 @@ use super::section_plane::SectionPlane;
 use crate::voxels::Voxels;
 use lumencut_core::math::statistics::median;
 
-/// Minimum level of a lumen, as a fraction of the vessel's lumen level.
+/// Minimum intensity of a lumen, as a fraction of the vessel's lumen level.
 const LEAST_LUMEN: f64 = 0.25;
 
 /// Rays are cut at this multiple of their median length, because some escape into branches.
@@ -24,11 +24,11 @@ pub(crate) struct LumenEstimate {
     pub center: DVec2,
     /// Radius of the lumen (mm).
     pub radius: f64,
-    /// Level of the lumen, as a fraction of the contrast.
+    /// Intensity level of the lumen, as a fraction of the contrast.
     pub lumen: f64,
 }
 
-/// Minimum level of metal or calcium, as a fraction of the contrast.
+/// Minimum intensity of metal or calcium, as a fraction of the contrast.
 const BRIGHT: f64 = 1.6;
 
 impl LumenEstimate {

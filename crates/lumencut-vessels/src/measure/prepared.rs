@@ -155,7 +155,8 @@ impl PreparedVessel {
         bench(voxels, self.scale, self.wall.filter(|_| hidden.is_none()), fwhm)
     }
 
-    /// Interval between separately fitted sections for a point spread (FWHM, mm), and only these sections.
+    /// Interval of the sections that are fitted separately for a point spread (FWHM, mm), and the vessel
+    /// reduced to them.
     fn fitted(&self, voxels: &Voxels, fwhm: f64) -> (usize, Self) {
         let blur = Blur::new(fwhm, voxels.world_from_index.matrix3);
         let width = self.places.iter().map(|place| blur.width(place)).fold(f64::INFINITY, f64::min);

@@ -77,7 +77,7 @@ pub struct Profile {
     pub half_axes: Vec<[DVec3; 2]>,
     /// Radius of the largest ball around the centre that fits into the lumen (mm).
     pub inscribed_radius: Vec<f64>,
-    /// Levels of lumen and background, in the volume's unit.
+    /// Intensity levels of lumen and background, in the volume's unit.
     pub levels: Vec<[f64; 2]>,
     /// Noise of a voxel, in the volume's unit.
     pub noise: f64,

@@ -42,7 +42,7 @@ impl Ray {
 /// Parameters of a search along a ray; levels are fractions of the contrast.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Look {
-    /// Levels of the lumen and of the surroundings.
+    /// Intensity levels of the lumen and of the surroundings.
     pub levels: [f64; 2],
     /// Values above this are too bright for lumen.
     pub bright: f64,

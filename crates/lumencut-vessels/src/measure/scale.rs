@@ -28,9 +28,9 @@ const RIM_SHARE: f64 = 0.1;
 /// Maps values of a volume to fractions of the contrast: 0 is the level outside the vessel, 1 that of its lumen.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scale {
-    /// Level outside the vessel.
+    /// Intensity level outside the vessel.
     pub outside: f64,
-    /// Level of the lumen minus the level outside; negative for lumens darker than their surroundings.
+    /// Intensity level of the lumen minus that outside; negative for lumens darker than their surroundings.
     pub contrast: f64,
 }
 

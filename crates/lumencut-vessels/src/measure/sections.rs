@@ -70,7 +70,7 @@ pub(crate) struct Doubt {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Known {
     pub ellipse: Ellipse,
-    /// Lumen level, as a fraction of the contrast.
+    /// Intensity level of the lumen, as a fraction of the contrast.
     pub lumen: Level,
     /// Noise, as a fraction of the contrast; None before it is estimated.
     pub noise: Option<f64>,

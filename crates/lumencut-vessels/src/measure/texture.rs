@@ -53,8 +53,8 @@ impl Pairs {
             all.count[i][j][k] += 1.0;
             near = [near[0] + miss * beside, near[1] + 1.0];
         });
-        // All products sum to half of (squared sum - sum of squares). Without those of near pairs, distant
-        // pairs remain.
+        // The products of all pairs sum to half of (squared sum - sum of squares). The sum over near pairs is
+        // subtracted.
         let number = each.len() as f64;
         all.far = [(sum * sum - squares) / 2.0 - near[0], number * (number - 1.0) / 2.0 - near[1]];
         all

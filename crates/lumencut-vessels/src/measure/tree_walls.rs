@@ -59,7 +59,7 @@ fn by_others(expected: Level, levels: &[Level]) -> Level {
     [mean, mean_of(&|level| level[1].powi(2) + (level[0] - mean).powi(2)).sqrt()]
 }
 
-/// Log-likelihood that vessels differ from their tree by a standard deviation `apart`; the level estimated then.
+/// Log-likelihood that vessels differ from their tree by a standard deviation `apart`, and the level then estimated.
 fn by_others_with_deviation([mean, deviation]: Level, apart: f64, levels: &[Level]) -> (f64, Level) {
     let between = apart.powi(2);
     let (mut level, mut variance, mut likely) = (mean, deviation.powi(2) - between, 0.0);

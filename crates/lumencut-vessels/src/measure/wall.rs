@@ -23,7 +23,7 @@ const LEAST_THICKNESS: f64 = 1e-4;
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wall {
-    /// Level of the wall as a fraction of the contrast, and its standard deviation.
+    /// Intensity level of the wall, as a fraction of the contrast, and its standard deviation.
     pub level: Level,
     /// Logarithm of the thickness (mm), and its standard deviation.
     pub(crate) log_thickness: Level,

@@ -8,7 +8,7 @@ use crate::voxels::Voxels;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::limits::Limits;
 
-/// Wall level in CT (HU) and its standard deviation: soft tissue, in arteries with and without plaque.
+/// Intensity of walls in CT (HU) and its standard deviation: soft tissue, in arteries with and without plaque.
 pub const CT_WALL: Level = [45.0, 25.0];
 
 /// A volume may be in HU if its lumen is above `LUMEN` and its surroundings are within `AROUND`.
@@ -22,7 +22,7 @@ const DEVIATION: Limits =
     Limits::new(0.1, 1000.0, "(the standard deviation of the wall's level, in the volume's unit)");
 const LEVEL: Limits = Limits::new(-2000.0, 1e5, "(the wall's level, in the volume's unit)");
 
-/// How the caller chooses the wall level.
+/// How the caller chooses the intensity level of the wall.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum WallRequest {
     /// [`CT_WALL`] in CT; no wall in other volumes.
@@ -30,7 +30,7 @@ pub enum WallRequest {
     Automatic,
     /// Walls are not modelled.
     Off,
-    /// This level and standard deviation, in the volume's unit.
+    /// This intensity level and standard deviation, in the volume's unit.
     Level(Level),
 }
 

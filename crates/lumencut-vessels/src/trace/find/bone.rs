@@ -22,8 +22,8 @@ use lumencut_core::stop::{Stop, go_on};
 /// A track's elongation is this quantile of its sections: junctions and touching veins lengthen single ones.
 const ELONGATION_SHARE: f64 = 0.3;
 
-/// Weights in a neighbourhood: a track's length, up to `LONGEST` (mm); factor of the track itself; minimum
-/// confidence.
+/// Weights in a neighbourhood: a track counts by its length up to `LONGEST` (mm), and the track itself by the
+/// factor `ITSELF`. Tracks with less confidence than `LEAST_COUNTED` are ignored.
 const LONGEST: f64 = 40.0;
 const ITSELF: f64 = 2.0;
 const LEAST_COUNTED: f64 = 0.3;
@@ -31,7 +31,8 @@ const LEAST_COUNTED: f64 = 0.3;
 /// Neighbours raise an elongation e to at most 1.5 + 2 (e - 1), so that round arteries next to bone are kept.
 const NEIGHBOURS: [f64; 2] = [1.5, 2.0];
 
-/// Elongation and spread at which doubt starts, and by which it grows by 1; maximum of each doubt.
+/// For `ELONGATED` and `UNEVEN`: value at which doubt starts, and increase that adds 1 to it. Each doubt is
+/// limited to `MOST_DOUBT`.
 const ELONGATED: [f64; 2] = [1.2, 0.7];
 const UNEVEN: [f64; 2] = [0.14, 0.10];
 const MOST_DOUBT: f64 = 3.0;

@@ -23,8 +23,8 @@ const OF_CONTRAST: f64 = 0.15;
 const SECTION_NOISES: f64 = 3.0;
 const SECTION_OF_CONTRAST: f64 = 0.2;
 
-/// Minimum closure (rays with a wall one radius away) and contrasting fraction of rays; radius relative to
-/// the flux's.
+/// Limits of a section: minimum closure (fraction of rays with a wall about one radius away), minimum
+/// fraction of contrasting rays, and range of its radius relative to the flux radius.
 const LEAST_CLOSURE: f64 = 0.65;
 const LEAST_CONTRAST_SHARE: f64 = 0.6;
 const RADIUS_RATIO: [f64; 2] = [0.5, 1.9];

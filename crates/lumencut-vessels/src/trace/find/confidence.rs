@@ -10,7 +10,7 @@ use crate::trace::find::section::{TOUCHED, across};
 use crate::trace::find::track::{TrackDoubt, TrackPoint, length, usual};
 use crate::voxels::Voxels;
 
-/// The level and contrast that vessels usually have, in the unit of the volume.
+/// The intensity level and contrast that vessels usually have, in the unit of the volume.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct UsualVessels {
     pub level: f64,
@@ -35,7 +35,7 @@ const MOST_SECTIONS: usize = 60;
 /// A tube becomes wide over this range of radii (voxels).
 const WIDE_VOXELS: [f64; 2] = [2.5, 5.5];
 
-/// Bone is searched up to this distance (radii plus voxels), and is this much above vessels (times the contrast).
+/// Bone is searched up to this distance (radii plus voxels); it exceeds vessels by `BONE` times the contrast.
 const BONE_REACH: [f64; 2] = [1.5, 1.5];
 const BONE: f64 = 0.4;
 const BRIGHT_INSIDE: f64 = 0.5;

@@ -8,7 +8,7 @@ use crate::trace::lines::centerline::Centerline;
 pub struct Trees {
     /// Vessels ordered by part, the most important part first. Each part begins with its root.
     pub vessels: Vec<FoundVessel>,
-    /// Level that vessels usually have, in the unit of the volume.
+    /// Intensity that vessels usually have, in the unit of the volume.
     pub level: f64,
     /// Contrast that vessels usually have to their surroundings, in the unit of the volume.
     pub contrast: f64,

@@ -10,7 +10,7 @@ pub(crate) struct Scan<'v> {
     pub side: f64,
     /// Values below this are raised to it, so that fat, lung and air do not count as contrast.
     pub lowest: f64,
-    /// Level that vessels usually have, in the unit of the volume.
+    /// Intensity that vessels usually have, in the unit of the volume.
     pub level: f64,
     /// Contrast that vessels usually have, in the unit of the volume.
     pub contrast: f64,

@@ -12,7 +12,7 @@ pub(crate) struct TrackPoint {
     pub direction: DVec3,
     /// Radius (mm).
     pub radius: f64,
-    /// Lumen level, in the unit of the volume.
+    /// Intensity level of the lumen, in the unit of the volume.
     pub level: f64,
     /// Contrast to the surrounding tissue, in the unit of the volume.
     pub contrast: f64,

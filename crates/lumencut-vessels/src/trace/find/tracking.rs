@@ -26,7 +26,8 @@ const LEAST_CONFIDENCE: f64 = 0.3;
 const FIRST_STEPS: usize = 16;
 const LEAST_OF_FIRST: f64 = 0.5;
 
-/// Paint radius of narrow, wide and other tracks, in track radii; limits (voxels) of narrow and wide tracks.
+/// Radius of the paint, in track radii: for narrow tracks (up to `NARROW_RADIUS` voxels), for wide ones (from
+/// `WIDE_RADIUS` voxels on), and for others.
 const PAINTED: [f64; 3] = [0.9, 1.1, 1.0];
 const NARROW_RADIUS: f64 = 2.0;
 const WIDE_RADIUS: f64 = 4.0;
@@ -41,7 +42,8 @@ const OVER_RADIUS: f64 = 5.0;
 /// Number of candidates tracked in parallel before painting.
 const BATCH: usize = 32;
 
-/// Candidates closer than this (radii plus voxels) are not tracked in parallel; maximum number that is searched.
+/// Candidates closer than this (radii plus voxels) are tracked one after the other. For each batch, at most
+/// `MAX_EXAMINED` candidates are searched.
 const NEAR_RADII: f64 = 4.0;
 const NEAR_VOXELS: f64 = 8.0;
 const MAX_EXAMINED: usize = 128;

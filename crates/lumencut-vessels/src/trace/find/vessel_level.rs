@@ -9,7 +9,7 @@ const LEAST_CLOSURE: f64 = 0.85;
 const NOISES: f64 = 6.0;
 const LEAST_LENGTH: f64 = 4.0;
 
-/// Levels are similar if they differ by about this fraction of the contrast.
+/// Intensity levels are similar if they differ by about this fraction of the contrast.
 const KERNEL: f64 = 0.2;
 
 /// Radii above this (finest-level voxels) do not increase the weight of a tube.

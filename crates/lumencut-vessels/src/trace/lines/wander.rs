@@ -5,7 +5,7 @@ use lumencut_core::math::arc_length::arc_lengths;
 use crate::trace::lines::centerline::Centerline;
 
 /// A line wanders if the chord from one radius before a point to one radius after it is shorter than this fraction of
-/// its arc length. It is 0.84 in a bend as tight as the vessel is wide; 0.6 is a circle of 0.6 radii.
+/// its arc length. In a bend as tight as the vessel is wide, the fraction is 0.84; 0.6 is a circle of 0.6 radii.
 const LEAST_STRAIGHT: f64 = 0.6;
 
 /// Minimum half-length of the chord (mm), because lines of thin vessels are no smoother than the voxels.

@@ -5,7 +5,7 @@ use glam::DVec3;
 /// Values of a lumen and of its surroundings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LumenModel {
-    /// Level of the surrounding tissue, without fat and air.
+    /// Intensity level of the surrounding tissue, without fat and air.
     pub tissue: f64,
     /// Lowest of the lumen medians at the clicks.
     pub low: f64,

@@ -80,7 +80,7 @@ impl Surroundings {
         Self { tissue, most, bright, is_hounsfield }
     }
 
-    /// Level of the tissue around the lumen.
+    /// Intensity level of the tissue around the lumen.
     pub fn tissue(&self) -> f64 {
         self.tissue
     }

@@ -11,7 +11,8 @@ use crate::trace::find::track::{Track, TrackPoint};
 const LANDING_RADII: f64 = 2.5;
 const REACH_BEYOND: f64 = 26.0;
 
-/// Maximum distance from an end to the wall of a track: radii, but at least some voxels and at most some mm.
+/// Maximum distance from an end to the wall of a track, in radii of the end. It is at least `WALL_VOXELS`
+/// voxels and at most `FARTHEST_WALL` mm.
 const WALL: f64 = 3.0;
 const WALL_VOXELS: f64 = 4.0;
 const FARTHEST_WALL: f64 = 8.0;

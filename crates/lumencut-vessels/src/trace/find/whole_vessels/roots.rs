@@ -11,7 +11,7 @@ use lumencut_core::stop::{Stop, go_on};
 /// Radii above this (voxels) do not increase the rank.
 const WIDEST: f64 = 10.0;
 
-/// Levels are similar if they differ by about this fraction of the contrast.
+/// Intensity levels are similar if they differ by about this fraction of the contrast.
 const SIMILAR_LEVEL: f64 = 0.2;
 
 struct Part {
