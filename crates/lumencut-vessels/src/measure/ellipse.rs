@@ -126,7 +126,7 @@ impl Whitening {
     }
 }
 
-/// A node of the boundary in whitened space; the tangent is divided by the number of nodes.
+/// A node of the boundary in whitened space; `tangent` and `outwards` are divided by the number of nodes.
 #[derive(Clone, Copy, Debug)]
 struct Node {
     place: [f32; 2],

@@ -139,7 +139,7 @@ fn wide_sections(bench: &Bench, fits: &[Option<Fit>], noise: f64) -> Vec<usize> 
         })
         .collect();
     wide.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-    // Takes the wider half of the sections, and evenly spaced ones of these.
+    // Takes the wider half of the sections, then evenly spaced sections among them.
     wide.truncate(wide.len().div_ceil(2).max(SECTIONS.0));
     let every = wide.len().div_ceil(SECTIONS.0).max(1);
     wide.into_iter().step_by(every).map(|(_, n)| n).collect()

@@ -39,8 +39,8 @@ pub fn find_from(volume: &Volume, seed: DVec3, request: &FindRequest) -> Result<
     }
 }
 
-/// The connected part whose vessel is nearest to a seed in radii, preferably a sure one. A seed reaches at
-/// least `voxel` mm. Errors: if no vessel is in reach, the nearest vessel point and its distance (mm).
+/// The connected part whose vessel is nearest to a seed in radii, preferably a sure one. The search radius is
+/// at least `voxel` mm. Errors: if no vessel is in reach, the nearest vessel point and its distance (mm).
 pub fn part_at(trees: &Trees, seed: DVec3, voxel: f64) -> std::result::Result<usize, (DVec3, f64)> {
     let sure_parts: Vec<usize> =
         trees.vessels.iter().filter(|vessel| vessel.doubt.is_none()).map(|vessel| vessel.part).collect();
@@ -48,8 +48,8 @@ pub fn part_at(trees: &Trees, seed: DVec3, voxel: f64) -> std::result::Result<us
     Ok(trees.vessels[vessel].part)
 }
 
-/// The vessel nearest to a position in radii, preferably one that `comes_first` accepts. Positions reach at
-/// least `voxel` mm. Errors: if no vessel is in reach, the nearest vessel point and its distance (mm).
+/// The vessel nearest to a position in radii, preferably one that `comes_first` accepts. The search radius is
+/// at least `voxel` mm. Errors: if no vessel is in reach, the nearest vessel point and its distance (mm).
 pub fn vessel_at(
     trees: &Trees,
     place: DVec3,

@@ -263,7 +263,7 @@ fn gain(number: usize) -> Gain {
     let wide = 2 * HALO + 24;
     let noise = response(noise(wide * wide * wide), [wide; 3]);
     let square: f32 = noise.strongest.iter().map(|r| r * r).sum();
-    // Only positive responses are recorded, which are half of all.
+    // Only positive responses are recorded. For noise, these are half of all responses.
     let spread = (2.0 * square / noise.strongest.len() as f32).sqrt();
     Gain { factor: 1.0 / peak, noise: spread / peak }
 }

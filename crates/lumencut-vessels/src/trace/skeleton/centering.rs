@@ -24,7 +24,7 @@ const REACH_VOXELS: f64 = 1.5;
 /// A move must keep this fraction of the distance to the wall, so that the line stays inside a crescent.
 const LEAST_ROOM: f64 = 0.8;
 
-/// Radius of the other line at each end that lies on one; inside that lumen a branch has no own sections.
+/// For each end that lies on another line, the radius of that line; inside its lumen a branch has no own sections.
 pub(crate) type OnOther = [Option<f64>; 2];
 
 /// Centres a line in the lumen. Errors: [`lumencut_core::error::ErrorKind::Interrupted`] if stopped.

@@ -1,4 +1,5 @@
-//! A front: Dijkstra's algorithm with buckets. The straight distance to the target is the lower bound.
+//! A front of voxels that grows by Dijkstra's algorithm with buckets. The straight distance to the target is
+//! the lower bound (A*).
 //!
 //! Each voxel has 26 neighbours. Their distances are taken in world space, so any affine grid works.
 
