@@ -1,4 +1,4 @@
-//! The voxels of a volume as numbers, for all voxel types and grids.
+//! Reads the voxels of a volume as numbers, for all voxel types and grids.
 
 use std::sync::OnceLock;
 
@@ -11,12 +11,12 @@ use lumencut_core::with_voxels;
 
 pub(crate) trait VoxelSource: Sync {
     fn cube(&self, first: [i32; 3], side: usize, values: &mut [f32]);
-    /// Trilinear value at a continuous index; NaN more than half a voxel beyond the outermost voxel centres.
+    /// Trilinear value at a continuous index; NaN if it is more than half a voxel beyond the outermost voxel centres.
     fn at(&self, index: DVec3) -> f32;
     /// Value of a voxel inside the volume.
     fn voxel(&self, voxel: [i32; 3]) -> f32;
     fn along(&self, start: DVec3, stride: DVec3, values: &mut Vec<f32>);
-    /// Whether some value in every `every`-th row along i, starting with the first, is below `limit`.
+    /// Whether any value is below `limit`; only every `every`-th row along i is read, starting with the first.
     fn goes_below(&self, limit: f32, every: usize) -> bool;
 }
 
@@ -32,7 +32,7 @@ pub struct Voxels<'a> {
     /// Smallest voxel side (mm).
     pub smallest_side: f64,
     /// Unit of sampling distances (mm): the smallest voxel side, but at least a quarter of the middle one.
-    /// Otherwise very uneven voxels would multiply the number of samples.
+    /// Otherwise very uneven voxel sides would multiply the number of samples.
     pub sampling_side: f64,
     negative: OnceLock<bool>,
 }
@@ -40,10 +40,10 @@ pub struct Voxels<'a> {
 /// Values below this limit mean that the volume is in HU and shows fat or air.
 const NEGATIVE: f32 = -20.0;
 
-/// Maximum number of voxels read to find negative values.
+/// Maximum number of voxels that are read to find negative values.
 const MOST_VOXELS: usize = 400_000;
 
-/// Minimum unit of sampling distances, as a share of the middle voxel side.
+/// Minimum unit of sampling distances, as a fraction of the middle voxel side.
 const LEAST_OF_MIDDLE: f64 = 0.25;
 
 fn middle_side(world_from_index: DAffine3) -> f64 {
@@ -76,7 +76,7 @@ impl<'a> Voxels<'a> {
         self.source.cube(first, side, values);
     }
 
-    /// Trilinear value at a world position (LPS, mm); NaN outside.
+    /// Trilinear value at a world position (LPS, mm); NaN outside the volume.
     pub fn at(&self, place: DVec3) -> f32 {
         self.source.at(self.index_from_world.transform_point3(place))
     }
@@ -86,7 +86,7 @@ impl<'a> Voxels<'a> {
         self.source.voxel(voxel)
     }
 
-    /// Trilinear value at a continuous index; NaN outside.
+    /// Trilinear value at a continuous index; NaN outside the volume.
     pub(crate) fn at_index(&self, index: DVec3) -> f32 {
         self.source.at(index)
     }
@@ -102,7 +102,7 @@ impl<'a> Voxels<'a> {
         *self.negative.get_or_init(|| self.source.goes_below(NEGATIVE, voxels.div_ceil(MOST_VOXELS).max(1)))
     }
 
-    /// The voxel nearest to a world position; None outside.
+    /// The voxel nearest to a world position; None outside the volume.
     pub fn voxel_at(&self, place: DVec3) -> Option<[i32; 3]> {
         let voxel = self.index_from_world.transform_point3(place).round();
         let is_inside = (0..3).all(|a| voxel[a] >= 0.0 && voxel[a] < self.size[a] as f64);
@@ -117,7 +117,7 @@ impl<'a> Voxels<'a> {
     /// Box of voxels around a ball: its first voxel, and the number of voxels along each axis.
     pub fn around(&self, center: DVec3, radius: f64) -> ([i32; 3], [i32; 3]) {
         let index = self.index_from_world.transform_point3(center);
-        // The lengths of the rows of the inverse matrix give the extent of a ball along each index axis.
+        // The row lengths of the inverse matrix give the extent of a ball along each index axis.
         let rows = self.index_from_world.matrix3.transpose();
         let reach = DVec3::new(rows.x_axis.length(), rows.y_axis.length(), rows.z_axis.length()) * radius;
         let low = (index - reach).ceil();
@@ -190,7 +190,7 @@ impl<T: Voxel> VoxelSource for Typed<'_, T> {
 
     fn along(&self, start: DVec3, stride: DVec3, values: &mut Vec<f32>) {
         let first = values.len();
-        // On the web, separate lanes for each voxel type would enlarge the download.
+        // On the web, parallel code for each voxel type would enlarge the download.
         let is_number = start.is_finite() && stride.is_finite();
         if cfg!(target_arch = "wasm32") || !is_number {
             values.extend((first..first + FAN).map(|n| self.at(start + stride * n as f64)));

@@ -1,4 +1,4 @@
-//! The error messages of tracing and measuring.
+//! Tests the error messages of tracing and measuring.
 #![allow(clippy::unwrap_used)]
 
 use glam::{DAffine3, DVec3};
@@ -11,7 +11,7 @@ use lumencut_vessels::measure::wall_level::WallRequest;
 use lumencut_vessels::trace::clicks::checks::Clicks;
 use lumencut_vessels::trace::clicks::tracer::Tracer;
 
-/// Errors for clicks into a uniform volume, outside it, and twice at the same place.
+/// Errors for clicks in a uniform volume, outside the volume, and twice at the same place.
 fn tracing_errors() -> Vec<Error> {
     let voxels = [0i16; 27];
     let volume = Volume::new(Voxels::I16(&voxels), [3; 3], [1, 3, 9], DAffine3::IDENTITY).unwrap();
@@ -26,7 +26,7 @@ fn tracing_errors() -> Vec<Error> {
     ]
 }
 
-/// Errors for a vessel in a uniform volume, and for one outside it.
+/// Errors for a vessel in a uniform volume, and for one outside the volume.
 fn measuring_errors() -> Vec<Error> {
     let voxels = [0i16; 1000];
     let volume = Volume::new(Voxels::I16(&voxels), [10; 3], [1, 10, 100], DAffine3::IDENTITY).unwrap();

@@ -1,4 +1,4 @@
-//! Tests which vessels a seed selects, in trees with a known answer.
+//! Tests which vessels a seed selects, in synthetic trees.
 #![allow(clippy::unwrap_used)]
 
 use glam::{DAffine3, DVec3};
@@ -29,7 +29,7 @@ fn the_nearest_part_in_units_of_radius_is_chosen() {
         straight(14.0, 1.0, 1, None),
         straight(-40.0, 10.0, 0, Some(TrackDoubt::Short)),
     ]);
-    // At 8 mm from the wide vessel (0.8 radii) it is selected, though the narrow one is nearer in mm.
+    // At 8 mm from the wide vessel (0.8 radii) the wide one is selected, though the narrow one is nearer in mm.
     for (x, part) in [(8.0, 0), (12.4, 0), (12.9, 1), (15.4, 1), (-40.0, 0), (-14.9, 0)] {
         assert_eq!(part_at(&trees, DVec3::new(x, 0.0, 7.5), 0.5), Ok(part), "{x}");
     }
@@ -41,7 +41,7 @@ fn a_seed_beyond_its_reach_is_told_where_the_nearest_vessel_is() {
     assert_eq!(part_at(&trees, DVec3::new(2.99, 0.0, 10.0), 0.5), Ok(0));
     let (nearest, distance) = part_at(&trees, DVec3::new(3.01, 0.0, 10.0), 0.5).unwrap_err();
     assert_eq!((nearest, distance), (DVec3::new(0.0, 0.0, 10.0), 3.01));
-    // A seed selects a narrower vessel from up to a voxel away.
+    // A seed selects a narrow vessel from up to one voxel away.
     assert_eq!(part_at(&trees, DVec3::new(51.9, 0.0, 10.0), 2.0), Ok(1));
     assert!(part_at(&trees, DVec3::new(52.1, 0.0, 10.0), 2.0).is_err());
 }
@@ -81,7 +81,7 @@ fn every_seed_in_one_tree_gives_the_same_vessels_to_the_bit() {
     };
     let first = lines(DVec3::new(0.0, 0.0, -20.0));
     assert!(first.len() >= 2);
-    // Seeds in the trunk beside its centre, in both branches, and at their ends.
+    // Seeds in the trunk off its centre, in both branches, and at the ends of the branches.
     for seed in [[2.9, 0.0, -10.0], [-12.0, 1.5, 20.0], [13.0, -1.0, 20.0], [-20.0, 0.0, 30.0]] {
         assert_eq!(lines(DVec3::from_array(seed)), first);
     }

@@ -1,4 +1,4 @@
-//! Tests which vessel one click gives, in trees with a known answer.
+//! Tests which vessel one click selects, in synthetic trees.
 #![allow(clippy::unwrap_used)]
 
 use glam::DVec3;
@@ -72,7 +72,7 @@ fn a_trunk_does_not_end_where_a_branch_that_there_is_hangs_on_it() {
 #[test]
 fn a_line_ends_where_it_enters_a_vessel_that_there_is() {
     let tree = tree();
-    // The last part of the artery exists already, and so does a vessel after it.
+    // The last part of the artery exists already, and so does a vessel that follows it.
     let traced = line(DVec3::new(50.0, -20.0, 50.0), DVec3::new(50.0, 20.0, 50.0), 2.0);
     let artery = one_vessel(&tree, IN_ARTERY, 0.5, &[traced]).unwrap();
     assert_eq!(artery.points[0], DVec3::new(0.0, 0.0, 50.0));
@@ -105,7 +105,7 @@ fn a_click_in_no_vessel_and_one_in_a_vessel_that_there_is_are_refused() {
 #[test]
 fn a_click_behind_the_end_of_a_vessel_that_ends_in_another_one_adds_nothing() {
     let tree = tree();
-    // The click lies beyond the last point of the artery, outside it.
+    // The click lies outside the artery, beyond its last point.
     let traced = line(DVec3::new(60.0, -20.0, 50.0), DVec3::new(60.0, 20.0, 50.0), 1.0);
     assert_eq!(one_vessel(&tree, DVec3::new(62.0, 0.0, 50.0), 0.5, &[traced]), Err(NoVessel::Already));
 }

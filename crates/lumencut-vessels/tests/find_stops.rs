@@ -12,7 +12,7 @@ use lumencut_phantom::y_junction;
 use lumencut_vessels::trace::find::found::Trees;
 use lumencut_vessels::trace::find::{FindRequest, find_vessels};
 
-/// Share of the work at which each stage begins.
+/// Fraction of the work after which each stage begins.
 const BEGIN: [f64; 7] = [0.0, 0.04, 0.22, 0.50, 0.88, 0.95, 0.97];
 
 /// Maximum number of calls of `stop` that may follow until all threads have stopped.
@@ -25,7 +25,7 @@ fn found(stop: Stop, progress: &Progress) -> lumencut_core::error::Result<Trees>
     find_vessels(&volume, &FindRequest { smallest_radius: 1.0, stop, progress: Some(progress) })
 }
 
-/// The progress at each call of `stop`.
+/// The progress (0 to 1) at each call of `stop`.
 fn shares() -> Vec<f64> {
     let (told, progress) = (Mutex::new(Vec::new()), Progress::default());
     let stop = || {

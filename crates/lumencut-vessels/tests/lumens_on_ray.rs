@@ -10,7 +10,7 @@ const SIDE: usize = 60;
 const TISSUE: f64 = 50.0;
 const LUMEN: f64 = 300.0;
 
-/// Two tubes that cross in the view along z. One has a radius of 4 mm along x; behind it, the other has 3 mm.
+/// Two tubes that cross in the view along z. The near one has a radius of 4 mm along x; the far one has 3 mm.
 const NEAR: (DVec3, DVec3, f64) = (DVec3::new(0.0, 30.0, 18.0), DVec3::X, 4.0);
 const FAR: (DVec3, DVec3, f64) = (DVec3::new(30.0, 30.0, 42.0), DVec3::new(0.6, 0.8, 0.0), 3.0);
 
@@ -19,7 +19,7 @@ fn depth(place: DVec3, (middle, along, radius): (DVec3, DVec3, f64)) -> f64 {
     radius - (place - middle).reject_from_normalized(along).length()
 }
 
-/// Tubes with a wall of one voxel, in tissue, with air on one side.
+/// Tubes with a wall of one voxel, in tissue with air on one side.
 fn value(place: DVec3) -> f32 {
     let air = if place.y < 5.0 { -1000.0 } else { TISSUE };
     let filled = depth(place, NEAR).max(depth(place, FAR));
@@ -35,7 +35,7 @@ fn with_volume<T>(value: impl Fn(DVec3) -> f32, ask: impl Fn(&Volume) -> T) -> T
 
 #[test]
 fn a_ray_through_two_tubes_meets_both_the_nearest_first_with_middle_radius_and_direction() {
-    // The ray passes beside both centres; the tubes cross at (30, 30).
+    // The ray misses both tube centres; in the view, the tubes cross at (30, 30).
     let from = DVec3::new(31.0, 31.0, 0.0);
     let seen = with_volume(value, |volume| lumens_on_ray(volume, from, DVec3::Z));
     assert_eq!(seen.len(), 2, "{seen:?}");

@@ -1,4 +1,4 @@
-//! Measures vessels whose blurred image is known exactly, and stops long work on request.
+//! Measures vessels whose blurred image is known exactly, and tests that long work stops on request.
 #![allow(clippy::unwrap_used)]
 
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -79,7 +79,7 @@ fn a_point_spread_that_nobody_waited_for_is_not_told() {
     let volume = Volume::new(Voxels::F32(&values), [SIZE; 3], [1, SIZE, SIZE * SIZE], affine).unwrap();
     let tree =
         [Vessel::new([2.0, 15.0].map(|z| DVec3::new(9.2, 8.9, z)).to_vec(), Some(vec![2.0; 2])).unwrap()];
-    // Stops before and during the first look at the only vessel.
+    // Interrupts the work at each of the first 40 calls of `stop`.
     for questions in 0..40 {
         let asked = AtomicUsize::new(0);
         let stop = || asked.fetch_add(1, Ordering::Relaxed) >= questions;
@@ -128,7 +128,7 @@ fn a_lumen_beside_the_line_does_not_count() {
     let values = slices(&Ellipse::circle(DVec2::new(9.0, 9.0), 2.0));
     let affine = DAffine3::from_scale(DVec3::splat(SIDE));
     let volume = Volume::new(Voxels::F32(&values), [SIZE; 3], [1, SIZE, SIZE * SIZE], affine).unwrap();
-    // The second half of the line slowly leaves the lumen, whose wall is at 11 mm.
+    // The second half of the line slowly leaves the lumen, whose wall is at x = 11 mm.
     let points = [(9.0, 2.0), (9.0, 8.0), (11.6, 15.0)].map(|(x, z)| DVec3::new(x, 9.0, z));
     let vessel = Vessel::new(points.to_vec(), Some(vec![2.0; 3])).unwrap();
     let wall = WallRequest::Automatic;

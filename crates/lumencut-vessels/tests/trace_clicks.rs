@@ -1,4 +1,4 @@
-//! Tests that clicks beside lumen, or with nothing but lumen around them, are accepted.
+//! Tests that clicks are accepted next to lumen, or with nothing but lumen around them.
 #![allow(clippy::unwrap_used)]
 
 use glam::{DAffine3, DVec3};
@@ -18,7 +18,7 @@ fn traced(volume: &Volume, clicks: &[DVec3]) -> lumencut_core::error::Result<Tra
     Tracer::default().trace(volume, &clicks, &|| false, None).map(|mut lines| lines.remove(0))
 }
 
-/// A chamber of blood (470 HU, noise 40, radius 48 mm) in fat; only blood lies within 30 mm of its centre.
+/// A chamber of blood (470 HU, noise 40, radius 48 mm) in fat. Within 30 mm of its centre there is only blood.
 fn chamber() -> (Vec<i16>, [usize; 3], DAffine3) {
     let side = 72;
     let mut seed = 7u32;
@@ -53,7 +53,7 @@ fn a_click_next_to_lumen_means_the_lumen_and_one_farther_away_is_refused() {
     let phantom = straight_tube().unwrap();
     let volume = phantom.volume().unwrap();
     let (from, to) = (DVec3::Z * -15.0, DVec3::new(0.3, 0.2, 15.0));
-    // The radius is 4 mm; places that lumen surrounds on all sides lie up to 3 mm from the centre.
+    // The radius is 4 mm, and points up to 3 mm from the centre have lumen on all sides.
     for first in [DVec3::new(4.6, 0.0, -15.0), DVec3::new(0.0, -4.6, -15.0)] {
         let line = traced(&volume, &[first, to]).unwrap().line;
         assert!(line.points[0].truncate().length() < 1.0, "{}", line.points[0]);
@@ -61,7 +61,7 @@ fn a_click_next_to_lumen_means_the_lumen_and_one_farther_away_is_refused() {
     }
     let refused = traced(&volume, &[from, DVec3::new(7.0, 0.0, 15.0)]).unwrap_err();
     assert!(refused.mend.contains("the nearest place that looks like lumen"), "{refused}");
-    // The check of a single first click gives the same answer.
+    // Checking a single first click gives the same answer.
     let tracer = Tracer::default();
     assert!(tracer.check_click(&volume, DVec3::new(4.6, 0.0, -15.0)).is_ok());
     assert!(tracer.check_click(&volume, DVec3::new(7.0, 0.0, -15.0)).is_err());

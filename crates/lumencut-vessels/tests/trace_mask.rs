@@ -1,4 +1,4 @@
-//! Compares parts of mask tracing with brute force.
+//! Compares parts of mask tracing with slow exhaustive computations.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -37,7 +37,7 @@ fn distances_are_those_to_the_nearest_background() {
     let grids = [
         columns([1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]),
         columns([0.4, 0.0, 0.0], [0.0, 0.7, 0.0], [0.0, 0.0, 2.1]),
-        // A rotated and a left-handed grid, both rectangular.
+        // A rotated grid and a left-handed one, both rectangular.
         columns([0.6, 0.8, 0.0], [0.8, -0.6, 0.0], [0.0, 0.0, 1.5]),
         columns([0.8, 0.0, 0.0], [0.0, 0.8, 0.3], [0.0, 0.0, 1.0]),
         columns([0.5, 0.1, 0.0], [-0.2, 0.6, 0.0], [0.3, 0.1, 0.9]),

@@ -1,4 +1,4 @@
-//! Tests the modules of tracing on scenes with a known answer.
+//! Tests the modules of tracing on synthetic scenes.
 #![allow(clippy::unwrap_used)]
 
 use std::f64::consts::PI;
@@ -24,7 +24,7 @@ use lumencut_vessels::trace::ways::front::{Found, Front, Reach};
 use lumencut_vessels::trace::ways::region::{Region, Stopper, Strictness};
 use lumencut_vessels::voxels;
 
-/// A quarter of a circle of radius 20 mm.
+/// A quarter of a circle with a radius of 20 mm.
 fn arc(count: u32) -> Vec<DVec3> {
     let angle = |n: u32| PI / 2.0 * f64::from(n) / f64::from(count);
     (0..=count).map(|n| 20.0 * DVec3::new(angle(n).cos(), angle(n).sin(), 0.0)).collect()
@@ -37,7 +37,7 @@ fn lines_in_even_steps_keep_their_ends_and_curves_their_radius() {
     assert_eq!(even.len(), 5);
     assert_eq!([even[0], even[3], even[4]], corner);
     let curve = curve_in_even_steps(&arc(10), 0.5);
-    // Points near the ends have neighbours on one side only.
+    // Points near the ends are skipped, because they have neighbours on one side only.
     let inner = &curve[8..curve.len() - 8];
     assert!(inner.len() > 40 && inner.iter().all(|point| (point.length() - 20.0).abs() < 0.02));
     assert_eq!([curve[0], curve[curve.len() - 1]], [arc(10)[0], arc(10)[10]]);
@@ -90,7 +90,7 @@ fn a_line_beside_the_middle_of_a_tube_is_moved_to_it_with_its_radius() {
     let line = refined(&voxels, &model, &way, &|| false).unwrap();
     let off = line.points.iter().map(|point| point.truncate().length()).fold(0.0, f64::max);
     assert!(off < 0.1, "{off}");
-    // The value midway between lumen and fat lies up to a third of a voxel outside the edge.
+    // The value midway between lumen and fat is up to a third of a voxel outside the edge.
     assert!(line.radius.iter().all(|radius| (0.0..0.2).contains(&(radius - 4.0))), "{:?}", line.radius);
 }
 
@@ -138,7 +138,7 @@ fn an_occlusion_is_refused_or_bridged() {
     let vessels = traced(&phantom, &clicks).unwrap();
     let Traced { line, bridged, .. } = &vessels[0];
     for (point, is_bridged) in line.points.iter().zip(bridged) {
-        // In an occlusion, the centre is not visible.
+        // In an occlusion, the centre of the lumen is not visible.
         let most = if point.z.abs() > 12.0 { 0.3 } else { 4.0 };
         assert!(point.truncate().length() < most, "{point}");
         assert!(*is_bridged || point.z.abs() > 4.5, "{point}");
@@ -157,7 +157,7 @@ fn a_later_vessel_begins_at_a_point_of_the_earlier_one() {
     assert!(start.length() < 8.0, "{start}");
 }
 
-/// Centerlines of tubes in 1 mm voxels, traced as a mask: ends and radii.
+/// Centerlines of tubes, given by ends and radii, that are traced as a mask in 1 mm voxels.
 fn masked(tubes: &[(DVec3, DVec3, f64)]) -> TracedMask {
     const SIZE: usize = 60;
     let is_within = |place: DVec3| {

@@ -1,4 +1,4 @@
-//! Prior knowledge for all sections of a vessel, from the sections that were fitted separately.
+//! Prior knowledge for all sections of a vessel, pooled from sections that were fitted one by one.
 
 use super::ellipse::Ellipse;
 use super::fit::Fit;
@@ -9,17 +9,17 @@ use super::wall::KnownWall;
 
 pub(crate) struct AllSections {
     pub fits: Vec<Option<Fit>>,
-    /// Noise of a voxel, as a share of the contrast.
+    /// Noise of a voxel (standard deviation), as a fraction of the contrast.
     pub noise: f64,
     pub lumen: Vec<Level>,
-    /// None if walls cannot be separated from the surroundings.
+    /// The pooled walls; None if walls cannot be separated from the surroundings.
     pub walls: Option<Vec<KnownWall>>,
     pub texture: Texture,
 }
 
 impl AllSections {
-    /// Prior knowledge of section `n` and its second solution ([`Fit::other`]), if every `every`-th section
-    /// was fitted. The lumen is interpolated between fitted sections; if there are none, `estimate` gives it.
+    /// Prior knowledge of section `n`, and the second solution of its fit ([`Fit::other`]). Only every `every`-th
+    /// section was fitted; between these the lumen is interpolated. Without any fit, `estimate` gives it.
     pub(crate) fn known(
         &self,
         n: usize,

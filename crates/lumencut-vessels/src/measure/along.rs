@@ -6,13 +6,13 @@
 use super::sections::Section;
 use lumencut_core::math::same_place::REPEATED_POINT;
 
-/// Half-length (mm) of the parabola that gives the second derivative; its minimum number of sections.
+/// Half-length (mm) of the window in which a parabola is fitted to the areas, and its minimum number of sections.
 const PARABOLA: (f64, usize) = (2.0, 5);
 
-/// Maximum relative correction of an area, because the formula is of first order only.
+/// Maximum relative correction of an area, because the formula is only a first-order approximation.
 const MAX_CORRECTION: f64 = 0.25;
 
-/// Corrects sections at arc lengths `at` (mm), given the blur variance along the vessel at each (mm²).
+/// Corrects the areas of sections at arc lengths `at` (mm); `variance` is the blur variance along the vessel (mm²).
 pub(crate) fn sharpen(sections: &mut [Section], at: &[f64], variance: &[f64]) {
     let areas: Vec<f64> =
         sections.iter().map(|section| section.fit.map_or(f64::NAN, |fit| fit.ellipse.area())).collect();
@@ -23,12 +23,12 @@ pub(crate) fn sharpen(sections: &mut [Section], at: &[f64], variance: &[f64]) {
     }
 }
 
-/// Second derivative of the areas at section `n`; None if too few sections with an area lie on a side.
+/// Second derivative of the area at section `n`; None if too few neighbouring sections have an area.
 fn second_derivative(at: &[f64], areas: &[f64], n: usize) -> Option<f64> {
     let (reach, least) = PARABOLA;
     let first = at.partition_point(|there| *there < at[n] - reach - REPEATED_POINT);
     let last = at.partition_point(|there| *there <= at[n] + reach + REPEATED_POINT);
-    // The window is symmetric, so that a slope of the areas does not change the result.
+    // The window is symmetric, so that linear growth of the areas does not change the result.
     let side = (n - first).min(last - 1 - n);
     let around = n - side..=n + side;
     if 2 * side + 1 < least || around.clone().any(|m| areas[m].is_nan()) {

@@ -1,4 +1,4 @@
-//! Bounds of a diameter next to calcium or metal, which look larger than they are and hide the wall.
+//! Computes bounds of a diameter next to calcium or metal. Both look larger than they are and hide the wall.
 
 use std::f64::consts::TAU;
 
@@ -9,14 +9,14 @@ use super::rays::{RAYS, Ray};
 /// Maximum distance (mm) between two rings of one stent.
 const RINGS: f64 = 6.0;
 
-/// Maximum distance (mm) between two rings if all sections in between are bright. Struts blurred into arcs
-/// look like calcium, but calcium does not start and end with metal.
+/// Maximum distance (mm) between two rings if all sections between them contain bright material. Blurred
+/// struts look like calcium, but calcium does not start and end with metal.
 const BRIGHT_BETWEEN: f64 = 40.0;
 
-/// Smallest and largest diameter, as factors of the measured one: all bright material at the wall is excluded
-/// from the lumen, or included. `wall` gives the measured radius (mm) of each ray.
+/// Bounds of the diameter as factors of the measured one: without, and with, all bright material at the wall.
+/// `wall` gives the measured radius (mm) on each ray.
 pub(crate) fn bounds(rays: &[Ray], wall: impl Fn(usize) -> f64, width: f64) -> [f64; 2] {
-    // Bright material behind the edge of the lumen does not hide it.
+    // Bright material beyond a visible edge of the lumen does not hide that edge.
     let hides = |n: usize| rays[n].edge.is_none() && is_bright(&rays[n], wall(n), width);
     let measured: Vec<f64> = (0..RAYS).map(&wall).collect();
     let bound = |n: usize, other: f64| if hides(n) { other } else { measured[n] };

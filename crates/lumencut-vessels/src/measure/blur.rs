@@ -6,10 +6,10 @@ use glam::{DMat2, DMat3, DVec3};
 
 use super::section_plane::SectionPlane;
 
-/// Variance caused by averaging over a voxel, in squared voxel sides.
+/// Variance of the blur by averaging over a voxel, in squared voxel sides.
 const AVERAGING: f64 = 1.0 / 12.0;
 
-/// Variance caused by linear interpolation, averaged over positions between voxels, in squared sides.
+/// Variance of the blur by linear interpolation (squared voxel sides): its mean over positions between voxels.
 const INTERPOLATION: f64 = 1.0 / 6.0;
 
 /// Variance of a Gaussian whose full width at half maximum is `fwhm`.
@@ -24,32 +24,32 @@ pub(crate) fn fwhm_of(variance: f64) -> f64 {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Blur {
     point_spread: f64,
-    /// Sum of the outer products of the voxel sides with themselves (mm²).
+    /// Sum of the outer products of each voxel side with itself (mm²).
     voxel: DMat3,
 }
 
 impl Blur {
-    /// The columns of `sides` are the voxel sides (mm).
+    /// The blur for a point spread of `fwhm` mm; the columns of `sides` are the voxel sides (mm).
     pub(crate) fn new(fwhm: f64, sides: DMat3) -> Self {
         Self { point_spread: variance_of(fwhm), voxel: sides * sides.transpose() }
     }
 
-    /// Covariance of the blur of voxel values within the plane (mm²).
+    /// Covariance (mm²), within the plane, of the blur of voxel values.
     pub(crate) fn of_voxels(&self, place: &SectionPlane) -> DMat2 {
         self.in_plane(place, AVERAGING)
     }
 
-    /// Covariance of the blur of interpolated values within the plane (mm²).
+    /// Covariance (mm²), within the plane, of the blur of interpolated values.
     pub(crate) fn interpolated(&self, place: &SectionPlane) -> DMat2 {
         self.in_plane(place, AVERAGING + INTERPOLATION)
     }
 
-    /// FWHM of the blur of voxel values within the plane, averaged over directions (mm).
+    /// FWHM (mm) of the blur of voxel values within the plane, averaged over directions.
     pub(crate) fn width(&self, place: &SectionPlane) -> f64 {
         fwhm_of(self.of_voxels(place).determinant().sqrt())
     }
 
-    /// Blur variance along the vessel (mm²) for voxels whose weight falls linearly to 0 at `thickness` mm.
+    /// Blur variance along the vessel (mm²) if voxel weights fall linearly to 0 at `thickness` mm from the plane.
     pub(crate) fn along(&self, place: &SectionPlane, thickness: f64) -> f64 {
         let voxel = place.normal.dot(self.voxel * place.normal) * AVERAGING;
         // t²/6 is the variance of weights that fall linearly from the plane to 0 at t.

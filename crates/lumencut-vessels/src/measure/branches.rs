@@ -1,4 +1,4 @@
-//! Finds sections that meet the lumen of another vessel.
+//! Tests whether a section meets the lumen of another vessel.
 
 use glam::DVec3;
 
@@ -8,7 +8,7 @@ use lumencut_core::vessel_tree::Vessel;
 /// Points at most this far apart (mm) count as the same point.
 const SAME_PLACE: f64 = 1e-3;
 
-/// Sampling step along a line (mm).
+/// Distance between sampled points of a centerline (mm).
 const STEP: f64 = 0.5;
 
 /// Whether a disc of `radius` mm around `center` meets the lumen of another vessel.
@@ -16,7 +16,7 @@ pub(crate) fn meets(place: &SectionPlane, center: DVec3, radius: f64, others: &[
     others.iter().any(|other| other.meets(place, center, radius))
 }
 
-/// Lumen of another vessel: balls along its centerline, and a ball that encloses them.
+/// The lumen of another vessel: balls along its centerline, and one ball `around` them all.
 #[derive(Clone, Debug)]
 pub(crate) struct Lumen {
     balls: Vec<(DVec3, f64)>,

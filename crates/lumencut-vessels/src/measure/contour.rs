@@ -1,4 +1,4 @@
-//! The contour of a lumen along rays, corrected for the shift caused by blur.
+//! Finds the contour of a lumen on rays, and corrects it for the shift caused by blur.
 
 use glam::{DVec2, DVec3};
 
@@ -9,7 +9,7 @@ use super::section_plane::SectionPlane;
 use lumencut_core::math::lanes::{FAN, Isa, Kernel, dispatch};
 use lumencut_core::math::statistics::median;
 
-/// A wall farther than this from the ellipse (radii, or mm if larger) is not the wall of this lumen.
+/// A wall farther from the ellipse than this (radii, or mm if larger) belongs to another structure.
 const MAX_OFFSET: (f64, f64) = (0.5, 0.5);
 
 pub(crate) trait Shares: Sync {
@@ -45,8 +45,9 @@ impl<S: Shares> Kernel for SharesAt<'_, S> {
     }
 }
 
-/// Wall at each ray (mm from the centre), where the volume crosses `level`. The shift of that crossing by
-/// blur is taken from the blurred model and subtracted. Rays without a plausible crossing use the ellipse.
+/// Distance (mm) from the centre to the wall on each ray: where the volume crosses `level`. The blurred model
+/// predicts by how much blur shifts this crossing, which is corrected. Rays without a plausible crossing use
+/// the ellipse.
 pub(crate) fn wall(ellipse: &Ellipse, values: &impl Shares, rays: &[Ray], level: f64) -> Vec<f64> {
     let walls: Vec<f64> = (0..RAYS)
         .map(|n| {
@@ -63,7 +64,7 @@ pub(crate) fn wall(ellipse: &Ellipse, values: &impl Shares, rays: &[Ray], level:
     without_spikes(&walls, |n| ellipse.radius_towards(direction(n)))
 }
 
-/// Removes spikes of one or two rays by the median of five neighbours, relative to the radius `own`.
+/// Removes spikes of one or two rays: a running median of five rays smooths the ratio of the wall to `own`.
 fn without_spikes(walls: &[f64], own: impl Fn(usize) -> f64) -> Vec<f64> {
     let shares: Vec<f64> = walls.iter().enumerate().map(|(n, wall)| wall / own(n)).collect();
     (0..RAYS)
@@ -74,7 +75,7 @@ fn without_spikes(walls: &[f64], own: impl Fn(usize) -> f64) -> Vec<f64> {
         .collect()
 }
 
-/// Wall from the ends of the rays only, for a blur of `width` mm; None if too few rays end.
+/// Wall distances found only from where the rays end, for a blur of `width` mm; None if too few rays end.
 pub(crate) fn wall_by_rays(rays: &[Ray], width: f64) -> Option<Vec<f64>> {
     let end = |ray: &Ray| ray.edge.or_else(|| ray.bright_at.map(|_| within_rim(ray.rim, width)));
     let mut ends: Vec<f64> = rays.iter().filter_map(end).collect();
@@ -82,19 +83,19 @@ pub(crate) fn wall_by_rays(rays: &[Ray], width: f64) -> Option<Vec<f64>> {
         return None;
     }
     let middle = median(&mut ends)?;
-    // Rays escape between the struts of a stent, so they are limited.
+    // Some rays escape between the struts of a stent, so their length is limited.
     let walls: Vec<f64> = rays.iter().map(|ray| end(ray).unwrap_or(middle).min(1.5 * middle)).collect();
     Some(without_spikes(&without_spikes(&walls, |_| middle), |_| middle))
 }
 
-/// Inner edge of a bright rim. Blur widens the image of a strut, so its width is reduced by the blur.
+/// Inner edge of a bright rim, such as a stent strut. The visible width of the rim is corrected for blur.
 fn within_rim([begins, ends]: [f64; 2], width: f64) -> f64 {
     let seen = ends - begins;
     let true_width = (seen * seen - width * width).max(0.0).sqrt();
     f64::midpoint(begins, ends) - 0.5 * true_width
 }
 
-/// Distance along a ray (mm) at which the blurred model crosses `level`, searched near its boundary.
+/// Distance (mm) along a ray at which the blurred model crosses `level`, searched near the model's boundary.
 fn crossing(shares: &impl Shares, center: DVec2, direction: DVec2, level: f64, own: f64) -> Option<f64> {
     let reach = 0.6 * own + 0.4;
     let first = (own - reach).max(0.0);
@@ -108,7 +109,7 @@ fn crossing(shares: &impl Shares, center: DVec2, direction: DVec2, level: f64, o
     Some(at(n) - step * (level - values[n]) / (values[n - 1] - values[n]))
 }
 
-/// Root mean square of the relative differences between wall and ellipse.
+/// Root mean square of the relative differences between the wall and the ellipse.
 pub(crate) fn irregularity(ellipse: &Ellipse, wall: &[f64]) -> f64 {
     let off = |n: usize| (wall[n] / ellipse.radius_towards(direction(n)) - 1.0).powi(2);
     ((0..RAYS).map(off).sum::<f64>() / RAYS as f64).sqrt()
@@ -118,7 +119,7 @@ pub(crate) fn points(place: &SectionPlane, center: DVec2, wall: &[f64]) -> Vec<D
     (0..RAYS).map(|n| place.point(center + direction(n) * wall[n])).collect()
 }
 
-/// Ellipse with the area, centre and second moments of the polygon; None if it is degenerate.
+/// Ellipse with the area, centroid and second moments of the polygon; None if the polygon is degenerate.
 pub(crate) fn ellipse_within(center: DVec2, wall: &[f64]) -> Option<Ellipse> {
     let corner = |n: usize| direction(n % RAYS) * wall[n % RAYS];
     let (mut area, mut first, mut xx, mut xy, mut yy) = (0.0, DVec2::ZERO, 0.0, 0.0, 0.0);
@@ -134,7 +135,7 @@ pub(crate) fn ellipse_within(center: DVec2, wall: &[f64]) -> Option<Ellipse> {
     let middle = first / area;
     let [xx, yy, xy] =
         [xx / area - middle.x * middle.x, yy / area - middle.y * middle.y, xy / area - middle.x * middle.y];
-    // A filled ellipse with the matrix S has the covariance S S / 4.
+    // A filled ellipse with the matrix S has the covariance S² / 4.
     let root = (xx * yy - xy * xy).max(0.0).sqrt();
     let scale = 2.0 / (xx + yy + 2.0 * root).sqrt();
     let ellipse = Ellipse {
@@ -146,8 +147,8 @@ pub(crate) fn ellipse_within(center: DVec2, wall: &[f64]) -> Option<Ellipse> {
     is_one.then_some(ellipse)
 }
 
-/// Radius of the inscribed ball at each centre (mm): the distance to the nearest wall of its own and
-/// neighbouring sections. NaN if there is no wall.
+/// Radius (mm) of the inscribed ball at each centre: the distance to the nearest wall point of this section
+/// and its neighbours. NaN if they have no wall.
 pub(crate) fn inscribed(at: &[f64], centers: &[DVec3], contours: &[Vec<DVec3>]) -> Vec<f64> {
     (0..at.len())
         .map(|n| {
@@ -155,7 +156,7 @@ pub(crate) fn inscribed(at: &[f64], centers: &[DVec3], contours: &[Vec<DVec3>]) 
             for step in [-1, 1] {
                 let mut m = n;
                 while let Some(next) = m.checked_add_signed(step).filter(|next| *next < at.len()) {
-                    // Even the nearest wall of such a section is farther away.
+                    // All walls from this section on are farther away than the nearest one so far.
                     if nearest.is_nan() || (at[next] - at[n]).abs() > nearest {
                         break;
                     }

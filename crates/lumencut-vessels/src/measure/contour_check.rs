@@ -4,26 +4,26 @@ use super::rays::{RAYS, Rays, direction};
 use super::section_plane::SectionPlane;
 use glam::DVec2;
 
-/// Values above the lumen by this share of its contrast belong to another lumen.
+/// Values that exceed the lumen level by this fraction of its contrast belong to another lumen.
 const BRIGHTER: f64 = 0.75;
 
-/// Maximum share of the enclosed area whose values are not those of lumen.
+/// Maximum fraction of the enclosed area whose values do not look like lumen.
 const MOST_OTHER: f64 = 0.12;
 
-/// Up to this many blur widths inside the contour, blur mixes lumen and surroundings, so nothing is checked.
+/// Points within this many blur widths of the contour are not checked: blur mixes lumen and surroundings there.
 const BLURRED_WIDTHS: f64 = 0.75;
 
-/// Every n-th ray is checked (first number), at this many points (second number).
+/// Every `CHECKED.0`-th ray is checked, at `CHECKED.1` points.
 const CHECKED: (usize, usize) = (2, 6);
 
-/// Lowest and highest value of lumen (shares of the contrast), from its level and that next to it.
+/// Lowest and highest value of lumen, for a `lumen` level and the level `beside` it (fractions of the contrast).
 pub(crate) fn lumen_shares(lumen: f64, beside: f64) -> [f64; 2] {
     let contrast = lumen - beside;
     [beside + 0.5 * contrast, lumen + BRIGHTER * contrast]
 }
 
-/// Whether the contour encloses lumen, for a blur of `width` mm. `walls` is its distance from `center` (mm)
-/// per ray. A contour too narrow to check counts as lumen.
+/// Whether the contour encloses lumen. `walls` is its distance from `center` (mm) on each ray, and `width`
+/// the blur (mm). A contour too narrow to check counts as lumen.
 pub(crate) fn encloses_lumen(
     rays: &Rays,
     place: &SectionPlane,
@@ -41,10 +41,10 @@ pub(crate) fn encloses_lumen(
         for m in 0..CHECKED.1 {
             let away = reach * (m as f64 + 0.5) / CHECKED.1 as f64;
             let value = rays.at(place, center + direction(n) * away);
-            // Each point represents an area that grows with its distance.
+            // Each point stands for an area proportional to its distance from the centre.
             let area = away * reach;
             all += area;
-            // NaN, outside the volume, fails both comparisons; the flag OUTSIDE reports it.
+            // NaN (outside the volume) fails both comparisons; the flag OUTSIDE reports such points.
             if value < darkest || value > brightest {
                 other += area;
             }

@@ -13,7 +13,6 @@ use lumencut_core::volume::Volume;
 
 const SIDE: Limits = Limits::new(1e-3, 1e3, "mm");
 
-/// Maximum number of pixels along a side.
 const MOST_PIXELS: f64 = 4096.0;
 
 /// A section as an image of square pixels, centred on the vessel.
@@ -30,7 +29,7 @@ pub struct CrossSection {
 }
 
 impl CrossSection {
-    /// Samples a square of `size` mm per side. [`ErrorKind::Settings`] for an invalid size or pixel spacing.
+    /// Samples a square with sides of `size` mm. [`ErrorKind::Settings`] for an invalid size or pixel spacing.
     pub fn new(volume: &Volume, place: SectionPlane, size: f64, pixel_spacing: f64) -> Result<Self> {
         SIDE.check("size of the cross-section", size)?;
         SIDE.check("pixel_spacing of the cross-section", pixel_spacing)?;
@@ -54,8 +53,8 @@ impl CrossSection {
     }
 }
 
-/// Plane of a section at an arc length (mm). With `profile`, it is the plane of the nearest measured section,
-/// otherwise the plane across the centerline. [`ErrorKind::Measuring`] for a wrong arc length or profile;
+/// Plane of the section at arc length `at` (mm): that of the nearest section of `profile` if given, otherwise
+/// the plane across the centerline. Errors: [`ErrorKind::Measuring`] for a wrong arc length or profile,
 /// [`ErrorKind::VesselTree`] for a vessel without length.
 pub fn section_place(vessel: &Vessel, at: f64, profile: Option<&Profile>) -> Result<SectionPlane> {
     let length = vessel.arc_length().last().copied().unwrap_or(0.0);

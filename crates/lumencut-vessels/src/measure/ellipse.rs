@@ -3,8 +3,8 @@
 //! Green's theorem turns the integral of the Gaussian over the ellipse into one along its boundary. Let r be
 //! the vector from a point to the boundary. The divergence of the field r (1 - exp(-r²/2)) / (2 π r²) is the
 //! Gaussian of standard deviation 1. The integrand is periodic and smooth, so the trapezoidal rule converges
-//! exponentially (Trefethen and Weideman 2014, doi:10.1137/130932132). Derivatives by the shape are integrals
-//! of Gaussians along the same boundary.
+//! exponentially (Trefethen and Weideman 2014, doi:10.1137/130932132). The derivatives with respect to the
+//! shape are also integrals of Gaussians along the boundary.
 
 use std::f64::consts::{PI, TAU};
 use std::sync::OnceLock;
@@ -21,21 +21,21 @@ const NODE_DISTANCE: f64 = 1.3;
 
 const FEWEST_NODES: usize = 12;
 
-/// Squared distance (blur standard deviations) beyond which the exponential is below single precision.
+/// Squared distance (in blur standard deviations) beyond which the exponential is below single precision.
 const FAR_AWAY: f32 = 64.0;
 
 /// Maximum number of nodes, enough for a lumen whose radius is 40 times the blur.
 const MOST_NODES: usize = 400;
 
-/// The points centre + S (cos t, sin t) with the symmetric S = [[mean + x, y], [y, mean - x]], where x and y
-/// are those of `stretch`. Unlike axes and an angle, these parameters have no singularity at a circle.
+/// An ellipse: the points centre + S (cos t, sin t), where S = [[mean + x, y], [y, mean - x]] and (x, y) is
+/// `stretch`. Unlike two axes and an angle, these parameters have no singularity at a circle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ellipse {
     /// Centre (mm).
     pub center: DVec2,
     /// Mean of the semi-axes (mm).
     pub mean: f64,
-    /// Half of the difference of the semi-axes (mm), as a vector at twice the angle of the longer semi-axis.
+    /// Half of the difference between the semi-axes (mm), as a vector whose angle is twice that of the longer one.
     pub stretch: DVec2,
 }
 
@@ -50,7 +50,7 @@ impl Ellipse {
         (ellipse.semi_axes()[0] > 0.0).then_some(ellipse)
     }
 
-    /// The parameters, in the order of the derivatives.
+    /// The shape parameters, in the order in which derivatives are stored.
     pub fn parameters(&self) -> [f64; SHAPE] {
         [self.center.x, self.center.y, self.mean, self.stretch.x, self.stretch.y]
     }
@@ -61,7 +61,7 @@ impl Ellipse {
         [self.mean - half, self.mean + half]
     }
 
-    /// Vectors from the centre to an end of the shorter and of the longer axis (mm).
+    /// Vectors (mm) from the centre to one end of the shorter axis and to one end of the longer axis.
     pub fn half_axes(&self) -> [DVec2; 2] {
         let [short, long] = self.semi_axes();
         let direction = DVec2::from_angle(0.5 * self.stretch.y.atan2(self.stretch.x));
@@ -77,13 +77,13 @@ impl Ellipse {
         2.0 * (self.area() / PI).max(0.0).sqrt()
     }
 
-    /// The ellipse with its semi-axes multiplied by `by`.
+    /// The ellipse with both semi-axes multiplied by `by`.
     #[must_use]
     pub fn scaled(&self, by: f64) -> Self {
         Self { center: self.center, mean: self.mean * by, stretch: self.stretch * by }
     }
 
-    /// Interpolates between this ellipse (`share` 0) and `other` (1).
+    /// Interpolates from this ellipse (`share` = 0) to `other` (`share` = 1).
     #[must_use]
     pub fn towards(&self, other: &Self, share: f64) -> Self {
         Self {
@@ -93,7 +93,7 @@ impl Ellipse {
         }
     }
 
-    /// Largest difference of any parameter between two ellipses (mm).
+    /// Largest difference (mm) between a parameter of this ellipse and that of the other.
     pub fn differs(&self, other: &Self) -> f64 {
         let [own, others] = [self, other].map(Self::parameters);
         own.iter().zip(&others).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
@@ -104,18 +104,18 @@ impl Ellipse {
         DMat2::from_cols(DVec2::new(self.mean + x, y), DVec2::new(y, self.mean - x))
     }
 
-    /// Distance from the centre to the boundary along a unit vector (mm).
+    /// Distance (mm) from the centre to the boundary in the direction of a unit vector.
     pub fn radius_towards(&self, direction: DVec2) -> f64 {
         1.0 / (self.matrix().inverse() * direction).length().max(1e-12)
     }
 }
 
-/// A Gaussian blur in a plane, as the matrix that transforms it to standard deviation 1 in all directions.
+/// A Gaussian blur in a plane, stored as the matrix that maps it to standard deviation 1 in all directions.
 #[derive(Clone, Copy, Debug)]
 pub struct Whitening(pub DMat2);
 
 impl Whitening {
-    /// The inverse square root of a positive definite covariance (mm²).
+    /// Computes the matrix as the inverse square root of a positive definite covariance (mm²).
     pub fn new(covariance: DMat2) -> Self {
         let (a, b, d) = (covariance.x_axis.x, covariance.x_axis.y, covariance.y_axis.y);
         // The square root of a 2 × 2 matrix is (C + √det) / √(trace + 2 √det).
@@ -126,7 +126,7 @@ impl Whitening {
     }
 }
 
-/// A node of the whitened boundary; vectors are multiplied by the node's share of the boundary over 2 π.
+/// A node of the boundary in whitened space; `tangent` and `outwards` are divided by the number of nodes.
 #[derive(Clone, Copy, Debug)]
 struct Node {
     place: [f32; 2],
@@ -144,14 +144,14 @@ pub struct Boundary {
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Blurred {
-    /// Blurred value, from 0 outside to 1 inside.
+    /// Blurred value at each point, from 0 outside the ellipse to 1 inside.
     pub value: [f32; FAN],
-    /// Derivatives of the value (1/mm), in the order of [`Ellipse::parameters`].
+    /// Derivatives of each value (1/mm), in the order of [`Ellipse::parameters`].
     pub slopes: [[f32; FAN]; SHAPE],
 }
 
 impl Boundary {
-    /// The boundary of `ellipse`, blurred by `whitening`.
+    /// The boundary of `ellipse` in the space where the blur has standard deviation 1.
     pub fn new(ellipse: &Ellipse, Whitening(whitening): Whitening) -> Self {
         let matrix = ellipse.matrix();
         let needed = TAU * longest(whitening * matrix).max(1e-9) / NODE_DISTANCE;
@@ -181,7 +181,7 @@ impl Boundary {
         }
     }
 
-    /// Value and derivatives at sixteen points (mm). Not inlined on the web, to save code size.
+    /// Blurred values and their derivatives at sixteen points (mm). Not inlined on the web, to save code size.
     #[cfg_attr(not(target_arch = "wasm32"), inline(always))]
     #[cfg_attr(target_arch = "wasm32", inline(never))]
     pub(crate) fn blurred(&self, x: &[f32; FAN], y: &[f32; FAN]) -> Blurred {
@@ -203,7 +203,7 @@ impl Boundary {
                 is_near |= squares[l] < FAR_AWAY;
             }
             if !is_near {
-                // Beyond FAR_AWAY the exponential is negligible next to 1.
+                // At distances beyond FAR_AWAY, the exponential is negligible compared with 1.
                 for l in 0..FAN {
                     let dx = node.place[0] - place[0][l];
                     let dy = node.place[1] - place[1][l];
@@ -230,7 +230,7 @@ impl Boundary {
         sum
     }
 
-    /// Value at one point (mm), between 0 and 1.
+    /// Blurred value at one point (mm), between 0 and 1.
     pub fn value(&self, place: DVec2) -> f64 {
         f64::from(self.blurred(&[place.x as f32; FAN], &[place.y as f32; FAN]).value[0])
     }

@@ -15,61 +15,61 @@ use super::wall::{KnownWall, Wall};
 use lumencut_core::math::lanes::{FAN, Isa, dispatch};
 use lumencut_core::math::statistics::median;
 
-/// Tukey's biweight gives weight 0 to residuals above this many standard deviations.
+/// Tukey's biweight gives weight 0 to residuals above this multiple of their standard deviation.
 const TUKEY: f64 = 5.0;
 
-/// Maximum number of steps before and after the samples are reweighted.
+/// Maximum number of steps before, and after, the samples are reweighted.
 const STEPS: [usize; 2] = [12, 8];
 
-/// Weights that fall linearly reduce the variance of a mean more than they imply, by this factor.
+/// Factor of the fitted variances: weights that fall linearly reduce the variance of a mean more than they imply.
 const EVENLY_FALLING: f64 = 2.0 / 3.0;
 
-/// Prior knowledge: means and standard deviations. Levels are shares of the contrast.
+/// Prior knowledge for a fit: means and standard deviations. Levels are fractions of the contrast.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Expected<'a> {
     pub lumen: [f64; 2],
     pub background: [f64; 2],
-    /// Standard deviation of the relative difference of the semi-axes, whose mean is 0.
+    /// Standard deviation of the relative difference between the semi-axes; the mean difference is 0.
     pub stretch: f64,
     pub noise: f64,
     /// Whether `noise` is only a guess, which the typical residual may replace.
     pub(crate) is_guessed: bool,
-    /// None if the wall cannot be separated from the surroundings.
+    /// The wall's prior; None if the wall cannot be separated from the surroundings.
     pub wall: Option<KnownWall>,
-    /// Given if the uncertainty of the diameter is wanted.
+    /// Data for the uncertainty of the diameter; None if it is not wanted.
     pub unsure: Option<&'a Unsure<'a>>,
 }
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Unsure<'a> {
     pub texture: &'a Texture,
-    /// The blur if the point spread is wider by its standard deviation; None if its width is known exactly.
+    /// The blur of a point spread that is wider by one standard deviation; None if its width is known exactly.
     pub wider: Option<Whitening>,
-    /// A possible wall, if none can be separated from the surroundings.
+    /// A wall that may exist, if none can be separated from the surroundings.
     pub wall: Option<KnownWall>,
 }
 
-/// Standard deviations of the harmonics of the surroundings (shares of the contrast).
+/// Standard deviations of the harmonics with which the surroundings vary by direction (fractions of the contrast).
 const SIDES: [f64; HARMONICS] = [0.3, 0.3, 0.15, 0.15, 0.1, 0.1];
 
-/// Maximum shift of the centre (radii), and range of the size relative to the start.
+/// Maximum shift of the centre (radii), and range of the size relative to the start of the fit.
 const TRUSTED: (f64, [f64; 2]) = (1.0, [0.15, 2.0]);
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fit {
     pub ellipse: Ellipse,
-    /// Level of the lumen and its standard deviation, as shares of the contrast.
+    /// Intensity level of the lumen and its standard deviation, as fractions of the contrast.
     pub lumen: [f64; 2],
     pub background: f64,
     pub wall: Option<Wall>,
-    /// Root mean square of the residuals (share of the contrast); the noise if the lumen is an ellipse.
+    /// Root mean square of the residuals (fraction of the contrast). It is the noise if the lumen is an ellipse.
     pub(crate) missed: f64,
     /// Standard deviation of the equivalent diameter (mm); NaN if not requested.
     pub uncertainty: f64,
     pub parts: Parts,
-    /// Share of directions in which nothing obstructs the wall.
+    /// Fraction of directions in which nothing obstructs the wall.
     pub free: f64,
-    /// Second solution, given if restarting the fit from its own result leads elsewhere (ambiguous lumen).
+    /// Second solution, given if a fit restarted from its own result finds another ellipse (ambiguous lumen).
     pub other: Option<Ellipse>,
 }
 
@@ -108,7 +108,7 @@ impl Fit {
         })
     }
 
-    /// [`Fit::missed`] of the fit from `start`, before samples are reweighted a second time.
+    /// [`Fit::missed`] of a fit from `start` without the steps after reweighting.
     pub(crate) fn missed_by(
         samples: &Samples,
         whitening: Whitening,
@@ -150,7 +150,7 @@ fn plain<const N: usize>(expected: &Expected) -> Vec<Term<N>> {
     vec![Term::one(LUMEN, expected.lumen), Term::one(BACKGROUND, expected.background)]
 }
 
-/// Priors of the model with a wall, in surroundings that differ from side to side.
+/// Priors for the model with a wall, whose surroundings may differ from side to side.
 fn walled(expected: &Expected, known: &KnownWall, start: &Ellipse) -> Vec<Term<WALLED>> {
     let mut terms = plain(expected);
     terms.push(Term::one(WALL, known.level));
@@ -184,7 +184,7 @@ struct Work<'a, M, const N: usize> {
     expected: &'a Expected<'a>,
     start: &'a Ellipse,
     terms: Vec<Term<N>>,
-    /// Weight of each sample; 0 for outliers.
+    /// Weight that reweighting left to each sample; 0 for outliers.
     kept: Vec<[f32; FAN]>,
     model: PhantomData<M>,
 }
@@ -200,7 +200,7 @@ impl<'a, M: Model<N>, const N: usize> Work<'a, M, N> {
         Self { samples, whitening, expected, start, terms, kept: samples.weight.clone(), model: PhantomData }
     }
 
-    /// Best parameters and residual before reweighting; None if there are too few samples.
+    /// Best parameters before reweighting and their residual after it; None if there are too few samples.
     fn weighed(&mut self) -> Option<([f64; N], f64)> {
         if self.samples.count < 2 * N {
             return None;
@@ -226,8 +226,8 @@ impl<'a, M: Model<N>, const N: usize> Work<'a, M, N> {
         Some((last, missed, parts))
     }
 
-    /// Parts of the uncertainty. With A the normal matrix and c the derivatives of the diameter, a = A⁻¹ c
-    /// gives the shift of the diameter caused by each sample and each prior.
+    /// Parts of the uncertainty. Let A be the normal matrix and c the derivatives of the diameter. Then a =
+    /// A⁻¹ c gives the shift of the diameter caused by each sample and each prior.
     fn parts(&self, minimum: &Minimum<N>, missed: f64, unsure: &Unsure) -> Option<Parts> {
         let ellipse = Ellipse::from_parameters(&minimum.at)?;
         let towards = solved(&minimum.normal.matrix, &diameter_by(&ellipse))?;
@@ -239,7 +239,7 @@ impl<'a, M: Model<N>, const N: usize> Work<'a, M, N> {
             Moves { samples: self.samples, kept: &self.kept, model: &model, towards: towards_shares };
         let moves = dispatch(Isa::widest(), kernel);
         let noise = expected.noise * unsure.texture.variance(self.samples, &moves).sqrt();
-        // Residuals above the noise show that the lumen is no ellipse or that the surroundings are uneven.
+        // Residuals above the noise mean that the lumen is no ellipse or that the surroundings are uneven.
         let excess = (missed / expected.noise).max(1.0);
         let wall = match unsure.wall {
             Some(hidden) => self.moved(&moves, &model, &self.with_wall(&minimum.at, &ellipse, &hidden)),
@@ -259,7 +259,7 @@ impl<'a, M: Model<N>, const N: usize> Work<'a, M, N> {
         parts.total().is_finite().then_some(parts)
     }
 
-    /// Error of the diameter (mm) if the priors selected by `of` are wrong by one standard deviation.
+    /// Error of the diameter (mm) if the priors that `of` selects are wrong by one standard deviation.
     fn expectations(&self, towards: &[f64; N], of: impl Fn(usize) -> bool) -> f64 {
         let own = self.terms.iter().filter(|term| of(term.parameter));
         let moved = |term: &Term<N>| (0..N).map(|n| term.by[n] * towards[n]).sum::<f64>() / term.level[1];
@@ -308,7 +308,7 @@ impl<'a, M: Model<N>, const N: usize> Work<'a, M, N> {
         Some(normal)
     }
 
-    /// Standard deviation of a normal distribution with the same median absolute residual as the samples.
+    /// Standard deviation of a normal distribution whose median absolute residual equals that of the samples.
     fn typical(&self, missing: &[[f32; FAN]]) -> Option<f64> {
         let weights = self.samples.weight.iter().flatten();
         let mut all: Vec<f64> = missing

@@ -1,4 +1,4 @@
-//! Prepares the fit of a section: selects the voxels that count, and sets the priors.
+//! Prepares the fit of a section: selects the voxels to use, and sets the priors.
 
 use glam::DVec2;
 
@@ -15,23 +15,23 @@ use super::texture::Pairs;
 use super::wall::KnownWall;
 use lumencut_core::math::statistics::median;
 
-/// Voxels up to this many blur widths beyond the wall count.
+/// Voxels up to this many blur widths beyond the wall are used.
 const BEYOND: f64 = 1.5;
 
-/// Standard deviation of the relative difference of the semi-axes, for wide and for narrow lumens.
+/// Standard deviation of the relative difference between the semi-axes: first for wide lumens, then for narrow ones.
 const STRETCH: (f64, f64) = (0.4, 0.06);
 
-/// Minimum share of directions in which nothing obstructs the wall.
+/// Minimum fraction of directions in which nothing obstructs the wall.
 const LEAST_FREE: f64 = 0.35;
 
-/// The lumen level is read within this share of the radius, if the blurred peak is high enough.
+/// The lumen level is read within this fraction of the radius if the blurred peak reaches `LEAST_PEAK`.
 const MIDDLE: f64 = 1.0 / 3.0;
 const LEAST_PEAK: f64 = 0.95;
 
-/// Standard deviation of the level read there: a share of the contrast, and a factor of the voxel noise.
+/// Two parts of the standard deviation of that level: a fraction of the contrast, and a multiple of the voxel noise.
 const SEEN: (f64, f64) = (0.02, 0.33);
 
-/// Voxels of a section, without those that obstacles affect.
+/// Voxels of a section, without those affected by obstacles such as calcium.
 struct Cleared {
     samples: Samples,
     obstacles: Obstacles,
@@ -52,7 +52,7 @@ impl Ready {
 }
 
 impl Bench<'_, '_> {
-    /// Fits a section; None if it is too obstructed or no ellipse fits.
+    /// Fits a section; None if obstacles hide too much of the wall or no ellipse fits.
     pub(crate) fn fit(&self, place: &SectionPlane, known: &Known) -> Option<Fit> {
         let ready = self.ready(place, known)?;
         let wider = self.doubt.as_ref().and_then(|doubt| doubt.wider);
@@ -71,7 +71,7 @@ impl Bench<'_, '_> {
         let cleared = self.cleared(place, known)?;
         let seen = self.level_seen(place, known, |point| cleared.obstacles.keeps(point));
         let expected = Expected {
-            // A sharp wall also fits a smaller ellipse with a higher level, so the visible level is used.
+            // A smaller, brighter ellipse fits a sharp wall as well, so the level visible in the middle is used.
             lumen: seen.filter(|seen| seen[1] < known.lumen[1]).unwrap_or(known.lumen),
             background: [0.0, 0.5],
             stretch: stretch(2.0 * known.ellipse.mean, self.blur.width(place)),
@@ -93,7 +93,7 @@ impl Bench<'_, '_> {
         self.wall.map(|wall| known.wall.unwrap_or(wall))
     }
 
-    /// Voxels of a section without those that obstacles affect; None if too few directions are unobstructed.
+    /// Voxels of a section without those affected by obstacles; None if too few directions are unobstructed.
     fn cleared(&self, place: &SectionPlane, known: &Known) -> Option<Cleared> {
         let width = self.blur.width(place);
         let ellipse = &known.ellipse;

@@ -2,7 +2,7 @@
 
 /// The diameter is below 1.5 times the FWHM of the point spread.
 pub const AT_LIMIT: u32 = 1;
-/// Another vessel begins here, or the lumen continues sideways.
+/// Another vessel starts at this section, or the lumen continues sideways.
 pub const BRANCH: u32 = 1 << 1;
 /// Something at the wall is brighter than lumen.
 pub const CALCIUM: u32 = 1 << 2;
@@ -21,5 +21,5 @@ pub const IRREGULAR: u32 = 1 << 8;
 /// The centerline turns more sharply than a vessel can.
 pub const RESTLESS_LINE: u32 = 1 << 9;
 
-/// Sections with any of these flags are ignored when the widest, narrowest or suggested places are chosen.
+/// Sections with any of these flags are ignored when the narrowest, widest or suggested sections are chosen.
 pub const LEFT_OUT: u32 = BRANCH | OUTSIDE | NO_EDGE | RECENTERED | RESTLESS_LINE;

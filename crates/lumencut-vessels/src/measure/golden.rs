@@ -2,7 +2,7 @@
 
 const GOLDEN: f64 = 0.618_033_988_749_895;
 
-/// Position of the minimum in a range. Each round leaves 0.62 of the range. Passes errors of the function on.
+/// Position of the minimum in a range. Each round shrinks the range to 62 %. Errors of the function are returned.
 pub(crate) fn least<E>(
     [mut low, mut high]: [f64; 2],
     rounds: usize,

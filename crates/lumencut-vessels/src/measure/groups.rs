@@ -1,4 +1,4 @@
-//! Grades of stenoses in common use, as text with their source.
+//! Texts for common grades of stenoses, with their source.
 
 use super::stenosis::{Method, Stenosis};
 use lumencut_core::error::{Error, ErrorKind, Result};
@@ -19,14 +19,14 @@ impl Named for Territory {
 }
 
 impl Stenosis {
-    /// Grade of the stenosis, with its source. [`ErrorKind::Measuring`] for a method without grades.
+    /// Grade of the stenosis, with its source. Errors: [`ErrorKind::Measuring`] for a method without grades.
     pub fn group(&self, territory: Territory) -> Result<String> {
         if self.method != Method::Nascet {
             let found = format!("'{}'", self.method.name());
             let expected = "'nascet', because the groups refer to a normal diameter";
             return Err(Error::new(ErrorKind::Measuring, "method of the stenosis", found, expected));
         }
-        // Grades are defined for integer percentages.
+        // The grades are defined for integer percentages.
         let percent = self.percent.round();
         Ok(match territory {
             Territory::Carotid => carotid(percent),

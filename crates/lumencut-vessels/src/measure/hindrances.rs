@@ -1,11 +1,11 @@
-//! Reasons, besides the flags, not to suggest a section as the narrowest place or as a reference.
+//! Reasons, in addition to the flags, not to suggest a section as the narrowest place or as a reference.
 
 use std::f64::consts::PI;
 
 use super::flags::{CALCIUM, IRREGULAR, LEFT_OUT, METAL, NEIGHBOR};
 use super::profile::Profile;
 
-/// The lumen differs from that of the previous section in position, and possibly in level or width.
+/// The lumen jumps sideways from the previous section, and its level or width may change too.
 pub const CHANGE_OF_LUMEN: u32 = 1 << 16;
 /// Another lumen lies next to an irregular wall, as at the flap of a dissection.
 pub const FLAP: u32 = 1 << 17;
@@ -17,16 +17,16 @@ const FLAGGED: u32 = LEFT_OUT | METAL | CALCIUM;
 /// Maximum relative standard deviation of a suggested diameter.
 const UNSURE_SHARE: f64 = 1.0 / 3.0;
 
-/// Sideways movement of the centre that counts as a jump, as a share of the radius. It is added to the
-/// distance of the sections, so that a vessel at 45° to its centerline does not count.
+/// Sideways movement of the centre that counts as a jump, as a fraction of the radius. The distance between
+/// the sections is added, so a vessel at 45° to its centerline has no jumps.
 const JUMP: f64 = 0.5;
 
-/// Half of that movement suffices if the diameter changes by this factor, or the level by this share.
+/// Half of that movement suffices if also the diameter changes by this factor, or the level by this fraction.
 const OTHER: (f64, f64) = (1.4, 0.25);
 
 impl Profile {
-    /// Reasons not to suggest each section, as bits. Changes of lumen and flaps reach one diameter around
-    /// them.
+    /// Reasons not to suggest each section, as bits. Changes of lumen and flaps also mark the sections within
+    /// one diameter.
     pub fn hindrances(&self) -> Vec<u32> {
         let mut found: Vec<u32> = (0..self.len()).map(|n| self.flags[n] & FLAGGED | self.unsure(n)).collect();
         let measured: Vec<usize> = (0..self.len()).filter(|n| self.area[*n].is_finite()).collect();

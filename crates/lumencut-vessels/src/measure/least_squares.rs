@@ -3,9 +3,9 @@
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Normal<const N: usize> {
     pub cost: f64,
-    /// Sum of the products of the derivatives by each pair of parameters.
+    /// Sum of the products of the derivatives with respect to each pair of parameters.
     pub matrix: [[f64; N]; N],
-    /// Sum of the products of derivatives and residuals.
+    /// Sum of the products of the derivatives and the residuals.
     pub slope: [f64; N],
 }
 
@@ -15,7 +15,7 @@ impl<const N: usize> Normal<N> {
         Self { cost: 0.0, matrix: [[0.0; N]; N], slope: [0.0; N] }
     }
 
-    /// Adds a prior: coefficients, residual and standard deviation of a linear combination of parameters.
+    /// Adds a prior on a linear combination of parameters: its coefficients, residual and standard deviation.
     pub(crate) fn expect(&mut self, by: &[f64; N], missing: f64, deviation: f64) {
         let weight = 1.0 / (deviation * deviation);
         self.cost += weight * missing * missing;
@@ -40,7 +40,7 @@ pub(crate) fn minimum<const N: usize>(
     steps: usize,
     mut evaluate: impl FnMut(&[f64; N]) -> Option<Normal<N>>,
 ) -> Option<Minimum<N>> {
-    /// The iteration stops if the relative decrease is smaller.
+    /// The iteration stops if the relative decrease of the cost is smaller.
     const ENOUGH: f64 = 1e-4;
     let mut best = Minimum { at: start, normal: evaluate(&start)? };
     let mut damping = 1e-3;
@@ -69,7 +69,6 @@ pub(crate) fn minimum<const N: usize>(
     Some(best)
 }
 
-/// Cholesky factor; None if the matrix is not positive definite.
 fn cholesky<const N: usize>(matrix: &[[f64; N]; N]) -> Option<[[f64; N]; N]> {
     let mut lower = [[0.0; N]; N];
     for i in 0..N {

@@ -1,7 +1,7 @@
-//! Finds the lumen level along a vessel.
+//! Finds the intensity level of the lumen along a vessel.
 //!
-//! A lumen narrower than two blur widths peaks below its level, so one section cannot separate level and
-//! width. Wider sections nearby give the level; if there are none, all sections share one level.
+//! A lumen narrower than two blur widths peaks below its true level, so a single section cannot separate
+//! level and width. Wider sections nearby give the level; if there are none, all sections share one level.
 
 use rayon::prelude::*;
 
@@ -13,22 +13,21 @@ use super::sections::{Bench, Known, noise};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Maximum standard deviation (share of the contrast) of sections that give the level; their minimum number.
+/// Sections that give the level: maximum standard deviation (fraction of the contrast), and minimum number.
 const LEVEL_SECTIONS: (f64, usize) = (0.05, 3);
 
 /// Maximum number of sections fitted with a common level.
 const TOGETHER: usize = 48;
 
-/// Search range of the level (share of the contrast); the first guess is about 1.
+/// Search range of the level, as fractions of the contrast; the first guess is about 1.
 const LEVEL_RANGE: [f64; 2] = [0.6, 4.0];
 
 /// Relative standard deviation of a common level.
 const DEVIATION: f64 = 0.05;
 
-/// Rounds of the golden-section search.
 const ROUNDS: usize = 11;
 
-/// Lumen level and its standard deviation at each section, as shares of the contrast.
+/// Intensity level of the lumen and its standard deviation at each section, as fractions of the contrast.
 pub(crate) fn lumen_levels(
     bench: &Bench,
     places: &[SectionPlane],
@@ -47,7 +46,7 @@ pub(crate) fn lumen_levels(
     Ok(vec![[level, DEVIATION * level]; places.len()])
 }
 
-/// The common level for which the sections fit best.
+/// The common level with which the sections fit best.
 fn together(bench: &Bench, places: &[SectionPlane], fits: &[Option<Fit>], stop: Stop) -> Result<f64> {
     let noise = noise(fits);
     let fitted: Vec<(&SectionPlane, Fit)> =

@@ -1,4 +1,4 @@
-//! Approximate centre and radius of the lumen, before the fit.
+//! Estimates centre and radius of the lumen before the fit.
 
 use std::f64::consts::PI;
 
@@ -9,30 +9,30 @@ use super::section_plane::SectionPlane;
 use crate::voxels::Voxels;
 use lumencut_core::math::statistics::median;
 
-/// Minimum level of a lumen, as a share of the level of the vessel.
+/// Minimum intensity of a lumen, as a fraction of the vessel's lumen level.
 const LEAST_LUMEN: f64 = 0.25;
 
 /// Rays are cut at this multiple of their median length, because some escape into branches.
 const LONGEST_RAY: f64 = 1.6;
 
-/// Maximum number of times that the rays are moved to the new centre.
+/// Maximum number of times that the rays are cast again from the new centre.
 const ROUNDS: usize = 4;
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LumenEstimate {
-    /// Centre (mm, in the plane).
+    /// Centre of the lumen in the plane (mm).
     pub center: DVec2,
-    /// Radius (mm).
+    /// Radius of the lumen (mm).
     pub radius: f64,
-    /// Level of the lumen, as a share of the contrast.
+    /// Intensity level of the lumen, as a fraction of the contrast.
     pub lumen: f64,
 }
 
-/// Minimum level of metal or calcium, as a share of the contrast.
+/// Minimum intensity of metal or calcium, as a fraction of the contrast.
 const BRIGHT: f64 = 1.6;
 
 impl LumenEstimate {
-    /// Searches within `search` mm of the centerline for a lumen with a radius of up to `widest` mm.
+    /// Searches within `search` mm of the centerline for a lumen whose radius is at most `widest` mm.
     pub(crate) fn find(rays: &Rays, place: &SectionPlane, search: f64, widest: f64) -> Option<Self> {
         let mut center = start(rays, place, search)?;
         let mut found = None;
@@ -54,7 +54,7 @@ impl LumenEstimate {
     }
 }
 
-/// Start of the rays: the centerline point if it lies in lumen, otherwise the best point nearby.
+/// Start point of the rays: the centerline point if it lies in lumen, otherwise the best point nearby.
 fn start(rays: &Rays, place: &SectionPlane, search: f64) -> Option<DVec2> {
     if level(rays, place, DVec2::ZERO) > 0.5 {
         return Some(DVec2::ZERO);
@@ -69,7 +69,7 @@ fn start(rays: &Rays, place: &SectionPlane, search: f64) -> Option<DVec2> {
                 continue;
             }
             let lumen = level(rays, place, point);
-            // A point farther away must have a higher level.
+            // Points farther from the centerline need a higher level.
             let score = lumen.min(1.0) - 0.3 * point.length() / search;
             if lumen.is_finite() && best.is_none_or(|(most, _)| score > most) {
                 best = Some((score, point));
@@ -79,7 +79,7 @@ fn start(rays: &Rays, place: &SectionPlane, search: f64) -> Option<DVec2> {
     best.map(|(_, point)| point)
 }
 
-/// Step of the search grid (mm): at most as many points as voxels, because a file may state any radius.
+/// Step of the search grid (mm): at most as many points as the volume has voxels, because any radius may be given.
 fn search_step(voxels: &Voxels, search: f64) -> f64 {
     let count: f64 = voxels.size.iter().map(|n| *n as f64).product();
     voxels.sampling_side.max(2.0 * search / count.sqrt())

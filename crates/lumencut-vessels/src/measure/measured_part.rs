@@ -1,4 +1,4 @@
-//! The measurable part of a vessel: all of it, or the longest stretch that has a wall.
+//! The measurable part of a vessel: the entire vessel, or the longest part with a visible wall.
 
 use super::scale::Scale;
 use super::section_plane::SectionPlane;
@@ -9,7 +9,7 @@ use lumencut_core::error::Result;
 const PIECE: f64 = 10.0;
 const MOST_PIECES: usize = 40;
 
-/// Minimum number of consecutive pieces; shorter stretches do not show the lumen reliably.
+/// Minimum number of consecutive pieces with a wall; shorter parts do not show the lumen reliably.
 const LEAST_PIECES: usize = 2;
 
 #[derive(Clone, Copy, Debug)]
@@ -20,8 +20,8 @@ pub(crate) struct MeasuredPart {
 }
 
 impl MeasuredPart {
-    /// The measurable part; `radius` is the approximate radius (mm), if known. If the vessel as a whole shows
-    /// no wall, it is the longest run of 10 mm pieces that show one.
+    /// Finds the measurable part; `radius` is the approximate radius (mm), if known. If the entire vessel
+    /// shows no wall, the part is the longest run of 10 mm pieces that do.
     pub(crate) fn of(voxels: &Voxels, places: &[SectionPlane], radius: Option<f64>) -> Result<Self> {
         let whole = Scale::of(voxels, places, radius);
         match whole {
@@ -34,7 +34,7 @@ impl MeasuredPart {
         (self.ends[0]..=self.ends[1]).contains(&place.at)
     }
 
-    /// The stretches before and after the measured part (arc lengths, mm).
+    /// The parts of the vessel before and after the measured one (arc lengths, mm).
     pub(crate) fn left_out(&self, places: &[SectionPlane]) -> Vec<[f64; 2]> {
         let [first, last] = ends(places);
         let beside = [[first, self.ends[0]], [self.ends[1], last]];

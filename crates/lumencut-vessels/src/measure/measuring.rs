@@ -1,4 +1,4 @@
-//! Entry points of measuring: of a single vessel, or with the point spread and walls found on its tree.
+//! Entry points of measuring: for a single vessel, or for a tree with a common point spread and wall level.
 
 use std::cmp::Ordering;
 use std::sync::OnceLock;
@@ -26,7 +26,7 @@ pub const STEP: f64 = 0.5;
 /// Relative standard deviation of the point spread if it is assumed.
 const ASSUMED_DEVIATION: f64 = 0.2;
 
-/// Maximum number of vessels on which point spread and wall level are estimated; the widest ones are taken.
+/// Maximum number of vessels from which point spread and wall level are estimated; the widest ones are used.
 const MAX_CONTRIBUTING: usize = 8;
 
 /// Measures the profile of a vessel. Errors: [`ErrorKind::Measuring`] for a vessel outside the volume or
@@ -49,7 +49,7 @@ pub fn measure(volume: &Volume, vessel: &Vessel, request: &MeasureRequest) -> Re
     prepared.profile(&voxels, vessel, request, found)
 }
 
-/// Like [`measure`], but uses an existing result of [`tree_findings`]. Errors: As [`measure`].
+/// Like [`measure`], but uses an existing result of [`tree_findings`]. Errors: those of [`measure`].
 pub fn measure_with(
     findings: TreeFindings,
     volume: &Volume,
@@ -60,7 +60,7 @@ pub fn measure_with(
     PreparedVessel::new(&voxels, vessel, request)?.profile(&voxels, vessel, request, findings)
 }
 
-/// Estimates the point spread (unless it is given) and the wall levels on the widest vessels of a tree.
+/// Estimates the point spread (unless it is given) and the wall levels from the widest vessels of a tree.
 /// Errors: [`ErrorKind::Settings`] for an invalid width, [`ErrorKind::Interrupted`].
 pub fn tree_findings(volume: &Volume, request: &MeasureRequest) -> Result<TreeFindings> {
     TreeMeasuring::new(volume, request)?.findings(request.stop)
@@ -92,13 +92,13 @@ impl<'a, 'v> TreeMeasuring<'a, 'v> {
         Ok(TreeFindings { spread, walls })
     }
 
-    /// Measures vessel number `n` of the tree. Errors: As [`measure`].
+    /// Measures vessel number `n` of the tree. Errors: those of [`measure`].
     pub fn profile(&self, n: usize, findings: TreeFindings, stop: Stop) -> Result<Profile> {
         let request = MeasureRequest { stop, ..self.request };
         self.prepared(n, &request)?.profile(&self.voxels, &request.tree[n], &request, findings)
     }
 
-    /// Numbers of the widest vessels; their order in the tree does not matter.
+    /// Indices of the widest vessels; their order in the tree does not matter.
     fn widest_vessels(&self) -> Vec<usize> {
         let tree = self.request.tree;
         let mut order: Vec<usize> = (0..tree.len()).collect();
@@ -107,7 +107,7 @@ impl<'a, 'v> TreeMeasuring<'a, 'v> {
         order
     }
 
-    /// Wall levels of the widest vessels for a point spread (FWHM, mm); none for a single vessel.
+    /// Wall levels of the widest vessels for a point spread (FWHM, mm); empty if there is only one vessel.
     fn wall_levels(&self, fwhm: f64, request: &MeasureRequest) -> Result<Vec<VesselWall>> {
         if request.tree.len() < 2 || request.wall == WallRequest::Off {
             return Ok(Vec::new());
@@ -139,7 +139,6 @@ impl<'a, 'v> TreeMeasuring<'a, 'v> {
         Ok(default(&self.voxels, why))
     }
 
-    /// The prepared vessel; None if it cannot be measured.
     fn prepared_or_none(&self, n: usize, request: &MeasureRequest) -> Result<Option<&PreparedVessel>> {
         match self.prepared(n, request) {
             Ok(prepared) => Ok(Some(prepared)),
@@ -157,7 +156,7 @@ impl<'a, 'v> TreeMeasuring<'a, 'v> {
     }
 }
 
-/// Orders vessels: wider ones first, then longer ones, then by coordinates.
+/// Sorts vessels: wider ones first, then longer ones, then by coordinates.
 fn wider(one: &Vessel, other: &Vessel) -> Ordering {
     let radius = |vessel: &Vessel| known_radius(vessel).unwrap_or(0.0);
     let length = |vessel: &Vessel| vessel.arc_length().last().copied().unwrap_or(0.0);

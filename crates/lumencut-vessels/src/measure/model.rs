@@ -11,10 +11,10 @@ use lumencut_core::math::lanes::FAN;
 const THINNEST: f64 = 0.2;
 const THICKEST: f64 = 3.3;
 
-/// Model values at sixteen points (shares of the contrast), and their derivatives.
+/// Model values at sixteen points (fractions of the contrast), and their derivatives.
 pub(crate) struct Modelled<const N: usize> {
     pub share: [f32; FAN],
-    /// Derivative by each parameter.
+    /// Derivatives of the values with respect to each parameter.
     pub by: [[f32; FAN]; N],
 }
 
@@ -96,7 +96,7 @@ impl ThreeLevels {
     #[inline(always)]
     fn harmonics(&self, x: f32, y: f32) -> [f32; HARMONICS] {
         let (dx, dy) = (x - self.origin[0], y - self.origin[1]);
-        // 1e-6 avoids a division by 0 at the centre, where the surroundings do not show.
+        // 1e-6 avoids a division by 0 at the centre, where the surroundings have no influence.
         let length = (dx * dx + dy * dy + 1e-6).sqrt();
         let (cos, sin) = (dx / length, dy / length);
         let (cos_2, sin_2) = (cos * cos - sin * sin, 2.0 * cos * sin);

@@ -11,30 +11,30 @@ use lumencut_core::math::statistics::median;
 /// Width of the margin around bright obstacles, in blur widths.
 const BRIGHT_MARGIN: f64 = 0.8;
 
-/// Calcium up to this distance from the lumen (mm) belongs to the wall; other structures are neighbours.
+/// Calcium up to this distance from the lumen (mm) belongs to the wall; structures farther away are neighbours.
 const WALL_CALCIUM_MM: f64 = 1.5;
 
-/// Minimum number of rays that meet an obstacle, and minimum number that meet a stent around the lumen.
+/// Minimum number of rays that meet an obstacle, and of rays that meet a stent all around the lumen.
 const LEAST_RAYS: usize = 3;
 const ALL_AROUND: usize = RAYS * 3 / 5;
 
-/// Bright places are the struts of a stent if at least this many rays meet them, in all and in each quarter.
-/// Calcium lies on one or two sides.
+/// Bright spots are the struts of a stent if at least this many rays meet them, in total and in each quarter
+/// of the circle. Calcium lies on only one or two sides.
 const LATTICE: [usize; 2] = [RAYS * 2 / 5, RAYS / 16];
 
-/// Metal is brighter than this share: its excess over the lumen is at least four times the contrast.
+/// Values above this are metal: they exceed the lumen by at least four times the contrast.
 const METAL_SHARE: f64 = 5.0;
 
-/// The lumen continues sideways if some rays stay in it for this many times the distance of the wall.
+/// The lumen continues sideways if some rays stay inside it beyond this multiple of the wall distance.
 const OPEN: f64 = 1.6;
 
-/// Maximum distance from the centre, per direction, at which voxels count.
+/// Maximum distance from the centre, in each direction, at which voxels are used.
 #[derive(Clone, Debug)]
 pub(crate) struct Obstacles {
     center: DVec2,
     limit: [f64; RAYS],
     nearest: f64,
-    /// Share of directions in which nothing obstructs the wall.
+    /// Fraction of directions in which nothing obstructs the wall.
     pub free: f64,
 }
 
@@ -83,7 +83,8 @@ fn limit(ray: &Ray, middle: f64, width: f64) -> f64 {
     }
 }
 
-/// Whether a ray meets calcium or metal at a wall `wall` mm from its start, for a blur of `width` mm.
+/// Whether a ray meets calcium or metal near the wall. The wall is `wall` mm from the ray's start; `width` is
+/// the blur (mm).
 pub(crate) fn is_bright(ray: &Ray, wall: f64, width: f64) -> bool {
     ray.bright_at.is_some_and(|at| at < wall + WALL_CALCIUM_MM.max(width))
 }
@@ -96,7 +97,7 @@ fn is_lattice(is_bright: impl Fn(usize) -> bool) -> bool {
     counts.iter().sum::<usize>() >= all && counts.iter().all(|count| *count >= each)
 }
 
-/// Flags of a section from its rays; `wall` gives the wall of each ray (mm), `width` is the blur (mm).
+/// Flags of a section from its rays; `wall` gives the distance of the wall on each ray (mm), `width` the blur (mm).
 pub(crate) fn flags_of(rays: &[Ray], wall: impl Fn(usize) -> f64, width: f64) -> u32 {
     let count = |is: &dyn Fn(usize, &Ray) -> bool| rays.iter().enumerate().filter(|(n, r)| is(*n, r)).count();
     let beside = WALL_CALCIUM_MM.max(width);
@@ -131,9 +132,9 @@ mod tests {
 
     #[test]
     fn struts_all_around_are_a_stent_and_calcium_on_one_or_two_sides_is_none() {
-        // Struts on four rays each, with gaps of five rays.
+        // A lattice: struts that each cover four rays, with gaps of five rays.
         assert!(is_lattice(|n| n % 9 < 4));
-        // One half of the wall; two opposite quarters; few struts.
+        // No lattices: one half of the wall; two opposite quarters; struts that are too narrow.
         assert!(!is_lattice(|n| n < 32));
         assert!(!is_lattice(|n| n % 32 < 16));
         assert!(!is_lattice(|n| n % 9 < 3));

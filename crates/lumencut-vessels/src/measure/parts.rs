@@ -1,15 +1,15 @@
-//! The parts of a diameter's standard deviation.
+//! The parts of the standard deviation of a diameter.
 
 /// Parts of the standard deviation of a diameter (mm); their squares add up.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Parts {
-    /// Effect of noise.
+    /// Effect of image noise.
     pub noise: f64,
-    /// Effect of the width of the point spread; the sign is that of the effect of a wider one.
+    /// Effect of an error in the width of the point spread; its sign is that of the effect of a wider one.
     pub point_spread: f64,
-    /// Effect of the level and thickness of the wall.
+    /// Effect of errors in the level and thickness of the wall.
     pub wall: f64,
-    /// Effect of the level of the lumen.
+    /// Effect of an error in the level of the lumen.
     pub lumen: f64,
     /// Effect of errors of the model: uneven surroundings, or a lumen that is not an ellipse.
     pub surroundings: f64,
@@ -31,7 +31,7 @@ impl Parts {
         }
     }
 
-    /// The root of the sum of squares.
+    /// Total standard deviation: the root of the sum of squares.
     pub fn total(&self) -> f64 {
         let Self { noise, point_spread, wall, lumen, surroundings } = self;
         [noise, point_spread, wall, lumen, surroundings].map(|part| part * part).iter().sum::<f64>().sqrt()
@@ -53,23 +53,23 @@ impl Parts {
     }
 }
 
-/// Name of a part of [`Parts`].
+/// Names one part of [`Parts`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Part {
-    /// [`Parts::noise`].
+    /// The part [`Parts::noise`].
     Noise,
-    /// [`Parts::point_spread`].
+    /// The part [`Parts::point_spread`].
     PointSpread,
-    /// [`Parts::wall`].
+    /// The part [`Parts::wall`].
     Wall,
-    /// [`Parts::lumen`].
+    /// The part [`Parts::lumen`].
     Lumen,
-    /// [`Parts::surroundings`].
+    /// The part [`Parts::surroundings`].
     Surroundings,
 }
 
 impl Part {
-    /// All parts, in the order of table columns.
+    /// All parts, in the order of their table columns.
     pub const ALL: [Self; 5] = [Self::Noise, Self::PointSpread, Self::Wall, Self::Lumen, Self::Surroundings];
 
     /// The name of the part in files and programs.
@@ -83,7 +83,7 @@ impl Part {
         }
     }
 
-    /// The value of this part (mm, with sign).
+    /// The value of this part (mm), which may be negative.
     pub fn of(self, parts: &Parts) -> f64 {
         match self {
             Self::Noise => parts.noise,
@@ -95,8 +95,8 @@ impl Part {
     }
 }
 
-/// Standard deviation of a weighted sum of diameters of one vessel. The errors of point spread, wall and
-/// lumen level are the same everywhere, so they add with their signs. Noise and surroundings are independent.
+/// Standard deviation of a weighted sum of diameters of one vessel. Errors of point spread, wall and lumen
+/// level are the same in all sections, so they add with their signs. Noise and surroundings are independent.
 pub(crate) fn deviation_of_sum(diameters: &[(f64, Parts)]) -> f64 {
     let together =
         |part: Part| diameters.iter().map(|(weight, parts)| weight * part.of(parts)).sum::<f64>().powi(2);

@@ -1,4 +1,4 @@
-//! Estimates the point spread of the scanner on wide sections of vessels.
+//! Estimates the point spread of the scanner from wide sections of vessels.
 
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
@@ -13,31 +13,30 @@ use lumencut_core::error::Result;
 use lumencut_core::math::statistics::median;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Maximum and minimum number of sections that are used.
+/// Maximum and minimum number of sections from which the point spread is estimated.
 const SECTIONS: (usize, usize) = (16, 3);
 
 /// Minimum diameter of a section, in widths of the point spread.
 const MIN_WIDTH: f64 = 3.0;
 
-/// Limits of suitable sections: share of unobstructed directions, residual in noises, ratio of the axes.
+/// Limits of suitable sections: unobstructed fraction of directions, residual (times the noise), ratio of the axes.
 const FREE: f64 = 0.95;
 const LEAST_MISSED: f64 = 1.5;
 const ROUND: f64 = 1.35;
 
-/// Search range in smallest and largest voxel sides; maximum width as a share of a section's diameter.
+/// Range of the search in smallest and largest voxel sides; the width is at most `SHARE` of a section's diameter.
 const SEARCH_RANGE: [f64; 2] = [0.3, 3.0];
 const SHARE: f64 = 0.5;
 
-/// The median deviation of the estimates must be at most this share of their median.
+/// Estimates agree if their median deviation is at most this fraction of their median.
 const AGREED: f64 = 0.15;
 
-/// Minimum relative standard deviation, because sections share errors of walls and noise.
+/// Minimum relative standard deviation, because errors of walls and noise are common to all sections.
 const LEAST_SPREAD: f64 = 0.03;
 
-/// Minimum length of the stretch that is used, in point spreads, because neighbours share voxels.
+/// Minimum length of the part that is used, in point spread widths, because neighbouring sections share voxels.
 const MIN_EXTENT: f64 = 3.0;
 
-/// Rounds of the golden-section search.
 const ROUNDS: usize = 14;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,13 +61,13 @@ pub(crate) enum SpreadEstimate {
     Nothing(&'static str),
 }
 
-/// Reason given if the vessels are too narrow.
+/// Reason why nothing is estimated if the vessels are too narrow.
 pub(crate) const TOO_NARROW: &str = "no vessel is wide enough to estimate it";
 
-/// Reason given if the wide stretch is too short.
+/// Reason why nothing is estimated if the wide part is too short.
 const TOO_SHORT: &str = "free, round stretches of wide vessels are too short to estimate it";
 
-/// Estimates the point spread with which the widest sections fit best, given the lumen level visible in each.
+/// Estimates the point spread with which the widest sections fit best, given the lumen level visible in each section.
 pub(crate) fn estimated(
     bench: &Bench,
     sides: DMat3,
@@ -112,7 +111,7 @@ pub(crate) fn estimated(
     Ok(SpreadEstimate::Width(SharpEdges { fwhm, deviation, count: best.len(), ends: [first, last] }))
 }
 
-/// Median and standard deviation of estimates that agree and lie within a range, otherwise the reason.
+/// Median and standard deviation of estimates that agree and lie inside the range, otherwise the reason why not.
 fn agreed(best: &mut [f64], [low, high]: [f64; 2]) -> std::result::Result<Level, &'static str> {
     let Some(fwhm) = median(best).filter(|_| best.len() >= SECTIONS.1) else { return Err(TOO_NARROW) };
     let margin = 0.02 * (high - low);
@@ -122,7 +121,7 @@ fn agreed(best: &mut [f64], [low, high]: [f64; 2]) -> std::result::Result<Level,
     let away: Vec<f64> = best.iter().map(|one| (one - fwhm).abs()).collect();
     match median(&mut { away }) {
         Some(away) if fwhm <= high - margin && away <= AGREED * fwhm => {
-            // The deviation is not divided by √n, because sections share errors of walls and noise.
+            // The deviation is not divided by √n, because errors of walls and noise are common to all sections.
             Ok([fwhm, (1.4826 * away).max(LEAST_SPREAD * fwhm)])
         }
         _ => Err("the walls of wide vessels give different widths"),
@@ -140,7 +139,7 @@ fn wide_sections(bench: &Bench, fits: &[Option<Fit>], noise: f64) -> Vec<usize> 
         })
         .collect();
     wide.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-    // Takes the wider half of the sections, then evenly spread ones.
+    // Takes the wider half of the sections, then evenly spaced sections among them.
     wide.truncate(wide.len().div_ceil(2).max(SECTIONS.0));
     let every = wide.len().div_ceil(SECTIONS.0).max(1);
     wide.into_iter().step_by(every).map(|(_, n)| n).collect()

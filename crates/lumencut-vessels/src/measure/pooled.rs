@@ -1,14 +1,14 @@
-//! Pools the lumen level along a vessel, from the sections that show it well.
+//! Estimates the lumen level along a vessel from the sections that show it well.
 //!
 //! Contrast medium mixes along the vessel, so nearby sections count most.
 
 /// Distance (mm) over which the weight of a section falls to 1/e.
 const DISTANCE: f64 = 25.0;
 
-/// Minimum and maximum standard deviation of the pooled level, as shares of the contrast.
+/// Minimum and maximum standard deviation of the pooled level, as fractions of the contrast.
 const DEVIATION: [f64; 2] = [0.01, 0.08];
 
-/// Larger differences of levels are reduced to this share of the contrast.
+/// Larger differences between levels are clamped to this fraction of the contrast.
 const MAX_DEVIATION: f64 = 0.3;
 
 /// Maximum number of sections that are pooled.
@@ -24,7 +24,7 @@ pub(crate) fn pooled(at: &[f64], levels: &[Option<Level>]) -> Vec<Level> {
     at.iter().map(|at| level(*at, &levels)).collect()
 }
 
-/// Weighted median of the sorted levels. Its standard deviation is the excess scatter of nearby levels.
+/// Weighted median of the sorted levels; its standard deviation is the scatter of nearby levels beyond their own.
 fn level(at: f64, levels: &[(f64, Level)]) -> Level {
     let weights: Vec<f64> = levels
         .iter()

@@ -1,4 +1,4 @@
-//! Measures a vessel in steps: intensity scale, approximate lumen, levels, then each section.
+//! Measures a vessel in steps: intensity scale, approximate lumen, levels, and finally each section.
 
 use std::sync::OnceLock;
 
@@ -46,16 +46,16 @@ const WALL_SECTIONS: usize = 48;
 /// Number of sections from which the noise texture is estimated.
 const TEXTURE_SECTIONS: usize = 32;
 
-/// Minimum distance of separately fitted sections in blur widths; closer sections see the same voxels.
+/// Minimum distance of separately fitted sections, in blur widths; closer sections contain the same voxels.
 const FIT_SPACING: f64 = 0.7;
 
-/// Minimum distance around the centerline (mm) within which the lumen is searched.
+/// Minimum radius (mm) around the centerline in which the lumen is searched.
 const MIN_SEARCH_MM: f64 = 3.0;
 
 /// Maximum radius of a lumen (mm).
 const MAX_RADIUS_MM: f64 = 45.0;
 
-/// Separate fits for a point spread, and the possible wall if none is visible.
+/// Separate fits for one point spread; `hidden` is the possible wall if none is visible.
 #[derive(Clone)]
 struct FirstFits {
     fwhm: f64,
@@ -71,7 +71,7 @@ pub(crate) struct PreparedVessel {
     wall_source: WallSource,
     places: Vec<SectionPlane>,
     estimates: Vec<Option<LumenEstimate>>,
-    /// Fits for the assumed point spread, and for the estimated or given one.
+    /// Separate fits for the assumed point spread, and for the estimated or given one.
     first: [OnceLock<FirstFits>; 2],
 }
 
@@ -103,7 +103,7 @@ impl PreparedVessel {
         })
     }
 
-    /// Separate fits for a point spread (FWHM, mm), cached.
+    /// Returns the separate fits for a point spread (FWHM, mm), and caches them.
     fn kept_fits(&self, voxels: &Voxels, fwhm: f64, stop: Stop) -> Result<FirstFits> {
         let kept = self.first.iter().filter_map(OnceLock::get).find(|first| first.fwhm == fwhm);
         if let Some(kept) = kept {
@@ -155,7 +155,8 @@ impl PreparedVessel {
         bench(voxels, self.scale, self.wall.filter(|_| hidden.is_none()), fwhm)
     }
 
-    /// Interval of the sections that are fitted separately for a point spread (FWHM, mm), and those sections.
+    /// Interval of the sections that are fitted separately for a point spread (FWHM, mm), and the vessel
+    /// reduced to them.
     fn fitted(&self, voxels: &Voxels, fwhm: f64) -> (usize, Self) {
         let blur = Blur::new(fwhm, voxels.world_from_index.matrix3);
         let width = self.places.iter().map(|place| blur.width(place)).fold(f64::INFINITY, f64::min);
@@ -174,7 +175,7 @@ impl PreparedVessel {
         }
     }
 
-    /// The possible wall, if walls are as bright as their surroundings; None if walls are visible.
+    /// A wall that may exist although it is as bright as its surroundings; None if walls are visible.
     fn hidden_wall(
         &self,
         bench: &Bench,
@@ -199,7 +200,7 @@ impl PreparedVessel {
         estimated(&bench, voxels.world_from_index.matrix3, &fitted.places, &fits, stop)
     }
 
-    /// Wall level (in the volume's unit) from the sections, without the prior; None if walls are not visible.
+    /// Wall level (in the volume's unit) that the sections show without their prior; None if walls are not visible.
     pub(crate) fn wall_level(&self, voxels: &Voxels, fwhm: f64, stop: Stop) -> Result<Option<Level>> {
         let Some(known) = self.wall else { return Ok(None) };
         let FirstFits { hidden, fits, texture, .. } = self.kept_fits(voxels, fwhm, stop)?;
@@ -274,7 +275,7 @@ impl PreparedVessel {
         is_below_lumen(&by_others, &self.scale).then_some(by_others)
     }
 
-    /// Pools the separate fits of a vessel, together with the wall level from other vessels.
+    /// Pools the separate fits of a vessel, and includes the wall level from other vessels.
     fn all_sections(
         &self,
         bench: &Bench,
@@ -345,7 +346,7 @@ fn no_lumen(scale: &Scale) -> Error {
     Error::new(ErrorKind::Measuring, "lumen of the vessel", found, expected).mend(mend)
 }
 
-/// Reduces estimates much wider than their neighbours: rays escape at the start of a branch.
+/// Limits radii much larger than those of their neighbours, because rays escape where a branch starts.
 fn tamed(estimates: &[Option<LumenEstimate>]) -> Vec<Option<LumenEstimate>> {
     /// Number of neighbours on each side, and the maximum ratio of a radius to their median.
     const AROUND: (usize, f64) = (6, 1.5);

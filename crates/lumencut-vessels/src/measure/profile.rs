@@ -19,14 +19,14 @@ use super::wall_level::WallSource;
 pub enum Source {
     /// Given by the caller.
     Given,
-    /// Estimated on wide stretches of the vessel.
+    /// Estimated on wide parts of the vessel.
     Estimated {
-        /// Text about the sections used.
+        /// Description of the sections used.
         on: String,
     },
     /// Assumed, because it was neither given nor could be estimated.
     Assumed {
-        /// Text about what the assumption is based on.
+        /// Description of what the assumption is based on.
         from: String,
     },
 }
@@ -36,7 +36,7 @@ pub enum Source {
 pub struct PointSpread {
     /// FWHM (mm).
     pub fwhm: f64,
-    /// Standard deviation of the FWHM (mm); 0 if given.
+    /// Standard deviation of the FWHM (mm); 0 if the FWHM was given.
     pub deviation: f64,
     /// Where the width comes from.
     pub source: Source,
@@ -55,19 +55,19 @@ pub struct Profile {
     pub area: Vec<f64>,
     /// Standard deviation of the equivalent diameter (mm).
     pub uncertainty: Vec<f64>,
-    /// Parts of that standard deviation (mm).
+    /// Parts of the standard deviation of the equivalent diameter (mm).
     pub uncertainty_parts: Vec<Parts>,
     /// Wall thickness and its standard deviation (mm); NaN if the wall is not visible.
     pub wall: Vec<[f64; 2]>,
     /// Equivalent diameter of the outer wall and its standard deviation (mm); NaN if the wall is not visible.
     pub diameter_outer: Vec<[f64; 2]>,
-    /// Equivalent diameter (mm) without, and with, bright material at the wall; NaN if there is none.
+    /// Equivalent diameter (mm) without, and with, the bright material at the wall; NaN if there is no such material.
     pub bounds: Vec<[f64; 2]>,
     /// Flags of each section; see [`super::flags`].
     pub flags: Vec<u32>,
     /// Centre of the lumen (mm, LPS); the centerline point if no lumen was found.
     pub center: Vec<DVec3>,
-    /// Unit vector along the vessel, normal to the section.
+    /// Unit vector along the vessel, perpendicular to the section.
     pub normal: Vec<DVec3>,
     /// Unit vectors within the section (LPS) that point right and down in its image.
     pub axes: Vec<[DVec3; 2]>,
@@ -77,7 +77,7 @@ pub struct Profile {
     pub half_axes: Vec<[DVec3; 2]>,
     /// Radius of the largest ball around the centre that fits into the lumen (mm).
     pub inscribed_radius: Vec<f64>,
-    /// Levels of lumen and background, in the volume's unit.
+    /// Intensity levels of lumen and background, in the volume's unit.
     pub levels: Vec<[f64; 2]>,
     /// Noise of a voxel, in the volume's unit.
     pub noise: f64,
@@ -91,7 +91,7 @@ pub struct Profile {
     pub wall_source: WallSource,
     /// Points of the centerline at the sections (mm, LPS).
     pub on_vessel: Vec<DVec3>,
-    /// End stretches that were not measured: lumen and surroundings look alike there (arc lengths, mm).
+    /// End parts that were not measured because lumen and surroundings look alike (arc lengths, mm).
     pub without_wall: Vec<[f64; 2]>,
 }
 
@@ -162,17 +162,17 @@ impl Profile {
         self.arc_length.is_empty()
     }
 
-    /// Diameter of a circle of the same area (mm).
+    /// Diameter of a circle with the area of the lumen (mm), per section.
     pub fn diameter_equivalent(&self) -> Vec<f64> {
         self.area.iter().map(|area| 2.0 * (area / std::f64::consts::PI).sqrt()).collect()
     }
 
-    /// Mean of the shortest and the longest diameter (mm).
+    /// Mean of the shortest and the longest diameter (mm), per section.
     pub fn diameter_mean(&self) -> Vec<f64> {
         self.diameter_min.iter().zip(&self.diameter_max).map(|(a, b)| f64::midpoint(*a, *b)).collect()
     }
 
-    /// Number of the section nearest to an arc length (mm); the first one of two equally near ones.
+    /// Index of the section nearest to an arc length (mm); the first one of two equally near ones.
     pub fn nearest_section(&self, at: f64) -> usize {
         let away = |n: &usize| (self.arc_length[*n] - at).abs();
         (0..self.len()).min_by(|a, b| away(a).total_cmp(&away(b))).unwrap_or(0)
@@ -193,7 +193,7 @@ impl Profile {
         self.arc_length.last().copied().unwrap_or(0.0)
     }
 
-    /// Whether a section may be the widest, narrowest or a suggested place.
+    /// Whether a section may be chosen as the widest, narrowest or a suggested place.
     pub fn counts(&self, n: usize) -> bool {
         self.flags[n] & LEFT_OUT == 0 && self.area[n].is_finite()
     }

@@ -1,4 +1,4 @@
-//! Replaces the radii of a tree by measured ones.
+//! Replaces the radii of the vessels of a tree by measured ones.
 
 use std::f64::consts::PI;
 
@@ -15,25 +15,25 @@ use lumencut_core::progress::Progress;
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::Volume;
 
-/// Maximum gap between sections (mm) over which radii are interpolated.
+/// Maximum gap (mm) between two sections across which radii are interpolated.
 const GAP: f64 = 10.0;
 
-/// Sections with this relative standard deviation or more are skipped.
+/// Sections whose relative standard deviation is this or more are skipped.
 const MAX_DEVIATION: f64 = 0.25;
 
 /// The radii of one vessel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Radii {
-    /// Radius per point (mm); None if nothing was measured or known.
+    /// Radius of each point (mm); None if nothing was measured or known.
     pub radius: Option<Vec<f64>>,
     /// Number of points whose radius was measured, or interpolated between two measured sections.
     pub measured: usize,
-    /// Number of points that kept their radius or took that of the nearest measured section.
+    /// Number of points that kept their previous radius, or took the radius of the nearest measured section.
     pub kept: usize,
 }
 
-/// Measures all radii of a tree. A vessel that cannot be measured keeps its radii. [`ErrorKind::Settings`]
-/// for an invalid step, wall or point spread, [`ErrorKind::Interrupted`].
+/// Measures all radii of a tree. A vessel that cannot be measured keeps its radii. Errors:
+/// [`ErrorKind::Settings`] for an invalid step, wall or point spread, [`ErrorKind::Interrupted`].
 pub fn measured_radii(
     volume: &Volume,
     request: &MeasureRequest,
@@ -80,7 +80,7 @@ fn of_profile(vessel: &Vessel, profile: &Profile) -> Radii {
     Radii { radius: radius.into_iter().collect(), measured, kept }
 }
 
-/// Radius interpolated between two sections; None if they are too far apart.
+/// Radius interpolated between two sections; None if the sections are too far apart.
 fn between(known: &[(f64, f64)], at: f64) -> Option<f64> {
     let after = known.partition_point(|(there, _)| *there < at);
     let next = known.get(after);

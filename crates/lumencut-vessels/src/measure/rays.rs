@@ -1,4 +1,4 @@
-//! Values along rays from the centre of a section: they show the edge of the lumen, and obstacles.
+//! Values along rays from the centre of a section. They show the edge of the lumen, and obstacles.
 
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
@@ -16,18 +16,18 @@ pub(crate) const RAYS: usize = 64;
 /// Sampling distance along a ray, in units of [`Voxels::sampling_side`].
 const SAMPLE: f64 = 0.4;
 
-/// What a ray meets; distances in mm from its start.
+/// What a ray meets. Distances are measured from its start (mm).
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ray {
     /// Edge of the lumen; None if the ray does not reach it.
     pub edge: Option<f64>,
-    /// Start of anything but plain surroundings (neighbour, calcium, metal); infinite if there is none.
+    /// Where anything but plain surroundings starts (neighbour, calcium, metal); infinite if nothing does.
     pub limit: f64,
-    /// Start of material that is too bright for lumen, if any.
+    /// Where material too bright for lumen starts, if any.
     pub(crate) bright_at: Option<f64>,
-    /// Largest value within a millimetre of that (share of the contrast); 0 if there is no such material.
+    /// Largest value in the millimetre after `bright_at` (fraction of the contrast); 0 if nothing is too bright.
     pub brightest: f64,
-    /// Where the values rise above, and fall below, midway between lumen level and `brightest`.
+    /// Where the values rise above, and fall below, the mean of lumen level and `brightest`.
     pub rim: [f64; 2],
     /// Distance at which the ray leaves the volume, if it does.
     pub(crate) outside_at: Option<f64>,
@@ -39,14 +39,14 @@ impl Ray {
     }
 }
 
-/// Parameters of a search along a ray; levels are shares of the contrast.
+/// Parameters of a search along a ray; levels are fractions of the contrast.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Look {
-    /// Levels of lumen and surroundings.
+    /// Intensity levels of the lumen and of the surroundings.
     pub levels: [f64; 2],
-    /// Higher values are not lumen.
+    /// Values above this are too bright for lumen.
     pub bright: f64,
-    /// A rise by this amount marks the start of a neighbour.
+    /// Values that rise by this amount mark the start of a neighbour.
     pub rise: f64,
     /// Maximum distance at which the edge is searched (mm).
     pub reach: f64,
@@ -66,7 +66,7 @@ pub(crate) struct Rays<'a, 'v> {
 }
 
 impl Rays<'_, '_> {
-    /// Value at a point of a plane, as a share of the contrast; NaN outside the volume.
+    /// Value at a point of a plane, as a fraction of the contrast; NaN outside the volume.
     pub(crate) fn at(&self, place: &SectionPlane, point: DVec2) -> f64 {
         self.scale.share(f64::from(self.voxels.at(place.point(point))))
     }
@@ -97,7 +97,7 @@ impl Rays<'_, '_> {
                 ray.outside_at = Some(here);
                 break;
             }
-            // Requires two consecutive samples, because noise alone rarely exceeds the limit twice.
+            // Two consecutive samples must be bright, because noise rarely exceeds the limit twice in a row.
             if value > look.bright && samples.at(n + 1) > look.bright {
                 ray.bright_at = Some(here);
                 let last = n + (1.0 / self.step()).ceil() as usize;
@@ -130,7 +130,6 @@ impl Rays<'_, '_> {
 
 /// Distances (mm) at which a ray rises above `level` and falls below it again, searched from sample `first`.
 fn rim(samples: &mut Samples, first: usize, level: f64) -> [f64; 2] {
-    /// Maximum number of samples to search.
     const FAR: usize = 24;
     let mut crossing = |from: usize, rises: bool| {
         let is_beyond = |value: f64| (value > level) == rises;
@@ -143,7 +142,7 @@ fn rim(samples: &mut Samples, first: usize, level: f64) -> [f64; 2] {
     [begins.max(0.0), crossing(inner, false).1]
 }
 
-/// Samples of a ray as shares of the contrast, read on demand; NaN outside the volume.
+/// Samples of a ray as fractions of the contrast, read on demand; NaN outside the volume.
 struct Samples<'a, 'v> {
     rays: &'a Rays<'a, 'v>,
     start: DVec3,

@@ -1,4 +1,4 @@
-//! The request to measure a vessel.
+//! The request for measuring a vessel.
 
 use super::wall_level::WallRequest;
 use lumencut_core::error::{Error, ErrorKind, Result};
@@ -15,9 +15,9 @@ pub struct MeasureRequest<'a> {
     pub step: f64,
     /// FWHM of the scanner's point spread (mm), if known.
     pub fwhm: Option<f64>,
-    /// How the level of walls is chosen.
+    /// How the level of the wall is chosen.
     pub wall: WallRequest,
-    /// The tree of the vessel; the vessel itself may be part of it.
+    /// The tree to which the vessel belongs; it may include the vessel itself.
     pub tree: &'a [Vessel],
     /// Called often; returns whether to stop.
     pub stop: Stop<'a>,

@@ -1,4 +1,4 @@
-//! The intensity scale of a vessel: levels of the lumen and of the surroundings.
+//! The intensity scale of a vessel: the levels of its lumen and of its surroundings.
 
 use glam::DVec2;
 
@@ -10,28 +10,27 @@ use lumencut_core::math::statistics::median;
 /// Number of directions that are sampled at each section.
 const DIRECTIONS: usize = 16;
 
-/// Maximum number of sections that are sampled.
 const MOST_PLACES: usize = 150;
 
 /// Search radius (mm) for a vessel whose radius is unknown.
 const SEARCH_RADIUS_MM: f64 = 30.0;
 
-/// The wall is the first slope that has at least this share of the steepest slope.
+/// From inside, the wall is the first slope that has at least this fraction of the steepest slope.
 const STEEP: f64 = 0.4;
 
 /// The surroundings are searched up to this distance beyond the wall (mm).
 const BEYOND: f64 = 1.5;
 
-/// Maximum width of a bright rim (mm); minimum fall below lumen behind it, as a share of its excess.
+/// Maximum width of a bright rim (mm); minimum fall of the values behind it, as a fraction of its excess over lumen.
 const MAX_RIM_MM: f64 = 4.0;
 const RIM_SHARE: f64 = 0.1;
 
-/// Maps values of a volume to shares of the contrast: 0 is the level outside the vessel, 1 that of its lumen.
+/// Maps values of a volume to fractions of the contrast: 0 is the level outside the vessel, 1 that of its lumen.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Scale {
-    /// Level outside the vessel.
+    /// Intensity level outside the vessel.
     pub outside: f64,
-    /// Level of the lumen minus the level outside; negative for lumens darker than their surroundings.
+    /// Intensity level of the lumen minus that outside; negative for lumens darker than their surroundings.
     pub contrast: f64,
 }
 
@@ -44,7 +43,7 @@ impl Scale {
         self.outside + share * self.contrast
     }
 
-    /// Finds the scale from the medians of rings around all sections; `radius` (mm) is approximate.
+    /// Finds the scale from the median values at each distance from the vessel; `radius` (mm) is approximate.
     pub(crate) fn of(voxels: &Voxels, places: &[SectionPlane], radius: Option<f64>) -> Result<Self> {
         let step = 0.5 * voxels.sampling_side;
         let reach = radius.map_or(SEARCH_RADIUS_MM, |radius| 2.5 * radius + 3.0);
@@ -59,7 +58,7 @@ impl Scale {
             ));
         };
         let rings: Vec<f64> = rings.into_iter().flatten().collect();
-        // The slope spans two rings, which is one voxel.
+        // Each slope spans two sampling steps, which is one voxel.
         let slopes: Vec<f64> = rings.windows(3).map(|three| three[2] - three[0]).collect();
         let steepest = slopes.iter().map(|slope| slope.abs()).fold(0.0, f64::max);
         let none = || {
@@ -74,7 +73,7 @@ impl Scale {
         let within = |mm: f64| wall + 1..rings.len().min(wall + 2 + (mm / step).ceil() as usize);
         let lowest = |mm: f64| rings[within(mm)].iter().copied().fold(f64::MAX, f64::min);
         let highest = rings[within(BEYOND)].iter().copied().fold(f64::MIN, f64::max);
-        // A bright ring with darker values beyond it is a rim, such as a stent.
+        // A bright ring with darker values behind it is a rim, such as a stent.
         let is_rim = slopes[wall] > 0.0 && lowest(MAX_RIM_MM) < lumen - RIM_SHARE * (highest - lumen);
         let outside = if slopes[wall] < 0.0 {
             lowest(BEYOND)

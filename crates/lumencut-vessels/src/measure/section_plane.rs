@@ -1,4 +1,4 @@
-//! Planes across a vessel, in a frame that does not turn about the vessel.
+//! Planes across a vessel, in a frame that does not rotate about the axis of the vessel.
 
 use glam::{DVec2, DVec3};
 
@@ -9,13 +9,12 @@ use lumencut_core::math::frames::{Frames, MovingFrame};
 use lumencut_core::math::statistics::median;
 use lumencut_core::vessel_tree::Vessel;
 
-/// Directions are smoothed by a Gaussian of half of the radius, but within this range (mm).
+/// Directions are smoothed by a Gaussian. Its width is half of the radius, clamped to this range (mm).
 const SMOOTHING: [f64; 2] = [1.0, 8.0];
 
-/// Maximum number of sections of a vessel.
 const MOST_SECTIONS: u32 = 20_000;
 
-/// A vessel counts as parallel to an axis from this cosine.
+/// A vessel counts as parallel to an axis if the cosine of their angle exceeds this.
 const ALONG: f64 = 0.9;
 
 /// A point of a vessel and the plane across it.
@@ -25,8 +24,8 @@ pub struct SectionPlane {
     pub at: f64,
     /// Point of the vessel (mm, LPS).
     pub origin: DVec3,
-    /// Unit vectors within the plane, right and down in the image. The view is along a vessel that starts
-    /// towards the head, and against any other, so the patient's left is on the right in axial sections.
+    /// Unit vectors within the plane that point right and down in its image. The view follows a vessel that starts
+    /// towards the head and opposes any other, so the patient's left is on the right in axial sections.
     pub axes: [DVec3; 2],
     /// Unit vector along the vessel.
     pub normal: DVec3,
@@ -54,14 +53,14 @@ pub(crate) struct Track {
 }
 
 impl Track {
-    /// Smooths the directions by a Gaussian of half of `radius` (1 to 8 mm; 1 mm if it is unknown).
+    /// Smooths the directions by a Gaussian as wide as half of `radius` (1 to 8 mm; 1 mm if it is unknown).
     pub(crate) fn new(vessel: &Vessel, radius: Option<f64>) -> Result<Self> {
         let smoothing = (0.5 * radius.unwrap_or(0.0)).clamp(SMOOTHING[0], SMOOTHING[1]);
         let path = CenterlinePath::new(vessel, 0.0)?;
         let distinct = Vessel::new(path.points().to_vec(), None)?;
         let smooth = CenterlinePath::new(&distinct, smoothing)?;
         let begins = smooth.direction()[0];
-        // Down in the image is the patient's back, or the feet if the vessel runs towards the back.
+        // Down in the image is the patient's back, or the feet if the vessel starts towards the front or back.
         let down = if begins.y.abs() > ALONG { DVec3::NEG_Z } else { DVec3::Y };
         let frames = Frames::new(&smooth, MovingFrame::looking(begins, down));
         Ok(Self { path, smooth, frames, is_seen_along: begins.z >= 0.0 })
@@ -77,14 +76,14 @@ impl Track {
         SectionPlane { at, origin: self.path.at(at), axes: [right, frame.ahead], normal: frame.tangent }
     }
 
-    /// Planes from the start to the end of the vessel, at most `step` mm apart.
+    /// Section planes from the start to the end of the vessel, at most `step` mm apart.
     pub(crate) fn places(&self, step: f64) -> Result<Vec<SectionPlane>> {
         if !(step > 0.0 && step.is_finite()) {
             let expected = "a number above 0 mm";
             return Err(Error::new(ErrorKind::Settings, "step", format!("{step} mm"), expected));
         }
         let count = (self.length() / step).ceil();
-        // There is one section more than steps, because both ends have one.
+        // The number of sections is the number of steps plus one, because both ends have a section.
         if count >= f64::from(MOST_SECTIONS) {
             return Err(too_many(self.length(), step, count + 1.0));
         }

@@ -1,4 +1,4 @@
-//! The sections of a vessel: first separate fits, then fits with the values that all sections share.
+//! Fits the sections of a vessel: first each one separately, then with the values that all of them share.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -23,20 +23,20 @@ use lumencut_core::error::Result;
 use lumencut_core::math::statistics::median;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Values are too bright for lumen if they exceed its level by this share of the contrast, or this multiple
-/// of the noise if larger. Mixing contrast medium and enhanced edges stay below it.
+/// Values are too bright for lumen if they exceed its level by this fraction of the contrast, or this
+/// multiple of the noise if larger. Poorly mixed contrast medium and enhanced edges stay below this limit.
 pub(crate) const BRIGHT: (f64, f64) = (0.15, 5.0);
 
-/// A neighbour starts where values rise by this share of the contrast, or multiple of the noise if larger.
+/// A neighbour starts where values rise by this fraction of the contrast, or multiple of the noise if larger.
 const RISE: (f64, f64) = (0.2, 4.0);
 
-/// Rays continue beyond the wall by this many mm plus this many blur widths.
+/// Rays continue this many mm plus this many blur widths beyond the wall.
 const RAY_BEYOND: (f64, f64) = (2.0, 1.5);
 
 /// Diameters below this multiple of the point spread get the flag [`AT_LIMIT`].
 pub(crate) const LIMIT: f64 = 1.5;
 
-/// A contour is irregular if its root mean square relative difference from the ellipse is larger.
+/// A contour is irregular if the root mean square of its relative differences from the ellipse is larger.
 const ROUGH_WALL: f64 = 0.12;
 
 /// Minimum contrast of a lumen, in multiples of the noise.
@@ -45,36 +45,36 @@ pub(crate) const LEAST_CONTRAST: f64 = 2.0;
 /// Standard deviation of diameters that are measured without a blur model, in blur widths.
 const UNMODELLED_WIDTHS: f64 = 0.5;
 
-/// Noise before it is estimated, as a share of the contrast.
+/// Noise before it is estimated, as a fraction of the contrast.
 const FIRST_NOISE: f64 = 0.1;
 
 pub(crate) struct Bench<'a, 'v> {
     pub rays: Rays<'a, 'v>,
     pub blur: Blur,
-    /// FWHM of the point spread, without voxels and interpolation (mm).
+    /// FWHM of the point spread only, without the blur by voxels and interpolation (mm).
     pub fwhm: f64,
-    /// None if walls are not visible.
+    /// The wall's prior; None if walls are not visible.
     pub wall: Option<KnownWall>,
-    /// Given if uncertainties are wanted.
+    /// Data for the uncertainties; None if they are not wanted.
     pub doubt: Option<Doubt>,
 }
 
 pub(crate) struct Doubt {
     pub texture: Texture,
-    /// The blur if the point spread is wider by its standard deviation; None if its width is known exactly.
+    /// The blur of a point spread that is wider by one standard deviation; None if its width is known exactly.
     pub wider: Option<Blur>,
-    /// A possible wall, if none is visible.
+    /// A wall that may exist, if none is visible.
     pub wall: Option<KnownWall>,
 }
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Known {
     pub ellipse: Ellipse,
-    /// Lumen level, as a share of the contrast.
+    /// Intensity level of the lumen, as a fraction of the contrast.
     pub lumen: Level,
-    /// Noise, as a share of the contrast; None before it is estimated.
+    /// Noise, as a fraction of the contrast; None before it is estimated.
     pub noise: Option<f64>,
-    /// The pooled wall; None if the general prior is used.
+    /// The wall pooled over sections; None if the general prior is used.
     pub wall: Option<KnownWall>,
 }
 
@@ -155,7 +155,7 @@ impl Bench<'_, '_> {
         let bright = known.lumen[0].max(0.5) + BRIGHT.0.max(BRIGHT.1 * noise);
         Look {
             levels: [known.lumen[0], 0.0],
-            // For dark lumens, bright values do not mean calcium.
+            // If the lumen is darker than its surroundings, bright values do not mean calcium.
             bright: if is_bright_lumen { bright } else { f64::INFINITY },
             rise: RISE.0.max(RISE.1 * noise),
             reach: known.ellipse.semi_axes()[1] * 2.0 + RAY_BEYOND.0 + RAY_BEYOND.1 * width,
@@ -175,7 +175,7 @@ impl Bench<'_, '_> {
     fn fitted(&self, place: &SectionPlane, known: &Known, fit: Fit) -> Section {
         let (ellipse, width) = (fit.ellipse, self.blur.width(place));
         let boundary = Boundary::new(&ellipse, Whitening::new(self.blur.interpolated(place)));
-        // A lumen narrower than the blur peaks below its level.
+        // If a lumen is narrower than the blur, its peak is below its level.
         let level = 0.5 * boundary.value(ellipse.center);
         let beside = fit.wall.map_or(fit.background, |wall| wall.level[0]);
         let half = beside + level * (fit.lumen[0] - beside);
@@ -216,7 +216,7 @@ impl Bench<'_, '_> {
         let ellipse = ellipse_within(known.ellipse.center, &walls)?;
         let mut flags = flags_of(&rays, |n| walls[n], width);
         let bounds = bounds(flags, &ellipse, || blooming::bounds(&rays, |n| walls[n], width));
-        // Between struts, values of any brightness are allowed.
+        // Between the struts of a stent, values above the lumen level are accepted.
         let shares = [lumen_shares(known.lumen[0], 0.0)[0], f64::INFINITY];
         let is_lumen = encloses_lumen(&self.rays, place, known.ellipse.center, &walls, width, shares);
         if known.lumen[0] < LEAST_CONTRAST * known.noise() || !is_lumen {

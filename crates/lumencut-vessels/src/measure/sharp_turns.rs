@@ -5,7 +5,7 @@ use super::section_plane::SectionPlane;
 use super::sections::Section;
 use lumencut_core::math::statistics::median;
 
-/// Maximum turn within one diameter (degrees); the geometric limit is 115°, real vessels reach 70°.
+/// Maximum turn within one diameter (degrees). The geometric limit is 115°; real vessels reach 70°.
 pub(crate) const SHARP: f64 = 75.0;
 
 pub(crate) fn flag_sharp_turns(places: &[SectionPlane], sections: &mut [Section]) {

@@ -15,9 +15,9 @@ const MAX_VOXELS: [usize; 2] = [448, 160];
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Window {
-    /// Centre (mm, in the plane).
+    /// Centre of the window in the plane (mm).
     pub center: DVec2,
-    /// Radius (mm).
+    /// Radius of the window (mm).
     pub reach: f64,
     /// Approximate radius of the wall, and the distance from it within which voxels are near the wall (mm).
     pub wall: [f64; 2],
@@ -26,11 +26,11 @@ pub(crate) struct Window {
 /// Voxels in groups of sixteen; the last group is filled up with voxels of weight 0.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Samples {
-    /// Position within the plane (mm).
+    /// Position of each voxel within the plane (mm).
     pub x: Vec<[f32; FAN]>,
     pub y: Vec<[f32; FAN]>,
     pub share: Vec<[f32; FAN]>,
-    /// Weight, which falls linearly with the distance from the plane.
+    /// Weight of each voxel, which falls linearly with its distance from the plane.
     pub weight: Vec<[f32; FAN]>,
     /// Index of each voxel relative to the first voxel of the window.
     pub voxel: Vec<[[i16; 3]; FAN]>,
@@ -41,7 +41,7 @@ pub(crate) struct Samples {
 struct Sample {
     numbers: [f32; 4],
     voxel: [i16; 3],
-    /// A pseudo-random number that a voxel has in every window.
+    /// A pseudo-random number of the voxel, which is the same in every window.
     key: u32,
 }
 
@@ -102,13 +102,13 @@ impl Samples {
     }
 }
 
-/// Maximum distance of voxels from the plane (mm): that of the voxels which linear interpolation would use.
+/// Maximum distance of voxels from the plane (mm): as far as linear interpolation would use voxels.
 pub(crate) fn thickness(voxels: &Voxels, place: &SectionPlane) -> f64 {
     let sides = voxels.world_from_index.matrix3;
     [sides.x_axis, sides.y_axis, sides.z_axis].iter().map(|side| side.dot(place.normal).abs()).sum()
 }
 
-/// Voxels of a row within `thickness` of the plane; `z` is the distance of the first, `dz` its increase.
+/// Range of voxels of a row within `thickness` of the plane; the first is at distance `z`, which grows by `dz`.
 fn within(z: f64, dz: f64, thickness: f64, count: i32) -> Option<(i32, i32)> {
     let last = f64::from(count - 1);
     if dz.abs() < 1e-9 {
@@ -119,7 +119,7 @@ fn within(z: f64, dz: f64, thickness: f64, count: i32) -> Option<(i32, i32)> {
     (low <= high).then_some((low as i32, high as i32))
 }
 
-/// Keeps about `most` samples. A slightly different window keeps nearly the same ones.
+/// Keeps about `most` samples. A slightly different window would keep nearly the same ones.
 fn thinned(samples: Vec<Sample>, most: usize) -> Vec<Sample> {
     if samples.len() <= most {
         return samples;

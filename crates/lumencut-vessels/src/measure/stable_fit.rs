@@ -1,27 +1,28 @@
-//! Makes fits independent of their start.
+//! Makes the result of a fit independent of its start values.
 //!
-//! The start of a fit determines which voxels count, what obstructs them, the prior of the shape and the
-//! limits. So the fit is restarted from its own result until it stays there. If it does not, two lumens fit
-//! about equally well. The residual cannot decide between them: on a dissection the lower residual was
-//! farther from the reference in 7 of 10 sections. So the second solution only increases the uncertainty.
+//! The start of a fit determines which voxels are used, what obstructs them, the prior of the shape, and the limits.
+//! So the fit is restarted from its own result until that no longer changes. If it keeps changing, two lumens fit
+//! about equally well. The residual cannot decide between them: in 7 of 10 sections of a dissection, the fit with the
+//! lower residual was farther from the reference. So the second solution only increases the uncertainty.
 
 use super::ellipse::Ellipse;
 use super::fit::Fit;
 use super::section_plane::SectionPlane;
 use super::sections::{Bench, Known};
 
-/// A fit stays if no parameter moves by more than this (blur widths).
+/// A fit has converged if no parameter moves by more than this (blur widths).
 const MAX_MOVEMENT: f64 = 0.05;
 
 /// Maximum number of restarts.
 const MAX_RESTARTS: usize = 3;
 
-/// Two fits show the same lumen up to this ratio of sizes and this distance of centres (radii).
+/// Two fits show the same lumen if the ratio of their sizes and the distance of their centres (radii) are at
+/// most these.
 const SAME_LUMEN: (f64, f64) = (1.6, 0.6);
 
 impl Bench<'_, '_> {
-    /// Restarts the fit until it stays; if it does not, the result has a second solution. Fits that jump to
-    /// another lumen are discarded.
+    /// Restarts the fit until it no longer changes; if it keeps changing, the result has a second solution.
+    /// Fits that jump to another lumen are discarded.
     pub(crate) fn stable_fit(&self, place: &SectionPlane, known: &Known) -> Option<Fit> {
         let least = MAX_MOVEMENT * self.blur.width(place);
         let first = self.fit(place, known)?;
@@ -40,7 +41,7 @@ impl Bench<'_, '_> {
         Some(Fit { other, ..fit })
     }
 
-    /// The fit; a second solution, if any, increases its uncertainty.
+    /// Fits a section; if there is a second solution, it increases the uncertainty.
     pub(crate) fn fit_of_either(
         &self,
         place: &SectionPlane,

@@ -19,26 +19,26 @@ use lumencut_core::named::Named;
 /// The reference diameter is the median of the sections within this distance (mm).
 pub(crate) const REFERENCE_REACH: f64 = 1.5;
 
-/// A distal vessel below this share of the vessel on the other side of the stenosis is itself narrowed.
+/// A distal vessel is itself narrowed if it is below this fraction of the vessel on the other side of the stenosis.
 pub(crate) const NARROWED: f64 = 0.5;
 
-/// The same limit for a comparison vessel, such as the contralateral one (Bartlett et al. 2006, AJNR 27:632).
+/// The same limit relative to a comparison vessel, such as the contralateral one (Bartlett et al. 2006, AJNR 27:632).
 pub(crate) const NARROWED_BESIDE: f64 = 0.87;
 
-/// Range of distances from the stenosis (mm) in which the vessel on its other side is measured.
+/// Distances from the stenosis (mm) between which the vessel on the other side is measured.
 const OTHER_SIDE: [f64; 2] = [3.0, 50.0];
 
-/// A place this close to a section (share of the section distance) lies at the section.
+/// A place closer to a section than this fraction of the section spacing counts as lying at the section.
 const AT_SECTION: f64 = 1e-6;
 
 /// Grading method of a stenosis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
-    /// Relative to the diameter of the normal vessel.
+    /// The diameter is compared with that of the normal vessel.
     Nascet,
-    /// Relative to the assumed original diameter at the stenosis.
+    /// The diameter is compared with the assumed original diameter at the stenosis.
     Ecst,
-    /// Relative to the area of the normal vessel.
+    /// The area is compared with that of the normal vessel.
     Area,
 }
 
@@ -47,10 +47,10 @@ impl Named for Method {
         &[("nascet", Self::Nascet), ("ecst", Self::Ecst), ("area", Self::Area)];
 }
 
-/// Values with which a stenosis is compared.
+/// Values with which the diameter at a stenosis is compared.
 #[derive(Clone, Debug, Default)]
 pub struct Compared {
-    /// Arc lengths of one normal place, or of one on each side of the stenosis (mm).
+    /// Arc length of a normal place, or of one on each side of the stenosis (mm).
     pub reference: Vec<f64>,
     /// Assumed original diameter (mm), for ECST.
     pub original: Option<f64>,
@@ -58,7 +58,7 @@ pub struct Compared {
     pub comparison: Option<f64>,
 }
 
-/// Reasons to doubt a percentage, to be shown with it.
+/// Reasons to doubt a percentage. They should be shown with it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Doubts {
     /// Flags of the sections that were used; see [`super::flags`].
@@ -67,7 +67,7 @@ pub struct Doubts {
     pub is_branch_between: bool,
 }
 
-/// A stenosis with its grade and the values behind it.
+/// A stenosis with its grade and the values from which it was computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stenosis {
     /// Narrowing of diameter or area, 0 to 100.
@@ -80,7 +80,7 @@ pub struct Stenosis {
     pub diameter: f64,
     /// Standard deviation of the diameter (mm).
     pub uncertainty: f64,
-    /// Reference diameter (mm); for the method [`Method::Area`] that of a circle of the reference area.
+    /// Reference diameter (mm); for [`Method::Area`], that of a circle with the reference area.
     pub reference: f64,
     /// Arc length and diameter of each reference (mm).
     pub references: Vec<[f64; 2]>,
@@ -91,9 +91,9 @@ pub struct Stenosis {
 }
 
 impl Profile {
-    /// Grades the stenosis at an arc length (mm). Errors: [`ErrorKind::Measuring`] for places beyond the
-    /// vessel or not measured; a missing original diameter; NASCET at a near-occlusion. Also for references
-    /// narrower than the stenosis, both on one side of it, or within one diameter of it.
+    /// Grades the stenosis at an arc length (mm). Errors: [`ErrorKind::Measuring`] for a place beyond the
+    /// vessel or not measured, a missing original diameter, or NASCET at a near-occlusion. Also if a
+    /// reference is narrower than the stenosis or within one diameter of it, or both are on one side.
     pub fn stenosis(&self, at: f64, method: Method, compared: &Compared) -> Result<Stenosis> {
         let (diameter, uncertainty) = self.diameter_at(at)?;
         let references = compared
@@ -135,8 +135,8 @@ impl Profile {
         })
     }
 
-    /// Diameter and standard deviation at an arc length (mm), interpolated between sections that count.
-    /// [`ErrorKind::Measuring`] for a place beyond the vessel or not measured.
+    /// Diameter and standard deviation at an arc length (mm), interpolated between usable sections
+    /// ([`Profile::counts`]). Errors: [`ErrorKind::Measuring`] for a place beyond the vessel or not measured.
     pub fn diameter_at(&self, at: f64) -> Result<(f64, f64)> {
         self.check_place("place on the vessel", at)?;
         let (place, ends) = self.sections_around(at);
@@ -151,15 +151,15 @@ impl Profile {
         Ok((diameter, place.between(ends.map(|n| self.uncertainty[n]))))
     }
 
-    /// Parts of the standard deviation at an arc length (mm), interpolated between sections.
+    /// Parts of the diameter's standard deviation at an arc length (mm), interpolated between sections.
     pub(crate) fn uncertainty_at(&self, at: f64) -> Parts {
         let (place, ends) = self.sections_around(at);
         let [a, b] = ends.map(|n| &self.uncertainty_parts[n]);
         a.with(b, |a, b| place.between([a, b]))
     }
 
-    /// The sections before and after an arc length (mm); twice the same section if only one of them counts. A
-    /// place at a section always uses that section.
+    /// The sections before and after an arc length (mm); the same section twice if only one of them is
+    /// usable. A place at a section always uses that section.
     fn sections_around(&self, at: f64) -> (LinePlace, [usize; 2]) {
         let place = LinePlace::at(&self.arc_length, at);
         let ends = [place.segment, (place.segment + 1).min(self.len() - 1)];
@@ -172,7 +172,7 @@ impl Profile {
         (place, ends)
     }
 
-    /// Standard deviation of the percentage times the reference diameter (mm); `share` of the lumen remains.
+    /// Standard deviation of the percentage times the reference diameter (mm); `share` is the ratio of the diameters.
     fn percent_uncertainty(&self, at: f64, method: Method, share: f64, references: &[[f64; 2]]) -> f64 {
         let place = self.uncertainty_at(at);
         let known: Vec<(f64, Parts)> = match (method, references) {
@@ -189,7 +189,7 @@ impl Profile {
         100.0 * by_area * deviation_of_sum(&all)
     }
 
-    /// Median diameter of the sections that count around an arc length (mm).
+    /// Median diameter of the usable sections around an arc length (mm).
     pub(crate) fn reference_at(&self, at: f64) -> Result<f64> {
         self.check_place("reference of the stenosis", at)?;
         let around = |n: &usize| (self.arc_length[*n] - at).abs() <= REFERENCE_REACH;
@@ -202,10 +202,10 @@ impl Profile {
             .ok_or_else(|| measuring("reference of the stenosis", format!("nothing at {at:.1} mm"), MEASURED))
     }
 
-    /// Reasons to doubt a percentage at an arc length with references (mm), from the nearest sections.
+    /// Reasons to doubt a stenosis at arc length `at` with these references (mm), from the nearest sections.
     pub fn doubts(&self, at: f64, method: Method, references: &[f64]) -> Doubts {
         let place = self.nearest_section(at);
-        // ECST does not use a reference place.
+        // ECST needs no reference place.
         let told_by = if method == Method::Ecst { &[] } else { references };
         let others: Vec<usize> = told_by.iter().map(|reference| self.nearest_section(*reference)).collect();
         let between = |other: usize| (place.min(other) + 1)..place.max(other);
@@ -222,7 +222,7 @@ impl Profile {
 
     pub(crate) fn check_place(&self, subject: &str, at: f64) -> Result<()> {
         let length = self.arc_length[self.len() - 1];
-        // Lengths may be rounded.
+        // The tolerance allows for rounded arc lengths.
         if at >= -ALONG_LINE && at <= length + ALONG_LINE {
             return Ok(());
         }
@@ -274,10 +274,10 @@ fn original(diameter: Option<f64>) -> Result<f64> {
     Err(measuring("original diameter of the stenosis", found, "the assumed diameter (mm), for ECST"))
 }
 
-/// Rejects a reference closer to the stenosis than the reference diameter: it still belongs to the narrowing.
+/// Rejects a reference closer to the stenosis than the reference diameter, because it still belongs to the narrowing.
 fn refuse_near(at: f64, [place, diameter]: [f64; 2]) -> Result<()> {
     let away = (place - at).abs();
-    // Lengths may be rounded.
+    // The tolerance allows for rounded arc lengths.
     if away + ALONG_LINE >= diameter {
         return Ok(());
     }
@@ -287,7 +287,7 @@ fn refuse_near(at: f64, [place, diameter]: [f64; 2]) -> Result<()> {
     Err(measuring("reference of the stenosis", found, &expected).mend(mend))
 }
 
-/// The reference diameter at the stenosis, interpolated between two references by distance.
+/// The reference diameter at the stenosis, interpolated linearly between two references.
 fn at_stenosis(at: f64, references: &[[f64; 2]]) -> Result<f64> {
     match references {
         [[_, diameter]] => Ok(*diameter),

@@ -6,7 +6,7 @@ use super::profile::Profile;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::math::arc_length::point_at;
 
-/// The length of a segment.
+/// Lengths of a segment between two points of a vessel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stretch {
     /// Length along the vessel (mm).
@@ -32,14 +32,14 @@ pub struct CArm {
 }
 
 impl Profile {
-    /// Length between two arc lengths (mm). [`ErrorKind::Measuring`] for invalid or equal places.
+    /// Length between two arc lengths (mm). Errors: [`ErrorKind::Measuring`] for invalid or equal places.
     pub fn stretch(&self, [from, to]: [f64; 2]) -> Result<Stretch> {
         self.check_stretch([from, to])?;
         let straight = self.point_at(from).distance(self.point_at(to));
         Ok(Stretch { length: (to - from).abs(), straight })
     }
 
-    /// Direction from one arc length to another (mm), of a line fitted to the section centres. Errors:
+    /// Direction from one arc length to another (mm): that of a line fitted to the section centres. Errors:
     /// [`ErrorKind::Measuring`] for places beyond the vessel, or the same place twice.
     pub fn direction(&self, [from, to]: [f64; 2]) -> Result<DVec3> {
         self.check_stretch([from, to])?;
@@ -70,8 +70,8 @@ impl Profile {
         Ok(self.direction(first)?.angle_between(self.direction(second)?))
     }
 
-    /// C-arm angles that show a segment in full length: at rotation `lao` (radians) if given, otherwise
-    /// nearest to the frontal view. Errors: As [`Profile::direction`], or no angulation does so at `lao`.
+    /// C-arm angles that show a segment without foreshortening: at rotation `lao` (radians) if given, otherwise
+    /// nearest to the frontal view. Errors: those of [`Profile::direction`], or if no angulation does so at `lao`.
     pub fn c_arm(&self, stretch: [f64; 2], lao: Option<f64>) -> Result<CArm> {
         let along = self.direction(stretch)?;
         match lao {
@@ -107,21 +107,21 @@ pub fn towards_detector(CArm { lao, cranial }: CArm) -> DVec3 {
     DVec3::new(lao.sin() * cranial.cos(), -lao.cos() * cranial.cos(), cranial.sin())
 }
 
-/// The direction that is up in the C-arm image (LPS), towards the head. For views from directly above or
-/// below, it is the limit of neighbouring views: the back from above, the front from below.
+/// The direction that is up in the C-arm image (LPS), towards the head. Exactly from above or below it is the
+/// limit of neighbouring views: towards the back from above, towards the front from below.
 pub fn up_at_detector(CArm { lao, cranial }: CArm) -> DVec3 {
     DVec3::new(-lao.sin() * cranial.sin(), lao.cos() * cranial.sin(), cranial.cos())
 }
 
 fn least_turned(along: DVec3) -> CArm {
     let front = DVec3::NEG_Y;
-    // A vessel along the frontal view is shown from the patient's left.
+    // A vessel parallel to the frontal view direction is shown from the patient's left.
     let view = front.reject_from_normalized(along).try_normalize().unwrap_or(DVec3::X);
     let view = if (front.dot(along).abs() - 1.0).abs() < 1e-9 { DVec3::X } else { view };
     CArm { lao: view.x.atan2(-view.y), cranial: view.z.clamp(-1.0, 1.0).asin() }
 }
 
-/// Angles at the rotation `lao` that show a direction in full length.
+/// C-arm angles at rotation `lao` that show a direction without foreshortening.
 fn angulated(along: DVec3, lao: f64) -> Result<CArm> {
     let flat = along.x * lao.sin() - along.y * lao.cos();
     if !lao.is_finite() || (along.z.abs() < 1e-9 && flat.abs() > 1e-9) {

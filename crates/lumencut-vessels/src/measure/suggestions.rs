@@ -1,4 +1,4 @@
-//! Suggests the narrowest and widest place and references to the reader; does not detect stenoses.
+//! Suggests the narrowest place, the widest place and references to the reader. It does not detect stenoses.
 
 use std::cmp::Ordering;
 
@@ -8,31 +8,31 @@ use super::stenosis::REFERENCE_REACH;
 use lumencut_core::error::Result;
 use lumencut_core::math::statistics::{median, quantile};
 
-/// Walls are parallel if diameters within this distance (mm) vary by at most this share of their median.
+/// Walls are parallel if diameters within this distance (mm) vary by at most this fraction of their median.
 const PARALLEL: (f64, f64) = (2.5, 0.06);
 
 /// Range of distances of a reference from the stenosis (mm).
 const REFERENCE_DISTANCE_MM: [f64; 2] = [3.0, 50.0];
 
-/// Minimum diameter of a reference, as a share of the typical diameter on its side.
+/// Minimum diameter of a reference, as a fraction of the typical diameter on its side.
 const NORMAL: f64 = 0.92;
 
-/// The calibre changes if neighbouring normal places differ by this factor.
+/// The calibre counts as changed if the diameters of neighbouring normal places differ by this factor.
 const CALIBRE_STEP: f64 = 1.25;
 
-/// The longest diameter is not suggested if an irregular section or a branch lies within this distance (mm).
+/// The longest diameter is not suggested if an irregular section or a branch is within this distance (mm).
 const MIN_DISTANCE_MM: f64 = 1.0;
 
-/// Maximum ratio of the axes of a section, to exclude isolated outliers of the fit: alone, and with similar
-/// neighbours. `NEIGHBOURS` requires this many within this distance (mm) that are at most this share shorter.
+/// Maximum ratio of the axes of a section, to exclude outliers of the fit: on its own, and with similar neighbours.
+/// `NEIGHBOURS` is their maximum distance (mm), minimum number, and by what fraction they may be shorter.
 const ROUND: [f64; 2] = [1.3, 2.0];
 const NEIGHBOURS: (f64, usize, f64) = (2.5, 4, 0.1);
 
-/// At a tapering end, the vessel on one side is wider by at least the first factor, and on the other side
-/// nowhere by the second.
+/// A narrowest place is a tapering end if the vessel is at least the first factor wider on one side, and
+/// nowhere the second factor wider on the other.
 const THIN_END: [f64; 2] = [1.25, 1.1];
 
-/// Number of sections on each side for a median width, because single sections may be outliers.
+/// Number of sections on each side that enter a median width, because single sections may be outliers.
 const MEDIAN_SECTIONS: usize = 2;
 
 /// A place on a vessel, with its diameter.
@@ -45,8 +45,8 @@ pub struct Spot {
 }
 
 impl Profile {
-    /// Narrowest place (median of three sections) that has no [`Profile::hindrances`] and is not a tapering
-    /// end. None if there is no such place ([`Profile::none_safe`], [`Profile::thin_end`]).
+    /// Narrowest place without [`Profile::hindrances`] that is not a tapering end; diameters are medians of
+    /// three sections. None if there is no such place ([`Profile::none_safe`], [`Profile::thin_end`]).
     pub fn narrowest(&self) -> Option<Spot> {
         let spots = self.safe_spots();
         let narrowest = spots.iter().copied().min_by(thinner)?;
@@ -67,7 +67,7 @@ impl Profile {
         narrowest.map(|(_, spot)| spot).filter(|_| self.narrowest().is_none())
     }
 
-    /// Sections that count and have no hindrances; the diameter is the median of three.
+    /// Usable sections without hindrances; the diameter is the median of three sections.
     fn safe_spots(&self) -> Vec<(usize, Spot)> {
         let hindrances = self.hindrances();
         let spot = |n: usize| {
@@ -77,7 +77,7 @@ impl Profile {
         (0..self.len()).filter(|n| self.counts(*n) && hindrances[*n] == 0).filter_map(spot).collect()
     }
 
-    /// Largest width before and after each section, from medians of five; 0 if no section there counts.
+    /// Largest width before and after each section, from medians of five sections; 0 if no section there is usable.
     fn widest_beside(&self) -> Vec<[f64; 2]> {
         let width = |n: usize| median(&mut self.widths(self.around(n, MEDIAN_SECTIONS))).unwrap_or(0.0);
         let widths: Vec<f64> = (0..self.len()).map(width).collect();
@@ -95,7 +95,7 @@ impl Profile {
         n.saturating_sub(count)..(n + count + 1).min(self.len())
     }
 
-    /// Union of all hindrances as bits if no section is free of them; None otherwise.
+    /// Union of all hindrances, as bits, if every section has one; None otherwise.
     pub fn none_safe(&self) -> Option<u32> {
         let hindrances = self.hindrances();
         let is_safe = |n: usize| self.counts(n) && hindrances[n] == 0;
@@ -103,15 +103,15 @@ impl Profile {
         (!(0..self.len()).any(is_safe)).then_some(all)
     }
 
-    /// Longest diameter of the sections that count.
+    /// Longest diameter of the usable sections.
     pub fn widest(&self) -> Option<Spot> {
         let spot = |n| Spot { at: self.arc_length[n], diameter: self.diameter_max[n] };
         let spots = (0..self.len()).filter(|n| self.counts(*n)).map(spot);
         spots.reduce(|a, b| if b.diameter > a.diameter { b } else { a })
     }
 
-    /// Longest diameter to suggest: that of [`Profile::widest`], or of the section of largest area if that is
-    /// an outlier. None if both are outliers, or if an irregular section or a branch is near.
+    /// Longest diameter to suggest: that of [`Profile::widest`] or, if this is an outlier, that of the section with
+    /// the largest area. None if both are outliers, or if an irregular section or a branch is near.
     pub fn offered_widest(&self) -> Option<Spot> {
         let largest = (0..self.len())
             .filter(|n| self.counts(*n))
@@ -145,7 +145,7 @@ impl Profile {
             [(0, -1.0), (1, 1.0)].map(|(n, side)| self.suggested_on((at, side), reach[n], &normal))
         };
         let place = self.diameter_at(at).map_or(0.0, |(diameter, _)| diameter);
-        // Places that are only little wider belong to the narrowing.
+        // Places that are only a little wider still belong to the narrowing.
         let wider = normal.iter().filter(|spot| spot.diameter > CALIBRE_STEP * place);
         let wider: Vec<Spot> = wider.copied().collect();
         let end = |side: f64| self.nearest_branch(at, side).min(calibre_step((at, side), &wider));
@@ -153,7 +153,7 @@ impl Profile {
         Ok(if segment == [None, None] { within([f64::INFINITY; 2]) } else { segment })
     }
 
-    /// All possible references by arc length: no hindrances, parallel walls, not narrower than the stenosis.
+    /// Possible references by arc length: without hindrances, with parallel walls, not narrower than the stenosis.
     fn normal_places(&self, at: f64) -> Vec<Spot> {
         let hindrances = self.hindrances();
         let least = self.diameter_at(at).map_or(0.0, |(diameter, _)| diameter);
@@ -169,7 +169,7 @@ impl Profile {
         (0..self.len()).filter_map(spot).collect()
     }
 
-    /// Distance (mm) to the nearest branch on a side, except a branch at the place itself.
+    /// Distance (mm) to the nearest branch on one side; a branch at the place itself is ignored.
     fn nearest_branch(&self, at: f64, side: f64) -> f64 {
         let away = (0..self.len()).filter(|n| self.flags[*n] & BRANCH != 0);
         let away =
@@ -185,7 +185,7 @@ impl Profile {
         let mut widths = self.widths((0..self.len()).filter(|n| is_there(self.arc_length[*n])));
         let most = quantile(&mut widths, 0.75)?;
         let is_offered = |spot: &&Spot| {
-            // References that are closer would be rejected.
+            // References closer to the stenosis would be rejected.
             let is_apart = self.reference_at(spot.at).is_ok_and(|reference| away(spot.at) >= reference);
             is_there(spot.at) && is_apart && spot.diameter >= NORMAL * most
         };
@@ -193,7 +193,7 @@ impl Profile {
         offered.min_by(|a, b| away(a.at).total_cmp(&away(b.at))).copied()
     }
 
-    /// Median diameter around a section, if its walls are parallel and `but` does not lie among them.
+    /// Median diameter around a section; None if its walls are not parallel or `but` lies inside the window.
     fn parallel(&self, n: usize, but: f64) -> Option<f64> {
         let here = self.arc_length[n];
         let (reach, share) = PARALLEL;

@@ -5,7 +5,7 @@ use super::model::{Model, Modelled};
 use super::slab::Samples;
 use lumencut_core::math::lanes::{FAN, Kernel};
 
-/// Kernel that adds up the normal equations of all samples.
+/// Kernel that sums the normal equations over all samples.
 pub(crate) struct Sums<'a, M, const N: usize> {
     pub samples: &'a Samples,
     pub kept: &'a [[f32; FAN]],
@@ -73,12 +73,12 @@ impl<M: Model<N>, const N: usize> Kernel for Missing<'_, M, N> {
     }
 }
 
-/// Kernel that computes by how much each sample shifts a combination of parameters.
+/// Kernel that computes how far each sample shifts a combination of parameters.
 pub(crate) struct Moves<'a, M, const N: usize> {
     pub samples: &'a Samples,
     pub kept: &'a [[f32; FAN]],
     pub model: &'a M,
-    /// Factor of each derivative in the combination.
+    /// Coefficient of each derivative in the combination.
     pub towards: [f32; N],
 }
 

@@ -1,4 +1,4 @@
-//! Priors on fit parameters.
+//! The priors on the parameters of a fit.
 
 use super::pooled::Level;
 
@@ -22,7 +22,7 @@ impl<const N: usize> Term<N> {
         Self { parameter, by: unit(parameter), level, start: level[0] }
     }
 
-    /// Reduces the prior by `share` times the difference between another parameter and its mean.
+    /// Makes the prior depend on another parameter: `share` times the other's difference from `mean` is subtracted.
     #[must_use]
     pub(crate) fn less(mut self, other: usize, share: f64, mean: f64) -> Self {
         self.by[other] = -share;

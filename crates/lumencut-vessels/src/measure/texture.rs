@@ -1,22 +1,22 @@
 //! Estimates the spatial correlation of image noise.
 //!
-//! The kernels of CT correlate neighbouring voxels, so a mean is less certain than with independent noise.
+//! Reconstruction kernels of CT correlate neighbouring voxels, so a mean is less certain than with independent noise.
 
 use glam::{DMat3, DVec3};
 
 use super::slab::Samples;
 use lumencut_core::math::lanes::{FAN, Isa, Kernel, dispatch};
 
-/// From this distance (voxels), noise counts as independent.
+/// The noise of voxels at least this far apart counts as independent.
 const CORRELATED_VOXELS: usize = 5;
 
-/// Minimum number of voxel pairs, and minimum significance (standard deviations), of a correlation.
+/// Minimum number of voxel pairs for a correlation, and its minimum significance in standard deviations.
 const MIN_EVIDENCE: (f64, f64) = (100.0, 2.0);
 
 /// Residuals above this multiple of the typical value are not noise.
 const LARGEST: f32 = 4.0;
 
-/// Autocorrelation of the noise by the absolute offsets along the axes of the grid.
+/// Autocorrelation of the noise, indexed by the absolute offsets along the grid axes.
 #[derive(Clone, Debug)]
 pub(crate) struct Texture {
     correlation: [[[f32; CORRELATED_VOXELS]; CORRELATED_VOXELS]; CORRELATED_VOXELS],
@@ -26,7 +26,7 @@ pub(crate) struct Texture {
 pub(crate) struct Pairs {
     products: [[[f64; CORRELATED_VOXELS]; CORRELATED_VOXELS]; CORRELATED_VOXELS],
     count: [[[f64; CORRELATED_VOXELS]; CORRELATED_VOXELS]; CORRELATED_VOXELS],
-    /// Sum and number of the products of pairs of distant voxels.
+    /// Sum and number of the products of distant voxel pairs.
     far: [f64; 2],
 }
 
@@ -53,7 +53,8 @@ impl Pairs {
             all.count[i][j][k] += 1.0;
             near = [near[0] + miss * beside, near[1] + 1.0];
         });
-        // All pairs sum to half of (squared sum - sum of squares); those that are not near are distant.
+        // The products of all pairs sum to half of (squared sum - sum of squares). The sum over near pairs is
+        // subtracted.
         let number = each.len() as f64;
         all.far = [(sum * sum - squares) / 2.0 - near[0], number * (number - 1.0) / 2.0 - near[1]];
         all
@@ -100,7 +101,6 @@ fn put_in_order<T: Copy>(samples: &mut [([i16; 3], T)]) -> usize {
     axis
 }
 
-/// Absolute offset of two voxels; None if they are distant.
 #[inline(always)]
 fn apart(a: [i16; 3], b: [i16; 3]) -> Option<[usize; 3]> {
     let apart: [usize; 3] = std::array::from_fn(|n| usize::from(a[n].abs_diff(b[n])));
@@ -108,15 +108,15 @@ fn apart(a: [i16; 3], b: [i16; 3]) -> Option<[usize; 3]> {
         .then_some(apart)
 }
 
-/// Number of cells of the correlation in one row, padded to a power of two.
+/// Number of cells of the flattened correlation, padded to a power of two.
 const CELLS: usize = 128;
 
-/// The cell that distant pairs use; its value is 0.
+/// The cell used for distant pairs; its value is 0.
 const FAR_CELL: i32 = (CORRELATED_VOXELS * CORRELATED_VOXELS * CORRELATED_VOXELS) as i32;
 
 /// Kernel that computes the variance of the noise, Σᵢⱼ wᵢ wⱼ ρ(i - j), over near pairs.
 struct NearProducts {
-    /// Voxels sorted along the first axis, then sixteen distant ones as padding.
+    /// Voxels sorted along the first axis, followed by sixteen distant ones as padding.
     voxel: [Vec<i32>; 3],
     weight: Vec<f32>,
     correlation: [f32; CELLS],
@@ -200,8 +200,8 @@ impl Texture {
 
     pub(crate) fn of(pairs: &Pairs) -> Self {
         let mut all = Self::white();
-        // The fit absorbs the slowest noise of a section, which lowers all correlations by the same offset.
-        // Distant pairs are independent, so they show that offset.
+        // The fit absorbs the slowest variations of the noise in a section, which lowers all correlations by
+        // the same offset. Distant pairs are independent, so they show that offset.
         let taken = -(pairs.far[0] / pairs.far[1].max(1.0)).min(0.0);
         let variance = pairs.products[0][0][0] / pairs.count[0][0][0].max(1.0) + taken;
         for i in 0..CORRELATED_VOXELS {

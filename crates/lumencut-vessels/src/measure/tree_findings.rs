@@ -1,9 +1,9 @@
-//! Values of a tree that all its vessels share.
+//! Values estimated on a tree that apply to all its vessels.
 
 use super::profile::PointSpread;
 use super::tree_walls::VesselWall;
 
-/// Values found on a tree that apply to all its vessels.
+/// Values estimated on a tree that apply to all its vessels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TreeFindings {
     /// Point spread of the scan.

@@ -1,19 +1,19 @@
 //! Combines the wall levels of the vessels of a tree.
 //!
-//! The level of a vessel is that of the tree plus a difference of its own. The size of these differences is
-//! unknown, so several standard deviations are tried, each weighted by its likelihood.
+//! The level of a vessel is that of the tree plus an individual difference. The spread of these differences
+//! is unknown, so several standard deviations are tried, each weighted by its likelihood.
 
 use super::branches::shares_line;
 use super::pooled::Level;
 use lumencut_core::vessel_tree::Vessel;
 
-/// Standard deviations of these differences that are tried, as shares of the prior standard deviation.
+/// Standard deviations of the differences that are tried, as fractions of the prior standard deviation.
 const TRIED_DEVIATIONS: [f64; 6] = [0.16, 0.32, 0.48, 0.64, 0.8, 0.96];
 
 /// Wall level found on the sections of a vessel, without the prior.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct VesselWall {
-    /// Number of the vessel in its tree.
+    /// Index of the vessel in its tree.
     pub vessel: usize,
     /// Level and standard deviation, in the volume's unit.
     pub level: Level,
@@ -28,7 +28,7 @@ pub struct PooledWall {
     pub vessels: usize,
 }
 
-/// Wall level expected from the other vessels, except those that share voxels.
+/// Wall level expected from the other vessels of the tree, except those that share voxels with this one.
 pub(crate) fn wall_beside(
     walls: &[VesselWall],
     tree: &[Vessel],
@@ -59,7 +59,7 @@ fn by_others(expected: Level, levels: &[Level]) -> Level {
     [mean, mean_of(&|level| level[1].powi(2) + (level[0] - mean).powi(2)).sqrt()]
 }
 
-/// Log-likelihood that vessels differ from their tree by a standard deviation `apart`, and the level then.
+/// Log-likelihood that vessels differ from their tree by a standard deviation `apart`, and the level then estimated.
 fn by_others_with_deviation([mean, deviation]: Level, apart: f64, levels: &[Level]) -> (f64, Level) {
     let between = apart.powi(2);
     let (mut level, mut variance, mut likely) = (mean, deviation.powi(2) - between, 0.0);

@@ -1,7 +1,7 @@
 //! The prior of the vessel wall, and the result of its fit.
 //!
-//! Mostly fat surrounds the wall of an artery. The value midway between lumen and fat lies in the wall, so
-//! without a wall model a lumen of 3 mm measures 3.5 mm. In CT, walls have about the level of soft tissue.
+//! The wall of an artery is mostly surrounded by fat. The value midway between lumen and fat lies in the wall, so
+//! without a wall model a lumen of 3 mm is measured as 3.5 mm. In CT, walls have about the level of soft tissue.
 
 use glam::DVec2;
 
@@ -15,7 +15,7 @@ use super::terms::unit;
 /// Expected thickness of the wall as a factor of √diameter (mm), and the standard deviation of its logarithm.
 const THICKNESS: [f64; 2] = [0.45, 0.5];
 
-/// Range of the expected thickness (mm), because the walls of wide arteries are not thicker without limit.
+/// Range of the expected thickness (mm), because even the walls of very wide arteries have limited thickness.
 const MIDDLE: [f64; 2] = [0.4, 1.6];
 
 /// Minimum variance of the logarithm of a thickness.
@@ -23,15 +23,15 @@ const LEAST_THICKNESS: f64 = 1e-4;
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wall {
-    /// Level as a share of the contrast, and its standard deviation.
+    /// Intensity level of the wall, as a fraction of the contrast, and its standard deviation.
     pub level: Level,
     /// Logarithm of the thickness (mm), and its standard deviation.
     pub(crate) log_thickness: Level,
-    /// Change of the log thickness with the level: a thin, bright wall looks like a thick one.
+    /// Change of the log thickness per change of the level: a thin, bright wall looks like a thick one.
     pub slope: f64,
-    /// Harmonics of the surroundings, as shares of the contrast; see [`super::model::ThreeLevels`].
+    /// Harmonics of the surroundings, as fractions of the contrast; see [`super::model::ThreeLevels`].
     pub sectors: [f64; HARMONICS],
-    /// The point from which directions are measured (mm, in the plane).
+    /// The point in the plane from which directions are measured (mm).
     pub origin: DVec2,
 }
 
@@ -55,7 +55,7 @@ impl Wall {
         Self { level, log_thickness, slope: 0.0, sectors: [0.0; HARMONICS], origin }
     }
 
-    /// Log thickness that the same voxels show if the wall level (a share of the contrast) is known.
+    /// Log thickness that the same voxels imply if the wall level (a fraction of the contrast) is known.
     pub(crate) fn log_thickness_at(&self, level: f64) -> Level {
         let [mean, deviation] = self.log_thickness;
         let square = deviation.powi(2) - (self.slope * self.level[1]).powi(2);
@@ -70,7 +70,7 @@ impl Wall {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct KnownWall {
     pub level: Level,
-    /// Log thickness and its standard deviation; None if only the width of the lumen predicts it.
+    /// Log thickness and its standard deviation; None if only the lumen width predicts it.
     pub(crate) log_thickness: Option<Level>,
     /// See [`Wall::slope`]; `log_thickness` applies to a wall of level `level`.
     pub slope: f64,

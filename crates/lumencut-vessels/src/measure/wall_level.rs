@@ -8,21 +8,21 @@ use crate::voxels::Voxels;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::limits::Limits;
 
-/// Wall level in CT (HU) and its standard deviation: soft tissue, in arteries with and without plaque.
+/// Intensity of walls in CT (HU) and its standard deviation: soft tissue, in arteries with and without plaque.
 pub const CT_WALL: Level = [45.0, 25.0];
 
-/// In a volume in HU, contrast medium is above `LUMEN` and the surroundings are within `AROUND`.
+/// A volume may be in HU if its lumen is above `LUMEN` and its surroundings are within `AROUND`.
 const LUMEN: f64 = 80.0;
 const AROUND: [f64; 2] = [-400.0, 400.0];
 
-/// A wall is darker than its lumen by at least this share of the contrast.
+/// A wall is darker than its lumen by at least this fraction of the contrast.
 const BELOW_LUMEN: f64 = 0.1;
 
 const DEVIATION: Limits =
     Limits::new(0.1, 1000.0, "(the standard deviation of the wall's level, in the volume's unit)");
 const LEVEL: Limits = Limits::new(-2000.0, 1e5, "(the wall's level, in the volume's unit)");
 
-/// How the caller chooses the wall level.
+/// How the caller chooses the intensity level of the wall.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum WallRequest {
     /// [`CT_WALL`] in CT; no wall in other volumes.
@@ -30,7 +30,7 @@ pub enum WallRequest {
     Automatic,
     /// Walls are not modelled.
     Off,
-    /// This level and standard deviation, in the volume's unit.
+    /// This intensity level and standard deviation, in the volume's unit.
     Level(Level),
 }
 
@@ -50,11 +50,11 @@ pub enum WallSource {
     Hounsfield,
     /// The caller gave this level.
     Given(Level),
-    /// Other vessels of the tree changed the expected level.
+    /// The level expected after including other vessels of the tree.
     Pooled {
         /// The level that the caller gave, if any.
         given: Option<Level>,
-        /// The level that the other vessels show.
+        /// The level estimated from the other vessels.
         by_others: PooledWall,
     },
     /// No walls: the caller turned them off.
@@ -68,7 +68,7 @@ pub enum WallSource {
 }
 
 impl WallSource {
-    /// The prior level in the volume's unit; None if no walls are modelled.
+    /// The expected level in the volume's unit; None if no walls are modelled.
     pub fn expected(&self) -> Option<Level> {
         match self {
             Self::Hounsfield => Some(CT_WALL),
@@ -84,7 +84,7 @@ impl WallSource {
     }
 }
 
-/// Whether a wall level from other vessels is plausible for this vessel.
+/// Whether a wall level from other vessels is plausible for this vessel: clearly darker than the lumen.
 pub(crate) fn is_below_lumen(wall: &PooledWall, scale: &Scale) -> bool {
     scale.share(wall.level[0]) <= 1.0 - BELOW_LUMEN
 }
@@ -113,7 +113,7 @@ pub(crate) fn expected(
     }
 }
 
-/// Whether a volume is in HU: it has negative values, and lumen and surroundings have levels of CT.
+/// Whether a volume is in HU: it has negative values, and its lumen and surroundings have levels typical of CT.
 fn is_hounsfield(voxels: &Voxels, scale: &Scale) -> bool {
     let around = (AROUND[0]..=AROUND[1]).contains(&scale.outside);
     around

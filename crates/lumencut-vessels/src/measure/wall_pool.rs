@@ -1,21 +1,21 @@
-//! Pools the wall of a vessel over its sections: they share one level, and a thickness that varies slowly.
+//! Pools the wall of a vessel over its sections, which share one level and a slowly varying thickness.
 
 use super::ellipse::Ellipse;
 use super::fit::Fit;
 use super::pooled::Level;
 use super::wall::{KnownWall, Wall, beforehand};
 
-/// Distance (mm) over which weights fall to 1/e, and the minimum standard deviation of the log thickness.
+/// Distance (mm) over which the weight of a section falls to 1/e; minimum standard deviation of the log thickness.
 const EVEN: (f64, f64) = (10.0, 0.1);
 
-/// Minimum standard deviation of the level, as a share of the contrast.
+/// Minimum standard deviation of the level, as a fraction of the contrast.
 const LEAST_LEVEL: f64 = 0.01;
 
-/// Sections within these distances (mm) count as one. For the level, errors of the model persist along a
-/// stretch; for the thickness, sections share voxels.
+/// Sections within these distances (mm) count as one. The first is for the level, because errors of the model
+/// persist along a vessel; the second is for the thickness, because close sections share voxels.
 const SHARED_WIDTHS: [f64; 2] = [5.0, 2.0];
 
-/// Minimum share of the sections whose wall must be visible.
+/// Minimum fraction of the sections in which the wall must be visible.
 const MIN_VISIBLE_WALLS: f64 = 1.0 / 3.0;
 
 /// Pooled wall at each section. `inflation` is the variance factor of correlated noise, `known` the prior
@@ -41,7 +41,7 @@ pub(crate) fn pooled(
         let (mut slopes, mut shares) = (0.0, f64::MIN_POSITIVE);
         for (there, other, wall) in &walls {
             let weight = (-(there - here).abs() / EVEN.0).exp() * apart;
-            // Pools the difference from the thickness that the width of the lumen predicts.
+            // Pools the difference from the thickness that the lumen width predicts.
             let [mean, deviation] = wall.log_thickness_at(level[0]);
             weighted.add([mean - beforehand(other)[0] + first[0], deviation], first, weight);
             let share = weight / deviation.powi(2);
@@ -60,7 +60,7 @@ pub(crate) fn pooled(
         .collect()
 }
 
-/// Wall level without the prior `known`, as a share of the contrast; None if the sections do not show it.
+/// Wall level without the prior `known`, as a fraction of the contrast; None if the sections do not show it.
 pub(crate) fn unpooled_level(
     at: &[f64],
     fits: &[Option<Fit>],
@@ -94,7 +94,7 @@ pub(crate) fn is_apart(known: &KnownWall, pooled: &[KnownWall], fits: &[Option<F
     all.iter().filter(|is| **is).count() as f64 >= MIN_VISIBLE_WALLS * all.len() as f64
 }
 
-/// Share of the information of a section that its neighbours do not repeat.
+/// Fraction of a section's information that neighbouring sections do not repeat.
 fn independent(at: &[f64], shared: f64) -> f64 {
     let length = at.last().zip(at.first()).map_or(0.0, |(last, first)| last - first);
     let step = length / (at.len().max(2) - 1) as f64;
@@ -112,7 +112,7 @@ impl WeightedLevel {
         Self { precision, weighted: mean * precision }
     }
 
-    /// Adds what a section shows beyond the prior `before` of its fit, with this weight.
+    /// Adds what a section shows beyond the prior `before` of its fit, multiplied by `weight`.
     fn add(&mut self, level: Level, before: Level, weight: f64) {
         let [after, prior] = [level, before].map(Self::new);
         let precision = (after.precision - prior.precision).max(0.0);

@@ -1,4 +1,4 @@
-//! Progress of measuring. Each section asks once per pass whether to stop, and these calls are counted.
+//! Counts the progress of measuring: each section asks once per pass whether to stop, and these calls are counted.
 
 use lumencut_core::error::Result;
 use lumencut_core::progress::Progress;
@@ -8,8 +8,8 @@ use lumencut_core::vessel_tree::Vessel;
 /// Approximate number of times that each section is visited.
 const PASSES: f64 = 3.0;
 
-/// Measures vessels in sections `step` mm apart and reports the share of the expected calls as progress.
-/// `measure` receives the stop function that it must use. Errors: Those of `measure`.
+/// Measures vessels in sections `step` mm apart. Progress is the number of calls of the stop function that
+/// `measure` receives, relative to the expected number. Errors: those of `measure`.
 pub fn with_progress<T>(
     progress: Option<&Progress>,
     (vessels, step): (&[Vessel], f64),

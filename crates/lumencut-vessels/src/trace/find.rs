@@ -1,4 +1,4 @@
-//! Finds all vessels of an angiography without a seed. All scans use the same thresholds.
+//! Finds all vessels of an angiography without a start point (seed). All scans use the same thresholds.
 
 pub(crate) mod bone;
 pub(crate) mod candidates;
@@ -44,22 +44,22 @@ pub const SMALLEST_RADIUS: f64 = 1.0;
 
 /// Which vessels to find.
 pub struct FindRequest<'a> {
-    /// A vessel ends where its radius stays smaller (mm).
+    /// A vessel ends where its radius stays below this (mm).
     pub smallest_radius: f64,
-    /// Called often; tells whether to stop.
+    /// Called often; returns whether to stop.
     pub stop: Stop<'a>,
     /// Receives the progress, if given.
     pub progress: Option<&'a Progress>,
 }
 
-/// Finds all vessels of a volume, as connected parts with the most important part first.
+/// Finds all vessels of a volume, as connected parts; the most important part comes first.
 pub fn find_vessels(volume: &Volume, request: &FindRequest) -> Result<Trees> {
     let voxels = &Voxels::new(volume);
     let trees = trees(voxels, None, request)?;
     Ok(Trees { vessels: doubted_where_scarce(voxels, trees.vessels, trees.is_angiography), ..trees })
 }
 
-/// Finds all vessels of a volume. Around a seed (mm, LPS) outside all of them, fainter ones are found too.
+/// Finds all vessels of a volume. If a seed (mm, LPS) lies outside all of them, fainter ones around it are found too.
 pub fn trees(voxels: &Voxels, seed: Option<DVec3>, request: &FindRequest) -> Result<Trees> {
     let stages = Stages::begin(request.progress);
     let Some(tubes::Tubes { scan, tracks, shapes }) = tubes::tubes(voxels, seed, request, stages)? else {

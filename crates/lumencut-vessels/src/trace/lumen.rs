@@ -1,4 +1,4 @@
-//! Recognises lumen by its values, fits cross-sections along a line, and centres the line.
+//! Recognises lumen by its values, fits cross-sections along a line, and centres the line in the lumen.
 
 pub mod across;
 pub mod cross_section;

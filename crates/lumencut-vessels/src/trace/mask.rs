@@ -17,23 +17,23 @@ use lumencut_core::volume::Volume;
 
 /// How to trace a mask.
 pub struct MaskRequest<'a> {
-    /// The values that are lumen; if None, all values except 0.
+    /// The values of the mask that are lumen; if None, all values except 0.
     pub labels: Option<&'a [i64]>,
-    /// Minimum length of a branch, in radii of its parent.
+    /// Minimum length of a branch, in radii of its parent vessel.
     pub parent_radii: f64,
     /// Maximum distance between neighbouring points (mm).
     pub step: f64,
-    /// Maximum width of a gap that is bridged (mm).
+    /// Maximum width of a gap across which a bridge is built (mm).
     pub bridge: f64,
-    /// Refines each vessel in a volume, if given.
+    /// Function that refines each vessel in a volume, if given.
     pub refine: Option<Refine<'a>>,
-    /// Called often; tells whether to stop.
+    /// Called often; returns whether to stop.
     pub stop: Stop<'a>,
     /// Receives the progress, if given.
     pub progress: Option<&'a Progress>,
 }
 
-/// The vessels of a mask, and what was noticed in it.
+/// The vessels of a mask, and findings about the mask.
 pub struct TracedMask {
     /// Vessels. Those that meet share bit-identical end points.
     pub vessels: Vec<MaskVessel>,

@@ -37,7 +37,7 @@ use lumencut_core::math::arc_length::{arc_lengths, point_at};
 use lumencut_core::math::same_place::ALONG_LINE;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Maximum number of cells, because cell numbers have 32 bits.
+/// Maximum number of cells, because cell indices have 32 bits.
 const MOST_CELLS: usize = u32::MAX as usize;
 
 /// Default minimum length of a branch, in radii of its parent.
@@ -48,11 +48,11 @@ pub(crate) struct Skeletonization<'a> {
     pub parent_radii: f64,
     /// Maximum distance between neighbouring points (mm).
     pub step: f64,
-    /// Refines each vessel in a volume, if given.
+    /// Function that refines each vessel in a volume, if given.
     pub refine: Option<Refine<'a>>,
-    /// Called often; tells whether to stop.
+    /// Called often; returns whether to stop.
     pub stop: Stop<'a>,
-    /// Called with the number of a step of [`COSTS`] when that step begins.
+    /// Called at the start of each step with the step's index in [`COSTS`].
     pub begin: &'a (dyn Fn(usize) + Sync),
 }
 
@@ -70,7 +70,7 @@ pub(crate) struct Skeleton {
     pub voxels: usize,
 }
 
-/// If an end is moved, the line moves with it over this many radii.
+/// If an end is moved, the shift fades out along the line over this many radii.
 const JOINED: f64 = 1.5;
 
 pub(crate) fn skeleton(mut foreground: Foreground, skeleton: &Skeletonization) -> Result<Skeleton> {
@@ -130,7 +130,7 @@ fn vessels(graph: &Graph, lumen: &Lumen, skeleton: &Skeletonization) -> Result<V
     Ok(made.into_iter().flatten().collect())
 }
 
-/// Moves ends that lie on another line to where that line passes; the shift fades out along the line.
+/// Moves ends that lie on another line to where that line runs now; the shift fades out along the moved line.
 fn attach(line: &mut ThroughLine, node_place: &[Option<DVec3>], on_other: [Option<f64>; 2]) {
     let ways = arc_lengths(&line.points);
     let whole = ways[ways.len() - 1];
@@ -152,7 +152,7 @@ fn attach(line: &mut ThroughLine, node_place: &[Option<DVec3>], on_other: [Optio
     }
 }
 
-/// Bends a line to `place`, from where it leaves the other lumen, `radius` mm away.
+/// Bends a line to `place`, starting where it is `radius` mm away, outside the other lumen.
 fn lead_in(points: &mut [DVec3], end: usize, place: DVec3, radius: f64, next: usize) {
     let last = points.len() - 1;
     let from_end = |n: usize| if end == 0 { n } else { last - n };
@@ -208,8 +208,8 @@ fn bring_back(points: &mut [DVec3], ways: &[f64], end: usize, delta: DVec3, leng
     }
 }
 
-/// Radius at each point: that of a circle of the same area as the section, at most half a voxel beyond the
-/// nearest wall. Within a voxel of a cap the section degenerates, so the last good value is used.
+/// Radius at each point: that of a circle with the area of the section, at most half a voxel more than the
+/// distance to the wall. Within a voxel of a cap the section degenerates, so the last good value is used.
 fn radii(points: &[DVec3], is_free: [bool; 2], lumen: &Lumen) -> Vec<f64> {
     let side = lumen.side();
     let reach = vec![2.0 * side; points.len()];

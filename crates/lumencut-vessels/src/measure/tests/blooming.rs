@@ -18,7 +18,7 @@ fn bright(rim: [f64; 2]) -> Ray {
 
 #[test]
 fn bounds_are_those_of_the_areas_with_and_without_what_is_bright() {
-    // Bright material from 3 to 5 mm covers a quarter of a lumen of 4 mm.
+    // Bright material between 3 and 5 mm covers a quarter of the wall of a lumen with a radius of 4 mm.
     let rays: Vec<Ray> =
         (0..RAYS).map(|n| if n < RAYS / 4 { bright([3.0, 5.0]) } else { free(4.0) }).collect();
     let [low, high] = bounds(&rays, |_| 4.0, 1.0);

@@ -8,7 +8,7 @@ fn across(axes: [DVec3; 2]) -> SectionPlane {
 #[test]
 fn widths_and_variances_belong_together() {
     assert!((fwhm_of(variance_of(0.8)) - 0.8).abs() < 1e-15);
-    // Half of the width from the centre, the Gaussian has half of its maximum.
+    // At a distance of half its full width from the centre, the Gaussian has half of its maximum.
     assert!(((-0.4_f64.powi(2) / (2.0 * variance_of(0.8))).exp() - 0.5).abs() < 1e-12);
 }
 

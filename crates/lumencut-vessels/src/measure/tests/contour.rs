@@ -8,7 +8,7 @@ fn moments_give_the_ellipse_that_walls_enclose() {
     let wall: Vec<f64> = (0..RAYS).map(|n| ellipse.radius_towards(direction(n))).collect();
     let found = ellipse_within(DVec2::new(1.0, 2.0), &wall).unwrap();
     assert!(found.center.distance(DVec2::new(1.0, 2.0)) < 1e-9);
-    // A polygon of 64 corners has slightly less area.
+    // The polygon with 64 corners has slightly less area than the ellipse.
     assert!((found.mean / ellipse.mean - 1.0).abs() < 5e-3);
     assert!(found.stretch.distance(ellipse.stretch) < 0.01);
     assert!(irregularity(&ellipse, &wall) < 1e-12);
@@ -21,7 +21,7 @@ fn rays_that_see_the_blurred_ellipse_tell_its_own_wall() {
     let level = 0.5 * boundary.value(ellipse.center);
     let rays: Vec<Ray> = (0..RAYS)
         .map(|n| {
-            // The true crossing, by bisection.
+            // Finds the true crossing by bisection.
             let (mut low, mut high) = (0.0, 4.0);
             for _ in 0..40 {
                 let middle = f64::midpoint(low, high);
@@ -51,7 +51,7 @@ fn the_largest_ball_touches_the_nearest_wall_of_its_neighbours() {
     };
     let at: Vec<f64> = (0..9).map(f64::from).collect();
     let centers: Vec<DVec3> = at.iter().map(|at| DVec3::new(0.0, 0.0, *at)).collect();
-    // A tube of 3 mm, narrowed to 1 mm at 4 mm, without a wall at 8 mm.
+    // A tube with a radius of 3 mm: 1 mm at arc length 4 mm, and no wall at 8 mm.
     let contours: Vec<Vec<DVec3>> = at
         .iter()
         .map(|at| match *at {

@@ -6,7 +6,7 @@ use lumencut_core::volume::{Volume, Voxels as Stored};
 
 const SIDE: usize = 41;
 
-/// Whether a circle of 8 mm counts as lumen in a slice of 0.5 mm voxels with the values `share`.
+/// Whether a contour with a radius of 8 mm counts as lumen in a slice of 0.5 mm voxels with the values `share`.
 fn is_plausible(share: impl Fn(DVec2) -> f32) -> bool {
     let at = |n: usize| (n as f64 - 20.0) * 0.5;
     let slice: Vec<f32> = (0..SIDE * SIDE).map(|n| share(DVec2::new(at(n % SIDE), at(n / SIDE)))).collect();

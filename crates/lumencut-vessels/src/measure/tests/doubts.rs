@@ -25,7 +25,7 @@ fn a_branch_counts_between_the_place_and_a_reference_alone() {
         |at: f64| flagged(&[(at, BRANCH)]).doubts(15.0, Method::Nascet, &[10.0, 20.0]).is_branch_between;
     assert!(between(10.5) && between(14.5) && between(15.5) && between(19.5));
     assert!(!between(9.5) && !between(20.5));
-    // A branch at the place itself is reported by its flag.
+    // A branch at a used place is reported by its flag.
     for at in [10.0, 15.0, 20.0] {
         let doubts = flagged(&[(at, BRANCH)]).doubts(15.0, Method::Nascet, &[10.0, 20.0]);
         assert_eq!(doubts, Doubts { flags: BRANCH, is_branch_between: false });
@@ -49,7 +49,7 @@ fn a_section_that_does_not_count_tells_nothing_between_it_and_one_that_does() {
     made.uncertainty[20] = 2.8;
     assert_eq!(made.diameter_at(9.9).expect("a diameter"), (4.0, 0.1));
     assert_eq!(made.diameter_at(10.4).expect("a diameter"), (4.0, 0.1));
-    // At a section, its own values are used.
+    // A place at a section uses only the values of that section.
     assert_eq!(made.diameter_at(10.0).expect("a diameter"), (8.0, 2.8));
     assert_eq!(made.doubts(9.9, Method::Nascet, &[]).flags, NO_EDGE);
 }

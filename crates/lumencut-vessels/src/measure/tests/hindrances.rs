@@ -4,7 +4,7 @@ use super::*;
 use crate::measure::flags::RECENTERED;
 use glam::DVec3;
 
-/// A vessel of 8 mm over 40 mm along z.
+/// A vessel along z that is 8 mm wide and 40 mm long.
 fn vessel() -> Profile {
     let mut made = profile(&[[8.0, 0.1]; 81]);
     for n in 0..made.len() {
@@ -50,7 +50,7 @@ fn where_the_middle_jumps_there_is_another_lumen_one_diameter_around() {
         *center += DVec3::X * 2.6;
     }
     assert_eq!(where_is(&made, CHANGE_OF_LUMEN), Some([11.5, 28.0]));
-    // A vessel at 45° to its centerline, or with a slight shift, has no change of lumen.
+    // A vessel at 45° to its centerline, or one with a slight shift, has no change of lumen.
     let mut made = vessel();
     for n in 0..made.len() {
         made.center[n].x = made.arc_length[n] + if n < 40 { 0.0 } else { 1.0 };
@@ -71,7 +71,7 @@ fn half_of_a_jump_is_a_change_where_level_or_width_step_too() {
     assert!(!aside(&|_| {}));
     assert!(aside(&|made| made.levels[40..].fill([400.0, 50.0])));
     assert!(aside(&|made| made.area[40..].fill(PI * 36.0)));
-    // Mixing of contrast medium changes the level less than the limit.
+    // Where contrast medium mixes, the level changes by less than the limit.
     assert!(!aside(&|made| made.levels[40..].fill([350.0, 50.0])));
 }
 

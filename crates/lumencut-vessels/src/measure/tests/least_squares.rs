@@ -37,7 +37,7 @@ fn what_is_not_allowed_is_no_start() {
 
 #[test]
 fn what_is_expected_pulls_by_its_weight() {
-    // 4 (x - 1)² + 4 (x - 6)² has its minimum in the middle.
+    // 4 (x - 1)² + 4 (x - 6)² has its minimum midway between 1 and 6.
     let found = minimum([0.0], 20, |[x]: &[f64; 1]| {
         let mut normal = Normal::zero();
         normal.expect(&[1.0], 1.0 - x, 0.5);

@@ -2,7 +2,7 @@ use super::*;
 use glam::{DAffine3, DVec3};
 use lumencut_core::volume::{Volume, Voxels as Stored};
 
-/// Sampling steps (mm) of rays, and of the search within 30 mm, in a volume of 32 × 22 × 22 voxels.
+/// Sampling steps (mm): of rays, and of the search within 30 mm, in a volume of 32 × 22 × 22 voxels.
 fn steps(sides: [f64; 3]) -> [f64; 2] {
     let values = vec![0.0_f32; 32 * 22 * 22];
     let placed = DAffine3::from_scale(DVec3::from_array(sides));

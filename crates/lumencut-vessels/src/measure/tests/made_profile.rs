@@ -8,7 +8,7 @@ use super::parts::Parts;
 use super::profile::{Profile, Source};
 use super::wall_level::WallSource;
 
-/// A profile of circles with these diameters and uncertainties (mm), 0.5 mm apart.
+/// A profile of circular sections with these diameters and uncertainties (mm), 0.5 mm apart.
 pub fn profile(sections: &[[f64; 2]]) -> Profile {
     let count = sections.len();
     let numbers = |of: &dyn Fn(&[f64; 2]) -> f64| sections.iter().map(of).collect::<Vec<_>>();

@@ -6,7 +6,7 @@ const SEARCH_RANGE: [f64; 2] = [0.3, 3.0];
 fn the_median_of_estimates_that_agree_is_taken() {
     let [fwhm, deviation] = agreed(&mut [1.1, 0.9, 1.0, 3.0, 1.0], SEARCH_RANGE).unwrap();
     assert_eq!(fwhm, 1.0);
-    // 1.4826 times the median deviation, which is 0.1.
+    // The median deviation is 0.1; multiplied by 1.4826 it becomes a standard deviation.
     assert!((deviation - 0.14826).abs() < 1e-9);
 }
 

@@ -27,7 +27,7 @@ fn a_bend_is_no_restless_line() {
 
 #[test]
 fn a_line_along_voxels_is_no_restless_line() {
-    // A line with sideways steps of a voxel of 0.7 mm, one every 2 mm.
+    // A line with sideways steps of one voxel (0.7 mm), one every 2 mm.
     let stairs = |n: i32| DVec3::new(0.7 * f64::from(n / 3), 0.0, 0.7 * f64::from(n));
     for diameter in [2.0, 6.0, 20.0] {
         let turned = sharpest((0..90).map(stairs).collect(), diameter);
@@ -37,7 +37,7 @@ fn a_line_along_voxels_is_no_restless_line() {
 
 #[test]
 fn a_line_that_jumps_from_one_vessel_to_the_next_is_restless() {
-    // A line that jumps from a graft of 20 mm into a limb, and one with a hook at its end.
+    // A line that jumps from a 20 mm wide graft into one of its limbs, and a line with a hook at its end.
     let jump = |n: i32| DVec3::new(if n < 40 { 0.0 } else { 12.0 }, 0.0, f64::from(n));
     let turned = sharpest((0..80).map(jump).collect(), 20.0);
     assert!(turned > SHARP, "{turned}");

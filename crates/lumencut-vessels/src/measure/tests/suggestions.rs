@@ -12,7 +12,7 @@ fn narrowest(sections: &[[f64; 2]]) -> [f64; 2] {
 fn a_fit_that_is_not_sure_is_not_suggested() {
     let mut sections = vec![[12.0, 0.8]; 20];
     sections[4..7].fill([10.0, 0.8]);
-    // Fits between the struts of a stent.
+    // Fits between the struts of a stent are too narrow.
     sections[12..15].fill([1.0, 0.8]);
     assert_eq!(narrowest(&sections), [2.0, 10.0]);
 }
@@ -50,7 +50,7 @@ fn the_narrowest_place_is_never_one_that_is_flagged_or_unsafe() {
     }
 }
 
-/// A vessel of 12 mm that becomes 8 mm wide at a branch at 20 mm, and is narrowed at 35 mm.
+/// A vessel of 12 mm that narrows to 8 mm at a branch at 20 mm, and has a stenosis at 35 mm.
 fn branched(sections: usize) -> Profile {
     let width = |n: usize| match n {
         0..40 => 12.0,
@@ -71,14 +71,14 @@ fn no_branch_lies_between_a_place_and_its_reference() {
 
 #[test]
 fn where_no_reference_lies_before_a_branch_it_is_passed() {
-    // The vessel ends soon after the narrowing, and the branch lies just before it.
+    // The vessel ends soon after the narrowing, and the branch lies just before the narrowing.
     let mut profile = branched(74);
     profile.flags[38..60].fill(BRANCH);
     let [before, after] = profile.suggested_references(35.0).expect("a place on it");
     assert_eq!((before.map(|spot| spot.diameter), after), (Some(12.0), None));
 }
 
-/// A vessel of 8 mm, narrowed to 4 mm at 30 mm, and `beyond` mm wide from 45 mm.
+/// A vessel of 8 mm with a stenosis of 4 mm at 30 mm, and `beyond` mm wide from 45 mm on.
 fn stepped(beyond: f64) -> Profile {
     let width = |n: usize| match n {
         58..63 => 4.0,
@@ -95,7 +95,7 @@ fn diameters(profile: &Profile, at: f64) -> [Option<f64>; 2] {
 #[test]
 fn no_step_of_the_calibre_lies_between_a_place_and_its_reference() {
     assert_eq!(diameters(&stepped(12.0), 30.0), [Some(8.0), Some(8.0)]);
-    // If there is no other place, the step of the calibre is ignored.
+    // If there is no other place for a reference, the step of the calibre is ignored.
     let mut made = stepped(12.0);
     made.flags[..88].fill(CALCIUM);
     assert_eq!(diameters(&made, 30.0), [None, Some(12.0)]);
@@ -116,7 +116,7 @@ fn no_reference_is_offered_where_something_hinders() {
     }
 }
 
-/// Suggested longest diameter if the vessel is 9 mm wide at 10 mm and the section at `at` mm has `flags`.
+/// Suggested longest diameter of a vessel that is 9 mm wide at 10 mm, if the section at `at` mm has `flags`.
 fn offered(at: f64, flags: u32) -> Option<f64> {
     let mut sections = vec![[8.0, 0.1]; 60];
     sections[20][0] = 9.0;
@@ -147,7 +147,7 @@ fn the_longest_diameter_that_is_not_offered_is_known_all_the_same() {
     assert_eq!(profile(&[[f64::NAN; 2]; 4]).offered_widest(), None);
 }
 
-/// A vessel of 24 mm with different diameters in some sections.
+/// A vessel of 24 mm whose `sections` have this longest and shortest diameter.
 fn spiked(longest: f64, shortest: f64, sections: std::ops::Range<usize>) -> Profile {
     let mut profile = profile(&[[24.0, 0.2]; 60]);
     for n in sections {

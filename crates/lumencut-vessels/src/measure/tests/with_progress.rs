@@ -9,7 +9,7 @@ fn the_share_grows_by_each_question_and_by_each_vessel() {
     let vessel = Vessel::new(vec![DVec3::ZERO, DVec3::Z * 9.0], None).expect("a vessel");
     let mut shares = Vec::new();
     for _ in 0..2 {
-        // Ten sections in three passes, and one more call, which counts as complete.
+        // Ten sections in three passes make 30 calls; one more call still reports completion.
         with_progress(Some(&progress), (std::slice::from_ref(&vessel), 1.0), &|| false, |stop| {
             for _ in 0..31 {
                 go_on(stop)?;

@@ -1,4 +1,4 @@
-//! The request to trace vessels through clicks, and checks of it that do not need voxel values.
+//! The request to trace vessels through clicks, and its checks that do not need voxel values.
 
 use glam::DVec3;
 
@@ -13,15 +13,15 @@ use lumencut_core::error::{Clicked, Error, ErrorKind, Result};
 pub struct Clicks {
     /// At least two points per vessel, in order (mm, LPS).
     pub vessels: Vec<Vec<DVec3>>,
-    /// Places that no vessel may pass.
+    /// Balls that no vessel may enter.
     pub stoppers: Vec<Stopper>,
-    /// Whether tracing may cross stretches without lumen of any length by straight bridges.
+    /// Whether tracing may cross parts without lumen, of any length, by straight bridges.
     pub bridge: bool,
-    /// Existing vessels, which stay unchanged: new vessels end at their points. Their confidence is not used.
+    /// Existing vessels, which stay unchanged: new ones that meet them end at their points. Confidence is ignored.
     pub beside: Vec<Centerline>,
 }
 
-/// Rejects clicks that are invalid in any volume of this size.
+/// Rejects clicks that would be invalid in any volume of this size.
 pub fn check(voxels: &Voxels, clicks: &Clicks) -> Result<()> {
     let wrong = |vessel: usize, found: String, expected: &str| {
         let error = Error::new(ErrorKind::Tracing, format!("points of vessel {vessel}"), found, expected);

@@ -1,4 +1,4 @@
-//! Handles stretches of a path without lumen: short ones are accepted, longer ones rejected or bridged.
+//! Handles gaps, which are parts of a path without lumen. Short gaps are accepted, longer ones rejected or bridged.
 
 use std::ops::Range;
 
@@ -10,20 +10,20 @@ use crate::voxels::Voxels;
 use lumencut_core::error::{Error, ErrorKind, Mend};
 use lumencut_core::math::arc_length::arc_lengths;
 
-/// Longest accepted stretch without lumen (mm), if the vessel continues straight, and if it turns there.
+/// Longest accepted gap (mm): if the vessel continues straight, and if it turns there.
 pub(crate) const LONGEST_GAP: f64 = 5.0;
 const LONGEST_TURN: f64 = 1.2;
 
-/// Maximum length of a stretch (mm) that may be the wall between two vessels.
+/// Maximum length of a gap (mm) that may be the wall between two vessels.
 const LONGEST_WALL: f64 = 5.0;
 
-/// Finds turns: directions next to a gap are taken between these distances from it (mm); cosine limit.
+/// Directions are taken between these distances (mm) from a gap; a cosine below `least` is a turn.
 struct Turn {
     beside: [f64; 2],
     least: f64,
 }
 
-/// A line that crosses a wall runs from centre to centre, so its direction right next to the wall is ignored.
+/// A line that crosses a wall connects two lumen centres, so its direction right next to the wall is ignored.
 const TURN: Turn = Turn { beside: [0.0, 5.0], least: 0.6 };
 const CROSSING: Turn = Turn { beside: [3.0, 8.0], least: 0.7 };
 
@@ -31,10 +31,10 @@ const CROSSING: Turn = Turn { beside: [3.0, 8.0], least: 0.7 };
 pub(crate) struct Gap {
     pub points: Range<usize>,
     pub length: f64,
-    /// Position of the lowest membership in lumen.
+    /// Position in the gap where the membership in lumen is lowest.
     pub place: DVec3,
     pub value: f32,
-    /// Whether the gap is too long to accept.
+    /// Whether the gap is too long to be accepted.
     pub is_open: bool,
 }
 
@@ -60,13 +60,13 @@ impl<'a, 'v> Line<'a, 'v> {
         Self { voxels, model, way, lengths: arc_lengths(way) }
     }
 
-    /// `weak` marks the points without lumen.
+    /// The gaps of the path; `weak` marks the points without lumen.
     pub(crate) fn gaps(&self, weak: &[bool]) -> Vec<Gap> {
         stretches(weak).into_iter().map(|points| self.gap(points)).collect()
     }
 
-    /// Finds a crossing through the wall into another vessel: a short stretch that looks less like lumen than
-    /// what surrounds it, with a turn of the line on both sides.
+    /// Finds where the path crosses the wall into another vessel: a short part that looks less like lumen
+    /// than what surrounds it, with a turn of the line before and after it.
     pub(crate) fn crossing(&self) -> Option<Gap> {
         // Walls are darker than lumen. The cap keeps bright calcium and stents from looking like walls.
         let value = |place: &DVec3| self.voxels.at(*place).min(self.model.high as f32);
@@ -104,7 +104,7 @@ impl<'a, 'v> Line<'a, 'v> {
         (points.start.saturating_sub(1), points.end.min(self.way.len() - 1))
     }
 
-    /// Whether the vessel before, and after, the gap runs in another direction than the gap.
+    /// Whether the direction of the vessel before the gap, and after it, differs from that of the gap.
     fn turns(&self, gap: &Gap, turn: &Turn) -> [bool; 2] {
         let (way, lengths) = (self.way, &self.lengths);
         let (before, after) = self.beside(&gap.points);

@@ -10,25 +10,25 @@ use crate::trace::lumen::within::holds;
 use lumencut_core::error::{Clicked, Error, ErrorKind, Result};
 use lumencut_core::math::arc_length::arc_lengths;
 
-/// A line continues an earlier vessel if it starts within this many radii, or mm if larger, of its end.
+/// A line continues an earlier vessel if it starts within this distance of its end: radii, or mm if that is larger.
 const END_TO_END: f64 = 0.7;
 const NEAREST_END: f64 = 1.0;
 
-/// Length (mm) of the stretch that gives the direction of a line after it has left a vessel.
+/// Length (mm) of the part that gives the direction of a line after it has left a vessel.
 const LEAVING: f64 = 4.0;
 
-/// A line leaves a vessel at once if it runs less than this many radii within the vessel.
+/// A line leaves a vessel at once if it runs inside it for less than this many radii.
 const AT_ONCE: f64 = 2.5;
 
-/// The point and radius of the earlier vessel, and the first point of the line to keep.
+/// Where a line joins an earlier vessel: point and radius of that vessel, and the first point of the line to keep.
 struct Junction {
     place: DVec3,
     radius: f64,
     leaves: usize,
 }
 
-/// Cuts each vessel where it leaves or enters an earlier one, and joins it to a bit-identical point of that
-/// one. Vessels in `beside` are earlier than all others.
+/// Cuts each vessel where it leaves or enters an earlier one, and joins it to a bit-identical point of the
+/// earlier one. Vessels in `beside` count as earlier than all others.
 pub(crate) fn joined(beside: &[Centerline], lines: Vec<Traced>) -> Result<Vec<Traced>> {
     let mut whole: Vec<Traced> = Vec::with_capacity(lines.len());
     for (n, line) in lines.into_iter().enumerate() {
@@ -65,7 +65,7 @@ fn joined_at_start(earlier: &[&Centerline], line: Traced, n: usize) -> Result<Tr
 }
 
 /// Junction of a line that leaves all earlier vessels at point `leaves`. A line that leaves at once joins the
-/// point nearest to the click, others the point nearest to their straight extension backwards.
+/// vessel point nearest to the click; others join the point nearest to their straight backward extension.
 fn left(earlier: &[&Centerline], line: &Traced, leaves: usize) -> Junction {
     let points = &line.line.points;
     let (click, from) = (line.ends[0], points[leaves]);
@@ -122,7 +122,7 @@ impl Traced {
         Self { line, bridged, ..self }.in_even_steps()
     }
 
-    /// Moves the start of the line to the end of a vessel; the shift fades out over one radius.
+    /// Moves the start of the line to the end of the earlier vessel; the shift fades out over one radius.
     fn drawn_to(mut self, junction: &Junction) -> Self {
         let points = &mut self.line.points;
         let lengths = arc_lengths(points);

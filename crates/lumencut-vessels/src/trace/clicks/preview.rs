@@ -1,4 +1,4 @@
-//! A quick path to the pointer. It is not centred, and not always the cheapest one.
+//! Finds a quick path from a click to the mouse pointer. It is not centred, and not always the cheapest path.
 
 use glam::DVec3;
 
@@ -10,11 +10,11 @@ use crate::trace::ways::region::{FORBIDDEN, Region, Stopper, Strictness, WEAK};
 use crate::voxels::Voxels;
 use lumencut_core::stop::Stop;
 
-/// Maximum number of voxels of a front. Fronts are kept while the pointer moves.
+/// Maximum number of voxels of a search front. Fronts are cached while the pointer moves.
 const MOST_VOXELS: usize = 4_000_000;
 
-/// Weights of the straight distance: a fast search, then the exact one if the fast path crosses a wall. With
-/// 1.5, aorta to iliac artery (290 mm) visits 65,000 voxels instead of 101,000; more saves little.
+/// Weights of the straight distance to the target: first a fast search, then the exact one if the fast path
+/// crosses a wall. With 1.5, a path of 290 mm visits 65,000 voxels instead of 101,000; more saves little.
 const PULLS: [f32; 2] = [1.5, 1.0];
 
 /// Number of smoothing rounds, which hide the steps between voxels.
@@ -23,11 +23,11 @@ const ROUNDS: usize = 6;
 /// The path to find for a preview.
 #[derive(Clone, Copy, Debug)]
 pub struct Sought<'a> {
-    /// The click and the position of the pointer (mm, LPS).
+    /// Position of the click, and of the mouse pointer (mm, LPS).
     pub between: [DVec3; 2],
-    /// Places that no path may pass.
+    /// Balls that no path may enter.
     pub stoppers: &'a [Stopper],
-    /// Whether the path may cross stretches without lumen.
+    /// Whether the path may cross parts without lumen.
     pub bridge: bool,
 }
 
@@ -39,7 +39,7 @@ pub(crate) struct Live {
 }
 
 impl Live {
-    /// Reuses the known region if its model fits the click; None if the click is not in lumen.
+    /// Reuses the known region if its lumen model fits the click; None if the click is not in lumen.
     pub(crate) fn new(
         voxels: &Voxels,
         sought: &Sought,

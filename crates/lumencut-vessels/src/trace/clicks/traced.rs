@@ -1,4 +1,4 @@
-//! The result of tracing one vessel.
+//! The result of tracing one vessel through its clicks.
 
 use glam::DVec3;
 
@@ -9,7 +9,7 @@ use crate::trace::lines::centerline::Centerline;
 pub struct Traced {
     /// The line with radii and confidence.
     pub line: Centerline,
-    /// Whether each point lies on a bridged stretch without lumen.
+    /// Whether each point lies on a straight bridge across a part without lumen.
     pub bridged: Vec<bool>,
     /// The first and the last click.
     pub ends: [DVec3; 2],

@@ -1,4 +1,4 @@
-//! Traces centerlines between clicks. Caches make a changed click affect only the paths next to it.
+//! Traces centerlines between clicks. Paths are cached, so a changed click affects only the paths next to it.
 
 use std::collections::HashMap;
 
@@ -27,7 +27,7 @@ use lumencut_core::volume::Volume;
 const MOST_VOXELS: usize = 40_000_000;
 const MOST_VOXELS_OF_DOUBT: usize = 4_000_000;
 
-/// Number of fronts cached for the pointer: one for each neighbour of a dragged point.
+/// Number of fronts cached for the mouse pointer: one for each neighbour of a dragged point.
 const MOST_LIVE: usize = 2;
 
 type Ends = [[i32; 3]; 2];
@@ -40,7 +40,7 @@ pub struct Tracer {
     fronts: HashMap<[i32; 3], Front>,
     ways: HashMap<Ends, Way>,
     lines: Vec<(Vec<DVec3>, Traced)>,
-    /// Fronts for the pointer; the one used last is first.
+    /// Fronts for the pointer, the most recently used one first.
     live: Vec<Live>,
 }
 
@@ -85,7 +85,7 @@ impl Tracer {
     }
 
     /// Quick path through the lumen to the pointer. None if `stop` comes first, or if [`Tracer::trace`] would
-    /// reject it. Caches the last two clicks. Every call must use the traced volume.
+    /// reject the path. The fronts of the last two clicks are cached. Every call must use the traced volume.
     pub fn preview(&mut self, volume: &Volume, sought: &Sought, stop: Stop) -> Option<Vec<DVec3>> {
         let voxels = &Voxels::new(volume);
         let known = self.live.iter().position(|live| live.is_from(sought));
@@ -98,8 +98,8 @@ impl Tracer {
         way
     }
 
-    /// Checks a single first click as [`Tracer::trace`] would in the same volume. `ErrorKind::Tracing` for a
-    /// click outside the volume, or with a value that cannot be lumen.
+    /// Checks a single first click as [`Tracer::trace`] would in the same volume. Errors:
+    /// `ErrorKind::Tracing` for a click outside the volume, or with a value that cannot be lumen.
     pub fn check_click(&self, volume: &Volume, click: DVec3) -> Result<()> {
         let voxels = &Voxels::new(volume);
         check_place(voxels, click, || (format!("point {}", in_words(click)), Clicked::Single))?;
@@ -112,10 +112,11 @@ impl Tracer {
         self.surroundings.unwrap_or_else(|| Surroundings::of(voxels, clicks))
     }
 
-    /// Fits the lumen model to the clicks, and drops caches of a model that differs.
+    /// Fits the lumen model to the clicks, and drops caches that were made with a different model.
     fn prepare(&mut self, voxels: &Voxels, surroundings: Surroundings, clicks: &Clicks) -> Result<()> {
         let model = surroundings.model(voxels, &all_of(clicks))?;
-        // The surroundings are stored only now, because those of rejected clicks would mislead later clicks.
+        // The surroundings are stored only after the check, because those of rejected clicks would mislead
+        // later ones.
         self.surroundings = Some(surroundings);
         let fits = |region: &Region| region.model.covers(&model);
         if !self.region.as_ref().is_some_and(fits) {
@@ -232,7 +233,7 @@ impl Search<'_, '_> {
         found
     }
 
-    /// Bridges stretches without lumen if requested; otherwise returns an error that states their place.
+    /// Bridges parts without lumen if requested; otherwise returns an error that states where they are.
     fn bridge(&self, region: &Region, between: [DVec3; 2], ends: Ends) -> Result<Way> {
         let model = region.model;
         let stoppers = self.clicks.stoppers.clone();
@@ -248,7 +249,6 @@ impl Search<'_, '_> {
     }
 }
 
-/// Number of progress steps of a path.
 const PARTS: usize = 1000;
 
 fn refusal(between: [DVec3; 2], way: &Way, model: &LumenModel) -> Error {

@@ -10,7 +10,7 @@ use crate::voxels::Voxels;
 pub(crate) struct Way {
     /// Centres of the voxels on the path (mm, LPS).
     pub points: Vec<DVec3>,
-    /// Stretches of the path without lumen.
+    /// Parts of the path without lumen.
     pub gaps: Vec<Gap>,
 }
 
@@ -24,13 +24,13 @@ impl Way {
         let line = Line::new(voxels, &region.model, &points);
         let mut gaps = line.gaps(&weak);
         for gap in &mut gaps {
-            // A path must not avoid a stopper by a detour through tissue.
+            // A path must not avoid a stopper (a forbidden ball) by a detour through tissue.
             gap.is_open |= region.stoppers.iter().any(|stopper| gap.passes(&points, stopper));
         }
         Self { points, gaps }
     }
 
-    /// Points of the path, with straight lines in place of gaps, because nothing guides the path there.
+    /// Points of the path, with straight lines in place of gaps, because no values guide the path there.
     pub(crate) fn straightened(&self) -> Vec<DVec3> {
         let mut points = self.points.clone();
         for gap in &self.gaps {
@@ -44,7 +44,7 @@ impl Way {
     }
 }
 
-/// Voxel at which a click starts: its own one, or at a wall the cheapest neighbour.
+/// Voxel at which the path of a click starts: the click's own voxel or, at a wall, the cheapest neighbour.
 pub(crate) fn start(voxels: &Voxels, region: &mut Region, click: DVec3) -> [i32; 3] {
     let middle = voxels.voxel_at(click).unwrap_or([0; 3]);
     let mut best = (region.code_of(voxels, middle), middle);

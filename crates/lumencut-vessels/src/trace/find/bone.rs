@@ -1,7 +1,7 @@
 //! Separates vessels from bone, marrow and organs by the raw voxels.
 //!
-//! Tracked bone is mostly a plate: its cross-section is elongated, like those of the tracks around it. Round
-//! bone contains uneven marrow. Both make a track doubtful, as do wide tracks that are paler than vessels.
+//! Tracked bone is mostly a plate: its cross-section is elongated, and so are those of the tracks around it. Round
+//! bone contains uneven marrow. Both make a track doubtful, and so does being wide and paler than vessels.
 
 pub(crate) mod neighbourhood;
 pub(crate) mod raw_section;
@@ -19,63 +19,65 @@ use crate::trace::find::vessel_level::vessel_level;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// This quantile of a track's elongations is used: junctions and touching veins lengthen single sections.
+/// A track's elongation is this quantile of its sections: junctions and touching veins lengthen single ones.
 const ELONGATION_SHARE: f64 = 0.3;
 
-/// Weights in a neighbourhood: length up to this (mm), factor of the track itself, minimum confidence.
+/// Weights in a neighbourhood: a track counts by its length up to `LONGEST` (mm), and the track itself by the
+/// factor `ITSELF`. Tracks with less confidence than `LEAST_COUNTED` are ignored.
 const LONGEST: f64 = 40.0;
 const ITSELF: f64 = 2.0;
 const LEAST_COUNTED: f64 = 0.3;
 
-/// Neighbours raise an elongation e to at most 1.5 + 2 (e - 1), so that round arteries next to bone stay.
+/// Neighbours raise an elongation e to at most 1.5 + 2 (e - 1), so that round arteries next to bone are kept.
 const NEIGHBOURS: [f64; 2] = [1.5, 2.0];
 
-/// Elongation and spread at which doubt starts, and over which it grows by 1; maximum of each doubt.
+/// For `ELONGATED` and `UNEVEN`: value at which doubt starts, and increase that adds 1 to it. Each doubt is
+/// limited to `MOST_DOUBT`.
 const ELONGATED: [f64; 2] = [1.2, 0.7];
 const UNEVEN: [f64; 2] = [0.14, 0.10];
 const MOST_DOUBT: f64 = 3.0;
 
-/// Sum of both doubts at which confidence starts to fall, and at which no confidence is left.
+/// Sums of both doubts at which confidence starts to fall, and at which it reaches 0.
 const DOUBTS: [f64; 2] = [1.2, 1.7];
 
-/// An organ is paler than vessels by these shares of the contrast (possibly, certainly) and has at least this
-/// radius (mm). From the radius of a vertebra on, smaller shares suffice.
+/// An organ is darker than vessels by these fractions of the contrast (possibly, certainly), and its radius
+/// is at least `WIDE_MM`. From the radius of a vertebra on, smaller fractions suffice.
 const PALE: [f64; 2] = [0.45, 0.55];
 const WIDE_MM: f64 = 5.0;
 const PALE_AND_VERY_WIDE: [f64; 2] = [0.2, 0.3];
 const VERY_WIDE: f64 = 14.0;
 
-/// Share of good sections at which a wide track counts as interrupted, and as uninterrupted, since noise does
-/// not hide the walls of a wide lumen. Range of radii (voxels) over which a track becomes wide.
+/// Fractions of good sections at which a wide track counts as interrupted, and as uninterrupted; noise does not hide
+/// the walls of a wide lumen. `BROAD` is the range of radii (voxels) over which a track becomes wide.
 const UNBROKEN: [f64; 2] = [0.75, 0.95];
 const BROAD: [f64; 2] = [2.5, 5.5];
 
-/// Factor of the confidence of organs, and of marrow inside compact bone.
+/// The confidence of organs, and of marrow inside compact bone, is multiplied by this.
 const LEFT: f64 = 0.15;
 
 /// A flat track that otherwise looks like a large vessel may be the false lumen of a dissection. It keeps
-/// this confidence. It needs at least this confidence before, this length and this radius (mm).
+/// this confidence if its previous confidence, its length and its radius (mm) reach the limits.
 const FLAT_LUMEN_LEFT: f64 = 0.35;
 const FLAT_LUMEN: f64 = 0.85;
 const FLAT_LUMEN_LENGTH: f64 = 40.0;
 const FLAT_LUMEN_RADIUS: f64 = 3.0;
 
-/// Bone is hardly ever both even and as bright as vessels. Ranges of spread and level difference (shares of
-/// the contrast) that excuse a track, and of the radius (voxels) that allows this test.
+/// Bone is hardly ever both even and as bright as vessels, so such tracks are excused. Ranges of spread and
+/// level difference (fractions of the contrast) for this, and of the radius (voxels) that allows the test.
 const EVEN: [f64; 2] = [0.10, 0.06];
 const ALIKE: [f64; 2] = [0.18, 0.10];
 const SEEN: [f64; 2] = [2.0, 4.0];
 
-/// Above this radius (mm) a track must also be round to be excused, unlike bodies of even tissue.
+/// Above this radius (mm), a track must also be round to be excused: bodies of even tissue are not round.
 const ROUND: f64 = 7.0;
 const ELONGATED_BODY: [f64; 2] = [1.9, 1.5];
 
-/// Tracks within these limits refine the vessel level.
+/// Limits of the tracks that are used to refine the vessel level.
 const LUMEN_CONFIDENCE: f64 = 0.85;
 const LUMEN_ELONGATION: f64 = 1.25;
 const LUMEN_SPREAD: f64 = 0.1;
 
-/// Share of its other doubts, except shortness, that such a track is excused.
+/// Fraction of its doubts (except shortness) from which an even track as bright as vessels is excused.
 const EXCUSED: f64 = 0.5;
 
 /// Tracks with less confidence are dropped.
@@ -84,9 +86,9 @@ const MIN_CONFIDENCE: f64 = 0.05;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Shape {
     level: f64,
-    /// Ratio of the longest to the shortest diameter at half level.
+    /// Ratio of the longest diameter to the shortest, both at half of the lumen's contrast.
     pub(crate) elongation: f64,
-    /// Spread of the values inside, as a share of the vessel contrast.
+    /// Spread of the values inside the track, as a fraction of the vessel contrast.
     spread: f64,
     is_marrow: bool,
 }
@@ -114,7 +116,7 @@ pub(crate) fn shapes(
     tracks.par_iter().map(of_track).collect()
 }
 
-/// Refines vessel level and contrast by sure, round, even tracks, because the first pass includes bone.
+/// Refines vessel level and contrast by sure, round, even tracks, because the first estimate includes bone.
 pub(crate) fn lumen_level(scan: &Scan, tracks: &[Track], shapes: &[Option<Shape>]) -> Option<[f64; 2]> {
     let is_lumen = |track: &Track, shape: &Shape| {
         let is_even = !shape.is_marrow && shape.spread <= LUMEN_SPREAD;
@@ -218,13 +220,13 @@ fn judge(scan: &Scan, track: &mut Track, shape: Shape) {
     track.confidence = (track.confidence * (1.0 - lost)).max(if is_lumen { FLAT_LUMEN_LEFT } else { 0.0 });
 }
 
-/// Degree to which a wide track is interrupted, 0 to 1: a spine is not a tube between its vertebrae.
+/// Degree (0 to 1) to which a wide track is interrupted. A spine is not a tube between its vertebrae.
 fn broken(scan: &Scan, track: &Track) -> f64 {
     let good = track.points.iter().filter(|point| point.is_good).count() as f64 / track.points.len() as f64;
     ramp(-good, -UNBROKEN[1], -UNBROKEN[0]) * ramp(track.radius() / scan.side, BROAD[0], BROAD[1])
 }
 
-/// Degree to which the inside looks like a vessel, 0 to 1: even, as bright as vessels, and wide enough.
+/// Degree (0 to 1) to which the inside looks like a vessel: even, as bright as vessels, and wide enough.
 fn lumen_inside(scan: &Scan, track: &Track, shape: &Shape) -> f64 {
     if shape.is_marrow || track.doubt == Some(TrackDoubt::Faint) {
         return 0.0;

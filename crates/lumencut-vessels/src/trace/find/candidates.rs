@@ -1,4 +1,4 @@
-//! Finds candidates: places at which both the gradient flux and a cross-section look like a tube.
+//! Finds candidates: positions where both the gradient flux and a cross-section look like a tube.
 
 use std::ops::Range;
 
@@ -12,52 +12,53 @@ use crate::trace::find::stages::{Stage, Stages};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Number of voxels of a tile along each axis.
+/// Number of voxels along each axis of a tile.
 const TILE: [usize; 3] = [64, 24, 24];
 
-/// Minimum response of a candidate: a multiple of the noise, and a share of the vessel contrast.
+/// Minimum response of a candidate: a multiple of the noise, and a fraction of the vessel contrast.
 const NOISES: f64 = 3.5;
 const OF_CONTRAST: f64 = 0.15;
 
-/// Minimum contrast of its section, in the same units.
+/// Minimum contrast of a candidate's section, in the same units.
 const SECTION_NOISES: f64 = 3.0;
 const SECTION_OF_CONTRAST: f64 = 0.2;
 
-/// Minimum closure and share of contrasting rays; range of the section radius relative to the flux radius.
+/// Limits of a section: minimum closure (fraction of rays with a wall about one radius away), minimum
+/// fraction of contrasting rays, and range of its radius relative to the flux radius.
 const LEAST_CLOSURE: f64 = 0.65;
 const LEAST_CONTRAST_SHARE: f64 = 0.6;
 const RADIUS_RATIO: [f64; 2] = [0.5, 1.9];
 
-/// Maximum shift to the centre (radii), and the same for tubes wider than two voxels.
+/// Maximum shift from a candidate to the centre of its section (radii), also for tubes wider than two voxels.
 const MOST_SHIFT: f64 = 1.0;
 const MOST_WIDE_SHIFT: f64 = 1.5;
 const WIDE_RADIUS: f64 = 2.0;
 
-/// Number of centring rounds, and minimum radius (finest voxels).
+/// Number of centring rounds; minimum radius (finest-level voxels).
 const ROUNDS: usize = 3;
 const LEAST_RADIUS: f64 = 0.5;
 
-/// Candidates are searched up to this distance from a place (radii).
+/// Candidates are searched up to this distance from a position (radii).
 const SEARCH_RADII: f64 = 2.0;
 
-/// Noise is estimated from samples. The brightest share of them counts, at a low quantile of the local
-/// spread, because higher ones contain edges. White noise has a known value of that quantile.
+/// Noise is estimated from the local spread of the brightest samples. A low quantile of the spread is used,
+/// because higher ones contain edges. For white noise, the value of this quantile is known.
 const NOISE_SAMPLES: usize = 60_000;
 const BRIGHTEST: f64 = 0.4;
 const EVENEST: f64 = 0.15;
 const EVENEST_OF_NOISE: f64 = 0.855;
 
-/// A place that may lie in a tube. Lengths are in finest voxels.
+/// A position that may lie in a tube. Lengths are in finest-level voxels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Candidate {
     pub place: DVec3,
     pub direction: DVec3,
     pub radius: f64,
-    /// Response of the flux: a contrast in the unit of the volume.
+    /// Response of the flux, which is a contrast in the unit of the volume.
     pub(crate) response: f64,
-    /// Radius of the ball with that response.
+    /// Radius of the ball whose flux has that response.
     pub(crate) flux_radius: f64,
-    /// Share of rays with a wall about one radius away, and share of rays that lose half of the contrast.
+    /// Fraction of rays with a wall about one radius away, and fraction of rays that lose half of the contrast.
     pub closure: f64,
     pub(crate) contrast_share: f64,
 }
@@ -65,7 +66,7 @@ pub(crate) struct Candidate {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Floors {
     pub noise: f64,
-    /// Contrast of vessels; in the first pass it is assumed as a share of the value range.
+    /// Contrast of vessels; the first pass assumes a fraction of the value range.
     pub contrast: f64,
 }
 
@@ -105,7 +106,7 @@ pub(crate) fn candidates(
     Ok(in_order(found, floors))
 }
 
-/// Candidates that lie within two radii of a place (finest voxels).
+/// Candidates within two radii of a position (finest-level voxels).
 pub(crate) fn candidates_near(
     pyramid: &Pyramid,
     levels_examined: &Range<usize>,
@@ -149,7 +150,7 @@ fn limits(
     let limit = |&radius: &usize| {
         let gain = gains()[radius];
         let least = (NOISES * noise * f64::from(gain.noise)).max(OF_CONTRAST * floors.contrast);
-        // The smallest visible response is one quantization step.
+        // The smallest possible response is one quantization step.
         (radius, gain.factor, (least as f32 / level.unit).max(1.0))
     };
     radii.iter().map(limit).collect()
@@ -174,7 +175,7 @@ pub(crate) fn noise(level: &Level) -> f64 {
             (sum / 27.0, ((squares - sum * sum / 27.0).max(0.0) / 26.0).sqrt())
         })
         .collect();
-    // Clamped voxels would hide the noise.
+    // Voxels clamped to the lowest value would hide the noise.
     samples.retain(|sample| sample.0 > 0.5);
     if samples.is_empty() {
         return 0.0;
@@ -196,7 +197,7 @@ fn tiles(size: [usize; 3]) -> Vec<[usize; 3]> {
         .collect()
 }
 
-/// Voxels of a tile whose response is the greatest across their direction.
+/// Voxels of a tile whose response is the greatest across the direction of their tube.
 fn peaks(level: &Level, first: [usize; 3], radii: &[(usize, f32, f32)]) -> Vec<Candidate> {
     let size: [usize; 3] = std::array::from_fn(|a| TILE[a].min(level.size[a] - first[a]));
     let least = radii.iter().map(|(_, _, least)| *least).fold(f32::MAX, f32::min);
@@ -206,7 +207,7 @@ fn peaks(level: &Level, first: [usize; 3], radii: &[(usize, f32, f32)]) -> Vec<C
     for k in 0..size[2] {
         for j in 0..size[1] {
             for i in 0..size[0] {
-                // Responses include a border of one voxel.
+                // The responses include a border of one voxel around the tile.
                 let voxel = [i + 1, j + 1, k + 1];
                 let number = responses.number(voxel);
                 if responses.strongest[number] <= 0.0 {
@@ -234,7 +235,7 @@ fn peaks(level: &Level, first: [usize; 3], radii: &[(usize, f32, f32)]) -> Vec<C
     found
 }
 
-/// Values of a tile, clamped at the edge of the volume; None if their range is below `least`.
+/// Values of a tile, extended at the edge of the volume; None if their range is below `least`.
 fn values(level: &Level, first: [usize; 3], size: [usize; 3], least: f32) -> Option<Vec<f32>> {
     let [nx, ny, nz] = level.size;
     let at = |n: usize, first: usize, count: usize| (first + n).saturating_sub(HALO).min(count - 1);
@@ -253,7 +254,7 @@ fn values(level: &Level, first: [usize; 3], size: [usize; 3], least: f32) -> Opt
     (f32::from(high.saturating_sub(low)) >= least).then_some(values)
 }
 
-/// Whether a voxel has the greatest response across the direction; of equal ones, the first one has.
+/// Whether a voxel has the greatest response across the direction of its tube; of equal voxels, the first one has.
 fn is_peak(responses: &Responses, voxel: [usize; 3], direction: DVec3) -> bool {
     let own = responses.number(voxel);
     let strength = responses.strongest[own];

@@ -1,4 +1,4 @@
-//! Chooses the vessels that belong to a seed, among those found without a seed.
+//! Chooses the vessels that belong to a seed, among the vessels that were found without a seed.
 
 use glam::DVec3;
 
@@ -8,7 +8,7 @@ use crate::voxels::Voxels;
 use lumencut_core::error::Result;
 use lumencut_core::volume::Volume;
 
-/// A seed selects a vessel up to this many radii away, or a voxel if larger.
+/// A seed selects a vessel within this many radii, or within one voxel if that is larger.
 pub const SELECT_RADII: f64 = 1.5;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,8 +19,8 @@ struct Near {
     radii: f64,
 }
 
-/// Finds the vessels of the part that contains a seed (mm, LPS); they do not depend on the seed. If it lies
-/// outside all of them, fainter ones around it are found too. Errors: Those of [`trees`];
+/// Finds the vessels of the connected part that contains a seed (mm, LPS); they do not depend on the seed. If
+/// it lies outside all of them, fainter ones around it are found too. Errors: those of [`trees`];
 /// `ErrorKind::Tracing` for a seed outside the volume, in no vessel, or in a part without a sure vessel.
 pub fn find_from(volume: &Volume, seed: DVec3, request: &FindRequest) -> Result<Trees> {
     let voxels = Voxels::new(volume);
@@ -39,8 +39,8 @@ pub fn find_from(volume: &Volume, seed: DVec3, request: &FindRequest) -> Result<
     }
 }
 
-/// The part whose vessel is nearest to a seed in radii, preferably a sure one. `voxel` (mm) is the minimum
-/// reach of a seed. Errors: If no vessel is in reach, the nearest point of one and its distance (mm).
+/// The connected part whose vessel is nearest to a seed in radii, preferably a sure one. The search radius is
+/// at least `voxel` mm. Errors: if no vessel is in reach, the nearest vessel point and its distance (mm).
 pub fn part_at(trees: &Trees, seed: DVec3, voxel: f64) -> std::result::Result<usize, (DVec3, f64)> {
     let sure_parts: Vec<usize> =
         trees.vessels.iter().filter(|vessel| vessel.doubt.is_none()).map(|vessel| vessel.part).collect();
@@ -48,8 +48,8 @@ pub fn part_at(trees: &Trees, seed: DVec3, voxel: f64) -> std::result::Result<us
     Ok(trees.vessels[vessel].part)
 }
 
-/// The vessel nearest to a place in radii, preferably one that `comes_first` accepts. `voxel` (mm) is the
-/// minimum reach. Errors: If no vessel is in reach, the nearest point of one and its distance (mm).
+/// The vessel nearest to a position in radii, preferably one that `comes_first` accepts. The search radius is
+/// at least `voxel` mm. Errors: if no vessel is in reach, the nearest vessel point and its distance (mm).
 pub fn vessel_at(
     trees: &Trees,
     place: DVec3,
@@ -73,7 +73,7 @@ pub fn vessel_at(
     })
 }
 
-/// The point of a vessel that is nearest in radii; radii count as at least `least` mm.
+/// The point of a vessel that is nearest to the seed, measured in radii; radii below `least` mm count as `least`.
 fn near(vessel: usize, found: &FoundVessel, seed: DVec3, least: f64) -> Near {
     let line = &found.line;
     let of = |n: usize| {

@@ -1,4 +1,4 @@
-//! The confidence that a track is a vessel: a product of criteria with exponents as weights.
+//! The confidence that a track is a vessel: a product of criteria, weighted by exponents.
 
 use std::f64::consts::TAU;
 
@@ -10,18 +10,18 @@ use crate::trace::find::section::{TOUCHED, across};
 use crate::trace::find::track::{TrackDoubt, TrackPoint, length, usual};
 use crate::voxels::Voxels;
 
-/// The level and contrast that vessels usually have, in the unit of the volume.
+/// The intensity level and contrast that vessels usually have, in the unit of the volume.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct UsualVessels {
     pub level: f64,
     pub contrast: f64,
 }
 
-/// Exponent of the product, and minimum of each factor.
+/// Exponent of the product of all criteria, and minimum of each factor.
 const POWER: f64 = 0.6;
 const MIN_FACTOR: f64 = 0.02;
 
-/// The ring around the lumen starts and ends at these distances: radii plus voxels.
+/// The ring around the lumen starts and ends at these distances: a multiple of the radius plus some voxels.
 const RING_FROM: [f64; 2] = [1.25, 0.7];
 const RING_TO: [f64; 2] = [2.05, 2.0];
 const RAYS: usize = 16;
@@ -29,26 +29,26 @@ const RAYS: usize = 16;
 const LEAST_LEFT: usize = 6;
 const SAMPLES: usize = 4;
 
-/// Maximum number of sections that are sampled.
+/// Maximum number of sections that are sampled per track.
 const MOST_SECTIONS: usize = 60;
 
 /// A tube becomes wide over this range of radii (voxels).
 const WIDE_VOXELS: [f64; 2] = [2.5, 5.5];
 
-/// Bone is searched up to this distance (radii plus voxels); it exceeds the vessel level by this share.
+/// Bone is searched up to this distance (radii plus voxels); it exceeds vessels by `BONE` times the contrast.
 const BONE_REACH: [f64; 2] = [1.5, 1.5];
 const BONE: f64 = 0.4;
 const BRIGHT_INSIDE: f64 = 0.5;
-/// A wide tube whose level differs this little (shares of the contrast) may have bright walls, as in a stent.
+/// A wide tube may have bright walls, like a stent, if its level differs by less than this (times the contrast).
 const STENT_INSIDE: [f64; 2] = [0.25, 0.55];
 
 struct Around {
-    /// Share of directions with a dark ring, and median interquartile range of the ring over the contrast.
+    /// Fraction of directions with a dark ring; median interquartile range of the ring divided by the contrast.
     dark: f64,
     even: f64,
-    /// Contrast to the ring, divided by the vessel contrast.
+    /// Contrast between lumen and ring, divided by the vessel contrast.
     contrast: f64,
-    /// Share of rays that meet bone.
+    /// Fraction of rays that meet bone.
     bone: f64,
     inside: f64,
 }
@@ -58,7 +58,7 @@ pub(crate) fn ramp(value: f64, from: f64, to: f64) -> f64 {
     ((value - from) / (to - from)).clamp(0.0, 1.0)
 }
 
-/// Confidence (0 to 1) and main doubt of a track, whose points are in finest voxels.
+/// Confidence (0 to 1) and main doubt of a track, whose points are in finest-level voxels.
 pub(crate) fn confidence(
     pyramid: &Pyramid,
     voxels: &Voxels,

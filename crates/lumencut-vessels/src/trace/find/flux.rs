@@ -8,20 +8,20 @@ use std::sync::OnceLock;
 
 use lumencut_core::math::lanes::{Isa, Kernel, dispatch};
 
-/// Ball radii (voxels): the first three on the finest level, the last three on the coarsest, else the middle.
+/// Ball radii (voxels). The finest level uses the first three, the coarsest the last three, others the middle ones.
 pub(crate) const RADII: [f64; 4] = [1.0, 1.5, 2.1, 3.0];
 
-/// Weights of a Gaussian of 0.7 voxels.
+/// Weights of a Gaussian with a standard deviation of 0.7 voxels.
 const SMOOTHING: [f32; 3] = [0.561_8, 0.202_5, 0.016_6];
 
-/// Blur of the cylinder used for calibration (voxels).
+/// Blur of the cylinder with which responses are calibrated (voxels).
 const BLUR: f64 = 0.6;
 
-/// Reach of the largest ball, and border that a tile needs (voxels).
+/// Voxels that the largest ball reaches from its centre, and border that a tile needs.
 const TILE_BORDER: usize = 3;
 pub(crate) const HALO: usize = 2 + TILE_BORDER + 2;
 
-/// In a tube the trace is at least this multiple of the weaker inflow; this saves most eigenvalues.
+/// In a tube, the trace is at least this multiple of the weaker inflow. Testing this first saves most eigenvalues.
 const LEAST_TRACE: f32 = 1.2;
 
 #[derive(Clone, Copy, Debug)]
@@ -37,17 +37,16 @@ pub(crate) struct Responses {
     /// Strongest response of each voxel, as a contrast; 0 if there is none.
     pub strongest: Vec<f32>,
     pub radius: Vec<u8>,
-    /// Number of each ball radius, with the averages over that ball.
+    /// Index of each ball radius, with the averages over that ball.
     averages: Vec<(usize, Vec<f32>)>,
     average_size: [usize; 3],
 }
 
-/// Kernel that computes the responses of a tile.
 pub(crate) struct FluxOf<'a> {
     /// Values of the tile with a border of `HALO` voxels.
     pub values: Vec<f32>,
     pub size: [usize; 3],
-    /// Number of each ball radius, with the factor and the threshold of its response.
+    /// Index of each ball radius, with the factor and the threshold of its response.
     pub radii: &'a [(usize, f32, f32)],
 }
 
@@ -264,14 +263,14 @@ fn gain(number: usize) -> Gain {
     let wide = 2 * HALO + 24;
     let noise = response(noise(wide * wide * wide), [wide; 3]);
     let square: f32 = noise.strongest.iter().map(|r| r * r).sum();
-    // Only positive responses are recorded, which are half of all.
+    // Only positive responses are recorded. For noise, these are half of all responses.
     let spread = (2.0 * square / noise.strongest.len() as f32).sqrt();
     Gain { factor: 1.0 / peak, noise: spread / peak }
 }
 
 fn blurred_disc(x: f64, y: f64, radius: f64) -> f32 {
     let distance = x.hypot(y);
-    // Approximates the edge by a half-plane, good for radii above one standard deviation of the blur.
+    // Approximates the disc's edge by a half-plane: accurate for radii above one standard deviation of the blur.
     let edge = (radius - distance) / (BLUR * std::f64::consts::SQRT_2);
     (0.5 * (1.0 + (std::f64::consts::FRAC_2_SQRT_PI * edge * (1.0 + 0.089 * edge * edge)).tanh())) as f32
 }

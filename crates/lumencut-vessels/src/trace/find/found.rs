@@ -6,15 +6,15 @@ use crate::trace::lines::centerline::Centerline;
 /// All vessels found in a scan.
 #[derive(Clone, Debug)]
 pub struct Trees {
-    /// Vessels ordered by part; the most important part comes first, and in each part its root.
+    /// Vessels ordered by part, the most important part first. Each part begins with its root.
     pub vessels: Vec<FoundVessel>,
-    /// Level that vessels usually have, in the unit of the volume.
+    /// Intensity that vessels usually have, in the unit of the volume.
     pub level: f64,
     /// Contrast that vessels usually have to their surroundings, in the unit of the volume.
     pub contrast: f64,
     /// Noise of the voxels, in the unit of the volume.
     pub noise: f64,
-    /// Whether the scan looks like an angiography. If not, no vessel is sure without a seed.
+    /// Whether the scan looks like an angiography. If not, and without a seed, no vessel is sure.
     pub is_angiography: bool,
 }
 
@@ -23,7 +23,7 @@ pub struct Trees {
 pub struct FoundVessel {
     /// Points, radii and confidence, from the root outwards.
     pub line: Centerline,
-    /// Number of the part of the vessel; 0 is the most important part.
+    /// Index of the connected part to which the vessel belongs; 0 is the most important one.
     pub part: usize,
     /// Confidence that the line is a vessel, 0 to 1.
     pub confidence: f64,
@@ -34,7 +34,7 @@ pub struct FoundVessel {
 /// Why a click gives no vessel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NoVessel {
-    /// No vessel was found at the click. Distance of the nearest one (mm), infinite if none exists.
+    /// No vessel was found at the click. The value is the distance to the nearest one (mm), infinite if none exists.
     NotHere(f64),
     /// The click, or everything that it would add, lies in an existing vessel.
     Already,
@@ -44,7 +44,7 @@ pub enum NoVessel {
 pub(crate) const SURE: f64 = 0.7;
 
 impl TrackDoubt {
-    /// All reasons for doubt.
+    /// All reasons to doubt a vessel.
     pub const ALL: [Self; 10] = [
         Self::BrightSides,
         Self::Flat,

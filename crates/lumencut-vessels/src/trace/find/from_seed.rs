@@ -9,10 +9,10 @@ use crate::trace::find::track::Track;
 use crate::trace::find::tracking::Tracking;
 use lumencut_core::error::Result;
 
-/// Threshold of the contrast around a seed, as a share of the normal one.
+/// Contrast threshold around a seed, as a fraction of the normal threshold.
 const FAINTER: f64 = 1.0 / 3.0;
 
-/// Tracks through a seed (finest voxels); none if a known track already contains the seed.
+/// Tracks through a seed (finest-level voxels); none if a known track already contains the seed.
 pub(crate) fn from_seed(tracking: &Tracking, seed: DVec3, known: &[Track]) -> Result<Vec<Track>> {
     if known.iter().any(|track| holds(track, seed)) {
         return Ok(Vec::new());

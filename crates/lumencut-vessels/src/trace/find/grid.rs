@@ -1,29 +1,30 @@
-//! The isotropic grid for finding tubes, along the axes of the volume (made orthogonal if sheared).
+//! The isotropic grid in which tubes are found. Its axes are those of the volume, made orthogonal if sheared.
 
 use glam::{DAffine3, DMat3, DVec3};
 
 use crate::voxels::Voxels;
 
-/// Voxels per smallest radius, since finer voxels show nothing more. The maximum side for this (mm) keeps the
-/// surroundings visible if only wide vessels are wanted.
+/// Voxels per smallest radius; finer voxels would show nothing more. `LARGEST_FOR_RADIUS` limits the voxel
+/// side (mm), so that the surroundings stay visible if only wide vessels are wanted.
 const VOXELS_PER_RADIUS: f64 = 1.25;
 const LARGEST_FOR_RADIUS: f64 = 0.8;
 
-/// Maximum number of voxels; a larger volume gets larger voxels.
+/// Maximum number of voxels of the grid; a larger volume gets larger voxels.
 const MOST_VOXELS: f64 = 160e6;
 
 #[derive(Clone, Debug)]
 pub(crate) struct Grid {
     pub size: [usize; 3],
-    /// Side of a voxel (mm).
+    /// Side of a grid voxel (mm).
     pub side: f64,
-    /// World position (LPS, mm) of a grid position. The centre of the first voxel is at (0, 0, 0).
+    /// Maps grid positions to world positions (LPS, mm). The centre of the first voxel is the grid position
+    /// (0, 0, 0).
     pub(crate) world_from_grid: DAffine3,
     pub(crate) grid_from_world: DAffine3,
 }
 
 impl Grid {
-    /// Voxels have the mean side of the volume's, or a larger one if the smallest radius (mm) allows it.
+    /// Its voxels have the mean side of the volume's voxels, or a larger one if the smallest radius (mm) allows it.
     pub(crate) fn over(voxels: &Voxels, smallest_radius: f64) -> Self {
         let matrix = voxels.world_from_index.matrix3;
         let axes = square(matrix);
@@ -49,7 +50,7 @@ impl Grid {
     }
 }
 
-/// Orthonormal axes: the first one along that of the volume, the second one in the plane of its first two.
+/// Orthonormal axes: the first along the first axis of the volume, the second in the plane of its first two.
 fn square(matrix: DMat3) -> DMat3 {
     let x = matrix.x_axis.normalize_or(DVec3::X);
     let y = (matrix.y_axis - x * matrix.y_axis.dot(x)).normalize_or(x.any_orthonormal_vector());

@@ -9,13 +9,13 @@ use crate::trace::find::track::{Track, TrackPoint};
 use crate::trace::find::tracking::Tracking;
 use lumencut_core::error::Result;
 
-/// Tracks with at least this confidence may be vessels, so nothing is searched inside.
+/// Tracks with at least this confidence may be vessels, so no tubes are searched inside them.
 const DISMISSED: f64 = 0.3;
 
 /// Maximum radius of a hidden tube, relative to the radius of the track.
 const NARROWER: f64 = 0.5;
 
-/// Finds tubes inside dismissed tracks. `judged` are the `tracks` (finest voxels) with final confidence.
+/// Finds tubes inside dismissed tracks. `judged` are the same `tracks` (finest-level voxels), with final confidence.
 pub(crate) fn hidden(
     tracking: &Tracking,
     candidates: &[Candidate],
@@ -31,7 +31,7 @@ pub(crate) fn hidden(
     let dismissed = those(true);
     let radii: Vec<f64> = dismissed.iter().map(Track::radius).collect();
     let paint = tracking.painted(&dismissed);
-    // Maximum radius of a hidden tube at a place; None if no track hides it.
+    // Maximum radius of a hidden tube at a position; None if no track hides it.
     let most = |place: DVec3| match paint.at(place) {
         Painted::Lumen(number) => Some(NARROWER * radii[number as usize]),
         Painted::Empty | Painted::Rejected => None,

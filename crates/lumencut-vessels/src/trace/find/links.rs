@@ -1,7 +1,7 @@
 //! Links open ends of tracks to other tracks, so that tracks form trees.
 //!
-//! Each end is linked to the cheapest place ahead of it. Then ends and sides are linked, but only to other
-//! trees and with stricter limits: if two trees leave one short trunk, their nearest ends belong together.
+//! Each end is first linked to the cheapest point ahead of it. Then ends and sides are linked, but only to other
+//! trees and with stricter limits. If two trees leave one short trunk, their nearest ends belong together.
 
 pub(crate) mod bridges;
 pub(crate) mod ends;
@@ -25,13 +25,13 @@ use crate::trace::find::track::Track;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Number of rounds in which ends are linked to other trees.
+/// Number of rounds in which ends and sides are linked to other trees.
 const ROUNDS: usize = 2;
 
 pub(crate) fn between(scan: &Scan, tracks: &[Track], stop: Stop, stages: Stages) -> Result<Vec<Link>> {
     let landings = Landings::new(scan, tracks);
     let ends = ends(tracks);
-    // Each end is processed three times, each side once.
+    // Each end is processed three times, and each side once.
     let pieces = stages.stage(Stage::Links, 3 * ends.len() + tracks.len());
     let stop = &|| {
         pieces.done(1);

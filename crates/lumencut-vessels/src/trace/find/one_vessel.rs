@@ -1,4 +1,4 @@
-//! Finds the complete vessel of one click: back to the nearest existing vessel, and on to its end.
+//! Finds the complete vessel at a click: back to the nearest existing vessel, and forward to the vessel's end.
 
 use glam::DVec3;
 
@@ -8,7 +8,7 @@ use crate::trace::lines::centerline::Centerline;
 use crate::trace::lines::nearest_point::nearest_point;
 use crate::trace::lumen::within::holds;
 
-/// Points this close (mm) are the same point, apart from rounding.
+/// Points less than this far apart (mm) differ only by rounding.
 const SAME_POINT_MM: f64 = 1e-6;
 
 /// The vessel that contains a click (mm, LPS): the nearest one in radii, sure ones first. It starts on an
@@ -39,7 +39,7 @@ pub fn one_vessel(
         confidence: whole.confidence[range].to_vec(),
     };
     let end = line.points.len() - 1;
-    // Everything else lies in an existing vessel.
+    // Everything that would be added lies in an existing vessel.
     if end == 0 {
         return Err(NoVessel::Already);
     }
@@ -51,7 +51,7 @@ pub fn one_vessel(
     Ok(line)
 }
 
-/// The vessel with its ancestors in front, and the number of their points.
+/// The vessel after its ancestors in one line, and the number of points of the ancestors.
 fn with_ancestors(trees: &Trees, number: usize) -> (usize, Centerline) {
     let mut whole = trees.vessels[number].line.clone();
     let (mut before, mut of) = (0, number);
@@ -78,12 +78,12 @@ fn parent(trees: &Trees, number: usize) -> Option<(usize, usize)> {
     others.filter(|(n, other)| *n != number && other.part == child.part).find_map(|(n, other)| {
         let points = &other.line.points;
         let at = nearest_point(points, start);
-        // If two vessels start at one point, neither is the parent of the other.
+        // If two vessels start at the same point, neither is the parent of the other.
         (at > 0 && points[at].distance(start) <= SAME_POINT_MM).then_some((n, at))
     })
 }
 
-/// Whether a place lies in or on a vessel. Its ends do not count, because another vessel may continue there.
+/// Whether a position lies in or on a vessel. Its ends do not count, because another vessel may continue there.
 fn meets(beside: &[Centerline], place: DVec3) -> bool {
     beside.iter().any(|vessel| {
         let (points, last) = (&vessel.points, vessel.points.len() - 1);

@@ -1,10 +1,10 @@
-//! The painted lumens of tracks. They show where a track meets another one, and what is already tracked.
+//! The lumens of tracks, painted into voxels. They show where a track meets another one, and what is already tracked.
 
 use std::collections::HashMap;
 
 use glam::DVec3;
 
-/// Side of a block (voxels), and its number of bits.
+/// Side of a block (voxels), and the number of bits that count them.
 const SIDE: i32 = 16;
 const BITS: u32 = 4;
 
@@ -12,7 +12,7 @@ const BITS: u32 = 4;
 pub(crate) enum Painted {
     Empty,
     Lumen(u32),
-    /// The centerline of a track that is not a vessel.
+    /// The centerline of a track that was rejected as not being a vessel.
     Rejected,
 }
 

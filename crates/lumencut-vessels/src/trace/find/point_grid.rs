@@ -1,4 +1,4 @@
-//! An index that finds points near a place by cubic cells.
+//! An index by cubic cells that finds the points near a position.
 
 use glam::DVec3;
 
@@ -8,7 +8,7 @@ const MAX_CELL: f64 = ((1_u64 << BITS) - 1) as f64;
 
 pub(crate) struct PointGrid {
     places: Vec<DVec3>,
-    /// Pairs of cell number and point number, sorted.
+    /// Sorted pairs of cell number and point number.
     cells: Vec<(u64, u32)>,
     low: DVec3,
     high: DVec3,

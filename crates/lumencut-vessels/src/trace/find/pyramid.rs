@@ -11,12 +11,12 @@ use lumencut_core::error::Result;
 use lumencut_core::math::lanes::{FAN, larger, smaller};
 use lumencut_core::stop::{Stop, go_on};
 
-/// Halving stops when the widest vessel (mm) is this many voxels wide, or at the minimum size per axis.
+/// Halving of the resolution stops when the widest vessel (mm) is this many voxels wide, or at the minimum size.
 const VOXELS_OF_WIDEST: f64 = 3.2;
 const WIDEST: f64 = 18.0;
 const LEAST_SIZE: usize = 10;
 
-/// Weights of a Gaussian of 0.8 voxels.
+/// Weights of a Gaussian with a standard deviation of 0.8 voxels.
 const HALVING: [f32; 3] = [0.495_4, 0.226_7, 0.025_6];
 
 /// The largest number that is stored.
@@ -25,11 +25,11 @@ const FULL: f32 = 65_535.0;
 #[derive(Clone, Debug)]
 pub(crate) struct Level {
     pub size: [usize; 3],
-    /// Side of a voxel, in finest voxels.
+    /// Side of a voxel, in finest-level voxels.
     pub side: f64,
-    /// Numbers 0 to 65535 that cover the value range; the first axis is fastest.
+    /// Values scaled to 0 to 65535 over the value range; the first axis varies fastest.
     pub voxels: Vec<u16>,
-    /// The value of the number 0, and of a step by 1, in the unit of the volume.
+    /// The value that 0 stands for, and that of a step by 1, in the unit of the volume.
     pub lowest: f32,
     pub unit: f32,
 }
@@ -76,7 +76,7 @@ impl Level {
         let strides = [1, self.size[0], self.size[0] * self.size[1]];
         for a in 0..3 {
             let last = (self.size[a] - 1) as f32;
-            // On an axis of one voxel, that voxel is used twice (`steps`).
+            // If an axis has only one voxel, that voxel is used twice (`steps`).
             let most = last.max(1.0) - 1.0;
             for n in 0..N {
                 let along = larger(smaller(places[a][n], last), 0.0);
@@ -189,7 +189,7 @@ impl Pyramid {
         }
     }
 
-    /// The level for a tube of a radius (finest voxels): the finest on which the radius is below four voxels.
+    /// The level for a tube of a radius (finest-level voxels): the finest on which the radius is below four voxels.
     pub(crate) fn level_for(&self, radius: f64, levels_examined: &Range<usize>) -> &Level {
         let last = levels_examined.end - 1;
         let number = (levels_examined.start..last)
@@ -203,7 +203,7 @@ impl Pyramid {
     }
 }
 
-/// From this radius (voxels) on, a tube is examined on the next coarser level.
+/// Tubes from this radius (voxels) on are examined on the next coarser level.
 const NEXT_LEVEL_RADIUS: f64 = 4.0;
 
 /// Resamples the volume; NaN becomes the lowest value.

@@ -1,4 +1,4 @@
-//! Error messages if vessels cannot be found.
+//! Error messages for scans and seeds in which no vessels can be found.
 
 use glam::DVec3;
 
@@ -25,7 +25,8 @@ pub fn outside(seed: DVec3) -> Error {
     Error::new(ErrorKind::Tracing, "seed", found, "a point within the volume")
 }
 
-/// The error for a seed in no vessel. It states value, nearest vessel point, and distance of that point (mm).
+/// The error for a seed in no vessel. It states the value at the seed, and position and distance (mm) of the
+/// nearest vessel.
 pub(crate) fn not_here(seed: DVec3, value: f64, nearest: DVec3, distance: f64) -> Error {
     let found = format!("no vessel here; the nearest one is {distance:.1} mm away, at {}", in_words(nearest));
     let expected = "a point within a vessel";
@@ -33,7 +34,7 @@ pub(crate) fn not_here(seed: DVec3, value: f64, nearest: DVec3, distance: f64) -
     error.mend("put the seed into a vessel, or trace between two points along it").at(seed, value)
 }
 
-/// The error for a click (mm, LPS) that gives no vessel. It states the value there.
+/// The error for a click (mm, LPS) that gives no vessel. It states the value at the click.
 pub fn no_whole_vessel(click: DVec3, value: f64, reason: NoVessel) -> Error {
     let (found, expected) = match reason {
         NoVessel::NotHere(distance) if distance.is_infinite() => {
@@ -52,7 +53,7 @@ pub fn no_whole_vessel(click: DVec3, value: f64, reason: NoVessel) -> Error {
     }
 }
 
-/// The error for a seed whose part has only doubtful vessels. `doubt` is the reason of the first one.
+/// The error for a seed whose connected part has only doubtful vessels. `doubt` is the reason of the first one.
 pub(crate) fn only_doubtful(seed: DVec3, value: f64, doubt: &str) -> Error {
     let found = format!("a doubtful vessel there: {doubt}");
     let error = Error::new(ErrorKind::Tracing, format!("seed {}", in_words(seed)), found, "one that is sure");

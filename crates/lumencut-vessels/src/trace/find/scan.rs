@@ -8,9 +8,9 @@ pub(crate) struct Scan<'v> {
     pub voxels: &'v Voxels<'v>,
     /// Side of the isotropic voxels (mm).
     pub side: f64,
-    /// Lower values are raised to this one, so that fat, lung and air do not count as contrast.
+    /// Values below this are raised to it, so that fat, lung and air do not count as contrast.
     pub lowest: f64,
-    /// Level that vessels usually have, in the unit of the volume.
+    /// Intensity that vessels usually have, in the unit of the volume.
     pub level: f64,
     /// Contrast that vessels usually have, in the unit of the volume.
     pub contrast: f64,

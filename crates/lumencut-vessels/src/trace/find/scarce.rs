@@ -8,24 +8,25 @@ use crate::voxels::Voxels;
 use glam::DVec3;
 use lumencut_core::math::arc_length::arc_lengths;
 
-/// In an angiography, some part has sure vessels of this length (mm, or share of the diagonal if less).
+/// An angiography has a part whose sure vessels have this length: mm, or a fraction of the scan's diagonal if less.
 const LEAST_LENGTH: f64 = 100.0;
 const OF_DIAGONAL: f64 = 0.3;
 
-/// Minimum length of any part, likewise; shorter ones are as often specks of calcium as vessels.
+/// Minimum length of any part, in the same units. Shorter parts are as often specks of calcium as vessels.
 const LEAST_PART: f64 = 15.0;
 const PART_OF_DIAGONAL: f64 = 0.15;
 
-/// Pairs of minimum length (radii) and maximum elongation; a tube meets one pair, bodies of tissue meet none.
+/// Pairs of minimum length (radii) and maximum elongation. Tubes satisfy one of them, bodies of tissue none.
 const LONG_AND_ROUND: [[f64; 2]; 2] = [[10.0, 1.5], [6.0, 1.25]];
 
-/// This share of the diagonal counts as long for any width, because a small volume cannot show more.
+/// A length of this fraction of the diagonal suffices for any width, because a small volume cannot show more.
 const LONG_OF_DIAGONAL: f64 = 0.5;
 
-/// Upper level (HU) of plain blood and muscle; a limit of 120 would exclude scans with arteries of 115 HU.
+/// Upper level (HU) of muscle and of blood without contrast medium; 120 would exclude arteries of 115 HU.
 const BLOOD: f64 = 75.0;
 
-/// Whether sure, long, round tracks reach the minimum length and, in CT, are brighter than plain blood.
+/// Whether sure, long, round tracks reach the minimum length. In CT they must also be brighter than blood
+/// without contrast medium.
 pub(crate) fn is_angiography(scan: &Scan, tracks: &[Track], shapes: &[Option<Shape>]) -> bool {
     let diagonal = diagonal(scan.voxels);
     let length = |(track, shape): (&Track, &Option<Shape>)| {
@@ -75,7 +76,7 @@ mod tests {
     use crate::trace::find::made::{straight_track, with_scan};
     use crate::trace::lines::centerline::Centerline;
 
-    /// Doubts of vessels of these lengths (mm), each one part, in a cube with a diagonal of 69.3 mm.
+    /// Doubts of vessels with these lengths (mm), each its own part, in a cube with a diagonal of 69.3 mm.
     fn doubts(lengths: &[f64]) -> Vec<Option<TrackDoubt>> {
         let vessel = |(part, length): (usize, &f64)| {
             let points = vec![DVec3::ZERO, DVec3::X * *length];
@@ -91,12 +92,12 @@ mod tests {
     fn all_is_doubtful_where_no_part_is_long_and_else_what_is_very_short() {
         assert_eq!(doubts(&[20.7, 10.0]), [Some(TrackDoubt::Scarce); 2]);
         assert_eq!(doubts(&[20.9, 10.5]), [None; 2]);
-        // 0.15 of the diagonal is 10.4 mm.
+        // The limit of 0.15 of the diagonal is 10.4 mm.
         assert_eq!(doubts(&[20.9, 10.3]), [None, Some(TrackDoubt::Short)]);
         assert!(doubts(&[]).is_empty());
     }
 
-    /// Whether a single track makes a scan an angiography, in a cube with a diagonal of 207.8 mm.
+    /// Whether a scan with this single track is an angiography, in a cube with a diagonal of 207.8 mm.
     fn shows(length: f64, radius: f64, elongation: f64, level_in_hounsfield: Option<f64>) -> bool {
         let track = straight_track(DVec3::ZERO, DVec3::X * length, radius);
         with_scan(
@@ -113,12 +114,12 @@ mod tests {
 
     #[test]
     fn an_angiography_has_tubes_that_are_long_and_round_and_in_a_ct_brighter_than_plain_blood() {
-        // 0.3 of the diagonal is 62.4 mm.
+        // The limit of 0.3 of the diagonal is 62.4 mm.
         assert!(shows(65.0, 6.0, 1.4, None) && !shows(60.0, 6.0, 1.4, None));
         assert!(!shows(65.0, 7.0, 1.4, None) && !shows(65.0, 6.0, 1.6, None));
         // A rounder tube may be shorter.
         assert!(shows(65.0, 10.5, 1.2, None) && !shows(65.0, 11.5, 1.2, None));
-        // For any width, half of the diagonal is long.
+        // A length of half the diagonal suffices for any width.
         assert!(shows(104.5, 12.0, 1.4, None) && !shows(103.0, 12.0, 1.4, None));
         assert!(shows(65.0, 6.0, 1.4, Some(80.0)) && !shows(65.0, 6.0, 1.4, Some(70.0)));
     }

@@ -1,4 +1,4 @@
-//! Cross-section of a tube: its own level, the walls along rays, and its centre.
+//! Cross-section of a tube: its level, the walls along rays, and its centre.
 
 use std::f64::consts::TAU;
 
@@ -11,44 +11,44 @@ use lumencut_core::math::lanes::{Isa, Kernel, dispatch};
 /// Number of rays; opposite rays form pairs.
 const RAYS: usize = 24;
 
-/// Sampling distance (voxels of the level).
+/// Distance between samples of a ray (voxels of the level).
 const STEP: f64 = 0.5;
 
-/// Length of a ray: radii plus voxels.
+/// Length of a ray: a multiple of the radius plus some voxels.
 const REACH_RADII: f64 = 1.6;
 const REACH_VOXELS: f64 = 2.0;
 
-/// The wall is at half of a ray's own contrast; at least this share of the section's contrast counts.
+/// The wall is at half of a ray's contrast, which must be at least this fraction of the section's contrast.
 const LEAST_OF_CONTRAST: f64 = 0.4;
 
-/// Walls are valid between these factors of the radius, minus a quarter and plus half a voxel.
+/// Walls are valid between these multiples of the radius, minus a quarter of a voxel and plus half a voxel.
 const NEAR_WALL: f64 = 0.55;
 const FAR_WALL: f64 = 1.6;
 
 /// Farther walls are moved to this many radii, so that a branch does not shift the centre.
 const MAX_WALL_RADII: f64 = 1.5;
 
-/// Rays end at bone only in tubes up to this radius (finest voxels).
+/// Rays end at bone only in tubes up to this radius (finest-level voxels).
 pub(crate) const TOUCHED: f64 = 3.0;
 
-/// Bone is brighter than lumen by this share of the contrast. Rays that meet it end at the darkest place
-/// before it, because the wall is too thin to resolve. Up to `MOST_BONE` of them skip the contrast test.
+/// Bone is brighter than lumen by this fraction of the contrast. Rays that meet bone end at the darkest sample before
+/// it, because the wall is too thin to resolve. Up to `MOST_BONE` of these rays skip the contrast test.
 const ABOVE: f64 = 0.15;
 const MOST_BONE: usize = 4;
 
-/// Lengths are in finest voxels, values in the unit of the volume.
+/// Lengths are in finest-level voxels, values in the unit of the volume.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Section {
     pub level: f64,
-    /// Contrast to the surrounding tissue.
+    /// Contrast between lumen and surrounding tissue.
     pub contrast: f64,
-    /// Median distance of the walls.
+    /// Median distance of the walls from the centre.
     pub radius: f64,
-    /// Vector from the given place to the centre.
+    /// Vector from the given position to the centre.
     pub shift: DVec3,
-    /// Share of rays with a wall about one radius away.
+    /// Fraction of rays with a wall about one radius away.
     pub closure: f64,
-    /// Share of rays that lose at least half of the contrast.
+    /// Fraction of rays that lose at least half of the contrast.
     pub(crate) contrast_share: f64,
 }
 
@@ -62,7 +62,7 @@ impl Section {
         Walls::seen(level, place, direction, radius).section()
     }
 
-    /// Like `look`, but rays also end at material brighter than the lumen.
+    /// Like `look`, but rays also end at bone, which is brighter than the lumen.
     pub(crate) fn beside_bone(level: &Level, place: DVec3, direction: DVec3, radius: f64) -> Self {
         Walls::seen(level, place, direction, radius).ending_at_bone().section()
     }
@@ -71,12 +71,12 @@ impl Section {
 struct Walls {
     rays: Rays,
     plane: [DVec3; 2],
-    /// Approximate radius of the tube, and voxel side of the level (finest voxels).
+    /// Approximate radius of the tube, and voxel side of the level (finest-level voxels).
     radius: f64,
     side: f64,
     lumen: f64,
     contrast: f64,
-    /// Distance of the wall of each ray, and whether it is bone.
+    /// Distance of the wall along each ray, and whether that wall touches bone.
     walls: [f64; RAYS],
     is_bone: [bool; RAYS],
 }
@@ -145,12 +145,11 @@ fn lumen(level: &Level, place: DVec3, plane: [DVec3; 2], radius: f64) -> f64 {
 }
 
 struct Rays {
-    /// Values by step; each row has one value per ray.
+    /// Values of all rays by step; each row has one value per ray.
     values: Vec<[f32; RAYS]>,
-    /// Distance between samples, and length of the rays (finest voxels).
+    /// Distance between samples, and length of the rays (finest-level voxels).
     step: f64,
     reach: f64,
-    /// Lowest value of each ray.
     darkest: [f64; RAYS],
 }
 
@@ -186,17 +185,16 @@ impl Rays {
         (n as f64 + share) * self.step
     }
 
-    /// Distance of the darkest place before a ray first rises above a value; None if it never rises.
+    /// Distance of the darkest sample before a ray first rises above a value; None if it never rises.
     fn wall_at_bone(&self, ray: usize, above: f64) -> Option<f64> {
         let value = |n: &usize| self.values[*n][ray];
         let bone = (0..self.values.len()).find(|n| f64::from(value(n)) > above)?;
-        // Of equally dark places the last one is taken, so that without a wall the ray ends at bone.
+        // Of equally dark samples the last one is taken, so that without a wall the ray ends at bone.
         let darkest = (bone / 2..bone).rev().min_by(|a, b| value(a).total_cmp(&value(b))).unwrap_or(bone);
         Some((darkest + 1) as f64 * self.step)
     }
 }
 
-/// Kernel that samples all rays.
 struct Sampled<'a> {
     level: &'a Level,
     /// Start of the rays, in voxels of the level.
@@ -224,7 +222,7 @@ impl Kernel for Sampled<'_> {
     }
 }
 
-/// Mean difference between opposite walls, at most half a radius.
+/// Shift of the centre: the mean difference between opposite walls, at most half a radius.
 fn shift(walls: &[f64; RAYS], plane: [DVec3; 2], radius: f64) -> DVec3 {
     let pairs = RAYS / 2;
     let mut sum = DVec3::ZERO;
@@ -232,7 +230,7 @@ fn shift(walls: &[f64; RAYS], plane: [DVec3; 2], radius: f64) -> DVec3 {
         let (sin, cos) = (TAU * n as f64 / RAYS as f64).sin_cos();
         sum += (plane[0] * cos + plane[1] * sin) * (walls[n] - walls[n + pairs]);
     }
-    // Averaged over a half circle, differences give half of the shift.
+    // Averaged over a half circle, the differences are half of the shift.
     (sum / pairs as f64).clamp_length_max(0.5 * radius)
 }
 

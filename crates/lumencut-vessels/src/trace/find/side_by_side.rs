@@ -1,4 +1,4 @@
-//! Separates lumens that lie side by side in a wide tube: the limbs of a stent graft, true and false lumen.
+//! Separates lumens that lie side by side in a wide tube: the limbs of a stent graft, or true and false lumen.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -10,30 +10,30 @@ use crate::trace::find::tracking::Tracking;
 use lumencut_core::error::Result;
 use lumencut_core::stop::go_on;
 
-/// Minimum radius of a wide tube (finest voxels).
+/// Minimum radius of a wide tube (finest-level voxels).
 const MIN_WIDE_RADIUS: f64 = 4.0;
 
-/// Ranges of the distance from the axis, and of the radius, in radii of the wide tube.
+/// Ranges for a lumen inside a wide tube: distance from its axis, and radius, both in radii of the wide tube.
 const OFF_AXIS: [f64; 2] = [0.3, 1.2];
 const NARROWER: [f64; 2] = [0.25, 0.7];
 
-/// Minimum closure and contrast share, and minimum response as a share of the contrast of the wide tube.
+/// Minimum closure and fraction of contrasting rays; minimum response as a fraction of the wide tube's contrast.
 const LEAST_CLOSURE: f64 = 0.8;
 const LEAST_RESPONSE: f64 = 0.5;
 
-/// Number of coarsest levels that are skipped, because they merge adjacent lumens.
+/// Number of coarsest levels that are skipped, because they would merge adjacent lumens.
 const COARSE_LEVELS: usize = 2;
 
-/// Minimum confidence of the new tracks.
+/// Minimum confidence of the tracks that are added.
 const LEAST_CONFIDENCE: f64 = 0.5;
 
-/// New parts: distance from the wide axis (its radii), length (own radii), share inside the wide tube.
+/// Limits of a new part: distance from the wide axis (its radii), length (own radii), fraction in the wide tube.
 const MIN_AXIS_DISTANCE: f64 = 0.33;
 const LEAST_RADII: f64 = 3.0;
 const LEAST_WITHIN: f64 = 0.3;
 const WITHIN: f64 = 1.15;
 
-/// Finds tracks of adjacent lumens inside wide tracks, in finest voxels.
+/// Finds tracks of adjacent lumens inside wide tracks, in finest-level voxels.
 pub(crate) fn side_by_side(
     tracking: &Tracking,
     candidates: &[Candidate],
@@ -78,7 +78,7 @@ fn is_beside(candidate: &Candidate, point: &TrackPoint) -> bool {
         && candidate.response > LEAST_RESPONSE * point.contrast
 }
 
-/// Distance of a place from the axis; the largest number if the place lies in another section.
+/// Distance of a position from the axis; the largest number if it does not lie in this section.
 fn off_axis(place: DVec3, point: &TrackPoint) -> f64 {
     let way = place - point.place;
     let along = way.dot(point.direction);
@@ -86,7 +86,7 @@ fn off_axis(place: DVec3, point: &TrackPoint) -> f64 {
 }
 
 fn new_runs(track: &Track, wide: &[TrackPoint]) -> Vec<Track> {
-    // Distance of each point from the nearest wide axis, in radii of that.
+    // Distance of each point from the nearest wide axis, in radii of the wide tube.
     let off: Vec<f64> = track
         .points
         .iter()

@@ -6,9 +6,9 @@ use lumencut_core::progress::Progress;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Stage {
-    /// Making the levels of the pyramid.
+    /// Computing the pyramid of resolutions.
     Levels,
-    /// First pass, which estimates the vessel level.
+    /// The first pass, which estimates the vessel level.
     FirstPass,
     Candidates,
     Tracks,
@@ -20,7 +20,6 @@ pub(crate) enum Stage {
 /// Relative durations of the stages.
 const COSTS: [usize; 7] = [4, 18, 28, 38, 7, 2, 3];
 
-/// Number of progress steps per stage.
 const PARTS: usize = 1000;
 
 #[derive(Clone, Copy, Debug, Default)]

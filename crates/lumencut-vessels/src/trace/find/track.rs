@@ -1,4 +1,4 @@
-//! Tracked tubes: centre points, each with the lumen around it.
+//! Tracks of tubes: centre points, each with the radius, level and contrast of the lumen there.
 
 use glam::DVec3;
 
@@ -12,11 +12,11 @@ pub(crate) struct TrackPoint {
     pub direction: DVec3,
     /// Radius (mm).
     pub radius: f64,
-    /// Lumen level, in the unit of the volume.
+    /// Intensity level of the lumen, in the unit of the volume.
     pub level: f64,
     /// Contrast to the surrounding tissue, in the unit of the volume.
     pub contrast: f64,
-    /// Share of rays with a wall about one radius away.
+    /// Fraction of rays with a wall about one radius away.
     pub closure: f64,
     /// Whether the section at this point looks like that of a tube.
     pub(crate) is_good: bool,
@@ -37,7 +37,7 @@ pub(crate) struct Track {
 pub enum TrackDoubt {
     /// The surroundings are bright on most sides, as in bone.
     BrightSides,
-    /// The section is flat, as that of a plate of bone.
+    /// The section is flat, like that of a plate of bone.
     Flat,
     /// The inside is uneven, like marrow.
     Uneven,
@@ -71,7 +71,7 @@ pub(crate) fn length(points: &[TrackPoint]) -> f64 {
     points.windows(2).map(|pair| pair[0].place.distance(pair[1].place)).sum()
 }
 
-/// Lower median of a value of the points; 0 if there are none.
+/// Lower median of one property of the points; 0 if there are none.
 pub(crate) fn usual<'p>(points: impl IntoIterator<Item = &'p TrackPoint>, of: fn(&TrackPoint) -> f64) -> f64 {
     lower_median(&mut points.into_iter().map(of).collect::<Vec<_>>()).unwrap_or(0.0)
 }

@@ -10,26 +10,25 @@ use crate::trace::find::pyramid::{Level, Pyramid};
 use crate::trace::find::section::{Section, TOUCHED};
 use crate::trace::find::track::TrackPoint;
 
-/// Step as a share of the radius; its maximum (voxels of the level) and minimum (finest voxels).
+/// Step as a fraction of the radius; its maximum (voxels of the level) and minimum (finest-level voxels).
 const STEP: f64 = 0.45;
 const LONGEST_STEP: f64 = 1.5;
 const SHORTEST_STEP: f64 = 0.5;
 
-/// Number of centring rounds per step.
 const ROUNDS: usize = 2;
 
-/// Requirements of a good section: closure, share of contrasting rays, radius relative to the running one
-/// (factor and voxels), and shift from the expected place (radii plus voxels).
+/// Limits of a good section: closure, fraction of contrasting rays, radius relative to the running one
+/// (factor and voxels), and shift from the expected position (radii plus voxels).
 const LEAST_CLOSURE: f64 = 0.6;
 const LEAST_CONTRAST_SHARE: f64 = 0.6;
 const NARROWER: [f64; 2] = [0.6, 0.3];
 const WIDER: [f64; 2] = [1.5, 0.3];
 const MOST_SHIFT: [f64; 2] = [0.6, 0.4];
 
-/// Maximum radius of a tube (mm).
+/// Maximum radius of a tracked tube (mm).
 const WIDEST: f64 = 22.0;
 
-/// Limits of a section: level difference and contrast (shares of the running contrast), contrast in noises.
+/// Limits of a section: level difference and contrast (times the running contrast), contrast (times the noise).
 const LEVEL: f64 = 0.45;
 const CONTRAST: f64 = 0.45;
 const NOISES: f64 = 3.0;
@@ -38,30 +37,29 @@ const NOISES: f64 = 3.0;
 const OF_LEVEL: f64 = 0.15;
 const OF_RADIUS: f64 = 0.3;
 
-/// Length of the chord that gives the direction: radii plus voxels.
+/// Length of the chord that gives the direction: a multiple of the radius plus some voxels.
 const CHORD: [f64; 2] = [1.2, 1.0];
 
-/// Maximum length of a gap (radii or voxels). Steps darker than this share of the contrast count twice.
+/// Maximum length of a gap: radii, or voxels if larger. Steps darker than this fraction of the contrast count twice.
 const GAP_RADII: f64 = 2.2;
 const GAP_VOXELS: f64 = 3.0;
 const DARK: f64 = 0.6;
 
-/// A track ends at another one unless that is darker by more than this share of the contrast.
+/// A track ends where it meets another one, unless that one is darker by more than this fraction of the contrast.
 pub(crate) const DARKER: f64 = 0.35;
 
-/// Maximum number of steps per direction.
 pub(crate) const MOST_STEPS: usize = 20_000;
 
-/// A track has returned to itself if it comes this close (radii) to a point this far back (radii).
+/// A track has returned to itself if it comes within `RETURNED` radii of a point `BEHIND` radii back on it.
 const RETURNED: f64 = 0.8;
 const BEHIND: f64 = 4.0;
 
-/// Data for tracking. Lengths are in finest voxels.
+/// Data for tracking. Lengths are in finest-level voxels.
 pub(crate) struct Tracker<'a> {
     pub(crate) pyramid: &'a Pyramid,
     pub levels_examined: Range<usize>,
     pub paint: &'a Paint,
-    /// Level of each painted track.
+    /// Intensity level of each painted track.
     pub levels: &'a [f64],
     pub(crate) floors: Floors,
 }
@@ -85,7 +83,7 @@ enum Seen {
 type Look = fn(&Level, DVec3, DVec3, f64) -> Section;
 
 impl Tracker<'_> {
-    /// Points of the track through a candidate (finest voxels), with at most `most_steps` per direction.
+    /// Points of the track through a candidate (finest-level voxels), with at most `most_steps` per direction.
     pub(crate) fn track(&self, from: &Candidate, most_steps: usize) -> Option<Vec<TrackPoint>> {
         let level = self.pyramid.level_for(from.radius, &self.levels_examined);
         let section = Section::look(level, from.place, from.direction, from.radius);
@@ -126,7 +124,7 @@ impl Tracker<'_> {
         let mut points: Vec<TrackPoint> = Vec::new();
         let mut way: Vec<DVec3> = before.to_vec();
         way.push(running.place);
-        // Sections at bone count only if the tube continues after them or meets another track.
+        // Sections next to bone are kept only if the tube continues after them or meets another track.
         let (mut gap, mut sure, mut last) = (0.0, 0, 0);
         for _ in 0..most_steps {
             let step = self.step(running.radius);
@@ -171,7 +169,7 @@ impl Tracker<'_> {
         }
     }
 
-    /// The centred section and its kind. A section that is no tube is tried again as a small artery at bone.
+    /// The centred section and its kind. If it is no tube, it is tried again as that of a small artery next to bone.
     fn best(&self, ahead: DVec3, running: &Running) -> (DVec3, Section, Seen) {
         let good = |look: Look, seen: Seen| {
             let (place, section) = self.centered(ahead, running, look);
@@ -215,7 +213,7 @@ impl Tracker<'_> {
         let reach = CHORD[0] * running.radius + CHORD[1] * self.side();
         let from = way.iter().rev().find(|point| point.distance(place) >= reach).or(way.first());
         let chord = from.map_or(DVec3::ZERO, |from| (place - *from).normalize_or_zero());
-        // Points behind the start were tracked the other way, so they give no direction.
+        // Points behind the start were tracked in the opposite direction, so they do not give the direction.
         let chord = if chord.dot(running.direction) > 0.0 { chord } else { DVec3::ZERO };
         let toward = |old: f64, new: f64, share: f64| old + share * (new - old);
         Running {

@@ -15,19 +15,19 @@ use crate::trace::find::tracker::{DARKER, MOST_STEPS, Tracker};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Minimum length of a track in radii and in voxels, and minimum share of good sections.
+/// Minimum length of a track in radii and in voxels, and minimum fraction of good sections.
 const LEAST_RADII: f64 = 3.0;
 const LEAST_VOXELS: f64 = 5.0;
 const LEAST_GOOD: f64 = 0.6;
 
-/// Minimum confidence of a track.
 const LEAST_CONFIDENCE: f64 = 0.3;
 
-/// Steps of a short first track, and its minimum confidence relative to that of a complete one.
+/// Number of steps of a short first attempt, and its minimum confidence relative to that of a complete track.
 const FIRST_STEPS: usize = 16;
 const LEAST_OF_FIRST: f64 = 0.5;
 
-/// Radius of the paint, in radii, of narrow, wide and other tracks; radii (voxels) that are narrow and wide.
+/// Radius of the paint, in track radii: for narrow tracks (up to `NARROW_RADIUS` voxels), for wide ones (from
+/// `WIDE_RADIUS` voxels on), and for others.
 const PAINTED: [f64; 3] = [0.9, 1.1, 1.0];
 const NARROW_RADIUS: f64 = 2.0;
 const WIDE_RADIUS: f64 = 4.0;
@@ -35,14 +35,15 @@ const WIDE_RADIUS: f64 = 4.0;
 /// Radius of the paint of a rejected track (voxels).
 const THIN: f64 = 1.0;
 
-/// Minimum contrast (share of that of vessels) and maximum radius (voxels) of a candidate in a darker track.
+/// A candidate inside a darker track needs this fraction of the vessel contrast, and at most this radius (voxels).
 const OVER_CONTRAST: f64 = 0.5;
 const OVER_RADIUS: f64 = 5.0;
 
 /// Number of candidates tracked in parallel before painting.
 const BATCH: usize = 32;
 
-/// Candidates closer than this (radii plus voxels) are tracked one after the other; most that are searched.
+/// Candidates closer than this (radii plus voxels) are tracked one after the other. For each batch, at most
+/// `MAX_EXAMINED` candidates are searched.
 const NEAR_RADII: f64 = 4.0;
 const NEAR_VOXELS: f64 = 8.0;
 const MAX_EXAMINED: usize = 128;
@@ -84,8 +85,8 @@ impl Tracking<'_> {
         self.pyramid.levels[self.levels_examined.start].side
     }
 
-    /// Finds tracks in finest voxels. Candidates are tracked in independent batches and painted in order.
-    /// Those that meet new paint are tracked again, so the result does not depend on the number of threads.
+    /// Finds tracks in finest-level voxels. Candidates are tracked in independent batches and painted in order.
+    /// Candidates that meet new paint are tracked again, so the result does not depend on the number of threads.
     pub(crate) fn tracks(&self, candidates: &[Candidate]) -> Result<Vec<Track>> {
         self.tracks_beside(&[], candidates)
     }
@@ -131,7 +132,7 @@ impl Tracking<'_> {
         known
     }
 
-    /// The next independent candidates. Those near another one wait, because both may lie in the same tube.
+    /// The next independent candidates. A candidate near another one waits, because both may lie in the same tube.
     fn batch(
         &self,
         paint: &Paint,
@@ -170,7 +171,7 @@ impl Tracking<'_> {
         batch
     }
 
-    /// Whether the candidate's place is unpainted, or the candidate is a narrow one inside a darker lumen.
+    /// Whether the candidate's position is unpainted, or the candidate is a narrow one inside a darker lumen.
     fn is_open(&self, paint: &Paint, levels: &[f64], candidate: &Candidate) -> bool {
         match paint.at(candidate.place) {
             Painted::Empty => true,
@@ -190,7 +191,7 @@ impl Tracking<'_> {
     fn tried(&self, paint: &Paint, levels: &[f64], candidate: &Candidate) -> Tried {
         let (levels_examined, floors) = (self.levels_examined.clone(), self.floors);
         let tracker = Tracker { pyramid: self.pyramid, levels_examined, paint, levels, floors };
-        // The first steps are enough to reject most places that are not vessels.
+        // The first steps are enough to reject most positions outside vessels.
         let Some(points) = tracker.track(candidate, FIRST_STEPS) else { return Tried::Nothing };
         let Some(first) = self.kept(&points, LEAST_OF_FIRST) else { return Tried::Rejected(points) };
         if points.len() <= FIRST_STEPS {
@@ -202,7 +203,7 @@ impl Tracking<'_> {
         self.kept(&points, 1.0).map_or(Tried::Rejected(points), Tried::Kept)
     }
 
-    /// The track, if it is long and good enough, and has at least `share` of the minimum confidence.
+    /// The track if it is long and good enough, and has at least `share` of the minimum confidence.
     fn kept(&self, points: &[TrackPoint], share: f64) -> Option<Track> {
         let radius = usual(points, |point| point.radius);
         let good = points.iter().filter(|point| point.is_good).count() as f64;

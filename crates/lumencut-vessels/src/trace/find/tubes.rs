@@ -21,18 +21,18 @@ use crate::voxels::Voxels;
 use lumencut_core::error::Result;
 use lumencut_core::stop::Stop;
 
-/// If a scan has values below `AIR` (HU), values below `WATER` are raised to it: fat, lung and air.
+/// If a scan has values below `AIR` (HU), its values below `WATER` (fat, lung and air) are raised to `WATER`.
 const AIR: f64 = -200.0;
 const WATER: f64 = 0.0;
 
-/// Quantile that caps the values of the first pass, and number of samples that give it.
+/// Quantile that caps the values of the first pass, and number of samples from which it is taken.
 const BRIGHTEST: f64 = 0.999;
 const SAMPLES: usize = 400_000;
 
-/// Cap of the second pass above the vessel level (share of the contrast), against struts, calcium and bone.
+/// The second pass caps values this far above the vessel level (fraction of the contrast): struts, calcium and bone.
 const ABOVE: f64 = 0.25;
 
-/// Contrast that the first pass assumes, as a share of the value range.
+/// Contrast that the first pass assumes, as a fraction of the value range.
 const FIRST_CONTRAST: f64 = 0.3;
 
 pub(crate) struct Tubes<'v> {
@@ -42,7 +42,7 @@ pub(crate) struct Tubes<'v> {
     pub shapes: Vec<Option<Shape>>,
 }
 
-/// The tubes of a scan; None if there are none. Around a seed (mm, LPS) in no track, fainter ones are found.
+/// The tubes of a scan, if any. If no track contains the seed (mm, LPS), fainter tubes are found around it.
 pub(crate) fn tubes<'v>(
     voxels: &'v Voxels<'v>,
     seed: Option<DVec3>,
@@ -73,7 +73,7 @@ pub(crate) fn tubes<'v>(
     of_pass(&pass, scan, seed.map(|seed| pyramid.grid.grid_from_world.transform_point3(seed))).map(Some)
 }
 
-/// The tubes that the second pass finds; `seed` is in finest voxels.
+/// The tubes that the second pass finds; `seed` is in finest-level voxels.
 fn of_pass<'v>(pass: &Tracking, scan: Scan<'v>, seed: Option<DVec3>) -> Result<Tubes<'v>> {
     let candidates = pass.candidates()?;
     let mut tracks = pass.tracks(&candidates)?;
@@ -140,7 +140,6 @@ fn usual(pyramid: &Pyramid, range: f64, stop: Stop) -> Result<Option<[f64; 2]>> 
     Ok(vessel_level(&tracks, noise))
 }
 
-/// Converts a track from finest voxels to mm in world space.
 fn in_world(grid: &Grid, mut track: Track) -> Track {
     for point in &mut track.points {
         point.place = grid.world(point.place);

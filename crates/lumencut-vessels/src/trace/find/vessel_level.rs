@@ -2,17 +2,17 @@
 
 use crate::trace::find::track::{TrackPoint, length, usual};
 
-/// Requirements of a tube: radius (finest voxels), closure, contrast in multiples of the noise, length in
-/// radii. If no tube meets them, others are used.
+/// Limits of a tube: radius (finest-level voxels), closure, contrast (times the noise), length (radii). If no
+/// tube meets them, others are used.
 const LEAST_RADIUS: f64 = 2.0;
 const LEAST_CLOSURE: f64 = 0.85;
 const NOISES: f64 = 6.0;
 const LEAST_LENGTH: f64 = 4.0;
 
-/// Levels are similar if they differ by about this share of the contrast.
+/// Intensity levels are similar if they differ by about this fraction of the contrast.
 const KERNEL: f64 = 0.2;
 
-/// Larger radii do not raise the weight of a tube further (finest voxels).
+/// Radii above this (finest-level voxels) do not increase the weight of a tube.
 const WIDEST: f64 = 10.0;
 
 #[derive(Clone, Copy, Debug)]
@@ -22,7 +22,7 @@ struct Tube {
     weight: f64,
 }
 
-/// The most frequent level, and its contrast, weighted by length, width and contrast; None without tubes.
+/// The most frequent level, and its contrast, with tubes weighted by length, width and contrast. None without tubes.
 pub(crate) fn vessel_level(tracks: &[Vec<TrackPoint>], noise: f64) -> Option<[f64; 2]> {
     let strict: Vec<Tube> = tracks.iter().filter_map(|points| tube(points, noise, true)).collect();
     let tubes = if strict.is_empty() {

@@ -1,7 +1,7 @@
 //! Turns linked tracks into complete vessels, from the root outwards, in ranked parts.
 //!
-//! Tracks and links form a graph. From each root, runs follow the straightest and widest edges. Runs are then
-//! centred, and start and end on points of the runs that they meet.
+//! Tracks and links form a graph. From each root, lines called runs follow the straightest and widest edges.
+//! The runs are then centred, and start and end on points of the runs that they meet.
 
 pub(crate) mod attached;
 pub(crate) mod centered;
@@ -67,7 +67,7 @@ pub(crate) fn of(
         let rank = part_of_root[of_node[run.knots[0].0]];
         stays[rank].extend(line.iter().map(|line| &line.points));
     }
-    // Parts without vessels get no number.
+    // Connected parts without vessels get no number.
     stays.retain(|lines| !lines.is_empty());
     let lines = stays.iter().enumerate().flat_map(|(part, lines)| lines.iter().map(move |line| (part, line)));
     Ok(lines.flat_map(|(part, line)| sure::vessels(tracks, line, part)).collect())

@@ -1,19 +1,18 @@
 //! Finds corresponding points of two centerlines.
 //!
 //! Schaap et al., "Standardized evaluation methodology and reference database for evaluating coronary artery
-//! centerline extraction algorithms", Medical Image Analysis 13(5), 2009, doi:10.1016/j.media.2009.06.003.
-//! Connections join a point of each line, from both starts to both ends. Each step advances one line by one
-//! point. Dynamic programming finds the smallest sum of lengths.
+//! centerline extraction algorithms", Medical Image Analysis 13(5), 2009, doi:10.1016/j.media.2009.06.003. A
+//! connection joins one point of each line; the connections lead from both starts to both ends. Each step
+//! advances one line by one point. Dynamic programming finds the smallest sum of lengths.
 
 use glam::DVec3;
 
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::stop::{Stop, go_on};
 
-/// Maximum number of point pairs. Each needs one bit, 512 MiB in all, and 32-bit machines can count them.
+/// Maximum number of point pairs, which 32-bit machines can count. Each needs one bit, so all need 512 MiB.
 const MOST_PAIRS: usize = usize::MAX >> (usize::BITS - 32);
 
-/// Number of pairs between two checks of `stop`.
 const PAIRS_BETWEEN_STOPS: usize = 1 << 24;
 
 /// Connections between two lines as pairs of point numbers, from the starts to the ends. Errors:

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use lumencut_core::math::arc_length::{LinePlace, arc_lengths, point_at};
 
-/// A length that exceeds the steps by less than this share of a step (rounding) adds no point.
+/// A remainder below this fraction of a step is a rounding error and adds no point.
 const TINY: f64 = 1e-6;
 
 /// Positions at even steps of at most `step` mm, from start to end; at least two.
@@ -15,7 +15,7 @@ pub(crate) fn even_places(points: &[DVec3], step: f64) -> Vec<LinePlace> {
     (0..=parts).map(|n| LinePlace::at(&lengths, total * n as f64 / parts as f64)).collect()
 }
 
-/// The line in even steps of at most `step` mm, straight between its points. Has at least two points.
+/// Points in even steps of at most `step` mm along straight lines between `points`; at least two.
 pub fn in_even_steps(points: &[DVec3], step: f64) -> Vec<DVec3> {
     even_places(points, step).into_iter().map(|place| place.point(points)).collect()
 }

@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use lumencut_core::math::arc_length::arc_lengths;
 
-/// The Gaussian ends at this many standard deviations.
+/// The Gaussian is cut off at this many standard deviations.
 const CUTOFF_SIGMAS: f64 = 3.0;
 
 /// Smooths values by local parabolas, weighted by `weights` and a Gaussian of `width` mm. Unlike averages,
@@ -63,7 +63,7 @@ impl<const N: usize> Parabola<N> {
         }
         let matrix =
             glam::DMat3::from_cols(DVec3::new(m0, m1, m2), DVec3::new(m1, m2, m3), DVec3::new(m2, m3, m4));
-        // Values on one side only do not determine a bend.
+        // Values on only one side do not determine the bend of a parabola.
         if matrix.determinant() < 1e-2 * m0 * m0 * m0 {
             return None;
         }

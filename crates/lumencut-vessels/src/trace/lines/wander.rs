@@ -1,18 +1,18 @@
-//! Finds turns that are too tight for the width of the vessel, where a line wanders within the lumen.
+//! Finds turns too tight for the width of the vessel: there the line wanders within the lumen.
 
 use lumencut_core::math::arc_length::arc_lengths;
 
 use crate::trace::lines::centerline::Centerline;
 
-/// A line wanders if the chord from one radius before to one radius after a point is shorter than this share
-/// of its arc length. A bend as tight as the vessel is wide has 0.84; 0.6 is a circle of 0.6 radii.
+/// A line wanders if the chord from one radius before a point to one radius after it is shorter than this fraction of
+/// its arc length. In a bend as tight as the vessel is wide, the fraction is 0.84; 0.6 is a circle of 0.6 radii.
 const LEAST_STRAIGHT: f64 = 0.6;
 
-/// Minimum half-length of the chord (mm), because the lines of thin vessels are only as smooth as voxels.
+/// Minimum half-length of the chord (mm), because lines of thin vessels are no smoother than the voxels.
 const LEAST_REACH: f64 = 2.0;
 
-/// Marks points at which the line turns more tightly than its vessel is wide. Own criterion: a tube of radius
-/// r bends with a radius of at least r, otherwise it would intersect itself.
+/// Marks points at which the line turns more tightly than its vessel is wide. The criterion is our own: a
+/// tube of radius r bends with a radius of at least r, otherwise it would intersect itself.
 pub fn wandering(line: &Centerline) -> Vec<bool> {
     let (points, lengths) = (&line.points, arc_lengths(&line.points));
     let last = points.len() - 1;

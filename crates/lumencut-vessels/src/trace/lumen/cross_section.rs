@@ -1,4 +1,4 @@
-//! The lumen in a plane across the line: its wall along rays, and the circle that fits best.
+//! The lumen in a plane across the line: its wall on each ray, and the circle that fits best.
 
 use std::f64::consts::TAU;
 
@@ -8,20 +8,20 @@ use crate::trace::lumen::lumen_model::LumenModel;
 use crate::trace::lumen::ray::Ray;
 use crate::voxels::Voxels;
 
-/// The value outside is searched up to this distance beyond the wall (mm).
+/// The value outside the wall is searched up to this distance beyond it (mm).
 const OUTSIDE: f64 = 1.5;
 
 /// Maximum radius of a lumen (mm).
 pub const WIDEST: f64 = 45.0;
 
-/// Smaller eigenvalue of the wall directions if only two sides show a wall, and if a quarter lacks one.
+/// Smaller eigenvalue of the wall directions if only two sides show a wall, and if three quarters show one.
 const TWO_SIDED: f64 = 0.25;
 const ROUND: f64 = 0.38;
 
-/// Minimum share of the rays that must meet a wall.
+/// Minimum fraction of the rays that must meet a wall.
 const LEAST_SEEN: f64 = 0.375;
 
-/// The lumen around a point.
+/// The lumen in a plane around a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LumenSection {
     /// Centre (mm, LPS).
@@ -32,7 +32,7 @@ pub struct LumenSection {
     pub(crate) trust: f64,
     /// Median of the values near the centre.
     pub value: f64,
-    /// Share of the walls that are brighter than the lumen, such as bone and stents.
+    /// Fraction of the wall that is brighter than the lumen, as at bone and stents.
     pub bright: f64,
 }
 
@@ -47,7 +47,7 @@ pub struct Probe<'a, 'v> {
 }
 
 impl Probe<'_, '_> {
-    /// Lumen around `center` in the plane of two directions; `guess` is its approximate radius (mm).
+    /// Lumen around `center` in the plane spanned by two directions; `guess` is its approximate radius (mm).
     pub fn look(&self, center: DVec3, across: [DVec3; 2], guess: Option<f64>) -> Option<LumenSection> {
         let step = self.step(guess);
         let lumen = self.local_lumen(center, across, guess)?;
@@ -79,7 +79,7 @@ impl Probe<'_, '_> {
         })
     }
 
-    /// Wall-to-wall distance along a direction (mm), up to `reach` on each side; None if a wall is missing.
+    /// Wall-to-wall distance along a direction (mm), up to `reach` mm on each side; None if a wall is missing.
     pub fn chord(&self, place: DVec3, direction: DVec3, reach: f64) -> Option<f64> {
         let lumen = f64::from(self.voxels.at(place));
         let side = |way| self.wall(place, way, lumen, self.step(None), reach).map(|(length, _)| length);
@@ -91,7 +91,7 @@ impl Probe<'_, '_> {
         guess.map_or(fine.max(0.15), |radius| fine.max(radius / 40.0)).clamp(0.03, 0.5)
     }
 
-    /// Lumen value at this place; None if the place is not in lumen.
+    /// Lumen value around `center`; None if `center` is not in lumen.
     fn local_lumen(&self, center: DVec3, across: [DVec3; 2], guess: Option<f64>) -> Option<f64> {
         let near = guess.map_or(0.0, |radius| 0.35 * radius).max(0.35 * self.voxels.smallest_side);
         let mut values = vec![self.voxels.at(center)];
@@ -107,7 +107,8 @@ impl Probe<'_, '_> {
         is_lumen.then_some(f64::from(median))
     }
 
-    /// Distance to the wall, which is midway between lumen and outside, and whether the outside is brighter.
+    /// Distance to the wall, and whether the outside is brighter. The wall is midway between the values of
+    /// lumen and outside.
     fn wall(
         &self,
         center: DVec3,
@@ -122,7 +123,8 @@ impl Probe<'_, '_> {
         let contrast = lumen - self.model.tissue;
         let dark = lumen - 0.5 * contrast;
         let bright = lumen + (0.5 * contrast).max(4.0 * self.model.noise);
-        // Two samples outside the range mean that lumen was left. NaN (outside the volume) counts as outside.
+        // Two samples outside the range mean that the ray has left the lumen. NaN (outside the volume) counts
+        // as outside.
         let leaves = |v: f64| !(v >= dark && v <= bright);
         let last = (reach / step) as usize;
         let out = (1..=last).find(|n| leaves(ray.value(*n)) && leaves(ray.value(n - 1)))? - 1;
@@ -135,7 +137,7 @@ impl Probe<'_, '_> {
         let outside = ray.extreme(out, beyond, is_dark);
         let half = f64::midpoint(lumen, outside);
         let is_out = |v: f64| if is_dark { v < half } else { v > half };
-        // Finds the last sample inside and the first one outside.
+        // Finds the last sample inside the lumen and the first one outside.
         let mut n = (0..=out).rev().find(|n| !is_out(ray.value(*n)))?;
         while n < beyond && !is_out(ray.value(n + 1)) {
             n += 1;
@@ -155,7 +157,7 @@ struct Circle {
 }
 
 impl Circle {
-    /// Circle that fits best with Tukey's weights, so that a branch or a neighbour does not pull it.
+    /// Circle fitted with Tukey's weights, so that a branch or a neighbour does not shift it.
     fn around(points: &[[f64; 2]]) -> Self {
         let count = points.len() as f64;
         let mean = [0, 1].map(|a| points.iter().map(|p| p[a]).sum::<f64>() / count);
@@ -179,7 +181,7 @@ impl Circle {
         1.4826 * away[away.len() / 2]
     }
 
-    /// Degree to which points lie on all sides, 0 to 1. A vessel that is cut lengthwise shows only two sides.
+    /// Degree (0 to 1) to which wall points lie on all sides. A vessel that is cut lengthwise shows only two sides.
     fn roundness(&self, points: &[[f64; 2]]) -> f64 {
         let [mut xx, mut xy, mut yy, mut all] = [0.0; 4];
         for p in points {

@@ -4,7 +4,6 @@ use std::f64::consts::PI;
 
 use glam::{DMat3, DVec3};
 
-/// Number of power iterations.
 const ROUNDS: usize = 50;
 
 /// Unit vectors that the golden angle spreads evenly over half a sphere.
@@ -18,7 +17,7 @@ pub(crate) fn half_sphere(count: u32) -> impl Iterator<Item = DVec3> {
     })
 }
 
-/// Principal axis of weighted directions by power iteration from `start`; None if all weights are 0.
+/// Principal axis of weighted directions, by power iteration from `start`; None if all weights are 0.
 pub(crate) fn longest_axis(weighted: impl Iterator<Item = (DVec3, f64)>, start: DVec3) -> Option<DVec3> {
     let spread = weighted.fold(DMat3::ZERO, |sum, (way, weight)| {
         sum + DMat3::from_cols(way * way.x, way * way.y, way * way.z) * weight
@@ -43,7 +42,7 @@ mod tests {
     fn the_directions_are_unit_vectors_and_lie_on_all_sides() {
         let mean = half_sphere(200).sum::<DVec3>() / 200.0;
         assert!(half_sphere(200).all(|way| way.is_normalized()));
-        // The mean of an even half sphere lies half a radius above its centre.
+        // Points spread evenly over a half sphere have their mean half a radius above its centre.
         assert!(mean.distance(DVec3::Z / 2.0) < 0.02, "{mean}");
     }
 }

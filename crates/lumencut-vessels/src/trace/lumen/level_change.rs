@@ -1,4 +1,4 @@
-//! Finds a lasting change of brightness along a line, which shows that the line enters another lumen.
+//! Finds a lasting change of brightness along a line, which means that the line enters another lumen.
 
 use lumencut_core::math::arc_length::arc_lengths;
 
@@ -7,34 +7,34 @@ use crate::trace::lumen::lumen_model::quantile;
 use crate::trace::lumen::surroundings::Surroundings;
 use crate::voxels::Voxels;
 
-/// Length of the stretches compared before and after a place, and their distance from it (mm, and radii).
+/// Length of the parts compared before and after a point, and their distance from it: mm, or radii if larger.
 const STRETCH_MM: f64 = 15.0;
 const STRETCH_RADII: f64 = 2.0;
 const GAP_MM: f64 = 3.0;
 const APART_RADII: f64 = 0.5;
 
-/// Minimum change: a share of the contrast, and a multiple of the noise on each side.
+/// Minimum change: a fraction of the contrast, and a multiple of the noise on each side.
 const LEAST_CHANGE: f64 = 0.25;
 const LEAST_NOISES: f64 = 3.0;
 
-/// Values that differ more from the median (multiples of the noise) are ignored, such as struts and calcium.
+/// Values that differ more from the median (multiples of the noise) are ignored, such as stent struts and calcium.
 const OUTLIER: f64 = 3.0;
 
-/// Steps of at least this share of the largest step count as equal.
+/// Steps of at least this fraction of the largest step count as equally large.
 const NEARLY: f64 = 0.9;
 
-/// Minimum radius in voxels. At the centre of narrower lumens, values mix with those of the tissue.
+/// Minimum radius in voxels. Values at the centre of a narrower lumen are mixed with those of the tissue.
 const LEAST_VOXELS: f64 = 2.0;
 
-/// Number of the point at which the lumen brightness changes suddenly and for good. Own method: two lines of
-/// common slope are fitted to the values along 15 mm (or two radii) before and after a place. The step
-/// between them must be at least a quarter of the contrast and three times the noise.
+/// Index of the point at which the lumen brightness changes suddenly and for good. The method is our own: two
+/// lines of common slope are fitted to the values along 15 mm (or two radii) before and after a point. The
+/// step between them must be at least a quarter of the contrast and three times the noise.
 pub fn level_change(voxels: &Voxels, line: &Centerline) -> Option<usize> {
     let along = Along::new(voxels, line);
     let steps = (0..line.points.len()).filter_map(|n| Some((n, along.step_at(n)?)));
     let mut steps: Vec<(usize, Step)> = steps.collect();
     let largest = steps.iter().map(|(_, step)| step.size).fold(0.0, f64::max);
-    // Around the change, several places show about the same step, so the middle one is taken.
+    // Around the change, several points show about the same step, so the middle one is taken.
     steps.retain(|(_, step)| step.size >= NEARLY * largest);
     let (at, step) = *steps.get(steps.len() / 2)?;
     let tissue = Surroundings::of(voxels, &[line.points[at]]).tissue();
@@ -47,7 +47,7 @@ struct Step {
     brighter: f64,
 }
 
-/// Values along a stretch: statistics, and the sums for fitting a line, without outliers.
+/// Values along one part of the line: statistics, and the sums for fitting a line, without outliers.
 #[derive(Clone, Copy, Debug)]
 struct Side {
     median: f64,

@@ -1,15 +1,15 @@
-//! The values of lumen, as a gradual membership between bounds, and of the tissue around it.
+//! The values of lumen and of the tissue around it. Membership in lumen is gradual between bounds.
 
 use glam::DVec3;
 
 /// Values of a lumen and of its surroundings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LumenModel {
-    /// Level of the surrounding tissue; fat and air are ignored.
+    /// Intensity level of the surrounding tissue, without fat and air.
     pub tissue: f64,
-    /// Lowest of the medians of the lumen at the clicks.
+    /// Lowest of the lumen medians at the clicks.
     pub low: f64,
-    /// Highest of the medians of the lumen at the clicks.
+    /// Highest of the lumen medians at the clicks.
     pub high: f64,
     /// Standard deviation of the values within the lumen.
     pub noise: f64,
@@ -23,8 +23,8 @@ impl LumenModel {
         self.low - self.tissue
     }
 
-    /// Membership of a value in lumen, 0 to 1: it is 0 at a fifth of the contrast and 1 at three quarters.
-    /// Brighter values (bone, stents, calcium) keep 0.12, so that paths can cross them.
+    /// Membership of a value in lumen, from 0 to 1: 0 up to a fifth of the contrast, and 1 from three
+    /// quarters on. Brighter values (bone, stents, calcium) keep 0.12, so that paths can cross them.
     pub fn membership(&self, value: f32) -> f32 {
         let (contrast, value) = (self.contrast(), f64::from(value));
         let (empty, full) = (self.tissue + 0.2 * contrast, self.tissue + 0.75 * contrast);
@@ -34,7 +34,7 @@ impl LumenModel {
         } else {
             ((value - empty) / (full - empty)).clamp(0.0, 1.0)
         };
-        // NaN does not count as lumen.
+        // NaN is not lumen.
         if share.is_finite() { share as f32 } else { 0.0 }
     }
 
@@ -46,24 +46,24 @@ impl LumenModel {
         f64::from(value) >= self.far_above()
     }
 
-    /// Standard deviation that noise causes in the membership, between tissue and lumen.
+    /// Standard deviation of the membership that noise causes, for values between tissue and lumen.
     pub(crate) fn noise_of_membership(&self) -> f64 {
         self.noise / (0.55 * self.contrast())
     }
 
-    /// Upper bound of the values that are certainly lumen.
+    /// Upper limit of the values that are certainly lumen.
     pub fn brightest(&self) -> f64 {
         self.high + (0.35 * self.contrast()).max(3.0 * self.noise)
     }
 
-    /// Whether the lumen of another model lies within that of this model.
+    /// Whether the lumen values of another model lie within those of this model.
     pub fn covers(&self, other: &Self) -> bool {
         let slack = 0.15 * self.contrast();
         other.low >= self.low - slack && other.high <= self.high + slack
     }
 }
 
-/// Membership that values far above the lumen lose.
+/// Values far above the lumen lose this much membership.
 const ABOVE_IS_NOT: f64 = 0.88;
 
 /// Quantile of sorted values; NaN if there are none.
@@ -72,12 +72,12 @@ pub(crate) fn quantile(sorted: &[f32], share: f64) -> f64 {
     sorted.get((last * share).round() as usize).map_or(f64::NAN, |value| f64::from(*value))
 }
 
-/// Noise from small differences between neighbours, because most neighbours do not lie at an edge.
+/// Noise, estimated from the small differences between neighbours, because most neighbours do not lie at an edge.
 pub(crate) fn noise_of(neighbours: &[f32]) -> f64 {
     let mut steps: Vec<f32> = neighbours.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();
     steps.retain(|step| step.is_finite());
     steps.sort_unstable_by(f32::total_cmp);
-    // A quarter of the absolute differences of two normal deviates is below 0.451 standard deviations.
+    // A quarter of the absolute differences between two normal deviates is below 0.451 standard deviations.
     if steps.is_empty() { 0.0 } else { quantile(&steps, 0.25) / 0.451 }
 }
 
@@ -91,7 +91,7 @@ pub(crate) fn tissue_level(tissue: &[f32], clicks: &[f64]) -> f64 {
     if below == 0 { quantile(tissue, 0.01) } else { quantile(&tissue[..below], 0.75) }
 }
 
-/// Median; of two middle values the lower one. There must be a value.
+/// The median; of two middle values, the lower one. There must be at least one value.
 pub(crate) fn lower_median(mut values: Vec<f64>) -> f64 {
     values.sort_unstable_by(f64::total_cmp);
     values[(values.len() - 1) / 2]

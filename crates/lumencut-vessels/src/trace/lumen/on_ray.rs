@@ -11,10 +11,10 @@ use lumencut_core::volume::Volume;
 /// Distance between samples, in smallest voxel sides.
 const STEP: f64 = 0.5;
 
-/// Minimum height of a bright stretch above what is around it, in multiples of the noise.
+/// Minimum height of a bright interval above the values around it, in multiples of the noise.
 const TIMES_NOISE: f64 = 6.0;
 
-/// Maximum number of bright stretches that are tested, highest first. More are noise or stent struts.
+/// Maximum number of bright intervals that are tested, highest first. More would be noise or stent struts.
 const MAX_STRETCHES: usize = 16;
 
 struct Bright {
@@ -23,8 +23,8 @@ struct Bright {
     height: f32,
 }
 
-/// Lumens on the line through a position (mm, LPS) along a unit vector, in their order on it. Own method: the
-/// middle of each bright stretch is tested for lumen.
+/// Lumens on the line through a position (mm, LPS) along a unit vector, in order along it. The method is our
+/// own: the middle of each bright interval is tested for lumen.
 pub fn lumens_on_ray(volume: &Volume, from: DVec3, along: DVec3) -> Vec<SeenLumen> {
     let voxels = &Voxels::new(volume);
     let step = STEP * voxels.smallest_side;
@@ -48,7 +48,7 @@ pub fn lumens_on_ray(volume: &Volume, from: DVec3, along: DVec3) -> Vec<SeenLume
 }
 
 impl SeenLumen {
-    /// The point of a ray that is nearest to the centre.
+    /// The point of a ray that is nearest to the centre of the lumen.
     pub fn on_ray(&self, from: DVec3, along: DVec3) -> DVec3 {
         from + along * (self.center - from).dot(along)
     }
@@ -62,7 +62,7 @@ impl SeenLumen {
     }
 }
 
-/// The range along the ray (mm) that may lie inside the volume; None if the ray misses it.
+/// The range along the ray (mm) that may be inside the volume; None if the ray misses the volume.
 fn depths(volume: &Volume, from: DVec3, along: DVec3) -> Option<(f64, f64)> {
     let corners = volume.corners();
     let depth = corners.map(|corner| (corner - from).dot(along));
@@ -70,7 +70,7 @@ fn depths(volume: &Volume, from: DVec3, along: DVec3) -> Option<(f64, f64)> {
     (near < far).then_some((near, far))
 }
 
-/// The highest bright stretches of a ray in their order; each extends down to half of its height.
+/// The highest bright intervals of a ray, in order; each extends down to half of its height.
 fn bright(values: &[f32]) -> Vec<Bright> {
     let least = (TIMES_NOISE * noise_of(values)) as f32;
     let mut found: Vec<Bright> = (0..values.len())

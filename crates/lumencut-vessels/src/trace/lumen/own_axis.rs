@@ -1,4 +1,4 @@
-//! Axis and extent of a lumen that is hardly longer than wide, for scans of few slices.
+//! Finds axis and extent of a lumen that is hardly longer than wide, for scans of few slices.
 
 use std::f64::consts::PI;
 
@@ -12,18 +12,18 @@ use crate::voxels::Voxels;
 /// Number of directions that cover half a sphere.
 pub const DIRECTIONS: u32 = 200;
 
-/// Maximum distance that is searched (mm).
+/// Maximum distance to which a lumen is followed (mm).
 const SEARCH_MM: f64 = 60.0;
 
 /// Number of directions across the axis in which the width is measured.
 const TURNS: u32 = 12;
 
-/// The lumen around a place, recognised by its values.
+/// The lumen around a position, recognised by its values.
 pub struct OwnLumen<'a, 'v> {
     voxels: &'a Voxels<'v>,
     place: DVec3,
     value: f64,
-    /// Maximum difference between a lumen value and that at the place.
+    /// Maximum difference between lumen values and the value at the position.
     most_away: f64,
     step: f64,
 }
@@ -39,19 +39,20 @@ impl<'a, 'v> OwnLumen<'a, 'v> {
         Self { voxels, place, value, most_away: 0.5 * (value - tissue), step: 0.5 * voxels.smallest_side }
     }
 
-    /// Distance to which the lumen extends in a direction (mm), at most `most`.
+    /// Distance over which the lumen extends in a direction (mm), at most `most`.
     pub fn reach(&self, direction: DVec3, most: f64) -> f64 {
         let value = |n: u32| f64::from(self.voxels.at(self.place + direction * (self.step * f64::from(n))));
         let is_lumen = |n: &u32| (value(*n) - self.value).abs() < self.most_away;
         self.step * (1..=(most / self.step) as u32).take_while(is_lumen).count() as f64
     }
 
-    /// Distance to which the lumen extends along a direction and against it (mm), at most `most` each.
+    /// Sum of the distances over which the lumen extends along a direction and against it (mm); each is at
+    /// most `most`.
     pub fn extent(&self, direction: DVec3, most: f64) -> f64 {
         self.reach(direction, most) + self.reach(-direction, most)
     }
 
-    /// The two ends, along its axis, of a lumen that the scan cuts off; None if it is not longer than wide.
+    /// Both ends, along its axis, of a lumen that the scan cuts off; None if the lumen is not longer than wide.
     pub fn cut_ends(&self) -> Option<[DVec3; 2]> {
         let axis = self.axis();
         let reaches = [-1.0, 1.0].map(|side| self.reach(axis * side, SEARCH_MM));
@@ -70,7 +71,7 @@ impl<'a, 'v> OwnLumen<'a, 'v> {
 
     fn axis(&self) -> DVec3 {
         let weighted = half_sphere(DIRECTIONS).map(|way| (way, self.extent(way, SEARCH_MM).powi(3)));
-        // The start must not be symmetric to the directions, or the iteration could not leave it.
+        // The start must not be symmetric to the directions, because the iteration would stay there.
         longest_axis(weighted, DVec3::new(0.6, 0.5, 0.7)).unwrap_or_default()
     }
 }

@@ -12,12 +12,11 @@ pub(crate) struct Ray<'a, 'v> {
 }
 
 impl<'a, 'v> Ray<'a, 'v> {
-    /// Start and stride are in voxel index coordinates.
+    /// `start` and `stride` are in voxel index coordinates.
     pub(crate) fn new(voxels: &'a Voxels<'v>, start: DVec3, stride: DVec3) -> Self {
         Self { voxels, start, stride, values: Vec::with_capacity(64) }
     }
 
-    /// Value number `n` along the ray; NaN outside the volume.
     pub(crate) fn value(&mut self, n: usize) -> f64 {
         while n >= self.values.len() {
             self.voxels.along(self.start, self.stride, &mut self.values);

@@ -21,16 +21,16 @@ pub const STEP: f64 = 0.5;
 /// Distance between points (mm) and number of rays per section, in each round.
 const ROUNDS: [(f64, usize); 4] = [(1.0, 16), (1.0, 16), (STEP, 24), (STEP, 24)];
 
-/// Width of the smoothing (mm), which reduces noise as much as a mean over 1 mm.
+/// Width of the smoothing (mm). It reduces noise as much as a mean over 1 mm.
 const SMOOTHING: f64 = 1.5;
 
 /// Neighbouring sections within this distance (mm) should have a similar radius.
 const RADIUS_WINDOW_MM: f64 = 1.75;
 
-/// Sections of lower quality are ignored.
+/// Sections of lower quality (`trust`) are ignored.
 const LEAST_TRUST: f64 = 0.1;
 
-/// Within this distance along the line (mm), centres must advance.
+/// Over this distance along the line (mm), centres must advance.
 const ADVANCE_WINDOW_MM: f64 = 2.0;
 
 /// Weight of points whose section is not visible.
@@ -43,7 +43,7 @@ pub fn refined(voxels: &Voxels, model: &LumenModel, way: &[DVec3], stop: Stop) -
     in_rounds(voxels, model, line, &[0, 1, 2, 3], stop)
 }
 
-/// Centres a line whose radii are known, with half of the rounds.
+/// Centres a line whose radii are known, with only half of the rounds.
 pub(crate) fn refined_near(
     voxels: &Voxels,
     model: &LumenModel,
@@ -93,7 +93,7 @@ fn moved(probe: &Probe, line: &Centerline, round: usize) -> Centerline {
         })
         .collect();
     let wide = if round == 0 { 0.5 } else { 0.15 };
-    // Points without a section keep some weight, so that the ends of visible stretches do not swing out.
+    // Points without a section keep some weight, so that the ends of visible parts do not swing out.
     let weights: Vec<f64> = trust.iter().map(|trust| trust.max(UNSEEN)).collect();
     let smooth = smoothed_by_parabolas(&lengths, &values, &weights, |i| SMOOTHING.max(wide * values[i][3]));
     let moved: Vec<DVec3> = smooth.iter().map(|v| DVec3::new(v[0], v[1], v[2])).collect();
@@ -101,7 +101,7 @@ fn moved(probe: &Probe, line: &Centerline, round: usize) -> Centerline {
     Centerline { points: moved, radius, confidence: trust }
 }
 
-/// Rejects sections whose centres do not advance, because the line would fold back, as at a branch.
+/// Rejects sections whose centres do not advance along the line: it would fold back there, as at a branch.
 fn unfolded(points: &[DVec3], sections: &[Option<LumenSection>], trust: &[f64], lengths: &[f64]) -> Vec<f64> {
     let mut left = trust.to_vec();
     for i in 0..points.len() {

@@ -1,4 +1,4 @@
-//! Finds the direction, centre and radius of the lumen around one place, only from the values.
+//! Finds the direction, centre and radius of the lumen around one position, only from the values.
 
 use glam::DVec3;
 
@@ -8,20 +8,20 @@ use crate::trace::lumen::surroundings::Surroundings;
 use crate::voxels::Voxels;
 use lumencut_core::volume::Volume;
 
-/// Number of search directions over half a sphere, and of rays per section.
+/// Number of search directions over half a sphere, and number of rays per section.
 const DIRECTIONS: u32 = 60;
 const RAYS: usize = 32;
 
-/// Chords count up to this multiple of the narrowest one, which is enough to tell along from across.
+/// Chords count up to this multiple of the narrowest one, which suffices to distinguish along from across.
 const LENGTHWISE: f64 = 3.0;
 
 /// Number of rounds, each of which searches from the new centre.
 const ROUNDS: usize = 2;
 
-/// Minimum quality of a lumen that is offered.
+/// Minimum quality of a lumen that is returned.
 const LEAST_TRUST: f64 = 0.4;
 
-/// The lumen found around a place.
+/// The lumen found around a position.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SeenLumen {
     /// Centre (mm, LPS).
@@ -34,8 +34,8 @@ pub struct SeenLumen {
     pub value: f64,
 }
 
-/// Lumen around a position (mm, LPS); None if it does not look like lumen. Own method: the direction is that
-/// of the longest chords between walls; the circle across it is found as for traced lines.
+/// Lumen around a position (mm, LPS); None if it does not look like lumen. The method is our own: the
+/// direction is that of the longest chords between walls; the circle across it is found as for traced lines.
 pub fn lumen_at(volume: &Volume, place: DVec3) -> Option<SeenLumen> {
     let voxels = &Voxels::new(volume);
     voxels.voxel_at(place)?;

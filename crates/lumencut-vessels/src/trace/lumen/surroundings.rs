@@ -1,4 +1,4 @@
-//! Derives the lumen model from the values around the clicks, or states what a click hit instead.
+//! Derives the lumen model from the values around the clicks, or explains what a click hit instead.
 
 use glam::DVec3;
 
@@ -8,33 +8,34 @@ use crate::trace::lumen::lumen_model::{
 use crate::voxels::Voxels;
 use lumencut_core::error::{Clicked, Error, ErrorKind, Result};
 
-/// A volume is in HU if this share of voxels is below the limit: only in CT are fat and air negative.
+/// A volume is in HU if this fraction of its voxels is below the limit, because fat and air are negative only in CT.
 const HOUNSFIELD_SHARE: f64 = 0.01;
 const HOUNSFIELD_LIMIT: f64 = -50.0;
 
-/// Upper limits (HU) of air, fat, and tissue or plain blood; above the last, bone, metal or calcium.
+/// Upper limits (HU) of air, of fat, and of soft tissue or blood without contrast medium. Values above `BONE`
+/// are bone, metal or calcium.
 const AIR: f64 = -400.0;
 const FAT: f64 = -20.0;
 const SOFT_TISSUE: f64 = 100.0;
 const BONE: f64 = 900.0;
 
-/// Maximum ratio of the contrasts at two clicks; they differ because contrast medium fades.
+/// Maximum ratio of the contrasts at two clicks. They may differ, because contrast medium fades.
 const MOST_TIMES: f64 = 3.5;
 
-/// Minimum contrast of the lumen of a model, as a share of the contrast at the median click.
+/// Minimum contrast of the lumen in a model, as a fraction of the contrast at the median click.
 const LEAST_PART: f64 = 0.6;
 
 /// Minimum level (HU) of tissue: muscle, vessel walls and blood without contrast medium.
 const LEAST_TISSUE: f64 = 50.0;
 
-/// The values within this radius around the clicks (mm) are sampled, up to a maximum number of voxels.
+/// Values within this radius around the clicks (mm) are sampled, but no more voxels than `MOST_SAMPLES`.
 const SURROUNDINGS: f64 = 30.0;
 const MOST_SAMPLES: f64 = 200_000.0;
 
-/// A rejected click is moved to lumen within this distance (mm).
+/// A rejected click is moved to lumen if there is some within this distance (mm).
 const SNAP: f64 = 2.0;
 
-/// Minimum share of the surroundings that must be darker than lumen.
+/// Minimum fraction of the surroundings that must be darker than the lumen.
 const DARKER: f64 = 0.75;
 
 type Mistake = (&'static str, String);
@@ -49,7 +50,7 @@ pub struct Surroundings {
     is_hounsfield: bool,
 }
 
-/// Values at a click: its own value, median and spread of the lumen around it, and the noise.
+/// Values at a click: the click's own value, median and spread of the lumen around it, and the noise.
 #[derive(Clone, Copy, Debug)]
 struct Hit {
     value: f64,
@@ -67,7 +68,7 @@ impl Surroundings {
     /// Samples the values up to `reach` mm around the clicks.
     pub fn within(voxels: &Voxels, clicks: &[DVec3], reach: f64) -> Self {
         let samples = samples_around(voxels, clicks, reach);
-        // All of the scan is used, because a heart contains neither fat nor air.
+        // The entire scan is sampled, because a heart contains neither fat nor air.
         let is_hounsfield = are_hounsfield(voxels);
         let first = if is_hounsfield { samples.partition_point(|v| f64::from(*v) < AIR) } else { 0 };
         let values: Vec<f64> = clicks.iter().map(|click| value_at(voxels, *click)).collect();
@@ -79,13 +80,13 @@ impl Surroundings {
         Self { tissue, most, bright, is_hounsfield }
     }
 
-    /// Level of the tissue around the lumen.
+    /// Intensity level of the tissue around the lumen.
     pub fn tissue(&self) -> f64 {
         self.tissue
     }
 
-    /// The lumen model of the clicks. Errors: [`ErrorKind::Tracing`] for a click outside lumen. Of clicks
-    /// that disagree, it names the one least like lumen, in doubt the later one.
+    /// The lumen model of the clicks. Errors: [`ErrorKind::Tracing`] for a click outside lumen. If clicks
+    /// disagree, the error names the one least like lumen; if several are equal, the later one.
     pub fn model(&self, voxels: &Voxels, clicks: &[DVec3]) -> Result<LumenModel> {
         for click in clicks {
             self.check_alone(voxels, *click)?;
@@ -104,7 +105,7 @@ impl Surroundings {
         Ok(self.model_of(&hits, usual))
     }
 
-    /// The model at one place; None if [`Surroundings::model`] would reject the place.
+    /// The model at one position; None if [`Surroundings::model`] would reject the position.
     pub(crate) fn model_at(&self, voxels: &Voxels, place: DVec3) -> Option<LumenModel> {
         let value = value_at(voxels, place);
         let hit = self.hit(voxels, place, value);
@@ -117,7 +118,7 @@ impl Surroundings {
         self.check(voxels, click, value, self.mistaken(value))
     }
 
-    /// Moves rejected clicks to adjacent lumen, which the user meant. If there is none, the click stays.
+    /// Moves rejected clicks to adjacent lumen, which the user probably meant. If there is none, the click stays.
     pub(crate) fn snapped(&self, voxels: &Voxels, clicks: &[DVec3]) -> Vec<DVec3> {
         let is_taken = |place: DVec3| self.mistaken(value_at(voxels, place)).is_none();
         let moved = clicks.iter().map(|click| self.taken(voxels, *click, is_taken));
@@ -140,7 +141,7 @@ impl Surroundings {
     }
 
     /// Reference lumen of clicks that disagree. It is brighter than most surroundings and similar to most
-    /// other clicks. In doubt it is that of the earliest click, because users begin in the vessel.
+    /// other clicks. If several are equal, the earliest click is used, because users begin in the vessel.
     fn reference_lumen(&self, hits: &[Hit]) -> f64 {
         let worth = |hit: &Hit| {
             let alike = hits.iter().filter(|other| self.unlike(other, hit.lumen).is_none()).count();
@@ -152,7 +153,7 @@ impl Surroundings {
 
     fn model_of(&self, hits: &[Hit], usual: f64) -> LumenModel {
         let lumens = || hits.iter().map(|hit| hit.lumen);
-        // A click in the throat of a stenosis also hits tissue, so the lowest level has a limit.
+        // A click in the throat of a stenosis also hits tissue, so the lowest level is limited.
         let least = self.tissue + LEAST_PART * (usual - self.tissue);
         LumenModel {
             tissue: self.tissue,
@@ -193,7 +194,7 @@ impl Surroundings {
         Some((tissue, format!("lumen with contrast medium, from {SOFT_TISSUE:.0} to {BONE:.0} HU")))
     }
 
-    /// The mistake if a click is far brighter than the reference lumen, or no brighter than tissue.
+    /// The mistake, if the click is far brighter than the reference lumen or no brighter than tissue.
     fn unlike(&self, hit: &Hit, usual: f64) -> Option<Mistake> {
         let contrast = usual - self.tissue;
         let least = self.tissue + (0.3 * contrast).max(1.5 * hit.noise);
@@ -209,7 +210,7 @@ impl Surroundings {
             .then(|| ("tissue, or blood without contrast medium", format!("lumen, brighter than {least:.0}")))
     }
 
-    /// The nearest place within 10 mm that lumen values surround.
+    /// The nearest position within 10 mm that is surrounded by lumen values.
     fn nearest_lumen(&self, voxels: &Voxels, click: DVec3) -> Option<DVec3> {
         let (least, most) = if self.is_hounsfield {
             (SOFT_TISSUE * 1.5, BONE)
@@ -281,7 +282,7 @@ fn value_at(voxels: &Voxels, click: DVec3) -> f64 {
         return f64::from(voxels.at(click));
     }
     values.sort_unstable_by(f32::total_cmp);
-    // A click may lie at the wall, so the brighter neighbours count more.
+    // A click may lie at the wall, so a quantile above the median is used.
     quantile(&values, 0.6)
 }
 

@@ -12,8 +12,8 @@ use lumencut_core::stop::Stop;
 /// Standard deviations of the smoothing that are tried in turn, in radii.
 const WIDTHS: [f64; 3] = [0.5, 1.0, 2.0];
 
-/// Returns the line unchanged if it never wanders, otherwise the smoothed and recentred version that wanders
-/// least. Sections of a line oblique in a wide lumen intersect, and their centres lead it back and forth.
+/// Returns the line unchanged if it never wanders, otherwise the smoothed and recentred version that wanders least.
+/// Sections of a line oblique in a wide lumen intersect, so their centres move the line back and forth.
 pub fn without_wander(
     voxels: &Voxels,
     model: &LumenModel,

@@ -1,4 +1,4 @@
-//! Tests whether a place lies within the lumen of a known vessel.
+//! Tests whether a position lies within the lumen of a known vessel.
 
 use glam::DVec3;
 
@@ -6,7 +6,7 @@ use crate::trace::lines::centerline::Centerline;
 use crate::trace::lines::nearest_point::nearest_point;
 use crate::trace::lumen::refine::STEP;
 
-/// Distance by which the lumen continues beyond an end, in radii.
+/// Distance by which the lumen extends beyond an end of the line, in radii.
 const ENDS: f64 = 0.3;
 
 pub(crate) fn holds(vessel: &Centerline, place: DVec3) -> bool {

@@ -1,4 +1,4 @@
-//! Refines the vessels of a mask by grey values, because a mask is accurate only to half a voxel.
+//! Refines the vessels of a mask by the grey values of a scan, because a mask is accurate only to half a voxel.
 
 use std::f64::consts::TAU;
 
@@ -14,27 +14,27 @@ use lumencut_core::error::Result;
 use lumencut_core::math::arc_length::arc_lengths;
 use lumencut_core::stop::Stop;
 
-/// Tissue is compared between these distances beyond the wall of the mask (mm; voxels if those are larger).
+/// Tissue is sampled between these distances beyond the wall of the mask (mm; voxels if those are larger).
 const TISSUE: [f64; 2] = [1.0, 4.0];
 
-/// Number of directions, and of distances, in which tissue is sampled.
+/// Number of directions, and number of distances, in which tissue is sampled.
 const DIRECTIONS: usize = 12;
 const DISTANCES: usize = 3;
 
-/// Length of the window along the vessel (mm) in which the median of the lumen is taken.
+/// Length of the window along the vessel (mm) over which the lumen values are averaged by their median.
 const WINDOW_MM: f64 = 5.0;
 
 /// Minimum contrast, in standard deviations of the noise in the lumen.
 const LEAST_CONTRAST: f64 = 2.0;
 
-/// Minimum share of the points at which the lumen must be visible.
+/// Minimum fraction of the points at which the lumen must be visible.
 const LEAST_SEEN: f64 = 0.5;
 
-/// The volume in which the lumen of a mask is visible.
+/// Grey values in which the lumen of a mask is visible.
 pub struct GreyValues<'a, 'v> {
     /// The volume with grey values.
     pub voxels: &'a Voxels<'v>,
-    /// Called often; tells whether to stop.
+    /// Called often; returns whether to stop.
     pub stop: Stop<'a>,
 }
 
@@ -54,7 +54,7 @@ impl GreyValues<'_, '_> {
         Ok((is_seen && is_here && has_radius).then_some(line))
     }
 
-    /// Lumen model along the vessel; None if there is no contrast.
+    /// Lumen model along the vessel; None if the lumen has no contrast.
     fn model(&self, points: &[DVec3], radius: &[f64]) -> Option<LumenModel> {
         let lumen: Vec<(f64, f32)> = arc_lengths(points)
             .into_iter()

@@ -5,7 +5,7 @@ use crate::trace::skeleton::mask_vessels::MaskVessel;
 use lumencut_core::math::arc_length::arc_lengths;
 use lumencut_core::volume::Volume;
 
-/// Minimum length of a part with its own label, in radii.
+/// Minimum length (radii) of a part with its own label.
 const SHORTEST: f64 = 2.0;
 
 #[derive(Clone, Copy)]
@@ -51,7 +51,7 @@ pub(crate) fn parted(vessel: &MaskVessel, mask: &Volume, labels: Option<&[i64]>)
     runs.into_iter().enumerate().map(part).collect()
 }
 
-/// Stretches of one label, which share end points. Points outside the lumen take the label before them.
+/// Parts of one label each; neighbouring parts share end points. Points outside the lumen take the previous label.
 fn runs(vessel: &MaskVessel, mask: &Volume, labels: Option<&[i64]>) -> Vec<LabelRun> {
     let is_lumen = |label: &i64| *label != 0 && labels.is_none_or(|labels| labels.contains(label));
     let at = |n: usize| {

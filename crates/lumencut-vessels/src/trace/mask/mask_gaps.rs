@@ -14,7 +14,7 @@ use lumencut_core::stop::{Stop, go_on};
 pub struct Gap {
     /// Width of the gap (mm).
     pub width: f64,
-    /// Numbers of the vessels on both sides.
+    /// Indices of the vessels on both sides.
     pub vessels: [usize; 2],
     /// Points of the centerlines on both sides (mm, LPS).
     pub points: [DVec3; 2],
@@ -23,7 +23,7 @@ pub struct Gap {
     pub is_bridged: bool,
 }
 
-/// The gaps of smallest total width that connect all components; each leads from an end to an end or a wall.
+/// The gaps of smallest total width that connect all components. Each leads from an end to another end or to a wall.
 pub(crate) fn gaps(vessels: &[MaskVessel], stop: Stop) -> Result<Vec<Gap>> {
     let piece_of = piece_of(vessels);
     let mut narrowest: HashMap<[usize; 2], Gap> = HashMap::new();
@@ -88,7 +88,7 @@ fn gap(numbers: [usize; 2], vessel: &MaskVessel, from: usize, target: &MaskVesse
     let start = to_wall(vessel)[from];
     let inside = to_wall(target);
     let width = |n: usize| (point.distance(target.points[n]) - start - inside[n]).max(0.0);
-    // The width is rounded, so that an end comes first among equally near places.
+    // The width is rounded, so that of equally near points an end is preferred.
     let rank = |n: usize| ((width(n) * 1e6).round() as u64, inside[n] > 0.0);
     let nearest = (0..target.points.len()).min_by_key(|&n| rank(n)).unwrap_or(0);
     Gap {
@@ -121,7 +121,7 @@ fn root(parent: &mut [usize], mut place: usize) -> usize {
     place
 }
 
-/// Distance to which lumen extends beyond each point (mm): to the wall, but not past a free end.
+/// Distance (mm) over which lumen extends beyond each point: to the wall, but not past a free end.
 fn to_wall(vessel: &MaskVessel) -> Vec<f64> {
     let ways = arc_lengths(&vessel.points);
     let whole = ways[ways.len() - 1];

@@ -1,4 +1,4 @@
-//! Centres and smooths lines of voxels, and extends them to the caps.
+//! Centres and smooths lines of voxels, and extends them to the end walls (caps) of the lumen.
 
 use glam::DVec3;
 
@@ -11,21 +11,20 @@ use lumencut_core::math::arc_length::{arc_lengths, point_at};
 use lumencut_core::math::same_place::ALONG_LINE;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Number of centring rounds.
 const ROUNDS: usize = 3;
 
-/// Standard deviation of the smoothing: in radii, but at least in voxels.
+/// Standard deviation of the smoothing: in radii, but at least some voxels.
 const SMOOTHING: f64 = 0.5;
 const SMOOTHING_VOXELS: f64 = 1.0;
 
-/// Half-length of the chord that gives the direction: in radii, but at least in voxels.
+/// Half-length of the chord that gives the direction: in radii, but at least some voxels.
 const CHORD_RADII: f64 = 0.75;
 const REACH_VOXELS: f64 = 1.5;
 
-/// A move must keep this share of the distance to the wall, so that the line of a crescent stays inside.
+/// A move must keep this fraction of the distance to the wall, so that the line stays inside a crescent.
 const LEAST_ROOM: f64 = 0.8;
 
-/// The radius at each end that lies on another line; within that lumen a branch has no own sections.
+/// For each end that lies on another line, the radius of that line; inside its lumen a branch has no own sections.
 pub(crate) type OnOther = [Option<f64>; 2];
 
 /// Centres a line in the lumen. Errors: [`lumencut_core::error::ErrorKind::Interrupted`] if stopped.
@@ -67,7 +66,7 @@ fn shift(lumen: &Lumen, point: DVec3, direction: DVec3) -> DVec3 {
     fits.unwrap_or(DVec3::ZERO)
 }
 
-/// Weight of the move of each point: 0 within the lumen of another line, 1 from 1.5 of its radii on.
+/// Weight of the move of each point: 0 within the lumen of another line, 1 from 1.5 of that line's radii on.
 fn weights(points: &[DVec3], on_other: OnOther) -> Vec<f64> {
     let ways = arc_lengths(points);
     let whole = ways[ways.len() - 1];
@@ -77,7 +76,7 @@ fn weights(points: &[DVec3], on_other: OnOther) -> Vec<f64> {
     ways.iter().map(|way| weight(*way, on_other[0]).min(weight(whole - *way, on_other[1]))).collect()
 }
 
-/// Distance from an end (mm) to a point as far from the end as from the wall, at most `limit`.
+/// Distance (mm) from an end to the point that is as far from the end as from the wall, at most `limit`.
 fn way_inwards(radius: impl Fn(f64) -> f64, step: f64, limit: f64) -> f64 {
     let (mut way, mut missing) = (0.0, radius(0.0));
     while missing > ALONG_LINE && way < limit {
@@ -91,7 +90,8 @@ fn way_inwards(radius: impl Fn(f64) -> f64, step: f64, limit: f64) -> f64 {
     way.min(limit)
 }
 
-/// Extends the first point straight to the wall, from one radius inside; replaces at most `most` mm.
+/// Extends the start of the line straight to the wall, from one radius inside; replaces at most `most` mm of
+/// the line.
 pub(crate) fn lead_to_cap(points: &mut Vec<DVec3>, lumen: &Lumen, most: f64) {
     let ways = arc_lengths(points);
     let whole = ways[ways.len() - 1];
@@ -106,7 +106,7 @@ pub(crate) fn lead_to_cap(points: &mut Vec<DVec3>, lumen: &Lumen, most: f64) {
     let (from, direction, way) = if kept > 0.0 {
         (from, direction, way)
     } else {
-        // The end bends, so the line continues from its own end point.
+        // The end bends, so the line continues from its own last point.
         let behind = point_at(points, &ways, radius.min(whole));
         let direction = (points[0] - behind).normalize_or_zero();
         (points[0], direction, lumen.way_to_wall(points[0], direction, 4.0 * radius))

@@ -9,14 +9,13 @@ use crate::trace::skeleton::nearest_background::NearestBackground;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Maximum cosine between the axes of a rectangular grid: an error of 0.001 voxels over 1000 voxels.
+/// Maximum cosine between the axes of a rectangular grid; the error is then 0.001 voxels over 1000 voxels.
 const RIGHT_ANGLE: f64 = 1e-6;
 
-/// Number of cells between two checks of `stop`.
 const CELLS_BETWEEN_STOPS: usize = 1 << 16;
 
 /// Squared distance (mm²) from each cell of `lumen` (sorted) to the nearest background centre; 0 in
-/// background. Sheared grids, whose axis distances do not add up, use a k-d tree.
+/// background. Sheared grids use a k-d tree, because squared distances along their axes do not add up.
 pub fn squared_distances(foreground: &Foreground, lumen: &[u32], stop: Stop) -> Result<Vec<f32>> {
     let mut squares = vec![0.0; foreground.cells.len()];
     if is_sheared(foreground) {
@@ -57,7 +56,7 @@ struct Pass {
     side: f64,
     /// Results of the previous passes along the run, with a 0 at both ends.
     values: Vec<f64>,
-    /// Lower envelope: position of each parabola, and where it starts to be the lowest one.
+    /// Lower envelope: the position of each parabola, and where it starts to be the lowest one.
     lowest: Vec<usize>,
     from: Vec<f64>,
 }

@@ -1,4 +1,4 @@
-//! The lumen of a mask in a grid of its own with a border, independent of the storage order.
+//! The lumen of a mask in its own grid with a border of background. The storage order of the mask has no effect.
 
 use std::ops::Range;
 
@@ -9,18 +9,17 @@ use lumencut_core::error::{Error, ErrorKind, Mend, Result};
 use lumencut_core::stop::{Stop, go_on};
 use lumencut_core::volume::{Volume, Voxels};
 
-/// Value of background in [`Foreground::cells`].
 pub(crate) const BACKGROUND: u8 = 0;
 /// Value of lumen in [`Foreground::cells`].
 pub const LUMEN: u8 = 1;
 
-/// The box around the lumen of a mask.
+/// The box of voxels around the lumen of a mask.
 pub struct Foreground {
     /// Lumen or background of each voxel; i is fastest, then j, then k.
     pub cells: Vec<u8>,
     /// Number of cells along (i, j, k), including the border.
     pub size: [usize; 3],
-    /// World position (LPS, mm) of a continuous index of this grid.
+    /// Maps a continuous index of this grid to a world position (LPS, mm).
     pub world_from_index: DAffine3,
 }
 
@@ -28,8 +27,8 @@ impl Foreground {
     /// The voxels of `mask` whose value is in `labels`; without labels, all voxels except 0.
     ///
     /// Each axis is flipped if necessary, so that the centroid of the lumen lies in its second half (on a
-    /// tie: left, back, head). So a mirrored storage order gives the same result. [`ErrorKind::Volume`] for
-    /// fractional values, a single slice, or if no voxel or every voxel is lumen.
+    /// tie: left, back, head). So a mirrored storage order gives the same result. Errors:
+    /// [`ErrorKind::Volume`] for fractional values, a single slice, or if no voxel or every voxel is lumen.
     pub fn new(mask: &Volume, labels: Option<&[i64]>, stop: Stop) -> Result<Self> {
         if mask.size().contains(&1) {
             let found = format!("{:?} voxels along i, j, k", mask.size());
@@ -114,7 +113,7 @@ impl Foreground {
     }
 }
 
-/// Rejects fractional values, which mean partial lumen or the values of a scan.
+/// Rejects fractional values, because they mean a partial lumen or the values of a scan.
 fn check_whole<T: Copy + LabelValue>(rows: &Rows<T>, stop: Stop) -> Result<()> {
     if T::IS_WHOLE {
         return Ok(());
@@ -150,7 +149,7 @@ impl<T: Copy> Rows<'_, T> {
         self.voxels[place..end].iter().step_by(stride).copied()
     }
 
-    /// Tests without branches whether all values are zero, which is true for most rows.
+    /// Tests whether all values are zero, which most rows are; the code has no branches, for speed.
     fn is_empty(&self, along: usize, place: usize) -> bool
     where
         T: Default + PartialEq,

@@ -1,8 +1,8 @@
 //! The skeleton as a graph of branches that has as many cycles as the mask.
 //!
-//! Touching voxels are joined by edges. Three voxels that touch each other enclose no hole. So a spanning
-//! forest stays, plus one edge for each cycle that such triangles do not fill. Voxel cubes have the same
-//! topology as these triangles, because cubes that touch in pairs share a point.
+//! Touching voxels are joined by edges. Three voxels that touch each other enclose no hole. So the graph
+//! keeps a spanning forest, plus one edge for each cycle that such triangles do not fill. Voxel cubes have
+//! the same topology as these triangles, because cubes that touch in pairs share a point.
 
 use std::collections::HashMap;
 
@@ -11,20 +11,20 @@ use crate::trace::skeleton::foreground::Foreground;
 #[derive(Clone, Debug)]
 pub(crate) struct Branch {
     pub nodes: [usize; 2],
-    /// Cells from start to end, including both; at least two.
+    /// Cells of the branch from start to end, including both; at least two.
     pub cells: Vec<u32>,
 }
 
 pub(crate) struct Graph {
     pub nodes: Vec<u32>,
-    /// Branches; None if removed.
+    /// Branches; None for those that were removed.
     pub branches: Vec<Option<Branch>>,
-    /// Numbers of the branches at each node; a branch with both ends there is listed twice.
+    /// Indices of the branches at each node; a branch with both ends there is listed twice.
     pub(crate) incident: Vec<Vec<usize>>,
 }
 
 impl Graph {
-    /// `skeleton` are the cells that [`crate::trace::skeleton::thinning::thin`] leaves.
+    /// Builds the graph of `skeleton`, the cells that [`crate::trace::skeleton::thinning::thin`] leaves.
     pub(crate) fn new(foreground: &Foreground, skeleton: &[u32]) -> Self {
         let mut cells = skeleton.to_vec();
         cells.sort_unstable();
@@ -37,7 +37,7 @@ impl Graph {
                 graph.branches_from(place, &cells, &links, &mut node_of, &mut passed);
             }
         }
-        // The cells that remain are rings without a junction.
+        // The cells that remain form rings without a junction.
         for place in 0..cells.len() {
             if links[place].len() == 2 && !passed[place] {
                 graph.branches_from(place, &cells, &links, &mut node_of, &mut passed);
@@ -65,7 +65,7 @@ impl Graph {
                 (before, place) = (place, next);
                 line.push(cells[place]);
             }
-            // Skips lines already followed from their other end, and adjacent nodes that are already joined.
+            // Skips lines that were followed from their other end, and adjacent nodes that are already joined.
             let walked = links[place].len() == 2 && place != start;
             if walked || (line.len() == 2 && place < start) {
                 continue;
@@ -98,7 +98,7 @@ impl Graph {
         Some(branch)
     }
 
-    /// Merges the two branches of a node that has no other branches.
+    /// Merges the two branches at a node without other branches.
     pub(crate) fn join_at(&mut self, node: usize) {
         let [a, b] = self.incident[node][..] else { return };
         if a == b {
@@ -147,7 +147,7 @@ fn links(foreground: &Foreground, cells: &[u32]) -> Vec<Vec<usize>> {
 
 fn edges(foreground: &Foreground, cells: &[u32]) -> Vec<[usize; 2]> {
     let [_, j, k] = foreground.strides();
-    // The second half of the 26 neighbours, so that each pair is found once.
+    // Only the second half of the 26 neighbours is visited, so that each pair is found once.
     let sides = foreground.world_from_index.matrix3;
     let mut edges = Vec::new();
     for step in 14..27_usize {
@@ -164,7 +164,7 @@ fn edges(foreground: &Foreground, cells: &[u32]) -> Vec<[usize; 2]> {
     edges.into_iter().map(|(_, edge)| edge).collect()
 }
 
-/// One closing edge per hole: edges whose cycle is not a sum of triangles.
+/// One closing edge per hole, taken from the edges whose cycle is not a sum of triangles.
 fn around_holes(edges: &[[usize; 2]], closing: &[[usize; 2]], places: usize) -> Vec<[usize; 2]> {
     let number_of: HashMap<[usize; 2], usize> =
         closing.iter().enumerate().map(|(n, &edge)| (edge, n)).collect();

@@ -1,4 +1,4 @@
-//! The lumen of a mask at a place: distance to the wall, and cross-section.
+//! The lumen of a mask at a position: distance to the wall, and cross-section.
 
 use std::f64::consts::TAU;
 
@@ -7,13 +7,12 @@ use glam::{DAffine3, DVec3};
 use crate::trace::skeleton::foreground::Foreground;
 use lumencut_core::math::sampling::interpolate;
 
-/// Number of rays per section.
 const RAYS: usize = 24;
 
-/// Where a branch leaves, rays are cut at this multiple of their median length.
+/// Rays are cut at this multiple of their median length, because some escape into branches.
 const LONGEST_RAY: f64 = 1.5;
 
-/// Share of lumen at the wall. It is below a half, so that symmetric points do not depend on rounding.
+/// Fraction of lumen at the wall. It is below a half, so that rounding does not matter at symmetric points.
 const WALL: f64 = 0.499;
 
 pub(crate) struct Lumen<'a> {
@@ -29,7 +28,7 @@ pub(crate) struct Lumen<'a> {
 pub(crate) struct MaskSection {
     /// Centroid of the section (mm, LPS).
     pub center: DVec3,
-    /// Radius of a circle of the same area (mm).
+    /// Radius of a circle with the area of the section (mm).
     pub radius: f64,
     pub shortest: f64,
 }
@@ -62,7 +61,7 @@ impl<'a> Lumen<'a> {
         cells.iter().map(|&cell| position(cell as usize)).collect()
     }
 
-    /// Distance from the centre of a cell to the wall (mm), which is half a voxel nearer than background.
+    /// Distance (mm) from the centre of a cell to the wall, which is half a voxel nearer than the background.
     pub(crate) fn radius_at_cell(&self, cell: u32) -> f64 {
         (f64::from(self.squares[cell as usize]).sqrt() - self.side / 2.0).max(0.0)
     }
@@ -71,7 +70,7 @@ impl<'a> Lumen<'a> {
         (self.interpolated(place, |square| f64::from(square).sqrt()) - self.side / 2.0).max(0.0)
     }
 
-    /// Share of lumen around a place, 0 to 1.
+    /// Interpolated fraction of lumen at a position, 0 to 1.
     pub(crate) fn share(&self, place: DVec3) -> f64 {
         self.interpolated(place, |square| f64::from(u8::from(square > 0.0)))
     }
@@ -99,7 +98,7 @@ impl<'a> Lumen<'a> {
         }
         let smallest = self.side / 2.0;
         while way < most {
-            // A safe step: all that is nearer than background is lumen, up to the interpolation error.
+            // A safe step: everything nearer than background is lumen, apart from the interpolation error.
             let free = self.radius(place + way * direction) - 3.0 * self.half_diagonal;
             let step = free.max(smallest);
             let share = self.share(place + (way + step) * direction);
@@ -142,7 +141,7 @@ impl<'a> Lumen<'a> {
 }
 
 fn across(direction: DVec3) -> [DVec3; 2] {
-    // The values are rounded, because on grids many directions are equally near to two axes.
+    // The components are rounded, because on grids many directions are equally close to two axes.
     let size = (direction.abs() * 1e6).round();
     let axis = if size.x <= size.y && size.x <= size.z {
         DVec3::X

@@ -1,4 +1,4 @@
-//! Refines a mask vessel, except within the vessels that it meets.
+//! Refines a mask vessel, except inside the vessels that it meets.
 
 use std::ops::Range;
 
@@ -9,17 +9,17 @@ use crate::trace::skeleton::mask_lumen::Lumen;
 use lumencut_core::error::Result;
 use lumencut_core::math::arc_length::{LinePlace, arc_lengths};
 
-/// Finds a better centerline, given points (mm, LPS) and radii (mm) of a line.
+/// A function that finds a better centerline, given the points (mm, LPS) and radii (mm) of a line.
 pub type Refine<'a> = &'a (dyn Fn(&[DVec3], &[f64]) -> Result<Option<Centerline>> + Sync);
 
-/// A vessel has left another one where it narrows by at most this share over the length of a radius.
+/// A vessel has left another one where it narrows by at most this fraction over the length of a radius.
 const NARROWER: f64 = 0.2;
 
-/// Minimum number of points of a line that is refined.
+/// Minimum number of points of a line for it to be refined.
 const FEWEST: usize = 5;
 
-/// Refines a vessel. Within other vessels at its ends the line stays, and over one radius it changes
-/// gradually into the refined line. Points are at most `step` mm apart.
+/// Refines a vessel. Inside other vessels at its ends the line stays unchanged; over one radius it then
+/// changes gradually into the refined line. Points are at most `step` mm apart.
 pub(crate) fn refined(
     line: Centerline,
     is_free: [bool; 2],
@@ -58,7 +58,7 @@ pub(crate) fn refined(
     Ok(joined.resampled(step))
 }
 
-/// Changes the ends of the better line gradually into the old one, over `reaches` mm.
+/// Changes the ends of the better line gradually into those of the old one, over `reaches` mm.
 fn blended(old: &Centerline, mut better: Centerline, reaches: [f64; 2]) -> Centerline {
     let [before, after] = [&old.points, &better.points].map(|points| arc_lengths(points));
     let [old_length, length] = [&before, &after].map(|lengths| lengths[lengths.len() - 1]);
@@ -97,7 +97,7 @@ fn own_points(points: &[DVec3], is_free: [bool; 2], lumen: &Lumen) -> Range<usiz
     first..points.len().saturating_sub(last).max(first)
 }
 
-/// Number of the first point from which the line no longer narrows.
+/// Index of the first point from which the line no longer narrows.
 fn leaves(radius: &[f64], lengths: &[f64]) -> usize {
     let stays = |n: usize| {
         let end = lengths.partition_point(|length| *length <= lengths[n] + radius[n]);

@@ -1,4 +1,4 @@
-//! Puts the vessels of a mask in order, and directs them outwards.
+//! Orders the vessels of a mask, and directs them outwards.
 
 use std::collections::{HashMap, VecDeque};
 
@@ -15,9 +15,9 @@ pub struct MaskVessel {
     pub radius: Vec<f64>,
     /// Confidence of each point, 0 to 1; empty if the vessel was not refined.
     pub confidence: Vec<f64>,
-    /// Numbers of the graph nodes at start and end.
+    /// Indices of the graph nodes at start and end.
     pub nodes: [usize; 2],
-    /// Whether the first, and the last, point is an end of the lumen.
+    /// Whether the first point, and the last point, is an end of the lumen.
     pub is_free: [bool; 2],
     /// The most frequent mask value along the vessel.
     pub label: i64,
@@ -45,7 +45,7 @@ impl MaskVessel {
     }
 }
 
-/// Orders and directs vessels: the longest component first, from the free end of its widest vessel outwards.
+/// Orders and directs vessels: the longest component first, and outwards from the free end of its widest vessel.
 pub fn outwards(vessels: Vec<MaskVessel>) -> Vec<MaskVessel> {
     let mut at_node: HashMap<usize, Vec<usize>> = HashMap::new();
     for (number, vessel) in vessels.iter().enumerate() {
@@ -56,7 +56,7 @@ pub fn outwards(vessels: Vec<MaskVessel>) -> Vec<MaskVessel> {
     let mut by_width: Vec<usize> = (0..vessels.len()).collect();
     let is_inner = |number: usize| !vessels[number].is_free.contains(&true);
     by_width.sort_by(|&a, &b| {
-        // The values are rounded, so that rounding errors have no effect.
+        // The mean radii are rounded, so that rounding errors have no effect.
         let width = |number: usize| (vessels[number].mean_radius() * 1e6).round();
         is_inner(a).cmp(&is_inner(b)).then(width(b).total_cmp(&width(a)))
     });

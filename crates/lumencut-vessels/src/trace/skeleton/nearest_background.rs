@@ -4,7 +4,6 @@ use glam::DVec3;
 
 use crate::trace::skeleton::foreground::{BACKGROUND, Foreground};
 
-/// Number of points per leaf.
 const LEAF: usize = 8;
 
 /// Background voxels that touch lumen, in a balanced k-d tree whose nodes split their longest axis.
@@ -50,7 +49,6 @@ impl NearestBackground {
         self.part(start + middle + 1, end);
     }
 
-    /// Squared distance (mm²) to the nearest background voxel.
     pub(super) fn squared_distance(&self, point: DVec3) -> f64 {
         let mut best = f64::INFINITY;
         self.search(0, self.points.len(), point, &mut best);

@@ -1,4 +1,4 @@
-//! Removes spurs: branches that come from bumps of the wall or corners of ends.
+//! Removes spurs, which are branches that come from bumps of the wall or corners of ends.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeSet, BinaryHeap};
@@ -9,17 +9,17 @@ use crate::trace::skeleton::graph::{Branch, Graph};
 use crate::trace::skeleton::mask_lumen::Lumen;
 use lumencut_core::math::same_place::ALONG_LINE;
 
-/// A branch stays if it extends this many of its own radii beyond the wall of its parent.
+/// A branch is kept if it extends this many of its radii beyond the wall of its parent.
 const OWN_RADII: f64 = 4.0;
 
-/// Junctions are merged if they are closer than this share of the radius, or than two voxels.
+/// Junctions are merged if they are closer than this fraction of the radius, or than two voxels.
 const MERGE_RADII: f64 = 0.3;
 
-/// Minimum length of a component, in diameters.
+/// Minimum length of a component, in its diameters.
 const ELONGATED: f64 = 1.25;
 
-/// Removes spurs. A branch with a free end stays if it is at least `parent_radii` parent radii long, from the
-/// parent's centerline to its end, or extends far beyond the parent's wall. The least significant spur is
+/// Removes spurs. A branch with a free end is kept if it is at least `parent_radii` parent radii long, from
+/// the parent's centerline to its end, or extends far beyond the parent's wall. The least significant spur is
 /// removed first, and then its neighbours are checked again.
 pub(crate) fn prune(graph: &mut Graph, lumen: &Lumen, parent_radii: f64) {
     let mut waiting: BinaryHeap<Reverse<(u64, usize)>> = BinaryHeap::new();
@@ -47,14 +47,14 @@ pub(crate) fn prune(graph: &mut Graph, lumen: &Lumen, parent_radii: f64) {
     }
 }
 
-/// Rank of a branch that only just stays.
+/// Rank of a branch that is just significant enough to be kept.
 const WHOLE: u64 = 1 << 20;
 
 fn rank(significance: f64) -> u64 {
     (significance.max(0.0) * WHOLE as f64).round() as u64
 }
 
-/// Significance of a branch with one free end, which is a spur if below 1; None for other branches.
+/// Significance of a branch with one free end; below 1 it is a spur. None for other branches.
 fn significance(graph: &Graph, lumen: &Lumen, number: usize, parent_radii: f64) -> Option<f64> {
     let branch = graph.branches[number].as_ref()?;
     let is_free = branch.nodes.map(|node| graph.incident[node].len() == 1);
@@ -84,7 +84,7 @@ fn significance(graph: &Graph, lumen: &Lumen, number: usize, parent_radii: f64) 
     Some(by_parent.max(by_itself))
 }
 
-/// Radius of the widest other branch, measured one radius from the junction, which would widen it.
+/// Radius of the widest other branch, measured one radius away from the junction, where lumens widen.
 fn parent_radius(graph: &Graph, lumen: &Lumen, number: usize, junction: usize) -> f64 {
     let at_junction = lumen.radius_at_cell(graph.nodes[junction]);
     let others = graph.incident[junction].iter().filter(|&&other| other != number);
@@ -99,7 +99,7 @@ fn parent_radius(graph: &Graph, lumen: &Lumen, number: usize, junction: usize) -
     along.fold(0.0, f64::max).min(at_junction)
 }
 
-/// Length of a line of voxels without its stair steps, from means of five neighbours.
+/// Length of a line of voxels. Means of five neighbours first remove its stair steps.
 pub(crate) fn length(points: &[DVec3]) -> f64 {
     let mean = |n: usize| {
         let reach = n.min(points.len() - 1 - n).min(2);

@@ -1,4 +1,4 @@
-//! Connected components, found by runs along rows: cavities and pieces.
+//! Connected components, found by runs of cells along rows: cavities in the lumen, and pieces of lumen.
 
 use crate::trace::skeleton::foreground::{BACKGROUND, Foreground, LUMEN};
 use lumencut_core::error::Result;
@@ -7,20 +7,19 @@ use lumencut_core::stop::{Stop, go_on};
 struct Run {
     start: u32,
     end: u32,
-    /// Parent in the union-find structure.
     parent: u32,
 }
 
 struct Runs {
     runs: Vec<Run>,
-    /// Number of the first run of each row, and the number of runs.
+    /// Index of the first run of each row; last, the number of runs.
     first_of_row: Vec<u32>,
 }
 
-/// Fills background not face-connected to the outside; returns the number of cavities and of their cells.
+/// Fills background that no faces connect to the outside; returns the number of cavities and of their cells.
 pub(crate) fn fill_cavities(foreground: &mut Foreground, stop: Stop) -> Result<[usize; 2]> {
     let mut runs = Runs::of(foreground, BACKGROUND, 0, stop)?;
-    // The border is background, so the first run belongs to the outside.
+    // The border is background, so the first run of cells belongs to the outside.
     let outside = runs.root(0);
     let (mut cavities, mut cells) = (0, 0);
     for row in 0..runs.first_of_row.len() - 1 {

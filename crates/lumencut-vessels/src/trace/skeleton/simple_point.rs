@@ -5,7 +5,7 @@
 //! doi:10.1016/0167-8655(94)90046-9. A point is simple if the lumen around it is one component, and the
 //! background that touches it by a face is one component within the 18 neighbours.
 
-/// Number of the middle of a 3 × 3 × 3 cube, whose positions are numbered i + 3 j + 9 k.
+/// Index of the middle of a 3 × 3 × 3 cube, whose positions are numbered i + 3 j + 9 k.
 const CENTER: usize = 13;
 
 /// The 26-neighbours of each position, as bits.
@@ -16,7 +16,7 @@ const CORNERS: u32 = 1 | 1 << 2 | 1 << 6 | 1 << 8 | 1 << 18 | 1 << 20 | 1 << 24 
 const FACES: u32 = 1 << 4 | 1 << 10 | 1 << 12 | 1 << 14 | 1 << 16 | 1 << 22;
 const NEIGHBORS: u32 = ((1 << 27) - 1) & !(1 << CENTER);
 
-/// Positions within one step along each axis and `most` steps in all, without `left_out` and the centre.
+/// Positions within one step along each axis and `most` steps in total, except `left_out` and the centre.
 const fn neighbours(most: usize, left_out: u32) -> [u32; 27] {
     let mut all = [0; 27];
     let mut place = 0_usize;

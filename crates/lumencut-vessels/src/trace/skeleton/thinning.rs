@@ -1,4 +1,4 @@
-//! Thins a mask by removing simple points; those nearest to the wall are removed first.
+//! Thins a mask by removing simple points, from the wall inwards.
 //!
 //! Pudney, "Distance-Ordered Homotopic Thinning", Computer Vision and Image Understanding 72(3), 1998,
 //! doi:10.1006/cviu.1998.0680. Voxels at about the same distance are removed from the six sides in turn, so
@@ -9,7 +9,7 @@ use crate::trace::skeleton::simple_point::Neighbourhood;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Range of distances that are removed together, in voxel sides.
+/// Range of distances (voxel sides) of the voxels that are removed together.
 const TURN_RANGE: f64 = 0.5;
 
 /// Thins lumen to lines of voxels (sorted cells); `squares` are squared distances to background (mm²).
@@ -36,7 +36,7 @@ pub(crate) fn thin(
     Ok(front)
 }
 
-/// Removes voxels once from each side; returns whether any voxel was removed.
+/// Removes voxels from each side in turn; returns whether any voxel was removed.
 fn remove_from_all_sides(foreground: &mut Foreground, front: &mut Vec<u32>, stop: Stop) -> Result<bool> {
     let strides = foreground.strides();
     let mut removed = false;

@@ -1,4 +1,4 @@
-//! Lines through junctions: the two branches that fit best continue each other, the other branches end there.
+//! Lines through junctions: the two branches that fit best continue each other, and the other branches end there.
 
 use glam::DVec3;
 
@@ -9,7 +9,7 @@ use lumencut_core::math::same_place::ALONG_LINE;
 pub(crate) struct ThroughLine {
     /// Points (mm, LPS), which are voxel centres at first.
     pub points: Vec<DVec3>,
-    /// Nodes on the line, each with the number of its point.
+    /// Nodes on the line, each with the index of its point.
     pub knots: Vec<Knot>,
     pub(crate) is_closed: bool,
 }
@@ -20,7 +20,8 @@ pub(crate) struct Knot {
     pub point: usize,
 }
 
-/// All branches as lines; each junction joins the two that are straightest and most similar in width.
+/// All branches as lines. At each junction, the two branches that are straightest and most similar in width
+/// are joined.
 pub(crate) fn through_lines(graph: &Graph, lumen: &Lumen) -> Vec<ThroughLine> {
     let next: Vec<Option<[usize; 2]>> = (0..graph.nodes.len()).map(|node| pair(graph, lumen, node)).collect();
     let mut used = vec![false; graph.branches.len()];
@@ -81,7 +82,7 @@ fn pair(graph: &Graph, lumen: &Lumen, node: usize) -> Option<[usize; 2]> {
     }
     let mut outwards = Vec::new();
     for (place, &number) in incident.iter().enumerate() {
-        // A loop is listed twice: the first time it leaves by its start, the second time by its end.
+        // A loop is listed twice: the first entry leaves by its start, the second by its end.
         let Some(branch) = &graph.branches[number] else { continue };
         let from_end = branch.nodes[0] != node || incident[..place].contains(&number);
         outwards.push((number, outward(lumen, &branch.cells, from_end, graph.nodes[node])));
@@ -94,7 +95,7 @@ fn pair(graph: &Graph, lumen: &Lumen, node: usize) -> Option<[usize; 2]> {
             }
             let likeness = radius.min(*width) / radius.max(*width).max(1e-9);
             let score = likeness - direction.dot(*other);
-            // The tolerance makes ties depend on the order of the branches and not on rounding.
+            // With the tolerance, ties depend on the order of the branches and not on rounding.
             if best.is_none_or(|(most, _)| score > most + 1e-6) {
                 best = Some((score, [*first, *second]));
             }

@@ -1,20 +1,19 @@
-//! A volume as blocks of voxels, which are stored when needed.
+//! A volume as blocks of voxels, which are stored only when needed.
 
 use std::ops::{Index, IndexMut};
 
 /// Side of a block (voxels).
 pub(crate) const SIDE: usize = 16;
-/// Number of voxels of a block.
 pub(crate) const BLOCK: usize = SIDE * SIDE * SIDE;
 
 const NO_BLOCK: u32 = u32::MAX;
 
-/// The stored blocks. Each has a place in the volume, and a number among the stored blocks.
+/// The stored blocks. Each has a position in the volume, and an index among the stored blocks.
 #[derive(Clone, Debug)]
 pub(crate) struct Blocks<T> {
     /// Number of blocks along (i, j, k).
     count: [usize; 3],
-    /// Number of each block of the volume among the stored ones.
+    /// Index of each block of the volume among the stored ones.
     numbers: Vec<u32>,
     kept: Vec<Kept<T>>,
 }
@@ -104,7 +103,7 @@ pub(crate) fn index_of(voxel: [i32; 3]) -> usize {
     index_in(voxel.map(|c| c % SIDE as i32))
 }
 
-/// Whether the block at `corner` intersects a box (first voxel, count).
+/// Whether the block at `corner` intersects a box, given as its first voxel and its size.
 pub(crate) fn meets(corner: [i32; 3], (first, count): ([i32; 3], [i32; 3])) -> bool {
     (0..3).all(|a| corner[a] < first[a] + count[a] && corner[a] + SIDE as i32 > first[a])
 }

@@ -1,10 +1,10 @@
-//! Queue with buckets of path lengths: the order of Dijkstra's algorithm to 0.25 mm, without sorting.
+//! Queue with buckets of path lengths. It gives the order of Dijkstra's algorithm to 0.25 mm, without sorting.
 
-/// Width of a bucket (mm of the cheapest path), and maximum number of buckets.
+/// Width of a bucket, as a length (mm) of the cheapest possible path; maximum number of buckets.
 const BUCKET: f32 = 0.25;
 const MOST_BUCKETS: usize = 400_000;
 
-/// Shortest paths come first; within a bucket, the last one in is the first one out.
+/// A queue that returns the shortest paths first; within a bucket, the last one in is the first one out.
 #[derive(Clone, Debug)]
 pub(crate) struct Buckets<T> {
     buckets: Vec<Vec<T>>,
@@ -30,7 +30,7 @@ impl<T> Buckets<T> {
         self.buckets[bucket].push(waiting);
     }
 
-    /// Whether all paths as short as `way` (mm) were taken, up to the width of a bucket.
+    /// Whether all paths shorter than `way` (mm), up to the width of a bucket, have left the queue.
     #[inline]
     pub(crate) fn have_passed(&mut self, way: f32) -> bool {
         self.advance();

@@ -1,6 +1,7 @@
-//! A front: Dijkstra's algorithm with buckets. The straight distance to the target is the lower bound.
+//! A front of voxels that grows by Dijkstra's algorithm with buckets. The straight distance to the target is
+//! the lower bound (A*).
 //!
-//! Neighbours are the 26 around a voxel, with their distances in world space, so any affine grid works.
+//! Each voxel has 26 neighbours. Their distances are taken in world space, so any affine grid works.
 
 use glam::DVec3;
 
@@ -11,23 +12,22 @@ use crate::voxels::Voxels;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Codes in place of a parent, for the start voxel and for voxels that were not reached.
+/// Codes used instead of a parent: for the start voxel, and for voxels that were not reached.
 const START: u8 = 26;
 const NONE: u8 = 255;
 
-/// Number of voxels between two checks of `stop`.
 const BETWEEN_STOPS: usize = 1 << 10;
 
-/// Unit in which lengths of stretches without lumen are stored (mm).
+/// Unit (mm) in which the lengths of gaps without lumen are stored.
 const GAP_UNIT_MM: f64 = 0.1;
 
-/// Data of a front in one block: six bytes per voxel, and the costs.
+/// Data of a front for one block of voxels: six bytes per voxel, and the costs.
 #[derive(Clone, Debug)]
 struct Block {
     costs: BlockCosts,
     corner: [i32; 3],
     way: Box<[f32; BLOCK]>,
-    /// One bit per voxel, set if its neighbours were updated.
+    /// One bit per voxel, set once its neighbours have been updated.
     offered: Box<[u64; BLOCK / 64]>,
     parent: Box<[u8; BLOCK]>,
     run: Box<[u8; BLOCK]>,
@@ -48,12 +48,12 @@ struct Waiting {
 /// How far a front may grow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reach {
-    /// Longest allowed stretch without lumen (mm), at most 25; None if it is not limited.
+    /// Longest allowed gap without lumen (mm), at most 25; None if it is not limited.
     pub longest_gap: Option<f64>,
     /// Maximum number of voxels of the front.
     pub most_voxels: usize,
-    /// Weight of the straight distance: 1 finds the cheapest path; more is faster, but costs up to that
-    /// factor.
+    /// Weight of the straight distance. With 1 the cheapest path is found; more is faster, but the path may
+    /// cost up to that factor more.
     pub pull: f32,
 }
 
@@ -64,7 +64,7 @@ pub enum Found {
     Target,
     /// There is no path.
     NoWay,
-    /// The front reached its maximum size.
+    /// The front reached its maximum number of voxels.
     TooFar,
 }
 
@@ -83,7 +83,7 @@ pub struct Front {
 }
 
 impl Front {
-    /// A front that starts at a voxel.
+    /// A front that starts at the voxel `source`.
     pub fn new(voxels: &Voxels, region: &mut Region, source: [i32; 3], reach: Reach) -> Self {
         let mut front = Self {
             source,
@@ -107,7 +107,7 @@ impl Front {
         self.source
     }
 
-    /// Grows until the path to `target` is known. `report` is called with the remaining distance (mm).
+    /// Grows the front until the path to `target` is known. `report` receives the remaining distance (mm).
     pub fn grow(
         &mut self,
         voxels: &Voxels,
@@ -123,7 +123,7 @@ impl Front {
         let mut until_stop = 0;
         loop {
             let way = self.known[block].way[voxel];
-            // A cheaper path would be in an earlier bucket.
+            // A cheaper path would have been in an earlier bucket.
             if way.is_finite() && self.waiting.have_passed(way) {
                 return Ok(Found::Target);
             }
@@ -166,7 +166,7 @@ impl Front {
         way
     }
 
-    /// Whether the front reached a voxel of a ball.
+    /// Whether the front has reached blocks that intersect a ball.
     pub fn touches(&self, voxels: &Voxels, center: DVec3, radius: f64) -> bool {
         let ball = voxels.around(center, radius);
         self.known.places().any(|place| meets(self.known.corner(place), ball))
@@ -182,7 +182,7 @@ impl Front {
         }
     }
 
-    /// Updates the neighbours of a voxel; returns its distance to the goal (mm), None for an outdated entry.
+    /// Updates the neighbours of a voxel. Returns its distance to the goal (mm), or None for an outdated entry.
     fn settle(&mut self, voxels: &Voxels, region: &mut Region, waiting: Waiting, goal: DVec3) -> Option<f64> {
         let (block, voxel) = parts_of(waiting.place);
         if self.known[block].way[voxel] < waiting.way {
@@ -193,7 +193,7 @@ impl Front {
         let here = voxel_of(self.known[block].corner, voxel);
         let cost = self.costs[usize::from(self.known[block].costs[voxel])];
         let run = self.known[block].run[voxel];
-        // With pull, cheaper paths are often found late, so voxels are not updated again.
+        // If the pull is above 1, cheaper paths are often found late, so voxels are not updated again.
         let is_pulled = self.reach.pull > 1.0;
         for n in 0..26 {
             let (step, length) = self.steps[n];
@@ -223,7 +223,7 @@ impl Front {
         Some(voxels.center(here).distance(goal))
     }
 
-    /// Block and index of a voxel beside block `near`; None outside the volume.
+    /// Block and index of a voxel that is next to the block `near`; None outside the volume.
     fn neighbour(
         &mut self,
         voxels: &Voxels,

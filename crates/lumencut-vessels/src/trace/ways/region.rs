@@ -1,4 +1,4 @@
-//! Cost of a path per millimetre at each voxel, in blocks that are computed when needed.
+//! Path cost per millimetre at each voxel, in blocks that are computed only when needed.
 
 use std::sync::Arc;
 
@@ -9,33 +9,33 @@ use crate::trace::ways::blocks::{BLOCK, Blocks, SIDE, index_of, meets, voxel_of}
 use crate::trace::ways::shape::{HALO, PADDED_SIDE, bends, beside, blurred, raised, wall_between};
 use crate::voxels::Voxels;
 
-/// Membership of plain tissue, which keeps its cost finite: for paths in lumen, and for bridges.
+/// Membership of plain tissue, which keeps its cost finite: for paths in lumen, and for bridges across gaps.
 const LEAST_MEMBERSHIP: f64 = 0.05;
 const LEAST_OF_BRIDGES: f64 = 0.2;
 
-/// Additional cost far from the middle of a wide vessel, relative to the cost by membership.
+/// Additional cost far from the middle of a wide vessel, relative to the cost that follows from membership.
 const OFF_MIDDLE: f64 = 0.4;
 
-/// Additional cost in the wall between two vessels, relative to the cost by membership.
+/// Additional cost in the wall between two vessels, relative to the cost that follows from membership.
 const WALL: f64 = 15.0;
 
-/// Factor of the membership next to bone, calcium and metal, because their edges have the values of lumen.
+/// Membership is multiplied by this next to bone, calcium and metal, because their edges have the values of lumen.
 const RIM_FACTOR: f64 = 0.5;
 
-/// Share of the noise that averaging over neighbours leaves.
+/// Fraction of the noise that remains after averaging over neighbours.
 const NOISE_LEFT: f64 = 0.23;
 
 /// Maximum cost: that of tissue far from lumen.
 const DEAREST: f64 = (1.0 + WALL) * (1.0 + OFF_MIDDLE) / (LEAST_MEMBERSHIP * LEAST_MEMBERSHIP);
 
-/// Code of forbidden voxels. Other codes increase with the cost.
+/// Code of forbidden voxels. Higher codes mean higher costs.
 pub(crate) const FORBIDDEN: u8 = 0;
 
-/// A voxel with a lower mean membership is not lumen.
+/// A voxel is not lumen if the mean membership is below this.
 pub(crate) const WEAK: f64 = 0.2;
-/// Lumen with a lower mean membership is thin.
+/// Lumen is thin if the mean membership is below this.
 pub(crate) const THIN: f64 = 0.75;
-/// Membership of a voxel well within lumen.
+/// Membership of a voxel deep inside lumen.
 pub(crate) const FULL: f64 = 0.9;
 
 /// How strictly paths must stay in lumen.
@@ -56,7 +56,7 @@ impl Strictness {
     }
 }
 
-/// The cost that each code means.
+/// The path cost per millimetre that each code means.
 pub fn costs() -> [f32; 256] {
     std::array::from_fn(|code| {
         if code == 0 { f32::INFINITY } else { DEAREST.powf((code as f64 - 1.0) / 254.0) as f32 }
@@ -78,12 +78,12 @@ pub struct Stopper {
 
 pub(crate) type BlockCosts = Arc<[u8; BLOCK]>;
 
-/// Costs of the blocks that were needed so far, one byte per voxel.
+/// Costs of the blocks that were needed so far, with one byte per voxel.
 #[derive(Clone, Debug)]
 pub struct Region {
     /// The values of lumen and tissue.
     pub model: LumenModel,
-    /// Places that no path may pass.
+    /// Balls that no path may enter.
     pub stoppers: Vec<Stopper>,
     strictness: Strictness,
     made: Blocks<BlockCosts>,

@@ -7,18 +7,19 @@ pub(crate) const HALO: usize = 3;
 /// Side of the cube with border (voxels).
 pub(crate) const PADDED_SIDE: usize = SIDE + 2 * HALO;
 
-/// A ridge adds up to this share of the missing membership.
+/// A ridge adds up to this fraction of the missing membership.
 const RIDGE: f64 = 0.6;
 
-/// Minimum membership of a visible ridge.
+/// Minimum membership for a ridge to be visible.
 const FAINT: f64 = 0.05;
 
-/// Second derivative of the membership in a wall; factor of the second one that marks a throat.
+/// Second derivative of the membership in a clear wall. In a throat, the next eigenvalue is below -`THROAT`
+/// times the first.
 const DIP: f64 = 0.1;
 const THROAT: f64 = 0.3;
 
-/// Degree to which a voxel lies in a wall between two lumens, 0 to 1. In one direction it is darker than both
-/// neighbours. In the others it is not brighter than its neighbours, as it would be in a throat.
+/// Degree (0 to 1) to which a voxel lies in a wall between two lumens. In one direction it is darker than both
+/// neighbours. In the other directions it is not brighter than its neighbours, unlike the throat of a stenosis.
 pub(crate) fn wall_between(share: f64, bends: &[f64; 3]) -> f64 {
     if !(0.1..0.95).contains(&share) {
         return 0.0;
@@ -28,7 +29,7 @@ pub(crate) fn wall_between(share: f64, bends: &[f64; 3]) -> f64 {
     if most <= 0.0 || is_throat { 0.0 } else { (most / DIP).min(1.0) }
 }
 
-/// Raises the membership on ridges, because a vessel thinner than a voxel is never as bright as its lumen.
+/// Raises the membership on ridges, because a vessel thinner than a voxel never looks as bright as its lumen.
 /// Ridges below the noise (standard deviation `noise`) are ignored.
 pub(crate) fn raised(share: f64, bends: &[f64; 3], noise: f64) -> f64 {
     let is_seen = (share / (2.0 * noise).max(FAINT) - 1.0).clamp(0.0, 1.0);
@@ -36,7 +37,7 @@ pub(crate) fn raised(share: f64, bends: &[f64; 3], noise: f64) -> f64 {
     share + (1.0 - share) * RIDGE * ridge * is_seen
 }
 
-/// Eigenvalues of the second derivatives, descending; positive if both neighbours are brighter.
+/// Eigenvalues of the second derivatives, in descending order; positive if both neighbours are brighter.
 pub(crate) fn bends(shares: &[f32], at: usize) -> [f64; 3] {
     let share = f64::from(shares[at]);
     if !(0.02..0.98).contains(&share) {
@@ -88,7 +89,7 @@ fn eigenvalues(m: [[f64; 3]; 3]) -> [f64; 3] {
     [first, 3.0 * mean - first - last, last]
 }
 
-/// Averages over the cube, axis by axis; valid where all weights lie inside.
+/// Averages over the cube, axis by axis; results are valid where all weights lie inside.
 pub(crate) fn blurred(shares: &[f32], weights: &[f32]) -> Vec<f32> {
     let reach = weights.len() / 2;
     let mut now = shares.to_vec();
@@ -112,7 +113,7 @@ pub(crate) fn blurred(shares: &[f32], weights: &[f32]) -> Vec<f32> {
 mod tests {
     use super::*;
 
-    /// A cube whose membership depends on the offset from its middle, and the number of the middle.
+    /// A cube whose membership depends on the offset from its middle, and the index of the middle voxel.
     fn cube(share: impl Fn([f64; 3]) -> f64) -> (Vec<f32>, usize) {
         let middle = PADDED_SIDE / 2;
         let steps = |n: usize| {

@@ -1,4 +1,4 @@
-//! Finds neighbouring tracks of similar width. Bone fills a neighbourhood; a vessel only passes through it.
+//! Finds neighbouring tracks of similar width. Bone fills a neighbourhood, but a vessel only passes through it.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -14,10 +14,10 @@ const NEIGHBOR_MM: f64 = 12.0;
 /// Maximum ratio of the radii of neighbours.
 const MAX_RADIUS_RATIO: f64 = 2.2;
 
-/// Sampling distance along a track (mm).
+/// Distance between sampled points of a track (mm).
 const STEP: f64 = 2.0;
 
-/// Sorted numbers of the neighbours of each track; only tracks marked in `counts` are neighbours.
+/// Sorted numbers of the neighbours of each track. Only tracks marked in `counts` can be neighbours.
 pub(crate) fn beside(tracks: &[Track], counts: &[bool], stop: Stop) -> Result<Vec<Vec<usize>>> {
     let radii: Vec<f64> = tracks.iter().map(Track::radius).collect();
     let places: Vec<Vec<DVec3>> = tracks.par_iter().map(spread_out).collect();

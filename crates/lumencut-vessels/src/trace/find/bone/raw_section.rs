@@ -1,6 +1,6 @@
 //! Cross-section of a track in the raw voxels: its elongation, its evenness, and whether it is marrow.
 //!
-//! Tracking clips bright values, so a plate of bone may look like a tube; raw voxels show the difference.
+//! Tracking uses clipped values, so a plate of bone may look like a tube; raw voxels show the difference.
 
 use std::f64::consts::TAU;
 
@@ -12,23 +12,23 @@ use crate::trace::find::section::{TOUCHED, across};
 use crate::trace::find::track::TrackPoint;
 use crate::trace::lumen::ray::Ray;
 
-/// Number of rays, which is even because two opposite rays make a diameter.
+/// Number of rays. It is even, because two opposite rays form a diameter.
 const RAYS: usize = 24;
 
-/// Sampling distance (voxels).
+/// Distance between samples of a ray (voxels).
 const STEP: f64 = 0.5;
 
-/// Tissue is searched between these distances: factors of the radius, plus voxels at the far end.
+/// Tissue is searched between these multiples of the radius; the far end is `TISSUE_BEYOND` voxels farther.
 const TISSUE: [f64; 2] = [0.8, 1.6];
 const TISSUE_BEYOND: f64 = 2.0;
 
-/// Quantile of the lowest values of the rays that counts as tissue, because fat and lung are darker.
+/// Quantile of the lowest values of all rays that counts as tissue, because fat and lung are darker.
 const TISSUE_SHARE: f64 = 0.3;
 
-/// Maximum length of a ray: the smaller of two sums, each of radii and mm.
+/// Maximum length of a ray: the smaller of two sums, each of a multiple of the radius and some mm.
 const RAY_LENGTHS: [[f64; 2]; 2] = [[3.0, 4.0], [6.0, 1.5]];
 
-/// Lumen differs from the vessel level by less than the first share; bone exceeds it by the second.
+/// Lumen differs from the vessel level by less than `ALIKE`; bone exceeds that level by `BONE`.
 const ALIKE: f64 = 0.15;
 const BONE: f64 = 0.4;
 
@@ -42,12 +42,12 @@ const SPREAD_WITHIN: [f64; 3] = [0.25, 0.45, 0.65];
 /// Interquartile range of a normal distribution, in standard deviations.
 const QUARTILES: f64 = 1.35;
 
-/// Compact bone is searched between these distances: factors of the radius, plus mm at the far end.
+/// Compact bone is searched between these multiples of the radius; the far end is `CORTEX_BEYOND` mm farther.
 const CORTEX: [f64; 2] = [0.8, 2.5];
 const CORTEX_BEYOND: f64 = 2.0;
 
-/// Marrow: a share of the rays meets values above the inside, by a share of the contrast or a multiple of the
-/// noise. The inside is dark and uneven, or very dark. The radius has a minimum (voxels).
+/// In marrow, this fraction of the rays meets values above the inside by a fraction of the contrast, or a
+/// multiple of the noise. The inside is dark and uneven, or very dark. The radius has a minimum (voxels).
 const CORTEX_SHARE: f64 = 0.7;
 const CORTEX_ABOVE: f64 = 0.15;
 const CORTEX_NOISE: f64 = 3.0;
@@ -156,7 +156,7 @@ impl<'a, 'v> Rays<'a, 'v> {
     }
 }
 
-/// Distance along a ray (steps) to the first value below `level`, at most `last`.
+/// Distance (in steps) along a ray to the first value below `level`, at most `last`.
 fn length(ray: &mut Ray, level: f64, last: usize) -> f64 {
     let is_out = |value: f64| value < level || value.is_nan();
     let Some(out) = (0..=last).find(|n| is_out(ray.value(*n))) else { return last as f64 };
@@ -166,7 +166,7 @@ fn length(ray: &mut Ray, level: f64, last: usize) -> f64 {
     out.saturating_sub(1) as f64 + if share.is_finite() { share.clamp(0.0, 1.0) } else { 0.0 }
 }
 
-/// Distance (steps) to the darkest place in the outer half of a ray before bone; None if it meets no bone.
+/// Distance (in steps) to the darkest sample in the outer half of a ray before bone; None if it meets no bone.
 fn to_bone(ray: &mut Ray, level: f64, bone: f64, last: usize) -> Option<f64> {
     let first = (0..=last).find(|n| !(level..=bone).contains(&ray.value(*n)))?;
     let values: Vec<f64> = (0..=first).map(|n| ray.value(n)).collect();

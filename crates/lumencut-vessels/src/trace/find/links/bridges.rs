@@ -13,15 +13,15 @@ use crate::trace::find::track::Track;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Minimum confidence of both tracks.
+/// Minimum confidence of both tracks at a bridge.
 const CONFIDENCE: f64 = 0.3;
 
-/// Maximum length of a bridge: radii of the wider end, and mm.
+/// A bridge is no longer than this many radii of the wider end, and than this many mm.
 const RADII: f64 = 16.0;
 const LONGEST: f64 = 25.0;
 
-/// Limits of both ends: minimum cosine, or maximum sideways miss in radii; ratio of radii; difference of
-/// levels (share of the contrast); lowest level along the bridge (0 tissue, 1 lumen).
+/// Limits of both ends: minimum cosine of the turn, or maximum sideways miss (radii); ratio of the radii; difference
+/// of the levels (fraction of the contrast). Last, the lowest level along the bridge (0 tissue, 1 lumen).
 const STRAIGHT: f64 = 0.9;
 const PAST: f64 = 1.5;
 const ALIKE: f64 = 1.6;

@@ -8,15 +8,15 @@ use crate::trace::find::track::{Track, TrackPoint};
 /// Tracks with less confidence are not linked, because bone must not join trees.
 const LEAST_CONFIDENCE: f64 = 0.3;
 
-/// Length of the stretch that gives the direction of an end (radii).
+/// Length of the part that gives the direction of an end (radii).
 const DIRECTED: f64 = 1.5;
 
-/// Number of points that give the radius and level of an end.
+/// Number of points at an end from which its radius and level are taken.
 const LAST: usize = 5;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct End {
-    /// Numbers of the track and of its point.
+    /// Index of the track, and index of its point.
     pub of: [usize; 2],
     pub place: DVec3,
     /// Unit vector that points out of the track.

@@ -7,14 +7,14 @@ use crate::trace::find::links::link::Link;
 use crate::trace::find::track::Track;
 use lumencut_core::math::arc_length::arc_lengths;
 
-/// Loops shorter than this (radii at the link that closes them, or mm if larger) enclose no tissue.
+/// Loops shorter than this enclose no tissue: radii at the link that closes them, or mm if that is larger.
 pub(crate) const SMALL_LOOP: f64 = 12.0;
 const SMALL_LOOP_LENGTH: f64 = 10.0;
 
 pub(crate) struct Groups<'a> {
     tracks: &'a [Track],
     pub links: Vec<Link>,
-    /// Numbers of the links at each track.
+    /// Indices of the links at each track.
     at_track: Vec<Vec<usize>>,
     /// Arc lengths of the points of each track (mm).
     lengths: Vec<Vec<f64>>,
@@ -53,7 +53,7 @@ impl<'a> Groups<'a> {
         }
     }
 
-    /// Adds a link unless it closes a small loop. Larger ones stay, such as the arterial circle of the brain.
+    /// Adds a link unless it closes a small loop. Larger loops are kept, such as the arterial circle of the brain.
     pub(crate) fn add_unless_small_loop(&mut self, link: Link) {
         let radius = |[track, point]: [usize; 2]| self.tracks[track].points[point].radius;
         let length = self.length_of(&link);

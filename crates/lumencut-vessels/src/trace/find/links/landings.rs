@@ -1,4 +1,4 @@
-//! Places of other tracks to which an end may be linked, the cheapest first.
+//! Points of other tracks to which an end may be linked, the cheapest first.
 
 use crate::trace::find::links::ends::{End, may_link};
 use crate::trace::find::links::link::Link;
@@ -7,52 +7,53 @@ use crate::trace::find::point_grid::PointGrid;
 use crate::trace::find::scan::Scan;
 use crate::trace::find::track::{Track, TrackPoint};
 
-/// Maximum distance from an end to the centre of another track: radii plus mm.
+/// Maximum distance from an end to the centre of another track: a multiple of the end's radius plus some mm.
 const LANDING_RADII: f64 = 2.5;
 const REACH_BEYOND: f64 = 26.0;
 
-/// Maximum distance from an end to the wall of a track: radii, but at least in voxels, at most in mm.
+/// Maximum distance from an end to the wall of a track, in radii of the end. It is at least `WALL_VOXELS`
+/// voxels and at most `FARTHEST_WALL` mm.
 const WALL: f64 = 3.0;
 const WALL_VOXELS: f64 = 4.0;
 const FARTHEST_WALL: f64 = 8.0;
 
-/// An end lies inside another track up to this many radii of that track, plus a voxel.
+/// An end lies inside another track up to this multiple of that track's radius, plus one voxel.
 const INSIDE: f64 = 1.15;
 
 /// Minimum level along a link (0 tissue, 1 lumen).
 const LEVEL: f64 = 0.45;
 
-/// Weight of turn and level difference in the cost of a link, relative to its length.
+/// Weight of turn and level difference in the cost of a link, relative to the link's length.
 const TURN: f64 = 0.5;
 
 /// Ends with a smaller radius (voxels) are narrow.
 const NARROW_VOXELS: f64 = 2.5;
 
-/// Maximum number of places tried per track.
+/// Maximum number of points tried per track.
 const PLACES_TRIED: usize = 3;
 
 pub(crate) struct Limits {
-    /// Minimum confidence of the tracks.
+    /// Minimum confidence of both tracks.
     pub confidence: f64,
     /// Minimum cosine of the turn, unless the end lies inside the other track.
     pub turn: f64,
-    /// Maximum difference of levels (share of the contrast).
+    /// Maximum difference of levels (fraction of the contrast).
     pub unlike: f64,
-    /// Factor of that difference for a narrow end at a brighter track: such an end is darker than its lumen.
+    /// Factor of that difference for a narrow end at a brighter track: narrow ends look darker than their lumen.
     pub narrow: f64,
 }
 
-/// Limits for the first link of an end: turns up to 60°.
+/// Limits for the first link of an end, which allow turns up to 60°.
 pub(crate) const OPEN_ENDS: Limits = Limits { confidence: 0.3, turn: 0.5, unlike: 0.5, narrow: 1.0 };
 
-/// Limits for links to another tree: turns up to 45°.
+/// Limits for links to another tree, which allow turns up to 45°.
 pub(crate) const BETWEEN_TREES: Limits =
     Limits { confidence: 0.6, turn: std::f64::consts::FRAC_1_SQRT_2, unlike: 0.4, narrow: 0.5 };
 
 pub(crate) struct Landings<'a, 'v> {
     scan: &'a Scan<'v>,
     tracks: &'a [Track],
-    /// Tracks by width, because wide ones are reached from farther away.
+    /// Tracks grouped by width, because wide tracks are reached from farther away.
     widths: Vec<Width>,
 }
 
@@ -144,7 +145,7 @@ impl<'a, 'v> Landings<'a, 'v> {
         places
     }
 
-    /// A link from `end` to a point; None if the limits exclude it.
+    /// A link from `end` to a track point; None if the limits exclude it.
     fn place(&self, end: &End, limits: &Limits, to: [usize; 2], away: f64) -> Option<Landing> {
         let point: &TrackPoint = &self.tracks[to[0]].points[to[1]];
         let is_inside = away <= INSIDE * point.radius + self.scan.side;

@@ -2,13 +2,13 @@
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Link {
-    /// Numbers of a track and its point.
+    /// Index of one track, and index of its point.
     pub from: [usize; 2],
-    /// Numbers of the other track and its point.
+    /// Index of the other track, and index of its point.
     pub to: [usize; 2],
     /// Cost of the link (mm).
     pub cost: f64,
-    /// Length outside both lumens (mm).
+    /// Length of the link outside both lumens (mm).
     pub gap: f64,
     /// Lowest level along the link: 0 is tissue, 1 is lumen.
     pub level: f64,

@@ -21,14 +21,14 @@ const LEAST_RADIUS: f64 = 1.5;
 const WALLS: f64 = 3.0;
 const FARTHEST_WALL: f64 = 12.0;
 
-/// Maximum difference of the levels (share of the contrast), and minimum level along the link.
+/// Maximum difference of the levels (fraction of the contrast), and minimum level along the link.
 const MAX_LEVEL_DIFFERENCE: f64 = 0.3;
 const MIN_LEVEL: f64 = 0.7;
 
-/// Maximum cosine of the directions, because parallel tracks are an artery and its vein.
+/// Maximum cosine between the directions: parallel tracks are an artery and its vein, which are not linked.
 const SIDE_BY_SIDE: f64 = 0.8;
 
-/// Maximum number of places tried per pair of trees.
+/// Maximum number of points tried per pair of trees.
 const PLACES_TRIED: usize = 8;
 
 pub(crate) fn side_links(

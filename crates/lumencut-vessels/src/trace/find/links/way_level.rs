@@ -1,13 +1,13 @@
-//! How much the values on a straight line between two lumens look like lumen.
+//! Measures how much the values on a straight line between two lumens look like lumen.
 
 use glam::DVec3;
 
 use crate::trace::find::scan::Scan;
 
-/// Sampling distance (voxels).
+/// Distance between samples on the line (voxels).
 const STEP: f64 = 0.5;
 
-/// Smoothing (standard deviation in voxels).
+/// Standard deviation of the smoothing (voxels).
 const SMOOTHED: f64 = 0.6;
 
 #[derive(Clone, Copy, Debug)]
@@ -17,7 +17,7 @@ pub(crate) struct WayEnd {
     pub contrast: f64,
 }
 
-/// Lowest value on the line: 0 is tissue, 1 the lumen of the darker end (the branch). 0 outside the volume.
+/// Lowest value on the line: 0 is tissue, 1 is the lumen of the darker end (the branch). Outside the volume it is 0.
 pub(crate) fn lowest_level(scan: &Scan, from: WayEnd, to: WayEnd) -> f64 {
     let count = (from.place.distance(to.place) / (STEP * scan.side)).ceil().max(1.0);
     let darker = if to.level < from.level { to } else { from };
@@ -29,7 +29,7 @@ pub(crate) fn lowest_level(scan: &Scan, from: WayEnd, to: WayEnd) -> f64 {
     (0..=count as usize).map(share).fold(1.0, f64::min)
 }
 
-/// Weights 1/4 for the place and 1/8 for each of six neighbours, two standard deviations away.
+/// Mean with weight 1/4 for the position, and 1/8 for each of six neighbours two standard deviations away.
 fn smoothed(scan: &Scan, place: DVec3) -> f64 {
     let away = 2.0 * SMOOTHED * scan.side;
     let around = DVec3::AXES.into_iter().flat_map(|axis| [axis * away, axis * -away]);

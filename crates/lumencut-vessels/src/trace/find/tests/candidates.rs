@@ -4,7 +4,7 @@ use crate::trace::find::made::{TISSUE, away, blurred, with_scan};
 
 const FLOORS: Floors = Floors { noise: 0.0, contrast: 250.0 };
 
-/// Reproducible uniform random numbers between -1 and 1.
+/// Reproducible random numbers, uniform between -1 and 1.
 fn even(place: DVec3, number: u64) -> f64 {
     let voxel = place.round().to_array().map(|c| c as u64);
     let mixed = (voxel[0] + 1009 * voxel[1] + 2_000_003 * voxel[2] + 1_000_000_007 * number + 1)

@@ -4,7 +4,7 @@ use crate::trace::find::made::{LEVEL, TISSUE, away, blurred, straight_track, wit
 
 const LINE: [DVec3; 2] = [DVec3::new(4.0, 20.0, 20.0), DVec3::new(56.0, 20.0, 20.0)];
 
-/// Confidence and doubt of a track along the line, in voxels of 1 mm, shortened to `length` mm.
+/// Confidence and doubt of a track on the test line, shortened to `length` mm, in voxels of 1 mm.
 fn judged(value: impl Fn(DVec3) -> f64, radius: f64, length: f64) -> (f64, Option<TrackDoubt>) {
     with_scan([60, 40, 40], 1.0, value, |scan| {
         let grid = Grid::over(scan.voxels, 0.5);
@@ -22,7 +22,7 @@ fn tube(place: DVec3) -> f64 {
 #[test]
 fn nothing_speaks_against_a_tube_and_a_short_one_is_doubtful_as_short() {
     assert_eq!(judged(tube, 2.0, 50.0), (1.0, None));
-    // A length of five radii is halfway between two and eight.
+    // A length of five radii is halfway between the limits of two and eight radii.
     let (sure, doubt) = judged(tube, 2.0, 10.0);
     assert!((sure - (0.6 * 0.5 * 0.5_f64.ln()).exp()).abs() < 1e-9, "{sure}");
     assert_eq!(doubt, Some(TrackDoubt::Short));
@@ -57,7 +57,7 @@ fn a_radius_that_jumps_is_doubtful_as_rough() {
     for (n, point) in points.iter_mut().enumerate() {
         point.radius = if n % 2 == 0 { 1.5 } else { 2.5 };
     }
-    // Steps of alternating sign and size 1 have the standard deviation 1, which is half of the radius.
+    // Steps of size 1 with alternating sign have the standard deviation 1, which is half of the radius.
     let jumping: Vec<&TrackPoint> = points.iter().collect();
     assert!((radius_roughness(&jumping, 2.0) - 0.5).abs() < 1e-3);
 }

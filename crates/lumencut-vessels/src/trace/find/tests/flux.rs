@@ -19,7 +19,7 @@ fn a_cylinder_of_contrast_one_gives_one_whichever_way_it_runs() {
         let along_z = response(number, |[x, y, _]| blurred_disc(x, y, RADII[number]));
         assert!((along_z.0 - 1.0).abs() < 1e-3, "{number}: {along_z:?}");
         assert!(along_z.1[2].abs() > 0.999, "{along_z:?}");
-        // A tube along the diagonal of x and y.
+        // A tube parallel to the diagonal of x and y.
         let half = std::f64::consts::FRAC_1_SQRT_2;
         let oblique = response(number, |[x, y, z]| blurred_disc((x - y) * half, z, RADII[number]));
         assert!((oblique.0 - 1.0).abs() < 0.1, "{number}: {oblique:?}");
@@ -40,7 +40,7 @@ fn a_plate_a_slope_and_a_dark_cylinder_give_nothing() {
 fn eigenvalues_of_a_turned_diagonal_matrix_are_its_diagonal() {
     let [sin, cos] = [0.6_f32, 0.8];
     let (a, b, c) = (-3.0, 1.0, 2.0);
-    // The tensor rotated about z.
+    // The tensor after a rotation about z.
     let flows =
         [a * cos * cos + b * sin * sin, a * sin * sin + b * cos * cos, c, (a - b) * sin * cos, 0.0, 0.0];
     let found = eigenvalues(flows);

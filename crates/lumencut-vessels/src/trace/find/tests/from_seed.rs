@@ -8,7 +8,7 @@ const SIZE: [usize; 3] = [70, 60, 50];
 const WIDE_TUBE: [DVec3; 2] = [DVec3::new(4.0, 15.0, 20.0), DVec3::new(66.0, 22.0, 28.0)];
 const FAINT: [DVec3; 2] = [DVec3::new(4.0, 45.0, 30.0), DVec3::new(66.0, 40.0, 20.0)];
 
-/// A normal tube, and one with only 0.17 of its contrast.
+/// A tube of normal contrast, and one with only 0.17 of that contrast.
 fn value(place: DVec3) -> f64 {
     let faint = blurred(2.0 - away(place, &FAINT)) - TISSUE;
     blurred(4.0 - away(place, &WIDE_TUBE)) + 0.17 * faint

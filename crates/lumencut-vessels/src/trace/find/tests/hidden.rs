@@ -4,7 +4,7 @@ use crate::trace::find::grid::Grid;
 use crate::trace::find::made::{LEVEL, TISSUE, away, blurred, straight_track, with_scan};
 use crate::trace::find::pyramid::Pyramid;
 
-/// The axis of a tube of 2 mm.
+/// The axis of a tube with a radius of 2 mm.
 const TUBE: [DVec3; 2] = [DVec3::new(4.0, 20.0, 20.0), DVec3::new(56.0, 20.0, 20.0)];
 
 fn behind(radius: f64, confidence: f64) -> Vec<Track> {
@@ -36,7 +36,7 @@ fn a_tube_within_a_wide_track_is_found_once_that_is_no_vessel() {
     assert!((found[0].radius() - 2.0).abs() < 0.2 && found[0].length() > 45.0, "{}", found[0].length());
     let along = found[0].points.iter().filter(|point| (8.0..52.0).contains(&point.place.x));
     assert!(along.map(|point| away(point.place, &TUBE)).fold(0.0, f64::max) < 0.3);
-    // A vessel, or a track that is hardly wider, still hides it.
+    // A vessel, or a track that is hardly wider than the tube, still hides the tube.
     assert!(behind(6.0, 0.3).is_empty());
     assert!(behind(3.2, 0.1).is_empty());
 }

@@ -10,7 +10,7 @@ use lumencut_core::volume::{self, Volume};
 pub const LEVEL: f64 = 300.0;
 pub const TISSUE: f64 = 50.0;
 
-/// Runs `work` on a scan with values by position (mm).
+/// Runs `work` on a scan whose values are given by position (mm).
 pub fn with_scan<T>(
     size: [usize; 3],
     side: f64,
@@ -38,12 +38,12 @@ pub fn with_scan<T>(
     })
 }
 
-/// Value at `depth` mm below a surface that is blurred over a millimetre.
+/// Value at `depth` mm below a surface whose edge is blurred over 1 mm.
 pub fn blurred(depth: f64) -> f64 {
     TISSUE + (LEVEL - TISSUE) * (depth + 0.5).clamp(0.0, 1.0)
 }
 
-/// Distance from a polyline (mm).
+/// Distance of a position from a polyline (mm).
 pub fn away(place: DVec3, line: &[DVec3]) -> f64 {
     let from_segment = |pair: &[DVec3]| {
         let way = pair[1] - pair[0];

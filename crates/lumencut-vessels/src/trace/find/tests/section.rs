@@ -5,7 +5,7 @@ use crate::trace::find::pyramid::Pyramid;
 
 const MIDDLE: DVec3 = DVec3::new(20.2, 19.7, 15.0);
 
-/// A section across z, in voxels of 1 mm.
+/// A section perpendicular to z, in voxels of 1 mm.
 fn look(value: impl Fn(DVec3) -> f64, place: DVec3, radius: f64) -> Section {
     looked(Section::look, value, place, radius)
 }

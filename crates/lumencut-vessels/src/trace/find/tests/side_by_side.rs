@@ -5,7 +5,7 @@ fn at(x: f64, y: f64) -> DVec3 {
     DVec3::new(x, y, 0.0)
 }
 
-/// A wide tube of 10 voxels along x.
+/// A wide tube along x with a radius of 10 voxels.
 fn wide() -> Vec<TrackPoint> {
     straight_track(at(0.0, 0.0), at(60.0, 0.0), 10.0).points
 }

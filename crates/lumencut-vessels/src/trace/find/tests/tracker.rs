@@ -6,7 +6,7 @@ const SIZE: [usize; 3] = [70, 50, 50];
 const TUBE: [DVec3; 2] = [DVec3::new(12.0, 22.0, 24.0), DVec3::new(58.0, 28.0, 24.0)];
 const RADIUS: f64 = 3.0;
 
-/// Track points (mm) from a place and direction in noisy 1 mm voxels; a painted lumen ends the track.
+/// Points (mm) of the track from a position and direction in noisy 1 mm voxels. A painted lumen ends the track.
 fn track(
     value: impl Fn(DVec3) -> f64,
     noise: f64,

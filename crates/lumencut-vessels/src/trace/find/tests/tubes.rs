@@ -24,7 +24,7 @@ fn two_tubes_are_two_tracks_in_their_middles_with_their_radii() {
     assert_eq!(tracks.len(), 2);
     for (line, radius) in [(wide, 4.0), (narrow, 2.0)] {
         let track = tracks.iter().find(|track| (track.radius() - radius).abs() < 0.2).expect("a track");
-        // The tubes have round ends.
+        // The tubes have round ends, which are left out.
         let along = track.points.iter().filter(|point| (6.0..64.0).contains(&point.place.x));
         let worst = along.map(|point| away(point.place, &line)).fold(0.0, f64::max);
         assert!(worst < 0.5, "{worst}");

@@ -23,7 +23,7 @@ fn the_level_is_that_of_the_longest_and_widest_tubes_that_are_alike() {
         tube(300.0, 8.0, 500.0, 0.7),
     ];
     let [level, contrast] = vessel_level(&tracks, 10.0).expect("a level");
-    // The mean is weighted by length, width and contrast: 450 × 300 and 180 × 310.
+    // The mean is weighted by length, width and contrast, so the weights are 450 × 300 and 180 × 310.
     let expected = (450.0 * 300.0 * 340.0 + 180.0 * 310.0 * 350.0) / (450.0 * 300.0 + 180.0 * 310.0);
     assert!((level - expected).abs() < 1e-9 && (contrast - (expected - 40.0)).abs() < 1e-9);
 }

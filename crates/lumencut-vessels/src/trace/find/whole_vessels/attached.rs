@@ -1,4 +1,4 @@
-//! Attaches runs to bit-identical points of other runs.
+//! Attaches the ends of runs to bit-identical points of other runs.
 
 use glam::DVec3;
 
@@ -9,7 +9,7 @@ use crate::trace::lumen::refine::STEP;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Number of segments of the bend that leads out of a lumen.
+/// Number of segments of the curve that leads a run out of another lumen.
 const BEND: usize = 16;
 
 #[derive(Clone, Debug)]
@@ -17,7 +17,7 @@ pub(crate) struct Attached {
     pub points: Vec<LinePoint>,
     /// The run met at the start, and at the end; None at a free end.
     pub met: [Option<usize>; 2],
-    /// Number of points at the start, and at the end, between the centre and the wall of the run met there.
+    /// Number of points, at the start and at the end, between the centre and the wall of the run that is met there.
     pub leads: [usize; 2],
 }
 
@@ -60,7 +60,7 @@ pub(crate) fn attached(
     Ok(made)
 }
 
-/// The point of this line at `knot`, where another line meets it: its end, or the point nearest to the node.
+/// The point of this line at `knot`, where another line meets it: the line's end, or its point nearest to the node.
 fn joint(points: &[LinePoint], knot: usize, last: usize, place: DVec3) -> LinePoint {
     let away = |point: &&LinePoint| point.place.distance_squared(place);
     let nearest = points.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
@@ -108,11 +108,11 @@ fn lie_within(run: &mut Attached, joints: [Option<LinePoint>; 2]) {
         run.points.push(end);
         run.points[0].place = from.place;
     }
-    // The complete run lies inside another lumen.
+    // The entire run lies inside another lumen.
     run.leads[usize::from(run.met[0].is_none())] = run.points.len() - 1;
 }
 
-/// Inserts the end points of a run into the runs that it meets, because those may have moved since.
+/// Inserts the end points of a run into the runs that it meets, because these runs may have moved since.
 fn share_ends(runs: &mut [Attached], number: usize) {
     for end in 0..2 {
         let Some(owner) = runs[number].met[end] else { continue };

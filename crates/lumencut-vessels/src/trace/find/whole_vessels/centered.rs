@@ -1,4 +1,4 @@
-//! Centres the stretch of each run that lies outside the lumens at its ends.
+//! Centres the part of each run that lies outside the lumens at its ends.
 
 use std::ops::RangeInclusive;
 
@@ -15,16 +15,16 @@ use crate::trace::lumen::refine::{STEP, refined_near};
 use lumencut_core::error::Result;
 use lumencut_core::stop::Stop;
 
-/// Number of points of another run, on each side of the node, whose lumen is checked.
+/// Number of points of the other run, on each side of the node, whose lumen is checked.
 const NEAR_POINTS: usize = 200;
 
-/// Minimum length of a stretch that is centred (mm).
+/// Minimum length of a part that is centred (mm).
 const SHORTEST: f64 = 1.0;
 
-/// Maximum ratio between the refined and the tracked radius, in both directions.
+/// The refined radius differs from the tracked one by at most this factor.
 const OTHER_RADIUS: f64 = 2.0;
 
-/// Quantiles of the levels along a run that limit the lumen values.
+/// Quantiles of the levels along a run; they bound the lumen values.
 const LEVELS: [f64; 2] = [0.1, 0.9];
 
 /// Minimum contrast of a lumen value, relative to the median contrast.
@@ -41,7 +41,7 @@ pub(crate) struct LinePoint {
 #[derive(Clone, Debug)]
 pub(crate) struct Centered {
     pub points: Vec<LinePoint>,
-    /// Whether a stretch lies outside the other lumens. If not, the points are those of the tracks.
+    /// Whether a part lies outside the other lumens. If not, the points are those of the tracks.
     pub is_outside: bool,
 }
 
@@ -64,7 +64,7 @@ pub(crate) fn centered(scan: &Scan, runs: &Runs, number: usize, stop: Stop) -> R
     Ok(Centered { points: (0..line.points.len()).map(point).collect(), is_outside })
 }
 
-/// The run met at the start (0) or end (1), and the number of its point; None at a free end.
+/// The run met at the start (`end` 0) or end (1), and the index of its point; None at a free end.
 pub(crate) fn met(runs: &Runs, number: usize, end: usize) -> Option<(usize, usize)> {
     let run = &runs.runs[number];
     let (node, _) = run.knots[if end == 0 { 0 } else { run.knots.len() - 1 }];

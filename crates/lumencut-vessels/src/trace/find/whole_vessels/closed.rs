@@ -30,7 +30,7 @@ mod tests {
     use super::*;
     use glam::DVec3;
 
-    /// Most of a circle of radius 10 mm.
+    /// An arc of `turn` radians on a circle with a radius of 10 mm.
     fn circle(turn: f64, radius: f64) -> Attached {
         let point = |n: i32| {
             let (sin, cos) = (turn * f64::from(n) / 200.0).sin_cos();
@@ -41,7 +41,7 @@ mod tests {
 
     #[test]
     fn a_ring_ends_where_it_began_and_what_is_open_or_ends_on_others_does_not() {
-        // The gap is 1.3 mm.
+        // The gap between the ends is 1.3 mm.
         let almost = std::f64::consts::TAU - 0.13;
         let ring = closed(circle(almost, 1.5)).points;
         assert_eq!(ring[0], ring[ring.len() - 1]);

@@ -17,7 +17,7 @@ pub(crate) struct WayPoint {
     pub level: f64,
     pub contrast: f64,
     pub confidence: f64,
-    /// Number of the track; for a link, that of the less sure track.
+    /// Index of the track; for a link, that of the less sure track.
     pub track: usize,
     pub(crate) is_link: bool,
 }
@@ -34,7 +34,7 @@ pub(crate) struct Graph {
     pub(crate) incident: Vec<Vec<usize>>,
     /// Edges; the pieces of the tracks come first, in order.
     pub edges: Vec<Edge>,
-    /// First edge of each track, and the edge after its last one.
+    /// Index of the first edge of each track, and of the edge after its last one.
     pub(crate) of_track: Vec<[usize; 2]>,
 }
 
@@ -127,7 +127,8 @@ fn on_track(tracks: &[Track], number: usize, point: &TrackPoint) -> WayPoint {
     }
 }
 
-/// A link is as wide as the narrower track. Its confidence is that of the less sure one, times its level.
+/// Points of a link. It is as wide as its narrower track; its confidence is that of the less sure track times
+/// its level.
 fn along_link(tracks: &[Track], link: &Link) -> Vec<WayPoint> {
     let [from, to] =
         [link.from, link.to].map(|[track, point]| on_track(tracks, track, &tracks[track].points[point]));

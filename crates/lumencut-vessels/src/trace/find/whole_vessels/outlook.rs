@@ -5,10 +5,10 @@ use glam::DVec3;
 use crate::trace::find::quantiles::median;
 use crate::trace::find::whole_vessels::graph::Graph;
 
-/// Distance at which the direction is taken, in radii.
+/// Distance from the node at which the direction is taken, in radii.
 const SAMPLE_RADII: f64 = 2.0;
 
-/// Maximum number of consecutive edges, if the first ones are short.
+/// Maximum number of consecutive edges that are followed if the first ones are short.
 const MOST_EDGES: usize = 4;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,13 +26,13 @@ pub(crate) fn outlook(graph: &Graph, edge: usize, node: usize, radius: f64) -> O
         for point in graph.points_from(edge, node) {
             radii.push(point.radius);
             seen = point.place;
-            // For a narrow edge less distance suffices, but it must first leave the lumen.
+            // A narrow edge needs less distance, but must first leave the lumen.
             if radii.len() > 2 && seen.distance(place) >= SAMPLE_RADII * radius.max(point.radius) {
                 return outlook_of(place, seen, radii);
             }
         }
         node = graph.far(edge, node);
-        // Beyond a junction, the continuation is not known.
+        // Behind a junction, the continuation is not known.
         let Some(next) = only_other(graph, node, edge) else { break };
         edge = next;
     }

@@ -8,10 +8,10 @@ use crate::trace::find::whole_vessels::runs::straightest;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Larger radii (voxels) do not raise the rank further.
+/// Radii above this (voxels) do not increase the rank.
 const WIDEST: f64 = 10.0;
 
-/// Levels are similar if they differ by about this share of the contrast.
+/// Intensity levels are similar if they differ by about this fraction of the contrast.
 const SIMILAR_LEVEL: f64 = 0.2;
 
 struct Part {
@@ -54,7 +54,7 @@ pub(crate) fn roots(scan: &Scan, tracks: &[Track], graph: &Graph, stop: Stop) ->
     parts.iter().map(root).collect()
 }
 
-/// Rank of a track by length, confidence, width, contrast, and similarity to the vessel level.
+/// Rank of a track, by its length, confidence, width, contrast, and similarity to the vessel level.
 fn importance(scan: &Scan, track: &Track) -> f64 {
     let wide = (track.radius() / scan.side).min(WIDEST);
     let contrast = track.points.iter().map(|point| point.contrast).sum::<f64>() / track.points.len() as f64;
@@ -73,7 +73,7 @@ fn is_free(graph: &Graph, node: usize) -> bool {
     graph.incident[node].len() == 1
 }
 
-/// The wider free end of the run with the largest track. Otherwise the widest free end, or any end of a ring.
+/// The wider free end of the run with the largest track. If it has none, the widest free end, or any end of a ring.
 fn root(graph: &Graph, part: &Part) -> [usize; 2] {
     let [first, after] = graph.of_track[part.largest.0];
     let ways = [

@@ -11,28 +11,28 @@ use crate::trace::find::whole_vessels::outlook::{Outlook, outlook};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// A run met from the side continues if its two edges are this straight (cosine) and this much wider.
+/// A run that is met from the side continues if its two edges are this straight (cosine) and this much wider.
 const STRAIGHT: f64 = -0.8;
 const WIDER: f64 = 1.5;
 
-/// Scores that differ by less are equal.
+/// Scores that differ by less than this count as equal.
 const ROUNDING: f64 = 1e-9;
 
-/// Number of points that give the width of an end.
+/// Number of points at an end from which its width is taken.
 const LAST: usize = 5;
 
 #[derive(Clone, Debug)]
 pub(crate) struct Run {
     /// Points of the run, from the root outwards.
     pub points: Vec<WayPoint>,
-    /// Nodes on the run, each with the number of its point.
+    /// Nodes on the run, each with the index of its point.
     pub knots: Vec<(usize, usize)>,
 }
 
 pub(crate) struct Runs {
-    /// Runs; each comes after the run that it leaves, except runs that were met from the side.
+    /// Runs. Each comes after the run that it leaves, except runs that were met from the side.
     pub runs: Vec<Run>,
-    /// Number of the run that passes each node.
+    /// Index of the run that passes each node.
     pub(crate) owners: Vec<usize>,
 }
 
@@ -101,7 +101,7 @@ impl Search<'_> {
         }
     }
 
-    /// Extends a run. If it meets another run from the side, returns the node and the edges of that one.
+    /// Extends a run. If it meets another run from the side, returns the node and the other run's edges.
     fn grow(
         &mut self,
         run: &mut Run,
@@ -142,7 +142,7 @@ impl Search<'_> {
     }
 }
 
-/// Number of the straightest and widest new edge; of equal ones, the first.
+/// Index of the straightest and widest new edge; of equal edges, the first.
 pub(crate) fn straightest(
     before: &Outlook,
     ahead: &[Outlook],

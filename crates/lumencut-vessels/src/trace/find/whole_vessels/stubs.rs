@@ -5,13 +5,13 @@ use crate::trace::find::track::{Track, length};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Maximum length of a stub, in radii at the link.
+/// Maximum length of a stub, in radii of the track at the link.
 const LONGEST: f64 = 1.5;
 
-/// Minimum width of the other branch of the fork, relative to the track.
+/// Minimum width of the fork's other branch, relative to the track.
 const AS_WIDE: f64 = 0.6;
 
-/// The tracks without stubs, and the links with point numbers adjusted to that.
+/// The tracks without stubs, and the links with point numbers adapted to these tracks.
 pub(crate) fn without_stubs(tracks: &[Track], links: &[Link], stop: Stop) -> Result<(Vec<Track>, Vec<Link>)> {
     let (mut tracks, mut links) = (tracks.to_vec(), links.to_vec());
     for number in 0..tracks.len() {

@@ -1,11 +1,11 @@
-//! Splits a run into sure and doubtful vessels if the stretches are long enough.
+//! Splits a run into sure and doubtful vessels if these parts are long enough.
 
 use crate::trace::find::found::{FoundVessel, SURE};
 use crate::trace::find::track::{Track, TrackDoubt};
 use crate::trace::find::whole_vessels::centered::LinePoint;
 use crate::trace::lines::centerline::Centerline;
 
-/// Minimum length of a stretch that is split off: mm, and multiples of its largest radius.
+/// Minimum length of a part that is split off: mm, and multiples of its largest radius.
 const SHORTEST: f64 = 15.0;
 const SHORTEST_RADII: f64 = 5.0;
 
@@ -19,7 +19,7 @@ fn cuts(points: &[LinePoint]) -> Vec<usize> {
     let mut cuts = vec![0];
     cuts.extend((1..points.len() - 1).filter(|n| is_sure(*n) != is_sure(n - 1)));
     cuts.push(points.len() - 1);
-    // The shortest stretch is removed first, which merges its neighbours.
+    // The shortest part is removed first, which merges its neighbours.
     while cuts.len() > 2 {
         let lack = |n: usize| {
             let stretch = &points[cuts[n]..=cuts[n + 1]];

@@ -1,4 +1,4 @@
-//! Trims runs where they are too narrow, and removes bumps of the walls of other runs.
+//! Trims runs where they are too narrow, and removes runs that are only bumps in the walls of other runs.
 
 use crate::trace::find::quantiles::median;
 use crate::trace::find::whole_vessels::attached::Attached;
@@ -6,21 +6,21 @@ use crate::trace::find::whole_vessels::centered::LinePoint;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Runs that are shorter outside the lumen of their parent are bumps: radii, and mm.
+/// Runs that are shorter than this outside their parent's lumen are bumps: radii, and mm.
 const SHORTEST_RADII: f64 = 2.0;
 const SHORTEST: f64 = 2.0;
 
-/// Number of neighbours on each side that give the median radius.
+/// Number of neighbours on each side from which the median radius is taken.
 const NEIGHBORS: usize = 4;
 
-/// Trims runs to a minimum radius (mm). Parts that other runs need always stay.
+/// Trims runs to a minimum radius (mm). Parts to which other runs are attached are always kept.
 pub(crate) fn trimmed(
     mut runs: Vec<Attached>,
     smallest_radius: f64,
     stop: Stop,
 ) -> Result<Vec<Option<Attached>>> {
     let mut stays = vec![true; runs.len()];
-    // In reverse order, most branches come before their parents.
+    // In reverse order, most branches are handled before their parents.
     for number in (0..runs.len()).rev() {
         go_on(stop)?;
         let needed = needed(&runs, &stays, number);
@@ -43,11 +43,11 @@ fn needed(runs: &[Attached], stays: &[bool], number: usize) -> Option<[usize; 2]
     found
 }
 
-/// Trims the free ends; returns whether the run stays.
+/// Trims the free ends of a run; returns whether the run is kept.
 fn trim(run: &mut Attached, needed: Option<[usize; 2]>, smallest_radius: f64) -> bool {
     let [start, end] = run.met;
     if start.is_some() && end.is_some() {
-        // The run joins two others. It is removed only if it returns to the same run within the same lumen.
+        // A run that joins two others is removed only if it returns to the same run within the same lumen.
         let is_outside = run.leads[0] + run.leads[1] + 1 < run.points.len();
         return start != end || is_outside || needed.is_some();
     }
@@ -65,7 +65,7 @@ fn trim(run: &mut Attached, needed: Option<[usize; 2]>, smallest_radius: f64) ->
     if needed.is_none() && (range[0] >= range[1] || is_bump(run, range)) {
         return false;
     }
-    // At least two points must stay.
+    // At least two points are kept.
     let range =
         if range[0] < range[1] { range } else { [range[0].min(last - 1), range[0].min(last - 1) + 1] };
     run.points.truncate(range[1] + 1);
@@ -73,7 +73,7 @@ fn trim(run: &mut Attached, needed: Option<[usize; 2]>, smallest_radius: f64) ->
     true
 }
 
-/// Number of the last point up to which a line is wide enough.
+/// Index of the last point up to which a line is wide enough.
 fn wide_until<'a>(points: impl Iterator<Item = &'a LinePoint>, smallest_radius: f64) -> Option<usize> {
     let radii: Vec<f64> = points.map(|point| point.radius).collect();
     let last = radii.len() - 1;

@@ -1,4 +1,4 @@
-//! The path of a run along tracks and links, from which its centred line must not stray.
+//! The path of a run along tracks and links. The centred line of the run must not stray from it.
 
 use glam::DVec3;
 
@@ -8,12 +8,12 @@ use crate::trace::lines::nearest_point::nearest_point;
 use crate::trace::lines::smoothing::smoothed_by_gaussian;
 use lumencut_core::math::arc_length::arc_lengths;
 
-/// Maximum deviation from the path (mm, or radii if more), and maximum factor of its length.
+/// Maximum deviation from the path (mm, or radii if larger); maximum length relative to that of the path.
 const STRAYED: f64 = 1.5;
 const STRAYED_RADII: f64 = 0.5;
 const ASTRAY: f64 = 1.25;
 
-/// Standard deviation by which the path itself is smoothed, in radii.
+/// Standard deviation of the smoothing of the path, in radii.
 const SMOOTHED: f64 = 0.4;
 
 pub(crate) struct Way {
@@ -43,7 +43,7 @@ impl Way {
         length(&self.line.points)
     }
 
-    /// Replaces the centred line by the path near links and where the line strays.
+    /// Replaces the centred line by the path near links, and wherever the line strays from the path.
     pub(crate) fn guarded(&self, line: &Centerline) -> Centerline {
         let way = &self.line;
         let nearest: Vec<usize> =
@@ -86,7 +86,7 @@ fn near_links(points: &[WayPoint]) -> Vec<bool> {
     let lengths = arc_lengths(&points.iter().map(|point| point.place).collect::<Vec<DVec3>>());
     let mut near = vec![false; points.len()];
     for n in (0..points.len()).filter(|n| points[*n].is_link) {
-        // The neighbours of a link are track points, which have radii of their own.
+        // The points next to a link are track points with their own radii.
         let beside = [n.saturating_sub(1), (n + 1).min(points.len() - 1)];
         let reach = beside.map(|m| points[m].radius).into_iter().fold(0.0, f64::max);
         let first = lengths.partition_point(|length| *length < lengths[n] - reach);

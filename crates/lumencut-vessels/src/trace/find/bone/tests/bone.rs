@@ -7,7 +7,7 @@ use lumencut_core::progress::Progress;
 const SIZE: [usize; 3] = [80, 60, 60];
 const SIDE: f64 = 0.5;
 
-/// A tube of 3 mm along y, and a plate of 2 mm, 25 mm apart.
+/// A tube with a radius of 3 mm along y, and a plate 2 mm thick; their axes are 25 mm apart.
 fn tube_and_plate(place: DVec3) -> f64 {
     let tube = 3.0 - (place.x - 8.0).hypot(place.z - 15.0);
     let plate = 1.0 - (place.x - 33.0).abs();
@@ -35,7 +35,7 @@ fn a_plate_is_left_out_and_a_tube_stays_for_any_number_of_threads() {
     assert_eq!(one[0].confidence.to_bits(), two[0].confidence.to_bits());
 }
 
-/// A tube of 1.5 mm, elongated by `times`: without neighbours, and between plates 6 and 10 mm away.
+/// A tube with a radius of 1.5 mm, elongated by `times`: without neighbours, and between plates 6 and 10 mm away.
 fn alone_and_among_plates(times: f64) -> [Vec<Track>; 2] {
     let scene = |place: DVec3| {
         let tube = 1.5 - (place.x - 8.0).hypot((place.z - 15.0) / times);
@@ -58,7 +58,7 @@ fn flat_neighbours_are_held_against_an_oval_tube_and_not_against_a_round_one() {
     assert!(among.iter().all(|track| track.confidence < SURE && track.doubt == Some(TrackDoubt::Flat)));
 }
 
-/// Confidence (in thousandths) and doubt of a sure track after the check.
+/// Confidence (in thousandths) and doubt of a sure track after the check for bone.
 fn after(shape: Shape, radius: f64) -> (i32, Option<TrackDoubt>) {
     let mut track = along_y(8.0, 15.0, radius);
     with_scan([4, 4, 4], SIDE, |_| TISSUE, |scan| judge(scan, &mut track, shape));
@@ -69,7 +69,7 @@ fn below(share: f64) -> f64 {
     LEVEL - share * (LEVEL - TISSUE)
 }
 
-/// An even shape that is paler than vessels, so that nothing is excused.
+/// An even shape, but paler than vessels, so that no doubt is excused.
 const EVEN_AND_PALE: Shape =
     Shape { level: LEVEL - 0.3 * (LEVEL - TISSUE), elongation: 1.1, spread: 0.05, is_marrow: false };
 
@@ -77,7 +77,7 @@ const EVEN_AND_PALE: Shape =
 fn doubts_take_confidence_between_their_limits() {
     let even = EVEN_AND_PALE;
     assert_eq!(after(even, 3.0), (900, None));
-    // From doubt 1.2 to 1.7, confidence falls from 0.9 to 0; 1.45 is halfway.
+    // If doubt rises from 1.2 to 1.7, confidence falls from 0.9 to 0; a doubt of 1.45 is halfway.
     let flat = Shape { elongation: 1.2 + 0.7 * 1.45, ..even };
     assert_eq!(after(flat, 3.0), (450, Some(TrackDoubt::Flat)));
     let uneven = Shape { spread: 0.14 + 0.10 * 1.45, ..even };
@@ -86,7 +86,7 @@ fn doubts_take_confidence_between_their_limits() {
     assert_eq!(after(both, 3.0).0, 450);
     assert_eq!(after(Shape { elongation: 1.2 + 0.7 * 1.1, ..even }, 3.0), (900, None));
     assert_eq!(after(Shape { elongation: 9.0, ..even }, 3.0), (0, Some(TrackDoubt::Flat)));
-    // At half of the contrast, half of the 85 % that an organ loses are lost.
+    // Darker than vessels by half of the contrast, a track loses half of the 85 % that an organ loses.
     assert_eq!(after(Shape { level: below(0.5), ..even }, 6.0), (518, Some(TrackDoubt::PaleAndWide)));
     assert_eq!(after(Shape { level: below(0.65), ..even }, 6.0), (135, Some(TrackDoubt::PaleAndWide)));
     assert_eq!(after(Shape { level: below(0.65), ..even }, 4.0), (900, None));
@@ -98,15 +98,15 @@ fn doubts_take_confidence_between_their_limits() {
 #[test]
 fn a_wide_even_lumen_as_bright_as_vessels_may_be_flat_and_marrow_may_not() {
     let flat = Shape { level: LEVEL, elongation: 2.5, ..EVEN_AND_PALE };
-    // Half of the doubts are excused, so the confidence is 0.9 to the power of a half.
+    // Half of the doubts are excused, so the confidence is the square root of 0.9.
     assert_eq!(after(flat, 3.0), (949, None));
-    // If it is wide, it is a body of even tissue.
+    // A wide flat track is a body of even tissue.
     assert_eq!(after(flat, 8.0).0, 0);
     assert_eq!(after(Shape { elongation: 1.4, ..flat }, 8.0), (949, None));
     assert_eq!(after(Shape { level: below(0.2), ..flat }, 3.0).0, 0);
     assert_eq!(after(Shape { spread: 0.11, ..flat }, 3.0).0, 0);
     assert_eq!(after(Shape { is_marrow: true, ..flat }, 3.0).0, 0);
-    // A radius of two voxels is too narrow to tell whether the inside is even.
+    // A track with a radius of two voxels is too narrow to show whether its inside is even.
     assert_eq!(after(flat, 2.0 * SIDE).0, 0);
 }
 

@@ -48,7 +48,7 @@ fn ends_with_a_gap_between_them_are_linked_through_lumen_alone() {
 
 #[test]
 fn ends_that_lead_to_each_other_are_bridged_over_sixteen_radii_and_others_are_not() {
-    // A radius of 1 mm allows 3 mm to a wall, but more for an end that points at it.
+    // For a radius of 1 mm, the wall may be 3 mm away, or more if the end points at it.
     let tracks = |gap: f64, beside: f64| {
         [
             straight_track(at(5.0, 15.0), at(25.0, 15.0), 1.0),
@@ -94,7 +94,7 @@ fn doubtful_tracks_and_other_levels_are_not_linked() {
 #[test]
 fn a_turn_of_sixty_degrees_is_the_most_but_within_the_other_lumen() {
     for (degrees, count) in [(50.0_f64, 1), (75.0, 0)] {
-        // The end is perpendicular to the first track and to the path to it.
+        // The end is perpendicular to the first track and to the path to that track.
         let start =
             at(20.0, 15.0) + 3.0 * DVec3::new(degrees.to_radians().cos(), degrees.to_radians().sin(), 0.0);
         let before = [at(3.0, 15.0), at(20.0, 15.0)];
@@ -115,7 +115,7 @@ fn a_turn_of_sixty_degrees_is_the_most_but_within_the_other_lumen() {
 
 #[test]
 fn tracks_are_linked_once_in_small_loops_and_twice_in_large_ones() {
-    // Two tracks in one lumen make a loop of 24 mm around 3 mm.
+    // Two tracks in one lumen (radius 3 mm) form a loop of 24 mm.
     let tube: &[(&[DVec3], f64)] = &[(&[at(0.0, 15.0), at(60.0, 15.0)], 3.0)];
     let pair = [
         straight_track(at(20.0, 14.5), at(32.0, 14.5), 3.0),
@@ -130,7 +130,7 @@ fn tracks_are_linked_once_in_small_loops_and_twice_in_large_ones() {
 
 #[test]
 fn the_side_of_a_track_is_linked_with_a_wider_one_across_and_not_along() {
-    // A trunk from a wide vessel to the middle of a narrow one.
+    // A trunk leads from a wide vessel to the middle of a narrow one.
     let wide = [at(10.0, 2.0), at(10.0, 28.0)];
     let arms = [DVec3::new(18.0, 15.0, 2.0), DVec3::new(18.0, 15.0, 18.0)];
     let trunk = [at(10.0, 15.0), at(18.0, 15.0)];
@@ -140,7 +140,7 @@ fn the_side_of_a_track_is_linked_with_a_wider_one_across_and_not_along() {
     let narrow = tracks[1].points[links[0].from[1]];
     assert!((narrow.place.z - 10.0).abs() < 1.1, "{narrow:?}");
     assert!(linked(&[(&wide, 4.0), (&arms, 1.5)], &tracks).is_empty());
-    // A vein that touches an artery along its course belongs to another tree.
+    // A vein that touches an artery along its course forms another tree.
     let beside = [at(15.4, 2.0), at(15.4, 28.0)];
     let tracks = [tracks[0].clone(), straight_track(beside[0] + DVec3::Y, beside[1] - DVec3::Y, 2.0)];
     assert!(linked(&[(&wide, 4.0), (&beside, 2.0)], &tracks).is_empty());

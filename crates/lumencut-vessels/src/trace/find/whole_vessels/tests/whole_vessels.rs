@@ -46,7 +46,7 @@ fn length(vessel: &FoundVessel) -> f64 {
     vessel.line.points.windows(2).map(|pair| pair[0].distance(pair[1])).sum()
 }
 
-/// A trunk of 3 mm radius with arms of 2.2 and 1.5 mm.
+/// A trunk with a radius of 3 mm, and arms with radii of 2.2 and 1.5 mm.
 fn y_of_tubes() -> Vec<([DVec3; 2], Track)> {
     vec![
         tube(at(3.0, 25.0), at(30.0, 25.0), 3.0),
@@ -118,7 +118,7 @@ fn a_cycle_is_closed_to_the_bit() {
     let corners = [at(15.0, 8.0), at(55.0, 8.0), at(55.0, 40.0), at(15.0, 40.0), at(15.0, 8.0)];
     let mut tubes: Vec<([DVec3; 2], Track)> =
         corners.windows(2).map(|pair| tube(pair[0], pair[1], 2.0)).collect();
-    // All ends except the root lie on other vessels.
+    // Checks that all ends except the root lie on other vessels.
     let check = |tubes: &[([DVec3; 2], Track)], expected: f64, free: usize| {
         let vessels = of_tubes(tubes);
         assert_eq!(vessels.iter().map(|vessel| vessel.part).max(), Some(0));
@@ -149,7 +149,7 @@ fn narrow_branches_and_bumps_are_left_out_and_vessels_end_where_they_are_narrow(
     assert!(found(&tubes, &tracks, 3.5).is_empty());
     tubes.push(tube(at(15.0, 25.0), at(15.0, 29.5), 1.0));
     assert_eq!(of_tubes(&tubes).len(), 2);
-    // A tube of 2.5 mm radius that continues with 1.2 mm.
+    // A tube with a radius of 2.5 mm that continues with a radius of 1.2 mm.
     let steps = [tube(at(3.0, 25.0), at(35.0, 25.0), 2.5), tube(at(35.0, 25.0), at(66.0, 25.0), 1.2)];
     let tracks = steps.clone().map(|(_, track)| track);
     let whole = found(&steps, &tracks, 0.5);
@@ -169,7 +169,7 @@ fn a_sure_stretch_beyond_a_doubtful_one_stays_sure() {
         [Some(TrackDoubt::BrightSides), None]
     );
     assert_eq!(ends(&vessels[0])[1], ends(&vessels[1])[0]);
-    // A short doubtful stretch is not split off.
+    // A short doubtful part is not split off.
     tubes[0] = tube(at(2.0, 25.0), at(18.0, 25.0), 1.5);
     tubes[1] = tube(at(28.0, 25.0), at(66.0, 25.0), 1.5);
     tubes.push(tube(at(19.0, 25.0), at(27.0, 25.0), 1.5));
@@ -196,14 +196,14 @@ fn nothing_makes_no_vessels_and_work_stops_where_it_is_asked_to() {
 
 #[test]
 fn making_vessels_whole_asks_whether_to_stop_for_every_track_in_each_step() {
-    // Parallel tubes that do not touch.
+    // The tubes are parallel and do not touch.
     let line = |n: usize| [5.0, 65.0].map(|x| at(x, 3.0 + 6.0 * n as f64));
     let tracks: Vec<Track> = (0..8).map(line).map(|[from, to]| straight_track(from, to, 1.5)).collect();
     let lines: Vec<[DVec3; 2]> = (0..8).map(line).collect();
     let value =
         |place: DVec3| blurred(lines.iter().map(|line| 1.5 - away(place, line)).fold(f64::MIN, f64::max));
     with_scan(SIZE, SIDE, value, |scan| {
-        // Number of calls of `stop` if it says yes from call `first` on, and whether the work was finished.
+        // Number of calls of `stop` if it returns true from call `first` on, and whether the work was finished.
         let work = |first: usize| {
             let asked = AtomicUsize::new(0);
             let stop = || asked.fetch_add(1, Ordering::Relaxed) >= first;
@@ -212,7 +212,7 @@ fn making_vessels_whole_asks_whether_to_stop_for_every_track_in_each_step() {
             (asked.load(Ordering::Relaxed), is_whole)
         };
         let (whole, is_whole) = work(usize::MAX);
-        // Stubs, importance, roots, lines, attachment, ends and trimming each ask.
+        // Seven stages call `stop`: stubs, importance, roots, lines, attachment, ends and trimming.
         assert!(is_whole && whole >= 7 * tracks.len(), "{whole}");
         for first in 0..whole {
             assert!(!work(first).1, "{first} of {whole}");
