@@ -134,7 +134,7 @@ fn is_corner(points: &[DVec3]) -> bool {
     before.dot(behind) < 0.75_f64.sqrt() * before.length() * behind.length()
 }
 
-/// The space, given by its name or by the number of 3D Slicer.
+/// The space: its name, or the number that 3D Slicer uses for it.
 fn space(stated: Option<Json>) -> Result<Option<Space>> {
     let Some(stated) = stated else { return Ok(None) };
     let text = stated.text().unwrap_or_else(|| stated.raw().to_owned());

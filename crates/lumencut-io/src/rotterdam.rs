@@ -29,7 +29,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     out.without_zero_radii().tidy()
 }
 
-/// Whether it is `reference.txt` with four or five columns, or any file with five columns and no header.
+/// Whether a row fits: four or five columns in `reference.txt`, or five without header elsewhere.
 pub(crate) fn is_row(row: &str, file_name: &str) -> bool {
     let fields = text::fields(row, Separator::Blanks);
     let named = file_name.ends_with("reference.txt");

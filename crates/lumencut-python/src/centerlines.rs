@@ -56,7 +56,7 @@ impl CenterlineFile {
     }
 
     /// Returns `(vessels, notes)`; each vessel is `(points (n, 3), radius (n,) or None, name or None)` in mm, in the file's space.
-    /// A unit of the file is `mm_per_unit` mm. `reorder` first sorts the points of each line.
+    /// One unit of the file is `mm_per_unit` mm. `reorder` first sorts the points of each line.
     fn vessels<'py>(
         &self,
         py: Python<'py>,

@@ -1,4 +1,4 @@
-//! Converts Rust errors to exceptions of `lumencut.errors`; a match covers all kinds.
+//! Converts Rust errors to the exceptions of `lumencut.errors`.
 
 use std::ffi::CString;
 

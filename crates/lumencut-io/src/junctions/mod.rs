@@ -25,7 +25,7 @@ mod weld;
 use crate::centerlines::{Centerlines, Line};
 use ids::{Id, MOST_POINTS};
 
-/// If there are more lines, step 3 is skipped, because it compares all pairs.
+/// With more lines than this, step 3 is skipped, because it compares all pairs of lines.
 const MOST_LINES_TO_FOLLOW: usize = 1024;
 
 struct Path {
