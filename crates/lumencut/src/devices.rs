@@ -1,4 +1,4 @@
-//! The GPU of this process, which all scenes share, and the choice among GPUs.
+//! The GPU that all scenes of this process share, and the choice among GPUs.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -29,7 +29,7 @@ pub enum Wanted {
 }
 
 impl Wanted {
-    /// The device for `auto`, `cpu` or `gpu`; the environment variable `AUTO` says what `auto` means.
+    /// The device named `auto`, `cpu` or `gpu`; the environment variable [`AUTO`] defines what `auto` means.
     ///
     /// # Errors
     /// [`ErrorKind::Settings`] for another name or another value of the environment variable.
@@ -37,7 +37,7 @@ impl Wanted {
         Self::with_auto(name, std::env::var(AUTO).ok().as_deref())
     }
 
-    /// The device for `name`; `auto` is the value of the environment variable `AUTO`.
+    /// The device for `name`; `auto` is the value of the environment variable [`AUTO`].
     ///
     /// # Errors
     /// [`ErrorKind::Settings`] for an unknown name.

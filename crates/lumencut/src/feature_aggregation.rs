@@ -59,7 +59,7 @@ impl Feature {
         }
     }
 
-    /// The number that the mean averages; for a share 1 above its level, else 0.
+    /// What a value contributes to the mean; for [`Self::Share`], 1 if it is above the level, else 0.
     fn counted(self, value: f64) -> f64 {
         match self {
             Self::Share(level) => f64::from(u8::from(value > level)),

@@ -1,4 +1,4 @@
-//! What a lumen map shows beside values: the thickness of calcium at the wall, and the ostia of branches.
+//! What a lumen map shows in addition to voxel values: the thickness of calcium at the wall, and the ostia of branches.
 
 use std::sync::Arc;
 
@@ -109,7 +109,7 @@ pub fn thickness(
     pixels.map_init(Vec::new, through).collect()
 }
 
-/// The direction with most calcium at the wall (radians), or 0 without calcium. The map is cut open opposite to it.
+/// The direction with most calcium at the wall (radians), or 0 without calcium.
 fn thickest_side(map: &LumenMap, thickness: &[f32]) -> f64 {
     let width = map.size()[0];
     let sum: DVec2 = thickness

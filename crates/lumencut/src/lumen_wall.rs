@@ -30,13 +30,13 @@ const STATION_STEP_MM: f64 = 1.0;
 /// A ray that meets no wall within this many radii leaves through the opening of a branch.
 const OPEN_RADII: f64 = 1.6;
 
-/// A neighbouring ray leaves too if it meets the branch's wall: a wall beyond this many contour radii.
+/// A neighbouring ray also leaves if it meets a wall beyond this many contour radii, which is the branch's wall.
 const NEAR_OPEN_RADII: f64 = 1.15;
 
 /// Smaller openings (mm²) are ignored, since single rays pass between the struts of a stent.
 const MIN_OPENING_MM2: f64 = 3.0;
 
-/// The levels of a section are used if its contrast is at most this many times the usual one, and at least the inverse.
+/// A section's own levels are used only if its contrast differs from the usual one by at most this factor.
 const MAX_CONTRAST_RATIO: f64 = 2.0;
 
 /// The wall around a vessel.
@@ -83,7 +83,7 @@ struct Station {
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 enum Exit {
     No,
-    /// The ray meets a wall farther away; it leaves if a neighbouring ray does.
+    /// The ray meets a wall farther away. It counts as leaving if a neighbouring ray leaves.
     Perhaps,
     Yes,
 }

@@ -1,4 +1,4 @@
-//! Measurements in words; all hosts use them.
+//! Measurements in words, the same for Python package and viewer.
 
 use lumencut_core::named::Named;
 use lumencut_vessels::measure::profile::Source;
@@ -106,7 +106,7 @@ pub fn of_wall(source: &WallSource) -> String {
     }
 }
 
-/// The two bounds of a diameter (mm) next to calcium or metal; None if nothing there is brighter than the lumen.
+/// The diameter (mm) without and with adjacent calcium or metal; None if nothing there is brighter than the lumen.
 pub(crate) fn of_bounds([excluded, included]: [f64; 2]) -> Option<String> {
     let [excluded, included] = [excluded, included].map(|mm| mm.is_finite().then(|| fixed(mm, 2)));
     Some(format!("{} mm if brighter material is excluded, {} mm if it is included", excluded?, included?))

@@ -20,7 +20,7 @@ pub fn refuse_focus(settings: &Settings) -> Result<()> {
         .mend(format!("leave the {setting} out")))
 }
 
-/// How the sampled positions of a view are found.
+/// The methods by which the sampled positions of a view are computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Method {
     /// Curved Surface Reformation, with the settings.

@@ -1,4 +1,4 @@
-//! Describes why no place is suggested on a vessel; all hosts use the words.
+//! Describes why no place on a vessel is suggested as narrowest place or reference.
 
 use lumencut_vessels::measure::hindrances::{CHANGE_OF_LUMEN, FLAP, UNSURE};
 use lumencut_vessels::measure::profile::Profile;

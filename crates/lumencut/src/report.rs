@@ -1,5 +1,5 @@
-//! The report of measured vessels: a self-contained web page without scripts or links. It names vessels, and the scan only if a
-//! host passes its name. Hosts supply the pictures; the facade does the rest.
+//! The report of measured vessels: a self-contained web page without scripts or links. It names vessels, and the scan only if the
+//! caller passes its name. The caller supplies the pictures.
 
 mod curves;
 mod findings;

@@ -17,7 +17,7 @@ use crate::study::whole_vessel::WholeVessel;
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct AfterEdit {
     pub(crate) edited: Edited,
-    /// The state; the vessels of the document that are not doubtful are shown.
+    /// The state after the edit, in which all vessels that are not doubtful are shown.
     pub(crate) report: Report,
     /// The lines that the document before the edit did not have.
     pub lines: Vec<NumberedLine>,

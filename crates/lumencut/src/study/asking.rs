@@ -1,5 +1,5 @@
-//! How a viewer asks the study: by named questions with a message and an answer. A table ([`crate::study::questions`]) declares
-//! them, and also generates the page's types.
+//! How a viewer asks the study: by questions with a name, a message and an answer. The table [`crate::study::questions`] declares
+//! them, and the page's types are generated from it.
 
 use serde::{Deserialize, Serialize};
 
@@ -94,8 +94,8 @@ pub(crate) fn read<'a, T: Deserialize<'a>>(question: &str, text: &'a str) -> Res
 }
 
 /// Declares the table of questions. A row has a doc comment, turn, name, message (`(name: Type)` or `{ name: Type, … }`), answer
-/// type and body. Bodies see the study and the asking under the names given first, and may use `?`; rows under `at_once` see
-/// neither.
+/// type and body. Bodies use the study and the [`Asking`] under the names given first, and may use `?`. Rows under `at_once` have
+/// no access to either.
 macro_rules! questions {
     (
         |$study:ident, $asking:ident|

@@ -152,7 +152,7 @@ fn doubt_of_unit(found: &Placement) -> Option<PlaceDoubt> {
     (!found.also.is_empty()).then(|| PlaceDoubt { found: found.decision.clone(), readings: also })
 }
 
-/// A doubt if vessels lie outside the volume, or fit better elsewhere although the caller neither stated the space nor was told.
+/// A doubt if vessels lie outside the volume, or fit better in another space or unit that the caller neither chose nor was told.
 fn doubt_beside(tree: &VesselTree, volume: &Volume, read: &Placement) -> Option<PlaceDoubt> {
     let points: Vec<DVec3> = tree.vessels().iter().flat_map(|vessel| vessel.points()).copied().collect();
     let radius =

@@ -1,4 +1,4 @@
-//! A volume that is held for a viewer: it passes first the header, and then the voxels as bytes.
+//! A volume in memory for a viewer, which passes first the header, and then the voxels as bytes.
 
 use std::collections::BTreeMap;
 
@@ -16,7 +16,7 @@ pub(crate) struct VolumeHeader {
     /// Voxels along (i, j, k); i varies fastest.
     pub size: [usize; 3],
     pub(crate) dtype: String,
-    /// World position (LPS, mm) of a continuous index, row by row.
+    /// Affine from voxel indices to world positions (LPS, mm), row by row.
     pub world_from_index: [[f64; 4]; 4],
     #[serde(default)]
     pub scan: ScanDetails,
@@ -57,7 +57,7 @@ pub struct HeldVolume {
     pub stored: Stored,
     /// Voxels along (i, j, k).
     pub size: [usize; 3],
-    /// World position of a continuous index.
+    /// Affine from voxel indices to world positions (LPS, mm).
     pub world_from_index: DAffine3,
     /// Identifies the voxels in caches.
     pub key: VolumeKey,

@@ -6,7 +6,7 @@ use crate::study::line_edits::{Knot, MEETING, followed, knots, with_knots};
 use crate::study::lines::Line;
 use crate::text::rounded;
 
-/// Where two lines are nearest to each other: a point index on each line, at least one of them an end, and the distance (mm).
+/// Where two lines are nearest: a point index on each line (at least one of them is an end), and the distance (mm).
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Meeting {
     on: [usize; 2],

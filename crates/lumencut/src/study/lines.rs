@@ -77,7 +77,7 @@ impl Line {
         }
     }
 
-    /// The line as other vessels meet it while they are traced. Its width is zero if its radius is unknown.
+    /// The line in the form in which traced vessels can join it. Its width is zero if its radius is unknown.
     pub(crate) fn met(&self) -> Centerline {
         let radius = self.known_radius().unwrap_or_else(|| vec![0.0; self.points.len()]);
         Centerline { points: self.points.clone(), radius, confidence: Vec::new() }

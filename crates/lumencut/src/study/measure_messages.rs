@@ -25,7 +25,7 @@ type Vector = [f64; 3];
 pub(crate) struct SpotMessage {
     /// Arc length on the vessel (mm).
     at: f64,
-    /// mm
+    /// The diameter (mm).
     diameter: f64,
 }
 
@@ -43,13 +43,13 @@ pub(crate) struct ProfileMessage {
     /// Diameter of the circle of the same area (mm).
     #[cfg_attr(test, ts(type = "Array<number | null>"))]
     diameter: Vec<f64>,
-    /// mm
+    /// The shortest diameter of the lumen (mm).
     #[cfg_attr(test, ts(type = "Array<number | null>"))]
     diameter_min: Vec<f64>,
-    /// mm
+    /// The longest diameter of the lumen (mm).
     #[cfg_attr(test, ts(type = "Array<number | null>"))]
     diameter_max: Vec<f64>,
-    /// mm²
+    /// The area of the lumen (mm²).
     #[cfg_attr(test, ts(type = "Array<number | null>"))]
     area: Vec<f64>,
     /// The standard deviation of `diameter` (mm).

@@ -34,7 +34,7 @@ impl Study {
         self.profiles = Profiles::default();
     }
 
-    /// The CSV of `lumencut measure -o x.csv`; it says if lengths are assumed.
+    /// The CSV of `lumencut measure -o x.csv`; it states whether lengths are assumed.
     pub(crate) fn profiles_csv(
         &mut self,
         vessels: &[VesselMessage],

@@ -1,4 +1,4 @@
-//! The open study and its basic questions. Only the turning view can use a GPU.
+//! The open study and its basic questions. Only the 3D view can use a GPU.
 
 use crate::views;
 use glam::DVec3;
@@ -47,7 +47,7 @@ pub struct Study {
     pub(crate) reformed: Option<Reformed>,
     pub(crate) profiles: Profiles,
     pub(crate) lines: Lines,
-    /// What is kept about the volume between tracings, and the last lines.
+    /// The data of the volume that are kept between tracings, and the last lines.
     pub(crate) tracer: Tracer,
     pub(crate) traced: Vec<usize>,
     /// The vessels of the scan, once they were searched for.

@@ -21,7 +21,7 @@ const HALF_TURN: u32 = 180;
 pub(crate) struct PlaceTurn {
     /// The first view: the one nearest to the anterior view.
     pub camera: CameraMessage,
-    /// The cut diameter (mm) after each degree from 0 to 179, from where the diameters repeat. None if two walls are not found.
+    /// The cut diameter (mm) after each degree from 0 to 179; then the diameters repeat. None if two walls are not found.
     pub(crate) diameters: Vec<Option<f64>>,
 }
 

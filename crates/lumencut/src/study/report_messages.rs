@@ -1,4 +1,4 @@
-//! Findings and reports of measured vessels, as a viewer requests them. The viewer supplies pictures; the facade does the rest.
+//! Findings and reports of measured vessels, as a viewer requests them. The viewer supplies the pictures.
 
 use lumencut_core::stop::Stop;
 use serde::{Deserialize, Serialize};

@@ -1,4 +1,4 @@
-//! The turning view as the page requests it: camera, method and settings.
+//! The 3D view as the page requests it: camera, method and settings.
 
 use crate::flight::flight;
 use crate::method::Method;

@@ -8,7 +8,7 @@ export type Territory = 'carotid' | 'coronary';
 
 export type AfterEdit = {
   readonly edited: Edited;
-  /** The state; the vessels of the document that are not doubtful are shown. */
+  /** The state after the edit, in which all vessels that are not doubtful are shown. */
   readonly report: Report;
   /** The lines that the document before the edit did not have. */
   readonly lines: ReadonlyArray<NumberedLine>;
@@ -283,7 +283,7 @@ export type LookRow = {
   readonly name: string;
   readonly words: string;
   readonly sentence: string;
-  /** The values of all settings that at least one look sets; the default of a setting that this look does not set. */
+  /** The values of all settings that any look sets; the default if this look does not set one. */
   readonly settings: Settings;
 };
 
@@ -408,7 +408,7 @@ export type PlaceDoubt = {
 export type PlaceTurn = {
   /** The first view: the one nearest to the anterior view. */
   readonly camera: Camera;
-  /** The cut diameter (mm) after each degree from 0 to 179, from where the diameters repeat. None if two walls are not found. */
+  /** The cut diameter (mm) after each degree from 0 to 179; then the diameters repeat. None if two walls are not found. */
   readonly diameters: ReadonlyArray<number | null>;
 };
 
@@ -449,11 +449,11 @@ export type Profile = {
   readonly arc_length: ReadonlyArray<number>;
   /** Diameter of the circle of the same area (mm). */
   readonly diameter: ReadonlyArray<number | null>;
-  /** mm */
+  /** The shortest diameter of the lumen (mm). */
   readonly diameter_min: ReadonlyArray<number | null>;
-  /** mm */
+  /** The longest diameter of the lumen (mm). */
   readonly diameter_max: ReadonlyArray<number | null>;
-  /** mm² */
+  /** The area of the lumen (mm²). */
   readonly area: ReadonlyArray<number | null>;
   /** The standard deviation of `diameter` (mm). */
   readonly uncertainty: ReadonlyArray<number | null>;
@@ -549,7 +549,7 @@ export type ReportPlace = {
 
 /** The pictures of a vessel. */
 export type ReportPlan = {
-  /** The width of the straightened vessel (mm); a host shows less if the volume is narrower. */
+  /** The width of the straightened vessel (mm). It is shown narrower if the volume is narrower. */
   readonly width: number;
   /** Pixel side of the straightened vessel (mm). */
   readonly spacing: number;
@@ -618,7 +618,7 @@ export type Sentence = {
 
 export type SentenceKind = "finding" | "doubt" | "remark";
 
-/** A session as the page has it. Lines are numbers; everything else is as in the file, without the data of points. */
+/** A session as the page stores it: lines by number, and everything else as in the file, without the data of points. */
 export type SessionContent = {
   readonly lines: ReadonlyArray<NamedLine>;
   readonly doubtful_lines: ReadonlyArray<NamedLine>;
@@ -649,7 +649,7 @@ export type Side = {
 export type Spot = {
   /** Arc length on the vessel (mm). */
   readonly at: number;
-  /** mm */
+  /** The diameter (mm). */
   readonly diameter: number;
 };
 
@@ -756,7 +756,7 @@ export type View = {
 export type VolumeReport = {
   /** Voxels along (i, j, k). */
   readonly size: Vector;
-  /** World position of a continuous index, row by row. */
+  /** Affine from voxel indices to world positions (LPS, mm), row by row. */
   readonly world_from_index: ReadonlyArray<ReadonlyArray<number>>;
   readonly corners: ReadonlyArray<Vector>;
   /** Smallest voxel side (mm). */
@@ -877,7 +877,7 @@ export type Questions = {
     };
     readonly answer: Picture;
   };
-  /** The section at an arc length (mm), a measured section if the vessel was measured: centre, unit vectors right and down. */
+  /** The section at an arc length (mm); a measured section, if the vessel was measured: centre, unit vectors right and down. */
   readonly across: {
     readonly message: {
       readonly vessel: number;
@@ -949,7 +949,7 @@ export type Questions = {
     readonly message: PointedAt;
     readonly answer: ReadonlyArray<PointedLumen>;
   };
-  /** The path to the pointer through voxel centres; null if not found within 40 ms. It is never rejected for lack of lumen. */
+  /** The path through voxel centres to the pointer; null if not found within 40 ms. Missing lumen does not cause an error. */
   readonly path: {
     readonly message: PathRequest;
     readonly answer: ReadonlyArray<Vector> | null;
