@@ -4,7 +4,7 @@ use glam::DVec3;
 
 /// Maximum deviation of cosines from those of orthonormal vectors.
 pub(crate) const ROUNDING: f64 = 0.01;
-/// Up to this deviation, only the lengths of the vectors are corrected.
+/// If no cosine deviates by more than this, only the lengths of the vectors are corrected.
 const EXACT: f64 = 1e-4;
 
 #[derive(Debug, Clone, Copy)]

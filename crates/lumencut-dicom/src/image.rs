@@ -91,7 +91,7 @@ impl<'a> Image<'a> {
         !self.of_frame(frame, Keyword::ImagePositionPatient).is_empty()
     }
 
-    /// Checks only the frames that are described, because the stated number may be wrong.
+    /// Whether all described frames have positions. The stated number of frames is not used: it may be wrong.
     pub(crate) fn has_positions(&self) -> bool {
         let described = self.header.frames.len().max(1);
         let frames = usize::try_from(self.frame_count.max(1)).map_or(described, |count| count.min(described));

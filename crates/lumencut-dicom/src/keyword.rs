@@ -23,7 +23,7 @@ keywords! {
     /// Identifier of the image; images with the same one are copies.
     SOPInstanceUID,
     StudyInstanceUID,
-    /// Identifier of a space that several series share.
+    /// Identifier of a coordinate space that several series may have in common.
     FrameOfReferenceUID,
     PatientID,
     IssuerOfPatientID,

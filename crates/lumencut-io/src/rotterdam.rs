@@ -5,7 +5,7 @@ use crate::error::{Error, Result, excerpt};
 use crate::table;
 use crate::text::{self, Separator};
 
-/// Numbers of columns: x, y, z, radius, and usually the variance between observers.
+/// Possible numbers of columns: x, y, z, radius, and usually the variance between observers.
 const COLUMNS: [usize; 2] = [4, 5];
 
 /// One line, without a space or unit. Rejects files whose first column only counts rows.

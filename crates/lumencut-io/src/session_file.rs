@@ -245,7 +245,7 @@ fn read_unnamed(content: &[u8], name: &str) -> Result<SessionFile> {
     Ok(SessionFile { lines, session })
 }
 
-/// Writes a session file with version and notice. Fails if parts of it contradict each other.
+/// Writes a session file, with version and notice added. Fails if lines and session contradict each other.
 pub fn write_session(file: &SessionFile, software: &str) -> Result<Vec<u8>> {
     let session = Session {
         format: file.session.least_format(),

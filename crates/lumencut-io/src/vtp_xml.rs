@@ -1,4 +1,4 @@
-//! The elements of a VTK XML file: its arrays and where they are, without decoding them.
+//! Finds the arrays in a VTK XML file, without decoding them.
 
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};

@@ -1,4 +1,4 @@
-//! Measures vessels without the GIL; Ctrl-C stops it.
+//! Measures vessels while other Python threads can run; Ctrl-C stops it.
 
 use std::slice;
 use std::sync::Arc;

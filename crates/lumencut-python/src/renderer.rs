@@ -1,4 +1,4 @@
-//! The renderer. It releases the GIL while it works; Ctrl-C stops it.
+//! The renderer. While it works, other Python threads can run, and Ctrl-C stops it.
 
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;

@@ -11,7 +11,7 @@ use lumencut_core::stages::{Image, ImageSet};
 use crate::method::Method;
 use crate::positions::world_from_pixel;
 
-/// How far other pixels affect a pixel, through the depth filter and the detection of jumps.
+/// Pixels up to this distance (pixels) affect a pixel, through the depth filter and the detection of jumps.
 const NEIGHBOURHOOD_PX: usize = 8;
 /// A pixel shows the cut surface if its opacity is at least this.
 const MIN_OPACITY: f32 = 0.5;

@@ -8,7 +8,7 @@ use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::reformations::Layout;
 use lumencut_core::reformations::cpr::Cpr;
 
-/// What is computed from the values of a half circle.
+/// The number that is computed from the values of a half circle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Feature {
     /// The largest value.

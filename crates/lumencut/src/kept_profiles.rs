@@ -36,7 +36,7 @@ pub struct MeasureParameters<'a> {
 
 /// The cached profiles, by the key that the caller uses for a vessel.
 pub struct KeptProfiles<K> {
-    /// Tree-wide estimates, each with its wall level and point spread.
+    /// Tree-wide estimates, each with the requested wall level and point-spread width.
     estimates: Vec<((WallRequest, Option<f64>), TreeFindings)>,
     kept: Vec<Kept<K>>,
 }

@@ -23,7 +23,7 @@ const MIN_CALCIUM_HU: f64 = 130.0;
 /// Distance of samples through the wall, in units of [`Voxels::sampling_side`].
 const SAMPLE_STEP: f64 = 0.5;
 
-/// A branch is attached if an end lies within this many wall radii plus this distance (mm) of the centerline.
+/// A branch is attached if one of its ends is nearer to the centerline than this many wall radii plus this distance (mm).
 const ATTACHED: (f64, f64) = (1.6, 2.0);
 
 /// The parameters of a lumen map.
@@ -122,7 +122,7 @@ fn thickest_side(map: &LumenMap, thickness: &[f32]) -> f64 {
     if sum == DVec2::ZERO { 0.0 } else { sum.to_angle() }
 }
 
-/// An ostium: where another vessel opens into the mapped one.
+/// An ostium: the place at which another vessel opens into the mapped one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ostium {
     /// Id of the other vessel.

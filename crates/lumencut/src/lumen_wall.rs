@@ -1,5 +1,5 @@
-//! The wall that a lumen map unrolls, and its openings at branches. The wall is the measured contour, else where values fall along
-//! rays, else the centerline's radius.
+//! The wall that a lumen map unrolls, and its openings at branches. The wall is the measured contour; if there is none, it is where
+//! values fall along rays; if they do not fall, it is at the centerline's radius.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -27,7 +27,7 @@ const DIRECTIONS: usize = 180;
 /// The smallest distance between wall stations along the vessel (mm).
 const STATION_STEP_MM: f64 = 1.0;
 
-/// A ray that meets no wall within this many radii leaves through the opening of a branch.
+/// A ray leaves through the opening of a branch if it meets no wall within this many radii.
 const OPEN_RADII: f64 = 1.6;
 
 /// A neighbouring ray also leaves if it meets a wall beyond this many contour radii, which is the branch's wall.

@@ -6,9 +6,9 @@ use lumencut_core::volume::Volume;
 
 use crate::text::rounded;
 
-/// How far mask voxels may deviate from volume voxels, in voxels.
+/// Maximum deviation of mask voxels from volume voxels (voxels).
 const MAX_VOXEL_OFFSET: f64 = 0.1;
-/// How far corners of the grids may deviate, in smallest voxel sides.
+/// Maximum deviation between corners of the two grids, in smallest voxel sides.
 const MAX_CORNER_OFFSET: f64 = 0.1;
 const ADVICE: &str = "take the mask that was made on this scan, or resample it onto the grid of this scan";
 

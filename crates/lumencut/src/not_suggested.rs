@@ -26,7 +26,7 @@ pub fn not_suggested(profile: &Profile, at: Option<f64>, references: &[f64]) -> 
     }
 }
 
-/// At most this many reasons are reported: those that apply to the most sections.
+/// Only this many reasons are reported: those that apply to the most sections.
 const MAX_REASONS: usize = 3;
 
 fn none_safe(profile: &Profile) -> String {

@@ -13,7 +13,7 @@ use crate::text::rounded;
 pub const SMALLEST: f64 = 8.0;
 /// The largest plausible extent of vessels (mm).
 pub const LARGEST: f64 = 2500.0;
-/// Lines are ignored if they are shorter than this many voxels and than [`SHORTEST`].
+/// Lines are ignored if they are shorter than both this number of voxels and [`SHORTEST`].
 const FEW_VOXELS: f64 = 3.0;
 /// Lines at least this long (mm) are never ignored.
 const SHORTEST: f64 = 1.0;

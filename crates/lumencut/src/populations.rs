@@ -39,9 +39,9 @@ const EDGES: f64 = 0.2;
 /// If a volume shows only vessels: the quantiles of voxels for edges and lumen.
 const ALONE_EDGES: f64 = 0.05;
 const ALONE_LUMEN: f64 = 0.75;
-/// Lumen and edges differ by at least this fraction of the range from the darkest voxel to the lumen.
+/// If a volume shows only vessels, tissue is darker than lumen by at least this fraction of the range from darkest voxel to lumen.
 const ALONE_DIFFERENCE: f64 = 0.25;
-/// Edges count if they are darker than the lumen by this fraction of the same range.
+/// Edges are usable if they are darker than the lumen by more than this fraction of the range from darkest voxel to lumen.
 const EDGE: f64 = 0.1;
 
 pub(crate) struct VoxelSample {

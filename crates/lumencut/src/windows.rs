@@ -21,8 +21,8 @@ const MAX_MAGNITUDE: f64 = 1e12;
 /// The smallest and largest position of the lumen in a window, from black (0) to white (1).
 const LUMEN_POSITION: [f64; 2] = [0.60, 0.72];
 
-/// Black lies below the lumen by a multiple of the difference between lumen and tissue: the multiple without noise, and the
-/// largest.
+/// Black lies below the lumen by a multiple of the difference between lumen and tissue: the first without noise, the second at
+/// most.
 const BLACK_BELOW_LUMEN: [f64; 2] = [1.5, 2.2];
 
 /// Black lies below the darkest tissue by this share of the difference between lumen and darkest tissue.
@@ -146,7 +146,7 @@ fn around_lumen(lumen: f64, tissue: Tissue, spread: f64, ends: [f64; 2]) -> [f64
     [black, ends[1].clamp(nearest, farthest)]
 }
 
-/// Six points around each tree point, `beyond` mm outside the wall (mm, LPS).
+/// Six points (mm, LPS) around each centerline point, `beyond` mm outside the wall.
 fn beside(tree: &VesselTree, beyond: f64) -> Vec<DVec3> {
     let sides = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];
     let of_vessel = tree.vessels().iter().flat_map(|vessel| {

@@ -9,7 +9,7 @@ use super::ids::Id;
 
 /// Maximum sideways distance from the other line, as a share of its radius.
 const PART_OF_RADIUS: f64 = 0.1;
-/// Maximum sideways distance between lines of one group.
+/// Maximum sideways distance between lines of one group, as a share of the radius.
 const PART_OF_RADIUS_IN_GROUP: f64 = 0.5;
 /// Maximum sideways distance if there is no radius, as a share of the median point spacing.
 const PART_OF_SPACING: f64 = 0.5;

@@ -13,15 +13,15 @@ const LONG_STEP_FRACTION: f64 = 0.05;
 const MAX_LENGTH_RATIO: f64 = 2.0;
 /// The same limit if an unambiguous order of the points exists.
 const MAX_LENGTH_RATIO_FOUND: f64 = 1.2;
-/// Steps are regular if the longest is at most this many usual steps, and high quantiles are at most this many times low ones.
+/// Steps are regular if this factor bounds both the longest step divided by the usual one, and high quantiles divided by low ones.
 const MAX_REGULAR_RATIO: f64 = 3.0;
 /// A point is a spike if it is more than this many usual steps away from both neighbours.
 const SPIKE_STEPS: f64 = 5.0;
 /// The steps of an unambiguous order are at most this many usual steps long.
 const MAX_FOUND_STEP: f64 = 5.0;
-/// An order is ambiguous if points of another stretch are nearer than this many times the longest step.
+/// An order is ambiguous if another stretch comes nearer to a point than this many times the longest step.
 const CLEARANCE_STEPS: f64 = 1.5;
-/// A point belongs to another stretch if the path to it is more than this many times the straight distance.
+/// A point is on another stretch if the path to it is more than this many times as long as the straight distance.
 const OTHER_STRETCH_RATIO: f64 = 4.0;
 /// An order is ambiguous if more than this many points are near one point.
 const MAX_NEIGHBOURS: usize = 256;

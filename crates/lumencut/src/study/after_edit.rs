@@ -23,7 +23,7 @@ pub(crate) struct AfterEdit {
     pub lines: Vec<NumberedLine>,
     /// Facts about the lines that are not doubtful.
     pub(crate) facts: Vec<LineFacts>,
-    /// What lies at the edited place, if the edit has one.
+    /// What lies at the place of the edit, if the edit has a place.
     pub(crate) pick: Option<Pick>,
 }
 

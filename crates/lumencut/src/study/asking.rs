@@ -24,7 +24,7 @@ pub enum Turn {
 /// The input of a question.
 #[derive(Clone, Copy)]
 pub struct Asking<'a> {
-    /// The message as JSON.
+    /// The message of the question as JSON.
     pub message: &'a str,
     /// The bytes of a file; empty without a file.
     pub bytes: &'a [u8],
@@ -37,7 +37,7 @@ pub struct Asking<'a> {
 /// The answer to a question.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
-    /// As JSON.
+    /// The answer as JSON.
     pub json: String,
     /// Binary content, such as a picture; it becomes the field `bytes` of the answer.
     pub bytes: Option<Vec<u8>>,

@@ -140,7 +140,7 @@ fn doubts_of(vessels: &[Vessel], names: &[String]) -> Vec<LineDoubt> {
     doubts
 }
 
-/// The doubt if there is evidence against the unit, or if other units fit too.
+/// A doubt about the unit, if there is evidence against it or other units fit too.
 fn doubt_of_unit(found: &Placement) -> Option<PlaceDoubt> {
     let of = |units: &[Unit]| {
         units.iter().map(|unit| CoordinateSystem { unit: *unit, ..found.place }.to_string()).collect()

@@ -21,8 +21,8 @@ pub(crate) enum Edit {
         id: u32,
         point: WorldPoint,
     },
-    /// A click between others, where a vessel was dragged. A vessel without clicks first gets clicks along its line, to stay in
-    /// place.
+    /// Adds a click between others, at the point to which a vessel was dragged. A vessel without clicks first gets clicks along its
+    /// line, to stay in place.
     AddClickOnLine {
         id: u32,
         point: WorldPoint,

@@ -80,7 +80,7 @@ impl HeldVolume {
         })
     }
 
-    /// The volume in the form that the core borrows.
+    /// The volume as the type of the core, which borrows the voxels.
     ///
     /// # Errors
     /// `volume` for an invalid grid.

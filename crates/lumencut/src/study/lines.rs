@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::study::failure::Result;
 
-/// A line with the data of its points.
+/// A vessel line: its points, with radius, confidence and bridging of each point.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Line {
     /// At least two points (mm, LPS).

@@ -225,7 +225,7 @@ impl StenosisMessage {
     }
 }
 
-/// Places to compare with a stenosis before it is graded, such as offered references (arc lengths, mm).
+/// A stenosis and the places to compare it with before it is graded, such as offered references (arc lengths, mm).
 #[derive(Clone, Debug, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Compared"))]
 pub(crate) struct ComparedMessage {

@@ -25,7 +25,7 @@ impl Study {
         Ok(self.profiles.kept(found))
     }
 
-    /// The profile of a shown line for the width that was last requested.
+    /// The profile of a shown line, with the point-spread width that was last requested for it.
     pub fn measured(&mut self, line: usize, stop: Stop) -> Result<&Profile> {
         self.profile(line, self.profiles.width(line), stop)
     }

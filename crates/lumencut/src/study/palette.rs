@@ -1,6 +1,6 @@
 //! Vessel colours of Okabe and Ito, in order of brightness on dark. Yellow, orange and red are omitted, since they mark warnings.
 
-/// Colours in the order in which vessels get them; hosts have names for them.
+/// Colours in the order in which vessels get them; Python package and viewer have names for them.
 pub(crate) const PALETTE: [&str; 12] = [
     "#56b4e9", "#cc79a7", "#00b98a", "#b18cff", "#8fdc6a", "#ffa6dc", "#3f6fe0", "#8ff0e8", "#c44df0",
     "#2f8f9f", "#9aa8b6", "#ffffff",

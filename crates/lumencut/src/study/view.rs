@@ -25,7 +25,7 @@ pub struct CameraMessage {
 }
 
 impl CameraMessage {
-    /// The camera in the form that the core uses.
+    /// The camera as the type of the core.
     pub fn camera(&self) -> Result<Camera> {
         let [center, direction, up] = [self.center, self.direction, self.up].map(DVec3::from_array);
         Ok(Camera::new(center, direction, up, self.size, self.pixel_spacing)?)

@@ -62,7 +62,7 @@ impl Stored {
         })
     }
 
-    /// The voxels in the form that the core borrows.
+    /// The voxels as the type of the core, which borrows them.
     pub fn voxels(&self) -> Voxels<'_> {
         match self {
             Self::U8(voxels) => Voxels::U8(voxels),

@@ -14,7 +14,7 @@ export type AfterEdit = {
   readonly lines: ReadonlyArray<NumberedLine>;
   /** Facts about the lines that are not doubtful. */
   readonly facts: ReadonlyArray<LineFacts>;
-  /** What lies at the edited place, if the edit has one. */
+  /** What lies at the place of the edit, if the edit has a place. */
   readonly pick: Pick | null;
 };
 
@@ -36,7 +36,7 @@ export type CenterlineWish = {
   readonly reorder?: boolean;
 };
 
-/** Places to compare with a stenosis before it is graded, such as offered references (arc lengths, mm). */
+/** A stenosis and the places to compare it with before it is graded, such as offered references (arc lengths, mm). */
 export type Compared = {
   readonly at: number;
   readonly references: ReadonlyArray<number>;

@@ -127,7 +127,7 @@ fn clicks_are_added_inserted_moved_and_removed_and_the_line_follows() {
     assert_eq!(removed.words, "remove a point");
     has(&removed.document, &[0.35, 0.5, 0.8]);
     assert!(removed.without_marks.is_empty(), "a vessel that is traced again keeps its marks");
-    // The same clicks give the same line, whatever happened in between.
+    // The same clicks give the same line, independently of the edits in between.
     let again = after(&mut study, &begun, &json!({"kind": "add_click", "id": 1, "point": at(0.9)}));
     let [again, added] = [&again, &added.document].map(|document| points(&study, document.vessels[0].line));
     assert_eq!(again, added);

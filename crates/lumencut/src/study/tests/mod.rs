@@ -93,7 +93,7 @@ fn a_pick_is_the_pixel_of_the_whole_picture() {
         );
         // Rounding is the only difference of the partial view.
         assert!(point.distance(DVec3::from_array(pick.point)) < 1e-3, "pixel {x}, {y}");
-        // The tube is in the middle. Pixels outside it select no vessel, although all pixels lie in its zone.
+        // The tube is in the middle. Pixels outside it select no vessel, although the tube is the vessel nearest to all pixels.
         assert_eq!(vessel[y * 96 + x], 0);
         assert_eq!(pick.vessel, (x == 48 || x == 50).then_some(0), "pixel {x}, {y}");
     }
