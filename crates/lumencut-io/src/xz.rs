@@ -1,4 +1,4 @@
-//! Reduces the dictionary of an LZMA block, because the reader allocates as much as the block states.
+//! Reduces the dictionary size that an LZMA block states, because the decoder allocates that much memory.
 
 use std::borrow::Cow;
 

@@ -1,4 +1,4 @@
-//! The cached profiles of one scan.
+//! A cache of the profiles of one scan.
 
 use std::slice;
 use std::sync::{Arc, Mutex, PoisonError};

@@ -1,4 +1,4 @@
-//! Layouts of reformations as images, for Python.
+//! The sampled positions of reformations as images, for Python.
 
 use std::sync::Arc;
 

@@ -261,7 +261,7 @@ impl Profile {
         self.0.c_arm(ends, lao).map(|arm| (arm.lao, arm.cranial)).map_err(to_python)
     }
 
-    /// FWHM of the point spread (mm), and where it comes from.
+    /// FWHM of the point-spread function (mm), and its source.
     #[getter]
     fn fwhm(&self) -> (f64, String) {
         (self.0.fwhm, measure_words::of_source(&self.0.fwhm_source))

@@ -1,4 +1,4 @@
-//! Phantoms for Python: voxels as NumPy arrays, the truth as dictionaries.
+//! Phantoms for Python: voxels as NumPy arrays, the true answers as dictionaries.
 
 use lumencut::error::{Error, ErrorKind, Result};
 use lumencut::stop::Stop;

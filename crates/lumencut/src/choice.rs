@@ -18,7 +18,7 @@ pub(crate) struct Choice {
 
 pub(crate) struct Chosen {
     pub(crate) best: Reading,
-    /// The evidence, if the values of the volume decided the space or the unit.
+    /// If the values of the volume decided the space or the unit: the evidence.
     pub by_values: Option<ByValues>,
     /// Other units that fit the volume too.
     pub also: Vec<Unit>,

@@ -21,7 +21,7 @@ const MIN_OPACITY: f32 = 0.5;
 pub struct CutAt {
     /// The world point (LPS, mm).
     pub point: DVec3,
-    /// The vessel whose zone contains the pixel.
+    /// The vessel to whose part of the cut surface the pixel belongs.
     pub vessel: Option<usize>,
     /// False if the focus shows the surroundings here.
     pub is_shown: bool,

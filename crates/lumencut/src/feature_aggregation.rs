@@ -27,7 +27,7 @@ impl Feature {
     /// The feature named `max`, `mean`, `min`, `range` or `share`; only `share` has a level.
     ///
     /// # Errors
-    /// [`ErrorKind::Settings`] for another name, a share without a finite level, or a level for another feature.
+    /// [`ErrorKind::Settings`] for an unknown name, a share without a finite level, or a level for another feature.
     pub fn named(name: &str, level: Option<f64>) -> Result<Self> {
         let wrong = |subject: &str, found: String, expected: &str| {
             Err(Error::new(ErrorKind::Settings, subject, found, expected))

@@ -20,7 +20,7 @@ use crate::rays_across::TOO_BRIGHT;
 
 const MIN_CALCIUM_HU: f64 = 130.0;
 
-/// Distance of samples through the wall, in units of [`Voxels::sampling_side`].
+/// Distance between samples through the wall, in units of [`Voxels::sampling_side`].
 const SAMPLE_STEP: f64 = 0.5;
 
 /// A branch is attached if one of its ends is nearer to the centerline than this many wall radii plus this distance (mm).
@@ -148,7 +148,7 @@ pub fn ostia(map: &LumenMap, vessels: &[Vessel]) -> Vec<Ostium> {
             WallCoordinates::of(map, **point).is_none_or(|place| place.away > place.wall(map))
         })?;
         let place = WallCoordinates::of(map, *leaves)?;
-        // A vessel whose first point outside the wall is far away does not open into the wall there.
+        // A vessel does not open into the wall here if its first point outside the wall is far away.
         let is_apart = place.away <= ATTACHED.0 * place.wall(map) + ATTACHED.1;
         is_apart.then_some(Ostium {
             vessel,

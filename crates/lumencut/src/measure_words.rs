@@ -76,7 +76,7 @@ pub fn of_c_arm(arm: &CArm) -> String {
     format!("{side} {}° {towards} {}°", fixed(turn.abs(), 0), fixed(tilt.abs(), 0))
 }
 
-/// Where a point-spread width comes from: `given`, `estimated on …` or `assumed: …`.
+/// The source of a point-spread width: `given`, `estimated on …` or `assumed: …`.
 pub fn of_source(source: &Source) -> String {
     match source {
         Source::Given => "given".to_owned(),

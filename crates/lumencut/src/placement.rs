@@ -25,7 +25,7 @@ pub struct Known {
     pub usual_unit: Unit,
 }
 
-/// Where a space or unit comes from.
+/// The source of a space or unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
     /// The caller.
@@ -70,9 +70,9 @@ impl Origin {
 pub struct Placement {
     /// Space and unit.
     pub place: CoordinateSystem,
-    /// Where the space comes from.
+    /// The source of the space.
     pub space_from: Origin,
-    /// Where the unit comes from.
+    /// The source of the unit.
     pub unit_from: Origin,
     /// The decision and its reason; empty if file or caller stated both space and unit.
     pub decision: String,

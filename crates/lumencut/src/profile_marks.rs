@@ -65,7 +65,7 @@ impl Grade {
         }
     }
 
-    /// All lines of text: percentage, doubts and group, or why there is no percentage.
+    /// The result as lines of text: percentage, doubts and group, or why there is no percentage.
     pub fn lines(&self) -> Vec<String> {
         match self {
             Self::NotGraded(reason) => vec![format!("no percentage: {reason}")],

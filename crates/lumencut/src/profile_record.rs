@@ -19,7 +19,7 @@ pub const NOTICE: &str = "Lumencut is not a medical device.";
 /// The request of a measurement. Places are set only if a single vessel was measured.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Asked {
-    /// Distance of sections (mm).
+    /// Distance between sections (mm).
     pub step_mm: f64,
     /// Point-spread width (mm), if given.
     pub fwhm_mm: Option<f64>,

@@ -39,7 +39,7 @@ pub struct Shown {
     pub saved: Option<String>,
     /// What is known about the scan's grid.
     pub stated: Stated,
-    /// The request.
+    /// The measuring request.
     pub asked: Asked,
     /// Level and width of the pictures.
     pub window: [f64; 2],

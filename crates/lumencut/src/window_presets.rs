@@ -60,7 +60,7 @@ impl DataWindow {
     }
 }
 
-/// Where a named window comes from.
+/// The source of a named window.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PresetSource {
     /// Constant (HU).
@@ -76,7 +76,7 @@ pub struct WindowPreset {
     pub name: &'static str,
     /// Label of the window.
     pub words: &'static str,
-    /// Where the window comes from.
+    /// The source of the window.
     pub source: PresetSource,
 }
 

@@ -21,8 +21,7 @@ const MAX_MAGNITUDE: f64 = 1e12;
 /// The smallest and largest position of the lumen in a window, from black (0) to white (1).
 const LUMEN_POSITION: [f64; 2] = [0.60, 0.72];
 
-/// Black lies below the lumen by a multiple of the difference between lumen and tissue: the first without noise, the second at
-/// most.
+/// The multiple of the difference between lumen and tissue by which black lies below the lumen: without noise, and at most.
 const BLACK_BELOW_LUMEN: [f64; 2] = [1.5, 2.2];
 
 /// Black lies below the darkest tissue by this share of the difference between lumen and darkest tissue.
@@ -208,8 +207,8 @@ fn brightest_lumen(volume: &Volume, tree: &VesselTree) -> Option<f64> {
     quantile(&mut finite(&sample(volume, &points)), BRIGHT_LUMEN_QUANTILE)
 }
 
-/// [`of_volume`] for a MIP, widened at most 1.4 times so that white is at the 99.9th percentile. In a MIP noise raises the lumen,
-/// so brighter values need room.
+/// [`of_volume`] for a MIP, widened at most 1.4 times so that white is at the 99.9th percentile. In a MIP noise makes
+/// lumen brighter, so the window must reach brighter values.
 pub(crate) fn of_mip(volume: &Volume) -> Result<Window> {
     alone(volume, |found, [black, width]| ((found.peak - black) / width).clamp(1.0, MIP_MAX_WIDENING))
 }

@@ -69,7 +69,7 @@ impl HeldVolume {
     /// `count` writable bytes of the voxels, from `offset` on.
     ///
     /// # Errors
-    /// `volume` beyond the end of the voxels or without a volume.
+    /// `volume` if the bytes lie beyond the end of the voxels, or if there is no volume.
     pub fn bytes(held: Option<&mut Self>, offset: usize, count: usize) -> Result<&mut [u8]> {
         let bytes = held.map_or(&mut [][..], |held| held.stored.bytes_mut());
         let expected = format!("at most the {} that the header states", bytes.len());

@@ -66,7 +66,7 @@ pub(crate) struct ProfileMessage {
     center: Vec<Vector>,
     /// FWHM of the point spread (mm).
     fwhm: f64,
-    /// Where the point-spread width comes from: `given`, `estimated on …`, `assumed: …`.
+    /// The source of the point-spread width: `given`, `estimated on …`, `assumed: …`.
     fwhm_source: String,
     /// The expected level of the wall, or why walls were not separated.
     wall_source: String,

@@ -47,7 +47,7 @@ const PATH_TIME_LIMIT_MS: f64 = 40.0;
 
 questions! { |study, asking|
 of_the_study {
-    /// The state of all that is open.
+    /// The state of the open volume and vessels.
     [Turn::Later] report(_nothing: ()) -> Report = study.report()?;
 
     /// Closes the study.

@@ -82,7 +82,7 @@ export type DocumentVessel = {
 };
 
 export type DoubtRow = {
-  /** The phrase in documents and session files. */
+  /** The reason as a phrase, for documents and session files. */
   readonly words: string;
   readonly short: string;
 };
@@ -468,7 +468,7 @@ export type Profile = {
   readonly center: ReadonlyArray<Vector>;
   /** FWHM of the point spread (mm). */
   readonly fwhm: number;
-  /** Where the point-spread width comes from: `given`, `estimated on …`, `assumed: …`. */
+  /** The source of the point-spread width: `given`, `estimated on …`, `assumed: …`. */
   readonly fwhm_source: string;
   /** The expected level of the wall, or why walls were not separated. */
   readonly wall_source: string;
@@ -537,11 +537,11 @@ export type Report = {
 
 /** A place in a report, with its name and colour. */
 export type ReportPlace = {
-  /** Such as `marked place` or `reference before (suggestion)`. */
+  /** The name, such as `marked place` or `reference before (suggestion)`. */
   readonly name: string;
   /** Arc length (mm). */
   readonly at: number;
-  /** Suggested, not marked. */
+  /** Whether the place is suggested, and was not marked by a reader. */
   readonly is_suggestion: boolean;
   /** Whether it is a reference of the stenosis. */
   readonly is_reference: boolean;
@@ -791,7 +791,7 @@ export type WrittenFile = {
 
 /** The questions that the engine answers, by their names. */
 export type Questions = {
-  /** The state of all that is open. */
+  /** The state of the open volume and vessels. */
   readonly report: {
     readonly message: null;
     readonly answer: Report;

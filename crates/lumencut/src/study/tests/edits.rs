@@ -72,11 +72,11 @@ fn an_id_is_never_given_twice() {
     let line = json!({"kind": "add_lines", "lines": [{"line": 0, "name": "d"}]});
     let more = edited(&mut study, &document, &line.clone());
     assert_eq!((more.words.as_str(), &more.added), ("open centerlines", &vec![4]));
-    // Ids are not used again after the last vessel was removed or its step was undone …
+    // Ids are not used again after the last vessel was removed or its step was undone.
     let fewer = after(&mut study, &more.document, &json!({"kind": "remove", "ids": [4]}));
     assert_eq!(fewer, document);
     assert_eq!(edited(&mut study, &document, &line.clone()).added, [5]);
-    // … and neither are those of a document that was read.
+    // Ids of a document that was read from a file are not used again either.
     let mut read = document;
     read.vessels[1].id = 70;
     assert_eq!(edited(&mut study, &read, &line).added, [71]);

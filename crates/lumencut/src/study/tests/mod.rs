@@ -91,7 +91,7 @@ fn a_pick_is_the_pixel_of_the_whole_picture() {
             [x as f64, y as f64],
             f64::from(depth[y * 96 + x]),
         );
-        // Rounding is the only difference of the partial view.
+        // Picking renders only a part of the view; the result differs only by rounding.
         assert!(point.distance(DVec3::from_array(pick.point)) < 1e-3, "pixel {x}, {y}");
         // The tube is in the middle. Pixels outside it select no vessel, although the tube is the vessel nearest to all pixels.
         assert_eq!(vessel[y * 96 + x], 0);
