@@ -1,4 +1,4 @@
-//! Directions of rows and columns. Rounded cosines are made orthonormal.
+//! The directions of rows and columns of a slice. Rounded direction cosines are made orthonormal.
 
 use glam::DVec3;
 

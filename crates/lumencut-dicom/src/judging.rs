@@ -1,4 +1,4 @@
-//! The steps from headers to a plan.
+//! Carries out the steps from headers to a plan.
 
 use serde::Deserialize;
 

@@ -1,4 +1,4 @@
-//! Distances between slices, and tolerances of their positions.
+//! Computes distances between slices, with tolerances for their positions.
 
 use crate::wording::rounded;
 

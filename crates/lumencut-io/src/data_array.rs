@@ -1,4 +1,4 @@
-//! The number types of VTK files, read from bytes or text.
+//! Reads numbers of VTK files, of any number type, from bytes or text.
 
 use crate::error::{Error, Result, excerpt};
 

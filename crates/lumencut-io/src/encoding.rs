@@ -1,4 +1,4 @@
-//! Binary data of VTK XML files: raw or base64, after a length header, in one piece or in compressed blocks.
+//! Reads binary data of VTK XML files: raw or base64, after a length header, maybe in compressed blocks.
 
 use crate::compression::{Budget, Compressor};
 use crate::data_array::ByteOrder;

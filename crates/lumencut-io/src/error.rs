@@ -1,4 +1,4 @@
-//! Errors that state file and place, what was found, what was expected, and a remedy.
+//! Errors that state the file and the position in it, what was found, what was expected, and a remedy.
 
 use std::fmt;
 

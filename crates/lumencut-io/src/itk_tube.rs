@@ -1,4 +1,4 @@
-//! Tubes of ITK and TubeTK (`.tre`), which are MetaIO scenes with points as text or bytes.
+//! Reads tubes of ITK and TubeTK (`.tre`), which are MetaIO scenes with points as text or bytes.
 
 use std::collections::HashMap;
 

@@ -1,4 +1,4 @@
-//! 3D Slicer markups (`.mrk.json`): Curve, ClosedCurve and Line.
+//! Reads 3D Slicer markups (`.mrk.json`): Curve, ClosedCurve and Line.
 
 use glam::DVec3;
 

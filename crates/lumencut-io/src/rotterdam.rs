@@ -1,4 +1,4 @@
-//! Reference centerlines of the Rotterdam Coronary Artery Algorithm Evaluation (`reference.txt`).
+//! Reads reference centerlines of the Rotterdam Coronary Artery Algorithm Evaluation (`reference.txt`).
 
 use crate::centerlines::{Centerlines, Line};
 use crate::error::{Error, Result, excerpt};

@@ -1,4 +1,4 @@
-//! SWC trees: each text line is a node, `id type x y z radius parent`.
+//! Reads SWC trees, in which each text line is a node: `id type x y z radius parent`.
 
 use glam::DVec3;
 

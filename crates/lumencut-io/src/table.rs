@@ -1,4 +1,4 @@
-//! Tables of numbers as text (`.csv`, `.tsv`, `.txt`), with or without a header row.
+//! Reads tables of numbers as text (`.csv`, `.tsv`, `.txt`), with or without a header row.
 
 use std::borrow::Cow;
 use std::collections::HashSet;

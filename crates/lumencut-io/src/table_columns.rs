@@ -1,4 +1,4 @@
-//! The meaning of the columns of a table, from the header or from their number.
+//! Determines the meaning of table columns from the header or from the number of columns.
 
 use crate::error::{Error, Result, excerpt};
 use crate::placed_points::PlacedBy;

@@ -1,4 +1,4 @@
-//! Lines, fields and numbers of text files.
+//! Splits text files into lines and fields, and reads numbers.
 
 use std::borrow::Cow;
 

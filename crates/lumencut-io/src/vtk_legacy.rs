@@ -1,4 +1,4 @@
-//! Legacy VTK poly data (`.vtk`), versions 1.0 to 5.1, ASCII and binary.
+//! Reads legacy VTK poly data (`.vtk`), versions 1.0 to 5.1, ASCII and binary.
 
 use crate::centerlines::{Centerlines, JOINED_MARK};
 use crate::data_array::{NumberType, index};

@@ -1,4 +1,4 @@
-//! Traces centerlines between clicks without the GIL; Ctrl-C stops it.
+//! Traces centerlines between clicks while other Python threads can run; Ctrl-C stops it.
 
 use std::sync::{Mutex, PoisonError};
 

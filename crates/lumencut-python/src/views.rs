@@ -1,4 +1,4 @@
-//! Views derived from others, for `lumencut.Camera`.
+//! Derives views from other views, for `lumencut.Camera`.
 
 use glam::DVec3;
 use lumencut::camera::Camera;

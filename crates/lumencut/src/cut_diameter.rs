@@ -1,4 +1,4 @@
-//! The diameter of a vessel in a view about a point on it.
+//! Measures the diameter of a vessel in a view that is centred on a point of the vessel.
 
 use lumencut_core::camera::Camera;
 use lumencut_core::math::statistics::median;

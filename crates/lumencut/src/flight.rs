@@ -1,4 +1,4 @@
-//! Flights: the views between two cameras.
+//! Computes camera flights: the views between two cameras.
 
 use glam::{DMat3, DQuat};
 use lumencut_core::camera::Camera;

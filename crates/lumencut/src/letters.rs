@@ -1,4 +1,4 @@
-//! The patient-side letters at the edges of a picture.
+//! The letters of the patient's sides at the edges of a picture.
 
 use glam::DVec3;
 use serde::Serialize;

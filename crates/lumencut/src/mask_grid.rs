@@ -1,4 +1,4 @@
-//! Places the voxels of a mask among those of its volume; the mask may cover part of it.
+//! Finds the position of a mask in the grid of its volume, of which the mask may cover only a part.
 
 use glam::{DAffine3, DVec3};
 use lumencut_core::error::{Error, ErrorKind, Result};

@@ -1,4 +1,4 @@
-//! Measurements in words, the same for Python package and viewer.
+//! States measurements in words, which Python package and viewer share.
 
 use lumencut_core::named::Named;
 use lumencut_vessels::measure::profile::Source;

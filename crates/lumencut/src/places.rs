@@ -1,4 +1,4 @@
-//! Possible spaces and units of coordinates, and how many points lie inside a volume in each of them.
+//! Lists possible spaces and units of coordinates, and counts the points inside a volume for each of them.
 
 use std::fmt;
 

@@ -1,4 +1,4 @@
-//! The default pitch and reach of a spiral CPR, from the radii of the vessel.
+//! Computes the default pitch and reach of a spiral CPR from the radii of the vessel.
 
 use std::f64::consts::PI;
 

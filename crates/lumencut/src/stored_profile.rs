@@ -1,4 +1,4 @@
-//! A profile as plain columns, from which it is restored exactly.
+//! Converts a profile to plain columns, from which it can be restored exactly.
 
 use glam::DVec3;
 use lumencut_core::error::{Error, ErrorKind, Result};

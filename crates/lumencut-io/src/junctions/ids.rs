@@ -1,4 +1,4 @@
-//! Ids and tables of small size, because large files leave little memory besides their points.
+//! Ids and tables that need little memory, because the points of large files need most of it.
 
 use std::hash::{BuildHasher, Hash, RandomState};
 

@@ -1,4 +1,4 @@
-//! Cells of tables, written so that spreadsheets show but do not execute them.
+//! Writes cells of tables in such a way that spreadsheets show but do not execute them.
 
 use std::borrow::Cow;
 

@@ -1,4 +1,4 @@
-//! The curves of a profile as SVG paths. A NaN interrupts a curve.
+//! Draws the curves of a profile as SVG paths. A NaN interrupts a curve.
 
 use std::fmt::Write;
 

@@ -1,4 +1,4 @@
-//! The places that a report shows: marks, and, named as such, suggestions.
+//! The places that a report shows: marks, and suggestions that are named as suggestions.
 
 use lumencut_vessels::measure::profile::Profile;
 use serde::Serialize;

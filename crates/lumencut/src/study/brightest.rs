@@ -1,4 +1,4 @@
-//! Finds the brightest voxel on the ray of a pixel: what a click into a projection means.
+//! Finds the brightest voxel on the ray of a pixel. A click into a projection selects this voxel.
 
 use crate::positions::{pixel_from_world, world_from_pixel};
 use crate::windows;

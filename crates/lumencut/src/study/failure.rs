@@ -1,4 +1,4 @@
-//! Errors as the page gets them: the texts, the kind, and the remedies.
+//! Errors in the form that the page receives: texts, kind, and remedies.
 
 use lumencut_core::error::{Clicked, Error, ErrorKind};
 use lumencut_io as centerlines;

@@ -1,4 +1,4 @@
-//! The page's lines by number. A line is immutable: every edit makes a new line, so that it can be undone.
+//! Stores the page's lines by number. A line is immutable: every edit makes a new line, so that it can be undone.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! The lumens under a pointer, each with the section across it.
+//! Finds the lumens under the pointer, each with the section across it.
 
 use glam::DVec3;
 use lumencut_vessels::trace::lumen::on_ray::lumens_on_ray;

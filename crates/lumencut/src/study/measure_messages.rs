@@ -1,4 +1,4 @@
-//! Measurements as page and worker exchange them. The page's types are generated from these types.
+//! Messages about measurements between page and worker. The page's types are generated from these types.
 
 use crate::flag_table::{FLAGS, FlagLook};
 use crate::measure_words::{of_bounds, of_c_arm, of_doubts, of_flags, of_source, of_stenosis, of_wall};

@@ -1,4 +1,4 @@
-//! Views of one vessel: the one that shows most of it, and a turn about a place.
+//! Views of one vessel: the view that shows most of the vessel, and a turn about a place on it.
 
 use lumencut_core::error::{Error, ErrorKind};
 use lumencut_core::stop::Stop;

@@ -1,4 +1,4 @@
-//! Converts settings, named as in the common table, from and to JSON.
+//! Converts settings from and to JSON. Their names are those of the table in the core.
 
 use lumencut_core::named::Named;
 use lumencut_core::settings::{

@@ -1,4 +1,4 @@
-//! Voxels in their own type. The page converts voxels of other types to one of these types.
+//! Voxels in one of four types. The page converts voxels of other types to one of them.
 
 use lumencut_core::error::{Error, ErrorKind, Mend};
 use lumencut_core::volume::Voxels;

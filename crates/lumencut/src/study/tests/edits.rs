@@ -1,4 +1,4 @@
-//! Edits of vessels and their results.
+//! Tests of edits of vessels and their results.
 
 use glam::DVec3;
 use lumencut_core::progress::Progress;

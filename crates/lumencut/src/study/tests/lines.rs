@@ -1,4 +1,4 @@
-//! Lines are edited, shown and saved by their numbers.
+//! Tests that lines are edited, shown and saved by their numbers.
 
 use glam::DVec3;
 use lumencut_core::error::ErrorKind;

@@ -1,4 +1,4 @@
-//! The behaviour of the study on which viewers rely.
+//! Tests the behaviour of the study on which viewers rely.
 
 mod after_edit;
 mod doubts_on_opening;

@@ -1,4 +1,4 @@
-//! Checks what the page expects of tracing, on the native target.
+//! Tests what the page expects of tracing; these tests run without a browser.
 
 use glam::{DAffine3, DMat4, DVec3};
 use lumencut_core::progress::Progress;
