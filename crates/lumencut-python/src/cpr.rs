@@ -52,7 +52,7 @@ impl Cpr {
         made.map(Self::with_layout).map_err(to_python)
     }
 
-    /// The same vessel from another angle (radians).
+    /// The same vessel, seen from another angle (radians).
     fn rotated<'py>(&self, py: Python<'py>, angle: f64) -> PyResult<Bound<'py, Self>> {
         Bound::new(py, self.0.rotated(angle).map(Self::with_layout).map_err(to_python)?)
     }

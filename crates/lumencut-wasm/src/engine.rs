@@ -138,7 +138,7 @@ impl Engine {
         Ok(())
     }
 
-    /// Discards caches after new voxels.
+    /// Discards cached results after the voxels have changed.
     pub fn voxels_changed(&mut self) {
         self.study.voxels_changed();
     }

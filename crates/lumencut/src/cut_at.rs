@@ -16,7 +16,7 @@ const NEIGHBOURHOOD_PX: usize = 8;
 /// A pixel shows the cut surface if its opacity is at least this.
 const MIN_OPACITY: f32 = 0.5;
 
-/// The cut surface in a pixel.
+/// What a pixel shows of the cut surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CutAt {
     /// The world point (LPS, mm).

@@ -51,7 +51,7 @@ pub fn sides(direction: DVec3) -> String {
     named.map(|axis| SIDES[axis][usize::from(parts[axis] > 0.0)]).collect()
 }
 
-/// The patient axes nearest to three directions (LPS, any length above 0). Each axis is used once, and the handedness stays.
+/// The patient axes nearest to three directions (LPS, any length above 0). Each axis is used once, and handedness is kept.
 pub fn nearest_axes(directions: [DVec3; 3]) -> [DVec3; 3] {
     let [first, second, third] = directions.map(DVec3::normalize_or_zero);
     let handedness = if first.cross(second).dot(third) < 0.0 { -1.0 } else { 1.0 };

@@ -36,7 +36,7 @@ pub struct Lines<'a> {
 pub struct LumenCount {
     /// The number of points brighter than their surroundings or of darker ones, whichever is larger.
     pub(crate) like_lumen: usize,
-    /// The number of points sampled.
+    /// The number of sampled points.
     pub of: usize,
 }
 

@@ -32,7 +32,7 @@ pub enum Method {
 }
 
 impl Method {
-    /// Renders on the CPU.
+    /// Renders a view by this method on the CPU.
     pub fn on_cpu(self, cpu: &mut CpuRenderer, scene: &Scene, request: &Request) -> Result<Frame> {
         let Some(frame) = self.places(scene, request)? else { return cpu.render(scene, request) };
         match &scene.volume {

@@ -65,7 +65,7 @@ impl Origin {
     }
 }
 
-/// How to read the coordinates of a file.
+/// The space and unit in which the coordinates of a file are read, and the reasons.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Placement {
     /// Space and unit.

@@ -96,7 +96,7 @@ impl Reading {
         if self.is_plausible { self.inside } else { 0 }
     }
 
-    /// Whether the vessels are so short that another unit that fits is as likely.
+    /// Whether the vessels are so short that every other unit that fits is just as likely.
     pub(crate) fn is_short(&self) -> bool {
         self.across < SMALLEST
     }

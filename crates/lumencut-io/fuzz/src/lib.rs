@@ -1,4 +1,4 @@
-//! Properties that must hold for any bytes that are read as a centerline file.
+//! Checks properties that must hold for any bytes that are read as a centerline file.
 
 mod memory;
 mod packed;

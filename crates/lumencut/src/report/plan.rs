@@ -38,7 +38,7 @@ pub struct Plan {
     pub side: f64,
 }
 
-/// The pictures of a vessel with these marks.
+/// Plans the pictures of a vessel with these marks.
 pub fn plan(profile: &Profile, marks: &[ReportMark]) -> Plan {
     let x = axis_along(profile.length());
     let pixel = profile.length() / (x.end - x.start);

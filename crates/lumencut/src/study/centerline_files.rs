@@ -48,7 +48,7 @@ impl From<AskedMessage> for Asked {
 }
 
 impl AskedMessage {
-    /// The requested space and unit; an unknown name requests nothing.
+    /// The requested space and unit. An unknown name is treated as no request.
     pub(crate) fn statement(self) -> Statement {
         let space = |space: &Space| Some(space.name()) == self.coordinates.as_deref();
         let unit = |unit: &Unit| Some(unit.name()) == self.unit.as_deref();
@@ -64,7 +64,7 @@ pub(crate) struct PlacedVessels {
     pub(crate) notes: Vec<String>,
     /// Whether points seem to be in the wrong order, and can be sorted.
     pub(crate) can_reorder: bool,
-    /// Evidence against the space or unit used.
+    /// Evidence against the space or unit in which the file was read.
     pub(crate) doubt: Option<PlaceDoubt>,
 }
 
@@ -73,7 +73,7 @@ pub(crate) struct PlacedVessels {
 pub(crate) struct PlaceDoubt {
     /// The finding, in words.
     pub found: String,
-    /// Alternatives such as `lps in cm`; may be empty.
+    /// Other spaces and units that fit, such as `lps in cm`; may be empty.
     pub(crate) readings: Vec<String>,
 }
 
@@ -81,7 +81,7 @@ pub(crate) struct PlaceDoubt {
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct OpenedLines {
     pub(crate) notes: Vec<String>,
-    /// Evidence against the space or unit used.
+    /// Evidence against the space or unit in which the file was read.
     pub(crate) doubt: Option<PlaceDoubt>,
 }
 

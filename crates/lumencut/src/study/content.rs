@@ -52,7 +52,7 @@ impl NamedTree {
     }
 }
 
-/// The open volume and tree.
+/// The open volume and the open vessel tree.
 #[derive(Debug, Default)]
 pub struct Content {
     pub held: Option<HeldVolume>,
@@ -128,7 +128,7 @@ struct NamedWindow {
 }
 
 impl Content {
-    /// The scene for renderers.
+    /// The open volume and vessels as the scene that renderers need.
     ///
     /// # Errors
     /// `volume` for an invalid grid.

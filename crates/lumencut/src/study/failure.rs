@@ -57,7 +57,7 @@ impl From<Clicked> for About {
 pub(crate) struct Seen {
     /// The place (mm, LPS).
     pub place: [f64; 3],
-    /// The value there; `null` outside the volume.
+    /// The value of the volume at the place; `null` outside the volume.
     pub value: f64,
 }
 

@@ -50,14 +50,14 @@ pub struct Study {
     /// The data of the volume that are kept between tracings, and the last lines.
     pub(crate) tracer: Tracer,
     pub(crate) traced: Vec<usize>,
-    /// The vessels of the scan, once they were searched for.
+    /// The vessels of the scan; None until they are searched for.
     pub(crate) trees: Option<Trees>,
     pub(crate) last_id: u32,
     pub(crate) mask: Option<HeldMask>,
 }
 
 impl Study {
-    /// The scene for renderers.
+    /// The open volume and vessels as the scene that renderers need.
     ///
     /// # Errors
     /// `volume` for an invalid grid.

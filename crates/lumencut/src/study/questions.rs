@@ -77,13 +77,13 @@ of_the_study {
     /// The brightest voxel on the ray of a pixel.
     [Turn::First] brightest { view: ViewMessage, pixel: [f64; 2] } -> Pick = study.brightest(&study.view_of(&view)?, pixel)?;
 
-    /// What lies at a point, and the vessel around it.
+    /// The value at a point, and the vessel in which the point lies.
     [Turn::First] at(point: Vector) -> Pick = study.at(point);
 
     /// The histogram of the volume.
     [Turn::Later] histogram { bins: usize } -> Histogram = study.histogram(bins)?;
 
-    /// The picture of a plane, with the given window.
+    /// The picture of a plane through the volume, with the given window.
     [Turn::First] slice { plane: Plane, window: Window } -> Picture = study.slice(&plane, window)?;
 
     /// The section at an arc length (mm); a measured section, if the vessel was measured: centre, unit vectors right and down.
@@ -132,7 +132,7 @@ of_the_study {
     [Turn::First] whole_vessel { click: Vector, vessels: Vec<DocumentVessel> } -> Option<WholeVessel> =
         study.whole_vessel(click, &vessels)?;
 
-    /// The content of a line.
+    /// The points of a line, with their radii and other data.
     [Turn::First] line { line: usize } -> LineContent = study.line(line)?;
 
     /// Adds a line, such as a line of a saved session; returns the number that it gets.

@@ -105,7 +105,7 @@ impl ViewMessage {
         let first = if self.method == "csr-paper" { Settings::paper_values() } else { Vec::new() };
         let mut settings = settings(first, &self.settings)?;
         if method != Method::CutSurface {
-            // The viewer shows one picture by several methods, but only the cut surface has a focus.
+            // The viewer may use the same settings for several methods, but only the cut surface supports a focus.
             settings.focus = None;
             settings.focus_vessels.clear();
         }

@@ -361,7 +361,7 @@ export type NumberedLine = {
 
 export type OpenedLines = {
   readonly notes: ReadonlyArray<string>;
-  /** Evidence against the space or unit used. */
+  /** Evidence against the space or unit in which the file was read. */
   readonly doubt: PlaceDoubt | null;
 };
 
@@ -400,7 +400,7 @@ export type PictureLabels = {
 export type PlaceDoubt = {
   /** The finding, in words. */
   readonly found: string;
-  /** Alternatives such as `lps in cm`; may be empty. */
+  /** Other spaces and units that fit, such as `lps in cm`; may be empty. */
   readonly readings: ReadonlyArray<string>;
 };
 
@@ -424,7 +424,7 @@ export type Plane = {
 };
 
 export type PointedAt = {
-  /** The place (LPS, mm). */
+  /** The pointed place (LPS, mm). */
   readonly point: Vector;
   /** Unit vector of the ray, away from the viewer; none if only the place counts. */
   readonly along: Vector | null;
@@ -857,7 +857,7 @@ export type Questions = {
     };
     readonly answer: Pick;
   };
-  /** What lies at a point, and the vessel around it. */
+  /** The value at a point, and the vessel in which the point lies. */
   readonly at: {
     readonly message: Vector;
     readonly answer: Pick;
@@ -869,7 +869,7 @@ export type Questions = {
     };
     readonly answer: Histogram;
   };
-  /** The picture of a plane, with the given window. */
+  /** The picture of a plane through the volume, with the given window. */
   readonly slice: {
     readonly message: {
       readonly plane: Plane;
@@ -962,7 +962,7 @@ export type Questions = {
     };
     readonly answer: WholeVessel | null;
   };
-  /** The content of a line. */
+  /** The points of a line, with their radii and other data. */
   readonly line: {
     readonly message: {
       readonly line: number;
