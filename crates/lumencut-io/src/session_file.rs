@@ -49,7 +49,7 @@ pub struct Session {
     pub scan: Option<Scan>,
     /// State of each vessel.
     pub vessels: Vec<VesselState>,
-    /// Branches found from a seed that the reader has not accepted yet.
+    /// Branches that were found from a seed, and that the reader has not accepted yet.
     pub doubtful: Vec<DoubtfulBranch>,
     /// Spheres that traced vessels must not enter.
     pub stoppers: Vec<Stopper>,
@@ -96,7 +96,7 @@ pub struct Scan {
 pub struct VesselState {
     /// Colour as `#rrggbb`.
     pub color: String,
-    /// Whether views leave out the vessel.
+    /// Whether the vessel is hidden in all views.
     pub hidden: bool,
     /// Clicks in order; None if the vessel was not traced from clicks.
     pub clicks: Option<Vec<Point>>,

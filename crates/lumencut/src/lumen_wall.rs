@@ -24,7 +24,7 @@ use crate::rays_across::{Fall, RaysAcross};
 /// Number of directions around the vessel in which the wall is known.
 const DIRECTIONS: usize = 180;
 
-/// The smallest distance between wall stations along the vessel (mm).
+/// The smallest distance along the vessel (mm) between stations, the places at which the wall is determined.
 const STATION_STEP_MM: f64 = 1.0;
 
 /// A ray leaves through the opening of a branch if it meets no wall within this many radii.
@@ -216,7 +216,7 @@ fn crossing_of(direction: DVec2, a: DVec2, b: DVec2) -> Option<f64> {
     Some(direction.dot(a.lerp(b, from / (from - to)))).filter(|away| *away > 0.0)
 }
 
-/// The openings: directions in which rays certainly leave, grown over those in which they perhaps leave; small ones are omitted.
+/// The openings: directions in which rays certainly leave, and directions connected to them in which rays may leave.
 fn openings(stations: &[Station]) -> Vec<bool> {
     let is_sure = |station: &Station, k: usize| f64::from(u8::from(station.exit[k] == Exit::Yes));
     let sure: Vec<bool> = median_filtered(stations, is_sure).into_iter().map(|share| share > 0.5).collect();

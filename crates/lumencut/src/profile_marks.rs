@@ -172,7 +172,7 @@ impl Measured<'_> {
 /// A place to review.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mark {
-    /// `marked place`, `narrowest place`, `reference` or `NOTED`.
+    /// The kind of place: `marked place`, `narrowest place`, `reference` or `NOTED`.
     pub name: &'static str,
     /// Arc length (mm).
     pub at: f64,

@@ -186,7 +186,7 @@ fn cut_off_tissue(sampled: &mut VoxelSample, lumen: f64) -> Option<Tissue> {
     (middle - padding < lumen - middle).then_some(Tissue { middle, darkest: Some(padding) })
 }
 
-/// The window [`along`] centerlines, widened if the brightest vessels would be white.
+/// The window of [`along`], widened if the brightest vessels would be white.
 pub(crate) fn holding_lumen(volume: &Volume, tree: &VesselTree) -> Result<Window> {
     let window = along(volume, tree)?;
     let black = window.level - window.width / 2.0;

@@ -1,4 +1,4 @@
-//! Builds compressed `.vtp` files. Random changes of a compressed block only break its checksum.
+//! Builds compressed `.vtp` files, because random changes of compressed blocks only break their checksums.
 
 use std::io::Write;
 
