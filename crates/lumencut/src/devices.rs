@@ -29,7 +29,7 @@ pub enum Wanted {
 }
 
 impl Wanted {
-    /// The device named `auto`, `cpu` or `gpu`; the environment variable [`AUTO`] defines what `auto` means.
+    /// The device named `auto`, `cpu` or `gpu`; the environment variable `AUTO` defines what `auto` means.
     ///
     /// # Errors
     /// [`ErrorKind::Settings`] for an unknown name or another value of the environment variable.
@@ -37,7 +37,7 @@ impl Wanted {
         Self::with_auto(name, std::env::var(AUTO).ok().as_deref())
     }
 
-    /// The device for `name`; `auto` is the value of the environment variable [`AUTO`].
+    /// The device for `name`; `auto` is the value of the environment variable `AUTO`.
     ///
     /// # Errors
     /// [`ErrorKind::Settings`] for an unknown name.
