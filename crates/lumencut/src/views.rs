@@ -39,7 +39,7 @@ pub const VIEWS: [NamedView; 6] = [
 /// The standard view of this name.
 ///
 /// # Errors
-/// [`ErrorKind::Camera`] for another name.
+/// [`ErrorKind::Camera`] for an unknown name.
 pub fn named(name: &str) -> Result<NamedView> {
     VIEWS.into_iter().find(|view| view.name == name).ok_or_else(|| {
         let expected = format!("one of {}", VIEWS.map(|view| view.name).join(", "));
@@ -66,7 +66,7 @@ impl Axis {
     /// The axis with this name: `superior`, `up`, `right` or `direction`.
     ///
     /// # Errors
-    /// [`ErrorKind::Camera`] for another name.
+    /// [`ErrorKind::Camera`] for an unknown name.
     pub fn named(name: &str) -> Result<Self> {
         match name {
             "superior" => Ok(Self::Superior),
