@@ -14,7 +14,7 @@ use lumencut_scenes::timing::{head, once, row};
 use lumencut_scenes::workloads::WORKLOADS;
 
 const RUNS: usize = 41;
-/// The images of a cut surface without the distance, which the paper's rule computes anyway.
+/// The requested images. The distance is not among them, because the paper's rule computes it in any case.
 const SURFACE: ImageSet = ImageSet::of(&[Image::Depth, Image::Vessel]);
 
 /// The median time of each rule (ms), and the median ratio of the times of neighbouring runs.
@@ -32,7 +32,7 @@ fn in_turns(scene: &Scene, camera: &Camera) -> Result<[f64; 3]> {
             frame?;
             pair[n] = milliseconds;
         }
-        // The first run warms up.
+        // The first run only warms up the caches.
         if run > 0 {
             times[0].push(pair[0]);
             times[1].push(pair[1]);

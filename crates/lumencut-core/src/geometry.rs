@@ -8,7 +8,7 @@ use crate::error::{Error, ErrorKind, Result};
 /// Position of every pixel in world space.
 #[derive(Clone, Debug)]
 pub enum Geometry {
-    /// Along the rays of an orthographic camera.
+    /// Positions on the rays of an orthographic camera.
     Orthographic {
         /// The view.
         camera: Camera,

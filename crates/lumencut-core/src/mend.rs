@@ -1,4 +1,4 @@
-//! Remedies for errors, if a host can apply or word them itself.
+//! Remedies for errors that a host (Python, command line, page) can apply or put into its own words.
 
 use std::fmt;
 
@@ -6,7 +6,7 @@ use std::fmt;
 /// options or buttons. The words of [`fmt::Display`] are for Rust programs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Mend {
-    /// Bridge a stretch between two points that does not look like lumen.
+    /// Trace straight across a stretch between two points that does not look like lumen.
     Bridge,
     /// Take every second voxel along each axis, which needs an eighth of the memory.
     EverySecond,

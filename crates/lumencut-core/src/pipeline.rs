@@ -42,14 +42,14 @@ pub struct Request<'a> {
     pub settings: &'a Settings,
     /// The images that the frame shall contain, if the view has them.
     pub images: ImageSet,
-    /// Whether to stop.
+    /// Returns whether to stop.
     pub stop: Stop<'a>,
     /// Receives the progress of the view.
     pub progress: Option<&'a Progress>,
 }
 
 impl<'a> Request<'a> {
-    /// All images of a view, without stop or progress.
+    /// A request for all images of a view, without stop or progress.
     pub fn new(camera: &'a Camera, settings: &'a Settings) -> Self {
         Self { camera, settings, images: ImageSet::ALL, stop: &|| false, progress: None }
     }
@@ -107,7 +107,7 @@ pub struct CpuRenderer {
     projected: Vec<ProjectedLevel>,
     /// The vessels that take precedence in `projected`.
     first: Vec<usize>,
-    /// The sheet of the previous view: of the images that no frame keeps, the largest.
+    /// The sheet of the previous view, kept because it is the largest of the images that no frame has.
     sheet: Vec<Sheet>,
     isa: Isa,
 }

@@ -89,7 +89,7 @@ mod tests {
             }
             progress.end_view();
         }
-        // The expected shares of both views, in parts of 40.
+        // The expected finished shares of both views, in parts of 40.
         let expected = [0.0, 6.0, 12.0, 14.0, 16.0, 18.0, 20.0, 26.0, 32.0, 34.0, 36.0, 38.0];
         assert_eq!(shares, expected.map(|parts| parts / 40.0));
         assert_eq!(progress.share(), 1.0);

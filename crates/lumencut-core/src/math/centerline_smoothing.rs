@@ -50,7 +50,7 @@ fn smooth(vessel: &Vessel, radii: f64, ends: &PositionMap<()>, layers: &[Layer])
     Vessel::from_checked(smoothed, Some(radius.to_vec()))
 }
 
-/// A box of the Gaussian with σ = 1: it is `height` high from −`reach` to `reach`.
+/// One of the boxes that add up to the Gaussian with σ = 1: `height` high from −`reach` to `reach`.
 #[derive(Clone, Copy, Debug)]
 struct Layer {
     reach: f64,
@@ -86,7 +86,7 @@ impl<'a> FixedRun<'a> {
     fn new(points: &'a [DVec3]) -> Self {
         let count = points.len();
         let (zeros, mut arc) = (vec![DVec3::ZERO; count], vec![0.0; count]);
-        // Arc length is summed from this end, so it is bit-identical to that of a vessel that begins here.
+        // Arc length is summed from the run's start, with the same bits as for a vessel that begins here.
         for i in 1..count {
             arc[i] = arc[i - 1] + points[i].distance(points[i - 1]);
         }
@@ -111,7 +111,8 @@ impl<'a> FixedRun<'a> {
         self.points[0].lerp(self.points[self.points.len() - 1], share)
     }
 
-    /// The mean around point `i`: the chord at `i`, since layers are symmetric, plus the mean of the offset.
+    /// The mean around point `i`: the chord's point, as the layers are symmetric, plus the mean of the
+    /// offset.
     fn mean(&self, i: usize, sigma: f64, layers: &[Layer]) -> DVec3 {
         if self.length() <= 0.0 {
             return self.points[i];

@@ -1,5 +1,5 @@
-//! The volume along a ray within one cell: a cubic in Bernstein form, whose coefficients average interpolated
-//! values.
+//! The volume along a ray within one cell, as a cubic in Bernstein form. Its coefficients average
+//! interpolated values.
 
 use super::lanes::larger;
 use crate::volume::Real;
@@ -94,7 +94,7 @@ fn summit<R: Real>([b0, b1, b2, b3]: [R; 4]) -> R {
     let (d0, d1, d2) = (d0 * scale, d1 * scale, d2 * scale);
     let (curve, bend) = (d0 - d1 - d1 + d2, d1 - d0);
     let root = larger(d1 * d1 - d0 * d2, zero).square_root();
-    // The root at which the derivative falls, without a difference of almost equal numbers.
+    // The root at which the derivative turns negative, computed without subtracting almost equal numbers.
     let above = if bend > zero { zero - (bend + root) } else { d0 };
     let below = if bend > zero { curve } else { root - bend };
     let below = if size(below) > tiny { below } else { tiny };
@@ -169,7 +169,7 @@ mod tests {
     #[test]
     fn numbers_of_every_size_have_their_maximum() {
         for size in [1e-20f32, 1.0, 1e18, 1e30] {
-            // Along the diagonal: 0, up to the middle, and back.
+            // Values along the cell's diagonal: 0 at the start, up to the middle, and back to 0.
             let corners = [0.0, 1.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0].map(|c: f32| c * size);
             let cubic = Cubic::<f32, 1>::between(&corners.map(|c| [c]), &[[0.0]; 3], &[[1.0]; 3]);
             // 3·u·(1 − u)² is largest at u = 1/3.

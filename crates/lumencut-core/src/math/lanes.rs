@@ -19,7 +19,7 @@ pub const PARTS: usize = PIXELS / PART_PIXELS;
 pub const UNSET: f32 = 1e30;
 /// The depth of a missing piece; it stays above [`UNSET`] after any addition.
 pub const ABSENT: f32 = 3e30;
-/// Coordinate of slots without a point (mm): beyond every scene, and its square is finite.
+/// Coordinate of slots without a point (mm): far outside every scene, but with a finite square.
 pub const FAR: f32 = 1e9;
 /// A key that no piece beats: the pixel is left out of the search.
 pub const EXCLUDED: f32 = -1e30;

@@ -31,17 +31,17 @@ pub struct CutSurfaceParameters {
     pub lift: f32,
     pub distance_slack: f32,
     pub depth_slack: f32,
-    /// N / σ (levels² per mm); times the distance that selects the levels, it gives f².
+    /// N / σ: the square of the wanted level per mm of the distance that selects levels.
     pub selection: f32,
     pub coarsest: u32,
     /// Factor on radii: 1 if radii count, else 0.
     pub radius_scale: f32,
-    /// Replaces a radius of 0 (mm).
+    /// The radius of points without a known one (mm).
     pub unknown_radius: f32,
     pub vessel_count: u32,
     pub padding: [u32; 2],
-    /// View coordinates (mm) of the origin of the points on the GPU: the part that products can be added to
-    /// without rounding.
+    /// View coordinates (mm) of the origin of the points on the GPU: a part of few digits, to which products
+    /// can be added without rounding.
     pub origin_coarse: [f32; 4],
     pub origin_fine: [f32; 4],
     pub levels: [LevelLayout; MAX_LEVELS + 1],

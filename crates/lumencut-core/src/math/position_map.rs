@@ -1,4 +1,4 @@
-//! A map whose values are found from any position near the stored one, such as vessel ends.
+//! A map with positions as keys, such as vessel ends; a value is found from any position near its key.
 
 use std::collections::HashMap;
 

@@ -11,7 +11,7 @@ struct Point {
     coarse: vec3f,
     radius: f32,
     fine: vec3f,
-    // Its index among the slots of all bundles.
+    // The entry of this point's slot among the entries of all bundles.
     place: u32,
 }
 

@@ -81,7 +81,7 @@ fn coarse_meetings(foot: Foot, plane: vec3f) -> vec3f {
 }
 
 fn rests(foot: Foot, plane: vec3f, at: vec3f) -> vec3f {
-    // The distance that remains: its large terms cancel exactly.
+    // The remaining distance to the plane; its large terms cancel exactly.
     let left = plane - foot.index - at * grid.z.xyz - (foot.rest + at * grid.z_rest.xyz);
     return left * grid.per_voxel.xyz;
 }

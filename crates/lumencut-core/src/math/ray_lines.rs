@@ -11,7 +11,7 @@ use crate::volume::Volume;
 pub const WHOLE: f32 = -1e9;
 /// The start of a ray that is not needed.
 pub const NONE: f32 = 1e9;
-/// A depth beyond both of them.
+/// A depth beyond [`WHOLE`] and [`NONE`].
 pub const NEVER: f64 = 2e9;
 
 /// A direction that moves by less than this along an axis (voxels per mm) counts as perpendicular to it.

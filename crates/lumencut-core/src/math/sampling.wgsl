@@ -1,4 +1,4 @@
-// Trilinear sampling of the volume: eight loads and the arithmetic of the CPU.
+// Trilinear sampling of the volume, with the arithmetic of the CPU.
 // import math/lanes
 
 // Whether the voxels are the bits of floats; else they are integers.
@@ -20,7 +20,7 @@ struct GridParameters {
     per_unit: f32,
     padding: vec2f,
     // The index at the image centre at the reference depth, and its change per column, row and mm of depth.
-    // Each is a part with so few digits that its products and sums are exact, and the rest (`_rest`).
+    // Each is split into a part of few digits, whose products and sums are exact, and the rest (`_rest`).
     origin: vec4f,
     origin_rest: vec4f,
     x: vec4f,

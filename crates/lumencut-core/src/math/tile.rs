@@ -1,11 +1,12 @@
-//! Tiles of pixels, and parts of tiles: the pixels of a part fill one vector, those of a tile share one walk.
+//! Tiles of pixels, which share one walk through the hierarchy; the pixels of a part of a tile fill one
+//! vector.
 
 use super::lanes::{Bits, COLUMNS, PART_PIXELS, PART_SIDE, PARTS, PIXELS, ROWS, larger};
 use crate::camera::Camera;
 
 const PARTS_ACROSS: usize = COLUMNS / PART_SIDE;
 
-/// The lane of the pixel in row `r` and column `c` of a tile: part by part, each row by row.
+/// The lane of the pixel in row `r` and column `c` of a tile; lanes run part by part, and by rows in a part.
 #[inline(always)]
 pub(crate) const fn lane(r: usize, c: usize) -> usize {
     let part = r / PART_SIDE * PARTS_ACROSS + c / PART_SIDE;

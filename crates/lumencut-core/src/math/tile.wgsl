@@ -10,7 +10,7 @@ const MAX_ROWS = 8u;
 const MAX_QUADS = 16u;
 const QUAD = 4u;
 // Tiles of a workgroup form short rows, so that threads in lockstep work on nearby pixels. Software adapters
-// run only the first workgroup dimension in lockstep; it must be larger than their vectors.
+// run only the first workgroup dimension in lockstep, so it must exceed their vector width.
 const TILES = 64u;
 const TILES_ACROSS = 4u;
 
