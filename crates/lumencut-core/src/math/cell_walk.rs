@@ -15,8 +15,7 @@ pub const ALONG_PLANE: f32 = 1e-9;
 pub(crate) trait Fold<R> {
     /// Whether cells with a largest corner value of `top` can change the result; `length` is as in `take`.
     fn asks(&self, top: &[f32; FAN], length: &[f32; FAN]) -> bool;
-    /// Takes one cubic per ray: `top` is its cell's largest corner value, `length` (mm) is 0 after the ray's
-    /// end.
+    /// Takes a cubic per ray: `top` is its largest corner value, `length` (mm) is 0 after the ray's end.
     fn take(&mut self, cubic: &Cubic<R, FAN>, top: &[f32; FAN], length: &[f32; FAN]);
 }
 

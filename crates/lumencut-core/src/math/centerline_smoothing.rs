@@ -111,8 +111,7 @@ impl<'a> FixedRun<'a> {
         self.points[0].lerp(self.points[self.points.len() - 1], share)
     }
 
-    /// The mean around point `i`: the chord's point, as the layers are symmetric, plus the mean of the
-    /// offset.
+    /// The mean around point `i`: the chord's point, as layers are symmetric, plus the mean of the offset.
     fn mean(&self, i: usize, sigma: f64, layers: &[Layer]) -> DVec3 {
         if self.length() <= 0.0 {
             return self.points[i];

@@ -34,8 +34,7 @@ impl MovingFrame {
         Self { tangent, across: tangent.cross(ahead), ahead }
     }
 
-    /// The frame turned about its tangent by the angle of this sine and cosine; a picture's viewer moves
-    /// right.
+    /// The frame turned about its tangent by the angle of this sine and cosine: the viewer moves right.
     #[must_use]
     pub fn turned(self, [sine, cosine]: [f64; 2]) -> Self {
         let Self { tangent, across, ahead } = self;

@@ -111,8 +111,7 @@ impl OwnPieces<'_> {
                 is_member[l] = is_open[l] & (vessel == group.vessel) & (s >= group.low) & (s <= group.high);
                 is_open[l] &= !is_member[l];
             }
-            // The pixel that started the group belongs to it, even if rounding moves it beyond the group's
-            // ends.
+            // The pixel that started the group belongs to it, even if rounding moves it beyond the ends.
             is_member[seed] = true;
             is_open[seed] = false;
             self.search::<SHEET>(part, &group, &is_member, nearest);

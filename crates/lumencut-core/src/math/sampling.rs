@@ -11,8 +11,7 @@ pub const POSITION_ROUNDING: f64 = 1e-3;
 #[derive(Clone, Copy, Debug)]
 pub struct Grid {
     last: [f64; 3],
-    /// Along each axis: the last index with a next voxel, and the step to it (elements); both 0 for one
-    /// voxel.
+    /// Along each axis: the last index with a next voxel, and the step to it (elements); both 0 for 1 voxel.
     low: [usize; 3],
     step: [usize; 3],
     strides: [usize; 3],

@@ -1,5 +1,4 @@
-//! Tiles of pixels, which share one walk through the hierarchy; the pixels of a part of a tile fill one
-//! vector.
+//! Tiles of pixels, which share one walk through the hierarchy; a part of a tile fills one vector.
 
 use super::lanes::{Bits, COLUMNS, PART_PIXELS, PART_SIDE, PARTS, PIXELS, ROWS, larger};
 use crate::camera::Camera;

@@ -19,7 +19,7 @@ pub(super) struct PixelContent {
     pub vessel: i32,
     /// Slopes and radius, as the stage `leap` reads them.
     pub sheet: Sheet,
-    /// Whether other points of the vessel could be shown in this pixel as well.
+    /// Whether the pixel could as well show other points of the vessel.
     pub is_folded: bool,
 }
 
@@ -64,7 +64,7 @@ pub(super) fn work<'a>(request: &Request<'a>) -> Work<'a> {
     Work { size: camera.size(), isa: Isa::widest(), stop, progress: None }
 }
 
-/// Rejects a vessel of no length: it has no direction.
+/// Rejects vessels of no length, which have no direction.
 pub(super) fn expect_lengths(level: &Level) -> Result<()> {
     let Some(id) = level.first_slot.windows(2).position(|ends| ends[1] - ends[0] < 2) else { return Ok(()) };
     let found = "all points within 0.001 mm of each other";

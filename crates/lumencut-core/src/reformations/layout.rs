@@ -50,7 +50,7 @@ pub(super) fn by_rows<T: Clone + Send>(
     Ok(image)
 }
 
-/// Positions and slab directions, written row by row; a pixel that is not written shows nothing.
+/// Positions and slab directions, written row by row; a pixel that no row writes shows nothing.
 pub(super) fn curved_by_rows(
     size: [usize; 2],
     stop: Stop,
@@ -105,7 +105,7 @@ mod tests {
         };
         let error = curved_by_rows([3, 1000], &soon, count).unwrap_err();
         assert_eq!(error.kind, ErrorKind::Interrupted);
-        // Both lists were filled first; each asks once whether to stop.
+        // Both lists were filled before, and each filling asked once whether to stop.
         assert_eq!(written.into_inner(), 4);
     }
 }

@@ -50,7 +50,7 @@ pub struct LumenMap {
     straightened: Straightened,
     wall: Arc<Wall>,
     parameters: LumenMapParameters,
-    /// Number of columns once around the vessel, and of those that are repeated on each side.
+    /// Number of columns once around the vessel, and number of repeated columns on each side.
     columns: [usize; 2],
     rows: usize,
 }
@@ -132,7 +132,8 @@ impl LumenMap {
         })
     }
 
-    /// Points of the wall and their directions, one column more on both sides; row 0 lies before the image.
+    /// Wall points of a row and their directions, with one more column on each side; row 0 is above the
+    /// image.
     fn wall_row(&self, number: usize) -> (Vec<DVec3>, Vec<DVec3>) {
         let at = (number as f64 - 1.0) * self.parameters.pixel_spacing;
         let (middle, frame) = (self.path.at(at), self.straightened.frame(at));
@@ -163,7 +164,7 @@ impl LumenMap {
         self.straightened.world_from_straightened(offset.extend(at))
     }
 
-    /// Distance from the middle of the vessel of a point beyond the wall (mm), at least 0.
+    /// Distance (mm, at least 0) from the middle of the vessel to a point `beyond` mm outside the wall.
     fn distance(&self, at: f64, around: f64, beyond: f64) -> f64 {
         (self.wall.radius(at, around) + beyond).max(0.0)
     }
@@ -202,7 +203,7 @@ impl Layout for LumenMap {
                 let (sine, cosine) = around.sin_cos();
                 let ray = frame.across * cosine + frame.ahead * sine;
                 direction[i] = ray.as_vec3();
-                // A branch that opens here has no wall to show.
+                // In the opening of a branch there is no wall to show.
                 if !self.wall.is_open(at, *around) {
                     position[i] = middle + ray * self.distance(at, *around, beyond);
                 }

@@ -2,8 +2,8 @@
 //!
 //! Kanitsar, Wegenkittl, Fleischmann and Gröller, "Advanced Curved Planar Reformation: Flattening of Vascular
 //! Structures", IEEE Visualization 2003, doi:10.1109/VISUAL.2003.1250353. Each vessel c(t) is cut along the
-//! surface c(t) + s·(v × u), with v the direction of view and u upwards in the image: every row cuts a vessel
-//! in points, and a pixel shows the depth of the point nearest along its row.
+//! surface c(t) + s·(v × u), with v the direction of view and u upwards in the image. So every row cuts a
+//! vessel in points, and a pixel shows the depth of the point nearest in its row.
 
 use rayon::prelude::*;
 
@@ -130,7 +130,7 @@ struct Crossing {
     /// Change of depth upwards (mm per mm).
     slope: f64,
     radius: f64,
-    /// Distance of the surface from the centerline per mm along the row.
+    /// Distance of the surface from the centerline (mm) per mm along the row.
     lean: f64,
     is_folded: bool,
 }
@@ -151,7 +151,8 @@ impl Crossing {
         }
     }
 
-    /// The order of points equally far from a pixel: nearer to the viewer, then the vessel, then along it.
+    /// Which of two equally near points wins: nearer to the viewer, then smaller vessel id, then smaller
+    /// slot.
     fn comes_before(&self, other: &Self) -> bool {
         (self.z, self.vessel, self.slot) < (other.z, other.vessel, other.slot)
     }
@@ -174,7 +175,7 @@ impl Run {
     fn nearest_crossing(&self, x: f64) -> Crossing {
         let dx = self.b.x - self.a.x;
         let t = if dx == 0.0 {
-            // A run along the view lies at one x; its end nearer to the viewer counts.
+            // A run along the view has a single x; its end nearer to the viewer counts.
             f64::from(u8::from(self.b.z < self.a.z))
         } else {
             ((x - self.a.x) / dx).clamp(0.0, 1.0)

@@ -58,8 +58,8 @@ pub struct UntangledParameters {
     pub pixel_spacing: f64,
     /// Replaces unknown radii (mm).
     pub unknown_radius: f64,
-    /// A point near the end from which the tree grows (mm, LPS). Other parts grow from the free end with the
-    /// largest mean radius over 10 mm.
+    /// The part with the vessel end nearest to this point grows from that end (mm, LPS). Other parts grow
+    /// from the free end with the largest mean radius over 10 mm.
     pub root: Option<DVec3>,
 }
 
@@ -100,7 +100,7 @@ pub struct LaidOut {
     pub pixels: Vec<DVec2>,
     /// The turn of this part and of all parts that follow it (radians, counter-clockwise in the image).
     pub turn: f64,
-    /// Whether the part begins at its last point.
+    /// Whether the part grows from its last point to its first.
     pub is_reversed: bool,
 }
 
@@ -232,8 +232,8 @@ impl Untangled {
         rotations
     }
 
-    /// Radius around a branching point within which vessels may overlap (mm), if its widest hull is `hull`
-    /// mm.
+    /// Radius around a branching point within which vessels may overlap (mm), if the widest hull there has a
+    /// radius of `hull` mm.
     pub fn may_overlap_within(&self, hull: f64) -> f64 {
         self.near * hull + OVERLAP_EXTRA_MM
     }
@@ -243,7 +243,7 @@ impl Untangled {
         &self.overlaps
     }
 
-    /// Where cycles are cut open: pairs of image positions of one point of the body.
+    /// Where cycles are cut open: pairs of image positions that show the same point of the body.
     pub fn closures(&self) -> &[[DVec2; 2]] {
         &self.closures
     }
@@ -282,7 +282,7 @@ impl Untangled {
     }
 
     fn segments(&self, stop: Stop) -> Result<&[u32]> {
-        // Computed outside the lock: a pool thread waiting for its part could wait for itself.
+        // Computed outside the lock: a waiting pool thread may start other work, and then wait for itself.
         if let Some(known) = self.segments.get() {
             return Ok(known);
         }

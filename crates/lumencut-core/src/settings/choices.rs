@@ -1,4 +1,4 @@
-//! Settings as hosts choose them, one by one and in any order, and the checked settings they result in.
+//! Settings as users choose them, one by one and in any order, and the checked settings that result.
 
 use super::context::{Context, ContextMode, ContextName};
 use super::table::{ContextChoices, Settings};
@@ -6,7 +6,7 @@ use super::value::{Transfer, Value};
 use crate::error::{Error, ErrorKind, Result};
 use crate::named::Named;
 
-/// What a host chose; all other settings have their defaults.
+/// The values that a user chose; all other settings have their defaults.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Choices {
     settings: Settings,

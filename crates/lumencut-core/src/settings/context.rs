@@ -1,4 +1,4 @@
-//! The context: what the rays gather where the cut surface shows nothing, and the names of its modes.
+//! The context: what rays gather where no cut surface is shown, and the names of its modes.
 
 use super::transfer::{Preset, TransferFunction};
 use super::window::Window;
@@ -41,7 +41,7 @@ impl ContextName {
         }
     }
 
-    /// The default transfer function: grey for a maximum, because it is a single intensity.
+    /// The default transfer function: grey for a maximum, since each ray then has a single intensity.
     pub(crate) fn default_transfer(self) -> Preset {
         match self {
             Self::Mip => Preset::Grey,
@@ -72,9 +72,9 @@ pub enum ContextMode {
         /// γ, from −1 to 1.
         gamma: f64,
     },
-    /// The smallest value, grey.
+    /// The smallest value, shown in grey.
     Minimum,
-    /// The mean value, grey.
+    /// The mean value, shown in grey.
     Average,
 }
 
@@ -96,7 +96,7 @@ impl ContextMode {
 pub struct Context {
     /// What the rays gather.
     pub mode: ContextMode,
-    /// The intensities from 0 to 1: for the differences of MIDA, and grey of minimum and average.
+    /// Maps intensities to 0 to 1: for the differences of MIDA, and the grey of minimum and average.
     pub window: Window,
     /// Colour and opacity of the intensities.
     pub transfer: TransferFunction,

@@ -11,10 +11,10 @@ use crate::reformations::Wall;
 /// Number of diameter directions compared, over half a turn.
 const DIRECTIONS: usize = 48;
 
-/// Distance along the vessel between the angles (mm); neighbours differ by one direction at most.
+/// Distance along the vessel between neighbouring angles (mm); they differ by at most one direction.
 const STEP_MM: f64 = 0.5;
 
-/// Cost of a change by one direction (mm of diameter): keeps the picture steady if all diameters are alike.
+/// Cost of a change by one direction (mm of diameter); it keeps the angle steady if all diameters are alike.
 const CHANGE_COST_MM: f64 = 0.15;
 
 /// Standard deviations (mm) of the Gaussians that smooth the diameters and the angle along the vessel.
@@ -23,9 +23,9 @@ const SMOOTHING_MM: [f64; 2] = [1.5, 2.0];
 /// Which side of the lumen a picture follows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
-    /// The narrowest one.
+    /// The narrowest side.
     Narrowest,
-    /// The widest one.
+    /// The widest side.
     Widest,
 }
 
@@ -90,7 +90,7 @@ impl Roll {
     }
 }
 
-/// The cheapest path of directions, unwrapped. Ties go to the one that stays, then to the smaller direction.
+/// The directions with the smallest cost, unwrapped. Ties go to no change, then to the smaller direction.
 fn cheapest(cost: &[Vec<f64>]) -> Vec<i32> {
     let places = cost[0].len();
     let mut best: Vec<f64> = cost.iter().map(|column| column[0]).collect();
@@ -114,7 +114,7 @@ fn cheapest(cost: &[Vec<f64>]) -> Vec<i32> {
         let here: i32 = way[place];
         way[place - 1] = here - i32::from(came[place][here.rem_euclid(DIRECTIONS as i32) as usize]);
     }
-    // The picture begins as near to angle 0 as it can.
+    // The first angle is as near to 0 as possible.
     let turns = (f64::from(way[0]) / DIRECTIONS as f64).round() as i32 * DIRECTIONS as i32;
     way.iter().map(|step| step - turns).collect()
 }

@@ -1,4 +1,4 @@
-//! Straightened CPR: rows by arc length, lines across in the rotation-minimising frame.
+//! Straightened CPR: rows follow the arc length, in a frame that turns as little as possible.
 
 use std::sync::Arc;
 
@@ -52,7 +52,7 @@ impl Straightened {
         let is_along = |v: DVec3| v.cross(tangent).length() <= PARALLEL * v.dot(tangent).abs();
         let ahead = match view.normal {
             Some(normal) => -unit("normal of the CPR", normal)?,
-            // A vessel that begins along the direction of view is seen from below there.
+            // If a vessel begins along the direction of view, its beginning is seen from below.
             None if is_along(axes.ahead) => axes.up,
             None => axes.ahead,
         };
@@ -89,7 +89,7 @@ impl Straightened {
         self.sections.path.at(place.z) + frame.across * place.x + frame.ahead * place.y
     }
 
-    /// The straightened position of a world point: in the section through it whose centre is nearest.
+    /// The straightened position of a world point, in the section that contains it with the nearest centre.
     pub fn straightened_from_world(&self, point: DVec3) -> DVec3 {
         let sections = self.sections.through(point);
         let nearest = sections.iter().min_by(|a, b| a.offset.length().total_cmp(&b.offset.length()));
@@ -147,7 +147,7 @@ impl Surface for Straightened {
     }
 
     fn folded(&self, y: f64, x: &[f64]) -> Vec<bool> {
-        // Movement of each pixel's point per mm of the vessel.
+        // How far each pixel's point moves per mm of the vessel.
         let moves: Vec<_> = x.iter().map(|x| self.advance(y, DVec2::new(*x, 0.0))).collect();
         let mut folded: Vec<_> = moves.iter().map(|moves| *moves <= 0.0).collect();
         self.mark_shown_elsewhere(y, x, &moves, &mut folded);

@@ -1,6 +1,6 @@
-//! Stretched CPR: the surface of parallel lines through the vessel, unrolled. Along these lines the surface
-//! is a curve, the vessel's projection. A row's position is the length of that curve, so lengths on the
-//! surface are true. A step ds of the vessel is √(ds² − (ds·l)²) high and ds·l wide.
+//! Stretched CPR: the surface of parallel lines through the vessel, unrolled. Seen along these lines the
+//! surface is a curve. A row's position is the length along this curve, so lengths on the surface are true.
+//! With the unit vector l of the lines, a step ds is √(ds² − (ds·l)²) high and ds·l wide.
 
 use std::sync::Arc;
 
@@ -20,7 +20,7 @@ struct Strip {
     /// Top edge in the image, downwards (mm), and height.
     y: f64,
     height: f64,
-    /// Its unit vector in the plane across the lines.
+    /// Unit vector from top to bottom edge, perpendicular to the lines.
     down: DVec3,
 }
 

@@ -10,13 +10,13 @@ use crate::math::tile::{Area, Tile};
 
 const MAX_CACHED_CHAINS: usize = 256;
 
-/// Finds the piece nearest to a pixel within the threshold along the tree. Caches the pieces around a chain:
-/// they are nearly the same for all its points, and for the pixels of a tile.
+/// Finds the piece nearest to a pixel within a stretch. Caches the pieces around a chain, because they are
+/// nearly the same for all points of the chain and for the pixels of a tile.
 pub(super) struct StretchSearch<'a> {
     view: &'a CrView<'a>,
     /// For a chain, the ranges of chains within the threshold of a point on it.
     around: HashMap<u32, Vec<[u32; 2]>>,
-    /// For a chain, the chains around it as seen from this tile.
+    /// For a chain, the chains around it, ordered by distance from this tile.
     in_tile: Vec<(u32, NearFirst)>,
 }
 

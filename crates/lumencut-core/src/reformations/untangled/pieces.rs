@@ -12,7 +12,7 @@ const MAX_STATION_DISTANCE_MM: f64 = 0.5;
 
 const MIN_STEPS: f64 = 4.0;
 
-/// A point of the vessel nearer to the last station than this share of a step becomes no station.
+/// A vessel point nearer to the last station than this share of a step becomes no station.
 const MIN_STEP_SHARE: f64 = 0.1;
 
 /// A part of a vessel between two points where vessels meet or end. Stations follow the vessel's own order.
@@ -72,7 +72,7 @@ pub(super) fn pieces_of(tree: &VesselTree, unknown_radius: f64) -> Result<(Vec<P
     Ok((pieces, ends.count as usize))
 }
 
-/// The points where a vessel is cut, ends included, and their junctions; lengths between are positive.
+/// The points where a vessel is cut, ends included, and their junctions; no two are at the same arc length.
 fn cuts(vessel: &Vessel, ends: &Ends) -> Vec<(usize, usize)> {
     let (points, at) = (vessel.points(), vessel.arc_length());
     let last = points.len() - 1;
@@ -116,7 +116,7 @@ impl Stations<'_> {
         }
         let places: Vec<_> = at.iter().map(|at| LinePlace::at(along, *at)).collect();
         let mut points: Vec<_> = places.iter().map(|place| place.point(self.vessel.points())).collect();
-        // Of points at the same arc length, those of the vessel itself count.
+        // The first and last station are the vessel's own points, without rounding.
         points[0] = self.vessel.points()[first];
         let end = points.len() - 1;
         points[end] = self.vessel.points()[last];
