@@ -44,7 +44,7 @@ impl Vessel {
         Ok(Self::from_checked(points, radius))
     }
 
-    /// A vessel from parts that satisfy [`Vessel::new`] by construction.
+    /// A vessel whose parts satisfy [`Vessel::new`] by construction.
     pub(crate) fn from_checked(points: Vec<DVec3>, radius: Option<Vec<f64>>) -> Self {
         let arc_length = arc_lengths(&points);
         Self { points, radius, arc_length }
@@ -76,7 +76,7 @@ impl Vessel {
     }
 }
 
-/// Vessels that may share end points; the index is the id. Forests, cycles and loose pieces are legal.
+/// Vessels that may share end points; the index is the id. Forests, cycles and separate parts are allowed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VesselTree {
     vessels: Vec<Vessel>,

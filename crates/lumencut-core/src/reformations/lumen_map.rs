@@ -132,8 +132,7 @@ impl LumenMap {
         })
     }
 
-    /// Wall points of a row and their directions, with one more column on each side; row 0 is above the
-    /// image.
+    /// Wall points of a row and their directions, with one more column on each side; row 0 is off the image.
     fn wall_row(&self, number: usize) -> (Vec<DVec3>, Vec<DVec3>) {
         let at = (number as f64 - 1.0) * self.parameters.pixel_spacing;
         let (middle, frame) = (self.path.at(at), self.straightened.frame(at));

@@ -151,8 +151,7 @@ impl Crossing {
         }
     }
 
-    /// Which of two equally near points wins: nearer to the viewer, then smaller vessel id, then smaller
-    /// slot.
+    /// Which of two equally near points wins: nearer to the viewer, then smaller vessel id, then slot.
     fn comes_before(&self, other: &Self) -> bool {
         (self.z, self.vessel, self.slot) < (other.z, other.vessel, other.slot)
     }

@@ -137,8 +137,7 @@ impl Layout for Uncurl {
     fn folded(&self, stop: Stop) -> Result<Vec<bool>> {
         let [width, height] = self.camera.size();
         if self.amount == 0.0 {
-            // Without bending, the vessel point nearest in the image is also nearest in space: nothing is
-            // folded.
+            // Without bending, the point nearest in the image is also nearest in space: nothing is folded.
             return filled(width * height, false, stop);
         }
         let cut_locus = CutLocus::new(&self.path);

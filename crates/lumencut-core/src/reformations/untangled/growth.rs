@@ -127,8 +127,7 @@ impl Growth {
         self.is_reversed[piece] = near == 1;
         self.attach(part, piece, led[pieces[piece].nodes[near]].flatten());
         let far = pieces[piece].nodes[1 - near];
-        // The cycle closes at the end of the piece that the search followed, or at a piece's start at the
-        // root.
+        // The cycle closes at the end of the piece that was followed, or at the start of a piece at the root.
         let there = match led[far].flatten() {
             Some(by) => (by, 1 - self.start(by)),
             None => (part.first[0], self.start(part.first[0])),
