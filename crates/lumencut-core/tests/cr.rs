@@ -125,8 +125,7 @@ fn the_vessel_in_front_keeps_its_disc_and_a_larger_offset_hides_more() {
         for j in 0..120 {
             for i in 0..120 {
                 let (x, y) = (camera.view_x(i).abs(), camera.view_y(j).abs());
-                // Inside its disc the front vessel is shown; elsewhere the nearer vessel, or the first of
-                // equal ones.
+                // Inside its disc the front vessel is shown; elsewhere the nearer one, or the first if equal.
                 let expected = if y <= 4.0 + offset || y <= x { 0.0 } else { 40.0 };
                 assert_eq!(frame.depth()[j * 120 + i], expected, "{x}, {y} with {offset} pixels");
             }

@@ -88,8 +88,7 @@ fn a_vessel_that_dives_along_the_view_goes_on_behind() {
     let frame = by_hierarchy(&tree(vec![diving]), &front([120, 120], 1.0), &settings);
     near(at(&frame, frame.depth(), -20.5, 0.5), 0.0);
     near(at(&frame, frame.depth(), 10.5, -10.5), 0.0);
-    // Above the run into depth, the half-plane at depth 0 costs 25 − 2 mm and loses to the stripe at depth
-    // 60.
+    // Above the run into depth, the half-plane at depth 0 (distance 25 − 2) loses to the stripe at depth 60.
     near(at(&frame, frame.depth(), 0.5, 25.5), 60.0);
 }
 

@@ -6,9 +6,9 @@ use wgpu::{Adapter, Backends, DeviceType, Instance, InstanceDescriptor};
 /// Which GPUs are acceptable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Choice {
-    /// Hardware only: a software rasteriser is slower than the CPU's own kernels.
+    /// Only hardware: a software rasteriser is slower than our computation on the CPU.
     Hardware,
-    /// Software if there is no hardware.
+    /// Hardware, or else software.
     Any,
 }
 
@@ -48,7 +48,7 @@ impl Description {
 pub(crate) async fn adapters() -> Vec<Adapter> {
     let instance = Instance::new(InstanceDescriptor::new_without_display_handle());
     let mut adapters = instance.enumerate_adapters(Backends::PRIMARY).await;
-    // A browser returns the one it prefers.
+    // A browser lists no adapters but returns the one it prefers.
     if adapters.is_empty()
         && let Ok(adapter) = instance.request_adapter(&wgpu::RequestAdapterOptions::default()).await
     {

@@ -1,4 +1,4 @@
-//! The images of a view on the GPU, one number or vector per pixel; they are kept while the size stays.
+//! The images of a view on the GPU, one number or vector per pixel. They are kept until the size changes.
 
 use lumencut_core::error::Result;
 use lumencut_core::stages::Image;
@@ -18,7 +18,7 @@ pub(crate) struct Images {
     pub leap: Buffer,
     pub focus: Buffer,
     pub value: Buffer,
-    /// The slopes behind silhouettes; before that, the depth filtered within zones along columns only.
+    /// Slopes from which silhouettes are made; before, the depth filtered within zones along columns only.
     pub raised: Buffer,
     pub strength: Buffer,
     pub start: Buffer,

@@ -28,8 +28,7 @@ pub(super) struct Axes {
 pub(super) const PARALLEL: f64 = 0.05;
 
 impl View {
-    /// The view at angle 0: along +y, perpendicular to `up`; like axial slices, from below, if `up` is along
-    /// y.
+    /// The view at angle 0: along +y, perpendicular to `up`; from below, like axial slices, if `up` is ±y.
     pub(super) fn unturned(&self) -> Result<Axes> {
         let up = unit("up of the CPR", self.up)?;
         let along = up.y.abs() * PARALLEL > up.x.hypot(up.z);
