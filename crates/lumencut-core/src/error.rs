@@ -81,7 +81,8 @@ pub struct Error {
     pub mend: String,
     /// A further remedy. Each host puts it into its own words and may offer it as an action.
     pub mended_by: Option<Mend>,
-    /// Position in the volume: the darkest point of a path without lumen, or the point outside the lumen.
+    /// Position in the volume: the point of a path that looks least like lumen, or the point outside the
+    /// lumen.
     pub place: Option<Box<ErrorPosition>>,
     /// The clicked points that the error is about.
     pub clicked: Option<Box<Clicked>>,

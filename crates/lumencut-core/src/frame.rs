@@ -20,13 +20,13 @@ pub struct Frame {
     pub geometry: Geometry,
     /// RGBA.
     pub image: Vec<[u8; 4]>,
-    /// Id of the vessel whose influence zone the pixel is in.
+    /// Id of the vessel that each pixel belongs to.
     pub vessel: Vec<i32>,
     /// Bits that mark depth jumps between neighbouring pixels ([`crate::stages::leap`]).
     pub leap: Vec<u32>,
     /// Shares of cut surface and silhouettes shown ([`crate::stages::focus`]); empty if both are fully shown.
     pub focus: Vec<Shares>,
-    /// Projected distance to the nearest centerline (mm).
+    /// Distance to the nearest centerline in the image plane (mm).
     pub distance: Vec<f32>,
     /// The volume at the cut surface, NaN outside the volume.
     pub value: Vec<f32>,

@@ -17,8 +17,8 @@ pub struct Vessel {
 }
 
 impl Vessel {
-    /// A vessel with at least two finite points and, if given, one finite radius ≥ 0 each. Fails with
-    /// [`ErrorKind::VesselTree`].
+    /// A vessel with at least two finite points and, if radii are given, one finite radius ≥ 0 per point.
+    /// Fails with [`ErrorKind::VesselTree`].
     pub fn new(points: Vec<DVec3>, radius: Option<Vec<f64>>) -> Result<Self> {
         let wrong = |subject: &str, found: String, expected: &str| {
             Err(Error::new(ErrorKind::VesselTree, subject, found, expected))

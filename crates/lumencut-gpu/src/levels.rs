@@ -15,7 +15,7 @@ use wgpu::Buffer;
 use crate::device::Device;
 use crate::view::{AXIS_UNIT, power_above, split_at};
 
-/// `Point` of `math/projection.wgsl`.
+/// Has the layout of `Point` in `math/projection.wgsl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(crate) struct Point {
@@ -28,7 +28,7 @@ pub(crate) struct Point {
     pub place: u32,
 }
 
-/// `Along` of `math/projection.wgsl`.
+/// Has the layout of `Along` in `math/projection.wgsl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(crate) struct Along {
@@ -36,7 +36,7 @@ pub(crate) struct Along {
     pub arc_length: f32,
 }
 
-/// `Span` of `math/levels.wgsl`: the slots of one vessel at one level.
+/// Has the layout of `Span` in `math/levels.wgsl`: the slots of one vessel at one level.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(crate) struct Span {
@@ -48,7 +48,7 @@ pub(crate) struct Span {
     pub end_chosen: u32,
 }
 
-/// `Projected` of `math/levels.wgsl`, written and read only on the GPU.
+/// Has the layout of `Projected` in `math/levels.wgsl`; written and read only on the GPU.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(crate) struct Projected {
@@ -62,7 +62,7 @@ pub(crate) struct Projected {
     pub padding: u32,
 }
 
-/// `Slot` of `math/pieces.wgsl`.
+/// Has the layout of `Slot` in `math/pieces.wgsl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(crate) struct Slot {
@@ -97,7 +97,7 @@ impl Slot {
     };
 }
 
-/// `NodeBox` of `math/hierarchy.wgsl`.
+/// Has the layout of `NodeBox` in `math/hierarchy.wgsl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(crate) struct NodeBox {
@@ -141,8 +141,7 @@ impl DeviceLevels {
         let origin = middle(&levels[0].points);
         let points = levels.iter().flat_map(|level| &level.points);
         let reach = points.map(|point| point.distance(origin)).fold(1.0, f64::max);
-        // Eleven binary digits: products with the axes' digits have 22, and sums of four such products have
-        // 24.
+        // Eleven binary digits: products with the axes' digits have 22, sums of four such products have 24.
         let unit = power_above(reach) / 2048.0;
         let mut all = Arrays::default();
         for level in levels {

@@ -16,7 +16,7 @@ use crate::stage::Stage;
 use crate::view::groups;
 use crate::volume::DeviceVolume;
 
-/// `CurvedPixel` of `stages/surface.wgsl`: a pixel of a curved geometry in the volume.
+/// Has the layout of `CurvedPixel` in `stages/surface.wgsl`: a pixel of a curved geometry in the volume.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(crate) struct CurvedPixel {

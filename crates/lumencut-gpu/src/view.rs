@@ -8,7 +8,7 @@ use wgpu::{Buffer, BufferUsages};
 
 use crate::device::Device;
 
-/// `ViewParameters` of `math/view.wgsl`.
+/// Has the layout of `ViewParameters` in `math/view.wgsl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(crate) struct ViewParameters {
@@ -19,7 +19,7 @@ pub(crate) struct ViewParameters {
     pub axes: [Axis; 3],
 }
 
-/// `Axis` of `math/view.wgsl`: a unit vector, split into a part of few digits and the rest.
+/// Has the layout of `Axis` in `math/view.wgsl`: a unit vector, split into a part of few digits and the rest.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(crate) struct Axis {

@@ -26,7 +26,7 @@ const SLAB_BYTES: usize = 64 << 20;
 /// The binary digits of an `f32`.
 const DIGITS: i32 = 24;
 
-/// `GridParameters` of `math/sampling.wgsl`.
+/// Has the layout of `GridParameters` in `math/sampling.wgsl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(crate) struct GridParameters {

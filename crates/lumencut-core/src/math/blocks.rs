@@ -156,7 +156,7 @@ fn row_of_blocks<T: Voxel>(voxels: &[T], volume: &Volume, [j, k]: [usize; 2], ra
     }
 }
 
-/// Widens the ranges of a line of voxels by another line; the comparisons ignore NaN.
+/// Widens ranges, one per voxel of a line, by the voxels of another line; the comparisons ignore NaN.
 #[inline(always)]
 fn widen<'a, T: Voxel>(low: &mut [T], high: &mut [T], line: impl Iterator<Item = &'a T>) {
     for ((low, high), voxel) in low.iter_mut().zip(high).zip(line) {

@@ -26,7 +26,7 @@ pub enum Gathering {
 }
 
 impl Gathering {
-    /// The gathering of a mode; a blend with γ = 1 is plain MIP.
+    /// How the rays of a mode gather; a blend with γ = 1 is plain MIP.
     pub fn of(mode: ContextMode) -> Self {
         match mode {
             mode if mode.is_sampled() => Self::Blend,

@@ -21,7 +21,7 @@ pub struct LevelLayout {
     pub heights: [u32; MAX_HEIGHTS],
 }
 
-/// What projection, distance and depth need to know of a view.
+/// The input of projection, distance and depth that depends on the view.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct CutSurfaceParameters {

@@ -16,7 +16,7 @@ struct LevelLayout {
 struct Span {
     first: u32,
     end: u32,
-    // The index of the first point of its level.
+    // The index of the first point of the vessel's level.
     level: u32,
     // The points whose lumen and wall take precedence: index of the first, and of the one after the last.
     first_chosen: u32,

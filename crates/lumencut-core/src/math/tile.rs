@@ -22,7 +22,8 @@ pub(crate) const PIXEL_OF_LANE: [(usize, usize); PIXELS] = {
     places
 };
 
-/// The lanes of the tile at `column` of these `rows`; lanes beyond the image repeat its last column and row.
+/// The values of the tile at `column` of these `rows`, by lane; beyond the image the last column and row
+/// repeat.
 #[inline(always)]
 pub(crate) fn gather(rows: &[f32], width: usize, column: usize) -> [f32; PIXELS] {
     let last_row = rows.len() / width - 1;
@@ -59,7 +60,7 @@ pub(crate) fn scatter<T: Copy>(lanes: &[T; PIXELS], rows: &mut [T], width: usize
 #[derive(Clone, Copy, Debug)]
 pub struct Area {
     pub center: [f32; 2],
-    /// Half the sides, plus a bound on the rounding of the middle.
+    /// Half the sides of the area (mm), plus a bound on the rounding of its middle.
     pub half: [f32; 2],
 }
 

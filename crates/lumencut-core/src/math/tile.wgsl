@@ -2,7 +2,7 @@
 // vector, a quad.
 // import math/view
 
-// The quads side by side and the rows of a tile; at most MAX_ACROSS and MAX_ROWS.
+// Number of quads side by side in a tile, and of its rows; at most MAX_ACROSS and MAX_ROWS.
 override ACROSS: u32 = 1u;
 override ROWS: u32 = 4u;
 const MAX_ACROSS = 2u;

@@ -13,7 +13,7 @@ use super::tile::{Tile, lane};
 /// Capacity of the stack: at each of the at most eight heights, at most fifteen siblings wait.
 const STACK: usize = 8 * FAN;
 
-/// Waiting nodes, the nearest on top: bound, height and index.
+/// Waiting nodes as (bound, height, index), with the nearest on top.
 pub(crate) struct Stack {
     waiting: [(f32, u32, u32); STACK],
     length: usize,

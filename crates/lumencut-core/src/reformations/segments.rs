@@ -38,7 +38,7 @@ impl Segments {
         Self { ends, levels }
     }
 
-    /// Squared distance (mm²) of a segment and a point; equal for two segments that share the nearest end.
+    /// Squared distance (mm²) between a segment and a point; the same if two segments share the nearest end.
     pub(super) fn squared_distance(&self, segment: usize, point: DVec3) -> f64 {
         let [start, end] = self.ends[segment];
         let along = end - start;

@@ -65,10 +65,10 @@ pub fn along_rays(work: &Work, along: &AlongRays, source: &dyn RaySource, values
     })
 }
 
-/// Parts of a ray that are followed or skipped together.
+/// Number of parts of a ray that are followed or skipped together.
 const PARTS_TOGETHER: i32 = 8;
 
-/// Columns between two checks for stop.
+/// Number of columns between two checks for stop.
 const COLUMNS_PER_CHECK: usize = 32;
 
 struct Square<'a> {

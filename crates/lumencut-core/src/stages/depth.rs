@@ -145,7 +145,7 @@ pub fn depth(work: &Work, surface: &CutSurface, distance: &[f32], images: DepthI
     depth_by(work, surface, distance, images, || LowestKeySearch { surface, seeds })
 }
 
-/// [`depth`] with a separate search for each row of tiles.
+/// [`depth`], with a new search for each row of tiles.
 pub(crate) fn depth_by<S: Search>(
     work: &Work,
     surface: &CutSurface,

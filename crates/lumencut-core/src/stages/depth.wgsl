@@ -61,7 +61,7 @@ fn begin(k: f32) {
     }
 }
 
-// Adds a level's winners by their weights. The finest level comes first and wins ties.
+// Adds the depths of a level's winners, by their weights. The finest level comes first and wins ties.
 fn blend(level: u32) {
     let first_slot = parameters.levels[level].first_slot;
     for (var q = 0u; q < ACROSS * ROWS; q++) {

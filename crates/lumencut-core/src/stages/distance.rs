@@ -38,7 +38,7 @@ impl Measure for NearestSearch<'_> {
     }
 }
 
-/// [`distance`] with a separate measure for each row of tiles.
+/// [`distance`], with a new search for each row of tiles.
 pub(crate) fn distance_by<M: Measure>(
     work: &Work,
     surface: &CutSurface,

@@ -78,8 +78,8 @@ pub fn silhouette(
 }
 
 /// Writes the strength of the silhouette, 0 to 1, at each pixel: the share that lines of leaps cover. `value`
-/// is the volume on the surface, NaN if nothing is shown there. Such a line moves to the other side of its
-/// leap, unless that is lumen. Without values, every pixel counts as shown.
+/// is the volume on the surface, NaN if a pixel shows nothing; a line in such a pixel moves to the other side
+/// of its leap, unless that is lumen. Without values, every pixel counts as shown.
 pub fn silhouette_of_leaps(
     work: &Work,
     parameters: &SilhouetteParameters,

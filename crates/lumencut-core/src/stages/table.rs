@@ -8,13 +8,13 @@ use crate::settings::{LevelChoice, Settings, SilhouetteRule};
 /// An image of a view: one number or one vector for each pixel, in rows from the top.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Image {
-    /// Projected distance to the nearest centerline (mm), f32.
+    /// Distance to the nearest centerline in the image plane (mm), f32.
     Distance,
     /// Depth of the cut surface before the depth filter (mm), f32.
     UnfilteredDepth,
     /// Depth of the cut surface (mm), f32.
     Depth,
-    /// Id of the vessel whose influence zone a pixel is in, i32.
+    /// Id of the vessel that a pixel belongs to, i32.
     Vessel,
     /// Slopes, radius and gap of the cut surface before the depth filter, four f32 (`stages::depth::Sheet`).
     Sheet,
@@ -183,7 +183,7 @@ impl Stage {
         }
     }
 
-    /// Relative cost per pixel: about milliseconds for 512 × 512 pixels. Only `progress` depends on it.
+    /// Relative cost per pixel: about the milliseconds that 512 × 512 pixels take. Only `progress` uses it.
     pub const fn cost(self) -> usize {
         match self {
             Self::Levels | Self::Projection | Self::Blocks => 0,

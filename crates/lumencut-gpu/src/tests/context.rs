@@ -1,4 +1,4 @@
-//! The context equals the CPU's.
+//! The context made on the GPU equals the CPU's.
 #![allow(clippy::unwrap_used)]
 
 use glam::{DAffine3, DVec3};

@@ -1,4 +1,4 @@
-//! The focus compared with the CPU's, around vessels of all kinds.
+//! The focus on the GPU, compared with the CPU's around vessels of all kinds.
 
 use lumencut_core::camera::Camera;
 use lumencut_core::pipeline::{CpuRenderer, Request};

@@ -1,5 +1,5 @@
-//! Projected CPR: the vessel as the viewer sees it. A pixel has the depth of the vessel point nearest in its
-//! row.
+//! Projected CPR: the vessel as the viewer sees it. A pixel's depth is that of the nearest vessel point in
+//! its row.
 
 use std::sync::Arc;
 

@@ -37,7 +37,7 @@ impl Run {
 pub(super) struct Row {
     /// Unit vector to the right.
     pub across: DVec3,
-    /// Unit vector into the scene, along which a slab is thick.
+    /// Unit vector into the scene, along which the thickness of a slab is measured.
     pub ahead: DVec3,
     /// Where the row meets the vessel, at least once, by rising arc length.
     pub runs: Vec<Run>,

@@ -31,7 +31,7 @@ fn length(part: &LaidOut, spacing: f64) -> f64 {
 
 const PIXEL: f64 = 0.5;
 
-/// splitmix64, numbers from 0 to 1.
+/// Random numbers from 0 to 1 by splitmix64.
 struct Random(u64);
 
 impl Random {

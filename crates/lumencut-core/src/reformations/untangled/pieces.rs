@@ -51,7 +51,7 @@ impl Piece {
     }
 }
 
-/// The pieces in the order of vessels and along them, and the number of junctions.
+/// All pieces, in the order of the vessels and along each vessel, and the number of junctions.
 pub(super) fn pieces_of(tree: &VesselTree, unknown_radius: f64) -> Result<(Vec<Piece>, usize)> {
     let first_and_last = |vessel: &Vessel| [vessel.points()[0], vessel.points()[vessel.points().len() - 1]];
     let ends = Ends::of(tree.vessels().iter().flat_map(first_and_last));

@@ -91,8 +91,7 @@ impl<'a> LeapLines<'a> {
         let mut cover = 0f32;
         for down in -self.reach..=self.reach {
             for right in -self.reach..=self.reach {
-                // The pixel with the tested leaps: `right` columns to the left of `here` and `down` rows
-                // above.
+                // The pixel whose leaps are tested: `right` columns left of `here` and `down` rows above.
                 let owner = [here[0] - right, here[1] - down];
                 let (bits, x, y) = (self.bits(owner), right as f32, down as f32);
                 if bits & TO_THE_RIGHT != 0 && self.shows_line_of(owner, [1, 0], right > 0) {
