@@ -19,7 +19,7 @@ const SURFACE: ImageSet = ImageSet::of(&[Image::Depth, Image::Vessel]);
 
 /// The median time of each rule (ms), and the median ratio of the times of neighbouring runs.
 fn in_turns(scene: &Scene, camera: &Camera) -> Result<[f64; 3]> {
-    // Depth filter, leaps and picture are off: `workloads` measures complete frames.
+    // Depth filter, silhouettes and picture are off, since `workloads` measures complete frames.
     let rules = [Settings::default(), Settings::paper()];
     let rules = rules.map(|rule| Settings { depth_filter: false, ..rule });
     let mut renderers = [CpuRenderer::default(), CpuRenderer::default()];

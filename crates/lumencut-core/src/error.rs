@@ -73,9 +73,9 @@ pub struct Error {
     pub kind: ErrorKind,
     /// The argument, file or item that is wrong.
     pub subject: String,
-    /// What was found.
+    /// The wrong value or state that was found.
     pub found: String,
-    /// What was expected.
+    /// What would have been right.
     pub expected: String,
     /// Advice that no host (Python, page) can act on; empty if `expected` already says how to fix the error.
     pub mend: String,
@@ -108,14 +108,14 @@ impl Error {
         }
     }
 
-    /// Adds advice that no host can act on.
+    /// Adds advice that neither Python nor the page can act on.
     #[must_use]
     pub fn mend(mut self, mend: impl Into<String>) -> Self {
         self.mend = mend.into();
         self
     }
 
-    /// Adds a remedy that each host puts into its own words and may offer as an action.
+    /// Adds a remedy that Python and the page word themselves and may offer as an action.
     #[must_use]
     pub fn mended_by(mut self, mend: Mend) -> Self {
         self.mended_by = Some(mend);

@@ -4,7 +4,7 @@ use crate::geometry::Geometry;
 use crate::stages::focus::Shares;
 use crate::stages::{Image, ImageSet};
 
-/// How long one stage took.
+/// The time that one stage took.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Timing {
     /// Name of the stage and of its module.
@@ -34,7 +34,7 @@ pub struct Frame {
     pub context: Vec<[u8; 4]>,
     /// For reformations: whether other points of the vessel share the pixel. Otherwise empty.
     pub folded: Vec<bool>,
-    /// How long each stage took, in the order they ran.
+    /// The time of each stage, in the order in which they ran.
     pub timings: Vec<Timing>,
 }
 

@@ -38,7 +38,7 @@ use crate::stop::Stop;
 pub struct Request<'a> {
     /// The view.
     pub camera: &'a Camera,
-    /// How the view is made and shown.
+    /// The settings that the view is made and shown with.
     pub settings: &'a Settings,
     /// The images that the frame shall contain, if the view has them.
     pub images: ImageSet,

@@ -1,4 +1,4 @@
-//! What a view shows: a volume that all renderers share, and a tree that can be exchanged independently.
+//! The content of a view: a volume that all renderers share, and a tree that can be exchanged independently.
 
 use std::sync::{Arc, Mutex, OnceLock, PoisonError, Weak};
 
@@ -13,7 +13,7 @@ use crate::stop::Stop;
 use crate::vessel_tree::VesselTree;
 use crate::volume::Volume;
 
-/// What is shown. Cloning is cheap: clones share the [`VolumeKey`] and the [`LeveledTree`].
+/// The content of a view. Cloning is cheap: clones share the [`VolumeKey`] and the [`LeveledTree`].
 #[derive(Clone, Debug, Default)]
 pub struct Scene<'a> {
     /// The volume; without it only the cut surface can be rendered.
@@ -34,7 +34,7 @@ impl<'a> Scene<'a> {
         Self { volume: Some(SharedVolume::new(volume, VolumeKey::default())), ..self }
     }
 
-    /// Replaces the tree; what was computed from the volume stays.
+    /// Replaces the tree; data computed from the volume are kept.
     #[must_use]
     pub fn with_tree(self, tree: VesselTree) -> Self {
         Self { tree: Some(Arc::new(LeveledTree::new(tree))), ..self }

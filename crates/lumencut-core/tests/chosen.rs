@@ -265,7 +265,7 @@ fn whole_rays() -> Settings {
 
 #[test]
 fn the_outline_of_a_chosen_vessel_is_drawn_whatever_silhouettes_say() {
-    // The tubes are 15 mm apart, less than the diameter of the thick one, so there is no other leap.
+    // The tubes are 15 mm apart, less than the diameter of the thick one, so there is no other depth jump.
     let near = tree(vec![
         vessel(&[[-80.0, 0.0, 0.0], [80.0, 0.0, 0.0]], 10.0),
         vessel(&[[0.0, 15.0, -80.0], [0.0, 15.0, 80.0]], 3.0),

@@ -1,4 +1,4 @@
-//! Leaps compared with closed forms: they lie where one surface hides another, and nowhere else.
+//! Depth jumps compared with closed forms: they lie where one surface hides another, and nowhere else.
 #![allow(clippy::unwrap_used)]
 
 use lumencut_core::camera::Camera;
@@ -149,7 +149,7 @@ fn noise(random: &mut Random, pixels: usize) -> (Vec<f32>, Vec<Sheet>) {
     (depth, (0..pixels).map(|_| sheet(random)).collect())
 }
 
-/// The rule in f64: whether a change between two pixels is a leap; `None` if rounding could decide.
+/// The rule in f64: whether a change between two pixels is a depth jump; `None` if rounding could decide.
 fn stated(change: f32, sheets: [Sheet; 2], step: [f64; 2]) -> Option<bool> {
     let over = sheets.map(|[x, y, radius, _]| {
         let expected = f64::from(x) * step[0] + f64::from(y) * step[1];

@@ -1,4 +1,4 @@
-//! The lines of leaps compared with closed forms: width and side; and lines leave lumens free.
+//! Lines at depth jumps compared with closed forms: their width and side; and lines leave lumens free.
 #![allow(clippy::unwrap_used)]
 
 use lumencut_core::camera::Camera;
@@ -59,7 +59,7 @@ fn a_line_on_a_far_lumen_is_1_mm_wide_within_half_a_pixel_and_one_and_a_half() {
 fn a_line_between_surroundings_is_as_wide_and_lies_on_the_farther_side() {
     for (spacing, width) in WIDTHS {
         let scene = tree(vec![tube(16.0 * spacing, 0.0, spacing), tube(-16.0 * spacing, 30.0, spacing)]);
-        // With walls there would be further leaps, and with a low cost the border would move.
+        // Walls would add depth jumps, and a low cost would move the border.
         let settings = Settings { lumen_margin: 0.0, cost_weight: 1e4, ..Settings::default() };
         let SurfaceDetails { leap, strength, .. } = details(&scene, &front(SIZE, spacing), &settings);
         let (leap, strength) = (&leap[SIZE[0] / 2..], column(&strength));
@@ -115,7 +115,7 @@ fn a_line_is_as_wide_in_every_direction() {
     }
 }
 
-/// Distance (pixels) of a lumen pixel from a leap to a nearer lumen, along its row or column.
+/// Distance (pixels) of a lumen pixel from a depth jump to a nearer lumen, along its row or column.
 fn to_a_nearer_lumen(leap: &[u32], depth: &[f32], [i, j]: [usize; 2]) -> Option<usize> {
     let at = |i: isize, j: isize| {
         let is_inside = (0..SIZE[0] as isize).contains(&i) && (0..SIZE[1] as isize).contains(&j);
@@ -171,7 +171,7 @@ fn no_line_covers_a_lumen_but_where_it_ends_at_a_nearer_one() {
     assert!(covered > 30 && free > 1000, "{covered} covered, {free} free");
 }
 
-/// The strengths of a row of six pixels with one leap in the middle, whose line lies to its right.
+/// The strengths of a row of six pixels with one depth jump in the middle, whose line lies to its right.
 fn beside_one_leap(lumens: [bool; 6], value: [f32; 6]) -> Vec<f32> {
     let camera = front([6, 1], 1.0);
     let mut leap: Vec<u32> = lumens.iter().map(|lumen| if *lumen { LUMEN } else { 0 }).collect();

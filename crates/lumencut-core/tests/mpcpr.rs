@@ -132,7 +132,7 @@ fn rows_beyond_the_ends_show_nothing() {
             assert!(is_there || (shown.value[p].is_nan() && shown.image[p][3] == 0));
         }
     }
-    // There is no leap to empty pixels.
+    // The border of empty pixels is no depth jump.
     assert!(shown.leap.iter().all(|leap| leap & LEAPS == 0));
 }
 

@@ -111,7 +111,7 @@ fn looking_again_shows_the_same() {
     let (camera, scene) = (view([0.3, 1.0, 0.2], SIZE, 1.5), scene(&phantom));
     let request = Request::new(&camera, &settings);
     let whole = shown(&scene, &camera, &settings);
-    // Without a volume, a cut surface has leaps and focus shares only if requested.
+    // Without a volume, a frame has depth jumps and focus shares only if they are requested.
     let cut = Scene { volume: None, ..scene.clone() };
     let images = ImageSet::ALL.and(ImageSet::of(&[Image::Leap, Image::Focus]));
     let with_leaps = Request { images, ..request };

@@ -3,7 +3,7 @@
 use lumencut_core::error::{Error, ErrorKind, Mend, Result};
 use wgpu::{Adapter, Backends, DeviceType, Instance, InstanceDescriptor};
 
-/// Which GPUs are acceptable.
+/// The kinds of GPU that are acceptable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Choice {
     /// Only hardware: a software rasteriser is slower than our computation on the CPU.
@@ -15,11 +15,11 @@ pub enum Choice {
 /// A GPU as its driver describes it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Description {
-    /// Its name.
+    /// The name of the GPU.
     pub name: String,
-    /// Its API, such as vulkan.
+    /// The graphics API, such as vulkan.
     pub backend: String,
-    /// Its driver and version.
+    /// The driver and its version.
     pub driver: String,
     /// Whether it is a software rasteriser.
     pub is_software: bool,

@@ -33,7 +33,7 @@ impl DeviceBlocks {
     }
 }
 
-/// The first level that fits, with all coarser ones, in a buffer with room for `most` blocks.
+/// The first level that, together with all coarser ones, fits in a buffer for `most` blocks.
 pub(crate) fn first_that_fits(levels: &[([usize; 3], &[Range])], most: usize) -> usize {
     (0..levels.len()).find(|first| length(&levels[*first..]) <= most).unwrap_or(levels.len() - 1)
 }

@@ -128,7 +128,7 @@ impl ContextStage {
         let ContextImages { size, has_surface, depth, value, start, gathered, .. } = images;
         let device = recording.device;
         if has_surface {
-            // Without a focus, the shader does not read this binding.
+            // The shader does not read this binding if there is no focus.
             let focus = images.focus.unwrap_or(value);
             let buffers = [view, &self.parameters, value, depth, start, focus].map(Buffer::as_entire_binding);
             let stage = self.starts_stage(device, images.focus.is_some(), context.from);

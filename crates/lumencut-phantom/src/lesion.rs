@@ -53,7 +53,7 @@ pub struct Plaque {
 /// The fraction of a stenosis's length over which it is narrowest.
 const PLATEAU: f64 = 0.4;
 
-/// How far the narrowing has progressed (0 to 1) at `offset` mm from the middle.
+/// The progress of the narrowing (0 to 1) at `offset` mm from the middle of a stenosis.
 pub(crate) fn narrowing(offset: f64, length: f64) -> f64 {
     let u = 2.0 * offset.abs() / length;
     if u >= 1.0 {

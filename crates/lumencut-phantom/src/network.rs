@@ -38,7 +38,7 @@ struct Trunk {
 }
 
 impl Trunk {
-    /// How far the lumen is narrowed at arc length `s`: 0 is not at all, 1 is closed.
+    /// The degree by which the lumen is narrowed at arc length `s`: 0 is not at all, 1 is closed.
     fn narrowed(&self, s: f64) -> f64 {
         let narrowed =
             |[middle, length, percent]: &[f64; 3]| percent / 100.0 * narrowing(s - middle, *length);

@@ -7,7 +7,7 @@ use super::ray::RaySpan;
 use super::sampling::{Grid, Offset};
 use crate::volume::{Real, Voxel};
 
-/// Where a ray meets a plane that it never reaches: a share of the stretch far beyond its end.
+/// Position at which a ray meets a plane that it never reaches: a share of the stretch far beyond its end.
 pub const NO_MEETING: f32 = 1e9;
 /// A ray that moves by less than this along an axis (voxels) counts as parallel to that axis's planes.
 pub const ALONG_PLANE: f32 = 1e-9;

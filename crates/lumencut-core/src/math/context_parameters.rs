@@ -73,7 +73,7 @@ pub struct BlockLayout {
     pub levels: [[u32; 4]; MAX_BLOCK_LEVELS],
 }
 
-/// What the rays of a context need besides the view and the volume's grid.
+/// The parameters of a context's rays that depend neither on the view nor on the volume's grid.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct ContextParameters {
@@ -81,7 +81,7 @@ pub struct ContextParameters {
     pub opacity: Ramp,
     /// Smallest number of parts of a ray per mm.
     pub per_step: f32,
-    /// How far behind a transparent cut surface rays start (mm).
+    /// Distance between a transparent cut surface and the start of rays behind it (mm).
     pub behind: f32,
     /// 1 + min(γ, 0), with γ as in `ContextMode::Blend`: how much a brighter sample weakens those before it.
     pub push: f32,

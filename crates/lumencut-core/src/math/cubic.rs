@@ -83,7 +83,7 @@ impl<R: Real, const N: usize> Cubic<R, N> {
     }
 }
 
-/// Where a Bernstein cubic has its local maximum, from 0 to 1; arbitrary if it has none.
+/// Position (0 to 1) of the local maximum of a Bernstein cubic; arbitrary if it has none.
 #[inline(always)]
 fn summit<R: Real>([b0, b1, b2, b3]: [R; 4]) -> R {
     let (zero, one, tiny) = (R::from_f32(0.0), R::from_f32(1.0), R::from_f32(TINY));

@@ -1,4 +1,5 @@
-//! Bits that mark leaps of depth between neighbouring pixels, and on which side of a leap its line is drawn.
+//! Bits that mark depth jumps (leaps) between neighbouring pixels, and the side on which a jump's line is
+//! drawn.
 
 pub const TO_THE_RIGHT: u32 = 1;
 pub const DOWNWARDS: u32 = 2;

@@ -17,10 +17,10 @@ pub(crate) fn lower_distance(tile: &Tile, squared: &mut [f32; PIXELS], bundle: &
     }
 }
 
-/// Of the points on the segments met so far, the one nearest to the middle of a tile.
+/// The point nearest to the middle of a tile, among all points on the segments met so far.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NearestPoint {
-    /// Its distance from the middle, plus a bound on its rounding (mm).
+    /// The point's distance from the middle, plus a bound on its rounding (mm).
     pub distance: f32,
     x: f32,
     y: f32,

@@ -12,7 +12,7 @@ struct Decision {
     vessel: i32,
     arc_length: f32,
     beyond_wall: f32,
-    // Negative outside the lumen.
+    // The lumen radius as a sheet stores it: negative outside the lumen.
     sheet_radius: f32,
     slope: vec2f,
     is_first: bool,

@@ -205,10 +205,10 @@ impl Packet {
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RaySpan {
-    /// Where the rays begin (voxels).
+    /// The positions at which the rays begin (voxels).
     pub start: Places,
     pub way: Places,
-    /// Where the rays end, as a share of the segment; at most 0 if a ray has ended before.
+    /// The end of each ray, as a share of the segment; at most 0 if the ray has ended before.
     pub end: [f32; FAN],
     pub length: [f32; FAN],
 }

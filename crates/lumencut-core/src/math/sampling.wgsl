@@ -9,7 +9,7 @@ const POSITION_ROUNDING: f32 = 1e-3;
 // The volume's grid in the view. The fourth component of vectors is padding.
 struct GridParameters {
     last: vec3f,
-    // What was subtracted from the voxels of an unsigned type.
+    // The number that was subtracted from voxels of an unsigned type.
     shift: f32,
     // The last voxel that has a neighbour above it; 0 along an axis with one voxel.
     low: vec3i,

@@ -72,7 +72,7 @@ impl CutSurfacePass<'_> {
             return Ok(());
         };
         images.focus = vec![[0.0; 2]; self.work.pixels()];
-        // The focus image needs exact shares in every pixel; silhouettes at leaps need them only near leaps.
+        // The focus image needs exact shares in every pixel; silhouettes need them only near depth jumps.
         let is_whole = self.wanted.has(Image::Focus) || self.settings.silhouette_rule != SilhouetteRule::Leap;
         let leap = if is_whole { &[][..] } else { &images.leap };
         focus(&self.work, &self.surface, &parameters, leap, &mut images.focus)

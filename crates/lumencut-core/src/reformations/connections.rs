@@ -1,4 +1,4 @@
-//! Where the vessels of a tree meet, and distances between its points along the tree.
+//! The points at which vessels of a tree meet, and distances between its points along the tree.
 
 use std::borrow::Cow;
 use std::collections::{BinaryHeap, HashMap};

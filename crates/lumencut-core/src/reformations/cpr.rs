@@ -35,7 +35,7 @@ use crate::stop::Stop;
 
 const DEFAULT_MARGIN_MM: f64 = 25.0;
 
-/// How the lines across a vessel are laid out as an image.
+/// The layout of the lines across a vessel as an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CprMode {
     /// As the viewer sees the vessel: each row shows the lines through the vessel's points at one height.

@@ -24,7 +24,7 @@ pub(super) struct PixelContent {
 }
 
 impl PixelContent {
-    /// A pixel without a vessel: its depth lies beyond every volume, and no leap lies next to it.
+    /// A pixel without a vessel: its depth lies beyond every volume, and silhouettes ignore its borders.
     pub(super) const NOTHING: Self =
         Self { depth: FAR, vessel: NO_VESSEL, sheet: [0.0, 0.0, -ABSENT, 0.0], is_folded: false };
 }

@@ -28,7 +28,7 @@ const OVERLAP: Limits = Limits::new(0.0, 3.0, "rad");
 /// Brightness of a wall seen edge on, and the additional brightness of one seen face on.
 const EDGE_AND_FACE_BRIGHTNESS: [f64; 2] = [0.3, 0.7];
 
-/// How a lumen map is laid out.
+/// The layout of a lumen map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LumenMapParameters {
     /// The side of a pixel (mm): along the vessel, and around it at the mean radius.
@@ -37,7 +37,7 @@ pub struct LumenMapParameters {
     pub mean_radius: f64,
     /// The direction of the middle column (radians): 0 is to the right in the straightened CPR at angle 0.
     pub angle: f64,
-    /// How much of the other side is repeated beyond each edge (radians).
+    /// The angle by which each edge is extended with a copy of the other side (radians).
     pub overlap: f64,
     /// Distance of the shown points beyond the wall (mm).
     pub beyond: f64,

@@ -194,7 +194,7 @@ impl Run {
 
 #[derive(Default)]
 struct Row {
-    /// Once finished: from left to right, with one point per x.
+    /// After `finish`, the points are sorted from left to right, with one point per x.
     crossings: Vec<Crossing>,
     runs: Vec<Run>,
     /// The first point that is not to the left of the previous pixel.
@@ -215,7 +215,7 @@ impl Row {
         self.crossings.dedup_by(|later, first| later.x == first.x);
     }
 
-    /// What the pixel at view `x` shows, if any vessel is in the row; pixels come from left to right.
+    /// The content of the pixel at view `x`, if any vessel is in the row; pixels come from left to right.
     fn nearest_place(&mut self, x: f64) -> Option<PixelContent> {
         while self.crossings.get(self.next).is_some_and(|crossing| crossing.x < x) {
             self.next += 1;

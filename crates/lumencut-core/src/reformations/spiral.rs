@@ -24,7 +24,7 @@ const LENGTH: Limits = Limits::new(1e-6, 1e4, "mm");
 
 const NEWTON_STEPS: usize = 12;
 
-/// How the samples of a row lie on its spirals.
+/// The spacing of the samples of a row on its spirals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sampling {
     /// One pixel apart along the spiral, so that every pixel covers the same area.
@@ -37,14 +37,14 @@ impl Named for Sampling {
     const NAMES: &'static [(&'static str, Self)] = &[("arc", Self::Arc), ("angle", Self::Angle)];
 }
 
-/// How the sections of a vessel are wound up.
+/// The parameters by which the sections of a vessel are wound up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpiralParameters {
     /// The distance between neighbouring windings, counting both spirals (mm).
     pub pitch: f64,
     /// The largest distance of the windings from the vessel (mm).
     pub radius: f64,
-    /// How samples lie on the spirals.
+    /// The spacing of the samples on the spirals.
     pub sampling: Sampling,
     /// The side of a pixel (mm).
     pub pixel_spacing: f64,
@@ -86,7 +86,7 @@ impl Spiral {
         Ok(Self { straightened, parameters, columns, rows })
     }
 
-    /// How the sections are wound up.
+    /// The parameters by which the sections are wound up.
     pub fn parameters(&self) -> &SpiralParameters {
         &self.parameters
     }

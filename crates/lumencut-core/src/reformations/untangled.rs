@@ -45,7 +45,7 @@ const TILE: usize = 8;
 /// A pixel with no segment nearby.
 const NO_SEGMENT: u32 = u32::MAX;
 
-/// How a tree is laid out.
+/// The parameters of the layout of a tree.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UntangledParameters {
     /// Width shown on each side of a vessel (mm).
@@ -56,7 +56,7 @@ pub struct UntangledParameters {
     pub smoothing: f64,
     /// The side of a pixel (mm).
     pub pixel_spacing: f64,
-    /// Replaces unknown radii (mm).
+    /// The radius of points whose radius is unknown (mm).
     pub unknown_radius: f64,
     /// The part with the vessel end nearest to this point grows from that end (mm, LPS). Other parts grow
     /// from the free end with the largest mean radius over 10 mm.
@@ -167,7 +167,7 @@ impl Untangled {
         Ok(made)
     }
 
-    /// The same layout, without a new search, in pixels of another side (mm). Fails with
+    /// The same layout with pixels of another side (mm), without a new search for turns. Fails with
     /// [`ErrorKind::Camera`] for a side outside its range or too many pixels.
     pub fn with_pixels(&self, pixel_spacing: f64) -> Result<Self> {
         let parameters = UntangledParameters { pixel_spacing, ..self.parameters };
@@ -203,7 +203,7 @@ impl Untangled {
         &self.parameters
     }
 
-    /// All vessels, split where they meet or end, in their order and along them.
+    /// The parts of all vessels between meeting points and ends, in the order of the vessels and along each.
     pub fn laid_out(&self) -> &[LaidOut] {
         &self.laid_out
     }

@@ -50,7 +50,7 @@ impl ContextName {
     }
 }
 
-/// Where the rays of the context start around the focus.
+/// The place at which rays of the context start around the focus.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ContextFrom {
     /// At the cut surface.
@@ -63,7 +63,7 @@ impl Named for ContextFrom {
     const NAMES: &'static [(&'static str, Self)] = &[("cut", Self::Cut), ("whole", Self::Whole)];
 }
 
-/// What the rays of the context gather.
+/// The quantity that the rays of the context gather.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ContextMode {
     /// Colour and opacity: γ = −1 is direct volume rendering (DVR), 0 maximum intensity difference
@@ -91,10 +91,10 @@ impl ContextMode {
     }
 }
 
-/// How the surroundings are rendered where the cut surface shows nothing.
+/// The parameters of the context, which is shown where the cut surface shows nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Context {
-    /// What the rays gather.
+    /// The quantity that the rays gather.
     pub mode: ContextMode,
     /// Maps intensities to 0 to 1: for the differences of MIDA, and the grey of minimum and average.
     pub window: Window,
@@ -105,7 +105,7 @@ pub struct Context {
     pub step: Option<f64>,
     /// Whether DVR and MIDA are shaded by the gradient, with light from the viewer.
     pub shading: bool,
-    /// Where rays start around the focus.
+    /// The place at which rays start around the focus.
     pub from: ContextFrom,
     /// Factor on the colours of the context in the picture, 0 to 1.
     pub strength: f64,

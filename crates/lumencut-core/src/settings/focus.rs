@@ -3,7 +3,7 @@
 use crate::error::Result;
 use crate::limits::Limits;
 
-/// With a margin far below 0, only the context is shown.
+/// Limits of the margin (mm); a margin far below 0 shows only the context.
 const MARGIN_LIMITS: Limits = Limits::new(-1e6, 1e6, "mm");
 const FADE_LIMITS: Limits = Limits::new(0.0, 1e6, "mm");
 

@@ -6,7 +6,7 @@ use crate::named::Named;
 
 const THICKNESS: Limits = Limits::new(0.0, 1e3, "mm");
 
-/// What a thick cut surface shows of the values along the view direction.
+/// The value that a thick cut surface shows, among those along the view direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SlabMode {
     /// The largest.

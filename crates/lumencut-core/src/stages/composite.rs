@@ -136,7 +136,7 @@ const PIXELS_TOGETHER: usize = 64;
 
 #[inline(always)]
 fn is_nothing(colors: &[[f32; 4]]) -> bool {
-    // Without an early exit the fold vectorises.
+    // The fold has no early exit, so that it vectorises.
     colors.as_flattened().iter().fold(0, |bits, channel| bits | channel.to_bits()) == 0
 }
 

@@ -13,7 +13,7 @@ override MODE: u32 = 0u;
 
 override PREVIEW: bool = false;
 
-// Without a focus, the binding of `focus` is empty.
+// The binding of `focus` is empty if there is no focus.
 override HAS_FOCUS: bool = false;
 // Whether rays start at a partly shown cut surface; otherwise they start in front of the volume.
 override FROM_CUT: bool = true;

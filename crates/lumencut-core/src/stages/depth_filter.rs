@@ -20,7 +20,7 @@ const OUTSIDE: i32 = i32::MIN;
 pub struct DepthFilterParameters {
     /// The weights of the Gaussian from the middle outwards; with both sides they sum to 1.
     pub weights: [f32; HALF_WIDTH + 1],
-    /// Within zones: the largest deviation of a pair of neighbours from a straight line (mm).
+    /// Within zones, the largest accepted deviation of a pair of neighbours from a straight line (mm).
     pub leap: f32,
     pub padding: f32,
     pub more_padding: [f32; 2],
@@ -36,7 +36,7 @@ impl DepthFilterParameters {
         Self { weights: bell.map(|w| (w / sum) as f32), leap: 0.0, ..Self::zeroed() }
     }
 
-    /// The Gaussian, with the leap of these settings.
+    /// The Gaussian, with the `depth_leap` of these settings.
     pub fn of(settings: &Settings) -> Self {
         Self { leap: settings.depth_leap as f32, ..Self::new() }
     }

@@ -69,7 +69,7 @@ impl FocusParameters {
         ends.reduce(|[near, far], [nearer, farther]| [smaller(near, nearer), larger(far, farther)])
     }
 
-    /// The same distances as a range; `slack` bounds their rounding error (mm).
+    /// The distances of `between` as a range; `slack` bounds their rounding error (mm).
     fn range(&self, which: &[usize], slack: f32) -> Option<WallRange> {
         self.between(which).map(|[near, far]| WallRange { near, far: far + slack, slack })
     }
@@ -115,7 +115,7 @@ pub fn focus(
     })
 }
 
-/// For each tile of a row, whether the line of a leap can lie in it; empty if leaps are unknown.
+/// For each tile of a row, whether the line of a depth jump can lie in it; empty if jumps are unknown.
 fn tiles_with_lines(leap: &[u32], width: usize, row: usize) -> Vec<bool> {
     let first = (row * ROWS).saturating_sub(FARTHEST_LEAP) * width;
     let end = ((row + 1) * ROWS + FARTHEST_LEAP) * width;

@@ -1,5 +1,5 @@
-//! Leaps: borders between neighbouring pixels whose depths do not belong to one surface, and the side of a
-//! leap on which its line is drawn. Silhouettes use both.
+//! Leaps: depth jumps between neighbouring pixels that do not belong to one surface, and the side of a leap
+//! on which its line is drawn. Silhouettes use both.
 
 use bytemuck::{Pod, Zeroable};
 use rayon::prelude::*;
@@ -11,7 +11,7 @@ use crate::error::Result;
 use crate::math::lanes::{FAN, Kernel, ROWS, dispatch, larger};
 use crate::math::leaps::{DOWNWARDS, LINE_DOWNWARDS, LINE_TO_THE_RIGHT, LUMEN, TO_THE_RIGHT};
 
-/// The smallest leap (mm), for vessels whose diameter is smaller.
+/// The smallest depth jump that counts as a leap (mm); it matters for vessels with a smaller diameter.
 pub const SMALLEST_LEAP: f32 = 2.0;
 
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
@@ -27,7 +27,7 @@ impl LeapParameters {
 }
 
 /// Writes the leaps between neighbours. At a leap, the unfiltered depth differs from what the slope of either
-/// side predicts by more than the vessel's diameter and [`SMALLEST_LEAP`]; where a chosen vessel with
+/// side predicts by more than both the vessel's diameter and [`SMALLEST_LEAP`]; where a chosen vessel with
 /// precedence ends, by more than [`SMALLEST_LEAP`]. Also writes which pixels show lumen, and the side of each
 /// line: outside the lumen if only one side is lumen, otherwise on the farther side.
 pub fn leap(

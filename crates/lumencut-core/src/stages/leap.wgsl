@@ -1,5 +1,5 @@
-// Leaps: borders between neighbouring pixels whose depths do not belong to one surface, and the side on which
-// a leap's line is drawn; see leap.rs.
+// Leaps: depth jumps between neighbouring pixels that do not belong to one surface, and the side on which a
+// leap's line is drawn; see leap.rs.
 // import math/view
 // import math/leaps
 

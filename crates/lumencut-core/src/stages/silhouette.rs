@@ -1,4 +1,4 @@
-//! Silhouettes: lines at the leaps of the cut surface, or at steep depth as in the paper (section 3.3.5).
+//! Silhouettes: lines where the depth jumps, or where it is steep, as in the paper (section 3.3.5).
 
 use bytemuck::{Pod, Zeroable};
 use rayon::prelude::*;
@@ -13,17 +13,17 @@ use crate::error::Result;
 use crate::math::lanes::{Kernel, ROWS, dispatch, smaller};
 use crate::settings::Settings;
 
-/// Weight of a leap between the influence zones of two vessels, relative to one within a zone.
+/// Weight of depth changes between the zones of two vessels, relative to those within a zone.
 pub const ZONE_BORDER: f32 = 4.0;
 /// Far larger than any squared slope.
 pub const STEEPEST: f32 = 1e12;
-/// Width of the line of a leap (mm), equal to the default wall around a lumen.
+/// Width of the line at a depth jump (mm), equal to the default wall around a lumen.
 pub(crate) const LINE_WIDTH: f64 = 1.0;
-/// The narrowest line of a leap (pixels): a narrower one would be invisible.
+/// Smallest width of the line at a depth jump (pixels); a narrower line would be invisible.
 pub(crate) const NARROWEST_LINE: f64 = 0.5;
-/// The widest line of a leap (pixels), also in the closest view.
+/// Largest width of the line at a depth jump (pixels), also in the closest view.
 pub(crate) const WIDEST_LINE: f64 = 1.5;
-/// No line covers a pixel farther than this from its leap (pixels): [`WIDEST_LINE`], rounded up.
+/// A line covers no pixel farther than this from its depth jump (pixels): [`WIDEST_LINE`], rounded up.
 pub(crate) const FARTHEST_LEAP: usize = 2;
 const _: () = assert!(WIDEST_LINE <= FARTHEST_LEAP as f64);
 
@@ -34,7 +34,7 @@ pub struct SilhouetteParameters {
     pub per_slope: f32,
     /// The square of the slope at which a silhouette has half strength.
     pub half: f32,
-    /// Width of the line of a leap (pixels).
+    /// Width of the lines at depth jumps (pixels).
     pub line_width: f32,
 }
 

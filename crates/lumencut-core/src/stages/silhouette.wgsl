@@ -83,7 +83,7 @@ fn border(here: vec2i, step: vec2i) -> Border {
     return Border(is_leap, is_leap && is_here == is_owner);
 }
 
-// Whether the line of a leap from one lumen to another lies in a pixel.
+// Whether the line of a depth jump from one lumen to another lies in a pixel.
 fn ends(here: vec2i, step: vec2i) -> bool {
     return border(here, step).has_line && (bits_at(here) & bits_at(here + step) & LUMEN) != 0u;
 }
@@ -115,7 +115,7 @@ fn shows_line_of(owner: vec2i, step: vec2i, beyond: bool) -> bool {
     return shows_line(select(owner, owner + step, beyond), select(step, -step, beyond));
 }
 
-// Whether a pixel outside all lumens has leaps at its borders and shows none of their lines.
+// Whether a pixel outside all lumens has depth jumps at its borders but shows none of their lines.
 fn is_other_side(here: vec2i) -> bool {
     var is_beside = false;
     for (var n = 0; n < 4; n++) {

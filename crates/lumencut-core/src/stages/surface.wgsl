@@ -29,7 +29,7 @@ struct CurvedPixel {
 @group(0) @binding(1) var<uniform> parameters: SurfaceParameters;
 @group(0) @binding(4) var<storage, read> depth: array<f32>;
 @group(0) @binding(5) var<storage, read_write> value: array<f32>;
-// Empty for the geometry of a camera.
+// Empty if the geometry is that of a camera.
 @group(0) @binding(6) var<storage, read> places: array<CurvedPixel>;
 
 struct Target {

@@ -242,7 +242,7 @@ fn looking_where_the_cpu_found_the_cut_surface_shows_the_same() {
     for settings in [everything(), Settings::default()] {
         let request = Request::new(&camera, &settings);
         let cut = Scene { volume: None, ..scene.clone() };
-        // Without a volume, a cut surface has leaps and focus shares only if requested.
+        // Without a volume, a frame has depth jumps and focus shares only if they are requested.
         let images = ImageSet::ALL.and(ImageSet::of(&[Image::Leap, Image::Focus]));
         let surface = CpuRenderer::default().render(&cut, &Request { images, ..request }).unwrap();
         assert!(surface.leap.iter().any(|leap| *leap & LEAPS != 0), "no silhouettes to show");

@@ -20,7 +20,7 @@ const CHANGE_COST_MM: f64 = 0.15;
 /// Standard deviations (mm) of the Gaussians that smooth the diameters and the angle along the vessel.
 const SMOOTHING_MM: [f64; 2] = [1.5, 2.0];
 
-/// Which side of the lumen a picture follows.
+/// The side of the lumen that a picture follows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
     /// The narrowest side.

@@ -39,7 +39,7 @@ pub(super) struct Row {
     pub across: DVec3,
     /// Unit vector into the scene, along which the thickness of a slab is measured.
     pub ahead: DVec3,
-    /// Where the row meets the vessel, at least once, by rising arc length.
+    /// The places at which the row meets the vessel, at least one, by rising arc length.
     pub runs: Vec<Run>,
 }
 

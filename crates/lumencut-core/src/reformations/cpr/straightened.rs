@@ -101,7 +101,7 @@ impl Straightened {
         self.sections.frames.at(at).turned(self.angle.at(at))
     }
 
-    /// How far a point at an offset (mm) moves per mm of the vessel: 1 on a straight run, 0 where
+    /// Movement of a point at an offset (mm), per mm along the vessel: 1 on a straight run, 0 where
     /// neighbouring sections meet.
     pub fn advance(&self, at: f64, offset: DVec2) -> f64 {
         let Sections { path, frames, .. } = &*self.sections;

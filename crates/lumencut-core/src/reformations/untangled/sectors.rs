@@ -1,4 +1,4 @@
-//! How branches turn at their common point: by the smallest angles that set them apart.
+//! The smallest angles by which branches must turn about their common point, so that they do not overlap.
 
 use std::f64::consts::{PI, TAU};
 

@@ -87,7 +87,7 @@ impl Sheet {
     pub(super) fn near(&self, middle: DVec2, radius: f64) -> Vec<usize> {
         let middle = middle.extend(0.0);
         let Some((_, squared)) = self.seen.nearest(middle, self.width + radius) else { return Vec::new() };
-        // With a margin for rounding.
+        // The radius has a margin for rounding.
         self.seen.within(middle, (squared.sqrt() + 2.0 * radius) * (1.0 + 1e-9) + ON_PICTURE)
     }
 
@@ -149,7 +149,7 @@ impl Sheet {
         let right = DVec2::new(along.y, -along.x);
         let from = seen - a.place;
         let aside = from.dot(right);
-        // Where the lines across the segment's two ends cross the parallel to the segment through the point.
+        // The lines across both ends of the segment meet the parallel to it through the point here.
         let start = aside * a.normal.dot(along);
         let end = length + aside * b.normal.dot(along);
         let share = if end > start { (from.dot(along) - start) / (end - start) } else { 0.5 };

@@ -1,4 +1,4 @@
-//! Which branches of a tree turn, and by how much, so that no vessel lies before another in the image.
+//! Decides which branches of a tree turn, and by how much, so that no vessel hides another in the image.
 
 use std::f64::consts::PI;
 
@@ -30,7 +30,7 @@ pub(super) struct Tree<'a> {
     pub pieces: &'a [Piece],
     pub strips: &'a [Strip],
     pub growth: &'a Growth,
-    /// How much wider than the lumen a hull is (mm).
+    /// The margin by which a hull is wider than the lumen (mm).
     pub hull_margin: f64,
 }
 

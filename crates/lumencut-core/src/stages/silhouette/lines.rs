@@ -1,4 +1,4 @@
-//! The lines of leaps: each is drawn on one side of its leap, and never in a lumen that continues.
+//! Lines at depth jumps (leaps): each is drawn on one side of its leap, and never in a lumen that continues.
 
 use crate::math::lanes::FAN;
 use crate::math::leaps::{DOWNWARDS, LEAPS, LINE_DOWNWARDS, LINE_TO_THE_RIGHT, LUMEN, TO_THE_RIGHT};
@@ -105,7 +105,7 @@ impl<'a> LeapLines<'a> {
         cover
     }
 
-    /// Whether the line of the leap from a pixel to a neighbour is shown on the side of either of them.
+    /// Whether either of two neighbouring pixels shows the line of the leap between them.
     fn shows_line_of(&self, owner: PixelStep, step: PixelStep, beyond: bool) -> bool {
         if beyond {
             self.shows_line(ahead(owner, step), [-step[0], -step[1]])
