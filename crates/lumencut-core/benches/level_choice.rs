@@ -1,4 +1,4 @@
-//! Times of the cut surface by the default rules and the paper's, alternating, at several pixel spacings.
+//! Times of the cut surface at several pixel spacings; the default and the paper's rules take turns.
 
 use glam::DVec3;
 use lumencut_core::camera::Camera;

@@ -1,4 +1,4 @@
-//! The orthographic camera: where the view lies in world space and how many pixels it has.
+//! The orthographic camera: position and directions of the view in world space, and its pixels.
 
 use glam::DVec3;
 

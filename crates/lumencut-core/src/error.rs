@@ -21,7 +21,7 @@ pub enum ErrorKind {
     Device,
     /// No centerline can be traced between the points.
     Tracing,
-    /// The lumen cannot be measured, or a number at this position would be meaningless.
+    /// The lumen cannot be measured, or a number at this position would mean nothing.
     Measuring,
     /// The caller asked to stop.
     Interrupted,

@@ -7,11 +7,11 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub struct Progress {
     views: AtomicU64,
     whole: AtomicU64,
-    /// Cost per pixel of all stages of the view, of those that ended, and of the one that runs.
+    /// Cost per pixel: of all stages of the view, of those that have ended, and of the running one.
     planned: AtomicU64,
     ended: AtomicU64,
     running: AtomicU64,
-    /// The pixels of the view, and those that the stage has begun.
+    /// Number of pixels of the view, and of those that the running stage has begun.
     pixels: AtomicU64,
     begun: AtomicU64,
 }
@@ -84,7 +84,8 @@ mod tests {
                 shares.push(progress.share());
                 progress.begin_pixels(25);
                 shares.push(progress.share());
-                // Surplus pixels, such as those of tiles that reach beyond the view, are capped.
+                // Counted pixels beyond the view's number, such as those of tiles beyond its border, are
+                // capped.
                 progress.begin_pixels(30);
             }
             progress.end_view();

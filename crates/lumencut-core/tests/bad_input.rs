@@ -48,7 +48,7 @@ fn assert_depths_of_the_tree(tree: &VesselTree, camera: &Camera, frame: &Frame) 
     assert!(frame.distance.iter().all(|d| d.is_finite() && *d >= 0.0));
 }
 
-/// The view equals brute force on every instruction set and number of threads.
+/// Asserts that the view equals brute force with every instruction set and number of threads.
 fn assert_sound_in(tree: &VesselTree, camera: &Camera, settings: &Settings) {
     let found = by_hierarchy(tree, camera, settings);
     assert_depths_of_the_tree(tree, camera, &found);

@@ -23,7 +23,7 @@ fn seen(tree: &VesselTree, camera: &Camera) -> Frame {
     mpcpr(&LeveledTree::new(tree.clone()), &Request::new(camera, &settings)).unwrap()
 }
 
-/// Compares every pixel of a row with every segment: depth, vessel, and whether its vessel is met twice.
+/// For each pixel of a row, from all segments: depth, vessel, and whether the row meets that vessel twice.
 fn by_brute_force(tree: &VesselTree, camera: &Camera, j: usize) -> Vec<Option<(f64, i32, bool)>> {
     let y = camera.view_y(j);
     let mut points = Vec::new();

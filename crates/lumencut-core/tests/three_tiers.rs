@@ -1,4 +1,5 @@
-//! Lumen first on parallel tubes, in closed form: lumen comes before wall and wall before surroundings.
+//! The setting `lumen_first` on parallel tubes, in closed form: lumen precedes wall, wall precedes
+//! surroundings.
 #![allow(clippy::unwrap_used)]
 
 use lumencut_core::settings::Settings;

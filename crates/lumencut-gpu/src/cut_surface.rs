@@ -38,7 +38,7 @@ pub(crate) struct CutSurfaceStages {
     /// Compiled when needed.
     focus: OnceLock<Stage>,
     focus_parameters: Buffer,
-    /// By level choice, *lumen first* and sheet; compiled when needed.
+    /// A stage for each combination of level choice, *lumen first* and sheet; compiled when needed.
     depth: [[[Option<Stage>; 2]; 2]; 2],
     parameters: Buffer,
     /// The layout of the levels that was written last.

@@ -58,7 +58,7 @@ impl Images {
         })
     }
 
-    /// The buffer of an image. Without a filter the depth is the unfiltered depth.
+    /// The buffer of an image. If no filter runs, the depth is the unfiltered depth.
     pub(crate) fn buffer(&self, image: Image, has_filter: bool) -> &Buffer {
         match image {
             Image::Distance => &self.distance,

@@ -1,4 +1,4 @@
-//! The levels of detail of a tree on the GPU: uploaded once, projected there for every view.
+//! The levels of detail of a tree on the GPU: uploaded once, and projected by the GPU for every view.
 
 use bytemuck::{Pod, Zeroable};
 use glam::DVec3;

@@ -15,7 +15,7 @@ pub(crate) struct Stage {
 }
 
 impl Stage {
-    /// Compiles `room`, such as `stages/depth`, with its overrides set to `constants`.
+    /// Compiles the module `room`, such as `stages/depth`, with its overrides set to `constants`.
     pub(crate) fn new(device: &Device, room: &'static str, constants: &[(&str, f64)]) -> Self {
         Self::entry(device, room, name_of(room), constants)
     }

@@ -32,7 +32,7 @@ struct Trunk {
     curve: Curve,
     /// Arc lengths of junctions with other trunks.
     junctions: Vec<f64>,
-    /// (arc length of the middle in mm, length in mm, percent of the diameter).
+    /// For each stenosis: arc length of the middle (mm), length (mm), and percent of the diameter.
     stenoses: Vec<[f64; 3]>,
     calcifications: Vec<Calcification>,
 }

@@ -3,7 +3,7 @@
 /// A largest difference, and the fraction of values that may exceed it.
 #[derive(Clone, Copy, Debug)]
 pub struct Tolerance {
-    /// The largest difference that rounding may cause, in the values' unit.
+    /// The largest difference that counts as rounding, in the values' unit.
     pub apart: f32,
     /// The fraction of values that may differ more, 0 to 1.
     pub share: f64,

@@ -33,7 +33,7 @@ pub(crate) struct Palette {
     pub parameters: ContextParameters,
 }
 
-/// DVR, MIDA, MIP and blends (Bruckner and Gröller 2009, doi:10.1111/j.1467-8659.2009.01474.x).
+/// DVR, MIDA, MIP, and blends of them (Bruckner and Gröller 2009, doi:10.1111/j.1467-8659.2009.01474.x).
 #[derive(Clone, Debug)]
 pub(crate) struct Blend<'a> {
     palette: &'a Palette,
@@ -51,7 +51,7 @@ impl<'a> Blend<'a> {
     /// Rays that are not `active` take no samples.
     #[inline(always)]
     pub(crate) fn new(palette: &'a Palette, active: &[bool; FAN]) -> Self {
-        // Transparent samples matter only until the first visible one, which is brighter than all of them.
+        // Transparent samples matter only until the first visible sample, which is brighter than all of them.
         let most = palette.parameters.most;
         Self {
             palette,

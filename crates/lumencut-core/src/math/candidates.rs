@@ -33,7 +33,7 @@ pub(crate) fn candidates<const LUMEN_FIRST: bool>(
 pub(crate) struct Cover {
     pub in_stripe: bool,
     pub in_wedge: bool,
-    /// (q − p)·e for the middle q of the area; p and e as in pieces.rs.
+    /// (q − p)·e for the middle q of the area; p and e are a slot's point and edge, as in pieces.rs.
     start: f32,
     /// The largest difference from `start` within the area.
     along: f32,

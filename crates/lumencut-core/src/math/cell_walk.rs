@@ -21,7 +21,7 @@ pub(crate) trait Fold<R> {
 
 #[derive(Debug)]
 pub(crate) struct Largest<'a> {
-    /// The largest values so far; HUGE for rays that need no value.
+    /// The largest value of each ray so far; HUGE for rays that need no value.
     pub best: &'a mut [f32; FAN],
     /// Larger values make no difference.
     pub limit: f32,

@@ -57,7 +57,7 @@ struct Layer {
     height: f64,
 }
 
-/// The Gaussian as a sum of boxes with integral 1 and variance 1.
+/// The Gaussian as a sum of boxes, with an integral of 1 and a variance of 1.
 fn gaussian() -> [Layer; LAYERS] {
     let step = CUT_OFF_SIGMAS / LAYERS as f64;
     // The density in the middle of each step; beyond the last one it is 0.
@@ -136,7 +136,7 @@ impl<'a> FixedRun<'a> {
         self.integral[j] + (self.offset[j] + self.half_slope[j] * along) * along
     }
 
-    /// The segment that holds arc length `s`, found from `near` by doubling steps.
+    /// The segment that contains arc length `s`, found from segment `near` by doubling steps.
     fn segment(&self, s: f64, near: usize) -> usize {
         let arc = &self.arc;
         let (mut low, mut high, mut step) = (near, near + 1, 1);

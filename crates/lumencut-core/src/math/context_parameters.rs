@@ -62,7 +62,7 @@ pub struct RiseParameters {
     pub padding: [f32; 2],
 }
 
-/// The layout of a volume's blocks in one GPU buffer, the smallest first.
+/// The places of a volume's blocks in one GPU buffer; the smallest blocks come first.
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 #[repr(C)]
 pub struct BlockLayout {
@@ -101,7 +101,7 @@ pub struct ContextParameters {
     pub level_count: u32,
     pub finest: u32,
     pub rises: [RiseParameters; MAX_RISES],
-    /// The ranges of intensity without opacity: from the first to the second number.
+    /// The ranges of intensity without opacity, each from the first to the second number of an entry.
     pub gaps: [[f32; 4]; MAX_GAPS],
     pub levels: [[u32; 4]; MAX_BLOCK_LEVELS],
 }

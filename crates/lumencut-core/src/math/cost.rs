@@ -20,7 +20,7 @@ pub(crate) struct Rule {
 }
 
 impl Rule {
-    /// `tree_reach` and `view_reach` bound the distances (mm) of tree and pixels from the view's origin.
+    /// The rule for a view; the reaches bound the distances (mm) of tree and pixels from the view's origin.
     pub(crate) fn new(settings: &Settings, tree_reach: f32, view_reach: f32) -> Self {
         let rounding = 4e-6 * larger(tree_reach, view_reach) + 1e-5;
         Self {
@@ -68,7 +68,7 @@ impl Rule {
         key < -2.5 * self.lift
     }
 
-    /// A lower bound on keys at depth ≥ `z`, radius ≤ `r`, at most `tiers`, and distance ≥ `d`.
+    /// A lower bound on keys of pieces with depth ≥ `z`, radius ≤ `r`, distance ≥ `d`, and at most `tiers`.
     #[inline(always)]
     pub(crate) fn bound<const LUMEN_FIRST: bool>(&self, z: f32, d: f32, r: f32, tiers: f32) -> f32 {
         self.key::<LUMEN_FIRST>(z - self.depth_slack, d - self.distance_slack, r, tiers)

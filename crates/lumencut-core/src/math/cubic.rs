@@ -9,7 +9,7 @@ pub const TINY: f32 = 1e-30;
 
 /// The values at the corners of the cells of N rays, i fastest, then j, then k.
 pub(crate) type Corners<R, const N: usize> = [[R; N]; 8];
-/// Positions of N rays in their cells: weights of the farther corners, axis by axis.
+/// Positions of N rays in their cells, as weights of the farther corners, axis by axis.
 pub(crate) type Weights<R, const N: usize> = [[R; N]; 3];
 
 /// The volume along N rays between entering and leaving a cell: Bernstein coefficients.
@@ -40,7 +40,7 @@ impl<R: Real, const N: usize> Cubic<R, N> {
         Self(form)
     }
 
-    /// An upper bound: the cubic lies within the hull of its coefficients.
+    /// An upper bound on the values: the cubic lies within the hull of its coefficients.
     #[inline(always)]
     pub(crate) fn bound(&self) -> [R; N] {
         let mut bound = self.0[0];
@@ -61,7 +61,7 @@ impl<R: Real, const N: usize> Cubic<R, N> {
         largest
     }
 
-    /// The value at the local maximum; if there is none, a value of at most the larger end.
+    /// The value at the local maximum; if there is none, a value that does not exceed the larger end.
     #[inline(always)]
     pub(crate) fn at_summit(&self) -> [R; N] {
         let mut value = self.0[0];

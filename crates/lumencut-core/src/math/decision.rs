@@ -6,7 +6,7 @@ use super::pieces::{Envelope, Stripe, Wedge};
 use super::projection::Projected;
 use super::tile::{Area, Tile};
 
-/// The decision for each pixel of a tile, made once, on the finest level.
+/// The decision for each pixel of a tile; it is made once, on the finest level.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(crate) struct Decision {

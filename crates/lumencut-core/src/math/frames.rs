@@ -97,7 +97,7 @@ impl Frames {
         &self.stations
     }
 
-    /// The last station at or before arc length `t`, or else the first.
+    /// The last station at or before arc length `t`; if there is none, the first station.
     pub fn station(&self, t: f64) -> &Station {
         &self.stations[self.stations.partition_point(|station| station.at <= t).max(1) - 1]
     }

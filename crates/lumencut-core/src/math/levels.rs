@@ -7,7 +7,7 @@ use super::projection::Radii;
 use crate::camera::Camera;
 use crate::settings::{MAX_LEVELS, Settings};
 
-/// The largest number of heights of boxes in the shaders: 2³² slots have eight.
+/// The largest number of heights of boxes in the shaders; 2³² slots would need eight.
 pub(crate) const MAX_HEIGHTS: usize = 8;
 
 /// The position of a level in the GPU buffers; the CPU has separate buffers per level.
@@ -25,7 +25,7 @@ pub struct LevelLayout {
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct CutSurfaceParameters {
-    /// λ, the cost of a millimetre beyond the wall; this and the next four fields are those of `Rule`.
+    /// λ, the cost of one millimetre beyond the wall; this and the next four fields are those of `Rule`.
     pub weight: f32,
     pub margin: f32,
     pub lift: f32,

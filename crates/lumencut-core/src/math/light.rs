@@ -6,7 +6,7 @@ use super::ray_lines::IndexFromView;
 use super::sampler::Sampler;
 use super::sampling::{Around, Places};
 
-/// The share of its colour that a surface keeps when seen edge on.
+/// The share of its colour that a surface keeps if it is seen edge on.
 pub const AMBIENT: f32 = 0.4;
 /// The share of its colour that a surface gains when it faces the viewer.
 pub const DIFFUSE: f32 = 0.6;

@@ -1,4 +1,4 @@
-//! The distance of pixels to segments, and which segments can matter to a tile.
+//! The distance of pixels to segments, and the choice of segments that can matter to a tile.
 
 use super::lanes::{FAN, FAR, PIXELS, larger, smaller, smallest};
 use super::pieces::Bundle;
@@ -40,7 +40,7 @@ impl NearestPoint {
         Self { distance, ..*self }
     }
 
-    /// Takes the segments of a bundle into account; returns whether one of them is nearer.
+    /// Compares the segments of a bundle; returns whether one of them is nearer than the point so far.
     #[inline(always)]
     pub(crate) fn approach(&mut self, tile: &Tile, bundle: &Bundle) -> bool {
         let [cx, cy] = tile.area.center;

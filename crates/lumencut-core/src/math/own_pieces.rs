@@ -10,7 +10,7 @@ use super::projection::{Level, Projected};
 /// Number of slots on each side of the starting slot that a group of pixels searches together.
 const GROUP_SLOTS: usize = 8;
 
-/// For each pixel of a part: the piece of its vessel at a level that is so far nearest in arc length.
+/// For each pixel of a part: of the pieces of its vessel at a level, the one nearest in arc length so far.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(crate) struct NearestPieces {
@@ -141,7 +141,7 @@ impl OwnPieces<'_> {
     ) {
         let arc_length = &self.level.arc_length;
         let mut reach = [-UNSET, UNSET];
-        // Not yet offered are the slots before `left`, and those from `right` on.
+        // The slots before `left` and those from `right` on have not been offered yet.
         let (mut left, mut right) = (group.middle, group.middle);
         loop {
             let is_left = left > group.first && arc_length[left] >= reach[0];

@@ -185,7 +185,7 @@ impl Stripe {
         let beyond_end = (x - self.end[0]) * ex + (y - self.end[1]) * ey;
         Foot {
             covered: (after_start >= 0.0) & (beyond_end <= 0.0),
-            // Rounding must not move t beyond the end: no bounds of depth and radius hold there.
+            // Rounding must not move t beyond the end, where no bounds of depth and radius hold.
             t: smaller(after_start * self.per_square, 1.0),
             distance: (ux * self.unit[1] - uy * self.unit[0]).abs(),
         }

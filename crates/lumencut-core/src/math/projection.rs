@@ -217,14 +217,15 @@ fn stand(vessel: &mut [Projected]) {
         return;
     };
     let last_stripe = vessel.iter().rposition(Projected::has_stripe).unwrap_or(first_stripe);
-    // Without an edge before it, the first point has a half-plane, or a plane before a run.
+    // The first point has no edge before it: it has a half-plane, or a full plane if a run begins there.
     vessel[0].stands = true;
     for i in first_stripe + 1..=last_stripe {
-        // After a stripe: a wedge, or a half-plane if a collinear run begins. Elsewhere in a run: nothing.
+        // A point after a stripe has a wedge, or a half-plane if a collinear run begins; others have no
+        // piece.
         vessel[i].stands = vessel[i - 1].has_stripe();
         vessel[i].before = vessel[i - 1].edge;
     }
-    // The last point: a half-plane, or a plane if a run ends the vessel.
+    // The last point has a half-plane, or a full plane if a run ends the vessel.
     vessel[last].stands = true;
     vessel[last].before = if last_stripe + 1 == last { vessel[last_stripe].edge } else { [0.0; 2] };
 }

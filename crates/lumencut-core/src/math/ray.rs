@@ -39,7 +39,7 @@ impl Rays {
 pub(crate) struct Packet {
     lines: Lines,
     part: [f64; FAN],
-    /// The number of parts of each ray; 0 if it misses the volume or is not needed.
+    /// The number of parts of each ray; 0 if the ray misses the volume or is not needed.
     pub count: [i32; FAN],
     pub thickness: [f32; FAN],
     pub longest: i32,

@@ -1,8 +1,8 @@
-// Rays through the volume: the chord of each is cut into equal parts, sampled in their middle.
+// Rays through the volume: the part of a ray in the volume is cut into equal parts, sampled in their middle.
 // import math/sampling
 // import math/view
 
-// The start of a ray that crosses the entire volume, and of one that is not needed (depth in mm).
+// The start of a ray that crosses the entire volume, and that of a ray that is not needed (depth in mm).
 const WHOLE: f32 = -1e9;
 const NONE: f32 = 1e9;
 const NEVER: f32 = 2e9;

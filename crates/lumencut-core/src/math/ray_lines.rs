@@ -23,7 +23,7 @@ pub(crate) const NO_CHORD: [f64; 2] = [NONE as f64, -(NONE as f64)];
 #[derive(Clone, Copy, Debug)]
 pub struct IndexFromView {
     pub origin: DVec3,
-    /// Index per mm to the right, upwards, and away from the viewer.
+    /// Change of the index per mm to the right, upwards, and away from the viewer.
     pub x: DVec3,
     pub y: DVec3,
     pub z: DVec3,

@@ -77,7 +77,7 @@ impl Grid {
         self.low.map(|n| n as i32)
     }
 
-    /// The value at continuous index `p`; up to half a voxel outside that of the outermost voxel, NaN beyond.
+    /// The value at continuous index `p`; constant in the outermost half voxel, NaN outside the volume.
     #[inline]
     pub fn trilinear<T: Voxel>(&self, voxels: &[T], p: DVec3) -> f32 {
         self.interpolated(voxels, p, Voxel::real)

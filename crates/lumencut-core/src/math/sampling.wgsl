@@ -1,7 +1,7 @@
 // Trilinear sampling of the volume, with the arithmetic of the CPU.
 // import math/lanes
 
-// Whether the voxels are the bits of floats; else they are integers.
+// Whether the voxels are floats, stored as their bits; otherwise they are integers.
 override FLOAT_VOXELS: bool = false;
 
 const POSITION_ROUNDING: f32 = 1e-3;

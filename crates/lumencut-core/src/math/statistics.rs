@@ -14,7 +14,7 @@ pub fn quantile(values: &mut [f64], part: f64) -> Option<f64> {
     let below = (place.floor() as usize).min(last);
     let [low, high] = neighbours(values, below);
     let (weight, difference) = (place - below as f64, high - low);
-    // Computed from the nearer end, so that the result at both ends is exact.
+    // The result is computed from the nearer end, so that it is exact at both ends.
     Some(if weight < 0.5 { low + difference * weight } else { high - difference * (1.0 - weight) })
 }
 

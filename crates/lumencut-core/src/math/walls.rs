@@ -21,7 +21,7 @@ pub(crate) struct WallRange {
     pub slack: f32,
 }
 
-/// The largest `lean`: beyond it one end of the segment is nearest for every pixel.
+/// The largest `lean`; at a larger one, the same end of the segment is nearest for every pixel.
 pub const MAX_LEAN: f32 = 1e6;
 
 /// Lowers the distances of pixels from the wall (mm, negative within) to that from the segment of slot `s`.

@@ -125,7 +125,7 @@ impl Connections {
         Cow::Borrowed(known.get_or_init(|| reached))
     }
 
-    /// Junctions within the threshold of one, and their distances along the tree (mm): Dijkstra's algorithm.
+    /// Junctions within the threshold of `start`, with distances along the tree (mm): Dijkstra's algorithm.
     fn shortest_ways(&self, start: u32) -> Vec<(u32, f64)> {
         let mut known: HashMap<u32, f64> = HashMap::from([(start, 0.0)]);
         // Bits of non-negative floats sort like the floats; the heap pops the largest first.

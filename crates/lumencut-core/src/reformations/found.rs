@@ -1,4 +1,4 @@
-//! The positions of the pixels of a camera by a reformation, and the frame in which `look` shows the volume.
+//! The position of each pixel found by a reformation, and the frame for `look`, which shows the volume there.
 
 use crate::error::{Error, ErrorKind, Result};
 use crate::frame::Frame;

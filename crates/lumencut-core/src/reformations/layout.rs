@@ -25,7 +25,7 @@ pub trait Layout: Send + Sync {
     /// Arc length (mm): one per row if rows run along one vessel, else per pixel; NaN if nothing is shown.
     fn arc_length(&self, stop: Stop) -> Result<Vec<f64>>;
 
-    /// Whether pixels are unreliable: the image runs backwards there, or shows the same point elsewhere.
+    /// Whether each pixel is unreliable: the image runs backwards, or shows the same point elsewhere too.
     fn folded(&self, stop: Stop) -> Result<Vec<bool>>;
 
     /// The world point at an image position.

@@ -102,8 +102,8 @@ impl Lines {
         row
     }
 
-    /// Adds the crossing of the segment from `slot`. A segment owns its start and inside, the last one of a
-    /// vessel also its end, so each crossing counts once.
+    /// Adds the crossing of the row with the segment from `slot`. A segment includes its start but not its
+    /// end, except for the last segment of a vessel; so each crossing counts once.
     fn cross(&self, slot: usize, y: f64, row: &mut Row) {
         let (a, b) = (self.points[slot], self.points[slot + 1]);
         if a.vessel != b.vessel {
@@ -125,7 +125,7 @@ struct Crossing {
     x: f64,
     z: f64,
     vessel: i32,
-    /// The slot of its segment, which orders the points of a vessel.
+    /// The slot of the segment, by which the points of a vessel are ordered.
     slot: usize,
     /// Change of depth upwards (mm per mm).
     slope: f64,

@@ -57,7 +57,7 @@ pub struct SpiralParameters {
 pub struct Spiral {
     straightened: Straightened,
     parameters: SpiralParameters,
-    /// For each column the position in its section (mm), and the direction across the spiral there.
+    /// For each column, the position in its section (mm) and the direction across the spiral.
     columns: Vec<[DVec2; 2]>,
     rows: usize,
 }

@@ -39,7 +39,7 @@ const SMOOTHING: Limits = Limits::new(0.0, 1e3, "mm");
 const PIXEL_SPACING: Limits = Limits::new(1e-6, MAX_PIXEL_SPACING, "mm");
 const UNKNOWN_RADIUS: Limits = Limits::new(0.0, 1e6, "mm");
 
-/// The side of the squares of pixels that search the nearest vessel together.
+/// The side of a square of pixels that search for their nearest vessels together (pixels).
 const TILE: usize = 8;
 
 /// A pixel with no segment nearby.

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::arc_length::segment_at;
 
-/// The radius of a wall (mm) by arc length and direction, and where it is open, interpolated bilinearly.
+/// The radius of a wall (mm) by arc length and direction, interpolated bilinearly, and the wall's openings.
 #[derive(Clone, Debug)]
 pub struct Wall {
     at: Vec<f64>,

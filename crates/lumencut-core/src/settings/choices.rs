@@ -14,7 +14,7 @@ pub struct Choices {
 }
 
 impl Choices {
-    /// Fails with [`ErrorKind::Settings`] for an unknown setting, another kind of value, or an invalid name.
+    /// Fails with [`ErrorKind::Settings`] for an unknown setting, a wrong kind of value, or an invalid name.
     pub fn set(&mut self, name: &str, value: Value) -> Result<()> {
         if ContextChoices::ROWS.iter().any(|setting| setting.name == name) {
             self.context.set(name, value)
@@ -37,7 +37,7 @@ impl Choices {
 }
 
 impl Settings {
-    /// Fails with [`ErrorKind::Settings`] naming the first setting outside its range.
+    /// Checks all settings. Fails with [`ErrorKind::Settings`] naming the first one outside its range.
     pub fn check(&self) -> Result<()> {
         self.check_rows()?;
         self.check_chosen()?;
@@ -91,7 +91,7 @@ impl ContextChoices {
 }
 
 impl From<&Context> for ContextChoices {
-    /// The choices that result in `context`: a blend by its γ, a transfer function by its points.
+    /// The choices that lead to `context`: a blend is chosen by its γ, a transfer function by its points.
     fn from(context: &Context) -> Self {
         let (name, gamma) = match context.mode {
             ContextMode::Blend { gamma } => (ContextName::Mida, gamma),

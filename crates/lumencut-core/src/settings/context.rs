@@ -30,7 +30,7 @@ impl Named for ContextName {
 }
 
 impl ContextName {
-    /// What the rays of this mode gather; `gamma` is the γ of MIDA.
+    /// The mode with this name; `gamma` is the γ of MIDA.
     pub fn mode(self, gamma: f64) -> ContextMode {
         match self {
             Self::Mida => ContextMode::Blend { gamma },

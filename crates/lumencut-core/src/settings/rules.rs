@@ -5,9 +5,9 @@ use crate::named::Named;
 /// The rule that decides to which vessel a pixel's levels of detail belong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LevelChoice {
-    /// To the vessel that wins the pixel at the finest level: one decision for each pixel.
+    /// The vessel that wins the pixel at the finest level: one decision for each pixel.
     Own,
-    /// To the vessel with the smallest cost at each level, which may change (paper section 3.1.4).
+    /// At each level the vessel with the smallest cost, which may change (paper section 3.1.4).
     Nearest,
 }
 

@@ -1,4 +1,4 @@
-//! Transfer functions: colour and opacity of an intensity in the context, and the named ones.
+//! Transfer functions: colour and opacity for intensities of the context, and named presets.
 
 use super::window::Window;
 use crate::error::{Error, ErrorKind, Result};

@@ -1,4 +1,4 @@
-// The picture: the cut surface with its silhouettes over the context over the background.
+// The picture: in front the cut surface with its silhouettes, behind it the context, then the background.
 // import math/lanes
 // import math/view
 // import math/window

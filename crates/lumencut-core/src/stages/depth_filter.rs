@@ -175,7 +175,7 @@ fn filter_within_zones(
 ) {
     let &DepthFilterParameters { weights: [w0, w1, w2, w3], leap, .. } = parameters;
     let width = filtered.len();
-    // Slices of one length, no indices, and selects of numbers let the loop vectorise.
+    // Slices of one length, no indices, and selecting numbers instead of branching let the loop vectorise.
     let [a3, a2, a1, z, b1, b2, b3] = z.map(|z| &z[..width]);
     let [u3, u2, u1, zone, v1, v2, v3] = zone.map(|zone| &zone[..width]);
     for i in 0..width {

@@ -145,7 +145,7 @@ impl Strip {
         }
     }
 
-    /// Bits (of both axes) for leaps to the pixels of another strip at `step` (view x and y, mm).
+    /// Bits that mark depth jumps to the pixels of another strip, `step` away (view x and y, mm).
     #[inline(always)]
     fn leaps_to(&self, others: &Self, step: [f32; 2]) -> [u32; FAN] {
         let mut leaps = [0; FAN];

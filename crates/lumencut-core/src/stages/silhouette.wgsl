@@ -1,5 +1,5 @@
-// Silhouettes: lines where the cut surface leaps (one pass, `lines`), or where it is steep (paper section
-// 3.3.5; three passes: raised slope, depth filter over it, strength). silhouette.rs explains the constants.
+// Silhouettes: lines where the depth jumps (one pass, `lines`), or where it is steep (paper section 3.3.5;
+// three passes: raised slope, depth filter over it, strength). silhouette.rs explains the constants.
 // import math/view
 // import math/lanes
 // import math/leaps

@@ -17,7 +17,7 @@ pub(super) struct Projected {
     axes: Axes,
     heights: Vec<f64>,
     ends: [f64; 2],
-    /// Half of the vessel's extent across the view, and its middle (mm).
+    /// Half of the vessel's extent across the view, and the middle of this extent (mm).
     reach: f64,
     middle: f64,
 }

@@ -42,8 +42,8 @@ pub struct Roll {
 }
 
 impl Roll {
-    /// The roll with these angles (radians) at rising arc lengths (mm). Fails with [`ErrorKind::Camera`] for
-    /// angles that are not finite, or not one for each arc length.
+    /// The roll with these angles (radians) at rising arc lengths (mm). Fails with [`ErrorKind::Camera`] if
+    /// an angle is not finite or there is not one angle per arc length.
     pub fn new(at: Vec<f64>, angle: Vec<f64>) -> Result<Self> {
         let rises = at.windows(2).all(|ends| ends[1] > ends[0]);
         if at.is_empty() || at.len() != angle.len() || !rises || !angle.iter().all(|a| a.is_finite()) {
@@ -54,8 +54,8 @@ impl Roll {
         Ok(Self { at, angle })
     }
 
-    /// The roll that minimises or maximises the sum of the wall's diameters along a vessel of `length` mm, by
-    /// dynamic programming.
+    /// The roll for which the sum of the wall's diameters along a vessel of `length` mm is smallest or
+    /// largest, by dynamic programming.
     pub fn following(wall: &Wall, length: f64, side: Side) -> Self {
         let count = (length / STEP_MM).ceil().max(1.0) as usize;
         let at: Vec<f64> = (0..=count).map(|n| length * n as f64 / count as f64).collect();

@@ -44,8 +44,8 @@ pub(super) struct Row {
 }
 
 impl Row {
-    /// The world point at `x` on the line through the vessel point nearest along the row; of equally near
-    /// ones the one in front.
+    /// The world point at `x` on the line through the vessel point nearest in the row; if two are equally
+    /// near, through the front one.
     pub(super) fn place(&self, x: f64) -> DVec3 {
         let mut best = self.runs[0].nearest_anchor(x);
         for run in &self.runs[1..] {

@@ -1,4 +1,4 @@
-//! The sections across a straightened vessel, and those that hold a world point.
+//! The sections across a straightened vessel, and the search for those that contain a world point.
 
 use std::sync::Arc;
 
@@ -145,7 +145,7 @@ impl Sections {
 }
 
 impl Section {
-    /// Change of the point's distance beyond the section per mm along the vessel.
+    /// Change of the point's distance in front of the section per mm along the vessel.
     fn change(&self, station: &Station, direction: DVec3) -> f64 {
         self.offset.dot(station.turn.cross(self.frame.tangent)) - direction.dot(self.frame.tangent)
     }

@@ -157,7 +157,7 @@ impl Surface for Straightened {
 }
 
 impl Straightened {
-    /// Marks the pixels of a row whose points belong to another row that shows them too.
+    /// Marks the pixels of a row whose points lie in another row too, which also shows them.
     fn mark_shown_elsewhere(&self, y: f64, x: &[f64], moves: &[f64], folded: &mut [bool]) {
         let row = self.row(y);
         let line = [x[0], x[x.len() - 1]].map(|x| row.place(x));

@@ -35,7 +35,7 @@ pub(super) struct Stretched {
 impl Stretched {
     pub(super) fn new(path: Arc<CenterlinePath>, axes: Axes) -> Result<Self> {
         let points = path.points();
-        // The vessel runs downwards in the image; one that rises in space is shown upside down.
+        // The vessel runs downwards in the image, so a vessel that rises in space is shown upside down.
         let rises = (points[points.len() - 1] - points[0]).dot(axes.up) > 0.0;
         let across = if rises { -axes.across } else { axes.across };
         let (mut strips, mut y) = (Vec::new(), 0.0);

@@ -11,7 +11,7 @@ pub struct View {
     pub up: DVec3,
     /// Rotation of the viewer to the right (radians): around `up`, or around a straightened vessel.
     pub angle: f64,
-    /// Towards the viewer at the first point of a straightened vessel (any length); `None` is the front.
+    /// Direction to the viewer at the first point of a straightened vessel (any length); `None`: the front.
     pub normal: Option<DVec3>,
 }
 

@@ -29,7 +29,7 @@ impl<'a> StretchSearch<'a> {
         self.in_tile.clear();
     }
 
-    /// The piece nearest to (x, y) in the stretch around `front`; the first of equally near ones.
+    /// The piece in the stretch around `front` that is nearest to (x, y); the first of equally near ones.
     #[inline(never)]
     pub(super) fn nearest_piece(&mut self, tile: &Tile, front: Seen, [x, y]: [f32; 2]) -> Seen {
         let view = self.view;
@@ -72,7 +72,7 @@ struct NearFirst {
 }
 
 impl NearFirst {
-    /// The n-th chain by distance, unless it lies beyond `limit` (mm²); n rises by one from call to call.
+    /// The n-th chain by distance, unless it is farther than `limit` (mm²); calls must raise n by one.
     #[inline(always)]
     fn within(&mut self, place: usize, limit: f32) -> Option<u32> {
         if place == self.ordered.len() {

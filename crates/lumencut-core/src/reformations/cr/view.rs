@@ -18,7 +18,7 @@ pub(super) struct CrView<'a> {
     pub level: &'a Level,
     pub camera: &'a Camera,
     projected: Vec<Projected>,
-    /// The pieces without depth and radius: the smallest key is the smallest distance.
+    /// The pieces without depth and radius, so that the smallest key is the smallest distance.
     plane: Hierarchy,
     pub plane_rule: Rule,
     /// The pieces with disc radii: the smallest key is the foremost disc that contains the pixel.
@@ -46,7 +46,7 @@ impl<'a> CrView<'a> {
         Self { level, camera, projected, plane, plane_rule, discs, disc_rule, chains, connections }
     }
 
-    /// The piece of each pixel that is nearest in the image; the first of equally near ones.
+    /// The piece nearest to each pixel in the image; the first of equally near ones.
     #[inline(always)]
     pub(super) fn nearest_pieces(&self, tile: &Tile, seeds: &mut Seeds) -> [u32; PIXELS] {
         let mut nearest = Envelope::new(&[1.0; PIXELS]);

@@ -52,7 +52,7 @@ fn it_goes_on_through_whole_turns() {
 
 #[test]
 fn the_cheapest_way_is_that_of_all_ways() {
-    // Brute force over all paths of five positions, with few directions that differ.
+    // Tries all paths of five positions with few directions, and compares the costs.
     let random = |n: usize| ((n as f64 * 12.9898).sin() * 43758.5453).fract().abs();
     let cost: Vec<Vec<f64>> = (0..DIRECTIONS).map(|k| (0..5).map(|n| random(k * 5 + n)).collect()).collect();
     let total = |way: &[i32]| -> f64 {

@@ -154,7 +154,7 @@ fn sectors_move_by_the_least_sum_of_squares() {
     assert!((narrow[0] - 0.3).abs() < 1e-12 && (narrow[1] + 0.2).abs() < 1e-12);
 }
 
-/// The last vessel common to the paths to two vessels; vessel n has the children 2n + 1 and 2n + 2.
+/// The last vessel common to the paths from the root to two vessels; vessel n has children 2n + 1 and 2n + 2.
 fn common([mut first, mut second]: [usize; 2]) -> usize {
     while first != second {
         let later = if first > second { &mut first } else { &mut second };

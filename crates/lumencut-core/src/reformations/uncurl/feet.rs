@@ -60,7 +60,7 @@ impl Feet {
         })
     }
 
-    /// The nearest point on the segments from one point to another; the first of equally near ones.
+    /// The point nearest to `place` on the segments from `first` to `last`; the first of equally near ones.
     fn among(&self, place: DVec2, first: usize, last: usize) -> Foot {
         let mut best = self.on_segment(place, first);
         for segment in first + 1..last {

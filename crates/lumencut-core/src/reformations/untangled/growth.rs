@@ -1,4 +1,4 @@
-//! How pieces of vessels grow from a root: their order, the cycles they close, and connected parts.
+//! The growth of vessel pieces from a root: their order, the cycles that they close, and connected parts.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -115,7 +115,7 @@ impl Growth {
         }
     }
 
-    /// Adds a piece whose two ends are reached already: it begins at end `near`, and its other end is free.
+    /// Adds a piece whose ends have both been reached; it grows from end `near` and stays free at the other.
     fn close(
         &mut self,
         part: &mut Part,

@@ -1,4 +1,4 @@
-//! The hulls of vessels in the image: discs as wide as the lumen and a margin, and tests for overlap.
+//! The hulls of vessels in the image: discs larger than the lumen by a margin, and tests for overlap.
 
 use glam::DVec2;
 

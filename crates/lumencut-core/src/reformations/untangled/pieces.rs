@@ -1,4 +1,4 @@
-//! Vessels cut where they meet, each piece with stations dense enough for an image.
+//! Vessels cut at the points where they meet; each piece has stations that are dense enough for an image.
 
 use glam::DVec3;
 
@@ -79,7 +79,7 @@ fn cuts(vessel: &Vessel, ends: &Ends) -> Vec<(usize, usize)> {
     let mut cuts: Vec<(usize, usize)> = Vec::new();
     for (i, point) in points.iter().enumerate() {
         let Some(node) = ends.at(*point) else { continue };
-        // Points within the same junction make one cut; the vessel's last point makes the last cut.
+        // Points within one junction make a single cut; the vessel's last point makes the last cut.
         let is_same = |&(n, _): &(usize, usize)| at[i] - at[n] <= 2.0 * VESSEL_END;
         match cuts.last() {
             Some(cut) if is_same(cut) && i == last && cuts.len() > 1 => {

@@ -28,7 +28,7 @@ pub(super) fn roots(parts: &[Part], hulls: &[Vec<Disc>], camera: &Camera, width:
     roots
 }
 
-/// The centre of the first pixel (mm), and width and height of all vessels with their surroundings (mm).
+/// The centre of the first pixel (mm), and the width and height of all that is shown (mm).
 pub(super) fn extent(places: &[Vec<DVec2>], width: f64) -> (DVec2, DVec2) {
     let all = places.iter().flatten();
     let (low, high) = all.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), place| {

@@ -111,7 +111,7 @@ fn unwrapped(directions: &[DVec2]) -> Vec<f64> {
     angles
 }
 
-/// Values of segments, weighted by length and smoothed along the vessel by a Gaussian of `sigma` mm.
+/// Values of segments, smoothed along the vessel by a Gaussian of `sigma` mm, with weights by length.
 fn smooth(at: &[f64], values: &[DVec3], sigma: f64) -> Vec<DVec3> {
     if sigma <= 0.0 {
         return values.to_vec();

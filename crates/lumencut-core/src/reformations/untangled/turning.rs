@@ -36,7 +36,7 @@ pub(super) struct Tree<'a> {
 
 #[derive(Clone, Debug)]
 pub(super) struct Turning {
-    /// The stations of each piece (mm), from where it begins to grow, before any turn.
+    /// The stations of each piece (mm) before any turn; the first is where the piece begins to grow.
     pub places: Vec<Vec<DVec2>>,
     /// The turn of each piece and all that follows it (radians, counter-clockwise).
     pub turns: Vec<f64>,
@@ -161,7 +161,7 @@ impl Node {
     fn new(branches: &[Hull], parent: Option<(Vec<Disc>, DVec2)>, near: f64) -> Self {
         let (parent, forward) = parent.map_or((Vec::new(), None), |(discs, forward)| (discs, Some(forward)));
         let all = branches.iter().map(Hull::discs).chain([parent.as_slice()]);
-        // The disc at the point itself is the first or the last one of each piece that meets it.
+        // The disc at the point is the first or the last one of each piece that meets there.
         let at_node = |discs: &[Disc]| {
             let here = discs.iter().filter(|disc| disc.center == DVec2::ZERO).map(|disc| disc.radius);
             here.fold(0.0, f64::max)

@@ -17,7 +17,7 @@ pub(super) struct LeapLines<'a> {
     line_width: f32,
     /// The largest share of a pixel that a line covers.
     most: f32,
-    /// The largest distance (pixels) between a pixel and a leap whose line can cover it.
+    /// The largest distance (pixels) between a depth jump and a pixel that the jump's line can cover.
     reach: isize,
 }
 
@@ -53,7 +53,7 @@ impl<'a> LeapLines<'a> {
         }
     }
 
-    /// Whether the line of any leap can reach the sixteen pixels of row `j` that begin at column `i`.
+    /// Whether the line of any depth jump can reach the sixteen pixels of row `j` from column `i` on.
     fn has_leaps_near(&self, i: isize, j: isize) -> bool {
         let [width, height] = self.size;
         let columns = (i - self.reach).max(0)..(i + FAN as isize + self.reach).min(width);
