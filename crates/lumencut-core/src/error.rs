@@ -59,7 +59,7 @@ pub enum Clicked {
     Point {
         /// Index of the vessel.
         vessel: usize,
-        /// Index of the point along it.
+        /// Index of the point along the vessel.
         point: usize,
     },
     /// A point that belongs to no vessel yet.
@@ -81,8 +81,7 @@ pub struct Error {
     pub mend: String,
     /// A further remedy. Each host puts it into its own words and may offer it as an action.
     pub mended_by: Option<Mend>,
-    /// Position in the volume: the point of a path that looks least like lumen, or the point outside the
-    /// lumen.
+    /// Position in the volume: the least lumen-like point of a path, or the point outside the lumen.
     pub place: Option<Box<ErrorPosition>>,
     /// The clicked points that the error is about.
     pub clicked: Option<Box<Clicked>>,

@@ -84,8 +84,8 @@ mod tests {
                 shares.push(progress.share());
                 progress.begin_pixels(25);
                 shares.push(progress.share());
-                // Counted pixels beyond the view's number, such as those of tiles beyond its border, are
-                // capped.
+                // More pixels are counted than the view has, as tiles may exceed it; this must not raise the
+                // share.
                 progress.begin_pixels(30);
             }
             progress.end_view();

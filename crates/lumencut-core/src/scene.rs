@@ -86,7 +86,7 @@ impl<'a> SharedVolume<'a> {
         if let Some(blocks) = self.key.blocks.get() {
             return Ok(blocks);
         }
-        // Computed outside the lock: a waiting pool thread may start another view, and then wait for itself.
+        // Computed outside the lock: a waiting pool thread may start another view and then deadlock.
         let blocks = Blocks::new(&self.volume, stop)?;
         Ok(self.key.blocks.get_or_init(|| blocks))
     }

@@ -77,7 +77,6 @@ fn without_radii(tree: &VesselTree) -> VesselTree {
     VesselTree::new(tree.vessels().iter().map(bare).collect()).unwrap()
 }
 
-/// A closed ring.
 fn ring(radius: f64, points: usize, lumen: f64) -> Vessel {
     let place = |i: usize| {
         let t = (i % points) as f64 / points as f64 * TAU;

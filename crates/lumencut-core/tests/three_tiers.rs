@@ -1,5 +1,4 @@
-//! The setting `lumen_first` on parallel tubes, in closed form: lumen precedes wall, wall precedes
-//! surroundings.
+//! The setting `lumen_first` on parallel tubes, in closed form: lumens precede walls, walls precede the rest.
 #![allow(clippy::unwrap_used)]
 
 use lumencut_core::settings::Settings;
@@ -12,7 +11,6 @@ use lumencut_scenes::settings::unfiltered;
 use lumencut_scenes::trees::{tree, vessel};
 use lumencut_scenes::views::{front, pixel, view};
 
-/// A tube across the view.
 #[derive(Clone, Copy)]
 struct Tube {
     height: f64,

@@ -24,7 +24,6 @@ use lumencut_scenes::workloads::{ASKED, PAPER_FRAMES, PAPER_STAGES, PaperStage, 
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
-/// Rendering time before the measurement.
 const WARM_UP: Duration = Duration::from_secs(1);
 /// The row for frames whose picture is the only image that is read back.
 const PICTURE_ALONE: &str = "picture alone";

@@ -51,7 +51,7 @@ impl Permutation {
 
 #[derive(Debug)]
 pub(crate) struct ContextStage {
-    /// Stages that write starts of rays: without focus, or with focus: in front of the volume, at the
+    /// Stages that write starts of rays: without a focus; with rays from the front; with rays from the
     /// surface.
     starts: [OnceLock<Stage>; 3],
     stages: Vec<(Permutation, Stage)>,
@@ -115,8 +115,7 @@ impl ContextStage {
         })
     }
 
-    /// Records the stages that write starts of rays and what rays gather; `grid` places `on_device` in the
-    /// view.
+    /// Records the stages for the starts of rays and for the context; `grid` places `on_device` in the view.
     pub(crate) fn record(
         &mut self,
         recording: &mut Recording,

@@ -201,7 +201,6 @@ impl Device {
     async fn map(&self, buffer: &Buffer, stop: Stop<'_>) -> Result<wgpu::BufferView> {
         let (done, is_done) = futures_channel::oneshot::channel();
         buffer.map_async(MapMode::Read, .., move |mapped| {
-            // After an interruption nobody receives this message.
             let _ = done.send(mapped);
         });
         match self.patience(is_done, stop).await? {

@@ -13,7 +13,7 @@ use crate::device::Device;
 #[repr(C)]
 pub(crate) struct ViewParameters {
     pub size: [u32; 2],
-    /// The side of a pixel (mm): a part of twelve binary digits, and the rest.
+    /// The side of a pixel (mm), split into a part of twelve binary digits and the rest.
     pub spacing: [f32; 2],
     /// The axes of view space, in world coordinates.
     pub axes: [Axis; 3],

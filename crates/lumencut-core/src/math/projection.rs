@@ -220,8 +220,8 @@ fn stand(vessel: &mut [Projected]) {
     // The first point has no edge before it: it has a half-plane, or a full plane if a run begins there.
     vessel[0].stands = true;
     for i in first_stripe + 1..=last_stripe {
-        // A point after a stripe has a wedge, or a half-plane if a collinear run begins; others have no
-        // piece.
+        // After a stripe there is a wedge, or a half-plane if a collinear run begins; other points have
+        // nothing.
         vessel[i].stands = vessel[i - 1].has_stripe();
         vessel[i].before = vessel[i - 1].edge;
     }

@@ -5,8 +5,8 @@
 // import math/pieces
 // import math/hierarchy
 
-// A point relative to the middle of the tree (mm): a part with so few digits that its products with coarse
-// axes are exact, and the rest.
+// A point relative to the middle of the tree (mm). It is split into a part with so few digits that its
+// products with the axes' coarse parts are exact, and the rest.
 struct Point {
     coarse: vec3f,
     radius: f32,

@@ -112,7 +112,8 @@ impl Packet {
         }
     }
 
-    /// The segment from part `first` on, with samples in the middle of its parts, and bounds for all rays.
+    /// The segment from part `first` on, with samples in the middle of its parts, and with bounds of all
+    /// rays.
     #[inline(always)]
     pub(crate) fn segment(&self, grid: &Grid, blocks: Option<&Blocks>, first: i32) -> Segment {
         let [first_part, end_part] = [f64::from(first) + 0.5, f64::from(first + STEPS as i32) - 0.5];

@@ -8,13 +8,13 @@ const NONE: f32 = 1e9;
 const NEVER: f32 = 2e9;
 const SPARE: f32 = 1e-3;
 
-// The index at which a ray meets the reference depth: an exact part, and the rest.
+// The index at which a ray meets the reference depth, split into an exact part and the rest.
 struct Foot {
     index: vec3f,
     rest: vec3f,
 }
 
-// A depth relative to the grid's reference (mm): a multiple of the grid's unit, and the rest.
+// A depth relative to the grid's reference (mm), split into a multiple of the grid's unit and the rest.
 struct Depth {
     coarse: f32,
     rest: f32,

@@ -22,8 +22,7 @@ pub(crate) const PIXEL_OF_LANE: [(usize, usize); PIXELS] = {
     places
 };
 
-/// The values of the tile at `column` of these `rows`, by lane; beyond the image the last column and row
-/// repeat.
+/// The values of the tile at `column` in `rows`, by lane; beyond the image its last column and row repeat.
 #[inline(always)]
 pub(crate) fn gather(rows: &[f32], width: usize, column: usize) -> [f32; PIXELS] {
     let last_row = rows.len() / width - 1;

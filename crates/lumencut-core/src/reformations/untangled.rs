@@ -282,7 +282,7 @@ impl Untangled {
     }
 
     fn segments(&self, stop: Stop) -> Result<&[u32]> {
-        // Computed outside the lock: a waiting pool thread may start other work, and then wait for itself.
+        // Computed outside the lock: a waiting pool thread may start other work and then deadlock.
         if let Some(known) = self.segments.get() {
             return Ok(known);
         }

@@ -145,7 +145,7 @@ impl Sections {
 }
 
 impl Section {
-    /// Change of the point's distance in front of the section per mm along the vessel.
+    /// Change, per mm along the vessel, of the distance by which the point lies ahead of the section.
     fn change(&self, station: &Station, direction: DVec3) -> f64 {
         self.offset.dot(station.turn.cross(self.frame.tangent)) - direction.dot(self.frame.tangent)
     }

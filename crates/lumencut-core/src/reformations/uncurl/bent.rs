@@ -104,7 +104,7 @@ fn turnings(frames: &Frames, amount: f64) -> Vec<Turning> {
             let before = &stations[n - 1];
             let end = before.frame_at(station.at);
             from_bent = DQuat::from_scaled_axis(before.turn * amount * (station.at - before.at)) * from_bent;
-            // Adds the third-order error of the frames' rotation between stations.
+            // Between stations the frames turn at a constant rate, up to a remainder of third order, added here.
             let rest = rotation(&station.frame) * rotation(&end).inverse();
             from_bent = DQuat::from_scaled_axis(shorter(rest).to_scaled_axis() * amount) * from_bent;
         }
