@@ -49,7 +49,7 @@ BUDGETS = {
     "docs/limits.md": 800,
     "docs/comparison.md": 600,
     "docs/glossary.md": 1200,
-    "docs/method/cut-surface.md": 2050,
+    "docs/method/cut-surface.md": 2090,
     "docs/method/surroundings.md": 2100,
     "docs/method/reformations.md": 2400,
     "docs/method/tracing.md": 1600,
