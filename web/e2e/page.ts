@@ -1,8 +1,8 @@
 /** The page from the user's perspective; it records all faults. */
 import { type Browser, type BrowserContextOptions, expect, type Locator, type Page } from '@playwright/test';
 import type { Answer, Asked, Message, Question } from '../src/core/asked';
+import { GESTURES } from '../src/core/generated/tables';
 import type { Camera, Pair, Report } from '../src/core/messages';
-import { DOUBLE_NEAR, DOUBLE_WITHIN } from '../src/input/pointer';
 import { stateOf, type ViewState } from '../src/url/fragment';
 import type { Pixels } from './compare';
 
@@ -151,11 +151,11 @@ export class Viewer {
   async click(at: Pair, name: PaneName = 'turning'): Promise<void> {
     const [x, y] = await this.place(at, name);
     const { at: last, until } = this.lastClick;
-    if (Math.hypot(x - last[0], y - last[1]) <= DOUBLE_NEAR) {
+    if (Math.hypot(x - last[0], y - last[1]) <= GESTURES.double_near) {
       await this.page.waitForTimeout(Math.max(0, until - Date.now()));
     }
     await this.page.mouse.click(x, y);
-    this.lastClick = { at: [x, y], until: Date.now() + DOUBLE_WITHIN };
+    this.lastClick = { at: [x, y], until: Date.now() + GESTURES.double_within };
     await this.frames();
   }
 

@@ -1,3 +1,5 @@
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { describe, expect, test } from 'vitest';
 import {
   middleOf,
@@ -6,11 +8,12 @@ import {
   resized,
   rightOf,
   sampled,
+  spun,
   trackballed,
   turnedAbout,
   zoomed,
 } from '../src/core/camera';
-import type { Camera, Vector } from '../src/core/messages';
+import type { Camera, Pair, Vector } from '../src/core/messages';
 import { add, cross, dot, length, middle, scale, subtract, turned, unit } from '../src/core/vectors';
 import { CAMERA, expectNear, expectOrthonormal, random } from './helpers';
 
@@ -130,5 +133,55 @@ describe('the number of pixels', () => {
     expect(after.size).toEqual([133, 100]);
     expect(after.size[1] * after.pixel_spacing).toBeCloseTo(150, 12);
     expect(sampled(CAMERA, 1e-6).size).toEqual([1, 1]);
+  });
+});
+
+/** Drags with their ends, which the tests of Rust and Python read too. */
+describe('drags end where they end in all hosts', () => {
+  type Step =
+    | ['rotate', Vector, Pair]
+    | ['spin', Vector, Vector, number]
+    | ['pan', Pair]
+    | ['zoom', number, Pair];
+  interface Cases {
+    readonly drags: readonly { start: Camera; steps: Step[]; end: Camera }[];
+    readonly samples: readonly { size: Pair; share: number; end: Pair; pixel_spacing: number }[];
+  }
+  const text = readFileSync(join(import.meta.dirname, '../../tests/drags.json'), 'utf-8');
+  const { drags, samples } = JSON.parse(text) as Cases;
+
+  function stepped(camera: Camera, step: Step): Camera {
+    switch (step[0]) {
+      case 'rotate':
+        return trackballed(camera, step[1], step[2]);
+      case 'spin':
+        return spun(camera, step[1], step[2], step[3]);
+      case 'pan':
+        return panned(camera, step[1]);
+      case 'zoom':
+        return zoomed(camera, step[1], step[2]);
+    }
+  }
+
+  const numbers = ({ center, direction, up, pixel_spacing }: Camera) => [
+    ...center,
+    ...direction,
+    ...up,
+    pixel_spacing,
+  ];
+
+  test.each(drags.map((drag, n) => [n, drag] as const))('drag %i', (_, { start, steps, end }) => {
+    const found = steps.reduce(stepped, start);
+    expect(found.size).toEqual(end.size);
+    const expected = numbers(end);
+    numbers(found).forEach((part, n) => {
+      const wanted = expected[n] ?? Number.NaN;
+      expect(Math.abs(part - wanted)).toBeLessThanOrEqual(1e-12 * Math.max(Math.abs(wanted), 1));
+    });
+  });
+
+  test.each(samples)('$share of $size', ({ size, share, end, pixel_spacing }) => {
+    const found = sampled({ ...CAMERA, size, pixel_spacing: 0.5 }, share);
+    expect(found).toMatchObject({ size: end, pixel_spacing });
   });
 });

@@ -112,32 +112,3 @@ describe('what a notebook asks its kernel for', () => {
     expect(last().steps).toEqual([['rotate', 3, 4]]);
   });
 });
-
-describe('gestures of a notebook', () => {
-  function constant(file: string, name: string): number {
-    const text = readFileSync(join(import.meta.dirname, file), 'utf-8');
-    const found = new RegExp(`^(?:export const |const |_)?${name} = ([\\d.e-]+)`, 'm').exec(text);
-    if (!found) {
-      throw new Error(`${file} has no ${name}`);
-    }
-    return Number(found[1]);
-  }
-  const front = '../../python/lumencut/notebook/front/pointers.js';
-  const python = '../../python/lumencut/notebook/gestures.py';
-
-  it.each([
-    [
-      '../src/input/pointer.ts',
-      front,
-      ['DRAG_FROM', 'DOUBLE_WITHIN', 'DOUBLE_NEAR', 'ZOOM_PER_WHEEL', 'MOST_WHEEL'],
-    ],
-    ['../src/input/pointer.ts', front, ['LINE']],
-    ['../src/input/wheel.ts', front, ['NOTCH_FROM', 'NOTCH']],
-    ['../src/views/TurningView.tsx', front, ['KEY_STEP']],
-    ['../src/state/actions.ts', python, ['WINDOW_PER_PIXEL', 'NARROWEST']],
-  ])('are as large as in the viewer (%s)', (viewer, notebook, names) => {
-    expect(names.map((name) => constant(notebook, name))).toEqual(
-      names.map((name) => constant(viewer, name)),
-    );
-  });
-});

@@ -1,5 +1,7 @@
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { afterEach, expect, test } from 'vitest';
-import type { Report } from '../src/core/messages';
+import type { Pair, Report, Window } from '../src/core/messages';
 import { choosePreset, dragWindow, windowBack } from '../src/state/actions';
 import { begin, change, document_, hasEdits, redo, undo, undoWords } from '../src/state/history';
 import * as store from '../src/state/store';
@@ -102,4 +104,15 @@ test('a window alone is no edit of the vessels', () => {
   change('name a vessel', { ...document_.value, bridge: true });
   expect(hasEdits.value).toBe(true);
   begin({ ...document_.value });
+});
+
+/** Windows after drags, which the tests of Rust and Python read too. */
+test('a drag changes the window as in all hosts', () => {
+  const text = readFileSync(join(import.meta.dirname, '../../tests/drags.json'), 'utf-8');
+  const { windows } = JSON.parse(text) as { windows: { window: Window; drag: Pair; end: Window }[] };
+  for (const { window, drag, end } of windows) {
+    store.window_.value = window;
+    dragWindow(drag);
+    expect(store.window_.value).toEqual(end);
+  }
 });

@@ -12,6 +12,7 @@ pub mod cut_diameter;
 pub mod devices;
 pub mod doubted_scan;
 mod doubted_unit;
+pub mod drags;
 pub mod extent;
 pub mod feature_aggregation;
 pub mod flag_table;

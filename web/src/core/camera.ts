@@ -1,10 +1,7 @@
-/** Turning, panning and zooming of a camera. All functions return a new camera. */
+/** Turning, panning and zooming of a camera, as `drags.rs` does it. All functions return a new camera. */
+import { GESTURES } from './generated/tables';
 import type { Camera, Pair, Vector } from './messages';
 import { add, cross, dot, scale, subtract, turned, unit } from './vectors';
-
-/** Limits of the pixel spacing when zooming (mm). */
-const FINEST = 0.005;
-const COARSEST = 20;
 
 export const rightOf = (camera: Camera): Vector => unit(cross(camera.direction, camera.up));
 
@@ -20,9 +17,18 @@ export function turnedAbout(camera: Camera, pivot: Vector, axis: Vector, angle: 
 
 /** Turns the scene by a drag over a ball that fills the view: the view height is half a turn. */
 export function trackballed(camera: Camera, pivot: Vector, [x, y]: Pair): Camera {
-  const perPixel = Math.PI / Math.max(camera.size[1], 1);
   const axis = add(scale(camera.up, -x), scale(rightOf(camera), -y));
-  return turnedAbout(camera, pivot, axis, Math.hypot(x, y) * perPixel);
+  return turnedAbout(camera, pivot, axis, angleOf(camera, Math.sqrt(x * x + y * y)));
+}
+
+/** Turns the scene about an axis by a drag to the right. */
+export function spun(camera: Camera, pivot: Vector, axis: Vector, right: number): Camera {
+  return turnedAbout(camera, pivot, axis, -angleOf(camera, right));
+}
+
+/** Rotation (radians) of a drag as long as some pixels. */
+function angleOf({ size }: Pick<Camera, 'size'>, pixels: number): number {
+  return pixels * (GESTURES.turn_per_height / Math.max(size[1], 1));
 }
 
 /** Pans the scene by a number of pixels. */
@@ -34,7 +40,8 @@ export function panned(camera: Camera, [x, y]: Pair): Camera {
 
 /** The camera magnified by a factor; the place at the pixel stays where it is. */
 export function zoomed(camera: Camera, factor: number, pixel: Pair = middleOf(camera)): Camera {
-  const spacing = Math.min(Math.max(camera.pixel_spacing / factor, FINEST), COARSEST);
+  const { finest_spacing: finest, coarsest_spacing: coarsest } = GESTURES;
+  const spacing = Math.min(Math.max(camera.pixel_spacing / factor, finest), coarsest);
   const middle = middleOf(camera);
   const away = camera.pixel_spacing - spacing;
   const shift = add(

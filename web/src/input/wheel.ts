@@ -1,11 +1,6 @@
-/** Converts wheel movements to steps: one per mouse notch; trackpad movements add up. */
+/** Converts wheel movements to zooms, and to steps: one per mouse notch; trackpad movements add up. */
 
-/** Threshold between mouse and trackpad (pixels): a notch is 100 to 120, a trackpad event far less. */
-const NOTCH_FROM = 60;
-const NOTCH = 110;
-const NOTCH_LINES = 3;
-/** Pixels of a trackpad or finger per step. */
-const STEP = 40;
+import { GESTURES } from '../core/generated/tables';
 
 export class Steps {
   private rest = 0;
@@ -14,18 +9,18 @@ export class Steps {
   ofWheel(event: WheelEvent): number {
     const by = alongWheel(event);
     const isInPixels = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL;
-    if (isInPixels && Math.abs(by) < NOTCH_FROM) {
+    if (isInPixels && Math.abs(by) < GESTURES.notch_from) {
       return this.ofPixels(by);
     }
     this.rest = 0;
-    const notches = Math.abs(by) / (isInPixels ? NOTCH : NOTCH_LINES);
+    const notches = Math.abs(by) / (isInPixels ? GESTURES.notch : GESTURES.notch_lines);
     return Math.sign(by) * Math.max(1, Math.round(notches));
   }
 
   ofPixels(pixels: number): number {
     this.rest += pixels;
-    const steps = Math.trunc(this.rest / STEP);
-    this.rest -= steps * STEP;
+    const steps = Math.trunc(this.rest / GESTURES.scroll_step);
+    this.rest -= steps * GESTURES.scroll_step;
     return steps;
   }
 }
@@ -33,3 +28,10 @@ export class Steps {
 /** With Shift, browsers report horizontal movement. */
 export const alongWheel = ({ deltaX, deltaY, shiftKey }: WheelEvent): number =>
   shiftKey && deltaY === 0 ? deltaX : deltaY;
+
+/** Zoom of a wheel event; trackpads send many small ones. */
+export function zoomOfWheel(event: WheelEvent): number {
+  const { wheel_line: line, most_wheel: most, zoom_per_wheel: part } = GESTURES;
+  const pixels = alongWheel(event) * (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? line : 1);
+  return Math.exp(-Math.max(-most, Math.min(most, pixels)) * part);
+}

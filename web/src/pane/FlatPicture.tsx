@@ -1,8 +1,10 @@
 /** A canvas with a picture from the engine: slice, straightened vessel or section. */
 import type { ComponentChildren } from 'preact';
 import { useEffect, useRef, useState } from 'preact/hooks';
+import { GESTURES } from '../core/generated/tables';
 import { Latest } from '../core/latest';
 import type { Pair, Picture } from '../core/messages';
+import { arrowOf, scrollOfKey, zoomOfKey } from '../input/keys';
 import { type Handlers, listen } from '../input/pointer';
 import { recover } from '../state/device';
 import { isInverted, type ViewName } from '../state/store';
@@ -119,28 +121,20 @@ export function FlatPicture({
   );
 }
 
-const ARROWS: Readonly<Record<string, Pair>> = {
-  ArrowLeft: [-1, 0],
-  ArrowRight: [1, 0],
-  ArrowUp: [0, -1],
-  ArrowDown: [0, 1],
-};
-
 /** Arrow keys scroll or move the cross-hair; + and - zoom. Focused children handle their own keys. */
 function pressed(event: KeyboardEvent, handlers: Handlers, onArrow?: (by: Pair) => void): void {
   if (event.target !== event.currentTarget) {
     return;
   }
-  const arrow = ARROWS[event.key];
+  const arrow = arrowOf(event.key);
   if (arrow && onArrow) {
     event.preventDefault();
-    const far = event.shiftKey ? 10 : 1;
+    const far = event.shiftKey ? GESTURES.far_steps : 1;
     onArrow([arrow[0] * far, arrow[1] * far]);
     return;
   }
-  const page = onArrow && !event.shiftKey ? 1 : 10;
-  const steps = { ArrowDown: 1, PageDown: page, ArrowUp: -1, PageUp: -page }[event.key];
-  const factor = { '+': 1.2, '-': 1 / 1.2 }[event.key];
+  const steps = scrollOfKey(event.key, onArrow && !event.shiftKey ? 1 : GESTURES.far_steps);
+  const factor = zoomOfKey(event.key);
   if (steps) {
     event.preventDefault();
     handlers.scroll(steps);

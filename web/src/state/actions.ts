@@ -2,7 +2,8 @@
 import { batch } from '@preact/signals';
 import type { EngineClient } from '../client/engine';
 import type { Asked } from '../core/asked';
-import { panned, resized, trackballed, turnedAbout, zoomed } from '../core/camera';
+import { panned, resized, spun, trackballed, turnedAbout, zoomed } from '../core/camera';
+import { GESTURES } from '../core/generated/tables';
 import type { Camera, Pair, SettingValue, Vector, Window } from '../core/messages';
 import type { Action } from '../input/bindings';
 import { isArriving } from './arriving';
@@ -14,10 +15,6 @@ import { stopMeasuring } from './profiles';
 import { putRulerAway } from './rulers';
 import * as store from './store';
 import { tool } from './tool';
-
-/** Window change per pixel of a drag. */
-const WINDOW_PER_PIXEL = 0.004;
-const NARROWEST = 1e-3;
 
 export function changeCamera(change: (camera: Camera) => Camera): void {
   const camera = store.camera.value;
@@ -41,8 +38,7 @@ export function dragTurning(action: Action, by: Pair, axis: Vector | null): void
       break;
     case 'rotate about vessel': {
       const about = axis ?? store.camera.value?.up ?? [0, 0, 1];
-      const angle = (size: Pair) => (-by[0] * Math.PI) / size[1];
-      changeCamera((camera) => turnedAbout(camera, pivot(camera), about, angle(camera.size)));
+      changeCamera((camera) => spun(camera, pivot(camera), about, by[0]));
       break;
     }
     case 'pan':
@@ -91,13 +87,13 @@ export function windowBack(): { begin(): void; end(): void; putBack(): void } {
 /** Right widens the window, up brightens. */
 export function dragWindow([x, y]: Pair): void {
   const [level, width] = store.window_.value;
-  const wider = Math.max(width * Math.exp(x * WINDOW_PER_PIXEL), NARROWEST);
-  store.window_.value = [level + y * WINDOW_PER_PIXEL * width, wider];
+  const { window_per_pixel: part, narrowest_window: narrowest } = GESTURES;
+  store.window_.value = [level + y * part * width, Math.max(width * Math.exp(x * part), narrowest)];
 }
 
 /** Changes the window during a drag; `windowChanged` then records one step. */
 export function setWindow(window: Window): void {
-  store.window_.value = [window[0], Math.max(window[1], NARROWEST)];
+  store.window_.value = [window[0], Math.max(window[1], GESTURES.narrowest_window)];
 }
 
 export function choosePreset(number: number): void {

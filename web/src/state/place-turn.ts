@@ -2,6 +2,7 @@
 import { batch, effect, signal, untracked } from '@preact/signals';
 import type { Asked } from '../core/asked';
 import { resized, turnedAbout } from '../core/camera';
+import { GESTURES } from '../core/generated/tables';
 import type { Camera, LineId, Vector } from '../core/messages';
 import { length, subtract, turned } from '../core/vectors';
 import { destination, flyTo } from './flight';
@@ -103,6 +104,8 @@ export function turnTo(angle: number): void {
   });
 }
 
+const DEGREES_PER_HEIGHT = (GESTURES.turn_per_height * 180) / Math.PI;
+
 /** Fractions of degrees during a drag. */
 let rest = 0;
 
@@ -110,7 +113,7 @@ let rest = 0;
 export function dragPlaceTurn(pixels: number, height: number): void {
   const turn = placeTurn.value;
   if (turn) {
-    const wanted = rest - (180 * pixels) / Math.max(height, 1);
+    const wanted = rest - (DEGREES_PER_HEIGHT * pixels) / Math.max(height, 1);
     const whole = Math.trunc(wanted);
     rest = wanted - whole;
     turnTo(turn.angle + whole);

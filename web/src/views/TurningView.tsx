@@ -8,6 +8,7 @@ import { cross } from '../core/vectors';
 import { stepLumen } from '../edit/lumens';
 import { isTracing } from '../edit/mode';
 import type { Action } from '../input/bindings';
+import { dragOfKey, zoomOfKey } from '../input/keys';
 import { listen } from '../input/pointer';
 import { placeCrossHair } from '../link/cross-hair';
 import { usePaneSize } from '../pane/pane-size';
@@ -151,19 +152,15 @@ function turnOn(): () => void {
   return () => cancelAnimationFrame(frame);
 }
 
-/** Pixels per arrow key, for rotation or, with Shift, pan. */
-const KEY_STEP = 24;
-
 /** Arrow keys rotate, with Shift they pan; + and - zoom. */
 function pressed(event: KeyboardEvent): void {
   if (event.target !== event.currentTarget) {
     return;
   }
-  const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
-  const factor = { '+': 1.2, '-': 1 / 1.2 }[event.key];
-  if (step) {
+  const by = dragOfKey(event.key);
+  const factor = zoomOfKey(event.key);
+  if (by) {
     event.preventDefault();
-    const by = [KEY_STEP * (step[0] ?? 0), KEY_STEP * (step[1] ?? 0)] as const;
     actions.dragTurning(event.shiftKey ? 'pan' : 'rotate', by, null);
   } else if (factor) {
     actions.changeCamera((camera) => zoomed(camera, factor));
