@@ -38,10 +38,14 @@ export function panned(camera: Camera, [x, y]: Pair): Camera {
   return { ...camera, center: add(camera.center, shift) };
 }
 
+/** A pixel spacing (mm) after a zoom, within its limits. */
+export function zoomedSpacing(spacing: number, factor: number): number {
+  return Math.min(Math.max(spacing / factor, GESTURES.finest_spacing), GESTURES.coarsest_spacing);
+}
+
 /** The camera magnified by a factor; the place at the pixel stays where it is. */
 export function zoomed(camera: Camera, factor: number, pixel: Pair = middleOf(camera)): Camera {
-  const { finest_spacing: finest, coarsest_spacing: coarsest } = GESTURES;
-  const spacing = Math.min(Math.max(camera.pixel_spacing / factor, finest), coarsest);
+  const spacing = zoomedSpacing(camera.pixel_spacing, factor);
   const middle = middleOf(camera);
   const away = camera.pixel_spacing - spacing;
   const shift = add(

@@ -1,4 +1,5 @@
 /** Slice planes of the patient, and the mapping between their pixels and the world. */
+import { zoomedSpacing } from './camera';
 import type { Pair, Plane, Vector, VolumeReport } from './messages';
 import { add, cross, dot, middle, scale, subtract } from './vectors';
 
@@ -59,7 +60,7 @@ export function pannedLook(look: Look, name: SliceName, [x, y]: Pair): Look {
 }
 
 export function zoomedLook(look: Look, plane: Plane, factor: number, at: Pair): Look {
-  const spacing = Math.min(Math.max(look.spacing / factor, 0.005), 20);
+  const spacing = zoomedSpacing(look.spacing, factor);
   const kept = pointOn(plane, at);
   const toward = scale(subtract(plane.center, kept), spacing / look.spacing);
   return { center: add(kept, toward), spacing };
