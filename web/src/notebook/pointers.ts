@@ -110,8 +110,12 @@ export class Pointers {
     if (by) {
       return [shiftKey ? 'pan' : 'rotate', ...by];
     }
+    return factor === null ? null : ['zoom', factor, ...this.middle()];
+  }
+
+  private middle(): Pair {
     const [width, height] = this.pane.size;
-    return factor === null ? null : ['zoom', factor, (width - 1) / 2, (height - 1) / 2];
+    return [(width - 1) / 2, (height - 1) / 2];
   }
 
   private flatStep({ key }: KeyboardEvent): Step | null {

@@ -512,13 +512,15 @@ var gestures = (function(exports) {
 		turningStep({ key, shiftKey }) {
 			const [by, factor] = [dragOfKey(key), zoomOfKey(key)];
 			if (by) return [shiftKey ? "pan" : "rotate", ...by];
-			const [width, height] = this.pane.size;
 			return factor === null ? null : [
 				"zoom",
 				factor,
-				(width - 1) / 2,
-				(height - 1) / 2
+				...this.middle()
 			];
+		}
+		middle() {
+			const [width, height] = this.pane.size;
+			return [(width - 1) / 2, (height - 1) / 2];
 		}
 		flatStep({ key }) {
 			const steps = scrollOfKey(key);
