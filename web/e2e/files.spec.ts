@@ -113,7 +113,7 @@ test('the millimetre that is assumed is kept in the session, and told with what 
   await viewer.press('m');
   await expect(viewer.page.getByTestId('section-numbers')).toContainText('mm', { timeout: 30_000 });
   const words = 'The scan has no voxel spacing: 1 mm is assumed.';
-  const numbers = 'Numbers of measured vessels';
+  const numbers = 'Measurements of all measured vessels';
   for (const file of [`${numbers} (CSV)`, `${numbers} (JSON)`, 'Report (HTML)']) {
     expect(`${await saved(viewer, file)}`).toContain(words);
   }

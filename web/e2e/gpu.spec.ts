@@ -134,7 +134,7 @@ async function tracedOn(browser: Browser, device: 'any' | 'cpu'): Promise<[Pixel
   await expect(viewer.device).toContainText(device === 'any' ? 'GPU' : 'CPU');
   await viewer.press('v');
   await button(viewer, 'Delete all').click();
-  await expect(viewer.pane('straightened')).toContainText('once there is one');
+  await expect(viewer.pane('straightened')).toContainText('once there is a vessel');
   await viewer.pin(SMALL_VIEW);
   await viewer.drag([0.3, 0.4], [25, 15]);
   const before = await complete(viewer);
@@ -151,7 +151,7 @@ async function tracedOn(browser: Browser, device: 'any' | 'cpu'): Promise<[Pixel
   const after = await complete(viewer);
   await viewer.screenshot(`traced-${device}`);
   await viewer.press('Control+z');
-  await expect(viewer.pane('straightened')).toContainText('once there is one');
+  await expect(viewer.pane('straightened')).toContainText('once there is a vessel');
   const undone = await complete(viewer);
   viewer.expectNoFault();
   await viewer.close();

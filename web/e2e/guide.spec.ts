@@ -4,7 +4,7 @@ import { expect, test } from '@playwright/test';
 import { button, expectBegun, menu, REPORT, rows, startTracing, stenosis, traced } from './controls';
 import { Viewer } from './page';
 
-const START = 'Guided tour in two minutes';
+const START = 'Two-minute guided tour';
 let viewer: Viewer;
 
 test.beforeEach(async ({ browser }) => {

@@ -34,7 +34,7 @@ test('while a vessel is measured the section says that it is computed, until it 
   await viewer.rest();
   await viewer.press('m');
   const busy = viewer.pane('section').locator('.busy');
-  const measuring = viewer.page.getByRole('progressbar', { name: 'measuring the vessel' });
+  const measuring = viewer.page.getByRole('progressbar', { name: 'Measuring the vessel' });
   await expect(measuring).toBeVisible();
   await viewer.wheel([0.5, 0.5], 120, 'section');
   await expect(busy).toBeVisible({ timeout: 2000 });

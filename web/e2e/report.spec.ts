@@ -13,11 +13,11 @@ test.afterAll(() => tube.viewer.close());
 
 test('the table and the JSON are those of Python', async () => {
   await tube.marked();
-  const table = await tube.saved('Numbers of measured vessels (CSV)');
+  const table = await tube.saved('Measurements of all measured vessels (CSV)');
   expect(table.split('\n').map(withoutRounding)).toEqual(
     expected('measuring.csv').split('\n').map(withoutRounding),
   );
-  const told = JSON.parse(await tube.saved('Numbers of measured vessels (JSON)'));
+  const told = JSON.parse(await tube.saved('Measurements of all measured vessels (JSON)'));
   expect(told.vessels[0].stenosis.method).toBe('nascet');
   expect(PYTHON.nascet).toContain(`${told.vessels[0].stenosis.percent.toFixed(0)} ± 1 % of the diameter`);
 });

@@ -130,7 +130,7 @@ test('a page that is loaded again has kept nothing', async () => {
   ]);
   expect(kept).toEqual([0, 0, 0, 0, 0]);
   await openScan(viewer, SCAN);
-  await expect(viewer.page.getByText('No vessels yet: find them')).toBeVisible();
+  await expect(viewer.page.getByText('No vessels yet: find all')).toBeVisible();
   await viewer.press('v');
   await expect(rows(viewer)).toHaveCount(0);
   await expect(button(viewer, 'Undo')).toBeDisabled();

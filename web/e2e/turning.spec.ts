@@ -141,7 +141,7 @@ test('keys choose the windows, and the strip and its list do so too', async () =
   await level.focus();
   await viewer.press('ArrowRight', 'ArrowRight');
   await expect(viewer.window).not.toHaveText('W 400 L 40');
-  await expect(chosen).toHaveText('Own window');
+  await expect(chosen).toHaveText('Custom window');
   const white = viewer.page.getByRole('slider', { name: 'White of the window' });
   const value = Number(await white.getAttribute('aria-valuenow'));
   const box = await white.boundingBox();

@@ -83,7 +83,7 @@ async function editVessels(): Promise<number> {
 async function editMarks(): Promise<number> {
   const numbers = viewer.page.getByTestId('numbers');
   await viewer.press('m');
-  await step(/take the suggested places/, () =>
+  await step(/confirm the suggested places/, () =>
     button(viewer, 'Confirm the suggested places').click({ timeout: 30_000 }),
   );
   const place = viewer.page.getByRole('button', { name: /^marked place.*, in the profile$/ });
@@ -93,7 +93,7 @@ async function editMarks(): Promise<number> {
   }
   await step(/choose the method/, () => numbers.getByLabel('Method').selectOption('ecst'));
   const original = numbers.getByLabel('Original diameter');
-  await step(/give the original diameter/, () => original.fill('9').then(() => original.press('Enter')));
+  await step(/enter the original diameter/, () => original.fill('9').then(() => original.press('Enter')));
   await step(/choose the severity group/, () => numbers.getByLabel('Severity group').selectOption('carotid'));
   await step(/stretch/, () => button(viewer, 'Mark a stretch').click());
   await step(/remove the reference/, () => button(viewer, 'Remove the reference after').click());

@@ -45,7 +45,7 @@ beforeEach(() => {
 test('a line is measured once', async () => {
   const first = measure(measuring, 3);
   await measure(measuring, 3);
-  expect(store.progress.value?.words).toBe('measuring the vessel');
+  expect(store.progress.value?.words).toBe('Measuring the vessel');
   fake.answer(madeProfile());
   await first;
   await measure(measuring, 3);

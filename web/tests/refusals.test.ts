@@ -117,7 +117,9 @@ describe('DICOM', { timeout: 60_000 }, () => {
     const inside = slice({}, 0);
     const { memory } = await openSources([file('a.zip', archived('IM0', inside))]);
     expect(memory.header?.size).toEqual([4, 3, 1]);
-    expect(await refusal(file('a.zip', archived('IM0', inside, 3_000_000_000)))).toContain('claim to unpack');
+    expect(await refusal(file('a.zip', archived('IM0', inside, 3_000_000_000)))).toContain(
+      'claims to unpack',
+    );
     expect(await refusal(file('a.zip', archived('IM0', inside, inside.length - 20)))).toContain('damaged');
     expect(await refusal(file('a.zip', changed(archived('IM0', inside), 60)))).toContain('damaged');
     expect(await refusal(file('a.zip', archived('IM0', inside).subarray(0, 200)))).toContain('damaged');

@@ -9,7 +9,7 @@ export function placeOf(made: Made, subject: string): string {
   if (address) {
     return address;
   }
-  const advice = 'open the scan with `lumencut view`, from pip install "lumencut[dicom,plot]"';
+  const advice = 'open the scan with `lumencut view`, installed with pip install "lumencut[dicom,plot]"';
   throw new Failure(
     'file',
     subject,

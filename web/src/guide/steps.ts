@@ -53,7 +53,7 @@ export const STEPS: readonly GuideStep[] = [
     title: 'Turn it',
     words: [
       'Drag in the view “Vessels”.',
-      'The vessel is cut open along its centerline from every direction.',
+      'From every direction, you see the vessel cut open along its centerline.',
     ],
     isDone: () => {
       const camera = store.camera.value;
@@ -74,8 +74,8 @@ export const STEPS: readonly GuideStep[] = [
     title: 'Grade the stenosis',
     words: [
       'The narrowest place and its references are suggested. They are not findings until you confirm them.',
-      'Check them, drag them where they belong, or press “Confirm the suggested places”.',
-      'This phantom has a stenosis of 50 %: compare the percentage and its ± with that.',
+      'Drag each to the right place, or press “Confirm the suggested places”.',
+      'This phantom has a stenosis of 50 %. Compare it with the displayed percentage and its uncertainty (±).',
     ],
     isDone: () => Object.values(document_.value.marks).some((marks) => marks.at !== null),
   },
@@ -83,7 +83,7 @@ export const STEPS: readonly GuideStep[] = [
     title: 'Save it',
     words: [
       'Open “Save” and choose the report: one page with pictures and numbers that opens offline.',
-      'Save the session, a separate file, to continue later.',
+      'To continue later, save the session as a separate file.',
     ],
     isDone: () => false,
   },

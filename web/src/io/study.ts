@@ -110,8 +110,8 @@ function requireOne({ volumes, dicom, archives, lines, others }: Sorted): void {
   const every = [...volumes.map((one) => one.source), ...archives, ...dicom.slice(0, 1)];
   const [first, second] = every;
   if (first && second) {
-    const found = `${every.length} volumes, ${fileName(first.path)} and ${fileName(second.path)}${every.length > 2 ? ' among them' : ''}`;
-    const mend = 'choose the scan alone; trace a mask with `lumencut trace`';
+    const found = `${every.length} volumes, ${every.length > 2 ? 'including ' : ''}${fileName(first.path)} and ${fileName(second.path)}`;
+    const mend = 'choose only the scan; trace a vessel mask with `lumencut trace`';
     throw formatFailure('files', found, 'one volume and its centerlines', mend);
   }
   if (lines.length > 1) {

@@ -84,8 +84,8 @@ const storedBytes = ({ stored, labels }: VolumeFile): number =>
 /** JSON has no NaN; it would become 0. */
 function requireNumbers(file: VolumeFile): void {
   if (!file.worldFromIndex.flat().every(Number.isFinite)) {
-    const found = 'world_from_index with numbers that are not finite';
-    throw formatFailure(file.path, found, 'finite numbers', 'state another placement');
+    const found = 'a number in world_from_index that is not finite';
+    throw formatFailure(file.path, found, 'finite numbers', 'correct the position of the volume');
   }
 }
 

@@ -25,7 +25,7 @@ function Why() {
     );
   }
   if (!store.hasVolume.value) {
-    return <p>No scan is open to measure in.</p>;
+    return <p>Open a scan first.</p>;
   }
   if (beingMeasured.value !== null) {
     const share = progress?.total ? ` ${((100 * progress.done) / progress.total).toFixed(0)} %` : '';

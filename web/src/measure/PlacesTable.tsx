@@ -97,7 +97,7 @@ function PlaceRow({ place, profile }: { readonly place: VesselPlace; readonly pr
         class="link"
         style={{ color: COLORS[place.kind] }}
         onClick={() => moveTo(place.at)}
-        title="Shows its section"
+        title="Shows the section at this place"
       >
         {placeName(place)}
       </button>

@@ -43,7 +43,7 @@ export function SectionTools({ column, width, top }: SectionToolsProps) {
       <button
         type="button"
         class="small"
-        title={`Marks a normal place at ${at} as a reference of the stenosis`}
+        title={`Marks the normal lumen at ${at} as a reference for the stenosis`}
         onClick={() => markHere('reference')}
       >
         Reference here

@@ -121,7 +121,9 @@ export function endLength(): void {
 
 export function confirm(place: VesselPlace): void {
   if (place.isSuggestion) {
-    changeMarks(`take the ${placeName({ ...place, isSuggestion: false })}`, (marks) => taken(marks, place));
+    changeMarks(`confirm the ${placeName({ ...place, isSuggestion: false })}`, (marks) =>
+      taken(marks, place),
+    );
   }
 }
 
@@ -129,7 +131,7 @@ export function confirmAll(): void {
   const profile = currentProfile.value;
   const compared = comparedPlaces.value;
   if (profile) {
-    changeMarks('take the suggested places', (marks) =>
+    changeMarks('confirm the suggested places', (marks) =>
       allConfirmed(profile, marks, answers.value.suggested),
     );
     if (compared) {

@@ -18,6 +18,6 @@ async function copied(copy: () => Promise<void>): Promise<void> {
     await copy();
   } catch (error) {
     const mend = 'allow the page to use the clipboard, or save the report instead';
-    throw new Failure('picture', 'clipboard', String(error), 'a browser that lets the page copy', mend);
+    throw new Failure('picture', 'clipboard', String(error), 'permission to copy', mend);
   }
 }

@@ -55,7 +55,7 @@ export async function askForPacs(): Promise<void> {
 }
 
 export async function savePacs(study: PacsStudy): Promise<void> {
-  showMessage('Making the DICOM objects …');
+  showMessage('Creating the DICOM objects …');
   const response = await made('objects', SUBJECT, await requestOf(study));
   const scan = study === 'anonymous' ? null : store.studyName.value;
   saveAs(await response.blob(), fileName({ scan, content: 'pacs', ending: 'zip' }), 'Nothing was sent');

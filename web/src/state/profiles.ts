@@ -64,7 +64,7 @@ async function profileOf(engine: Asked, line: LineId, question: number): Promise
 /** Shows progress; without a total the duration is unknown. */
 function showProgress(question: number, total: number | null): void {
   if (question === asked) {
-    store.progress.value = { words: 'measuring the vessel', done: total ?? 0, total };
+    store.progress.value = { words: 'Measuring the vessel', done: total ?? 0, total };
   }
 }
 

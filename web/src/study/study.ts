@@ -50,7 +50,7 @@ export async function open(engine: EngineClient, load: () => Promise<Loaded>, na
 function misread({ doubt }: Loaded): Failure | null {
   const values = doubt?.readings ?? [];
   const mends = [{ name: 'reading', values }] as const;
-  const expected = 'lines of the size and the place of vessels';
+  const expected = 'lines with the size and position of vessels';
   return doubt && values.length > 0
     ? new Failure('format', 'Centerlines', doubt.found, expected, '', { mends })
     : null;

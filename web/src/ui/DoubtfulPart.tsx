@@ -18,7 +18,11 @@ export function DoubtfulPart({ vessels }: { readonly vessels: readonly DocumentV
     <section class="doubtful-rows" aria-label="Doubtful branches">
       <h3>{countedDoubts(vessels)}</h3>
       <div class="buttons">
-        <button type="button" title="Shows each with its reason (.)" onClick={() => stepDoubt(engine, 1)}>
+        <button
+          type="button"
+          title="Shows each doubtful branch with its reason (.)"
+          onClick={() => stepDoubt(engine, 1)}
+        >
           Review each
         </button>
         <button type="button" onClick={() => void accept(engine, ids)}>

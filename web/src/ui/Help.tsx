@@ -7,7 +7,7 @@ const PARTS: readonly (readonly [Where, string])[] = [
   ['turning', 'In the turning view'],
   ['flat', 'In slices, section and straightened vessel'],
   ['tracing', 'While tracing, in all views'],
-  ['marks', 'While a marker has the focus'],
+  ['marks', 'While a marker is focused'],
   ['everywhere', 'Everywhere'],
 ];
 

@@ -19,7 +19,7 @@ export function KeptQuestion() {
       problem.value = Failure.of(error);
     }
   };
-  const words = 'This tab kept vessels that were not saved.';
+  const words = 'This tab kept unsaved vessels from before the reload.';
   return (
     <div class="file-question" role="alertdialog" aria-label={words}>
       <p>{words}</p>

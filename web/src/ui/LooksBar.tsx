@@ -83,7 +83,7 @@ function LookButton({ look }: { readonly look: LookRow }) {
       type="button"
       aria-pressed={chosenLook.value === look.name && !(look.name === STENT_LOOK && isStentShown.value)}
       disabled={!isOffered(look)}
-      title={isOffered(look) ? `Shows ${look.sentence}` : `Shows ${look.sentence}: there are no vessels yet`}
+      title={isOffered(look) ? `Shows ${look.sentence}` : `Shows ${look.sentence}; needs a vessel`}
       onClick={() => chooseLook(look)}
     >
       {look.words}

@@ -46,7 +46,7 @@ function Loading() {
 function LongWork() {
   return (
     <>
-      <strong>This takes long. Is the point in a vessel, and not in bone?</strong>
+      <strong>This is taking long. Is the point in a vessel, not in bone?</strong>
       <button
         type="button"
         onClick={() => {
@@ -106,7 +106,7 @@ function Bridging({ failure }: { readonly failure: Failure }) {
           problem.value = null;
         }}
       >
-        Click between
+        Add a point between
       </button>
     </>
   ) : null;
@@ -116,7 +116,7 @@ function Bridging({ failure }: { readonly failure: Failure }) {
 function DoubtfulOnes() {
   return (
     <button type="button" onClick={() => void findAndList(engine, true)}>
-      Show the doubtful ones
+      Show the doubtful vessels
     </button>
   );
 }

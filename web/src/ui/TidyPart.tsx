@@ -31,7 +31,7 @@ export function TidyPart() {
         <button
           type="button"
           disabled={unconnected.value.length === 0}
-          title="Removes all vessels that are not connected to the picked one"
+          title="Removes all vessels that are not connected to the picked vessel"
           onClick={() => void keepPart(engine)}
         >
           {unconnected.value.length > 0

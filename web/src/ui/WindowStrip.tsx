@@ -44,7 +44,7 @@ export function WindowStrip() {
         <span class="hidden-words">Window preset</span>
         <select value={chosen} onChange={(event) => choosePreset(Number(event.currentTarget.value))}>
           <option value={-1} disabled>
-            Own window
+            Custom window
           </option>
           {presets.map((preset, number) => (
             <option key={preset.name} value={number}>{`${preset.words} (${number + 1})`}</option>

@@ -67,7 +67,7 @@ export function CprView() {
         words="picked vessel, straightened"
         ask={text ? ask : null}
         handlers={handlers}
-        empty="The straightened vessel is shown here once there is one."
+        empty="The straightened vessel appears here once there is a vessel."
         onSize={setSize}
         style={{ margin: '0 auto' }}
       >

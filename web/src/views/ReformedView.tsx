@@ -64,7 +64,7 @@ export function ReformedView({ kind }: { readonly kind: Reformation['kind'] }) {
           words={reformationTitle()}
           ask={text ? ask : null}
           handlers={handlersOf(kind, [left, top])}
-          empty="The vessel is shown here once there is one."
+          empty="The reformation appears here once there is a vessel."
           onSize={setSize}
           style={{ margin: `${top}px 0 0 ${left}px` }}
         >

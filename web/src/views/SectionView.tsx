@@ -87,7 +87,7 @@ export function SectionView() {
       ask={ask}
       handlers={handlers}
       isLate={frame !== null && (frame.line !== line || frame.at !== at)}
-      empty="The section across a vessel is shown here once there is one."
+      empty="The section across the vessel appears here once there is a vessel."
       onSize={setSize}
     >
       {plane && (

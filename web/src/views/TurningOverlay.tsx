@@ -46,7 +46,7 @@ function NoMillimetres() {
     <button
       type="button"
       class="no-millimetres"
-      title="This scan has no voxel spacing. Lengths assume 1 mm; saved files are marked accordingly. Undo reverts this."
+      title="This scan has no voxel spacing. This button assumes voxels of 1 mm; saved files then state the assumption. Undo reverts it."
       onClick={assumeOneMillimetre}
     >
       Assume 1 mm

@@ -132,7 +132,7 @@ async function fetchFormat(
     context,
   );
   if (!volume) {
-    throw new Failure('format', name, 'centerlines', 'a volume', 'name them as centerlines');
+    throw new Failure('format', name, 'centerlines', 'a volume', 'load the file as centerlines');
   }
   return { ...volume, notes };
 }
@@ -217,6 +217,6 @@ async function refuseShort(
   );
   const words = problem?.ok ? await problem.text() : '';
   throw words
-    ? new Failure('file', 'volume', words, 'a whole volume')
+    ? new Failure('file', 'volume', words, 'a complete volume')
     : new Failure('file', 'volume', `${found} bytes`, `${total}`, 'open it again');
 }

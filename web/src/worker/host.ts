@@ -194,7 +194,7 @@ export class EngineHost {
       throw this.crash;
     }
     if (!this.engine) {
-      throw new Failure('unexpected', 'the engine', 'nothing', 'one that is started');
+      throw new Failure('unexpected', 'the engine', 'not started', 'a started engine');
     }
     return this.engine;
   }

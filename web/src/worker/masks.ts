@@ -60,6 +60,6 @@ class MaskStudy implements Study {
   }
 
   openCenterlines(_bytes: Uint8Array, name: string): readonly string[] {
-    throw new Failure('format', name, 'centerlines', 'a mask of vessels', 'open centerlines as such');
+    throw new Failure('format', name, 'centerlines', 'a vessel mask', 'open the file as centerlines');
   }
 }

@@ -15,12 +15,22 @@ configure({ useWebWorkers: false });
 export async function membersOf(archive: Source): Promise<Source[]> {
   const entries = (await entriesOf(archive)).filter((entry): entry is FileEntry => !entry.directory);
   if (entries.some((entry) => entry.encrypted)) {
-    throw formatFailure(archive.path, 'an encrypted archive', 'one without a password', 'unpack it first');
+    throw formatFailure(
+      archive.path,
+      'an encrypted archive',
+      'an archive without a password',
+      'unpack it first',
+    );
   }
   const claimed = entries.reduce((sum, entry) => sum + entry.uncompressedSize, 0);
   if (claimed > Math.max(ALWAYS_ALLOWED, RATIO * archive.size)) {
-    const found = `${archive.size} bytes that claim to unpack to ${claimed}`;
-    throw formatFailure(archive.path, found, `at most ${RATIO} times the archive`, 'unpack it first');
+    const found = `an archive of ${archive.size} bytes that claims to unpack to ${claimed} bytes`;
+    throw formatFailure(
+      archive.path,
+      found,
+      `at most ${RATIO} times the size of the archive`,
+      'unpack it first',
+    );
   }
   const members = entries.map((entry) => new Member(archive.path, entry));
   return members.sort((one, other) => (one.path < other.path ? -1 : 1));

@@ -30,7 +30,7 @@ class Values {
   image({ file }: PlannedSlice): Image {
     const image = this.files[file]?.image;
     if (!image) {
-      throw new Error('a plan names files with a header');
+      throw new Error('the plan of the volume names a file without a header');
     }
     return image;
   }

@@ -166,7 +166,7 @@ function itemsIn(path: string, bytes: Bytes): { table: number[]; items: Item[]; 
   ) {
     const length = view.getUint32(at + 4, true);
     if (view.getUint16(at + 2, true) !== ITEM || at + 8 + length > bytes.length) {
-      throw damaged(path, 'truncated compressed pixels', 'complete ones');
+      throw damaged(path, 'truncated compressed pixels', 'complete pixels');
     }
     const content = bytes.subarray(at + 8, at + 8 + length);
     if (start < 0) {

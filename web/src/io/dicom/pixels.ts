@@ -91,7 +91,7 @@ function unpackedRle(path: string, shape: Shape, frame: Bytes): Numbers {
 async function decoded(path: string, syntax: string, shape: Shape, frame: Bytes): Promise<Numbers> {
   const name = CODECS[syntax];
   if (!name) {
-    throw formatFailure(path, `pixels of the transfer syntax ${syntax}`, 'a supported one');
+    throw formatFailure(path, `pixels of the transfer syntax ${syntax}`, 'a supported transfer syntax');
   }
   requireSize(path, name, shape, frame);
   const decode = await decoderOf(name);
@@ -133,7 +133,7 @@ function requireSize(path: string, name: CodecName, shape: Shape, frame: Bytes):
     throw formatFailure(
       path,
       `JPEG Extended of ${size.bits} bits`,
-      'one of 8 bits, or another compression',
+      'JPEG Extended of 8 bits, or another compression',
       mend,
     );
   }

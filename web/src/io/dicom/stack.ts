@@ -90,7 +90,7 @@ class Filler {
   private async values(slice: PlannedSlice): Promise<Numbers> {
     const image = this.files[slice.file]?.image;
     if (!image) {
-      throw new Error('a plan names files with a header');
+      throw new Error('the plan of the volume names a file without a header');
     }
     return inUnit(await this.reader.read(image, slice.frame), slice);
   }

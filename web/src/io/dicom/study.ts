@@ -10,7 +10,7 @@ import { isDicom } from './recognising';
 /** The part before the pixels; the whole file if it has none or is deflated. */
 export async function headOf(source: Source): Promise<Bytes> {
   if (!isDicom(await source.slice(0, Math.min(source.size, 256)))) {
-    const advice = "choose a file of the scan's own folder of DICOM";
+    const advice = 'choose a file from the DICOM folder of the scan';
     throw formatFailure(source.path, 'no DICOM', 'a DICOM file of the study', advice);
   }
   const { pixels, isDeflated } = await pixelsOf(source);
