@@ -1,6 +1,6 @@
-/** The remedies of failures: names shared by all hosts, and their wording in the page. */
+/** Remedies of failures: their names, which page and Python package share, and their texts in the page. */
 
-/** In the order of the crates. */
+/** All names, in the order in which the Rust crates define them. */
 export const MEND_NAMES = [
   'bridge',
   'every_second',
@@ -31,7 +31,7 @@ export interface Mend {
 
 export const EVERY_SECOND: Mend = { name: 'every_second', values: [] };
 
-/** `LPS in cm` for `lps in cm`. */
+/** Converts the axes to capitals: `LPS in cm` for `lps in cm`. */
 export const readingWords = (reading: string): string =>
   reading.replace(/^\w+/, (space) => space.toUpperCase());
 

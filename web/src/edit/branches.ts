@@ -1,4 +1,4 @@
-/** Adding many vessels: of the scan, from a seed, or of a mask. */
+/** Adds many vessels at once: all of a scan, those connected to a seed, or those of a mask. */
 import type { Asked } from '../core/asked';
 import type { DocumentVessel, Edit, Edited, GivenFile, LineFacts, Vector } from '../core/messages';
 import { flyToAnswer } from '../state/flight';
@@ -32,7 +32,7 @@ export async function findVessels(engine: Asked, doubtful = false): Promise<bool
 
 const sure = () => document_.value.vessels.filter((vessel) => vessel.doubt === null);
 
-/** Picks the widest vessel and shows most of it. */
+/** Picks the widest vessel, and turns the view so that most of it is visible. */
 async function showMain(engine: Asked): Promise<void> {
   try {
     const main = widest(answered.value?.facts ?? []);

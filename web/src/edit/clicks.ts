@@ -1,9 +1,9 @@
-/** Clicks of vessels. Each edit retraces the vessel; a rejected click changes nothing. */
+/** Edits the clicked points of a vessel. Each edit retraces the vessel; a rejected click changes nothing. */
 import type { Asked } from '../core/asked';
 import type { AfterEdit, Vector } from '../core/messages';
 import { commit, isDone } from './committing';
 
-/** Begins a vessel with two or more clicks. `begun` receives its id, even after the user bridges a gap. */
+/** Begins a vessel with two or more clicks. `begun` receives its id, also if the user first bridges a gap. */
 export function beginVessel(
   engine: Asked,
   clicks: readonly Vector[],

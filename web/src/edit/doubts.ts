@@ -11,7 +11,7 @@ import { accept, leaveOut } from './branches';
 import { contents } from './lines';
 import { chosenDoubt } from './mode';
 
-/** The short reason, if the engine has one. */
+/** Why the vessel is doubtful, in short if the engine has a short form. */
 export function reasonOf({ doubt }: DocumentVessel): string {
   return started.value?.doubts.find(({ words }) => words === doubt)?.short ?? doubt ?? '';
 }
@@ -47,7 +47,7 @@ export async function showDoubt(engine: Asked, vessel: DocumentVessel): Promise<
   }
 }
 
-/** Smallest field of view (mm, shorter side), so that the surroundings identify the branch. */
+/** Smallest field of view (mm, shorter side); the surroundings help to identify the branch. */
 const LEAST_SEEN = 80;
 
 async function viewOf(engine: Asked, from: Camera, line: LineId): Promise<Camera> {

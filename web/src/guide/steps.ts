@@ -1,4 +1,4 @@
-/** Steps of the guided tour with a phantom; each ends when the user has done it. */
+/** Steps of the guided tour with a phantom; each step ends when the user has done what it asks. */
 import { effect, signal } from '@preact/signals';
 import { engine } from '../client/shared';
 import type { Vector } from '../core/messages';
@@ -12,7 +12,7 @@ import { openPhantom } from '../study/study';
 
 export interface GuideStep {
   readonly title: string;
-  /** One sentence each. */
+  /** Sentences of the step. */
   readonly words: readonly string[] | (() => readonly string[]);
   readonly isDone: () => boolean;
 }
@@ -27,7 +27,7 @@ let directionAtFirst: Vector | null = null;
 
 const isTraced = (): boolean => document_.value.vessels.some((vessel) => (vessel.clicks?.length ?? 0) >= 2);
 
-/** The slices appear only once the tool is active. */
+/** The text depends on the progress: the slices appear only once the tracing tool is active. */
 function tracingWords(): readonly string[] {
   if (!isTracing()) {
     return ['Press “Trace” or the key t.', 'Three slice views open.'];
@@ -120,7 +120,7 @@ export function followGuide(): void {
       if (store.report.value === null) {
         leaveGuide();
       } else if (guideStep.peek() === step && STEPS[step]?.isDone()) {
-        // May run again before the next step starts if several signals change at once.
+        // Several signals may change at once, so check the step again before advancing.
         nextStep();
       }
     });
