@@ -113,7 +113,7 @@ export function undoLast(engine: EngineClient): void {
   }
 }
 
-/** Escape stops an edit; otherwise closes messages; otherwise leaves the tool. Returns whether it did something here. */
+/** Escape: stops an edit or leaves the tool. Returns false if there is neither, or if a message must close first. */
 function cancelEdit(engine: EngineClient): boolean {
   target.value = null;
   if (waiting.value > 0) {

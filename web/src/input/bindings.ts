@@ -1,6 +1,6 @@
-/** Table of all mouse, touch and key bindings; the help is generated from it. */
+/** All mouse, touch and key bindings. The help is generated from this table. */
 
-/** A view, the whole page, any view while tracing, or a focused marker. */
+/** Where a binding applies: in a view, everywhere, in any view while tracing, or on a focused marker. */
 export type Where = 'turning' | 'flat' | 'everywhere' | 'tracing' | 'marks';
 export type Gesture =
   | 'drag'
@@ -13,7 +13,7 @@ export type Gesture =
   | 'key';
 export type Button = 'left' | 'middle' | 'right';
 export type Modifier = '' | 'Shift' | 'Ctrl' | 'Alt';
-/** Edits, carried out by `edit/performing.ts`. */
+/** Edits of the vessels, performed by `edit/performing.ts`. */
 export type EditAction =
   | 'trace'
   | 'branches'
@@ -106,7 +106,7 @@ const withCtrl = (name: string, action: Action, words: string): Binding => ({
   modifier: 'Ctrl',
 });
 
-/** Keys that the focused view handles itself. */
+/** A row of the help for keys that the focused view or marker handles itself. */
 const pane = (where: Where, name: string, words: string): Binding => ({
   where,
   gesture: 'key',
@@ -231,7 +231,7 @@ export function actionOf(
   return BINDINGS.find(fits)?.action ?? null;
 }
 
-/** Action of a key; an unbound capital acts as its small letter. */
+/** Action of a key; a capital letter without a binding acts like its small letter. */
 export function actionOfKey(name: string, modifier: Modifier = ''): Action | null {
   const rowOf = (key: string) =>
     BINDINGS.find((row) => row.gesture === 'key' && row.key === key && (row.modifier ?? '') === modifier);

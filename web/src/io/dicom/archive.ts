@@ -1,15 +1,15 @@
-/** Members of a zip archive, unpacked into memory one at a time and never beyond the size they claim. */
+/** Members of a zip archive. Each is unpacked into memory on demand, and rejected if larger than the archive states. */
 import { configure, type FileEntry, Reader, ZipReader } from '@zip.js/zip.js/lib/zip-core-custom.js';
 import { Failure } from '../../core/failure';
 import type { Bytes } from '../payload';
 import type { Source } from '../source';
 import { damaged, formatFailure, printable } from '../words';
 
-/** Unpacked bytes always allowed; larger archives of real slices stay far below the ratio. */
+/** Unpacked size that is always allowed (bytes). Above it the ratio applies, which real slices never reach. */
 const ALWAYS_ALLOWED = 2 ** 30;
 const RATIO = 200;
 
-// The content security policy forbids blob workers, and this already is a worker.
+// The content security policy forbids workers from blobs; this code already runs in a worker.
 configure({ useWebWorkers: false });
 
 export async function membersOf(archive: Source): Promise<Source[]> {

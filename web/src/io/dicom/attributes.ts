@@ -1,4 +1,4 @@
-/** Tags and value representations (PS3.6) of the attributes that the judge can ask for. */
+/** Tags and value representations (PS3.6) of the attributes that `lumencut-dicom` can ask for. */
 
 export type Vr =
   | 'CS'

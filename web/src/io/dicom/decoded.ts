@@ -5,7 +5,7 @@ export interface Decoded {
   readonly columns: number;
   readonly rows: number;
   readonly components: number;
-  /** One or two bytes each, native byte order. */
+  /** Samples of one or two bytes, in native byte order. */
   readonly bytes: Bytes;
   readonly unit: number;
 }
