@@ -1,4 +1,4 @@
-/** Placeholder for a profile that is missing or cannot be measured. */
+/** Shown in place of a diameter profile that is missing or cannot be measured. */
 import type { Pair } from '../core/messages';
 import { beingMeasured, measureAgain, stopped } from '../state/profiles';
 import * as store from '../state/store';

@@ -1,4 +1,4 @@
-/** Edits of marks; a drag is previewed and becomes one undo step. */
+/** Edits of marked places. A drag is previewed and becomes one undo step. */
 import { batch, computed, signal } from '@preact/signals';
 import { moveTo } from '../link/along';
 import { type Document, NO_MARKS, type VesselMarks } from '../state/document';
@@ -30,7 +30,7 @@ interface Drag {
 
 let drag: Drag | null = null;
 
-/** Whether the dragged reference passed the stenosis, which swaps the handles. */
+/** Whether the dragged reference has passed the stenosis; then the keys of the two reference handles are swapped. */
 export const isCrossed = signal(false);
 
 function documentWith(marks: VesselMarks): Document {

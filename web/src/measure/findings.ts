@@ -1,4 +1,4 @@
-/** Findings: vessels with marks, and the engine's sentences about them. */
+/** Findings: the vessels with marks, and the sentences that the engine writes about them. */
 import { computed, signal } from '@preact/signals';
 import type { Findings, LineId, MeasuredVessel, Stated } from '../core/messages';
 import { nameOf } from '../state/changes';
@@ -54,7 +54,7 @@ export function leaveOut(line: LineId, isOut: boolean): void {
   leftOut.value = new Set(isOut ? [...others, line] : others);
 }
 
-/** Null until the engine has answered. */
+/** The sentences about all findings; null until the engine has answered. */
 export const findingSentences = signal<Findings | null>(null);
 
 export function forgetFindings(): void {
@@ -68,7 +68,7 @@ export const stated = (): Stated => ({
   has_orientation: store.states.value.orientation,
 });
 
-/** A finding as a message; its id is its number in tables. */
+/** The message that describes a finding to the engine; the id appears in tables. */
 export const markedVessel = ({ vessel, line, name, marks }: Finding): MeasuredVessel => ({
   id: String(vessel),
   name,

@@ -47,7 +47,7 @@ const labelsOf = (camera: Camera, density: number): Promise<PictureLabels> =>
     pixel_spacing: camera.pixel_spacing / density,
   });
 
-/** Letters and scale bar, if orientation and spacing are known. */
+/** Draws orientation letters and scale bar, if orientation and spacing are known. */
 function drawLabels(
   context: CanvasRenderingContext2D,
   { letters, bar }: PictureLabels,

@@ -126,7 +126,7 @@ class Filler {
   }
 }
 
-/** Computes slope · stored + intercept; the result is an integer array if all values are integers. */
+/** Computes slope · stored + intercept; the result is an integer array if values, slope and intercept are integers. */
 export function inUnit(stored: Numbers, scaling: Scaling): Numbers {
   if (!isScaled(scaling)) {
     return stored;
