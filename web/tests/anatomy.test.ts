@@ -1,4 +1,4 @@
-/** The anatomical names offered for vessels. */
+/** Tests of the anatomical names that are offered for vessels. */
 import { expect, test } from 'vitest';
 import { namesToOffer } from '../src/edit/anatomy';
 

@@ -14,7 +14,7 @@ function streamOf(parts: readonly Uint8Array[]): ReadableStream<Uint8Array> {
   });
 }
 
-/** The bytes, cut after each bit of `cuts` that is set. */
+/** The bytes in pieces: cut after byte n if bit n of `cuts` is set. */
 function split(cuts: number): Uint8Array[] {
   const ends = [...Array(8).keys()].filter((n) => cuts & (1 << n)).map((n) => n + 1);
   return [...ends, 9].map((end, n) => WHOLE.slice(n === 0 ? 0 : (ends[n - 1] ?? 0), end));

@@ -96,7 +96,7 @@ test('axes that are not quite at right angles come back to them', () => {
 describe('panning and zooming', () => {
   test('a pan moves by exactly its length in mm', () => {
     const after = panned(CAMERA, [10, -6]);
-    // The patient's left is on the right: 10 pixels of 0.5 mm right, 6 up.
+    // Seen from the front: the camera moves 10 pixels of 0.5 mm to the patient's right, and 6 down.
     expectNear(subtract(after.center, CAMERA.center), [-5, 0, -3]);
   });
 

@@ -7,7 +7,7 @@ import { progress } from '../src/state/store';
 
 const FINDING: Progress = { words: 'Finding vessels', done: 0, total: null };
 
-/** An engine that reports progress and answers on command. */
+/** A fake engine that reports progress and answers only when the test says so. */
 class Slow {
   onProgress: (report: Progress) => void = () => {};
   end: () => void = () => {};

@@ -1,4 +1,4 @@
-/** The picture comparison of the browser tests rejects what it should. */
+/** The picture comparison of the browser tests detects wrong pictures. */
 import { expect, test } from 'vitest';
 import {
   difference,

@@ -18,7 +18,7 @@ class Closable extends Memory {
 const placed = (affine: readonly (readonly number[])[], index: readonly number[]) =>
   affine.slice(0, 3).map((row) => row.reduce((sum, value, a) => sum + value * (index[a] ?? 1), 0));
 
-/** Streams the voxels 0, 1, 2 … in pieces of random length; returns what was kept. */
+/** Streams voxels with the values 0, 1, 2 … in pieces of random length; returns the kept ones. */
 function streamed(size: [number, number, number], dtype: keyof typeof ARRAYS, unit: number): Memory {
   const memory = new Closable();
   const sink = new EverySecond(memory);

@@ -9,7 +9,7 @@ import { CAMERA } from './helpers';
 
 const TURNED_CAMERA = turnedAbout({ ...CAMERA, pixel_spacing: 0.25 }, [0, 0, 0], [0, 0, 1], 1);
 
-/** Requests and views; each view is identified by its centre. */
+/** Recorded requests for flights, and the requested views; each view is identified by its centre. */
 let asked: Message<'flight'>[] = [];
 const viewsOf = ({ from, to, views }: Message<'flight'>): Camera[] =>
   Array.from({ length: views }, (_, n) => ({ ...(n < views - 1 ? from : to), center: [n, 0, 0] }));

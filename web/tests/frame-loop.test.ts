@@ -8,7 +8,7 @@ import { CAMERA } from './helpers';
 const VIEW: View = { camera: CAMERA, method: 'csr', settings: { levels: 3 } };
 const other = (x: number): View => ({ ...VIEW, camera: { ...CAMERA, center: [x, 0, 0] } });
 
-/** Frames take `time(view)` ms; NaN fails at once, negative values fail after that time; stops immediately. */
+/** A frame takes `time(view)` ms. If the time is NaN, it fails at once; if negative, after that many ms. */
 class FakeEngine {
   readonly asked: View[] = [];
   underWay = 0;
@@ -267,7 +267,7 @@ test('the first picture of a device may be slow: only the next one tells whether
   expect(stages()).toEqual(['moving', 'full']);
   for (const [pictures, expected] of [
     [1, ['moving', 'full', 'full', 'samples']],
-    // A persistently slow view is not redrawn repeatedly.
+    // If a view is always slow, it is rendered in full only twice.
     [9, ['moving', 'full', 'full']],
   ] as const) {
     shown = [];

@@ -3,13 +3,13 @@ import { type Disc, hullPath, thinned } from '../src/views/hull';
 
 const disc = (x: number, y: number, radius: number): Disc => ({ at: [x, y], radius });
 
-/** Corners of the closed parts of a path; arcs contribute their ends. */
+/** Corners of a closed part of an SVG path; of an arc, its end. */
 function corners(part: string): readonly (readonly [number, number])[] {
   const ends = part.replaceAll(/A[\d.]+ [\d.]+ 0 1 1 /g, 'L');
   return [...ends.matchAll(/[ML](-?[\d.]+) (-?[\d.]+)/g)].map(([, x, y]) => [Number(x), Number(y)] as const);
 }
 
-/** Twice the signed area. */
+/** Twice the signed area of a polygon. */
 function turned(points: readonly (readonly [number, number])[]): number {
   const sum = (n: number) => {
     const [a, b] = [points[n] ?? [0, 0], points[(n + 1) % points.length] ?? [0, 0]];
@@ -42,7 +42,7 @@ test('strips turn the same way whichever way the vessel runs, and as circles do'
   for (let n = 0; n < 12; n++) {
     const angle = (2 * Math.PI * n) / 12;
     const path = hullPath([disc(0, 0, 4), disc(30 * Math.cos(angle), 30 * Math.sin(angle), 4)], 0);
-    // With y downwards, an arc with sweep flag 1 has a positive area.
+    // Since y points downwards, an arc with sweep flag 1 encloses a positive area.
     expect(turned(corners(path.split('Z')[2] ?? ''))).toBeGreaterThan(0);
   }
 });

@@ -1,4 +1,4 @@
-/** Unsaved work is not lost without a question. */
+/** The user is asked before unsaved work is lost. */
 import { beforeEach, expect, test } from 'vitest';
 import { EMPTY } from '../src/state/document';
 import { begin, change, document_, markSaved, undo } from '../src/state/history';

@@ -1,4 +1,4 @@
-/** Profile axes, curves and flags, with the horizontal vessel on the same axis. */
+/** Axes, curves and flags of the diameter chart, and the vessel above it on the same axis. */
 import { describe, expect, test } from 'vitest';
 import { axisAlong, chartLayout, LEFT, RIGHT } from '../src/measure/chart-layout';
 import { bandPath, counted, isolated, linePath, spreadOf, stretches, topOf } from '../src/measure/curves';
@@ -138,7 +138,7 @@ describe('the lying vessel', () => {
   test('the middle of each column is at the arc length of its row in the CPR', () => {
     const x = axisAlong(60, 900);
     const lying = lyingIn(x, { height: 150, density: 2, fitting: 22 });
-    // The engine's layout: a row every `spacing` mm, starting at the first point.
+    // The picture of the engine has a row every `spacing` mm, starting at the first point of the vessel.
     const columns = Math.floor(60 / lying.spacing + 1e-9) + 1;
     const box = lyingBox(x, lying, [columns, 41]);
     const pixel = box.width / columns;

@@ -1,4 +1,4 @@
-/** Marks of a user, and suggestions. */
+/** Places that the user marks, and places that Lumencut suggests. */
 import { describe, expect, test } from 'vitest';
 import type { Pair, Vector } from '../src/core/messages';
 import {
@@ -235,7 +235,7 @@ describe('sections', () => {
   });
 
   test('where the vessel crosses itself the place stays on its side of the loop', () => {
-    // Seen along a bend: 20 mm and 40 mm share a pixel.
+    // The view direction is such that the places at 20 mm and 40 mm lie on the same pixel.
     const seen = ([, , z]: Vector): Pair => [200 - 10 * Math.abs(z - 30), 0];
     expect(seenNearest(profile, seen, [100, 2], 23)).toBe(20);
     expect(seenNearest(profile, seen, [100, 2], 37)).toBe(40);

@@ -1,4 +1,4 @@
-/** Profiles are measured once, cached by line, and can be stopped. */
+/** A diameter profile is measured once and cached by line; measuring can be stopped. */
 import { beforeEach, expect, test } from 'vitest';
 import type { Asked, Message } from '../src/core/asked';
 import { Failure } from '../src/core/failure';
@@ -17,7 +17,7 @@ import {
 import * as store from '../src/state/store';
 import { madeProfile } from './measured';
 
-/** Measures on command, and records requests. */
+/** A fake engine that measures only when the test says so, and records requests. */
 class Fake {
   readonly asked: [number, number | null][] = [];
   answer: (profile: Profile) => void = () => undefined;

@@ -1,4 +1,4 @@
-/** Every mend is worded for the page, without Python terms. */
+/** The page has a text for every remedy, without names of Python arguments. */
 import { readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { expect, test } from 'vitest';
@@ -12,7 +12,7 @@ const VALUES: Partial<Record<MendName, readonly string[]>> = {
   unit: ['cm', 'dm'],
   phase: ['0', '400'],
 };
-/** A Python argument, such as `fill_gaps=True`, `coordinates=` or `window`. */
+/** Matches the name of a Python argument, such as `fill_gaps=True`, `coordinates=` or `window`. */
 const PYTHON = /\w=|`\w+_\w+`|=True/;
 
 test.each(MEND_NAMES)('%s is worded by the page', (name) => {

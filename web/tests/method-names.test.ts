@@ -1,4 +1,4 @@
-/** Method names agree with the engine. */
+/** The names of the methods in the page are those of the engine. */
 import { spawnSync } from 'node:child_process';
 import { join } from 'node:path';
 import { expect, test } from 'vitest';

@@ -1,4 +1,4 @@
-/** Requests of the notebook page to the kernel: `asking.js` of the Python package. */
+/** Tests of `asking.js` in the Python package, which sends requests from the notebook page to the kernel. */
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
@@ -103,7 +103,7 @@ describe('what a notebook asks its kernel for', () => {
     vi.advanceTimersByTime(8500);
     expect(told.at(-1)).toContain('run the cell again');
     expect(told).toHaveLength(2);
-    // A late answer is shown, and a lost one blocks nothing.
+    // An answer that arrives late is shown, and one that is lost blocks nothing.
     expect(asker.answered(last().id)).toBeNull();
     asker.ask(['rotate', 1, 2]);
     expect(sent).toHaveLength(2);

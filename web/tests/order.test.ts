@@ -3,7 +3,7 @@ import { describe, expect, test } from 'vitest';
 import { Latest } from '../src/core/latest';
 import { Queue } from '../src/worker/queue';
 
-/** A task that ends on command. */
+/** A task that ends when the test says so. */
 function held(name: string, log: string[]) {
   let release: () => void = () => undefined;
   const ended = new Promise<void>((resolve) => {

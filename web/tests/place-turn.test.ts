@@ -20,7 +20,7 @@ import { tool } from '../src/state/tool';
 import { CAMERA, expectNear } from './helpers';
 
 const FIRST: Camera = { ...CAMERA, center: [5, 6, 7], pixel_spacing: 0.1 };
-/** 10 mm, 1 mm less every 10°, down to 2 mm at 80° and 90°; null at 100°. */
+/** Diameters per degree: 10 mm at 0°, 1 mm less every 10°, 2 mm at 80° and 90°; null at 100°. */
 const DIAMETERS = Array.from({ length: 180 }, (_, n) =>
   n === 100 ? null : 10 - Math.floor(Math.min(n, 179 - n) / 10),
 );
@@ -53,7 +53,7 @@ let end: () => void;
 beforeEach(() => {
   questions = [];
   answer = () => Promise.resolve({ camera: FIRST, diameters: DIAMETERS });
-  // Reduced motion, so that each view appears at once.
+  // The user prefers reduced motion, so each view appears at once.
   vi.stubGlobal('window', { matchMedia: () => ({ matches: true }) });
   placeTurn.value = null;
   tool.value = 'look';
@@ -112,7 +112,7 @@ describe('a turn', () => {
     turnTo(90);
     const camera = store.camera.value;
     expectNear(pixelOf(camera, FIRST.center), before, 9);
-    // From the front, the viewer moves to the patient's left and looks right, like the engine.
+    // The viewer moves from the front to the left of the patient, and then looks to the right, as in the engine.
     expectNear(camera.direction, [-1, 0, 0], 12);
     expect(placeTurn.value).toMatchObject({ angle: 90, least: 2, largest: 10 });
   });

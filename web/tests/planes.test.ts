@@ -16,7 +16,7 @@ import { expectNear } from './helpers';
 
 const NAMES: readonly SliceName[] = ['axial', 'coronal', 'sagittal'];
 
-/** A box of 100 × 60 × 40 mm with voxels of 1 × 2 × 4 mm. */
+/** A volume of 100 × 60 × 40 mm with voxels of 1 × 2 × 4 mm. */
 const VOLUME: VolumeReport = {
   size: [100, 30, 10],
   world_from_index: [

@@ -2,7 +2,7 @@ import { afterEach, beforeEach, describe, expect, test, vi } from 'vitest';
 import type { Where } from '../src/input/bindings';
 import { type Handlers, listen } from '../src/input/pointer';
 
-/** An element at (100, 50) that records its handler calls. */
+/** A fake element at (100, 50) that records which handlers are called. */
 class Pane extends EventTarget {
   readonly captured: number[] = [];
 
@@ -250,7 +250,7 @@ describe('wheel', () => {
     wheel(100, { altKey: true });
     expect([handlers.step.mock.calls, handlers.zoom.mock.calls]).toEqual([[[1]], []]);
     expect(handlers.leave).not.toHaveBeenCalled();
-    // Turning or zooming changes what is under the pointer.
+    // Turning or zooming changes the content under the pointer.
     wheel(100);
     expect([handlers.zoom.mock.calls.length, handlers.leave.mock.calls.length]).toEqual([1, 1]);
     Object.assign(handlers, { rows: undefined });

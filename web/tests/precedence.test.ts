@@ -1,7 +1,7 @@
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import { Precedence } from '../src/core/precedence';
 
-/** A sequential worker with views that can be stopped. */
+/** A fake worker that handles one request at a time; its views can be stopped. */
 class FakeWorker {
   stops = 0;
   private last: Promise<unknown> = Promise.resolve();

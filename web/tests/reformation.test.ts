@@ -1,4 +1,4 @@
-/** Requests for reformations, and captions of their pictures. */
+/** Tests of the requests for reformations, and of the captions of their pictures. */
 import { expect, test } from 'vitest';
 import { wrapped } from '../src/output/wrapping';
 import { type Chosen, REFORMATIONS, reformationOf } from '../src/state/reformation';

@@ -16,7 +16,7 @@ describe('volumes', { timeout: 60_000 }, () => {
     const { memory, failure } = await openSources([file('v.nii.gz', gzipped(nifti()))]);
     expect(failure).toBeNull();
     expect(memory.header?.size).toEqual([7, 5, 3]);
-    // RAS becomes LPS, the shear stays.
+    // The axes change from RAS to LPS; the shear stays the same.
     expect(memory.header?.world_from_index).toEqual([
       [-2, 0, 0, -5],
       [0, -3, -0.5, -6],

@@ -1,4 +1,4 @@
-/** The study data kept of a series, for objects saved with it. */
+/** What the page keeps of the DICOM study of a series, to save objects in this study. */
 import { expect, test } from 'vitest';
 import { series } from '../e2e/dicom';
 import { type ExaminedFile, examine } from '../src/io/dicom/headers';

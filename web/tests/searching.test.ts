@@ -15,7 +15,7 @@ import * as store from '../src/state/store';
 import { tool } from '../src/state/tool';
 import { FakeTracing, withLines } from './fake-tracing';
 
-// The page's engine needs a worker, which tests lack.
+// The real engine needs a worker, which these tests do not have.
 vi.mock('../src/client/shared', () => ({ engine: {} }));
 
 const OPENED: Vector = [0, 0, 0];

@@ -1,4 +1,4 @@
-/** Position of the buttons at the section, and font sizes of key images. */
+/** Tests of the position of the buttons at the section, and of font sizes in key images. */
 import { expect, test } from 'vitest';
 import { leftOf } from '../src/measure/chart-layout';
 import { fittingSize } from '../src/output/wrapping';

@@ -1,4 +1,4 @@
-/** DICOM segmentations as masks: recognition and vessel names. */
+/** DICOM segmentations are recognised as masks, and their segments name the vessels. */
 import { expect, test } from 'vitest';
 import type { DocumentVessel } from '../src/core/messages';
 import { isSegmentation, namedBySegment } from '../src/edit/segmentation';

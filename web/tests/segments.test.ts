@@ -1,11 +1,11 @@
-/** 3D Slicer segmentations: layers and names, and archives unpacked no further than needed. */
+/** Layers and names of 3D Slicer segmentations; compressed files are inflated no further than needed. */
 import { gzipSync } from 'node:zlib';
 import { describe, expect, test } from 'vitest';
 import { membersOf } from '../src/io/dicom/archive';
 import { archived, file } from './made';
 import { openSources } from './opened';
 
-/** 4 × 3 × 2 voxels with layers whose values count upwards. */
+/** A segmentation of 4 × 3 × 2 voxels with these header lines and layers. */
 function segmentation(lines: readonly string[], layers: readonly (readonly number[])[]): Buffer {
   const list = layers.length > 1;
   const header = [

@@ -1,4 +1,4 @@
-/** Round trip of a document through a session file. */
+/** A document stays the same when it is saved as a session and opened again. */
 import { describe, expect, test } from 'vitest';
 import type { Report } from '../src/core/messages';
 import { cameraOf, contentOf, type DisplayState, documentOf } from '../src/session/content';

@@ -1,11 +1,11 @@
-/** Rules for all page files: length, no import cycles between files or folders, and one file that touches wasm. */
+/** Rules for all files of the page: limited length, no import cycles, and only one file that imports WebAssembly. */
 import { readdirSync, readFileSync } from 'node:fs';
 import { dirname, join, normalize } from 'node:path';
 import { describe, expect, test } from 'vitest';
 
 const SRC = join(import.meta.dirname, '../src');
 const LONGEST = 300;
-/** Generated, so exempt from the length limit. */
+/** Generated files may be longer than the limit. */
 const GENERATED = 'core/generated/';
 
 const files = readdirSync(SRC, { recursive: true, encoding: 'utf8' }).filter(
@@ -19,7 +19,7 @@ function imported(name: string): string[] {
   return paths.flatMap((path) => files.filter((file) => [path, `${path}.ts`, `${path}.tsx`].includes(file)));
 }
 
-/** Folder of a file within src; `main.tsx` has none. */
+/** Folder of a file below src; for a file directly in src, such as `main.tsx`, its own name. */
 const folderOf = (name: string): string => name.split(/[/\\]/).slice(0, -1)[0] ?? name;
 
 function circle(graph: ReadonlyMap<string, readonly string[]>): string[] {

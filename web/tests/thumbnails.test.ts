@@ -1,4 +1,4 @@
-/** Thumbnails of series. */
+/** Tests of the thumbnails of series. */
 import { expect, test } from 'vitest';
 import { series } from '../e2e/dicom';
 import { pictureOf } from '../src/io/dicom/thumbnails';
@@ -29,6 +29,6 @@ test('a slice of any shape is 64 pixels at its longer side, from black to white 
   expect([grey[0], grey.at(-1)]).toEqual([0, 255]);
   expect(grey[32]).toBeGreaterThan(120);
   expect(grey[32]).toBeLessThan(136);
-  // A constant slice is black, without division by zero.
+  // The thumbnail of a constant slice is black; nothing is divided by zero.
   expect(new Set(pictureOf(new Int16Array(4).fill(7), [2, 2]).grey)).toEqual(new Set([0]));
 });

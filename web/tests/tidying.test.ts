@@ -14,7 +14,7 @@ import { begin, document_, undo } from '../src/state/history';
 import { pickedVessel, started } from '../src/state/store';
 import { markNone, shorterThan, thinnerThan, treeChosen } from '../src/state/tidy';
 
-// The page's engine needs a worker, which tests lack.
+// The real engine needs a worker, which these tests do not have.
 vi.mock('../src/client/shared', () => ({ engine: {} }));
 
 const vessel = (id: number, doubt: string | null = null): DocumentVessel => ({
@@ -26,7 +26,7 @@ const vessel = (id: number, doubt: string | null = null): DocumentVessel => ({
   clicks: null,
   doubt,
 });
-/** A trunk with two branches, and two separate vessels, one of unknown radius. */
+/** Sure vessels: a trunk with two branches, and two separate vessels, one of them of unknown radius. */
 const SURE = [1, 2, 3, 4, 5].map((id) => vessel(id));
 const DOUBTFUL = [6, 7, 8].map((id) => vessel(id, `reason ${id}`));
 const FACTS: readonly LineFacts[] = [

@@ -1,4 +1,4 @@
-/** A tracing click takes one request to the worker. */
+/** A click while tracing needs only one request to the worker. */
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import type { Vector } from '../src/core/messages';
 import { answered, dropEdits } from '../src/edit/committing';
@@ -16,7 +16,7 @@ import * as store from '../src/state/store';
 import { tool } from '../src/state/tool';
 import { documentOf, FakeTracing, reportOf } from './fake-tracing';
 
-// The page's engine needs a worker, which tests lack.
+// The real engine needs a worker, which these tests do not have.
 vi.mock('../src/client/shared', () => ({ engine: {} }));
 
 const [A, B, C]: Vector[] = [
@@ -29,7 +29,7 @@ let tracing: FakeTracing;
 let ends: (() => void)[];
 const idle = () => new Promise((resolve) => setTimeout(resolve, 5));
 
-/** Questions since the last call, once all work is done. */
+/** Waits until all work is done; returns the requests since the last call. */
 async function trips(): Promise<readonly string[]> {
   await idle();
   return tracing.trips.splice(0);

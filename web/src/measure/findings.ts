@@ -62,7 +62,7 @@ export function forgetFindings(): void {
   findingSentences.value = null;
 }
 
-/** Whether the scan states spacing and orientation. */
+/** Whether lengths are in mm, and whether the orientation of the patient is known. */
 export const stated = (): Stated => ({
   has_units: hasMillimetres.value,
   has_orientation: store.states.value.orientation,

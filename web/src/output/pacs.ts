@@ -1,4 +1,4 @@
-/** Saves DICOM objects for a PACS. The local server creates them and returns a zip archive; nothing is sent elsewhere. */
+/** Saves DICOM objects for a PACS. The server of the page makes a zip archive of them; nothing is sent elsewhere. */
 import { signal } from '@preact/signals';
 import { engine } from '../client/shared';
 import type { GivenFile } from '../core/messages';

@@ -1,4 +1,4 @@
-/** Vessel colours: first those of Okabe and Ito visible on dark. No yellow, orange or red, which signal warnings. */
+/** Vessel colours, first those of Okabe and Ito that are visible on dark. Yellow, orange and red signal warnings. */
 import type { DocumentVessel } from '../core/messages';
 
 export const PALETTE: readonly (readonly [color: string, words: string])[] = [
@@ -18,7 +18,7 @@ export const PALETTE: readonly (readonly [color: string, words: string])[] = [
 
 export const DOUBTFUL = '#ffa500';
 
-/** The least used colour, the first of several. */
+/** The colour that the fewest vessels have; of several, the first in the palette. */
 export function nextColor(vessels: readonly DocumentVessel[]): string {
   const counts = PALETTE.map(([color]) => vessels.filter((vessel) => vessel.color === color).length);
   return PALETTE[counts.indexOf(Math.min(...counts))]?.[0] ?? '#ffffff';

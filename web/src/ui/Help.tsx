@@ -1,4 +1,4 @@
-/** Help on mouse, touch and keys, generated from the bindings. */
+/** Help on mouse, touch and keys, generated from the table of bindings. */
 import { useEffect, useRef } from 'preact/hooks';
 import { BINDINGS, inputName, type Where } from '../input/bindings';
 import { isHelpOpen } from '../state/store';

@@ -1,4 +1,4 @@
-/** Asks whether to continue with a session kept over a reload. */
+/** After a reload of the tab, asks whether to continue with the kept session. */
 import { Failure } from '../core/failure';
 import { openList } from '../edit/list-open';
 import { kept } from '../session/keeping';

@@ -14,7 +14,7 @@ function mode(): Mode {
   return shown === 'measure' || shown === 'report' ? shown : 'look';
 }
 
-/** Switches mode. Pressing twice keeps the mode, because users may double-click; "Look" leaves it. */
+/** Switches the mode. A second press keeps the mode, because users may double-click; "Look" leaves it. */
 function change(to: Mode): void {
   const from = mode();
   if (from === to) {

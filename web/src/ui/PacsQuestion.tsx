@@ -1,4 +1,4 @@
-/** Asks for the target study of "Save for PACS". */
+/** Asks in which study the objects of "Save for PACS" belong. */
 import { useRef } from 'preact/hooks';
 import { attempt } from '../output/attempt';
 import {

@@ -1,4 +1,4 @@
-/** The marked stenosis: a percentage always with its method, references and mm. */
+/** The marked stenosis. The percentage never appears without its method, its references and diameters in mm. */
 import type { StenosisMethod, Territory } from '../core/messages';
 import { STENOSIS_METHODS } from '../core/method-names';
 import { answers, currentMarks, currentPlaces } from '../measure/current';
@@ -90,7 +90,7 @@ function Result({ marks }: { readonly marks: VesselMarks }) {
   return <NotGraded marks={marks} />;
 }
 
-/** Doubts about the percentage, or about the suggested places. */
+/** Doubts about the percentage; if nothing is marked, about the suggested places. */
 function Doubts() {
   const { doubts } = answers.value;
   return doubts.length > 0 ? (
@@ -103,7 +103,7 @@ function Doubts() {
 const NOTHING_MARKED =
   'Nothing is marked. Check the suggested places, drag them where they belong, or confirm them.';
 
-/** Not an error, so shown without emphasis. */
+/** A hint, not an error, and therefore shown without emphasis. */
 const ONLY_REFERENCES = 'Only a reference is marked. Press "Narrowest here" to get a percentage.';
 
 function NoPercentage({ marks }: { readonly marks: VesselMarks }) {

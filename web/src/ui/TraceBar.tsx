@@ -1,4 +1,4 @@
-/** Bar over the views: the offer to trace, the effect of the next click, and the doubtful branch. */
+/** Bar over the views: offers to trace, tells what the next click does, or shows a doubtful branch. */
 import { useSignal } from '@preact/signals';
 import { engine } from '../client/shared';
 import { findAndList } from '../edit/branches';
@@ -24,7 +24,7 @@ export function TraceBar() {
   if (isTracing()) {
     return <Hint />;
   }
-  // An ended vessel appears once its points are traced.
+  // A vessel that the user has ended appears once all its points are traced.
   if (coming.value.length > 0) {
     return (
       <div class="trace-bar" role="status">
@@ -80,7 +80,7 @@ function Hint() {
   const take = (wanted: Tool) => () => {
     tool.value = wanted;
   };
-  // Not while a point waits or is being traced.
+  // The summary is hidden while a point waits for confirmation or is being traced.
   const isSummaryShown =
     waiting.value === 0 && !candidate.value && (!isDrawing.value || drawn.value !== null);
   return (
@@ -140,7 +140,7 @@ function hintWords(): string {
     : 'Click where a vessel begins, or press Enter to choose the position of the cross-hair.';
 }
 
-/** The selected doubtful branch; answering shows the next one. */
+/** Shows a doubtful branch. After the user accepts it or leaves it out, the next one is shown. */
 function Doubt({ words }: { readonly words: string }) {
   const [place, count] = placeOfDoubt();
   return (

@@ -1,4 +1,4 @@
-/** The vessel list, with actions on all vessels. */
+/** The vessel list, with buttons for all vessels. */
 
 import { engine } from '../client/shared';
 import { namesToOffer } from '../edit/anatomy';

@@ -1,4 +1,4 @@
-/** The straightened CPR of the picked vessel. */
+/** View of the picked vessel as straightened CPR. */
 import { useCallback, useState } from 'preact/hooks';
 import { engine } from '../client/shared';
 import type { Cpr, Pair } from '../core/messages';

@@ -40,7 +40,7 @@ export function TurningOverlay() {
   );
 }
 
-/** Replaces the scale bar if the voxel spacing is unknown. */
+/** Button shown in place of the scale bar if the voxel spacing is unknown. */
 function NoMillimetres() {
   return (
     <button
@@ -54,7 +54,7 @@ function NoMillimetres() {
   );
 }
 
-/** Four short lines around the position, which stays visible. */
+/** The cross-hair: four short lines around a position, which stays visible itself. */
 export function HairLines({ at }: { readonly at: readonly [number, number] }) {
   return (
     <svg
