@@ -28,7 +28,7 @@ test('what was not saved is not closed unasked, and measuring does not go on in 
   await expect(page.locator('main.layout')).toHaveAttribute('data-layout', 'strip');
   await tube.rest();
   await expect(page.getByRole('alert')).toHaveCount(0);
-  // Nothing has changed since: it closes without a question, even with a tool active.
+  // Nothing has changed since it was saved, so it closes without a question, even while a tool is active.
   await tube.press('m', 't');
   await expect(page.locator('main.layout')).toHaveAttribute('data-layout', 'four');
   await close.click();

@@ -1,4 +1,4 @@
-/** Contact sheet of a cohort of 2,000 studies: opened, filtered, sorted and rated from a file. */
+/** The contact sheet of a cohort of 2,000 studies is opened from a file, filtered, sorted and rated. */
 import { spawnSync } from 'node:child_process';
 import { mkdtempSync, readFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -47,7 +47,7 @@ test('studies are filtered, ordered and rated, and the ratings outlive the page'
   await page.selectOption('#order', 'row');
   await page.fill('#search', 'p199');
   await page.locator('li:not(.hidden)').first().focus();
-  // Rating the first tile focuses the second.
+  // After the first tile is rated, the second one has the focus.
   await page.keyboard.press('g');
   await page.keyboard.press('x');
   await page.keyboard.press('ArrowLeft');

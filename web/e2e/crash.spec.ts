@@ -6,7 +6,7 @@ import { NARROWED, openScan, traceTube, tubes } from './scans';
 
 const SCAN = tubes('tubes.nrrd');
 
-/** Makes the next question fail like a crashed module. */
+/** Makes the next request to the engine fail like a crash of the WebAssembly module. */
 async function crash(viewer: Viewer): Promise<void> {
   // The first worker is the engine; the others are its threads.
   await viewer.page.workers()[0]?.evaluate(() => {

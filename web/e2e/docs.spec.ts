@@ -1,4 +1,4 @@
-/** The documentation site in a browser, opened from files: no external requests, and a working search. */
+/** Opens the built documentation from files; checks that it loads nothing from other hosts and can be searched. */
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { expect, type Page, test } from '@playwright/test';

@@ -1,9 +1,9 @@
-/** Choosing files: centerlines for an open scan, also without a stated coordinate system. */
+/** Tests of opening files: centerlines for an open scan, also if they state no coordinate system. */
 import { expect, test } from '@playwright/test';
 import { button, choose, fileOf, rows, SESSION, saved } from './controls';
 import { Viewer } from './page';
 
-/** A line that fits the phantom even with x and y negated. */
+/** A centerline that lies in the phantom even if x and y change their signs. */
 const AXIS = 'x,y,z,radius\n0,0,-8,1.5\n0,0,0,1.5\n0,0,8,1.5\n';
 
 test('centerlines whose space nothing tells are read as the user says', async ({ browser }) => {
@@ -75,7 +75,7 @@ test('a scan that states no distances gets mm by consent alone, and undo takes t
   await expect(scale).toBeVisible();
   await expect(assume).toHaveCount(0);
   await expect(viewer.readOut).toContainText('10.0 mm');
-  // The button handles the press; the cross-hair stays.
+  // The press acts on the button only; the cross-hair stays.
   expect(await viewer.hair('turning')).toEqual(hair);
   await viewer.screenshot('one-millimetre');
   await viewer.press('Control+z');

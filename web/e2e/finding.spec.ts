@@ -1,4 +1,4 @@
-/** Finding all vessels of a scan from the page's offer, as one undo step. */
+/** The button offered by the page finds all vessels of a scan, as one undo step. */
 import { expect, test } from '@playwright/test';
 import { button, rows, untraced } from './controls';
 
@@ -11,7 +11,7 @@ test('a page without vessels offers to find all of them, in one step that can be
   const count = await rows(viewer).count();
   await expect(button(viewer, 'Find all vessels')).toHaveCount(1);
   await viewer.screenshot('find-vessels');
-  // The message closes by Escape and by a press elsewhere; the vessels stay.
+  // The list of notes closes by Escape and by a press elsewhere; the vessels stay.
   const notes = viewer.page.locator('footer summary');
   const note = viewer.page.locator('footer .menu-body li').first();
   for (const close of [() => viewer.press('Escape'), () => viewer.click([0.5, 0.1])]) {

@@ -49,7 +49,7 @@ test('each step that is done leads to the next one, up to the report', async () 
   await button(viewer, 'Measure').click();
 
   await expectStep('4 of 5: Grade the stenosis');
-  // Tracing has ended and restored the layout.
+  // Tracing has ended, so the bar is gone and the layout is as before.
   await expect(viewer.page.locator('.trace-bar')).toHaveCount(0);
   await expect(viewer.field('Context')).toHaveValue('mida');
   await expect(button(viewer, 'Confirm the suggested places')).toBeVisible({ timeout: 30_000 });

@@ -1,4 +1,4 @@
-/** The vessel list: names, keeping over a reload, centerlines in the menu "Save", and region presets. */
+/** Tests of vessel names, of keeping vessels over a reload, of saving centerlines, and of region presets. */
 import { expect, test } from '@playwright/test';
 import { button, nameOf, rename, rows, SIZE } from './controls';
 import { Viewer } from './page';
@@ -22,7 +22,7 @@ test('a click on a name picks its vessel, a second one or F2 changes it, and ves
   await nameOf(viewer, 2).click();
   await expect(rows(viewer).nth(2).getByRole('radio')).toBeChecked();
   await expect(nameOf(viewer, 2)).toHaveAttribute('readonly');
-  // A name that is not being edited does not capture keys.
+  // While a name has the focus but is not edited, keys act on the page.
   await viewer.press('m');
   await expect(viewer.page.locator('main.layout')).toHaveAttribute('data-layout', 'measure');
   await viewer.press('m');

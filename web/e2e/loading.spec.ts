@@ -1,4 +1,4 @@
-/** Opening, cancelling and closing: complete, broken, slow and repeated streams. */
+/** Tests of opening, cancelling and closing, with complete, broken, slow and repeated voxel streams. */
 import { spawnSync } from 'node:child_process';
 import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -45,7 +45,7 @@ test.describe('streams', () => {
     await serve(viewer.page, WHOLE);
     await viewer.page.goto(`./${ADDRESSES}`);
     await viewer.rest();
-    // Outside of the volume the cut ends and reveals what is behind.
+    // Outside the volume the cut ends, and what lies behind it is visible.
     await viewer.drag([0.5, 0.3], [50, 60]);
     await viewer.pane().focus();
     await viewer.press('-', '-', '-', '-', '-');
@@ -164,7 +164,7 @@ test.describe('streams', () => {
       await expect(viewer.problem).toHaveCount(0);
       await viewer.page.getByRole('button', { name: 'A tube with a stenosis of 50 %' }).click();
       await viewer.rest();
-      // The browser reports the failed request itself.
+      // The browser itself also reports the failed request (404).
       expect(viewer.faults.filter((fault) => !fault.includes('404'))).toEqual([]);
     });
   }
@@ -248,7 +248,7 @@ test('50 opens of a phantom do not grow the memory', { tag: '@long' }, async ({ 
   const before = await viewer.memory();
   await openAndClose(viewer.page, 40);
   expect(before).toBeGreaterThan(MEGABYTE);
-  // A leaked volume or picture would exceed this by far.
+  // If a volume or picture were leaked at each opening, memory would grow far more.
   expect((await viewer.memory()) - before).toBeLessThan(5 * MEGABYTE);
   viewer.expectNoFault();
   await viewer.close();

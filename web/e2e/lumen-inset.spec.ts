@@ -1,4 +1,4 @@
-/** The lumen under the pointer: what a click takes, and stepping to lumens behind it. */
+/** Tests of the lumen shown at the pointer: a click selects it, and the wheel steps to lumens behind it. */
 import { expect, test } from '@playwright/test';
 import { button, expectBegun, rows, startTracing, untraced } from './controls';
 import type { Viewer } from './page';

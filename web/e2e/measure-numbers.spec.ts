@@ -1,4 +1,4 @@
-/** Numbers of a measured vessel, next to the profile and in the section. */
+/** Tests of the measurements shown in the panel, in the chart and in the section. */
 import { AxeBuilder } from '@axe-core/playwright';
 import { expect, test } from '@playwright/test';
 import { menu } from './controls';
@@ -70,7 +70,7 @@ test('a page at 200 % has no words over the lumen, and no look beneath a button'
 });
 
 test('vessel and profile share their axis', async () => {
-  // Retried, because chart and picture update separately.
+  // Retried, because chart and picture are updated at different times.
   await expect(async () => {
     const [canvas, from, to] = await Promise.all([
       tube.viewer.page.locator('[data-testid=profile] canvas').boundingBox(),

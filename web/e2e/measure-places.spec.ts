@@ -1,4 +1,4 @@
-/** Places of a measurement, by mouse and keys, with the numbers of the Python package (`expected/make.py`). */
+/** Places are marked by mouse and keys. The measurements are those of the Python package (`expected/make.py`). */
 import { expect, test } from '@playwright/test';
 import { MeasuredTube, PYTHON } from './measured-tube';
 
@@ -228,7 +228,7 @@ test('the whole line of a place is its grip, 20 pixels beside it too, and a miss
   await tube.viewer.press('Control+z');
   await expect(tube.row('place-0')).toContainText('at 30.0 mm');
 
-  // A press without a drag clicks the chart; a drag between lines moves only the section.
+  // A click acts on the chart; a drag that begins far from all lines moves only the section.
   await mouse.click(column + 10, (box?.y ?? 0) + (box?.height ?? 0) * 0.6);
   await drag(column + (await tube.pixels(10)), await tube.pixels(2));
   await expect(tube.row('place-0')).toContainText('at 30.0 mm');

@@ -1,4 +1,4 @@
-/** Measuring while the page does other work. */
+/** A vessel can be measured while the page does other work. */
 import { expect, test } from '@playwright/test';
 import { Viewer } from './page';
 

@@ -1,4 +1,4 @@
-/** Rejected DICOM series, and the buttons that mend them, worded for the page. */
+/** For a rejected DICOM series, the page offers buttons that fix the problem. */
 import { expect, test } from '@playwright/test';
 import { series } from './dicom';
 import { Viewer } from './page';

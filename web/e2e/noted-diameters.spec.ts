@@ -1,4 +1,4 @@
-/** A noted diameter and a reference can exist alone, and nothing at the section leaves the pane. */
+/** A noted diameter or a reference can be the only mark, and the buttons at the section stay inside the pane. */
 import { expect, test } from '@playwright/test';
 import { REPORT, SESSION } from './controls';
 import { MeasuredTube } from './measured-tube';

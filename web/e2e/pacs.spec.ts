@@ -1,4 +1,4 @@
-/** "Save for PACS": the page's server returns DICOM objects in an archive that Python reads. */
+/** "Save for PACS" saves an archive of DICOM objects from the server of the page; Python can read them. */
 import { type ChildProcess, spawn, spawnSync } from 'node:child_process';
 import { once } from 'node:events';
 import { join } from 'node:path';
@@ -63,7 +63,7 @@ async function measured(viewer: Viewer): Promise<void> {
   await expect(viewer.page.getByTestId('stenosis')).toContainText('NASCET');
 }
 
-/** Saves by the menu with an answer to its question; returns the archive's content. */
+/** Saves by the menu, and answers the question about the study. Returns the content of the archive. */
 async function saved(viewer: Viewer, answer: string): Promise<Record<string, Told>> {
   await menu(viewer).click();
   await button(viewer, 'For PACS (DICOM, zip)').click();

@@ -1,4 +1,4 @@
-/** Rejected clicks change nothing; the page reports what it found, what it expected, and where. */
+/** A rejected click changes nothing. The page reports what was found, what was expected, and where. */
 import { expect, test } from '@playwright/test';
 import { button, expectBegun, rows, startTracing, traced } from './controls';
 import { Viewer } from './page';

@@ -1,4 +1,4 @@
-/** Files saved of a measured vessel: table, JSON and report. */
+/** Tests of the files that are saved for a measured vessel: CSV table, JSON and report. */
 import { readFileSync } from 'node:fs';
 import { expect, test } from '@playwright/test';
 import { menu, REPORT, SESSION } from './controls';
@@ -22,7 +22,7 @@ test('the table and the JSON are those of Python', async () => {
   expect(PYTHON.nascet).toContain(`${told.vessels[0].stenosis.percent.toFixed(0)} ± 1 % of the diameter`);
 });
 
-/** Rounds coordinates that are 0 except for rounding, which depends on the compiler. */
+/** Replaces coordinates that are 0 up to rounding errors, which depend on the compiler. */
 const withoutRounding = (line: string): string =>
   line
     .split(',')

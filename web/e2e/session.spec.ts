@@ -1,4 +1,4 @@
-/** A session file restores everything, in the page and on the command line. */
+/** A session file restores all work of the user, in the page and on the command line. */
 import { spawnSync } from 'node:child_process';
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -24,7 +24,7 @@ const SCAN = tubes('tubes.nrrd');
 const ROOT = join(import.meta.dirname, '../..');
 const PYTHON = process.env.LUMENCUT_PYTHON ?? join(ROOT, '.venv/bin/python');
 
-// Each test continues from the previous one.
+// Each test continues with the state that the previous one left.
 test.describe.configure({ mode: 'serial' });
 
 let viewer: Viewer;
@@ -206,7 +206,7 @@ test('a damaged session is refused in words, and nothing changes', async () => {
   }
 });
 
-/** Text of a PNG chunk; the chunk length bounds it, since later bytes may be letters. */
+/** Text of a PNG chunk. It ends by the length of the chunk, since the bytes that follow may be letters. */
 function textOf(png: Buffer, keyword: string): string {
   const begin = png.indexOf(`tEXt${keyword}\0`);
   expect(begin).toBeGreaterThan(0);
@@ -227,10 +227,10 @@ test('the command line measures and renders what the session tells', async () =>
   expect(measured.stdout + measured.stderr).toContain(before.stenosis ?? 'a stenosis');
   const drawn = lumencut('render', scan, '--like', made, '-o', rendered);
   expect(drawn.status, drawn.stderr).toBe(0);
-  // A picture stores its settings: the session's view, with the one visible vessel.
+  // A picture stores how it was made: the view of the session, with the only visible vessel.
   const recipe = JSON.parse(textOf(readFileSync(rendered ?? ''), 'Lumencut'));
   const { camera } = JSON.parse(session.toString('utf-8')).LumencutSession.view;
-  // The axes were normalised again.
+  // Compared with a tolerance, since the axes were normalised again.
   for (const name of ['center', 'direction', 'up', 'size', 'pixel_spacing']) {
     const found: number[] = [recipe.camera[name]].flat();
     const expected: number[] = [camera[name]].flat();

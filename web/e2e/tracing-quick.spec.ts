@@ -1,9 +1,9 @@
-/** The first tour step by a user faster than the engine, and the focus after keys. */
+/** A user who is faster than the engine performs the first step of the tour. Keys move the focus. */
 import { type Browser, expect, type Page, test } from '@playwright/test';
 import { Viewer } from './page';
 
 const SIZE = { width: 1100, height: 720 };
-/** On the tube, as shares of the coronal pane's height. */
+/** Heights of two points on the tube, as shares of the height of the coronal pane. */
 const [UPPER, LOWER] = [0.3, 0.7];
 
 async function guided(browser: Browser): Promise<Viewer> {

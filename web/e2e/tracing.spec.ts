@@ -1,4 +1,4 @@
-/** Tracing by clicks and keys, editing, undoing, saving and reloading. */
+/** Tests of tracing by clicks and keys, and of editing, undoing, saving and opening the vessels. */
 import { readFileSync } from 'node:fs';
 import { expect, type Locator, test } from '@playwright/test';
 import { button, listAsTheyCame, nameOf, rename, rows, SIZE, untraced } from './controls';
@@ -9,7 +9,7 @@ const lengthOf = async (viewer: Viewer, n: number): Promise<number> =>
 const point = (viewer: Viewer, n: number, pane: PaneName = 'coronal'): Locator =>
   viewer.pane(pane).getByRole('button', { name: new RegExp(`^Point ${n} of`) });
 
-/** Position in a slice of the junction, in heights of the pane, which the volume fills. */
+/** Position in a slice of the phantom "junction", in units of the height of the pane, which the volume fills. */
 async function place(viewer: Viewer, across: number, down: number, pane: PaneName = 'coronal') {
   const [width, height] = await viewer.size(pane);
   return [Math.round(width / 2 + across * height), Math.round(down * height)] as const;
@@ -122,7 +122,7 @@ test('where no lumen is under the pointer, a click in the projection is looked a
 }) => {
   const viewer = await untraced(browser, 'y_junction', { hasTouch: true });
   await startTool(viewer);
-  // A finger does not hover: no inset, and the brightest position is proposed. Two taps are a double tap.
+  // A finger cannot hover, so the brightest point is proposed. Two quick taps are a double click.
   await viewer.tap([0.5, 0.75]);
   await expect(viewer.page.locator('[data-place=candidate]')).toHaveCount(4);
   await expect(viewer.page.locator('[data-place=first]')).toHaveCount(0);
@@ -185,7 +185,7 @@ test('a vessel that nobody clicked takes points, runs where it ran, and is edite
   await expect(point(viewer, 1)).toHaveCount(0);
   const [x, y] = await viewer.place(await place(viewer, 0, 0.5), 'coronal');
   await viewer.page.mouse.click(x, y, { button: 'right' });
-  // Both ends, two points between them, and the added one.
+  // The vessel has five points: both ends, two between them, and the added one.
   await expect(point(viewer, 5)).toHaveCount(1);
   await expect(point(viewer, 6)).toHaveCount(0);
   await expect(button(viewer, 'Undo')).toHaveAttribute('title', /add a point/);
@@ -249,7 +249,7 @@ test('all branches from here are those that hang together with the vessel at the
 }, async ({ browser }) => {
   test.setTimeout(400_000);
   const viewer = await untraced(browser, 'aorta');
-  // The page placed the cross-hair, so the user must place the seed.
+  // The user has not placed the cross-hair, so the next click is the seed.
   await viewer.press('b');
   await expect(viewer.page.getByRole('status').first()).toContainText('Click where the tree begins');
   await expect(rows(viewer)).toHaveCount(0);

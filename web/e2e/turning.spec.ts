@@ -1,4 +1,4 @@
-/** Mouse and keys in the turning view. */
+/** Tests of mouse and keys in the turning view. */
 import { expect, test } from '@playwright/test';
 import { pixelOf } from '../src/core/camera';
 import type { Camera, Pair, Vector } from '../src/core/messages';
@@ -24,7 +24,7 @@ function pointAt(camera: Camera, [x, y]: Pair): Vector {
 
 const differs = (a: Pixels, b: Pixels) => difference(a, b, SAME_CODE) !== null;
 
-/** A view in which branches overlap and none lies in the picture plane. */
+/** Shows a view in which branches overlap and none lies in the picture plane. */
 async function showOverlap(): Promise<void> {
   await viewer.look('l', 'A', 'S');
   await viewer.drag([0.5, 0.4], [12, 18]);
@@ -62,7 +62,7 @@ test('Alt and a drag rotate about the axis of the picked vessel', async () => {
 
 test('the wheel zooms, and the place at the pointer stays', async () => {
   const camera = await viewer.camera();
-  // The browser rounds wheel positions to page pixels, while a view may start between them.
+  // The browser rounds wheel positions to integer pixels of the page, but the view may start at a fraction.
   const box = await viewer.box();
   const at: Pair = [Math.round(box.x + 150) - box.x, Math.round(box.y + 90) - box.y];
   const kept = pointAt(camera, at);

@@ -1,4 +1,4 @@
-/** Slices, straightened vessel, section and layouts: linked by the cross-hair, and each can be maximised. */
+/** Tests of slices, straightened vessel, section and layouts: the cross-hair links them, each can be maximised. */
 import { expect, test } from '@playwright/test';
 import { difference, isEmpty, OTHER_DEVICE, SAME_CODE } from './compare';
 import { type PaneName, Viewer } from './page';
@@ -241,7 +241,7 @@ test('a page that is loaded again shows the same view', async () => {
   await viewer.page.reload();
   await viewer.rest();
   expect(rounded(await viewer.state())).toEqual(rounded(state));
-  // The address rounds the centre to 0.001 mm, which moves some edges by a step.
+  // The address stores the centre rounded to 0.001 mm, which changes some pixels at edges slightly.
   expect(difference(await viewer.picture(), picture, OTHER_DEVICE)).toBeNull();
   await expect.poll(async () => difference(await viewer.pixels('axial'), axial, OTHER_DEVICE)).toBeNull();
   expect(decodeURIComponent(viewer.page.url())).not.toContain('trunk');

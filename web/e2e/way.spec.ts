@@ -18,7 +18,7 @@ import { Viewer } from './page';
 import { pixelAt } from './scans';
 
 const SCAN = join(import.meta.dirname, '../../../shared/data/stent-cta/stent_cta.nii.gz');
-/** Extent of the scan (mm), and start of its stent and left limb from the centre. */
+/** Extent of the scan (mm), and where its stent and its left limb begin, measured from the centre (mm). */
 const EXTENT = [128, 128, 256] as const;
 const STENT = [9, 64] as const;
 const LIMB = [8.4, -71.7] as const;
