@@ -57,7 +57,7 @@ test.each([
   });
 });
 
-test('a type that the engine has not is refused', () => {
+test('a type that the engine does not support is rejected', () => {
   const sink = new EverySecond(new Closable());
   const header = { size: [2, 2, 2], dtype: 'complex64', world_from_index: AFFINE };
   expect(() => sink.begin_volume(JSON.stringify(header))).toThrow(Failure);

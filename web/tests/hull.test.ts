@@ -18,13 +18,13 @@ function turned(points: readonly (readonly [number, number])[]): number {
   return points.reduce((all, _, n) => all + sum(n), 0);
 }
 
-test('points that lie on each other in the picture are one, and the last one stays', () => {
+test('of points at the same pixel only one is kept, and always the last one', () => {
   const discs = [disc(0, 0, 3), disc(0.5, 0, 3), disc(2.5, 0, 4), disc(3, 0, 5)];
   expect(thinned(discs)).toEqual([discs[0], discs[2], discs[3]]);
   expect(thinned([])).toEqual([]);
 });
 
-test('a hull is a circle around each point and a strip between two, each as wide as asked for', () => {
+test('a hull is a circle around each point and a strip between two points, widened as requested', () => {
   const parts = hullPath([disc(10, 20, 3), disc(10, 50, 5)], 2)
     .split('Z')
     .filter(Boolean);
@@ -38,7 +38,7 @@ test('a hull is a circle around each point and a strip between two, each as wide
   ]);
 });
 
-test('strips turn the same way whichever way the vessel runs, and as circles do', () => {
+test('strips have the same orientation as circles, whatever the direction of the vessel', () => {
   for (let n = 0; n < 12; n++) {
     const angle = (2 * Math.PI * n) / 12;
     const path = hullPath([disc(0, 0, 4), disc(30 * Math.cos(angle), 30 * Math.sin(angle), 4)], 0);
@@ -47,7 +47,7 @@ test('strips turn the same way whichever way the vessel runs, and as circles do'
   }
 });
 
-test('two points at one place have no strip between them', () => {
+test('there is no strip between two points at the same position', () => {
   expect(
     hullPath([disc(1, 1, 2), disc(1, 1, 2)], 0)
       .split('Z')

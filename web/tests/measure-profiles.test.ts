@@ -54,7 +54,7 @@ test('a line is measured once', async () => {
   expect(store.progress.value).toBeNull();
 });
 
-test('why a line cannot be measured is kept too', async () => {
+test('the reason why a line cannot be measured is cached too', async () => {
   const asked = measure(measuring, 3);
   fake.refuse(new Failure('measuring', 'vessel', 'nothing', 'lumen'));
   await asked;
@@ -63,7 +63,7 @@ test('why a line cannot be measured is kept too', async () => {
   expect(fake.asked).toHaveLength(1);
 });
 
-test('what was stopped is measured only when it is asked for again', async () => {
+test('after a stop, a line is measured only on request', async () => {
   const asked = measure(measuring, 3);
   stopMeasuring();
   expect([beingMeasured.value, stopped.value]).toEqual([null, 3]);
@@ -82,7 +82,7 @@ test('a stop while nothing is measured does nothing', () => {
   expect(stopped.value).toBeNull();
 });
 
-test('an answer of another study is not kept', async () => {
+test('an answer about another study is not cached', async () => {
   const asked = measure(measuring, 3);
   forgetProfiles();
   fake.answer(madeProfile());
@@ -90,7 +90,7 @@ test('an answer of another study is not kept', async () => {
   expect(profiles.value.size).toBe(0);
 });
 
-test('with another width all is measured again', async () => {
+test('with another FWHM, all vessels are measured again', async () => {
   const asked = measure(measuring, 3);
   fake.answer(madeProfile());
   await asked;

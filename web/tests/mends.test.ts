@@ -27,14 +27,14 @@ test.each(MEND_NAMES)('%s is worded by the page', (name) => {
   }
 });
 
-test('what can be chosen among is named', () => {
+test('the choices are named', () => {
   const words = (name: MendName) => mendWords({ name, values: VALUES[name] ?? [] });
   expect(words('coordinates')).toContain('LPS or RAS');
   expect(words('unit')).toContain('cm or dm');
   expect(words('reading')).toContain('LPS in cm or RAS in m');
 });
 
-test('no text of the page names an argument of Python, and none is read for words', () => {
+test('no text of the page names a Python argument, and no code searches error texts for words', () => {
   const folder = join(import.meta.dirname, '../src');
   const files = readdirSync(folder, { recursive: true, encoding: 'utf8' });
   const sources = files.filter((name) => /\.tsx?$/.test(name) && !name.startsWith('core/pkg'));

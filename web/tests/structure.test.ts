@@ -44,17 +44,17 @@ function circle(graph: ReadonlyMap<string, readonly string[]>): string[] {
 }
 
 describe('the files of the page', () => {
-  test('are read', () => expect(files.length).toBeGreaterThan(20));
+  test('are found', () => expect(files.length).toBeGreaterThan(20));
 
   test.each(files.filter((name) => !name.startsWith(GENERATED)))('%s is short', (name) => {
     expect(readFileSync(join(SRC, name), 'utf8').split('\n').length).toBeLessThanOrEqual(LONGEST);
   });
 
-  test('need each other in no circle', () => {
+  test('do not import each other in a cycle', () => {
     expect(circle(new Map(files.map((name) => [name, imported(name)])))).toEqual([]);
   });
 
-  test('lie in folders that need each other in no circle', () => {
+  test('lie in folders that do not import each other in a cycle', () => {
     const folders = [...new Set(files.map(folderOf))];
     const needed = (folder: string) =>
       files
@@ -68,7 +68,7 @@ describe('the files of the page', () => {
     expect(circle(graph)).toEqual([]);
   });
 
-  test('a circle would be found', () => {
+  test('a cycle would be detected', () => {
     const graph = new Map([
       ['a', ['b']],
       ['b', ['c']],
@@ -77,7 +77,7 @@ describe('the files of the page', () => {
     expect(circle(graph)).toEqual(['a', 'b', 'c', 'a']);
   });
 
-  test('touch the wasm in one place', () => {
+  test('import WebAssembly in only one file', () => {
     const touching = files.filter((name) => readFileSync(join(SRC, name), 'utf8').includes('/pkg/'));
     expect(touching).toEqual(['core/module.ts']);
   });

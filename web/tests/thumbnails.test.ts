@@ -5,7 +5,7 @@ import { pictureOf } from '../src/io/dicom/thumbnails';
 import { file } from './made';
 import { openSources } from './opened';
 
-test('each of several series comes with its middle slice, and one alone is read as before', async () => {
+test('each of several series has a thumbnail of its middle slice; a single series is opened directly', async () => {
   const sources = (heights: readonly number[], uid: string) =>
     series(heights, 1, { uid, number: uid.slice(-1) }).map(({ name, buffer }) =>
       file(name, new Uint8Array(buffer)),
@@ -22,7 +22,7 @@ test('each of several series comes with its middle slice, and one alone is read 
   expect((await openSources(first)).failure).toBeNull();
 });
 
-test('a slice of any shape is 64 pixels at its longer side, from black to white without its extremes', () => {
+test('a thumbnail has 64 pixels on its longer side, and its grey scale ignores extreme values', () => {
   const values = Float32Array.from({ length: 256 * 128 }, (_, n) => (n === 0 ? 1e6 : n % 256));
   const { width, height, grey } = pictureOf(values, [256, 128]);
   expect([width, height, grey.length]).toEqual([64, 32, 64 * 32]);

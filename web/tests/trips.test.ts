@@ -58,7 +58,7 @@ afterEach(() => {
   beginStudy(null);
 });
 
-test('each click of a vessel is one trip, and its answer is all that the page shows', async () => {
+test('each click takes one request, whose answer contains all that the page shows', async () => {
   expect((await setPoint(tracing, A as Vector))?.value).toBe(300);
   expect(await trips()).toEqual(['first_click']);
   for (const point of [B, C] as Vector[]) {
@@ -73,13 +73,13 @@ test('each click of a vessel is one trip, and its answer is all that the page sh
   }
 });
 
-test('the whole vessel of a first click comes with what was hit, and is picked once it is taken', async () => {
+test('the answer to a first click contains the whole vessel, which is picked once it is added', async () => {
   await setPoint(tracing, A as Vector);
   takeWhole(tracing);
   expect(await trips()).toEqual(['first_click', 'edit']);
 });
 
-test('undo, and what the page changes itself, is shown as before', async () => {
+test('undo and changes by the page itself are displayed by a separate request', async () => {
   await setPoint(tracing, A as Vector);
   await setPoint(tracing, B as Vector);
   await trips();
@@ -92,7 +92,7 @@ test('undo, and what the page changes itself, is shown as before', async () => {
   expect(tree.value).toEqual([]);
 });
 
-test('after an edit that was dropped while the engine made it, the document is shown again', async () => {
+test('after an edit that was dropped while the engine worked, the document is displayed again', async () => {
   await setPoint(tracing, A as Vector);
   let open = () => {};
   tracing.gate = new Promise((resolve) => {
