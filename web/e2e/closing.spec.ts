@@ -3,7 +3,7 @@ import { expect, test } from '@playwright/test';
 import { SIZE } from './measured-tube';
 import { Viewer } from './page';
 
-test('what was not saved is not closed unasked, and measuring does not go on in the next scan', async ({
+test('the page asks before it closes unsaved work, and measuring does not continue in the next scan', async ({
   browser,
 }) => {
   const tube = await Viewer.open(browser, '?phantom=stenosis&device=cpu', { viewport: SIZE });

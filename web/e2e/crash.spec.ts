@@ -18,7 +18,7 @@ async function crash(viewer: Viewer): Promise<void> {
   });
 }
 
-test('after a crash the message offers to save the session, which brings back what was traced', async ({
+test('after a crash the message offers to save the session, which restores the traced vessels', async ({
   browser,
 }) => {
   const viewer = await Viewer.open(browser, '?device=cpu', { viewport: SIZE, acceptDownloads: true });

@@ -42,7 +42,7 @@ for (const [width, height] of [
   });
 }
 
-test('a word is found, without a server', async ({ page }) => {
+test('the search finds a word without a server', async ({ page }) => {
   const faults = recordFaults(page);
   await page.goto(at('index'));
   await page.keyboard.press('/');

@@ -6,7 +6,7 @@ import { Viewer } from './page';
 /** A centerline that lies in the phantom even if x and y change their signs. */
 const AXIS = 'x,y,z,radius\n0,0,-8,1.5\n0,0,0,1.5\n0,0,8,1.5\n';
 
-test('centerlines whose space nothing tells are read as the user says', async ({ browser }) => {
+test('centerlines of unknown coordinate system are read as the user chooses', async ({ browser }) => {
   const viewer = await Viewer.open(browser, '?phantom=stenosis&device=cpu');
   await viewer.rest();
   const chooser = viewer.page.locator('input[type=file]').first();
@@ -21,7 +21,9 @@ test('centerlines whose space nothing tells are read as the user says', async ({
   await viewer.close();
 });
 
-test('centerlines whose space and unit nothing tells are read as the user says', async ({ browser }) => {
+test('centerlines of unknown coordinate system and unit are read as the user chooses', async ({
+  browser,
+}) => {
   const viewer = await Viewer.open(browser, '?phantom=stenosis&device=cpu');
   await viewer.rest();
   const chooser = viewer.page.locator('input[type=file]').first();
@@ -55,7 +57,7 @@ function bar(): { name: string; mimeType: string; buffer: Buffer } {
   return { name: 'bar.nrrd', mimeType: 'application/octet-stream', buffer };
 }
 
-test('a scan that states no distances gets mm by consent alone, and undo takes them back', async ({
+test('a scan without voxel spacing has mm only if the user assumes them, and undo reverts this', async ({
   browser,
 }) => {
   const viewer = await Viewer.open(browser, '?device=cpu');
@@ -87,7 +89,7 @@ test('a scan that states no distances gets mm by consent alone, and undo takes t
   await viewer.close();
 });
 
-test('the millimetre that is assumed is kept in the session, and told with what was measured', async ({
+test('assumed voxels of 1 mm are kept in the session, and stated with the measurements', async ({
   browser,
 }) => {
   const viewer = await Viewer.open(browser, '?device=cpu', { acceptDownloads: true });

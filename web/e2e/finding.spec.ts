@@ -29,7 +29,7 @@ test('a page without vessels offers to find all of them, in one step that can be
   await viewer.close();
 });
 
-test('finding tells how far it is, and Escape stops it', async ({ browser }) => {
+test('finding vessels shows its progress, and Escape stops it', async ({ browser }) => {
   test.setTimeout(120_000);
   const viewer = await untraced(browser, 'aorta');
   await button(viewer, 'Find all vessels').last().click();
@@ -43,7 +43,7 @@ test('finding tells how far it is, and Escape stops it', async ({ browser }) => 
   await viewer.close();
 });
 
-test('branches from a place that is no lumen by its value are refused at once, with what lies there', async ({
+test('searching branches from a point outside lumen is rejected at once, with the value there', async ({
   browser,
 }) => {
   const viewer = await untraced(browser, 'aorta');

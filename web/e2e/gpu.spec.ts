@@ -87,7 +87,9 @@ async function crashGpu(browser: Browser): Promise<void> {
   await session.detach();
 }
 
-test('the GPU draws; lost, it comes back; lost again, the CPU shows the same', async ({ browser }) => {
+test('the GPU draws; after a loss it recovers; after a second loss the CPU shows the same', async ({
+  browser,
+}) => {
   test.setTimeout(120_000);
   const viewer = await Viewer.open(browser, `?phantom=stenosis&device=any${ONE}`);
   await viewer.pin(SMALL_VIEW);
@@ -158,7 +160,7 @@ async function tracedOn(browser: Browser, device: 'any' | 'cpu'): Promise<[Pixel
   return [before, after, undone];
 }
 
-test('a vessel that two clicks trace is cut open on the GPU as on the CPU', { tag: '@long' }, async ({
+test('a vessel traced by two clicks is cut open on the GPU as on the CPU', { tag: '@long' }, async ({
   browser,
 }) => {
   test.setTimeout(120_000);

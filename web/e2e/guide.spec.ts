@@ -27,7 +27,7 @@ async function serious(): Promise<string[]> {
     .map(({ id, nodes }) => `${id}: ${nodes.map(({ target }) => target.join(' ')).join(', ')}`);
 }
 
-test('each step that is done leads to the next one, up to the report', async () => {
+test('each completed step leads to the next one, up to the report', async () => {
   await expectStep('1 of 5: Trace the vessel');
   await viewer.screenshot('guide-1');
   await startTracing(viewer);
@@ -70,7 +70,7 @@ test('each step that is done leads to the next one, up to the report', async () 
   await expect(guide()).toHaveCount(0);
 });
 
-test('it is left in the middle, and what was done stays', async () => {
+test('the user leaves it in the middle, and the work is kept', async () => {
   await button(viewer, 'Skip this step').click();
   await expectStep('2 of 5: Turn it');
   const direction = async () => (await viewer.camera()).direction;

@@ -38,7 +38,7 @@ test('a click on a name picks its vessel, a second one or F2 changes it, and ves
   await viewer.close();
 });
 
-test('the browser asks before an unsaved tree goes, and what the tab keeps on request is offered again', async ({
+test('the browser asks before an unsaved tree is lost, and a session kept on request is offered again', async ({
   browser,
 }) => {
   const viewer = await opened(browser);
@@ -64,7 +64,7 @@ test('the browser asks before an unsaved tree goes, and what the tab keeps on re
   await viewer.close();
 });
 
-test('centerlines are saved from the menu "Save", and what is told then lies over no button', async ({
+test('centerlines are saved from the menu "Save", and the message then covers no button', async ({
   browser,
 }) => {
   const viewer = await opened(browser);
@@ -83,7 +83,7 @@ test('centerlines are saved from the menu "Save", and what is told then lies ove
   await viewer.close();
 });
 
-test('a region chooses look, slab and window; its window is a step that undo takes back', async ({
+test('a region selects look, slab and window; the change of the window is an undo step', async ({
   browser,
 }) => {
   const viewer = await opened(browser);

@@ -17,7 +17,7 @@ test('a vessel is measured while the view is turned', async ({ browser }) => {
   await viewer.close();
 });
 
-test('a line that is not shown is refused', async ({ browser }) => {
+test('measuring a line that is not displayed is rejected', async ({ browser }) => {
   const viewer = await Viewer.open(browser, '?phantom=stenosis&device=cpu&test');
   await viewer.rest();
   const words = await viewer.ask('diameter_at', { line: 1e6, at: 0 }).then(String, String);
@@ -25,7 +25,7 @@ test('a line that is not shown is refused', async ({ browser }) => {
   await viewer.close();
 });
 
-test('while a vessel is measured the section says that it is computed, until it is the one that was asked for', async ({
+test('while a vessel is measured, the section is marked as outdated until the requested one is shown', async ({
   browser,
 }) => {
   const viewer = await Viewer.open(browser, '?phantom=aorta&device=cpu', {

@@ -78,7 +78,7 @@ interface Labelled {
   readonly pixels: number;
 }
 
-test('letters and scale bar are those of the Python package', async ({ browser }) => {
+test('letters and scale bar equal those of the Python package', async ({ browser }) => {
   const { size, views } = JSON.parse(readFileSync(file('labels.json'), 'utf-8')) as {
     size: readonly [number, number];
     views: readonly Labelled[];

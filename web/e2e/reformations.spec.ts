@@ -83,7 +83,7 @@ for (const row of table.reformations) {
   });
 }
 
-test('a click in a CFA picks the place that it shows, and a roll has no angle of its own', async ({
+test('a click in a CFA picks the point that it shows, and a CPR that follows the lumen has no angle', async ({
   browser,
 }) => {
   const viewer = await opened(browser, 'y_junction');

@@ -75,7 +75,7 @@ test('as the first click of a vessel, at once', async () => {
   await expect(viewer.page.locator('[data-place=first]')).toHaveCount(0);
 });
 
-test('also as its first two clicks; once bridged, that vessel goes on', async () => {
+test('also as its first two clicks; once bridged, that vessel can be extended', async () => {
   await clickAt(viewer, [STRAIGHT, -15]);
   await expectBegun(viewer);
   await expect(viewer.problem).toHaveCount(0);

@@ -118,7 +118,7 @@ test.beforeAll(async ({ browser }) => {
 test.afterEach(() => viewer.expectNoFault());
 test.afterAll(() => viewer.close());
 
-test('a page that is loaded again has kept nothing', async () => {
+test('a reloaded page has kept nothing', async () => {
   await viewer.page.reload();
   await expect(viewer.page.getByRole('heading', { name: 'Lumencut' })).toBeVisible();
   const kept = await viewer.page.evaluate(async () => [
@@ -136,14 +136,14 @@ test('a page that is loaded again has kept nothing', async () => {
   await expect(button(viewer, 'Undo')).toBeDisabled();
 });
 
-test('chosen after its scan, the session brings everything back, and is saved with the same bytes', async () => {
+test('opened after its scan, the session restores everything, and is saved again with the same bytes', async () => {
   await choose(viewer, fileNow());
   await expectAllBack();
   await viewer.screenshot('session-back');
   await expect(button(viewer, 'Undo')).toBeDisabled();
 });
 
-test('what was clicked can still be dragged', async () => {
+test('clicked points can still be dragged', async () => {
   await viewer.press('t');
   const point = viewer.pane('coronal').getByRole('button', { name: /^Point 2 of narrowed/ });
   const box = await point.boundingBox();
@@ -160,7 +160,7 @@ test('what was clicked can still be dragged', async () => {
   await expect.poll(length).toBe(whole);
 });
 
-test('dropped together with its scan, the session brings everything back', async ({ browser }) => {
+test('dropped together with its scan, the session restores everything', async ({ browser }) => {
   await viewer.close();
   viewer = await started(browser);
   await expect(button(viewer, 'Choose files')).toBeEnabled();
@@ -170,7 +170,7 @@ test('dropped together with its scan, the session brings everything back', async
   await expectAllBack();
 });
 
-test('a session of another scan is refused in words, and nothing changes', async () => {
+test('a session of another scan is rejected with an explanation, and nothing changes', async () => {
   await choose(viewer, tubes('later.nrrd', 5), fileNow());
   await expect(viewer.problem).toContainText(
     /Found a session of a scan of 80 × 56 × 90 voxels in another place; expected a session of the open scan\./,
@@ -188,7 +188,7 @@ async function openInstead(): Promise<void> {
   await viewer.rest();
 }
 
-test('a damaged session is refused in words, and nothing changes', async () => {
+test('a damaged session is rejected with an explanation, and nothing changes', async () => {
   const text = session.toString('utf-8');
   const damaged = [
     text.slice(0, text.length - 400),
@@ -214,7 +214,7 @@ function textOf(png: Buffer, keyword: string): string {
   return png.toString('latin1', text + keyword.length + 1, text + png.readUInt32BE(begin - 4));
 }
 
-test('the command line measures and renders what the session tells', async () => {
+test('the command line measures and renders what the session contains', async () => {
   test.skip(!existsSync(PYTHON), 'there is no Python package beside the repository');
   const [scan, made] = ['tubes.nrrd', 'session.mrk.json'].map((name) => test.info().outputPath(name));
   const [table, rendered] = ['numbers.json', 'view.png'].map((name) => test.info().outputPath(name));

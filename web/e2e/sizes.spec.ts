@@ -38,7 +38,7 @@ for (const [name, viewport] of [
   });
 }
 
-test('at 200 % the view has as many pixels as the screen, and picks where it is clicked', async ({
+test('at 200 % the view has as many pixels as the screen, and a click picks the right point', async ({
   browser,
 }) => {
   const viewer = await Viewer.open(browser, '?phantom=y_junction&device=cpu', {
@@ -175,7 +175,7 @@ test('every control is reached by the keyboard', async ({ browser }) => {
   await viewer.close();
 });
 
-test('the bar is one row in windows of the usual sizes', async ({ browser }) => {
+test('the toolbar is one row in windows of usual sizes', async ({ browser }) => {
   const viewer = await Viewer.open(browser, '?phantom=stenosis&device=cpu');
   await viewer.rest();
   for (const width of [1024, 1280, 1440, 1920]) {

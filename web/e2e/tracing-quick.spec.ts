@@ -15,7 +15,7 @@ async function guided(browser: Browser): Promise<Viewer> {
 
 const guide = (page: Page) => page.getByLabel('Guided tour');
 
-test('points that are set quickly become a vessel, though Done is pressed at once', async ({ browser }) => {
+test('points that are set quickly become a vessel, even if Done is pressed at once', async ({ browser }) => {
   const viewer = await guided(browser);
   const { page } = viewer;
   await expect(guide(page)).toContainText('Press “Trace” or');
@@ -51,7 +51,7 @@ test('points that are set quickly become a vessel, though Done is pressed at onc
   viewer.expectNoFault();
 });
 
-test('a first click outside of the scan is refused at once', async ({ browser }) => {
+test('a first click outside the scan is rejected at once', async ({ browser }) => {
   const viewer = await guided(browser);
   await viewer.press('t');
   await expect(viewer.pane('coronal')).toBeVisible();

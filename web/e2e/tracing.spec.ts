@@ -37,7 +37,7 @@ async function traceTo(viewer: Viewer, end: readonly [number, number], count: nu
   await button(viewer, 'End this vessel').click();
 }
 
-test('a page without vessels offers the three ways to them', async ({ browser }) => {
+test('a page without vessels offers three ways to get them', async ({ browser }) => {
   const viewer = await untraced(browser);
   const offer = viewer.page.locator('.trace-bar.offer');
   for (const words of ['Find all vessels', 'Trace one vessel', 'I have centerlines']) {
@@ -59,9 +59,7 @@ test('a page without vessels offers the three ways to them', async ({ browser })
   await viewer.close();
 });
 
-test('the vessel that was traced is shown cut open, though it was traced in a slice that was shown alone', async ({
-  browser,
-}) => {
+test('a traced vessel is shown cut open, even if it was traced in a maximised slice', async ({ browser }) => {
   const viewer = await untraced(browser);
   await startTool(viewer);
   await viewer.page.getByRole('button', { name: 'Show Coronal alone' }).click();
@@ -73,7 +71,7 @@ test('the vessel that was traced is shown cut open, though it was traced in a sl
   await viewer.close();
 });
 
-test('by mouse: two clicks trace a vessel, a live path leads to the pointer, and points are edited', async ({
+test('by mouse: two clicks trace a vessel, a path preview leads to the pointer, and points are edited', async ({
   browser,
 }) => {
   const viewer = await untraced(browser);
@@ -117,7 +115,7 @@ test('by mouse: two clicks trace a vessel, a live path leads to the pointer, and
   await viewer.close();
 });
 
-test('where no lumen is under the pointer, a click in the projection is looked at in the slices before it becomes a point', async ({
+test('if no lumen is under the pointer, a click in the projection must be confirmed in the slices', async ({
   browser,
 }) => {
   const viewer = await untraced(browser, 'y_junction', { hasTouch: true });
@@ -138,7 +136,7 @@ test('where no lumen is under the pointer, a click in the projection is looked a
   await viewer.close();
 });
 
-test('by keyboard alone: a vessel is traced, edited and saved', async ({ browser }) => {
+test('by keys only: a vessel is traced, edited and saved', async ({ browser }) => {
   const viewer = await untraced(browser);
   const { page } = viewer;
   await viewer.press('t');
@@ -173,7 +171,7 @@ test('by keyboard alone: a vessel is traced, edited and saved', async ({ browser
   await viewer.close();
 });
 
-test('a vessel that nobody clicked takes points, runs where it ran, and is edited by them', async ({
+test('a vessel traced without clicks gets points, keeps its path, and is edited by these points', async ({
   browser,
 }) => {
   const viewer = await Viewer.open(browser, '?phantom=stenosis&device=cpu', { viewport: SIZE });
@@ -200,7 +198,9 @@ test('a vessel that nobody clicked takes points, runs where it ran, and is edite
   await viewer.close();
 });
 
-test('two vessels that meet are joined, cut, hidden, and saved files are read again', async ({ browser }) => {
+test('two vessels that meet are joined, cut and hidden, and saved files are opened again', async ({
+  browser,
+}) => {
   const viewer = await untraced(browser);
   const { page } = viewer;
   await startTool(viewer);
@@ -244,7 +244,7 @@ test('two vessels that meet are joined, cut, hidden, and saved files are read ag
   await viewer.close();
 });
 
-test('all branches from here are those that hang together with the vessel at the cross-hair', {
+test('"All branches from here" finds those connected to the vessel at the cross-hair', {
   tag: '@long',
 }, async ({ browser }) => {
   test.setTimeout(400_000);
@@ -262,7 +262,7 @@ test('all branches from here are those that hang together with the vessel at the
   await viewer.close();
 });
 
-test('all vessels, of which doubtful ones are accepted and left out', async ({ browser }) => {
+test('finds all vessels; doubtful ones are accepted or left out', async ({ browser }) => {
   test.setTimeout(120_000);
   const viewer = await untraced(browser, 'aorta');
   await button(viewer, 'Find all vessels').last().click();

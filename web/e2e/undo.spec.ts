@@ -107,7 +107,7 @@ async function editMarks(): Promise<number> {
   return 1 + 6 + 8;
 }
 
-test('thirty steps and more are undone to the beginning and done again, and the file is the same', async () => {
+test('more than thirty steps are undone and redone, and the saved file is the same', async () => {
   await viewer.press('v');
   const first = await made();
   const count = (await editVessels()) + (await editMarks());
@@ -131,7 +131,7 @@ test('thirty steps and more are undone to the beginning and done again, and the 
   }
 });
 
-test('nothing of a study is left in the next one', async () => {
+test('nothing of a study remains in the next one', async () => {
   const { page } = viewer;
   await startTracing(viewer);
   await traceTube(viewer, NARROWED, [26, -26], 1);

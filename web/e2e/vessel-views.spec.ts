@@ -75,7 +75,7 @@ function expectDiameters(found: readonly number[], expected: readonly number[]):
   });
 }
 
-test('by keys: a turn about a place sweeps its diameters, and the place stays where it is', async () => {
+test('by keys: turning about a place shows its diameters, and the place keeps its pixel', async () => {
   await viewer.press('o');
   await expect(angle()).toBeFocused();
   const first = await viewer.camera();
@@ -93,7 +93,7 @@ test('by keys: a turn about a place sweeps its diameters, and the place stays wh
   expect(await viewer.camera()).toEqual(side);
 });
 
-test('by mouse: a drag turns about the place of the section, and Escape puts it back', async () => {
+test('by mouse: a drag turns about the place of the section, and Escape undoes it', async () => {
   await viewer.press('m');
   const begin = viewer.page.getByTestId('numbers').getByRole('button', { name: /^Turn about/ });
   await begin.click();
@@ -125,7 +125,7 @@ test('by mouse: a drag turns about the place of the section, and Escape puts it 
   await viewer.press('m');
 });
 
-test('the best view of a vessel shows it across, by its row and by a key', async () => {
+test('the best view shows a vessel from the side, by a button in its row and by a key', async () => {
   for (const ask of [
     async () => {
       await viewer.press('v');

@@ -26,7 +26,7 @@ const SIZE = { width: 1400, height: 860 };
 const MOST_CLICKS = 12;
 const GRADED = /\d+ % of the diameter.*NASCET.*\d+\.\d\d? mm/;
 
-test('by mouse, from the file of a scan to the report', async ({ browser }) => {
+test('by mouse, from a scan file to the report', async ({ browser }) => {
   test.skip(!existsSync(SCAN), 'there are no real scans beside the repository');
   test.setTimeout(60_000);
   const viewer = await Viewer.open(browser, '?device=cpu', { viewport: SIZE });
@@ -73,7 +73,7 @@ test('by mouse, from the file of a scan to the report', async ({ browser }) => {
   await viewer.close();
 });
 
-test('by keys alone, from the start page to the report', async ({ browser }) => {
+test('by keys only, from the start page to the report', async ({ browser }) => {
   const viewer = await Viewer.open(browser, '?device=cpu', { viewport: SIZE });
   const { page } = viewer;
   const counted = await countInput(viewer);

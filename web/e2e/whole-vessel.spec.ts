@@ -16,9 +16,7 @@ async function at(viewer: Viewer, [across, down]: readonly [number, number]) {
 
 const ghost = (viewer: Viewer) => viewer.pane('coronal').getByTestId('whole-vessel');
 
-test('a vessel and the one that hangs on it take two actions each: a click and Enter', async ({
-  browser,
-}) => {
+test('a vessel and its branch take two actions each: a click and Enter', async ({ browser }) => {
   const viewer = await untraced(browser);
   await startTracing(viewer);
   const counted = await countInput(viewer);
@@ -43,7 +41,7 @@ test('a vessel and the one that hangs on it take two actions each: a click and E
   await viewer.close();
 });
 
-test('a double click or its button takes the whole vessel, and a second click elsewhere still traces to there', async ({
+test('a double click or the button traces the whole vessel, and a second click elsewhere traces to that point', async ({
   browser,
 }) => {
   const viewer = await untraced(browser);
@@ -64,7 +62,7 @@ test('a double click or its button takes the whole vessel, and a second click el
   await viewer.close();
 });
 
-test('by keys alone: Enter twice at the cross-hair, and the key w', async ({ browser }) => {
+test('by keys only: Enter twice at the cross-hair, and the key w', async ({ browser }) => {
   const viewer = await untraced(browser);
   await startTracing(viewer);
   await viewer.click(await at(viewer, TRUNK), 'coronal');
@@ -85,7 +83,7 @@ test('by keys alone: Enter twice at the cross-hair, and the key w', async ({ bro
   await viewer.close();
 });
 
-test('where there is a vessel already, and where there is none, the page says so and forgets the point', async ({
+test('if a vessel is already traced there, or there is none, the page says so and drops the point', async ({
   browser,
 }) => {
   const viewer = await untraced(browser);

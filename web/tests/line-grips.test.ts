@@ -10,7 +10,7 @@ const place = (at: number): VesselPlace => ({ kind: 'place', slot: 0, at, isSugg
 /** An axis with 10 pixels per mm that starts at pixel 5. */
 const AXIS = { low: 0, high: 60, start: 5, end: 605 };
 
-test('a line is taken within 22 pixels, of two the one that is nearer, and none from farther away', () => {
+test('a drag moves the nearest line within 22 pixels, and none that is farther away', () => {
   const places = [place(30), place(33)];
   expect(nearestLine(places, AXIS, 305 - GRAB_DISTANCE_PX)?.at).toBe(30);
   expect(nearestLine(places, AXIS, 305 - GRAB_DISTANCE_PX - 1)).toBeNull();

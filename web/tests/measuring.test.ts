@@ -118,7 +118,7 @@ function textOf(report: string): string[] {
   return words.filter((text) => text !== '' && text !== 'Saved on a day' && !text.startsWith('CSR of'));
 }
 
-test('numbers that differ are told', () => {
+test('different numbers are detected', () => {
   const same = { a: [1, null], b: 'x' };
   expect(apart(same, { a: [1 + 1e-12, null], b: 'x' })).toBe('');
   expect(apart(same, { a: [1 + 1e-6, null], b: 'x' })).toBe('/a/0: 1, not 1.000001');

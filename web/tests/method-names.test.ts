@@ -10,7 +10,7 @@ from lumencut import _lumencut
 print(json.dumps([_lumencut.VIEW_METHODS, _lumencut.STENOSIS_METHODS]))
 `;
 
-test('methods are called as the engine calls them', () => {
+test('methods have the names that the engine uses', () => {
   const python = join(import.meta.dirname, '../../.venv/bin/python');
   const { stdout, stderr } = spawnSync(python, ['-c', TABLES], { encoding: 'utf-8' });
   expect(stderr).toBe('');
