@@ -49,7 +49,7 @@ test('by mouse, from a scan file to the report', async ({ browser }) => {
   await viewer.screenshot('way-3-traced');
   await button(viewer, 'Done').click();
   await button(viewer, 'Measure').click();
-  // Within a stent there may be no safe reference; then the user is told and marks one.
+  // In a stent no safe reference may be suggested; then the page says so, and the user marks one.
   await page.getByRole('button', { name: /^Confirm the suggested places?$/ }).click({ timeout: 30_000 });
   const told = /No percentage: Mark a reference: where the vessel is normal\./;
   await expect(stenosis(viewer)).toHaveText(new RegExp(`${GRADED.source}|${told.source}`));

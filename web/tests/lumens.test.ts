@@ -1,4 +1,4 @@
-/** Lumens under the pointer: the nearest first, and stepping by the wheel. */
+/** Of the lumens under the pointer the nearest is selected; the wheel steps to those behind. */
 import { beforeEach, expect, test } from 'vitest';
 import type { Asked } from '../src/core/asked';
 import type { PointedAt, PointedLumen, Vector } from '../src/core/messages';

@@ -1,4 +1,4 @@
-/** The order of tasks in `Latest` and `Queue`. */
+/** Tests of the order in which `Latest` and `Queue` run tasks. */
 import { describe, expect, test } from 'vitest';
 import { Latest } from '../src/core/latest';
 import { Queue } from '../src/worker/queue';

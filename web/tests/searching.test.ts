@@ -1,4 +1,4 @@
-/** Searching for vessels: seeds, clicks during the search, and the first view of the result. */
+/** Tests of the search for vessels: its seeds, clicks during the search, and the first view of the result. */
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import type { EngineClient } from '../src/client/engine';
 import type { Camera, DocumentVessel, Vector } from '../src/core/messages';

@@ -1,4 +1,4 @@
-/** Typed calls to the worker; their errors are `Failure`s. */
+/** The connection of the page to the worker. Its methods throw `Failure`. */
 import { proxy, type Remote, transfer, wrap } from 'comlink';
 import type { Answer, Asked, Attachments, Message, OnProgress, Question } from '../core/asked';
 import { Failure } from '../core/failure';

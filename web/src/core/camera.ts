@@ -2,7 +2,7 @@
 import type { Camera, Pair, Vector } from './messages';
 import { add, cross, dot, scale, subtract, turned, unit } from './vectors';
 
-/** Limits of the pixel spacing when zooming (mm). */
+/** Smallest and largest pixel spacing when zooming (mm). */
 const FINEST = 0.005;
 const COARSEST = 20;
 
@@ -25,7 +25,7 @@ export function trackballed(camera: Camera, pivot: Vector, [x, y]: Pair): Camera
   return turnedAbout(camera, pivot, axis, Math.hypot(x, y) * perPixel);
 }
 
-/** Pans the scene by a number of pixels. */
+/** Moves the scene by a number of pixels to the right and downwards. */
 export function panned(camera: Camera, [x, y]: Pair): Camera {
   const { pixel_spacing: side } = camera;
   const shift = add(scale(rightOf(camera), -x * side), scale(camera.up, y * side));

@@ -91,7 +91,7 @@ export class Failure extends Error {
     return new Failure('unexpected', 'the page', text, 'no error', 'reload the page and open the scan again');
   }
 
-  /** Advice and remedies in words; empty if none is known. */
+  /** Advice and remedies as one text; empty if there are none. */
   get mending(): string {
     return mending(this.advice, this.mends);
   }

@@ -17,7 +17,7 @@ export interface GivenFile {
   readonly file: File;
 }
 
-/** Choices for opening a study that is ambiguous. */
+/** Choices of the user for opening files that are ambiguous. */
 export interface SeriesWish {
   /** Series number or series instance UID. */
   readonly series?: string;

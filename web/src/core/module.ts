@@ -30,7 +30,7 @@ export async function loadModule(): Promise<Shared> {
   return { module, memory };
 }
 
-/** Computes in the memory of another worker, until this worker ends. */
+/** Makes this worker a compute thread in the memory of another worker; returns only when the worker ends. */
 export function joinModule({ module, memory }: Shared): void {
   initSync({ module, memory });
   run_thread();

@@ -1,4 +1,4 @@
-/** Basic types of messages. Points are in world coordinates (LPS, mm). */
+/** Basic types in messages to the engine. Points are in world coordinates (LPS, mm). */
 
 export type Vector = readonly [number, number, number];
 export type Pair = readonly [number, number];

@@ -26,7 +26,7 @@ const SEARCHES: readonly Edit['kind'][] = ['add_branches', 'find_vessels', 'add_
 /** The latest answer to an edit. It contains the tree, so the page need not request it again. */
 export const answered = signal<AfterEdit | null>(null);
 
-/** Progress is shown after this time (ms). */
+/** The progress of an edit is shown only if the edit takes longer than this (ms). */
 const SHOWN_AFTER = 250;
 
 /** A longer search (ms) probably started in bone instead of a vessel, so the page asks the user. */
@@ -164,7 +164,7 @@ export function commitPlain(words: string, edit: (document: Document) => Documen
 interface EditOptions {
   readonly mask?: readonly GivenFile[];
   readonly renamed?: (vessel: DocumentVessel) => DocumentVessel;
-  /** Called with the result when the document changes, also after a gap was bridged. */
+  /** Called when the edit has changed the document, also if the user first bridged a gap. */
   readonly then?: (edited: Edited) => void;
   readonly bridging?: boolean;
 }

@@ -1,4 +1,4 @@
-/** Review of the doubtful branches: shows each one to be accepted or left out. */
+/** Review of the doubtful branches: shows one after another, and the user accepts it or leaves it out. */
 import type { Asked } from '../core/asked';
 import type { Camera, DocumentVessel, LineId } from '../core/messages';
 import { placeCrossHair } from '../link/cross-hair';
@@ -55,7 +55,7 @@ async function viewOf(engine: Asked, from: Camera, line: LineId): Promise<Camera
   return { ...best, pixel_spacing: Math.max(best.pixel_spacing, LEAST_SEEN / Math.min(...best.size)) };
 }
 
-/** Selects the next or previous doubtful branch, cyclically. */
+/** Shows the next or previous doubtful branch; after the last comes the first. */
 export function stepDoubt(engine: Asked, by: 1 | -1): void {
   const all = doubtful(document_.value);
   const [now] = placeOfDoubt();

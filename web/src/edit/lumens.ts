@@ -16,7 +16,7 @@ export const pointed = signal<UnderPointer | null>(null);
 
 export const meant = computed<PointedLumen | null>(() => pointed.value?.lumens[pointed.value.number] ?? null);
 
-/** Finds the lumens at the pointer; returns the selected one, or null. */
+/** Finds the lumens under the pointer. Returns the selected one, or null. */
 export async function lookForLumens(
   engine: Asked,
   [view, at]: readonly [ViewName, Pair],

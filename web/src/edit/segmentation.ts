@@ -1,4 +1,4 @@
-/** A DICOM segmentation (SEG) as a vessel mask; the server resamples it to the grid of the scan. */
+/** Opens a DICOM segmentation (SEG) as a vessel mask. The server resamples it to the grid of the scan. */
 import type { DocumentVessel, GivenFile } from '../core/messages';
 import { inBase64, made } from '../core/server';
 import { report, scanStudy } from '../state/store';

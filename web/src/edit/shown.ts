@@ -11,7 +11,7 @@ import * as store from '../state/store';
 import { active } from '../state/tool';
 import { answered, dropEdits } from './committing';
 
-/** Displayed vessels, in the order of `store.report`. */
+/** The displayed vessels, in the order of `store.report.value.vessels`. */
 export const tree = signal<readonly DocumentVessel[]>([]);
 
 /** Identifies the set of all lines that affect measurements, including hidden ones. */
@@ -110,7 +110,7 @@ function reportError(study: Report['volume'] | undefined, error: unknown): void 
 
 let showing: Promise<void> | null = null;
 
-/** Requests one tree at a time, until the latest document is displayed. */
+/** Requests displayed trees from the engine, one at a time, until the latest document is displayed. */
 function show(engine: Asked): Promise<void> {
   showing ??= showLatest(engine);
   return showing;
@@ -182,7 +182,7 @@ async function goOn(engine: Asked): Promise<void> {
   }
 }
 
-/** Follows the suggested window unless the user chose another. */
+/** Uses the newly suggested window, unless the user has chosen another one. */
 function followWindow(before: Window | undefined, after: Window | undefined): void {
   const isOwn = before === undefined || before.some((value, n) => value !== store.window_.value[n]);
   if (after && !isOwn) {
@@ -190,7 +190,7 @@ function followWindow(before: Window | undefined, after: Window | undefined): vo
   }
 }
 
-/** The vessel to pick: the drawn one, the previous one, its successor, or the last one. */
+/** The vessel to pick: the one being drawn, else the one picked before, else the next one, else the last one. */
 export function successor(
   before: readonly DocumentVessel[],
   picked: number | null,

@@ -13,7 +13,7 @@ import { remove } from './vessels';
 
 const facts = signal<ReadonlyMap<LineId, LineFacts>>(new Map());
 
-/** Vessels that can be cleaned up; doubtful ones are excluded. */
+/** The vessels that are not doubtful; only these can be cleaned up. */
 export const sure = computed<readonly DocumentVessel[]>(() =>
   document_.value.vessels.filter((vessel) => vessel.doubt === null),
 );

@@ -1,4 +1,4 @@
-/** Edits of whole vessels: name, colour, visibility, cutting and joining. */
+/** Edits of a vessel as a whole: name, colour, visibility, cutting and joining. */
 import type { Asked } from '../core/asked';
 import type { DocumentVessel } from '../core/messages';
 import { changed, vesselOf } from '../state/changes';

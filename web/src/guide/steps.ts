@@ -17,7 +17,7 @@ export interface GuideStep {
   readonly isDone: () => boolean;
 }
 
-/** Smallest turn that counts (cosine of 20°). */
+/** The step "Turn it" is done after a turn of 20°; this is the cosine. */
 const COS_MIN_TURN = Math.cos(Math.PI / 9);
 
 /** Current step, counted from 0; null without a tour. */
@@ -108,7 +108,7 @@ export function nextStep(): void {
   }
 }
 
-/** Continues when the user has completed a step; the tour ends with its study. */
+/** Goes to the next step when the user has completed one. Closing the study ends the tour. */
 export function followGuide(): void {
   effect(() => {
     const step = guideStep.value;

@@ -216,7 +216,7 @@ export const BINDINGS: readonly Binding[] = [
   key('?', 'help', 'show this help'),
 ];
 
-/** Action of a drag, wheel or click in a view; null if unbound. */
+/** Action of a drag, wheel or click in a view; null if there is no binding. */
 export function actionOf(
   where: Where,
   gesture: Gesture,

@@ -25,7 +25,7 @@ export interface Handlers {
   end(): void;
   /** The table of bindings that takes precedence over the table of the view; null if none. */
   rows?(): Where | null;
-  /** Steps through the objects behind each other under the pointer. */
+  /** Called to step through objects that lie behind each other under the pointer. */
   step?(by: number): void;
   /** Called when the pointer left the view, or the content under it changed. */
   leave?(): void;

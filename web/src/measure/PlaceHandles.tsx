@@ -1,4 +1,4 @@
-/** Handles of the marked places, in the profile, the CPR and the turning view. */
+/** Handles to drag the marked places, in the chart, the CPR and the turning view. */
 import type { Pair, ReportPlace } from '../core/messages';
 import { Handle } from '../pane/Handle';
 import { currentPlaces } from './current';

@@ -24,7 +24,7 @@ const COLOR = '#ffdc00';
 /** Largest movement during a click (CSS pixels). */
 const CLICK_WITHIN = 4;
 
-/** Projection of world points in a picture. */
+/** How a picture maps world points to pixels. */
 export interface Seen {
   readonly where: string;
   pixelOf(point: Vector): Pair;

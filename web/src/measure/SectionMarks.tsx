@@ -1,4 +1,4 @@
-/** Contour, diameters and numbers of a measured section. */
+/** Draws contour, diameters and measurements of a section over its picture. */
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { engine } from '../client/shared';
 import { Latest } from '../core/latest';

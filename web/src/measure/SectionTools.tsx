@@ -56,7 +56,7 @@ export function SectionTools({ column, width, top }: SectionToolsProps) {
   );
 }
 
-/** The first press starts a length at the section, the second ends it there. */
+/** Button for a length along the vessel: the first press begins it at the section, the second ends it there. */
 function LengthButton({ hasRoom }: { readonly hasRoom: boolean }) {
   const from = lengthFrom.value;
   if (from === null) {

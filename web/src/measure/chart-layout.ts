@@ -46,7 +46,7 @@ export function chartLayout(profile: Profile, size: Pair): ChartLayout {
   };
 }
 
-/** Distance of the bar from both edges (CSS pixels). */
+/** Smallest distance of a bar from the edges of its pane (CSS pixels). */
 const EDGE = 4;
 
 /** Left edge of a bar centred on a column, within the pane (CSS pixels). */

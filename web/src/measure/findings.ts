@@ -41,7 +41,7 @@ export const listedFindings = computed<readonly Finding[]>(() =>
   }),
 );
 
-/** Names of hidden vessels with findings, which have no pictures. */
+/** Names of hidden vessels with findings. They are not in the report, since they have no pictures. */
 export const hiddenFindings = computed<readonly string[]>(() => {
   const { vessels, marks } = document_.value;
   return vessels.filter(({ id, isHidden }) => isHidden && marks[id] && isMarked(marks[id])).map(nameOf);

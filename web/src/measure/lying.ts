@@ -50,7 +50,7 @@ export function lyingPicture({ size: [width, height], bytes }: Picture): Picture
   return { size: [height, width], bytes: new Uint8ClampedArray(to.buffer) };
 }
 
-/** Box of the picture: the centre of column `n` is at arc length `n` × spacing. */
+/** Position and size of the picture (CSS pixels); the centre of column `n` is at arc length `n` × spacing. */
 export function lyingBox(x: Axis, { spacing, height, width }: Lying, [columns, rows]: Pair) {
   const perMm = (x.end - x.start) / (x.high - x.low);
   const pixel = spacing * perMm;

@@ -153,7 +153,7 @@ export function removed(marks: VesselMarks, place: VesselPlace): VesselMarks {
     : { ...marks, secondStretch: null };
 }
 
-/** Replaces the reference on the same side of the stenosis. */
+/** Adds a reference, which replaces the one on the same side of the stenosis. */
 export function withReference(profile: Profile, marks: VesselMarks, at: number): VesselMarks {
   const main = mainPlace(profile, marks)?.at ?? 0;
   const other = referenceSlots(marks, main)[at < main ? 1 : 0];

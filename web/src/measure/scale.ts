@@ -1,4 +1,4 @@
-/** Linear axes: mapping between lengths and pixels, and ticks. */
+/** Linear axes: convert lengths to pixels and back, and choose ticks. */
 
 /** The value `low` lies at pixel `start`, the value `high` at pixel `end`. */
 export interface Axis {

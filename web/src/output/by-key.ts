@@ -1,4 +1,4 @@
-/** Saving by keyboard shortcuts. */
+/** Saves the session or the report by a keyboard shortcut. */
 import { Failure } from '../core/failure';
 import type { Action } from '../input/bindings';
 import { problem, report } from '../state/store';

@@ -1,4 +1,4 @@
-/** Saves the picture of a flat view with a caption. */
+/** Saves the picture of a section or reformation with a caption. */
 import { Failure } from '../core/failure';
 import { isInverted, type ViewName } from '../state/store';
 import { saveAs } from './pictures';

@@ -1,4 +1,4 @@
-/** The report of the findings: the engine writes it, the page adds pictures. */
+/** Makes the report of the findings: the engine writes the text, the page adds the pictures. */
 import { signal } from '@preact/signals';
 import { engine } from '../client/shared';
 import { Failure } from '../core/failure';

@@ -50,7 +50,7 @@ async function saveTurn(album: Album, ending: string): Promise<void> {
   }
 }
 
-/** Records a canvas, one frame per picture. */
+/** Records a film from a canvas, with one frame per picture. */
 class Film implements Album {
   private readonly canvas = document.createElement('canvas');
   private recorder: MediaRecorder | null = null;

@@ -103,7 +103,7 @@ export function FlatPicture({
       class="pane-body"
       ref={pane}
       data-testid={name}
-      // Not role="img": screen readers would skip the handles inside.
+      // With role="img", screen readers would skip the handles inside.
       role="application"
       aria-label={words}
       tabIndex={0}

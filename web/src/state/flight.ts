@@ -21,7 +21,7 @@ let flights = 0;
 export function flyTo(engine: Asked, to: Camera): void {
   flights += 1;
   const from = store.camera.value;
-  // Jump if the view is turning, or if the user prefers no motion.
+  // Without animation if the view is rotating, or if the user prefers reduced motion.
   if (!from || store.isTurning.value || window.matchMedia('(prefers-reduced-motion: reduce)').matches) {
     destination.value = null;
     store.camera.value = from ? resized(to, from.size) : to;

@@ -1,4 +1,4 @@
-/** Undo and redo of the document and the window. */
+/** Undo and redo of changes to the document and the grey-value window. */
 import { batch, computed, signal } from '@preact/signals';
 import type { Window } from '../core/messages';
 import { type Document, EMPTY } from './document';

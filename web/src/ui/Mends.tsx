@@ -1,4 +1,4 @@
-/** Buttons for the remedies of a failure that the page can carry out. */
+/** Buttons for those remedies of a failure that the page can perform. */
 import type { Failure, SeriesChoice } from '../core/failure';
 import { type Mend, type MendName, readingWords } from '../core/mends';
 import type { SeriesWish } from '../core/messages';

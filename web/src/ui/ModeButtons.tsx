@@ -1,4 +1,4 @@
-/** Buttons of the modes: looking, tracing, measuring, reporting. */
+/** Buttons that switch between the modes Look, Trace, Measure and Report. */
 import { isTracing } from '../edit/mode';
 import { toggleLayout } from '../state/actions';
 import { hasVolume, layout } from '../state/store';

@@ -1,4 +1,4 @@
-/** Clicks and pointer moves of the tracing tools in a view. */
+/** Handles clicks and pointer moves in a view while a tracing tool is active. */
 
 import { engine } from '../client/shared';
 import { Latest } from '../core/latest';

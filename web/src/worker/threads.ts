@@ -1,7 +1,7 @@
 /** Starts compute threads, if the browser allows workers to share memory. */
 import { type Shared, useThreads } from '../core/module';
 
-/** More threads do not help, because memory bandwidth limits rendering. */
+/** Most threads; more would not help, because memory bandwidth limits rendering. */
 const MAX_THREADS = 16;
 
 export const THREAD = 'thread';

@@ -19,7 +19,7 @@ export type Vr =
   | 'US or SS';
 
 interface Attribute {
-  /** Group and element in the notation of dicom-parser. */
+  /** Group and element as eight hexadecimal digits, for dicom-parser. */
   readonly tag: string;
   readonly vr: Vr;
 }

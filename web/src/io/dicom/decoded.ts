@@ -1,4 +1,4 @@
-/** The result of a decoder. */
+/** A decoded frame. */
 import type { Bytes } from '../payload';
 
 export interface Decoded {

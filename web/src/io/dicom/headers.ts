@@ -40,7 +40,7 @@ export async function examine(source: Source, recorder: Recorder): Promise<Exami
   return { source, image, record: { name, kind: '', header: image.header } };
 }
 
-/** Position of the pixels, and whether the file is deflated. */
+/** Position of the pixel data in a file, and whether the file is deflated. */
 export async function pixelsOf(source: Source): Promise<Pick<Parsed, 'pixels' | 'isDeflated'>> {
   return header(source, await source.slice(0, HEADS[0] ?? 0));
 }

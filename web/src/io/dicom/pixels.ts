@@ -53,7 +53,7 @@ export function kindOf(image: Image, shape: Shape): Kind {
 function nativeNumbers(image: Image, shape: Shape, bytes: Bytes): Numbers {
   const kind = kindOf(image, shape);
   if (image.isBig && shape.bitsAllocated === 8 && image.pixels?.vr === 'OW') {
-    // The high byte of each 16-bit word comes first.
+    // Swaps the two bytes of each 16-bit word, since the high byte comes first.
     const swapped = numbersOf({ kind: 'uint16', isBig: true }, bytes);
     return used(numbersOf({ kind, isBig: false }, new Uint8Array(swapped.buffer as ArrayBuffer)), shape);
   }

@@ -14,7 +14,7 @@ const NUMBERS = {
   FD: [8, 'getFloat64'],
 } as const;
 
-/** Names of DICOM character sets in browsers; others are read as UTF-8. */
+/** The names that browsers use for DICOM character sets. Other sets are read as UTF-8. */
 const CHARACTER_SETS: Readonly<Record<string, string>> = {
   'ISO_IR 100': 'latin1',
   'ISO_IR 101': 'iso-8859-2',
