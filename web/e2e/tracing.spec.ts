@@ -86,7 +86,7 @@ test('by mouse: two clicks trace a vessel, a path preview leads to the pointer, 
   await viewer.screenshot('trace-live');
   await click(viewer, RIGHT);
   await expect(nameOf(viewer, 0)).toHaveValue('Vessel 1');
-  // The traced vessel runs along the trunk (30 mm) into the other branch (36 mm).
+  // From 1/5 of the height, the vessel runs along the trunk (30 mm long) into the other branch (36 mm long).
   await expect.poll(() => lengthOf(viewer, 0)).toBeGreaterThan(45);
   const whole = await lengthOf(viewer, 0);
   expect(whole).toBeLessThan(66);

@@ -26,7 +26,7 @@ export const addClickOnLine = (engine: Asked, id: number, point: Vector): Promis
 export const moveClick = (engine: Asked, id: number, number: number, point: Vector): Promise<boolean> =>
   isDone(commit(engine, { kind: 'move_click', id, number, point }));
 
-/** Removes a clicked point; if only one point is left, removes the vessel. */
+/** Removes a clicked point; if only one point would remain, removes the whole vessel. */
 export const removeClick = (engine: Asked, id: number, number: number): Promise<boolean> =>
   isDone(commit(engine, { kind: 'remove_click', id, number }));
 
