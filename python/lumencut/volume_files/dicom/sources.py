@@ -117,7 +117,9 @@ def _members(path: Path) -> list[Source]:
         archive = zipfile.ZipFile(path)
     infos = sorted((info for info in archive.infolist() if not info.is_dir()), key=lambda one: one.filename)
     if any(info.flag_bits & 1 for info in infos):
-        raise FormatError(str(path), "an encrypted archive", "an archive without a password", "unpack it first")
+        raise FormatError(
+            str(path), "an encrypted archive", "an archive without a password", "unpack it first"
+        )
     claimed = sum(info.file_size for info in infos)
     if claimed > max(_ALWAYS_ALLOWED, _ARCHIVE_RATIO * path.stat().st_size):
         found = f"an archive of {path.stat().st_size} bytes that claims to unpack to {claimed} bytes"
