@@ -4,10 +4,10 @@ import { alongWheel, Steps } from './wheel';
 
 /** Movement that turns a press into a drag (CSS pixels). */
 const DRAG_FROM = 4;
-/** Zoom per wheel pixel; trackpads send many small steps. */
+/** Logarithm of the zoom factor per wheel pixel. */
 const ZOOM_PER_WHEEL = 0.0016;
 const MOST_WHEEL = 120;
-/** Pixels per wheel line, in browsers that report lines. */
+/** Pixels per wheel line, for browsers that report wheel movements in lines. */
 const LINE = 40;
 const SLICES_WITH_SHIFT = 10;
 /** Maximum time (ms) and distance (pixels) of a double click. */
@@ -23,13 +23,13 @@ export interface Handlers {
   hover(at: readonly [number, number], shift: boolean): void;
   begin(): void;
   end(): void;
-  /** Bindings that take precedence over those of the view. */
+  /** The table of bindings that takes precedence over the table of the view; null if none. */
   rows?(): Where | null;
-  /** Steps through the objects behind each other under the pointer. */
+  /** Called to step through objects that lie behind each other under the pointer. */
   step?(by: number): void;
-  /** The pointer left the view, or the content under it changed. */
+  /** Called when the pointer left the view, or the content under it changed. */
   leave?(): void;
-  /** Escape during a drag: restores the state at its start. */
+  /** Called on Escape during a drag; restores the state from before the drag. */
   putBack(): void;
 }
 
@@ -226,7 +226,7 @@ class Pointers {
 
   wheel(event: WheelEvent): void {
     event.preventDefault();
-    // Browsers report a trackpad pinch as a wheel with Ctrl.
+    // Browsers report a pinch on a trackpad as a wheel event with Ctrl.
     const rows = this.handlers.rows?.() ?? null;
     const modifier = modifierOf(event);
     const action =

@@ -1,16 +1,16 @@
-/** Converts wheel movements to steps: one per mouse notch; trackpad movements add up. */
+/** Converts wheel movements to steps: one per notch of a mouse wheel; small trackpad movements are summed. */
 
-/** Threshold between mouse and trackpad (pixels): a notch is 100 to 120, a trackpad event far less. */
+/** A wheel event of at least this many pixels is a notch of a mouse (100 to 120); a trackpad sends far less. */
 const NOTCH_FROM = 60;
 const NOTCH = 110;
 const NOTCH_LINES = 3;
-/** Pixels of a trackpad or finger per step. */
+/** Pixels that a trackpad or finger moves per step. */
 const STEP = 40;
 
 export class Steps {
   private rest = 0;
 
-  /** Whole steps of a wheel event; the remainder is kept. */
+  /** The number of complete steps of a wheel event; the remainder is kept for the next event. */
   ofWheel(event: WheelEvent): number {
     const by = alongWheel(event);
     const isInPixels = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL;
@@ -30,6 +30,6 @@ export class Steps {
   }
 }
 
-/** With Shift, browsers report horizontal movement. */
+/** The movement of the wheel; with Shift, browsers report it as horizontal. */
 export const alongWheel = ({ deltaX, deltaY, shiftKey }: WheelEvent): number =>
   shiftKey && deltaY === 0 ? deltaX : deltaY;
