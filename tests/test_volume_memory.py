@@ -207,7 +207,7 @@ TOO_LARGE = {
 def test_more_than_the_available_memory_is_refused_before_it_is_taken(tmp_path, make, monkeypatch):
     path = make(tmp_path)
     monkeypatch.setattr(room, "available_memory", lambda: 20_000_000)
-    words = r"voxels that need [\d.]+ MB of memory; expected at most the 20 MB that are available; crop"
+    words = r"voxels that need [\d.]+ MB of memory; expected at most the available 20 MB; crop"
     with pytest.raises(FormatError, match=words) as caught:
         read_volume(path)
     assert caught.value.subject.startswith(str(path.with_suffix("")))
