@@ -34,7 +34,7 @@ PROCEDURES = {
 OTHER_PROCEDURE = ("363679005", "SCT", "Imaging procedure")
 SIDES = {"left": ("7771000", "SCT", "Left"), "right": ("24028007", "SCT", "Right")}
 
-#: Patterns of vessel names; longer names come before the names that they contain.
+#: Patterns of vessel names; a longer name comes before a shorter one that it contains.
 _VESSELS: tuple[tuple[str, Coded], ...] = (
     (r"ascending aorta", ("54247002", "SCT", "Ascending aorta")),
     (r"aortic arch", ("57034009", "SCT", "Aortic arch")),
@@ -68,13 +68,13 @@ _OF_ONE_SIDE = ("3227004", "59438005", "57396003", "13647002")
 
 
 def site_of(name: str | None) -> tuple[Coded | None, Coded | None]:
-    """Return the codes of a named vessel and of its side; None if the name does not contain them.
+    """Return the codes of a named vessel and of its side; None if the name is unknown.
 
     Only complete names match, such as ``"left renal artery"``, ``"ICA R"`` or ``"LAD"``, not parts of other
     names.
     """
     words = re.sub(r"[\s_\-.,()]+", " ", (name or "").lower()).strip()
-    # A number at the end counts pieces of one vessel.
+    # A number at the end distinguishes pieces of one vessel; it is removed.
     words = re.sub(r" \d+$", "", words)
     for pattern, code in _VESSELS:
         if re.fullmatch(pattern, words):
