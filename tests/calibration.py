@@ -151,7 +151,7 @@ class Told:
     def within(self, deviations: float) -> tuple[float, float, float]:
         """Return the share of sections within this number of stated standard deviations (percent).
 
-        The 95 % interval of the share follows in brackets.
+        With the share come the ends of its 95 % interval, by drawing scenes again (bootstrap).
         """
         hits = np.array(
             [

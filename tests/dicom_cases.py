@@ -67,7 +67,7 @@ def rounded(k: int, data: Dataset) -> None:
 
 
 def two_stops(k: int, data: Dataset) -> None:
-    """Move the table between two parts of one stack."""
+    """Scan one stack in two acquisitions, 30 s apart."""
     data.AcquisitionNumber = 1 + (k >= COUNT // 2)
     data.AcquisitionTime = data.ContentTime = f"1200{30 * (k >= COUNT // 2):02}"
 
