@@ -36,7 +36,7 @@ def ramp_volumes() -> list[Volume]:
 
 
 def letters_of(direction: npt.ArrayLike) -> str:
-    """Return the sides that a direction (LPS) points to with a fifth of its length or more, main side first."""
+    """The sides that a direction (LPS) points to with at least a fifth of its length, main side first."""
     parts = np.asarray(direction, float) / np.linalg.norm(direction)
     order = np.argsort(-np.abs(parts).round(6), kind="stable")
     return "".join(_ENDS[axis][int(parts[axis] > 0)] for axis in order if abs(parts[axis]) >= 0.2)

@@ -1,4 +1,4 @@
-"""Manifests and recipes of cohorts: what is read, and what is refused with all mistakes named."""
+"""Manifests and recipes of cohorts: what is read; an error lists all mistakes."""
 
 from __future__ import annotations
 
