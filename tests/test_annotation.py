@@ -87,7 +87,7 @@ def test_letters_stand_where_the_side_of_the_patient_is_seen(grid):
         for axis, (low, high) in enumerate((("left", "right"), ("bottom", "top"))):
             for edge, sign in ((low, -1), (high, 1)):
                 parts = {letter: sign * seen[letter][axis] for letter in WAYS}
-                # On the oblique grid no voxel lies exactly towards a side: within 0.06 both letters may appear.
+                # On the oblique grid no voxel lies exactly towards a side: letters within 0.06 may appear.
                 sure = {letter for letter, part in parts.items() if part > 0.26}
                 possible = {letter for letter, part in parts.items() if part > 0.14}
                 assert sure <= set(letters[edge]) <= possible, (camera, edge, parts)
