@@ -66,7 +66,7 @@ def points_for(array, mode):
 
 
 def both(volume, view, mode, shift=0.0, thicker=1.0):
-    """Return our picture and VTK's, 0 to 255; VTK's is moved by `shift` pixels, opacities per `mm`."""
+    """Return our picture and VTK's, 0 to 255; VTK's is moved by `shift` pixels, with `thicker` mm opacity."""
     around, over = VIEWS[view]
     camera = Camera.anterior(volume, (161, 121)).rotated(around).rotated(over, "right")
     points, step = points_for(volume.array, mode), volume.spacing.min() / PARTS[mode]

@@ -1,4 +1,4 @@
-"""Files that were given in the place of others: whoever reads them says what they are."""
+"""Files given in place of others: the error says what kind of file it is."""
 
 from __future__ import annotations
 
@@ -137,7 +137,7 @@ def test_info_warns_by_the_best_volume_alone(tmp_path):
 
 
 def far_volume(folder):
-    """A volume that has nothing to do with the lines."""
+    """A volume far away from the lines."""
     affine = np.diag([2.0, 2.0, 3.0, 1.0])
     affine[:3, 3] = (500, 500, 500)
     return write_stack(folder, coded((8, 8, 8)), affine)
