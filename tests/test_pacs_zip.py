@@ -1,4 +1,4 @@
-""""Save for PACS": requests of the page give the same objects as Python writes, or plain errors."""
+"""The archive of "Save for PACS" has the same objects as Python writes; invalid requests give plain errors."""
 
 from __future__ import annotations
 

@@ -84,7 +84,7 @@ def write_session(path, tree, view=VIEW, hidden=(), marks=None, fwhm=None, **mor
 
 
 def scan_of(volume, shift=0.0, every=1):
-    """Return the grid of a volume as the viewer saves it, moved along x (mm); for 2, of every second voxel."""
+    """Return the grid of a volume as the viewer saves it, moved along x (mm); for 2, every second voxel."""
     rows = (volume.world_from_index * ([every] * 3 + [1])).tolist()
     rows[0][3] += shift
     return {"size": [-(-n // every) for n in volume.size], "world_from_index": rows}

@@ -32,7 +32,7 @@ class Scene:
         self.affine[:3, 3] = -self.affine[:3, :3] @ (np.asarray(self.size) - 1) / 2
 
     def distance(self, line: Floats, radius: Floats) -> tuple[Floats, Floats]:
-        """Return the signed distance of voxels from a tube's surface (mm), and the nearest point of the line."""
+        """Return the signed distance of voxels from a tube's surface (mm), and the nearest line point."""
         inverse = np.linalg.inv(self.affine)
         found = np.full(self.size[::-1], 1e3)
         nearest = np.zeros(self.size[::-1])

@@ -107,7 +107,9 @@ def _check_memory(study: Study, needed: int, memory: int | None) -> None:
         expected = f"at most {in_words(room)}, " + (
             "the available memory" if memory is None else "the memory that --memory leaves for voxels"
         )
-        raise FormatError(str(study.volume), f"{in_words(needed)} of voxels", expected, "make more memory available")
+        raise FormatError(
+            str(study.volume), f"{in_words(needed)} of voxels", expected, "make more memory available"
+        )
 
 
 @dataclass(frozen=True)
