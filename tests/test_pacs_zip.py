@@ -1,4 +1,4 @@
-"""The archive of "Save for PACS" has the same objects as Python writes; invalid requests give plain errors."""
+"""The archive of "Save for PACS" has the same objects as Python writes; bad requests give plain errors."""
 
 from __future__ import annotations
 

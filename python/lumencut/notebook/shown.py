@@ -136,7 +136,7 @@ class Shown:
         return replace(self, linked=linked, place=linked.place, picked=(x, y, z))
 
     def with_vessel(self, vessel: int | None) -> Shown:
-        """Return the state with another picked vessel: at its place nearest to the cross-hair, or its middle."""
+        """Return the state with another picked vessel: at the place near the cross-hair, or in its middle."""
         if vessel is None:
             return replace(self, place=None, linked=None)
         assert self.scene.tree is not None
