@@ -337,5 +337,5 @@ def test_voxels_that_do_not_fit_into_the_memory_are_found_before(tmp_path):
     assert "found 4.194 GB of voxels; expected at most 4.027 GB, the memory that --memory leaves" in trouble
     verdict = verdict_of(study, Reading(), 8 << 30)
     assert verdict.trouble == ""
-    assert "whether the memory is enough is known once they are measured" in verdict.unsure[0]
+    assert "only measuring can show whether the memory is enough" in verdict.unsure[0]
     assert verdict_of(study, Reading(), 64 << 30).unsure == ()

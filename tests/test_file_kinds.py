@@ -117,13 +117,13 @@ def test_info_judges_lines_by_the_volume_that_they_fit_best(tmp_path):
     result = info(first, second, lines)
     assert (result.exit_code, result.stderr) == (0, "")
     assert (
-        f"> judged by {second}, which it fits best: 25 of 25 points lie in {second}; 0 of 25" in result.stdout
+        f"> decided by {second}, which it fits best: 25 of 25 points lie in {second}; 0 of 25" in result.stdout
     )
     assert "ras (the volume fits it)" in result.stdout
     assert "no point lies inside the volume" not in result.stdout
     result = info(second, write_volume(tmp_path / "again.nii"), lines)
-    assert f"> judged by the first volume, {second}: all volumes fit alike (25 of 25" in result.stdout
-    assert "judged by the" not in info(second, lines).stdout
+    assert f"> decided by the first volume, {second}: all volumes fit equally (25 of 25" in result.stdout
+    assert "decided by the" not in info(second, lines).stdout
 
 
 def test_info_warns_by_the_best_volume_alone(tmp_path):

@@ -72,9 +72,9 @@ def _choice(places: Sequence[Place], counts: Sequence[tuple[int, int]], n: int) 
         for place, (inside, _) in zip(places, counts, strict=True)
     ]
     if len(set(counts)) == 1:
-        return f"judged by the first volume, {places[n].judge}: all volumes fit alike ({fit[n]})"
+        return f"decided by the first volume, {places[n].judge}: all volumes fit equally ({fit[n]})"
     others = "; ".join(text for m, text in enumerate(fit) if m != n)
-    return f"judged by {places[n].judge}, which it fits best: {fit[n]}; {others}"
+    return f"decided by {places[n].judge}, which it fits best: {fit[n]}; {others}"
 
 
 def compared(lines: dict[str, Any], volumes: list[dict[str, Any]]) -> list[dict[str, Any]]:

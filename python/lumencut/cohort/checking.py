@@ -88,11 +88,11 @@ def _judged(study: Study, how: Reading, memory: int | None) -> Iterator[str]:
             _check_places(study, volume)
     for file in files:
         if not file.check_length():
-            yield f"{file.path}: whether all voxels are there is known once they are read"
+            yield f"{file.path}: only reading can show whether all voxels are there"
     needed = sum(_bytes(file) for file in files)
     _check_memory(study, needed, memory)
     if _AMPLE + _TIMES * needed > (memory or available_memory()):
-        yield f"{in_words(needed)} of voxels: whether the memory is enough is known once they are measured"
+        yield f"{in_words(needed)} of voxels: only measuring can show whether the memory is enough"
 
 
 def _bytes(file: VolumeFile) -> int:
