@@ -117,7 +117,8 @@ def test_info_judges_lines_by_the_volume_that_they_fit_best(tmp_path):
     result = info(first, second, lines)
     assert (result.exit_code, result.stderr) == (0, "")
     assert (
-        f"> decided by {second}, which it fits best: 25 of 25 points lie in {second}; 0 of 25" in result.stdout
+        f"> decided by {second}, which it fits best: 25 of 25 points lie in {second}; 0 of 25"
+        in result.stdout
     )
     assert "ras (the volume fits it)" in result.stdout
     assert "no point lies inside the volume" not in result.stdout

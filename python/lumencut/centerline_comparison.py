@@ -53,8 +53,8 @@ class CenterlineComparison:
         Accuracy inside: the mean length of the connections that are shorter than the radius (mm).
     length : float
         Length of the reference (mm).
-    Position of the first error along the reference (mm); None if there is no error, and for trees.
-        Position of the first error along the reference (mm); None without an error, and always for a tree.
+    first_error : float or None
+        Position of the first error along the reference (mm); None if there is no error, and for trees.
     false_length : float
         Length of the traced vessels outside the lumen of the reference (mm): each point of the reference is
         farther away than its own radius.

@@ -43,8 +43,8 @@ class CenterlineReport:
 
     Attributes
     ----------
-    The format, such as ``VTK XML PolyData``.
-        Such as ``VTK XML PolyData``.
+    format : str
+        The format, such as ``VTK XML PolyData``.
     space, unit : str
         The space and unit in which its coordinates were read.
     stated, stated_unit : str or None

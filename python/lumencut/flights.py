@@ -33,9 +33,9 @@ def flight(
     ----------
     renderer : Renderer
         The scene.
-    The first and the last view, with equal sizes; the end may be ``Camera.refocused(tree, "LAD", size,
+    start, end : Camera
+        The first and the last view, with equal sizes; the end may be ``Camera.refocused(tree, "LAD", size,
         start=start)``.
-        start=start)`` as the end.
     settings : Settings, optional
         The settings; defaults if omitted.
     frames : int, default 36

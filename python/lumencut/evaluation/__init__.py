@@ -99,7 +99,7 @@ def evaluate(
         Visibility: lumen_shown_percent
             Share of lumen_pixels that show some point within the lumen of the nearest vessel.
         Visibility: visible_centerline_percent
-            Share of centerline_points, those without a nearer lumen in front, shown within 0.05 mm. Not counted:
+            Share of centerline_points, which no nearer lumen hides, shown within 0.05 mm. Not counted:
             hidden_centerline_points lie behind a nearer lumen, centerline_points_off_lumen have a pixel whose
             centre lies in no lumen, centerline_points_outside lie outside the picture.
         Depth: crossings_in_order_percent, crossings, crossings_left_out
