@@ -54,8 +54,8 @@ class Picture:
         Side of a pixel (mm) if distances in the picture are projected ones; else None, since a ruler would be
         wrong.
     sides : tuple of (str, str) or None
-        The sides of the patient that rows (to the right) and columns (downwards) run to, as letters of
-        The side of the patient at the right end of rows, and at the lower end of columns, as letters of
+        The sides of the patient at the right end of rows and at the lower end of columns, as letters of
+        `lumencut.orientation`; None if they do not hold in the whole picture.
     comments : str, default ""
         The text that a viewer shows, such as the name of the view.
     shows_body : bool, default False
