@@ -1,4 +1,4 @@
-"""Changes of a camera and a window by drags, the wheel and keys, as in the viewer."""
+"""How drags, the wheel and keys change a camera and a window; as in the viewer."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from lumencut.window import Window
 
 Point = npt.NDArray[np.float64]
 
-#: Change of the window per dragged pixel.
+#: Relative change of the window per dragged pixel.
 _WINDOW_PER_PIXEL = 0.004
 _NARROWEST = 1e-3
 #: Limits of the pixel spacing when zooming (mm).
@@ -29,7 +29,7 @@ def turned(camera: Camera, pivot: Point, axis: npt.ArrayLike, angle: float) -> C
 
 
 def trackballed(camera: Camera, pivot: Point, right: float, down: float) -> Camera:
-    """Return the camera after a drag (pixels) over a ball: the height of the view is half a turn."""
+    """Return the camera after a drag (pixels) on a ball; the height of the view is half a turn."""
     pixels = math.hypot(right, down)
     if pixels == 0:
         return camera
@@ -43,12 +43,12 @@ def spun(camera: Camera, pivot: Point, axis: npt.ArrayLike, right: float) -> Cam
 
 
 def panned(camera: Camera, right: float, down: float) -> Camera:
-    """Return the camera after the scene was dragged by these pixels."""
+    """Return the camera after a drag that moved the scene by these pixels."""
     return camera.panned(-right * camera.pixel_spacing, down * camera.pixel_spacing)
 
 
 def zoomed(camera: Camera, factor: float, column: float, row: float) -> Camera:
-    """Return the camera magnified by a factor; the place at the pixel stays where it is."""
+    """Return the camera magnified by a factor; the point at this pixel does not move."""
     spacing = min(max(camera.pixel_spacing / factor, _FINEST), _COARSEST)
     away = camera.pixel_spacing - spacing
     width, height = camera.size
