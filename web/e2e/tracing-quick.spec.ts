@@ -1,4 +1,4 @@
-/** A user who is faster than the engine performs the first step of the tour. Keys move the focus. */
+/** The first step of the tour by a user who acts before the engine has answered; and keys that move the keyboard focus. */
 import { type Browser, expect, type Page, test } from '@playwright/test';
 import { Viewer } from './page';
 

@@ -62,7 +62,7 @@ function Offer() {
       <OpenMore words="I have centerlines" />
       <button
         type="button"
-        aria-label="Close the offer"
+        aria-label="Close these suggestions"
         onClick={() => {
           isClosed.value = true;
         }}
@@ -74,7 +74,7 @@ function Offer() {
 }
 
 const WHOLE =
-  'Traces the vessel from the listed vessel that it branches off, to its end (w). The first use searches the whole scan.';
+  'Traces the clicked vessel to its end, starting where it leaves a vessel of the list (key w). The first use searches the whole scan.';
 
 function Hint() {
   const take = (wanted: Tool) => () => {
