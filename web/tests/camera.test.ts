@@ -24,12 +24,12 @@ function pointAt(camera: Camera, [x, y]: readonly [number, number]): Vector {
 }
 
 describe('vectors', () => {
-  test('a turn about z by a quarter carries x to y', () => {
+  test('a quarter turn about z rotates x to y', () => {
     expectNear(turned([1, 0, 0], [0, 0, 1], Math.PI / 2), [0, 1, 0]);
     expectNear(turned([0, 0, 5], [0, 0, 1], 1.234), [0, 0, 5]);
   });
 
-  test('a cross product is at right angles to both, and a vector without a direction stays', () => {
+  test('a cross product is perpendicular to both vectors, and a zero vector stays zero', () => {
     const [a, b]: Vector[] = [
       [1, 2, 3],
       [-2, 0.5, 7],
@@ -55,7 +55,7 @@ describe('turning', () => {
     expectNear(turnedOnce.up, CAMERA.up);
   });
 
-  test('a drag over twice the height of the view is a full circle', () => {
+  test('a drag over twice the view height is a full turn', () => {
     const back = trackballed(CAMERA, [1, 2, 3], [0, 600]);
     expectNear(back.center, CAMERA.center);
     expectNear(back.up, CAMERA.up);
@@ -67,7 +67,7 @@ describe('turning', () => {
     expectNear(pixelOf(after, pivot), pixelOf(CAMERA, pivot));
   });
 
-  test('what is in front follows the drag', () => {
+  test('the front of the scene follows the drag', () => {
     const front: Vector = add(CAMERA.center, scale(CAMERA.direction, -40));
     const [x, y] = pixelOf(CAMERA, front);
     const [right] = pixelOf(trackballed(CAMERA, CAMERA.center, [10, 0]), front);
@@ -90,7 +90,7 @@ describe('turning', () => {
   });
 });
 
-test('axes that are not quite at right angles come back to them', () => {
+test('axes that are not quite perpendicular become so', () => {
   const loose: Camera = { ...CAMERA, direction: [0.001, 1, 0], up: [0.01, 0.02, 1.003] };
   const { direction, up } = trackballed(loose, [0, 0, 0], [3, 4]);
   expectOrthonormal(direction, up);
@@ -99,11 +99,11 @@ test('axes that are not quite at right angles come back to them', () => {
 describe('panning and zooming', () => {
   test('a pan moves by exactly its length in mm', () => {
     const after = panned(CAMERA, [10, -6]);
-    // The patient's left is on the right: 10 pixels of 0.5 mm right, 6 up.
+    // Seen from the front: the camera moves 10 pixels of 0.5 mm to the patient's right, and 6 down.
     expectNear(subtract(after.center, CAMERA.center), [-5, 0, -3]);
   });
 
-  test('a zoom keeps the place at the pointer', () => {
+  test('a zoom keeps the point under the pointer', () => {
     const turnedCamera = trackballed(CAMERA, CAMERA.center, [31, 47]);
     for (const factor of [0.3, 0.9, 1.7, 12]) {
       const kept = pointAt(turnedCamera, [371, 12]);
@@ -113,7 +113,7 @@ describe('panning and zooming', () => {
     }
   });
 
-  test('a zoom ends at its bounds, and moves nothing there', () => {
+  test('a zoom ends at its limits, and changes nothing there', () => {
     const finest = zoomed(CAMERA, 1e9, [3, 3]);
     expect(finest.pixel_spacing).toBe(0.005);
     expect(zoomed(finest, 2, [3, 3])).toEqual(finest);
@@ -122,13 +122,13 @@ describe('panning and zooming', () => {
 });
 
 describe('the number of pixels', () => {
-  test('the shorter side shows as much after a resize', () => {
+  test('the shorter side has the same extent after a resize', () => {
     const after = resized(CAMERA, [200, 700]);
     expect(200 * after.pixel_spacing).toBeCloseTo(300 * CAMERA.pixel_spacing, 12);
     expect(resized(after, [400, 300])).toEqual(CAMERA);
   });
 
-  test('fewer pixels show the same', () => {
+  test('fewer pixels show the same part of the scene', () => {
     const after = sampled(CAMERA, 0.333);
     expect(after.size).toEqual([133, 100]);
     expect(after.size[1] * after.pixel_spacing).toBeCloseTo(150, 12);

@@ -1,4 +1,4 @@
-"""Changes of a camera and a window by drags, the wheel and keys, as in the viewer."""
+"""How drags, the wheel and keys change a camera and a window; as in the viewer."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Point = npt.NDArray[np.float64]
 
 
 def trackballed(camera: Camera, pivot: Point, right: float, down: float) -> Camera:
-    """Return the camera after a drag (pixels) over a ball: the height of the view is half a turn."""
+    """Return the camera after a drag (pixels) on a ball; the height of the view is half a turn."""
     return camera._moved(_lumencut.trackballed(camera, pivot, (right, down)))
 
 
@@ -25,12 +25,12 @@ def spun(camera: Camera, pivot: Point, axis: npt.ArrayLike, right: float) -> Cam
 
 
 def panned(camera: Camera, right: float, down: float) -> Camera:
-    """Return the camera after the scene was dragged by these pixels."""
+    """Return the camera after a drag that moved the scene by these pixels."""
     return camera._moved(_lumencut.dragged(camera, (right, down)))
 
 
 def zoomed(camera: Camera, factor: float, column: float, row: float) -> Camera:
-    """Return the camera magnified by a factor; the place at the pixel stays where it is."""
+    """Return the camera magnified by a factor; the point at this pixel does not move."""
     return camera._moved(_lumencut.zoomed_at(camera, factor, (column, row)))
 
 

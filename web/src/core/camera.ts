@@ -5,7 +5,7 @@ import { add, cross, dot, scale, subtract, turned, unit } from './vectors';
 
 export const rightOf = (camera: Camera): Vector => unit(cross(camera.direction, camera.up));
 
-/** The camera turned about an axis through `pivot`. */
+/** The camera turned about an axis through `pivot`, by an angle in radians. */
 export function turnedAbout(camera: Camera, pivot: Vector, axis: Vector, angle: number): Camera {
   const around = unit(axis);
   const direction = unit(turned(camera.direction, around, angle));
@@ -15,7 +15,7 @@ export function turnedAbout(camera: Camera, pivot: Vector, axis: Vector, angle: 
   return { ...camera, center, direction, up };
 }
 
-/** Turns the scene by a drag over a ball that fills the view: the view height is half a turn. */
+/** Turns the scene like a trackball; a drag over the height of the view turns it by 180°. */
 export function trackballed(camera: Camera, pivot: Vector, [x, y]: Pair): Camera {
   const axis = add(scale(camera.up, -x), scale(rightOf(camera), -y));
   return turnedAbout(camera, pivot, axis, angleOf(camera, Math.sqrt(x * x + y * y)));
@@ -31,7 +31,7 @@ function angleOf({ size }: Pick<Camera, 'size'>, pixels: number): number {
   return pixels * (GESTURES.turn_per_height / Math.max(size[1], 1));
 }
 
-/** Pans the scene by a number of pixels. */
+/** Moves the scene by a number of pixels to the right and downwards. */
 export function panned(camera: Camera, [x, y]: Pair): Camera {
   const { pixel_spacing: side } = camera;
   const shift = add(scale(rightOf(camera), -x * side), scale(camera.up, y * side));
@@ -43,7 +43,7 @@ export function zoomedSpacing(spacing: number, factor: number): number {
   return Math.min(Math.max(spacing / factor, GESTURES.finest_spacing), GESTURES.coarsest_spacing);
 }
 
-/** The camera magnified by a factor; the place at the pixel stays where it is. */
+/** The camera magnified by a factor; the point seen at `pixel` stays at that pixel. */
 export function zoomed(camera: Camera, factor: number, pixel: Pair = middleOf(camera)): Camera {
   const spacing = zoomedSpacing(camera.pixel_spacing, factor);
   const middle = middleOf(camera);
@@ -55,7 +55,7 @@ export function zoomed(camera: Camera, factor: number, pixel: Pair = middleOf(ca
   return { ...camera, pixel_spacing: spacing, center: add(camera.center, shift) };
 }
 
-/** The same view in another number of pixels; the shorter side keeps its extent. */
+/** The same view in another number of pixels; the shorter side keeps its extent in mm. */
 export function resized(camera: Camera, size: Pair): Camera {
   const sides = (pixels: Pair) => Math.max(Math.min(pixels[0], pixels[1]), 1);
   return { ...camera, size, pixel_spacing: (camera.pixel_spacing * sides(camera.size)) / sides(size) };
@@ -67,7 +67,7 @@ export function sampled(camera: Camera, factor: number): Camera {
   return { ...camera, size, pixel_spacing: (camera.pixel_spacing * camera.size[1]) / size[1] };
 }
 
-/** Column and row of the middle. */
+/** Column and row of the centre of the image. */
 export const middleOf = (camera: Camera): Pair => [(camera.size[0] - 1) / 2, (camera.size[1] - 1) / 2];
 
 /** Column and row at which a world point is seen. */

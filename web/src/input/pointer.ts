@@ -12,13 +12,13 @@ export interface Handlers {
   hover(at: readonly [number, number], shift: boolean): void;
   begin(): void;
   end(): void;
-  /** Bindings that take precedence over those of the view. */
+  /** The table of bindings that takes precedence over the table of the view; null if none. */
   rows?(): Where | null;
-  /** Steps through the objects behind each other under the pointer. */
+  /** Called to step through objects that lie behind each other under the pointer. */
   step?(by: number): void;
-  /** The pointer left the view, or the content under it changed. */
+  /** Called when the pointer left the view, or the content under it changed. */
   leave?(): void;
-  /** Escape during a drag: restores the state at its start. */
+  /** Called on Escape during a drag; restores the state from before the drag. */
   putBack(): void;
 }
 
@@ -215,7 +215,7 @@ class Pointers {
 
   wheel(event: WheelEvent): void {
     event.preventDefault();
-    // Browsers report a trackpad pinch as a wheel with Ctrl.
+    // Browsers report a pinch on a trackpad as a wheel event with Ctrl.
     const rows = this.handlers.rows?.() ?? null;
     const modifier = modifierOf(event);
     const action =

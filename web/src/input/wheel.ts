@@ -1,11 +1,10 @@
 /** Converts wheel movements to zooms, and to steps: one per mouse notch; trackpad movements add up. */
-
 import { GESTURES } from '../core/generated/tables';
 
 export class Steps {
   private rest = 0;
 
-  /** Whole steps of a wheel event; the remainder is kept. */
+  /** The number of complete steps of a wheel event; the remainder is kept for the next event. */
   ofWheel(event: WheelEvent): number {
     const by = alongWheel(event);
     const isInPixels = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL;
@@ -25,7 +24,7 @@ export class Steps {
   }
 }
 
-/** With Shift, browsers report horizontal movement. */
+/** The movement of the wheel; with Shift, browsers report it as horizontal. */
 export const alongWheel = ({ deltaX, deltaY, shiftKey }: WheelEvent): number =>
   shiftKey && deltaY === 0 ? deltaX : deltaY;
 

@@ -13,15 +13,15 @@ import { usePaneSize } from './pane-size';
 interface FlatPictureProps {
   readonly name: ViewName;
   readonly words: string;
-  /** Renders the picture; its identity changes with the picture. */
+  /** Renders the picture. A new function means that the picture has changed. */
   readonly ask: ((size: Pair) => Promise<Picture>) | null;
   readonly handlers: Handlers;
   readonly empty?: string;
   readonly style?: Record<string, string>;
-  /** Whether the current picture is outdated. */
+  /** Whether the displayed picture is outdated. */
   readonly isLate?: boolean;
   readonly onSize?: (size: Pair) => void;
-  /** Arrow keys instead of scrolling: steps right and down, ten with Shift. */
+  /** Called by arrow keys in place of scrolling, with steps right and down: 1, or 10 with Shift. */
   readonly onArrow?: ((by: Pair) => void) | undefined;
   readonly children?: ComponentChildren;
 }
@@ -48,7 +48,7 @@ export function FlatPicture({
   const size = usePaneSize(pane);
   const [isPending, setPending] = useState(false);
 
-  // A closed view cancels its requests.
+  // When the view is closed, its pending requests are dropped.
   useEffect(
     () => () => {
       asked.current = null;
@@ -78,7 +78,7 @@ export function FlatPicture({
           paint(canvas.current, picture);
         }
       } catch (error) {
-        // Errors of outdated requests are ignored.
+        // Ignore errors of requests that are no longer current.
         if (asked.current === ask) {
           recover(error);
         }
@@ -105,7 +105,7 @@ export function FlatPicture({
       class="pane-body"
       ref={pane}
       data-testid={name}
-      // Not role="img": screen readers would skip the handles inside.
+      // With role="img", screen readers would skip the handles inside.
       role="application"
       aria-label={words}
       tabIndex={0}

@@ -1,4 +1,4 @@
-/** User actions; each one only writes the store. */
+/** Actions of the user. They only change the store; the views react to it. */
 import { batch } from '@preact/signals';
 import type { EngineClient } from '../client/engine';
 import type { Asked } from '../core/asked';
@@ -56,12 +56,12 @@ export function zoomTurning(factor: number, at: Pair): void {
   changeCamera((camera) => zoomed(camera, factor, at));
 }
 
-/** The state before a drag, restored by Escape. */
+/** The view before a drag, which Escape restores. */
 let before = kept();
 
 function kept() {
   const [camera, to] = [store.camera.value, destination.value];
-  // A drag ends a flight; cancelling it leaves the view at the destination.
+  // A drag ends a flight of the camera. If the drag is cancelled, the view jumps to the destination of the flight.
   return {
     camera: camera && to ? resized(to, camera.size) : camera,
     window: store.window_.value,
@@ -84,14 +84,14 @@ export function windowBack(): { begin(): void; end(): void; putBack(): void } {
   };
 }
 
-/** Right widens the window, up brightens. */
+/** A drag to the right widens the window; a drag upwards makes the picture brighter. */
 export function dragWindow([x, y]: Pair): void {
   const [level, width] = store.window_.value;
   const { window_per_pixel: part, narrowest_window: narrowest } = GESTURES;
   store.window_.value = [level + y * part * width, Math.max(width * Math.exp(x * part), narrowest)];
 }
 
-/** Changes the window during a drag; `windowChanged` then records one step. */
+/** Changes the window during a drag. Afterwards `windowChanged` records one undo step. */
 export function setWindow(window: Window): void {
   store.window_.value = [window[0], Math.max(window[1], GESTURES.narrowest_window)];
 }
@@ -132,12 +132,12 @@ export async function showBestView(engine: Asked): Promise<void> {
 type ModeLayout = 'measure' | 'report';
 const isOfMode = (layout: store.Layout): layout is ModeLayout => layout === 'measure' || layout === 'report';
 
-/** Layout before measuring or the report. */
+/** The layout before measuring or the report was opened. */
 let layoutBefore: store.Layout = 'strip';
 
 export function toggleLayout(wanted: ModeLayout): void {
   if (tool.value !== 'ruler' || wanted === 'report') {
-    // Clicks must not set points here; this also restores the layout before tracing.
+    // Ends the tracing tool, since clicks must not set points here. This also restores the layout before tracing.
     tool.value = 'look';
   }
   const now = store.layout.value;

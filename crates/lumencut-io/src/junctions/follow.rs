@@ -153,7 +153,8 @@ impl Walk<'_> {
             (at, last, length, before) = (segment, i, length + step, point);
         }
         let shortest = SHORTEST_STRETCH * self.tolerance(0, false);
-        // A path that follows to its end takes the nearest end point; others leave after the segment.
+        // A path that follows the other one up to its own last point takes the nearer end of the last segment; a path that
+        // leaves earlier takes the start of that segment.
         let whole = last + 1 == self.path.nodes.len();
         let nearer_end = whole && at + 1 < self.other.nodes.len() && {
             before.distance(self.other_point(at + 1)) < before.distance(self.other_point(at))
