@@ -13,7 +13,7 @@ use lumencut_core::vessel_tree::Vessel;
 const SMOOTHING: [f64; 2] = [1.0, 8.0];
 
 /// Maximum number of sections of a vessel.
-const MOST_SECTIONS: u32 = 20_000;
+pub const MOST_SECTIONS: u32 = 20_000;
 
 /// A vessel counts as parallel to an axis from this cosine.
 const ALONG: f64 = 0.9;

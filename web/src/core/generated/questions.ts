@@ -1068,6 +1068,13 @@ export type Questions = {
     };
     readonly answer: string;
   };
+  /** The record of a line's profile, for the width that was last requested. Python reads it as a `Profile`. */
+  readonly profile_record: {
+    readonly message: {
+      readonly line: number;
+    };
+    readonly answer: string;
+  };
   /** The findings on vessels and the straight distances (mm), in the sentences of the report. */
   readonly findings: {
     readonly message: {
@@ -1183,6 +1190,7 @@ export const TURNS = {
   angle_between: { when: 'first', words: null },
   profiles_csv: { when: 'first', words: null },
   profiles_json: { when: 'first', words: null },
+  profile_record: { when: 'first', words: null },
   findings: { when: 'first', words: null },
   report_plan: { when: 'first', words: null },
   measured_report: { when: 'first', words: null },
