@@ -83,6 +83,7 @@ def _told(path: Path) -> dict[str, Any]:
     if path.name == "report.dcm":
         told["findings"] = [code(child(one, "Finding")[0].ConceptCodeSequence)[2] for one in groups(path)]
         told["names"] = sorted({child(one, "Tracking Identifier")[0].TextValue for one in groups(path)})
+        told["words"] = [one.value for one in data.iterall() if one.keyword == "TextValue"]
         told["diameters"] = [numbers(one)[0][1] for one in groups(path)]
     return told
 

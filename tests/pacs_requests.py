@@ -6,16 +6,17 @@ import base64
 import io
 import json
 import zipfile
+from dataclasses import asdict
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 import lumencut
 from dicom_scenes import LINE, scan, series
-from lumencut import Camera, Renderer, Vessel, VesselTree
+from lumencut import Camera, Renderer, Vessel, VesselTree, _lumencut
 from lumencut.frame import picture_as_png
 from lumencut.measure_report import report
-from lumencut.measured_vessel import Marked, MeasuredVessel, vessels_json
+from lumencut.measured_vessel import Marked, MeasuredVessel
 
 NAME = "left renal artery"
 MARKED = Marked(12.0, (24.0,))
@@ -82,17 +83,14 @@ def view_part() -> dict[str, Any]:
     }
 
 
-def finding_part(one: MeasuredVessel) -> dict[str, Any]:
-    """The part of the request about a finding, with its key image."""
-    profile = one.profile
-    marked = [mark.arc_length for mark in one.marks if not mark.is_suggestion]
-    contours = [[at, profile.contour[profile._core.nearest(at)].tolist()] for at in marked]
+def finding_part(one: MeasuredVessel, marked: Marked = MARKED) -> dict[str, Any]:
+    """A finding with its key image."""
     return {
         "picture": encoded(picture_as_png(frame().image)),
+        "name": one.vessel.name or "",
         "points": one.vessel.points.tolist(),
-        "contours": contours,
-        "marks": [[mark.name, mark.arc_length, mark.is_suggestion] for mark in one.marks],
-        "words": None if one.stenosis is None else one.stenosis._graded.words(),
+        "profile": _lumencut.profile_record(one.profile._core),
+        "marks": {**asdict(marked), "stretch": None, "secondStretch": None},
     }
 
 
@@ -100,14 +98,13 @@ def request(choice: str = "scan", marked: Marked = MARKED, name: str | None = NA
     """A request for all objects of a scan that the server shows."""
     one = measured(marked, name)
     return {
-        "version": 1,
+        "version": 2,
         "study": {"choice": choice, "is_served": True, "header": None, "instances": [], "study_count": 1},
         "fingerprint": "a scan",
         "stated": {"spacing": True, "orientation": True},
         "view": view_part(),
         "pane": {"picture": encoded(picture_as_png(frame().image)), "axes": "Rows run along the vessel."},
-        "findings": [finding_part(one)],
-        "numbers": vessels_json(ASKED, [one]),
+        "findings": [finding_part(one, marked)],
         "report": html(marked, name),
     }
 

@@ -12,13 +12,15 @@ import pytest
 
 from dicom_judges import faults
 from dicom_scenes import scan, series
-from lumencut import FormatError, MissingPackageError
+from lumencut import FormatError, MissingPackageError, Profile
 from lumencut.dicom_objects.chosen_study import chosen_study
 from lumencut.dicom_objects.measured import measured as reported
 from lumencut.dicom_objects.structured_report import write_report
 from lumencut.measured_vessel import Marked
 from lumencut.pacs_zip.archive import pacs_zip
+from lumencut.pacs_zip.given import Given
 from lumencut.pacs_zip.placing import chosen_file
+from lumencut.pacs_zip.vessels import measured_vessel
 from pacs_requests import (
     dropped,
     encoded,
@@ -258,12 +260,10 @@ def test_what_is_missing_is_named_with_its_extra(monkeypatch, package, extra):
 
 
 def broken():
-    """Requests that no page sends, each with a part of the expected error."""
-    yield {"version": 2}, "another version"
+    """Requests that no page sends, each with a part of what is said of it."""
+    yield {"version": 3}, "another version"
     yield {"study": None}, "the request: study"
     yield {"findings": 3}, "a number as the request: findings"
-    yield {"numbers": "{}"}, "vessels"
-    yield {"numbers": "no"}, "no JSON"
     yield {"report": "<h1>one</h1><svg></svg><h1>two</h1><svg></svg>"}, "a report of other vessels"
     view = request()["view"]
     yield {"view": {**view, "picture": "%"}}, "base64"
@@ -272,12 +272,48 @@ def broken():
     yield {"view": {**view, "settings": {"none": 1}}}, "invalid settings"
     yield {"view": {**view, "camera": {**view["camera"], "direction": [0, 0, 0]}}}, "an invalid camera"
     finding = finding_part(measured())
-    yield {"findings": [{**finding, "points": [[0, 0]]}]}, "no points"
-    yield {"findings": [{**finding, "points": [[0, 0, 0]]}]}, "an invalid vessel"
-    yield {"findings": [{**finding, "contours": []}]}, "without the contour"
-    yield {"findings": [{**finding, "contours": [3]}]}, "a contour"
-    yield {"findings": [{**finding, "marks": [["a", "b", False]]}]}, "a mark"
-    yield {"findings": [finding, finding]}, "1 vessels for 2 findings"
+    record, marks = json.loads(finding["profile"]), finding["marks"]
+    for part, words in (
+        ({"points": [[0, 0]]}, "no points"),
+        ({"points": [[0, 0, 0]]}, "an invalid vessel"),
+        ({"profile": None}, "nothing as the request: findings: profile"),
+        ({"profile": "{}"}, "record of a profile"),
+        ({"profile": json.dumps({**record, "format": 9})}, "version 9 as record of a profile"),
+        ({"profile": json.dumps({**record, "flags": [1 << 20] * len(record["flags"])})}, "unknown flags"),
+        ({"marks": {**marks, "at": "b"}}, "a text as"),
+        ({"marks": {**marks, "references": [None]}}, "nothing as"),
+        ({"marks": {**marks, "method": "none"}}, "method of the stenosis"),
+        ({"marks": {**marks, "group": "none"}}, "vessel of the group"),
+    ):
+        yield {"findings": [{**finding, **part}]}, words
+
+
+def test_a_page_of_the_version_before_is_told_to_reload():
+    before = finding_part(measured())
+    before |= {"marks": [["marked place", 12.0, False]], "contours": [[12.0, []]], "words": None}
+    asked = {**request(), "version": 1, "findings": [before], "numbers": "{}"}
+    with pytest.raises(FormatError, match="another version; expected version 2; reload the page"):
+        pacs_zip(sent(asked), scan())
+
+
+def test_a_place_beyond_the_vessel_is_not_graded(tmp_path):
+    part = finding_part(measured())
+    part["marks"] |= {"at": 1e9}
+    found = groups(made({**request(), "findings": [part]}, tmp_path)["report.dcm"])
+    assert [code(child(one, "Finding")[0].ConceptCodeSequence)[2] for one in found] == ["Centerline"]
+
+
+@pytest.mark.parametrize("marked", [Marked(12.0, (24.0,)), Marked(12.0, method="ecst", original=9.0)])
+def test_a_finding_is_graded_as_python_grades_it(marked):
+    one = measured(marked)
+    finding = json.loads(json.dumps(finding_part(one, marked)))
+    again = measured_vessel(Given(finding, "a finding"), 0, has_name=True)
+    assert type(again.profile) is Profile
+    assert again.profile.to_json() == one.profile.to_json()
+    assert (again.lines, again.marks, again.name) == (one.lines, one.marks, one.name)
+    numbers = [vars(graded.stenosis)["_numbers"] for graded in (again, one)]
+    assert numbers[0] == numbers[1]
+    assert again.stenosis.references == one.stenosis.references
 
 
 @pytest.mark.parametrize(("change", "words"), list(broken()), ids=lambda one: str(one)[:30])

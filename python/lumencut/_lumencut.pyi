@@ -20,8 +20,6 @@ _FoundArrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArr
 _FoundParts = tuple[list[_FoundArrays], list[list[int]], list[str]]
 _MeasuredParts = tuple[str, str | None, Profile, Grade | None]
 _MarkParts = tuple[str, float, float, bool]
-_StoredColumns = list[tuple[str, npt.NDArray[np.float64]]]
-_StoredProfile = tuple[_StoredColumns, npt.NDArray[np.uint32], tuple[str, str], tuple[str, list[float]]]
 _StoredStenosis = tuple[list[float], list[list[float]], str, tuple[int, bool]]
 _NamedArrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None, str | None]
 
@@ -138,14 +136,15 @@ __all__ = [
     "placement",
     "positions",
     "profile_csv",
+    "profile_from_record",
     "profile_json",
     "profile_marks",
+    "profile_record",
     "radius_at",
     "read_session_file",
     "refocused",
     "report_html",
     "report_plan",
-    "restored_profile",
     "restored_stenosis",
     "rotated",
     "sample",
@@ -159,7 +158,6 @@ __all__ = [
     "smoothed",
     "spiral_pitch",
     "spiral_reach",
-    "stored_profile",
     "stored_stenosis",
     "straightened_mark",
     "tangential_layout",
@@ -372,7 +370,7 @@ def spiral_pitch(
     usual: float, smallest_side: float, radius: float, pixel_spacing: float, columns: float
 ) -> float: ...
 def spiral_reach(largest: float) -> float: ...
-def stored_profile(profile: Profile) -> _StoredProfile: ...
+def profile_record(profile: Profile) -> str: ...
 def stored_stenosis(stenosis: Stenosis) -> _StoredStenosis: ...
 def tangential_layout(points: npt.NDArray[np.float64], smoothing: float, camera: Any) -> Layout: ...
 def feature_window(feature: str, level: float | None, window: list[float]) -> list[float]: ...
@@ -623,7 +621,7 @@ def report_plan(
 def rotated(camera: Any, angle: float, axis: _Axis) -> dict[str, Any]: ...
 def sample(volume: Any, points: npt.NDArray[np.float64]) -> npt.NDArray[np.float32]: ...
 def scale_bar(width: float, pixel_spacing: float) -> tuple[float, str, float] | None: ...
-def restored_profile(stored: _StoredProfile, scan: Any) -> Profile: ...
+def profile_from_record(text: str) -> Profile: ...
 def restored_stenosis(stored: _StoredStenosis) -> Stenosis: ...
 def scan_of(profile: Profile) -> tuple[str | None, str | None, str | None, float | None, str | None]: ...
 def scan_words(scan: Any) -> str: ...

@@ -13,7 +13,6 @@ from lumencut import _lumencut
 from lumencut._checks import choice, number, numbers
 from lumencut._pickles import by_name
 from lumencut.errors import MeasuringError, SettingsError
-from lumencut.profile_numbers import ProfileNumbers
 from lumencut.profile_outputs import ProfileOutputs
 from lumencut.scan_details import ScanDetails
 from lumencut.stenosis import METHODS, Method, Stenosis
@@ -65,15 +64,12 @@ class CArm(NamedTuple):
 
 
 @by_name
-class Profile(ProfileNumbers, ProfileOutputs):
+class Profile(ProfileOutputs):
     """The lumen of one vessel by its arc length; :func:`lumencut.measure` makes it.
 
     Arrays have one row for each section, n in all, and cannot be written to. What could not be measured is
     NaN. A diameter is that of the lumen: thrombus and plaque are not lumen.
     """
-
-    def __len__(self) -> int:
-        return len(self.arc_length)
 
     def __repr__(self) -> str:
         length = self.arc_length[-1]
@@ -83,11 +79,6 @@ class Profile(ProfileNumbers, ProfileOutputs):
     def noise(self) -> float:
         """The standard deviation of a voxel around the fit, in the unit of the volume."""
         return self._core.noise
-
-    @property
-    def fwhm(self) -> float:
-        """The full width at half maximum of the point spread that was used (mm)."""
-        return self._core.fwhm[0]
 
     @property
     def fwhm_source(self) -> str:

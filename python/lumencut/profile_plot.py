@@ -13,7 +13,8 @@ from lumencut import _lumencut
 from lumencut._files import replace_whole
 from lumencut.errors import MissingPackageError
 from lumencut.flags import Flag
-from lumencut.profile_sections import Mark, Sections, counts, word_of
+from lumencut.profile_numbers import ProfileNumbers
+from lumencut.profile_sections import Mark, counts, word_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -54,7 +55,7 @@ def new_axes() -> Axes:
     return axes
 
 
-def draw(axes: Axes, sections: Sections, marks: Sequence[Mark]) -> None:
+def draw(axes: Axes, sections: ProfileNumbers, marks: Sequence[Mark]) -> None:
     """Draw the diameters of sections, their flags and marked places."""
     counted = counts(sections)
     shown = [np.where(counted, values, np.nan) for values in _diameters(sections)]
@@ -96,8 +97,8 @@ def draw(axes: Axes, sections: Sections, marks: Sequence[Mark]) -> None:
     axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.03), fontsize=8, frameon=False)
 
 
-def figure_of(profiles: Sequence[tuple[str, Sections, Sequence[Mark]]]) -> Figure:
-    """Return a figure of profiles, one below the other, each with its title."""
+def figure_of(profiles: Sequence[tuple[str, ProfileNumbers, Sequence[Mark]]]) -> Figure:
+    """Return a figure of profiles below each other, each with its title."""
     check_matplotlib()
     from matplotlib import style
     from matplotlib.figure import Figure
@@ -129,7 +130,7 @@ def write(figure: Figure, path: Path) -> None:
         replace_whole(path, lambda whole: figure.savefig(whole, format=kind, dpi=_DPI, metadata=metadata))
 
 
-def _diameters(sections: Sections) -> tuple[npt.NDArray[np.float64], ...]:
+def _diameters(sections: ProfileNumbers) -> tuple[npt.NDArray[np.float64], ...]:
     return sections.diameter_equivalent, sections.diameter_min, sections.diameter_max
 
 
@@ -138,8 +139,8 @@ def _edges(height: float) -> tuple[float, float, float, float]:
     return _SIDES[0], _BELOW / height, _SIDES[1], 1 - _ABOVE / height
 
 
-def _top(sections: Sections, counted: npt.NDArray[np.bool_]) -> float:
-    """Return the largest diameter that fits into the plot (mm)."""
+def _top(sections: ProfileNumbers, counted: npt.NDArray[np.bool_]) -> float:
+    """The largest diameter that fits into the plot (mm)."""
     wide = sections.diameter_max[counted]
     if not len(wide):
         wide = sections.diameter_max[np.isfinite(sections.diameter_max)]
@@ -156,8 +157,8 @@ def _draw_marks(axes: Axes, marks: Sequence[Mark]) -> None:
         )  # fmt: skip
 
 
-def _draw_flags(axes: Axes, sections: Sections) -> float:
-    """Draw a row for each flag that is set anywhere; return the share of the height used by these rows."""
+def _draw_flags(axes: Axes, sections: ProfileNumbers) -> float:
+    """Draw a row for each flag that is set somewhere, and return the share of the height that rows take."""
     present = [flag for flag in Flag if (sections.flags & int(flag)).any()]
     row = 0.052
     for number, flag in enumerate(present):
@@ -181,8 +182,8 @@ def _draw_flags(axes: Axes, sections: Sections) -> float:
     return row * len(present)
 
 
-def _runs(sections: Sections, flag: Flag) -> list[tuple[float, float]]:
-    """Return starts (mm), half a step before the first section, and lengths (mm) of runs with a flag."""
+def _runs(sections: ProfileNumbers, flag: Flag) -> list[tuple[float, float]]:
+    """Where stretches with a flag begin, half a step before their first section, and their lengths (mm)."""
     x = sections.arc_length
     step = float(x[1] - x[0]) if len(x) > 1 else 1.0
     is_set = np.concatenate([[False], (sections.flags & int(flag)) != 0, [False]])

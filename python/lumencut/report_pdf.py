@@ -6,11 +6,11 @@ import io
 import textwrap
 import warnings
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from lumencut import _lumencut
+from lumencut.measured_vessel import MeasuredVessel
 from lumencut.profile_plot import check_matplotlib, draw
-from lumencut.profile_sections import Mark, Sections
 from lumencut.report_blocks import Block, blocks_of
 
 if TYPE_CHECKING:
@@ -35,27 +35,15 @@ _WITH_HEADING = 1.7
 _IN_A_ROW, _FIRST = 3, 0.26
 
 
-class Plotted(Protocol):
-    """The data of a vessel that its plot needs."""
-
-    @property
-    def profile(self) -> Sections:
-        """Its sections."""
-
-    @property
-    def marks(self) -> Sequence[Mark]:
-        """The places to look at."""
-
-
-def report_pdf(html: str, measured: Sequence[Plotted]) -> bytes:
+def report_pdf(html: str, measured: Sequence[MeasuredVessel]) -> bytes:
     """Return a report as a PDF; the same report gives the same bytes.
 
     Parameters
     ----------
     html : str
         The report of the vessels by :func:`lumencut.measure_report.report`.
-    measured : sequence of Plotted
-        The vessels, such as MeasuredVessel, whose plots are drawn again.
+    measured : sequence of MeasuredVessel
+        The vessels whose plots are drawn again.
 
     Raises
     ------
@@ -80,7 +68,7 @@ def report_pdf(html: str, measured: Sequence[Plotted]) -> bytes:
     return content.getvalue()
 
 
-def _lay_out(sheet: _Sheet, blocks: list[Block], measured: list[Plotted]) -> None:
+def _lay_out(sheet: _Sheet, blocks: list[Block], measured: list[MeasuredVessel]) -> None:
     vessel = -1
     waiting: list[Block] = []
     for number, block in enumerate(blocks):
@@ -167,8 +155,8 @@ class _Sheet:
             self._top -= lines * height
         self._top -= 0.06
 
-    def plot(self, block: Block, one: Plotted) -> None:
-        """Draw the vessel, and below it the diameters by arc length."""
+    def plot(self, block: Block, one: MeasuredVessel) -> None:
+        """Draw the vessel, and below it its diameters by arc length."""
         picture = block.picture
         wide, strip = (_WIDTH - 2 * _MARGIN) * 0.58, 0.9
         self._room(_PLOT + strip + 0.5)

@@ -28,6 +28,7 @@ interface Told {
   readonly findings?: readonly string[];
   readonly names?: readonly string[];
   readonly diameters?: readonly number[];
+  readonly words?: readonly string[];
 }
 
 const running: ChildProcess[] = [];
@@ -87,6 +88,7 @@ test('from a DICOM folder to an archive of objects in the study of the scan', as
     .first()
     .setInputFiles([...place.files, place.lines]);
   await measured(viewer);
+  const shown = await viewer.page.locator('[data-testid=stenosis] .graded').innerText();
   const found = await saved(viewer, 'Save in the study of the scan');
   expect(Object.keys(found).sort()).toEqual(ALL);
   for (const told of Object.values(found)) {
@@ -97,6 +99,8 @@ test('from a DICOM folder to an archive of objects in the study of the scan', as
   expect(found['view.dcm']?.sources).toBe(place.files.length);
   expect(found['report.dcm']?.findings).toContain('Site of Lumen Minimum');
   expect(found['report.dcm']?.findings).toContain('stenosis');
+  // DICOM text has no sign for plus or minus.
+  expect(found['report.dcm']?.words?.join('\n')).toContain(shown.replaceAll('±', '+/-'));
   expect(found['report.dcm']?.names?.join()).toContain('left renal artery');
   viewer.expectNoFault();
   await viewer.close();

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from lumencut.dicom_objects.codes import DISTAL_REFERENCE, LUMEN_MINIMUM, PROXIMAL_REFERENCE, Coded
 from lumencut.errors import MeasuringError
+from lumencut.profile_numbers import ProfileNumbers
 from lumencut.profile_sections import Mark
 from lumencut.stenosis import Stenosis
 from lumencut.vessel import Vessel
@@ -76,7 +76,10 @@ class Measured:
 
 
 def measured(
-    profile: Any, stenoses: Sequence[Stenosis], vessel: Vessel | None = None, marks: Sequence[Mark] = ()
+    profile: ProfileNumbers,
+    stenoses: Sequence[Stenosis],
+    vessel: Vessel | None = None,
+    marks: Sequence[Mark] = (),
 ) -> Measured:
     """Return the content of a report for a profile of :func:`lumencut.measure`.
 
@@ -112,6 +115,8 @@ def measured(
         kinds = _marked_kinds([mark for mark in marks if not mark.is_suggestion])
     places = tuple(_place(profile, at, kind) for at, kind in sorted(kinds.items()))
     vessel = vessel or profile._vessel
+    if vessel is None:
+        raise MeasuringError("profile of the report", "a profile without its vessel", "one of measure")
     return Measured(vessel.name, vessel.points, vessel.length, places, tuple(stenoses))
 
 
@@ -126,7 +131,7 @@ def _marked_kinds(marks: Sequence[Mark]) -> dict[float, Coded]:
     }
 
 
-def _place(profile: Any, at: float, kind: Coded) -> Place:
+def _place(profile: ProfileNumbers, at: float, kind: Coded) -> Place:
     number = profile._core.nearest(at)
     names = ("diameter_equivalent", "uncertainty", "diameter_mean", "diameter_min", "diameter_max", "area")
     values = (float(getattr(profile, name)[number]) for name in names)

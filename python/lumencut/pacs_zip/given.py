@@ -79,9 +79,13 @@ class Given:
         """Return a finite number."""
         return float(self._checked(name, "a number", is_number))
 
-    def number_or_nan(self, name: str) -> float:
-        """Return a finite number, or NaN for null, which stands for NaN in JSON."""
-        return math.nan if self._fields.get(name) is None else self.number(name)
+    def number_or_none(self, name: str) -> float | None:
+        """Return a finite number, or None for null."""
+        return None if self._fields.get(name) is None else self.number(name)
+
+    def numbers(self, name: str) -> list[float]:
+        """Return a list of finite numbers."""
+        return [checked(one, f"{self._name}: {name}", "numbers", is_number) for one in self.items(name)]
 
     def items(self, name: str) -> list[Any]:
         """Return a list."""
@@ -112,13 +116,6 @@ class Given:
         self.object(name)
         found: dict[str, Any] = self._fields[name]
         return found
-
-    def column(self, name: str) -> npt.NDArray[np.float64]:
-        """Return a list of numbers, shape (n,), NaN for null."""
-        values = [np.nan if one is None else one for one in self.items(name)]
-        if not all(isinstance(one, (int, float)) and not isinstance(one, bool) for one in values):
-            raise refused(f"{name} of {self._name} that are no numbers", "numbers or null")
-        return np.array(values, np.float64)
 
     def points(self, name: str) -> npt.NDArray[np.float64]:
         """Return points (mm, LPS), shape (n, 3)."""

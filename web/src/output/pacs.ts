@@ -3,10 +3,9 @@ import { signal } from '@preact/signals';
 import { engine } from '../client/shared';
 import type { GivenFile } from '../core/messages';
 import { inBase64, made, placeOf } from '../core/server';
-import { type Finding, markedVessel } from '../measure/findings';
+import type { Finding } from '../measure/findings';
 import { settingOf } from '../state/actions';
 import { showMessage } from '../state/message';
-import { isMillimetreAssumed } from '../state/millimetres';
 import { profileOfLine } from '../state/profiles';
 import { reformationKind } from '../state/reformation';
 import * as store from '../state/store';
@@ -18,7 +17,7 @@ import { reported, reportOf } from './report';
 import { pngOf, straightenedCanvas } from './report-pictures';
 
 const SUBJECT = 'Save for PACS';
-const VERSION = 1;
+const VERSION = 2;
 const UPRIGHT =
   'Straightened CPR. Rows: distance along the vessel, its first point on top. Columns: distance across it.';
 const LYING =
@@ -69,7 +68,6 @@ async function requestOf(study: PacsStudy): Promise<object> {
   for (const finding of findings) {
     parts.push(await partOf(finding));
   }
-  const vessels = findings.map(markedVessel);
   return {
     version: VERSION,
     study: await studyPart(study),
@@ -78,7 +76,6 @@ async function requestOf(study: PacsStudy): Promise<object> {
     view: await viewPart(),
     pane: await panePart(),
     findings: parts,
-    numbers: await engine.ask('profiles_json', { vessels, is_millimetre_assumed: isMillimetreAssumed.value }),
     report: findings.length > 0 ? await (isAnonymous ? reportOf(findings, null) : reportOf(findings)) : '',
   };
 }
@@ -146,21 +143,13 @@ const pixelWords = (spacing: number): string =>
   store.states.value.spacing ? ` A pixel is ${spacing.toFixed(3)} mm.` : '';
 
 async function partOf(finding: Finding): Promise<object> {
-  const { line, marks } = finding;
+  const { line, name, marks } = finding;
   await profileOfLine(engine, line);
-  const { places } = await engine.ask('report_plan', markedVessel(finding));
-  const marked = places.filter((place) => !place.is_suggestion);
-  const sections = marked.map(({ at }) => engine.ask('measured_section', { line, at }));
-  const { stenosis } = await engine.ask('grade', { line, marks });
   return {
     picture: pngOf(await keyImage(finding)),
+    name,
     points: (await engine.ask('line', { line })).points,
-    contours: (await Promise.all(sections)).map(({ contour }, n) => [marked[n]?.at, contour]),
-    marks: places.map((place) => [
-      place.is_reference ? 'reference' : place.name,
-      place.at,
-      place.is_suggestion,
-    ]),
-    words: stenosis?.words ?? null,
+    profile: await engine.ask('profile_record', { line }),
+    marks,
   };
 }

@@ -4,13 +4,15 @@ import type {
   DocumentVessel,
   Pair,
   Report,
+  SavedMarks,
+  SavedScan,
+  SavedView,
   SessionContent,
   Settings,
   StenosisMethod,
   Territory,
   Vector,
 } from '../core/messages';
-import type { SavedMarks, SavedScan, SavedView } from '../core/session-file';
 import type { Document, VesselMarks } from '../state/document';
 
 export interface DisplayState {

@@ -12,7 +12,8 @@ use lumencut_core::vessel_tree::Vessel;
 /// Directions are smoothed by a Gaussian. Its width is half of the radius, clamped to this range (mm).
 const SMOOTHING: [f64; 2] = [1.0, 8.0];
 
-const MOST_SECTIONS: u32 = 20_000;
+/// Maximum number of sections of a vessel.
+pub const MOST_SECTIONS: u32 = 20_000;
 
 /// A vessel counts as parallel to an axis if the cosine of their angle exceeds this.
 const ALONG: f64 = 0.9;
