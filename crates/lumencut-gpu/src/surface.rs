@@ -24,7 +24,7 @@ pub(crate) struct CurvedPixel {
     pub whole: [f32; 4],
     /// The remainder of the index.
     pub part: [f32; 4],
-    /// Index per mm along the slab direction.
+    /// Change of the index per mm along the slab direction.
     pub per_mm: [f32; 4],
 }
 

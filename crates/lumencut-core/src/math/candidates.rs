@@ -1,4 +1,4 @@
-//! Excludes pieces of a bundle that cannot win in a part of a tile.
+//! Excludes pieces of a bundle that no pixel in a part of a tile can show.
 
 use super::cost::Rule;
 use super::lanes::{ABSENT, FAN, PARTS, larger, smaller};
@@ -12,7 +12,7 @@ pub(crate) struct Candidates {
     pub wedges: u32,
 }
 
-/// The pieces of `bundle` whose smallest key is within the limit of some part; no others can win there.
+/// The pieces of `bundle` whose smallest key is within the limit of some part; no pixel there can show another.
 #[inline(always)]
 pub(crate) fn candidates<const LUMEN_FIRST: bool>(
     tile: &Tile,
@@ -82,7 +82,7 @@ fn smallest_keys<const LUMEN_FIRST: bool>(
         let stripe_key = rule.bound::<LUMEN_FIRST>(near, across, widest, bundle.tiers[s]);
         stripe[s] = if in_stripe { stripe_key } else { ABSENT };
 
-        // The point is at least as far away as the line along its edge, and as the area.
+        // Bounds a pixel's distance from the point by that from the line of the edge, and by that of the area.
         let (gx, gy) = (larger(ux.abs() - hx, 0.0), larger(uy.abs() - hy, 0.0));
         let away = larger(across, (gx * gx + gy * gy).sqrt());
         let wedge_key = rule.bound::<LUMEN_FIRST>(bundle.wedge_z[s], away, r0, bundle.tiers[s]);

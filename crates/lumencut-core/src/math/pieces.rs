@@ -1,7 +1,6 @@
 //! The pieces of a local surface (stripe, wedge, end half-plane, full plane) and their evaluation over a
 //! tile.
 //!
-//! Every piece belongs to a *slot*, one per point of a level: the stripe from this point to the next, and the
 //! Every piece belongs to a *slot*. Each point of a level has one: the stripe from this point to the next,
 //! and the wedge at the point. Half-planes and full planes are wedges with missing edges. With edges f before
 //! and e after the point p, a wedge covers the pixel q if (q − p)·f ≥ 0 and (q − p)·e ≤ 0; a missing edge is

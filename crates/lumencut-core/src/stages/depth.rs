@@ -30,7 +30,7 @@ pub struct CutSurface<'a> {
     rule: Rule,
     lumen_first: bool,
     level_choice: LevelChoice,
-    /// N / σ: the square of the wanted level per mm of the distance that selects levels.
+    /// N / σ: at the distance D (mm) from the vessels, a pixel blends the levels around √(D · N / σ).
     selection: f32,
 }
 

@@ -17,8 +17,8 @@ use super::every_device;
 use crate::device::Device;
 use crate::renderer::GpuRenderer;
 
-/// Depth of the trees (mm). An uncovered pixel gets depth 0 at a level; even with a small weight, this takes
-/// its depth out of the tree's range.
+/// Depth of the trees (mm). An uncovered pixel gets depth 0 at a level; even with a small weight, this moves
+/// the pixel's depth out of the tree's range.
 const TREE_DEPTH: f64 = 2e4;
 /// A bound on the rounding of depths of this size (mm).
 const ROUNDING: f64 = 0.05;

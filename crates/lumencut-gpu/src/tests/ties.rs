@@ -1,5 +1,5 @@
-//! Ties around joints. If vessels end in one point, their keys are equal around it, so rounding decides to
-//! which a pixel belongs. Either vessel is accepted, in few pixels and only there.
+//! Ties around joints. If vessels end in one point, their keys are equal around it, so rounding decides which
+//! vessel a pixel shows. Either vessel is accepted, in few pixels and only there.
 
 use std::collections::BTreeSet;
 

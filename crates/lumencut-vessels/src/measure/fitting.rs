@@ -24,7 +24,7 @@ const STRETCH: (f64, f64) = (0.4, 0.06);
 /// Minimum fraction of directions in which nothing obstructs the wall.
 const LEAST_FREE: f64 = 0.35;
 
-/// The lumen level is read within this fraction of the radius if the blurred peak reaches `LEAST_PEAK`.
+/// The lumen level is read within this fraction of the radius, if blur leaves at least `LEAST_PEAK` of the peak.
 const MIDDLE: f64 = 1.0 / 3.0;
 const LEAST_PEAK: f64 = 0.95;
 

@@ -1,4 +1,4 @@
-//! The search for the nearest piece of one stretch of the tree, for the pixels of a tile.
+//! Finds the nearest piece of one stretch (points of the tree within the arc threshold), for the pixels of a tile.
 
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap};

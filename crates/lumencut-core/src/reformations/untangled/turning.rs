@@ -126,7 +126,8 @@ fn forward_of(places: &[DVec2], is_reversed: bool) -> DVec2 {
     step.normalize_or(DVec2::NEG_Y)
 }
 
-/// Turns the units that begin at one point apart from each other and from `parent`; returns their discs.
+/// Turns units (pieces with followers) that begin at one point away from each other and `parent`; returns their
+/// discs.
 fn turn_apart(
     turning: &mut Turning,
     units: &mut [Vec<Disc>],

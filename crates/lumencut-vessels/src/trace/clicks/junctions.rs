@@ -10,7 +10,7 @@ use crate::trace::lumen::within::holds;
 use lumencut_core::error::{Clicked, Error, ErrorKind, Result};
 use lumencut_core::math::arc_length::arc_lengths;
 
-/// A line continues an earlier vessel if it starts within this distance of its end: radii, or mm if that is larger.
+/// A line continues an earlier vessel if it starts within this distance of that vessel's end: radii, or mm if larger.
 const END_TO_END: f64 = 0.7;
 const NEAREST_END: f64 = 1.0;
 

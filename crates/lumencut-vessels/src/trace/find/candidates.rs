@@ -29,7 +29,7 @@ const LEAST_CLOSURE: f64 = 0.65;
 const LEAST_CONTRAST_SHARE: f64 = 0.6;
 const RADIUS_RATIO: [f64; 2] = [0.5, 1.9];
 
-/// Maximum shift from a candidate to the centre of its section (radii), also for tubes wider than two voxels.
+/// Maximum shift from a candidate to its section's centre (radii); the second for tubes wider than two voxels.
 const MOST_SHIFT: f64 = 1.0;
 const MOST_WIDE_SHIFT: f64 = 1.5;
 const WIDE_RADIUS: f64 = 2.0;
