@@ -1,4 +1,4 @@
-//! One decision per pixel: only the vessel that it shows on the finest level gives its depth.
+//! One decision per pixel: only the vessel that the pixel shows on the finest level gives its depth.
 #![allow(clippy::unwrap_used)]
 
 use glam::DVec3;

@@ -82,7 +82,7 @@ fn smallest_keys<const LUMEN_FIRST: bool>(
         let stripe_key = rule.bound::<LUMEN_FIRST>(near, across, widest, bundle.tiers[s]);
         stripe[s] = if in_stripe { stripe_key } else { ABSENT };
 
-        // Bounds a pixel's distance from the point by that from the line of the edge, and by that of the area.
+        // `away` is a lower bound on the distance of all pixels of the area from the slot's point.
         let (gx, gy) = (larger(ux.abs() - hx, 0.0), larger(uy.abs() - hy, 0.0));
         let away = larger(across, (gx * gx + gy * gy).sqrt());
         let wedge_key = rule.bound::<LUMEN_FIRST>(bundle.wedge_z[s], away, r0, bundle.tiers[s]);

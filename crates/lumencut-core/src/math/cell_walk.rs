@@ -158,7 +158,7 @@ impl Walkers {
     }
 }
 
-/// Each ray finds this number of cells before it reads the voxels of the first.
+/// Number of cells that each ray finds before it reads the voxels of the first of them.
 const CELLS_AHEAD: usize = 2;
 
 #[derive(Clone, Copy)]

@@ -45,7 +45,7 @@ fn lower_beyond(tile: &Tile, beyond: &mut [f32; PIXELS], bundle: &Bundle, s: usi
     }
 }
 
-/// That shift per mm of the pixel's distance from the line, for a `taper` (change of radius, mm per mm).
+/// Shift of the nearest disc along the segment per mm of distance from its line; `taper` is in mm of radius per mm.
 #[inline(always)]
 fn lean(taper: f32) -> f32 {
     let rest = larger(1.0 - taper * taper, 1.0 / (MAX_LEAN * MAX_LEAN));

@@ -165,7 +165,7 @@ fn no_pixel_is_left_uncovered_on_any_gpu() {
 
 #[test]
 fn a_pixel_without_a_winner_at_one_level_is_seen() {
-    // A level with 3 % of the weight has no winner.
+    // At a level with 3 % of the weight, no piece covers the pixel.
     let depths = [2e4f32, 2e4 * 0.97, 0.0, 2e4, f32::NAN];
     let vessels = [0, 0, 0, 2, 1];
     assert_eq!(uncovered(&depths, &vessels, [2e4 - 400.0, 2e4 + 400.0], 2), [1, 2, 3, 4]);

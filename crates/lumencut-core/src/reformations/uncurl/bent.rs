@@ -34,9 +34,9 @@ pub(super) struct Bent {
 impl Bent {
     /// The vessel bent by `amount`, from 0 (as it is) to 1 (straight).
     ///
-    /// It bends about its middle. The line from its first to its last point turns to downwards in the image,
-    /// and its middle moves to that of the image. At 1 the vessel is seen as the straightened CPR whose
-    /// viewer at the first point is as near as possible to the camera.
+    /// The vessel bends about its middle. The line from its first to its last point turns to downwards in the
+    /// image, and its middle moves to that of the image. At 1 the vessel is seen as the straightened CPR
+    /// whose viewer at the first point is as near as possible to the camera.
     pub(super) fn new(path: &CenterlinePath, camera: &Camera, amount: f64) -> Self {
         let first = path.direction()[0];
         let frames = Frames::new(path, MovingFrame::looking(first, ahead_at(first, camera)));

@@ -65,7 +65,7 @@ pub(super) fn beyond(discs: &[Disc], distance: f64) -> Vec<Disc> {
     kept
 }
 
-/// Where the line between two positions crosses a distance from the origin, as a share of the line.
+/// The share of the line from one position to another at which it has this distance from the origin.
 fn crossing(from: DVec2, to: DVec2, distance: f64) -> f64 {
     let step = to - from;
     let [a, b, c] = [step.length_squared(), from.dot(step), from.length_squared() - distance * distance];

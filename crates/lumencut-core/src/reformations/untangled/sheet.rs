@@ -239,7 +239,7 @@ impl Sheet {
     fn sections(&self, segment: usize, point: DVec3) -> Vec<SheetPosition> {
         let [a, b] = self.ends(segment);
         let along = b.point - a.point;
-        // Distance of the point beyond the section at a share of the segment, and to the right there.
+        // `ahead`: the point's distance beyond the section at a share of the segment (scaled); `aside`: to the right.
         let ahead = |share: f64| {
             let across = a.across.lerp(b.across, share);
             let normal = along * across.length_squared() - across * along.dot(across);

@@ -153,7 +153,7 @@ fn turn_apart(
 struct Node {
     /// The hulls of the branches beyond the radius within which all may overlap.
     branches: Vec<Hull>,
-    /// The hull of the piece that ends there; empty if there is none.
+    /// The hull of the piece that ends at the node; empty if there is none.
     parent: Hull,
     forward: DVec2,
 }

@@ -1,4 +1,4 @@
-//! One decision per pixel: the winner on the finest level decides the vessel; only its levels are blended.
+//! The level choice `own`: the piece shown on the finest level decides the vessel; only its levels are blended.
 
 use super::blend::LevelBlend;
 use super::{CHOSEN_GAP, CutSurface, Search, TileSurface};

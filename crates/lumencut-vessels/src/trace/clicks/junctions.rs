@@ -20,7 +20,7 @@ const LEAVING: f64 = 4.0;
 /// A line leaves a vessel at once if it runs inside it for less than this many radii.
 const AT_ONCE: f64 = 2.5;
 
-/// Where a line joins an earlier vessel: point and radius of that vessel, and the first point of the line to keep.
+/// Junction of a line with an earlier vessel: point and radius of that vessel, and first point of the line to keep.
 struct Junction {
     place: DVec3,
     radius: f64,
