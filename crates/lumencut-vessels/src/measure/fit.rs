@@ -150,7 +150,7 @@ fn plain<const N: usize>(expected: &Expected) -> Vec<Term<N>> {
     vec![Term::one(LUMEN, expected.lumen), Term::one(BACKGROUND, expected.background)]
 }
 
-/// Priors for the model with a wall, whose surroundings may differ from side to side.
+/// Priors for the model with a wall, and with surroundings that differ from side to side.
 fn walled(expected: &Expected, known: &KnownWall, start: &Ellipse) -> Vec<Term<WALLED>> {
     let mut terms = plain(expected);
     terms.push(Term::one(WALL, known.level));

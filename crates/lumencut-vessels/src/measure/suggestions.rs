@@ -193,7 +193,7 @@ impl Profile {
         offered.min_by(|a, b| away(a.at).total_cmp(&away(b.at))).copied()
     }
 
-    /// Median diameter around a section; None if its walls are not parallel or `but` lies inside the window.
+    /// Median diameter around a section; None if its walls are not parallel or the place `but` lies near.
     fn parallel(&self, n: usize, but: f64) -> Option<f64> {
         let here = self.arc_length[n];
         let (reach, share) = PARALLEL;

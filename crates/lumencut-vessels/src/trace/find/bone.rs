@@ -77,7 +77,7 @@ const LUMEN_CONFIDENCE: f64 = 0.85;
 const LUMEN_ELONGATION: f64 = 1.25;
 const LUMEN_SPREAD: f64 = 0.1;
 
-/// Fraction of its doubts (except shortness) from which an even track as bright as vessels is excused.
+/// Fraction of the doubts (except shortness) that are ignored for an even track as bright as vessels.
 const EXCUSED: f64 = 0.5;
 
 /// Tracks with less confidence are dropped.

@@ -5,7 +5,7 @@ use lumencut_core::math::arc_length::arc_lengths;
 use crate::trace::lines::centerline::Centerline;
 
 /// A line wanders if the chord from one radius before a point to one radius after it is shorter than this fraction of
-/// its arc length. In a bend with the vessel's radius it is 0.84, with 0.6 of that radius 0.6.
+/// its arc length. In a bend with the vessel's radius the fraction is 0.84; with 0.6 of that radius, 0.6.
 const LEAST_STRAIGHT: f64 = 0.6;
 
 /// Minimum half-length of the chord (mm), because lines of thin vessels are no smoother than the voxels.

@@ -39,7 +39,7 @@ pub(crate) struct Limits {
     pub turn: f64,
     /// Maximum difference of levels (fraction of the contrast).
     pub unlike: f64,
-    /// Factor of that difference for a narrow end at a brighter track: narrow ends look darker than their lumen.
+    /// Factor of the level difference for a narrow end at a brighter track: narrow ends look darker than their lumen.
     pub narrow: f64,
 }
 
