@@ -87,7 +87,7 @@ fn a_lumen_that_rounding_may_change_is_not_certain() {
     assert_eq!(depths(3.0001), [None; 2]);
 }
 
-/// Own levels with *lumen first* and with cost only, with few levels and with many.
+/// The level choice `own` with *lumen first*, with cost only, and with many levels.
 fn own_levels() -> [Settings; 3] {
     [
         unfiltered(),

@@ -117,7 +117,7 @@ impl<T: Voxel, F: Fold<T::Real>> Kernel for CellWalk<'_, T, F> {
 struct Walkers {
     /// Each ray's cell, axis by axis: −1 before the first voxel centre, the last index beyond the last centre.
     cell: [[i32; FAN]; 3],
-    /// The next plane, and the share of the stretch per voxel across planes; 0 for a ray parallel to them.
+    /// The next plane, and the share of the ray's segment per voxel across planes; 0 for a ray parallel to them.
     plane: [[f32; FAN]; 3],
     per_voxel: [[f32; FAN]; 3],
     gone: [f32; FAN],

@@ -56,7 +56,7 @@ impl NearestPieces {
         }
     }
 
-    /// The arc lengths (mm, widened for rounding) between which a piece can still be nearer to some member.
+    /// The arc lengths (mm, widened for rounding) between which a piece can still be nearer to a member of the group.
     #[inline(always)]
     fn reach(&self, part: &Part, is_member: &[bool; PART_PIXELS]) -> [f32; 2] {
         let (mut low, mut high) = ([EXCLUDED; PART_PIXELS], [EXCLUDED; PART_PIXELS]);

@@ -11,8 +11,8 @@ use crate::camera::Camera;
 use crate::settings::Settings;
 use crate::vessel_tree::VesselTree;
 
-/// A segment with a shorter projection (mm) is collinear with the view and has no stripe: far below any
-/// voxel, well above the rounding of `f32`.
+/// A segment whose projection is shorter than this (mm) is collinear with the view and has no stripe: far
+/// below any voxel, well above the rounding of `f32`.
 pub const COLLINEAR_LENGTH: f32 = 1e-3;
 
 /// Number of tiers by which lumen and wall of a chosen vessel both precede lumen and wall of others.

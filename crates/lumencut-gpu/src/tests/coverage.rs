@@ -57,7 +57,7 @@ fn seen_along(direction: [f64; 3], points: &[[f64; 3]]) -> VesselTree {
     tree(vec![Vessel::new(points.iter().map(place).collect(), Some(radii)).unwrap()])
 }
 
-/// Vessels with runs along the view at their beginning, inside, or end, and one that is a single run.
+/// Vessels that run along the view at their beginning, inside, at their end, or everywhere.
 fn runs() -> Vec<Vec<[f64; 3]>> {
     let within =
         [[-20.0, 0.0, 0.0], [-10.0, 0.0, 0.0], [-10.0, 0.0, 5.0], [-10.0, 0.0, 9.0], [0.0, 8.0, 9.0]];
@@ -81,7 +81,7 @@ fn tiny() -> Vec<Vec<[f64; 3]>> {
     vec![line(2, 1e-4, 0.0), line(40, 4e-4, 3.0), line(3, 1.01e-3, -3.0), line(50, 0.999e-3, 5.0)]
 }
 
-/// Vessels whose pieces have borders through pixel centres: along rows, columns and diagonals, and back.
+/// Vessels whose pieces have borders through pixel centres: along rows, columns and diagonals, in both directions.
 fn through_pixels() -> Vec<Vec<[f64; 3]>> {
     let steps = [[0.5, 0.5, 0.0], [4.5, 0.5, 1.0], [4.5, 4.5, 2.0], [8.5, 8.5, 0.0], [0.5, 0.5, 3.0]];
     let back = [[-9.5, 0.5, 1.0], [-3.5, 0.5, 2.0], [-9.5, 0.5, 3.0], [-3.5, -5.5, 4.0], [-3.5, 6.5, 5.0]];

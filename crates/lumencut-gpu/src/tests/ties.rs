@@ -48,7 +48,7 @@ fn around(p: usize, [width, height]: [usize; 2]) -> impl Iterator<Item = usize> 
 }
 
 /// Replaces the GPU's vessels by the CPU's where vessels tie. Around ties it also replaces depths, if the
-/// filter within zones used other neighbours and they differ by less than a leap.
+/// filter within zones used other neighbours and the depths differ by less than a leap.
 ///
 /// # Panics
 /// For more pixels than [`TIED`] allows.

@@ -6,7 +6,7 @@ use crate::camera::Camera;
 use crate::math::centerline_path::CenterlinePath;
 use crate::math::frames::{Frames, MovingFrame};
 
-/// A vessel begins along the view if the angle between them has a smaller tangent.
+/// A vessel begins along the view if the tangent of the angle between them is below this.
 const ALONG_VIEW: f64 = 0.05;
 
 const PARALLEL: f64 = 1e-12;

@@ -167,7 +167,7 @@ fn circle_around(circles: &[Circle]) -> Circle {
     (center, circles.iter().map(reach).fold(0.0, f64::max))
 }
 
-/// The indices of what circle `n` encloses, of `count` in all.
+/// The indices of the discs or circles that circle `n` encloses, of `count` in all.
 fn members(n: usize, count: usize) -> std::ops::Range<usize> {
     n * DISCS_PER_CIRCLE..count.min((n + 1) * DISCS_PER_CIRCLE)
 }

@@ -90,7 +90,7 @@ fn attempt(tree: Tree, near: f64, stiffness: f64, stop: Stop) -> Result<Turning>
         without_room: 0,
         overlaps: Vec::new(),
     };
-    // The discs of each piece and all that follow it, from its start; the followers are turned already.
+    // The discs of each piece and of all pieces that follow it, which are turned already.
     let mut units: Vec<Vec<Disc>> = vec![Vec::new(); pieces.len()];
     for part in &growth.parts {
         for &piece in part.order.iter().rev() {

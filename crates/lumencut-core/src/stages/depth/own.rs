@@ -49,7 +49,7 @@ impl CutSurface<'_> {
 struct Sum {
     depth: [f32; PIXELS],
     slope: [[f32; PIXELS]; 2],
-    /// Arc length of the blended point at the finer and at the coarser level, minus the winner's (mm).
+    /// Arc length of the blended point at the finer and at the coarser level, minus that of the piece shown (mm).
     finer: [f32; PIXELS],
     coarser: [f32; PIXELS],
     has_any: [bool; PIXELS],

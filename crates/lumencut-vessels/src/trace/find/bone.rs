@@ -80,7 +80,7 @@ const LUMEN_SPREAD: f64 = 0.1;
 /// Fraction of the doubts (except shortness) that are ignored for an even track as bright as vessels.
 const EXCUSED: f64 = 0.5;
 
-/// Tracks with less confidence are dropped.
+/// Tracks with less confidence than this are dropped.
 const MIN_CONFIDENCE: f64 = 0.05;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
