@@ -35,7 +35,7 @@ pub(crate) struct Cover {
     pub in_wedge: bool,
     /// (q − p)·e for the middle q of the area; p and e are a slot's point and edge, as in pieces.rs.
     start: f32,
-    /// The largest difference from `start` within the area.
+    /// The most by which (q − p)·e differs from `start` for other points q of the area.
     along: f32,
     /// Half the sides of the area, plus a bound on the rounding of all products.
     sides: [f32; 2],

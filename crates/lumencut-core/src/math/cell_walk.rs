@@ -23,7 +23,7 @@ pub(crate) trait Fold<R> {
 pub(crate) struct Largest<'a> {
     /// The largest value of each ray so far; HUGE for rays that need no value.
     pub best: &'a mut [f32; FAN],
-    /// Larger values make no difference.
+    /// Values above this count as equal to it.
     pub limit: f32,
 }
 

@@ -13,9 +13,9 @@ use super::walk::Stack;
 /// The range of distances that must be exact.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct WallRange {
-    /// Smaller distances (mm) count as this.
+    /// Distances below this (mm) count as this.
     pub near: f32,
-    /// Larger distances (mm) count as this.
+    /// Distances above this (mm) count as this.
     pub far: f32,
     /// A bound on the rounding error of a projected distance (mm).
     pub slack: f32,

@@ -62,8 +62,8 @@ const FLAT_LUMEN: f64 = 0.85;
 const FLAT_LUMEN_LENGTH: f64 = 40.0;
 const FLAT_LUMEN_RADIUS: f64 = 3.0;
 
-/// Tracks that are even and as bright as vessels are excused, because bone is hardly ever both. They are fully
-/// excused from the second value on: spread and level difference (fractions of the contrast), radius (voxels).
+/// Tracks that are even and as bright as vessels are excused, because bone is hardly ever both. The excuse starts at
+/// the first value and is full at the second: spread, level difference (fractions of the contrast), radius (voxels).
 const EVEN: [f64; 2] = [0.10, 0.06];
 const ALIKE: [f64; 2] = [0.18, 0.10];
 const SEEN: [f64; 2] = [2.0, 4.0];

@@ -19,7 +19,7 @@ const TILE: [usize; 3] = [64, 24, 24];
 const NOISES: f64 = 3.5;
 const OF_CONTRAST: f64 = 0.15;
 
-/// Minimum contrast of its section: a multiple of the noise, and a fraction of the vessel contrast.
+/// Minimum contrast of a candidate's section: a multiple of the noise, and a fraction of the vessel contrast.
 const SECTION_NOISES: f64 = 3.0;
 const SECTION_OF_CONTRAST: f64 = 0.2;
 
