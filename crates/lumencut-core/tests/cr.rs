@@ -141,7 +141,7 @@ fn the_vessel_in_front_keeps_its_disc_and_a_larger_offset_hides_more() {
 
 #[test]
 fn a_loop_is_two_stretches_where_the_threshold_is_short_and_one_where_it_is_long() {
-    // A vessel runs down, and up again 40 mm behind and 10 mm aside: its limbs' middles are 140 mm apart.
+    // A vessel runs down, and up again 40 mm behind and 10 mm aside: its limbs' middles are 141 mm apart along it.
     let hairpin =
         vessel(&[[0., 0., 50.], [0., 0., -0.], [0., 0., -50.], [10., 40., -50.], [10., 40., 50.]], 2.0);
     let camera = front([60, 60], 1.0);

@@ -121,8 +121,8 @@ fn shorter(rotation: DQuat) -> DQuat {
     if rotation.w < 0.0 { -rotation } else { rotation }
 }
 
-/// The rotation that places a bent vessel. The share `amount` of two turns is applied: of the chord to
-/// downwards, and about the chord until the vessel faces the camera. `frame` is that in its middle.
+/// The rotation that places a bent vessel: the share `amount` of the turn of its chord to downwards, and of
+/// the turn about the chord to face the camera. `frame` is that in the vessel's middle.
 fn placed([own, bent]: [&[DVec3]; 2], frame: &MovingFrame, camera: &Camera, amount: f64) -> DQuat {
     let chord =
         |points: &[DVec3]| (points[points.len() - 1] - points[0]).try_normalize().unwrap_or(frame.tangent);
