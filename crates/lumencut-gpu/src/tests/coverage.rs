@@ -20,7 +20,7 @@ use crate::renderer::GpuRenderer;
 /// Depth of the trees (mm). An uncovered pixel gets depth 0 at a level; even with a small weight, this moves
 /// the pixel's depth out of the tree's range.
 const TREE_DEPTH: f64 = 2e4;
-/// A bound on the rounding of depths of this size (mm).
+/// A bound on the rounding of depths as large as `TREE_DEPTH` (mm).
 const ROUNDING: f64 = 0.05;
 
 const DIRECTIONS: [[f64; 3]; 2] = [[0.0, 1.0, 0.0], [0.31, 0.83, -0.47]];

@@ -80,7 +80,7 @@ type Circle = (DVec2, f64);
 #[derive(Clone, Debug, Default)]
 pub(super) struct Hull {
     discs: Vec<Disc>,
-    /// A circle around each group of discs, and one around each group of circles.
+    /// A circle around each sixteen discs (`runs`), and one around each sixteen of those circles (`groups`).
     runs: Vec<Circle>,
     groups: Vec<Circle>,
 }
