@@ -25,8 +25,8 @@ pub struct SectionPlane {
     pub at: f64,
     /// Point of the vessel (mm, LPS).
     pub origin: DVec3,
-    /// Unit vectors within the plane that point right and down in its image. The view follows a vessel that starts
-    /// towards the head and opposes any other, so the patient's left is on the right in axial sections.
+    /// Unit vectors within the plane that point right and down in its image. The image is seen along a vessel that
+    /// starts towards the head, and against any other vessel. So axial sections show the patient's left on the right.
     pub axes: [DVec3; 2],
     /// Unit vector along the vessel.
     pub normal: DVec3,

@@ -116,7 +116,7 @@ pub(crate) fn lead_to_cap(points: &mut Vec<DVec3>, lumen: &Lumen, most: f64) {
     let mut led: Vec<DVec3> =
         (0..=count).rev().map(|n| from + way * (n as f64 / count as f64) * direction).collect();
     let tail = points.split_off(removed);
-    // Also drops a point that coincides with `from`.
+    // Points near `from` are dropped, even if they coincide with it.
     let tail: Vec<DVec3> =
         tail.into_iter().skip_while(|point| point.distance(from) < lumen.side() / 2.0 - ALONG_LINE).collect();
     led.extend(tail.iter().copied());

@@ -31,7 +31,7 @@ pub(crate) struct Run {
 }
 
 pub(crate) struct Runs {
-    /// Runs. Each comes after the run that it leaves, except runs that were met from the side.
+    /// Each run comes after the run on which it starts, except runs that another one met from the side.
     pub runs: Vec<Run>,
     /// Index of the run that passes each node.
     pub(crate) owners: Vec<usize>,
