@@ -11,7 +11,6 @@ import numpy.typing as npt
 
 from lumencut import _lumencut
 from lumencut.dicom_objects.study import Origin
-from lumencut.flags import Flag
 
 Floats = npt.NDArray[np.float64]
 
@@ -100,11 +99,6 @@ def counts(sections: Sections) -> npt.NDArray[np.bool_]:
 def flag_words(flags: int) -> list[str]:
     """Return the names of flags as words, such as ``no clear wall``."""
     return _lumencut.flag_words(flags)
-
-
-def word_of(flag: Flag) -> str:
-    """Return the name of a flag as words."""
-    return ", ".join(flag_words(flag))
 
 
 def nearest(sections: Sections, at: float) -> int:

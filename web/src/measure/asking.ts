@@ -104,7 +104,7 @@ function arrive(): void {
 }
 
 /** Ignores lines that an edit replaced meanwhile. */
-function unlessGone(error: unknown): null {
+export function unlessGone(error: unknown): null {
   if (Failure.of(error).kind === 'vessel tree') {
     return null;
   }

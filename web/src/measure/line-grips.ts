@@ -1,9 +1,10 @@
 /** Drags that begin near a place line move the place; clicks there go to the picture below. */
 import { useRef } from 'preact/hooks';
+import type { Axis } from '../core/messages';
 import { currentPlaces } from './current';
 import { beginMove, endMove, move, putBack } from './editing';
 import type { VesselPlace } from './marks';
-import { type Axis, pixelAt, valueAt } from './scale';
+import { pixelAt, valueAt } from './scale';
 
 export const GRAB_DISTANCE_PX = 22;
 const CLICK_MOVE_PX = 4;

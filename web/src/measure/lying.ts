@@ -1,43 +1,5 @@
-/** Horizontal layout of the straightened vessel, first point on the left, as in Python's plots. */
-import type { Pair, Picture } from '../core/messages';
-import type { Axis } from './scale';
-
-/** Narrowest and widest strip (mm). */
-const WIDTHS: Pair = [12, 90];
-/** Smallest shown share of the width that fits the sections. */
-const MIN_FITTING_SHARE = 0.6;
-const FINEST = 0.05;
-
-export interface Lying {
-  readonly width: number;
-  /** Pixel side of the engine's picture (mm). */
-  readonly spacing: number;
-  readonly height: number;
-  /** Vertical stretch; 1 is true to scale. */
-  readonly stretch: number;
-}
-
-export interface Room {
-  /** CSS pixels. */
-  readonly height: number;
-  /** Engine pixels per CSS pixel. */
-  readonly density: number;
-  /** Picture side that fits the sections (mm). */
-  readonly fitting: number;
-}
-
-export function lyingIn(x: Axis, { height: most, density, fitting }: Room): Lying {
-  const side = (x.high - x.low) / (x.end - x.start);
-  const wished = Math.max(MIN_FITTING_SHARE * fitting, Math.min(fitting, most * side));
-  const width = Math.min(Math.max(wished, WIDTHS[0]), WIDTHS[1]);
-  const height = Math.min(most, width / side);
-  return {
-    width,
-    spacing: Math.max(side / density, FINEST),
-    height,
-    stretch: (height * side) / width,
-  };
-}
+/** Picture of the straightened vessel, turned so that its first point is on the left. */
+import type { Axis, Pair, Picture, StripLayout } from '../core/messages';
 
 export function lyingPicture({ size: [width, height], bytes }: Picture): Picture {
   const from = new Uint32Array(bytes.buffer, bytes.byteOffset, width * height);
@@ -51,7 +13,7 @@ export function lyingPicture({ size: [width, height], bytes }: Picture): Picture
 }
 
 /** Box of the picture: the centre of column `n` is at arc length `n` × spacing. */
-export function lyingBox(x: Axis, { spacing, height, width }: Lying, [columns, rows]: Pair) {
+export function lyingBox(x: Axis, { spacing, height, width }: StripLayout, [columns, rows]: Pair) {
   const perMm = (x.end - x.start) / (x.high - x.low);
   const pixel = spacing * perMm;
   const tall = (rows * spacing * height) / width;

@@ -82,3 +82,9 @@ export const PALETTE = [
   ["#9aa8b6","grey"],
   ["#ffffff","white"],
 ] as const;
+
+/** Side of a section picture in a report (pixels). */
+export const SECTION_PIXELS = 300;
+
+/** Half width of the uncertainty band, in standard deviations. */
+export const DEVIATIONS = 2;

@@ -1,6 +1,8 @@
 //! Generates `web/src/core/generated/tables.ts`, the tables of the facade that the page reads before the engine has started.
 
 use super::generated::require_current;
+use crate::report::frame::DEVIATIONS;
+use crate::report::section_room::PAGE_PIXELS;
 use crate::study::palette::PALETTE;
 use crate::vessel_names::{NamedVessel, VESSEL_NAMES};
 
@@ -14,12 +16,18 @@ fn table<T: serde::Serialize>(about: &str, name: &str, rows: &[T]) -> String {
     format!("\n/** {about} */\nexport const {name} = [\n{rows}] as const;\n")
 }
 
+fn number(about: &str, name: &str, value: impl std::fmt::Display) -> String {
+    format!("\n/** {about} */\nexport const {name} = {value};\n")
+}
+
 #[test]
 fn the_tables_of_the_page_are_those_of_the_facade() {
     let names: Vec<String> = VESSEL_NAMES.iter().flat_map(NamedVessel::offered).collect();
     let tables = [
         table("Names of vessels that have a code in reports.", "VESSEL_NAMES", &names),
         table("Colours of vessels with their names, in the order of their use.", "PALETTE", &PALETTE),
+        number("Side of a section picture in a report (pixels).", "SECTION_PIXELS", PAGE_PIXELS),
+        number("Half width of the uncertainty band, in standard deviations.", "DEVIATIONS", DEVIATIONS),
     ];
     require_current("tables.ts", &(HEAD.to_owned() + &tables.concat()));
 }
