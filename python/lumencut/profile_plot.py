@@ -61,8 +61,11 @@ def draw(axes: Axes, sections: Sections, marks: Sequence[Mark]) -> None:
     chart = _lumencut.diameter_chart(sections._core, plot_pixels(axes)[1])
     x, top, wide = sections.arc_length, chart["top"], np.array(chart["width"])
     deviations = f"± {_FRAME['deviations']:g} standard deviations (noise and fit)"
-    axes.fill_between(x, *chart["range"], color=_LINE, alpha=0.16, lw=0, label="shortest to longest diameter")
-    axes.fill_between(x, *chart["spread"], color=_LINE, alpha=0.4, lw=0, label=deviations)
+    for (low, high), alpha, label in (
+        (chart["range"], 0.16, "shortest to longest diameter"),
+        (chart["spread"], 0.4, deviations),
+    ):
+        axes.fill_between(x, low, high, color=_LINE, alpha=alpha, lw=0, label=label)
     axes.plot(x, wide, color=_LINE, lw=1.6, label="diameter of a circle of the same area")
     axes.plot(x[chart["isolated"]], wide[chart["isolated"]], ".", color=_LINE, ms=4)
     if chart["left_out"]:
@@ -138,9 +141,7 @@ def _draw_marks(axes: Axes, marks: Sequence[Mark]) -> None:
         )  # fmt: skip
 
 
-def _draw_flags(
-    axes: Axes, flags: Sequence[tuple[str, str, Sequence[tuple[float, float]]]], row: float
-) -> float:
+def _draw_flags(axes: Axes, flags: Sequence[tuple[str, str, Sequence[Sequence[float]]]], row: float) -> float:
     """Draw a row for each flag that is set somewhere, and return the share of the height that rows take."""
     for number, (word, color, runs) in enumerate(reversed(flags)):
         height = row * (number + 0.5)
