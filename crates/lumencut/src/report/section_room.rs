@@ -29,7 +29,7 @@ pub fn section_side(profile: &Profile) -> f64 {
 
 /// The pixel side (mm) of section pictures with this many pixels on each side; the outer pixel centres are `section_side` apart.
 pub fn section_spacing(profile: &Profile, pixels: usize) -> f64 {
-    section_side(profile) / (pixels - 1) as f64
+    section_side(profile) / pixels.saturating_sub(1).max(1) as f64
 }
 
 #[cfg(test)]
