@@ -11,13 +11,13 @@ import pytest
 from PIL import Image
 
 import lumencut
-from lumencut import Flag, FormatError, MissingPackageError, Profile, Window, measure, phantom
+from lumencut import Flag, FormatError, MissingPackageError, Profile, Window, _lumencut, measure, phantom
 from lumencut.contact_sheet import contact_sheet
 from lumencut.measured_vessel import Marked, MeasuredVessel, vessels_csv, vessels_json
 from lumencut.profile_files import csv_text
 from lumencut.profile_plot import figure_of, write
 from lumencut.profile_sections import counts, flag_words, marks, nearest
-from lumencut.section_pictures import SectionView, fitting_size, sections_sheet
+from lumencut.section_pictures import SectionView, sections_sheet
 
 CYAN, ORANGE = (64, 220, 255), (255, 150, 40)
 
@@ -209,7 +209,7 @@ def test_the_contour_of_a_section_lies_on_the_wall(narrow, marked, at):
     number = nearest(marked.profile, at)
     picture = view.picture(marked, number)
     ring = near(picture, CYAN) - (view.side - 1) / 2
-    radius = np.hypot(*ring.T) * fitting_size(marked.profile) / (view.side - 1)
+    radius = np.hypot(*ring.T) * _lumencut.section_spacing(marked.profile._core, view.side)
     assert len(ring) > 50
     profile = marked.profile
     wall = np.linalg.norm(profile.contour[number] - profile.center[number], axis=1).mean()

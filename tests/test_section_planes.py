@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 import lumencut
-from lumencut import MeasuringError, Vessel
-from lumencut.section_pictures import SectionView, fitting_size
+from lumencut import MeasuringError, Vessel, _lumencut
+from lumencut.section_pictures import SectionView
 from lumencut.window import Window
 from measure_scenes import FWHM, LUMEN, TISSUE, bent
 
@@ -75,7 +75,7 @@ def test_pictures_of_sections_show_the_measured_plane(scene):
     number, side = 25, 121
     view = SectionView(volume, Window(200.0, 400.0), side)
     picture = view.picture(SimpleNamespace(profile=profile), number, has_contour=False)
-    spacing = fitting_size(profile) / (side - 1)
+    spacing = _lumencut.section_spacing(profile._core, side)
     section = lumencut.cross_section(
         volume, vessel, profile.arc_length[number], side * spacing, spacing, profile=profile
     )

@@ -40,6 +40,7 @@ class _Marked(Protocol):
     def group(self) -> str | None: ...
 
 __all__ = [
+    "CHART_FRAME",
     "DEFAULTS",
     "DICOM_ATTRIBUTES",
     "LARGEST_EXTENT",
@@ -51,6 +52,7 @@ __all__ = [
     "MILLIMETRES",
     "PAPER",
     "REORDERED",
+    "SECTION_PIXELS",
     "SETTINGS",
     "SIGNS",
     "SMALLEST_EXTENT",
@@ -83,6 +85,7 @@ __all__ = [
     "better_place",
     "brightest",
     "c_arm_words",
+    "chart_ticks",
     "check_camera",
     "check_cr",
     "check_focus",
@@ -100,6 +103,7 @@ __all__ = [
     "cut_diameter",
     "describe_dicom",
     "devices",
+    "diameter_chart",
     "dicom_directions",
     "doubted_size",
     "edge_letters",
@@ -152,6 +156,7 @@ __all__ = [
     "scale_end",
     "scan_of",
     "scan_words",
+    "section_spacing",
     "set_threads",
     "shows_cut",
     "sides",
@@ -220,6 +225,8 @@ MENDS: tuple[MendName, ...]
 # Of centerlines: millimetres per unit, what brings each space to LPS, which extents (mm) pass for vessels.
 MILLIMETRES: dict[Unit, float]
 SIGNS: dict[Coordinates, tuple[float, float, float]]
+CHART_FRAME: dict[Literal["left", "right", "above", "below", "deviations"], float]
+SECTION_PIXELS: dict[Literal["report", "sheet"], int]
 MEASURING_FLAGS: list[tuple[str, int, str, str, str, str]]
 MEASURING_NOTICE: str
 STENOSIS_METHODS: list[tuple[str, str]]
@@ -601,6 +608,9 @@ def placement(
     volume: Any,
 ) -> dict[str, Any]: ...
 def positions(camera: Any, depth: npt.NDArray[np.float32]) -> npt.NDArray[np.float64]: ...
+def chart_ticks(low: float, high: float, length: float, is_along: bool) -> list[float]: ...
+def diameter_chart(profile: Profile, height: float) -> _DiameterChart: ...
+def section_spacing(profile: Profile, pixels: int) -> float: ...
 def profile_csv(profile: Profile) -> str: ...
 def profile_json(profile: Profile) -> str: ...
 def profile_marks(profile: Profile, at: float | None, references: Sequence[float]) -> list[_MarkParts]: ...
@@ -617,7 +627,7 @@ def report_html(
 ) -> str: ...
 def report_plan(
     profile: Profile, places: Sequence[tuple[str, float, bool]]
-) -> tuple[float, float, list[float], float]: ...
+) -> tuple[float, float, list[float]]: ...
 def rotated(camera: Any, angle: float, axis: _Axis) -> dict[str, Any]: ...
 def sample(volume: Any, points: npt.NDArray[np.float64]) -> npt.NDArray[np.float32]: ...
 def scale_bar(width: float, pixel_spacing: float) -> tuple[float, str, float] | None: ...
@@ -669,6 +679,17 @@ def dragged(camera: Any, drag: tuple[float, float]) -> dict[str, Any]: ...
 def zoomed_at(camera: Any, factor: float, pixel: tuple[float, float]) -> dict[str, Any]: ...
 def sampled(camera: Any, share: float) -> tuple[tuple[int, int], float]: ...
 def dragged_window(window: tuple[float, float], drag: tuple[float, float]) -> tuple[float, float]: ...
+
+class _DiameterChart(TypedDict):
+    width: list[float]
+    range: list[list[float]]
+    spread: list[list[float]]
+    isolated: list[int]
+    left_out: list[list[float]]
+    top: float
+    limit: tuple[float, str] | None
+    flags: list[tuple[str, str, list[list[float]]]]
+    row: float
 
 class _TracedMask(TypedDict):
     vessels: list[tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64], int, bool]]

@@ -18,9 +18,6 @@ from lumencut.section_pictures import SectionView
 from lumencut.volume import Volume
 from lumencut.window import Window
 
-#: The side of the picture of a section (pixels).
-_SIDE = 200
-
 
 def report(
     renderer: Renderer,
@@ -46,7 +43,7 @@ def report(
     progress : function of (done, total), optional
         Called with the number of finished vessels, and the number of all vessels.
     """
-    view = SectionView(volume, Window.from_data(volume, renderer.tree), _SIDE)
+    view = SectionView(volume, Window.from_data(volume, renderer.tree), _lumencut.SECTION_PIXELS["report"])
     pages = []
     for number, one in enumerate(measured, 1):
         pages.append(_page(renderer, view, one))
@@ -58,7 +55,7 @@ def report(
 def _page(renderer: Renderer, view: SectionView, one: MeasuredVessel) -> dict[str, Any]:
     """Return a vessel with the pictures that its report needs."""
     places = [(mark.name, mark.arc_length, mark.is_suggestion) for mark in one.marks]
-    width, spacing, sections, _ = _lumencut.report_plan(one.profile._core, places)
+    width, spacing, sections = _lumencut.report_plan(one.profile._core, places)
     return {
         "measured": one.parts,
         "places": places,

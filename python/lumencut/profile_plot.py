@@ -7,28 +7,29 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import numpy.typing as npt
 
 from lumencut import _lumencut
 from lumencut._files import replace_whole
 from lumencut.errors import MissingPackageError
-from lumencut.flags import Flag
+from lumencut.plot_pixels import PER_INCH, plot_pixels
 from lumencut.profile_numbers import ProfileNumbers
-from lumencut.profile_sections import Mark, counts, word_of
+from lumencut.profile_sections import Mark
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-#: Half width of the uncertainty band (standard deviations), and resolution of pictures (pixels per inch).
-_DEVIATIONS, _DPI = 2, 150
+#: Resolution of pictures (pixels per inch).
+_DPI = 150
 
-#: Size of a plot (inches), left and right edge of its axes (shares), and the other edges (inches).
-_WIDTH, _HEIGHT = 10.0, 3.8
-_SIDES, _BELOW, _ABOVE = (0.075, 0.65), 0.55, 0.55
+#: Size of a plot, and the width of its legend beside the frame (plot pixels).
+_WIDTH, _HEIGHT, _LEGEND = 1000.0, 380.0, 246.0
 
-_LINE, _LEFT_OUT, _MARKS = "#1f4e9c", "#9a9a9a", "#c8102e"
-_FLAGS = {Flag(bit): color for _, bit, _, _, color, _ in _lumencut.MEASURING_FLAGS}
+#: Letters of 11 plot pixels, which fit the margins of the frame (points).
+_LETTERS = 11 / PER_INCH * 72
+
+_FRAME = _lumencut.CHART_FRAME
+_LINE, _LEFT_OUT, _MARKS = "#1f4e9c", "#808080", "#c8102e"
 
 
 def check_matplotlib() -> None:
@@ -50,47 +51,38 @@ def new_axes() -> Axes:
     check_matplotlib()
     from matplotlib import pyplot as plt
 
-    figure, axes = plt.subplots(figsize=(_WIDTH, _HEIGHT))
-    figure.subplots_adjust(*_edges(_HEIGHT))
-    return axes
+    figure = plt.figure(figsize=(_WIDTH / PER_INCH, _HEIGHT / PER_INCH))
+    return _framed(figure, 0, 1)
 
 
 def draw(axes: Axes, sections: ProfileNumbers, marks: Sequence[Mark]) -> None:
     """Draw the diameters of sections, their flags and marked places."""
-    counted = counts(sections)
-    shown = [np.where(counted, values, np.nan) for values in _diameters(sections)]
-    wide, low, high = shown
-    spread = _DEVIATIONS * np.where(counted, sections.uncertainty, np.nan)
-    x = sections.arc_length
-    axes.fill_between(x, low, high, color=_LINE, alpha=0.12, lw=0, label="shortest to longest diameter")
-    axes.fill_between(
-        x,
-        wide - spread,
-        wide + spread,
-        color=_LINE,
-        alpha=0.4,
-        lw=0,
-        label=f"± {_DEVIATIONS} standard deviations (noise and fit)",
-    )
+    from lumencut.plot_ticks import ChartTicks
+
+    chart = _lumencut.diameter_chart(sections._core, plot_pixels(axes)[1])
+    x, top, wide = sections.arc_length, chart["top"], np.array(chart["width"])
+    deviations = f"± {_FRAME['deviations']:g} standard deviations (noise and fit)"
+    for (low, high), alpha, label in (
+        (chart["range"], 0.16, "shortest to longest diameter"),
+        (chart["spread"], 0.4, deviations),
+    ):
+        axes.fill_between(x, low, high, color=_LINE, alpha=alpha, lw=0, label=label)
     axes.plot(x, wide, color=_LINE, lw=1.6, label="diameter of a circle of the same area")
-    # A section between two sections that do not count is drawn as a dot, not as a line.
-    lonely = counted & ~np.append(counted[1:], False) & ~np.append(False, counted[:-1])
-    axes.plot(x[lonely], wide[lonely], ".", color=_LINE, ms=4)
-    top = _top(sections, counted)
-    out = np.where(counted, np.nan, _diameters(sections)[0])
-    if np.isfinite(out).any():
+    axes.plot(x[chart["isolated"]], wide[chart["isolated"]], ".", color=_LINE, ms=4)
+    if chart["left_out"]:
         axes.plot(
-            x, np.where(out < top, out, np.nan), ".", color=_LEFT_OUT, ms=3, mfc="none", mew=0.6,
+            *zip(*chart["left_out"], strict=True), ".", color=_LEFT_OUT, ms=3, mfc="none", mew=0.6,
             label="excluded: see the flags",
         )  # fmt: skip
-    limit = 1.5 * sections.fwhm
-    if limit < top:
-        axes.axhline(limit, color=_LEFT_OUT, lw=0.8, ls=":", label=f"1.5 × FWHM: {limit:.2f} mm")
+    if chart["limit"] is not None:
+        limit, words = chart["limit"]
+        axes.axhline(limit, color=_LEFT_OUT, lw=0.8, ls=":", label=f"{words} mm")
     _draw_marks(axes, marks)
-    below = _draw_flags(axes, sections)
+    below = _draw_flags(axes, chart["flags"], chart["row"])
     axes.set_xlim(x[0], x[-1])
     axes.set_ylim(-below * top / (1 - below), top)
-    axes.set_yticks([tick for tick in axes.get_yticks() if 0 <= tick <= top])
+    axes.xaxis.set_major_locator(ChartTicks(is_along=True))
+    axes.yaxis.set_major_locator(ChartTicks(is_along=False))
     axes.set_xlabel("arc length (mm)")
     axes.set_ylabel("lumen diameter (mm)")
     axes.grid(alpha=0.25)
@@ -104,16 +96,26 @@ def figure_of(profiles: Sequence[tuple[str, ProfileNumbers, Sequence[Mark]]]) ->
     from matplotlib.figure import Figure
 
     with style.context("default"):
-        height = len(profiles) * _HEIGHT
-        figure = Figure(figsize=(_WIDTH, height))
-        left, right = _SIDES
+        count = len(profiles)
+        figure = Figure(figsize=(_WIDTH / PER_INCH, count * _HEIGHT / PER_INCH))
         for number, (title, sections, marks) in enumerate(profiles):
-            bottom = (len(profiles) - number - 1) * _HEIGHT + _BELOW
-            tall = _HEIGHT - _BELOW - _ABOVE
-            axes = figure.add_axes((left, bottom / height, right - left, tall / height))
+            axes = _framed(figure, count - number - 1, count)
             draw(axes, sections, marks)
             axes.set_title(title, loc="left", fontsize=10, parse_math=False)
         return figure
+
+
+def _framed(figure: Figure, below: int, count: int) -> Axes:
+    """Axes with the margins of the frame, above so many of several plots."""
+    wide = _WIDTH - _LEGEND - _FRAME["left"] - _FRAME["right"]
+    tall = _HEIGHT - _FRAME["above"] - _FRAME["below"]
+    left, bottom, height = _FRAME["left"], below * _HEIGHT + _FRAME["below"], count * _HEIGHT
+    axes = figure.add_axes((left / _WIDTH, bottom / height, wide / _WIDTH, tall / height))
+    axes.tick_params(labelsize=_LETTERS, length=3, pad=2)
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.label.set_fontsize(_LETTERS)
+        axis.labelpad = 1
+    return axes
 
 
 def write(figure: Figure, path: Path) -> None:
@@ -130,23 +132,6 @@ def write(figure: Figure, path: Path) -> None:
         replace_whole(path, lambda whole: figure.savefig(whole, format=kind, dpi=_DPI, metadata=metadata))
 
 
-def _diameters(sections: ProfileNumbers) -> tuple[npt.NDArray[np.float64], ...]:
-    return sections.diameter_equivalent, sections.diameter_min, sections.diameter_max
-
-
-def _edges(height: float) -> tuple[float, float, float, float]:
-    """Return left, bottom, right and top of the axes (shares of the figure)."""
-    return _SIDES[0], _BELOW / height, _SIDES[1], 1 - _ABOVE / height
-
-
-def _top(sections: ProfileNumbers, counted: npt.NDArray[np.bool_]) -> float:
-    """The largest diameter that fits into the plot (mm)."""
-    wide = sections.diameter_max[counted]
-    if not len(wide):
-        wide = sections.diameter_max[np.isfinite(sections.diameter_max)]
-    return 1.12 * float(wide.max()) if len(wide) else 1.0
-
-
 def _draw_marks(axes: Axes, marks: Sequence[Mark]) -> None:
     for mark in marks:
         symbol = "D" if mark.is_reference else "v"
@@ -157,35 +142,16 @@ def _draw_marks(axes: Axes, marks: Sequence[Mark]) -> None:
         )  # fmt: skip
 
 
-def _draw_flags(axes: Axes, sections: ProfileNumbers) -> float:
+def _draw_flags(axes: Axes, flags: Sequence[tuple[str, str, Sequence[Sequence[float]]]], row: float) -> float:
     """Draw a row for each flag that is set somewhere, and return the share of the height that rows take."""
-    present = [flag for flag in Flag if (sections.flags & int(flag)).any()]
-    row = 0.052
-    for number, flag in enumerate(present):
-        color, height = _FLAGS[flag], row * (number + 0.5)
-        for start, width in _runs(sections, flag):
+    for number, (word, color, runs) in enumerate(reversed(flags)):
+        height = row * (number + 0.5)
+        for ends in runs:
             axes.fill_between(
-                [start, start + width], height - 0.3 * row, height + 0.3 * row, color=color, lw=0,
+                ends, height - 0.3 * row, height + 0.3 * row, color=color, lw=0,
                 transform=axes.get_xaxis_transform(), clip_on=True,
             )  # fmt: skip
-        axes.text(
-            1.01,
-            height,
-            word_of(flag),
-            color=color,
-            fontsize=8,
-            va="center_baseline",
-            transform=axes.transAxes,
-        )
-    if present:
+        axes.text(1.01, height, word, color=color, fontsize=8, va="center_baseline", transform=axes.transAxes)
+    if flags:
         axes.axhline(0, color="black", lw=0.6)
-    return row * len(present)
-
-
-def _runs(sections: ProfileNumbers, flag: Flag) -> list[tuple[float, float]]:
-    """Where stretches with a flag begin, half a step before their first section, and their lengths (mm)."""
-    x = sections.arc_length
-    step = float(x[1] - x[0]) if len(x) > 1 else 1.0
-    is_set = np.concatenate([[False], (sections.flags & int(flag)) != 0, [False]])
-    starts, ends = np.flatnonzero(is_set[1:] & ~is_set[:-1]), np.flatnonzero(is_set[:-1] & ~is_set[1:]) - 1
-    return [(float(x[a]) - step / 2, float(x[b] - x[a]) + step) for a, b in zip(starts, ends, strict=True)]
+    return row * len(flags)

@@ -9,7 +9,6 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
-from lumencut.flags import Flag
 from lumencut.profile_numbers import ProfileNumbers
 
 
@@ -60,11 +59,6 @@ def counts(sections: ProfileNumbers) -> npt.NDArray[np.bool_]:
 def flag_words(flags: int) -> list[str]:
     """Return the names of flags as words, such as ``no clear wall``."""
     return _lumencut.flag_words(flags)
-
-
-def word_of(flag: Flag) -> str:
-    """Return the name of a flag as words."""
-    return ", ".join(flag_words(flag))
 
 
 def nearest(sections: ProfileNumbers, at: float) -> int:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from lumencut import _lumencut
 from lumencut.contact_sheet import Picture, contact_sheet
 from lumencut.lettering import Sheet
 from lumencut.measured_vessel import MeasuredVessel
@@ -21,19 +22,6 @@ _COUNTED, _LEFT_OUT = (64, 220, 255, 255), (255, 150, 40, 255)
 
 #: Contours are drawn this many times larger and then scaled down, for smooth edges.
 _FINER = 3
-
-#: Width of a picture in lumen diameters, and its smallest and largest value (mm).
-_ROOM, _SIZES = 2.5, (12.0, 120.0)
-
-
-def fitting_size(profile: Profile) -> float:
-    """Return the side (mm) of pictures in which nearly all sections of a vessel that count have room."""
-    wide = profile.diameter_max[counts(profile)]
-    if not len(wide):
-        wide = profile.diameter_max[np.isfinite(profile.diameter_max)]
-    if not len(wide):
-        return 30.0
-    return float(np.clip(np.ceil(_ROOM * np.quantile(wide, 0.9)), *_SIZES))
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +40,7 @@ class SectionView:
 
     volume: Volume
     window: Window
-    side: int = 260
+    side: int = _lumencut.SECTION_PIXELS["sheet"]
 
     def picture(
         self, one: MeasuredVessel, number: int, words: str = "", *, has_contour: bool = True
@@ -62,7 +50,7 @@ class SectionView:
         The contour is cyan if the section counts for narrowest and widest places, orange if flags exclude it.
         leave it out. Without it there are neither words nor numbers. `words` stand above the numbers.
         """
-        profile, spacing = one.profile, fitting_size(one.profile) / (self.side - 1)
+        profile, spacing = one.profile, _lumencut.section_spacing(one.profile._core, self.side)
         origin, across = profile.center[number], profile.axes[number]
         steps = (np.arange(self.side) - (self.side - 1) / 2) * spacing
         places = origin + steps[:, None, None] * across[1] + steps[None, :, None] * across[0]

@@ -1,6 +1,7 @@
 """Measure the vessels of a phantom with the Python package: what the page must show.
 
-The command line names the phantom. What was measured is written to standard output as JSON.
+The command line names the phantom, and the heights of the plots. What was measured is written to standard
+output as JSON.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from typing import Any
 
 from lumencut import Profile, Vessel, _lumencut, measure, phantom
 from lumencut.measured_vessel import Marked, MeasuredVessel, vessels_csv, vessels_json
+from lumencut.profile_plot import draw
 from lumencut.profile_sections import counts, flag_words, nearest
 
 #: Positions on the first vessel, as shares of its length.
@@ -85,6 +87,25 @@ def asked(profile: Profile) -> dict[str, Any]:
     }
 
 
+def drawn(profile: Profile, height: float) -> dict[str, Any]:
+    """The layout of the pictures of a profile; the axes of its plot have 900 by `height` plot pixels."""
+    from matplotlib.figure import Figure
+
+    axes = Figure(figsize=(9, height / 100)).add_axes((0, 0, 1, 1))
+    draw(axes, profile, ())
+    (start, end), (low, high) = axes.get_xlim(), axes.get_ylim()
+    pixels = _lumencut.SECTION_PIXELS["report"]
+    width, spacing, _ = _lumencut.report_plan(profile._core, [])
+    return {
+        "side": _lumencut.section_spacing(profile._core, pixels) * (pixels - 1),
+        "strip": [width, spacing],
+        "range": [start, end, high],
+        "rows": low / (low - high),
+        "ticks": [[float(tick) for tick in ticks] for ticks in (axes.get_xticks(), axes.get_yticks())],
+        "flags": [text.get_text() for text in reversed(axes.texts)],
+    }
+
+
 def report(vessel: Vessel, profile: Profile, options: dict[str, Any]) -> str:
     """The report of the first vessel, with a marked place and reference, without pictures."""
     length = float(profile.arc_length[-1])
@@ -108,6 +129,7 @@ def main() -> None:
     ]
     found = {
         "profiles": [numbers(profile) for profile in profiles],
+        "drawn": [drawn(*both) for both in zip(profiles, map(float, sys.argv[2:]), strict=True)],
         "asked": asked(profiles[0]),
         "csv": vessels_csv(measured),
         "json": vessels_json(options | {"step": 0.5}, measured),

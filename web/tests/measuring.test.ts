@@ -4,6 +4,7 @@ import { existsSync } from 'node:fs';
 import { join } from 'node:path';
 import { describe, expect, test } from 'vitest';
 import type { Asked } from '../src/core/asked';
+import { SECTION_PIXELS } from '../src/core/generated/tables';
 import type { MeasuredVessel, Pair, Profile } from '../src/core/messages';
 import { NO_MARKS } from '../src/state/document';
 import { opened } from './traced';
@@ -13,6 +14,7 @@ const ROUNDING = 1e-9;
 
 interface Truth {
   readonly profiles: readonly Profile[];
+  readonly drawn: readonly unknown[];
   readonly asked: { readonly at: number; readonly references: Pair; readonly [name: string]: unknown };
   readonly csv: string;
   readonly json: string;
@@ -22,8 +24,9 @@ interface Truth {
 const here = import.meta.dirname;
 const python = join(here, '../../.venv/bin/python');
 
-function truth(phantom: string): Truth {
-  const done = spawnSync(python, [join(here, 'measured.py'), phantom], {
+/** What Python measures; its plots have axes of these heights. */
+function truth(phantom: string, heights: readonly number[]): Truth {
+  const done = spawnSync(python, [join(here, 'measured.py'), phantom, ...heights.map(String)], {
     encoding: 'utf-8',
     maxBuffer: 1 << 26,
   });
@@ -118,7 +121,28 @@ function textOf(report: string): string[] {
   return words.filter((text) => text !== '' && text !== 'Saved on a day' && !text.startsWith('CSR of'));
 }
 
-test('different numbers are detected', () => {
+/** The layout of a vessel in a pane, and the height of its axes (pixels). */
+async function drawn(engine: Asked, vessel: MeasuredVessel) {
+  const { line } = vessel;
+  const pane = { line, is_measured: true, size: [1060, 500], between: 28, density: 1 } as const;
+  const { chart, x } = await engine.ask('measure_layout', pane);
+  const { section_spacing: spacing, ...plan } = await engine.ask('report_plan', vessel);
+  if (!chart) {
+    throw new Error('a measured vessel has no chart');
+  }
+  const { y, bottom, ticks, flags } = chart;
+  const layout = {
+    side: spacing * (SECTION_PIXELS - 1),
+    strip: [plan.width, plan.spacing],
+    range: [x.low, x.high, y.high],
+    rows: (bottom - y.start) / (bottom - y.end),
+    ticks: ticks.map((axis) => axis.map(({ words }) => Number(words))),
+    flags: flags.map(({ look }) => look.word),
+  };
+  return { layout, height: bottom - y.end };
+}
+
+test('numbers that differ are told', () => {
   const same = { a: [1, null], b: 'x' };
   expect(apart(same, { a: [1 + 1e-12, null], b: 'x' })).toBe('');
   expect(apart(same, { a: [1 + 1e-6, null], b: 'x' })).toBe('/a/0: 1, not 1.000001');
@@ -129,19 +153,23 @@ test('different numbers are detected', () => {
 
 describe.skipIf(!existsSync(python))('measuring is that of Python', () => {
   test.each(['stenosis', 'y_junction'])('on the phantom %s', { timeout: 60_000 }, async (phantom) => {
-    const expected = truth(phantom);
     const { engine, report } = await opened(phantom);
     const vessels = report().vessels ?? [];
     const profiles = await Promise.all(
       vessels.map(({ line }) => engine.ask('profile', { line, fwhm: null })),
     );
-    expect(profiles.length).toBe(expected.profiles.length);
-    expect(apart(profiles, expected.profiles)).toBe('');
-    const [{ line, length }] = vessels as [(typeof vessels)[0]];
-    expect(apart(await answers(engine, line, length, expected.asked), expected.asked)).toBe('');
     const measured: MeasuredVessel[] = vessels.map(({ line, name }, n) => {
       return { id: `${n}`, name, line, marks: NO_MARKS };
     });
+    const charts = await Promise.all(measured.map((vessel) => drawn(engine, vessel)));
+    const heights = charts.map(({ height }) => height);
+    const expected = truth(phantom, heights);
+    expect(profiles.length).toBe(expected.profiles.length);
+    expect(apart(profiles, expected.profiles)).toBe('');
+    const layouts = charts.map(({ layout }) => layout);
+    expect(apart(layouts, expected.drawn)).toBe('');
+    const [{ line, length }] = vessels as [(typeof vessels)[0]];
+    expect(apart(await answers(engine, line, length, expected.asked), expected.asked)).toBe('');
     const asked = { vessels: measured, is_millimetre_assumed: false };
     expect(apart(fields(await engine.ask('profiles_csv', asked)), fields(expected.csv))).toBe('');
     const json = await engine.ask('profiles_json', asked);

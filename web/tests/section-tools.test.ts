@@ -1,9 +1,12 @@
-/** Tests of the position of the buttons at the section, and of font sizes in key images. */
-import { expect, test } from 'vitest';
-import { leftOf } from '../src/measure/chart-layout';
+/** Position of the buttons at the section, and font sizes of key images. */
+import { expect, test, vi } from 'vitest';
+import { leftOf } from '../src/measure/SectionTools';
 import { fittingSize } from '../src/output/wrapping';
 
-test('the bar is centred on its column and never crosses an edge', () => {
+// The page's engine needs a worker, which tests lack.
+vi.mock('../src/client/shared', () => ({ engine: {} }));
+
+test('the bar stands over its column and never runs off an edge', () => {
   expect(leftOf(500, 400, 1000)).toBe(300);
   expect(leftOf(990, 400, 1000)).toBe(596);
   expect(leftOf(5, 400, 1000)).toBe(4);

@@ -4,6 +4,7 @@ use pyo3::prelude::*;
 
 mod camera;
 mod centerlines;
+mod chart;
 mod cpr;
 mod device;
 mod dicom;
@@ -112,6 +113,10 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(profile_files::profile_csv, module)?)?;
     module.add_function(wrap_pyfunction!(profile_files::vessels_csv, module)?)?;
     module.add_function(wrap_pyfunction!(profile_files::vessels_json, module)?)?;
+    chart::add_layouts(module)?;
+    module.add_function(wrap_pyfunction!(chart::diameter_chart, module)?)?;
+    module.add_function(wrap_pyfunction!(chart::chart_ticks, module)?)?;
+    module.add_function(wrap_pyfunction!(chart::section_spacing, module)?)?;
     module.add_function(wrap_pyfunction!(report::report_html, module)?)?;
     module.add_function(wrap_pyfunction!(report::report_plan, module)?)?;
     module.add_function(wrap_pyfunction!(ranges::check_cr, module)?)?;

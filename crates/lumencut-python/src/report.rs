@@ -1,5 +1,6 @@
 //! The report of measured vessels, with pictures from Python.
 
+use lumencut::report::section_room::REPORT_PIXELS;
 use lumencut::report::{self, Lengths, Plan, ReportMark, Shown, Stated, Strip, VesselPage};
 use pyo3::prelude::*;
 
@@ -29,12 +30,12 @@ pub(crate) struct PageParts {
     sections: Vec<String>,
 }
 
-/// Width and pixel side of the straightened vessel (mm), arc lengths of the sections, and the side of their pictures (mm).
+/// Width and pixel side of the straightened vessel (mm), and arc lengths of the sections.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub(crate) fn report_plan(profile: &Profile, places: Vec<PlaceParts>) -> (f64, f64, Vec<f64>, f64) {
-    let Plan { width, spacing, places, side } = report::plan(&profile.0, &marks(&places));
-    (width, spacing, places.iter().map(|place| place.at).collect(), side)
+pub(crate) fn report_plan(profile: &Profile, places: Vec<PlaceParts>) -> (f64, f64, Vec<f64>) {
+    let Plan { width, spacing, places, .. } = report::plan(&profile.0, &marks(&places), REPORT_PIXELS);
+    (width, spacing, places.iter().map(|place| place.at).collect())
 }
 
 fn page(parts: &PageParts) -> VesselPage<'_> {

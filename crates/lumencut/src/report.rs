@@ -1,20 +1,21 @@
 //! The report of measured vessels: a self-contained web page without scripts or links. It names vessels, and the scan only if the
 //! caller passes its name. The caller supplies the pictures.
 
-mod curves;
+pub mod chart;
+pub(crate) mod curves;
 mod findings;
+pub mod frame;
 mod markup;
 mod method_text;
 mod places;
 mod plan;
 mod plot;
-mod scale;
+pub mod scale;
+pub mod section_room;
 
 use lumencut_core::error::Result;
-use lumencut_vessels::measure::profile::Profile;
 use serde::Deserialize;
 
-use crate::flag_table::{FLAGS, FlagLook};
 use crate::profile_json::{Asked, NOTICE};
 use crate::profile_marks::Measured;
 use crate::study::view::method_word;
@@ -198,10 +199,6 @@ fn sections(
     }
     let head = "<h2>Sections at these places, with the contour and without</h2>";
     Ok(format!("{head}\n<div class=\"sections\">\n{figures}</div>\n"))
-}
-
-fn flag_rows(profile: &Profile) -> Vec<&'static FlagLook> {
-    FLAGS.iter().filter(|flag| profile.flags.iter().any(|bits| bits & flag.bit > 0)).collect()
 }
 
 #[cfg(test)]

@@ -23,6 +23,7 @@ pub mod line_path;
 pub mod lines;
 mod lumens;
 mod masks;
+mod measure_layout;
 mod measure_messages;
 mod measuring;
 pub mod names;

@@ -1,18 +1,18 @@
 /** Straightened CPR of the picked vessel, shown horizontally with its first point on the left. */
 import { useCallback, useState } from 'preact/hooks';
 import { engine } from '../client/shared';
-import type { Cpr, Pair } from '../core/messages';
+import type { Axis, Cpr, Pair, StripLayout } from '../core/messages';
 import { moveTo } from '../link/along';
 import { CprControls, TURN_STEP } from '../pane/CprControls';
 import { FlatPicture } from '../pane/FlatPicture';
 import { dragWindow, windowBack } from '../state/actions';
 import * as store from '../state/store';
-import { type Lying, lyingBox, lyingPicture } from './lying';
-import { type Axis, valueAt } from './scale';
+import { lyingBox, lyingPicture } from './lying';
+import { valueAt } from './scale';
 
 interface LyingCprProps {
   readonly x: Axis;
-  readonly lying: Lying;
+  readonly lying: StripLayout;
   readonly height: number;
 }
 
@@ -47,7 +47,7 @@ export function LyingCpr({ x, lying, height }: LyingCprProps) {
   );
 }
 
-const cprOf = (vessel: number, { width, spacing }: Lying): Cpr => ({
+const cprOf = (vessel: number, { width, spacing }: StripLayout): Cpr => ({
   vessel,
   angle: store.cprAngle.value,
   width,

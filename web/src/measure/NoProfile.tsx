@@ -1,12 +1,11 @@
-/** Shown in place of a diameter profile that is missing or cannot be measured. */
-import type { Pair } from '../core/messages';
+/** Placeholder for a profile that is missing or cannot be measured. */
 import { beingMeasured, measureAgain, stopped } from '../state/profiles';
 import * as store from '../state/store';
 import { currentFailure } from './current';
 
-export function NoProfile({ size }: { readonly size: Pair }) {
+export function NoProfile({ height }: { readonly height: number }) {
   return (
-    <div class="no-profile" style={{ height: `${size[1]}px` }} role="status" data-testid="no-profile">
+    <div class="no-profile" style={{ height: `${height}px` }} role="status" data-testid="no-profile">
       <Why />
     </div>
   );

@@ -1,10 +1,7 @@
-/** Chart of the lumen diameter against arc length. */
-import type { Profile } from '../core/messages';
-import type { ChartLayout } from './chart-layout';
-import { bandPath, counted, DEVIATIONS, isolated, linePath, spreadOf } from './curves';
-import { flagsIn, runs } from './flags';
+/** Chart of the diameter by arc length. */
+import { DEVIATIONS } from '../core/generated/tables';
+import type { Axis, ChartLayout } from '../core/messages';
 import type { Kind } from './marks';
-import { pixelAt, ticks } from './scale';
 
 const COLORS = {
   line: '#7db0ff',
@@ -22,7 +19,8 @@ export interface ChartMark {
 }
 
 interface ProfileChartProps {
-  readonly profile: Profile;
+  /** Arc length. */
+  readonly x: Axis;
   readonly layout: ChartLayout;
   /** Whether lengths are in mm. */
   readonly hasUnits: boolean;
@@ -51,25 +49,24 @@ export function ProfileChart(props: ProfileChartProps) {
   );
 }
 
-function Grid({ layout, hasUnits }: ProfileChartProps) {
-  const { x, y, bottom } = layout;
+function Grid({ x, layout: { y, bottom, ticks }, hasUnits }: ProfileChartProps) {
   const unit = hasUnits ? ' (mm)' : '';
   const middle = (y.start + y.end) / 2;
   return (
     <g>
-      {ticks(x.low, x.high, (x.end - x.start) / 60).map((value) => (
-        <g key={`x${value}`}>
-          <path d={`M${pixelAt(x, value)} ${y.end}V${bottom + 4}`} stroke={COLORS.grid} />
-          <text x={pixelAt(x, value)} y={bottom + 15} text-anchor="middle" fill={COLORS.quiet}>
-            {value}
+      {ticks[0].map(({ at, words }) => (
+        <g key={`x${words}`}>
+          <path d={`M${at} ${y.end}V${bottom + 4}`} stroke={COLORS.grid} />
+          <text x={at} y={bottom + 15} text-anchor="middle" fill={COLORS.quiet}>
+            {words}
           </text>
         </g>
       ))}
-      {ticks(y.low, y.high, (y.start - y.end) / 18).map((value) => (
-        <g key={`y${value}`}>
-          <path d={`M${x.start - 4} ${pixelAt(y, value)}H${x.end}`} stroke={COLORS.grid} />
-          <text x={x.start - 7} y={pixelAt(y, value) + 4} text-anchor="end" fill={COLORS.quiet}>
-            {value}
+      {ticks[1].map(({ at, words }) => (
+        <g key={`y${words}`}>
+          <path d={`M${x.start - 4} ${at}H${x.end}`} stroke={COLORS.grid} />
+          <text x={x.start - 7} y={at + 4} text-anchor="end" fill={COLORS.quiet}>
+            {words}
           </text>
         </g>
       ))}
@@ -84,48 +81,32 @@ function Grid({ layout, hasUnits }: ProfileChartProps) {
   );
 }
 
-function Curves({ profile, layout, hasUnits }: ProfileChartProps) {
-  const { x, y } = layout;
-  const at = profile.arc_length;
-  const width = counted(profile, profile.diameter);
-  const range = [counted(profile, profile.diameter_min), counted(profile, profile.diameter_max)] as const;
-  const limit = 1.5 * profile.fwhm;
+function Curves({ x, layout, hasUnits }: ProfileChartProps) {
+  const { limit } = layout;
   return (
     <g>
-      <path d={bandPath(x, y, at, range)} fill={COLORS.line} fill-opacity="0.16" class="range" />
-      <path d={bandPath(x, y, at, spreadOf(profile))} fill={COLORS.line} fill-opacity="0.4" class="band" />
-      <path d={linePath(x, y, at, width)} fill="none" stroke={COLORS.line} stroke-width="1.6" class="width" />
-      {isolated(width).map((n) => (
+      <path d={layout.range} fill={COLORS.line} fill-opacity="0.16" class="range" />
+      <path d={layout.spread} fill={COLORS.line} fill-opacity="0.4" class="band" />
+      <path d={layout.width} fill="none" stroke={COLORS.line} stroke-width="1.6" class="width" />
+      {layout.isolated.map(([column, row]) => (
+        <circle key={column} cx={column} cy={row} r="1.8" fill={COLORS.line} />
+      ))}
+      {layout.left_out.map(([column, row]) => (
         <circle
-          key={n}
-          cx={pixelAt(x, at[n] ?? 0)}
-          cy={pixelAt(y, width[n] ?? 0)}
+          key={column}
+          class="left-out"
+          cx={column}
+          cy={row}
           r="1.8"
-          fill={COLORS.line}
+          fill="none"
+          stroke={COLORS.leftOut}
         />
       ))}
-      {profile.diameter.map((value, n) =>
-        value === null || profile.counts[n] || value > y.high ? null : (
-          <circle
-            key={at[n]}
-            class="left-out"
-            cx={pixelAt(x, at[n] ?? 0)}
-            cy={pixelAt(y, value)}
-            r="1.8"
-            fill="none"
-            stroke={COLORS.leftOut}
-          />
-        ),
-      )}
-      {limit < y.high && (
+      {limit && (
         <g class="limit">
-          <path
-            d={`M${x.start} ${pixelAt(y, limit)}H${x.end}`}
-            stroke={COLORS.leftOut}
-            stroke-dasharray="1.5 3"
-          />
-          <text x={x.end - 4} y={pixelAt(y, limit) - 3} text-anchor="end" fill={COLORS.quiet}>
-            {`1.5 × FWHM: ${limit.toFixed(2)}${hasUnits ? ' mm' : ''}`}
+          <path d={`M${x.start} ${limit.at}H${x.end}`} stroke={COLORS.leftOut} stroke-dasharray="1.5 3" />
+          <text x={x.end - 4} y={limit.at - 3} text-anchor="end" fill={COLORS.quiet}>
+            {`${limit.words}${hasUnits ? ' mm' : ''}`}
           </text>
         </g>
       )}
@@ -133,37 +114,30 @@ function Curves({ profile, layout, hasUnits }: ProfileChartProps) {
   );
 }
 
-/** Bars that mark flagged sections: one row per flag that occurs, below diameter 0. */
-function Flags({ profile, layout }: ProfileChartProps) {
-  const { x, y, row, wordRow, bottom } = layout;
-  const flags = flagsIn(profile);
+/** One row per flag that occurs, below the line of diameter 0. */
+function Flags({ x, layout: { flags, y, row, word_row: wordRow, bottom } }: ProfileChartProps) {
   return (
     <g>
-      {flags.map((flag, n) => {
+      {flags.map(({ look, bars }, n) => {
         const top = y.start + n * row;
         const [middle, word] = [top + 0.5 * row, bottom - (flags.length - n - 0.5) * wordRow];
-        const color = flag.screen;
+        const color = look.screen;
         return (
-          <g key={flag.word} class="flag">
-            {runs(profile, flag.word).map(([from, to]) => {
-              const [start, end] = [from, to].map((place) =>
-                Math.min(Math.max(pixelAt(x, place), x.start), x.end),
-              ) as [number, number];
-              return (
-                <rect
-                  key={from}
-                  x={start}
-                  y={top + 0.2 * row}
-                  width={Math.max(end - start, 1)}
-                  height={0.6 * row}
-                  fill={color}
-                />
-              );
-            })}
-            <title>{`${flag.word}: ${flag.meaning}`}</title>
+          <g key={look.word} class="flag">
+            {bars.map(([start, end]) => (
+              <rect
+                key={start}
+                x={start}
+                y={top + 0.2 * row}
+                width={Math.max(end - start, 1)}
+                height={0.6 * row}
+                fill={color}
+              />
+            ))}
+            <title>{`${look.word}: ${look.meaning}`}</title>
             <path d={`M${x.end + 1} ${middle}L${x.end + 7} ${word}`} stroke={color} fill="none" />
             <text x={x.end + 9} y={word + 4} fill={color} font-size="11">
-              {flag.word}
+              {look.word}
             </text>
           </g>
         );
@@ -172,8 +146,7 @@ function Flags({ profile, layout }: ProfileChartProps) {
   );
 }
 
-function Legend({ layout }: ProfileChartProps) {
-  const { x } = layout;
+function Legend({ x }: ProfileChartProps) {
   const isNarrow = x.end - x.start < 640;
   return (
     <g class="legend" fill={COLORS.quiet} transform={`translate(${x.start} 12)`}>

@@ -1,79 +1,82 @@
 /** The picked vessel, shown horizontally above its diameter chart; both have the same axis and marked places. */
 import { useMemo, useRef, useState } from 'preact/hooks';
-import type { Pair, Profile } from '../core/messages';
+import type { Axis, ChartLayout, MeasureLayout, Pair, Profile } from '../core/messages';
 import { usePaneSize } from '../pane/pane-size';
 import { hasMillimetres } from '../state/millimetres';
 import * as store from '../state/store';
-import { axisAlong, chartLayout } from './chart-layout';
 import { currentPlaces, currentProfile, currentVessel } from './current';
 import { LyingCpr } from './LyingCpr';
+import { useMeasureLayout } from './layout';
 import { useLineGrips } from './line-grips';
-import { type Lying, lyingIn } from './lying';
 import { NoProfile } from './NoProfile';
 import { COLORS, PlaceHandles } from './PlaceHandles';
 import { ProfileChart } from './ProfileChart';
 import { ProfileReading } from './ProfileReading';
 import { SectionTools, TOOLS } from './SectionTools';
-import { type Axis, pixelAt, valueAt } from './scale';
-import { fittingSide, sectionNumbers, UNKNOWN_SIDE } from './sections';
+import { pixelAt, valueAt } from './scale';
+import { sectionNumbers } from './sections';
 
-const VESSEL_HEIGHT_SHARE = 0.4;
-/** Distance of the handles from the edge; there they do not cover the lumen. */
+/** Distance of the handles from the edge, clear of the lumen. */
 const HANDLE_INSET_PX = 9;
 
 export function ProfilePane() {
   const pane = useRef<HTMLDivElement>(null);
   const size = usePaneSize(pane);
-  const length = currentVessel.value?.length;
-  const grips = useLineGrips(size && length && currentProfile.value ? axisAlong(length, size[0]) : null);
+  const layout = useMeasureLayout(size);
+  const grips = useLineGrips(currentProfile.value && (layout?.x ?? null));
   return (
     <div class="profile-pane" ref={pane} {...grips}>
-      {size && <ProfileContent size={size} />}
+      {size && <ProfileContent size={size} layout={layout} />}
     </div>
   );
 }
 
-function ProfileContent({ size }: { readonly size: Pair }) {
-  const vessel = currentVessel.value;
+interface ContentProps {
+  readonly size: Pair;
+  readonly layout: MeasureLayout | null;
+}
+
+function ProfileContent({ size, layout }: ContentProps) {
   const profile = currentProfile.value;
-  if (!vessel) {
+  if (!currentVessel.value) {
     const hint = store.hasTree.value
       ? 'Pick a vessel: click on it in the view above.'
       : 'No vessel yet: trace one, or open centerlines.';
     return <p class="no-profile">{hint}</p>;
   }
-  const x = axisAlong(vessel.length, size[0]);
-  const lying = lyingIn(x, {
-    height: VESSEL_HEIGHT_SHARE * size[1],
-    density: Math.min(window.devicePixelRatio || 1, 2),
-    fitting: profile ? fittingSide(profile) : UNKNOWN_SIDE,
-  });
-  const vesselHeight = Math.round(lying.height);
-  const below: Pair = [size[0], size[1] - vesselHeight - TOOLS];
+  if (!layout) {
+    return <NoProfile height={size[1]} />;
+  }
+  const { x, strip, chart } = layout;
+  const height = Math.round(strip.height);
   return (
     <>
-      <LyingCpr x={x} lying={lying} height={vesselHeight} />
-      {profile ? <Chart profile={profile} size={below} x={x} lying={lying} /> : <NoProfile size={below} />}
+      <LyingCpr x={x} lying={strip} height={height} />
+      {profile && chart ? (
+        <Chart profile={profile} x={x} layout={chart} height={height} />
+      ) : (
+        <NoProfile height={size[1] - height - TOOLS} />
+      )}
     </>
   );
 }
 
 interface ChartProps {
   readonly profile: Profile;
-  readonly size: Pair;
   readonly x: Axis;
-  readonly lying: Lying;
+  readonly layout: ChartLayout;
+  /** Height of the vessel above the chart. */
+  readonly height: number;
 }
 
-function Chart({ profile, size, x, lying }: ChartProps) {
+function Chart({ profile, x, layout, height }: ChartProps) {
   const hasUnits = hasMillimetres.value;
   const [hovered, setHovered] = useState<number | null>(null);
-  const layout = useMemo(() => chartLayout(profile, size), [profile, size[0], size[1]]);
   const drawn = useMemo(
-    () => <ProfileChart profile={profile} layout={layout} hasUnits={hasUnits} />,
-    [profile, layout, hasUnits],
+    () => <ProfileChart x={x} layout={layout} hasUnits={hasUnits} />,
+    [x, layout, hasUnits],
   );
-  const top = Math.round(lying.height) + TOOLS;
+  const top = height + TOOLS;
   const heightAt = (at: number): number => {
     const { diameter } = sectionNumbers(profile, at);
     return top + pixelAt(layout.y, Math.min(diameter ?? 0, layout.y.high));
@@ -84,12 +87,12 @@ function Chart({ profile, size, x, lying }: ChartProps) {
       <ProfileReading profile={profile} x={x} top={top} hovered={hovered} onHover={setHovered}>
         {drawn}
       </ProfileReading>
-      <SectionTools column={pixelAt(x, store.pickedPlace.value)} width={size[0]} top={top - TOOLS} />
+      <SectionTools column={pixelAt(x, store.pickedPlace.value)} width={layout.size[0]} top={height} />
       <div class="overlay places">
         <PlaceLines x={x} top={top} bottom={top + layout.bottom} />
         <PlaceHandles
           view="in the CPR"
-          pixelAt={(at, { kind }) => [pixelAt(x, at), gripOf(kind, lying.height)]}
+          pixelAt={(at, { kind }) => [pixelAt(x, at), gripOf(kind, height)]}
           atOf={atOf}
         />
         <PlaceHandles

@@ -1,13 +1,19 @@
 /** Buttons next to the line of the section, which mark the place there. */
 import { useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { pickedPlace } from '../state/store';
-import { leftOf } from './chart-layout';
 import { currentMarks } from './current';
 import { beginLength, endLength, lengthFrom, markHere, noteDiameter } from './editing';
 import { isFull } from './marks';
 import { mm } from './words';
 
+/** Height of the bar, and its distance from both edges of the pane (CSS pixels). */
 export const TOOLS = 28;
+const EDGE = 4;
+
+/** Left edge of a bar centred on a column, within the pane (CSS pixels). */
+export const leftOf = (column: number, wide: number, room: number): number =>
+  Math.max(Math.min(column - wide / 2, room - wide - EDGE), EDGE);
+
 interface SectionToolsProps {
   readonly column: number;
   readonly width: number;

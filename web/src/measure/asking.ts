@@ -103,8 +103,8 @@ function arrive(): void {
   }
 }
 
-/** Returns null for an error about a line that an edit replaced meanwhile; throws other errors. */
-function unlessGone(error: unknown): null {
+/** Ignores lines that an edit replaced meanwhile. */
+export function unlessGone(error: unknown): null {
   if (Failure.of(error).kind === 'vessel tree') {
     return null;
   }

@@ -1,9 +1,10 @@
 /** A drag that begins near the line of a place moves the place. A click there still reaches the picture. */
 import { useRef } from 'preact/hooks';
+import type { Axis } from '../core/messages';
 import { currentPlaces } from './current';
 import { beginMove, endMove, move, putBack } from './editing';
 import type { VesselPlace } from './marks';
-import { type Axis, pixelAt, valueAt } from './scale';
+import { pixelAt, valueAt } from './scale';
 
 export const GRAB_DISTANCE_PX = 22;
 const CLICK_MOVE_PX = 4;

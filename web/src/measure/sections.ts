@@ -33,21 +33,6 @@ export interface SectionNumbers {
   readonly bounds: string | null;
 }
 
-/** Side of a section picture: this many lumen diameters, within limits (mm); a default if nothing was measured. */
-const SIDE_PER_DIAMETER = 2.5;
-const SIZES: Pair = [12, 120];
-export const UNKNOWN_SIDE = 30;
-
-export function fittingSide({ counts, diameter_max: longest }: Profile): number {
-  const all = longest.flatMap((value, n) => (value === null ? [] : [{ value, counts: counts[n] }]));
-  const counted = all.filter((section) => section.counts);
-  const wide = (counted.length > 0 ? counted : all).map(({ value }) => value).sort((a, b) => a - b);
-  const most = wide[Math.floor(0.9 * (wide.length - 1))];
-  return most === undefined
-    ? UNKNOWN_SIDE
-    : Math.min(Math.max(Math.ceil(SIDE_PER_DIAMETER * most), SIZES[0]), SIZES[1]);
-}
-
 export function sectionNumbers(profile: Profile, at: number): SectionNumbers {
   const n = nearestSection(profile, at);
   return {

@@ -1,13 +1,14 @@
 /** Draws the key image of a finding: the straightened vessel with its marks, above the sections at these marks. */
 import { engine } from '../client/shared';
 import { Failure } from '../core/failure';
+import { SECTION_PIXELS as SIDE } from '../core/generated/tables';
 import type { Pair, Profile, ReportPlace } from '../core/messages';
 import { type Finding, markedVessel } from '../measure/findings';
 import { colorOfPlace } from '../measure/PlaceHandles';
 import { nearestSection } from '../measure/sections';
 import { spread } from '../measure/words';
 import { profileOfLine } from '../state/profiles';
-import { canvasOf, SIDE, sectionPair, straightenedCanvas } from './report-pictures';
+import { canvasOf, sectionPair, straightenedCanvas } from './report-pictures';
 import { fittingSize } from './wrapping';
 
 const COLUMNS = 3;
@@ -33,7 +34,7 @@ export async function keyImage(finding: Finding): Promise<HTMLCanvasElement> {
     line(context, { place, x: (place.at / plan.spacing + 0.5) * scale, height });
   }
   for (const [number, place] of places.entries()) {
-    const pair = await sectionPair({ ...finding, side: plan.side }, profile, place.at);
+    const pair = await sectionPair({ ...finding, spacing: plan.section_spacing }, profile, place.at);
     const [x, y] = [(number % COLUMNS) * SIDE, LINE + height + Math.floor(number / COLUMNS) * (SIDE + LINE)];
     const label = `${place.name} ${diameterAt(profile, place.at)}`;
     words(context, label, [x + 8, y + LINE - 11], colorOfPlace(place), SIDE - 16);

@@ -3,6 +3,7 @@
 import { engine } from '../client/shared';
 import { pixelOf } from '../core/camera';
 import { Failure } from '../core/failure';
+import { SECTION_PIXELS as SIDE } from '../core/generated/tables';
 import type {
   Cpr,
   LineId,
@@ -21,9 +22,6 @@ import { CONTOUR } from '../measure/SectionMarks';
 import { centerAt, nearestSection } from '../measure/sections';
 import * as store from '../state/store';
 import { composed } from './pictures';
-
-/** Width and height of a section picture (pixels). */
-export const SIDE = 300;
 
 export function canvasOf(width: number, height: number): [HTMLCanvasElement, CanvasRenderingContext2D] {
   const canvas = document.createElement('canvas');
@@ -92,12 +90,12 @@ export async function straightenedCanvas(
 
 /** Two pictures of a section side by side: on the left with its contour, on the right without. */
 export async function sectionPair(
-  { vessel, line, side }: { readonly vessel: number; readonly line: LineId; readonly side: number },
+  { vessel, line, spacing }: { readonly vessel: number; readonly line: LineId; readonly spacing: number },
   profile: Profile,
   at: number,
 ): Promise<HTMLCanvasElement> {
   const number = nearestSection(profile, at);
-  const plane = await planeOf(vessel, profile, { number, side });
+  const plane = await planeOf(vessel, profile, { number, spacing });
   const [picture, section] = await Promise.all([
     engine.ask('slice', { plane: plane, window: store.window_.value }),
     engine.ask('measured_section', { line, at }),
@@ -125,7 +123,7 @@ export async function sectionPair(
 async function planeOf(
   vessel: number,
   profile: Profile,
-  { number, side }: { readonly number: number; readonly side: number },
+  { number, spacing }: { readonly number: number; readonly spacing: number },
 ): Promise<Plane> {
   const [middle, right, down] = await engine.ask('across', { vessel, at: profile.arc_length[number] ?? 0 });
   return {
@@ -133,7 +131,7 @@ async function planeOf(
     right,
     down,
     size: [SIDE, SIDE],
-    pixel_spacing: side / (SIDE - 1),
+    pixel_spacing: spacing,
   };
 }
 

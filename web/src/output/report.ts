@@ -78,7 +78,7 @@ async function pageOf(finding: Finding, profile: Profile): Promise<ReportVessel>
   const plan = await engine.ask('report_plan', vessel);
   const sections: string[] = [];
   for (const { at } of plan.places) {
-    sections.push(pngOf(await sectionPair({ ...finding, side: plan.side }, profile, at)));
+    sections.push(pngOf(await sectionPair({ ...finding, spacing: plan.section_spacing }, profile, at)));
   }
   return {
     vessel,

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::scale::Axis;
 
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Axes {
+pub(crate) struct Axes {
     /// Arc length along the vessel (mm).
     pub x: Axis,
     /// Diameter (mm).
@@ -13,13 +13,13 @@ pub(super) struct Axes {
 }
 
 impl Axes {
-    fn point(&self, at: f64, value: f64) -> [f64; 2] {
+    pub(crate) fn point(&self, at: f64, value: f64) -> [f64; 2] {
         [self.x.pixel(at), self.y.pixel(value)]
     }
 }
 
 /// A polyline that is interrupted at NaN. A value between two NaN is not drawn.
-pub(super) fn line(axes: &Axes, at: &[f64], values: &[f64]) -> String {
+pub(crate) fn line(axes: &Axes, at: &[f64], values: &[f64]) -> String {
     let mut path = String::new();
     for run in stretches(values).iter().filter(|run| run.len() > 1) {
         push(&mut path, run.clone().map(|n| axes.point(at[n], values[n])));
@@ -27,7 +27,7 @@ pub(super) fn line(axes: &Axes, at: &[f64], values: &[f64]) -> String {
     path
 }
 
-pub(super) fn band(axes: &Axes, at: &[f64], low: &[f64], high: &[f64]) -> String {
+pub(crate) fn band(axes: &Axes, at: &[f64], low: &[f64], high: &[f64]) -> String {
     let both: Vec<f64> = low.iter().zip(high).map(|(low, high)| low + high).collect();
     let mut path = String::new();
     for run in stretches(&both).iter().filter(|run| run.len() > 1) {

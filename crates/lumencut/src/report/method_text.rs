@@ -6,7 +6,8 @@ use lumencut_vessels::measure::profile::Profile;
 use lumencut_vessels::measure::stenosis::Method;
 use serde::Deserialize;
 
-use super::{Shown, VesselPage, flag_rows};
+use super::chart::{FlagRow, flag_rows};
+use super::{Shown, VesselPage};
 use crate::measure_words::{of_method, of_source, of_wall};
 use crate::text::{fixed, rounded, shortest};
 
@@ -94,8 +95,8 @@ fn intensity(value: f64) -> String {
 
 fn flags(profile: &Profile) -> String {
     let count = |bit: u32| profile.flags.iter().filter(|bits| *bits & bit > 0).count();
-    let words: Vec<String> =
-        flag_rows(profile).iter().map(|flag| format!("{} {}", flag.word, count(flag.bit))).collect();
+    let told = |FlagRow { look, .. }: &FlagRow| format!("{} {}", look.word, count(look.bit));
+    let words: Vec<String> = flag_rows(profile).iter().map(told).collect();
     if words.is_empty() { "none".to_owned() } else { words.join(", ") }
 }
 

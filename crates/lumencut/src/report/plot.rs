@@ -6,36 +6,19 @@ use std::fmt::Write;
 use lumencut_core::error::Result;
 use lumencut_vessels::measure::profile::Profile;
 
-use super::curves::{Axes, band, isolated, line, runs};
+use super::Strip;
+use super::chart::{Chart, FlagRow};
+use super::curves::{Axes, band, line};
+use super::frame::{DEVIATIONS, Layout, MARGINS, TICK_DISTANCES};
 use super::markup::png_address;
 use super::places::ReportPlace;
 use super::scale::Axis;
-use super::{Strip, flag_rows};
-use crate::flag_table::FlagLook;
 use crate::text::{fixed, rounded};
 
 /// Plot width, height of the chart, and largest height of the straightened vessel (plot pixels).
-const WIDTH: f64 = 1000.0;
+pub(super) const WIDTH: f64 = 1000.0;
 const CHART: f64 = 270.0;
 pub(super) const STRIP: f64 = 150.0;
-
-/// Margins for axis numbers, place names, legend and ticks.
-const LEFT_MARGIN: f64 = 56.0;
-const RIGHT_MARGIN: f64 = 104.0;
-const TOP_MARGIN: f64 = 38.0;
-const BOTTOM_MARGIN: f64 = 34.0;
-
-/// Height of a row of flags, and the largest fraction of the chart for all rows.
-const ROW_HEIGHT: f64 = 12.0;
-const MAX_ROWS_SHARE: f64 = 0.45;
-
-/// Half the width of the uncertainty band, in standard deviations.
-const DEVIATIONS: f64 = 2.0;
-
-const HEADROOM: f64 = 1.12;
-
-/// Diameters smaller than this many times the FWHM are near the resolution limit.
-const RESOLUTION_LIMIT_FWHM: f64 = 1.5;
 
 const CURVE: &str = "#1f4e9c";
 const LEFT_OUT: &str = "#808080";
@@ -50,33 +33,10 @@ pub(super) struct Plot<'a> {
     pub has_units: bool,
 }
 
-struct Layout {
-    axes: Axes,
-    flags: Vec<&'static FlagLook>,
-    /// Height of a row of flags; the first row begins below diameter 0.
-    row: f64,
-    bottom: f64,
-}
-
-/// The axis along a vessel of this length (mm).
-pub(super) fn axis_along(length: f64) -> Axis {
-    Axis { low: 0.0, high: length, start: LEFT_MARGIN, end: WIDTH - RIGHT_MARGIN }
-}
-
-impl Layout {
-    fn of(profile: &Profile) -> Self {
-        let flags = flag_rows(profile);
-        let bottom = CHART - BOTTOM_MARGIN;
-        let row = ROW_HEIGHT.min(MAX_ROWS_SHARE * (bottom - TOP_MARGIN) / flags.len().max(1) as f64);
-        let start = bottom - row * flags.len() as f64;
-        let y = Axis { low: 0.0, high: top(profile), start, end: TOP_MARGIN };
-        Self { axes: Axes { x: axis_along(profile.length()), y }, flags, row, bottom }
-    }
-}
-
 impl Plot<'_> {
     pub(super) fn svg(&self) -> Result<String> {
-        let layout = Layout::of(self.profile);
+        let chart = Chart::of(self.profile);
+        let layout = Layout::of(&chart, [WIDTH, CHART]);
         let (strip, top) = self.strip_markup(&layout.axes.x)?;
         let mut svg = format!(
             "<svg viewBox=\"0 0 {WIDTH} {}\" role=\"img\" aria-label=\"vessel and its diameter\" \
@@ -85,8 +45,8 @@ impl Plot<'_> {
             fixed(top + CHART, 2)
         );
         self.push_grid(&mut svg, &layout);
-        self.push_curves(&mut svg, &layout);
-        self.push_flags(&mut svg, &layout);
+        self.push_curves(&mut svg, &layout, &chart);
+        push_flags(&mut svg, &layout, &chart);
         push_legend(&mut svg);
         svg.push_str("</g>\n");
         for place in self.places {
@@ -119,7 +79,7 @@ impl Plot<'_> {
     fn push_grid(&self, svg: &mut String, layout: &Layout) {
         let (Axes { x, y }, bottom) = (layout.axes, layout.bottom);
         let unit = if self.has_units { " (mm)" } else { "" };
-        for value in x.ticks(60.0) {
+        for value in x.ticks(TICK_DISTANCES[0]) {
             let (at, words) = (x.pixel(value), rounded(value, 6));
             push(
                 svg,
@@ -132,7 +92,7 @@ impl Plot<'_> {
                 ),
             );
         }
-        for value in y.ticks(18.0) {
+        for value in y.ticks(TICK_DISTANCES[1]) {
             let (at, words) = (y.pixel(value), rounded(value, 6));
             push(
                 svg,
@@ -163,21 +123,10 @@ impl Plot<'_> {
         );
     }
 
-    fn push_curves(&self, svg: &mut String, layout: &Layout) {
-        let (axes, profile) = (&layout.axes, self.profile);
-        let at = &profile.arc_length;
-        let counted = |values: &[f64]| -> Vec<f64> {
-            (0..values.len()).map(|n| if profile.counts(n) { values[n] } else { f64::NAN }).collect()
-        };
-        let all = profile.diameter_equivalent();
-        let width = counted(&all);
-        let spread = |sign: f64| -> Vec<f64> {
-            let away = |n: usize| width[n] + sign * DEVIATIONS * profile.uncertainty[n];
-            // The comparison keeps NaN.
-            (0..width.len()).map(away).map(|edge| if edge < 0.0 { 0.0 } else { edge }).collect()
-        };
-        let range = band(axes, at, &counted(&profile.diameter_min), &counted(&profile.diameter_max));
-        let (spread, curve) = (band(axes, at, &spread(-1.0), &spread(1.0)), line(axes, at, &width));
+    fn push_curves(&self, svg: &mut String, layout: &Layout, chart: &Chart) {
+        let (axes, at) = (&layout.axes, &chart.at);
+        let [range, spread] = [&chart.range, &chart.spread].map(|[low, high]| band(axes, at, low, high));
+        let curve = line(axes, at, &chart.width);
         push(
             svg,
             format_args!(
@@ -186,69 +135,31 @@ impl Plot<'_> {
                  <path class=\"width\" d=\"{curve}\" fill=\"none\" stroke=\"{CURVE}\" stroke-width=\"1.6\"/>\n"
             ),
         );
-        for n in isolated(&width) {
-            push_dot(svg, [axes.x.pixel(at[n]), axes.y.pixel(width[n])], &format!("fill=\"{CURVE}\""));
+        for n in &chart.isolated {
+            push_dot(svg, axes.point(at[*n], chart.width[*n]), &format!("fill=\"{CURVE}\""));
         }
-        let is_left_out = |n: &usize| !profile.counts(*n) && all[*n] <= axes.y.high;
-        for n in (0..profile.len()).filter(is_left_out) {
+        for [at, diameter] in &chart.left_out {
             let look = format!("class=\"left-out\" fill=\"none\" stroke=\"{LEFT_OUT}\"");
-            push_dot(svg, [axes.x.pixel(at[n]), axes.y.pixel(all[n])], &look);
+            push_dot(svg, axes.point(*at, *diameter), &look);
         }
-        self.push_limit(svg, axes);
+        self.push_limit(svg, axes, chart);
     }
 
-    fn push_limit(&self, svg: &mut String, axes: &Axes) {
-        let limit = RESOLUTION_LIMIT_FWHM * self.profile.fwhm;
-        if limit < axes.y.high {
-            let (at, unit) = (axes.y.pixel(limit), if self.has_units { " mm" } else { "" });
-            push(
-                svg,
-                format_args!(
-                    "<path class=\"limit\" d=\"M{} {at:.2}H{}\" stroke=\"{LEFT_OUT}\" \
-                     stroke-dasharray=\"1.5 3\"/><text x=\"{}\" y=\"{:.2}\" text-anchor=\"end\" \
-                     fill=\"{QUIET}\">{RESOLUTION_LIMIT_FWHM} × FWHM: {}{unit}</text>\n",
-                    axes.x.start,
-                    axes.x.end,
-                    axes.x.end - 4.0,
-                    at - 3.0,
-                    fixed(limit, 2)
-                ),
-            );
-        }
-    }
-
-    fn push_flags(&self, svg: &mut String, layout: &Layout) {
-        let (Axes { x, y }, row) = (layout.axes, layout.row);
-        let (at, flags) = (&self.profile.arc_length, &self.profile.flags);
-        let half = if at.len() > 1 { (at[1] - at[0]) / 2.0 } else { 0.5 };
-        for (n, flag) in layout.flags.iter().enumerate() {
-            let (color, top) = (flag.paper, y.start + n as f64 * row);
-            for run in runs(flags.len(), |n| flags[n] & flag.bit > 0) {
-                let [start, end] =
-                    [at[run.start] - half, at[run.end - 1] + half].map(|at| x.pixel_within(at));
-                push(
-                    svg,
-                    format_args!(
-                        "<rect x=\"{start:.2}\" y=\"{:.2}\" width=\"{:.2}\" height=\"{:.2}\" fill=\"{color}\"/>",
-                        top + 0.2 * row,
-                        (end - start).max(1.0),
-                        0.6 * row
-                    ),
-                );
-            }
-            push(
-                svg,
-                format_args!(
-                    "<text class=\"flag\" x=\"{}\" y=\"{:.2}\" fill=\"{color}\" font-size=\"{:.2}\">\
-                     <title>{}</title>{}</text>\n",
-                    x.end + 6.0,
-                    top + 0.5 * row + 4.0,
-                    row.clamp(7.0, 11.0),
-                    flag.meaning,
-                    flag.word
-                ),
-            );
-        }
+    fn push_limit(&self, svg: &mut String, axes: &Axes, chart: &Chart) {
+        let Some((limit, words)) = chart.limit.zip(chart.limit_words()) else { return };
+        let (at, unit) = (axes.y.pixel(limit), if self.has_units { " mm" } else { "" });
+        push(
+            svg,
+            format_args!(
+                "<path class=\"limit\" d=\"M{} {at:.2}H{}\" stroke=\"{LEFT_OUT}\" \
+                 stroke-dasharray=\"1.5 3\"/><text x=\"{}\" y=\"{:.2}\" text-anchor=\"end\" \
+                 fill=\"{QUIET}\">{words}{unit}</text>\n",
+                axes.x.start,
+                axes.x.end,
+                axes.x.end - 4.0,
+                at - 3.0,
+            ),
+        );
     }
 
     fn push_place(&self, svg: &mut String, layout: &Layout, place: &ReportPlace, top: f64) {
@@ -270,8 +181,39 @@ impl Plot<'_> {
                 "<g class=\"place\" stroke=\"{OUTLINE}\" fill=\"{fill}\"><path d=\"M{column:.2} 0V{top:.2}M{column:.2} {:.2}V{:.2}\" \
                  stroke=\"{color}\" stroke-width=\"1.4\"{dashes}/><path d=\"{symbol}\"/></g>\n",
                 // This keeps the words between vessel and chart readable.
-                top + TOP_MARGIN,
+                top + MARGINS.above,
                 top + layout.bottom
+            ),
+        );
+    }
+}
+
+fn push_flags(svg: &mut String, layout: &Layout, chart: &Chart) {
+    let (Axes { x, y }, row) = (layout.axes, layout.row);
+    for (n, FlagRow { look, runs }) in chart.flags.iter().enumerate() {
+        let (color, top) = (look.paper, y.start + n as f64 * row);
+        for run in runs {
+            let [start, end] = run.map(|at| x.pixel_within(at));
+            push(
+                svg,
+                format_args!(
+                    "<rect x=\"{start:.2}\" y=\"{:.2}\" width=\"{:.2}\" height=\"{:.2}\" fill=\"{color}\"/>",
+                    top + 0.2 * row,
+                    (end - start).max(1.0),
+                    0.6 * row
+                ),
+            );
+        }
+        push(
+            svg,
+            format_args!(
+                "<text class=\"flag\" x=\"{}\" y=\"{:.2}\" fill=\"{color}\" font-size=\"{:.2}\">\
+                 <title>{}</title>{}</text>\n",
+                x.end + 6.0,
+                top + 0.5 * row + 4.0,
+                row.clamp(7.0, 11.0),
+                look.meaning,
+                look.word
             ),
         );
     }
@@ -281,7 +223,7 @@ fn push_legend(svg: &mut String) {
     push(
         svg,
         format_args!(
-            "<g class=\"legend\" fill=\"{QUIET}\" transform=\"translate({LEFT_MARGIN} 12)\">\
+            "<g class=\"legend\" fill=\"{QUIET}\" transform=\"translate({} 12)\">\
              <path d=\"M0 -3H18\" stroke=\"{CURVE}\" stroke-width=\"1.6\"/>\
              <text x=\"23\">diameter of a circle of the same area</text>\
              <rect x=\"238\" y=\"-8\" width=\"18\" height=\"9\" fill=\"{CURVE}\" fill-opacity=\"0.4\"/>\
@@ -289,7 +231,8 @@ fn push_legend(svg: &mut String) {
              <rect x=\"404\" y=\"-8\" width=\"18\" height=\"9\" fill=\"{CURVE}\" fill-opacity=\"0.16\"/>\
              <text x=\"427\">shortest to longest</text>\
              <circle cx=\"549\" cy=\"-4\" r=\"2.5\" fill=\"none\" stroke=\"{LEFT_OUT}\"/>\
-             <text x=\"556\">excluded: see the flags</text></g>\n"
+             <text x=\"556\">excluded: see the flags</text></g>\n",
+            MARGINS.left
         ),
     );
 }
@@ -301,15 +244,4 @@ fn push_dot(svg: &mut String, [x, y]: [f64; 2], look: &str) {
 fn push(svg: &mut String, markup: std::fmt::Arguments) {
     // Writing to memory does not fail.
     let _ = svg.write_fmt(markup);
-}
-
-/// The upper end of the diameter axis (mm): above the largest diameter of reliable sections, else of all sections.
-fn top(profile: &Profile) -> f64 {
-    let widest = |is_among: &dyn Fn(usize) -> bool| {
-        let among = (0..profile.len()).filter(|n| is_among(*n)).map(|n| profile.diameter_max[n]);
-        among.filter(|value| value.is_finite()).fold(0.0, f64::max)
-    };
-    let counted = widest(&|n| profile.counts(n));
-    let most = if counted > 0.0 { counted } else { widest(&|_| true) };
-    if most > 0.0 { HEADROOM * most } else { 1.0 }
 }

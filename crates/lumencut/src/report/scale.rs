@@ -1,25 +1,33 @@
 //! Converts lengths to plot pixels, and places the ticks of an axis.
 
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Axis {
+use serde::Serialize;
+
+/// A linear axis: `low` (mm) lies at pixel `start`, `high` at `end`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub struct Axis {
+    /// Length at the start (mm).
     pub low: f64,
+    /// Length at the end (mm).
     pub high: f64,
+    /// First plot pixel.
     pub start: f64,
+    /// Last plot pixel.
     pub end: f64,
 }
 
 impl Axis {
-    pub(super) fn pixel(&self, value: f64) -> f64 {
+    pub(crate) fn pixel(&self, value: f64) -> f64 {
         self.start + (value - self.low) / (self.high - self.low) * (self.end - self.start)
     }
 
     /// The pixel of a length; lengths beyond the axis get the pixel of its end.
-    pub(super) fn pixel_within(&self, value: f64) -> f64 {
+    pub(crate) fn pixel_within(&self, value: f64) -> f64 {
         self.pixel(value.clamp(self.low, self.high))
     }
 
     /// The positions of ticks: multiples of 1, 2 or 5 times a power of ten, at least `pixels` apart; none on an empty axis.
-    pub(super) fn ticks(&self, pixels: f64) -> Vec<f64> {
+    pub fn ticks(&self, pixels: f64) -> Vec<f64> {
         let span = self.high - self.low;
         let most = (self.end - self.start).abs() / pixels;
         if !(span > 0.0 && most >= 1.0) {

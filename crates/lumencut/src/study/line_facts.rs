@@ -23,6 +23,11 @@ pub(crate) struct LineFacts {
     pub parent: Option<usize>,
 }
 
+/// The length of a line (mm).
+pub(super) fn length_of(line: &Line) -> f64 {
+    arc_lengths(&line.points).last().copied().unwrap_or_default()
+}
+
 impl Study {
     /// Facts about lines, in order; only these lines count for the connected parts.
     pub(crate) fn line_facts(&self, numbers: &[usize]) -> Result<Vec<LineFacts>> {
@@ -36,7 +41,7 @@ impl Study {
         let parents = parents(&points, &widths);
         let fact = |n: usize| LineFacts {
             line: numbers[n],
-            length: arc_lengths(&lines[n].points).last().copied().unwrap_or_default(),
+            length: length_of(&lines[n]),
             calibre: widths[n],
             part: part_of[n],
             parent: parents[n].map(|parent| numbers[parent]),

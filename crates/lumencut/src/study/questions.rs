@@ -17,6 +17,7 @@ use crate::study::labels::{LaidPicture, PictureLabels};
 use crate::study::line_facts::LineFacts;
 use crate::study::lines::{LineContent, ListedLine, NamedLine};
 use crate::study::lumens::{PointedLumen, PointedMessage};
+use crate::study::measure_layout::{MeasureLayout, MeasurePaneMessage};
 use crate::study::measure_messages::{
     ComparedMessage, DiameterMessage, GradeMessage, MarksMessage, ProfileMessage, SectionMessage,
     SpotMessage, StretchMessage, VesselMessage,
@@ -195,6 +196,10 @@ of_the_study {
     /// The findings on vessels and the straight distances (mm), in the sentences of the report.
     [Turn::First] findings { vessels: Vec<VesselMessage>, distances: Vec<f64>, stated: Stated } -> Findings =
         study.findings(&vessels, &distances, (stated, asking.watch.stop))?;
+
+    /// The layout of a pane with the straightened vessel and the chart of its diameters.
+    [Turn::First] measure_layout(pane: MeasurePaneMessage) -> MeasureLayout =
+        study.measure_layout(&pane, asking.watch.stop)?;
 
     /// The pictures needed for a vessel's report.
     [Turn::First] report_plan(vessel: VesselMessage) -> crate::report::Plan =

@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value as Json};
 
 use crate::profile_json::Asked;
+use crate::report::section_room::PAGE_PIXELS;
 use crate::report::{
     Lengths, Plan, ReportMark, Sentence, Shown, Stated, Strip, VesselPage, View, distances, html, plan,
     sentences,
@@ -111,7 +112,7 @@ impl Study {
         let marked = vessel.marks.marked()?;
         let profile = self.measured(vessel.line, stop)?;
         let marks: Vec<ReportMark> = marked.places(profile).iter().map(ReportMark::from).collect();
-        Ok(plan(profile, &marks))
+        Ok(plan(profile, &marks, PAGE_PIXELS))
     }
 
     pub(crate) fn measured_report(&mut self, message: &ReportMessage, stop: Stop) -> Result<String> {

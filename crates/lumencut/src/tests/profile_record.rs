@@ -219,7 +219,7 @@ fn used(profile: &Profile, scan: &ScanDetails) {
     let (method, diameters) = (Method::Nascet, vec![3.0]);
     let marked = Marked { at: Some(10.0), method, compared, group: None, diameters };
     let _ = (marked.grade(profile), marked.places(profile), not_measured(profile));
-    let _ = (profile_csv(profile, scan), profile_json(profile, scan), plan(profile, &[]));
+    let _ = (profile_csv(profile, scan), profile_json(profile, scan), plan(profile, &[], 64));
     let _ = (profile.c_arm([0.0, 5.0], None), profile.direction([0.0, 5.0]));
 }
 

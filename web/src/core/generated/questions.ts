@@ -17,6 +17,18 @@ export type AfterEdit = {
   readonly pick: Pick | null;
 };
 
+/** A linear axis: `low` (mm) lies at pixel `start`, `high` at `end`. */
+export type Axis = {
+  /** Length at the start (mm). */
+  readonly low: number;
+  /** Length at the end (mm). */
+  readonly high: number;
+  /** First plot pixel. */
+  readonly start: number;
+  /** Last plot pixel. */
+  readonly end: number;
+};
+
 /** An orthographic camera, with unit vectors as axes. */
 export type Camera = {
   readonly center: Vector;
@@ -33,6 +45,33 @@ export type CenterlineWish = {
   /** `um`, `mm`, `cm`, `dm` or `m`. */
   readonly unit?: string;
   readonly reorder?: boolean;
+};
+
+/** A chart in plot pixels from its upper left corner. Curves are SVG paths. */
+export type ChartLayout = {
+  readonly size: Pair;
+  readonly y: Axis;
+  /** Height of a row of flags; the first row begins below diameter 0. */
+  readonly row: number;
+  /** Distance between the words of flags; the last word aligns with the last row. */
+  readonly word_row: number;
+  /** The end of the last row. */
+  readonly bottom: number;
+  /** Ticks along x and y. */
+  readonly ticks: readonly [ReadonlyArray<Tick>, ReadonlyArray<Tick>];
+  /** The band from the shortest to the longest diameter. */
+  readonly range: string;
+  /** The band of the uncertainty. */
+  readonly spread: string;
+  /** Diameters of the circle of the same area. */
+  readonly width: string;
+  /** Diameters of sections without neighbours. */
+  readonly isolated: ReadonlyArray<Pair>;
+  /** Diameters of sections that are left out. */
+  readonly left_out: ReadonlyArray<Pair>;
+  /** The limit of resolution. */
+  readonly limit: Tick | null;
+  readonly flags: ReadonlyArray<FlagBars>;
 };
 
 /** A stenosis and the places to compare it with before it is graded, such as offered references (arc lengths, mm). */
@@ -210,6 +249,13 @@ export type FirstClick = {
   readonly whole: WholeVessel | null;
 };
 
+/** A row of a flag. */
+export type FlagBars = {
+  readonly look: FlagLook;
+  /** First and last column of each bar. */
+  readonly bars: ReadonlyArray<Pair>;
+};
+
 /** A flag of a section. */
 export type FlagLook = {
   /** The word for the flag in tables and reports, such as `no clear wall`; it is part of the file formats. */
@@ -309,6 +355,27 @@ export type Marks = {
   /** The ends of a second stretch, for the angle between both stretches. */
   readonly secondStretch: Pair | null;
   readonly diameters: ReadonlyArray<number>;
+};
+
+/** The layout of a measuring pane. */
+export type MeasureLayout = {
+  /** The axis of the arc length, which vessel and chart share. */
+  readonly x: Axis;
+  readonly strip: StripLayout;
+  readonly chart: ChartLayout | null;
+};
+
+/** A line to lay out in a pane. */
+export type MeasurePane = {
+  readonly line: number;
+  /** Whether the line was measured; otherwise it gets no chart. */
+  readonly is_measured: boolean;
+  /** Width and height of the pane (plot pixels). */
+  readonly size: Pair;
+  /** Height between vessel and chart that the viewer uses for other things (plot pixels). */
+  readonly between: number;
+  /** Pixels of the straightened vessel per plot pixel. */
+  readonly density: number;
 };
 
 /** A section: its number, the wall, and the ends of the shortest and longest diameter (mm, LPS). */
@@ -554,8 +621,8 @@ export type ReportPlan = {
   readonly spacing: number;
   /** The places of the section pictures, in order. */
   readonly places: ReadonlyArray<ReportPlace>;
-  /** The side of the section pictures (mm). */
-  readonly side: number;
+  /** Pixel side of the section pictures (mm). */
+  readonly section_spacing: number;
 };
 
 export type ReportRequest = {
@@ -840,6 +907,24 @@ export type Stretch = {
   /** The angles as displayed on a C-arm: `RAO 20° CRAN 5°`. */
   readonly c_arm: string;
   readonly view: Look;
+};
+
+/** The layout of the straightened vessel, which lies above its chart. */
+export type StripLayout = {
+  /** Width across the vessel (mm). */
+  readonly width: number;
+  /** Pixel side of the picture (mm). */
+  readonly spacing: number;
+  /** Height (plot pixels). */
+  readonly height: number;
+  /** Height relative to the scale along the vessel; 1 is true to scale. */
+  readonly stretch: number;
+};
+
+/** A pixel of an axis, and the words beside it, without unit. */
+export type Tick = {
+  readonly at: number;
+  readonly words: string;
 };
 
 export type Told = {
@@ -1209,6 +1294,11 @@ export type Questions = {
     };
     readonly answer: Findings;
   };
+  /** The layout of a pane with the straightened vessel and the chart of its diameters. */
+  readonly measure_layout: {
+    readonly message: MeasurePane;
+    readonly answer: MeasureLayout;
+  };
   /** The pictures needed for a vessel's report. */
   readonly report_plan: {
     readonly message: MeasuredVessel;
@@ -1317,6 +1407,7 @@ export const TURNS = {
   profiles_json: { when: 'first', words: null },
   profile_record: { when: 'first', words: null },
   findings: { when: 'first', words: null },
+  measure_layout: { when: 'first', words: null },
   report_plan: { when: 'first', words: null },
   measured_report: { when: 'first', words: null },
   write_session: { when: 'first', words: null },

@@ -2,6 +2,8 @@
 
 use super::generated::require_current;
 use crate::drags::GESTURES;
+use crate::report::frame::DEVIATIONS;
+use crate::report::section_room::PAGE_PIXELS;
 use crate::study::palette::PALETTE;
 use crate::vessel_names::{NamedVessel, VESSEL_NAMES};
 
@@ -25,6 +27,10 @@ fn constants() -> String {
     )
 }
 
+fn number(about: &str, name: &str, value: impl std::fmt::Display) -> String {
+    format!("\n/** {about} */\nexport const {name} = {value};\n")
+}
+
 #[test]
 fn the_tables_of_the_page_are_those_of_the_facade() {
     let names: Vec<String> = VESSEL_NAMES.iter().flat_map(NamedVessel::offered).collect();
@@ -32,6 +38,8 @@ fn the_tables_of_the_page_are_those_of_the_facade() {
         table("Names of vessels that have a code in reports.", "VESSEL_NAMES", &names),
         table("Colours of vessels with their names, in the order of their use.", "PALETTE", &PALETTE),
         constants(),
+        number("Side of a section picture in a report (pixels).", "SECTION_PIXELS", PAGE_PIXELS),
+        number("Half width of the uncertainty band, in standard deviations.", "DEVIATIONS", DEVIATIONS),
     ];
     require_current("tables.ts", &(HEAD.to_owned() + &tables.concat()));
 }

@@ -1,0 +1,18 @@
+"""Plot pixels, the unit of the frame of charts, in figures of matplotlib."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+#: Plot pixels of an inch.
+PER_INCH = 100
+
+
+def plot_pixels(axes: Axes) -> tuple[float, float]:
+    """Return width and height of axes (plot pixels)."""
+    box, figure = axes.get_window_extent(), axes.get_figure(root=True)
+    assert figure is not None, "these axes have been removed"
+    return box.width / figure.dpi * PER_INCH, box.height / figure.dpi * PER_INCH

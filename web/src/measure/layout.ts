@@ -1,0 +1,36 @@
+/** Layout of the measuring pane, which the engine decides (CSS pixels). */
+import { useEffect, useRef, useState } from 'preact/hooks';
+import { engine } from '../client/shared';
+import { Latest } from '../core/latest';
+import type { LineId, MeasureLayout, Pair } from '../core/messages';
+import { recover } from '../state/device';
+import { unlessGone } from './asking';
+import { currentProfile, currentVessel } from './current';
+import { TOOLS } from './SectionTools';
+
+interface Laid {
+  readonly line: LineId;
+  readonly layout: MeasureLayout;
+}
+
+/** The layout of the picked vessel; while a new one is computed, the previous one of this vessel. */
+export function useMeasureLayout(size: Pair | null): MeasureLayout | null {
+  const line = currentVessel.value?.line ?? null;
+  const profile = currentProfile.value;
+  const [laid, setLaid] = useState<Laid | null>(null);
+  const latest = useRef(new Latest());
+  const density = Math.min(window.devicePixelRatio || 1, 2);
+  useEffect(() => {
+    if (line === null || !size) {
+      return;
+    }
+    const pane = { line, is_measured: profile !== null, size, between: TOOLS, density };
+    latest.current.run(async () => {
+      const layout = await engine.ask('measure_layout', pane).catch(unlessGone).catch(recover);
+      if (layout) {
+        setLaid({ line, layout });
+      }
+    });
+  }, [line, profile, size, density]);
+  return laid?.line === line ? laid.layout : null;
+}
