@@ -116,13 +116,9 @@ const MARKUPS: FileKind = FileKind {
     written: &[".mrk.json"],
     ..lines("markups", "3D Slicer markups", "3D Slicer markups")
 };
-const EMPTY: FileKind = FileKind {
-    role: Role::Other,
-    mend: "copy or export it again",
-    ..volume("empty", "an empty file", "")
-};
-const UNKNOWN: FileKind =
-    FileKind { role: Role::Other, ..volume("unknown", "a file of unknown format", "") };
+const EMPTY: FileKind =
+    FileKind { role: Role::Other, mend: "copy or export it again", ..volume("empty", "an empty file", "") };
+const UNKNOWN: FileKind = FileKind { role: Role::Other, ..volume("unknown", "a file of unknown format", "") };
 
 /// A kind of centerlines that only the name states.
 const fn named(
@@ -198,11 +194,13 @@ fn of_bytes(head: &[u8], name: &str) -> Option<FileKind> {
     if head.get(128..132) == Some(b"DICM") || is_bare {
         return Some(DICOM);
     }
-    let is_image = |line: &[u8]| value_after(line, b"ObjectType", b'=').is_some_and(|v| v.starts_with(b"Image"));
+    let is_image =
+        |line: &[u8]| value_after(line, b"ObjectType", b'=').is_some_and(|v| v.starts_with(b"Image"));
     if METAIMAGE.decisive.iter().any(|ending| name.ends_with(ending)) || lines_of(head).any(is_image) {
         return Some(METAIMAGE);
     }
-    let length = head.first_chunk::<4>().map(|bytes| [u32::from_le_bytes(*bytes), u32::from_be_bytes(*bytes)]);
+    let length =
+        head.first_chunk::<4>().map(|bytes| [u32::from_le_bytes(*bytes), u32::from_be_bytes(*bytes)]);
     length.is_some_and(|both| both.iter().any(|length| matches!(length, 348 | 540))).then_some(NIFTI)
 }
 
@@ -281,7 +279,9 @@ fn quoted(text: &[u8]) -> Option<&[u8]> {
 /// The volumes that are read, as messages name them.
 pub fn volume_files() -> String {
     let formats: Vec<String> = read(Role::Volume)
-        .map(|kind| format!("{} ({})", kind.title, kind.extensions.join(", ").replace(".hdr, .img", ".hdr + .img")))
+        .map(|kind| {
+            format!("{} ({})", kind.title, kind.extensions.join(", ").replace(".hdr, .img", ".hdr + .img"))
+        })
         .collect();
     format!("a DICOM folder, file or zip archive, {}", listed(&formats))
 }

@@ -75,8 +75,5 @@ fn messages_name_every_kind_that_is_read() {
         "a DICOM folder, file or zip archive, NIfTI (.nii, .nii.gz, .hdr + .img), NRRD (.nrrd, .nhdr) or \
          MetaImage (.mha, .mhd)"
     );
-    assert_eq!(
-        centerline_files(),
-        "centerlines (.vtp, .vtk, .mrk.json, .fcsv, .pth, .swc, .tre, .csv)"
-    );
+    assert_eq!(centerline_files(), "centerlines (.vtp, .vtk, .mrk.json, .fcsv, .pth, .swc, .tre, .csv)");
 }

@@ -35,7 +35,11 @@ fn the_tables_of_the_page_are_those_of_the_facade() {
         table("Names of vessels that have a code in reports.", "VESSEL_NAMES", &names),
         table("Colours of vessels with their names, in the order of their use.", "PALETTE", &PALETTE),
         record("What is taken unless the user chooses, by function and parameter.", "DEFAULTS", &defaults),
-        table("Smallest and largest pixel side of reformations by default (mm).", "PIXEL_SIDES", &PIXEL_SIDES),
+        table(
+            "Smallest and largest pixel side of reformations by default (mm).",
+            "PIXEL_SIDES",
+            &PIXEL_SIDES,
+        ),
         record("Files that can be opened, in the words of messages.", "FILES", &files),
     ];
     require_current("tables.ts", &(HEAD.to_owned() + &tables.concat()));
