@@ -21,7 +21,7 @@ from lumencut import (
     untangled,
 )
 from lumencut.cli import main
-from lumencut.cohort.recipe import Pictures
+from lumencut.cohort.recipe import Measure, Pictures
 from lumencut.cohort.study import _pictures
 from lumencut.measured_vessel import GROUPS
 from lumencut.renderer import Renderer
@@ -74,6 +74,10 @@ def test_defaults_of_functions_and_commands_are_those_of_the_table(function, par
     # The command dims what lies beyond the edges, the function repeats nothing.
     expected = 15 if (function, parameter) == ("lumen_map", "overlap") else default
     assert all(number == expected for number in chosen if isinstance(number, (int, float)))
+
+
+def test_the_step_of_cohorts_is_that_of_the_table():
+    assert Measure().step == _lumencut.DEFAULTS["measure.step"]
 
 
 def test_the_default_width_is_that_of_the_table():

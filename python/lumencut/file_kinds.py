@@ -54,7 +54,7 @@ def kind_of(path: Path) -> Kind | None:
 
 
 def extensions(role: str, *, written: bool = False) -> tuple[str, ...]:
-    """Return the file name extensions of a role, such as ``.vtp``: those that are read, or those that are written."""
+    """Return the file name extensions of a role, such as ``.vtp``, that are read or written."""
     kinds = [(read, saved) for _, of_role, _, read, saved in _lumencut.FILE_KINDS if of_role == role]
     return tuple(one for read, saved in kinds for one in (saved if written else read))
 

@@ -74,9 +74,9 @@ quantities! {
     UNTANGLED_SMOOTHING "untangled.smoothing", 4.0, [0.0, 1e3] "mm",
         "Standard deviation of the Gaussian that smooths the directions of untangled vessels.";
     RADIUS_OFFSET "cr.radius_offset", 50.0, [0.0, 1e6] "pixels",
-        "How far beyond its radius a vessel hides what lies behind it in cutaway rendering.";
+        "How far beyond its radius a vessel hides what lies behind it in Centerline Reformation.";
     ARC_THRESHOLD "cr.arc_threshold", 150.0, [0.0, 1e6] "pixels",
-        "Largest distance along the tree at which two places belong to one stretch in cutaway rendering.";
+        "Largest distance along the tree at which two places belong to one stretch in Centerline Reformation.";
     FOCUS_MARGIN "Focus.margin", 2.0, [-1e6, 1e6] "mm", "How far beyond the wall the focus shows the cut at full strength.";
     FOCUS_FADE "Focus.fade", 6.0, [0.0, 1e6] "mm", "Distance over which the focus then fades into the context.";
     TURN_FRAMES "turntable.frames", 72.0, [1.0, 1e6] "", "Frames of a full turn.";
