@@ -35,7 +35,7 @@ pub const PIXEL_SIDE_WORDS: &str = "the smallest voxel side, at least 0.05 and a
 ///
 /// The largest side leaves room for labels, the smallest one bounds the size of pictures of very fine scans.
 pub fn pixel_side(smallest_side: f64) -> f64 {
-    smallest_side.max(PIXEL_SIDES[0]).min(PIXEL_SIDES[1])
+    smallest_side.clamp(PIXEL_SIDES[0], PIXEL_SIDES[1])
 }
 
 macro_rules! quantities {
