@@ -1,4 +1,4 @@
-"""Requests for "Save for PACS" as the page sends them, of vessels that Python measured."""
+"""Requests for "Save for PACS" as the page sends them, about vessels that Python measured."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from lumencut.measured_vessel import Marked, MeasuredVessel, vessels_json
 
 NAME = "left renal artery"
 MARKED = Marked(12.0, (24.0,))
-#: The options of `lumencut measure` that its JSON and its report tell.
+#: The options of `lumencut measure` that its JSON and its report repeat.
 ASKED: dict[str, Any] = {
     "step": 0.5,
     "fwhm": None,
@@ -31,14 +31,14 @@ ASKED: dict[str, Any] = {
 
 @cache
 def measured(marked: Marked = MARKED, name: str | None = NAME) -> MeasuredVessel:
-    """The vessel of the phantom with what is marked on it."""
+    """The vessel of the phantom, with marks."""
     vessel = Vessel(LINE[0].points, 3.0, name)
     return MeasuredVessel.of("0", vessel, lumencut.measure(scan(), vessel), marked)
 
 
 @cache
 def renderer() -> Renderer:
-    """What draws the phantom."""
+    """A renderer of the phantom."""
     return Renderer(scan(), VesselTree([Vessel(LINE[0].points, 3.0, NAME)]))
 
 
@@ -64,13 +64,13 @@ def html(marked: Marked = MARKED, name: str | None = NAME) -> str:
 
 
 def header() -> bytes:
-    """What stands before the pixels of a slice of the scan."""
+    """Return the part of a slice's file before the pixels."""
     content = next(iter(sorted(series().iterdir()))).read_bytes()
     return content[: content.rindex(b"\xe0\x7f\x10\x00") + 12]
 
 
 def view_part() -> dict[str, Any]:
-    """The turning view."""
+    """The part of the request about the turning view."""
     shown = camera()
     vectors = {name: [float(one) for one in getattr(shown, name)] for name in ("center", "direction", "up")}
     return {
@@ -83,7 +83,7 @@ def view_part() -> dict[str, Any]:
 
 
 def finding_part(one: MeasuredVessel) -> dict[str, Any]:
-    """A finding with its key image."""
+    """The part of the request about a finding, with its key image."""
     profile = one.profile
     marked = [mark.arc_length for mark in one.marks if not mark.is_suggestion]
     contours = [[at, profile.contour[profile._core.nearest(at)].tolist()] for at in marked]
@@ -97,7 +97,7 @@ def finding_part(one: MeasuredVessel) -> dict[str, Any]:
 
 
 def request(choice: str = "scan", marked: Marked = MARKED, name: str | None = NAME) -> dict[str, Any]:
-    """A request for all objects, of a scan that the server shows."""
+    """A request for all objects of a scan that the server shows."""
     one = measured(marked, name)
     return {
         "version": 1,
@@ -113,7 +113,7 @@ def request(choice: str = "scan", marked: Marked = MARKED, name: str | None = NA
 
 
 def dropped(choice: str = "scan", **study: Any) -> dict[str, Any]:
-    """The same of a DICOM folder that was dropped into the page."""
+    """The same request for a DICOM folder that was dropped into the page."""
     asked = request(choice)
     uids = [data.SOPInstanceUID for data in slices()]
     given = {"choice": choice, "is_served": False, "header": encoded(header()), "instances": uids}
@@ -122,19 +122,19 @@ def dropped(choice: str = "scan", **study: Any) -> dict[str, Any]:
 
 @cache
 def slices() -> list[Any]:
-    """The headers of the scan."""
+    """Return the headers of all slices of the scan."""
     import pydicom
 
     return [pydicom.dcmread(path, stop_before_pixels=True) for path in sorted(series().iterdir())]
 
 
 def sent(asked: dict[str, Any]) -> bytes:
-    """A request as bytes."""
+    """Return a request as bytes."""
     return json.dumps(asked).encode()
 
 
 def members(archive: bytes, folder: Path) -> dict[str, Path]:
-    """The files of an archive, unpacked."""
+    """Return the files of an archive, unpacked."""
     with zipfile.ZipFile(io.BytesIO(archive)) as opened:
         assert opened.testzip() is None
         opened.extractall(folder)

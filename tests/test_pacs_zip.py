@@ -1,4 +1,4 @@
-"""What "Save for PACS" gives for what the page sends: the objects that Python writes, and plain refusals."""
+"""The archive of "Save for PACS" has the same objects as Python writes; bad requests give plain errors."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def made(asked, folder, served=True):
 
 
 def own_report(path, anonymous=False, marked=None):
-    """The structured report that Python writes of the same."""
+    """The structured report that Python writes about the same findings."""
     one = measured() if marked is None else measured(marked)
     one = one.unnamed() if anonymous else one
     study = chosen_study(scan()._origin, None, anonymous=anonymous)
@@ -75,7 +75,7 @@ def test_the_structured_report_is_that_of_python(tmp_path, marked):
     [
         (Marked(12.0), ["Site of Lumen Minimum"]),
         (Marked(12.0, diameters=(24.0,)), ["Site of Lumen Minimum"]),
-        # A diameter that was noted says nothing of a narrowing.
+        # A noted diameter does not mean a narrowing.
         (Marked(diameters=(24.0,)), []),
     ],
 )
@@ -93,7 +93,7 @@ def test_the_view_is_the_picture_that_is_shown(tmp_path):
     assert float(data.PixelSpacing[0]) == pytest.approx(own.pixel_spacing)
     assert list(data.PatientOrientation) == ["L", "F"]
     assert len(data.SourceImageSequence) == len(slices())
-    # No ruler is true across the others.
+    # A ruler would measure wrongly across the other pictures.
     assert "PixelSpacing" not in pydicom.dcmread(tmp_path / "vessel.dcm")
 
 
@@ -153,7 +153,7 @@ def test_a_file_of_the_study_can_be_chosen(tmp_path):
 
 
 def with_header(folder, change):
-    """What stands before the pixels of a slice of the scan that a change was made to."""
+    """Change a slice of the scan; return the part of its file before the pixels."""
     data = pydicom.dcmread(next(iter(sorted(series().iterdir()))))
     change(data)
     data.save_as(folder / "changed.dcm")
@@ -161,7 +161,7 @@ def with_header(folder, change):
 
 
 def of_patient(name):
-    """A change of the header: another ID."""
+    """Change the ID in a header."""
     return lambda data: setattr(data, "PatientID", name)
 
 
@@ -258,7 +258,7 @@ def test_what_is_missing_is_named_with_its_extra(monkeypatch, package, extra):
 
 
 def broken():
-    """Requests that no page sends, each with a part of what is said of it."""
+    """Requests that no page sends, each with a part of the expected error."""
     yield {"version": 2}, "another version"
     yield {"study": None}, "the request: study"
     yield {"findings": 3}, "a number as the request: findings"

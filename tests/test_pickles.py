@@ -1,4 +1,4 @@
-"""Pickles of public values: what they name, and that what comes out is what went in."""
+"""Pickles of public values: the names in them, and that values are equal after unpickling."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def values(tube, profile):
 
 def test_pickles_name_no_module_of_the_package(values):
     for name, value in values.items():
-        # The oldest binary protocol writes each name in full.
+        # The oldest binary protocol writes every name in full.
         operations = pickletools.genops(pickle.dumps(value, 2))
         found = {argument for operation, argument, _ in operations if operation.name == "GLOBAL"}
         assert {one for one in found if one.startswith("lumencut")} == {"lumencut _restored"}, name
@@ -74,7 +74,7 @@ def test_a_pickle_survives_a_move_of_its_module(monkeypatch, values):
 
 
 def all_of(profile):
-    """Everything that a profile holds, as bytes and texts."""
+    """Return everything that a profile holds, as bytes and texts."""
     columns, flags, spread, wall = _lumencut.stored_profile(profile._core)
     numbers = {name: values.tobytes() for name, values in columns}
     return numbers, flags.tobytes(), spread, wall, profile.scan, profile.to_json()
@@ -120,7 +120,7 @@ def test_a_profile_of_another_version_is_refused(profile):
 
 
 class Named(Vessel):
-    """A vessel of another program's class."""
+    """A subclass of Vessel defined in another program."""
 
 
 def test_a_subclass_is_pickled_as_itself():

@@ -1,6 +1,6 @@
 """Kinds of files by their first bytes, for errors about a wrong file.
 
-Another module chooses the reader of a file; here a file may remain unknown.
+Readers of files are chosen in another module; here a file may remain unknown.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ class Kind:
     Attributes
     ----------
     role : "volume" or "centerlines"
-        Which of the two it can be.
+        Which of the two the file may be.
     name : str
         Its description, such as ``a NIfTI volume``.
     mend : str
@@ -60,7 +60,7 @@ def extensions(role: str, *, written: bool = False) -> tuple[str, ...]:
 
 
 def _head(path: Path) -> bytes:
-    """The first bytes, decompressed if gzipped."""
+    """Return the first bytes of a file, decompressed if it is gzipped."""
     with path.open("rb") as file:
         head = file.read(_lumencut.FILE_HEAD)
     if not head.startswith(b"\x1f\x8b"):

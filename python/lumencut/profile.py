@@ -31,14 +31,14 @@ class Spot(NamedTuple):
 
 @by_name
 class Stretch(NamedTuple):
-    """The length of a stretch of a vessel (mm): along it, and straight from end to end."""
+    """The length of a part of a vessel (mm): along the vessel, and straight from end to end."""
 
     length: float
     straight: float
 
     @property
     def tortuosity(self) -> float:
-        """The length along the vessel in straight distances: 1 for a straight stretch."""
+        """The length along the vessel divided by the straight distance: 1 for a straight part."""
         return self.length / self.straight if self.straight > 0 else math.inf
 
 
@@ -96,7 +96,7 @@ class Profile(ProfileNumbers, ProfileOutputs):
 
     @property
     def scan(self) -> ScanDetails:
-        """Acquisition details of the measured scan, from its file; :attr:`fwhm_source` has its blur."""
+        """Acquisition details of the measured scan, from its file; :attr:`fwhm_source` describes the blur."""
         return ScanDetails(*_lumencut.scan_of(self._core))
 
     @property

@@ -20,14 +20,14 @@ _ENDINGS = (".csv", ".json")
 
 
 def is_profile_file(path: Path) -> bool:
-    """Return whether the ending of a path is that of a profile."""
+    """Return whether the file name extension is that of a profile."""
     return path.suffix.lower() in _ENDINGS
 
 
 def csv_text(sections: Sections) -> str:
-    """Return a profile as a table, a line for each section after the line of the names.
+    """Return a profile as a table: a line with the column names, then a line for each section.
 
-    Numbers have seven digits, and what could not be measured is empty.
+    Numbers have seven digits; unmeasured values are empty.
     """
     return _lumencut.profile_csv(sections._core)
 

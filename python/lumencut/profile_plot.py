@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-#: Half width of the band in standard deviations, and resolution of pictures (pixels per inch).
+#: Half width of the uncertainty band (standard deviations), and resolution of pictures (pixels per inch).
 _DEVIATIONS, _DPI = 2, 150
 
 #: Size of a plot (inches), left and right edge of its axes (shares), and the other edges (inches).
@@ -72,7 +72,7 @@ def draw(axes: Axes, sections: Sections, marks: Sequence[Mark]) -> None:
         label=f"± {_DEVIATIONS} standard deviations (noise and fit)",
     )
     axes.plot(x, wide, color=_LINE, lw=1.6, label="diameter of a circle of the same area")
-    # A section between two that do not count is drawn as a dot, not as a line.
+    # A section between two sections that do not count is drawn as a dot, not as a line.
     lonely = counted & ~np.append(counted[1:], False) & ~np.append(False, counted[:-1])
     axes.plot(x[lonely], wide[lonely], ".", color=_LINE, ms=4)
     top = _top(sections, counted)
@@ -97,7 +97,7 @@ def draw(axes: Axes, sections: Sections, marks: Sequence[Mark]) -> None:
 
 
 def figure_of(profiles: Sequence[tuple[str, Sections, Sequence[Mark]]]) -> Figure:
-    """Return a figure of profiles below each other, each with its title."""
+    """Return a figure of profiles, one below the other, each with its title."""
     check_matplotlib()
     from matplotlib import style
     from matplotlib.figure import Figure
@@ -116,11 +116,11 @@ def figure_of(profiles: Sequence[tuple[str, Sections, Sequence[Mark]]]) -> Figur
 
 
 def write(figure: Figure, path: Path) -> None:
-    """Write a figure as ``.png`` or ``.svg``, the same each time."""
+    """Write a figure as ``.png`` or ``.svg``; equal figures give equal bytes."""
     import matplotlib as mpl
 
     kind = path.suffix.lower().removeprefix(".")
-    # Without the date, and without the address of a web page.
+    # The metadata contain neither a date nor the address of a web page.
     software = f"lumencut {_lumencut.__version__}"
     metadata: dict[str, Any] = {"Software": software}
     if kind == "svg":
@@ -134,12 +134,12 @@ def _diameters(sections: Sections) -> tuple[npt.NDArray[np.float64], ...]:
 
 
 def _edges(height: float) -> tuple[float, float, float, float]:
-    """Left, bottom, right and top of the axes (shares of the figure)."""
+    """Return left, bottom, right and top of the axes (shares of the figure)."""
     return _SIDES[0], _BELOW / height, _SIDES[1], 1 - _ABOVE / height
 
 
 def _top(sections: Sections, counted: npt.NDArray[np.bool_]) -> float:
-    """The largest diameter that fits into the plot (mm)."""
+    """Return the largest diameter that fits into the plot (mm)."""
     wide = sections.diameter_max[counted]
     if not len(wide):
         wide = sections.diameter_max[np.isfinite(sections.diameter_max)]
@@ -157,7 +157,7 @@ def _draw_marks(axes: Axes, marks: Sequence[Mark]) -> None:
 
 
 def _draw_flags(axes: Axes, sections: Sections) -> float:
-    """Draw a row for each flag that is set somewhere, and return the share of the height that rows take."""
+    """Draw a row for each flag that is set anywhere; return the share of the height used by these rows."""
     present = [flag for flag in Flag if (sections.flags & int(flag)).any()]
     row = 0.052
     for number, flag in enumerate(present):
@@ -182,7 +182,7 @@ def _draw_flags(axes: Axes, sections: Sections) -> float:
 
 
 def _runs(sections: Sections, flag: Flag) -> list[tuple[float, float]]:
-    """Where stretches with a flag begin, half a step before their first section, and their lengths (mm)."""
+    """Return starts (mm), half a step before the first section, and lengths (mm) of runs with a flag."""
     x = sections.arc_length
     step = float(x[1] - x[0]) if len(x) > 1 else 1.0
     is_set = np.concatenate([[False], (sections.flags & int(flag)) != 0, [False]])

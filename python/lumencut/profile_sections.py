@@ -1,4 +1,4 @@
-"""Content for plots and reports of a profile: words of its flags, and marked places."""
+"""What plots and reports show of a profile: names of flags, and marked places."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ class Mark:
 
     @property
     def is_reference(self) -> bool:
-        """Whether it is a reference of a stenosis."""
+        """Return whether it is a reference of a stenosis."""
         return self.name == "reference"
 
     @property
@@ -84,11 +84,11 @@ class Mark:
 
     @property
     def title(self) -> str:
-        """Its name, and whether it is only a suggestion."""
+        """Return its name, and whether it is only a suggestion."""
         return f"{self.name} (suggestion)" if self.is_suggestion else self.name
 
     def __str__(self) -> str:
-        """The place in words, with its diameter."""
+        """Return the place in words, with its diameter."""
         return f"{self.title}: {self.diameter:.2f} mm at {self.arc_length:.1f} mm"
 
 

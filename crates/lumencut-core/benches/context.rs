@@ -1,4 +1,4 @@
-//! Times of the context: the sampler against a scalar loop, and every mode with and without block skipping.
+//! Times of the context: vectorised sampling against a scalar loop, and each mode with and without skipping.
 
 use glam::{DAffine3, DVec3};
 use lumencut_core::camera::Camera;
@@ -21,7 +21,7 @@ use lumencut_scenes::workloads::WORKLOADS;
 const SIDE: usize = 256;
 const PACKETS: usize = 2048;
 const SAMPLES: usize = 128;
-/// Number of samples of a ray that are taken together.
+/// Number of samples of a ray that are taken in one call.
 const STEPS: usize = 8;
 
 struct Line {

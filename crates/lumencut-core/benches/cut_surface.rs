@@ -115,7 +115,7 @@ fn against_brute_force(name: &str, tree: &VesselTree, sets: &[Isa]) -> Result<()
     Ok(())
 }
 
-/// Compares the time of the slowest of many view directions with the median.
+/// Compares the longest time of all view directions with the median.
 fn over_directions(name: &str, tree: &VesselTree) {
     let (mut renderer, settings) = (CpuRenderer::default(), Settings::default());
     renderer.prepare(&LeveledTree::new(tree.clone()), &settings);

@@ -1,4 +1,4 @@
-//! Times of the cut surface by the default rules and the paper's, alternating, at several pixel spacings.
+//! Times of the cut surface at several pixel spacings; the default and the paper's rules take turns.
 
 use glam::DVec3;
 use lumencut_core::camera::Camera;
@@ -14,12 +14,12 @@ use lumencut_scenes::timing::{head, once, row};
 use lumencut_scenes::workloads::WORKLOADS;
 
 const RUNS: usize = 41;
-/// The images of a cut surface without the distance, which the paper's rule computes anyway.
+/// The requested images. The distance is not among them, because the paper's rule computes it in any case.
 const SURFACE: ImageSet = ImageSet::of(&[Image::Depth, Image::Vessel]);
 
 /// The median time of each rule (ms), and the median ratio of the times of neighbouring runs.
 fn in_turns(scene: &Scene, camera: &Camera) -> Result<[f64; 3]> {
-    // Depth filter, leaps and picture are off: `workloads` measures complete frames.
+    // Depth filter, silhouettes and picture are off, since `workloads` measures complete frames.
     let rules = [Settings::default(), Settings::paper()];
     let rules = rules.map(|rule| Settings { depth_filter: false, ..rule });
     let mut renderers = [CpuRenderer::default(), CpuRenderer::default()];
@@ -32,7 +32,7 @@ fn in_turns(scene: &Scene, camera: &Camera) -> Result<[f64; 3]> {
             frame?;
             pair[n] = milliseconds;
         }
-        // The first run warms up.
+        // The first run only warms up the caches.
         if run > 0 {
             times[0].push(pair[0]);
             times[1].push(pair[1]);

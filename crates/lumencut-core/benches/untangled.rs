@@ -1,4 +1,4 @@
-//! Times of untangled CPR, layout and positions, of trees of 9, 50 and 200 vessels, about 512 × 1024 pixels.
+//! Times of untangled CPR (layout, positions) for trees of 9, 50 and 200 vessels, about 512 × 1024 pixels.
 
 use glam::DVec3;
 use lumencut_core::camera::Camera;

@@ -1,4 +1,4 @@
-//! Table 2 of the paper: times of each stage on the three workloads at 512 × 512 pixels, and the paper's.
+//! Times of each stage on the three workloads at 512 × 512 pixels, beside those in Table 2 of the paper.
 
 use glam::DVec3;
 use lumencut_core::error::Result;
@@ -10,7 +10,7 @@ use lumencut_scenes::timing::{StageTimes, head, once, row, stage_medians};
 use lumencut_scenes::views::fitted;
 use lumencut_scenes::workloads::{ASKED, PAPER_STAGES, PaperStage, WORKLOADS};
 
-/// Median time (ms) of each stage over 31 frontal views without context: default rules, paper's rules.
+/// Median times (ms) of each stage over 31 frontal views without context: by default rules, by paper's rules.
 fn stages(phantom: &Phantom) -> Result<[StageTimes; 2]> {
     let scene = Scene::new(phantom.volume()?, phantom.tree.clone());
     let camera = fitted(&phantom.tree, DVec3::Y, 512);

@@ -13,7 +13,7 @@ use crate::stages::Work;
 use crate::stages::depth::{CutSurface, DepthImages, Search, depth_by};
 use crate::stages::distance::{Measure, distance_by};
 
-/// [`crate::stages::distance::distance`] by comparison with every segment.
+/// Computes the same as [`crate::stages::distance::distance`] by comparing every pixel with every segment.
 pub fn distance(work: &Work, surface: &CutSurface, distance: &mut [f32]) -> Result<()> {
     distance_by(work, surface, distance, || EverySegment(surface.finest()))
 }
@@ -61,7 +61,7 @@ impl Search for EveryPiece<'_> {
     }
 }
 
-/// [`crate::stages::depth::depth`] by comparison with every piece.
+/// Computes the same as [`crate::stages::depth::depth`] by comparing every pixel with every piece.
 pub fn depth(work: &Work, surface: &CutSurface, distance: &[f32], images: DepthImages) -> Result<()> {
     depth_by(work, surface, distance, images, || EveryPiece(surface))
 }

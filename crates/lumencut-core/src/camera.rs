@@ -1,4 +1,4 @@
-//! The orthographic camera: where the view lies in world space and how many pixels it has.
+//! The orthographic camera: position and directions of the view in world space, and its pixels.
 
 use glam::DVec3;
 
@@ -10,7 +10,7 @@ pub(crate) const MAX_SIZE: usize = 32_768;
 /// The largest number of pixels of an image; the buffers of such an image take a few gigabytes.
 pub const MAX_PIXELS: usize = 1 << 27;
 
-/// The largest pixel spacing (mm); it keeps every view within the sentinels of the kernels.
+/// The largest pixel spacing (mm); it keeps coordinates below the numbers that kernels use as markers.
 pub(crate) const MAX_PIXEL_SPACING: f64 = 1e4;
 
 /// An orthographic view: x right, y up, z away from the viewer, origin at `center`.
@@ -79,8 +79,8 @@ impl Camera {
         Ok(Self { center, direction: unit, right, up: right.cross(unit), size, pixel_spacing })
     }
 
-    /// The same view with stored unit vectors, unchanged: normalising them again could change them. Fails
-    /// with [`ErrorKind::Camera`] for vectors that differ from the camera's own by more than rounding.
+    /// The same view with these stored unit vectors; normalising them again could change their last bits.
+    /// Fails with [`ErrorKind::Camera`] for vectors that differ from the camera's own by more than rounding.
     pub fn with_axes(self, direction: DVec3, right: DVec3, up: DVec3) -> Result<Self> {
         let kept = Self { direction, right, up, ..self };
         let pairs = [(direction, self.direction), (right, self.right), (up, self.up)];

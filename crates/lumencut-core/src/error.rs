@@ -21,7 +21,7 @@ pub enum ErrorKind {
     Device,
     /// No centerline can be traced between the points.
     Tracing,
-    /// The lumen cannot be measured, or a number at this position would be meaningless.
+    /// The lumen cannot be measured, or a number at this position would mean nothing.
     Measuring,
     /// The caller asked to stop.
     Interrupted,
@@ -41,7 +41,7 @@ impl ErrorKind {
     ];
 }
 
-/// The position in the volume where an error shows.
+/// The position in the volume that an error is about.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ErrorPosition {
     /// Position (mm, LPS).
@@ -59,7 +59,7 @@ pub enum Clicked {
     Point {
         /// Index of the vessel.
         vessel: usize,
-        /// Index of the point along it.
+        /// Index of the point along the vessel.
         point: usize,
     },
     /// A point that belongs to no vessel yet.
@@ -73,15 +73,15 @@ pub struct Error {
     pub kind: ErrorKind,
     /// The argument, file or item that is wrong.
     pub subject: String,
-    /// What was found.
+    /// The wrong value or state that was found.
     pub found: String,
-    /// What was expected.
+    /// What would have been right.
     pub expected: String,
-    /// Advice for which no host has an action; empty if `expected` already says how to fix the error.
+    /// Advice that no host (Python, page) can act on; empty if `expected` already says how to fix the error.
     pub mend: String,
-    /// A remedy besides the advice; hosts word and offer it themselves.
+    /// A further remedy. Each host puts it into its own words and may offer it as an action.
     pub mended_by: Option<Mend>,
-    /// Position in the volume: the weakest point of a path without lumen, or the point outside the lumen.
+    /// Position in the volume: the least lumen-like point of a path, or the point outside the lumen.
     pub place: Option<Box<ErrorPosition>>,
     /// The clicked points that the error is about.
     pub clicked: Option<Box<Clicked>>,
@@ -107,14 +107,14 @@ impl Error {
         }
     }
 
-    /// Adds advice for which no host has an action.
+    /// Adds advice that neither Python nor the page can act on.
     #[must_use]
     pub fn mend(mut self, mend: impl Into<String>) -> Self {
         self.mend = mend.into();
         self
     }
 
-    /// Adds a remedy that hosts word and offer themselves.
+    /// Adds a remedy that Python and the page word themselves and may offer as an action.
     #[must_use]
     pub fn mended_by(mut self, mend: Mend) -> Self {
         self.mended_by = Some(mend);
@@ -128,14 +128,14 @@ impl Error {
         self
     }
 
-    /// Adds the position (mm, LPS) where the error shows, and the value of the volume there.
+    /// Adds the position (mm, LPS) that the error is about, and the value of the volume there.
     #[must_use]
     pub fn at(mut self, point: DVec3, value: f64) -> Self {
         self.place = Some(Box::new(ErrorPosition { point, value }));
         self
     }
 
-    /// The error after the caller asked to stop.
+    /// The error for work that the caller stopped.
     pub fn interrupted() -> Self {
         Self::new(ErrorKind::Interrupted, "rendering", "a request to stop", "to run to its end")
     }

@@ -4,7 +4,7 @@ use crate::geometry::Geometry;
 use crate::stages::focus::Shares;
 use crate::stages::{Image, ImageSet};
 
-/// How long one stage took.
+/// The time that one stage took.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Timing {
     /// Name of the stage and of its module.
@@ -20,21 +20,21 @@ pub struct Frame {
     pub geometry: Geometry,
     /// RGBA.
     pub image: Vec<[u8; 4]>,
-    /// Id of the vessel whose influence zone the pixel is in.
+    /// Id of the vessel that each pixel belongs to.
     pub vessel: Vec<i32>,
-    /// Where the cut surface leaps ([`crate::stages::leap`]).
+    /// Bits that mark depth jumps between neighbouring pixels ([`crate::stages::leap`]).
     pub leap: Vec<u32>,
-    /// How much of surface and silhouettes is shown ([`crate::stages::focus`]); empty if all of both is.
+    /// Shares of cut surface and silhouettes shown ([`crate::stages::focus`]); empty if both are fully shown.
     pub focus: Vec<Shares>,
-    /// Projected distance to the nearest centerline (mm).
+    /// Distance to the nearest centerline in the image plane (mm).
     pub distance: Vec<f32>,
     /// The volume at the cut surface, NaN outside the volume.
     pub value: Vec<f32>,
-    /// Only the context, RGBA with straight alpha; transparent where not needed, empty without a context.
+    /// Only the context: RGBA, straight alpha, transparent where it is not needed; empty without a context.
     pub context: Vec<[u8; 4]>,
     /// For reformations: whether other points of the vessel share the pixel. Otherwise empty.
     pub folded: Vec<bool>,
-    /// How long each stage took, in the order they ran.
+    /// The time of each stage, in the order in which they ran.
     pub timings: Vec<Timing>,
 }
 
@@ -65,7 +65,7 @@ impl Frame {
         self.geometry.depth()
     }
 
-    /// Adds the times of stages that ran again.
+    /// Adds the times of further stages; times of the same stage are summed.
     pub fn count(&mut self, timings: &[Timing]) {
         for more in timings {
             match self.timings.iter_mut().find(|known| known.stage == more.stage) {
@@ -91,7 +91,7 @@ impl Frame {
         there.fold(ImageSet::of(&[]), |images, (image, _)| images.and(ImageSet::of(&[image])))
     }
 
-    /// Makes pixels of the picture without a value transparent, whatever the background.
+    /// Makes the picture transparent in pixels without a value, for any background.
     #[must_use]
     pub fn transparent_outside(mut self) -> Self {
         clear_outside(&mut self.image, &self.value);

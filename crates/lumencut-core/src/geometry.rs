@@ -8,7 +8,7 @@ use crate::error::{Error, ErrorKind, Result};
 /// Position of every pixel in world space.
 #[derive(Clone, Debug)]
 pub enum Geometry {
-    /// Along the rays of an orthographic camera.
+    /// Positions on the rays of an orthographic camera.
     Orthographic {
         /// The view.
         camera: Camera,
@@ -67,8 +67,8 @@ pub struct Curved {
 }
 
 impl Curved {
-    /// `position` holds the world point of every pixel (mm, LPS), row by row from the top, and
-    /// `slab_direction` the unit vector along which a slab there is thick. A point that is not finite shows
+    /// `position` holds the world point of every pixel (mm, LPS), row by row from the top. The thickness of a
+    /// slab is measured along the pixel's unit vector `slab_direction`. A point that is not finite shows
     /// nothing. Fails with [`ErrorKind::Camera`] if `size` has no pixels or does not match the number of
     /// points or directions.
     pub fn new(size: [usize; 2], position: Vec<DVec3>, slab_direction: Vec<Vec3>) -> Result<Self> {
@@ -95,7 +95,7 @@ impl Curved {
         &self.position
     }
 
-    /// The unit vector along which a slab at each pixel is thick.
+    /// The unit vector of each pixel along which the thickness of a slab is measured.
     pub fn slab_direction(&self) -> &[Vec3] {
         &self.slab_direction
     }

@@ -1,4 +1,4 @@
-//! Ranges of numbers, and the error for a number outside.
+//! Ranges of numbers, and the error for a number outside its range.
 
 use crate::error::{Error, ErrorKind, Result};
 
@@ -23,7 +23,7 @@ impl Limits {
         Self { low, high, unit }
     }
 
-    /// Checks the parameter `name`. Fails with [`ErrorKind::Settings`] for a number outside or NaN.
+    /// Checks the parameter `name`. Fails with [`ErrorKind::Settings`] for NaN or a number outside the range.
     pub fn check(&self, name: &str, value: f64) -> Result<()> {
         let &Self { low, high, unit } = self;
         if value >= low && value <= high {

@@ -1,12 +1,12 @@
-//! Remedies for errors, if a host can apply or word them itself.
+//! Remedies for errors that a host (Python, command line, page) can apply or put into its own words.
 
 use std::fmt;
 
-/// A remedy for an [`Error`](crate::error::Error). Each host words it: as Python arguments, command-line
-/// options or buttons. The words of [`fmt::Display`] are for Rust programs.
+/// A remedy for an [`Error`](crate::error::Error). The Python package, the command line and the page each
+/// word it: as arguments, options or buttons. The words of [`fmt::Display`] are for Rust programs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Mend {
-    /// Bridge a stretch between two points that does not look like lumen.
+    /// Trace straight across a stretch between two points that does not look like lumen.
     Bridge,
     /// Take every second voxel along each axis, which needs an eighth of the memory.
     EverySecond,
@@ -37,7 +37,7 @@ impl Mend {
         Self::SmallerRadius,
     ];
 
-    /// The name that every host uses.
+    /// The name of the remedy, the same in Python, on the command line and on the page.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Bridge => "bridge",

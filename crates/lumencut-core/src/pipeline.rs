@@ -38,18 +38,18 @@ use crate::stop::Stop;
 pub struct Request<'a> {
     /// The view.
     pub camera: &'a Camera,
-    /// How the view is made and shown.
+    /// The settings that the view is made and shown with.
     pub settings: &'a Settings,
-    /// The images that the frame shall contain, if the view has them.
+    /// The wanted images; the frame contains those that the view has.
     pub images: ImageSet,
-    /// Whether to stop.
+    /// Returns whether to stop.
     pub stop: Stop<'a>,
     /// Receives the progress of the view.
     pub progress: Option<&'a Progress>,
 }
 
 impl<'a> Request<'a> {
-    /// All images of a view, without stop or progress.
+    /// A request for all images of a view, without stop or progress.
     pub fn new(camera: &'a Camera, settings: &'a Settings) -> Self {
         Self { camera, settings, images: ImageSet::ALL, stop: &|| false, progress: None }
     }
@@ -99,15 +99,15 @@ impl<'a> Request<'a> {
     }
 }
 
-/// Renders views on the CPU. It keeps the buffers of the projected tree and of the sheet from view to view;
-/// scenes own everything else.
+/// Renders views on the CPU. The renderer keeps the buffers of the projected tree and of the sheet for later
+/// views; all other data belong to scenes.
 #[derive(Debug)]
 pub struct CpuRenderer {
     levels: Arc<Vec<Level>>,
     projected: Vec<ProjectedLevel>,
     /// The vessels that take precedence in `projected`.
     first: Vec<usize>,
-    /// The sheet of the previous view: of the images that no frame keeps, the largest.
+    /// The sheet of the previous view, kept because it is the largest of the images that no frame has.
     sheet: Vec<Sheet>,
     isa: Isa,
 }
@@ -125,7 +125,7 @@ impl CpuRenderer {
     }
 
     /// Renders one view of a scene: without a volume only the cut surface, without a tree only the context.
-    /// `Settings::samples` does not apply here: hosts average several pictures. Fails as
+    /// Ignores `Settings::samples`, since callers average several pictures. Fails as
     /// [`Request::settings_for`], and with [`ErrorKind::Volume`] for a scene without volume and tree.
     pub fn render(&mut self, scene: &Scene, request: &Request) -> Result<Frame> {
         let settings = request.settings_for(scene)?;
@@ -222,7 +222,7 @@ impl CpuRenderer {
             .for_each(|(projected, level)| projected.project(level, camera, Radii::new(settings)));
     }
 
-    /// The input of the cut-surface stages, once the levels are projected.
+    /// The input of the cut-surface stages, after the levels are projected.
     pub fn pass<'a>(&'a self, request: &Request<'a>) -> CutSurfacePass<'a> {
         let &Request { camera, settings, images, stop, progress } = request;
         let (levels, projected) = (&self.levels[..=settings.levels], &self.projected[..=settings.levels]);

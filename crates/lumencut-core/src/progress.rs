@@ -7,11 +7,11 @@ use std::sync::atomic::{AtomicU64, Ordering};
 pub struct Progress {
     views: AtomicU64,
     whole: AtomicU64,
-    /// Cost per pixel of all stages of the view, of those that ended, and of the one that runs.
+    /// Cost per pixel: of all stages of the view, of those that have ended, and of the running one.
     planned: AtomicU64,
     ended: AtomicU64,
     running: AtomicU64,
-    /// The pixels of the view, and those that the stage has begun.
+    /// Number of pixels of the view, and of those that the running stage has begun.
     pixels: AtomicU64,
     begun: AtomicU64,
 }
@@ -84,12 +84,13 @@ mod tests {
                 shares.push(progress.share());
                 progress.begin_pixels(25);
                 shares.push(progress.share());
-                // Surplus pixels, such as those of tiles that reach beyond the view, are capped.
+                // More pixels are counted than the view has, as tiles may exceed it; this must not raise the
+                // share.
                 progress.begin_pixels(30);
             }
             progress.end_view();
         }
-        // The expected shares of both views, in parts of 40.
+        // The expected finished shares of both views, in parts of 40.
         let expected = [0.0, 6.0, 12.0, 14.0, 16.0, 18.0, 20.0, 26.0, 32.0, 34.0, 36.0, 38.0];
         assert_eq!(shares, expected.map(|parts| parts / 40.0));
         assert_eq!(progress.share(), 1.0);

@@ -1,4 +1,4 @@
-//! What a view shows: a volume that all renderers share, and a tree that can be exchanged independently.
+//! The content of a view: a volume that all renderers share, and a tree that can be exchanged independently.
 
 use std::sync::{Arc, Mutex, OnceLock, PoisonError, Weak};
 
@@ -13,7 +13,7 @@ use crate::stop::Stop;
 use crate::vessel_tree::VesselTree;
 use crate::volume::Volume;
 
-/// What is shown. Cloning is cheap: clones share the [`VolumeKey`] and the [`LeveledTree`].
+/// The content of a view. Cloning is cheap: clones share the [`VolumeKey`] and the [`LeveledTree`].
 #[derive(Clone, Debug, Default)]
 pub struct Scene<'a> {
     /// The volume; without it only the cut surface can be rendered.
@@ -34,15 +34,15 @@ impl<'a> Scene<'a> {
         Self { volume: Some(SharedVolume::new(volume, VolumeKey::default())), ..self }
     }
 
-    /// Replaces the tree; what was computed from the volume stays.
+    /// Replaces the tree; data computed from the volume are kept.
     #[must_use]
     pub fn with_tree(self, tree: VesselTree) -> Self {
         Self { tree: Some(Arc::new(LeveledTree::new(tree))), ..self }
     }
 }
 
-/// Identifies the voxels of one volume, wherever they are borrowed, for caches on CPU and GPU; shared by
-/// clones.
+/// Identifies the voxels of one volume for caches on CPU and GPU, independent of who borrows the voxels.
+/// Clones share the key.
 #[derive(Clone, Debug, Default)]
 pub struct VolumeKey {
     blocks: Arc<OnceLock<Blocks>>,
@@ -86,7 +86,7 @@ impl<'a> SharedVolume<'a> {
         if let Some(blocks) = self.key.blocks.get() {
             return Ok(blocks);
         }
-        // Computed outside the lock: a waiting pool thread could take up another view and wait for itself.
+        // Computed outside the lock: a waiting pool thread may start another view and then deadlock.
         let blocks = Blocks::new(&self.volume, stop)?;
         Ok(self.key.blocks.get_or_init(|| blocks))
     }
@@ -113,8 +113,8 @@ impl LeveledTree {
         &self.tree
     }
 
-    /// The tree smoothed by `smoothing` radii in at least `coarsest` levels, finest first. Levels of the last
-    /// two smoothings stay cached.
+    /// The levels of the tree smoothed by `smoothing` radii, from the finest to `coarsest` or beyond. Levels
+    /// of the last two smoothings stay cached.
     pub fn levels(&self, coarsest: usize, smoothing: f64) -> Arc<Vec<Level>> {
         if let Some(known) = self.latest(smoothing, None).filter(|known| known.len() > coarsest) {
             return known;
@@ -129,12 +129,12 @@ impl LeveledTree {
         self.latest(smoothing, Some(&made)).unwrap_or(made)
     }
 
-    /// The levels of `smoothing`, which become the latest, or `made` if it has more of them.
+    /// The cached levels of `smoothing`, which become the latest; or `made` if it has more levels.
     fn latest(&self, smoothing: f64, made: Option<&Arc<Vec<Level>>>) -> Option<Arc<Vec<Level>>> {
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         let place = kept.iter().position(|(value, _)| *value == smoothing);
         let known = place.map(|place| kept.remove(place).1);
-        // A tie goes to the known levels, the last argument, since others may hold them already.
+        // If both have as many levels, the cached ones win, since other views may already use them.
         let most = [made, known.as_ref()].into_iter().flatten().max_by_key(|levels| levels.len()).cloned()?;
         kept.insert(0, (smoothing, Arc::clone(&most)));
         kept.truncate(CACHED_SMOOTHINGS);

@@ -16,7 +16,7 @@ macro_rules! shaders {
     };
 }
 
-/// A browser loads them without comments (`build.rs`).
+/// Builds for browsers include the shaders without comments (`build.rs`).
 #[cfg(target_arch = "wasm32")]
 macro_rules! shaders {
     ($($room:literal),* $(,)?) => {

@@ -2,13 +2,13 @@
 
 use crate::error::{Error, Result};
 
-/// Polled during long work, from any thread: whether to stop.
+/// Returns whether to stop; polled during long work, from any thread.
 pub type Stop<'a> = &'a (dyn Fn() -> bool + Sync);
 
-/// For short work, or callers that never ask to stop.
+/// Never stops, for short work or for callers without a way to stop it.
 pub const NEVER: Stop<'static> = &|| false;
 
-/// Entries written between two checks for stop.
+/// Number of entries written between two checks for stop.
 const ENTRIES_PER_CHECK: usize = 1 << 20;
 
 /// Fails once the caller asks to stop.

@@ -17,8 +17,8 @@ pub struct Vessel {
 }
 
 impl Vessel {
-    /// A vessel with at least two finite points and, if given, one finite radius ≥ 0 each. Fails with
-    /// [`ErrorKind::VesselTree`].
+    /// A vessel with at least two finite points and, if radii are given, one finite radius ≥ 0 per point.
+    /// Fails with [`ErrorKind::VesselTree`].
     pub fn new(points: Vec<DVec3>, radius: Option<Vec<f64>>) -> Result<Self> {
         let wrong = |subject: &str, found: String, expected: &str| {
             Err(Error::new(ErrorKind::VesselTree, subject, found, expected))
@@ -44,7 +44,7 @@ impl Vessel {
         Ok(Self::from_checked(points, radius))
     }
 
-    /// A vessel from parts that satisfy [`Vessel::new`] by construction.
+    /// A vessel whose parts satisfy [`Vessel::new`] by construction.
     pub(crate) fn from_checked(points: Vec<DVec3>, radius: Option<Vec<f64>>) -> Self {
         let arc_length = arc_lengths(&points);
         Self { points, radius, arc_length }
@@ -76,7 +76,7 @@ impl Vessel {
     }
 }
 
-/// Vessels that may share end points; the index is the id. Forests, cycles and loose pieces are legal.
+/// Vessels that may share end points; the index is the id. Forests, cycles and separate parts are allowed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VesselTree {
     vessels: Vec<Vessel>,

@@ -8,7 +8,7 @@ use crate::error::{Error, ErrorKind, Result};
 pub trait Voxel: Copy + Default + PartialOrd + Send + Sync + 'static {
     /// The type of interpolation: `f32` if it holds every value exactly, else `f64`.
     type Real: Real;
-    /// Two neighbours as one number if possible, so that one load fetches both.
+    /// Two neighbours, as one number if possible, so that one load fetches both.
     type Pair: Copy;
     /// The smallest finite value of the type.
     const SMALLEST: Self;
@@ -82,7 +82,7 @@ impl Real for f64 {
     }
 }
 
-/// Integer voxels, two of which share an integer twice as wide.
+/// Implements voxels of integer types: two share an integer that is twice as wide.
 macro_rules! packed {
     ($real:ty, $unsigned:ty, $pair:ty: $($type:ty),*) => {$(
         impl Voxel for $type {
@@ -136,8 +136,8 @@ plain!(f32: f32);
 #[cfg(not(target_arch = "wasm32"))]
 plain!(f64: i32, u32, i64, u64, f64);
 
-/// The voxels of a volume, borrowed in their own type. The browser build contains code for four types only,
-/// which makes it smaller: there all others are converted, exactly except for numbers beyond 24 bits.
+/// The voxels of a volume, borrowed in their own type. The browser build is smaller, as it has code for only
+/// four types. It converts all others exactly, except for numbers of more than 24 bits.
 #[derive(Clone, Copy, Debug)]
 #[allow(missing_docs)]
 pub enum Voxels<'a> {

@@ -1,5 +1,5 @@
-//! Largest, smallest and mean values along rays compared with an independent computation in f64: all
-//! crossings of a ray with the planes of the grid, sorted, and between them the cubic through four samples.
+//! Largest, smallest and mean values along rays, compared with an independent computation in f64: cubics
+//! through four samples, between the sorted crossings of a ray with the planes of the grid.
 #![allow(clippy::unwrap_used)]
 
 use glam::{DAffine3, DVec3};
@@ -124,7 +124,7 @@ fn cameras() -> Vec<Camera> {
     ]
 }
 
-/// Chords through the volume, partly inside, short, and empty.
+/// Depth ranges through the volume, partly inside it, short, and empty.
 fn chord(p: usize) -> [f64; 2] {
     let depth = (p % 37) as f64 - 18.0;
     match p % 6 {
@@ -174,7 +174,7 @@ fn every_value_is_that_of_an_independent_computation() {
     let volume = volume(Voxels::I16(&voxels), SIZE, sheared(SIZE));
     let exact = Exact { values, size: SIZE, index_from_world: volume.index_from_world() };
     for camera in cameras() {
-        // Values go up to 1000.
+        // Values are up to 1000.
         assert_exact(&volume, &exact, &camera, 0.02);
     }
 }
@@ -198,7 +198,7 @@ fn flat_volumes_and_rays_along_faces_have_exact_values() {
                     let (x, y) = (camera.view_x(p % 33), camera.view_y(p / 33));
                     let origin = camera.world_from_view(DVec3::new(x, y, 0.0));
                     let Some(expected) = exact.along(origin, camera.direction(), whole(p)) else {
-                        // On the very border rounding decides.
+                        // Exactly on the border of the volume, rounding decides.
                         continue;
                     };
                     let difference = (f64::from(*found) - expected[n]).abs();
@@ -253,7 +253,7 @@ fn a_cell_without_a_number_is_left_out() {
     let run = |reduction| reduced(&volume, &camera, reduction, None, Isa::widest(), &whole)[4];
     assert_eq!(run(Reduction::Largest), 3.0);
     assert_eq!(run(Reduction::Smallest), 1.0);
-    // Along k: half a voxel and one of 1, two of NaN, one from 1 to 3, half a voxel of 3.
+    // Along k: half a voxel of 1, one of 1, two of NaN, one that rises from 1 to 3, half a voxel of 3.
     let mean = (0.5 + 1.0 + 2.0 + 1.5) / 3.0;
     assert!((f64::from(run(Reduction::Mean)) - mean).abs() < 1e-5, "{}", run(Reduction::Mean));
 }

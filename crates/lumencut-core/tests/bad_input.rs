@@ -1,4 +1,4 @@
-//! Degenerate scenes: no panic, no invalid depth, and the same bits however they are computed.
+//! Degenerate scenes cause no panic and no invalid depth, and have the same bits however they are computed.
 #![allow(clippy::unwrap_used)]
 
 use std::f64::consts::TAU;
@@ -20,7 +20,7 @@ use lumencut_scenes::views::{front, pixel, view};
 
 const DIRECTIONS: [[f64; 3]; 4] = [[0.0, 1.0, 0.0], [0.0, 0.0, -1.0], [1.0, 2.0, 3.0], [1e-5, 1e-5, 1.0]];
 
-/// The default, by cost only, many levels close together, the paper's, and the default's filter.
+/// The default rules, by cost only, many close levels, the paper's rules, and the default with its filter.
 fn rules() -> [Settings; 5] {
     [
         unfiltered(),
@@ -48,7 +48,7 @@ fn assert_depths_of_the_tree(tree: &VesselTree, camera: &Camera, frame: &Frame) 
     assert!(frame.distance.iter().all(|d| d.is_finite() && *d >= 0.0));
 }
 
-/// The view equals brute force on every instruction set and number of threads.
+/// Asserts that the view equals brute force with every instruction set and number of threads.
 fn assert_sound_in(tree: &VesselTree, camera: &Camera, settings: &Settings) {
     let found = by_hierarchy(tree, camera, settings);
     assert_depths_of_the_tree(tree, camera, &found);
@@ -77,7 +77,6 @@ fn without_radii(tree: &VesselTree) -> VesselTree {
     VesselTree::new(tree.vessels().iter().map(bare).collect()).unwrap()
 }
 
-/// A closed ring.
 fn ring(radius: f64, points: usize, lumen: f64) -> Vessel {
     let place = |i: usize| {
         let t = (i % points) as f64 / points as f64 * TAU;
@@ -104,7 +103,7 @@ fn radii_larger_than_the_bend() {
     let hairpin =
         vessel(&[[-30., 0., 0.], [10., 4., 0.], [12., 5., 1.], [10., 6., 2.], [-30., 10., 2.]], 15.0);
     assert_sound(&tree(vec![hairpin, ring(5.0, 40, 20.0)]), [56, 40], 2.0);
-    // Wider than the entire view: every pixel lies in the lumen, also far beyond the ends.
+    // The lumen is wider than the view, so every pixel lies in it, also far beyond the ends.
     assert_sound(&tree(vec![ring(20.0, 60, 1e6), ring(9.0, 9, 1e5)]), [40, 40], 2.0);
 }
 
@@ -129,7 +128,7 @@ fn a_vessel_wholly_within_the_lumen_of_another() {
     for (depth, expected) in [(-5.0, [1, 1, 0, 0]), (5.0, [0; 4]), (0.0, [0; 4])] {
         let scene = tree(vec![tube(0.0, 10.0), tube(depth, 2.0)]);
         let frame = by_hierarchy(&scene, &camera, &unfiltered());
-        // The inner lumen wins if it is nearer; its wall comes after the outer lumen.
+        // The inner lumen wins if it is nearer; its wall ranks after the outer lumen.
         assert_eq!([0.25, 1.75, 2.25, 9.75].map(|y| frame.vessel[pixel(&frame, 0.25, y)]), expected);
         assert_sound(&scene, [56, 40], 2.0);
     }

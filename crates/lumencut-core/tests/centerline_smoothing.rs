@@ -1,4 +1,4 @@
-//! Smoothed centerlines: closed forms, what stays bit-identical, and degenerate vessels.
+//! Smoothed centerlines: closed forms, points that stay bit-identical, and degenerate vessels.
 #![allow(clippy::unwrap_used)]
 
 use std::f64::consts::{PI, TAU};
@@ -19,7 +19,7 @@ use lumencut_scenes::views::view;
 /// Rounding of coordinates of some hundred mm, summed along a vessel (mm).
 const ROUNDING: f64 = 1e-10;
 
-/// Error of the layers of the Gaussian and of the chords of a finely sampled arc (share of R).
+/// Error of the Gaussian's layers and of the chords of a finely sampled arc (share of the arc's radius R).
 const CLOSED_FORM: f64 = 1e-4;
 
 fn line(points: Vec<DVec3>, radius: f64) -> Vessel {
@@ -40,7 +40,7 @@ fn reversed(vessel: &Vessel) -> Vessel {
 fn a_circle_shrinks_as_the_gaussian_predicts() {
     let (radius, turns) = (10.0_f64, 3.0);
     for sigma in [0.5, 1.0, 3.0, 6.0] {
-        // Sampled unevenly: the curve is averaged, not its points.
+        // The points are spaced unevenly, since the curve is averaged and not its points.
         let angle = |t: f64| TAU * turns * (t + 0.02 * (9.0 * PI * t).sin());
         let place = |i: i32| {
             let (sin, cos) = angle(f64::from(i) / 4000.0).sin_cos();
@@ -94,7 +94,7 @@ fn straight_lines_stay_however_they_are_sampled() {
 fn jitter_falls_as_the_gaussian_predicts() {
     let (step, sigma, jitter) = (0.5, 4.0, 0.1);
     let mut random = Random::new(11);
-    // Only across the line: jitter along it is another sampling of the same line.
+    // Jitter is only across the line: jitter along it would just be another sampling of the line.
     let mut across = || (random.number() + random.number() + random.number() - 1.5) * 2.0 * jitter;
     let points: Vec<_> = (0..8000).map(|i| DVec3::new(f64::from(i) * step, across(), across())).collect();
     let found = smoothed(line(points.clone(), 2.0), sigma / 2.0);
@@ -110,7 +110,7 @@ fn jitter_falls_as_the_gaussian_predicts() {
     assert!((factor / expected - 1.0).abs() < 0.1, "{factor} and {expected}");
 }
 
-/// A trunk that another vessel ends on, a bare vessel, and one whose radius is 0 in its middle.
+/// A trunk on which another vessel ends, a vessel without radii, and one with radius 0 in its middle.
 fn junctions() -> VesselTree {
     let mut random = Random::new(3);
     let mut walk = |from: DVec3, along: DVec3, count: i32| -> Vec<DVec3> {
@@ -121,7 +121,7 @@ fn junctions() -> VesselTree {
             .collect()
     };
     let trunk = walk(DVec3::ZERO, DVec3::X, 60);
-    // 0.0005 mm off the trunk's point.
+    // The branch starts 0.0005 mm off the trunk's point.
     let branch = walk(trunk[25] + DVec3::Z * 5e-4, DVec3::Y, 40);
     let (bare, partly) = (walk(DVec3::splat(50.0), DVec3::Y, 30), walk(branch[39], DVec3::Z, 30));
     let radii = (0..30).map(|i| if (10..15).contains(&i) { 0.0 } else { 2.0 }).collect();
@@ -221,7 +221,7 @@ fn odd_vessels_give_finite_points_that_stay_in_bounds() {
     for radii in [1e-9, 0.5, 10.0] {
         let after = smooth_centerlines(&odd, radii);
         for (old, new) in odd.vessels().iter().zip(after.vessels()) {
-            // The constructor rejects what is not finite or out of bounds.
+            // The constructor would reject points that are not finite or out of bounds.
             assert!(Vessel::new(new.points().to_vec(), None).is_ok());
             assert_eq!(old.points().len(), new.points().len());
         }
@@ -258,7 +258,7 @@ fn thousands_of_vessels_that_share_a_point_are_quick() {
     let start = Instant::now();
     smoothed(long, 10.0);
     assert!(start.elapsed() < Duration::from_secs(5), "{:?}", start.elapsed());
-    // A zigzag between two ends, each of whose points is an end.
+    // A zigzag between the two ends of another vessel, so that every point is an end.
     let ends = vessel(&[[0.0; 3], [1.0, 0.0, 0.0]], 1.0);
     let zigzag: Vec<_> = (0..1000).map(|i| DVec3::X * f64::from(i % 2)).collect();
     let both = tree(vec![ends, line(zigzag.clone(), 1.0)]);

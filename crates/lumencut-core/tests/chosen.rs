@@ -1,4 +1,4 @@
-//! Chosen vessels: compared with only these vessels, bit by bit with plain pictures, and in closed form.
+//! Chosen vessels, compared with pictures of only these vessels, with plain pictures, and with closed forms.
 #![allow(clippy::unwrap_used)]
 
 use glam::DVec3;
@@ -35,7 +35,7 @@ fn cut(tree: &VesselTree, camera: &Camera, settings: &Settings) -> Frame {
     rendered(&mut CpuRenderer::default(), &Scene::default().with_tree(tree.clone()), camera, settings)
 }
 
-/// A thick tube before a thin one that crosses it 60 mm behind.
+/// A thick tube in front of a thin one that crosses it 60 mm behind.
 fn crossing_tubes() -> VesselTree {
     tree(vec![
         vessel(&[[-80.0, 0.0, 0.0], [80.0, 0.0, 0.0]], 10.0),
@@ -67,7 +67,7 @@ fn a_chosen_vessel_behind_another_shows_its_lumen_and_its_wall() {
 fn a_chosen_vessel_is_seen_wherever_its_own_cut_would_be_if_it_were_alone() {
     for seed in 0..5 {
         let all = random_tree(seed, 9, 12, 4.0, 60.0).unwrap();
-        // A vessel that begins or ends in another's lumen takes precedence only in part.
+        // If a vessel begins or ends in another's lumen, only a part of it takes precedence.
         let chosen = (0..9).find(|n| is_free(&all, *n)).unwrap();
         let alone = tree(vec![all.vessels()[chosen].clone()]);
         let camera = view([0.3, 1.0, -0.2], [150, 130], 1.0);
@@ -78,7 +78,7 @@ fn a_chosen_vessel_is_seen_wherever_its_own_cut_would_be_if_it_were_alone() {
         ];
         let mut pixels = 0;
         for n in 0..own.vessel.len() {
-            // The share of a hard edge at the margin marks lumen and wall of the vessel.
+            // The share at the margin of a hard edge marks lumen and wall of the vessel.
             let edge = beyond(&alone, &camera, n);
             if edge < 0.999 {
                 assert_eq!(found.vessel[n], chosen as i32, "seed {seed}, pixel {n}");
@@ -90,7 +90,7 @@ fn a_chosen_vessel_is_seen_wherever_its_own_cut_would_be_if_it_were_alone() {
     }
 }
 
-/// Whether both ends of a vessel lie outside all others, tested by many balls along these.
+/// Whether both ends of a vessel lie outside all others, tested with many balls along the others.
 fn is_free(all: &VesselTree, chosen: usize) -> bool {
     let points = all.vessels()[chosen].points();
     let ends = [points[0], points[points.len() - 1]];
@@ -104,7 +104,7 @@ fn is_free(all: &VesselTree, chosen: usize) -> bool {
     balls.all(|(center, radius)| ends.iter().all(|end| end.distance(center) > radius))
 }
 
-/// Distance of a pixel beyond the wall of the only vessel of a tree (mm), by every segment; below 0 within.
+/// Distance of a pixel beyond the wall of a tree's only vessel (mm, negative inside), from every segment.
 fn beyond(tree: &VesselTree, camera: &Camera, n: usize) -> f64 {
     let [width, _] = camera.size();
     let place = glam::DVec2::new(camera.view_x(n % width), camera.view_y(n / width));
@@ -119,7 +119,7 @@ fn beyond(tree: &VesselTree, camera: &Camera, n: usize) -> f64 {
     segments.fold(f64::MAX, f64::min)
 }
 
-/// A tube across the view, a branch upwards from its middle with its radius, and a tube before the branch.
+/// A tube across the view, a branch of the same radius up from its middle, and a tube before the branch.
 fn branching() -> VesselTree {
     let across = vessel(&[[-80.0, 0.0, 0.0], [0.0, 0.0, 0.0], [80.0, 0.0, 0.0]], 10.0);
     let points = (0..=60).map(|n| DVec3::new(0.0, 0.0, f64::from(n)));
@@ -138,13 +138,13 @@ fn a_chosen_branch_comes_first_from_where_it_leaves_its_parent() {
     for scene in [branching(), tree(reversed)] {
         let frame = cut(&scene, &camera, &choosing(&[1]));
         let shown = |x: f64, y: f64| frame.vessel[pixel(&frame, x, y)];
-        // No patch covers the parent: neither next to the branch, nor on its other side.
+        // The branch's first disc does not cover the parent: neither next to the branch nor opposite.
         assert_eq!([shown(6.2, 0.2), shown(-6.2, 3.0), shown(0.2, -8.0), shown(0.2, 6.0)], [0; 4]);
-        // The branch is seen beyond it, also through what lies before it.
+        // Outside the parent the branch is seen, also through the tube that lies before it.
         assert_eq!([shown(0.2, 13.0), shown(0.2, 30.0), shown(2.6, 33.0), shown(0.2, 55.0)], [1; 4]);
         assert_eq!(shown(20.0, 30.0), 2);
     }
-    // If the parent is chosen too, nothing of the branch is left out.
+    // If the parent is chosen too, all of the branch takes precedence.
     let both = cut(&branching(), &camera, &choosing(&[0, 1]));
     let alone = cut(&tree(branching().vessels()[..2].to_vec()), &camera, &Settings::default());
     for y in [-8.0, 0.2, 6.0, 13.0, 55.0] {
@@ -155,7 +155,7 @@ fn a_chosen_branch_comes_first_from_where_it_leaves_its_parent() {
 
 #[test]
 fn a_chosen_vessel_that_leaves_no_other_comes_first_as_a_whole() {
-    // A vessel within the thick one from end to end, and behind its middle.
+    // The inner vessel lies entirely within the thick one, and behind its centerline.
     let inner = vessel(&[[-20.0, 4.0, 0.0], [20.0, 4.0, 0.0]], 3.0);
     let scene = tree(vec![vessel(&[[-80.0, 0.0, 0.0], [80.0, 0.0, 0.0]], 10.0), inner]);
     let frame = cut(&scene, &front([160, 160], 0.5), &choosing(&[1]));
@@ -242,7 +242,7 @@ fn the_strength_of_the_others_is_their_share_beside_that_of_the_chosen() {
     let half: Vec<f32> = plain.iter().zip(&around_the_chosen).map(|(all, own)| own.max(all * 0.5)).collect();
     assert_eq!(of_surface(&with(0.5)), half);
     assert!(half.contains(&0.5) && half.contains(&1.0));
-    // Where nothing of the cut is left the picture is the context.
+    // Where nothing of the cut surface is shown, the picture is the context.
     let (gone, alone) = (
         with(0.0),
         context_alone(phantom.volume().unwrap(), &camera, &Settings::default(), &|| false).unwrap(),
@@ -255,7 +255,7 @@ fn the_strength_of_the_others_is_their_share_beside_that_of_the_chosen() {
     assert_eq!(gone.focus, found.focus);
 }
 
-/// Settings whose rays around a focus cross the entire volume.
+/// Settings in which context rays around a focus cross the entire volume.
 fn whole_rays() -> Settings {
     let context = Settings::default().context.unwrap();
     let context =
@@ -265,7 +265,7 @@ fn whole_rays() -> Settings {
 
 #[test]
 fn the_outline_of_a_chosen_vessel_is_drawn_whatever_silhouettes_say() {
-    // 15 mm apart: less than the diameter of the thick tube, so there is no other leap.
+    // The tubes are 15 mm apart, less than the diameter of the thick one, so there is no other depth jump.
     let near = tree(vec![
         vessel(&[[-80.0, 0.0, 0.0], [80.0, 0.0, 0.0]], 10.0),
         vessel(&[[0.0, 15.0, -80.0], [0.0, 15.0, 80.0]], 3.0),
@@ -275,7 +275,7 @@ fn the_outline_of_a_chosen_vessel_is_drawn_whatever_silhouettes_say() {
         let frame = cut(&near, &camera, &Settings { silhouettes, ..choosing(&[1]) });
         let row = pixel(&frame, 0.0, 2.0) / 100 * 100;
         let leaps: Vec<usize> = (0..99).filter(|i| frame.leap[row + i] & 1 != 0).collect();
-        // The chosen vessel's wall ends 4 mm off: between columns 41 and 42, and 57 and 58.
+        // The chosen vessel's wall ends 4 mm from its centerline: between columns 41 and 42, and 57 and 58.
         assert_eq!(leaps, [41, 57]);
     }
     let picture = shown(

@@ -50,7 +50,7 @@ fn cameras() -> Vec<Camera> {
     ]
 }
 
-/// Rays that start everywhere: before the volume, within it, behind it, nowhere.
+/// Rays that start everywhere: before the volume, within it, behind it, or nowhere.
 fn starts(camera: &Camera) -> Vec<f32> {
     let start = |p| match p % 5 {
         0 => NONE,
@@ -135,7 +135,7 @@ fn a_falling_step_at_a_value_that_blocks_hold_alone_is_seen() {
 
 #[test]
 fn a_preview_shows_nothing_before_the_cut_surface() {
-    // White before depth 0, black behind it; the cut surface at depth 0 on one side only.
+    // The volume is white before depth 0 and black behind; the cut surface at depth 0 covers one side only.
     let voxels: Vec<i16> = (0..20 * 20 * 20).map(|n| if n / 20 % 20 < 10 { 1000 } else { 0 }).collect();
     let place = DAffine3::from_translation(DVec3::splat(-9.5));
     let volume = Volume::new(Voxels::I16(&voxels), [20; 3], [1, 20, 400], place).unwrap();
@@ -198,7 +198,7 @@ fn the_order_of_voxels_in_memory_changes_no_bit() {
 
 #[test]
 fn voxels_more_than_32_bits_apart_are_found() {
-    // The allocator returns untouched zero pages: the memory is not really used.
+    // The allocator returns untouched pages of zeros, so this memory is never really used.
     let far = (1usize << 32) + 1;
     let mut sparse = vec![0u8; far + 4];
     let near = [10u8, 50, 200, 90, 40, 160, 120, 240];
@@ -226,7 +226,7 @@ fn voxels_more_than_32_bits_apart_are_found() {
 fn a_context_stops_when_asked() {
     let voxels = ball_and_rod(SIZE);
     let camera = view([0.0, 1.0, 0.0], [256, 256], 0.2);
-    // Stops before the blocks, and between tiles of rays.
+    // Stops before the blocks are made, and between tiles of rays.
     for patience in [0, 100] {
         let asked = AtomicUsize::new(0);
         let stop = || asked.fetch_add(1, Ordering::Relaxed) >= patience;

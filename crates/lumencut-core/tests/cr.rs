@@ -60,7 +60,7 @@ fn met(projected: &[Projected], x: f32, y: f32) -> Vec<Met> {
     all
 }
 
-/// CR of one pixel as in docs/method/reformations.md; `lift` rounds depths as it does keys.
+/// CR of one pixel as in docs/method/reformations.md; depths are rounded with `lift`, as keys are.
 fn by_brute_force(
     all: &[Met],
     offset: f32,
@@ -125,13 +125,13 @@ fn the_vessel_in_front_keeps_its_disc_and_a_larger_offset_hides_more() {
         for j in 0..120 {
             for i in 0..120 {
                 let (x, y) = (camera.view_x(i).abs(), camera.view_y(j).abs());
-                // Within its disc the vessel in front; elsewhere the nearer one, or the first of equal ones.
+                // Inside its disc the front vessel is shown; elsewhere the nearer one, or the first if equal.
                 let expected = if y <= 4.0 + offset || y <= x { 0.0 } else { 40.0 };
                 assert_eq!(frame.depth()[j * 120 + i], expected, "{x}, {y} with {offset} pixels");
             }
         }
     }
-    // All of the lumen behind is shown but the disc of the vessel in front.
+    // All of the lumen behind is shown, except in the disc of the vessel in front.
     let shown = |offset: f64| {
         let frame = seen(&crossing(), &camera, offset, 30.0);
         (0..120).filter(|j| frame.depth()[j * 120 + 60] == 40.0).count()
@@ -141,12 +141,12 @@ fn the_vessel_in_front_keeps_its_disc_and_a_larger_offset_hides_more() {
 
 #[test]
 fn a_loop_is_two_stretches_where_the_threshold_is_short_and_one_where_it_is_long() {
-    // Down in front and up again 40 mm behind it and 10 mm aside: 140 mm between the middles of both limbs.
+    // A vessel runs down, and up again 40 mm behind and 10 mm aside: its limbs' middles are 140 mm apart.
     let hairpin =
         vessel(&[[0., 0., 50.], [0., 0., -0.], [0., 0., -50.], [10., 40., -50.], [10., 40., 50.]], 2.0);
     let camera = front([60, 60], 1.0);
     let tree = tree(vec![hairpin]);
-    // 8.5 mm from the limb in front and 1.5 mm from that behind, in a disc of 2 + 10 mm.
+    // The pixel is 8.5 mm from the front limb, 1.5 mm from the other, and inside a disc of 2 + 10 mm.
     let short = seen(&tree, &camera, 10.0, 100.0);
     assert_eq!(at(&short, short.depth(), 8.5, 0.5), 0.0);
     let long = seen(&tree, &camera, 10.0, 200.0);
@@ -158,7 +158,7 @@ fn the_distance_along_the_tree_goes_through_junctions() {
     let tree = tree(vec![
         vessel(&[[0., 0., 0.], [0., 0., 30.]], 1.0),
         vessel(&[[0., 0., 30.], [20., 0., 30.]], 1.0),
-        // It begins at an inner point of the previous one.
+        // This vessel begins at an inner point of the previous one.
         vessel(&[[20., 0., 30.], [20., 10., 30.], [20., 10., 60.]], 1.0),
         vessel(&[[20., 10., 30.], [50., 10., 30.]], 1.0),
         vessel(&[[0., 0., 0.1], [0., 40., 0.1]], 1.0),
@@ -175,7 +175,7 @@ fn the_distance_along_the_tree_goes_through_junctions() {
         assert!(is_near(distance + 1e-4, a, b) && is_near(distance + 1e-4, b, a), "{a:?} to {b:?}");
         assert!(!is_near(distance - 1e-4, a, b) && !is_near(distance - 1e-4, b, a), "{a:?} to {b:?}");
     }
-    // A tenth of a millimetre off the end of another vessel is not on it.
+    // A vessel end a tenth of a millimetre off another vessel's end does not meet it.
     assert!(!is_near(1e6, (0, 0.0), (4, 0.0)));
 }
 
@@ -184,7 +184,7 @@ fn two_ways_around_a_ring_and_the_shorter_one_counts() {
     let half = |y: f64| vessel(&[[0., 0., 0.], [0., y, 10.], [0., 0., 20.]], 1.0);
     let tree = tree(vec![half(10.0), half(-30.0), vessel(&[[0., 0., 20.], [0., 0., 50.]], 1.0)]);
     let level = Level::new(&tree);
-    // From 25 mm beyond the ring to its start: over the short half.
+    // The way leads from 25 mm beyond the ring to its start, over the shorter half of the ring.
     let short = 25.0 + 2.0 * 200f64.sqrt();
     assert!(Connections::new(&level, short + 1e-4).are_near((2, 25.0), (1, 0.0)));
     assert!(!Connections::new(&level, short - 1e-4).are_near((2, 25.0), (1, 0.0)));

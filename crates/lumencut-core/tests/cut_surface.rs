@@ -27,7 +27,7 @@ fn a_slanted_tube_is_cut_along_its_foot_points() {
         near(at(&frame, frame.depth(), x, y), x * 0.4);
         near(at(&frame, &frame.distance, x, y), y.abs());
     }
-    // Before the first and beyond the last point the half-planes keep the depth of the ends.
+    // Before the first point and beyond the last one, the half-planes keep the depth of the ends.
     near(at(&frame, frame.depth(), -40.5, 9.5), -12.0);
     near(at(&frame, frame.depth(), 45.5, -3.5), 12.0);
     near(at(&frame, &frame.distance, 45.5, -3.5), 15.5f64.hypot(3.5));
@@ -42,7 +42,7 @@ fn a_bend_has_a_wedge_on_its_outside_and_the_nearer_stripe_inside() {
     for (x, y) in [(5.5, -5.5), (30.5, -0.5), (0.5, -30.5)] {
         near(at(&frame, frame.depth(), x, y), 10.0);
     }
-    // Inside, 10 mm from the first edge and 5 mm from the second: 10·1 − 1.25 against 15 − 5·….
+    // Inside the bend, 10 mm from the first edge and 5 mm from the second, the smaller cost wins.
     let (x, y) = (-4.5, 10.5);
     let first = (10.0 * (x + 40.0) / 40.0, y);
     let second = (10.0 + y, -x);
@@ -56,7 +56,7 @@ fn between_two_tubes_the_border_lies_where_their_costs_meet() {
     let front_tube = vessel(&[[-50., 0., 15.], [50., 0., 15.]], 3.0);
     let back_tube = vessel(&[[-50., 40., -15.], [50., 40., -15.]], 5.0);
     let frame = by_hierarchy(&tree(vec![back_tube, front_tube]), &front([16, 600], 0.1), &paper_unfiltered());
-    // 0 + 10·((15 − y) − 3) = 40 + 10·((y + 15) − 5)  ⇒  y = −1.
+    // The costs are equal at 0 + 10·((15 − y) − 3) = 40 + 10·((y + 15) − 5), which gives y = −1.
     for y in [-14.95, -4.95, -1.05] {
         assert_eq!(frame.vessel[pixel(&frame, 0.05, y)], 0, "at y = {y}");
     }
@@ -82,13 +82,13 @@ fn lumen_first_shows_the_lumen_that_a_near_surrounding_hides() {
 
 #[test]
 fn a_vessel_that_dives_along_the_view_goes_on_behind() {
-    // Right at depth 0, then 60 mm straight into depth, then up.
+    // The vessel runs right at depth 0, then 60 mm straight into depth, then up.
     let diving = vessel(&[[-40., 0., 0.], [0., 0., 0.], [0., 30., 0.], [0., 60., 0.], [0., 60., 40.]], 2.0);
     let settings = Settings { levels: 0, ..paper_unfiltered() };
     let frame = by_hierarchy(&tree(vec![diving]), &front([120, 120], 1.0), &settings);
     near(at(&frame, frame.depth(), -20.5, 0.5), 0.0);
     near(at(&frame, frame.depth(), 10.5, -10.5), 0.0);
-    // Above the dive: the half-plane at depth 0, distance 25 − 2, loses to the far stripe at depth 60.
+    // Above the run into depth, the half-plane at depth 0 (distance 25 − 2) loses to the stripe at depth 60.
     near(at(&frame, frame.depth(), 0.5, 25.5), 60.0);
 }
 
@@ -108,7 +108,7 @@ fn a_run_at_an_end_gives_a_plane_through_the_end_point() {
     let frame = by_hierarchy(&tree(vec![late]), &front([80, 80], 1.0), &settings);
     near(at(&frame, frame.depth(), -10.5, 0.5), 0.0);
     near(at(&frame, frame.depth(), 20.5, 0.5), 25.0);
-    // The plane covers everything: it wins wherever its cost is lower than the stripe's.
+    // The end's plane covers every pixel, so it wins wherever its cost is lower than the stripe's.
     near(at(&frame, frame.depth(), -0.5, 39.5), 0.0);
 }
 
@@ -118,7 +118,7 @@ fn the_trefoil_is_threefold_symmetric() {
     let camera = front([160, 160], 1.0);
     let turn = DQuat::from_axis_angle(DVec3::Y, std::f64::consts::TAU / 3.0);
     let turned = Camera::new(DVec3::ZERO, DVec3::Y, turn * DVec3::Z, [160, 160], 1.0).unwrap();
-    // Only level 0: coarser levels start at the vessel's ends, which break the symmetry.
+    // Only level 0: coarser levels depend on where the vessel starts, which breaks the symmetry.
     let settings = Settings { levels: 0, ..paper_unfiltered() };
     let (a, b) = (by_hierarchy(&knot, &camera, &settings), by_hierarchy(&knot, &turned, &settings));
     SYMMETRIC.assert_same(a.depth(), b.depth(), "depths");
@@ -150,7 +150,7 @@ fn the_order_of_the_vessels_does_not_matter() {
     for settings in [paper_unfiltered(), unfiltered()] {
         let (a, b) = (by_hierarchy(&scene, &camera, &settings), by_hierarchy(&reversed, &camera, &settings));
         let last = scene.vessels().len() as i32 - 1;
-        // Vessels that share an end point tie around it; elsewhere nothing differs.
+        // Vessels that share an end point have equal keys around it; elsewhere nothing differs.
         REORDERED_DEPTH.assert_same(a.depth(), b.depth(), "depths");
         let ids = (0..a.depth().len()).filter(|p| a.vessel[*p] != last - b.vessel[*p]).count();
         assert!(REORDERED_VESSEL.allows(ids, a.depth().len()), "{ids} ids differ");

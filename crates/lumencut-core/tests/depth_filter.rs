@@ -1,4 +1,4 @@
-//! The depth filter within zones, compared with the rule pixel by pixel; and images it must not change.
+//! The depth filter within zones, compared pixel by pixel with its rule, and images that it must not change.
 #![allow(clippy::unwrap_used)]
 
 use std::collections::BTreeSet;
@@ -26,7 +26,7 @@ fn image(size: [usize; 2], depth: impl Fn(f32, f32) -> f32) -> Vec<f32> {
     (0..size[0] * size[1]).map(|p| depth((p % size[0]) as f32, (p / size[0]) as f32)).collect()
 }
 
-/// The rule of one axis in f64: the mean of a pixel and the pairs that count, and their number.
+/// The rule along one axis in f64: the mean of a pixel and the pairs that count, and the number of pairs.
 fn mean_along(
     size: [usize; 2],
     step: [isize; 2],

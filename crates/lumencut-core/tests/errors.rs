@@ -107,7 +107,7 @@ fn errors_name_what_was_found_and_what_was_expected() {
     }
 }
 
-/// The kinds of `lumencut-gpu` and `lumencut-vessels`, whose tests cover them.
+/// The error kinds of `lumencut-gpu` and `lumencut-vessels`, which those crates' tests cover.
 const OF_OTHER_CRATES: [ErrorKind; 3] = [ErrorKind::Device, ErrorKind::Tracing, ErrorKind::Measuring];
 
 #[test]

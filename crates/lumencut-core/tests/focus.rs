@@ -1,4 +1,4 @@
-//! The focus compared with closed forms and an independent distance; its limits are CSR and the context.
+//! The focus, compared with closed forms and an independent distance; at its limits: CSR, and only context.
 #![allow(clippy::unwrap_used)]
 
 use glam::{DVec2, DVec3};
@@ -45,7 +45,7 @@ fn share(beyond: f64, margin: f64, fade: f64) -> f64 {
     1.0 - away * away * (3.0 - 2.0 * away)
 }
 
-/// The distance of a view position from the nearest of very many discs along the vessels.
+/// The distance of a view position from the nearest of many discs along the vessels.
 fn beyond_discs(tree: &VesselTree, camera: &Camera, place: DVec2) -> f64 {
     let mut nearest = f64::MAX;
     for vessel in tree.vessels() {
@@ -93,7 +93,7 @@ fn the_distance_is_that_of_the_nearest_disc_of_all_vessels() {
 
 #[test]
 fn neighbours_differ_by_no_more_than_the_slope_of_the_fade_allows() {
-    // A vessel that widens fast: the distance from only the wall at the foot would be steeper.
+    // A vessel that widens fast: the distance from the wall at the nearest centerline point would be steeper.
     let points = vec![DVec3::ZERO, DVec3::new(6.0, 30.0, 0.0), DVec3::new(9.0, 31.0, 14.0)];
     let widening = Vessel::new(points, Some(vec![1.0, 6.5, 2.0])).unwrap();
     let scenes = [random_tree(7, 6, 20, 6.0, 30.0).unwrap(), tree(vec![widening])];
@@ -219,7 +219,7 @@ fn between_them_it_is_a_mean_by_the_share() {
 #[test]
 fn far_from_all_walls_silhouettes_are_gone_and_near_them_they_are_as_before() {
     let phantom = crossing().unwrap();
-    // With lines of zones that reach the border of the picture.
+    // In this view, lines between zones reach the border of the picture.
     let camera = view([0.2, 1.0, 0.3], [220, 180], 0.6);
     for base in [Settings::default(), Settings::paper()] {
         let quiet = Settings { silhouette_reach: Some(4.0), ..base.clone() };
@@ -245,7 +245,7 @@ fn far_from_all_walls_silhouettes_are_gone_and_near_them_they_are_as_before() {
 
 #[test]
 fn where_no_line_can_lie_the_picture_needs_no_distance() {
-    // Only a picture requested with its shares has them everywhere.
+    // Only a picture requested together with its shares has exact shares everywhere.
     let whole = ImageSet::ALL.and(ImageSet::of(&[Image::Focus]));
     let settings = |reach: f64, focus: Option<Focus>, first: &[usize]| Settings {
         silhouette_reach: Some(reach),

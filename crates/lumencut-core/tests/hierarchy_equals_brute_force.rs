@@ -11,7 +11,7 @@ use lumencut_scenes::settings::{paper_unfiltered, unfiltered};
 use lumencut_scenes::trees::{tree, trefoil, vessel};
 use lumencut_scenes::views::view;
 
-/// Directions along axes, oblique, and so close to an axis that segments are nearly collinear.
+/// Directions along axes, oblique ones, and some so close to an axis that segments are nearly collinear.
 const DIRECTIONS: [[f64; 3]; 8] = [
     [0.0, 1.0, 0.0],
     [1.0, 0.0, 0.0],
@@ -23,7 +23,7 @@ const DIRECTIONS: [[f64; 3]; 8] = [
     [-1.0, -1.0, 1.0],
 ];
 
-/// Both visibility rules and level choices; with and without lumen, few and many levels, two weights.
+/// Both rules for visibility and for levels, with and without lumen, with few and many levels, two weights.
 fn rules() -> Vec<Settings> {
     let (own, paper) = (unfiltered(), paper_unfiltered());
     vec![
@@ -138,7 +138,7 @@ fn coil() -> VesselTree {
 
 #[test]
 fn on_pixels_finer_than_the_rounding_of_the_nearest_point() {
-    // Pixels of 0.02 to 0.07 mm at coordinates of 100 mm: as small as roots of some rounding errors.
+    // Pixels of 0.02 to 0.07 mm at coordinates of 100 mm are as small as the roots of some rounding errors.
     for (size, pixel_spacing) in [([3072, 3072], 200.0 / 3072.0), ([8192, 256], 0.02), ([256, 8192], 0.02)] {
         let camera = view([0.0, 1.0, 0.0], size, pixel_spacing);
         let (hierarchy, brute) =

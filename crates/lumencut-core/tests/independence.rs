@@ -1,5 +1,5 @@
-//! Independence of instruction set and threads; stopping; no allocation of the size of tree or volume for a
-//! further view.
+//! Results do not depend on instruction set and threads; rendering can be stopped; and a further view
+//! allocates nothing of the size of tree or volume.
 #![allow(clippy::unwrap_used)]
 
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -24,7 +24,7 @@ fn scene() -> (VesselTree, Vec<i16>, DAffine3) {
     (random_tree(11, 20, 50, 2.0, 70.0).unwrap(), voxels, affine)
 }
 
-/// The default, the paper's rules, and own levels by cost only, with many levels.
+/// The default rules, the paper's, and own levels by cost only with many levels.
 fn rules() -> [Settings; 3] {
     let by_cost = Settings { lumen_first: false, levels: 15, level_distance: 1.0, ..Settings::default() };
     [Settings::default(), Settings::paper(), by_cost]
@@ -54,7 +54,7 @@ fn every_instruction_set_gives_the_same_bits() {
     }
 }
 
-/// The bits of sheets, leaps and strengths.
+/// The bit patterns of sheets, leaps and strengths.
 fn details(isa: Isa, settings: &Settings) -> (Vec<[u32; 4]>, Vec<u32>, Vec<u32>) {
     let (camera, tree) = (view([1.0, 0.4, -0.3], [150, 101], 1.1), LeveledTree::new(scene().0));
     let found = CpuRenderer::new(isa).details(&tree, &Request::new(&camera, settings)).unwrap();

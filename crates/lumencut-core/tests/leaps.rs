@@ -1,4 +1,4 @@
-//! Leaps compared with closed forms: they lie where one surface hides another, and nowhere else.
+//! Depth jumps compared with closed forms: they lie where one surface hides another, and nowhere else.
 #![allow(clippy::unwrap_used)]
 
 use lumencut_core::camera::Camera;
@@ -41,7 +41,7 @@ fn a_near_tube_before_a_far_one_leaps_exactly_along_its_border() {
     let border = |j: usize| camera.view_y(j).abs() < 5.0;
     let expected = |p: usize| {
         let j = p / SIZE[0];
-        // 100 mm of depth are more than the 40 mm of the larger tube.
+        // The depths differ by 100 mm, which is more than the 40 mm diameter of the larger tube.
         if j + 1 < SIZE[1] && border(j) != border(j + 1) { DOWNWARDS } else { 0 }
     };
     let found = leaps(&scene, &camera);
@@ -55,7 +55,7 @@ fn leaps_to_the_right_are_those_downwards_of_the_view_turned_by_a_right_angle() 
     let tall = Camera::new(glam::DVec3::ZERO, glam::DVec3::Y, glam::DVec3::Z, SIZE, 1.5).unwrap();
     let wide =
         Camera::new(glam::DVec3::ZERO, glam::DVec3::Y, glam::DVec3::X, [SIZE[1], SIZE[0]], 1.5).unwrap();
-    // Turned by 90°: rows from the top are columns from the right, and columns are rows.
+    // Turned by 90°: rows from the top become columns from the right, and columns become rows.
     let (a, b) = (leaps(&scene, &tall), leaps(&scene, &wide));
     let turned = |i: usize, j: usize| b[(SIZE[0] - 1 - i) * SIZE[1] + j];
     let mut seen = 0;
@@ -69,7 +69,7 @@ fn leaps_to_the_right_are_those_downwards_of_the_view_turned_by_a_right_angle() 
 
 #[test]
 fn the_sheet_of_a_straight_tube_is_its_slope_and_radius_negative_beside_the_lumen_without_a_gap() {
-    // 40 mm of depth over 80 mm to the right and 40 mm upwards: (80, 40) · 40 / (80² + 40²).
+    // The depth rises 40 mm over 80 mm to the right and 40 mm upwards: (80, 40) · 40 / (80² + 40²).
     let slanted = tree(vec![vessel(&[[-80., -40., -40.], [0.; 3], [80., 40., 40.]], 3.0)]);
     let slope = [0.4f32, 0.2];
     let camera = front(SIZE, 1.0);
@@ -104,7 +104,7 @@ fn within_lumen_and_wall_nothing_is_blended() {
 
 #[test]
 fn a_steep_vessel_that_goes_on_has_no_leap_to_the_borders_of_the_image() {
-    // 40 mm of depth per mm: up to 40 mm from pixel to pixel.
+    // The depth rises 40 mm per mm, so up to 40 mm from pixel to pixel.
     for [x, z] in [[50., 0.], [0., 50.], [-30., 40.]] {
         let steep = tree(vec![vessel(&[[-x, -2000., -z], [0.; 3], [x, 2000., z]], 2.0)]);
         for (size, spacing) in [(SIZE, 0.2), (SIZE, 1.0), ([1, 1], 1.0), ([1, 17], 1.0), ([17, 1], 1.0)] {
@@ -139,7 +139,7 @@ fn a_leap_is_more_than_the_larger_diameter_and_more_than_two_mm() {
     }
 }
 
-/// Random depths (mm), and sheets that explain some of their changes.
+/// Random depths (mm), and sheets whose slopes explain some of the changes.
 fn noise(random: &mut Random, pixels: usize) -> (Vec<f32>, Vec<Sheet>) {
     let sheet = |random: &mut Random| {
         let [x, y] = [0; 2].map(|_| random.between(-6.0, 6.0));
@@ -149,7 +149,7 @@ fn noise(random: &mut Random, pixels: usize) -> (Vec<f32>, Vec<Sheet>) {
     (depth, (0..pixels).map(|_| sheet(random)).collect())
 }
 
-/// The rule in f64: whether a change from one pixel to another is a leap; `None` if rounding decides.
+/// The rule in f64: whether a change between two pixels is a depth jump; `None` if rounding could decide.
 fn stated(change: f32, sheets: [Sheet; 2], step: [f64; 2]) -> Option<bool> {
     let over = sheets.map(|[x, y, radius, _]| {
         let expected = f64::from(x) * step[0] + f64::from(y) * step[1];

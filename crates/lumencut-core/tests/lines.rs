@@ -1,4 +1,4 @@
-//! The lines of leaps compared with closed forms: their width and side, and that they leave lumens free.
+//! Lines at depth jumps compared with closed forms: their width and side; and lines leave lumens free.
 #![allow(clippy::unwrap_used)]
 
 use lumencut_core::camera::Camera;
@@ -13,7 +13,7 @@ use lumencut_scenes::trees::{tree, vessel};
 use lumencut_scenes::views::{front, on_cpu, view};
 
 const SIZE: [usize; 2] = [60, 80];
-/// Pixel spacings (mm), and the width of a line there (pixels): 1 mm, but 0.5 to 1.5 pixels.
+/// Pixel spacings (mm), and the width of a line there in pixels: 1 mm, clamped to 0.5 to 1.5 pixels.
 const WIDTHS: [(f64, f32); 6] = [(0.05, 1.5), (0.5, 1.5), (0.8, 1.25), (1.0, 1.0), (1.6, 0.625), (2.5, 0.5)];
 /// A bound on the rounding of a sum of strengths.
 const ROUNDING: f32 = 1e-4;
@@ -35,7 +35,7 @@ fn column(strength: &[f32]) -> Vec<f32> {
 #[test]
 fn a_line_on_a_far_lumen_is_1_mm_wide_within_half_a_pixel_and_one_and_a_half() {
     for (spacing, width) in WIDTHS {
-        // The border of the near tube lies between two rows; behind it there is lumen everywhere.
+        // The border of the near tube lies between two rows; behind it, the far tube's lumen is everywhere.
         let radius = 12.0 * spacing;
         let scene = tree(vec![tube(0.0, 400.0, 90.0), tube(0.0, 0.0, radius)]);
         let camera = front(SIZE, spacing);
@@ -59,7 +59,7 @@ fn a_line_on_a_far_lumen_is_1_mm_wide_within_half_a_pixel_and_one_and_a_half() {
 fn a_line_between_surroundings_is_as_wide_and_lies_on_the_farther_side() {
     for (spacing, width) in WIDTHS {
         let scene = tree(vec![tube(16.0 * spacing, 0.0, spacing), tube(-16.0 * spacing, 30.0, spacing)]);
-        // Walls would leap too, and a low cost would move the border.
+        // Walls would add depth jumps, and a low cost would move the border.
         let settings = Settings { lumen_margin: 0.0, cost_weight: 1e4, ..Settings::default() };
         let SurfaceDetails { leap, strength, .. } = details(&scene, &front(SIZE, spacing), &settings);
         let (leap, strength) = (&leap[SIZE[0] / 2..], column(&strength));
@@ -100,7 +100,7 @@ fn a_line_is_as_wide_in_every_direction() {
                     spacing,
                 )
             };
-            // The border between their surroundings crosses the middle of the picture.
+            // The border between the two vessels' surroundings crosses the middle of the picture.
             let scene = tree(vec![aside(500.0 * spacing, 0.0), aside(-500.0 * spacing, 30.0)]);
             let settings = Settings { levels: 0, cost_weight: 1e4, ..Settings::default() };
             let size = [80, 80];
@@ -115,7 +115,7 @@ fn a_line_is_as_wide_in_every_direction() {
     }
 }
 
-/// Distance (pixels) of a pixel from a leap to a nearer lumen along a row or column of lumen.
+/// Distance (pixels) of a lumen pixel from a depth jump to a nearer lumen, along its row or column.
 fn to_a_nearer_lumen(leap: &[u32], depth: &[f32], [i, j]: [usize; 2]) -> Option<usize> {
     let at = |i: isize, j: isize| {
         let is_inside = (0..SIZE[0] as isize).contains(&i) && (0..SIZE[1] as isize).contains(&j);
@@ -171,7 +171,7 @@ fn no_line_covers_a_lumen_but_where_it_ends_at_a_nearer_one() {
     assert!(covered > 30 && free > 1000, "{covered} covered, {free} free");
 }
 
-/// The strengths of a row of six pixels with one leap in the middle, whose line lies to its right.
+/// The strengths of a row of six pixels with one depth jump in the middle, whose line lies to its right.
 fn beside_one_leap(lumens: [bool; 6], value: [f32; 6]) -> Vec<f32> {
     let camera = front([6, 1], 1.0);
     let mut leap: Vec<u32> = lumens.iter().map(|lumen| if *lumen { LUMEN } else { 0 }).collect();

@@ -1,4 +1,4 @@
-//! The tests of the core as one program; `memory.rs` counts allocations in its own process.
+//! All tests of the core in one program, except `memory.rs`, which counts allocations in its own process.
 
 mod along_rays;
 mod bad_input;

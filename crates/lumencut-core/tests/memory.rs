@@ -1,4 +1,4 @@
-//! Peak memory stays within 64 bytes per pixel and 400 per segment besides the volume; a further view
+//! Peak memory stays within 64 bytes per pixel and 400 per segment, without the volume. A further view
 //! allocates nothing of the size of tree or volume.
 #![allow(clippy::unwrap_used, unsafe_code)]
 
@@ -39,14 +39,14 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-// A single test: the counters belong to the whole process.
+// There is a single test, since the counters belong to the whole process.
 #[test]
 fn memory_stays_within_its_bounds() {
     let voxels = vec![100i16; 200usize.pow(3)];
     let affine = DAffine3::from_translation(glam::DVec3::splat(-99.5));
     let volume = Volume::new(Voxels::I16(&voxels), [200; 3], [1, 200, 40_000], affine).unwrap();
     let (large, small) = (view([0.3, 1.0, 0.2], [256, 256], 0.8), view([1.0, 0.0, 0.1], [32, 32], 6.0));
-    // The threads of the pool start once per process.
+    // A first view starts the threads of the pool, once per process.
     let settings = Settings::default();
     let warm = Scene::default().with_tree(trefoil(9));
     CpuRenderer::default().render(&warm, &Request::new(&small, &settings)).unwrap();

@@ -1,4 +1,4 @@
-//! mpCPR compared with closed forms, and with an independent search of every point of every row.
+//! mpCPR compared with closed forms, and with an independent search of all points in every row.
 #![allow(clippy::unwrap_used)]
 
 use glam::DVec3;
@@ -23,7 +23,7 @@ fn seen(tree: &VesselTree, camera: &Camera) -> Frame {
     mpcpr(&LeveledTree::new(tree.clone()), &Request::new(camera, &settings)).unwrap()
 }
 
-/// Compares every pixel of a row with every segment: depth, vessel, and whether its vessel is met twice.
+/// For each pixel of a row, from all segments: depth, vessel, and whether the row meets that vessel twice.
 fn by_brute_force(tree: &VesselTree, camera: &Camera, j: usize) -> Vec<Option<(f64, i32, bool)>> {
     let y = camera.view_y(j);
     let mut points = Vec::new();
@@ -76,7 +76,7 @@ fn every_row_shows_what_a_search_of_all_its_points_finds() {
     assert!(folded > 1000 && nothing > 1000 && folded + nothing + 1000 < all, "{folded}, {nothing} of {all}");
 }
 
-/// Segments of thousands of slots, so that crossings lie in many blocks of them.
+/// Segments span thousands of slots, so that the crossings of a row lie in many blocks.
 #[test]
 fn long_vessels_lose_no_row() {
     let point = |i: i32| [f64::from(i % 7), 0.01 * f64::from(i), f64::from(i) * 0.05 - 50.0];
@@ -92,7 +92,7 @@ fn a_row_is_split_midway_between_vessels() {
         vessel(&[[14., -7., -10.], [14., -7., 10.]], 2.0),
     ]);
     let frame = seen(&tree, &front([60, 80], 1.0));
-    // x = 2 is midway between the vessels; above and below z = ±10 the second vessel has ended.
+    // x = 2 is midway between the vessels; the second vessel exists only between z = −10 and 10.
     for (x, y, depth, id) in
         [(1.5, 0.5, 5.0, 0), (2.5, 0.5, -7.0, 1), (29.5, 9.5, -7.0, 1), (29.5, 10.5, 5.0, 0)]
     {
@@ -132,13 +132,13 @@ fn rows_beyond_the_ends_show_nothing() {
             assert!(is_there || (shown.value[p].is_nan() && shown.image[p][3] == 0));
         }
     }
-    // No depth leaps to empty pixels.
+    // The border of empty pixels is no depth jump.
     assert!(shown.leap.iter().all(|leap| leap & LEAPS == 0));
 }
 
 #[test]
 fn ends_and_turns_on_a_row_are_met_once() {
-    // At y = 0.5, 1.5, …: the vessel begins, turns and ends, passes at a point, runs along a row.
+    // At y = 0.5, 1.5, …: the vessel begins, turns and ends, passes at a point, or runs along a row.
     let line = [[-4., 1., 0.5], [-2., 2., 2.5], [0., 3., 0.5], [1., 4., 1.5], [2., 5., 2.5]];
     let camera = front([16, 8], 1.0);
     let frame = seen(&tree(vec![vessel(&line, 1.0)]), &camera);
@@ -146,12 +146,12 @@ fn ends_and_turns_on_a_row_are_met_once() {
         let first = pixel(&frame, -7.5, y);
         (first..first + 16).map(|p| (frame.depth()[p], frame.folded[p])).collect::<Vec<_>>()
     };
-    // At y = 0.5 both turns, x = -4 and x = 0; the pixel at x = -2.5 is nearer to the first.
+    // At y = 0.5 the row meets both turns, at x = −4 and 0; the pixel at x = −2.5 is nearer to the first.
     assert_eq!(row(0.5)[5], (1.0, true));
     assert_eq!(row(0.5)[6], (3.0, true));
-    // At y = 2.5 the turn and the end.
+    // At y = 2.5 the row meets the turn and the end.
     assert_eq!((row(2.5)[0], row(2.5)[15]), ((2.0, true), (5.0, true)));
-    // At y = 1.5 three points, the last of which joins two segments.
+    // At y = 1.5 the row meets three points, the last of which joins two segments.
     assert_eq!(row(1.5)[15], (4.0, true));
     let lone = seen(&tree(vec![vessel(&[[0., 7., 0.5], [3., 9., 3.5]], 1.0)]), &camera);
     assert!(lone.folded.iter().all(|is_folded| !is_folded));
@@ -168,7 +168,7 @@ fn a_segment_within_a_row_shows_its_point_nearest_along_the_row() {
         assert!(frame.folded[pixel(&frame, x, 0.5)]);
     }
     assert!(!frame.folded[pixel(&frame, 0.5, -0.5)] && !frame.folded[pixel(&frame, 0.5, 1.5)]);
-    // Along the view the vessel lies at one position: its nearest point counts.
+    // A vessel along the view lies at one position, and its nearest point counts.
     let away = vessel(&[[0., 9., 0.5], [0., -3., 0.5]], 1.0);
     let frame = seen(&tree(vec![away]), &front([16, 8], 1.0));
     assert_eq!(at(&frame, frame.depth(), 5.5, 0.5), -3.0);
@@ -176,7 +176,7 @@ fn a_segment_within_a_row_shows_its_point_nearest_along_the_row() {
 
 #[test]
 fn leaps_between_vessels_and_lumen_are_told() {
-    // 45° to rows and view: with d = (1, √2, 1)/2 a point s along the row lies s·√(1 − ¼) off.
+    // The vessel is at 45° to rows and view, d = (1, √2, 1)/2: a point s along the row is s·√(1 − ¼) off.
     let slanted = vessel(&[[-20., -28.284_271_2, -20.], [20., 28.284_271_2, 20.]], 3.0);
     let upright = vessel(&[[30., 60., -20.], [30., 60., 20.]], 1.0);
     let frame = seen(&tree(vec![slanted, upright]), &front([400, 40], 0.25));

@@ -21,7 +21,7 @@ use lumencut_scenes::views::{front, view};
 
 const DIRECTIONS: [[f64; 3]; 4] = [[0.0, 1.0, 0.0], [1.0, 0.3, 0.2], [-1.0, 2.0, 3.0], [0.2, -0.1, -1.0]];
 
-/// The pixels of a view whose nearest lumen rounding cannot change, with that lumen's depth (mm).
+/// The pixels whose nearest lumen cannot change by rounding, with the depth of that lumen (mm).
 fn lumens(scene: &VesselTree, camera: &Camera) -> Vec<(usize, f64)> {
     let [width, height] = camera.size();
     let of_pixel = |p: usize| {
@@ -87,7 +87,7 @@ fn a_lumen_that_rounding_may_change_is_not_certain() {
     assert_eq!(depths(3.0001), [None; 2]);
 }
 
-/// Own levels by *lumen first* and by cost only, with few levels and many.
+/// Own levels with *lumen first* and with cost only, with few levels and with many.
 fn own_levels() -> [Settings; 3] {
     [
         unfiltered(),
@@ -114,7 +114,7 @@ fn the_vessel_of_a_pixel_does_not_depend_on_the_levels() {
     }
 }
 
-/// A vessel beyond all others with the largest coordinates, so that rounding is the same without others.
+/// A vessel beyond all others that has the largest coordinates, so rounding is the same without the others.
 fn far_away() -> Vessel {
     let points = vec![DVec3::new(-700.0, 900.0, 700.0), DVec3::new(-720.0, 900.0, 700.0)];
     Vessel::new(points, Some(vec![1.0; 2])).unwrap()
@@ -169,7 +169,7 @@ fn arc_lengths_never_fall_and_end_with_the_length_of_the_vessel() {
     }
 }
 
-/// A straight tube with 70 points at uneven distances, whose depth rises.
+/// A straight tube with 70 unevenly spaced points, whose depth rises.
 fn uneven_tube() -> VesselTree {
     let mut random = Random::new(66);
     let mut along = 0.0;
@@ -199,7 +199,7 @@ fn every_level_of_a_straight_tube_has_the_depth_of_the_finest_however_far() {
     }
 }
 
-/// The frame of a request for some images, and its stages.
+/// The frame for a request of some images, and the stages that ran.
 fn asked(scene: &Scene, settings: &Settings, images: &[Image]) -> (Frame, Vec<&'static str>) {
     let camera = view([0.5, 1.0, -0.3], [61, 50], 1.7);
     let request = Request { images: ImageSet::of(images), ..Request::new(&camera, settings) };

@@ -1,4 +1,4 @@
-//! Images by the paper's rules are bit-identical to those made when there were no other rules.
+//! Images by the paper's rules are bit-identical to those of the version that had only these rules.
 #![allow(clippy::unwrap_used)]
 
 use lumencut_core::camera::Camera;
@@ -11,7 +11,7 @@ use lumencut_scenes::random_tree::random_tree;
 use lumencut_scenes::trees::{tree, trefoil, vessel};
 use lumencut_scenes::views::{on_cpu, view};
 
-/// FNV-1a over the bytes of an image.
+/// The FNV-1a hash of an image's bytes.
 fn hash(bytes: impl IntoIterator<Item = u8>) -> u64 {
     bytes.into_iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)

@@ -39,7 +39,7 @@ fn assert_identical(one: &Frame, other: &Frame) {
     assert_eq!(bits(&one.value), bits(&other.value));
 }
 
-/// Settings with which context, slab and silhouettes all show.
+/// Settings in which context, slab and silhouettes are all visible.
 fn all_layers() -> Settings {
     Settings {
         opacity: Some(Opacity { transparent: 0.0, opaque: 400.0 }),
@@ -98,7 +98,7 @@ fn levels_are_kept_for_two_values_of_the_smoothing() {
         assert!(Arc::ptr_eq(&none, &leveled.levels(3, 0.0)));
         assert!(Arc::ptr_eq(&half, &leveled.levels(2, 0.5)));
     }
-    // The smoothing used last stays cached next to a third one.
+    // The smoothing used last stays cached when a third one is added.
     let two = leveled.levels(3, 2.0);
     assert!(Arc::ptr_eq(&half, &leveled.levels(3, 0.5)));
     assert!(Arc::ptr_eq(&two, &leveled.levels(3, 2.0)));
@@ -111,7 +111,7 @@ fn looking_again_shows_the_same() {
     let (camera, scene) = (view([0.3, 1.0, 0.2], SIZE, 1.5), scene(&phantom));
     let request = Request::new(&camera, &settings);
     let whole = shown(&scene, &camera, &settings);
-    // Without a volume, a cut surface has leaps and shares only if requested.
+    // Without a volume, a frame has depth jumps and focus shares only if they are requested.
     let cut = Scene { volume: None, ..scene.clone() };
     let images = ImageSet::ALL.and(ImageSet::of(&[Image::Leap, Image::Focus]));
     let with_leaps = Request { images, ..request };
@@ -154,7 +154,7 @@ fn neither_a_volume_nor_a_tree_is_an_error() {
     assert_eq!(nothing.unwrap_err().kind, ErrorKind::Volume);
 }
 
-/// The cut surface of a frame as a curved geometry.
+/// The positions of a frame's cut surface as a curved geometry.
 fn as_curved(frame: &Frame) -> Geometry {
     let camera = *frame.geometry.camera().unwrap();
     let [width, height] = camera.size();

@@ -131,7 +131,7 @@ fn what_is_no_setting_or_no_value_of_it_is_refused_by_name() {
         "context: found 'xray'; expected one of 'mida', 'dvr', 'mip', 'minip', 'average'"
     );
     for setting in table() {
-        // A colour of five channels is a value of no setting.
+        // No setting takes a colour of five channels.
         let message = error((setting.name, Value::Color(vec![0; 5])));
         let start = format!("{}: found Color([0, 0, 0, 0, 0]); expected a value of the kind ", setting.name);
         assert_eq!(message, format!("{start}{}", setting.kind.name()));

@@ -92,7 +92,7 @@ fn the_depth_filter_keeps_constants_to_the_border() {
     }
 }
 
-/// The volume at the depths of a view.
+/// The values of the volume at the depths of a view.
 fn sampled(volume: &Volume, camera: &Camera, depth: Vec<f32>, slab: Option<Slab>) -> Result<Vec<f32>> {
     let mut value = vec![0.0; depth.len()];
     let geometry = Geometry::Orthographic { camera: *camera, depth };
@@ -125,7 +125,7 @@ fn the_surface_reads_the_volume_where_the_depth_says() {
             assert!(value[p].is_nan());
             outside += 1;
         } else {
-            // Within half a voxel of the border the outermost voxels continue.
+            // Within half a voxel beyond the outermost centres, the outermost voxels continue.
             let expected = index.clamp(DVec3::ZERO, last).dot(DVec3::new(1.0, 10.0, 100.0));
             assert!(
                 (f64::from(value[p]) - expected).abs() < f64::from(VALUE.apart),
@@ -152,7 +152,7 @@ fn every_voxel_type_and_memory_order_reads_the_same() {
         ($($name:ident $type:ty),*) => {$({
             let same: Vec<$type> = voxels.iter().map(|v| *v as $type).collect();
             let found = read(Voxels::$name(&same), [1, 9, 72]);
-            // Wider types compute in f64: equal up to the last digits of f32.
+            // Wider types compute in f64, and are equal up to the last digits of f32.
             for (a, b) in found.iter().zip(&expected) {
                 let (a, b) = (f32::from_bits(*a), f32::from_bits(*b));
                 assert!((a.is_nan() && b.is_nan()) || VALUE.is_same(a, b), stringify!($name));
@@ -236,7 +236,7 @@ fn a_whole_rendering_shows_a_bright_tube_on_a_dark_ground() {
 
 #[test]
 fn a_slab_far_thicker_than_the_volume_shows_all_of_it() {
-    // Eight voxels with a side of 0.0001 mm or 1 mm, in a slab of 1 m.
+    // A volume of eight voxels with a side of 0.0001 mm or 1 mm, in a slab of 1 m.
     for side in [1e-4, 1.0] {
         let voxels = [1i16, 2, 3, 4, 5, 6, 7, 8];
         let affine = DAffine3::from_scale_rotation_translation(
@@ -245,7 +245,7 @@ fn a_slab_far_thicker_than_the_volume_shows_all_of_it() {
             DVec3::splat(-side / 2.0),
         );
         let volume = Volume::new(Voxels::I16(&voxels), [2; 3], [1, 2, 4], affine).unwrap();
-        // The middle pixel's ray runs along k through the middle of the volume: 2.5 first, 6.5 last.
+        // The middle pixel's ray runs along k through the volume's middle: from 2.5 up to 6.5.
         let camera = view([0.0, 0.0, 1.0], [3, 3], side / 10.0);
         for (mode, expected) in [(SlabMode::Min, 2.5), (SlabMode::Mean, 4.5), (SlabMode::Max, 6.5)] {
             let slab = Some(Slab { thickness: 1000.0, mode });
@@ -258,7 +258,7 @@ fn a_slab_far_thicker_than_the_volume_shows_all_of_it() {
 #[test]
 fn leaps_are_where_neither_side_goes_on_and_never_beyond_the_image() {
     // A steep plane (90 mm per mm right, 70 up) with a 5 mm step after the third column, and a 3 mm step
-    // after the second row that a vessel of 2 mm radius bridges.
+    // after the second row. The latter is less than the diameter of a vessel with a radius of 2 mm.
     let size = [19, 7];
     let camera = view([0.0, 1.0, 0.0], size, 0.5);
     let place = |p: usize| (p % size[0], p / size[0]);
@@ -272,7 +272,7 @@ fn leaps_are_where_neither_side_goes_on_and_never_beyond_the_image() {
     let mut found = vec![9; depths.len()];
     leap(&on_cpu(&camera), &LeapParameters::new(&camera), &depths, &sheets, &mut found).unwrap();
     for (p, bits) in found.iter().enumerate() {
-        // All of it is lumen, and what is to the right lies farther.
+        // All pixels are lumen, and the right side of the step lies farther.
         let leap = if place(p).0 == 2 { TO_THE_RIGHT | LINE_TO_THE_RIGHT } else { 0 };
         assert_eq!(*bits, leap | LUMEN, "at {:?}", place(p));
     }

@@ -1,4 +1,4 @@
-//! The table of stages agrees with the shaders, the order in which stages run, and the images that they need.
+//! The table of stages agrees with the shaders, with the order of stages, and with the images that they need.
 #![allow(clippy::unwrap_used)]
 
 use glam::{DVec3, Vec3};

@@ -1,4 +1,4 @@
-//! Lumen first on parallel tubes, in closed form: lumen comes before wall and wall before surroundings.
+//! The setting `lumen_first` on parallel tubes, in closed form: lumens precede walls, walls precede the rest.
 #![allow(clippy::unwrap_used)]
 
 use lumencut_core::settings::Settings;
@@ -11,7 +11,6 @@ use lumencut_scenes::settings::unfiltered;
 use lumencut_scenes::trees::{tree, vessel};
 use lumencut_scenes::views::{front, pixel, view};
 
-/// A tube across the view.
 #[derive(Clone, Copy)]
 struct Tube {
     height: f64,
@@ -24,14 +23,14 @@ impl Tube {
         vessel(&[[-500.0, self.depth, self.height], [500.0, self.depth, self.height]], self.radius)
     }
 
-    /// Distance of a height beyond the tube's lumen (mm).
+    /// Distance of the height `y` in the view from the tube's lumen (mm).
     fn beyond(self, y: f64, settings: &Settings) -> f64 {
         let is_known = settings.preserve_lumen && self.radius > 0.0;
         let radius = if is_known { self.radius } else { settings.unknown_radius };
         (y - self.height).abs() - radius
     }
 
-    /// The tier, and the order of tubes within it.
+    /// The tier at a height, and the number that orders tubes within the tier.
     fn key(self, y: f64, settings: &Settings) -> (u8, f64) {
         let beyond = self.beyond(y, settings);
         if beyond <= 0.0 {
@@ -48,7 +47,7 @@ impl Tube {
 const ROWS: usize = 800;
 const SIDE: f64 = 0.1;
 
-/// The vessel at each height of some tubes, from the top.
+/// The vessel shown at each height of the view, from the top.
 fn shown(tubes: &[Tube], settings: &Settings) -> Vec<(f64, i32)> {
     let scene = tree(tubes.iter().map(|tube| tube.vessel()).collect());
     let camera = front([3, ROWS], SIDE);
@@ -56,7 +55,7 @@ fn shown(tubes: &[Tube], settings: &Settings) -> Vec<(f64, i32)> {
     (0..ROWS).map(|j| (camera.view_y(j), frame.vessel[j * 3 + 1])).collect()
 }
 
-/// The vessels at some heights (mm).
+/// The vessels shown at some heights (mm).
 fn at(tubes: &[Tube], settings: &Settings, heights: &[f64]) -> Vec<i32> {
     let frame = by_hierarchy(
         &tree(tubes.iter().map(|tube| tube.vessel()).collect()),
@@ -72,7 +71,7 @@ fn tube(height: f64, depth: f64, radius: f64) -> Tube {
 
 #[test]
 fn lumen_beats_wall_and_wall_beats_surroundings_whatever_the_depth() {
-    // Lumen to 2, wall to 2.75; the nearer tube: wall from 2.75, lumen from 3.5; the nearest lies far above.
+    // Far tube: lumen to 2, wall to 2.75. Nearer tube: wall from 2.75, lumen from 3.5. The nearest is higher.
     let tubes = [tube(0.0, 1000.0, 2.0), tube(5.0, 500.0, 1.5), tube(12.0, -900.0, 0.5)];
     let thin_wall = Settings { lumen_margin: 0.75, ..unfiltered() };
     assert_eq!(
@@ -80,7 +79,7 @@ fn lumen_beats_wall_and_wall_beats_surroundings_whatever_the_depth() {
         [0, 0, 0, 1, 1, 1, 2, 2]
     );
     assert_eq!(at(&tubes, &thin_wall, &[7.15, 7.35, -2.65, -2.85]), [1, 2, 0, 2]);
-    // Their walls overlap between 2.5 and 3: the nearer one wins; the farther lumen beats the nearer wall.
+    // The walls overlap between 2.5 and 3, and the nearer wins; the farther lumen beats the nearer wall.
     let wall = Settings { lumen_margin: 1.0, ..unfiltered() };
     assert_eq!(at(&tubes, &wall, &[2.45, 2.55, 2.95]), [0, 1, 1]);
     let thick_wall = Settings { lumen_margin: 6.0, ..unfiltered() };
@@ -97,7 +96,7 @@ fn within_lumen_and_within_wall_the_nearest_wins() {
         at(&tubes, &unfiltered(), &[3.95, 0.05, -1.95, -2.05, -5.95, -6.05, -7.95]),
         [1, 1, 1, 2, 2, 0, 0]
     );
-    // Above 9 there is no lumen, and the walls reach to 12, 13 and 12.5.
+    // Above 9 there is no lumen, and the three walls end at 12, 13 and 12.5.
     let walls = Settings { lumen_margin: 4.0, ..unfiltered() };
     let above = [tube(0.0, 40.0, 8.0), tube(6.0, 0.0, 3.0), tube(6.0, -40.0, 2.5)];
     assert_eq!(at(&above, &walls, &[9.05, 12.45, 12.55, 12.95]), [2, 2, 1, 1]);
@@ -105,7 +104,7 @@ fn within_lumen_and_within_wall_the_nearest_wins() {
 
 #[test]
 fn without_margin_there_is_no_wall() {
-    // Just above the farther lumen the nearer tube's surroundings cost 10·(6 − 2) = 40, its own 100.
+    // Just above the farther lumen the nearer tube's surroundings cost 10·(6 − 2) = 40; the farther's, 100.
     let tubes = [tube(0.0, 100.0, 3.0), tube(9.0, 0.0, 2.0)];
     let none = Settings { lumen_margin: 0.0, ..unfiltered() };
     let some = Settings { lumen_margin: 0.5, ..unfiltered() };
@@ -146,7 +145,7 @@ fn lumen_that_is_not_preserved_counts_as_without_radius() {
     }
 }
 
-/// Settings for [`random_tubes`].
+/// Random settings for [`random_tubes`].
 fn tiers(random: &mut Random) -> Settings {
     Settings {
         lumen_margin: if random.once_in(3) { 0.0 } else { random.number() * 4.0 },
@@ -178,7 +177,7 @@ fn parallel_tubes_show_what_the_tiers_say() {
                 keys.min_by(|a, b| a.0.0.cmp(&b.0.0).then(a.0.1.total_cmp(&b.0.1))).unwrap()
             };
             let ((tier, _), expected) = best(y);
-            // At a border rounding decides.
+            // Heights at a border are left out, because rounding decides there.
             if [y - 1e-3, y + 1e-3].iter().all(|beside| best(*beside).1 == expected) {
                 assert_eq!(found, expected, "at y = {y}, tier {tier}, {settings:?}");
                 certain += 1;

@@ -1,4 +1,4 @@
-//! Detects copies of an image. The host compares their pixel values.
+//! Detects copies of an image. The caller compares their pixel values.
 
 use crate::error::{Error, Result};
 use crate::grouping::groups;
@@ -28,7 +28,7 @@ pub(crate) fn without_copies<'i, 'a>(images: &[&'i Image<'a>]) -> (Vec<&'i Image
     (kept, copies)
 }
 
-/// Pairs of slices that the host must compare. Rejects copies whose attributes or values differ.
+/// Pairs of slices that the caller must compare. Rejects copies whose attributes or values differ.
 pub(crate) fn compared<'i>(
     copies: &[Copy<'i, 'i>],
     unlike: &[Unlike],

@@ -44,7 +44,7 @@ pub(crate) fn described(series: &Series) -> Report {
     report
 }
 
-/// Why a series is certainly no angiography. Empty if it may be one, even if it is not readable unchanged.
+/// Why a series is certainly no angiography. Empty if it may be one, even if reading needs a remedy.
 fn why_no_angiography(series: &Series) -> String {
     let (first, modality) = (&series.images[0], series.modality());
     if !MODALITIES.contains(&modality.as_str()) {

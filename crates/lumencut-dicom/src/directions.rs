@@ -1,10 +1,10 @@
-//! Directions of rows and columns. Rounded cosines are made orthonormal.
+//! The directions of rows and columns of a slice. Rounded direction cosines are made orthonormal.
 
 use glam::DVec3;
 
 /// Maximum deviation of cosines from those of orthonormal vectors.
 pub(crate) const ROUNDING: f64 = 0.01;
-/// Up to this deviation, only the lengths of the vectors are corrected.
+/// If no cosine deviates by more than this, only the lengths of the vectors are corrected.
 const EXACT: f64 = 1e-4;
 
 #[derive(Debug, Clone, Copy)]
@@ -38,7 +38,7 @@ impl Directions {
         line.and_then(|line| self.across(line)).unwrap_or(self)
     }
 
-    /// The directions turned across `normal`; None if a cosine would change by more than rounding explains.
+    /// Turns the directions across `normal`; None if a cosine changes by more than rounding.
     fn across(&self, normal: DVec3) -> Option<Self> {
         let within = |vector: DVec3| vector - vector.dot(normal) * normal;
         let [along_i, along_j] = orthonormal([within(self.along_i), within(self.along_j)])?;

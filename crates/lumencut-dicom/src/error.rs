@@ -9,7 +9,7 @@ use crate::report::Report;
 pub type Result<T> = std::result::Result<T, Error>;
 
 /// Why images do not form a volume, as parts of `SUBJECT: found FOUND; expected EXPECTED; ADVICE, or MEND`.
-/// The host adds the subject, which is a file or everything that it examined.
+/// The caller adds the subject: a file name, or a name for everything that was examined.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Error {
     /// The kind of the error.
@@ -22,14 +22,14 @@ pub struct Error {
     pub expected: String,
     /// Advice in words; may be empty.
     pub advice: String,
-    /// Remedy that each host states in its own words. In JSON it is a list `mends` of names and values.
+    /// Remedy, which each user interface words itself. In JSON: a list `mends` of names and values.
     #[serde(rename = "mends", serialize_with = "as_list")]
     pub mended_by: Option<Box<Mend>>,
     /// Descriptions of all series, if it is not clear which one to read.
     pub series: Box<[Report]>,
 }
 
-/// What kind of error it is.
+/// The kind of an error.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ErrorKind {

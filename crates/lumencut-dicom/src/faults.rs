@@ -1,4 +1,4 @@
-//! Errors if slices do not form one stack; they name the slices concerned.
+//! Errors for slices that do not form one stack. The errors name these slices.
 
 use crate::directions::ROUNDING;
 use crate::error::{Error, Result};

@@ -1,4 +1,4 @@
-//! Gathers series that have one slice each and form one scan, as anonymisers leave them.
+//! Joins series of one slice each that together form one scan; some anonymisers split scans in this way.
 
 use crate::error::Result;
 use crate::geometry::{Mending, Stack, stacked};

@@ -17,11 +17,11 @@ use crate::spacing::{has_run, median, tolerance};
 use crate::uneven::Uneven;
 use crate::wording::rounded;
 
-/// Neighbours farther apart than this many usual distances have a gap between them.
+/// Neighbouring slices farther apart than this many usual distances have a gap between them.
 const GAP_FROM: f64 = 1.5;
-/// Maximum distance in usual distances, because damaged positions may have any value.
+/// Maximum slice distance, in usual distances. Damaged headers may state any position.
 const MAX_STEPS: f64 = 1e9;
-/// Tilts below this (degrees) count as none.
+/// Tilts below this (degrees) are treated as no tilt.
 const MIN_TILT_DEGREES: f64 = 0.1;
 
 #[derive(Debug, Clone, Copy, Default)]
@@ -35,7 +35,7 @@ pub(crate) struct Mending {
 #[derive(Debug)]
 pub(crate) struct Stack<'a> {
     pub slices: Vec<Slice<'a>>,
-    /// Index k of each slice; not an integer only if slices are resampled.
+    /// Index k of each slice; it is fractional only if slices are resampled.
     pub places: Vec<f64>,
     pub origin: DVec3,
     pub steps: [DVec3; 3],
@@ -58,8 +58,8 @@ impl Stack<'_> {
     }
 }
 
-/// Sorts slices along their normal, and finds the affine. `unlike` are pairs of frames whose values the host
-/// found to differ.
+/// Sorts slices along their normal, and computes the affine. `unlike` are pairs of frames whose values the
+/// caller found to differ.
 pub(crate) fn stacked<'a>(
     mut slices: Vec<Slice<'a>>,
     mending: Mending,
@@ -70,7 +70,7 @@ pub(crate) fn stacked<'a>(
     let Some(normal) = slices.first().map(Slice::normal) else {
         return Err(Error::new("no slices", "a stack of slices"));
     };
-    // At one position, names decide the order.
+    // Slices at the same position are ordered by name.
     let height = |one: &Slice| one.position.dot(normal);
     slices.sort_by_cached_key(Slice::name);
     slices.sort_by(|a, b| height(a).total_cmp(&height(b)));
@@ -108,7 +108,7 @@ fn note_correction(slices: &[Slice], notes: &mut Vec<String>) {
     }
 }
 
-/// Index of each slice, vector between consecutive indices, and whether slices are resampled.
+/// Index of each slice, the vector from one index to the next, and whether slices are resampled.
 type Places = (Vec<f64>, DVec3, bool);
 
 fn on_a_line(ordered: &[Slice], mending: Mending, notes: &mut Vec<String>) -> Result<Places> {
@@ -179,7 +179,7 @@ fn alone(only: &Slice, notes: &mut Vec<String>) -> Result<Places> {
     Err(error.of(only.image.file))
 }
 
-/// Notes a sheared stack (gantry tilt), which stays sheared, or a stated tilt that the positions do not show.
+/// Adds a note if the stack is sheared by a gantry tilt, or if its positions do not show a stated tilt.
 fn note_tilt(ordered: &[Slice], places: &[f64], step: DVec3, notes: &mut Vec<String>) -> Result<()> {
     let normal = ordered[0].normal();
     let along = step.dot(normal);

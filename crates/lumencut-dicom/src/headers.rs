@@ -11,16 +11,16 @@ use crate::value::Value;
 /// The headers of a folder, an archive or a list of files.
 #[derive(Debug, Deserialize)]
 pub struct Headers {
-    /// Transfer syntaxes (UIDs) that the host can decode.
+    /// Transfer syntaxes (UIDs) that the caller can decode.
     pub transfer_syntaxes: Vec<String>,
-    /// Files in the order of the host. Errors and plans refer to their numbers.
+    /// Files in the order of the caller. Errors and plans refer to their numbers.
     pub files: Vec<File>,
-    /// Pairs of [`Plan::compared`](crate::Plan::compared) for which the host found different values.
+    /// Pairs of [`Plan::compared`](crate::Plan::compared) for which the caller found different values.
     #[serde(default)]
     pub unlike: Vec<Unlike>,
 }
 
-/// Two frames that a plan treats as equal although their values differ.
+/// Two frames that a plan treated as equal, although their values differ.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 pub struct Unlike {
     /// The frame that is read.
@@ -114,7 +114,7 @@ impl<'de> Visitor<'de> for AnyAttributes {
     }
 }
 
-/// The value with the type of its attribute, because some hosts write 40.0 as 40 in JSON.
+/// The value with the type of its attribute, because some programs write 40.0 as 40 in JSON.
 fn typed(keyword: Keyword, value: Value) -> Value {
     match value {
         Value::Integer(whole) if keyword.is_float() => Value::Number(whole as f64),

@@ -14,7 +14,7 @@ pub(crate) struct Image<'a> {
     pub file: usize,
     pub name: String,
     pub kind: &'a str,
-    /// Whether the host can decode the pixels.
+    /// Whether the caller can decode the pixels.
     pub is_decodable: bool,
     /// Number of frames that the header states, which may be wrong.
     pub frame_count: i64,
@@ -42,7 +42,7 @@ impl<'a> Image<'a> {
         self.header.attributes.get(keyword).unwrap_or(&EMPTY)
     }
 
-    /// Value of an attribute for a frame: from its own groups, else the shared groups, else the top level.
+    /// Value of an attribute for a frame: from its own or the shared groups, else from the top level.
     pub(crate) fn of_frame(&self, frame: usize, keyword: Keyword) -> &'a Value {
         if keyword.groups().is_empty() {
             return self.get(keyword);
@@ -91,7 +91,7 @@ impl<'a> Image<'a> {
         !self.of_frame(frame, Keyword::ImagePositionPatient).is_empty()
     }
 
-    /// Checks only the frames that are described, because the stated number may be wrong.
+    /// Whether all described frames have positions. The stated number of frames is not used: it may be wrong.
     pub(crate) fn has_positions(&self) -> bool {
         let described = self.header.frames.len().max(1);
         let frames = usize::try_from(self.frame_count.max(1)).map_or(described, |count| count.min(described));

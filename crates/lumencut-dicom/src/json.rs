@@ -1,4 +1,4 @@
-//! The functions of this crate with JSON as input and output, for hosts in other languages.
+//! The functions of this crate with JSON as input and output, for programs in other languages.
 //!
 //! The input is [`Headers`] and [`Wanted`]. The output is `{"plan": …}` with a [`Plan`], `{"series": […]}`
 //! with [`Report`]s, or `{"error": …}` with an [`Error`].
@@ -37,7 +37,7 @@ pub fn describe(headers: &[u8]) -> String {
     }
 }
 
-/// Errors state only the position, because the message of the parser quotes values.
+/// Error messages state only the position, because the message of the parser quotes values.
 fn read<T: DeserializeOwned>(document: &[u8], what: &str) -> Result<T> {
     serde_json::from_slice(document).map_err(|error| {
         let found =

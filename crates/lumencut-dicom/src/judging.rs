@@ -1,4 +1,4 @@
-//! The steps from headers to a plan.
+//! Carries out the steps from headers to a plan.
 
 use serde::Deserialize;
 
@@ -21,7 +21,7 @@ use crate::series::{Placed, grouped};
 pub struct Wanted {
     /// Number or UID of the series to read.
     pub series: Option<String>,
-    /// Value of the attribute that selects a phase.
+    /// The phase to read, as a value of the attribute that distinguishes the phases.
     pub phase: Option<String>,
     /// Whether missing slices are interpolated instead of rejected.
     pub fill_gaps: bool,

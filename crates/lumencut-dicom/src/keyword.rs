@@ -1,4 +1,4 @@
-//! The attributes that this crate uses and hosts must read.
+//! The attributes that this crate uses and callers must read.
 
 macro_rules! keywords {
     ($($(#[$comment:meta])* $keyword:ident),+ $(,)?) => {
@@ -23,7 +23,7 @@ keywords! {
     /// Identifier of the image; images with the same one are copies.
     SOPInstanceUID,
     StudyInstanceUID,
-    /// Identifier of a space that several series share.
+    /// Identifier of a coordinate space that several series may have in common.
     FrameOfReferenceUID,
     PatientID,
     IssuerOfPatientID,
@@ -49,7 +49,7 @@ keywords! {
     PixelRepresentation,
     /// Stored number of pixels outside the scan.
     PixelPaddingValue,
-    /// Look-up table from stored numbers to values; hosts pass its number of items.
+    /// Look-up table from stored numbers to values; callers pass its number of items.
     ModalityLUTSequence,
     RescaleSlope,
     RescaleIntercept,

@@ -1,7 +1,7 @@
-//! Remedies that hosts apply, or state in their own words.
+//! Remedies that programs apply, or state in their own words.
 
-/// A remedy of an [`Error`](crate::Error). Hosts state it as Python arguments, command-line options or
-/// buttons.
+/// A remedy for an [`Error`](crate::Error). Users see it as a Python argument, a command-line option or a
+/// button.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Mend {
     /// Name the series to read. The error describes all series.
@@ -20,7 +20,7 @@ impl Mend {
     /// Names of all remedies.
     pub const NAMES: [&str; 5] = ["series", "phase", "fill_gaps", "resample_slices", "resample_and_fill"];
 
-    /// The name of the remedy, which every host uses.
+    /// The name by which programs recognise the remedy.
     pub const fn name(&self) -> &'static str {
         match self {
             Self::Series => "series",

@@ -1,4 +1,4 @@
-//! Notes about unusual values of a stack that can be read.
+//! Adds notes about unusual header values of a stack that can nevertheless be read.
 
 use std::collections::BTreeSet;
 

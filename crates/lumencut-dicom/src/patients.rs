@@ -84,7 +84,7 @@ fn unpadded(value: &Value) -> String {
     }
 }
 
-/// The first spelling of a name, in one case, without blanks around it and empty parts at its end.
+/// The first spelling of a name in capitals, without blanks around its parts and empty parts at its end.
 fn plain_name(name: &str) -> String {
     let written = name.split('=').find(|group| !group.trim().is_empty()).unwrap_or_default();
     let parts: Vec<String> = written.split('^').map(|part| part.trim().to_uppercase()).collect();

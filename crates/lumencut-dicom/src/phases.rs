@@ -34,8 +34,8 @@ const PHASE_KEYWORDS: [Keyword; 17] = [
 /// Maximum number of phases that are offered for choice.
 const MOST_PHASES: usize = 40;
 
-/// Attributes that have one value in a phase. Acquisition numbers may alternate within a phase, because 2D MR
-/// may acquire odd slices first.
+/// Attributes with a single value in each phase. The acquisition number is not among them, because 2D MR may
+/// acquire odd slices first, so that it alternates within a phase.
 const WHOLE_PHASE: [Keyword; 3] = [
     Keyword::TemporalPositionIdentifier,
     Keyword::TemporalPositionIndex,

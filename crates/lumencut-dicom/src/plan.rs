@@ -1,4 +1,4 @@
-//! The plan by which a host reads the pixels of a volume.
+//! The plan for reading the pixels of a volume.
 
 use std::collections::BTreeSet;
 
@@ -30,8 +30,8 @@ pub struct Plan {
     pub missing: Vec<i64>,
     /// How each missing slice is interpolated.
     pub fills: Vec<Fill>,
-    /// Pairs of frames that the plan treats as equal. If values differ, the host asks again with these pairs
-    /// as [`Headers::unlike`](crate::Headers::unlike).
+    /// Pairs of frames that the plan treats as equal. If their values differ, the caller plans again with
+    /// these pairs as [`Headers::unlike`](crate::Headers::unlike).
     pub compared: Vec<Compared>,
     /// Notes for the user, one sentence each.
     pub notes: Vec<String>,
@@ -52,7 +52,7 @@ pub struct PlannedSlice {
     pub place: f64,
     /// Factor that converts stored numbers to values.
     pub slope: f64,
-    /// Offset that is then added.
+    /// Offset that is added after the multiplication.
     pub intercept: f64,
 }
 
@@ -74,11 +74,11 @@ pub struct Fill {
     pub before: usize,
     /// Number of the slice after it, in [`Plan::slices`].
     pub after: usize,
-    /// Position between them, from 0 to 1.
+    /// Position between these two slices, from 0 to 1.
     pub part: f64,
 }
 
-/// Details of a series that any reader may see.
+/// Details of a series that do not identify the patient.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Details {
     /// Number and description of the series.

@@ -15,7 +15,7 @@ use crate::wording::{counted, listed};
 pub(crate) struct Series<'a> {
     /// UID of the series; may be empty.
     pub uid: String,
-    /// Number of series of one slice from which it was gathered; 1 for ordinary series.
+    /// Number of one-slice series that were joined to this one; 1 for ordinary series.
     pub part_count: usize,
     /// Images; at least one.
     pub images: Vec<Image<'a>>,

@@ -1,7 +1,7 @@
 //! Handles several slices at one position: phases, overlapping parts of a scan, or repeated images.
 //!
-//! At shared positions, overlapping parts have equal values and phases have different ones. So the host
-//! compares the values of the pairs that are returned.
+//! At shared positions, overlapping parts have equal values, and phases have different ones. So the caller
+//! compares the values of the returned pairs.
 
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
@@ -56,8 +56,8 @@ fn places<'s, 'a>(ordered: &'s [Slice<'a>]) -> Vec<&'s [Slice<'a>]> {
     ordered.chunk_by(is_one).collect()
 }
 
-/// Whether slices may be overlapping parts: some positions have only one slice, and the parts extend each
-/// other or share few positions.
+/// Whether slices may belong to overlapping parts of a scan. Then some positions have only one slice, and the
+/// parts extend each other or share few positions.
 fn may_overlap(places: &[&[Slice]], keyword: Keyword) -> bool {
     let shared = places.iter().filter(|place| place.len() > 1).count();
     let values =

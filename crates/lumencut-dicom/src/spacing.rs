@@ -1,13 +1,13 @@
-//! Distances between slices, and tolerances of their positions.
+//! Computes distances between slices, with tolerances for their positions.
 
 use crate::wording::rounded;
 
-/// Tolerance of positions: mm, or share of the slice distance if larger.
+/// Tolerance of positions: in mm, or as a share of the slice distance. The larger one is used.
 const MILLIMETRE: f64 = 0.01;
 const OF_STEP: f64 = 0.01;
 /// Slices closer than this (mm) are at one position.
 pub(crate) const ONE_PLACE: f64 = 0.01;
-/// This many equal wide distances in succession are intended.
+/// If this many successive distances are equally wide, they are assumed to be intended.
 const INTENDED_RUN: usize = 3;
 /// Maximum number of distances that a text lists individually.
 const MAX_LISTED: usize = 4;

@@ -1,5 +1,5 @@
-//! The value of a header attribute as it was read, with conversions. Where a number belongs, a header may
-//! have a text or several numbers, so callers check values when they use them.
+//! The value of a header attribute as it was read, with conversions. A header may contain a text or several
+//! numbers instead of one number, so callers check values when they use them.
 
 use std::fmt;
 
@@ -23,7 +23,7 @@ pub enum Value {
     Text(String),
     /// A list of values.
     List(Vec<Value>),
-    /// A value that has no plain form.
+    /// A value of another type, such as binary data.
     Odd,
 }
 

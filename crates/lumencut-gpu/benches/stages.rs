@@ -24,9 +24,8 @@ use lumencut_scenes::workloads::{ASKED, PAPER_FRAMES, PAPER_STAGES, PaperStage, 
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
-/// Rendering time before the measurement.
 const WARM_UP: Duration = Duration::from_secs(1);
-/// The row for frames of which only the picture is read back.
+/// The row for frames whose picture is the only image that is read back.
 const PICTURE_ALONE: &str = "picture alone";
 
 #[derive(Clone, Copy)]
@@ -42,7 +41,7 @@ struct Measured {
     cpu_mida: StageTimes,
 }
 
-/// Renders for a while: an idle GPU lowers its clock, some to a sixth.
+/// Renders for a while, because an idle GPU lowers its clock, some to a sixth.
 fn raise_clock(
     device: &Device,
     render: &mut impl FnMut() -> lumencut_core::error::Result<Frame>,
@@ -89,7 +88,7 @@ fn table(side: usize, names: &[&str], all: &[Measured]) {
         let mut cells = vec![name.to_owned()];
         for (workload, paper) in all.iter().zip(paper) {
             cells.extend(times(workload).map(|time| cell(time.as_ref())));
-            // The paper's pictures have 512 × 512 pixels.
+            // The paper states times only for pictures of 512 × 512 pixels.
             cells.push(if paper > 0.0 && side == 512 { paper.to_string() } else { String::new() });
         }
         row(cells);
@@ -104,7 +103,7 @@ fn table(side: usize, names: &[&str], all: &[Measured]) {
     print("frame with MIDA, the picture alone", &|m| of(&m.gpu_mida, &m.cpu_mida, PICTURE_ALONE), [0.0; 3]);
 }
 
-/// The cut surface of a random tree: time on the GPU's clock, and time for the caller including the readback.
+/// Times of the cut surface of a random tree: on the GPU's clock, and for the caller, including the readback.
 fn cut_surface(device: &Arc<Device>, effort: Effort) -> Result<()> {
     let tree = random_tree(7, 31, 160, 1.5, 150.0)?;
     let title = format!("Cut surface of {} segments, all levels (ms)", tree.segment_count());
@@ -159,7 +158,7 @@ fn main() -> Result<()> {
     cut_surface(&device, effort)?;
     let mut measured = [Vec::new(), Vec::new()];
     for (_, make) in WORKLOADS {
-        // One volume after the other: the largest takes 684 MB on CPU and GPU each.
+        // Measures one volume after the other: the largest takes 684 MB on both CPU and GPU.
         let phantom = make(0, if quick { 0.5 } else { 1.0 })?;
         for (side, measured) in effort.sides.into_iter().zip(&mut measured) {
             measured.push(measure(&device, &phantom, side, effort.frames)?);

@@ -3,23 +3,23 @@
 use lumencut_core::error::{Error, ErrorKind, Mend, Result};
 use wgpu::{Adapter, Backends, DeviceType, Instance, InstanceDescriptor};
 
-/// Which GPUs are acceptable.
+/// The kinds of GPU that are acceptable.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Choice {
-    /// Hardware only: a software rasteriser is slower than the CPU's own kernels.
+    /// Only hardware: a software rasteriser is slower than our computation on the CPU.
     Hardware,
-    /// Software if there is no hardware.
+    /// Hardware, or else software.
     Any,
 }
 
 /// A GPU as its driver describes it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Description {
-    /// Its name.
+    /// The name of the GPU.
     pub name: String,
-    /// Its API, such as vulkan.
+    /// The graphics API, such as vulkan.
     pub backend: String,
-    /// Its driver and version.
+    /// The driver and its version.
     pub driver: String,
     /// Whether it is a software rasteriser.
     pub is_software: bool,
@@ -48,7 +48,7 @@ impl Description {
 pub(crate) async fn adapters() -> Vec<Adapter> {
     let instance = Instance::new(InstanceDescriptor::new_without_display_handle());
     let mut adapters = instance.enumerate_adapters(Backends::PRIMARY).await;
-    // A browser returns the one it prefers.
+    // A browser lists no adapters but returns the one it prefers.
     if adapters.is_empty()
         && let Ok(adapter) = instance.request_adapter(&wgpu::RequestAdapterOptions::default()).await
     {

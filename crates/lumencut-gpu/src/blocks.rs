@@ -14,7 +14,7 @@ pub(crate) struct DeviceBlocks {
 }
 
 impl DeviceBlocks {
-    /// Sends blocks to the GPU; leaves out the smallest ones if all exceed the size of a binding.
+    /// Sends the blocks to the GPU, without the smallest ones if all together exceed the size of a binding.
     pub(crate) fn new(device: &Device, blocks: &Blocks) -> Result<Self> {
         let room = device.limits.max_storage_buffer_binding_size.min(device.limits.max_buffer_size);
         let all: Vec<_> = blocks.levels().collect();
@@ -33,7 +33,7 @@ impl DeviceBlocks {
     }
 }
 
-/// The first level that fits, with all coarser ones, in a buffer with room for `most` blocks.
+/// The first level that, together with all coarser ones, fits in a buffer for `most` blocks.
 pub(crate) fn first_that_fits(levels: &[([usize; 3], &[Range])], most: usize) -> usize {
     (0..levels.len()).find(|first| length(&levels[*first..]) <= most).unwrap_or(levels.len() - 1)
 }

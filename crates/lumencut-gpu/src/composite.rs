@@ -29,7 +29,7 @@ pub(crate) struct Composite {
     stages: [OnceLock<Stage>; 16],
     layer: OnceLock<Stage>,
     parameters: Buffer,
-    /// Bound in place of a missing layer and never read; white, so that a mistake shows.
+    /// Bound in place of a missing layer and never read; white, so that a mistaken read shows.
     nothing: Buffer,
 }
 

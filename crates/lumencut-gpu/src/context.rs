@@ -51,11 +51,12 @@ impl Permutation {
 
 #[derive(Debug)]
 pub(crate) struct ContextStage {
-    /// Stages for the starts of rays: without a focus, and with one in front of the volume or at the surface.
+    /// Stages that write starts of rays: without a focus; with rays from the front; with rays from the
+    /// surface.
     starts: [OnceLock<Stage>; 3],
     stages: Vec<(Permutation, Stage)>,
     parameters: Buffer,
-    /// The parameters last written.
+    /// The parameters that were written last.
     written: Vec<u8>,
 }
 
@@ -68,7 +69,7 @@ pub(crate) struct ContextImages<'a> {
     pub depth: &'a Buffer,
     pub value: &'a Buffer,
     pub start: &'a Buffer,
-    /// The result, premultiplied.
+    /// The resulting premultiplied colours and opacity.
     pub gathered: &'a Buffer,
 }
 
@@ -114,7 +115,7 @@ impl ContextStage {
         })
     }
 
-    /// Writes where the rays start, and what they gather. `grid` places `on_device` in the view.
+    /// Records the stages for the starts of rays and for the context; `grid` places `on_device` in the view.
     pub(crate) fn record(
         &mut self,
         recording: &mut Recording,
@@ -126,7 +127,7 @@ impl ContextStage {
         let ContextImages { size, has_surface, depth, value, start, gathered, .. } = images;
         let device = recording.device;
         if has_surface {
-            // Without a focus its binding is not read.
+            // The shader does not read this binding if there is no focus.
             let focus = images.focus.unwrap_or(value);
             let buffers = [view, &self.parameters, value, depth, start, focus].map(Buffer::as_entire_binding);
             let stage = self.starts_stage(device, images.focus.is_some(), context.from);

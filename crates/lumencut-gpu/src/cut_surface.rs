@@ -17,11 +17,11 @@ use crate::recording::Recording;
 use crate::stage::Stage;
 use crate::view::groups;
 
-/// Columns of quads and rows of a thread's tile on software: what a thread reads should serve many pixels.
+/// Columns of quads and rows in a thread's tile on software: large, so that each read serves many pixels.
 pub(crate) const TILE_ON_SOFTWARE: [usize; 2] = [1, 4];
-/// The same on hardware: larger tiles would make too few threads to keep a GPU busy.
+/// Columns of quads and rows in a thread's tile on hardware: small, so that there are many threads.
 pub(crate) const TILE_ON_HARDWARE: [usize; 2] = [1, 1];
-/// The pixels of a quad; the tiles of a workgroup, in all and per row.
+/// The number of pixels in a quad; the number of tiles in a workgroup, and of tiles in its rows.
 pub(crate) const QUAD: usize = 4;
 pub(crate) const TILES: usize = 64;
 pub(crate) const TILES_ACROSS: usize = 4;
@@ -38,12 +38,12 @@ pub(crate) struct CutSurfaceStages {
     /// Compiled when needed.
     focus: OnceLock<Stage>,
     focus_parameters: Buffer,
-    /// By level choice, *lumen first* and sheet; compiled when needed.
+    /// A stage for each combination of level choice, *lumen first* and sheet; compiled when needed.
     depth: [[[Option<Stage>; 2]; 2]; 2],
     parameters: Buffer,
-    /// The layout of the levels last written.
+    /// The layout of the levels that was written last.
     written_layout: Option<[LevelLayout; MAX_LEVELS + 1]>,
-    /// Columns and rows of pixels of a workgroup.
+    /// Width and height of a workgroup (pixels).
     group: [usize; 2],
 }
 
@@ -65,7 +65,7 @@ impl CutSurfaceStages {
         }
     }
 
-    /// Writes the parameters of a view; the layout of the levels only once.
+    /// Writes the parameters of a view; writes the layout of levels only once.
     pub(crate) fn look(&mut self, device: &Device, levels: &DeviceLevels, request: &Request) {
         let parameters = levels.parameters(request.camera, request.settings);
         let bytes = bytemuck::bytes_of(&parameters);
@@ -75,7 +75,7 @@ impl CutSurfaceStages {
         self.written_layout = Some(parameters.levels);
     }
 
-    /// Projects the needed levels: points, wedges, boxes.
+    /// Projects the needed levels: their points, then wedges, then boxes.
     pub(crate) fn project(
         &self,
         recording: &mut Recording,
@@ -179,7 +179,7 @@ fn tile_of(device: &Device) -> [usize; 2] {
     if device.description().is_software { TILE_ON_SOFTWARE } else { TILE_ON_HARDWARE }
 }
 
-/// The size of a dispatch of at least `groups` workgroups, cut into rows of allowed length.
+/// The size of a dispatch of at least `groups` workgroups, split into rows of allowed length.
 fn in_rows(groups: u32) -> [u32; 2] {
     let across = groups.min(MAX_GROUPS);
     [across, groups.div_ceil(across)]

@@ -14,7 +14,7 @@ use crate::view::groups;
 #[derive(Debug)]
 pub(crate) struct DepthFilter {
     stage: Stage,
-    /// Along columns and along rows, compiled when needed.
+    /// The filters along columns and along rows; compiled when needed.
     within_zones: OnceLock<[Stage; 2]>,
     parameters: Buffer,
 }
@@ -23,7 +23,7 @@ pub(crate) struct DepthFilter {
 pub(crate) struct ZoneImages<'a> {
     pub image: &'a Buffer,
     pub vessel: &'a Buffer,
-    /// The depth filtered along columns only.
+    /// The depth after the filter along columns.
     pub columns: &'a Buffer,
     pub smoothed: &'a Buffer,
 }
@@ -51,7 +51,7 @@ impl DepthFilter {
         self.record_as(self.stage.name, recording, view, size, from_to);
     }
 
-    /// Records the filter as a part of the stage `name`; its time counts to that stage.
+    /// Records the filter as a part of the stage `name`, which its time is added to.
     pub(crate) fn record_as(
         &self,
         name: &'static str,
@@ -64,7 +64,7 @@ impl DepthFilter {
         recording.run_as(name, &self.stage, &buffers, groups(size, GROUP));
     }
 
-    /// Columns first, then rows.
+    /// Filters columns first, then rows.
     pub(crate) fn record_within_zones(
         &self,
         recording: &mut Recording,
@@ -84,5 +84,5 @@ impl DepthFilter {
     }
 }
 
-/// The threads of a workgroup, one pixel each, as in the shaders of images.
+/// The size of a workgroup with one pixel per thread, as in the shaders of images.
 pub(crate) const GROUP: [usize; 2] = [16, 4];

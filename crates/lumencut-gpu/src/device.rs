@@ -8,7 +8,7 @@ use wgpu::{Adapter, Features, Limits};
 
 use crate::adapter::{Choice, Description, choose};
 
-/// The default limits, which every browser and driver has.
+/// The default limits, which every browser and driver supports.
 const NEEDED: Limits = Limits::defaults();
 
 /// A GPU that is ready to compute.
@@ -22,14 +22,14 @@ pub struct Device {
     trouble: Arc<Mutex<Trouble>>,
 }
 
-/// What the driver reported between calls.
+/// Problems that the driver reported between calls.
 #[derive(Debug, Default)]
 struct Trouble {
     /// The first error since the last check.
     error: Option<String>,
-    /// The reason of a permanent loss.
+    /// The reason, if the device is lost for good.
     loss: Option<String>,
-    /// Senders of those who wait for the loss; dropping a sender wakes its receiver.
+    /// Senders to those who wait for a loss; dropping a sender wakes its receiver.
     waiting: Vec<Sender<()>>,
 }
 
@@ -56,13 +56,13 @@ impl Device {
         Ok(Self { limits: device.limits(), device, queue, has_timestamps, description, trouble })
     }
 
-    /// Its driver's description.
+    /// The driver's description of the GPU.
     pub fn description(&self) -> &Description {
         &self.description
     }
 
-    /// Fails if an error occurred since the last call, or if the device is lost:
-    /// [`ErrorKind::Device`] with the driver's words.
+    /// Fails if an error occurred since the last call or the device is lost: [`ErrorKind::Device`] with the
+    /// driver's message.
     pub fn check(&self) -> Result<()> {
         let mut trouble = self.trouble.lock().unwrap_or_else(PoisonError::into_inner);
         let words = trouble.loss.clone().or_else(|| trouble.error.take());
@@ -103,7 +103,7 @@ impl Device {
     }
 }
 
-/// Collects what the driver reports between calls.
+/// Collects the problems that the driver reports between calls.
 fn watch(device: &wgpu::Device, trouble: &Arc<Mutex<Trouble>>) {
     let (on_error, on_loss) = (Arc::clone(trouble), Arc::clone(trouble));
     device.on_uncaptured_error(Arc::new(move |error| {

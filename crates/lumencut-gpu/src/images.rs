@@ -1,4 +1,4 @@
-//! The images of a view on the GPU, one number or vector per pixel; they are kept while the size stays.
+//! The images of a view on the GPU, one number or vector per pixel. They are kept until the size changes.
 
 use lumencut_core::error::Result;
 use lumencut_core::stages::Image;
@@ -18,7 +18,7 @@ pub(crate) struct Images {
     pub leap: Buffer,
     pub focus: Buffer,
     pub value: Buffer,
-    /// The slopes behind silhouettes; before that, the depth filtered within zones along columns only.
+    /// Slopes from which silhouettes are made; before, the depth filtered within zones along columns only.
     pub raised: Buffer,
     pub strength: Buffer,
     pub start: Buffer,
@@ -58,7 +58,7 @@ impl Images {
         })
     }
 
-    /// The buffer of an image. Without a filter the depth is the unfiltered depth.
+    /// The buffer of an image. If no filter runs, the depth is the unfiltered depth.
     pub(crate) fn buffer(&self, image: Image, has_filter: bool) -> &Buffer {
         match image {
             Image::Distance => &self.distance,

@@ -1,4 +1,4 @@
-//! Leaps on the GPU.
+//! Marks depth jumps (leaps) on the GPU.
 
 use lumencut_core::camera::Camera;
 use lumencut_core::stages::leap::LeapParameters;
@@ -27,7 +27,7 @@ impl Leap {
         device.write(&self.parameters, &[LeapParameters::new(camera)]);
     }
 
-    /// Writes the leaps of an unfiltered depth.
+    /// Records the stage that marks the jumps of an unfiltered depth.
     pub(crate) fn record(&self, recording: &mut Recording, view: &Buffer, images: &Images, depth: &Buffer) {
         let buffers = [view, &self.parameters, depth, &images.sheet, &images.leap];
         let buffers = buffers.map(Buffer::as_entire_binding);

@@ -1,4 +1,4 @@
-//! The levels of detail of a tree on the GPU: uploaded once, projected there for every view.
+//! The levels of detail of a tree on the GPU: uploaded once, and projected by the GPU for every view.
 
 use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
@@ -15,20 +15,20 @@ use wgpu::Buffer;
 use crate::device::Device;
 use crate::view::{AXIS_UNIT, power_above, split_at};
 
-/// `Point` of `math/projection.wgsl`.
+/// Has the layout of `Point` in `math/projection.wgsl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(crate) struct Point {
-    /// Position relative to the tree's origin (mm): multiples of the tree's unit.
+    /// Position relative to the tree's origin (mm), rounded to multiples of the tree's unit.
     pub coarse: [f32; 3],
     pub radius: f32,
-    /// The rest.
+    /// The remainder of the position (mm).
     pub fine: [f32; 3],
-    /// The index of the slot among the slots of all bundles.
+    /// The entry of the point's slot among the entries of all bundles.
     pub place: u32,
 }
 
-/// `Along` of `math/projection.wgsl`.
+/// Has the layout of `Along` in `math/projection.wgsl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(crate) struct Along {
@@ -36,19 +36,19 @@ pub(crate) struct Along {
     pub arc_length: f32,
 }
 
-/// `Span` of `math/levels.wgsl`: the slots of one vessel at one level.
+/// Has the layout of `Span` in `math/levels.wgsl`: the slots of one vessel at one level.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(crate) struct Span {
     pub first: u32,
     pub end: u32,
     pub level: u32,
-    /// The slots whose lumen and wall take precedence: the first, and the one after the last.
+    /// The slots whose lumen and wall take precedence: the first one, and the one after the last.
     pub first_chosen: u32,
     pub end_chosen: u32,
 }
 
-/// `Projected` of `math/levels.wgsl`, written and read on the GPU only.
+/// Has the layout of `Projected` in `math/levels.wgsl`; written and read only on the GPU.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(crate) struct Projected {
@@ -62,7 +62,7 @@ pub(crate) struct Projected {
     pub padding: u32,
 }
 
-/// `Slot` of `math/pieces.wgsl`.
+/// Has the layout of `Slot` in `math/pieces.wgsl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(crate) struct Slot {
@@ -97,7 +97,7 @@ impl Slot {
     };
 }
 
-/// `NodeBox` of `math/hierarchy.wgsl`.
+/// Has the layout of `NodeBox` in `math/hierarchy.wgsl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(crate) struct NodeBox {
@@ -116,7 +116,7 @@ impl NodeBox {
 
 #[derive(Debug)]
 pub(crate) struct DeviceLevels {
-    /// Numbers of spans and of points up to and including each level.
+    /// Total numbers of spans and of points up to and including each level.
     spans_up_to: Vec<u32>,
     points_up_to: Vec<u32>,
     places: [LevelLayout; MAX_LEVELS + 1],
@@ -124,7 +124,7 @@ pub(crate) struct DeviceLevels {
     origin: DVec3,
     reach: f64,
     unit: f64,
-    /// The chosen vessels last written, and all spans.
+    /// The chosen vessels written last, and all spans.
     first: Vec<usize>,
     all_spans: Vec<Span>,
     pub spans: Buffer,
@@ -141,7 +141,7 @@ impl DeviceLevels {
         let origin = middle(&levels[0].points);
         let points = levels.iter().flat_map(|level| &level.points);
         let reach = points.map(|point| point.distance(origin)).fold(1.0, f64::max);
-        // Eleven binary digits: products with those of the axes have 22, and sums of four such products 24.
+        // Eleven binary digits: products with the axes' digits have 22, sums of four such products have 24.
         let unit = power_above(reach) / 2048.0;
         let mut all = Arrays::default();
         for level in levels {
@@ -173,8 +173,8 @@ impl DeviceLevels {
         })
     }
 
-    /// Puts lumen and wall of these vessels before those of all others in all later views, from the point
-    /// where they leave the others' lumens; `levels` are those of the tree.
+    /// Gives lumen and wall of these vessels precedence in all later views, from the point at which they
+    /// leave the other vessels' lumens; `levels` are those of the tree.
     pub(crate) fn put_first(&mut self, device: &Device, levels: &[Level], vessels: &[usize]) {
         if self.first == vessels {
             return;
@@ -187,7 +187,7 @@ impl DeviceLevels {
         self.first = vessels.to_vec();
     }
 
-    /// The vessels of the first levels, each counted once per level.
+    /// The number of vessels in the first levels; each vessel counts once per level.
     pub(crate) fn span_count(&self, coarsest: usize) -> u32 {
         self.spans_up_to[coarsest]
     }

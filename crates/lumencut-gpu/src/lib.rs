@@ -1,7 +1,7 @@
 //! The stages of `lumencut-core` as WGSL through wgpu: Vulkan, Metal, DirectX 12, and WebGPU in the browser.
 //!
-//! Every stage is the shader next to the core's Rust, under the same name; the pictures equal the CPU's up to
-//! rounding.
+//! Every stage is a shader that lies next to the core's Rust file, under the same name. The pictures equal
+//! those of the CPU up to rounding.
 
 pub mod adapter;
 mod blocks;

@@ -1,4 +1,4 @@
-//! The stages that the CPU computes instead of the GPU, to locate a difference.
+//! Stages that the CPU computes instead of the GPU, to find the stage that causes a difference.
 
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::pipeline::CpuRenderer;
@@ -13,7 +13,7 @@ pub(crate) struct OnCpu {
 }
 
 impl OnCpu {
-    /// The stages of these names, which must be in [`on_either`].
+    /// The stages with these names; each must be in [`on_either`].
     pub(crate) fn named(names: &[String]) -> Result<Self> {
         let stages = names.iter().map(|name| {
             on_either().find(|stage| stage.name() == name.as_str()).ok_or_else(|| {

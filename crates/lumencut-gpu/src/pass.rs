@@ -34,7 +34,7 @@ pub(crate) struct Pass<'a> {
     #[cfg(not(target_arch = "wasm32"))]
     pub on_cpu: &'a mut OnCpu,
     pub images: &'a Images,
-    /// What is shown, and its data on the GPU.
+    /// The scene that is shown, and its data on the GPU.
     pub scene: &'a Scene<'a>,
     pub levels: Option<&'a DeviceLevels>,
     pub volume: Option<&'a DeviceVolume>,
@@ -65,8 +65,7 @@ impl<'a> Pass<'a> {
         Ok(())
     }
 
-    /// Sends depth, vessels, leaps and focus of a cut surface that was made elsewhere; each must cover every
-    /// pixel.
+    /// Sends a cut surface that was made elsewhere: depth, vessels, leaps and focus, each with all pixels.
     pub(crate) fn send_surface(&mut self, vessel: &[i32], leap: &[u32], focus: &[Shares]) {
         let depth = self.geometry.depth();
         for (image, bytes) in [
@@ -105,7 +104,7 @@ impl<'a> Pass<'a> {
             Stage::Silhouette => self.silhouette(),
             Stage::Context => return self.context(),
             Stage::Composite => self.composite(),
-            // Made by the CPU, sent before the view, or recorded with another stage.
+            // These are made by the CPU, sent before the view, or recorded with another stage.
             Stage::Levels | Stage::Projection | Stage::Blocks => {}
         }
         Ok(())
@@ -220,7 +219,7 @@ impl<'a> Pass<'a> {
         self.images.buffer(image, self.request.settings.depth_filter)
     }
 
-    /// Runs what is recorded, and reads the requested images.
+    /// Runs the recorded stages, and reads the requested images.
     pub(crate) async fn frame(mut self) -> Result<Frame> {
         if !self.made.has(Image::Gathered) {
             self.made = self.made.without(Image::Context);
@@ -245,13 +244,13 @@ impl<'a> Pass<'a> {
         Ok(frame)
     }
 
-    /// Runs what is recorded, draws the picture on a canvas, and waits for it.
+    /// Runs the recorded stages, draws the picture on a canvas, and waits for it.
     #[cfg(target_arch = "wasm32")]
     pub async fn draw(self, screen: &mut Screen) -> Result<()> {
         screen.record(self.device, self.recording, &self.images.picture)?.await
     }
 
-    /// Runs what is recorded so far, and requests images.
+    /// Runs the stages recorded so far, and requests images.
     pub(crate) async fn finish(&mut self, wanted: &[Image]) -> Result<Results> {
         let mut recording = std::mem::replace(&mut self.recording, Recording::new(self.device));
         for image in wanted {
@@ -271,7 +270,7 @@ fn bytes_of(image: Image) -> usize {
     }
 }
 
-/// Replaces HUGE by NaN, as frames have it.
+/// Replaces the marker HUGE by NaN, which frames contain.
 pub(crate) fn with_holes(mut values: Vec<f32>) -> Vec<f32> {
     for value in &mut values {
         *value = if *value >= HUGE { f32::NAN } else { *value };

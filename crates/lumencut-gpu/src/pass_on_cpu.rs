@@ -1,4 +1,4 @@
-//! A stage of a view on the CPU, with the images that the GPU made before.
+//! Computes a stage of a view on the CPU from the images that the GPU made before.
 
 use lumencut_core::error::Result;
 use lumencut_core::frame::Timing;
@@ -107,7 +107,7 @@ fn put(images: &mut Images, image: Image, results: &Results, n: usize) {
     }
 }
 
-/// Replaces NaN by HUGE, as shaders have it.
+/// Replaces NaN by the marker HUGE, which shaders use.
 fn without_holes(values: &[f32]) -> Vec<u8> {
     let huge = values.iter().map(|value| if value.is_nan() { HUGE } else { *value });
     huge.flat_map(f32::to_ne_bytes).collect()

@@ -1,4 +1,4 @@
-//! A list of named stages that the GPU runs at once, their times, and the readback.
+//! A list of named stages that the GPU runs in one submission, their times, and the readback.
 
 use bytemuck::Pod;
 use futures_channel::oneshot::Receiver;
@@ -24,7 +24,7 @@ pub(crate) struct Recording<'a> {
 
 /// The result of a recording: the bytes of each requested buffer, still mapped.
 pub(crate) struct Results {
-    /// The milliseconds of each stage, if the GPU has a clock.
+    /// The times of stages (ms), if the GPU has a clock.
     pub timings: Vec<Timing>,
     staging: Buffer,
     view: Option<wgpu::BufferView>,
@@ -39,7 +39,7 @@ impl Results {
 
 impl Drop for Results {
     fn drop(&mut self) {
-        // The view must be dropped before the buffer is unmapped.
+        // The buffer can only be unmapped after its view is dropped.
         self.view = None;
         self.staging.unmap();
     }
@@ -62,7 +62,7 @@ impl<'a> Recording<'a> {
         self.run_as(stage.name, stage, resources, groups);
     }
 
-    /// Runs `stage` as a part of the stage `name`; its time counts to that stage.
+    /// Runs `stage` as a part of the stage `name`, which its time is added to.
     pub(crate) fn run_as(
         &mut self,
         name: &'static str,
@@ -85,7 +85,7 @@ impl<'a> Recording<'a> {
         self.names.push(name);
     }
 
-    /// Requests the first `bytes` of a buffer after all stages.
+    /// Requests that the first `bytes` of a buffer be read after all stages.
     pub(crate) fn read(&mut self, buffer: &Buffer, bytes: u64) {
         self.reads.push((buffer.clone(), bytes));
     }
@@ -147,7 +147,7 @@ impl<'a> Recording<'a> {
         device.queue.submit([self.encoder.finish()]);
         let (done, is_done) = futures_channel::oneshot::channel();
         device.queue.on_submitted_work_done(move || {
-            // After an interruption nobody waits for it.
+            // After an interruption nobody receives this message.
             let _ = done.send(());
         });
         async move {
@@ -157,7 +157,7 @@ impl<'a> Recording<'a> {
     }
 }
 
-/// Copies in parallel: one thread would take longer to copy a large picture than a GPU to compute it.
+/// Copies in parallel: one thread would copy a large picture more slowly than a GPU computes it.
 #[cfg(not(target_arch = "wasm32"))]
 fn copied<T: Pod + Send + Sync>(bytes: &[u8]) -> Vec<T> {
     use rayon::prelude::*;
@@ -168,13 +168,13 @@ fn copied<T: Pod + Send + Sync>(bytes: &[u8]) -> Vec<T> {
     }
 }
 
-/// The worker of a page has one thread.
+/// Copies in the only thread that a page's worker has.
 #[cfg(target_arch = "wasm32")]
 fn copied<T: Pod>(bytes: &[u8]) -> Vec<T> {
     bytemuck::pod_collect_to_vec(bytes)
 }
 
-/// The time between each stage's two ticks; consecutive passes of one stage count together.
+/// The time between the two ticks of each stage; times of consecutive passes of a stage are added.
 fn timings(names: &[&'static str], ticks: &[u64], period: f64) -> Vec<Timing> {
     let mut timings: Vec<Timing> = Vec::new();
     for (stage, ticks) in names.iter().zip(ticks.chunks_exact(2)) {
@@ -201,7 +201,6 @@ impl Device {
     async fn map(&self, buffer: &Buffer, stop: Stop<'_>) -> Result<wgpu::BufferView> {
         let (done, is_done) = futures_channel::oneshot::channel();
         buffer.map_async(MapMode::Read, .., move |mapped| {
-            // After an interruption nobody waits for it.
             let _ = done.send(mapped);
         });
         match self.patience(is_done, stop).await? {
@@ -210,12 +209,12 @@ impl Device {
         }
     }
 
-    /// The message sent when the GPU is done; `None` if it never will be.
+    /// Waits for the message that the GPU is done; `None` if it will never come.
     #[cfg(not(target_arch = "wasm32"))]
     async fn patience<T>(&self, mut sent: Receiver<T>, stop: Stop<'_>) -> Result<Option<T>> {
         let start = std::time::Instant::now();
         loop {
-            // Waiting inside wgpu from two threads at once sometimes panics.
+            // Polls without waiting, because waiting in wgpu from two threads at once sometimes panics.
             if self.device.poll(wgpu::PollType::Poll).is_err() {
                 return Err(self.unfinished());
             }
@@ -225,7 +224,7 @@ impl Device {
                 Ok(sent) => return Ok(sent),
                 Err(_) => return Ok(None),
             }
-            // Sleeps for 1 % of the elapsed time: a result is noticed soon, at little cost.
+            // Sleeps for 1 % of the elapsed time: a result is noticed soon, and polling costs little.
             let nap = start.elapsed() / 100;
             std::thread::sleep(
                 nap.clamp(std::time::Duration::from_micros(20), std::time::Duration::from_millis(2)),
@@ -233,7 +232,7 @@ impl Device {
         }
     }
 
-    /// A browser polls by itself.
+    /// In a browser nothing has to be polled.
     #[cfg(target_arch = "wasm32")]
     async fn patience<T>(&self, sent: Receiver<T>, _: Stop<'_>) -> Result<Option<T>> {
         Ok(sent.await.ok())

@@ -1,4 +1,4 @@
-//! Renders views on a GPU; data independent of the view stays there from view to view.
+//! Renders views on a GPU; data that do not depend on the view stay there.
 
 use std::sync::Arc;
 
@@ -49,7 +49,7 @@ struct ShownVolume {
 }
 
 impl GpuRenderer {
-    /// A renderer on a GPU.
+    /// A renderer on this GPU.
     pub fn new(device: Arc<Device>) -> Self {
         Self {
             stages: Stages::new(&device),
@@ -62,7 +62,7 @@ impl GpuRenderer {
         }
     }
 
-    /// The GPU.
+    /// The GPU that renders.
     pub fn device(&self) -> &Device {
         &self.device
     }
@@ -72,7 +72,7 @@ impl GpuRenderer {
         self.volume.as_ref().map(|volume| volume.on_device.voxels.clone())
     }
 
-    /// Computes some stages on the CPU from now on, each from the GPU's earlier results. Fails with
+    /// From now on, computes these stages on the CPU, from the GPU's results of earlier stages. Fails with
     /// [`lumencut_core::error::ErrorKind::Settings`] for a name that is not in [`crate::stages::on_either`].
     #[cfg(not(target_arch = "wasm32"))]
     pub fn force_to_cpu(&mut self, names: &[String]) -> Result<()> {
@@ -80,8 +80,8 @@ impl GpuRenderer {
         Ok(())
     }
 
-    /// Renders one view of a scene, as [`lumencut_core::pipeline::CpuRenderer::render`] does. Fails as there,
-    /// and [`lumencut_core::error::ErrorKind::Device`] if the GPU has no room or fails.
+    /// Renders one view of a scene, as [`lumencut_core::pipeline::CpuRenderer::render`] does. Fails in the
+    /// same cases, and with [`lumencut_core::error::ErrorKind::Device`] if the GPU lacks memory or fails.
     pub async fn render(&mut self, scene: &Scene<'_>, request: &Request<'_>) -> Result<Frame> {
         let settings = request.settings_for(scene)?;
         let request = &Request { settings: &settings, ..*request };
@@ -185,7 +185,7 @@ impl GpuRenderer {
         if let Some(shared) = &scene.volume
             && self.volume.as_ref().is_none_or(|kept| !kept.key.is(&shared.key))
         {
-            // There may be no room for two volumes.
+            // The old volume is freed first, as there may not be enough memory for two.
             self.volume = None;
             let on_device = DeviceVolume::new(&self.device, &shared.volume, request.stop)?;
             self.volume = Some(ShownVolume { key: shared.key.downgrade(), on_device });

@@ -13,10 +13,10 @@ use wgpu::{
 use crate::device::Device;
 use crate::recording::Recording;
 
-/// Every browser's canvas supports this format.
+/// A format that every browser's canvas supports.
 const FORMAT: TextureFormat = TextureFormat::Rgba8Unorm;
 
-/// A canvas with as many pixels as its picture; the page stretches it.
+/// A canvas with the size of its picture in pixels; the page scales it.
 #[derive(Debug)]
 pub struct Screen {
     surface: Surface<'static>,
@@ -31,8 +31,8 @@ struct Drawing {
 }
 
 impl Screen {
-    /// A canvas that nothing else draws on. Fails with [`ErrorKind::Device`] if the browser lets no GPU draw
-    /// on it.
+    /// A canvas that nothing else draws on. Fails with [`ErrorKind::Device`] if the browser does not let a
+    /// GPU draw on the canvas.
     pub fn new(canvas: OffscreenCanvas) -> Result<Self> {
         let instance = Instance::new(InstanceDescriptor::new_without_display_handle());
         let surface = instance
@@ -81,7 +81,7 @@ impl Screen {
         device.check()
     }
 
-    /// Draws `picture` after all that is recorded; the future completes once the GPU is done.
+    /// Draws `picture` after all recorded stages; the future completes once the GPU is done.
     pub(crate) fn record<'a>(
         &mut self,
         device: &'a Device,

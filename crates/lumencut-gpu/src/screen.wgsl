@@ -1,4 +1,4 @@
-// A picture on a canvas: one triangle covers it, and every pixel is read from the picture.
+// Draws a picture on a canvas: one triangle covers the canvas, and every pixel is read from the picture.
 
 struct ScreenParameters {
     size: vec2u,

@@ -1,10 +1,10 @@
-//! Assembles shaders from modules by their imports.
+//! Assembles shaders from modules and their imports.
 
 use lumencut_core::shaders::{SHADERS, Shader};
 
 const IMPORT: &str = "// import ";
 
-/// The WGSL of `room` after that of all modules it imports, each once.
+/// The WGSL of the module `room`, preceded by that of all modules it imports, each once.
 ///
 /// # Panics
 /// For a module without a shader; a test assembles all of them.

@@ -25,7 +25,7 @@ pub(crate) struct SilhouetteImages<'a> {
     pub size: [usize; 2],
     pub depth: &'a Buffer,
     pub vessel: &'a Buffer,
-    /// The slopes, raised at borders of zones.
+    /// The slopes of the depth, raised at borders of zones.
     pub raised: &'a Buffer,
     pub strength: &'a Buffer,
 }

@@ -5,7 +5,7 @@ use wgpu::{BindGroup, BindGroupEntry, BindingResource, ComputePipeline};
 use crate::device::Device;
 use crate::shader::assemble;
 
-/// A module's entry point, ready to run, under the module's name in labels and timings.
+/// An entry point of a module, compiled; labels and timings use the module's name.
 #[derive(Debug)]
 pub(crate) struct Stage {
     pub name: &'static str,
@@ -15,12 +15,12 @@ pub(crate) struct Stage {
 }
 
 impl Stage {
-    /// Compiles `room`, such as `stages/depth`, with its overrides set to `constants`.
+    /// Compiles the module `room`, such as `stages/depth`, with its overrides set to `constants`.
     pub(crate) fn new(device: &Device, room: &'static str, constants: &[(&str, f64)]) -> Self {
         Self::entry(device, room, name_of(room), constants)
     }
 
-    /// Another entry point of `room`; it counts as a part of the module's stage.
+    /// Another entry point of `room`; it counts as a part of the same stage.
     pub(crate) fn entry(device: &Device, room: &'static str, entry: &str, constants: &[(&str, f64)]) -> Self {
         let name = name_of(room);
         let source = wgpu::ShaderSource::Wgsl(assemble(room).into());
@@ -38,7 +38,7 @@ impl Stage {
         Self { name, pipeline, first_binding: 0 }
     }
 
-    /// The same stage for an entry point whose bindings begin later.
+    /// The same stage, if the entry point does not use the bindings before this one.
     pub(crate) fn with_first_binding(mut self, first_binding: u32) -> Self {
         self.first_binding = first_binding;
         self

@@ -1,4 +1,4 @@
-//! All compiled stages, and what they read of a view.
+//! All compiled stages, and the grid of the volume that they read.
 
 use lumencut_core::geometry::Geometry;
 use lumencut_core::stages::Stage;
@@ -47,8 +47,8 @@ impl Stages {
         }
     }
 
-    /// Writes the position of a volume in the view. The pixels of a curved geometry lie in the volume and
-    /// need no view.
+    /// Writes the position of a volume in the view. The pixels of a curved geometry are given as voxel
+    /// indices and need no view.
     pub(crate) fn place(
         &self,
         device: &Device,
@@ -60,8 +60,8 @@ impl Stages {
     }
 }
 
-/// The stages that the CPU can compute instead of the GPU, to locate a difference: those that write images.
-/// In a browser it computes none, so that a page need not load the CPU's kernels.
+/// The stages that the CPU can compute instead of the GPU, to find the cause of a difference: all that write
+/// images. In a browser it computes none, so that a page need not load the CPU's kernels.
 pub fn on_either() -> impl Iterator<Item = Stage> {
     Stage::ALL.into_iter().filter(|stage| !stage.writes().is_empty())
 }

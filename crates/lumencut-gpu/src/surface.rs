@@ -1,4 +1,4 @@
-//! The surface on the GPU.
+//! Samples the volume at the cut surface on the GPU.
 
 use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
@@ -16,13 +16,13 @@ use crate::stage::Stage;
 use crate::view::groups;
 use crate::volume::DeviceVolume;
 
-/// `CurvedPixel` of `stages/surface.wgsl`: a pixel of a curved geometry in the volume.
+/// Has the layout of `CurvedPixel` in `stages/surface.wgsl`: a pixel of a curved geometry in the volume.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(crate) struct CurvedPixel {
     /// The integer part of its continuous index.
     pub whole: [f32; 4],
-    /// The remainder.
+    /// The remainder of the index.
     pub part: [f32; 4],
     /// Index per mm along the slab direction.
     pub per_mm: [f32; 4],
@@ -37,7 +37,7 @@ impl CurvedPixel {
         let place = |(point, direction): (&DVec3, &glam::Vec3)| {
             let index = to.transform_point3(*point);
             let per_mm = to.transform_vector3(direction.as_dvec3());
-            // No volume reaches beyond this, and integers up to it are exact.
+            // No volume reaches beyond this index, and integers up to it are exact.
             if !index.is_finite() || !per_mm.is_finite() || index.abs().max_element() >= 1e6 {
                 return Self::NOWHERE;
             }
@@ -52,12 +52,12 @@ impl CurvedPixel {
 pub(crate) struct SurfaceImages<'a> {
     pub size: [usize; 2],
     pub geometry: &'a Geometry,
-    /// For a camera: the depth of the cut surface (mm).
+    /// The depth of the cut surface (mm); used only with a camera.
     pub depth: &'a Buffer,
     pub value: &'a Buffer,
 }
 
-/// The stage for integers and floats, cameras and curved geometries.
+/// The variants of the stage: for integer and float voxels, for cameras and curved geometries.
 #[derive(Debug)]
 pub(crate) struct Surface {
     stages: [[Option<Stage>; 2]; 2],

@@ -1,4 +1,4 @@
-//! The view as shaders read it, and the images of its pixels.
+//! The view as shaders read it, and buffers for images of its pixels.
 
 use bytemuck::{Pod, Zeroable};
 use glam::DVec3;
@@ -8,22 +8,22 @@ use wgpu::{Buffer, BufferUsages};
 
 use crate::device::Device;
 
-/// `ViewParameters` of `math/view.wgsl`.
+/// Has the layout of `ViewParameters` in `math/view.wgsl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(crate) struct ViewParameters {
     pub size: [u32; 2],
-    /// The side of a pixel (mm): a part of twelve binary digits, and the rest.
+    /// The side of a pixel (mm), split into a part of twelve binary digits and the rest.
     pub spacing: [f32; 2],
-    /// The axes of view space in world space.
+    /// The axes of view space, in world coordinates.
     pub axes: [Axis; 3],
 }
 
-/// `Axis` of `math/view.wgsl`: a unit vector as a part of few digits and the rest.
+/// Has the layout of `Axis` in `math/view.wgsl`: a unit vector, split into a part of few digits and the rest.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(crate) struct Axis {
-    /// Multiples of 2⁻¹⁰.
+    /// The part of few digits: multiples of 2⁻¹⁰.
     pub coarse: [f32; 4],
     pub fine: [f32; 4],
 }
@@ -43,7 +43,7 @@ impl ViewParameters {
         Self { size: camera.size().map(|n| n as u32), spacing: split(camera.pixel_spacing(), 12), axes }
     }
 
-    /// The view of a geometry; only the size of a curved one is used.
+    /// The view of a geometry; of a curved geometry, only the size is used.
     pub(crate) fn of(geometry: &Geometry) -> Self {
         match geometry.camera() {
             Some(camera) => Self::new(camera),
@@ -52,18 +52,18 @@ impl ViewParameters {
     }
 }
 
-/// A number as one of `digits` binary digits and the rest.
+/// A number split into a part of `digits` binary digits and the rest.
 pub(crate) fn split(number: f64, digits: i32) -> [f32; 2] {
     split_at(number, power_above(number) * 2f64.powi(-digits))
 }
 
-/// A number as a multiple of `unit` and the rest.
+/// A number split into a multiple of `unit` and the rest.
 pub(crate) fn split_at(number: f64, unit: f64) -> [f32; 2] {
     let coarse = (number / unit).round() * unit;
     [coarse as f32, (number - coarse) as f32]
 }
 
-/// The smallest power of two above the absolute value.
+/// The smallest power of two above the number's absolute value.
 pub(crate) fn power_above(number: f64) -> f64 {
     2f64.powi(number.abs().max(1e-30).log2().floor() as i32 + 1)
 }
@@ -82,7 +82,7 @@ impl Device {
 
     pub(crate) fn upload<T: Pod>(&self, label: &str, items: &[T]) -> Buffer {
         let bytes: &[u8] = bytemuck::cast_slice(items);
-        // Bindings must not be empty.
+        // Empty bindings are not allowed.
         let buffer =
             self.buffer(label, bytes.len().max(16) as u64, BufferUsages::STORAGE | BufferUsages::COPY_DST);
         self.write(&buffer, items);
@@ -95,7 +95,7 @@ impl Device {
     }
 }
 
-/// Workgroups that cover the pixels of a view, `across` × `down` pixels each.
+/// The number of workgroups that cover a view, with `across` × `down` pixels each.
 pub(crate) fn groups(size: [usize; 2], [across, down]: [usize; 2]) -> [u32; 2] {
     [size[0].div_ceil(across) as u32, size[1].div_ceil(down) as u32]
 }

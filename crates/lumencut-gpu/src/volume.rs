@@ -21,12 +21,12 @@ use crate::view::{power_above, split};
 
 /// Floats with a larger absolute value count as missing.
 const LARGEST_FLOAT: f32 = 1e30;
-/// The largest number of bytes that are gathered before they are sent.
+/// The largest number of bytes gathered for one transfer.
 const SLAB_BYTES: usize = 64 << 20;
 /// The binary digits of an `f32`.
 const DIGITS: i32 = 24;
 
-/// `GridParameters` of `math/sampling.wgsl`.
+/// Has the layout of `GridParameters` in `math/sampling.wgsl`.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(crate) struct GridParameters {
@@ -51,7 +51,7 @@ pub(crate) struct GridParameters {
 }
 
 impl GridParameters {
-    /// The grid of `volume` in the view of `camera`, its voxels stored `shift` below their values.
+    /// The grid of `volume` in the view of `camera`; its voxels are stored with `shift` subtracted.
     pub(crate) fn new(volume: &Volume, camera: &Camera, shift: f32) -> Self {
         let to = IndexFromView::new(volume, camera);
         let [width, height] = camera.size().map(|n| n as f64);
@@ -60,7 +60,7 @@ impl GridParameters {
         let middle = volume.world_from_index().transform_point3(DVec3::from(last) / 2.0);
         let depth = camera.view_from_world(middle).z.round();
         let origin = to.origin + to.z * depth;
-        // A float holds multiples of half this unit exactly, up to `reach`.
+        // A float holds multiples of half `index_unit` exactly, up to `reach`.
         let reach = (origin.abs() + x.abs() * (width / 2.0) + y.abs() * (height / 2.0)).max_element();
         let index_unit = power_above(reach) * 2f64.powi(1 - DIGITS);
         let unit = power_above(volume.longest_way()) * 2f64.powi(1 - DIGITS / 2);
@@ -112,7 +112,7 @@ fn four([a, b, c]: [f32; 3]) -> [f32; 4] {
 enum Texel {
     Byte,
     Short,
-    /// The bits of a float.
+    /// Floats, stored as their bits.
     Float,
 }
 
@@ -194,7 +194,7 @@ impl DeviceVolume {
         )
     }
 
-    /// The blocks of `shared`, which is this volume, made and sent at the first call.
+    /// The blocks of `shared`, which must be this volume; made and sent at the first call.
     pub(crate) fn blocks(&self, device: &Device, shared: &SharedVolume, stop: Stop) -> Result<&DeviceBlocks> {
         if let Some(blocks) = self.blocks.get() {
             return Ok(blocks);
@@ -227,7 +227,7 @@ fn send(device: &Device, texture: &Texture, texel: Texel, volume: &Volume, stop:
             Voxels::U16(voxels) => gather(volume, voxels, first, bytes, |v| (v ^ 0x8000) as i16),
             other => with_voxels!(other, voxels => gather(volume, voxels, first, bytes, |v| {
                 let value = v.real().to_f32();
-                // NaN also fails the comparison.
+                // This comparison is also false for NaN.
                 if value.abs() <= LARGEST_FLOAT { value } else { HUGE }
             })),
         }
@@ -239,14 +239,14 @@ fn send(device: &Device, texture: &Texture, texel: Texel, volume: &Volume, stop:
             rows_per_image: Some(nj as u32),
         };
         device.queue.write_texture(copy, bytes, layout, extent([ni, nj, count]));
-        // Written data stays in memory until the next submission.
+        // Without a submission, written data would stay in memory.
         device.queue.submit([]);
         device.check()?;
     }
     Ok(())
 }
 
-/// Gathers slices from `first` on, i fastest, as they are stored.
+/// Gathers slices from `first` on, i fastest, in the form in which the GPU stores them.
 fn gather<T: Voxel, S: Pod + Send>(
     volume: &Volume,
     voxels: &[T],

@@ -1,4 +1,4 @@
-//! Every shader parses and validates with its imports, and stays within the limits of every GPU.
+//! Every shader is valid together with its imports, and stays within the limits of every GPU.
 
 use std::path::{Path, PathBuf};
 
@@ -7,13 +7,13 @@ use lumencut_gpu::shader::assemble;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, GlobalVariable, Handle, Module};
 
-/// Modules without Rust of the same name: the view is the core's camera.
+/// Modules without a Rust file of the same name; the view corresponds to the core's camera.
 const WITHOUT_RUST: [&str; 1] = ["math/view"];
 
-/// The module that is no stage of the method but runs as one.
+/// The module that is not in the table of stages but runs as one.
 const PROJECTION: &str = "math/projection";
 
-/// The largest number of storage buffers of a stage that every GPU allows.
+/// The number of storage buffers per stage that every GPU allows.
 const MOST_STORAGE: usize = 8;
 
 fn parse(room: &str) -> (Module, ModuleInfo) {
@@ -54,13 +54,13 @@ fn every_shader_is_valid() {
     }
 }
 
-/// Drawing on a canvas is no stage: its shader is this crate's own.
+/// Drawing on a canvas is no stage of the core, so its shader belongs to this crate.
 #[test]
 fn the_shader_of_the_screen_is_valid() {
     parsed("screen", include_str!("../src/screen.wgsl"));
 }
 
-/// Compilers of browsers require parentheses when a bit operator is next to a shift; naga does not.
+/// Browsers' compilers require parentheses when a bit operator is next to a shift; naga does not.
 #[test]
 fn shifts_stand_in_parentheses() {
     let screen = include_str!("../src/screen.wgsl");
@@ -73,7 +73,7 @@ fn shifts_stand_in_parentheses() {
     assert!(!mixes_bits_and_shifts("a | (b << 8u)") && !mixes_bits_and_shifts("a |= f(b, c) << (d + 1u)"));
 }
 
-/// Whether one pair of parentheses holds both a shift and `&`, `|` or `^`.
+/// Whether a single pair of parentheses holds both a shift and `&`, `|` or `^`.
 fn mixes_bits_and_shifts(line: &str) -> bool {
     let words = line.replace("&&", " ").replace("||", " ").replace("|=", " ").replace("&=", " ");
     let mut open = vec![(false, false)];
@@ -144,7 +144,7 @@ fn bindings_are_the_first_of_group_0_with_few_storage_buffers() {
             assert!(bound.iter().all(|(place, _)| place.group == 0), "{name}");
             let mut bindings: Vec<_> = bound.iter().map(|(place, _)| place.binding).collect();
             bindings.sort_unstable();
-            // Entry points that only arrange points need no pixels.
+            // These entry points only arrange points, and do not use the first bindings.
             let first = match entry.name.as_str() {
                 "bundle" => 2,
                 "enclose" => 1,
@@ -167,7 +167,7 @@ fn bindings_are_the_first_of_group_0_with_few_storage_buffers() {
     }
 }
 
-/// The words of WGSL, without comments, that mean a non-finite number.
+/// The words in WGSL code, without comments, that stand for a non-finite number.
 fn not_finite(text: &str) -> Vec<&str> {
     text.lines()
         .flat_map(|line| line.split("//").next())

@@ -14,13 +14,13 @@ pub struct Line {
     /// Radius of each point in the unit of the points, finite and ≥ 0; 0 if not stated. None if the file has
     /// no radii for this line.
     pub radius: Option<Vec<f64>>,
-    /// Group that a branch splitter assigned; lines of one group run along the same vessel.
+    /// Group number from VMTK's branch splitting; lines of one group run along the same vessel.
     pub group: Option<i64>,
     /// Name of the line in the file.
     pub name: Option<String>,
     /// Confidence of each point (0 to 1) of a traced line. It is written, but not read.
     pub confidence: Option<Vec<f64>>,
-    /// Number of the point list that was split at its jumps into this line and others.
+    /// Number of the point list from which this line was cut, if the list was split at long jumps.
     pub list: Option<usize>,
 }
 
@@ -43,7 +43,7 @@ pub struct Centerlines {
     pub notes: Vec<String>,
 }
 
-/// Mark in files that this crate writes: their lines are already vessels.
+/// Text in files that this crate writes. It states that their lines are already vessels.
 pub(crate) const JOINED_MARK: &str = "LumencutVessels";
 
 /// Largest plausible coordinate or radius (mm). Larger ones mean damaged or misread data. The core uses the
@@ -56,7 +56,7 @@ pub(crate) struct Limit {
 }
 
 impl Limit {
-    /// If the unit is not known, the limit is that of the smallest unit.
+    /// The limit in a unit. An unknown unit counts as the smallest one, which allows the largest numbers.
     pub(crate) fn of(unit: Option<Unit>) -> Self {
         let assumed = unit.unwrap_or(Unit::Micrometre);
         Self { largest: LARGEST_COORDINATE / assumed.in_mm(), unit: unit.map_or("", Unit::name) }
@@ -68,7 +68,7 @@ impl Limit {
 }
 
 impl Centerlines {
-    /// Centerlines without lines, in mm.
+    /// An empty result for a file format that usually is in mm.
     pub(crate) fn of(format: &'static str) -> Self {
         Self { format, conventional_unit: Some(Unit::Millimetre), ..Self::default() }
     }
@@ -79,7 +79,7 @@ impl Centerlines {
         }
     }
 
-    /// Treats NaN radii as unknown: 0 for single points, None for a complete line. Notes their number.
+    /// Replaces NaN radii by 0, or by None if all radii of a line are NaN. Adds a note with their number.
     fn without_nan_radii(mut self) -> Self {
         let (mut unknown, mut all) = (0, 0);
         for line in &mut self.lines {
@@ -96,7 +96,7 @@ impl Centerlines {
         self
     }
 
-    /// If all radii are 0, treats them as missing, because some programs write missing radii so.
+    /// If all radii are 0, treats them as missing, because some programs write 0 for missing radii.
     pub(crate) fn without_zero_radii(self) -> Self {
         let mut zero = self.without_nan_radii();
         zero.drop_zero_radii();
@@ -111,7 +111,7 @@ impl Centerlines {
         }
     }
 
-    /// Notes that numbers without names may be voxel indices, or something other than radii.
+    /// Adds a note if unnamed columns may hold voxel indices, and one if the fourth was taken as radius.
     pub(crate) fn doubt_unnamed_columns(&mut self) {
         let mut numbers = self.lines.iter().flat_map(|line| &line.points).flat_map(|p| p.to_array());
         if numbers.all(|number| number.fract() == 0.0) {
@@ -125,7 +125,7 @@ impl Centerlines {
         }
     }
 
-    /// Checks every line. Drops repeated points and lines of one point, and notes that.
+    /// Checks every line. Removes repeated points and lines with one point, and adds a note about that.
     pub(crate) fn tidy(self) -> Result<Self> {
         let limit = Limit::of(self.unit);
         let mut out = self.without_nan_radii().checked(&limit)?;

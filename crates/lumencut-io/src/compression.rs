@@ -29,12 +29,12 @@ impl Compressor {
         match self {
             Self::Zlib => 1032,
             Self::Lz4 => 255,
-            // A match of 273 bytes takes at least a third of a bit, so a byte gives at most about 7000.
+            // An LZMA match of 273 bytes takes at least a third of a bit, so a byte gives at most about 7000.
             Self::Lzma => 1 << 14,
         }
     }
 
-    /// Unpacks a block of exactly `size` bytes to the end of `out`. The caller has charged it to its budget.
+    /// Unpacks a block to exactly `size` bytes and appends them to `out`. The caller checks the budget.
     pub(crate) fn unpack(self, subject: &str, block: &[u8], size: usize, out: &mut Vec<u8>) -> Result<()> {
         let before = out.len();
         let most = block.len().saturating_mul(self.largest_ratio());
@@ -77,8 +77,8 @@ pub(crate) struct Budget {
 }
 
 impl Budget {
-    /// 1 MiB plus 16 file sizes. A point with radius and line entry takes 66 bytes, compressed rarely below
-    /// 8. Decompression bombs unpack thousands of bytes per byte.
+    /// The budget for a file: 1 MiB plus 16 times its size. A point with radius and line entry takes 66
+    /// bytes, rarely below 8 if compressed. A decompression bomb unpacks to thousands of times its size.
     pub(crate) fn of_file(size: usize) -> Self {
         Self { left: (size as u64).saturating_mul(16).saturating_add(1 << 20) }
     }

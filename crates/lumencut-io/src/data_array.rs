@@ -1,4 +1,4 @@
-//! The number types of VTK files, read from bytes or text.
+//! Reads numbers of VTK files, of any number type, from bytes or text.
 
 use crate::error::{Error, Result, excerpt};
 
@@ -68,7 +68,7 @@ pub(crate) fn numbers_of_text(subject: &str, text: &str, kind: NumberType) -> Re
     text.split_ascii_whitespace().map(|word| number_of_word(subject, word, kind)).collect()
 }
 
-/// Reads a number. 32-bit floats are rounded, so that text and binary files give the same numbers.
+/// Parses a number. 32-bit floats are rounded, so that text and binary files give the same numbers.
 pub(crate) fn number_of_word(subject: &str, word: &str, kind: NumberType) -> Result<f64> {
     let number = match kind {
         NumberType::F32 => word.parse::<f32>().map(f64::from),

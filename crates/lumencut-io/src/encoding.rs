@@ -1,4 +1,4 @@
-//! Binary data of VTK XML files: raw or base64, after a length header, in one piece or in compressed blocks.
+//! Reads binary data of VTK XML files: raw or base64, after a length header, maybe in compressed blocks.
 
 use crate::compression::{Budget, Compressor};
 use crate::data_array::ByteOrder;
@@ -14,8 +14,8 @@ pub(crate) struct Layout {
 
 pub(crate) enum Bytes<'a> {
     Raw(&'a [u8]),
-    /// Base64 text, and bytes that are already decoded. Padding may follow any group, because writers may
-    /// encode the header separately.
+    /// Base64 text, and the bytes already decoded from it. Padding may occur inside the text, because writers
+    /// may encode the header separately.
     Base64 {
         text: &'a [u8],
         ahead: Vec<u8>,
@@ -92,7 +92,7 @@ fn decode_group(subject: &str, group: [u8; 4], out: &mut Vec<u8>) -> Result<()> 
     Ok(())
 }
 
-/// The content of one array. Reads the header, and unpacks blocks within the budget.
+/// Decodes the content of one array: reads its header, and unpacks its blocks within the budget.
 pub(crate) fn content(
     subject: &str,
     mut bytes: Bytes,

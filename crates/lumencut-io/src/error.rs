@@ -1,13 +1,13 @@
-//! Errors that state file and place, what was found, what was expected, and a remedy.
+//! Errors that state the file and the position in it, what was found, what was expected, and a remedy.
 
 use std::fmt;
 
 use crate::mend::Mend;
 
-/// An error in one line: `subject: found …; expected …; advice, or mend`.
+/// An error. Its text is one line: `subject: found …; expected …; advice or remedy`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Error {
-    /// The file, and the place in it.
+    /// The file, and the position in it.
     pub subject: String,
     /// What was found.
     pub found: String,
@@ -15,12 +15,12 @@ pub struct Error {
     pub expected: String,
     /// Advice in words; may be empty.
     pub mend: String,
-    /// Remedy that each host states in its own words.
+    /// Remedy that programs can apply; each user interface states it in its own words.
     pub mended_by: Option<Box<Mend>>,
 }
 
 impl Error {
-    /// An error at the place `subject`.
+    /// An error at the position `subject` of a file.
     pub fn new(subject: impl Into<String>, found: impl Into<String>, expected: impl Into<String>) -> Self {
         let (subject, found, expected) = (subject.into(), found.into(), expected.into());
         Self { subject, found, expected, mend: String::new(), mended_by: None }
@@ -40,7 +40,7 @@ impl Error {
         self
     }
 
-    /// Puts the file name in front of the place.
+    /// Puts the file name in front of the position.
     #[must_use]
     pub fn in_file(mut self, file_name: &str) -> Self {
         self.subject =

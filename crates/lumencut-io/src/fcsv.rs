@@ -1,4 +1,4 @@
-//! Fiducial lists of 3D Slicer (`.fcsv`).
+//! Reads fiducial lists of 3D Slicer (`.fcsv`).
 
 use crate::centerlines::{Centerlines, Line};
 use crate::error::{Error, Result, excerpt};

@@ -1,4 +1,4 @@
-//! Tubes of ITK and TubeTK (`.tre`), which are MetaIO scenes with points as text or bytes.
+//! Reads tubes of ITK and TubeTK (`.tre`), which are MetaIO scenes with points as text or bytes.
 
 use std::collections::HashMap;
 
@@ -60,7 +60,7 @@ fn objects(bytes: &[u8], out: &mut Centerlines) -> Result<Vec<MetaObject>> {
                 cursor.skip_to(b"ObjectType");
             }
             (_, Some(object)) => object.set(key, value),
-            // A comment in front of the scene.
+            // Text before the first object is a comment.
             (_, None) => {}
         }
     }

@@ -32,13 +32,13 @@ impl<'a> Json<'a> {
         serde_json::from_str(self.raw()).ok()
     }
 
-    /// Fields of an object with these names (the last of duplicates); None if null, missing, or no object.
+    /// Fields with these names (the last of duplicates); None if null or missing, or not in an object.
     pub(crate) fn fields<const N: usize>(self, names: [&str; N]) -> [Option<Self>; N] {
         let fields = serde_json::Deserializer::from_str(self.raw()).deserialize_map(Fields(names));
         fields.unwrap_or([None; N]).map(|field| field.filter(|value| value.raw() != "null"))
     }
 
-    /// Calls `take` for each element of a list until the first error; returns the count, None if no list.
+    /// Calls `take` for each list element until the first error; returns the count, None for no list.
     pub(crate) fn each(self, take: impl FnMut(usize, Self) -> Result<()>) -> Option<Result<usize>> {
         serde_json::Deserializer::from_str(self.raw()).deserialize_seq(Each(take)).ok()
     }

@@ -1,16 +1,16 @@
-//! Splits point lists that contain several lines without anything between them.
+//! Splits point lists in which several lines follow each other without a separator.
 
 use crate::centerlines::{Centerlines, Line};
 
 /// Minimum length of a jump, as a multiple of the median step.
 const JUMP: f64 = 20.0;
-/// Minimum length of a jump relative to both neighbouring steps. Shorter ones only mean sparse points.
+/// Minimum length of a jump relative to both neighbouring steps. A shorter jump only means sparse points.
 const LOCAL_JUMP: f64 = 5.0;
 /// Minimum number of points for which a median step is meaningful.
 const FEWEST_POINTS: usize = 8;
 
 impl Centerlines {
-    /// Splits lines at jumps, and notes that. Also notes long steps that are not jumps.
+    /// Splits lines at jumps. Adds notes about the splits, and about long steps that are not jumps.
     pub(crate) fn parted_at_jumps(mut self) -> Self {
         let count = self.lines.len();
         let lines = std::mem::take(&mut self.lines);
@@ -31,7 +31,7 @@ impl Centerlines {
     }
 }
 
-/// Index after the last point of each part. Counts long steps that are not jumps.
+/// For each part of the line, the index after its last point. `kept` counts long steps that are not jumps.
 fn ends_at_jumps(line: &Line, kept: &mut usize) -> Vec<usize> {
     let whole = vec![line.points.len()];
     let steps: Vec<f64> = line.points.windows(2).map(|pair| pair[0].distance(pair[1])).collect();

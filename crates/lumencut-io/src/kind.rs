@@ -19,7 +19,7 @@ pub(crate) enum Kind {
     Npy,
 }
 
-/// Number of bytes that are searched for binary content.
+/// Number of bytes at the start of a file that are searched for binary content.
 const BEGINNING: usize = 4096;
 
 /// The format of `content`, which must not start with a byte order mark.

@@ -16,8 +16,8 @@
 //! | text table, `.csv`, `.tsv`, `.txt` | numbers or a header | the header's | the header's, or a fourth column |
 //! | NumPy array, `.npy` | `\x93NUMPY` | none; none | a fourth column |
 //!
-//! Readers use a stated count or offset only if the file has the bytes for it, and unpack within a budget
-//! that grows with the file.
+//! Readers rely on a count or offset in a file only if the file is large enough for it. They unpack
+//! compressed data within a budget that grows with the file size.
 
 mod centerlines;
 mod compression;

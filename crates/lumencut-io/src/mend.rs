@@ -1,23 +1,23 @@
-//! Remedies for errors in files. Hosts apply them, or state them in their own words.
+//! Remedies for errors in files. Programs apply them, or state them in their own words.
 
 use std::fmt;
 
 use crate::space::Space;
 use crate::unit::Unit;
 
-/// A remedy of an [`Error`](crate::Error). Hosts state it as Python arguments, command-line options or
-/// buttons. The text of [`fmt::Display`] is for Rust programs.
+/// A remedy for an [`Error`](crate::Error). Users see it as a Python argument, a command-line option or a
+/// button. The text of [`fmt::Display`] is for Rust programs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Mend {
-    /// State the space of the coordinates, LPS or RAS, because the volume does not decide it.
+    /// State the space of the coordinates, LPS or RAS, because the volume cannot decide it.
     Coordinates,
-    /// State the unit, which is one of these, because the volume does not decide it.
+    /// State the unit (one of these), because the volume cannot decide it.
     Unit(Vec<Unit>),
     /// State space and unit, because no combination fits the volume.
     Place,
     /// Sort the points of each line along the vessel.
     Reorder,
-    /// State space and unit, which are one of these pairs, because the volume does not decide it.
+    /// State space and unit (one of these pairs), because the volume cannot decide them.
     Reading(Vec<(Space, Unit)>),
 }
 
@@ -31,7 +31,7 @@ impl Mend {
     /// Names of all remedies.
     pub const NAMES: [&str; 5] = ["coordinates", "unit", "place", "reading", "reorder"];
 
-    /// The name of the remedy, which every host uses.
+    /// The name by which programs recognise the remedy.
     #[must_use]
     pub const fn name(&self) -> &'static str {
         match self {

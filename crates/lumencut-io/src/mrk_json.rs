@@ -1,4 +1,4 @@
-//! 3D Slicer markups (`.mrk.json`): Curve, ClosedCurve and Line.
+//! Reads 3D Slicer markups (`.mrk.json`): Curve, ClosedCurve and Line.
 
 use glam::DVec3;
 
@@ -134,7 +134,7 @@ fn is_corner(points: &[DVec3]) -> bool {
     before.dot(behind) < 0.75_f64.sqrt() * before.length() * behind.length()
 }
 
-/// The space, given by its name or by the number of 3D Slicer.
+/// The space: its name, or the number that 3D Slicer uses for it.
 fn space(stated: Option<Json>) -> Result<Option<Space>> {
     let Some(stated) = stated else { return Ok(None) };
     let text = stated.text().unwrap_or_else(|| stated.raw().to_owned());

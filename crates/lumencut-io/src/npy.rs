@@ -1,4 +1,4 @@
-//! NumPy arrays (`.npy`), versions 1 to 3.
+//! Reads NumPy arrays (`.npy`), versions 1 to 3.
 
 use glam::DVec3;
 

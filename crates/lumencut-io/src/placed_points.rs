@@ -1,4 +1,4 @@
-//! Positions of control points of 3D Slicer, which may be undefined.
+//! Finds out which control points of 3D Slicer have a defined position.
 
 use crate::centerlines::Centerlines;
 use crate::error::{Error, Result, excerpt};

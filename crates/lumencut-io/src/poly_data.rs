@@ -1,4 +1,4 @@
-//! A poly data of VTK, and its conversion to centerlines.
+//! The content of a VTK poly data file, and its conversion to centerlines.
 
 use glam::DVec3;
 
@@ -45,7 +45,7 @@ pub(crate) fn wanted(name: &str) -> bool {
     name == GROUP_NAME || [HAS_NAME, HAS_RADIUS].contains(&name) || names_radius(name) || names_diameter(name)
 }
 
-/// Whether a name means a radius; radii of curvature are excluded.
+/// Whether an array with this name holds radii; radii of curvature are excluded.
 pub(crate) fn names_radius(name: &str) -> bool {
     let name = name.to_ascii_lowercase();
     ["radius", "radii"].iter().any(|word| name.contains(word)) && !name.contains("curvature")
@@ -113,7 +113,7 @@ impl PolyData {
         Ok(())
     }
 
-    /// Values of the best array of radii, otherwise diameters, and the factor that converts them to radii.
+    /// Values of the best array of radii, else of diameters, and the factor that converts them to radii.
     fn radius(&self, points: usize, notes: &mut Vec<String>) -> Result<Option<(&[f64], f64)>> {
         let scalar = |array: &&Array| array.components == 1;
         let named = RADIUS_NAMES.iter().find_map(|name| {
@@ -173,7 +173,7 @@ fn one_value_each(array: &Array, count: usize, of: &str) -> Result<()> {
     Err(Error::new(format!("{of} array '{}'", array.name), found, format!("one value per {of}")))
 }
 
-/// Stretches of one group. Each starts with the last point of the one before it.
+/// Splits point ids into stretches of one group. A stretch starts with the last point of the one before it.
 fn runs<'a>(ids: &'a [usize], groups: &'a [f64]) -> impl Iterator<Item = (&'a [usize], i64)> {
     let mut start = 0;
     std::iter::from_fn(move || {

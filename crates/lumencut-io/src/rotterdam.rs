@@ -1,11 +1,11 @@
-//! Reference centerlines of the Rotterdam Coronary Artery Algorithm Evaluation (`reference.txt`).
+//! Reads reference centerlines of the Rotterdam Coronary Artery Algorithm Evaluation (`reference.txt`).
 
 use crate::centerlines::{Centerlines, Line};
 use crate::error::{Error, Result, excerpt};
 use crate::table;
 use crate::text::{self, Separator};
 
-/// Numbers of columns: x, y, z, radius, and usually the variance between observers.
+/// Possible numbers of columns: x, y, z, radius, and usually the variance between observers.
 const COLUMNS: [usize; 2] = [4, 5];
 
 /// One line, without a space or unit. Rejects files whose first column only counts rows.
@@ -29,7 +29,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     out.without_zero_radii().tidy()
 }
 
-/// Whether it is `reference.txt` with four or five columns, or any file with five columns and no header.
+/// Whether a row fits: four or five columns in `reference.txt`, or five without header elsewhere.
 pub(crate) fn is_row(row: &str, file_name: &str) -> bool {
     let fields = text::fields(row, Separator::Blanks);
     let named = file_name.ends_with("reference.txt");

@@ -1,7 +1,7 @@
-//! Session files, which store the state of a reading so that it can be continued.
+//! Session files store a reader's work on a scan, so that it can be continued.
 //!
 //! A session file is a markups file of 3D Slicer (`.mrk.json`) whose curves are the vessels. The field
-//! [`FIELD`] has everything else, but no file names or patient data. Points are in LPS, lengths in mm.
+//! [`FIELD`] contains everything else, but no file names or patient data. Points are in LPS, lengths in mm.
 
 use std::collections::BTreeMap;
 
@@ -19,7 +19,7 @@ use crate::write::mrk_json::markups;
 pub const FIELD: &str = "LumencutSession";
 
 /// Versions of that field. Version 2 adds the assumed voxel spacing of 1 mm, and noted diameters. Files use
-/// the lowest version that suffices, so that older readers reject only files that they cannot read.
+/// the lowest sufficient version, so that older programs reject only files that they cannot read.
 const FORMATS: [u32; 2] = [1, 2];
 
 const NOTICE: &str = "Lumencut is not a medical device.";
@@ -49,15 +49,15 @@ pub struct Session {
     pub scan: Option<Scan>,
     /// State of each vessel.
     pub vessels: Vec<VesselState>,
-    /// Branches found from a seed that the reader has not accepted yet.
+    /// Branches that were found from a seed, and that the reader has not accepted yet.
     pub doubtful: Vec<DoubtfulBranch>,
-    /// Balls that no vessel may pass.
+    /// Spheres that traced vessels must not enter.
     pub stoppers: Vec<Stopper>,
     /// Whether tracing may cross stretches without lumen by straight bridges.
     pub bridge: bool,
     /// Straight distances that the reader measured.
     pub rulers: Vec<Ruler>,
-    /// FWHM of the point spread that the reader stated (mm); None if it is estimated.
+    /// FWHM of the point-spread function (mm) that the reader stated; None if it is estimated.
     pub fwhm_mm: Option<f64>,
     /// The view of the scan, if saved.
     pub view: Option<View>,
@@ -86,7 +86,7 @@ impl Session {
 pub struct Scan {
     /// Number of voxels along (i, j, k).
     pub size: [usize; 3],
-    /// World position (LPS, mm) of a continuous index, row by row.
+    /// Affine from voxel indices to world positions (LPS, mm), row by row.
     pub world_from_index: [[f64; 4]; 4],
 }
 
@@ -96,7 +96,7 @@ pub struct Scan {
 pub struct VesselState {
     /// Colour as `#rrggbb`.
     pub color: String,
-    /// Whether views leave out the vessel.
+    /// Whether the vessel is hidden in all views.
     pub hidden: bool,
     /// Clicks in order; None if the vessel was not traced from clicks.
     pub clicks: Option<Vec<Point>>,
@@ -151,7 +151,7 @@ pub struct DoubtfulBranch {
     pub confidence: Option<Vec<f64>>,
 }
 
-/// A ball that no vessel may pass.
+/// A sphere that traced vessels must not enter.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Stopper {
@@ -185,7 +185,7 @@ pub struct View {
     pub layout: String,
     /// Position of the cross-hair, if it is shown.
     pub cross_hair: Option<Point>,
-    /// Vessel of the straightened CPR, and the place of its section.
+    /// The vessel that is shown straightened, and the place whose cross-section is shown.
     pub picked: Option<Picked>,
 }
 
@@ -245,7 +245,7 @@ fn read_unnamed(content: &[u8], name: &str) -> Result<SessionFile> {
     Ok(SessionFile { lines, session })
 }
 
-/// Writes a session file with version and notice. Fails if parts of it contradict each other.
+/// Writes a session file, with version and notice added. Fails if lines and session contradict each other.
 pub fn write_session(file: &SessionFile, software: &str) -> Result<Vec<u8>> {
     let session = Session {
         format: file.session.least_format(),

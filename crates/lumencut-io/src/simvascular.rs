@@ -1,4 +1,4 @@
-//! SimVascular paths (`.pth`).
+//! Reads SimVascular paths (`.pth`).
 
 use glam::DVec3;
 use quick_xml::Reader;

@@ -1,4 +1,4 @@
-//! The patient spaces of files.
+//! The patient spaces in which files give coordinates.
 
 /// The patient space in which coordinates are given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,4 +1,4 @@
-//! SWC trees: each text line is a node, `id type x y z radius parent`.
+//! Reads SWC trees, in which each text line is a node: `id type x y z radius parent`.
 
 use glam::DVec3;
 
@@ -8,8 +8,8 @@ use crate::text::{self, Separator};
 
 const COLUMNS: &str = "7 numbers: id type x y z radius parent";
 
-/// One line from each root or branching to the next branching or leaf, with bit-identical end points. Node
-/// types are ignored.
+/// One line from each root or branch point to the next branch point or leaf. Lines that meet have
+/// bit-identical end points. Node types are ignored.
 pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     let nodes =
         text::data_lines(bytes).map(|(number, line)| node(number, &line)).collect::<Result<Vec<_>>>()?;
@@ -26,7 +26,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
     out.without_zero_radii().tidy()
 }
 
-/// The factor in a leading comment `SCALE`, if not 1. Programs differ in whether nodes include it.
+/// The factor in a leading comment `SCALE`, if not 1. Programs disagree whether coordinates include it.
 fn unused_scale(bytes: &[u8]) -> Option<String> {
     let comments = text::lines(bytes).map_while(|(_, line)| Some(line.strip_prefix('#')?.trim().to_owned()));
     let is_one = |word: &str| word.parse() == Ok(1.0);
@@ -61,7 +61,7 @@ fn node(line: usize, content: &str) -> Result<Node> {
     Ok(Node { line, id, point: text::point(line, [x, y, z])?, radius: text::number(line, radius)?, parent })
 }
 
-/// Reads an integer, which some programs write as `1.0`.
+/// Reads an integer; some programs write 1 as `1.0`.
 fn whole(line: usize, field: &str) -> Result<i64> {
     let of_float = || {
         let number = field.parse::<f64>().ok()?;
@@ -77,13 +77,13 @@ fn whole(line: usize, field: &str) -> Result<i64> {
 struct Tree {
     roots: Vec<usize>,
     children: Vec<usize>,
-    /// Number of the first child of each node, and the number of all.
+    /// Index of the first child of each node; at the end, the number of all children.
     begins: Vec<usize>,
 }
 
 impl Tree {
     fn new(nodes: &[Node]) -> Result<Self> {
-        // The order is by id, which is usually also the order in the file.
+        // Nodes are sorted by id, which is usually their order in the file.
         let mut order: Vec<(i64, usize)> = nodes.iter().enumerate().map(|(i, node)| (node.id, i)).collect();
         order.sort_unstable();
         if let Some(pair) = order.windows(2).find(|pair| pair[0].0 == pair[1].0) {

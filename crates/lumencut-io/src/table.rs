@@ -1,4 +1,4 @@
-//! Tables of numbers as text (`.csv`, `.tsv`, `.txt`), with or without a header row.
+//! Reads tables of numbers as text (`.csv`, `.tsv`, `.txt`), with or without a header row.
 
 use std::borrow::Cow;
 use std::collections::HashSet;
@@ -49,7 +49,7 @@ pub(crate) fn read(bytes: &[u8]) -> Result<Centerlines> {
         rows.out.doubt_unnamed_columns();
         refuse_counter(&rows.out.lines)?;
     }
-    // If a column separates lines, a line may have gaps.
+    // If a column separates lines, lines are not split at gaps.
     let whole = rows.columns.key.is_some();
     let out = if whole { rows.out } else { rows.out.parted_at_jumps() };
     out.without_zero_radii().tidy()
@@ -69,14 +69,14 @@ fn closed_up(header: &str, separator: Separator) -> Cow<'_, str> {
     Cow::Owned(header.replace(" (", "(").replace(" [", "["))
 }
 
-/// Takes the unit from a leading comment such as `units: cm`; otherwise notes the first unit in comments.
+/// Takes the unit from a leading comment like `units: cm`; else notes a unit named in comments.
 fn unit_in_comments(bytes: &[u8], first: usize, columns: &mut Columns) {
     let mut other = None;
     for (_, line) in text::lines(bytes).take(first - 1).filter(|(_, line)| line.starts_with('#')) {
         let comment = line.to_lowercase();
         let signs = |c: char| c.is_whitespace() || "#()[],;:=.".contains(c);
         let mut words = comment.split(signs).filter(|word| !word.is_empty());
-        // A single `m` does not have to mean metres.
+        // A single letter `m` may mean something other than metres.
         let known = |word: &str| Unit::of_name(word).filter(|unit| *unit != Unit::Metre);
         let Some(unit) = words.clone().find_map(known) else { continue };
         let said = [words.next(), words.next(), words.next()];
@@ -149,7 +149,7 @@ fn with_point(field: &str, separator: Separator) -> Cow<'_, str> {
     }
 }
 
-/// Columns that the last leading comment names, if their number fits.
+/// The columns that the last comment before the data names, if their number is right.
 fn header_in_comment(bytes: &[u8], first: usize, count: usize) -> Result<Option<Columns>> {
     let comment = text::lines(bytes).take(first - 1).filter(|(_, line)| line.starts_with('#')).last();
     let Some((number, line)) = comment else { return Ok(None) };
@@ -163,8 +163,8 @@ fn header_in_comment(bytes: &[u8], first: usize, count: usize) -> Result<Option<
     Columns::of_header(number, names, &fields).map(Some)
 }
 
-/// Rejects columns without names whose x only counts rows, if a radius follows. In that case y would really
-/// be x, and z the radius.
+/// Rejects four unnamed columns whose first one only counts rows. They would be read as x, y, z and radius,
+/// but probably are a counter, x, y and z.
 pub(crate) fn refuse_counter(lines: &[Line]) -> Result<()> {
     let mut x = lines.iter().flat_map(|line| &line.points).map(|p| p.x).enumerate();
     let begins = x.next().map(|(_, first)| first).filter(|first| *first == 0.0 || *first == 1.0);
@@ -181,7 +181,7 @@ struct Rows {
     separator: Separator,
     out: Centerlines,
     line: Line,
-    /// Value in the column that separates lines.
+    /// Value of the current line in the column that separates lines.
     key: Option<String>,
     known_keys: HashSet<String>,
     /// Number of points without a position.

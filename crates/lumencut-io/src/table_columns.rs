@@ -1,4 +1,4 @@
-//! The meaning of the columns of a table, from the header or from their number.
+//! Determines the meaning of table columns from the header or from the number of columns.
 
 use crate::error::{Error, Result, excerpt};
 use crate::placed_points::PlacedBy;
@@ -12,7 +12,7 @@ pub(crate) struct Columns {
     pub xyz: [usize; 3],
     /// Column of the radius, and the factor that converts it to the unit of the coordinates.
     pub radius: Option<(usize, f64)>,
-    /// Column that separates lines, and whether it holds groups of a branch splitter.
+    /// Column that separates lines, and whether its values are groups from VMTK's branch splitting.
     pub key: Option<(usize, bool)>,
     /// Column that states which points have a position.
     pub placed: Option<(usize, PlacedBy)>,
@@ -23,7 +23,7 @@ pub(crate) struct Columns {
 
 const RADIUS_NAMES: [&str; 4] = ["maximuminscribedsphereradius", "radius", "radii", "r"];
 const DIAMETER_NAMES: [&str; 2] = ["diameter", "diam"];
-/// Names of the column that separates lines, the most specific first. Blanks and signs in names are ignored.
+/// Names of the column that separates lines, the most specific first. Blanks and punctuation are ignored.
 const KEY_NAMES: [&str; 11] = [
     "line",
     "lineid",
@@ -59,7 +59,7 @@ impl Name {
             return Self { base: base.trim().into(), unit: (!unit.is_empty()).then(|| unit.into()) };
         }
         match field.rsplit_once(['_', ' ']) {
-            // `_m` does not have to mean metres.
+            // A name that ends in `_m` may mean something other than metres.
             Some((base, unit)) if unit.len() > 1 && Unit::of_name(unit).is_some() => {
                 Self { base: base.trim().into(), unit: Some(unit.into()) }
             }

@@ -1,4 +1,4 @@
-//! Lines, fields and numbers of text files.
+//! Splits text files into lines and fields, and reads numbers.
 
 use std::borrow::Cow;
 
@@ -81,7 +81,7 @@ impl At {
     }
 }
 
-/// Fields without surrounding blanks and quotes. Separators in quotes belong to the field. Limited in number.
+/// Splits a row into its fields, without surrounding blanks and quotes. Separators inside quotes are text.
 pub(crate) fn fields(line: &str, separator: Separator) -> Vec<&str> {
     match separator {
         Separator::Blanks => line.split_ascii_whitespace().take(MOST_FIELDS + 1).map(unquoted).collect(),

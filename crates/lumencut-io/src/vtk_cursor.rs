@@ -74,7 +74,7 @@ impl<'a> Cursor<'a> {
         next.get(..word.len()).is_some_and(|begin| begin.eq_ignore_ascii_case(word.as_bytes()))
     }
 
-    /// The next `count` values, starting on the next line; the values of text are its character codes.
+    /// The next `count` values, starting on the next line. For text values, these are character codes.
     pub(crate) fn values(&mut self, subject: &str, kind: ValueType, count: usize) -> Result<Vec<f64>> {
         self.line();
         match kind {
@@ -117,7 +117,7 @@ impl<'a> Cursor<'a> {
         self.rest = at.map_or(&[], |at| &self.rest[at..]);
     }
 
-    /// Texts, one per line, or each after its length; the first two bits give the width of that length.
+    /// Reads texts: one per line, or each after its length, which states its own width in two bits.
     fn texts(&mut self, subject: &str, count: usize) -> Result<Vec<f64>> {
         let mut out = Vec::new();
         for _ in 0..count {

@@ -1,4 +1,4 @@
-//! Legacy VTK poly data (`.vtk`), versions 1.0 to 5.1, ASCII and binary.
+//! Reads legacy VTK poly data (`.vtk`), versions 1.0 to 5.1, ASCII and binary.
 
 use crate::centerlines::{Centerlines, JOINED_MARK};
 use crate::data_array::{NumberType, index};
@@ -85,7 +85,7 @@ impl Sections<'_> {
         ValueType::of_name(subject, &name)
     }
 
-    /// Bits are rejected as ids: a byte would give eight ids, which take far more memory than the file.
+    /// Ids of type `bit` are rejected: eight of them in a byte take far more memory than the file.
     fn id_type(&mut self, subject: &str) -> Result<ValueType> {
         match self.value_type(subject)? {
             kind @ ValueType::Number(_) => Ok(kind),
@@ -112,7 +112,7 @@ impl Sections<'_> {
         Ok(())
     }
 
-    /// Cells since version 5.0: first the offsets, then the ids of all points.
+    /// Reads cells as stored since version 5.0: first the offsets, then the ids of all points.
     fn cells_by_offsets(
         &mut self,
         keyword: &str,
@@ -224,7 +224,7 @@ fn unknown(keyword: &str) -> Error {
     Error::new("", format!("the word {}", excerpt(keyword)), "a section of a legacy VTK poly data file")
 }
 
-/// Cells before version 5.0: each is a count followed by ids. Returns ends and connectivity.
+/// Reads cells as stored before version 5.0: each is a count and then ids. Returns ends and connectivity.
 fn cells_by_counts(keyword: &str, numbers: &[f64], cells: usize) -> Result<(Vec<f64>, Vec<f64>)> {
     let (mut ends, mut connectivity) = (Vec::new(), Vec::new());
     let mut rest = numbers;

@@ -1,4 +1,4 @@
-//! VTK XML poly data (`.vtp`): ASCII, inline base64 or appended data, with or without compression.
+//! Reads VTK XML poly data (`.vtp`): ASCII, inline base64 or appended data, with or without compression.
 
 use crate::centerlines::{Centerlines, JOINED_MARK, Line};
 use crate::compression::{Budget, Compressor};

@@ -1,4 +1,4 @@
-//! The elements of a VTK XML file: its arrays and where they are, without decoding them.
+//! Finds the arrays in a VTK XML file, without decoding them.
 
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
@@ -94,7 +94,7 @@ impl Walk {
         self.open.last().is_some_and(|name| name == "DataArray" || name == "Array")
     }
 
-    /// Keeps text that is directly inside an array. Information keys inside have texts of their own.
+    /// Keeps text directly inside an array element, but not the text of information keys inside it.
     fn text(&mut self, content: &str) {
         if !self.inside_array() {
             return;

@@ -1,4 +1,4 @@
-//! Reduces the dictionary of an LZMA block, because the reader allocates as much as the block states.
+//! Reduces the dictionary size that an LZMA block states, because the decoder allocates that much memory.
 
 use std::borrow::Cow;
 
@@ -39,7 +39,7 @@ fn dictionary_field(block: &[u8]) -> Option<DictionaryField> {
     if block.len() < sum + 4 || flags & 0x3f != 0 {
         return None;
     }
-    // Sizes of blocks are stored in a variable number of bytes; the last one is below 128.
+    // The size of a block is stored in a variable number of bytes; only its last byte is below 128.
     let mut at = 0;
     for _ in 0..(flags >> 6).count_ones() {
         at += 1 + fields[at..].iter().position(|byte| *byte < 128)?;

@@ -64,7 +64,7 @@ fn assert_small(what: &str, bytes: &[u8], name: &str, expected: &str) {
     assert!(bytes.len() <= FILE && peak <= MOST, "{what}: {peak} bytes for {}", bytes.len());
 }
 
-/// A single test, because the memory of concurrent tests would add up.
+/// There is a single test, because the memory of concurrent tests would add up.
 #[test]
 fn no_small_file_takes_more_than_ten_times_a_mebibyte() {
     let packers: [(&str, Packer); 3] =
@@ -73,7 +73,7 @@ fn no_small_file_takes_more_than_ten_times_a_mebibyte() {
         assert_small(compressor, &turns(compressor, pack, 225_000), "a.vtp", "1 vessel(s)");
         assert_small(compressor, &turns(compressor, pack, 8_000_000), "a.vtp", "bytes to unpack");
     }
-    // Content that is claimed but missing must not be allocated.
+    // No memory may be allocated for content that is claimed but missing.
     let claim = |content: &[u8]| lz4(&content[..content.len().min(9)]);
     assert_small(
         "lz4",

@@ -1,4 +1,4 @@
-//! Smooth curves with radii through anatomical way points; places on them are arc lengths.
+//! Smooth curves with radii through anatomical way points; positions on them are given as arc lengths.
 
 use std::f64::consts::TAU;
 

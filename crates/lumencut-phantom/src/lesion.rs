@@ -9,9 +9,9 @@ use crate::curve::Curve;
 /// The composition of a plaque.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PlaqueKind {
-    /// Non-calcified; it fills the space between the lumen and the healthy lumen.
+    /// Non-calcified plaque, which fills the space between the lumen and the healthy lumen.
     Soft,
-    /// Calcified.
+    /// Calcified plaque.
     Calcified,
 }
 
@@ -20,9 +20,9 @@ pub enum PlaqueKind {
 pub struct Stenosis {
     /// Vessel id.
     pub vessel: usize,
-    /// Arc length of the middle (mm).
+    /// Arc length of the middle of the stenosis (mm).
     pub arc_length: f64,
-    /// Length (mm).
+    /// Length of the stenosis along the vessel (mm).
     pub length: f64,
     /// Diameter reduction at the middle (percent of the reference).
     pub percent: f64,
@@ -33,14 +33,14 @@ pub struct Stenosis {
 pub struct Plaque {
     /// Vessel id.
     pub vessel: usize,
-    /// Arc length of the middle (mm).
+    /// Arc length of the middle of the plaque (mm).
     pub arc_length: f64,
-    /// Composition.
+    /// Composition of the plaque.
     pub kind: PlaqueKind,
     /// Direction from the centerline to the middle (radians), right-handed about the vessel's direction; 0 is nearest to anterior,
     /// or to superior if the vessel runs anteriorly.
     pub angle: f64,
-    /// Length (mm).
+    /// Length of the plaque along the vessel (mm).
     pub length: f64,
     /// Angular extent (radians); 2π for a ring.
     pub angular_extent: f64,
@@ -53,7 +53,7 @@ pub struct Plaque {
 /// The fraction of a stenosis's length over which it is narrowest.
 const PLATEAU: f64 = 0.4;
 
-/// How far the narrowing has progressed (0 to 1) at `offset` mm from the middle.
+/// The progress of the narrowing (0 to 1) at `offset` mm from the middle of a stenosis.
 pub(crate) fn narrowing(offset: f64, length: f64) -> f64 {
     let u = 2.0 * offset.abs() / length;
     if u >= 1.0 {

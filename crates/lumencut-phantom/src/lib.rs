@@ -1,4 +1,4 @@
-//! Synthetic scenes with known truth.
+//! Synthetic scenes whose true geometry is known.
 //!
 //! Small phantoms have closed-form answers: [`straight_tube`], [`helix`], [`y_junction`], [`crossing`], [`trefoil`],
 //! [`collinear_run`], [`stenosis`], [`calcified_wall`]. Three workloads have the sizes of the paper's Table 2: [`aorta`],
@@ -30,7 +30,7 @@ pub use small::{
 };
 pub use workload::{AORTA, CERVICAL, RUNOFF, Workload, aorta, cervical, runoff};
 
-/// A volume and its vessel tree, with the truth.
+/// A volume and its vessel tree, with the true geometry and lesions.
 #[derive(Clone, Debug)]
 pub struct Phantom {
     /// Name of the function that makes the phantom.
@@ -168,7 +168,7 @@ mod tests {
         let stop = || asked.fetch_add(1, std::sync::atomic::Ordering::Relaxed) >= 3;
         let error = AORTA.make(0, 0.1, &stop).unwrap_err();
         assert_eq!(error.kind, ErrorKind::Interrupted);
-        // Only slices that other threads had already started ask after the stop.
+        // Only slices that other threads had already started still ask whether to stop.
         assert!(asked.into_inner() < 26);
     }
 

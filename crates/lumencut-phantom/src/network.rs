@@ -32,13 +32,13 @@ struct Trunk {
     curve: Curve,
     /// Arc lengths of junctions with other trunks.
     junctions: Vec<f64>,
-    /// (arc length of the middle in mm, length in mm, percent of the diameter).
+    /// For each stenosis: arc length of the middle (mm), length (mm), and percent of the diameter.
     stenoses: Vec<[f64; 3]>,
     calcifications: Vec<Calcification>,
 }
 
 impl Trunk {
-    /// How far the lumen is narrowed at arc length `s`: 0 is open, 1 is closed.
+    /// The degree by which the lumen is narrowed at arc length `s`: 0 is not at all, 1 is closed.
     fn narrowed(&self, s: f64) -> f64 {
         let narrowed =
             |[middle, length, percent]: &[f64; 3]| percent / 100.0 * narrowing(s - middle, *length);

@@ -31,7 +31,7 @@ impl Grid {
 }
 
 pub(crate) struct Scene {
-    /// In painting order: later solids cover earlier ones.
+    /// The solids in painting order: later ones cover earlier ones.
     pub(crate) solids: Vec<Solid>,
     pub(crate) background: f32,
     pub(crate) seed: u64,
@@ -48,7 +48,7 @@ struct Stroke {
 
 const FAR: f32 = 1e6;
 
-/// Shapes of one solid blend within this distance (mm).
+/// Within this distance (mm), the shapes of one solid blend into each other.
 const SOFT_UNION: f32 = 3.0;
 
 pub(crate) fn paint(grid: &Grid, scene: &Scene, vasculature: &Vasculature, stop: Stop) -> Result<Vec<i16>> {
@@ -202,7 +202,7 @@ impl<'a> Painter<'a> {
     fn write(&self, k: usize, slice: &mut [i16], hu: &[f32]) {
         let seed = hash(self.scene.seed, 0xC0_FFEE + k as u64);
         for (n, (voxel, hu)) in slice.iter_mut().zip(hu).enumerate() {
-            // In air, which absorbs little, CT has less noise.
+            // In air, which absorbs little, CT images have less noise.
             let noise = if *hu < 5.0 * FAT { 0.6 * self.scene.noise } else { self.scene.noise };
             let noisy = hu + noise * normal(seed, n as u64);
             *voxel = noisy.round().clamp(AIR - 24.0, 3071.0) as i16;

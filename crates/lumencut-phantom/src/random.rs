@@ -1,4 +1,4 @@
-//! Random numbers without state: hashes of seed and place. Neither evaluation order nor threads change a phantom.
+//! Random numbers without state: hashes of seed and position. So neither evaluation order nor threads change a phantom.
 
 /// A hash of two numbers (SplitMix64's finaliser over a Weyl sequence).
 #[inline(always)]

@@ -25,7 +25,7 @@ pub(crate) enum Cut<'a> {
 }
 
 impl Shape {
-    /// The cross-section at height `z`, and a rectangle that contains it and `reach` mm around it; `None` if `z` is farther away.
+    /// The cross-section at height `z`, and a rectangle that contains it with a margin of `reach` mm; `None` if `z` is outside.
     pub(crate) fn cut(&self, z: f32, reach: f32) -> Option<(Cut<'_>, [Vec2; 2])> {
         if let Shape::Profile(sections) = self {
             let (center, axes) = section_at(sections, z)?;
@@ -73,7 +73,7 @@ impl Cut<'_> {
     }
 }
 
-/// Distance to an ellipse or ellipsoid by one Newton step; `scaled` is the norm of q / axes, `slope` that of q / axes².
+/// Distance to an ellipse or ellipsoid by one Newton step; `scaled` is the length of q / axes, `slope` that of q / axes².
 #[inline(always)]
 fn round_distance(scaled: f32, slope: f32) -> f32 {
     scaled * (scaled - 1.0) / slope.max(1e-9)

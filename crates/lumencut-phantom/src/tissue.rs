@@ -1,4 +1,4 @@
-//! The CT appearance of solids (HU).
+//! The CT values (HU) of solids.
 
 use glam::Vec2;
 
@@ -67,7 +67,7 @@ impl Tissue {
             Tissue::Muscle => {
                 let seam = (patterns.seams.at(x, y) - 0.5).abs() / 0.035;
                 let grain = 14.0 * (patterns.fine.at(x, y) - 0.5);
-                // The seams in muscle fade in and out, like the planes between muscles.
+                // The seams in muscle fade in and out, like the planes between real muscles.
                 let faded = smooth_step((patterns.loops.at(x, y) - 0.3) / 0.35);
                 let seam = 1.0 - faded * (1.0 - smooth_step(seam));
                 mix(FAT + 25.0, MUSCLE + grain, seam)

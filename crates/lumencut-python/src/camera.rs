@@ -1,4 +1,4 @@
-//! Cameras, read from the attributes of `lumencut.Camera`.
+//! Converts the attributes of `lumencut.Camera` to a camera.
 
 use glam::DVec3;
 use lumencut::camera::Camera;

@@ -1,4 +1,4 @@
-//! Centerline files for `lumencut.centerlines`.
+//! Reads centerline files for `lumencut.centerlines`.
 
 use lumencut::centerlines::{Centerlines, Error, Line, Space, Unit, junctions};
 use lumencut::line_doubts::{DoubtedLine, LineDoubt, beside_doubts_of, order_doubts_of};
@@ -56,7 +56,7 @@ impl CenterlineFile {
     }
 
     /// Returns `(vessels, notes)`; each vessel is `(points (n, 3), radius (n,) or None, name or None)` in mm, in the file's space.
-    /// A unit of the file is `mm_per_unit` mm. `reorder` first sorts the points of each line.
+    /// One unit of the file is `mm_per_unit` mm. `reorder` first sorts the points of each line.
     fn vessels<'py>(
         &self,
         py: Python<'py>,

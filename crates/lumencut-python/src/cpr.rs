@@ -1,4 +1,4 @@
-//! The CPR of a vessel as a layout, and pictures from arrays of values.
+//! The CPR (curved planar reformation) of a vessel, and pictures from arrays of values.
 
 use std::sync::Arc;
 
@@ -30,7 +30,7 @@ pub struct Cpr(pub cpr::Cpr);
 
 #[pymethods]
 impl Cpr {
-    /// Lays out a vessel's points (n, 3) in a view; `pixels` are image width and pixel side (mm).
+    /// The CPR of a vessel with points (n, 3) in a view; `pixels` are image width and pixel side (mm).
     #[new]
     #[pyo3(signature = (points, smoothing, mode, view, pixels))]
     #[allow(clippy::needless_pass_by_value)]
@@ -52,7 +52,7 @@ impl Cpr {
         made.map(Self::with_layout).map_err(to_python)
     }
 
-    /// The same vessel from another angle (radians).
+    /// The same vessel, seen from another angle (radians).
     fn rotated<'py>(&self, py: Python<'py>, angle: f64) -> PyResult<Bound<'py, Self>> {
         Bound::new(py, self.0.rotated(angle).map(Self::with_layout).map_err(to_python)?)
     }
@@ -83,7 +83,7 @@ impl Cpr {
         self.straightened(py, &points, |space, point| space.straightened_from_world(point))
     }
 
-    /// For a straightened volume with this step (mm): the directions (LPS) stated for i, j and k, and the mark of its files.
+    /// For a straightened volume with this step (mm): the directions (LPS) that its file states for i, j, k, and its mark.
     fn straightened_sides(&self, step: f64, is_stated: bool) -> PyResult<([[f64; 3]; 3], String)> {
         let sides = StraightenedSides::of(self.space()?, step, is_stated);
         Ok((sides.axes().map(|axis| axis.to_array()), sides.mark()))

@@ -1,4 +1,4 @@
-//! Converts Rust errors to exceptions of `lumencut.errors`; a match covers all kinds.
+//! Converts Rust errors to the exceptions of `lumencut.errors`.
 
 use std::ffi::CString;
 
@@ -28,7 +28,7 @@ pub(crate) fn exception(class: &str, subject: &str, found: &str, expected: &str,
     mended(class, [subject, found, expected, advice], None)
 }
 
-/// An exception of `class` with the texts subject, finding, expectation and advice, and a remedy for programs.
+/// An exception of `class` from the texts subject, finding, expectation and advice, with a remedy for programs.
 pub(crate) fn mended(class: &str, texts: [&str; 4], mended_by: Option<&Mend>) -> PyErr {
     Python::attach(|py| made(py, class, texts, mended_by).map_or_else(|error| error, PyErr::from_value))
 }

@@ -1,4 +1,4 @@
-//! The cached profiles of one scan.
+//! A cache of the profiles of one scan.
 
 use std::slice;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -16,7 +16,7 @@ use crate::volume::VolumeArgument;
 use crate::wall_request::wall_request;
 use crate::watching::reporting;
 
-/// The profiles of one volume and tree.
+/// A cache of the profiles of one volume and its vessel tree.
 #[pyclass(frozen, module = "lumencut._lumencut")]
 pub struct KeptProfiles(Mutex<Core<Vessel>>);
 

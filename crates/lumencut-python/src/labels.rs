@@ -1,4 +1,4 @@
-//! Labels around a picture: patient-side letters and scale bar.
+//! Labels around a picture: letters of the patient's sides, and scale bar.
 
 use glam::DVec3;
 use lumencut::letters::{self, EdgeLetters};

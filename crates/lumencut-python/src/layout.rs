@@ -1,4 +1,4 @@
-//! Layouts of reformations as images, for Python.
+//! The sampled positions of reformations as images, for Python.
 
 use std::sync::Arc;
 
@@ -40,7 +40,7 @@ impl Layout {
         Ok(PyArray1::from_vec(py, computed(py, |stop| self.0.arc_length(stop))?))
     }
 
-    /// Whether each pixel is folded, shape (H, W).
+    /// Whether each pixel is unreliable because the reformation is folded there, shape (H, W).
     fn folded<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<bool>>> {
         let [width, height] = self.0.size();
         PyArray1::from_vec(py, computed(py, |stop| self.0.folded(stop))?).reshape([height, width])

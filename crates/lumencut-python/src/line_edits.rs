@@ -1,4 +1,4 @@
-//! Cuts and joins vessels.
+//! Cuts a vessel in two, and joins two vessels.
 
 use lumencut::study::line_edits;
 use lumencut::study::lines::Line;

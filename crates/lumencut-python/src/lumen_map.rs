@@ -36,7 +36,7 @@ pub struct LumenWall {
 
 #[pymethods]
 impl LumenWall {
-    /// The wall of a vessel with points (n, 3) and radii (n,), seen with `up` upwards. It comes from `profile`, if given.
+    /// The wall of a vessel with points (n, 3) and radii (n,), seen with `up` upwards; taken from `profile`, if given.
     #[new]
     #[pyo3(signature = (volume, vessel, smoothing, up, profile=None))]
     #[allow(clippy::needless_pass_by_value)]
@@ -53,7 +53,7 @@ impl LumenWall {
         let view = View { up: DVec3::from_array(up), angle: 0.0, normal: None };
         let profile = profile.map(|profile| Arc::clone(&profile.get().0));
         let found = || -> Result<Self> {
-            // The path of a map uses no radii.
+            // A map uses only the course of the vessel, so its radii are dropped.
             let line = Vessel::new(vessel.points().to_vec(), None)?;
             let path = Arc::new(CenterlinePath::new(&line, smoothing)?);
             let straightened = Straightened::new(Arc::clone(&path), &view)?;

@@ -47,7 +47,7 @@ pub(crate) fn correspondence<'py>(
 
 type GridParts = ([usize; 3], [[f64; 4]; 3]);
 
-/// The volume axis of each mask axis; for each volume axis whether the mask runs the same way, and its lowest index; a note.
+/// The volume axis of each mask axis; for each volume axis, whether the mask has the same direction, and its lowest index; a note.
 type PlaceParts = ([usize; 3], [bool; 3], [usize; 3], String);
 
 /// The position of a mask in its volume; None if their grids are equal.

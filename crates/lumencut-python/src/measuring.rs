@@ -1,4 +1,4 @@
-//! Measures vessels without the GIL; Ctrl-C stops it.
+//! Measures vessels while other Python threads can run; Ctrl-C stops it.
 
 use std::slice;
 use std::sync::Arc;
@@ -247,7 +247,7 @@ impl Profile {
         self.0.c_arm(ends, lao).map(|arm| (arm.lao, arm.cranial)).map_err(to_python)
     }
 
-    /// FWHM of the point spread (mm), and where it comes from.
+    /// FWHM of the point-spread function (mm), and its source.
     #[getter]
     fn fwhm(&self) -> (f64, String) {
         (self.0.fwhm, measure_words::of_source(&self.0.fwhm_source))

@@ -1,4 +1,4 @@
-//! Phantoms for Python: voxels as NumPy arrays, the truth as dictionaries.
+//! Phantoms for Python: voxels as NumPy arrays, the true answers as dictionaries.
 
 use lumencut::error::{Error, ErrorKind, Result};
 use lumencut::stop::Stop;
@@ -9,7 +9,7 @@ use pyo3::types::{PyDict, PyList};
 
 use crate::watching::computed;
 
-/// The phantom `name`. Only the phantom "stenosis" uses `percent`, and only workloads use `seed` and `scale`.
+/// The phantom `name`. Only the phantom "stenosis" uses `percent`, and only benchmark phantoms use `seed` and `scale`.
 #[pyfunction]
 #[pyo3(signature = (name, *, percent = 50.0, seed = 0, scale = 1.0))]
 pub(crate) fn make_phantom<'py>(

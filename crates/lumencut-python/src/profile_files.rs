@@ -1,4 +1,4 @@
-//! Profiles in words, tables and JSON, and the places to review on them.
+//! Profiles as words, tables and JSON, and the places on them that readers should review.
 
 use lumencut::measure::stretch::CArm;
 use lumencut::measure_words;

@@ -1,4 +1,4 @@
-//! The renderer. It releases the GIL while it works; Ctrl-C stops it.
+//! The renderer. While it works, other Python threads can run, and Ctrl-C stops it.
 
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
@@ -119,7 +119,7 @@ impl Renderer {
     }
 
     /// The requested images of a view: the cut surface if there are vessels, the picture if there is a volume. `method` defaults to
-    /// the cut surface. `callback` receives the progress and `SHARES`.
+    /// the cut surface. `callback` receives the number of finished parts, of `SHARES` in all, and `SHARES`.
     #[pyo3(signature = (volume, camera, settings, images=None, callback=None, method=None))]
     #[allow(clippy::needless_pass_by_value, clippy::too_many_arguments)]
     fn render<'py>(
@@ -189,8 +189,8 @@ impl Renderer {
         buffers(py, py.detach(|| frame.transparent_outside()))
     }
 
-    /// The CFA of a straightened CPR, shape (H, W), and the number of directions in a half circle. Only the feature `share` uses a
-    /// level. Pixel side in mm.
+    /// The curvicircular feature aggregation (CFA) of a straightened CPR, shape (H, W), and the number of directions in a half
+    /// circle. Only the feature `share` uses a level. Pixel side in mm.
     #[allow(clippy::needless_pass_by_value)]
     fn aggregate<'py>(
         &self,

@@ -54,7 +54,7 @@ fn plain(py: Python<'_>, default: Value) -> PyResult<Py<PyAny>> {
     }
 }
 
-/// Adds to the module: the table of settings, the values that follow the paper's rules, and the looks.
+/// Adds to the module: the table of settings, the values that follow the paper's rules, and the looks (named groups of settings).
 pub(crate) fn add_table(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let rows = PyDict::new(module.py());
     for setting in table() {

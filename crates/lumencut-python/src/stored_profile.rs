@@ -1,4 +1,4 @@
-//! Profiles and stenoses as plain values, for pickles.
+//! Converts profiles and stenoses to plain values, from which Python's pickle restores them.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! Traces centerlines between clicks without the GIL; Ctrl-C stops it.
+//! Traces centerlines between clicks while other Python threads can run; Ctrl-C stops it.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -25,7 +25,7 @@ type TracedArrays<'py> = (
     Bound<'py, PyArray1<bool>>,
 );
 
-/// Data of a volume that is kept between tracings.
+/// The data of a volume that are kept between tracings.
 #[pyclass(frozen, module = "lumencut._lumencut")]
 pub struct Tracer(Mutex<Core>);
 

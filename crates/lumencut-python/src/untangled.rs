@@ -59,7 +59,7 @@ impl Untangled {
         self.0.overlaps().to_vec()
     }
 
-    /// The two positions (column, row) of each place at which a cycle is cut.
+    /// For each place at which a cycle of the tree was cut: the two image positions (column, row) at which it appears.
     #[getter]
     fn closures(&self) -> Vec<[[f64; 2]; 2]> {
         self.0.closures().iter().map(|places| places.map(|place| place.to_array())).collect()

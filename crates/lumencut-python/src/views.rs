@@ -1,4 +1,4 @@
-//! Views derived from others, for `lumencut.Camera`.
+//! Derives views from other views, for `lumencut.Camera`.
 
 use glam::DVec3;
 use lumencut::camera::Camera;
@@ -55,7 +55,7 @@ impl DerivedView {
     }
 }
 
-fn placed(made: lumencut::error::Result<Camera>) -> PyResult<DerivedView> {
+pub(crate) fn placed(made: lumencut::error::Result<Camera>) -> PyResult<DerivedView> {
     made.map(|camera| DerivedView::of(&camera)).map_err(to_python)
 }
 
@@ -122,7 +122,7 @@ pub(crate) fn fitted_turn(
     placed(py.detach(|| turn::fitted_turn(&camera, &points, degrees, axis)))
 }
 
-/// The view about a place on a vessel, from arc length (mm) and angle (radians).
+/// The view about a place on a vessel: arc length (mm), and rotation about the vessel (radians).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn about(

@@ -1,4 +1,4 @@
-//! Volumes borrowed from NumPy without a copy.
+//! Uses the voxels of NumPy arrays without copying them.
 
 use glam::{DAffine3, DMat3, DVec3};
 use lumencut::extent::Extent;
@@ -102,7 +102,7 @@ pub(crate) fn doubted_size(size: [usize; 3], affine_rows: [[f64; 4]; 3]) -> Opti
     lumencut::doubted_scan::doubted_size(size, affine(affine_rows))
 }
 
-/// Number of points sampled between two checks whether to stop.
+/// Number of points that are sampled before the next check whether to stop.
 const PART: usize = 1 << 14;
 
 /// Whether world points (n, 3) (mm, LPS) lie within a volume's outer corners; shape (n,).

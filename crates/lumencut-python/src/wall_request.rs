@@ -1,4 +1,4 @@
-//! The wall level, as Python requests it.
+//! Converts the wall level that Python requests.
 
 use lumencut::measure::wall_level::WallRequest;
 

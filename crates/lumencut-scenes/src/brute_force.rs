@@ -22,7 +22,7 @@ pub fn by_brute_force(tree: &VesselTree, camera: &Camera, settings: &Settings) -
         (projected(tree, camera, settings, Isa::widest()), Request::new(camera, settings));
     let pass = renderer.pass(&request);
     let pixels = pass.work.pixels();
-    // The negative values remain in pixels that brute force skips, and so reveal them.
+    // These negative values would remain in pixels that brute force skips, and so reveal them.
     let (mut distance, mut depth, mut vessel) = (vec![-1.0; pixels], vec![-1.0; pixels], vec![-1; pixels]);
     brute_force::distance(&pass.work, &pass.surface, &mut distance).unwrap();
     let written = DepthImages { depth: &mut depth, vessel: &mut vessel, sheet: &mut [] };

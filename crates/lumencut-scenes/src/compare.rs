@@ -4,7 +4,7 @@ use lumencut_core::frame::Frame;
 
 use crate::tolerances::{COLOR, COLOR_LEAP, DEPTH, MOST_TOGETHER, NEIGHBOURHOOD};
 
-/// The differences of two frames.
+/// How two frames differ.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Differences {
     /// Fraction of pixels whose depths differ by more than [`DEPTH`].
@@ -119,7 +119,7 @@ mod tests {
         let (a, mut b) = (frame(SIZE), frame(SIZE));
         b.image.iter_mut().for_each(|color| *color = color.map(|c| c.saturating_add(1)));
         depth_of(&mut b).iter_mut().for_each(|depth| *depth += 5e-4);
-        // Few isolated pixels differ: 16 of 32,000 in colour, 3 of these by far, and 32 in depth.
+        // Few isolated pixels differ: 16 of 32,000 in colour, three of these clearly, and 32 in depth.
         (0..13).for_each(|n| b.image[n * 2001][2] -= 4);
         (0..3).for_each(|n| b.image[n * 9001 + 50][2] = 0);
         (0..32).for_each(|n| depth_of(&mut b)[n * 999] += 7.0);
@@ -137,7 +137,7 @@ mod tests {
             }
         };
         refuses("colours: ", SIZE, |b| block(b, [40, 6], 200));
-        // In a picture of this size, the fraction of pixels alone would be allowed.
+        // In a picture of this size, the fraction of differing pixels is small enough; their number in one block is not.
         refuses("one place", [1000, 1000], |b| block(b, [10, 6], 1000));
         refuses("one place", [1000, 1000], |b| {
             (0..6)

@@ -1,4 +1,4 @@
-//! Scenes and tolerances for tests and benches; not part of the product. An invalid scene panics, so its test fails.
+//! Scenes and tolerances for tests and benches; not part of the product. An invalid scene panics, so the test fails.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 pub mod brute_force;

@@ -9,7 +9,7 @@ pub fn nearest_lumen(scene: &VesselTree, camera: &Camera, x: f64, y: f64) -> Opt
     lumen_within(scene, camera, [x, y], 0.0)
 }
 
-/// As [`nearest_lumen`]; None if rounding of the radii could change the result.
+/// The depth of [`nearest_lumen`]; `None` if rounding of the radii could change it.
 pub fn certain_lumen(scene: &VesselTree, camera: &Camera, x: f64, y: f64) -> Option<f64> {
     const ROUNDING: f64 = 1e-3;
     let [wide, narrow] = [ROUNDING, -ROUNDING].map(|more| lumen_within(scene, camera, [x, y], more));

@@ -11,7 +11,7 @@ use lumencut_core::stop::Stop;
 use lumencut_core::vessel_tree::VesselTree;
 use lumencut_core::volume::Volume;
 
-/// All images of a view on the CPU.
+/// A frame with all images of a view, computed on the CPU.
 pub fn render(scene: &Scene, camera: &Camera, settings: &Settings, stop: Stop) -> Result<Frame> {
     CpuRenderer::default().render(scene, &Request { stop, ..Request::new(camera, settings) })
 }
@@ -25,7 +25,7 @@ pub fn context_alone(volume: Volume, camera: &Camera, settings: &Settings, stop:
     render(&Scene::default().with_volume(volume), camera, settings, stop)
 }
 
-/// The depths of a frame, mutable.
+/// The depths of a frame, for changes.
 pub fn depth_of(frame: &mut Frame) -> &mut [f32] {
     match &mut frame.geometry {
         Geometry::Orthographic { depth, .. } => depth,

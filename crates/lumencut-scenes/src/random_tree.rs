@@ -6,8 +6,8 @@ use lumencut_core::vessel_tree::{Vessel, VesselTree};
 
 use crate::random::Random;
 
-/// A tree of `vessels` vessels with `segments` segments of `step` mm. About half of the vessels start on an earlier one. Points
-/// stay within ±`extent` mm; radii are 1 to 6 mm.
+/// A tree of `vessels` vessels, each with `segments` segments of `step` mm. About half of the vessels start on an earlier one.
+/// Points stay within ±`extent` mm; radii are 1 to 6 mm.
 pub fn random_tree(seed: u64, vessels: usize, segments: usize, step: f64, extent: f64) -> Result<VesselTree> {
     let mut random = Random::new(seed);
     let mut made: Vec<Vessel> = Vec::with_capacity(vessels);

@@ -3,7 +3,7 @@
 /// A largest difference, and the fraction of values that may exceed it.
 #[derive(Clone, Copy, Debug)]
 pub struct Tolerance {
-    /// The largest difference that rounding may cause, in the values' unit.
+    /// The largest difference that counts as rounding, in the values' unit.
     pub apart: f32,
     /// The fraction of values that may differ more, 0 to 1.
     pub share: f64,
@@ -41,7 +41,7 @@ impl Tolerance {
     }
 }
 
-/// How much of a focus is shown, 0 to 1. Wall distances round to a few 10⁻⁶ mm, fades are at least 1 mm; a grey step is 4·10⁻³.
+/// Shares of a focus, 0 to 1. Wall distances round to a few 10⁻⁶ mm, and fades are at least 1 mm wide; a grey step is 4·10⁻³.
 pub const SHARE: Tolerance = Tolerance::new(1e-4, 0.0);
 
 /// Side of a neighbourhood (pixels).
@@ -50,10 +50,10 @@ pub const NEIGHBOURHOOD: usize = 8;
 /// The most pixels of a neighbourhood that may differ in depth or by [`COLOR_LEAP`]; the smallest vessel covers more.
 pub const MOST_TOGETHER: usize = 16;
 
-/// Depths of frames (mm), and vessel ids: far below a voxel; on borders between zones two pieces may be equally near.
+/// Depths of frames (mm), and vessel ids: far below a voxel; on borders between zones, two pieces may be equally near.
 pub const DEPTH: Tolerance = Tolerance::new(1e-3, 1e-3);
 
-/// Pixels around joints where pieces tie. A 5 mm lumen at the only joint of small pictures covers 1.6 %; the filter spreads ties.
+/// Pixels around joints where pieces tie: a 5 mm lumen at the only joint of small pictures covers 1.6 %; the filter adds some.
 pub const TIED: Tolerance = Tolerance::new(0.0, 0.02);
 
 /// Colours of frames, in steps of 255. Rounding changes a channel by one step, and by more only if a depth differs.
@@ -62,16 +62,16 @@ pub const COLOR: Tolerance = Tolerance::new(1.0, 5e-4);
 /// Clearly different colours, in steps of 255. Four steps are visible, so only single pixels may differ as much.
 pub const COLOR_LEAP: Tolerance = Tolerance::new(4.0, 1e-4);
 
-/// Distances of frames (mm). They are computed directly, without decisions that rounding could change.
+/// Distances of frames (mm). They are computed directly; rounding cannot change a decision.
 pub const DISTANCE: Tolerance = Tolerance::new(1e-4, 0.0);
 
 /// The context of frames, in steps of 255. Rounding of a depth can move a ray beyond an edge.
 pub const CONTEXT_OF_FRAME: Tolerance = Tolerance::new(4.0, 1e-3);
 
-/// Channels of the context without vessels, 0 to 1: one step of 255, except on rays that graze visible edges.
+/// Channels of the context without vessels, 0 to 1: at most one step of 255, except on rays that graze visible edges.
 pub const CONTEXT: Tolerance = Tolerance::new(1.0 / 255.0, 5e-4);
 
-/// As [`CONTEXT`], for small pictures: more than four steps of 255 on at most one ray in a hundred.
+/// As [`CONTEXT`], for small pictures: on at most one ray in a hundred, more than four steps of 255.
 pub const CONTEXT_LEAP: Tolerance = Tolerance::new(4.0 / 255.0, 1e-2);
 
 /// Bytes composed from identical layers. A value midway between two bytes may be rounded up or down.
@@ -89,7 +89,7 @@ pub const SILHOUETTE: Tolerance = Tolerance::new(1e-5, 0.0);
 /// Filtered depths of up to 300 mm: two units in the last place of f32, 2 · 2⁻¹⁵ mm.
 pub const FILTERED_DEPTH: Tolerance = Tolerance::new(2.0 * 256.0 * f32::EPSILON, 0.0);
 
-/// Zone-filtered depths of a plane of up to 300 mm: a pair differs by two units in the last place, and each axis adds a quarter.
+/// Zone-filtered depths of a plane of up to 300 mm: a pair differs by two units in the last place; each axis adds a quarter.
 pub const PLANE: Tolerance = Tolerance::new(2.0 * 256.0 * f32::EPSILON, 0.0);
 
 /// Zone-filtered depths on two machines: as [`FILTERED_DEPTH`], except for pairs whose difference equals the jump limit.
@@ -116,7 +116,7 @@ pub const REORDERED_DEPTH: Tolerance = Tolerance::new(0.0, 5e-3);
 /// Vessel ids after reordering. Where vessels tie around shared end points, another vessel may win.
 pub const REORDERED_VESSEL: Tolerance = Tolerance::new(0.0, 5e-2);
 
-/// Slopes of sheets on two machines (mm per mm): rounding on 2 mm segments; larger only for ties as in [`DEPTH`].
+/// Slopes of sheets on two machines (mm per mm): rounding on 2 mm segments; more only if pieces tie, as in [`DEPTH`].
 pub const SHEET_SLOPE: Tolerance = Tolerance::new(1e-4, 1e-3);
 
 /// Radii of sheets on two machines (mm): the position on a segment times radius changes of up to 6 mm.

@@ -18,8 +18,8 @@ pub fn view(direction: [f64; 3], size: [usize; 2], pixel_spacing: f64) -> Camera
     view_of(DVec3::ZERO, DVec3::from_array(direction), size, pixel_spacing)
 }
 
-/// As [`view`], slightly shifted. Along a grid axis no ray then passes through voxel centres, where rounding would choose the
-/// neighbouring voxels.
+/// As [`view`], slightly shifted. In a view along a grid axis, no ray then passes through voxel centres, where rounding would
+/// choose the neighbouring voxels.
 pub fn view_beside_voxels(direction: [f64; 3], size: [usize; 2], pixel_spacing: f64) -> Camera {
     view_of(DVec3::new(0.013, -0.021, 0.017), DVec3::from_array(direction), size, pixel_spacing)
 }

@@ -1,4 +1,4 @@
-//! The three scenes of clinical size, with the paper's timings (Table 2: Fig. 1, 7 and 8 at 512 × 512 pixels, GeForce GTX 680).
+//! The three scenes of clinical size, with the paper's timings (Table 2, Fig. 1, 7 and 8, 512 × 512 pixels, GeForce GTX 680).
 
 use lumencut_core::error::Result;
 use lumencut_core::stages::{Image, ImageSet};

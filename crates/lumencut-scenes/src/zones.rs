@@ -1,4 +1,4 @@
-//! Depths and zones for filters, without a tree.
+//! Depths and zones as input for filters, made without a tree.
 
 use crate::random::Random;
 

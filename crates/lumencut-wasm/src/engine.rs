@@ -1,5 +1,5 @@
-//! What the page's worker calls: named questions, devices, voxels, and the turning view. A GPU draws the view on the canvas; the
-//! CPU returns it as bytes.
+//! The interface for the page's worker: questions by name, devices, voxels, and the 3D view. A GPU draws the view on the canvas;
+//! the CPU returns it as bytes.
 
 use js_sys::{Array, Date, Function, Promise, Uint8Array, Uint8ClampedArray};
 use lumencut::backend::{Backend, Drawn};
@@ -85,7 +85,7 @@ impl Engine {
         })
     }
 
-    /// Lets a GPU draw the turning view on this canvas.
+    /// Lets a GPU draw the 3D view on this canvas.
     pub fn draw_on(&mut self, canvas: OffscreenCanvas) -> Thrown<()> {
         self.screen = Some(answer(Screen::new(canvas).map_err(Failure::from))?);
         Ok(())
@@ -115,7 +115,7 @@ impl Engine {
         }))
     }
 
-    /// As [`Engine::ask`], for questions that need no study and therefore need not wait for a view in progress.
+    /// As [`Engine::ask`], for questions that need no study. They are answered even while a view is in progress.
     pub fn ask_at_once(name: &str, message: &str) -> Thrown<Array> {
         sent(ask_at_once(name, message))
     }
@@ -131,14 +131,14 @@ impl Engine {
     /// Writes bytes of voxels from `offset` on.
     ///
     /// # Errors
-    /// `volume` beyond the end of the volume.
+    /// `volume` if the bytes extend beyond the end of the volume.
     pub fn take_voxels(&mut self, offset: f64, bytes: &Uint8Array) -> Thrown<()> {
         let room = self.study.voxel_bytes(offset as usize, bytes.length() as usize);
         bytes.copy_to(answer(room)?);
         Ok(())
     }
 
-    /// Discards caches after new voxels.
+    /// Discards cached results after the voxels have changed.
     pub fn voxels_changed(&mut self) {
         self.study.voxels_changed();
     }
@@ -146,7 +146,7 @@ impl Engine {
     /// Allocates memory for a mask with this JSON header.
     ///
     /// # Errors
-    /// `volume` without an open scan, or if there is not enough memory.
+    /// `volume` if no scan is open, or if there is not enough memory.
     pub fn begin_mask(&mut self, header: &str) -> Thrown<()> {
         answer(self.study.begin_mask(header))
     }
@@ -163,7 +163,7 @@ impl Engine {
         self.study.end_mask();
     }
 
-    /// Opens a phantom; workloads have `scale` times as many voxels along each axis.
+    /// Opens a phantom. Benchmark phantoms have `scale` times as many voxels along each axis.
     pub fn open_phantom(&mut self, name: &str, scale: f64) -> Thrown<()> {
         answer(phantoms::open(&mut self.study, name, scale))
     }

@@ -1,4 +1,4 @@
-//! Lumencut in a browser, for the page in `web/`. It converts JSON and bytes for the facade's [`lumencut::study`].
+//! Lumencut in a browser, for the page in `web/`. It passes JSON and bytes to [`lumencut::study`].
 
 #[cfg(target_arch = "wasm32")]
 mod engine;

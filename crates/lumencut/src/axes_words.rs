@@ -7,13 +7,13 @@ use crate::text::{fixed, rounded};
 pub enum Axes {
     /// The untangled CPR.
     Untangled,
-    /// A vessel straightened by an amount from 0 to 1.
+    /// A vessel straightened by an amount from 0 (as it is) to 1 (straight).
     Uncurled(f64),
     /// The spiral CPR, sampled at even arc lengths; the number is the pitch (mm).
     SpiralByArc(f64),
     /// The spiral CPR, sampled at even angles.
     SpiralByAngle,
-    /// The lumen map; the number is the radius at which its columns are true to scale (mm).
+    /// The lumen map; the number is the radius (mm) at which the width of its columns is true to scale.
     Map(f64),
 }
 

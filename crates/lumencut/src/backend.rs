@@ -13,26 +13,26 @@ use crate::devices::{self, Choice, Wanted};
 use crate::method::{Method, refuse_focus};
 use crate::samples::{Mean, sub_views};
 
-/// Environment variable that lists stages (comma-separated) for the CPU in place of the GPU, to find a faulty stage.
+/// Environment variable with stages (comma-separated) that run on the CPU instead of the GPU, to find a faulty stage.
 #[cfg(not(target_arch = "wasm32"))]
 pub(crate) const CPU_STAGES: &str = "LUMENCUT_CPU_STAGES";
 
-/// Where the image went.
+/// The result of drawing a view.
 #[cfg(target_arch = "wasm32")]
 pub enum Drawn {
-    /// On the canvas.
+    /// The view was drawn on the canvas.
     OnScreen,
-    /// Returned to the caller.
+    /// The view is returned to the caller.
     Frame(Frame),
 }
 
-/// The images that every sample of a pixel needs.
+/// The only image that the samples within a pixel need.
 const PICTURE: ImageSet = ImageSet::of(&[Image::Picture]);
 
 /// The device that computes views.
 pub struct Backend {
     computer: Computer,
-    /// Why the CPU replaced the GPU, until a finished view reports it.
+    /// The error for which the CPU replaced the GPU; the next finished view reports it.
     unreported: Option<Error>,
 }
 
@@ -146,7 +146,7 @@ impl Backend {
         }
     }
 
-    /// Samples a volume once per pixel, at the positions of the frame that `places` makes; on the CPU if the GPU fails.
+    /// Samples a volume once per pixel, at the positions in the frame that `places` makes. The CPU does it if the GPU fails.
     pub async fn look(
         &mut self,
         volume: &SharedVolume<'_>,

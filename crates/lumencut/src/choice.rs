@@ -1,4 +1,4 @@
-//! Chooses the space and unit of centerlines, and describes the counts behind the choice.
+//! Chooses space and unit of centerlines by the numbers of points that fit the volume, and describes these numbers.
 
 use std::collections::BTreeSet;
 
@@ -11,14 +11,14 @@ type Lumen<'a> = &'a dyn Fn(CoordinateSystem) -> LumenCount;
 
 pub(crate) struct Choice {
     pub(crate) readings: Vec<Reading>,
-    /// The place that is used unless the volume contradicts it.
+    /// The space and unit that are used unless the volume contradicts them.
     pub usual: CoordinateSystem,
     pub(crate) total: usize,
 }
 
 pub(crate) struct Chosen {
     pub(crate) best: Reading,
-    /// The evidence, if the values of the volume decided the space or the unit.
+    /// If the values of the volume decided the space or the unit: the evidence.
     pub by_values: Option<ByValues>,
     /// Other units that fit the volume too.
     pub also: Vec<Unit>,
@@ -26,9 +26,9 @@ pub(crate) struct Chosen {
 
 #[derive(Clone, Debug)]
 pub(crate) struct ByValues {
-    /// Whether the values decided the space.
+    /// Whether the values of the volume decided the space.
     pub space: bool,
-    /// Whether the values decided for another unit than the usual one.
+    /// Whether the values of the volume decided for another unit than the usual one.
     pub unit: bool,
     pub words: String,
 }
@@ -52,7 +52,7 @@ impl Chosen {
 }
 
 impl Choice {
-    /// The place that fits the volume best. If only one space is possible and nothing fits, the usual place.
+    /// The space and unit that fit the volume best. If only one space is possible and nothing fits, the usual ones.
     pub(crate) fn best(&self, lumen: Lumen) -> Result<Chosen> {
         let most = self.readings.iter().map(Reading::fits).max().unwrap_or(0);
         let spaces: BTreeSet<&str> = self.readings.iter().map(|reading| reading.place.space.name()).collect();
@@ -72,7 +72,7 @@ impl Choice {
                 let (best, words) =
                     self.space_by_values(one, other, lumen).ok_or_else(|| match found.also[..] {
                         [] => self.undecided(&[one, other]),
-                        // If the unit is uncertain too, the error asks for both.
+                        // If the unit is uncertain too, the error asks the user for both.
                         _ => self.undecided(&fitting),
                     })?;
                 (best, Some(ByValues { space: true, unit: found.words.is_some(), words }))
@@ -86,8 +86,8 @@ impl Choice {
         Ok(Chosen { best, by_values, also: found.also })
     }
 
-    /// The readings in the unit in which points clearly look like lumen, else in the usual unit. An error if lines are too short in
-    /// the usual unit to exclude other units.
+    /// The candidates with a single unit: the unit in which points clearly look like lumen, else the usual unit. An error if the
+    /// lines would be so short in the usual unit that other units are possible.
     fn of_one_unit(&self, fitting: &[Reading], lumen: Lumen) -> Result<OfOneUnit> {
         let units = units_of(fitting);
         if units.len() < 2 {
@@ -203,7 +203,7 @@ impl Choice {
         }
         let usual = self.readings.iter().find(|reading| reading.place == self.usual);
         let inside = usual.map_or(0, |reading| reading.inside);
-        // Lines inside the volume that have no plausible size in the usual unit.
+        // These lines lie inside the volume, but their size in the usual unit is implausible.
         let tiny = usual.filter(|usual| usual.inside > 0 && !usual.is_plausible);
         let size = |across| tiny.map_or(String::new(), |_| format!(", {} across", mm(across)));
         format!(

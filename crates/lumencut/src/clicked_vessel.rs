@@ -6,7 +6,7 @@ use lumencut_core::vessel_tree::Vessel;
 
 use crate::vessel_views::radius_at;
 
-/// A click up to this far outside its wall selects a vessel (mm); in distant views, up to this many pixels.
+/// A click selects a vessel up to this far outside its wall: in mm or in pixels, whichever is farther.
 const CLICK_MARGIN_MM: f64 = 2.0;
 const CLICK_MARGIN_PX: f64 = 4.0;
 

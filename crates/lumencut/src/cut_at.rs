@@ -11,17 +11,17 @@ use lumencut_core::stages::{Image, ImageSet};
 use crate::method::Method;
 use crate::positions::world_from_pixel;
 
-/// How far other pixels affect a pixel, through the depth filter and the detection of jumps.
+/// Pixels up to this distance (pixels) affect a pixel, through the depth filter and the detection of jumps.
 const NEIGHBOURHOOD_PX: usize = 8;
 /// A pixel shows the cut surface if its opacity is at least this.
 const MIN_OPACITY: f32 = 0.5;
 
-/// The cut surface in a pixel.
+/// What a pixel shows of the cut surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CutAt {
     /// The world point (LPS, mm).
     pub point: DVec3,
-    /// The vessel whose zone contains the pixel.
+    /// The vessel to whose part of the cut surface the pixel belongs.
     pub vessel: Option<usize>,
     /// False if the focus shows the surroundings here.
     pub is_shown: bool,

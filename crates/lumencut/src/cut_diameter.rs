@@ -1,4 +1,4 @@
-//! The diameter of a vessel in a view about a point on it.
+//! Measures the diameter of a vessel in a view that is centred on a point of the vessel.
 
 use lumencut_core::camera::Camera;
 use lumencut_core::math::statistics::median;
@@ -6,17 +6,17 @@ use lumencut_core::volume::Volume;
 
 use crate::windows::sample;
 
-/// The lumen is sampled up to the first value, the surroundings between the other two (radii from the centre).
+/// Distances from the centre in radii: the lumen is sampled up to the first, the surroundings between the other two.
 const LUMEN_RADII: f64 = 0.5;
 const SURROUNDINGS_RADII: [f64; 2] = [1.5, 3.0];
 const SAMPLES: usize = 200;
 
 /// The diameter (mm) that the view cuts; None if there are not two walls.
 ///
-/// It is read along the image's horizontal line through the camera's center, where the cut runs inside the lumen. On each side, the
-/// wall is where the values first pass midway between two levels: the lumen (median within half a radius) and the value within
-/// three radii that differs most from it. A wall beyond 1.5 radii belongs to a touching vessel, so the result is None. `radius` is
-/// the approximate radius (mm).
+/// It is measured on the image's horizontal line through the camera's center, where the cut runs inside the lumen. On each side,
+/// the wall is where values first pass midway between two levels. These are the median within half a radius (lumen), and the value
+/// within three radii that differs most from it. A wall beyond 1.5 radii belongs to a touching vessel; then the result is None.
+/// `radius` is an estimate (mm).
 pub fn cut_diameter(volume: &Volume, camera: &Camera, radius: f64) -> Option<f64> {
     let places: Vec<f64> = (0..=2 * SAMPLES)
         .map(|n| SURROUNDINGS_RADII[1] * radius * (n as f64 / SAMPLES as f64 - 1.0))

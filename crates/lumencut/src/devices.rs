@@ -1,4 +1,4 @@
-//! The GPU of this process, which all scenes share, and the choice among GPUs.
+//! The GPU that all scenes of this process share, and the choice among GPUs.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -17,22 +17,22 @@ static IS_BARE: AtomicBool = AtomicBool::new(false);
 const SPAWN: &str =
     "start processes by 'spawn' instead of 'fork': this driver does not support forked processes";
 
-/// The requested device.
+/// The device that the user requests.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Wanted {
     /// The CPU.
     Cpu,
-    /// A GPU; an error if there is none.
+    /// A GPU. If there is none, opening fails.
     Gpu(Choice),
     /// A GPU if available, else the CPU.
     Auto(Choice),
 }
 
 impl Wanted {
-    /// The device for `auto`, `cpu` or `gpu`; the environment variable `AUTO` says what `auto` means.
+    /// The device named `auto`, `cpu` or `gpu`; the environment variable `AUTO` defines what `auto` means.
     ///
     /// # Errors
-    /// [`ErrorKind::Settings`] for another name or another value of the environment variable.
+    /// [`ErrorKind::Settings`] for an unknown name or another value of the environment variable.
     pub fn named(name: &str) -> Result<Self> {
         Self::with_auto(name, std::env::var(AUTO).ok().as_deref())
     }

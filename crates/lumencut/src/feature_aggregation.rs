@@ -8,7 +8,7 @@ use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::reformations::Layout;
 use lumencut_core::reformations::cpr::Cpr;
 
-/// What is computed from the values of a half circle.
+/// The number that is computed from the values of a half circle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Feature {
     /// The largest value.
@@ -27,7 +27,7 @@ impl Feature {
     /// The feature named `max`, `mean`, `min`, `range` or `share`; only `share` has a level.
     ///
     /// # Errors
-    /// [`ErrorKind::Settings`] for another name, a share without a finite level, or a level for another feature.
+    /// [`ErrorKind::Settings`] for an unknown name, a share without a finite level, or a level for another feature.
     pub fn named(name: &str, level: Option<f64>) -> Result<Self> {
         let wrong = |subject: &str, found: String, expected: &str| {
             Err(Error::new(ErrorKind::Settings, subject, found, expected))
@@ -59,7 +59,7 @@ impl Feature {
         }
     }
 
-    /// The number that the mean averages; for a share 1 above its level, else 0.
+    /// What a value contributes to the mean; for [`Self::Share`], 1 if it is above the level, else 0.
     fn counted(self, value: f64) -> f64 {
         match self {
             Self::Share(level) => f64::from(u8::from(value > level)),

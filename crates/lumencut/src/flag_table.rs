@@ -1,4 +1,4 @@
-//! The table of section flags for all hosts: names, words, meanings and colours.
+//! The table of section flags for Python package and viewer: names, words, meanings and colours.
 
 use lumencut_vessels::measure::flags::{
     AT_LIMIT, BRANCH, CALCIUM, IRREGULAR, METAL, NEIGHBOR, NO_EDGE, OUTSIDE, RECENTERED, RESTLESS_LINE,

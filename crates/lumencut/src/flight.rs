@@ -1,4 +1,4 @@
-//! Flights: the views between two cameras.
+//! Computes camera flights: the views between two cameras.
 
 use glam::{DMat3, DQuat};
 use lumencut_core::camera::Camera;
@@ -47,7 +47,7 @@ fn between(from: &Camera, to: &Camera, way: f64) -> Result<Camera> {
     let [start, end] = [from, to].map(orientation);
     let turned = DMat3::from_quat(start.slerp(end, way));
     let spacing = from.pixel_spacing() * (to.pixel_spacing() / from.pixel_spacing()).powf(way);
-    // How far the center remains from that of the closer view.
+    // The remaining fraction of the path to the center of the closer view.
     let is_closer = to.pixel_spacing() <= from.pixel_spacing();
     let (near, far, left) = if is_closer { (to, from, 1.0 - way) } else { (from, to, way) };
     let center = near.center() + (far.center() - near.center()) * (left * spacing / far.pixel_spacing());

@@ -1,4 +1,4 @@
-//! Sums of products by fused multiply-add, which rounds once per term. So views are bit-identical on every processor and host.
+//! Adds products by fused multiply-add, which rounds once per term. So views are bit-identical on every processor.
 
 use glam::{DMat3, DVec3};
 

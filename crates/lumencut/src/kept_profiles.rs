@@ -30,13 +30,13 @@ pub struct MeasureParameters<'a> {
     pub fwhm: Option<f64>,
     /// The wall level.
     pub wall: WallRequest,
-    /// Tells whether to stop.
+    /// Called during the work to ask whether to stop.
     pub stop: Stop<'a>,
 }
 
-/// The cached profiles, by the key with which the host names a vessel.
+/// The cached profiles, by the key that the caller uses for a vessel.
 pub struct KeptProfiles<K> {
-    /// Tree-wide estimates, each with its wall level and point spread.
+    /// Tree-wide estimates, each with the requested wall level and point-spread width.
     estimates: Vec<((WallRequest, Option<f64>), TreeFindings)>,
     kept: Vec<Kept<K>>,
 }

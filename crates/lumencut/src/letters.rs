@@ -1,4 +1,4 @@
-//! The patient-side letters at the edges of a picture; all hosts use them.
+//! The letters of the patient's sides at the edges of a picture.
 
 use glam::DVec3;
 use serde::Serialize;
@@ -6,13 +6,13 @@ use serde::Serialize;
 /// A direction points to a side if its component towards the side is at least this, the sine of 11.5 degrees.
 const MIN_COMPONENT: f64 = 0.2;
 
-/// Components are rounded to 1 divided by this number, so that the axis order, and not rounding, decides between equal ones.
+/// Components are rounded to multiples of 1 divided by this number. Rounding errors then do not decide between equal ones.
 const ROUNDING_STEPS: f64 = 1e6;
 
-/// Axes tie if the sums of their cosines differ by less than this, so that rounding does not decide.
+/// If two sums of cosines differ by less than this, the axes are equally near, so that rounding does not decide.
 const COSINE_TOLERANCE: f64 = 1e-6;
 
-/// The patient's signed axes (LPS). Of axes that tie the first wins: those along the body come first.
+/// The patient's signed axes (LPS). Of equally near axes the first wins, so axes along the body are preferred.
 pub(crate) const PREFERRED_AXES: [DVec3; 6] =
     [DVec3::NEG_Z, DVec3::Z, DVec3::X, DVec3::NEG_X, DVec3::Y, DVec3::NEG_Y];
 
@@ -51,7 +51,7 @@ pub fn sides(direction: DVec3) -> String {
     named.map(|axis| SIDES[axis][usize::from(parts[axis] > 0.0)]).collect()
 }
 
-/// The patient axes nearest to three directions (LPS, any length above 0). Each axis is used once, and the handedness stays.
+/// The patient axes nearest to three directions (LPS, any length above 0). Each axis is used once, and handedness is kept.
 pub fn nearest_axes(directions: [DVec3; 3]) -> [DVec3; 3] {
     let [first, second, third] = directions.map(DVec3::normalize_or_zero);
     let handedness = if first.cross(second).dot(third) < 0.0 { -1.0 } else { 1.0 };

@@ -1,5 +1,5 @@
-//! What all hosts of Lumencut (Python, browser, Rust) share: devices, fitted views, windows, centerline placement, picking, and the
-//! words, tables and JSON of measurements.
+//! What the Python package, the viewer and Rust programs share: devices, fitted views, windows, centerline placement, picking, and
+//! the words, tables and JSON of measurements.
 //!
 //! Points are in world space (LPS, mm) unless stated otherwise.
 
@@ -13,6 +13,7 @@ pub mod defaults;
 pub mod devices;
 pub mod doubted_scan;
 mod doubted_unit;
+pub mod drags;
 pub mod extent;
 pub mod feature_aggregation;
 pub mod file_kinds;

@@ -40,7 +40,7 @@ pub struct LineDoubt {
     pub found: String,
     /// What the reader can do.
     pub advice: &'static str,
-    /// A remedy that a host can offer.
+    /// A remedy that programs can offer to the user.
     pub mend: Option<Mend>,
 }
 

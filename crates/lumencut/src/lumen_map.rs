@@ -1,4 +1,4 @@
-//! What a lumen map shows beside values: the thickness of calcium at the wall, and the ostia of branches.
+//! What a lumen map shows in addition to voxel values: the thickness of calcium at the wall, and the ostia of branches.
 
 use std::sync::Arc;
 
@@ -20,10 +20,10 @@ use crate::rays_across::TOO_BRIGHT;
 
 const MIN_CALCIUM_HU: f64 = 130.0;
 
-/// Distance of samples through the wall, in units of [`Voxels::sampling_side`].
+/// Distance between samples through the wall, in units of [`Voxels::sampling_side`].
 const SAMPLE_STEP: f64 = 0.5;
 
-/// A branch is attached if an end lies within this many wall radii plus this distance (mm) of the centerline.
+/// A branch is attached if one of its ends is nearer to the centerline than this many wall radii plus this distance (mm).
 const ATTACHED: (f64, f64) = (1.6, 2.0);
 
 /// The parameters of a lumen map.
@@ -109,7 +109,7 @@ pub fn thickness(
     pixels.map_init(Vec::new, through).collect()
 }
 
-/// The direction with most calcium at the wall (radians), or 0 without calcium. The map is cut open opposite to it.
+/// The direction with most calcium at the wall (radians), or 0 without calcium.
 fn thickest_side(map: &LumenMap, thickness: &[f32]) -> f64 {
     let width = map.size()[0];
     let sum: DVec2 = thickness
@@ -122,7 +122,7 @@ fn thickest_side(map: &LumenMap, thickness: &[f32]) -> f64 {
     if sum == DVec2::ZERO { 0.0 } else { sum.to_angle() }
 }
 
-/// An ostium: where another vessel opens into the mapped one.
+/// An ostium: the place at which another vessel opens into the mapped one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ostium {
     /// Id of the other vessel.
@@ -148,7 +148,7 @@ pub fn ostia(map: &LumenMap, vessels: &[Vessel]) -> Vec<Ostium> {
             WallCoordinates::of(map, **point).is_none_or(|place| place.away > place.wall(map))
         })?;
         let place = WallCoordinates::of(map, *leaves)?;
-        // A vessel whose first point outside the wall is far away does not open into the wall there.
+        // A vessel does not open into the wall here if its first point outside the wall is far away.
         let is_apart = place.away <= ATTACHED.0 * place.wall(map) + ATTACHED.1;
         is_apart.then_some(Ostium {
             vessel,

@@ -1,4 +1,4 @@
-//! Counts the centerline points that look like lumen. It works in any unit, and for bright or dark lumen.
+//! Counts the centerline points that look like lumen. This works for values in any unit, and for bright or dark lumen.
 
 use std::collections::BTreeSet;
 
@@ -15,11 +15,11 @@ const CUBE_MM: f64 = 2.0;
 const MAX_POINTS: usize = 2000;
 /// At least this many points must look like lumen: about 40 mm of vessel in cubes of 2 mm.
 const MIN_LUMEN_POINTS: usize = 20;
-/// In the winning reading, at least this many times as many points as in the other must look like lumen.
+/// A reading wins only if at least this many times as many points look like lumen as in the other reading.
 const MIN_RATIO: usize = 3;
-/// If no radius is known: how far the values around a point count as its own, and the distance of its surroundings (mm).
+/// If no radius is known (mm): distance of the six values that belong to a point, and distance of its surroundings.
 const UNKNOWN_RADIUS: (f64, f64) = (1.0, 15.0);
-/// The surroundings are a radius beyond the wall, but at least this far (mm).
+/// The surroundings are sampled one radius beyond the wall, but at least this far (mm).
 const MIN_SURROUNDINGS_MM: f64 = 3.0;
 
 /// Points and radii of centerlines as in their file; NaN for unknown radii.
@@ -36,11 +36,11 @@ pub struct Lines<'a> {
 pub struct LumenCount {
     /// The number of points brighter than their surroundings or of darker ones, whichever is larger.
     pub(crate) like_lumen: usize,
-    /// The number of points sampled.
+    /// The number of sampled points.
     pub of: usize,
 }
 
-/// What a volume tells about how to read centerlines.
+/// The data of a volume that decide about space and unit of centerlines.
 #[derive(Clone, Copy)]
 pub struct Judge<'a> {
     /// The extent of the volume.
@@ -50,8 +50,8 @@ pub struct Judge<'a> {
 }
 
 impl LumenCount {
-    /// Whether the points of this reading are lumen and those of the other reading are not. At least twenty, half of all, and three
-    /// times as many as in the other reading must look like lumen.
+    /// Whether the points of this reading are lumen and those of the other reading are not. At least twenty points, half of all
+    /// points, and three times as many as in the other reading must look like lumen.
     pub(crate) fn is_evident_over(self, other: Self) -> bool {
         self.like_lumen >= MIN_LUMEN_POINTS
             && 2 * self.like_lumen >= self.of

@@ -1,5 +1,5 @@
-//! The wall that a lumen map unrolls, and its openings at branches. The wall is the measured contour, else where values fall along
-//! rays, else the centerline's radius.
+//! The wall that a lumen map unrolls, and its openings at branches. The wall is the measured contour; if there is none, it is where
+//! values fall along rays; if they do not fall, it is at the centerline's radius.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -24,19 +24,19 @@ use crate::rays_across::{Fall, RaysAcross};
 /// Number of directions around the vessel in which the wall is known.
 const DIRECTIONS: usize = 180;
 
-/// The smallest distance between wall stations along the vessel (mm).
+/// The smallest distance along the vessel (mm) between stations, the places at which the wall is determined.
 const STATION_STEP_MM: f64 = 1.0;
 
-/// A ray that meets no wall within this many radii leaves through the opening of a branch.
+/// A ray leaves through the opening of a branch if it meets no wall within this many radii.
 const OPEN_RADII: f64 = 1.6;
 
-/// A neighbouring ray leaves too if it meets the branch's wall: a wall beyond this many contour radii.
+/// A neighbouring ray also leaves if it meets a wall beyond this many contour radii, which is the branch's wall.
 const NEAR_OPEN_RADII: f64 = 1.15;
 
 /// Smaller openings (mm²) are ignored, since single rays pass between the struts of a stent.
 const MIN_OPENING_MM2: f64 = 3.0;
 
-/// The levels of a section are used if its contrast is at most this many times the usual one, and at least the inverse.
+/// A section's own levels are used only if its contrast differs from the usual one by at most this factor.
 const MAX_CONTRAST_RATIO: f64 = 2.0;
 
 /// The wall around a vessel.
@@ -83,7 +83,7 @@ struct Station {
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 enum Exit {
     No,
-    /// The ray meets a wall farther away; it leaves if a neighbouring ray does.
+    /// The ray meets a wall farther away. It counts as leaving if a neighbouring ray leaves.
     Perhaps,
     Yes,
 }
@@ -216,7 +216,7 @@ fn crossing_of(direction: DVec2, a: DVec2, b: DVec2) -> Option<f64> {
     Some(direction.dot(a.lerp(b, from / (from - to)))).filter(|away| *away > 0.0)
 }
 
-/// The openings: directions in which rays certainly leave, grown over those in which they perhaps leave; small ones are omitted.
+/// The openings: directions in which rays certainly leave, and directions connected to them in which rays may leave.
 fn openings(stations: &[Station]) -> Vec<bool> {
     let is_sure = |station: &Station, k: usize| f64::from(u8::from(station.exit[k] == Exit::Yes));
     let sure: Vec<bool> = median_filtered(stations, is_sure).into_iter().map(|share| share > 0.5).collect();

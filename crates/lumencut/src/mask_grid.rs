@@ -1,4 +1,4 @@
-//! Places the voxels of a mask among those of its volume; the mask may cover part of it.
+//! Finds the position of a mask in the grid of its volume, of which the mask may cover only a part.
 
 use glam::{DAffine3, DVec3};
 use lumencut_core::error::{Error, ErrorKind, Result};
@@ -6,9 +6,9 @@ use lumencut_core::volume::Volume;
 
 use crate::text::rounded;
 
-/// How far mask voxels may deviate from volume voxels, in voxels.
+/// Maximum deviation of mask voxels from volume voxels (voxels).
 const MAX_VOXEL_OFFSET: f64 = 0.1;
-/// How far corners of the grids may deviate, in smallest voxel sides.
+/// Maximum deviation between corners of the two grids, in smallest voxel sides.
 const MAX_CORNER_OFFSET: f64 = 0.1;
 const ADVICE: &str = "take the mask that was made on this scan, or resample it onto the grid of this scan";
 
@@ -17,7 +17,7 @@ const ADVICE: &str = "take the mask that was made on this scan, or resample it o
 pub struct Grid {
     /// The number of voxels along (i, j, k).
     pub size: [usize; 3],
-    /// World position (LPS, mm) of a continuous index.
+    /// Affine from voxel indices to world positions (LPS, mm).
     pub world_from_index: DAffine3,
 }
 
@@ -119,7 +119,7 @@ pub fn place_within(mask: &Grid, volume: &Grid) -> Result<MaskPlace> {
     Ok(MaskPlace { axes, forward, low })
 }
 
-/// The volume axis of each mask axis, if the voxels of the mask stay voxels of the volume up to its last voxel.
+/// The volume axis of each mask axis; None unless all voxels of the mask coincide with voxels of the volume.
 fn axes_of(mask: &Grid, columns: &[DVec3; 3]) -> Option<[usize; 3]> {
     let mut axes = [0; 3];
     for (axis, column) in columns.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Notes about the lines of a mask.
+//! Notes for the user about lines that were traced in a mask.
 
 use lumencut_core::volume::Volume;
 use lumencut_vessels::trace::mask::TracedMask;

@@ -1,4 +1,4 @@
-//! Measurements in words; all hosts use them.
+//! States measurements in words, which Python package and viewer share.
 
 use lumencut_core::named::Named;
 use lumencut_vessels::measure::profile::Source;
@@ -76,7 +76,7 @@ pub fn of_c_arm(arm: &CArm) -> String {
     format!("{side} {}° {towards} {}°", fixed(turn.abs(), 0), fixed(tilt.abs(), 0))
 }
 
-/// Where a point-spread width comes from: `given`, `estimated on …` or `assumed: …`.
+/// The source of a point-spread width: `given`, `estimated on …` or `assumed: …`.
 pub fn of_source(source: &Source) -> String {
     match source {
         Source::Given => "given".to_owned(),
@@ -106,7 +106,7 @@ pub fn of_wall(source: &WallSource) -> String {
     }
 }
 
-/// The two bounds of a diameter (mm) next to calcium or metal; None if nothing there is brighter than the lumen.
+/// The diameter (mm) without and with adjacent calcium or metal; None if nothing there is brighter than the lumen.
 pub(crate) fn of_bounds([excluded, included]: [f64; 2]) -> Option<String> {
     let [excluded, included] = [excluded, included].map(|mm| mm.is_finite().then(|| fixed(mm, 2)));
     Some(format!("{} mm if brighter material is excluded, {} mm if it is included", excluded?, included?))

@@ -1,4 +1,4 @@
-//! The remedies ("mends") for errors of all crates: a name and choices. Each host words and offers them itself.
+//! The remedies ("mends") for errors of all crates: a name and choices. Python package and viewer state them in their own words.
 
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 
@@ -18,7 +18,7 @@ pub enum Mend {
 }
 
 impl Mend {
-    /// The name of the remedy, which all hosts share.
+    /// The name of the remedy, the same in Python package and viewer.
     pub fn name(&self) -> &'static str {
         match self {
             Self::Core(mend) => mend.name(),
@@ -64,7 +64,7 @@ impl Serialize for Mend {
     }
 }
 
-/// The names of all remedies; each host has words for them.
+/// The names of all remedies. Python package and viewer have words for each.
 pub fn names() -> Vec<&'static str> {
     let of_core = OfCore::ALL.into_iter().map(OfCore::name);
     of_core.chain(OfCenterlines::NAMES).chain(OfDicom::NAMES).collect()

@@ -20,7 +20,7 @@ pub fn refuse_focus(settings: &Settings) -> Result<()> {
         .mend(format!("leave the {setting} out")))
 }
 
-/// How the sampled positions of a view are found.
+/// The methods by which the sampled positions of a view are computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Method {
     /// Curved Surface Reformation, with the settings.
@@ -32,7 +32,7 @@ pub enum Method {
 }
 
 impl Method {
-    /// Renders on the CPU.
+    /// Renders a view by this method on the CPU.
     pub fn on_cpu(self, cpu: &mut CpuRenderer, scene: &Scene, request: &Request) -> Result<Frame> {
         let Some(frame) = self.places(scene, request)? else { return cpu.render(scene, request) };
         match &scene.volume {

@@ -21,20 +21,20 @@ pub fn fits_nowhere(points: &[DVec3], volume: &Extent) -> bool {
 pub struct Misplaced {
     /// The finding, in words.
     pub found: String,
-    /// The place that fits if the points were read as LPS in mm. If its space is RAS, points that were read as RAS fit as LPS.
+    /// The space and unit that fit points read as LPS in mm. If the space is RAS, points that were read as RAS fit as LPS.
     pub meant: CoordinateSystem,
 }
 
-/// A better place for points read as LPS in mm. Either it brings twice as many points, and a tenth of all more, into the volume, as
-/// when cm were read as mm. Or points are inside in both spaces, but clearly look like lumen only if x and y are negated. Points
-/// that span only a few voxels are ignored.
+/// A better space and unit for points read as LPS in mm. They may bring twice as many points, and a tenth of all more, into the
+/// volume, as when cm were read as mm. Or points are inside in both spaces, but clearly look like lumen only if x and y are
+/// negated. Points that span only a few voxels are ignored.
 pub fn better_place(points: &[DVec3], volume: &Judge) -> Option<Misplaced> {
     better_by_extent(points, &volume.extent).or_else(|| mirrored_by_values(points, volume))
 }
 
 fn better_by_extent(points: &[DVec3], volume: &Extent) -> Option<Misplaced> {
     let mut candidates = places(&Space::ALL, &Unit::ALL);
-    // The likeliest mistakes come first, since the first of equal places wins.
+    // The likeliest mistakes come first, since of equally good candidates the first wins.
     candidates.sort_by_key(|place| place.unit != Unit::Millimetre);
     let readings = readings(points, &candidates, volume);
     let as_read = readings[0];

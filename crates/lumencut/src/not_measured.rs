@@ -1,4 +1,4 @@
-//! Describes the unmeasured ends of a vessel; all hosts use the words.
+//! Describes the unmeasured ends of a vessel.
 
 use lumencut_vessels::measure::profile::Profile;
 use serde::Serialize;

@@ -1,4 +1,4 @@
-//! Describes why no place is suggested on a vessel; all hosts use the words.
+//! Describes why no place on a vessel is suggested as narrowest place or reference.
 
 use lumencut_vessels::measure::hindrances::{CHANGE_OF_LUMEN, FLAP, UNSURE};
 use lumencut_vessels::measure::profile::Profile;
@@ -26,7 +26,7 @@ pub fn not_suggested(profile: &Profile, at: Option<f64>, references: &[f64]) -> 
     }
 }
 
-/// At most this many reasons are reported: those that apply to the most sections.
+/// Only this many reasons are reported: those that apply to the most sections.
 const MAX_REASONS: usize = 3;
 
 fn none_safe(profile: &Profile) -> String {

@@ -1,4 +1,4 @@
-//! Finds which lines are connected, and the parent of each. Two lines connect if one ends at a point of the other.
+//! Finds groups of connected lines, and the parent of each line. Two lines connect if one ends at a point of the other.
 
 use std::collections::{HashMap, VecDeque};
 
@@ -6,7 +6,7 @@ use glam::DVec3;
 use lumencut_core::math::arc_length::arc_lengths;
 use lumencut_core::math::same_place::VESSEL_END;
 
-/// Indices of connected lines in ascending order, the longest part first. An end matches points within [`VESSEL_END`].
+/// Indices of connected lines in ascending order, the longest group first. An end matches points within [`VESSEL_END`].
 pub fn parts(lines: &[&[DVec3]]) -> Vec<Vec<usize>> {
     let mut heads: Vec<usize> = (0..lines.len()).collect();
     touching(lines, |number, owner| join(&mut heads, number, owner));
@@ -109,7 +109,7 @@ mod tests {
     #[test]
     fn lines_hang_together_by_their_ends_and_by_ends_on_points_between() {
         let trunk = straight([0.0; 3], [0.0, 0.0, 100.0]);
-        // Lines that start from a trunk point, from its end as rounded by a file, from a branch, and beside the trunk.
+        // Lines from a trunk point, from the trunk's end as rounded by a file, from a branch, and one next to the trunk.
         let branch = straight([0.0, 0.0, 50.0], [30.0, 0.0, 50.0]);
         let leg = straight([0.0, 0.0006, 100.0006], [0.0, 20.0, 130.0]);
         let twig = straight([30.0, 5.0, 50.0], [30.0, 0.0, 50.0]);

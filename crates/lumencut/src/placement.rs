@@ -1,7 +1,6 @@
-//! Decides space and unit of centerlines. The caller decides first, then the file, then the volume (by its extent, or between two
-//! spaces by its values), then what is usual.
-//! A choice that the file does not state is reported with the counts that led to it.
-//! Every choice that the file does not state is reported with the counts behind it.
+//! Decides space and unit of centerlines. The caller decides first, then the file, then the volume. The volume decides by its
+//! extent, or between two spaces by its values. If nothing decides, the usual space and unit are used. Every choice that the file
+//! does not state is reported with the counts that led to it.
 
 use glam::DVec3;
 use lumencut_io::{Result, Space, Unit};
@@ -26,7 +25,7 @@ pub struct Known {
     pub usual_unit: Unit,
 }
 
-/// Where a space or unit comes from.
+/// The source of a space or unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
     /// The caller.
@@ -37,7 +36,7 @@ pub enum Origin {
     Volume,
     /// The values of the volume along the lines.
     Values,
-    /// What is usual.
+    /// The usual space or unit was assumed.
     Assumed,
 }
 
@@ -66,18 +65,18 @@ impl Origin {
     }
 }
 
-/// How to read the coordinates of a file.
+/// The space and unit in which the coordinates of a file are read, and the reasons.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Placement {
     /// Space and unit.
     pub place: CoordinateSystem,
-    /// Where the space comes from.
+    /// The source of the space.
     pub space_from: Origin,
-    /// Where the unit comes from.
+    /// The source of the unit.
     pub unit_from: Origin,
     /// The decision and its reason; empty if file or caller stated both space and unit.
     pub decision: String,
-    /// What the caller can state to confirm what the volume decided.
+    /// What the caller can state in order to confirm what the volume decided.
     pub confirmed_by: Statement,
     /// Whether the volume decided against LPS or the usual unit, or only its values decided the space.
     pub is_unusual: bool,
@@ -87,10 +86,10 @@ pub struct Placement {
     pub doubt: Option<Doubt>,
 }
 
-/// Decides how to read the points of a file. Without a volume, it uses what is usual.
+/// Decides how to read the points of a file. Without a volume, unstated space and unit are the usual ones.
 ///
 /// # Errors
-/// [`lumencut_io::Error`], still without file name, if the volume cannot decide: several places fit equally well, or none fits.
+/// [`lumencut_io::Error`], still without file name, if the volume cannot decide: several combinations fit equally, or none fits.
 pub fn placement(known: &Known, points: &[DVec3], volume: Option<&Judge>) -> Result<Placement> {
     let usual = known.usual();
     let space_from = Origin::of(known.asked_space, known.stated_space);
@@ -141,7 +140,7 @@ pub fn placement(known: &Known, points: &[DVec3], volume: Option<&Judge>) -> Res
 }
 
 impl Known {
-    /// The place that is used unless the volume contradicts it.
+    /// The space and unit that are used unless the volume contradicts them.
     pub fn usual(&self) -> CoordinateSystem {
         CoordinateSystem {
             space: self.asked_space.or(self.stated_space).unwrap_or(Space::Lps),

@@ -1,4 +1,4 @@
-//! Possible spaces and units of coordinates, and how many points lie inside a volume in each of them.
+//! Lists possible spaces and units of coordinates, and counts the points inside a volume for each of them.
 
 use std::fmt;
 
@@ -13,12 +13,12 @@ use crate::text::rounded;
 pub const SMALLEST: f64 = 8.0;
 /// The largest plausible extent of vessels (mm).
 pub const LARGEST: f64 = 2500.0;
-/// Lines are ignored if they are shorter than this many voxels and than [`SHORTEST`].
+/// Lines are ignored if they are shorter than both this number of voxels and [`SHORTEST`].
 const FEW_VOXELS: f64 = 3.0;
 /// Lines at least this long (mm) are never ignored.
 const SHORTEST: f64 = 1.0;
 const DIGITS: usize = 3;
-/// A place is as good as another if at least this fraction of the other's points is inside.
+/// A reading is as good as another if it has at least this fraction of the other's points inside the volume.
 const AS_GOOD: f64 = 0.8;
 
 /// A space and a unit.
@@ -31,12 +31,12 @@ pub struct CoordinateSystem {
 }
 
 impl CoordinateSystem {
-    /// The factor of each axis that converts coordinates of this place to LPS in mm.
+    /// The factor of each axis that converts coordinates in this space and unit to LPS in mm.
     pub fn scale(self) -> DVec3 {
         signs(self.space) * self.unit.in_mm()
     }
 
-    /// How to correct coordinates of this place that were read as LPS in mm.
+    /// The correction, in words, for coordinates in this space and unit that were read as LPS in mm.
     pub(crate) fn mistaken(self) -> String {
         let mut how = Vec::new();
         if self.space == Space::Ras {
@@ -96,7 +96,7 @@ impl Reading {
         if self.is_plausible { self.inside } else { 0 }
     }
 
-    /// Whether the vessels are so short that another unit that fits is as likely.
+    /// Whether the vessels are so short that every other unit that fits is just as likely.
     pub(crate) fn is_short(&self) -> bool {
         self.across < SMALLEST
     }

@@ -5,11 +5,11 @@ use lumencut_core::with_voxels;
 
 use lumencut_core::math::statistics::{median, quantile, two_groups};
 
-/// Lumen and tissue are separated by the maxima of cubes with this side (voxels); this is the number of cubes.
+/// Lumen and tissue are separated by the maxima of cubes with this side (voxels), at most this number of cubes.
 const CUBE_SIDE: usize = 4;
 const MAX_CUBES: f64 = 32768.0;
 
-/// A dark value is padding if at least the first fraction of voxels has it; at most the second fraction is darker.
+/// A dark value is padding if at least the first fraction of voxels has it and at most the second fraction is darker.
 const MIN_PADDING_FRACTION: f64 = 0.05;
 const MAX_DARKER_FRACTION: f64 = 0.01;
 
@@ -32,16 +32,16 @@ const DARKEST_TISSUE_QUANTILE: f64 = 0.1;
 const MAX_BRIGHTER_FRACTION: f64 = 1.0 / 3.0;
 const MAX_SPLITS: usize = 8;
 
-/// The quantile of cubes where dark tissue ends; the quantile of the brighter cubes that is the lumen.
+/// The quantile of the darker cubes at which tissue ends, and the quantile of the brighter cubes that is the lumen.
 const BRIGHTEST_TISSUE_QUANTILE: f64 = 0.95;
 const EDGES: f64 = 0.2;
 
 /// If a volume shows only vessels: the quantiles of voxels for edges and lumen.
 const ALONE_EDGES: f64 = 0.05;
 const ALONE_LUMEN: f64 = 0.75;
-/// Lumen and edges differ by at least this fraction of the range from the darkest voxel to the lumen.
+/// If a volume shows only vessels, tissue is darker than lumen by at least this fraction of the range from darkest voxel to lumen.
 const ALONE_DIFFERENCE: f64 = 0.25;
-/// Edges count if they are darker than the lumen by this fraction of the same range.
+/// Edges are usable if they are darker than the lumen by more than this fraction of the range from darkest voxel to lumen.
 const EDGE: f64 = 0.1;
 
 pub(crate) struct VoxelSample {

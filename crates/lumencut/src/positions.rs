@@ -27,7 +27,7 @@ pub fn positions<'a>(camera: &'a Camera, depth: &'a [f32]) -> impl Iterator<Item
 /// A position in a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PixelPlace {
-    /// Column and row; may be fractional or outside.
+    /// Column and row; they may be fractional or lie outside the picture.
     pub pixel: [f64; 2],
     /// Depth (mm): it grows away from the viewer and is 0 at the camera's center.
     pub depth: f64,

@@ -65,7 +65,7 @@ impl Grade {
         }
     }
 
-    /// All lines of text: percentage, doubts and group, or why there is no percentage.
+    /// The result as lines of text: percentage, doubts and group, or why there is no percentage.
     pub fn lines(&self) -> Vec<String> {
         match self {
             Self::NotGraded(reason) => vec![format!("no percentage: {reason}")],
@@ -172,7 +172,7 @@ impl Measured<'_> {
 /// A place to review.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mark {
-    /// `marked place`, `narrowest place`, `reference` or `NOTED`.
+    /// The kind of place: `marked place`, `narrowest place`, `reference` or `NOTED`.
     pub name: &'static str,
     /// Arc length (mm).
     pub at: f64,

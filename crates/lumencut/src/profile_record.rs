@@ -16,10 +16,10 @@ use crate::scan_details::ScanDetails;
 /// The notice in every file.
 pub const NOTICE: &str = "Lumencut is not a medical device.";
 
-/// The request of a measurement; the places belong to the only vessel with marks.
+/// The request of a measurement. Places are set only if a single vessel was measured.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Asked {
-    /// Distance of sections (mm).
+    /// Distance between sections (mm).
     pub step_mm: f64,
     /// Point-spread width (mm), if given.
     pub fwhm_mm: Option<f64>,
@@ -160,7 +160,7 @@ struct Suggestions {
 
 impl Suggestions {
     fn of(profile: &Profile) -> Self {
-        // Places are suggested only at sections that count.
+        // Only sections whose `counts` is true are suggested.
         let found = marks(profile, None, &[]).unwrap_or_default();
         let narrowest = found.first().map(PlaceRecord::from);
         let references = found.iter().skip(1).map(PlaceRecord::from).collect();

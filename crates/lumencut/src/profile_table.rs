@@ -20,7 +20,7 @@ struct Block<'a> {
     behind: Same,
 }
 
-/// The numbers of all sections: columns named with their unit.
+/// The numbers of all sections, as columns with names that include the unit.
 pub fn columns(profile: &Profile) -> Vec<(&'static str, Vec<f64>)> {
     let centers = |axis: usize| profile.center.iter().map(|point| point[axis]).collect();
     let normals = |axis: usize| profile.normal.iter().map(|normal| normal[axis]).collect();

@@ -7,7 +7,7 @@ use glam::DVec3;
 use lumencut_core::reformations::cpr::Straightened;
 use lumencut_vessels::voxels::Voxels;
 
-/// Distance of samples on a ray, in units of [`Voxels::sampling_side`].
+/// Distance between samples on a ray, in units of [`Voxels::sampling_side`].
 const SAMPLE_STEP: f64 = 0.4;
 
 /// Values above the lumen by more than this fraction of the contrast are calcium or metal.

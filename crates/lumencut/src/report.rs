@@ -1,5 +1,5 @@
-//! The report of measured vessels: a self-contained web page without scripts or links. It names vessels, and the scan only if a
-//! host passes its name. Hosts supply the pictures; the facade does the rest.
+//! The report of measured vessels: a self-contained web page without scripts or links. It names vessels, and the scan only if the
+//! caller passes its name. The caller supplies the pictures.
 
 mod curves;
 mod findings;
@@ -39,7 +39,7 @@ pub struct Shown {
     pub saved: Option<String>,
     /// What is known about the scan's grid.
     pub stated: Stated,
-    /// The request.
+    /// The measuring request.
     pub asked: Asked,
     /// Level and width of the pictures.
     pub window: [f64; 2],

@@ -24,7 +24,7 @@ pub(crate) struct Mean {
 }
 
 impl Mean {
-    /// A mean over no samples yet, for this number of pixels.
+    /// An empty mean for this number of pixels.
     pub(crate) fn of(pixels: usize) -> Self {
         Self { sums: vec![[0; 4]; pixels], pictures: 0 }
     }

@@ -1,4 +1,4 @@
-//! The scale bar of a picture; all hosts use it.
+//! The scale bar of a picture.
 
 use serde::Serialize;
 

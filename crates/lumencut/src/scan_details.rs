@@ -57,7 +57,7 @@ impl ScanDetails {
         stated.chain(missing).collect::<Vec<_>>().join("; ")
     }
 
-    /// Names and values of table columns.
+    /// Names and values of the table columns that describe the scan.
     pub fn columns(&self) -> [(&'static str, String); 5] {
         let text = |stated: &Option<String>| stated.clone().unwrap_or_else(|| NOT_STATED.to_owned());
         [

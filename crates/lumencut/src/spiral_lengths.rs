@@ -1,4 +1,4 @@
-//! The default pitch and reach of a spiral CPR, from the radii of the vessel.
+//! Computes the default pitch and reach of a spiral CPR from the radii of the vessel.
 
 use std::f64::consts::PI;
 
@@ -24,8 +24,8 @@ pub struct Room {
     pub columns: f64,
 }
 
-/// The pitch (mm): a quarter of the usual radius (mm), but at least the smallest voxel side (mm). It is larger if rows of length
-/// section area / pitch would not fit the room.
+/// The pitch (mm): a quarter of the usual radius (mm), but at least the smallest voxel side (mm). It is larger if rows, whose
+/// length is section area / pitch, would be wider than the picture.
 pub fn spiral_pitch(usual: f64, smallest_side: f64, room: Room) -> f64 {
     let lengths = [room.radius, room.pixel_spacing, room.columns];
     let is_room = lengths.iter().all(|length| *length > 0.0 && length.is_finite());
@@ -45,7 +45,7 @@ mod tests {
         assert_eq!(spiral_pitch(4.0, 1.5, room), 1.5);
         let narrow = Room { columns: 100.0, ..room };
         assert!((spiral_pitch(4.0, 0.4, narrow) - 2.0 * PI).abs() < 1e-12);
-        // An invalid room limits nothing here; the layout rejects it.
+        // Invalid pixel sides do not limit the pitch here; the layout rejects them.
         assert_eq!(spiral_pitch(4.0, 0.4, Room { pixel_spacing: 0.0, ..room }), 1.0);
         assert_eq!(spiral_reach(4.0), 7.0);
     }

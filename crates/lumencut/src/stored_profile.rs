@@ -1,4 +1,4 @@
-//! A profile as plain columns, from which it is restored exactly.
+//! Converts a profile to plain columns, from which it can be restored exactly.
 
 use glam::DVec3;
 use lumencut_core::error::{Error, ErrorKind, Result};
@@ -10,13 +10,13 @@ use lumencut_vessels::measure::wall_level::WallSource;
 /// The columns, flags and sources of a profile.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StoredProfile {
-    /// Columns with their names, in mm, LPS or the volume's unit. The coordinates of points follow each other.
+    /// Columns with their names, in mm, LPS or the volume's unit. x, y and z of each point follow each other.
     pub columns: Vec<(String, Vec<f64>)>,
     /// The flags of each section.
     pub flags: Vec<u32>,
-    /// Where the point spread comes from: kind and words.
+    /// The source of the point-spread width: kind and words.
     pub fwhm_source: (String, String),
-    /// Where the wall level comes from: kind and numbers.
+    /// The source of the wall level: kind and numbers.
     pub wall_source: (String, Vec<f64>),
 }
 

@@ -36,7 +36,7 @@ pub struct StraightenedSides {
 }
 
 impl StraightenedSides {
-    /// Takes the patient axes nearest to the frame at the middle, with its handedness. The deviation is sampled every `step` mm.
+    /// The patient axes nearest to the frame at the vessel's middle, with its handedness. The deviation is sampled every `step` mm.
     pub fn of(space: &Straightened, step: f64, is_stated: bool) -> Self {
         let stated = nearest_axes(middle(space));
         let sections = (space.length() / step).floor() as usize;

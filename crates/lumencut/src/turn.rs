@@ -7,7 +7,7 @@ use lumencut_core::error::{Error, ErrorKind, Result};
 use crate::text::shortest;
 use crate::views::{Axis, MARGIN, centered, in_plane, rotated, spacing_for};
 
-/// Number of sampled views. It finds the widest extent up to a fraction of the margin.
+/// Number of sampled views. Between them, the extent grows by at most a fraction of the margin.
 const VIEWS_OF_A_TURN: usize = 72;
 
 /// The angle of each frame of a turntable (radians). A full turn stops one step before its end.

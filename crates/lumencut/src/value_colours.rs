@@ -20,9 +20,9 @@ const GREYS: [[u8; 3]; 2] = [[0; 3], [255; 3]];
 /// A colour map.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Colours {
-    /// Dark blue over green to yellow.
+    /// From dark blue over green to yellow.
     Viridis,
-    /// Black to white.
+    /// From black to white.
     Grey,
 }
 

@@ -16,7 +16,7 @@ use crate::views::{Axis, FINEST, fitted, rotated};
 const HALF_WIDTH_RADII: f64 = 8.0;
 /// Used if a radius is unknown (mm); equals the default of `unknown_radius`.
 const UNKNOWN_RADIUS_MM: f64 = 1.0;
-/// If the sine of the angle between a vessel and the anterior direction is smaller, angle 0 looks along the body instead.
+/// If the sine of the angle between vessel and anterior direction is below this, the view at angle 0 looks along the body.
 const MIN_ANTERIOR_SINE: f64 = 0.05;
 const TRIED_DIRECTIONS: usize = 256;
 const VISIBILITY_SAMPLES: usize = 200;

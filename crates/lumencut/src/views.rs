@@ -39,7 +39,7 @@ pub const VIEWS: [NamedView; 6] = [
 /// The standard view of this name.
 ///
 /// # Errors
-/// [`ErrorKind::Camera`] for another name.
+/// [`ErrorKind::Camera`] for an unknown name.
 pub fn named(name: &str) -> Result<NamedView> {
     VIEWS.into_iter().find(|view| view.name == name).ok_or_else(|| {
         let expected = format!("one of {}", VIEWS.map(|view| view.name).join(", "));
@@ -66,7 +66,7 @@ impl Axis {
     /// The axis with this name: `superior`, `up`, `right` or `direction`.
     ///
     /// # Errors
-    /// [`ErrorKind::Camera`] for another name.
+    /// [`ErrorKind::Camera`] for an unknown name.
     pub fn named(name: &str) -> Result<Self> {
         match name {
             "superior" => Ok(Self::Superior),
@@ -143,7 +143,8 @@ pub fn rotated(camera: &Camera, angle: f64, axis: Axis) -> Result<Camera> {
     Camera::new(camera.center(), direction, up, camera.size(), camera.pixel_spacing())
 }
 
-fn rotation(axis: DVec3, angle: f64) -> Result<DMat3> {
+/// The rotation about an axis (LPS) by an angle (radians).
+pub(crate) fn rotation(axis: DVec3, angle: f64) -> Result<DMat3> {
     let largest = axis.abs().max_element();
     if !(angle.is_finite() && axis.is_finite() && largest > 0.0) {
         let found = format!("angle {} about [{}]", shortest(angle), axis.to_array().map(shortest).join(", "));

@@ -13,13 +13,13 @@ use crate::windows;
 pub enum DataWindow {
     /// Separates lumen from surroundings: [`windows::along`] vessels, or `windows::of_volume` if there are none.
     Auto,
-    /// `windows::of_mip`.
+    /// For maximum intensity projections, see `windows::of_mip`.
     Mip,
-    /// [`windows::whole`].
+    /// From the 1st to the 99th percentile, see [`windows::whole`].
     Whole,
-    /// [`windows::full`].
+    /// From the smallest to the largest voxel, see [`windows::full`].
     Full,
-    /// `windows::mra`.
+    /// For MR angiography, see `windows::mra`.
     Mra,
 }
 
@@ -60,7 +60,7 @@ impl DataWindow {
     }
 }
 
-/// Where a named window comes from.
+/// The source of a named window.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum PresetSource {
     /// Constant (HU).
@@ -76,7 +76,7 @@ pub struct WindowPreset {
     pub name: &'static str,
     /// Label of the window.
     pub words: &'static str,
-    /// Where the window comes from.
+    /// The source of the window.
     pub source: PresetSource,
 }
 

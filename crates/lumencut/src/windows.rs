@@ -12,7 +12,7 @@ use crate::populations::{Populations, VoxelSample, darkest_tissue, padding, rang
 use crate::text::rounded;
 use lumencut_core::math::statistics::{median, quantile};
 
-/// Tissue is sampled this far beyond the wall (mm); an unknown radius counts as this one (mm).
+/// Tissue is sampled this far beyond the wall (mm), and a radius that is unknown is taken to be this (mm).
 const TISSUE_DISTANCE_MM: f64 = 10.0;
 const UNKNOWN_RADIUS_MM: f64 = 10.0;
 
@@ -21,7 +21,7 @@ const MAX_MAGNITUDE: f64 = 1e12;
 /// The smallest and largest position of the lumen in a window, from black (0) to white (1).
 const LUMEN_POSITION: [f64; 2] = [0.60, 0.72];
 
-/// Black lies below the lumen by this many times the difference between lumen and tissue: without noise, and at most.
+/// The multiple of the difference between lumen and tissue by which black lies below the lumen: without noise, and at most.
 const BLACK_BELOW_LUMEN: [f64; 2] = [1.5, 2.2];
 
 /// Black lies below the darkest tissue by this share of the difference between lumen and darkest tissue.
@@ -51,7 +51,7 @@ const BRIGHTEST_QUANTILE: f64 = 0.999;
 /// The quantile of the lumen that stands for the brightest vessels; small vessels are darker because of blur.
 const BRIGHT_LUMEN_QUANTILE: f64 = 0.9;
 
-/// The position of the brightest vessels after widening a window, and the position beyond which the window is too narrow for them.
+/// The position of the brightest vessels in a widened window, and the position from which a window must be widened for them.
 const BRIGHT_LUMEN_POSITION: [f64; 2] = [0.9, 0.95];
 
 const EMPTY_VOLUME_WINDOW: Window = Window { level: 300.0, width: 900.0 };
@@ -99,7 +99,7 @@ pub fn along(volume: &Volume, tree: &VesselTree) -> Result<Window> {
     let tissue = Tissue { middle: sign * beyond, darkest: darkest_tissue.filter(|_| sign > 0.0) };
     let [black, mut white] = around_lumen(sign * level, tissue, (upper - lower) / 2.0, [low, high]);
     if sign < 0.0 {
-        // White, negated, is the black end, which never lies below the volume's minimum.
+        // For a dark lumen, this is the black end of the window. It never lies below the volume's minimum.
         white = white.min(quantile(&mut sampled.voxels, 1.0).unwrap_or(white));
     }
     within(sign * (black + white) / 2.0, white - black, || {
@@ -107,8 +107,8 @@ pub fn along(volume: &Volume, tree: &VesselTree) -> Result<Window> {
     })
 }
 
-/// The median around the vessels. If most of that is padding or outside, the darker of two: the median of what is visible, and the
-/// vessels' edges. In clipped scans most tissue looks like padding, and the visible rest may be only bone.
+/// The median around the vessels. If most of that is padding or outside, the darker of the visible rest's median and the vessels'
+/// edges. In clipped scans most tissue looks like padding, and the visible rest may be only bone.
 fn tissue_around(volume: &Volume, tree: &VesselTree, lumen: f64, sampled: &mut VoxelSample) -> Option<f64> {
     let places = beside(tree, TISSUE_DISTANCE_MM);
     let mut around = finite(&sample(volume, &places));
@@ -145,7 +145,7 @@ fn around_lumen(lumen: f64, tissue: Tissue, spread: f64, ends: [f64; 2]) -> [f64
     [black, ends[1].clamp(nearest, farthest)]
 }
 
-/// Six points around each tree point, `beyond` mm outside the wall (mm, LPS).
+/// Six points (mm, LPS) around each centerline point, `beyond` mm outside the wall.
 fn beside(tree: &VesselTree, beyond: f64) -> Vec<DVec3> {
     let sides = [DVec3::X, DVec3::Y, DVec3::Z, DVec3::NEG_X, DVec3::NEG_Y, DVec3::NEG_Z];
     let of_vessel = tree.vessels().iter().flat_map(|vessel| {
@@ -186,7 +186,7 @@ fn cut_off_tissue(sampled: &mut VoxelSample, lumen: f64) -> Option<Tissue> {
     (middle - padding < lumen - middle).then_some(Tissue { middle, darkest: Some(padding) })
 }
 
-/// The window [`along`] centerlines, widened if the brightest vessels would be white.
+/// The window of [`along`], widened if the brightest vessels would be white.
 pub(crate) fn holding_lumen(volume: &Volume, tree: &VesselTree) -> Result<Window> {
     let window = along(volume, tree)?;
     let black = window.level - window.width / 2.0;
@@ -207,8 +207,8 @@ fn brightest_lumen(volume: &Volume, tree: &VesselTree) -> Option<f64> {
     quantile(&mut finite(&sample(volume, &points)), BRIGHT_LUMEN_QUANTILE)
 }
 
-/// [`of_volume`] for a MIP, widened at most 1.4 times so that white is at the 99.9th percentile. In a MIP noise raises the lumen,
-/// so brighter values need room.
+/// [`of_volume`] for a MIP, widened at most 1.4 times so that white is at the 99.9th percentile. In a MIP noise makes
+/// lumen brighter, so the window must reach brighter values.
 pub(crate) fn of_mip(volume: &Volume) -> Result<Window> {
     alone(volume, |found, [black, width]| ((found.peak - black) / width).clamp(1.0, MIP_MAX_WIDENING))
 }

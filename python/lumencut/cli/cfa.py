@@ -1,4 +1,4 @@
-"""``lumencut cfa``: straightened vessels that need no turning."""
+"""``lumencut cfa``: straightened vessels that show their surroundings on all sides in one picture."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ def _check(chosen: dict[str, Any], beside: str | None) -> None:
 def _made(
     renderer: Renderer, vessel: Vessel, shown: str, chosen: dict[str, Any], settings: Settings
 ) -> Reformation:
-    """The straightened CPR of a vessel, or one of its features."""
+    """Return the straightened CPR of a vessel, or a picture of one of its features."""
     from lumencut.feature_aggregation import cfa_of
     from lumencut.planar_reformation import cpr_of
 

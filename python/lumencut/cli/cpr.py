@@ -1,4 +1,4 @@
-"""``lumencut cpr``: vessels laid out as images."""
+"""``lumencut cpr``: vessels straightened or unrolled into images."""
 
 from __future__ import annotations
 
@@ -123,7 +123,7 @@ def _check_outputs(output: Path, volume_out: Path | None) -> None:
 def _plane(
     renderer: Renderer, vessel: Vessel, chosen: dict[str, Any], settings: Settings
 ) -> PlanarReformation:
-    """The image of one vessel, for the modes that have rows."""
+    """Return the image of one vessel, for all modes except the tangential one."""
     from lumencut.planar_reformation import cpr_of
 
     named = {name: chosen[name] for name in ("width", "pixel_spacing", "up", "smoothing", "roll")}
@@ -132,7 +132,7 @@ def _plane(
 
 
 def _write_volume(path: Path, voxels: Volume, vessel: Vessel, chosen: dict[str, Any]) -> None:
-    """Write the sections across a vessel, with the voxels of the volume unless the user names pixels."""
+    """Write the sections across a vessel as a volume, by default with the voxel size of the scan."""
     from lumencut.straightening import straightened_volume
 
     with busy(f"writing {path.name}"):

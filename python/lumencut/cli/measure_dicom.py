@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 def check_dicom(chosen: dict[str, Any]) -> None:
-    """Reject what cannot be written as DICOM before any file is read."""
+    """Reject options that DICOM output cannot use before any file is read."""
     if chosen["dicom"] is None:
         for name in ("like_study", "anonymous", "other_patient"):
             if chosen[name]:

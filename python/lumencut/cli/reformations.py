@@ -1,4 +1,4 @@
-"""Shared by the commands of reformations: choice of vessels, outputs, and ``--like``."""
+"""Shared by the commands of reformations: chosen vessels, outputs, and ``--like``."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
     from lumencut.vessel import Vessel
     from lumencut.vessel_tree import VesselTree
 
-#: Parameters of a recipe in radians, in degrees on the command line.
+#: Parameters that a recipe holds in radians and the command line in degrees.
 _ANGLES = ("angle", "overlap")
 
 output_option = click.option(
@@ -81,12 +81,12 @@ def file_options(command: options.Command) -> options.Command:
 
 
 def vessel_options(command: options.Command) -> options.Command:
-    """Add the options that select vessels, each shown separately."""
+    """Add the options that choose vessels, each shown in its own image."""
     return options.added((options.shown_vessel_options, path_option), command)
 
 
 def picture_options(command: options.Command) -> options.Command:
-    """Add the options for labels, reading files, and the display of values."""
+    """Add the options for labels, for reading files, and for how values are shown."""
     parts = (
         *(annotate_option, like_option, dicom_options),
         *(options.reading_options, look_options, verbose_option),
@@ -95,7 +95,7 @@ def picture_options(command: options.Command) -> options.Command:
 
 
 def like(chosen: dict[str, Any], command: str) -> tuple[dict[str, Any], Settings]:
-    """Return the options, completed by those of ``--like``, and the settings."""
+    """Return the options, with missing ones taken from ``--like``, and the settings."""
     path = chosen.pop("like")
     if path is None:
         return chosen, settings_from(chosen)
@@ -118,7 +118,7 @@ def read_vessels(
 ) -> tuple[Renderer, VesselTree, list[tuple[str, Vessel]]]:
     """Return a renderer of the files, the tree, and the chosen vessels with their titles.
 
-    With `has_series` a DICOM series is written as well.
+    If `has_series`, the command also writes a DICOM series.
     """
     files = scene_from(chosen)
     check_objects(chosen, [chosen["output"]], has_series=has_series)
@@ -139,7 +139,7 @@ def read_vessels(
 
 
 def check_single(vessels: list[tuple[str, Vessel]], path: Path) -> None:
-    """Reject a file of one vessel if there are several."""
+    """Reject an output that can hold only one vessel if several are chosen."""
     if len(vessels) > 1:
         mend = "choose one by --vessel or --path"
         raise click.UsageError(f"{path} holds one vessel; found {len(vessels)}; {mend}")
@@ -148,7 +148,7 @@ def check_single(vessels: list[tuple[str, Vessel]], path: Path) -> None:
 def write_each(
     chosen: dict[str, Any], vessels: list[tuple[str, Vessel]], make: Callable[[Vessel], Reformation]
 ) -> None:
-    """Make the image of each vessel and write it, several as a contact sheet; report what was made."""
+    """Make the image of each vessel and write it, several as a contact sheet; report the files."""
     made = [_made(title, vessel, make) for title, vessel in vessels]
     output, annotate = chosen["output"], chosen["annotate"]
     with busy(f"writing {output.name}"):
@@ -166,7 +166,7 @@ def write_beside(
     make: Callable[..., Reformation],
     shown: tuple[str, ...],
 ) -> None:
-    """Make the images `shown` of each vessel by `make`, and write them with one row per vessel."""
+    """Make the images `shown` of each vessel by calling `make`, and write a sheet with one row per vessel."""
     from lumencut.contact_sheet import contact_sheet
 
     pictures, titles, all_made = [], [], []
@@ -184,7 +184,7 @@ def write_beside(
 
 
 def _made(title: str, vessel: Vessel, make: Callable[[Vessel], Reformation]) -> Reformation:
-    """The image of one vessel, with a warning if it shows nothing."""
+    """Return the image of one vessel, and warn if it shows nothing."""
     import numpy as np
 
     with busy(f"vessel {title}"):
@@ -208,7 +208,7 @@ def _write(chosen: dict[str, Any], made: list[Reformation], titles: list[str], *
 
 
 def _save_sheet(sheet: Any, chosen: dict[str, Any], made: list[Reformation]) -> None:
-    """Write the pictures of several vessels, or several of one, on one sheet."""
+    """Write the pictures of several vessels, or several pictures of one vessel, on one sheet."""
     recipes = {one.recipe.name: one.recipe.axes for one in made}
     words = " ".join(f"{name}: {axes}" for name, axes in recipes.items())
     about = (f"CPR {', '.join(recipes)}", words, made[0].settings)

@@ -17,14 +17,14 @@ if TYPE_CHECKING:
 
 MODE = "tangential"
 
-#: Options that place a view, and those that place the rows of the other modes.
+#: Options of the tangential mode only, and options of the other modes only.
 _OWN, _OTHERS = ("view", "size"), ("width", "angle", "roll")
 
 _SIZE = (768, 768)
 
 
 def check_view(chosen: dict[str, Any]) -> None:
-    """Reject options without effect in the chosen mode."""
+    """Reject options that have no effect in the chosen mode."""
     is_own = chosen["mode"] == MODE
     idle = [name for name in (_OTHERS if is_own else _OWN) if name in typed(chosen)]
     if idle:
@@ -35,7 +35,7 @@ def check_view(chosen: dict[str, Any]) -> None:
 def tangential(
     renderer: Renderer, vessel: Vessel, chosen: dict[str, Any], settings: Settings
 ) -> TangentialReformation:
-    """Return the tangential CPR of a vessel in the view of --like, or fitted to it by the options."""
+    """Return the tangential CPR in the view of --like, or in that of the options, fitted to the vessel."""
     from lumencut.reformation_recipe import recipe_camera
     from lumencut.tangential import tangential_of
     from lumencut.vessel_tree import VesselTree

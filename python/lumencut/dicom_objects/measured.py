@@ -1,4 +1,4 @@
-"""The content of a structured report: places that a reader marked, without suggestions."""
+"""The content of a structured report: the places that a reader marked, never suggestions."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Place:
     Attributes
     ----------
     kind : (str, str, str)
-        Its code.
+        The code of what was marked.
     marked : float
         The place that the reader marked (mm along the vessel).
     arc_length : float
@@ -87,14 +87,14 @@ def measured(
     stenoses : sequence of Stenosis
         Its graded stenoses.
     vessel : Vessel, optional
-        The vessel as it is to be called, instead of the one that was measured.
+        The vessel under the name that the report shall use, instead of the measured vessel.
     marks : sequence of Mark, default ()
-        The marks of a reader, used without grading; suggestions are never used.
+        The marks of a reader that are not graded; suggestions are never used.
 
     Raises
     ------
     MeasuringError
-        For anything that is not a stenosis, or one of a place beyond the vessel.
+        For anything that is not a stenosis, or a stenosis at a place beyond the vessel.
     """
     for one in stenoses:
         if not isinstance(one, Stenosis):
@@ -116,7 +116,7 @@ def measured(
 
 
 def _marked_kinds(marks: Sequence[Mark]) -> dict[float, Coded]:
-    """The kind of each marked place; references without a place and noted diameters are omitted."""
+    """Yield the kind of each marked place; skip references without a place and noted diameters."""
     at = next((mark.arc_length for mark in marks if not (mark.is_reference or mark.is_noted)), None)
     if at is None:
         return {}

@@ -1,6 +1,6 @@
 """The zip archive of "Save for PACS": objects of the study of the scan, made from the request of the page.
 
-All of it stays in memory: no file is made.
+Everything stays in memory; no file is written.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ def pacs_zip(content: bytes, served: Volume | None) -> bytes:
 
 
 def _check_findings(request: Given) -> None:
-    """Reject findings that no report can be made of."""
+    """Reject findings from which no report can be made."""
     check_highdicom()
     check_matplotlib()
     if not request.object("stated").flag("spacing"):
@@ -83,7 +83,7 @@ def _check_findings(request: Given) -> None:
 
 @contextmanager
 def _mended() -> Iterator[None]:
-    """Word the remedy for an unusable study in the terms of the page."""
+    """Write the remedy for an unusable study in the words of the page."""
     try:
         yield
     except FormatError as error:
@@ -109,7 +109,7 @@ def _key_image(finding: Given, number: int, settings: Settings, study: Study) ->
 
 
 def _numbers(request: Given, study: Study) -> Iterator[_Member]:
-    """The structured report and the PDF of the findings, if any."""
+    """Return the structured report and the PDF of the findings, if there are any."""
     vessels = _vessels(request)
     if not vessels:
         return
@@ -142,12 +142,12 @@ def _vessels(request: Given) -> list[ToldVessel]:
 
 
 def _zipped(members: list[_Member]) -> bytes:
-    """The objects in an archive, one after the other."""
+    """Return an archive of the objects."""
     archive = io.BytesIO()
     with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as into:
         for name, write in members:
             content = io.BytesIO()
             write(content)
-            # File times would reveal the time of the request, and make archives differ.
+            # Without file times: they would reveal the time of the request and make equal archives differ.
             into.writestr(zipfile.ZipInfo(name), content.getvalue(), zipfile.ZIP_DEFLATED, 1)
     return archive.getvalue()

@@ -43,7 +43,7 @@ def read_json(content: bytes) -> Given:
 
 
 class Given:
-    """An object of JSON whose fields are asked for by name and kind.
+    """An object of JSON; each field is read by name and must have the expected kind.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ class Given:
     Raises
     ------
     FormatError
-        For another value than an object; so does each method for a field of another kind.
+        For a value that is not an object; the methods raise it for fields of another kind.
     """
 
     def __init__(self, value: Any, name: str) -> None:
@@ -80,7 +80,7 @@ class Given:
         return float(self._checked(name, "a number", is_number))
 
     def number_or_nan(self, name: str) -> float:
-        """Return a finite number, or NaN for null, as JSON has it."""
+        """Return a finite number, or NaN for null, which stands for NaN in JSON."""
         return math.nan if self._fields.get(name) is None else self.number(name)
 
     def items(self, name: str) -> list[Any]:
@@ -108,7 +108,7 @@ class Given:
         return [Given(one, f"{self._name}: {name}") for one in self.items(name)]
 
     def plain(self, name: str) -> dict[str, Any]:
-        """Return an object whose fields are checked elsewhere."""
+        """Return an object whose fields are checked by other code."""
         self.object(name)
         found: dict[str, Any] = self._fields[name]
         return found
@@ -182,6 +182,6 @@ def picture_of(content: bytes) -> npt.NDArray[np.uint8]:
 
 
 def _kind(value: Any) -> str:
-    """The kind of a value, without its content."""
+    """Return the kind of a value, without its content."""
     names = {dict: "an object", list: "a list", str: "a text", bool: "true or false", type(None): "nothing"}
     return names.get(type(value), "a number")

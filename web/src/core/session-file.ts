@@ -1,4 +1,4 @@
-/** Types of a session file, which the module validates. Lengths in mm. */
+/** Types of a session file, which the engine validates. Lengths are in mm. */
 import type { Pair, SettingValue, Vector } from './plain';
 
 export interface SavedScan {
@@ -6,7 +6,7 @@ export interface SavedScan {
   readonly world_from_index: readonly (readonly number[])[];
 }
 
-/** A vessel without its line; the module adds confidence and bridged parts. */
+/** A vessel without its centerline; the engine adds its confidence and its bridged parts. */
 export interface SavedVessel {
   readonly color: string;
   readonly hidden: boolean;
@@ -53,9 +53,9 @@ export interface SavedSession {
   readonly stoppers: readonly { readonly center: Vector; readonly radius_mm: number }[];
   readonly bridge: boolean;
   readonly rulers: readonly { readonly from: Vector; readonly to: Vector }[];
-  /** FWHM entered by the user; null if estimated. */
+  /** FWHM of the point spread function entered by the user; null if it is estimated. */
   readonly fwhm_mm: number | null;
   readonly view: SavedView | null;
-  /** Whether the user assumed voxels of 1 mm; absent means no. */
+  /** Whether the user assumed voxels of 1 mm for a scan of unknown voxel spacing. */
   readonly one_millimetre_assumed?: boolean;
 }

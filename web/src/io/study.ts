@@ -1,4 +1,4 @@
-/** Opens dropped, chosen or fetched files as one volume, its centerlines, or both. */
+/** Opens dropped, chosen or fetched files as a volume, as its centerlines, or both. */
 
 import { FILES } from '../core/generated/tables';
 import type { Judge } from '../core/judge';
@@ -14,7 +14,7 @@ import type { Steps } from './steps';
 import { load, type Sink } from './volume-file';
 import { formatFailure } from './words';
 
-/** Receives a study: the engine, or a test double. */
+/** Receives the volume and centerlines of a study; implemented by the engine and by test doubles. */
 export interface Study extends Sink {
   openCenterlines(bytes: Uint8Array, name: string): readonly string[];
   sideNotes?(text: string): readonly string[];
@@ -33,14 +33,14 @@ export interface Opened {
 }
 
 interface Volume {
-  /** The DICOM study; null otherwise. */
+  /** The DICOM study of the volume; null for other formats. */
   readonly study: ScanStudy | null;
   readonly name: string;
   readonly notes: readonly string[];
   readonly states: States;
 }
 
-/** DICOM always states both. */
+/** DICOM files always state voxel spacing and orientation. */
 const STATED: States = { spacing: true, orientation: true };
 
 interface Sorted {
@@ -51,7 +51,7 @@ interface Sorted {
   readonly others: readonly Known[];
 }
 
-/** Opens files: a volume replaces everything, centerlines are added. */
+/** Opens files. A volume replaces the open study; centerlines are added to it. */
 export async function openFiles(
   sources: readonly Source[],
   beside: Beside,
@@ -114,8 +114,8 @@ function requireOne({ volumes, dicom, archives, lines, others }: Sorted): void {
   const every = [...volumes.map((one) => one.source), ...archives, ...dicom.slice(0, 1)];
   const [first, second] = every;
   if (first && second) {
-    const found = `${every.length} volumes, ${fileName(first.path)} and ${fileName(second.path)}${every.length > 2 ? ' among them' : ''}`;
-    const mend = 'choose the scan alone; trace a mask with `lumencut trace`';
+    const found = `${every.length} volumes, ${every.length > 2 ? 'including ' : ''}${fileName(first.path)} and ${fileName(second.path)}`;
+    const mend = 'choose only the scan; trace a vessel mask with `lumencut trace`';
     throw formatFailure('files', found, 'one volume and its centerlines', mend);
   }
   if (lines.length > 1) {
@@ -177,7 +177,7 @@ async function openFile({ source, kind }: Known, { beside, study, steps }: Asked
 
 const sideNotes = (study: Study, text = ''): readonly string[] => (text && study.sideNotes?.(text)) || [];
 
-/** Common folder of the files; the name of a single file. */
+/** The folder that all files have in common; for a single file, its path. */
 function commonName(sources: readonly Source[]): string {
   const [first] = sources;
   if (!first || sources.length === 1) {

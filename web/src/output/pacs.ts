@@ -1,4 +1,4 @@
-/** DICOM objects for a PACS: the server creates them and returns a zip archive. Nothing is sent elsewhere. */
+/** Saves DICOM objects for a PACS. The server of the page makes a zip archive of them; nothing is sent elsewhere. */
 import { signal } from '@preact/signals';
 import { engine } from '../client/shared';
 import { DEFAULTS } from '../core/generated/tables';
@@ -30,10 +30,10 @@ export type PacsStudy = 'scan' | 'anonymous' | GivenFile;
 
 export interface ChosenFile {
   readonly file: GivenFile;
-  /** Name, ID, date, modality and body part with their labels. */
+  /** Labels and values of patient name, ID, date, modality and body part. */
   readonly facts: ReadonlyArray<readonly [string, string]>;
   readonly doubts: readonly string[];
-  /** Why the file is rejected; null if it is not. */
+  /** Why the file is rejected; null if it is accepted. */
   readonly refusal: string | null;
 }
 
@@ -47,14 +47,14 @@ export async function askAboutFile(file: GivenFile): Promise<void> {
   chosenFile.value = { ...(await response.json()), file };
 }
 
-/** Opens the question; throws if the server cannot create objects. */
+/** Asks for the study of the objects. Throws if the server cannot create DICOM objects. */
 export async function askForPacs(): Promise<void> {
   placeOf('objects', SUBJECT);
   isPacsAsked.value = true;
 }
 
 export async function savePacs(study: PacsStudy): Promise<void> {
-  showMessage('Making the DICOM objects …');
+  showMessage('Creating the DICOM objects …');
   const response = await made('objects', SUBJECT, await requestOf(study));
   const scan = study === 'anonymous' ? null : store.studyName.value;
   saveAs(await response.blob(), fileName({ scan, content: 'pacs', ending: 'zip' }), 'Nothing was sent');
@@ -82,7 +82,7 @@ async function requestOf(study: PacsStudy): Promise<object> {
   };
 }
 
-/** Identifies a scan without naming a person. */
+/** Text that identifies a scan without any data of the patient. */
 function fingerprint(): string {
   const volume = store.report.value?.volume;
   return JSON.stringify([volume?.size, volume?.world_from_index, store.histogram.value]);
@@ -118,7 +118,7 @@ async function viewPart(): Promise<object> {
   };
 }
 
-/** The displayed reformation, otherwise the picked vessel straightened; null if none is picked. */
+/** The displayed reformation, or else the straightened picked vessel; null if no vessel is picked. */
 async function panePart(): Promise<object | null> {
   const vessel = store.pickedVessel.value;
   const length = store.report.value?.vessels?.[vessel ?? -1]?.length ?? 0;
@@ -142,7 +142,7 @@ const withWords = (shown: HTMLCanvasElement, axes: string): object => ({
   axes,
 });
 
-/** States the pixel size, because viewers' rulers are not valid in such a picture. */
+/** A sentence that states the pixel size, since rulers of DICOM viewers are not valid in such a picture. */
 const pixelWords = (spacing: number): string =>
   store.states.value.spacing ? ` A pixel is ${spacing.toFixed(3)} mm.` : '';
 

@@ -6,7 +6,7 @@ use super::lanes::{FAN, larger, smaller, smallest};
 use super::thickness::of_thickness;
 use super::transfer::Colors;
 
-/// From this opacity on only brighter samples matter: all others change less than half a grey value.
+/// Behind this opacity, only samples brighter than all before change a pixel by half a grey value or more.
 pub const OPAQUE: f32 = 1.0 - 1.0 / 1024.0;
 
 /// Premultiplied colours and opacity of sixteen pixels, channel by channel, 0 to 1.
@@ -23,7 +23,7 @@ pub(crate) struct Samples<'a> {
 
 /// Light on sixteen samples; evaluated only if one of them is visible.
 pub(crate) trait Light {
-    /// The factor on each colour, and the term added to it.
+    /// The factor of the light on each colour, and the light added to it.
     fn shade(&self) -> [[f32; FAN]; 2];
 }
 
@@ -33,13 +33,13 @@ pub(crate) struct Palette {
     pub parameters: ContextParameters,
 }
 
-/// DVR, MIDA, MIP and blends (Bruckner and Gröller 2009, doi:10.1111/j.1467-8659.2009.01474.x).
+/// DVR, MIDA, MIP, and blends of them (Bruckner and Gröller 2009, doi:10.1111/j.1467-8659.2009.01474.x).
 #[derive(Clone, Debug)]
 pub(crate) struct Blend<'a> {
     palette: &'a Palette,
-    /// 1 + min(γ, 0): how much a brighter sample weakens what was accumulated before it.
+    /// 1 + min(γ, 0), with γ as in `ContextMode::Blend`: how much a brighter sample weakens those before it.
     push: f32,
-    /// max(γ, 0): the share of the maximum in the finished pixel.
+    /// max(γ, 0): the share of the maximum intensity projection in the finished pixel.
     mix: f32,
     color: [[f32; FAN]; 3],
     opacity: [f32; FAN],
@@ -51,7 +51,7 @@ impl<'a> Blend<'a> {
     /// Rays that are not `active` take no samples.
     #[inline(always)]
     pub(crate) fn new(palette: &'a Palette, active: &[bool; FAN]) -> Self {
-        // Transparent samples matter only until the first visible one, which is brighter than all of them.
+        // Transparent samples matter only until the first visible sample, which is brighter than all of them.
         let most = palette.parameters.most;
         Self {
             palette,
@@ -124,7 +124,7 @@ impl<'a> Blend<'a> {
     }
 }
 
-/// The largest sample, towards which a blend with γ > 0 moves.
+/// The largest sample of each ray so far; a blend with γ > 0 moves towards its colour.
 #[derive(Clone, Debug)]
 struct Brightest<'a> {
     colors: &'a Colors,

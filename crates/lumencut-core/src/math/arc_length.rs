@@ -20,14 +20,14 @@ pub struct LinePlace {
     pub share: f64,
 }
 
-/// The segment at arc length `at`: at a point the one after it, beyond the ends the first or last one.
+/// The segment at arc length `at`: exactly at a point the next one, beyond the ends the first or last one.
 pub(crate) fn segment_at(lengths: &[f64], at: f64) -> usize {
     let last = lengths.len() - 1;
     lengths.partition_point(|length| *length <= at).clamp(1, last.max(1)) - 1
 }
 
 impl LinePlace {
-    /// The position at arc length `at`; if that lies beyond the ends of the line, the nearer end.
+    /// The position at arc length `at`, clamped to the ends of the line.
     pub fn at(lengths: &[f64], at: f64) -> Self {
         let last = lengths.len() - 1;
         let segment = segment_at(lengths, at);
@@ -58,7 +58,7 @@ impl LinePlace {
     }
 }
 
-/// The point of a line at an arc length; if that lies beyond the ends of the line, the nearer end.
+/// The point of a line at an arc length, clamped to the ends of the line.
 pub fn point_at(points: &[DVec3], lengths: &[f64], at: f64) -> DVec3 {
     LinePlace::at(lengths, at).point(points)
 }

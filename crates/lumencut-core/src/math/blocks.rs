@@ -10,16 +10,16 @@ use crate::with_voxels;
 
 /// The side of the smallest block is 2 to this power (cells).
 pub const SIDE_BITS: u32 = 2;
-/// The side of a block (cells between neighbouring voxels).
+/// The side of a block, in cells; a cell lies between eight neighbouring voxels.
 pub const SIDE: usize = 1 << SIDE_BITS;
 
-/// If more blocks than this along an axis had to be read, a coarser level is read.
+/// The most blocks read along each axis; for more, a coarser level is read.
 const MAX_LOOKUPS: i32 = 3;
 
 /// A bound on the rounding of trilinear interpolation, relative to the range's largest absolute value.
 const ROUNDING: f32 = 1e-6;
 
-/// A number beyond every value; larger and infinite values of an `f64` volume count as this.
+/// A number above every voxel value; `f64` values are clamped to it.
 pub const HUGE: f32 = 3e38;
 
 /// An empty range, which every value widens.
@@ -56,9 +56,9 @@ impl Range {
     }
 }
 
-/// The ranges of all blocks of a volume. Block b holds the values of all samples whose lower corner is a
-/// voxel from 4·b to 4·b + 3 along each axis; NaN voxels are ignored. Each coarser level joins two blocks
-/// along each axis, up to one block that holds everything.
+/// The ranges of all blocks of a volume. A block bounds all values interpolated in its cells; the first
+/// voxels of the cells of block b are 4·b to 4·b + 3 along each axis. NaN voxels are ignored. Each coarser
+/// level joins two blocks along each axis, down to a single block.
 #[derive(Debug)]
 pub struct Blocks {
     levels: Vec<Level>,
@@ -94,7 +94,7 @@ impl Blocks {
         self.levels.iter().map(|level| (level.size, &level.ranges[..]))
     }
 
-    /// A range that holds the samples whose lower corners lie between two voxels, both included.
+    /// A range that holds all values interpolated in the cells whose first voxels are `first` to `last`.
     #[inline(always)]
     pub fn range(&self, first: [i32; 3], last: [i32; 3]) -> Range {
         let side = SIDE as i32;
@@ -156,7 +156,7 @@ fn row_of_blocks<T: Voxel>(voxels: &[T], volume: &Volume, [j, k]: [usize; 2], ra
     }
 }
 
-/// Widens the ranges of a line of voxels by another line; the comparisons ignore NaN.
+/// Widens ranges, one per voxel of a line, by the voxels of another line; the comparisons ignore NaN.
 #[inline(always)]
 fn widen<'a, T: Voxel>(low: &mut [T], high: &mut [T], line: impl Iterator<Item = &'a T>) {
     for ((low, high), voxel) in low.iter_mut().zip(high).zip(line) {

@@ -4,7 +4,7 @@
 
 const SIDE_BITS = 2u;
 const ALL = vec2f(-HUGE, HUGE);
-// Beyond every volume (voxels), and more than the number of samples of any ray.
+// Larger than any voxel index and than the number of samples of any ray.
 const FARTHEST: f32 = 1e6;
 
 @group(0) @binding(4) var<storage, read> blocks: array<vec2f>;
@@ -19,7 +19,7 @@ fn range_at(level: u32, voxel: vec3i) -> vec2f {
     return blocks[size.w + (block.z * size.y + block.y) * size.x + block.x];
 }
 
-// A lower bound on the number of further samples in the block, if each step moves by `way`.
+// A lower bound on the number of further samples in the block, if the ray moves by `way` per step.
 fn samples_left(level: u32, cell: Cell, way: vec3f) -> i32 {
     let bits = vec3u(side_bits(level));
     let block = vec3u(cell.voxel) >> bits;

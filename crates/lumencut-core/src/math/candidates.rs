@@ -1,18 +1,18 @@
-//! Which pieces of a bundle can win in which parts of a tile.
+//! Excludes pieces of a bundle that cannot win in a part of a tile.
 
 use super::cost::Rule;
 use super::lanes::{ABSENT, FAN, PARTS, larger, smaller};
 use super::pieces::Bundle;
 use super::tile::{Area, Tile};
 
-/// A set of pairs of a part and a slot: bit 16·part + slot.
+/// A set of pairs of a tile's part and a bundle's slot: the pair has bit 16·part + slot.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Candidates {
     pub stripes: u32,
     pub wedges: u32,
 }
 
-/// The pieces of `bundle` whose smallest key in a part is within the part's limit; no other can win there.
+/// The pieces of `bundle` whose smallest key is within the limit of some part; no others can win there.
 #[inline(always)]
 pub(crate) fn candidates<const LUMEN_FIRST: bool>(
     tile: &Tile,
@@ -33,7 +33,7 @@ pub(crate) fn candidates<const LUMEN_FIRST: bool>(
 pub(crate) struct Cover {
     pub in_stripe: bool,
     pub in_wedge: bool,
-    /// (q − p)·e for the middle q of the area; p and e as in pieces.rs.
+    /// (q − p)·e for the middle q of the area; p and e are a slot's point and edge, as in pieces.rs.
     start: f32,
     /// The largest difference from `start` within the area.
     along: f32,
@@ -82,7 +82,7 @@ fn smallest_keys<const LUMEN_FIRST: bool>(
         let stripe_key = rule.bound::<LUMEN_FIRST>(near, across, widest, bundle.tiers[s]);
         stripe[s] = if in_stripe { stripe_key } else { ABSENT };
 
-        // The point is at least as far as the line of its edge, and at least as far as the area of pixels.
+        // The point is at least as far away as the line along its edge, and as the area.
         let (gx, gy) = (larger(ux.abs() - hx, 0.0), larger(uy.abs() - hy, 0.0));
         let away = larger(across, (gx * gx + gy * gy).sqrt());
         let wedge_key = rule.bound::<LUMEN_FIRST>(bundle.wedge_z[s], away, r0, bundle.tiers[s]);

@@ -1,4 +1,4 @@
-// Which pieces of a slot can win in a tile.
+// Finds which of the two pieces of a slot can win in a tile.
 // import math/lanes
 // import math/tile
 // import math/cost

@@ -1,5 +1,5 @@
-//! Rays through the volume cell by cell: between two planes of voxel centres the volume along a ray is a
-//! cubic. So the largest value and the mean are exact, not sampled.
+//! Follows rays through the volume cell by cell. Within a cell the interpolated volume along a ray is a
+//! cubic, so the largest value and the mean are exact, not sampled.
 
 use super::cubic::{Corners, Cubic, Weights};
 use super::lanes::{FAN, Kernel, larger, smaller};
@@ -7,23 +7,23 @@ use super::ray::RaySpan;
 use super::sampling::{Grid, Offset};
 use crate::volume::{Real, Voxel};
 
-/// Where a ray meets a plane that it never reaches, in lengths of the stretch: beyond its end.
+/// Position at which a ray meets a plane that it never reaches: a share of the stretch far beyond its end.
 pub const NO_MEETING: f32 = 1e9;
 /// A ray that moves by less than this along an axis (voxels) counts as parallel to that axis's planes.
 pub const ALONG_PLANE: f32 = 1e-9;
 
 pub(crate) trait Fold<R> {
-    /// Whether cells whose largest corner is `top` can change the result; `length` is as in [`Fold::take`].
+    /// Whether cells with a largest corner value of `top` can change the result; `length` is as in `take`.
     fn asks(&self, top: &[f32; FAN], length: &[f32; FAN]) -> bool;
-    /// Takes cubics whose largest corner is `top`; `length` is theirs along each ray (mm), 0 after its end.
+    /// Takes a cubic per ray: `top` is its largest corner value, `length` (mm) is 0 after the ray's end.
     fn take(&mut self, cubic: &Cubic<R, FAN>, top: &[f32; FAN], length: &[f32; FAN]);
 }
 
 #[derive(Debug)]
 pub(crate) struct Largest<'a> {
-    /// The largest values so far; HUGE for rays that need no value.
+    /// The largest value of each ray so far; HUGE for rays that need no value.
     pub best: &'a mut [f32; FAN],
-    /// Values above this make no difference.
+    /// Larger values make no difference.
     pub limit: f32,
 }
 
@@ -57,7 +57,7 @@ impl Largest<'_> {
     fn widen<R: Real>(&mut self, value: &[R; FAN], top: &[f32; FAN], length: &[f32; FAN]) {
         for l in 0..FAN {
             let value = value[l].to_f32();
-            // No interpolated value exceeds all corners; this removes the rounding that would.
+            // Interpolation never exceeds the largest corner, but rounding can.
             let value = if value > top[l] { top[l] } else { value };
             let value = if value > self.limit { self.limit } else { value };
             let is_larger = (length[l] > 0.0) & (value > self.best[l]);
@@ -115,7 +115,7 @@ impl<T: Voxel, F: Fold<T::Real>> Kernel for CellWalk<'_, T, F> {
 }
 
 struct Walkers {
-    /// Each ray's cell, axis by axis; half a voxel beyond the outermost centres it is −1 or the last voxel.
+    /// Each ray's cell, axis by axis: −1 or the last in the half voxel outside the outermost centres.
     cell: [[i32; FAN]; 3],
     /// The next plane, and the share of the stretch per voxel across planes; 0 for a ray parallel to them.
     plane: [[f32; FAN]; 3],
@@ -135,7 +135,7 @@ impl Walkers {
         for a in 0..3 {
             for l in 0..FAN {
                 let (start, way) = (stretch.start[a][l], stretch.way[a][l]);
-                // Rounds down: no position lies more than half a voxel before the base.
+                // This rounds down, because `start` is at least −0.5.
                 let cell = (start + 1.0) as i32 - 1;
                 walkers.cell[a][l] = cell;
                 walkers.plane[a][l] = (cell + i32::from(way > 0.0)) as f32;
@@ -158,7 +158,7 @@ impl Walkers {
     }
 }
 
-/// Number of cells of each ray that are found before the voxels of the first are read.
+/// Each ray finds this number of cells before it reads the voxels of the first.
 const CELLS_AHEAD: usize = 2;
 
 #[derive(Clone, Copy)]

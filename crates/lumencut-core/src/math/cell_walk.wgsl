@@ -1,5 +1,4 @@
-// Rays through the volume cell by cell: between two planes of voxel centres the volume along a ray is a
-// cubic.
+// Follows rays through the volume cell by cell; within a cell the volume along a ray is a cubic.
 // import math/cubic
 // import math/ray
 

@@ -40,7 +40,7 @@ fn smooth(vessel: &Vessel, radii: f64, ends: &PositionMap<()>, layers: &[Layer])
         let stretch = FixedRun::new(&points[start..=end]);
         for i in start + 1..end {
             let sigma = radii * radius[i];
-            // With a smaller σ the point stays as it is.
+            // If σ is smaller, the point does not move.
             if sigma >= VESSEL_END {
                 smoothed[i] = stretch.mean(i - start, sigma, layers);
             }
@@ -50,14 +50,14 @@ fn smooth(vessel: &Vessel, radii: f64, ends: &PositionMap<()>, layers: &[Layer])
     Vessel::from_checked(smoothed, Some(radius.to_vec()))
 }
 
-/// A box of the Gaussian with σ = 1: it is `height` high from −`reach` to `reach`.
+/// One of the boxes that add up to the Gaussian with σ = 1: `height` high from −`reach` to `reach`.
 #[derive(Clone, Copy, Debug)]
 struct Layer {
     reach: f64,
     height: f64,
 }
 
-/// The Gaussian as a sum of boxes with integral 1 and variance 1.
+/// The Gaussian as a sum of boxes, with an integral of 1 and a variance of 1.
 fn gaussian() -> [Layer; LAYERS] {
     let step = CUT_OFF_SIGMAS / LAYERS as f64;
     // The density in the middle of each step; beyond the last one it is 0.
@@ -86,7 +86,7 @@ impl<'a> FixedRun<'a> {
     fn new(points: &'a [DVec3]) -> Self {
         let count = points.len();
         let (zeros, mut arc) = (vec![DVec3::ZERO; count], vec![0.0; count]);
-        // Arc length is summed from this end, so it is bit-identical to that of a vessel that begins here.
+        // Arc length is summed from the run's start, with the same bits as for a vessel that begins here.
         for i in 1..count {
             arc[i] = arc[i - 1] + points[i].distance(points[i - 1]);
         }
@@ -111,7 +111,7 @@ impl<'a> FixedRun<'a> {
         self.points[0].lerp(self.points[self.points.len() - 1], share)
     }
 
-    /// The mean around point `i`: the chord at `i`, since layers are symmetric, plus the mean of the offset.
+    /// The mean around point `i`: the chord's point, as layers are symmetric, plus the mean of the offset.
     fn mean(&self, i: usize, sigma: f64, layers: &[Layer]) -> DVec3 {
         if self.length() <= 0.0 {
             return self.points[i];
@@ -136,7 +136,7 @@ impl<'a> FixedRun<'a> {
         self.integral[j] + (self.offset[j] + self.half_slope[j] * along) * along
     }
 
-    /// The segment that holds arc length `s`, found from `near` by doubling steps.
+    /// The segment that contains arc length `s`, found from segment `near` by doubling steps.
     fn segment(&self, s: f64, near: usize) -> usize {
         let arc = &self.arc;
         let (mut low, mut high, mut step) = (near, near + 1, 1);

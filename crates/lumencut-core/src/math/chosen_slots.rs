@@ -1,7 +1,7 @@
-//! Which part of a chosen vessel takes precedence over all others.
+//! Which part of a chosen vessel takes precedence over all other vessels.
 //!
 //! The centerline of a branch begins in the middle of its parent, with the parent's radius. With precedence,
-//! that first disc would cover the parent as a round patch, so it is left out.
+//! its first disc would cover the parent, so slots inside the parent get none.
 
 use std::ops::Range;
 
@@ -9,9 +9,9 @@ use glam::DVec3;
 
 use super::projection::Level;
 
-/// The slots of each vessel that take precedence. A chosen vessel has them from where its centerline first
-/// leaves the lumens of the other vessels to where it last enters one; all of them if it never leaves. Others
-/// have none.
+/// For each vessel, the slots that take precedence. Those of a chosen vessel begin where its centerline first
+/// leaves the lumens of the other vessels, and end where it last enters one; if it never leaves, all take
+/// precedence. Other vessels have none.
 pub fn chosen_slots(level: &Level, vessels: &[usize]) -> Vec<Range<u32>> {
     let count = level.first_slot.len() - 1;
     let mut is_chosen = vec![false; count];
@@ -28,7 +28,8 @@ pub fn chosen_slots(level: &Level, vessels: &[usize]) -> Vec<Range<u32>> {
             return all.start..all.start;
         }
         let [first, last] = [all.clone().find(is_outside), all.clone().rev().find(is_outside)];
-        // If the last slot has precedence, so has its half-plane; other vessels end at the last slot outside.
+        // If the last slot takes precedence, so does its half-plane. Else precedence ends at the last slot
+        // outside.
         let end = last.map_or(all.end, |last| if last + 1 == all.end { all.end } else { last });
         let first = first.unwrap_or(all.start);
         if first < end { first..end } else { all }

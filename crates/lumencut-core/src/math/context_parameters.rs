@@ -13,7 +13,7 @@ const MAX_GAPS: usize = MAX_POINTS / 2 + 1;
 /// The largest number of block sizes; with this many, the largest block holds a volume of any size.
 pub(crate) const MAX_BLOCK_LEVELS: usize = 16;
 
-/// Intensity change over two voxels (share of the window) that is half shaded: above noise, below borders.
+/// Change of intensity over two voxels (share of the window) that is half shaded; noise changes less.
 const HALF_SHADED: f64 = 0.1;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,7 +26,7 @@ pub enum Gathering {
 }
 
 impl Gathering {
-    /// The gathering of a mode; a blend with γ = 1 is plain MIP.
+    /// How the rays of a mode gather; a blend with γ = 1 is plain MIP.
     pub fn of(mode: ContextMode) -> Self {
         match mode {
             mode if mode.is_sampled() => Self::Blend,
@@ -50,49 +50,49 @@ impl Gathering {
     }
 }
 
-/// A rise of the transfer function between two control points: what it adds to colour and opacity.
+/// The part of a transfer function between two control points: what it adds to colour and opacity.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct RiseParameters {
     pub color: [f32; 3],
     pub opacity: f32,
     pub start: f32,
-    /// Share of the rise per unit of intensity.
+    /// Share of the rise that one unit of intensity completes.
     pub per_intensity: f32,
     pub padding: [f32; 2],
 }
 
-/// The layout of a volume's blocks in one GPU buffer, the smallest first.
+/// The places of a volume's blocks in one GPU buffer; the smallest blocks come first.
 #[derive(Clone, Copy, Debug, Default, Pod, Zeroable)]
 #[repr(C)]
 pub struct BlockLayout {
     pub level_count: u32,
-    /// log₂ of the factor by which the smallest blocks in the buffer are larger than the volume's.
+    /// log₂ of the side of the smallest blocks in the buffer, in sides of the volume's smallest blocks.
     pub finest: u32,
     /// For each size: the number of blocks along each axis, and the index of the first block's range.
     pub levels: [[u32; 4]; MAX_BLOCK_LEVELS],
 }
 
-/// What the rays of a context need besides the view and the volume's grid.
+/// The parameters of a context's rays that depend neither on the view nor on the volume's grid.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct ContextParameters {
     pub window: Ramp,
     pub opacity: Ramp,
-    /// Minimum number of parts of a ray per mm.
+    /// Smallest number of parts of a ray per mm.
     pub per_step: f32,
-    /// How far behind a transparent cut surface rays start (mm).
+    /// Distance between a transparent cut surface and the start of rays behind it (mm).
     pub behind: f32,
-    /// 1 + min(γ, 0): how much a brighter sample weakens what was accumulated before it.
+    /// 1 + min(γ, 0), with γ as in `ContextMode::Blend`: how much a brighter sample weakens those before it.
     pub push: f32,
-    /// max(γ, 0): the share of the maximum in the finished pixel.
+    /// max(γ, 0): the share of the maximum intensity projection in the finished pixel.
     pub mix: f32,
-    /// The intensity up to which everything is transparent, mapped by the window to 0 to 1.
+    /// The intensity up to which everything is transparent, in the scale of the window (0 to 1).
     pub most: f32,
     pub black: f32,
     /// The square of the change of intensity that is half shaded.
     pub noise: f32,
-    /// The intensity from which on the colour is constant.
+    /// The intensity above which the colour no longer changes.
     pub last: f32,
     pub first_color: [f32; 3],
     pub first_opacity: f32,
@@ -101,7 +101,7 @@ pub struct ContextParameters {
     pub level_count: u32,
     pub finest: u32,
     pub rises: [RiseParameters; MAX_RISES],
-    /// The ranges of intensity without opacity: from the first to the second number.
+    /// The ranges of intensity without opacity, each from the first to the second number of an entry.
     pub gaps: [[f32; 4]; MAX_GAPS],
     pub levels: [[u32; 4]; MAX_BLOCK_LEVELS],
 }

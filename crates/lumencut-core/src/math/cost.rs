@@ -1,4 +1,4 @@
-//! The cost that decides which piece a pixel sees (paper Eq. 2), and its *lumen first* variant.
+//! The key that decides which piece a pixel shows: the paper's cost (Eq. 2), or the variant *lumen first*.
 
 use super::lanes::larger;
 use crate::settings::Settings;
@@ -10,8 +10,8 @@ pub(crate) struct Rule {
     pub weight: f32,
     /// Thickness of the wall around a lumen (mm).
     pub margin: f32,
-    /// Height of a tier (mm), more than the depth range of the tree. Under *lumen first*, walls come before
-    /// surroundings, lumens before walls, and both of a chosen vessel before all others.
+    /// Distance between tiers of keys (mm), larger than any difference of depths. Under *lumen first*, lumens
+    /// precede walls, walls precede surroundings, and lumen and wall of a chosen vessel precede all others.
     pub lift: f32,
     /// A bound on the rounding error of a projected distance (mm).
     pub distance_slack: f32,
@@ -20,7 +20,7 @@ pub(crate) struct Rule {
 }
 
 impl Rule {
-    /// `tree_reach` and `view_reach` bound the distances (mm) of tree and pixels from the view's origin.
+    /// The rule for a view; the reaches bound the distances (mm) of tree and pixels from the view's origin.
     pub(crate) fn new(settings: &Settings, tree_reach: f32, view_reach: f32) -> Self {
         let rounding = 4e-6 * larger(tree_reach, view_reach) + 1e-5;
         Self {
@@ -57,7 +57,7 @@ impl Rule {
     /// Whether a piece at distance `d`, of radius `r`, shows its lumen; under *lumen first* the key decides.
     #[inline(always)]
     pub(crate) fn is_lumen<const LUMEN_FIRST: bool>(&self, key: f32, d: f32, r: f32) -> bool {
-        // The keys of a tier lie within half a lift around it, and 0.5 mm away from its borders.
+        // Keys of a tier lie within half a lift of the tier, and at least 0.5 mm from its borders.
         let is_outside_lumen = (key >= -1.5 * self.lift) | (self.is_first(key) & (key >= -3.5 * self.lift));
         if LUMEN_FIRST { !is_outside_lumen } else { d - r <= 0.0 }
     }
@@ -68,13 +68,13 @@ impl Rule {
         key < -2.5 * self.lift
     }
 
-    /// A lower bound on keys at depth ≥ `z`, radius ≤ `r`, at most `tiers`, and distance ≥ `d`.
+    /// A lower bound on keys of pieces with depth ≥ `z`, radius ≤ `r`, distance ≥ `d`, and at most `tiers`.
     #[inline(always)]
     pub(crate) fn bound<const LUMEN_FIRST: bool>(&self, z: f32, d: f32, r: f32, tiers: f32) -> f32 {
         self.key::<LUMEN_FIRST>(z - self.depth_slack, d - self.distance_slack, r, tiers)
     }
 
-    /// No piece whose bound is above this can beat or tie with `key`.
+    /// A piece whose bound exceeds this can neither beat nor equal `key`.
     #[inline(always)]
     pub(crate) fn limit(&self, key: f32) -> f32 {
         key + self.depth_slack + key.abs() * 4e-7

@@ -1,4 +1,4 @@
-// The cost that decides which piece of the cut surface a pixel sees (paper Eq. 2); see cost.rs.
+// The cost that decides which piece of the cut surface a pixel shows (paper Eq. 2); see cost.rs.
 // import math/levels
 
 override LUMEN_FIRST: bool = false;

@@ -1,5 +1,5 @@
-//! The volume along a ray within one cell: a cubic in Bernstein form, whose coefficients average interpolated
-//! values.
+//! The volume along a ray within one cell, as a cubic in Bernstein form. Its coefficients average
+//! interpolated values.
 
 use super::lanes::larger;
 use crate::volume::Real;
@@ -9,7 +9,7 @@ pub const TINY: f32 = 1e-30;
 
 /// The values at the corners of the cells of N rays, i fastest, then j, then k.
 pub(crate) type Corners<R, const N: usize> = [[R; N]; 8];
-/// Positions of N rays in their cells: weights of the farther corners, axis by axis.
+/// Positions of N rays in their cells, as weights of the farther corners, axis by axis.
 pub(crate) type Weights<R, const N: usize> = [[R; N]; 3];
 
 /// The volume along N rays between entering and leaving a cell: Bernstein coefficients.
@@ -40,7 +40,7 @@ impl<R: Real, const N: usize> Cubic<R, N> {
         Self(form)
     }
 
-    /// An upper bound: the cubic lies within the hull of its coefficients.
+    /// An upper bound on the values: the cubic lies within the hull of its coefficients.
     #[inline(always)]
     pub(crate) fn bound(&self) -> [R; N] {
         let mut bound = self.0[0];
@@ -61,7 +61,7 @@ impl<R: Real, const N: usize> Cubic<R, N> {
         largest
     }
 
-    /// The value at the local maximum; if there is none, a value of at most the larger end.
+    /// The value at the local maximum; if there is none, a value that does not exceed the larger end.
     #[inline(always)]
     pub(crate) fn at_summit(&self) -> [R; N] {
         let mut value = self.0[0];
@@ -83,7 +83,7 @@ impl<R: Real, const N: usize> Cubic<R, N> {
     }
 }
 
-/// Where a Bernstein cubic has its local maximum, from 0 to 1; arbitrary if it has none.
+/// Position (0 to 1) of the local maximum of a Bernstein cubic; arbitrary if it has none.
 #[inline(always)]
 fn summit<R: Real>([b0, b1, b2, b3]: [R; 4]) -> R {
     let (zero, one, tiny) = (R::from_f32(0.0), R::from_f32(1.0), R::from_f32(TINY));
@@ -94,7 +94,7 @@ fn summit<R: Real>([b0, b1, b2, b3]: [R; 4]) -> R {
     let (d0, d1, d2) = (d0 * scale, d1 * scale, d2 * scale);
     let (curve, bend) = (d0 - d1 - d1 + d2, d1 - d0);
     let root = larger(d1 * d1 - d0 * d2, zero).square_root();
-    // The root at which the derivative falls, without a difference of almost equal numbers.
+    // The root at which the derivative turns negative, computed without subtracting almost equal numbers.
     let above = if bend > zero { zero - (bend + root) } else { d0 };
     let below = if bend > zero { curve } else { root - bend };
     let below = if size(below) > tiny { below } else { tiny };
@@ -169,7 +169,7 @@ mod tests {
     #[test]
     fn numbers_of_every_size_have_their_maximum() {
         for size in [1e-20f32, 1.0, 1e18, 1e30] {
-            // Along the diagonal: 0, up to the middle, and back.
+            // Values along the cell's diagonal: 0 at the start, up to the middle, and back to 0.
             let corners = [0.0, 1.0, 1.0, 0.0, 1.0, 0.0, 0.0, 0.0].map(|c: f32| c * size);
             let cubic = Cubic::<f32, 1>::between(&corners.map(|c| [c]), &[[0.0]; 3], &[[1.0]; 3]);
             // 3·u·(1 − u)² is largest at u = 1/3.

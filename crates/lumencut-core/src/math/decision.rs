@@ -1,4 +1,4 @@
-//! What the winning piece of a pixel decides: the vessel, the arc length, and the distance beyond the wall.
+//! What the winning piece decides for its pixel: vessel, arc length, and distance beyond the wall.
 
 use super::cost::Rule;
 use super::lanes::{PART_PIXELS, PIXELS};
@@ -6,7 +6,7 @@ use super::pieces::{Envelope, Stripe, Wedge};
 use super::projection::Projected;
 use super::tile::{Area, Tile};
 
-/// The decision for each pixel of a tile, made once, on the finest level.
+/// The decision for each pixel of a tile; it is made once, on the finest level.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(crate) struct Decision {
@@ -38,14 +38,14 @@ impl Decision {
             is_first: [false; PIXELS],
             slope: [zero; 2],
         };
-        // Gather first, then compute: only then does the second part vectorise.
+        // First gathers all inputs, then computes: the compiler vectorises only a loop without gathering.
         let (mut starts, mut ends) = (Gathered::new(), Gathered::new());
         for l in 0..PIXELS {
             let (slot, is_stripe) = (winners.piece[l] / 2, winners.piece[l] % 2);
             let here = &projected[slot as usize];
             decision.vessel[l] = here.vessel;
             starts.put(l, here);
-            // A wedge ends where it starts.
+            // A wedge has no segment, so its end is its start.
             ends.put(l, &projected[(slot + is_stripe) as usize]);
         }
         for l in 0..PIXELS {
@@ -72,7 +72,7 @@ impl Decision {
 }
 
 impl Decision {
-    /// The radius in the encoding of a sheet: negative outside the lumen.
+    /// The radius as a sheet stores it: negative outside the lumen.
     #[inline(always)]
     pub(crate) fn sheet_radius(&self, l: usize) -> f32 {
         if self.is_lumen[l] { self.radius[l] } else { -self.radius[l] }

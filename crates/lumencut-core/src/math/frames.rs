@@ -1,15 +1,15 @@
 //! A rotation-minimising frame along a path, by double reflection (Wang, Jüttler, Zheng, Liu: Computation of
 //! Rotation Minimizing Frames, ACM Transactions on Graphics 27(1), 2008, doi:10.1145/1330511.1330513).
 //!
-//! A segment has its own direction in its middle. About each inner point the direction turns along a great
-//! circle at a constant rate, over half of the shorter segment on both sides and at most `MAX_CORNER_MM`. So
-//! the tangent never jumps, and sections cross straight runs at right angles.
+//! In the middle of a segment the tangent is the segment's direction. Around each inner point it turns along
+//! a great circle at a constant rate: over half of the shorter neighbouring segment, at most `MAX_CORNER_MM`,
+//! to each side. So the tangent never jumps, and sections are perpendicular to straight runs.
 
 use glam::{DQuat, DVec3};
 
 use super::centerline_path::CenterlinePath;
 
-/// The longest rounding of a corner before and after a point (mm).
+/// The largest length before and after a point over which its corner is rounded (mm).
 pub(crate) const MAX_CORNER_MM: f64 = 5.0;
 
 /// Two directions count as equal if the sine of their angle is smaller.
@@ -27,14 +27,14 @@ pub struct MovingFrame {
 }
 
 impl MovingFrame {
-    /// The frame with this unit tangent; its `ahead` is the part of the given one across the tangent, if any.
+    /// The frame with this unit tangent; `ahead` is made perpendicular to it, or replaced if parallel to it.
     pub fn looking(tangent: DVec3, ahead: DVec3) -> Self {
         let perpendicular = ahead.reject_from_normalized(tangent).try_normalize();
         let ahead = perpendicular.unwrap_or_else(|| tangent.any_orthonormal_vector());
         Self { tangent, across: tangent.cross(ahead), ahead }
     }
 
-    /// The frame turned about its tangent by the angle of this sine and cosine; the viewer moves right.
+    /// The frame turned about its tangent by the angle of this sine and cosine: the viewer moves right.
     #[must_use]
     pub fn turned(self, [sine, cosine]: [f64; 2]) -> Self {
         let Self { tangent, across, ahead } = self;
@@ -97,7 +97,7 @@ impl Frames {
         &self.stations
     }
 
-    /// The last station at or before arc length `t`, or else the first.
+    /// The last station at or before arc length `t`; if there is none, the first station.
     pub fn station(&self, t: f64) -> &Station {
         &self.stations[self.stations.partition_point(|station| station.at <= t).max(1) - 1]
     }
@@ -108,7 +108,7 @@ impl Frames {
     }
 }
 
-/// The smallest rotation vector (radians) that brings the tangent to `to`; a reversal turns about the view.
+/// The smallest rotation vector (radians) that turns the tangent to `to`; a reversal turns about `ahead`.
 fn turn(frame: MovingFrame, to: DVec3) -> DVec3 {
     let axis = frame.tangent.cross(to);
     let angle = axis.length().atan2(frame.tangent.dot(to));
@@ -122,7 +122,7 @@ pub fn double_reflection(frame: MovingFrame, chord: DVec3, to: DVec3) -> MovingF
     MovingFrame::looking(to, ahead)
 }
 
-/// A vector reflected in the plane across `normal`, of any length; unchanged if that is zero.
+/// A vector mirrored in the plane perpendicular to `normal` (of any length); unchanged if `normal` is zero.
 fn reflected(vector: DVec3, normal: DVec3) -> DVec3 {
     let square = normal.length_squared();
     if square < SAME_DIRECTION * SAME_DIRECTION {

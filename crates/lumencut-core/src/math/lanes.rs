@@ -19,9 +19,9 @@ pub const PARTS: usize = PIXELS / PART_PIXELS;
 pub const UNSET: f32 = 1e30;
 /// The depth of a missing piece; it stays above [`UNSET`] after any addition.
 pub const ABSENT: f32 = 3e30;
-/// Coordinate of slots without a point (mm): beyond every scene, and its square is finite.
+/// Coordinate of slots without a point (mm): far outside every scene, but with a finite square.
 pub const FAR: f32 = 1e9;
-/// A key that no piece beats: the pixel is left out of the search.
+/// A key that no piece beats, for pixels that take no part in the search.
 pub const EXCLUDED: f32 = -1e30;
 
 /// The larger of two numbers, the second if the first is NaN: one instruction; `f32::max` needs three.
@@ -36,7 +36,7 @@ pub fn smaller(a: f32, b: f32) -> f32 {
     if a < b { a } else { b }
 }
 
-/// An integer that sorts like the number: the compiler vectorises reductions of integers only.
+/// An integer that sorts like the number, since the compiler vectorises only reductions of integers.
 #[inline(always)]
 fn ordered(number: f32) -> i32 {
     let bits = number.to_bits() as i32;
@@ -72,7 +72,7 @@ pub fn smallest(numbers: &[f32; FAN]) -> f32 {
 pub struct Bits([u32; FAN]);
 
 impl Bits {
-    /// Bit n for lane n. The compiler must not know these constants: it would split the vectors.
+    /// Bit n for lane n. The constants are hidden from the compiler, which would otherwise split the vectors.
     #[inline(always)]
     pub fn new() -> Self {
         let mut bits = [1; FAN];
@@ -176,7 +176,7 @@ pub fn dispatch<K: Kernel>(isa: Isa, kernel: K) -> K::Output {
     }
 }
 
-/// A separate function: inlining would optimise the kernel in each caller, a third of the compile time.
+/// A separate function: inlined, the kernel would be optimised in each caller, a third of the compile time.
 #[cfg_attr(target_arch = "x86_64", inline(never))]
 fn baseline<K: Kernel>(kernel: K) -> K::Output {
     kernel.run()

@@ -6,5 +6,5 @@ const ABSENT: f32 = 3e30;
 const FAR: f32 = 1e9;
 const EXCLUDED: f32 = -1e30;
 const NO_SLOT = 0xffffffffu;
-// Beyond every value of a volume; marks a missing value.
+// Larger than every value of a volume; marks a missing value.
 const HUGE: f32 = 3e38;

@@ -1,4 +1,4 @@
-// The bits for leaps between neighbouring pixels; see leaps.rs.
+// Bits that mark depth jumps (leaps) between neighbouring pixels; see leaps.rs.
 
 const TO_THE_RIGHT = 1u;
 const DOWNWARDS = 2u;

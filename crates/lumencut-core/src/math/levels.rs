@@ -7,7 +7,7 @@ use super::projection::Radii;
 use crate::camera::Camera;
 use crate::settings::{MAX_LEVELS, Settings};
 
-/// The largest number of heights of boxes in the shaders: 2³² slots have eight.
+/// The largest number of heights of boxes in the shaders; 2³² slots would need eight.
 pub(crate) const MAX_HEIGHTS: usize = 8;
 
 /// The position of a level in the GPU buffers; the CPU has separate buffers per level.
@@ -21,27 +21,27 @@ pub struct LevelLayout {
     pub heights: [u32; MAX_HEIGHTS],
 }
 
-/// What projection, distance and depth need to know of a view.
+/// The input of projection, distance and depth that depends on the view.
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct CutSurfaceParameters {
-    /// λ, the cost of a millimetre beyond the wall; this and the next four fields are those of `Rule`.
+    /// λ, the cost of one millimetre beyond the wall; this and the next four fields are those of `Rule`.
     pub weight: f32,
     pub margin: f32,
     pub lift: f32,
     pub distance_slack: f32,
     pub depth_slack: f32,
-    /// N / σ (levels² per mm); times the distance that selects the levels, it gives f².
+    /// N / σ: the square of the wanted level per mm of the distance that selects levels.
     pub selection: f32,
     pub coarsest: u32,
     /// Factor on radii: 1 if radii count, else 0.
     pub radius_scale: f32,
-    /// Replaces a radius of 0 (mm).
+    /// The radius of points without a known one (mm).
     pub unknown_radius: f32,
     pub vessel_count: u32,
     pub padding: [u32; 2],
-    /// View coordinates (mm) of the origin of the points on the GPU: the part that products can be added to
-    /// without rounding.
+    /// View coordinates (mm) of the origin of the points on the GPU: a part of few digits, to which products
+    /// can be added without rounding.
     pub origin_coarse: [f32; 4],
     pub origin_fine: [f32; 4],
     pub levels: [LevelLayout; MAX_LEVELS + 1],

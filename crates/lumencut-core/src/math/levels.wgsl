@@ -12,18 +12,18 @@ struct LevelLayout {
     heights: array<vec4u, 2>,
 }
 
-// The points of one vessel at one level. Vessels follow one another, and so do levels.
+// The range of points of one vessel at one level; buffers hold vessel after vessel, and level after level.
 struct Span {
     first: u32,
     end: u32,
-    // The index of the first point of its level.
+    // The index of the first point of the vessel's level.
     level: u32,
-    // The points whose lumen and wall take precedence: the first, and the one after the last.
+    // The points whose lumen and wall take precedence: index of the first, and of the one after the last.
     first_chosen: u32,
     end_chosen: u32,
 }
 
-// A point in the projection (mm). Written once per view, so pieces that share it read identical numbers.
+// A point in the projection (mm). Each view writes it once, so pieces that share it read identical numbers.
 struct Projected {
     point: vec3f,
     radius: f32,

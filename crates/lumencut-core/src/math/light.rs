@@ -6,13 +6,13 @@ use super::ray_lines::IndexFromView;
 use super::sampler::Sampler;
 use super::sampling::{Around, Places};
 
-/// The share of its colour that a surface keeps when seen edge on.
+/// The share of its colour that a surface keeps if it is seen edge on.
 pub const AMBIENT: f32 = 0.4;
-/// The additional share of a surface that faces the viewer.
+/// The share of its colour that a surface gains when it faces the viewer.
 pub const DIFFUSE: f32 = 0.6;
 /// White reflection of a surface that faces the viewer; it falls off with the sixteenth power of the cosine.
 pub const SPECULAR: f32 = 0.2;
-/// Changes are clamped to this so that they can be squared.
+/// Changes of intensity are clamped to this, so that their squares stay finite.
 pub const STEEPEST: f32 = 1e12;
 pub const UNSHADED: [f32; 2] = [1.0, 0.0];
 
@@ -44,7 +44,7 @@ impl Light for Headlight<'_> {
         let Some(shading) = self.shading else {
             return [lit, shine];
         };
-        // The base moves one voxel towards the first voxels, if possible, as room for the neighbours there.
+        // The base moves one voxel towards index 0, if possible, so that neighbours keep positive offsets.
         let base = self.base.map(|b| (b - 1).max(0));
         let shift = [0, 1, 2].map(|a| (self.base[a] - base[a]) as f32);
         let value = self.sampler.around(base, &Around::new(self.places, shift));
@@ -55,7 +55,7 @@ impl Light for Headlight<'_> {
             let along = |axis: [f32; 3]| change[0] * axis[0] + change[1] * axis[1] + change[2] * axis[2];
             let (gx, gy, gz) = (along(x), along(y), along(z));
             let square = gx * gx + gy * gy + gz * gz;
-            // Without change, or with a neighbour of no value, there is no surface to shade.
+            // If intensity does not change, or a neighbour has no value, there is no surface to shade.
             let cosine = if square > 0.0 { gz.abs() / square.sqrt() } else { 0.0 };
             let contrast = change[0] * change[0] + change[1] * change[1] + change[2] * change[2];
             let surface = if square > 0.0 { contrast / (contrast + shading.noise) } else { 0.0 };

@@ -1,4 +1,4 @@
-//! The distance of pixels to segments, and which segments can matter to a tile.
+//! The distance of pixels to segments, and the choice of segments that can matter to a tile.
 
 use super::lanes::{FAN, FAR, PIXELS, larger, smaller, smallest};
 use super::pieces::Bundle;
@@ -17,10 +17,10 @@ pub(crate) fn lower_distance(tile: &Tile, squared: &mut [f32; PIXELS], bundle: &
     }
 }
 
-/// Of the points on the segments met so far, the one nearest to the middle of a tile.
+/// The point nearest to the middle of a tile, among all points on the segments met so far.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct NearestPoint {
-    /// Its distance from the middle, plus a bound on its rounding (mm).
+    /// The point's distance from the middle, plus a bound on its rounding (mm).
     pub distance: f32,
     x: f32,
     y: f32,
@@ -40,14 +40,14 @@ impl NearestPoint {
         Self { distance, ..*self }
     }
 
-    /// Takes the segments of a bundle into account; returns whether one of them is nearer.
+    /// Compares the segments of a bundle; returns whether one of them is nearer than the point so far.
     #[inline(always)]
     pub(crate) fn approach(&mut self, tile: &Tile, bundle: &Bundle) -> bool {
         let [cx, cy] = tile.area.center;
         let squared = squared_distances_to_segments(bundle, cx, cy);
         let least = smallest(&squared);
         let s = tile.bits.within(&squared, least).trailing_zeros() as usize % FAN;
-        // From the segment, since counting from a far tile would round the point off the segment.
+        // Computed from the segment: an offset from a distant tile would round the foot off the segment.
         let t = foot(bundle, s, cx - bundle.x[s], cy - bundle.y[s]);
         let (x, y) = (bundle.x[s] + t * bundle.edge_x[s], bundle.y[s] + t * bundle.edge_y[s]);
         let distance = least.sqrt() * 1.000_01 + slack(tile, x, y);
@@ -107,7 +107,7 @@ fn to_segment(bundle: &Bundle, s: usize, x: f32, y: f32) -> (f32, f32) {
     (ux - t * bundle.edge_x[s], uy - t * bundle.edge_y[s])
 }
 
-/// Where along the segment in slot `s`, from 0 to 1, it is nearest to the offset (ux, uy) from its start.
+/// The position (0 to 1) on the segment of slot `s` that is nearest to the point at (ux, uy) from its start.
 #[inline(always)]
 fn foot(bundle: &Bundle, s: usize, ux: f32, uy: f32) -> f32 {
     let per_square = bundle.inverse_length[s] * bundle.inverse_length[s];

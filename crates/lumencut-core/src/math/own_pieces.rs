@@ -10,7 +10,7 @@ use super::projection::{Level, Projected};
 /// Number of slots on each side of the starting slot that a group of pixels searches together.
 const GROUP_SLOTS: usize = 8;
 
-/// For each pixel of a part: the piece of its vessel at a level that is so far nearest in arc length.
+/// For each pixel of a part: of the pieces of its vessel at a level, the one nearest in arc length so far.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(64))]
 pub(crate) struct NearestPieces {
@@ -27,7 +27,7 @@ pub(crate) struct NearestPieces {
 }
 
 impl NearestPieces {
-    /// Pixels without weight at this level search nothing.
+    /// Pixels that give this level no weight search nothing.
     #[inline(always)]
     pub(crate) fn new(weight: &[f32; PART_PIXELS]) -> Self {
         let zero = [0.0; PART_PIXELS];
@@ -55,7 +55,7 @@ impl NearestPieces {
         }
     }
 
-    /// Between these arc lengths (mm), widened for rounding, a piece can still be nearer to a member.
+    /// The arc lengths (mm, widened for rounding) between which a piece can still be nearer to some member.
     #[inline(always)]
     fn reach(&self, part: &Part, is_member: &[bool; PART_PIXELS]) -> [f32; 2] {
         let (mut low, mut high) = ([EXCLUDED; PART_PIXELS], [EXCLUDED; PART_PIXELS]);
@@ -111,7 +111,7 @@ impl OwnPieces<'_> {
                 is_member[l] = is_open[l] & (vessel == group.vessel) & (s >= group.low) & (s <= group.high);
                 is_open[l] &= !is_member[l];
             }
-            // The seed is a member even if rounding moves it beyond the ends of the group.
+            // The pixel that started the group belongs to it, even if rounding moves it beyond the ends.
             is_member[seed] = true;
             is_open[seed] = false;
             self.search::<SHEET>(part, &group, &is_member, nearest);
@@ -141,7 +141,7 @@ impl OwnPieces<'_> {
     ) {
         let arc_length = &self.level.arc_length;
         let mut reach = [-UNSET, UNSET];
-        // Not yet offered are the slots before `left`, and those from `right` on.
+        // The slots before `left` and those from `right` on have not been offered yet.
         let (mut left, mut right) = (group.middle, group.middle);
         loop {
             let is_left = left > group.first && arc_length[left] >= reach[0];
@@ -180,7 +180,7 @@ impl OwnPieces<'_> {
         stripe | wedge
     }
 
-    /// Offers every piece of every slot: the reference.
+    /// Offers every piece of every slot, as a reference for tests.
     #[inline(always)]
     pub(crate) fn offer_all<const SHEET: bool>(&self, part: &Part, nearest: &mut NearestPieces) {
         for (slot, here) in self.projected.iter().enumerate() {

@@ -12,7 +12,7 @@ struct Decision {
     vessel: i32,
     arc_length: f32,
     beyond_wall: f32,
-    // Negative outside the lumen.
+    // The lumen radius as a sheet stores it: negative outside the lumen.
     sheet_radius: f32,
     slope: vec2f,
     is_first: bool,
@@ -89,7 +89,7 @@ fn with_pieces_of(i: u32, q: vec2f, s: f32, so_far: NearestPiece) -> NearestPiec
             nearest = nearer_of(nearest, offered);
         }
     }
-    // Computed as in `foot`, so that both neighbours of a border get the same number.
+    // Computed as in `foot`, so that the pieces on both sides of a border get the same number.
     let u = q - here.point.xy;
     let beyond_before = u.x * here.before.x + u.y * here.before.y;
     let after_start = u.x * here.edge.x + u.y * here.edge.y;

@@ -2,11 +2,10 @@
 //! tile.
 //!
 //! Every piece belongs to a *slot*, one per point of a level: the stripe from this point to the next, and the
-//! wedge at the point. Wedge, half-plane and full plane are one form: with edges f before and e after the
-//! point p, a pixel q is covered if (q − p)·f ≥ 0 and (q − p)·e ≤ 0; a missing edge is zero. A stripe uses
-//! the same two numbers at its ends as its neighbours, so no pixel falls between them by rounding: (q −
-//! p₀)·e₀ ≤ 0 is the first half-plane, else stripe 0 takes the pixel unless (q − p₁)·e₀ > 0, else the wedge
-//! at p₁ does unless (q − p₁)·e₁ > 0, and so on.
+//! Every piece belongs to a *slot*. Each point of a level has one: the stripe from this point to the next,
+//! and the wedge at the point. Half-planes and full planes are wedges with missing edges. With edges f before
+//! and e after the point p, a wedge covers the pixel q if (q − p)·f ≥ 0 and (q − p)·e ≤ 0; a missing edge is
+//! zero. Neighbouring pieces compare the same numbers, so no pixel falls between them by rounding.
 
 use super::cost::Rule;
 use super::lanes::{ABSENT, EXCLUDED, FAN, FAR, PART_PIXELS, PIXELS, UNSET, smaller};
@@ -166,7 +165,7 @@ pub struct Stripe {
 #[derive(Clone, Copy, Debug)]
 pub struct Foot {
     pub covered: bool,
-    /// Share of the stripe before the pixel's foot, 0 to 1 if the stripe covers the pixel.
+    /// Share of the stripe before the point nearest to the pixel; 0 to 1 if the stripe covers the pixel.
     pub t: f32,
     pub distance: f32,
 }
@@ -186,7 +185,7 @@ impl Stripe {
         let beyond_end = (x - self.end[0]) * ex + (y - self.end[1]) * ey;
         Foot {
             covered: (after_start >= 0.0) & (beyond_end <= 0.0),
-            // Rounding must not move t beyond the end: no bounds of depth and radius hold there.
+            // Rounding must not move t beyond the end, where no bounds of depth and radius hold.
             t: smaller(after_start * self.per_square, 1.0),
             distance: (ux * self.unit[1] - uy * self.unit[0]).abs(),
         }

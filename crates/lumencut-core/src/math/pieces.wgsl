@@ -15,7 +15,7 @@ struct Slot {
     wedge_z: f32,
     radius: f32,
     radius_change: f32,
-    // NO_SLOT if the bundle is not full.
+    // NO_SLOT in an unused entry of a bundle.
     slot: u32,
     tiers: f32,
 }

@@ -1,4 +1,4 @@
-//! A map whose values are found from any position near the stored one, such as vessel ends.
+//! A map with positions as keys, such as vessel ends; a value is found from any position near its key.
 
 use std::collections::HashMap;
 
@@ -16,7 +16,7 @@ impl<T: Clone> PositionMap<T> {
         Self { cells: HashMap::new(), within }
     }
 
-    /// Cells are ten times wider than `within`, so most positions touch only one of them.
+    /// The cell of a position; it is ten times wider than `within`, so most positions touch one cell only.
     fn cell(&self, place: DVec3) -> [i64; 3] {
         (place / (10.0 * self.within)).floor().as_i64vec3().to_array()
     }

@@ -15,7 +15,7 @@ use crate::vessel_tree::VesselTree;
 /// voxel, well above the rounding of `f32`.
 pub const COLLINEAR_LENGTH: f32 = 1e-3;
 
-/// Number of tiers by which lumen and wall of a chosen vessel come before those of others: both before both.
+/// Number of tiers by which lumen and wall of a chosen vessel both precede lumen and wall of others.
 const TIERS_OF_FIRST: f32 = 2.0;
 
 /// One level of detail, made once per tree: its distinct points as slots, and their order in space.
@@ -28,7 +28,7 @@ pub struct Level {
     pub radii: Vec<f32>,
     /// Arc length of each slot (mm); never falls along a vessel.
     pub arc_length: Vec<f32>,
-    /// The slot in each entry of the bundles.
+    /// The slot in each entry of each bundle.
     pub order: Vec<u32>,
     pub(crate) bundle_of_slot: Vec<u32>,
     pub vessel_of_slot: Vec<i32>,
@@ -74,7 +74,7 @@ impl Level {
 pub struct Projected {
     pub point: [f32; 3],
     pub radius: f32,
-    /// e; zero if missing or collinear.
+    /// The edge e to the next point (mm); zero if missing or collinear with the view.
     pub edge: [f32; 2],
     pub before: [f32; 2],
     /// 1 / |e|; zero if e is zero.
@@ -101,7 +101,7 @@ impl Projected {
         Wedge { point: [self.point[0], self.point[1]], before: self.before, edge: self.edge }
     }
 
-    /// How the depth of the stripe to `next` changes along view x and y (mm per mm); 0 for the point itself.
+    /// How the depth of the stripe to `next` changes along view x and y (mm per mm); 0 if `next` is `self`.
     #[inline(always)]
     pub fn slope(&self, next: &Self) -> [f32; 2] {
         let per_mm = self.inverse_length * self.inverse_length * (next.point[2] - self.point[2]);
@@ -113,7 +113,7 @@ impl Projected {
 pub struct Radii {
     /// Factor on radii: 1 if radii count, else 0.
     pub scale: f32,
-    /// Replaces a radius of 0 (mm).
+    /// The radius of points without a known one (mm).
     pub unknown: f32,
 }
 
@@ -148,7 +148,7 @@ impl ProjectedLevel {
         Self { projected, hierarchy: Hierarchy::new(level.bundle_count()) }
     }
 
-    /// Puts lumen and wall of these slots, a range per vessel, two tiers before all others in later views.
+    /// Gives lumen and wall of these slots (a range per vessel) precedence over all others in later views.
     pub fn put_first(&mut self, level: &Level, chosen: &[Range<u32>]) {
         for (place, slot) in level.order.iter().enumerate().filter(|(_, slot)| **slot != NO_SLOT) {
             let is_first = chosen[level.vessel_of_slot[*slot as usize] as usize].contains(slot);
@@ -175,7 +175,7 @@ impl ProjectedLevel {
         let (bundle, s) = (&mut self.hierarchy.bundles[place / FAN], place % FAN);
         let here = self.projected[slot];
         let stripe = here.has_stripe();
-        // The stripe of a collinear segment has no extent: its other end has its own slot.
+        // A collinear segment has no stripe, so its slot's second point is the first one.
         let end = self.projected[slot + usize::from(stripe)];
         bundle.slot[s] = slot as u32;
         (bundle.x[s], bundle.y[s]) = (here.point[0], here.point[1]);
@@ -217,14 +217,15 @@ fn stand(vessel: &mut [Projected]) {
         return;
     };
     let last_stripe = vessel.iter().rposition(Projected::has_stripe).unwrap_or(first_stripe);
-    // Without an edge before it, the first point has a half-plane, or a plane before a run.
+    // The first point has no edge before it: it has a half-plane, or a full plane if a run begins there.
     vessel[0].stands = true;
     for i in first_stripe + 1..=last_stripe {
-        // After a stripe: a wedge, or a half-plane if a collinear run begins. Elsewhere in a run: nothing.
+        // After a stripe there is a wedge, or a half-plane if a collinear run begins; other points have
+        // nothing.
         vessel[i].stands = vessel[i - 1].has_stripe();
         vessel[i].before = vessel[i - 1].edge;
     }
-    // The last point: a half-plane, or a plane if a run ends the vessel.
+    // The last point has a half-plane, or a full plane if a run ends the vessel.
     vessel[last].stands = true;
     vessel[last].before = if last_stripe + 1 == last { vessel[last_stripe].edge } else { [0.0; 2] };
 }

@@ -5,13 +5,13 @@
 // import math/pieces
 // import math/hierarchy
 
-// A point relative to the middle of the tree (mm): a part with so few digits that its products with coarse
-// axes are exact, and the rest.
+// A point relative to the middle of the tree (mm). It is split into a part with so few digits that its
+// products with the axes' coarse parts are exact, and the rest.
 struct Point {
     coarse: vec3f,
     radius: f32,
     fine: vec3f,
-    // Its index among the slots of all bundles.
+    // The entry of this point's slot among the entries of all bundles.
     place: u32,
 }
 
@@ -113,7 +113,7 @@ fn stand(span: Span, i: u32) -> vec3f {
     let last = atomicLoad(&last_stripe);
     let end = span.end - 1u;
     if first == NOWHERE {
-        // A vessel that projects to a point: one plane at its smallest depth.
+        // The vessel projects to a point, so it has one plane at its smallest depth.
         return vec3f(0.0, 0.0, select(0.0, 1.0, i == atomicLoad(&nearest_point)));
     }
     if i == end {
@@ -208,7 +208,7 @@ fn enclose_boxes(level: u32, height: u32, n: u32) {
     drawn[first_box(level, height) + n] = box;
 }
 
-// One workgroup for each level, which computes the boxes height by height.
+// One workgroup per level computes the boxes, height by height.
 @compute @workgroup_size(LEVEL_THREADS)
 fn enclose(
     @builtin(workgroup_id) group: vec3u,

@@ -9,17 +9,17 @@ use crate::camera::Camera;
 use crate::volume::Volume;
 
 pub(crate) const PACKET: [usize; 2] = [4, 4];
-/// Parts of a ray that are sampled or skipped together.
+/// Number of parts of a ray that are sampled or skipped together.
 pub const STEPS: usize = 8;
 
 /// The largest number of samples along a ray and across a slab.
 pub const MAX_SAMPLES: f64 = 65_536.0;
 
-/// A chord may exceed n steps by this share of a step and still has n parts, so that rounding never adds a
-/// part to n voxels.
+/// A chord that exceeds n steps by less than this share of a step still has n parts, so that rounding adds
+/// none.
 pub const SPARE: f64 = 1e-3;
 
-/// What all rays of a view share.
+/// The data that all rays of a view share.
 #[derive(Clone, Copy, Debug)]
 pub struct Rays {
     pub grid: Grid,
@@ -39,7 +39,7 @@ impl Rays {
 pub(crate) struct Packet {
     lines: Lines,
     part: [f64; FAN],
-    /// The number of parts of each ray; 0 if it misses the volume or is not needed.
+    /// The number of parts of each ray; 0 if the ray misses the volume or is not needed.
     pub count: [i32; FAN],
     pub thickness: [f32; FAN],
     pub longest: i32,
@@ -62,7 +62,7 @@ impl Packet {
         let (mut count, mut part) = ([0; FAN], [0.0; FAN]);
         for l in 0..FAN {
             let chord = lines.far[l] - lines.near[l];
-            // Rounds up without the system's function.
+            // Rounds up without calling `ceil`.
             let steps = chord / step - SPARE;
             let parts = steps as i32 + i32::from(f64::from(steps as i32) < steps);
             count[l] = if chord > 0.0 { parts.max(1) } else { 0 };
@@ -79,7 +79,7 @@ impl Packet {
         packet
     }
 
-    /// Replaces rays that see nothing by a copy of one that sees something: they must not widen bounds.
+    /// Replaces rays that need no samples by a copy of one that does, so that they do not widen bounds.
     #[inline(always)]
     fn fill_idle_lanes(&mut self) {
         let mut busy = 0;
@@ -112,7 +112,8 @@ impl Packet {
         }
     }
 
-    /// The segment from part `first` on, with samples in the middle of its parts, and bounds for all rays.
+    /// The segment from part `first` on, with samples in the middle of its parts, and with bounds of all
+    /// rays.
     #[inline(always)]
     pub(crate) fn segment(&self, grid: &Grid, blocks: Option<&Blocks>, first: i32) -> Segment {
         let [first_part, end_part] = [f64::from(first) + 0.5, f64::from(first + STEPS as i32) - 0.5];
@@ -205,10 +206,10 @@ impl Packet {
 
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RaySpan {
-    /// Where the rays begin (voxels).
+    /// The positions at which the rays begin (voxels).
     pub start: Places,
     pub way: Places,
-    /// Where the rays end, as a share of the segment; at most 0 if a ray has ended before.
+    /// The end of each ray, as a share of the segment; at most 0 if the ray has ended before.
     pub end: [f32; FAN],
     pub length: [f32; FAN],
 }

@@ -1,20 +1,20 @@
-// Rays through the volume: the chord of each is cut into equal parts, sampled in their middle.
+// Rays through the volume: the part of a ray in the volume is cut into equal parts, sampled in their middle.
 // import math/sampling
 // import math/view
 
-// The start of a ray that crosses the entire volume, and of one that is not needed (depth in mm).
+// The start of a ray that crosses the entire volume, and that of a ray that is not needed (depth in mm).
 const WHOLE: f32 = -1e9;
 const NONE: f32 = 1e9;
 const NEVER: f32 = 2e9;
 const SPARE: f32 = 1e-3;
 
-// The index at which a ray meets the reference depth: an exact part, and the rest.
+// The index at which a ray meets the reference depth, split into an exact part and the rest.
 struct Foot {
     index: vec3f,
     rest: vec3f,
 }
 
-// A depth relative to the grid's reference (mm): a multiple of the grid's unit, and the rest.
+// A depth relative to the grid's reference (mm), split into a multiple of the grid's unit and the rest.
 struct Depth {
     coarse: f32,
     rest: f32,
@@ -81,7 +81,7 @@ fn coarse_meetings(foot: Foot, plane: vec3f) -> vec3f {
 }
 
 fn rests(foot: Foot, plane: vec3f, at: vec3f) -> vec3f {
-    // The distance that remains: its large terms cancel exactly.
+    // The remaining distance to the plane; its large terms cancel exactly.
     let left = plane - foot.index - at * grid.z.xyz - (foot.rest + at * grid.z_rest.xyz);
     return left * grid.per_voxel.xyz;
 }

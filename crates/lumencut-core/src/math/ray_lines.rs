@@ -11,7 +11,7 @@ use crate::volume::Volume;
 pub const WHOLE: f32 = -1e9;
 /// The start of a ray that is not needed.
 pub const NONE: f32 = 1e9;
-/// A depth beyond both of them.
+/// A depth beyond [`WHOLE`] and [`NONE`].
 pub const NEVER: f64 = 2e9;
 
 /// A direction that moves by less than this along an axis (voxels per mm) counts as perpendicular to it.
@@ -23,7 +23,7 @@ pub(crate) const NO_CHORD: [f64; 2] = [NONE as f64, -(NONE as f64)];
 #[derive(Clone, Copy, Debug)]
 pub struct IndexFromView {
     pub origin: DVec3,
-    /// Index per mm to the right, upwards, and away from the viewer.
+    /// Change of the index per mm to the right, upwards, and away from the viewer.
     pub x: DVec3,
     pub y: DVec3,
     pub z: DVec3,

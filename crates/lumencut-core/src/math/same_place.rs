@@ -10,8 +10,8 @@ pub const REPEATED_POINT: f64 = 1e-9;
 /// up to 3e-5 mm at 500 mm, and writers round to 0.001 mm.
 pub const VESSEL_END: f64 = 1e-3;
 
-/// Positions of a reformation this near count as equal: their computations differ, and no pixel is as small.
+/// Positions in a reformation this near count as equal: rounding differs, and no pixel is as small.
 pub(crate) const ON_PICTURE: f64 = 1e-6;
 
-/// Arc lengths that differ by less are equal: the rounding of sums over thousands of segments.
+/// Arc lengths that differ by less count as equal: sums over thousands of segments are rounded.
 pub const ALONG_LINE: f64 = 1e-6;

@@ -11,7 +11,7 @@ pub const POSITION_ROUNDING: f64 = 1e-3;
 #[derive(Clone, Copy, Debug)]
 pub struct Grid {
     last: [f64; 3],
-    /// Last index with a neighbour above, and the step to that neighbour (elements); both 0 for one voxel.
+    /// Along each axis: the last index with a next voxel, and the step to it (elements); both 0 for 1 voxel.
     low: [usize; 3],
     step: [usize; 3],
     strides: [usize; 3],
@@ -27,7 +27,7 @@ pub trait SampledRun {
     fn places(&self, n: usize) -> Places;
 }
 
-/// Positions one voxel away from others, to both sides along each axis.
+/// The positions one voxel before and after given positions, along each axis.
 #[derive(Clone, Copy, Debug)]
 pub struct Around {
     places: Places,
@@ -77,7 +77,7 @@ impl Grid {
         self.low.map(|n| n as i32)
     }
 
-    /// The value at continuous index `p`; up to half a voxel outside that of the outermost voxel, NaN beyond.
+    /// The value at continuous index `p`; constant in the outermost half voxel, NaN outside the volume.
     #[inline]
     pub fn trilinear<T: Voxel>(&self, voxels: &[T], p: DVec3) -> f32 {
         self.interpolated(voxels, p, Voxel::real)
@@ -93,7 +93,7 @@ impl Grid {
     fn interpolated<T: Voxel, R: Real>(&self, voxels: &[T], p: DVec3, number: impl Fn(T) -> R) -> f32 {
         let (mut offset, mut weights) = (0, [0.0; 3]);
         for a in 0..3 {
-            // NaN lies outside.
+            // NaN counts as outside.
             if !(p[a] >= -0.5 && p[a] <= self.last[a] + 0.5) {
                 return f32::NAN;
             }
@@ -161,8 +161,8 @@ impl Grid {
         value
     }
 
-    /// The volume at N · 16 positions relative to `base`, extended by the outermost voxels. Alternating loads
-    /// and arithmetic vectorises the latter and keeps many loads in flight.
+    /// The volume at N · 16 positions relative to `base`, extended by the outermost voxels. Loads alternate
+    /// with arithmetic, so that the arithmetic vectorises and many loads are in flight.
     #[inline(always)]
     pub fn sample<T: Voxel, const N: usize>(
         &self,
@@ -291,7 +291,7 @@ impl Offset for usize {
     }
 }
 
-/// The integer part of a number from 0 to 2²²: from 2²³ on, a float's last bit counts ones.
+/// The integer part of a number from 0 to 2²², read from the last bits of its sum with 2²³.
 #[inline(always)]
 fn whole(c: f32) -> u32 {
     const ONES: f32 = 8_388_608.0;

@@ -1,7 +1,7 @@
-// Trilinear sampling of the volume: eight loads and the arithmetic of the CPU.
+// Trilinear sampling of the volume, with the arithmetic of the CPU.
 // import math/lanes
 
-// Whether the voxels are the bits of floats; else they are integers.
+// Whether the voxels are floats, stored as their bits; otherwise they are integers.
 override FLOAT_VOXELS: bool = false;
 
 const POSITION_ROUNDING: f32 = 1e-3;
@@ -9,7 +9,7 @@ const POSITION_ROUNDING: f32 = 1e-3;
 // The volume's grid in the view. The fourth component of vectors is padding.
 struct GridParameters {
     last: vec3f,
-    // What was subtracted from the voxels of an unsigned type.
+    // The number that was subtracted from voxels of an unsigned type.
     shift: f32,
     // The last voxel that has a neighbour above it; 0 along an axis with one voxel.
     low: vec3i,
@@ -20,7 +20,7 @@ struct GridParameters {
     per_unit: f32,
     padding: vec2f,
     // The index at the image centre at the reference depth, and its change per column, row and mm of depth.
-    // Each is a part with so few digits that its products and sums are exact, and the rest (`_rest`).
+    // Each is split into a part of few digits, whose products and sums are exact, and the rest (`_rest`).
     origin: vec4f,
     origin_rest: vec4f,
     x: vec4f,

@@ -14,7 +14,7 @@ pub fn quantile(values: &mut [f64], part: f64) -> Option<f64> {
     let below = (place.floor() as usize).min(last);
     let [low, high] = neighbours(values, below);
     let (weight, difference) = (place - below as f64, high - low);
-    // Computed from the nearer end, so that the result at both ends is exact.
+    // The result is computed from the nearer end, so that it is exact at both ends.
     Some(if weight < 0.5 { low + difference * weight } else { high - difference * (1.0 - weight) })
 }
 
@@ -36,7 +36,7 @@ pub fn two_groups(rising: &[f64]) -> Option<usize> {
     best.1
 }
 
-/// The n-th value in rising order and the next one; at the end the same one twice.
+/// The n-th value in rising order and the next one; the last value twice at the end.
 fn neighbours(values: &mut [f64], n: usize) -> [f64; 2] {
     let (_, found, above) = values.select_nth_unstable_by(n, f64::total_cmp);
     [*found, above.iter().copied().min_by(f64::total_cmp).unwrap_or(*found)]

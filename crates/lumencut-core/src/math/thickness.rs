@@ -4,7 +4,7 @@ use super::lanes::{FAN, larger, smaller};
 
 pub const ROOT_HALF: u32 = 0x3F35_04F3;
 
-/// The opacity of `thickness` ≥ 0 mm of something with `opacity` per mm.
+/// The opacity of a layer `thickness` ≥ 0 mm thick, with `opacity` per mm.
 #[inline(always)]
 pub(crate) fn of_thickness(opacity: &[f32; FAN], thickness: &[f32; FAN]) -> [f32; FAN] {
     let mut result = [0.0; FAN];
@@ -23,7 +23,7 @@ fn log2_of_one_minus(a: f32) -> f32 {
     let rest = 1.0 - a;
     let exponent = (rest.to_bits().wrapping_sub(ROOT_HALF) as i32) >> 23;
     let m = f32::from_bits(rest.to_bits().wrapping_sub((exponent << 23) as u32));
-    // If the exponent is 0, m − 1 is −a without the rounding of 1 − a.
+    // If the exponent is 0, m − 1 equals −a; −a avoids the rounding of 1 − a.
     let above_one = if exponent == 0 { -a } else { m - 1.0 };
     let s = above_one / (above_one + 2.0);
     let s2 = s * s;
@@ -34,7 +34,7 @@ fn log2_of_one_minus(a: f32) -> f32 {
 /// 1 − 2^y for y ≤ 0, to a few units in the last place, also for small y.
 #[inline(always)]
 fn one_minus_power_of_two(y: f32) -> f32 {
-    // y = n + r with |r| ≤ ½; 2^y − 1 = 2^n·(2^r − 1) + (2^n − 1). From 1.5·2²³ on, the last bit counts ones.
+    // y = n + r with |r| ≤ ½; 2^y − 1 = 2^n·(2^r − 1) + (2^n − 1). Adding 1.5·2²³ rounds y to the integer n.
     const ONES: f32 = 12_582_912.0;
     let y = larger(y, -125.0);
     let shifted = y + ONES;

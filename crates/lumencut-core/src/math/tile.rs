@@ -1,11 +1,11 @@
-//! Tiles of pixels, and parts of tiles: the pixels of a part fill one vector, those of a tile share one walk.
+//! Tiles of pixels, which share one walk through the hierarchy; a part of a tile fills one vector.
 
 use super::lanes::{Bits, COLUMNS, PART_PIXELS, PART_SIDE, PARTS, PIXELS, ROWS, larger};
 use crate::camera::Camera;
 
 const PARTS_ACROSS: usize = COLUMNS / PART_SIDE;
 
-/// The lane of the pixel in row `r` and column `c` of a tile: part by part, each row by row.
+/// The lane of the pixel in row `r` and column `c` of a tile; lanes run part by part, and by rows in a part.
 #[inline(always)]
 pub(crate) const fn lane(r: usize, c: usize) -> usize {
     let part = r / PART_SIDE * PARTS_ACROSS + c / PART_SIDE;
@@ -22,7 +22,7 @@ pub(crate) const PIXEL_OF_LANE: [(usize, usize); PIXELS] = {
     places
 };
 
-/// The lanes of the tile at `column` of these `rows`; lanes beyond the image repeat its last column and row.
+/// The values of the tile at `column` in `rows`, by lane; beyond the image its last column and row repeat.
 #[inline(always)]
 pub(crate) fn gather(rows: &[f32], width: usize, column: usize) -> [f32; PIXELS] {
     let last_row = rows.len() / width - 1;
@@ -59,7 +59,7 @@ pub(crate) fn scatter<T: Copy>(lanes: &[T; PIXELS], rows: &mut [T], width: usize
 #[derive(Clone, Copy, Debug)]
 pub struct Area {
     pub center: [f32; 2],
-    /// Half the sides, plus a bound on the rounding of the middle.
+    /// Half the sides of the area (mm), plus a bound on the rounding of its middle.
     pub half: [f32; 2],
 }
 

@@ -2,7 +2,7 @@
 // vector, a quad.
 // import math/view
 
-// The quads side by side and the rows of a tile; at most MAX_ACROSS and MAX_ROWS.
+// Number of quads side by side in a tile, and of its rows; at most MAX_ACROSS and MAX_ROWS.
 override ACROSS: u32 = 1u;
 override ROWS: u32 = 4u;
 const MAX_ACROSS = 2u;
@@ -10,7 +10,7 @@ const MAX_ROWS = 8u;
 const MAX_QUADS = 16u;
 const QUAD = 4u;
 // Tiles of a workgroup form short rows, so that threads in lockstep work on nearby pixels. Software adapters
-// run only the first workgroup dimension in lockstep; it must be larger than their vectors.
+// run only the first workgroup dimension in lockstep, so it must exceed their vector width.
 const TILES = 64u;
 const TILES_ACROSS = 4u;
 

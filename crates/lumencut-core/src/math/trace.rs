@@ -12,7 +12,7 @@ use super::sampling::SampledRun;
 pub(crate) struct Passage<'a> {
     pub rays: &'a Rays,
     pub sampler: &'a dyn Sampler,
-    /// Blocks to skip; `None` samples everything, with the same result.
+    /// Blocks for skipping; `None` samples everything, with the same result.
     pub blocks: Option<&'a Blocks>,
     pub shading: Option<Shading>,
 }
@@ -35,7 +35,7 @@ impl<'a> RayPacket<'a> {
     }
 }
 
-/// Adjacent rays advance together: memory that one ray fetches serves its neighbours.
+/// Adjacent rays advance together, because memory fetched for one ray serves its neighbours.
 #[inline(always)]
 pub(crate) fn trace(passage: &Passage, packets: &mut [RayPacket]) {
     let mut longest = 0;

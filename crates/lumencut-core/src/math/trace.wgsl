@@ -1,9 +1,9 @@
-// The ray loop of the context: it goes run by run and skips blocks that change nothing.
+// The ray loop of the context: takes samples in runs of eight, and skips blocks that change nothing.
 // import math/accumulate
 // import math/blocks
 // import math/ray
 
-// Samples of a ray that are taken together.
+// Number of samples of a ray that are taken together.
 const RUN: i32 = 8;
 
 fn trace(ray: Ray) -> vec4f {
@@ -12,7 +12,7 @@ fn trace(ray: Ray) -> vec4f {
     var level = parameters.level_count - 1u;
     var n = 0;
     loop {
-        // Threads in lockstep wait for each other: they first all skip, then all sample.
+        // Threads in lockstep wait for each other, so all skip first, and then all sample.
         n = skip(ray, way, gathered, n, &level);
         if n >= ray.count {
             break;

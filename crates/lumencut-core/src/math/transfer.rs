@@ -7,12 +7,12 @@ use crate::settings::{ControlPoint, TransferFunction};
 /// Opacity below which nothing is seen: even across a body it changes far less than one grey value.
 pub const INVISIBLE: f32 = 1e-6;
 
-/// A rise from one control point to the next: what it adds to colour and opacity.
+/// The part of a transfer function between two control points: what it adds to colour and opacity.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Rise {
-    /// The intensity at which it begins.
+    /// The intensity at which the rise begins.
     pub start: f32,
-    /// Share of the rise per unit of intensity.
+    /// Share of the rise that one unit of intensity completes.
     pub per_intensity: f32,
     pub color: [f32; 3],
     pub opacity: f32,
@@ -30,7 +30,7 @@ impl Rise {
         }
     }
 
-    /// The intensity from which on the rise is complete; for a step, the one at which it has not yet begun.
+    /// The intensity above which the rise is complete; for a step, the one at which it has not yet begun.
     fn end(&self) -> f32 {
         larger(self.start.next_up(), self.start + 1.0 / self.per_intensity)
     }
@@ -74,7 +74,7 @@ impl Colors {
         &self.transparent
     }
 
-    /// The intensity from which on the colour is constant.
+    /// The intensity above which the colour no longer changes.
     #[inline(always)]
     pub fn last(&self) -> f32 {
         self.last

@@ -2,9 +2,10 @@
 
 struct ViewParameters {
     size: vec2u,
-    // The side of a pixel (mm): a part of few digits, whose products with integers are exact, and the rest.
+    // The side of a pixel (mm), split into a part of few digits, whose products with integers are exact, and
+    // the rest.
     spacing: vec2f,
-    // The axes of view space in world space, each as a part of few digits and the rest.
+    // The axes of view space in world space, each split into a part of few digits and the rest.
     axes: array<Axis, 3>,
 }
 

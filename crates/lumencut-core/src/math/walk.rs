@@ -1,4 +1,4 @@
-//! The walk through a hierarchy for one tile: near nodes first, until none can beat its worst key so far.
+//! The walk through a hierarchy for one tile: nearest nodes first, until none can beat the tile's worst key.
 
 use super::candidates::candidates;
 use super::cost::Rule;
@@ -10,10 +10,10 @@ use super::nearest::{NearestPoint, lower_distance};
 use super::pieces::Envelope;
 use super::tile::{Tile, lane};
 
-/// On each of the eight heights that 2³² slots can have, at most fifteen siblings wait.
+/// Capacity of the stack: at each of the at most eight heights, at most fifteen siblings wait.
 const STACK: usize = 8 * FAN;
 
-/// Waiting nodes, the nearest on top: bound, height and index.
+/// Waiting nodes as (bound, height, index), with the nearest on top.
 pub(crate) struct Stack {
     waiting: [(f32, u32, u32); STACK],
     length: usize,
@@ -61,7 +61,7 @@ impl Stack {
     }
 }
 
-/// Bundles that held winners in the previous tile: most winners of this tile are there too.
+/// Bundles that held winners of the previous tile; most winners of this tile are in them too.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Seeds {
     bundles: [u32; 4],

@@ -46,8 +46,8 @@ fn next_bundle(tile: Tile, level: u32, first: Node, limit: f32) -> Node {
     return node;
 }
 
-// Returns the limit beyond which nothing wins any more. Candidates are found first, so that threads in
-// lockstep evaluate them together.
+// Offers the pieces of a bundle and returns the new limit: no larger key can win. Candidates are found first,
+// so that threads in lockstep evaluate them together.
 fn offer_bundle(tile: Tile, bundle: u32, limit: f32) -> f32 {
     var candidates = 0u;
     for (var s = 0u; s < FAN; s++) {
@@ -57,7 +57,7 @@ fn offer_bundle(tile: Tile, bundle: u32, limit: f32) -> f32 {
     }
     while candidates != 0u {
         let slot = slots[bundle * FAN + countTrailingZeros(candidates) / 2u];
-        // A stripe and its wedge together.
+        // Takes a stripe and its wedge together.
         let pair = 3u << (countTrailingZeros(candidates) & ~1u);
         offer_stripe(slot);
         offer_wedge(slot);

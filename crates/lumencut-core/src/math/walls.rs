@@ -10,7 +10,7 @@ use super::pieces::Bundle;
 use super::tile::Tile;
 use super::walk::Stack;
 
-/// The lengths between which distances must be exact.
+/// The range of distances that must be exact.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct WallRange {
     /// Smaller distances (mm) count as this.
@@ -21,13 +21,13 @@ pub(crate) struct WallRange {
     pub slack: f32,
 }
 
-/// The largest `lean`: beyond it one end of the segment is nearest for every pixel.
+/// The largest `lean`; at a larger one, the same end of the segment is nearest for every pixel.
 pub const MAX_LEAN: f32 = 1e6;
 
 /// Lowers the distances of pixels from the wall (mm, negative within) to that from the segment of slot `s`.
 ///
-/// The outline of a tapering segment touches its largest disc towards the pixel. That disc is off the pixel's
-/// foot by the lean times the distance from the line.
+/// The outline of a tapering segment nearest to a pixel belongs to the disc whose centre lies off the pixel's
+/// foot by the lean times the pixel's distance from the line.
 #[inline(always)]
 fn lower_beyond(tile: &Tile, beyond: &mut [f32; PIXELS], bundle: &Bundle, s: usize) {
     let (x, y) = (bundle.x[s], bundle.y[s]);

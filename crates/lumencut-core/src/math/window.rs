@@ -23,7 +23,7 @@ impl Ramp {
         Self::between(window.level - window.width / 2.0, window.level + window.width / 2.0)
     }
 
-    /// Opacity of a ramp; opaque everywhere without one.
+    /// The ramp of an opacity; without one, everything is opaque.
     pub(crate) fn opacity(opacity: Option<Opacity>) -> Self {
         opacity.map_or(Self { scale: 0.0, offset: 1.0 }, |o| Self::between(o.transparent, o.opaque))
     }

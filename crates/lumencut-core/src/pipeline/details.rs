@@ -11,7 +11,7 @@ use crate::stages::{Image, ImageSet, Stage};
 pub struct SurfaceDetails {
     /// Slopes, radius and blend in each pixel.
     pub sheet: Vec<Sheet>,
-    /// Where the surface leaps ([`crate::stages::leap`]).
+    /// Bits that mark depth jumps ([`crate::stages::leap`]).
     pub leap: Vec<u32>,
     /// The strength of the silhouettes, 0 to 1.
     pub strength: Vec<f32>,

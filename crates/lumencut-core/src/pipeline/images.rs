@@ -26,7 +26,7 @@ pub struct Images {
 }
 
 impl Images {
-    /// A frame of the cut surface. If no filter has run, the unfiltered depth is the depth.
+    /// A frame of the cut surface. Without a filter, its depth is the unfiltered one.
     pub(super) fn into_cut_surface(self, camera: Camera, timings: Vec<Timing>) -> Frame {
         let depth = if self.depth.is_empty() { self.unfiltered_depth } else { self.depth };
         let geometry = Geometry::Orthographic { camera, depth };

@@ -21,7 +21,7 @@ use crate::stages::surface::{SurfaceScene, surface};
 use crate::stages::{Image, ImageSet, Stage, Work};
 use crate::stop::{filled, resize};
 
-/// What the stages that find the cut surface share.
+/// The common input of the stages that find the cut surface.
 #[doc(hidden)]
 pub struct CutSurfacePass<'a> {
     pub work: Work<'a>,
@@ -72,7 +72,7 @@ impl CutSurfacePass<'_> {
             return Ok(());
         };
         images.focus = vec![[0.0; 2]; self.work.pixels()];
-        // A requested image needs exact shares everywhere; lines of leaps need them only near leaps.
+        // The focus image needs exact shares in every pixel; silhouettes need them only near depth jumps.
         let is_whole = self.wanted.has(Image::Focus) || self.settings.silhouette_rule != SilhouetteRule::Leap;
         let leap = if is_whole { &[][..] } else { &images.leap };
         focus(&self.work, &self.surface, &parameters, leap, &mut images.focus)
@@ -88,7 +88,7 @@ impl CutSurfacePass<'_> {
     }
 }
 
-/// What the stages that show the volume share.
+/// The common input of the stages that show the volume.
 #[derive(Clone, Copy)]
 #[doc(hidden)]
 pub struct LookPass<'a> {

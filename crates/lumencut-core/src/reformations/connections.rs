@@ -1,4 +1,4 @@
-//! Where vessels meet, and distances between points of a tree along it.
+//! The points at which vessels of a tree meet, and distances between its points along the tree.
 
 use std::borrow::Cow;
 use std::collections::{BinaryHeap, HashMap};
@@ -19,17 +19,17 @@ struct Meeting {
     junction: u32,
 }
 
-/// A meeting reachable from a junction, and its distance (mm).
+/// An index into `Connections::meetings`, reachable from a junction, and its distance (mm).
 #[derive(Clone, Copy, Debug)]
 struct Reached {
     meeting: u32,
     distance: f32,
 }
 
-/// The largest number of reachable meetings cached over all junctions; the rest is recomputed on each use.
+/// The largest number of reachable meetings cached over all junctions; others are recomputed on each use.
 const MAX_CACHED: usize = 1 << 24;
 
-/// Where the vessels of a tree meet: wherever one of them ends at a point of another.
+/// The points at which vessels of a tree meet: one of them ends there, at a point of another.
 #[derive(Debug)]
 pub struct Connections {
     meetings: Vec<Meeting>,
@@ -38,7 +38,7 @@ pub struct Connections {
     /// The meetings reachable from each junction, computed on first use, and their number so far.
     reached: Vec<OnceLock<Vec<Reached>>>,
     kept: AtomicUsize,
-    /// The longest distance along the tree between points that belong together (mm).
+    /// The longest distance along the tree (mm) between points that count as near.
     threshold: f64,
 }
 
@@ -84,7 +84,7 @@ impl Connections {
         })
     }
 
-    /// Parts of vessels that may lie within the threshold: vessel, first and last arc length (mm).
+    /// Parts of vessels that may lie within the threshold: vessel id, first and last arc length (mm).
     pub fn stretches(&self, vessel: u32, [low, high]: [f64; 2]) -> Vec<(u32, [f64; 2])> {
         let mut stretches = vec![(vessel, [low - self.threshold, high + self.threshold])];
         for meeting in self.meetings_of(vessel) {
@@ -125,7 +125,7 @@ impl Connections {
         Cow::Borrowed(known.get_or_init(|| reached))
     }
 
-    /// Junctions within the threshold of one, and their distances along the tree (mm): Dijkstra's algorithm.
+    /// Junctions within the threshold of `start`, with distances along the tree (mm): Dijkstra's algorithm.
     fn shortest_ways(&self, start: u32) -> Vec<(u32, f64)> {
         let mut known: HashMap<u32, f64> = HashMap::from([(start, 0.0)]);
         // Bits of non-negative floats sort like the floats; the heap pops the largest first.

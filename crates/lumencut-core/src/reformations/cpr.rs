@@ -1,9 +1,9 @@
 //! Curved Planar Reformation (CPR) of one vessel: projected, stretched and straightened (Kanitsar et al.: CPR
 //! - Curved Planar Reformation, IEEE Visualization 2002, doi:10.1109/VISUAL.2002.1183754).
 //!
-//! Each mode is a surface of straight lines across the vessel, laid out as an image: x to the right and y
-//! downwards in mm, 0 in the middle column and in the first row. A mode defines the line of each row, and the
-//! image position of a world point. No picture is ever mirrored: to the right × downwards = into the scene.
+//! Each mode is a surface of straight lines across the vessel, laid out as an image. In it x points to the
+//! right from the middle column, and y downwards from the first row (mm). A mode defines the line of each row
+//! and the image position of a world point. No picture is mirrored: right × down = into the scene.
 
 mod projected;
 mod roll;
@@ -35,14 +35,14 @@ use crate::stop::Stop;
 
 const DEFAULT_MARGIN_MM: f64 = 25.0;
 
-/// How the lines across a vessel are laid out as an image.
+/// The layout of the lines across a vessel as an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CprMode {
-    /// As seen: each row is a height, and shows the line through each point of the vessel at that height.
+    /// As the viewer sees the vessel: each row shows the lines through the vessel's points at one height.
     Projected,
-    /// The surface of parallel lines unrolled, so that lengths on it are true.
+    /// The surface of parallel lines through the vessel, unrolled, so that lengths on it are true.
     Stretched,
-    /// Rows by arc length, the vessel straight in the middle, in the rotation-minimising frame.
+    /// Rows follow the arc length, the vessel is straight in the middle; sections do not twist about it.
     Straightened,
 }
 
@@ -54,7 +54,7 @@ impl Named for CprMode {
     ];
 }
 
-/// One vessel laid out as an image. Clones and rotated copies share what was computed for the vessel.
+/// One vessel laid out as an image. Clones and rotated copies share the data computed for the vessel.
 #[derive(Clone)]
 pub struct Cpr {
     mode: CprMode,

@@ -1,5 +1,5 @@
-//! Centerline Reformation (CR): every pixel takes the depth of the nearest projected centerline; but within a
-//! disc around a vessel in front it shows that vessel.
+//! Centerline Reformation (CR): every pixel takes the depth of the nearest projected centerline. But within a
+//! disc around a vessel in front, it takes the depth of that vessel.
 //!
 //! After Mistelbauer, Varchola, Bouzari, Starinsky, Köchl, Schernthaner, Fleischmann, Gröller and Šrámek,
 //! "Centerline Reformations of Complex Vascular Structures", IEEE Pacific Visualization Symposium 2012.

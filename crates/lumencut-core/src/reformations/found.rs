@@ -1,4 +1,4 @@
-//! The positions of the pixels of a camera by a reformation, and the frame in which `look` shows the volume.
+//! The position of each pixel found by a reformation, and the frame for `look`, which shows the volume there.
 
 use crate::error::{Error, ErrorKind, Result};
 use crate::frame::Frame;
@@ -19,12 +19,12 @@ pub(super) struct PixelContent {
     pub vessel: i32,
     /// Slopes and radius, as the stage `leap` reads them.
     pub sheet: Sheet,
-    /// Whether other points of the vessel could be shown in this pixel as well.
+    /// Whether the pixel could as well show other points of the vessel.
     pub is_folded: bool,
 }
 
 impl PixelContent {
-    /// A pixel without a vessel: its depth lies beyond every volume, and no leap lies next to it.
+    /// A pixel without a vessel: its depth lies beyond every volume, and silhouettes ignore its borders.
     pub(super) const NOTHING: Self =
         Self { depth: FAR, vessel: NO_VESSEL, sheet: [0.0, 0.0, -ABSENT, 0.0], is_folded: false };
 }
@@ -64,7 +64,7 @@ pub(super) fn work<'a>(request: &Request<'a>) -> Work<'a> {
     Work { size: camera.size(), isa: Isa::widest(), stop, progress: None }
 }
 
-/// Rejects a vessel of no length: it has no direction.
+/// Rejects vessels of no length, which have no direction.
 pub(super) fn expect_lengths(level: &Level) -> Result<()> {
     let Some(id) = level.first_slot.windows(2).position(|ends| ends[1] - ends[0] < 2) else { return Ok(()) };
     let found = "all points within 0.001 mm of each other";

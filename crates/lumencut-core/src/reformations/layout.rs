@@ -25,7 +25,7 @@ pub trait Layout: Send + Sync {
     /// Arc length (mm): one per row if rows run along one vessel, else per pixel; NaN if nothing is shown.
     fn arc_length(&self, stop: Stop) -> Result<Vec<f64>>;
 
-    /// Whether pixels are unreliable: the image runs backwards there, or shows the same point elsewhere.
+    /// Whether each pixel is unreliable: the image runs backwards, or shows the same point elsewhere too.
     fn folded(&self, stop: Stop) -> Result<Vec<bool>>;
 
     /// The world point at an image position.
@@ -50,7 +50,7 @@ pub(super) fn by_rows<T: Clone + Send>(
     Ok(image)
 }
 
-/// Positions and slab directions, written row by row; a pixel that is not written shows nothing.
+/// Positions and slab directions, written row by row; a pixel that no row writes shows nothing.
 pub(super) fn curved_by_rows(
     size: [usize; 2],
     stop: Stop,
@@ -105,7 +105,7 @@ mod tests {
         };
         let error = curved_by_rows([3, 1000], &soon, count).unwrap_err();
         assert_eq!(error.kind, ErrorKind::Interrupted);
-        // Both lists were filled first; each asks once whether to stop.
+        // Both lists were filled before, and each filling asked once whether to stop.
         assert_eq!(written.into_inner(), 4);
     }
 }

@@ -28,7 +28,7 @@ const OVERLAP: Limits = Limits::new(0.0, 3.0, "rad");
 /// Brightness of a wall seen edge on, and the additional brightness of one seen face on.
 const EDGE_AND_FACE_BRIGHTNESS: [f64; 2] = [0.3, 0.7];
 
-/// How a lumen map is laid out.
+/// The layout of a lumen map.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LumenMapParameters {
     /// The side of a pixel (mm): along the vessel, and around it at the mean radius.
@@ -37,7 +37,7 @@ pub struct LumenMapParameters {
     pub mean_radius: f64,
     /// The direction of the middle column (radians): 0 is to the right in the straightened CPR at angle 0.
     pub angle: f64,
-    /// How much of the other side is repeated beyond each edge (radians).
+    /// The angle by which each edge is extended with a copy of the other side (radians).
     pub overlap: f64,
     /// Distance of the shown points beyond the wall (mm).
     pub beyond: f64,
@@ -50,7 +50,7 @@ pub struct LumenMap {
     straightened: Straightened,
     wall: Arc<Wall>,
     parameters: LumenMapParameters,
-    /// Number of columns once around the vessel, and of those that are repeated on each side.
+    /// Number of columns once around the vessel, and number of repeated columns on each side.
     columns: [usize; 2],
     rows: usize,
 }
@@ -132,7 +132,7 @@ impl LumenMap {
         })
     }
 
-    /// Points of the wall and their directions, one column more on both sides; row 0 lies before the image.
+    /// Wall points of a row and their directions, with one more column on each side; row 0 is off the image.
     fn wall_row(&self, number: usize) -> (Vec<DVec3>, Vec<DVec3>) {
         let at = (number as f64 - 1.0) * self.parameters.pixel_spacing;
         let (middle, frame) = (self.path.at(at), self.straightened.frame(at));
@@ -163,7 +163,7 @@ impl LumenMap {
         self.straightened.world_from_straightened(offset.extend(at))
     }
 
-    /// Distance from the middle of the vessel of a point beyond the wall (mm), at least 0.
+    /// Distance (mm, at least 0) from the middle of the vessel to a point `beyond` mm outside the wall.
     fn distance(&self, at: f64, around: f64, beyond: f64) -> f64 {
         (self.wall.radius(at, around) + beyond).max(0.0)
     }
@@ -202,7 +202,7 @@ impl Layout for LumenMap {
                 let (sine, cosine) = around.sin_cos();
                 let ray = frame.across * cosine + frame.ahead * sine;
                 direction[i] = ray.as_vec3();
-                // A branch that opens here has no wall to show.
+                // In the opening of a branch there is no wall to show.
                 if !self.wall.is_open(at, *around) {
                     position[i] = middle + ray * self.distance(at, *around, beyond);
                 }

@@ -2,8 +2,8 @@
 //!
 //! Kanitsar, Wegenkittl, Fleischmann and Gröller, "Advanced Curved Planar Reformation: Flattening of Vascular
 //! Structures", IEEE Visualization 2003, doi:10.1109/VISUAL.2003.1250353. Each vessel c(t) is cut along the
-//! surface c(t) + s·(v × u), with v the direction of view and u upwards in the image: every row cuts a vessel
-//! in points, and a pixel shows the depth of the point nearest along its row.
+//! surface c(t) + s·(v × u), with v the direction of view and u upwards in the image. So every row cuts a
+//! vessel in points, and a pixel shows the depth of the point nearest in its row.
 
 use rayon::prelude::*;
 
@@ -102,8 +102,8 @@ impl Lines {
         row
     }
 
-    /// Adds the crossing of the segment from `slot`. A segment owns its start and inside, the last one of a
-    /// vessel also its end, so each crossing counts once.
+    /// Adds the crossing of the row with the segment from `slot`. A segment includes its start but not its
+    /// end, except for the last segment of a vessel; so each crossing counts once.
     fn cross(&self, slot: usize, y: f64, row: &mut Row) {
         let (a, b) = (self.points[slot], self.points[slot + 1]);
         if a.vessel != b.vessel {
@@ -125,12 +125,12 @@ struct Crossing {
     x: f64,
     z: f64,
     vessel: i32,
-    /// The slot of its segment, which orders the points of a vessel.
+    /// The slot of the segment, by which the points of a vessel are ordered.
     slot: usize,
     /// Change of depth upwards (mm per mm).
     slope: f64,
     radius: f64,
-    /// Distance of the surface from the centerline per mm along the row.
+    /// Distance of the surface from the centerline (mm) per mm along the row.
     lean: f64,
     is_folded: bool,
 }
@@ -151,7 +151,7 @@ impl Crossing {
         }
     }
 
-    /// The order of points equally far from a pixel: nearer to the viewer, then the vessel, then along it.
+    /// Which of two equally near points wins: nearer to the viewer, then smaller vessel id, then slot.
     fn comes_before(&self, other: &Self) -> bool {
         (self.z, self.vessel, self.slot) < (other.z, other.vessel, other.slot)
     }
@@ -174,7 +174,7 @@ impl Run {
     fn nearest_crossing(&self, x: f64) -> Crossing {
         let dx = self.b.x - self.a.x;
         let t = if dx == 0.0 {
-            // A run along the view lies at one x; its end nearer to the viewer counts.
+            // A run along the view has a single x; its end nearer to the viewer counts.
             f64::from(u8::from(self.b.z < self.a.z))
         } else {
             ((x - self.a.x) / dx).clamp(0.0, 1.0)
@@ -194,7 +194,7 @@ impl Run {
 
 #[derive(Default)]
 struct Row {
-    /// Once finished: from left to right, with one point per x.
+    /// After `finish`, the points are sorted from left to right, with one point per x.
     crossings: Vec<Crossing>,
     runs: Vec<Run>,
     /// The first point that is not to the left of the previous pixel.
@@ -215,7 +215,7 @@ impl Row {
         self.crossings.dedup_by(|later, first| later.x == first.x);
     }
 
-    /// What the pixel at view `x` shows, if any vessel is in the row; pixels come from left to right.
+    /// The content of the pixel at view `x`, if any vessel is in the row; pixels come from left to right.
     fn nearest_place(&mut self, x: f64) -> Option<PixelContent> {
         while self.crossings.get(self.next).is_some_and(|crossing| crossing.x < x) {
             self.next += 1;

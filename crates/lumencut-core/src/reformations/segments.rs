@@ -38,7 +38,7 @@ impl Segments {
         Self { ends, levels }
     }
 
-    /// Squared distance (mm²) of a segment and a point; equal for two segments that share the nearest end.
+    /// Squared distance (mm²) between a segment and a point; the same if two segments share the nearest end.
     pub(super) fn squared_distance(&self, segment: usize, point: DVec3) -> f64 {
         let [start, end] = self.ends[segment];
         let along = end - start;
@@ -51,7 +51,7 @@ impl Segments {
         point.distance_squared(nearest)
     }
 
-    /// The nearest segment within `limit` (mm), the first of several, with its squared distance.
+    /// The nearest segment within `limit` (mm), or the first of equally near ones, with its squared distance.
     pub(super) fn nearest(&self, point: DVec3, limit: f64) -> Option<(usize, f64)> {
         let mut best = (usize::MAX, limit * limit);
         self.visit(
@@ -97,7 +97,7 @@ impl Segments {
         is_any
     }
 
-    /// Visits the segments, in their order, in boxes within the squared distance that is still of interest.
+    /// Visits the segments, in order, in boxes within the squared distance, which `meet` may reduce.
     fn visit(&self, point: DVec3, meet: &mut impl FnMut(usize, &mut f64), mut squared: f64) {
         let mut waiting = vec![(self.levels.len() - 1, 0)];
         while let Some((level, n)) = waiting.pop() {

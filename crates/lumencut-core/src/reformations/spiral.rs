@@ -24,12 +24,12 @@ const LENGTH: Limits = Limits::new(1e-6, 1e4, "mm");
 
 const NEWTON_STEPS: usize = 12;
 
-/// How the samples of a row lie on its spirals.
+/// The spacing of the samples of a row on its spirals.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Sampling {
-    /// A pixel apart along the spiral, so that every pixel covers the same area.
+    /// One pixel apart along the spiral, so that every pixel covers the same area.
     Arc,
-    /// At equal angles, so that every winding has the same width; a pixel apart at the outermost one.
+    /// At equal angles, so that every winding has the same width; one pixel apart on the outermost winding.
     Angle,
 }
 
@@ -37,14 +37,14 @@ impl Named for Sampling {
     const NAMES: &'static [(&'static str, Self)] = &[("arc", Self::Arc), ("angle", Self::Angle)];
 }
 
-/// How the sections of a vessel are wound up.
+/// The parameters by which the sections of a vessel are wound up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpiralParameters {
     /// The distance between neighbouring windings, counting both spirals (mm).
     pub pitch: f64,
     /// The largest distance of the windings from the vessel (mm).
     pub radius: f64,
-    /// How samples lie on the spirals.
+    /// The spacing of the samples on the spirals.
     pub sampling: Sampling,
     /// The side of a pixel (mm).
     pub pixel_spacing: f64,
@@ -57,7 +57,7 @@ pub struct SpiralParameters {
 pub struct Spiral {
     straightened: Straightened,
     parameters: SpiralParameters,
-    /// For each column the position in its section (mm), and the direction across the spiral there.
+    /// For each column, the position in its section (mm) and the direction across the spiral.
     columns: Vec<[DVec2; 2]>,
     rows: usize,
 }
@@ -86,7 +86,7 @@ impl Spiral {
         Ok(Self { straightened, parameters, columns, rows })
     }
 
-    /// How the sections are wound up.
+    /// The parameters by which the sections are wound up.
     pub fn parameters(&self) -> &SpiralParameters {
         &self.parameters
     }
@@ -97,7 +97,7 @@ impl Spiral {
 }
 
 impl SpiralParameters {
-    /// Radius of a spiral per radian.
+    /// Growth of a spiral's radius per radian (mm).
     fn rate(&self) -> f64 {
         self.pitch / PI
     }
@@ -115,7 +115,7 @@ impl SpiralParameters {
         self.rate() / 2.0 * (angle * angle.hypot(1.0) + angle.asinh())
     }
 
-    /// The angle at this length, by Newton's method, which starts beyond that angle and descends.
+    /// The angle up to which the spiral has this length, by Newton's method from a larger angle downwards.
     fn angle_of(&self, length: f64) -> f64 {
         let rate = self.rate();
         (0..NEWTON_STEPS).fold((2.0 * length / rate).sqrt(), |angle, _| {
@@ -148,13 +148,13 @@ impl SpiralParameters {
         [place * side, -forward.normalize().perp()]
     }
 
-    /// Pixels from the middle at which a position is shown: on the nearest winding, of two the inner one.
+    /// Pixels from the middle to a position: on the nearest winding, or the inner one of two equally near.
     fn pixels_of(&self, place: DVec2) -> f64 {
         let around = place.to_angle() - self.angle;
         let turns = (place.length() / self.rate() - around) / PI;
-        // The spirals of both sides alternate on each half plane.
+        // On each ray from the middle, windings of the two spirals alternate.
         let nearest = (turns - 0.5).ceil();
-        // A position before the beginning of the nearest winding is shown in the middle.
+        // A position before the start of the nearest winding is shown in the middle.
         let along = (around + nearest * PI).max(0.0);
         let side = if nearest.rem_euclid(2.0) == 0.0 { 1.0 } else { -1.0 };
         side * self.pixels(along)
@@ -213,7 +213,7 @@ impl Layout for Spiral {
     }
 }
 
-/// The size of the image; an error states a pitch at which it fits, if there is one.
+/// The size of the image; if too large, the error states a pitch that fits, if there is one.
 fn fitting_size(parameters: &SpiralParameters, size: [f64; 2]) -> Result<[usize; 2]> {
     checked_size("size of the spiral CPR", size).map_err(|error| {
         let [width, height] = size;

@@ -67,7 +67,7 @@ impl Layout for Tangential {
         self.curled.world_from_pixel(pixel)
     }
 
-    /// Where the camera sees a point, even if the image shows what lies before or behind it.
+    /// Where the camera sees a point, even if the image shows another depth there.
     fn pixel_from_world(&self, point: DVec3) -> DVec2 {
         let [seen, first] = [
             self.camera.view_from_world(point).truncate(),

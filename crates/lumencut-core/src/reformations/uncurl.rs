@@ -1,5 +1,5 @@
-//! Uncurl: a vessel between the camera's view (tangential CPR) and the straightened CPR. Idea and formulas
-//! are ours (docs/method/reformations.md).
+//! Uncurl: pictures between the camera's view of a vessel (tangential CPR) and its straightened CPR. Idea and
+//! formulas are ours (docs/method/reformations.md).
 
 mod bent;
 mod feet;
@@ -19,7 +19,7 @@ use crate::math::centerline_path::CenterlinePath;
 use crate::math::same_place::ON_PICTURE;
 use crate::stop::{Stop, filled};
 
-/// The largest number of bisections in the search for a foot; this many reach the resolution of a number.
+/// The largest number of bisections in the search for a foot; this many reach the resolution of an f64.
 const BISECTIONS: usize = 60;
 
 /// One vessel, partly straightened, in the pixels of a camera.
@@ -137,7 +137,7 @@ impl Layout for Uncurl {
     fn folded(&self, stop: Stop) -> Result<Vec<bool>> {
         let [width, height] = self.camera.size();
         if self.amount == 0.0 {
-            // In space no point of the vessel is nearer to a pixel's point than the nearest one in the image.
+            // Without bending, the point nearest in the image is also nearest in space: nothing is folded.
             return filled(width * height, false, stop);
         }
         let cut_locus = CutLocus::new(&self.path);
@@ -163,7 +163,7 @@ impl Layout for Uncurl {
 }
 
 impl Uncurl {
-    /// The feet whose pixels may show a world point in the bent surroundings.
+    /// The vessel points (feet) whose pixels may show a world point.
     fn feet_of_world(&self, point: DVec3) -> Vec<Foot> {
         let mut marks: Vec<_> = self.path.arc_length().to_vec();
         marks.extend(self.bent.stations().filter(|at| *at > 0.0 && *at < self.path.length()));

@@ -39,13 +39,13 @@ const SMOOTHING: Limits = Limits::new(0.0, 1e3, "mm");
 const PIXEL_SPACING: Limits = Limits::new(1e-6, MAX_PIXEL_SPACING, "mm");
 const UNKNOWN_RADIUS: Limits = Limits::new(0.0, 1e6, "mm");
 
-/// The side of the squares of pixels that search the nearest vessel together.
+/// The side of a square of pixels that search for their nearest vessels together (pixels).
 const TILE: usize = 8;
 
 /// A pixel with no segment nearby.
 const NO_SEGMENT: u32 = u32::MAX;
 
-/// How a tree is laid out.
+/// The parameters of the layout of a tree.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct UntangledParameters {
     /// Width shown on each side of a vessel (mm).
@@ -56,10 +56,10 @@ pub struct UntangledParameters {
     pub smoothing: f64,
     /// The side of a pixel (mm).
     pub pixel_spacing: f64,
-    /// Replaces unknown radii (mm).
+    /// The radius of points whose radius is unknown (mm).
     pub unknown_radius: f64,
-    /// A point near the end from which the tree grows (mm, LPS). Other parts grow from the free end with the
-    /// largest mean radius over 10 mm.
+    /// The part with the vessel end nearest to this point grows from that end (mm, LPS). Other parts grow
+    /// from the free end with the largest mean radius over 10 mm.
     pub root: Option<DVec3>,
 }
 
@@ -100,7 +100,7 @@ pub struct LaidOut {
     pub pixels: Vec<DVec2>,
     /// The turn of this part and of all parts that follow it (radians, counter-clockwise in the image).
     pub turn: f64,
-    /// Whether the part begins at its last point.
+    /// Whether the part grows from its last point to its first.
     pub is_reversed: bool,
 }
 
@@ -167,7 +167,7 @@ impl Untangled {
         Ok(made)
     }
 
-    /// The same layout, without a new search, in pixels of another side (mm). Fails with
+    /// The same layout with pixels of another side (mm), without a new search for turns. Fails with
     /// [`ErrorKind::Camera`] for a side outside its range or too many pixels.
     pub fn with_pixels(&self, pixel_spacing: f64) -> Result<Self> {
         let parameters = UntangledParameters { pixel_spacing, ..self.parameters };
@@ -203,7 +203,7 @@ impl Untangled {
         &self.parameters
     }
 
-    /// All vessels, split where they meet or end, in their order and along them.
+    /// The parts of all vessels between meeting points and ends, in the order of the vessels and along each.
     pub fn laid_out(&self) -> &[LaidOut] {
         &self.laid_out
     }
@@ -232,8 +232,8 @@ impl Untangled {
         rotations
     }
 
-    /// Radius around a branching point within which vessels may overlap (mm), if its widest hull is `hull`
-    /// mm.
+    /// Radius around a branching point within which vessels may overlap (mm), if the widest hull there has a
+    /// radius of `hull` mm.
     pub fn may_overlap_within(&self, hull: f64) -> f64 {
         self.near * hull + OVERLAP_EXTRA_MM
     }
@@ -243,7 +243,7 @@ impl Untangled {
         &self.overlaps
     }
 
-    /// Where cycles are cut open: pairs of image positions of one point of the body.
+    /// Where cycles are cut open: pairs of image positions that show the same point of the body.
     pub fn closures(&self) -> &[[DVec2; 2]] {
         &self.closures
     }
@@ -282,7 +282,7 @@ impl Untangled {
     }
 
     fn segments(&self, stop: Stop) -> Result<&[u32]> {
-        // Computed outside the lock: a pool thread waiting for its part could wait for itself.
+        // Computed outside the lock: a waiting pool thread may start other work and then deadlock.
         if let Some(known) = self.segments.get() {
             return Ok(known);
         }

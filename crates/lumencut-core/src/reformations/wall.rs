@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::arc_length::segment_at;
 
-/// The radius of a wall (mm) by arc length and direction, and where it is open, interpolated bilinearly.
+/// The radius of a wall (mm) by arc length and direction, interpolated bilinearly, and the wall's openings.
 #[derive(Clone, Debug)]
 pub struct Wall {
     at: Vec<f64>,
@@ -48,7 +48,7 @@ impl Wall {
         low + (high - low) * along
     }
 
-    /// Whether the wall is open there: by the nearest entry, of two the later one.
+    /// Whether the wall is open there, by the nearest table entry, or the later one of two equally near.
     pub fn is_open(&self, at: f64, around: f64) -> bool {
         let (rows, along) = self.rows(at);
         let row = rows[usize::from(along >= 0.5)];

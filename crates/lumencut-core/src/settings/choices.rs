@@ -1,4 +1,4 @@
-//! Settings as hosts choose them, one by one and in any order, and the checked settings they result in.
+//! Settings as users choose them, one by one and in any order, and the checked settings that result.
 
 use super::context::{Context, ContextMode, ContextName};
 use super::table::{ContextChoices, Settings};
@@ -6,7 +6,7 @@ use super::value::{Transfer, Value};
 use crate::error::{Error, ErrorKind, Result};
 use crate::named::Named;
 
-/// What a host chose; all other settings have their defaults.
+/// The values that a user chose; all other settings have their defaults.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Choices {
     settings: Settings,
@@ -14,7 +14,7 @@ pub struct Choices {
 }
 
 impl Choices {
-    /// Fails with [`ErrorKind::Settings`] for an unknown setting, another kind of value, or an invalid name.
+    /// Fails with [`ErrorKind::Settings`] for an unknown setting, a wrong kind of value, or an invalid name.
     pub fn set(&mut self, name: &str, value: Value) -> Result<()> {
         if ContextChoices::ROWS.iter().any(|setting| setting.name == name) {
             self.context.set(name, value)
@@ -37,7 +37,7 @@ impl Choices {
 }
 
 impl Settings {
-    /// Fails with [`ErrorKind::Settings`] naming the first setting outside its range.
+    /// Checks all settings. Fails with [`ErrorKind::Settings`] naming the first one outside its range.
     pub fn check(&self) -> Result<()> {
         self.check_rows()?;
         self.check_chosen()?;
@@ -91,7 +91,7 @@ impl ContextChoices {
 }
 
 impl From<&Context> for ContextChoices {
-    /// The choices that result in `context`: a blend by its γ, a transfer function by its points.
+    /// The choices that lead to `context`: a blend is chosen by its γ, a transfer function by its points.
     fn from(context: &Context) -> Self {
         let (name, gamma) = match context.mode {
             ContextMode::Blend { gamma } => (ContextName::Mida, gamma),

@@ -6,8 +6,8 @@ use super::table::Settings;
 use crate::error::{Error, ErrorKind, Result};
 
 impl Settings {
-    /// These settings for `count` vessels: silhouettes if some are chosen, no choice if all are. Fails with
-    /// [`ErrorKind::Settings`] for the id of a missing vessel.
+    /// These settings for `count` vessels: if some are chosen, silhouettes are drawn; if all are, the choice
+    /// is dropped. Fails with [`ErrorKind::Settings`] for the id of a missing vessel.
     pub(crate) fn for_vessels(&self, count: usize) -> Result<Cow<'_, Self>> {
         let chosen = &self.focus_vessels;
         if let Some(id) = chosen.iter().find(|id| **id >= count) {
@@ -24,13 +24,13 @@ impl Settings {
         Ok(Cow::Owned(Self { silhouettes: true, ..self.clone() }))
     }
 
-    /// The setting that sets some vessels apart from their surroundings, and words for it.
+    /// The name of the setting that highlights vessels or their surroundings, and words for it.
     pub fn focused(&self) -> Option<(&'static str, &'static str)> {
         let chosen = (!self.focus_vessels.is_empty()).then_some(("focus_vessels", "chosen vessels"));
         self.focus.map(|_| ("focus", "a focus")).or(chosen)
     }
 
-    /// Rejects chosen vessels if lumen and wall have no tiers.
+    /// Rejects chosen vessels without `lumen_first`, since lumen and wall then have no tiers.
     pub(super) fn check_chosen(&self) -> Result<()> {
         if self.focus_vessels.is_empty() || self.lumen_first {
             return Ok(());

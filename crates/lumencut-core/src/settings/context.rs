@@ -1,4 +1,4 @@
-//! The context: what the rays gather where the cut surface shows nothing, and the names of its modes.
+//! The context: what rays gather where no cut surface is shown, and the names of its modes.
 
 use super::transfer::{Preset, TransferFunction};
 use super::window::Window;
@@ -30,7 +30,7 @@ impl Named for ContextName {
 }
 
 impl ContextName {
-    /// What the rays of this mode gather; `gamma` is the γ of MIDA.
+    /// The mode with this name; `gamma` is the γ of MIDA.
     pub fn mode(self, gamma: f64) -> ContextMode {
         match self {
             Self::Mida => ContextMode::Blend { gamma },
@@ -41,7 +41,7 @@ impl ContextName {
         }
     }
 
-    /// The default transfer function: grey for a maximum, because it is a single intensity.
+    /// The default transfer function: grey for a maximum, since each ray then has a single intensity.
     pub(crate) fn default_transfer(self) -> Preset {
         match self {
             Self::Mip => Preset::Grey,
@@ -50,7 +50,7 @@ impl ContextName {
     }
 }
 
-/// Where the rays of the context start around the focus.
+/// The place at which rays of the context start around the focus.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ContextFrom {
     /// At the cut surface.
@@ -63,7 +63,7 @@ impl Named for ContextFrom {
     const NAMES: &'static [(&'static str, Self)] = &[("cut", Self::Cut), ("whole", Self::Whole)];
 }
 
-/// What the rays of the context gather.
+/// The quantity that the rays of the context gather.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ContextMode {
     /// Colour and opacity: γ = −1 is direct volume rendering (DVR), 0 maximum intensity difference
@@ -72,9 +72,9 @@ pub enum ContextMode {
         /// γ, from −1 to 1.
         gamma: f64,
     },
-    /// The smallest value, grey.
+    /// The smallest value, shown in grey.
     Minimum,
-    /// The mean value, grey.
+    /// The mean value, shown in grey.
     Average,
 }
 
@@ -91,12 +91,12 @@ impl ContextMode {
     }
 }
 
-/// How the surroundings are rendered where the cut surface shows nothing.
+/// The parameters of the context, which is shown where the cut surface shows nothing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Context {
-    /// What the rays gather.
+    /// The quantity that the rays gather.
     pub mode: ContextMode,
-    /// The intensities from 0 to 1: for the differences of MIDA, and grey of minimum and average.
+    /// Maps intensities to 0 to 1: for the differences of MIDA, and the grey of minimum and average.
     pub window: Window,
     /// Colour and opacity of the intensities.
     pub transfer: TransferFunction,
@@ -105,7 +105,7 @@ pub struct Context {
     pub step: Option<f64>,
     /// Whether DVR and MIDA are shaded by the gradient, with light from the viewer.
     pub shading: bool,
-    /// Where rays start around the focus.
+    /// The place at which rays start around the focus.
     pub from: ContextFrom,
     /// Factor on the colours of the context in the picture, 0 to 1.
     pub strength: f64,

@@ -1,4 +1,4 @@
-//! The types of settings' fields: conversion from and to hosts' values, and checks.
+//! The types of settings' fields: conversion from and to the values that callers give, and checks.
 
 use super::focus::Focus;
 use super::slab::{Slab, SlabMode};
@@ -11,7 +11,7 @@ use crate::named::Named;
 
 pub(super) trait Field: Sized {
     const KIND: Kind;
-    /// Whether hosts may leave the field open with [`Value::None`].
+    /// Whether the field may have no value ([`Value::None`]).
     const OPTIONAL: bool = false;
 
     fn choices() -> Vec<&'static str> {
@@ -135,7 +135,7 @@ impl<T: Named> Field for T {
     }
 }
 
-/// An open window is [`Window::default`]; hosts that know the data replace it.
+/// Without a value the window is [`Window::default`]; callers that know the data replace it.
 impl Field for Window {
     const KIND: Kind = Kind::Window;
     const OPTIONAL: bool = true;
@@ -213,7 +213,7 @@ impl Field for Focus {
     }
 }
 
-/// Vessel names are known once there is a tree: hosts leave the ids open until then.
+/// Vessel names are known only once there is a tree; until then callers choose no ids.
 impl Field for Vec<usize> {
     const KIND: Kind = Kind::Vessels;
 

@@ -3,11 +3,11 @@
 use crate::error::Result;
 use crate::limits::Limits;
 
-/// With a margin far below 0, only the context is shown.
+/// Limits of the margin (mm); a margin far below 0 shows only the context.
 const MARGIN_LIMITS: Limits = Limits::new(-1e6, 1e6, "mm");
 const FADE_LIMITS: Limits = Limits::new(0.0, 1e6, "mm");
 
-/// The cut surface around the vessels amid the context.
+/// Shows the cut surface around the vessels, and the context elsewhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Focus {
     /// Distance beyond the nearest wall (mm, in the view plane) up to which all of the cut surface is shown;

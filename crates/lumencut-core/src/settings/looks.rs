@@ -14,13 +14,13 @@ const THICK_SLAB_MM: f64 = 10.0;
 /// Several settings under one name; all others have their defaults.
 #[derive(Clone, Copy, Debug)]
 pub struct Look {
-    /// Its name on the command line and in Python.
+    /// The name of the look on the command line and in Python.
     pub name: &'static str,
-    /// Its label on a page.
+    /// The label of the look on a page.
     pub words: &'static str,
-    /// What it shows.
+    /// A sentence that says what the look shows.
     pub sentence: &'static str,
-    /// Its settings and their values.
+    /// The settings that the look changes, and their values.
     pub values: fn() -> Vec<(&'static str, Value)>,
 }
 

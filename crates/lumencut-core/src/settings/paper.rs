@@ -1,4 +1,4 @@
-//! The settings of the paper's rules.
+//! The settings that select the paper's rules.
 
 use super::rules::{LevelChoice, SilhouetteRule};
 use super::table::Settings;

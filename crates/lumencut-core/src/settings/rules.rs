@@ -2,12 +2,12 @@
 
 use crate::named::Named;
 
-/// Which vessel the levels of detail of a pixel belong to.
+/// The rule that decides to which vessel a pixel's levels of detail belong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LevelChoice {
-    /// To the vessel that wins the pixel at the finest level: one decision for each pixel.
+    /// The vessel that wins the pixel at the finest level: one decision for each pixel.
     Own,
-    /// To the vessel with the smallest cost at each level, which may change (paper section 3.1.4).
+    /// At each level the vessel with the smallest cost, which may change (paper section 3.1.4).
     Nearest,
 }
 
@@ -15,12 +15,12 @@ impl Named for LevelChoice {
     const NAMES: &'static [(&'static str, Self)] = &[("own", Self::Own), ("nearest", Self::Nearest)];
 }
 
-/// Where silhouettes are drawn.
+/// The rule that decides where silhouettes are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SilhouetteRule {
-    /// Between neighbours whose depths do not belong to one surface.
+    /// Lines lie between neighbours whose depths do not belong to one surface.
     Leap,
-    /// Where the depth is steep, most at borders of influence zones (paper section 3.3.5).
+    /// Lines lie where the depth is steep, mostly at borders of influence zones (paper section 3.3.5).
     Gradient,
 }
 

@@ -1,4 +1,4 @@
-//! One setting as hosts and documents see it, and the macro that declares settings.
+//! The description of one setting for interfaces and documents, and the macro that declares settings.
 
 use super::value::{Kind, Value};
 use crate::limits::Limits;
@@ -10,11 +10,11 @@ pub struct Setting {
     pub name: &'static str,
     /// The kind of its value.
     pub kind: Kind,
-    /// Whether the setting may be left open.
+    /// Whether the setting may have no value.
     pub optional: bool,
     /// The range of a number.
     pub limits: Option<Limits>,
-    /// What the open value means, for settings that are open by default.
+    /// What it means to have no value, for settings that have none by default.
     pub open: Option<&'static str>,
     pub(super) about: &'static str,
     pub(super) choices: fn() -> Vec<&'static str>,
@@ -47,7 +47,7 @@ impl Setting {
     }
 }
 
-/// Declares settings, one row each: `name: type = default`, range and unit, meaning of an open value. The
+/// Declares settings, one row each: `name: type = default`, range and unit, and meaning of no value. The
 /// comment before a row is text for users: the command line shows its first paragraph, documents all of it.
 macro_rules! settings {
     (

@@ -1,4 +1,4 @@
-//! The slab: thickness of the cut surface, and what it shows of it.
+//! The slab: the thickness of the cut surface, and which of the values in it is shown.
 
 use crate::error::Result;
 use crate::limits::Limits;
@@ -6,7 +6,7 @@ use crate::named::Named;
 
 const THICKNESS: Limits = Limits::new(0.0, 1e3, "mm");
 
-/// What a thick cut surface shows of the values along the view direction.
+/// The value that a thick cut surface shows, among those along the view direction.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SlabMode {
     /// The largest.
@@ -27,7 +27,7 @@ impl Named for SlabMode {
 pub struct Slab {
     /// Distance from its near to its far side along the view (mm); the cut surface lies in the middle.
     pub thickness: f64,
-    /// What the slab shows.
+    /// Which of the values in the slab is shown.
     pub mode: SlabMode,
 }
 

@@ -139,7 +139,7 @@ settings! {
 }
 
 settings! {
-    /// The context as hosts set it; [`ContextChoices::context`] converts it for the rays.
+    /// The context as users set it; [`ContextChoices::context`] converts it for the rays.
     pub struct ContextChoices {
         /// What to show where the cut surface is outside the volume or transparent (name): `mida`, `dvr`, `mip`,
         /// `minip`, `average`, or only the background (`None`).

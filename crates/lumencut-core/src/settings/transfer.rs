@@ -1,4 +1,4 @@
-//! Transfer functions: colour and opacity of an intensity in the context, and the named ones.
+//! Transfer functions: colour and opacity for intensities of the context, and named presets.
 
 use super::window::Window;
 use crate::error::{Error, ErrorKind, Result};
@@ -103,7 +103,7 @@ impl Preset {
     pub fn transfer_function(self, window: Window) -> TransferFunction {
         let black = window.level - window.width / 2.0;
         let point = |&(place, color, opacity): &(f64, [u8; 3], f64)| ControlPoint {
-            // Windows may reach farther than control points.
+            // A window may extend beyond the intensities allowed for control points.
             intensity: (black + place * window.width)
                 .clamp(-Limits::LARGEST_INTENSITY, Limits::LARGEST_INTENSITY),
             color,

@@ -1,4 +1,4 @@
-//! The kinds of settings' values, and values as hosts give them.
+//! The kinds of settings' values, and the values as Python, the command line or the page give them.
 
 use super::focus::Focus;
 use super::slab::Slab;
@@ -56,36 +56,36 @@ impl Kind {
 pub enum Value {
     /// No value was chosen.
     None,
-    /// Of [`Kind::Flag`].
+    /// A value of [`Kind::Flag`].
     Flag(bool),
-    /// Of [`Kind::Number`].
+    /// A value of [`Kind::Number`].
     Number(f64),
-    /// Of [`Kind::Count`].
+    /// A value of [`Kind::Count`].
     Count(usize),
-    /// Of [`Kind::Color`].
+    /// A value of [`Kind::Color`].
     Color(Vec<u8>),
-    /// Of [`Kind::Choice`] and [`Kind::Transfer`].
+    /// A value of [`Kind::Choice`] or [`Kind::Transfer`].
     Name(String),
-    /// Of [`Kind::Window`].
+    /// A value of [`Kind::Window`].
     Window(Window),
-    /// Of [`Kind::Opacity`].
+    /// A value of [`Kind::Opacity`].
     Opacity(Opacity),
-    /// Of [`Kind::Slab`].
+    /// A value of [`Kind::Slab`].
     Slab(Slab),
-    /// Of [`Kind::Focus`].
+    /// A value of [`Kind::Focus`].
     Focus(Focus),
-    /// Of [`Kind::Vessels`].
+    /// A value of [`Kind::Vessels`].
     Vessels(Vec<usize>),
-    /// Of [`Kind::Transfer`].
+    /// A value of [`Kind::Transfer`].
     Transfer(TransferFunction),
 }
 
-/// A transfer function as a host chooses it.
+/// The choice of a transfer function.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Transfer {
-    /// By name; the function lies within the window of the context.
+    /// A named function, placed within the window of the context.
     Preset(Preset),
-    /// By its points.
+    /// A function given by its points.
     Function(TransferFunction),
 }
 

@@ -1,4 +1,4 @@
-//! The exact largest, smallest or mean value of the volume along rays: not sampled, but over the whole chord.
+//! The exact largest, smallest or mean value of the volume along rays: over the whole chord, not sampled.
 
 use rayon::prelude::*;
 
@@ -22,7 +22,7 @@ pub struct AlongRays<'a> {
     /// Blocks to skip; `None` reads everything, with the same result.
     pub blocks: Option<&'a Blocks>,
     pub reduction: Reduction,
-    /// Values beyond this make no difference: larger ones, or smaller ones for the smallest value.
+    /// Values above this make no difference; if the smallest value is wanted, values below this.
     pub limit: f32,
     /// The longest part of a ray (mm): about a voxel.
     pub step: f64,
@@ -65,10 +65,10 @@ pub fn along_rays(work: &Work, along: &AlongRays, source: &dyn RaySource, values
     })
 }
 
-/// Parts of a ray that are followed or skipped together.
+/// Number of parts of a ray that are followed or skipped together.
 const PARTS_TOGETHER: i32 = 8;
 
-/// Columns between two checks for stop.
+/// Number of columns between two checks for stop.
 const COLUMNS_PER_CHECK: usize = 32;
 
 struct Square<'a> {
@@ -108,7 +108,7 @@ impl Kernel for Square<'_> {
 }
 
 impl Square<'_> {
-    /// Finds the largest values of `sign` · volume: segments with the largest values go first.
+    /// Finds the largest values of `sign` · volume, beginning with the segments that may hold the largest.
     #[inline(always)]
     fn largest(&self, packet: &Packet, sign: f32) -> [f32; FAN] {
         let limit = self.along.limit * sign;

@@ -1,4 +1,4 @@
-//! The picture: the cut surface with its silhouettes over the context over the background.
+//! The picture: in front the cut surface with its silhouettes, behind it the context, then the background.
 
 use bytemuck::{Pod, Zeroable};
 use rayon::prelude::*;
@@ -13,11 +13,11 @@ use crate::settings::Settings;
 /// The layers of a picture, from the front to the back.
 #[derive(Clone, Copy, Debug)]
 pub struct Layers<'a> {
-    /// The volume at the cut surface, NaN if it shows nothing.
+    /// The value of the volume at the cut surface; NaN if the surface shows nothing.
     pub value: &'a [f32],
     /// Strength of the silhouettes, if they are drawn.
     pub strength: Option<&'a [f32]>,
-    /// How much of the surface and of its silhouettes is shown, 0 to 1; `None` for all of both.
+    /// Shares of the surface and its silhouettes that are shown, 0 to 1; `None` if both are fully shown.
     pub focus: Option<&'a [Shares]>,
     /// The context, premultiplied colours and opacity.
     pub context: Option<&'a [[f32; 4]]>,
@@ -91,7 +91,7 @@ impl CompositeParameters {
         }
     }
 
-    /// The grey surface and its silhouettes, as far as they are shown, over context and background.
+    /// The grey surface and its silhouettes, each by its share, over context and background.
     #[inline(always)]
     fn pixel(&self, value: f32, strength: f32, [share, lines]: Shares, context: [f32; 4]) -> [f32; 4] {
         let nothing = value.is_nan();
@@ -124,19 +124,19 @@ fn straight(pixel: [f32; 4], behind: [f32; 4]) -> [u8; 4] {
     packed.to_le_bytes()
 }
 
-/// The nearest integer to a value of at most a little over 255. From 2²³ on, a float's last bit counts ones,
-/// so the sum's low byte is the number; a conversion would add checks.
+/// The nearest integer to a value of at most a little over 255. Adding 2²³ rounds the value and leaves the
+/// integer in the last byte; a conversion would add checks.
 #[inline(always)]
 fn byte(value: f32) -> u32 {
     (smaller(value, 255.0) + 8_388_608.0).to_bits() & 0xFF
 }
 
-/// Number of pixels that are checked together for any context.
+/// Number of pixels that are tested together for any context.
 const PIXELS_TOGETHER: usize = 64;
 
 #[inline(always)]
 fn is_nothing(colors: &[[f32; 4]]) -> bool {
-    // Without an early exit the fold vectorises.
+    // The fold has no early exit, so that it vectorises.
     colors.as_flattened().iter().fold(0, |bits, channel| bits | channel.to_bits()) == 0
 }
 

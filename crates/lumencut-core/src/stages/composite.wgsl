@@ -1,4 +1,4 @@
-// The picture: the cut surface with its silhouettes over the context over the background.
+// The picture: in front the cut surface with its silhouettes, behind it the context, then the background.
 // import math/lanes
 // import math/view
 // import math/window
@@ -51,7 +51,7 @@ fn composite(@builtin(global_invocation_id) thread: vec3u) {
     let rest = (1.0 - behind.w) * parameters.background.w;
     let back = vec4f(behind.xyz + parameters.background.xyz * rest, behind.w + rest);
     var pixel = back;
-    // Without a value there is no surface.
+    // If there is no value, the surface is not shown.
     if !ALONE && value[place] < HUGE {
         let grey = ramp_at(parameters.grey, value[place]);
         var shares = vec2f(1.0);

@@ -23,15 +23,15 @@ use crate::settings::{Context, Settings};
 
 #[derive(Clone, Copy, Debug)]
 pub struct SurfaceImages<'a> {
-    /// The volume at the cut surface; NaN if that shows nothing.
+    /// The value of the volume at the cut surface; NaN if the surface shows nothing.
     pub value: &'a [f32],
     pub depth: &'a [f32],
-    /// How much of the cut surface and of its silhouettes is shown; `None` for all of both.
+    /// Shares of the cut surface and its silhouettes that are shown; `None` if both are fully shown.
     pub focus: Option<&'a [Shares]>,
 }
 
 /// Writes where each pixel's ray starts: nowhere if the cut surface is opaque, behind it if it is
-/// transparent, in front of the volume if it shows nothing. Around a focus the parameters decide.
+/// transparent, in front of the volume if it shows nothing. Around a focus, `parameters` decide.
 pub fn starts(work: &Work, parameters: &StartParameters, surface: &SurfaceImages, start: &mut [f32]) {
     let &SurfaceImages { value, depth, focus } = surface;
     work.expect_whole(Image::Value, value);

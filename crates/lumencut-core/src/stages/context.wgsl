@@ -1,5 +1,5 @@
-// The context: rays through the volume behind the cut surface (paper section 3.3.6), in two passes: starts,
-// rays.
+// The context: rays through the volume behind the cut surface (paper section 3.3.6). The first pass writes
+// the starts of rays, the second follows the rays.
 // import math/reduce
 // import math/trace
 
@@ -13,9 +13,9 @@ override MODE: u32 = 0u;
 
 override PREVIEW: bool = false;
 
-// Without a focus, the binding of `focus` is empty.
+// The binding of `focus` is empty if there is no focus.
 override HAS_FOCUS: bool = false;
-// Whether rays start at the cut surface if not all of it is shown; otherwise in front of the volume.
+// Whether rays start at a partly shown cut surface; otherwise they start in front of the volume.
 override FROM_CUT: bool = true;
 
 // raster.rs explains this value.

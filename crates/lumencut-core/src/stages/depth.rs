@@ -22,7 +22,7 @@ use crate::math::tile::{Tile, gather, scatter};
 use crate::math::walk::{Seeds, lowest_keys};
 use crate::settings::{LevelChoice, MAX_LEVELS, Settings};
 
-/// The levels of a tree in one view, the rule that orders their pieces, and the selection of levels.
+/// The levels of a tree in one view, the rule that orders their pieces, and how pixels select levels.
 pub struct CutSurface<'a> {
     levels: &'a [Level],
     projected: &'a [ProjectedLevel],
@@ -30,7 +30,7 @@ pub struct CutSurface<'a> {
     rule: Rule,
     lumen_first: bool,
     level_choice: LevelChoice,
-    /// N / σ (levels² per mm); times the distance that selects the levels, it gives f².
+    /// N / σ: the square of the wanted level per mm of the distance that selects levels.
     selection: f32,
 }
 
@@ -95,7 +95,7 @@ pub(crate) trait Search {
     fn own<const SHEET: bool>(&mut self, pieces: OwnPieces, part: &Part, nearest: &mut NearestPieces);
 }
 
-/// Searches through the hierarchy, beginning with winners of the previous tile, and along the vessels.
+/// Searches the hierarchy, first where the previous tile had winners, and then along the vessels.
 struct LowestKeySearch<'a> {
     surface: &'a CutSurface<'a>,
     seeds: [Seeds; MAX_LEVELS + 1],
@@ -122,8 +122,8 @@ impl Search for LowestKeySearch<'_> {
 }
 
 /// Per pixel: the change of depth to the right and upwards (mm per mm), the vessel's radius (mm, negative
-/// outside the lumen), and the gap along the vessel between the two points that are blended (mm). The gap is
-/// [`crate::math::lanes::FAR`] between different vessels and [`CHOSEN_GAP`] where a chosen vessel takes
+/// outside the lumen), and the gap. This is the distance along the vessel between the two blended points
+/// (mm), [`crate::math::lanes::FAR`] between different vessels, or [`CHOSEN_GAP`] if a chosen vessel takes
 /// precedence.
 pub type Sheet = [f32; 4];
 
@@ -145,7 +145,7 @@ pub fn depth(work: &Work, surface: &CutSurface, distance: &[f32], images: DepthI
     depth_by(work, surface, distance, images, || LowestKeySearch { surface, seeds })
 }
 
-/// [`depth`] with a separate search for each row of tiles.
+/// [`depth`], with a new search for each row of tiles.
 pub(crate) fn depth_by<S: Search>(
     work: &Work,
     surface: &CutSurface,

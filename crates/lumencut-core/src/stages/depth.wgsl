@@ -13,14 +13,14 @@ override HAS_SHEET: bool = false;
 @group(0) @binding(7) var<storage, read_write> sheet_image: array<vec4f>;
 @group(0) @binding(9) var<storage, read> distance_image: array<f32>;
 
-// The finer of the two levels that a pixel blends, and the weight of the coarser one (0: only the finer).
+// The finer of the two levels that a pixel blends, and the weight of the coarser one (0 if it is not used).
 var<private> fine_level: array<vec4f, MAX_QUADS>;
 var<private> coarse_weight: array<vec4f, MAX_QUADS>;
-// So far: the blended depth, the largest weight, and the slot with that weight, counted over all levels.
+// Running results: the blended depth, the largest weight, and the slot with that weight, over all levels.
 var<private> blended: array<vec4f, MAX_QUADS>;
 var<private> ruling_weight: array<vec4f, MAX_QUADS>;
 var<private> ruling_slot: array<vec4u, MAX_QUADS>;
-// The sheet so far. Of the finer level: the vessel, counted from 1 (0: none yet), and the arc length.
+// The sheet so far; of the finer level also the vessel, counted from 1 (0: none yet), and the arc length.
 var<private> sheets: array<array<vec4f, QUAD>, MAX_QUADS>;
 var<private> finer_vessel: array<vec4u, MAX_QUADS>;
 var<private> finer_arc_length: array<vec4f, MAX_QUADS>;
@@ -61,7 +61,7 @@ fn begin(k: f32) {
     }
 }
 
-// Adds a level's winners by their weights. The finest level comes first and wins ties.
+// Adds the depths of a level's winners, by their weights. The finest level comes first and wins ties.
 fn blend(level: u32) {
     let first_slot = parameters.levels[level].first_slot;
     for (var q = 0u; q < ACROSS * ROWS; q++) {

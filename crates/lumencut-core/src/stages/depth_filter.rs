@@ -20,7 +20,7 @@ const OUTSIDE: i32 = i32::MIN;
 pub struct DepthFilterParameters {
     /// The weights of the Gaussian from the middle outwards; with both sides they sum to 1.
     pub weights: [f32; HALF_WIDTH + 1],
-    /// Within zones: the largest deviation of a pair of neighbours from a straight line (mm).
+    /// Within zones, the largest accepted deviation of a pair of neighbours from a straight line (mm).
     pub leap: f32,
     pub padding: f32,
     pub more_padding: [f32; 2],
@@ -36,7 +36,7 @@ impl DepthFilterParameters {
         Self { weights: bell.map(|w| (w / sum) as f32), leap: 0.0, ..Self::zeroed() }
     }
 
-    /// The Gaussian, with the leap of these settings.
+    /// The Gaussian, with the `depth_leap` of these settings.
     pub fn of(settings: &Settings) -> Self {
         Self { leap: settings.depth_leap as f32, ..Self::new() }
     }
@@ -48,7 +48,7 @@ impl Default for DepthFilterParameters {
     }
 }
 
-/// Writes the smoothed `image`, extended by its border pixels, or within the zones of `vessel` if given.
+/// Writes the smoothed `image`: extended by its border pixels, or filtered within the zones of `vessel`.
 pub fn depth_filter(
     work: &Work,
     parameters: &DepthFilterParameters,
@@ -141,7 +141,7 @@ impl Kernel for ZoneRows<'_> {
         let width = self.width;
         let height = self.image.len() / width;
         let outside = vec![OUTSIDE; width];
-        // A row padded with pixels that belong to no zone.
+        // A row padded on both sides with pixels that belong to no zone.
         let (mut depths, mut zones) =
             (vec![0.0; width + 2 * HALF_WIDTH], vec![OUTSIDE; width + 2 * HALF_WIDTH]);
         for (j, smoothed) in (self.first..).zip(self.smoothed.chunks_mut(width)) {
@@ -161,12 +161,11 @@ const OFFSETS: [usize; SPAN] = [0, 1, 2, 3, 4, 5, 6];
 
 /// Filters a row of pixels along one axis, within zones. Entry n of `z` and `zone` is the row shifted by n −
 /// `HALF_WIDTH` along that axis.
-///
-/// A pair of neighbours counts if both, and all pairs nearer to the middle, are in the zone of the middle
-/// pixel, and if the pair does not leap. The deviations of the pairs from a straight line through the middle
-/// are added to the middle: on a plane they are 0 up to the rounding of the depths, and if no pair counts the
-/// middle does not change. Neighbours are subtracted from the middle one by one: close numbers have an exact
-/// difference, but a sum of two loses a digit. The middle always counts, so the sum of weights is never 0.
+/// | A pair of neighbours counts if both, and all nearer pairs, are in the zone of the middle pixel, and if
+/// the depth does not jump. Each pair adds its deviation from a straight line through the middle. On a plane
+/// this is 0 up to the rounding of depths; if no pair counts, the middle is unchanged. Neighbours are
+/// subtracted from the middle one by one: close numbers have an exact difference, while a sum loses a digit.
+/// The middle always counts, so the sum of weights is never 0.
 #[inline(always)]
 fn filter_within_zones(
     parameters: &DepthFilterParameters,
@@ -176,7 +175,7 @@ fn filter_within_zones(
 ) {
     let &DepthFilterParameters { weights: [w0, w1, w2, w3], leap, .. } = parameters;
     let width = filtered.len();
-    // Slices of one length, no indices, and selects of numbers let the loop vectorise.
+    // Slices of one length, no indices, and selecting numbers instead of branching let the loop vectorise.
     let [a3, a2, a1, z, b1, b2, b3] = z.map(|z| &z[..width]);
     let [u3, u2, u1, zone, v1, v2, v3] = zone.map(|zone| &zone[..width]);
     for i in 0..width {

@@ -2,7 +2,7 @@
 // in one pass per axis.
 // import math/view
 
-// Within zones: whether this pass filters along columns; otherwise along rows.
+// Within zones: true if this pass filters along columns, false along rows.
 override DOWN: bool = true;
 
 struct DepthFilterParameters {
@@ -15,7 +15,7 @@ struct DepthFilterParameters {
 @group(0) @binding(1) var<uniform> parameters: DepthFilterParameters;
 @group(0) @binding(2) var<storage, read> image: array<f32>;
 @group(0) @binding(3) var<storage, read_write> smoothed: array<f32>;
-// Read only within zones.
+// Read only by the filter within zones.
 @group(0) @binding(4) var<storage, read> vessel: array<i32>;
 
 fn continued(column: i32, row: i32) -> f32 {
@@ -23,7 +23,7 @@ fn continued(column: i32, row: i32) -> f32 {
     return image[place_of(vec2u(clamp(vec2i(column, row), vec2i(0), last)))];
 }
 
-// Columns first, as on the CPU.
+// Filters columns first, then rows, as on the CPU.
 fn down(column: i32, row: i32) -> f32 {
     var sum = parameters.weights[0] * continued(column, row);
     for (var n = 1; n <= 3; n++) {

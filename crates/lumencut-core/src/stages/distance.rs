@@ -25,7 +25,7 @@ pub(crate) trait Measure {
     fn lower(&mut self, tile: &Tile, squared: &mut [f32; PIXELS]);
 }
 
-/// Searches through the hierarchy, starting at the point nearest to the previous tile.
+/// Searches the hierarchy, starting with the point nearest to the previous tile.
 struct NearestSearch<'a> {
     finest: &'a Hierarchy,
     nearest: NearestPoint,
@@ -38,7 +38,7 @@ impl Measure for NearestSearch<'_> {
     }
 }
 
-/// [`distance`] with a separate measure for each row of tiles.
+/// [`distance`], with a new search for each row of tiles.
 pub(crate) fn distance_by<M: Measure>(
     work: &Work,
     surface: &CutSurface,

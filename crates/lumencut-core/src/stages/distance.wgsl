@@ -30,7 +30,7 @@ fn near_bundle(tile: Tile) -> u32 {
     return node.index;
 }
 
-// The next bundle, from a node on, that can lower a distance; beyond the last node if there is none.
+// The next bundle, from node `first` on, that can lower a distance; beyond the last node if there is none.
 fn next_bundle(tile: Tile, first: Node, limit: f32) -> Node {
     var node = first;
     while !is_beyond(0u, node) {
@@ -48,7 +48,7 @@ fn next_bundle(tile: Tile, first: Node, limit: f32) -> Node {
 }
 
 fn meet(tile: Tile, bundle: u32, limit: f32) -> f32 {
-    // No pixel is farther than the radius from the middle.
+    // The tile's radius covers all its pixels, seen from the middle.
     let reach = sqrt(limit) + tile.radius + slack(tile);
     var candidates = 0u;
     for (var s = 0u; s < FAN; s++) {

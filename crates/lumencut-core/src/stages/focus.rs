@@ -1,5 +1,5 @@
-//! The focus: how much of the cut surface and of its silhouettes each pixel shows, by its distance from the
-//! nearest vessel wall. After the VesselGlyph of Straka et al. 2004.
+//! The focus: the shares of the cut surface and its silhouettes that each pixel shows. They depend on the
+//! distance from the nearest vessel wall. After the VesselGlyph of Straka et al. 2004.
 
 use bytemuck::{Pod, Zeroable};
 use rayon::prelude::*;
@@ -15,21 +15,21 @@ use crate::math::tile::{Tile, scatter};
 use crate::math::walls::{WallRange, nearest_walls};
 use crate::settings::{Focus, Settings};
 
-/// 1 / fade of a hard edge (per mm): so large that rounding never shows a fade.
+/// 1 / fade for a hard edge (per mm), so large that no pixel is partly faded.
 const HARD_EDGE_PER_MM: f64 = 1e20;
-/// Minimum width of a fade (pixels): a narrower one would show steps.
+/// Minimum width of a fade (pixels); a narrower fade would show steps.
 const MIN_FADE_PIXELS: f64 = 2.0;
 
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub struct FocusParameters {
-    /// Distance from the wall up to which all of the cut surface and of its silhouettes is shown (mm).
+    /// Distances from the wall up to which cut surface and silhouettes are fully shown (mm).
     pub margin: [f32; 2],
-    /// 1 / fade of both (per mm); 0 if they are shown everywhere.
+    /// 1 / fade of cut surface and silhouettes (per mm); 0 if they are shown everywhere.
     pub per_fade: [f32; 2],
     /// Smaller distances from the wall (mm) count as this.
     pub near: f32,
-    /// Larger distances (mm) count as this.
+    /// Larger distances from the wall (mm) count as this.
     pub far: f32,
     /// The share that the other vessels keep if some are chosen, 0 to 1.
     pub others: f32,
@@ -69,7 +69,7 @@ impl FocusParameters {
         ends.reduce(|[near, far], [nearer, farther]| [smaller(near, nearer), larger(far, farther)])
     }
 
-    /// The same distances as a range, for distances with a rounding error below `slack` (mm).
+    /// The distances of `between` as a range; `slack` bounds their rounding error (mm).
     fn range(&self, which: &[usize], slack: f32) -> Option<WallRange> {
         self.between(which).map(|[near, far]| WallRange { near, far: far + slack, slack })
     }
@@ -87,15 +87,15 @@ impl FocusParameters {
     }
 }
 
-/// How much of the cut surface and of its silhouettes a pixel shows, 0 to 1.
+/// The shares of the cut surface and of its silhouettes that a pixel shows, 0 to 1.
 pub type Shares = [f32; 2];
 
 /// Indices into [`Shares`].
 const SURFACE: usize = 0;
 const LINES: usize = 1;
 
-/// Writes the shares of cut surface and silhouettes. In tiles that no line reaches according to `leap`, the
-/// latter is arbitrary; with an empty `leap` it is exact everywhere.
+/// Writes the shares of cut surface and silhouettes. In tiles that no silhouette reaches according to `leap`,
+/// the silhouettes' share is arbitrary; with an empty `leap` it is exact everywhere.
 pub fn focus(
     work: &Work,
     surface: &CutSurface,
@@ -115,7 +115,7 @@ pub fn focus(
     })
 }
 
-/// For each tile in a row of tiles whether the line of a leap can lie in it; empty if unknown.
+/// For each tile of a row, whether the line of a depth jump can lie in it; empty if jumps are unknown.
 fn tiles_with_lines(leap: &[u32], width: usize, row: usize) -> Vec<bool> {
     let first = (row * ROWS).saturating_sub(FARTHEST_LEAP) * width;
     let end = ((row + 1) * ROWS + FARTHEST_LEAP) * width;
@@ -149,7 +149,7 @@ impl Kernel for FocusRow<'_> {
             [&[SURFACE, LINES][..], &[SURFACE]].map(|which| self.parameters.range(which, slack));
         for column in (0..width).step_by(COLUMNS) {
             let tile = Tile::new(camera, column, self.row * ROWS);
-            // A finite distance beyond all that matters.
+            // A finite distance, larger than all that are compared.
             let mut beyond = [FAR; PIXELS];
             let has_lines = self.has_lines.get(column / COLUMNS).is_none_or(|has_lines| *has_lines);
             let range = if has_lines { of_both } else { of_surface };
@@ -169,7 +169,7 @@ impl Kernel for FocusRow<'_> {
 }
 
 impl FocusRow<'_> {
-    /// Reduces the shares around the other vessels; chosen vessels keep theirs.
+    /// Reduces the shares of all vessels except chosen ones.
     #[inline(always)]
     fn keep_first(&self, tile: &Tile, range: &WallRange, shares: &mut [Shares; PIXELS]) {
         let mut beyond = [FAR; PIXELS];

@@ -1,4 +1,4 @@
-// The focus: how much of the cut surface and of its silhouettes each pixel shows; focus.rs explains the
+// The focus: the shares of the cut surface and its silhouettes that each pixel shows. focus.rs explains the
 // fields.
 // import math/walls
 

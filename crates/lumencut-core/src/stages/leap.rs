@@ -1,5 +1,5 @@
-//! Leaps: neighbours whose depths do not belong to one surface, and the side of a leap on which its line
-//! lies. Silhouettes follow both decisions.
+//! Leaps: depth jumps between neighbouring pixels that do not belong to one surface, and the side of a leap
+//! on which its line is drawn. Silhouettes use both.
 
 use bytemuck::{Pod, Zeroable};
 use rayon::prelude::*;
@@ -11,7 +11,7 @@ use crate::error::Result;
 use crate::math::lanes::{FAN, Kernel, ROWS, dispatch, larger};
 use crate::math::leaps::{DOWNWARDS, LINE_DOWNWARDS, LINE_TO_THE_RIGHT, LUMEN, TO_THE_RIGHT};
 
-/// The smallest leap (mm), for vessels whose diameter is smaller.
+/// The smallest depth jump that counts as a leap (mm); it matters for vessels with a smaller diameter.
 pub const SMALLEST_LEAP: f32 = 2.0;
 
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
@@ -26,11 +26,10 @@ impl LeapParameters {
     }
 }
 
-/// Writes the leaps between neighbours: the depth (mm, before its filter) differs from what the slope of
-/// either side predicts by more than the vessel's diameter and [`SMALLEST_LEAP`]; where a chosen vessel with
+/// Writes the leaps between neighbours. At a leap, the unfiltered depth differs from what the slope of either
+/// side predicts by more than both the vessel's diameter and [`SMALLEST_LEAP`]; where a chosen vessel with
 /// precedence ends, by more than [`SMALLEST_LEAP`]. Also writes which pixels show lumen, and the side of each
-/// line: outside the lumen if only one side is lumen, else on the farther side, which the nearer one partly
-/// hides.
+/// line: outside the lumen if only one side is lumen, otherwise on the farther side.
 pub fn leap(
     work: &Work,
     parameters: &LeapParameters,
@@ -146,7 +145,7 @@ impl Strip {
         }
     }
 
-    /// Bits (of both axes) for leaps to the pixels of another strip at `step` (view x and y, mm).
+    /// Bits that mark depth jumps to the pixels of another strip, `step` away (view x and y, mm).
     #[inline(always)]
     fn leaps_to(&self, others: &Self, step: [f32; 2]) -> [u32; FAN] {
         let mut leaps = [0; FAN];
@@ -163,8 +162,8 @@ impl Strip {
         leaps
     }
 
-    /// Whether a change of depth differs too much from that by the slope at pixel `l`. `ends_first`: whether
-    /// a chosen vessel ends there.
+    /// Whether the depth change at pixel `l` differs too much from the change that its slope predicts.
+    /// `ends_first` states whether a chosen vessel ends there.
     #[inline(always)]
     fn is_off(&self, l: usize, change: f32, step: [f32; 2], ends_first: bool) -> bool {
         let expected = self.slope[0][l] * step[0] + self.slope[1][l] * step[1];

@@ -1,5 +1,5 @@
-// Leaps: neighbours whose depths do not belong to one surface, and the side of a leap on which its line lies;
-// see leap.rs.
+// Leaps: depth jumps between neighbouring pixels that do not belong to one surface, and the side on which a
+// leap's line is drawn; see leap.rs.
 // import math/view
 // import math/leaps
 
@@ -19,7 +19,7 @@ fn is_off(change: f32, sheet: vec4f, step: vec2f, ends_first: bool) -> bool {
     return abs(change - expected) > select(max(2.0 * abs(sheet.z), SMALLEST_LEAP), SMALLEST_LEAP, ends_first);
 }
 
-// The line lies outside the lumen if only one side is lumen, else on the farther side.
+// The line lies outside the lumen if only one side is lumen, otherwise on the farther side.
 fn leap_bits(here: u32, there: u32, step: vec2f) -> u32 {
     let change = depth[there] - depth[here];
     let ends_first = (sheet[here].w < 0.0) != (sheet[there].w < 0.0);

@@ -37,7 +37,7 @@ fn smooth(vessel: &Vessel) -> Vessel {
     }
     samples.push(controls[last]);
     let radius = vessel.radius().map(|_| samples.iter().map(|(s, _)| s.w.max(0.0)).collect());
-    // Rounding must not let the arc length fall: the pieces of a level are searched by arc length.
+    // Rounding must not make arc length fall along a level, because its pieces are searched by arc length.
     let rising = samples.iter().scan(0.0, |so_far: &mut f64, (_, arc_length)| {
         *so_far = so_far.max(*arc_length);
         Some(*so_far)
@@ -50,7 +50,7 @@ fn smooth(vessel: &Vessel) -> Vessel {
 fn spline(controls: &[Control], u: f64) -> Control {
     let spans = controls.len() - 3;
     let knot = |i: usize| i.saturating_sub(3).min(spans) as f64;
-    // The span of u, counted among all knots: knot(span) ≤ u < knot(span + 1).
+    // The span of u among all knots: knot(span) ≤ u < knot(span + 1).
     let span = (u as usize).min(spans - 1) + 3;
     let mut d: [Control; 4] = std::array::from_fn(|j| controls[span - 3 + j]);
     for round in 1..=3 {

@@ -32,7 +32,7 @@ use crate::math::lanes::{Isa, ROWS};
 use crate::progress::Progress;
 use crate::stop::{Stop, go_on};
 
-/// What every stage of one view shares.
+/// The common input of all stages of one view.
 #[derive(Clone, Copy)]
 #[doc(hidden)]
 pub struct Work<'a> {

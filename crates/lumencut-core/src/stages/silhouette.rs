@@ -1,4 +1,4 @@
-//! Silhouettes: lines at the leaps of the cut surface, or at steep depth as in the paper (section 3.3.5).
+//! Silhouettes: lines where the depth jumps, or where it is steep, as in the paper (section 3.3.5).
 
 use bytemuck::{Pod, Zeroable};
 use rayon::prelude::*;
@@ -13,17 +13,17 @@ use crate::error::Result;
 use crate::math::lanes::{Kernel, ROWS, dispatch, smaller};
 use crate::settings::Settings;
 
-/// Weight of a leap between the influence zones of two vessels, relative to one within a zone.
+/// Weight of depth changes between the zones of two vessels, relative to those within a zone.
 pub const ZONE_BORDER: f32 = 4.0;
-/// Far beyond any squared slope.
+/// Far larger than any squared slope.
 pub const STEEPEST: f32 = 1e12;
-/// Width of the line of a leap (mm), equal to the default wall around a lumen.
+/// Width of the line at a depth jump (mm), equal to the default wall around a lumen.
 pub(crate) const LINE_WIDTH: f64 = 1.0;
-/// The narrowest line of a leap (pixels): a narrower one would be invisible.
+/// Smallest width of the line at a depth jump (pixels); a narrower line would be invisible.
 pub(crate) const NARROWEST_LINE: f64 = 0.5;
-/// The widest line of a leap (pixels), however close the view.
+/// Largest width of the line at a depth jump (pixels), also in the closest view.
 pub(crate) const WIDEST_LINE: f64 = 1.5;
-/// No line covers a pixel farther than this from its leap (pixels): [`WIDEST_LINE`], rounded up.
+/// A line covers no pixel farther than this from its depth jump (pixels): [`WIDEST_LINE`], rounded up.
 pub(crate) const FARTHEST_LEAP: usize = 2;
 const _: () = assert!(WIDEST_LINE <= FARTHEST_LEAP as f64);
 
@@ -34,12 +34,12 @@ pub struct SilhouetteParameters {
     pub per_slope: f32,
     /// The square of the slope at which a silhouette has half strength.
     pub half: f32,
-    /// Width of the line of a leap (pixels).
+    /// Width of the lines at depth jumps (pixels).
     pub line_width: f32,
 }
 
 impl SilhouetteParameters {
-    /// Parameters with which a smooth surface looks the same at every zoom. Lines have a constant width in
+    /// Parameters for which a smooth surface looks the same at every zoom. The width of lines is constant in
     /// mm, within limits in pixels.
     pub fn new(settings: &Settings, camera: &Camera) -> Self {
         let slope = settings.silhouette_slope;
@@ -77,9 +77,9 @@ pub fn silhouette(
     Ok(())
 }
 
-/// Writes the strength of the silhouette, 0 to 1, at each pixel: how much of it the lines of the leaps cover.
-/// `value` is the volume on the surface, NaN if it shows nothing: a line there moves to the other side of its
-/// leap, unless that is lumen. Without values every pixel counts as shown.
+/// Writes the strength of the silhouette, 0 to 1, at each pixel: the share that lines of leaps cover. `value`
+/// is the volume on the surface, NaN if a pixel shows nothing; a line in such a pixel moves to the other side
+/// of its leap, unless that is lumen. Without values, every pixel counts as shown.
 pub fn silhouette_of_leaps(
     work: &Work,
     parameters: &SilhouetteParameters,
@@ -138,7 +138,7 @@ impl Kernel for SlopeRows<'_> {
             let z = rows.map(|j| &self.depth[j * width..(j + 1) * width]);
             let v = rows.map(|j| &self.vessel[j * width..(j + 1) * width]);
             let inner = width.saturating_sub(2);
-            // Neighbours as slices of one length, which vectorise.
+            // Neighbours in slices of one length, so that the loop vectorises.
             let [zl, zm, zr] = [0, 1, 2].map(|o| z.map(|row| row.get(o..o + inner).unwrap_or_default()));
             let [vl, vm, vr] = [0, 1, 2].map(|o| v.map(|row| row.get(o..o + inner).unwrap_or_default()));
             for i in 0..inner {
@@ -146,7 +146,7 @@ impl Kernel for SlopeRows<'_> {
                 let border = is_border(vm[1][i], [vl[1][i], vr[1][i], vm[0][i], vm[2][i]]);
                 raised[i + 1] = raise(depths, border) * self.per_slope;
             }
-            // The first and the last column repeat beyond the border.
+            // At the first and the last column, the column itself replaces the missing neighbour.
             for i in [0, width - 1] {
                 let (left, right) = (i.saturating_sub(1), (i + 1).min(width - 1));
                 let depths = z.map(|row| [row[left], row[i], row[right]]);
@@ -163,7 +163,7 @@ fn is_border(here: i32, neighbours: [i32; 4]) -> bool {
     (a | b) | (c | d)
 }
 
-/// The Sobel magnitude of a 3 × 3 neighbourhood (row by row), raised at a border.
+/// The Sobel magnitude of a 3 × 3 neighbourhood (row by row), raised at borders of zones.
 #[inline(always)]
 fn raise(z: [[f32; 3]; 3], border: bool) -> f32 {
     let dx = (z[0][2] - z[0][0]) + 2.0 * (z[1][2] - z[1][0]) + (z[2][2] - z[2][0]);

@@ -1,5 +1,5 @@
-// Silhouettes: lines where the cut surface leaps (one pass, `lines`), or where it is steep (paper section
-// 3.3.5; three passes: raised slope, depth filter over it, strength). silhouette.rs explains the constants.
+// Silhouettes: lines where the depth jumps (one pass, `lines`), or where it is steep (paper section 3.3.5;
+// three passes: raised slope, depth filter over it, strength). silhouette.rs explains the constants.
 // import math/view
 // import math/lanes
 // import math/leaps
@@ -14,7 +14,7 @@ struct SilhouetteParameters {
 }
 
 @group(0) @binding(1) var<uniform> parameters: SilhouetteParameters;
-// Raised slopes in the first pass, slopes that become strengths in the last; strengths in `lines`.
+// Holds the raised slopes, and after the last pass the strengths; the pass `lines` writes strengths at once.
 @group(0) @binding(2) var<storage, read_write> slopes: array<f32>;
 @group(0) @binding(3) var<storage, read> depth: array<f32>;
 @group(0) @binding(4) var<storage, read> vessel: array<i32>;
@@ -30,7 +30,7 @@ fn silhouette(@builtin(global_invocation_id) thread: vec3u) {
     if !in_view(thread.xy) {
         return;
     }
-    // The image repeats its border beyond it.
+    // Beyond its border, the image repeats its outermost pixels.
     let columns = vec3u(max(thread.x, 1u) - 1u, thread.x, min(thread.x + 1u, view.size.x - 1u));
     let rows = vec3u(max(thread.y, 1u) - 1u, thread.y, min(thread.y + 1u, view.size.y - 1u));
     var z: array<vec3f, 3>;
@@ -61,7 +61,7 @@ fn strength(@builtin(global_invocation_id) thread: vec3u) {
 
 @group(0) @binding(1) var<storage, read> leap: array<u32>;
 @group(0) @binding(3) var<uniform> line_parameters: SilhouetteParameters;
-// HUGE if the surface shows nothing.
+// The value is HUGE if the surface shows nothing.
 @group(0) @binding(4) var<storage, read> value: array<f32>;
 
 fn bits_at(pixel: vec2i) -> u32 {
@@ -83,7 +83,7 @@ fn border(here: vec2i, step: vec2i) -> Border {
     return Border(is_leap, is_leap && is_here == is_owner);
 }
 
-// Whether the line of a leap to another lumen lies in a pixel of a lumen.
+// Whether the line of a depth jump from one lumen to another lies in a pixel.
 fn ends(here: vec2i, step: vec2i) -> bool {
     return border(here, step).has_line && (bits_at(here) & bits_at(here + step) & LUMEN) != 0u;
 }
@@ -115,7 +115,7 @@ fn shows_line_of(owner: vec2i, step: vec2i, beyond: bool) -> bool {
     return shows_line(select(owner, owner + step, beyond), select(step, -step, beyond));
 }
 
-// Whether a pixel outside all lumens has leaps at its borders and shows none of their lines.
+// Whether a pixel outside all lumens has depth jumps at its borders but shows none of their lines.
 fn is_other_side(here: vec2i) -> bool {
     var is_beside = false;
     for (var n = 0; n < 4; n++) {
@@ -130,7 +130,7 @@ fn is_other_side(here: vec2i) -> bool {
     return is_beside;
 }
 
-// How much of the pixel at offset `seen`, outside all lumens, lines of leaps of `owner` cover: by the
+// The share of the pixel at offset `seen`, outside all lumens, that lines of leaps of `owner` cover, by the
 // distance to the nearest leap whose line lies on this side.
 fn cover_beside_lumen(owner: vec2i, seen: vec2i) -> f32 {
     let bits = bits_at(owner);

@@ -23,15 +23,15 @@ use crate::with_voxels;
 pub struct SurfaceParameters {
     /// Half the thickness of the slab (mm); 0 without one.
     pub half: f32,
-    /// What is shown of it: the code of a [`Reduction`].
+    /// Which value of the slab is shown: the code of a [`Reduction`].
     pub mode: u32,
-    /// Minimum parts per mm of a view ray: one per voxel along its main axis.
+    /// Smallest number of parts per mm of a view ray: one per voxel along its main axis.
     pub per_step: f32,
     pub padding: u32,
 }
 
 impl SurfaceParameters {
-    /// The parameters for a slab or the thin cut surface in a view with `voxel` mm between voxels.
+    /// The parameters for a slab, or for a cut surface without one, in a view with `voxel` mm between voxels.
     pub fn new(slab: Option<Slab>, voxel: f64) -> Self {
         let mode = slab.map_or(Reduction::Mean, |slab| Reduction::of(slab.mode)).code();
         let half = slab.map_or(0.0, |slab| slab.thickness / 2.0) as f32;
@@ -48,8 +48,8 @@ pub struct SurfaceScene<'a> {
     pub slab: Option<Slab>,
 }
 
-/// Writes the volume's value at each pixel's position, NaN outside the volume; with a slab the largest, mean
-/// or smallest value of its part within the volume.
+/// Writes the volume's value at each pixel's position, NaN outside the volume. With a slab, writes the
+/// largest, mean or smallest value in the slab's part within the volume.
 pub fn surface(work: &Work, scene: &SurfaceScene, value: &mut [f32]) -> Result<()> {
     work.expect_whole(Image::Value, value);
     thin(work, scene, value)?;
@@ -139,7 +139,7 @@ fn fill(work: &Work, places: &impl PixelPositions, value: &mut [f32]) -> Result<
     })
 }
 
-/// Pixels of a row that are sampled together.
+/// Number of pixels of a row that are sampled together.
 const PIXELS_TOGETHER: usize = 8 * FAN;
 type Run = [[f32; FAN]; PIXELS_TOGETHER / FAN];
 /// Continuous indices of a run of pixels, axis by axis.

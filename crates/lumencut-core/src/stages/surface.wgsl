@@ -7,7 +7,7 @@ override CURVED: bool = false;
 const MEAN = 0u;
 const LARGEST = 1u;
 const SMALLEST = 2u;
-// Parts of a slab that are followed together.
+// Number of parts of a slab that are followed together.
 const STRETCH: i32 = 8;
 
 // A thick cut surface; surface.rs explains the fields.
@@ -18,8 +18,8 @@ struct SurfaceParameters {
     padding: u32,
 }
 
-// A pixel of a curved geometry in the volume: the integer part of its index, the remainder, and the change of
-// the index per mm along the slab direction. The fourth components are padding.
+// A pixel of a curved geometry: the integer part of its voxel index, the remainder, and the change of the
+// index per mm along the slab direction. The fourth components are padding.
 struct CurvedPixel {
     whole: vec4f,
     part: vec4f,
@@ -29,7 +29,7 @@ struct CurvedPixel {
 @group(0) @binding(1) var<uniform> parameters: SurfaceParameters;
 @group(0) @binding(4) var<storage, read> depth: array<f32>;
 @group(0) @binding(5) var<storage, read_write> value: array<f32>;
-// Empty for a camera.
+// Empty if the geometry is that of a camera.
 @group(0) @binding(6) var<storage, read> places: array<CurvedPixel>;
 
 struct Target {

@@ -1,5 +1,5 @@
-//! The table of the stages: names, images read and written, and conditions. Timings, fallbacks, tests and
-//! benches use it.
+//! The table of the stages: their names, the images that they read and write, and when they run. Timings,
+//! fallbacks, tests and benches use it.
 
 use crate::error::{Error, ErrorKind, Result};
 use crate::geometry::Geometry;
@@ -8,19 +8,19 @@ use crate::settings::{LevelChoice, Settings, SilhouetteRule};
 /// An image of a view: one number or one vector for each pixel, in rows from the top.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Image {
-    /// Projected distance to the nearest centerline (mm), f32.
+    /// Distance to the nearest centerline in the image plane (mm), f32.
     Distance,
     /// Depth of the cut surface before the depth filter (mm), f32.
     UnfilteredDepth,
     /// Depth of the cut surface (mm), f32.
     Depth,
-    /// Id of the vessel whose influence zone a pixel is in, i32.
+    /// Id of the vessel that a pixel belongs to, i32.
     Vessel,
     /// Slopes, radius and gap of the cut surface before the depth filter, four f32 (`stages::depth::Sheet`).
     Sheet,
-    /// Where the cut surface leaps, as bits of u32 (`stages::leap`).
+    /// Bits that mark jumps of the cut surface's depth, u32 (`stages::leap`).
     Leap,
-    /// How much of the cut surface and of its silhouettes is shown, 0 to 1, two f32.
+    /// Shares of the cut surface and its silhouettes that are shown, 0 to 1, two f32.
     Focus,
     /// The volume at the cut surface, f32; NaN outside the volume (on a GPU 3·10³⁸).
     Value,
@@ -124,27 +124,27 @@ impl ImageSet {
 pub enum Stage {
     /// Levels of detail of the tree, computed once per tree.
     Levels,
-    /// The levels in the view.
+    /// Projects the levels into the view.
     Projection,
     /// Distance to the nearest vessel.
     Distance,
     /// Depth and vessel of the cut surface.
     Depth,
-    /// Neighbours between which the cut surface leaps.
+    /// Marks neighbours between which the depth of the cut surface jumps.
     Leap,
-    /// The Gaussian over the depth.
+    /// Smooths the depth with a Gaussian.
     DepthFilter,
-    /// How much of the cut surface is shown around the vessels.
+    /// Computes how much of the cut surface is shown around the vessels.
     Focus,
-    /// The volume at the cut surface.
+    /// Samples the volume at the cut surface.
     Surface,
-    /// Lines where the cut surface leaps.
+    /// Draws lines where the depth of the cut surface jumps.
     Silhouette,
     /// Ranges of values of the volume, computed once per volume; on the CPU timed with the starts of rays.
     Blocks,
-    /// Rays through the volume.
+    /// Follows rays through the volume.
     Context,
-    /// The picture of all layers.
+    /// Composes the picture from all layers.
     Composite,
 }
 
@@ -165,7 +165,7 @@ impl Stage {
         Self::Composite,
     ];
 
-    /// The name.
+    /// The name of the stage.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Levels => "levels",
@@ -183,7 +183,7 @@ impl Stage {
         }
     }
 
-    /// Relative cost per pixel: about milliseconds for 512 × 512 pixels. Only `progress` depends on it.
+    /// Relative cost per pixel: about the milliseconds that 512 × 512 pixels take. Only `progress` uses it.
     pub const fn cost(self) -> usize {
         match self {
             Self::Levels | Self::Projection | Self::Blocks => 0,
@@ -196,7 +196,7 @@ impl Stage {
         }
     }
 
-    /// The images that it reads, if present.
+    /// The images that the stage reads, if they exist.
     pub const fn reads(self) -> &'static [Image] {
         match self {
             Self::Levels | Self::Projection | Self::Distance | Self::Blocks => &[],
@@ -211,7 +211,7 @@ impl Stage {
         }
     }
 
-    /// The images that it writes, in order, if something needs them; a stage without images prepares.
+    /// The images that the stage writes, in order, if something needs them; none if it only prepares.
     pub const fn writes(self) -> &'static [Image] {
         match self {
             Self::Levels | Self::Projection | Self::Blocks => &[],
@@ -250,14 +250,14 @@ impl Stage {
         matches!(self, Self::Distance | Self::Depth | Self::Leap | Self::DepthFilter | Self::Focus)
     }
 
-    /// Whether the stage `depth` of such a view writes the sheet: for leaps, or if it is wanted.
+    /// Whether the stage `depth` of such a view writes the sheet: if `leap` needs it, or if it is wanted.
     pub fn has_sheet(settings: &Settings, wanted: ImageSet) -> bool {
         wanted.has(Image::Sheet) || Self::of_cut_surface(settings, wanted).contains(&Self::Leap)
     }
 
-    /// The stages, in order, that show the volume at the positions of `geometry`. Of the images `made` so
-    /// far, the surface needs a depth, and silhouettes leaps or vessels too. A curved geometry has neither
-    /// silhouettes nor context. The frame shall have the images `wanted`.
+    /// The stages, in order, that show the volume at the positions of `geometry`; the frame shall have the
+    /// images `wanted`. Of the existing images `made`, the surface needs a depth, and silhouettes also leaps
+    /// or vessels. A curved geometry has neither silhouettes nor context.
     pub fn of_look(settings: &Settings, geometry: &Geometry, made: ImageSet, wanted: ImageSet) -> Vec<Self> {
         let has_camera = geometry.camera().is_some();
         let has_surface = !has_camera || made.has(Image::Depth);

@@ -43,7 +43,7 @@ impl BothSides {
         self.assert_same(gpu, &cpu, settings);
     }
 
-    /// [`assert_same`], but ties around joints are accepted.
+    /// As [`assert_same`], but accepts pixels around joints where vessels tie.
     pub(super) fn assert_same(&self, mut gpu: Frame, cpu: &Frame, settings: &Settings) {
         ties::excuse(&mut gpu, cpu, &self.phantom.tree, settings);
         assert_same(&gpu, cpu);

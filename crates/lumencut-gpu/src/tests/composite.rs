@@ -1,4 +1,4 @@
-//! Pictures compared with the CPU's: equal bytes, except that less than one in a thousand may be 1 apart.
+//! Pictures have the same bytes as on the CPU, except that fewer than one in a thousand may differ by 1.
 
 use lumencut_core::settings::{Context, Opacity, Settings, Window};
 use lumencut_core::stages::composite::{self, CompositeParameters, layer};
@@ -12,7 +12,7 @@ use crate::composite::{Composite, Layers};
 use crate::device::Device;
 use crate::recording::Recording;
 
-/// Values with gaps, strengths, and a context that is empty in places.
+/// Values with gaps, strengths, and a context with empty regions.
 struct Scene {
     value: Vec<f32>,
     strength: Vec<f32>,
@@ -62,7 +62,7 @@ impl Tally {
     }
 }
 
-/// Settings with each kind of ramp and background.
+/// Settings for every kind of opacity ramp and background.
 fn settings() -> Vec<Settings> {
     let opacities = [None, Some([-200.0, 500.0]), Some([500.0, -200.0]), Some([100.0, 100.0])];
     let backgrounds = [[0, 0, 0, 255], [10, 200, 30, 101], [255, 128, 7, 0]];
@@ -83,7 +83,7 @@ fn settings() -> Vec<Settings> {
         .collect()
 }
 
-/// Without values there is no cut surface.
+/// The picture composed on the GPU; without values there is no cut surface.
 fn on_the_gpu(
     device: &Device,
     composite: &Composite,
@@ -181,7 +181,7 @@ fn the_layer_is_that_of_the_cpu() {
 #[test]
 fn halves_become_the_even_byte() {
     let Some(device) = device() else { return };
-    // Opaque: 255 times the colour is exactly a half where a float holds it.
+    // The context is opaque, so 255 times the colour ends in exactly .5 wherever a float holds it.
     let context: Vec<[f32; 4]> = (0..=510).map(|n| [n as f32 / 510.0, 0.0, 0.0, 1.0]).collect();
     let camera = front([511, 1], 1.0);
     let mut expected = vec![[0; 4]; 511];

@@ -1,5 +1,5 @@
-//! Every constant of a shader equals the one of that name in Rust to the last bit; the few that only shaders
-//! have are listed with the reason.
+//! Every constant of a shader is bit-identical to the Rust constant of the same name. The few constants that
+//! only shaders have are listed with the reason.
 
 use std::collections::BTreeMap;
 use std::f32::consts;
@@ -61,7 +61,7 @@ impl Numbers for Range {
     }
 }
 
-/// The constants of Rust, by the module of the shader that has a constant of the same name.
+/// Lists constants of Rust, by the shader module that has a constant of the same name.
 macro_rules! in_rust {
     ($($room:literal: $($constant:path),+;)*) => {
         BTreeMap::from([$($((name($room, stringify!($constant)), $constant.numbers())),+),*])
@@ -130,7 +130,7 @@ const ONLY_IN_SHADERS: [(&str, &str, &str); 12] = [
     ("stages/surface", "STRETCH", "how many cells a thread follows in a row, which changes no picture"),
 ];
 
-/// The constants that a module declares outside functions.
+/// The constants that a module declares outside its functions.
 fn declared(shader: &Shader) -> Vec<String> {
     let lines = shader.text.lines().filter(|line| line.trim_start().starts_with("const "));
     let name = |line: &str| {

@@ -1,4 +1,4 @@
-//! The context equals the CPU's.
+//! The context made on the GPU equals the CPU's.
 #![allow(clippy::unwrap_used)]
 
 use glam::{DAffine3, DVec3};
@@ -25,14 +25,14 @@ use crate::recording::Recording;
 
 const SIZE: [usize; 3] = [41, 37, 29];
 
-/// A cut surface: values, NaN where it is outside, depths, and how much of it is shown.
+/// A cut surface: values (NaN outside the volume), depths, and shown shares.
 struct CutSurface {
     value: Vec<f32>,
     depth: Vec<f32>,
     focus: Option<Vec<Shares>>,
 }
 
-/// Outside, opaque and transparent in turn, in squares of different sizes.
+/// A surface that is outside the volume, opaque and transparent in turn, in squares of different sizes.
 fn cut_surface(camera: &Camera) -> CutSurface {
     let [width, height] = camera.size();
     let value = |p: usize| match p % width / 5 % 4 + p / width / 3 % 3 {
@@ -179,7 +179,7 @@ fn around_a_focus_rays_start_where_those_of_the_cpu_do() {
 #[derive(Debug, Default)]
 struct Difference {
     pixels: usize,
-    /// Pixels with a channel farther apart than [`CONTEXT`] and [`CONTEXT_LEAP`] allow.
+    /// Number of pixels with a channel that differs by more than [`CONTEXT`] and [`CONTEXT_LEAP`] allow.
     visible: usize,
     large: usize,
     most: f32,
@@ -278,7 +278,7 @@ fn other_types_of_voxels_give_the_same() {
 
 #[test]
 fn voxels_without_a_number() {
-    // No sample lies on a voxel, where rounding would decide whether a neighbour without a value counts.
+    // With even sizes no sample lies on a voxel. There, rounding would decide whether its neighbours count.
     const EVEN: [usize; 3] = [40, 36, 28];
     let mut floats: Vec<f32> = ball_and_rod(EVEN).into_iter().map(f32::from).collect();
     for n in (0..floats.len()).step_by(977) {

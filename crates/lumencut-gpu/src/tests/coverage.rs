@@ -1,4 +1,4 @@
-//! No pixel is left uncovered: at every level that a pixel uses some piece covers it, on every GPU of this
+//! Every pixel is covered: at every level that a pixel uses, some piece covers it, on every GPU of this
 //! machine.
 
 use std::sync::Arc;
@@ -17,15 +17,15 @@ use super::every_device;
 use crate::device::Device;
 use crate::renderer::GpuRenderer;
 
-/// Distance of the trees behind the view's origin (mm). An uncovered pixel has depth 0 at a level, which
-/// takes its depth out of the tree's range even for a small weight of the level.
+/// Depth of the trees (mm). An uncovered pixel gets depth 0 at a level; even with a small weight, this takes
+/// its depth out of the tree's range.
 const TREE_DEPTH: f64 = 2e4;
-/// A bound on the rounding of such depths (mm).
+/// A bound on the rounding of depths of this size (mm).
 const ROUNDING: f64 = 0.05;
 
 const DIRECTIONS: [[f64; 3]; 2] = [[0.0, 1.0, 0.0], [0.31, 0.83, -0.47]];
 
-/// Sizes and pixel spacings (mm), from far within a segment to a whole tree in a pixel.
+/// Sizes and pixel spacings (mm), from much smaller than a segment to a whole tree in one pixel.
 const VIEWS: [([usize; 2], f64); 7] = [
     ([1, 1], 1.0),
     ([1, 17], 0.3),
@@ -41,7 +41,7 @@ fn view(direction: [f64; 3], size: [usize; 2], pixel_spacing: f64) -> Camera {
     Camera::new(direction * -TREE_DEPTH, direction, DVec3::Z, size, pixel_spacing).unwrap()
 }
 
-/// The default and the paper's rules, and both with single levels wherever the distance is not 0.
+/// The default and the paper's rules, also with so small a level distance that levels are not blended.
 fn all_settings() -> Vec<Settings> {
     let alone = |levels, rules: &Settings| Settings { levels, level_distance: 1e-3, ..rules.clone() };
     let (own, paper) = (unfiltered(), paper_unfiltered());
@@ -49,8 +49,7 @@ fn all_settings() -> Vec<Settings> {
     both.chain([alone(0, &own), own.clone(), paper.clone()]).collect()
 }
 
-/// A vessel given in the view coordinates of views along `direction`; no other vessel covers what it leaves
-/// out.
+/// A single vessel, given in coordinates of views along `direction`; no other vessel covers its gaps.
 fn seen_along(direction: [f64; 3], points: &[[f64; 3]]) -> VesselTree {
     let camera = view(direction, [1, 1], 1.0);
     let place = |[x, y, z]: &[f64; 3]| camera.right() * *x + camera.up() * *y + camera.direction() * *z;
@@ -58,7 +57,7 @@ fn seen_along(direction: [f64; 3], points: &[[f64; 3]]) -> VesselTree {
     tree(vec![Vessel::new(points.iter().map(place).collect(), Some(radii)).unwrap()])
 }
 
-/// Runs along the view at the beginning, within and at the end of vessels, and a vessel that is one run.
+/// Vessels with runs along the view at their beginning, inside, or end, and one that is a single run.
 fn runs() -> Vec<Vec<[f64; 3]>> {
     let within =
         [[-20.0, 0.0, 0.0], [-10.0, 0.0, 0.0], [-10.0, 0.0, 5.0], [-10.0, 0.0, 9.0], [0.0, 8.0, 9.0]];
@@ -68,21 +67,21 @@ fn runs() -> Vec<Vec<[f64; 3]>> {
     vec![within.to_vec(), at_the_end.to_vec(), first.to_vec(), alone.to_vec()]
 }
 
-/// Segments about as long in projection as the shortest that are not collinear with the view.
+/// Segments whose projections are about as short as the limit below which they count as collinear.
 fn nearly_collinear() -> Vec<Vec<[f64; 3]>> {
     let steep = |i: i32| [f64::from(i) * 1e-3 * (1.0 + 0.1 * f64::from(i % 7 - 3)), 0.0, f64::from(i % 5)];
     let round = |i: i32| [1e-3 * f64::from(i).cos(), 1e-3 * f64::from(i).sin(), f64::from(i) * 0.5];
     vec![(0..60).map(steep).collect(), (0..60).map(round).collect()]
 }
 
-/// Vessels hardly larger than a point: shorter than the shortest segment, or in steps about as long.
+/// Vessels hardly larger than a point: shorter than the shortest segment, or with steps about as short.
 fn tiny() -> Vec<Vec<[f64; 3]>> {
     let line =
         |count: i32, step: f64, y: f64| (0..count).map(move |i| [f64::from(i) * step, y, 0.0]).collect();
     vec![line(2, 1e-4, 0.0), line(40, 4e-4, 3.0), line(3, 1.01e-3, -3.0), line(50, 0.999e-3, 5.0)]
 }
 
-/// Borders of pieces through the centres of pixels: along rows, columns and diagonals, and back.
+/// Vessels whose pieces have borders through pixel centres: along rows, columns and diagonals, and back.
 fn through_pixels() -> Vec<Vec<[f64; 3]>> {
     let steps = [[0.5, 0.5, 0.0], [4.5, 0.5, 1.0], [4.5, 4.5, 2.0], [8.5, 8.5, 0.0], [0.5, 0.5, 3.0]];
     let back = [[-9.5, 0.5, 1.0], [-3.5, 0.5, 2.0], [-9.5, 0.5, 3.0], [-3.5, -5.5, 4.0], [-3.5, 6.5, 5.0]];
@@ -166,7 +165,7 @@ fn no_pixel_is_left_uncovered_on_any_gpu() {
 
 #[test]
 fn a_pixel_without_a_winner_at_one_level_is_seen() {
-    // 3 % of the weight at the level where nothing wins.
+    // A level with 3 % of the weight has no winner.
     let depths = [2e4f32, 2e4 * 0.97, 0.0, 2e4, f32::NAN];
     let vessels = [0, 0, 0, 2, 1];
     assert_eq!(uncovered(&depths, &vessels, [2e4 - 400.0, 2e4 + 400.0], 2), [1, 2, 3, 4]);

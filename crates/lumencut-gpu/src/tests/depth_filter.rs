@@ -1,4 +1,4 @@
-//! The depth filter compared with the CPU's.
+//! The depth filter on the GPU, compared with the CPU's.
 
 use lumencut_core::settings::Settings;
 use lumencut_core::stages::depth_filter::{DepthFilterParameters, depth_filter};

@@ -17,7 +17,7 @@ fn the_description_names_the_adapter_that_runs() {
     assert_eq!(found.is_software, info.device_type == wgpu::DeviceType::Cpu);
     assert!(found.is_software || !found.name.contains("llvmpipe"), "{found:?}");
     println!("{} by {} ({})", found.name, found.backend, found.driver);
-    // The choice would return this GPU again.
+    // Asking again would return this GPU, not another one.
     let first = pollster::block_on(choose(Choice::Any)).unwrap();
     assert_eq!(*found, Description::of(&first));
 }

@@ -1,4 +1,4 @@
-//! The errors of a renderer whose GPU is lost or too small, or that shall stop.
+//! The errors of a renderer whose GPU is lost or too small, or that is asked to stop.
 
 use std::pin::pin;
 use std::sync::Arc;
@@ -29,7 +29,7 @@ fn render(renderer: &mut GpuRenderer, scene: &Scene, stop: Stop) -> Result<Frame
     pollster::block_on(renderer.render(scene, &Request { stop, ..Request::new(&camera, &settings) }))
 }
 
-/// Asserts that an error of the GPU is one line and that the CPU is its remedy.
+/// Asserts that an error of the GPU is one line, and that its remedy is the CPU.
 fn check(error: &Error) {
     let line = error.to_string();
     assert_eq!(error.kind, ErrorKind::Device, "{line}");
@@ -60,10 +60,10 @@ fn a_lost_gpu_is_an_error_before_and_after_the_first_view() {
             check(&device.check().unwrap_err());
             assert!(device.is_lost());
         }
-        // Waiting callers are woken, and later ones do not wait.
+        // Callers that wait are woken, and later ones do not wait.
         assert!(has_ended());
         pollster::block_on(device.loss());
-        // A new renderer on the lost GPU does not compute either.
+        // A new renderer on the lost GPU fails too.
         let mut late = GpuRenderer::new(device);
         check(&render(&mut late, &scene, &|| false).unwrap_err());
     }
@@ -86,7 +86,7 @@ fn a_picture_too_large_for_the_buffers_is_refused_by_its_size() {
     check(&error);
     assert_eq!(error.found, format!("{} × 4096 pixels", most / 4096 + 1));
     assert!(error.expected.contains(&format!("at most {most} pixels")), "{error}");
-    // The renderer still works.
+    // After the error, the renderer still works.
     render(&mut renderer, &scene, &|| false).unwrap();
 }
 
@@ -98,13 +98,13 @@ fn a_renderer_that_was_stopped_renders_again() {
     let mut renderer = GpuRenderer::new(Arc::clone(device));
     let mut fresh = GpuRenderer::new(Arc::clone(device));
     let expected = render(&mut fresh, &scene, &|| false).unwrap();
-    // Stops at once, or at the second, third … poll: while it sends the volume or waits.
+    // Stops at the first, second, third … poll, while it sends the volume or waits.
     for patience in 0..6 {
         let asked = AtomicUsize::new(0);
         let stop = || asked.fetch_add(1, Ordering::Relaxed) >= patience;
         match render(&mut renderer, &scene, &stop) {
             Err(error) => assert_eq!(error.kind, ErrorKind::Interrupted, "{error}"),
-            // A fast GPU is done before so many polls.
+            // A fast GPU is done before this number of polls.
             Ok(_) => assert!(patience > 0 && asked.into_inner() <= patience),
         }
     }

@@ -1,4 +1,4 @@
-//! The focus compared with the CPU's, around vessels of all kinds.
+//! The focus on the GPU, compared with the CPU's around vessels of all kinds.
 
 use lumencut_core::camera::Camera;
 use lumencut_core::pipeline::{CpuRenderer, Request};
@@ -19,7 +19,7 @@ use crate::images::Images;
 use crate::levels::DeviceLevels;
 use crate::recording::Recording;
 
-/// The shares of the cut surface and of its silhouettes on both sides, the GPU's first.
+/// The shares of cut surface and silhouettes, made on the GPU and on the CPU.
 fn both(device: &Device, tree: &VesselTree, camera: &Camera, settings: &Settings) -> [Vec<f32>; 2] {
     let request = Request { images: ImageSet::of(&[Image::Focus]), ..Request::new(camera, settings) };
     let scene = Scene::default().with_tree(tree.clone());

@@ -1,4 +1,4 @@
-//! Complete frames of small phantoms against those of the CPU, and each stage among stages of the CPU.
+//! Complete frames of small phantoms compared with the CPU's, also with a single stage on the GPU.
 
 use std::sync::Arc;
 
@@ -21,8 +21,8 @@ use crate::renderer::GpuRenderer;
 use crate::stages::on_either;
 
 const SIZE: [usize; 2] = [96, 80];
-/// Far from the knot two of its pieces tie at single pixels, and the depth filter spreads each tie over nine
-/// pixels: only in a larger picture is that less than a thousandth.
+/// At single pixels two pieces of the knot are equally near, and the depth filter spreads each over nine
+/// pixels. Only in a picture of this size is that less than a thousandth.
 const KNOT_SIZE: [usize; 2] = [130, 108];
 
 fn with(change: impl Fn(&mut Settings)) -> Settings {
@@ -73,7 +73,7 @@ fn all_settings() -> Vec<(&'static str, Settings)> {
     ]
 }
 
-/// A wide focus in a dimmed context; the rays of the context start as `from` says.
+/// A wide focus in a dimmed context, whose rays start as `from` states.
 fn focus_amid(settings: &mut Settings, from: ContextFrom) {
     settings.focus = Some(Focus { margin: 0.5, fade: 30.0 });
     settings.opacity = Some(Opacity { transparent: -50.0, opaque: 250.0 });
@@ -142,13 +142,13 @@ fn pixels_of_all_sizes() {
     }
 }
 
-/// Each stage, with the names of all others.
+/// Each stage, with the names of all other stages.
 fn each_stage() -> impl Iterator<Item = (Stage, Vec<String>)> {
     let others = |stage| on_either().filter(|other| *other != stage).map(|s| s.name().to_owned()).collect();
     on_either().map(move |stage| (stage, others(stage)))
 }
 
-/// A filter within zones, a slab, silhouettes, a focus, and context behind what is transparent.
+/// All features: a filter within zones, slab, silhouettes, focus, and context behind transparent parts.
 fn everything() -> Settings {
     with(|s| {
         s.slab = Some(Slab { thickness: 3.0, mode: SlabMode::Mean });
@@ -242,7 +242,7 @@ fn looking_where_the_cpu_found_the_cut_surface_shows_the_same() {
     for settings in [everything(), Settings::default()] {
         let request = Request::new(&camera, &settings);
         let cut = Scene { volume: None, ..scene.clone() };
-        // Without a volume, a cut surface has leaps and shares only if requested.
+        // Without a volume, a frame has depth jumps and focus shares only if they are requested.
         let images = ImageSet::ALL.and(ImageSet::of(&[Image::Leap, Image::Focus]));
         let surface = CpuRenderer::default().render(&cut, &Request { images, ..request }).unwrap();
         assert!(surface.leap.iter().any(|leap| *leap & LEAPS != 0), "no silhouettes to show");

@@ -1,5 +1,5 @@
-//! Structures lie in memory as shaders read them: every field of every host structure has the name, the
-//! offset and the size of the field in WGSL.
+//! Structures have the layout that shaders expect: every field has the same name, offset and size in Rust and
+//! in WGSL.
 
 use std::collections::BTreeSet;
 
@@ -29,7 +29,7 @@ struct Layout {
     span: u32,
 }
 
-/// Module, name and layout of a structure; every field has to be listed.
+/// Module, name and layout of a Rust structure; every field must be listed.
 macro_rules! host {
     ($room:literal, $name:ident { $($field:ident),+ $(,)? }) => {{
         let $name { $($field),+ } = $name::zeroed();
@@ -161,7 +161,7 @@ fn shader_layout(text: &str, name: &str) -> Option<Layout> {
     })
 }
 
-/// The names of the structures that lie in buffers, including elements of arrays and fields.
+/// The names of the structures in buffers, including those of array elements and fields.
 fn in_buffers(module: &Module) -> BTreeSet<String> {
     fn collect(module: &Module, ty: Handle<Type>, names: &mut BTreeSet<String>) {
         match &module.types[ty].inner {

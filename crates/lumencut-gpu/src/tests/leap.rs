@@ -1,4 +1,4 @@
-//! Leaps, bit-identical to the CPU's from the same depths and sheets; and sheets against the CPU's.
+//! Depth jumps are bit-identical to the CPU's for equal depths and sheets; sheets are compared as well.
 
 use lumencut_core::math::leaps::{DOWNWARDS, LUMEN, TO_THE_RIGHT};
 use lumencut_core::pipeline::{CpuRenderer, Request, SurfaceDetails};
@@ -23,7 +23,7 @@ use crate::leap::Leap;
 use crate::levels::DeviceLevels;
 use crate::recording::Recording;
 
-/// The leaps on both sides, the GPU's first. Numbers are multiples of a quarter, so that no sum is rounded.
+/// Depth jumps found on the GPU and on the CPU. All numbers are multiples of a quarter, so no sum is rounded.
 fn both(device: &Device, size: [usize; 2], depth: &[f32], sheet: &[Sheet]) -> [Vec<u32>; 2] {
     let camera = front(size, 0.5);
     let mut expected = vec![0; depth.len()];

@@ -1,4 +1,4 @@
-//! Each stage compared with the CPU's, and consistency of the two.
+//! Each stage compared with the CPU's, and checks that both sides stay consistent.
 #![allow(clippy::unwrap_used)]
 
 mod both_sides;
@@ -31,11 +31,11 @@ use crate::device::Device;
 use crate::recording::{Recording, Results};
 use crate::view;
 
-/// Image sizes that workgroups do not cover exactly.
+/// Image sizes that are not multiples of a workgroup's size.
 pub(crate) const SIZES: [[usize; 2]; 5] = [[1, 1], [1, 17], [17, 1], [257, 257], [33, 20]];
 
-/// The GPU that all tests share. Without one, prints why and returns `None`, unless `LUMENCUT_REQUIRE_GPU` is
-/// set.
+/// The GPU that all tests share. Without a GPU, prints the reason and returns `None`, or panics if
+/// `LUMENCUT_REQUIRE_GPU` is set.
 pub(crate) fn device() -> Option<&'static Device> {
     shared().map(Arc::as_ref)
 }
@@ -53,7 +53,7 @@ pub(crate) fn shared() -> Option<&'static Arc<Device>> {
     DEVICE.get_or_init(open).as_ref()
 }
 
-/// Every GPU of this machine within the limits of the stages, including software.
+/// Every GPU of this machine that meets the limits of the stages, including software.
 pub(crate) fn every_device() -> Vec<Arc<Device>> {
     if shared().is_none() {
         return Vec::new();
@@ -78,7 +78,7 @@ pub(crate) fn finish(recording: Recording) -> Results {
     pollster::block_on(recording.finish(&|| false)).unwrap()
 }
 
-/// Replaces NaN by HUGE, as shaders have it.
+/// Replaces NaN by the marker HUGE, which shaders use.
 pub(crate) fn without_holes(values: &[f32]) -> Vec<f32> {
     values.iter().map(|v| if v.is_nan() { HUGE } else { *v }).collect()
 }

@@ -1,5 +1,5 @@
-//! Silhouettes compared with the CPU's: on smooth depth, at borders of zones, at single leaps; and the lines
-//! of leaps.
+//! Silhouettes compared with the CPU's: on smooth depth, at borders of zones, and at single depth jumps;
+//! likewise the lines at jumps.
 
 use lumencut_core::math::blocks::HUGE;
 use lumencut_core::math::leaps::{DOWNWARDS, LINE_DOWNWARDS, LINE_TO_THE_RIGHT, LUMEN, TO_THE_RIGHT};
@@ -16,7 +16,7 @@ use crate::images::Images;
 use crate::recording::Recording;
 use crate::silhouette::{Silhouette, SilhouetteImages};
 
-/// The strengths of an image on both sides, and the names of the timings.
+/// The strengths of an image, made on the GPU and on the CPU, and the names of the timings.
 fn both(
     size: [usize; 2],
     depth: &[f32],
@@ -52,7 +52,7 @@ fn strengths_are_those_of_the_cpu() {
     for size in SIZES {
         let at = |p: usize| ((p % size[0]) as f32, (p / size[0]) as f32);
         let pixels = 0..size[0] * size[1];
-        // Waves, with two leaps and zones that end elsewhere too.
+        // Waves with two depth jumps; zones also end at places without a jump.
         let height = |(x, y): (f32, f32)| {
             let leap = if x + 0.3 * y > 20.0 { 35.0 } else { 0.0 } + if y > 9.5 { -20.0 } else { 0.0 };
             30.0 * (0.11 * x).sin() * (0.07 * y).cos() + leap
@@ -90,7 +90,7 @@ fn three_passes_are_one_stage() {
     assert!(names.is_empty() || names == ["silhouette"], "{names:?}");
 }
 
-/// Random leaps, lumens and values, and the strengths of their lines on both sides.
+/// Strengths of lines for random depth jumps, lumens and values, made on the GPU and on the CPU.
 fn lines(device: &Device, size: [usize; 2], spacing: f64) -> [Vec<f32>; 2] {
     let (camera, settings, mut random) = (front(size, spacing), Settings::default(), Random::new(17));
     let pixels = size[0] * size[1];

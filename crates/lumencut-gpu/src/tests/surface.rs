@@ -1,4 +1,4 @@
-//! The surface equals the CPU's.
+//! The values at the cut surface equal those of the CPU.
 #![allow(clippy::unwrap_used)]
 
 use glam::{DAffine3, DVec3};
@@ -27,7 +27,7 @@ const SLABS: [Option<Slab>; 5] = [
     Some(Slab { thickness: 200.0, mode: SlabMode::Min }),
 ];
 
-/// Depths all around the middle of the volume, and some far off.
+/// Depths around the middle of the volume, and some far away.
 fn depths(camera: &Camera, volume: &Volume) -> Vec<f32> {
     let reach = volume.longest_way();
     let depth = |p: usize| match p % 97 {
@@ -51,7 +51,7 @@ fn on_gpu(placed: &Placed, slab: Option<Slab>, geometry: &Geometry) -> Vec<f32> 
     finish(recording, &value)
 }
 
-/// The positions at these depths on a camera's rays, as a curved geometry.
+/// The positions at these depths on the rays of a camera, as a curved geometry.
 fn curved(camera: &Camera, depth: &[f32]) -> Geometry {
     let [width, height] = camera.size();
     let place = |p: usize| {
@@ -62,7 +62,7 @@ fn curved(camera: &Camera, depth: &[f32]) -> Geometry {
     Geometry::Curved(Curved::new([width, height], (0..depth.len()).map(place).collect(), directions).unwrap())
 }
 
-/// Compares the values; `contrast` is that between a volume's extremes.
+/// Compares the values; `contrast` is the difference between a volume's extremes.
 fn compare(
     volume: &Volume,
     camera: &Camera,
@@ -160,8 +160,8 @@ fn axes_of_one_voxel_and_any_strides() {
 
 #[test]
 fn a_long_volume_keeps_its_places() {
-    // The value is the index, relative to the middle: it shows differences of positions, at most a 10,000th
-    // of a voxel.
+    // Each value is the index relative to the middle, so it shows errors of positions: at most a 10,000th of
+    // a voxel.
     const SIZE: [usize; 3] = [64, 48, 1300];
     let voxels: Vec<i16> = (0..SIZE.iter().product()).map(|n: usize| (n / (64 * 48)) as i16 - 650).collect();
     let middle = DAffine3::from_translation(-DVec3::from(SIZE.map(|n| (n - 1) as f64)) / 2.0);

@@ -1,5 +1,5 @@
-//! Ties around joints: vessels that end in one point cost the same there, so the last digit decides which of
-//! them a pixel belongs to. Either is accepted, in few pixels and only there.
+//! Ties around joints. If vessels end in one point, their keys are equal around it, so rounding decides to
+//! which a pixel belongs. Either vessel is accepted, in few pixels and only there.
 
 use std::collections::BTreeSet;
 
@@ -17,7 +17,7 @@ const FILTER_HALF_WIDTH: usize = 3;
 struct End {
     point: DVec3,
     place: DVec2,
-    /// Reach of lumen and wall from the point (mm).
+    /// Distance from the end point up to which lumen and wall reach (mm).
     reach: f64,
     vessel: i32,
 }
@@ -33,7 +33,7 @@ fn ends(tree: &VesselTree, camera: &Camera, settings: &Settings) -> Vec<End> {
     vessels.flat_map(|(id, vessel)| [0, vessel.points().len() - 1].map(|i| end(id, i))).collect()
 }
 
-/// Whether two vessels end in one point around which both have lumen or wall at a position.
+/// Whether two vessels end in one point, around which both have lumen or wall at a position.
 fn is_tied(ends: &[End], place: DVec2, vessels: [i32; 2]) -> bool {
     let [a, b] = vessels.map(|vessel| {
         ends.iter().filter(move |end| end.vessel == vessel && end.place.distance(place) < end.reach)
@@ -47,8 +47,8 @@ fn around(p: usize, [width, height]: [usize; 2]) -> impl Iterator<Item = usize> 
     near(p / width, height).flat_map(move |y| near(p % width, width).map(move |x| y * width + x))
 }
 
-/// Where vessels tie, takes the CPU's; around them also its depths, if the filter within zones used other
-/// neighbours and they differ by less than a leap.
+/// Replaces the GPU's vessels by the CPU's where vessels tie. Around ties it also replaces depths, if the
+/// filter within zones used other neighbours and they differ by less than a leap.
 ///
 /// # Panics
 /// For more pixels than [`TIED`] allows.
@@ -86,8 +86,8 @@ mod tests {
 
     use super::*;
 
-    /// Whether a frame is still rejected after its ties are excused, given a change to a frame of three
-    /// vessels that end in the middle of the view.
+    /// Whether a frame of three vessels that end in the middle of the view is still rejected after `change`,
+    /// when its ties are excused.
     fn is_refused(settings: &Settings, change: impl Fn(&mut Frame)) -> bool {
         let (tree, camera) = (y_junction().unwrap().tree, front([96, 80], 0.8));
         let scene = Scene::default().with_tree(tree.clone());

@@ -1,4 +1,4 @@
-//! Volumes that do not fit, and volumes whose sending is stopped.
+//! Volumes that are too large for a GPU, and volumes whose transfer is stopped.
 #![allow(clippy::unwrap_used)]
 
 use glam::DAffine3;

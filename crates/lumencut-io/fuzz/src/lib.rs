@@ -1,4 +1,4 @@
-//! Properties that must hold for any bytes that are read as a centerline file.
+//! Checks properties that must hold for any bytes that are read as a centerline file.
 
 mod memory;
 mod packed;
@@ -10,18 +10,18 @@ use lumencut_io::{Error, Line, junctions, read, write_mrk_json, write_vtp};
 
 pub use packed::vtp as packed_vtp;
 
-/// Maximum memory for reading a file, in sizes of that file.
+/// Reading a file may use at most this many times the size of the file in memory.
 const MOST_TIMES: usize = 10;
-/// Files smaller than this (bytes) may use as much memory as one of this size.
+/// Files smaller than this (bytes) may use as much memory as a file of this size.
 const SMALL: usize = 1 << 20;
-/// Maximum CPU time of one thread for all reading and writing of one file here.
+/// Maximum CPU time for all reading and writing of one file.
 const MOST_TIME: Duration = Duration::from_secs(2);
 
-/// Only lines of up to this many points are also checked in other units.
+/// Lines with more points than this are not checked in other units.
 const FEW_POINTS: usize = 1000;
 
-/// Reads `data` under this name and checks the result. Panics if a line is invalid, memory or time exceeds
-/// its limit, or written lines are read back with differences.
+/// Reads `data` as a file of this name and checks the result. Panics if a line is invalid, if memory or time
+/// exceeds its limit, or if written lines differ after reading back.
 pub fn check(data: &[u8], name: &str) {
     let start = ThreadTime::now();
     check_what_is_read(data, name);
@@ -34,7 +34,7 @@ fn check_what_is_read(data: &[u8], name: &str) {
         memory::peak_of(|| read(data, name).and_then(|found| found.scaled(1.0)).map(junctions::vessels));
     let most = MOST_TIMES * data.len().max(SMALL);
     assert!(peak <= most, "reading {} bytes took {peak} bytes, more than {most}", data.len());
-    // The limit of coordinates depends on the unit.
+    // Coordinates are checked in three units, because their limit depends on the unit.
     let Ok(found) = read(data, name) else { return };
     assert_sound(&found.lines);
     if found.lines.iter().map(|line| line.points.len()).sum::<usize>() <= FEW_POINTS {
@@ -44,7 +44,7 @@ fn check_what_is_read(data: &[u8], name: &str) {
         }
     }
     let Ok(vessels) = vessels else { return };
-    // Writes the joined lines, and also those of the file.
+    // Writes the lines of the file, and then the vessels that they form.
     let lines = found.scaled(1.0).expect("a file that was read before").lines;
     for lines in [lines, vessels.lines] {
         assert_sound(&lines);

@@ -1,4 +1,4 @@
-//! Builds compressed `.vtp` files. Random changes of a compressed block only break its checksum.
+//! Builds compressed `.vtp` files, because random changes of compressed blocks only break their checksums.
 
 use std::io::Write;
 
@@ -11,12 +11,12 @@ struct Style {
     wide: bool,
     floats: bool,
     block: usize,
-    /// Number of bytes that the last block claims but does not have.
+    /// Number of bytes that the last block claims to have but does not have.
     lie: i8,
 }
 
-/// A `.vtp` whose arrays come from `data`: five bytes are options and counts; points, radii, groups, offsets
-/// and point ids follow. None if `data` is too short.
+/// Makes a `.vtp` file from `data`: five bytes are options and counts; then follow points, radii, groups,
+/// offsets and point ids. None if `data` is too short.
 pub fn vtp(data: &[u8]) -> Option<Vec<u8>> {
     let ([choice, block, lie, points, lines], mut rest) = data.split_first_chunk::<5>()?;
     let bit = |i: u8| choice >> i & 1 == 1;

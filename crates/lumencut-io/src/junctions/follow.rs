@@ -1,4 +1,4 @@
-//! If a line runs along another one without shared points, it takes the points of that one.
+//! Gives a line that runs along another line, without sharing its points, the points of that line.
 
 use std::cell::Cell;
 
@@ -7,17 +7,17 @@ use glam::DVec3;
 use super::Path;
 use super::ids::Id;
 
-/// Maximum sideways distance from the other line, as a share of the radius.
+/// Maximum sideways distance from the other line, as a share of its radius.
 const PART_OF_RADIUS: f64 = 0.1;
-/// Maximum sideways distance between lines of one group.
+/// Maximum sideways distance between lines of one group, as a share of the radius.
 const PART_OF_RADIUS_IN_GROUP: f64 = 0.5;
-/// Maximum sideways distance if there is no radius, as a share of the median spacing.
+/// Maximum sideways distance if there is no radius, as a share of the median point spacing.
 const PART_OF_SPACING: f64 = 0.5;
-/// Upper limit of that distance (mm), so that sparse control points do not reach a neighbouring vessel.
+/// Upper limit of the distance without radius (mm); else sparse points could reach a neighbouring vessel.
 const MOST_BY_SPACING: f64 = 0.5;
-/// Minimum length of a shared stretch, in maximum sideways distances.
+/// Minimum length of a shared stretch, as a multiple of the maximum sideways distance.
 const SHORTEST_STRETCH: f64 = 10.0;
-/// Maximum number of point-segment comparisons (about one second); huge radii would compare everything.
+/// Maximum number of point-segment comparisons (about one second). With huge radii, all would be compared.
 const MOST_COMPARISONS: usize = 1 << 26;
 
 pub(super) struct Followed {
@@ -30,7 +30,7 @@ pub(super) struct Followed {
 pub(super) fn follow(points: &[DVec3], paths: &mut [Path], spacing: f64) -> Followed {
     let mut followed = 0;
     let left = Cell::new(MOST_COMPARISONS);
-    // A path that follows another one gives up its old end, at which a third path may begin.
+    // A path that follows another one loses its old end. A third path may begin there.
     let mut moved: Vec<(Id, Id)> = Vec::new();
     for i in 1..paths.len() {
         let (earlier, rest) = paths.split_at_mut(i);
@@ -130,7 +130,7 @@ impl Walk<'_> {
         }
     }
 
-    /// Last point that runs along the other path, last point of the other path, and the length (mm).
+    /// How far this path follows the other one: the last point on each of them, and the length (mm).
     fn along(&self) -> Option<(usize, usize, f64)> {
         let in_group = self.path.group.is_some() && self.path.group == self.other.group;
         let first = self.points[self.path.nodes[0] as usize];
@@ -153,7 +153,8 @@ impl Walk<'_> {
             (at, last, length, before) = (segment, i, length + step, point);
         }
         let shortest = SHORTEST_STRETCH * self.tolerance(0, false);
-        // A path that follows to its end takes the nearest point; others leave after the current segment.
+        // A path that follows the other one up to its own last point takes the nearer end of the last segment; a path that
+        // leaves earlier takes the start of that segment.
         let whole = last + 1 == self.path.nodes.len();
         let nearer_end = whole && at + 1 < self.other.nodes.len() && {
             before.distance(self.other_point(at + 1)) < before.distance(self.other_point(at))
@@ -185,7 +186,7 @@ impl Walk<'_> {
 }
 
 impl Shared {
-    /// Gives the points of the other path to `path`; returns the ends that were replaced.
+    /// Replaces points of `path` by points of the other path; returns the old and new ends.
     fn replace(self, path: &mut Path, earlier: &[Path]) -> Vec<(Id, Id)> {
         let other = &earlier[self.other];
         let count = other.nodes.len();

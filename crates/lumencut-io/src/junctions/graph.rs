@@ -1,4 +1,4 @@
-//! The graph of paths. Shared stretches are shared edges; chains of edges between junctions are vessels.
+//! The graph of paths. Stretches that paths share become one chain of edges; chains are vessels.
 
 use glam::DVec3;
 
@@ -16,10 +16,10 @@ enum Partner {
 struct Edge {
     /// Ids of both ends; the smaller one is first.
     nodes: [Id; 2],
-    /// The first path that has a radius, and the number of its step.
+    /// The first path through this edge that has a radius, and the number of the path's step.
     radius: Option<[Id; 2]>,
     partners: [Partner; 2],
-    /// Whether all paths on this edge have a group.
+    /// Whether all paths through this edge have a group.
     grouped: bool,
 }
 
@@ -119,7 +119,7 @@ impl Graph {
         }
     }
 
-    /// Joins two grouped edges that end at one place; where an edge ends or branches, all edges end.
+    /// Joins two grouped edges that end at a point. Elsewhere all edges end unless each has one partner.
     fn join_groups(&mut self, places: usize) {
         let incidence = Incidence::new(places, self.edges.len(), |edge| self.edges[edge].nodes);
         for place in 0..places {

@@ -1,8 +1,8 @@
-//! Ids and tables of small size, because large files leave little memory besides their points.
+//! Ids and tables that need little memory, because the points of large files need most of it.
 
 use std::hash::{BuildHasher, Hash, RandomState};
 
-/// Number of a point or edge. Twice [`MOST_POINTS`] is below the largest one.
+/// Number of a point or an edge. It can count to more than twice [`MOST_POINTS`].
 pub(super) type Id = u32;
 
 /// Maximum number of points of all lines.
@@ -17,7 +17,7 @@ pub(super) fn id(i: usize) -> Id {
 /// A hash table with linear probing. The caller keeps the keys.
 #[derive(Default)]
 pub(super) struct Table {
-    /// Their number is a power of two; at most three quarters are full.
+    /// The number of slots is a power of two; at most three quarters are in use.
     slots: Vec<Slot>,
     count: usize,
     state: RandomState,
@@ -66,7 +66,7 @@ impl Table {
     }
 }
 
-/// Doubles the capacity, but adds no more than the `most` elements that may still come.
+/// Doubles the capacity of a full list, but adds at most the `most` elements that may still come.
 pub(super) fn make_room<T>(all: &mut Vec<T>, most: usize) {
     if all.len() == all.capacity() {
         all.reserve_exact(all.len().max(16).min(most.max(1)));
@@ -74,7 +74,7 @@ pub(super) fn make_room<T>(all: &mut Vec<T>, most: usize) {
 }
 
 pub(super) struct Incidence {
-    /// Number of the first edge at each place, and the number of all.
+    /// Index of the first edge at each point; at the end, the number of all edges.
     begins: Vec<Id>,
     edges: Vec<Id>,
 }

@@ -13,8 +13,8 @@
 //!    cut at other places, are joined there.
 //! 5. Chains between junctions are the vessels, in the order and direction of their lines.
 //!
-//! Only step 3 moves points by more than the distance of step 1. A tree that meets at shared points stays
-//! unchanged.
+//! Only step 3 moves points by more than the distance of step 1. A tree whose vessels already meet at shared
+//! points stays unchanged.
 
 mod follow;
 mod graph;
@@ -25,7 +25,7 @@ mod weld;
 use crate::centerlines::{Centerlines, Line};
 use ids::{Id, MOST_POINTS};
 
-/// If there are more lines, step 3 is skipped, because it compares all pairs.
+/// With more lines than this, step 3 is skipped, because it compares all pairs of lines.
 const MOST_LINES_TO_FOLLOW: usize = 1024;
 
 struct Path {

@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::Path;
 use super::ids::{Id, Incidence, id};
 
-/// If most paths are single segments, joins segments at each place at which exactly two meet.
+/// If most paths are single segments, joins segments at each point at which exactly two meet.
 ///
 /// Chains keep the direction of their segments if all agree. Otherwise they run away from the open end that
 /// has the largest radius, or is highest.
@@ -35,7 +35,7 @@ pub(super) fn join(points: &[DVec3], mut paths: Vec<Path>, notes: &mut Vec<Strin
 struct Cloud {
     segments: Vec<Path>,
     at: Incidence,
-    /// Whether a chain may continue through each place.
+    /// Whether a chain may continue through each point.
     open: Vec<bool>,
     /// Whether the directions of the segments agree.
     directed: bool,
@@ -84,7 +84,7 @@ impl Cloud {
         out
     }
 
-    /// The start of the chain that contains `first`; in a loop it is `first`.
+    /// The start of the chain that contains the segment `first`. A closed loop starts at `first` itself.
     fn beginning(&self, first: Id) -> (Id, Id) {
         let start = self.segments[first as usize].nodes[0];
         let (mut node, mut segment) = (start, first);
@@ -144,7 +144,7 @@ impl<'a> Orientation<'a> {
         Self { points, chains: chains.into_iter().map(Some).collect(), ends }
     }
 
-    /// Rank of a place as a root: open ends first, then wide, then high ones.
+    /// Sort key of the points at which chains may start: open ends first, then wide ones, then high ones.
     fn rank(&self, node: Id) -> [f64; 5] {
         let chains = self.ends.at(node as usize);
         let radius = chains.iter().filter_map(|i| self.chains[*i as usize].as_ref()).filter_map(|chain| {

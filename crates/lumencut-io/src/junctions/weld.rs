@@ -6,9 +6,9 @@ use super::Path;
 use super::ids::{Id, Table, make_room};
 use crate::centerlines::Line;
 
-/// Distance up to which points are merged, as a share of the median spacing.
+/// Distance up to which points are merged, as a share of the median point spacing.
 const PART_OF_SPACING: f64 = 1e-3;
-/// Minimum spacing relative to the largest coordinate, so that the cells of the grid can be counted.
+/// Minimum point spacing relative to the largest coordinate, so that the cells of the grid can be numbered.
 const PART_OF_COORDINATE: f64 = 1e-9;
 
 pub(super) fn resolves(lines: &[Line], spacing: f64) -> bool {

@@ -73,7 +73,7 @@ const NASTY: [&[u8]; 12] = [
 #[test]
 fn mutated_files_never_panic() {
     let mut files = sample::files();
-    // As many other files as there are variants of `.vtp`.
+    // As many files of other formats are tested as there are variants of `.vtp`.
     let others: Vec<_> =
         sample::other_files().into_iter().map(|(content, name, _)| (content, name)).collect();
     files.extend(others.iter().cycle().take(64).cloned());
@@ -111,7 +111,7 @@ fn radii_as_wide_as_the_tree_end_in_time() {
     assert_eq!(found.lines.len(), 2);
 }
 
-/// Lines whose points would all be merged stay lines.
+/// Lines stay even if all of their points would be merged.
 #[test]
 fn lines_shorter_than_the_weld_distance_stay() {
     for (at, step) in [(0.0, 1e-310), (1e6, 1e-7), (1e-200, 1e-205)] {

@@ -113,7 +113,7 @@ fn blocks(style: Style, content: &[u8]) -> (Vec<u8>, Vec<u8>) {
     (header, packed.concat())
 }
 
-/// Arrays: section, name, whether integer, number of components, and values.
+/// Arrays, each with section, name, whether integer, number of components, and values.
 type Arrays = Vec<(&'static str, &'static str, bool, usize, Vec<f64>)>;
 
 fn arrays() -> Arrays {
@@ -279,7 +279,7 @@ fn rows(i: usize) -> Vec<[f64; 4]> {
     line(i).iter().zip(&RADIUS[begin..]).map(|(p, r)| [p.x, p.y, p.z, *r]).collect()
 }
 
-/// These rows as a NumPy array.
+/// These rows as the bytes of a NumPy file.
 pub fn npy(rows: &[[f64; 4]], columns: usize, kind: &str, fortran: bool, version: u8) -> Vec<u8> {
     let order = if kind.starts_with('>') { ByteOrder::Big } else { ByteOrder::Little };
     let header = format!(

@@ -88,7 +88,7 @@ fn an_assumed_millimetre_comes_back_and_is_of_format_2() {
     let text = written(&file);
     file.session.format = 2;
     assert_eq!(read_session(text.as_bytes(), "saved.mrk.json").unwrap(), file);
-    // Content that version 1 can hold is written as version 1, whatever the version that was read.
+    // Content that fits into version 1 is written as version 1, even if version 2 was read.
     file.session.one_millimetre_assumed = false;
     assert_eq!(written(&file), written(&sample()));
     let early = text.replace("\"format\":2", "\"format\":1");

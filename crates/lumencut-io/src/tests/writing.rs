@@ -28,7 +28,7 @@ fn assert_round_trip(lines: &[Line]) {
     }
 }
 
-/// Legacy VTK files keep everything except names.
+/// Legacy VTK files store everything except names.
 #[test]
 fn legacy_vtk_comes_back_but_for_names() {
     let mut random = Random(0x5851_f42d_4c95_7f2d);
@@ -169,7 +169,7 @@ fn vessels_of_a_file_come_back_to_the_bit() {
     assert!(forks > 5, "{forks} files of a tree that forks");
 }
 
-/// The lines of a file from elsewhere are joined; the lines of the same file written here are not.
+/// Lines of a file from another program are joined. Once this crate has written them, they are not.
 #[test]
 fn the_mark_of_vessels_keeps_lines_apart() {
     let lines: Vec<Line> =

@@ -1,12 +1,12 @@
-//! Cells of tables, written so that spreadsheets show but do not execute them.
+//! Writes cells of tables in such a way that spreadsheets show but do not execute them.
 
 use std::borrow::Cow;
 
 /// Characters with which a formula starts.
 const FORMULA: [char; 6] = ['=', '+', '-', '@', '\t', '\r'];
 
-/// The text of a cell. If it looks like a formula and is no number, an apostrophe is put in front. A text
-/// with apostrophes in front of such a sign gets one more, so that reading restores each text.
+/// The text of a cell. If it looks like a formula but is not a number, an apostrophe is put in front. So is
+/// one more before text that already has such apostrophes, so that reading restores each text.
 pub fn marked_cell(text: &str) -> Cow<'_, str> {
     if text.trim_start_matches('\'').starts_with(FORMULA) && !is_number(text) {
         return Cow::Owned(format!("'{text}"));

@@ -16,7 +16,7 @@ pub fn write_mrk_json(vessels: &[Line]) -> Result<Vec<u8>> {
     Ok(markups(vessels, "").into_bytes())
 }
 
-/// `beside` are additional fields, each followed by a comma. 3D Slicer ignores them.
+/// `beside` contains additional fields, each followed by a comma. 3D Slicer ignores them.
 pub(crate) fn markups(vessels: &[Line], beside: &str) -> String {
     let curves: Vec<String> = vessels.iter().map(curve).collect();
     let head = format!("\"@schema\": \"{SCHEMA}\",\n\"{JOINED_MARK}\": true");

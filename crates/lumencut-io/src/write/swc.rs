@@ -13,7 +13,7 @@ type Place = [u64; 3];
 /// Writes a `.swc` of vessels. Coordinates are in mm and LPS, which the format cannot state.
 ///
 /// A vessel that starts on another one continues from its node there, with the radius of that node. A vessel
-/// that ends on another one gets a node of its own there, because a node has only one parent. Names and the
+/// that ends on another one gets a separate node there, because a node has only one parent. Names and the
 /// ends of vessels are lost, and unknown radii are 0. Fails if no vessel is valid.
 pub fn write_swc(vessels: &[Line]) -> Result<Vec<u8>> {
     check_all(vessels)?;
@@ -36,12 +36,12 @@ pub fn write_swc(vessels: &[Line]) -> Result<Vec<u8>> {
     Ok(out.into_bytes())
 }
 
-/// Bits of the coordinates; 0 and -0 are equal.
+/// Bits of the coordinates; 0 and -0 are treated as equal.
 fn place(point: DVec3) -> Place {
     (point + DVec3::ZERO).to_array().map(f64::to_bits)
 }
 
-/// Order of the vessels in which each comes after one that contains its first point. Loops start anywhere.
+/// An order in which each vessel follows one that contains its first point. A loop starts at any vessel.
 fn parents_first(vessels: &[Line]) -> Vec<usize> {
     let mut starting: HashMap<Place, Vec<usize>> = HashMap::new();
     for (index, vessel) in vessels.iter().enumerate() {
@@ -61,7 +61,7 @@ fn parents_first(vessels: &[Line]) -> Vec<usize> {
             }
             out.push(index);
             for point in vessels[index].points.iter().rev() {
-                // The vessels that start at a place are added once.
+                // All vessels that start at this point are added now, so the point is removed.
                 waiting.extend(starting.remove(&place(*point)).unwrap_or_default().into_iter().rev());
             }
         }

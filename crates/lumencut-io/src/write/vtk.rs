@@ -5,7 +5,7 @@ use crate::centerlines::{JOINED_MARK, Line};
 use crate::error::Result;
 use crate::poly_data::{HAS_RADIUS, NAMES, RADIUS_NAMES};
 
-/// Writes a `.vtk` of vessels (mm, LPS). End points that vessels share are repeated.
+/// Writes a `.vtk` of vessels (mm, LPS). An end point of several vessels is repeated in each of them.
 ///
 /// The point array `MaximumInscribedSphereRadius` holds radii. If only some vessels have radii, those of
 /// others are 0, and the cell array `HasRadius` marks them. The cell array `Name` holds names, which VTK

@@ -5,7 +5,7 @@ use crate::centerlines::{JOINED_MARK, Line};
 use crate::error::{Error, Result};
 use crate::poly_data::{HAS_NAME, HAS_RADIUS, NAMES, RADIUS_NAMES};
 
-/// Writes a `.vtp` of vessels (mm, LPS). End points that vessels share are repeated.
+/// Writes a `.vtp` of vessels (mm, LPS). An end point of several vessels is repeated in each of them.
 ///
 /// The point array `MaximumInscribedSphereRadius` holds radii, the cell array `Name` names, and the point
 /// array `Confidence` confidences. If only some vessels have radii or names, `HasRadius` and `HasName` mark

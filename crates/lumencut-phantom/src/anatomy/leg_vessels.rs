@@ -27,7 +27,7 @@ pub(super) fn draw(network: &mut Network, iliac: [TrunkId; 2]) {
     bypass(network, iliac);
 }
 
-/// Draws the bypass from the right common femoral artery through the suprapubic fat to the left one.
+/// Draws the bypass from the right common femoral artery through the suprapubic fat to the left common femoral artery.
 fn bypass(network: &mut Network, [right, left]: [TrunkId; 2]) {
     let way = [
         [-74.0, -45.0, -176.0, 4.2],

@@ -11,7 +11,7 @@ use crate::tissue::{AIR, Solid, Tissue};
 pub(crate) fn lower_extremities(seed: u64, segments: usize) -> Anatomy {
     let mut network = Network::new(seed);
     let vessels = abdominal_vessels::draw(&mut network, 169.0, &leg_vessels::EXTERNAL_ILIAC);
-    // The stenosis that the bypass circumvents.
+    // The bypass circumvents this stenosis.
     network.stenosis(vessels.external_iliac[1], 0.3, 30.0, 92.0);
     leg_vessels::draw(&mut network, vessels.external_iliac);
 

@@ -138,7 +138,7 @@ fn ribs() -> Vec<Shape> {
 pub(super) fn table(low: f32, high: f32, y: f32) -> [Solid; 2] {
     let slab = |depth: f32| -> Vec<Shape> {
         let strip = |n: i16| {
-            // Slightly hollow, like the tables of CT scanners.
+            // The table is slightly hollow, like the tables of CT scanners.
             let edge = |n: i16| {
                 let x = 40.0 * f32::from(n);
                 (x, y + depth - 0.00035 * x * x)

@@ -1,4 +1,4 @@
-//! A tree of bounding boxes of a line's points, to find neighbours.
+//! Finds neighbours of a point by a tree of bounding boxes of the points of a line.
 
 use glam::DVec3;
 

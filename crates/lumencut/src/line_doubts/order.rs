@@ -6,23 +6,22 @@ use lumencut_core::math::statistics::{median, quantile};
 use super::nearby::Nearby;
 use super::shortest_tree::ShortestTree;
 
-/// A step is too long if it is this many times as long as the usual step …
+/// A step is too long if it exceeds this many usual steps, and also [`LONG_STEP_FRACTION`] of the line's extent.
 pub(super) const LONG_STEP: f64 = 20.0;
-/// … and longer than this fraction of the line's extent.
 const LONG_STEP_FRACTION: f64 = 0.05;
-/// A line is too long if it is this many times as long as a short path through its points …
+/// A line is too long if it is this many times as long as a short path through its points.
 const MAX_LENGTH_RATIO: f64 = 2.0;
-/// … or this many times, if an unambiguous order exists.
+/// The same limit if an unambiguous order of the points exists.
 const MAX_LENGTH_RATIO_FOUND: f64 = 1.2;
-/// Steps are regular if the longest is at most this many usual steps, and high quantiles are at most this many times low ones.
+/// Steps are regular if this factor bounds both the longest step divided by the usual one, and high quantiles divided by low ones.
 const MAX_REGULAR_RATIO: f64 = 3.0;
 /// A point is a spike if it is more than this many usual steps away from both neighbours.
 const SPIKE_STEPS: f64 = 5.0;
 /// The steps of an unambiguous order are at most this many usual steps long.
 const MAX_FOUND_STEP: f64 = 5.0;
-/// An order is ambiguous if points of another stretch are nearer than this many times the longest step.
+/// An order is ambiguous if another stretch comes nearer to a point than this many times the longest step.
 const CLEARANCE_STEPS: f64 = 1.5;
-/// A point belongs to another stretch if the path to it is more than this many times the straight distance.
+/// A point is on another stretch if the path to it is more than this many times as long as the straight distance.
 const OTHER_STRETCH_RATIO: f64 = 4.0;
 /// An order is ambiguous if more than this many points are near one point.
 const MAX_NEIGHBOURS: usize = 256;
@@ -72,7 +71,7 @@ pub(super) fn order_doubts(points: &[DVec3]) -> Vec<OrderDoubt> {
 }
 
 impl OrderDoubt {
-    /// The same doubt with the point numbers of the whole line, if only the `kept` points were checked.
+    /// If only the `kept` points were checked: the same doubt, with point numbers of the whole line.
     fn among(self, kept: &[usize]) -> Self {
         let moved = |step: LongStep| LongStep { after: kept[step.after], ..step };
         match self {

@@ -1,4 +1,4 @@
-//! The minimum spanning tree of points, and a short path through all of them.
+//! Computes the minimum spanning tree of points, and a short path through all of them.
 
 use glam::DVec3;
 

@@ -8,9 +8,9 @@ use lumencut_core::math::arc_length::{arc_lengths, point_at};
 use super::DoubtedLine;
 use super::nearby::Nearby;
 
-/// If a radius is unknown, lines nearer than this (mm) share a vessel …
+/// If a radius is unknown, lines nearer to each other than this (mm) are taken for one vessel.
 const NEAR_MM: f64 = 0.5;
-/// … and otherwise lines nearer than this fraction of the smaller radius.
+/// Lines nearer to each other than this fraction of the smaller radius are taken for one vessel.
 const NEAR_RADII: f64 = 0.5;
 /// Sampling step along lines (mm).
 const STEP_MM: f64 = 1.0;
@@ -18,9 +18,9 @@ const CHORD_SAMPLES: usize = 5;
 const MAX_SAMPLES: f64 = 30_000.0;
 /// At most this many neighbours of a sample are checked, to limit the work; no vessel is wide enough for more.
 const MAX_NEIGHBOURS: usize = 200;
-/// The shortest stretch side by side that counts (mm) …
+/// Shorter stretches side by side are ignored (mm).
 const MIN_LENGTH_MM: f64 = 10.0;
-/// … and in radii, since lines that join separate slowly.
+/// Stretches of fewer radii are ignored too, since lines that join separate slowly.
 const MIN_LENGTH_RADII: f64 = 6.0;
 
 struct Spot {
@@ -28,7 +28,7 @@ struct Spot {
     radius: Option<f64>,
 }
 
-/// Pairs of vessels (the lower index first), and over what length they run side by side (mm).
+/// Pairs of vessels (the lower index first), and the length over which they run side by side (mm).
 pub(super) fn side_by_side(lines: &[DoubtedLine]) -> Vec<(usize, usize, f64)> {
     if lines.len() < 2 {
         return Vec::new();

@@ -1,4 +1,4 @@
-//! The curves of a profile as SVG paths; NaN interrupts them.
+//! Draws the curves of a profile as SVG paths. A NaN interrupts a curve.
 
 use std::fmt::Write;
 
@@ -18,7 +18,7 @@ impl Axes {
     }
 }
 
-/// A polyline, interrupted at NaN. A value between two NaN is not drawn.
+/// A polyline that is interrupted at NaN. A value between two NaN is not drawn.
 pub(super) fn line(axes: &Axes, at: &[f64], values: &[f64]) -> String {
     let mut path = String::new();
     for run in stretches(values).iter().filter(|run| run.len() > 1) {

@@ -1,4 +1,4 @@
-//! HTML fragments; texts are escaped, and pictures are embedded.
+//! Builds HTML fragments with escaped texts and embedded pictures.
 
 use lumencut_core::error::{Error, ErrorKind, Result};
 

@@ -1,4 +1,4 @@
-//! The places that a report shows: marks, and, named as such, suggestions.
+//! The places that a report shows: marks, and suggestions that are named as suggestions.
 
 use lumencut_vessels::measure::profile::Profile;
 use serde::Serialize;
@@ -23,7 +23,7 @@ pub struct ReportMark {
     pub name: String,
     /// Arc length (mm).
     pub at: f64,
-    /// Suggested, not marked.
+    /// Whether the place is suggested, and was not marked by a reader.
     pub is_suggestion: bool,
 }
 
@@ -37,11 +37,11 @@ impl From<&Mark> for ReportMark {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "ReportPlace"))]
 pub struct ReportPlace {
-    /// Such as `marked place` or `reference before (suggestion)`.
+    /// The name, such as `marked place` or `reference before (suggestion)`.
     pub name: String,
     /// Arc length (mm).
     pub at: f64,
-    /// Suggested, not marked.
+    /// Whether the place is suggested, and was not marked by a reader.
     pub is_suggestion: bool,
     /// Whether it is a reference of the stenosis.
     pub(crate) is_reference: bool,

@@ -1,4 +1,4 @@
-//! Decides which pictures a report needs from its host.
+//! Decides which pictures a report needs from its caller.
 
 use lumencut_core::math::statistics::quantile;
 use lumencut_vessels::measure::profile::Profile;
@@ -7,16 +7,16 @@ use serde::Serialize;
 use super::places::{ReportMark, ReportPlace, places};
 use super::plot::{STRIP, axis_along};
 
-/// The side of a section picture: this many lumen diameters, clamped to these bounds (mm); the default if no diameter was measured.
+/// Side of a section picture: this many lumen diameters, within these bounds (mm); the default if no diameter was measured.
 const SECTION_DIAMETERS: f64 = 2.5;
 const SECTION_SIDES_MM: [f64; 2] = [12.0, 120.0];
 const DEFAULT_SIDE_MM: f64 = 30.0;
 
-/// The pictures are large enough for this fraction of the sections.
+/// At least this fraction of the sections fits into the section pictures.
 const FITTING_QUANTILE: f64 = 0.9;
 
-/// For a short vessel the strip is narrower, so that it fits the height of the plot, but at least this fraction of a section
-/// picture; and its bounds (mm).
+/// A short vessel gets a narrower strip, which fits the height of the plot. Its width is at least this fraction of a section
+/// picture, and within these bounds (mm).
 const MIN_STRIP_RATIO: f64 = 0.6;
 const STRIP_WIDTHS_MM: [f64; 2] = [12.0, 90.0];
 
@@ -28,7 +28,7 @@ const MIN_PIXEL_MM: f64 = 0.05;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "ReportPlan"))]
 pub struct Plan {
-    /// The width of the straightened vessel (mm); a host shows less if the volume is narrower.
+    /// The width of the straightened vessel (mm). It is shown narrower if the volume is narrower.
     pub width: f64,
     /// Pixel side of the straightened vessel (mm).
     pub spacing: f64,
@@ -38,7 +38,7 @@ pub struct Plan {
     pub side: f64,
 }
 
-/// The pictures of a vessel with these marks.
+/// Plans the pictures of a vessel with these marks.
 pub fn plan(profile: &Profile, marks: &[ReportMark]) -> Plan {
     let x = axis_along(profile.length());
     let pixel = profile.length() / (x.end - x.start);

@@ -1,4 +1,4 @@
-//! The profile of a vessel as SVG, below the straightened vessel and with the same axis.
+//! Draws the profile of a vessel as SVG, below the straightened vessel and with the same axis.
 
 use std::f64::consts::PI;
 use std::fmt::Write;

@@ -17,13 +17,13 @@ use crate::study::whole_vessel::WholeVessel;
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct AfterEdit {
     pub(crate) edited: Edited,
-    /// The state; the vessels of the document that are not doubtful are shown.
+    /// The state after the edit, in which all vessels that are not doubtful are shown.
     pub(crate) report: Report,
     /// The lines that the document before the edit did not have.
     pub lines: Vec<NumberedLine>,
     /// Facts about the lines that are not doubtful.
     pub(crate) facts: Vec<LineFacts>,
-    /// What lies at the edited place, if the edit has one.
+    /// What lies at the place of the edit, if the edit has a place.
     pub(crate) pick: Option<Pick>,
 }
 

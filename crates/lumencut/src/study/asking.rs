@@ -1,5 +1,5 @@
-//! How a viewer asks the study: by named questions with a message and an answer. A table ([`crate::study::questions`]) declares
-//! them, and also generates the page's types.
+//! How a viewer asks the study: by questions with a name, a message and an answer. The table [`crate::study::questions`] declares
+//! them, and the page's types are generated from it.
 
 use serde::{Deserialize, Serialize};
 
@@ -24,7 +24,7 @@ pub enum Turn {
 /// The input of a question.
 #[derive(Clone, Copy)]
 pub struct Asking<'a> {
-    /// The message as JSON.
+    /// The message of the question as JSON.
     pub message: &'a str,
     /// The bytes of a file; empty without a file.
     pub bytes: &'a [u8],
@@ -37,7 +37,7 @@ pub struct Asking<'a> {
 /// The answer to a question.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
-    /// As JSON.
+    /// The answer as JSON.
     pub json: String,
     /// Binary content, such as a picture; it becomes the field `bytes` of the answer.
     pub bytes: Option<Vec<u8>>,
@@ -94,8 +94,8 @@ pub(crate) fn read<'a, T: Deserialize<'a>>(question: &str, text: &'a str) -> Res
 }
 
 /// Declares the table of questions. A row has a doc comment, turn, name, message (`(name: Type)` or `{ name: Type, … }`), answer
-/// type and body. Bodies see the study and the asking under the names given first, and may use `?`; rows under `at_once` see
-/// neither.
+/// type and body. Bodies use the study and the [`Asking`] under the names given first, and may use `?`. Rows under `at_once` have
+/// no access to either.
 macro_rules! questions {
     (
         |$study:ident, $asking:ident|

@@ -1,4 +1,4 @@
-//! Finds the brightest voxel on the ray of a pixel: what a click into a projection means.
+//! Finds the brightest voxel on the ray of a pixel. A click into a projection selects this voxel.
 
 use crate::positions::{pixel_from_world, world_from_pixel};
 use crate::windows;
@@ -13,7 +13,7 @@ use crate::study::open_study::Study;
 use crate::study::picking::Pick;
 use crate::study::view::View;
 
-/// Distance of samples, in smallest voxel sides.
+/// Distance between samples on a ray, in smallest voxel sides.
 const STEP_VOXELS: f64 = 0.5;
 
 /// Depths (mm) of an unlimited ray.
@@ -51,7 +51,7 @@ pub fn brightest_on_ray(
 }
 
 impl Study {
-    /// The brightest place on the ray of a pixel (column, row); only within the slab if the pixel shows the cut surface with one.
+    /// The brightest place on the ray of a pixel (column, row). If the pixel shows a slab of the cut surface, only within the slab.
     pub(crate) fn brightest(&mut self, view: &View, pixel: [f64; 2]) -> Result<Pick> {
         let within = self.depths_of_slab(view, pixel)?;
         self.brightest_within(view, pixel, within)

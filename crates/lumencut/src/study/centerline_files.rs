@@ -48,7 +48,7 @@ impl From<AskedMessage> for Asked {
 }
 
 impl AskedMessage {
-    /// The requested space and unit; an unknown name requests nothing.
+    /// The requested space and unit. An unknown name is treated as no request.
     pub(crate) fn statement(self) -> Statement {
         let space = |space: &Space| Some(space.name()) == self.coordinates.as_deref();
         let unit = |unit: &Unit| Some(unit.name()) == self.unit.as_deref();
@@ -64,7 +64,7 @@ pub(crate) struct PlacedVessels {
     pub(crate) notes: Vec<String>,
     /// Whether points seem to be in the wrong order, and can be sorted.
     pub(crate) can_reorder: bool,
-    /// Evidence against the space or unit used.
+    /// Evidence against the space or unit in which the file was read.
     pub(crate) doubt: Option<PlaceDoubt>,
 }
 
@@ -73,7 +73,7 @@ pub(crate) struct PlacedVessels {
 pub(crate) struct PlaceDoubt {
     /// The finding, in words.
     pub found: String,
-    /// Alternatives such as `lps in cm`; may be empty.
+    /// Other spaces and units that fit, such as `lps in cm`; may be empty.
     pub(crate) readings: Vec<String>,
 }
 
@@ -81,7 +81,7 @@ pub(crate) struct PlaceDoubt {
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct OpenedLines {
     pub(crate) notes: Vec<String>,
-    /// Evidence against the space or unit used.
+    /// Evidence against the space or unit in which the file was read.
     pub(crate) doubt: Option<PlaceDoubt>,
 }
 
@@ -140,7 +140,7 @@ fn doubts_of(vessels: &[Vessel], names: &[String]) -> Vec<LineDoubt> {
     doubts
 }
 
-/// The doubt if there is evidence against the unit, or if other units fit too.
+/// A doubt about the unit, if there is evidence against it or other units fit too.
 fn doubt_of_unit(found: &Placement) -> Option<PlaceDoubt> {
     let of = |units: &[Unit]| {
         units.iter().map(|unit| CoordinateSystem { unit: *unit, ..found.place }.to_string()).collect()
@@ -152,7 +152,7 @@ fn doubt_of_unit(found: &Placement) -> Option<PlaceDoubt> {
     (!found.also.is_empty()).then(|| PlaceDoubt { found: found.decision.clone(), readings: also })
 }
 
-/// A doubt if vessels lie outside the volume, or fit better elsewhere although the caller neither stated the space nor was told.
+/// A doubt if vessels lie outside the volume, or fit better in another space or unit that the caller neither chose nor was told.
 fn doubt_beside(tree: &VesselTree, volume: &Volume, read: &Placement) -> Option<PlaceDoubt> {
     let points: Vec<DVec3> = tree.vessels().iter().flat_map(|vessel| vessel.points()).copied().collect();
     let radius =

@@ -53,7 +53,7 @@ impl NamedTree {
     }
 }
 
-/// The open volume and tree.
+/// The open volume and the open vessel tree.
 #[derive(Debug, Default)]
 pub struct Content {
     pub held: Option<HeldVolume>,
@@ -84,7 +84,7 @@ pub(crate) struct Report {
 pub(crate) struct VolumeReport {
     /// Voxels along (i, j, k).
     pub size: [usize; 3],
-    /// World position of a continuous index, row by row.
+    /// Affine from voxel indices to world positions (LPS, mm), row by row.
     #[cfg_attr(test, ts(type = "Array<Array<number>>"))]
     pub world_from_index: [[f64; 4]; 4],
     #[cfg_attr(test, ts(type = "Array<Vector>"))]
@@ -131,7 +131,7 @@ struct NamedWindow {
 }
 
 impl Content {
-    /// The scene for renderers.
+    /// The open volume and vessels as the scene that renderers need.
     ///
     /// # Errors
     /// `volume` for an invalid grid.

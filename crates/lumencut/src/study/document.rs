@@ -1,4 +1,4 @@
-//! The part of a viewer's document that edits of vessels change. Documents are immutable; a host keeps earlier ones for undo.
+//! The part of a viewer's document that edits of vessels change. Documents are immutable; the viewer keeps earlier ones for undo.
 
 use serde::{Deserialize, Serialize};
 

@@ -6,7 +6,7 @@ use serde::Serialize;
 #[derive(Clone, Copy, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct DoubtRow {
-    /// The phrase in documents and session files.
+    /// The reason as a phrase, for documents and session files.
     pub words: &'static str,
     pub(crate) short: &'static str,
 }

@@ -145,7 +145,7 @@ impl Draft {
             (Some((vessel, _)), Some(number)) if !self.new_clicks.contains(&(vessel.id, number)) => {
                 format!("point {} of {}", number + 1, vessel.called())
             }
-            // Hosts show the message at the new point.
+            // The viewer shows the message at the new point.
             _ => "this point".to_owned(),
         };
         failure

@@ -24,8 +24,8 @@ impl Study {
         draft.document
     }
 
-    /// The document after an edit. If clicks, stoppers or bridging change, all vessels with clicks are traced again, beside the
-    /// other vessels that are not doubtful.
+    /// The document after an edit. If clicks, stoppers or bridging change, all vessels with clicks are traced again. They can join
+    /// the other vessels that are not doubtful.
     pub(crate) fn edit(&mut self, message: &EditMessage, watch: Watch) -> Result<Edited> {
         let mut draft = Draft::of(message.document.clone(), self.last_id);
         let mut notes = Vec::new();

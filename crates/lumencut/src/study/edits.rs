@@ -1,7 +1,7 @@
 //! The edits of vessels that a viewer offers, and their results.
 //!
-//! Name, colour and visibility are not edits: a host sets these fields immediately, since nothing follows from them. Undo is up to
-//! the host: it keeps the earlier documents together with marks and rulers, which must not wait for tracing.
+//! Name, colour and visibility are not edits: the viewer sets these fields immediately, since nothing follows from them. The viewer
+//! also undoes edits: it keeps earlier documents with their marks and rulers, which must not wait for tracing.
 
 use serde::{Deserialize, Serialize};
 
@@ -21,8 +21,8 @@ pub(crate) enum Edit {
         id: u32,
         point: WorldPoint,
     },
-    /// A click between others, where a vessel was dragged. A vessel without clicks first gets clicks along its line, to stay in
-    /// place.
+    /// Adds a click between others, at the point to which a vessel was dragged. A vessel without clicks first gets clicks along its
+    /// line, to stay in place.
     AddClickOnLine {
         id: u32,
         point: WorldPoint,

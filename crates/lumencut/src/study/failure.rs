@@ -1,4 +1,4 @@
-//! Errors as the page gets them: the texts, the kind, and the remedies.
+//! Errors in the form that the page receives: texts, kind, and remedies.
 
 use lumencut_core::error::{Clicked, Error, ErrorKind};
 use lumencut_io as centerlines;
@@ -57,7 +57,7 @@ impl From<Clicked> for About {
 pub(crate) struct Seen {
     /// The place (mm, LPS).
     pub place: [f64; 3],
-    /// The value there; `null` outside the volume.
+    /// The value of the volume at the place; `null` outside the volume.
     pub value: f64,
 }
 

@@ -1,4 +1,4 @@
-//! A volume that is held for a viewer: it passes first the header, and then the voxels as bytes.
+//! A volume in memory for a viewer, which passes first the header, and then the voxels as bytes.
 
 use std::collections::BTreeMap;
 
@@ -16,7 +16,7 @@ pub(crate) struct VolumeHeader {
     /// Voxels along (i, j, k); i varies fastest.
     pub size: [usize; 3],
     pub(crate) dtype: String,
-    /// World position (LPS, mm) of a continuous index, row by row.
+    /// Affine from voxel indices to world positions (LPS, mm), row by row.
     pub world_from_index: [[f64; 4]; 4],
     #[serde(default)]
     pub scan: ScanDetails,
@@ -57,7 +57,7 @@ pub struct HeldVolume {
     pub stored: Stored,
     /// Voxels along (i, j, k).
     pub size: [usize; 3],
-    /// World position of a continuous index.
+    /// Affine from voxel indices to world positions (LPS, mm).
     pub world_from_index: DAffine3,
     /// Identifies the voxels in caches.
     pub key: VolumeKey,
@@ -69,7 +69,7 @@ impl HeldVolume {
     /// `count` writable bytes of the voxels, from `offset` on.
     ///
     /// # Errors
-    /// `volume` beyond the end of the voxels or without a volume.
+    /// `volume` if the bytes lie beyond the end of the voxels, or if there is no volume.
     pub fn bytes(held: Option<&mut Self>, offset: usize, count: usize) -> Result<&mut [u8]> {
         let bytes = held.map_or(&mut [][..], |held| held.stored.bytes_mut());
         let expected = format!("at most the {} that the header states", bytes.len());
@@ -80,7 +80,7 @@ impl HeldVolume {
         })
     }
 
-    /// The volume in the form that the core borrows.
+    /// The volume as the type of the core, which borrows the voxels.
     ///
     /// # Errors
     /// `volume` for an invalid grid.

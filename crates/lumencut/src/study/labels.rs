@@ -1,4 +1,4 @@
-//! The labels around a picture: edge letters and scale bar.
+//! Labels of a picture: the letters at its edges, and the scale bar.
 
 use glam::DVec3;
 use serde::{Deserialize, Serialize};

@@ -11,7 +11,7 @@ use crate::study::lines::{Line, wrong};
 /// Ends within this distance (mm) are one point. It is larger than the rounding of files and much smaller than any lumen.
 pub(crate) const MEETING: f64 = 0.1;
 
-/// Ends can be joined up to this distance (mm), or this many radii of the wider one: as far as tracing goes without bridging.
+/// Ends can be joined up to this distance (mm), or this many radii of the wider one. Tracing without bridging reaches as far.
 const MAX_JOIN_MM: f64 = 5.0;
 const MAX_JOIN_RADII: f64 = 2.0;
 

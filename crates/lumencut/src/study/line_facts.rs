@@ -1,4 +1,4 @@
-//! Facts that help to tidy vessels: length, calibre, connected part and parent.
+//! Facts by which users sort and clean up vessels: length, calibre, connected part and parent.
 
 use lumencut_core::math::arc_length::arc_lengths;
 use lumencut_core::math::statistics::median;

@@ -6,16 +6,16 @@ use crate::study::line_edits::{Knot, MEETING, followed, knots, with_knots};
 use crate::study::lines::Line;
 use crate::text::rounded;
 
-/// Where two lines are nearest to each other: a point index on each line, at least one of them an end, and the distance (mm).
+/// Where two lines are nearest: a point index on each line (at least one of them is an end), and the distance (mm).
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Meeting {
     on: [usize; 2],
     apart: f64,
 }
 
-/// A path through lines in order, in whatever direction each line runs. If a line is met between its ends, the path follows it from
-/// or to that point. The path starts at the first line's first point. On the last line it ends at the first point if it enters the
-/// line in between. Errors name the lines by `words`.
+/// A path through lines in order, whichever way each line runs. If a line is met between its ends, the path follows it from or to
+/// that point. The path starts at the first line's first point. If it enters the last line between its ends, it ends at that line's
+/// first point. Errors name the lines by `words`.
 ///
 /// # Errors
 /// `vessel tree` if neighbours are farther apart than `MEETING`.
@@ -50,8 +50,8 @@ pub fn path(lines: &[Line], words: &[String]) -> Result<Line> {
     Ok(with_knots(&joined, &like))
 }
 
-/// Where a line that was entered at `entry` (if any) is left for another line. It tries end to end, then any point to the other's
-/// end, then its own end to any point. The first that is near enough counts, else the nearest.
+/// The points at which the path leaves `line`, which it entered at `entry` (if any), for the other line. It tries end to end, then
+/// any point to the other's end, then its own end to any point. The first meeting that is near enough is used, else the nearest.
 fn meeting(line: &[Knot], other: &[Knot], entry: Option<usize>) -> Meeting {
     let last = line.len() - 1;
     // A line that was entered at one end is followed to its other end.

@@ -1,4 +1,4 @@
-//! The page's lines by number. A line is immutable: every edit makes a new line, so that it can be undone.
+//! Stores the page's lines by number. A line is immutable: every edit makes a new line, so that it can be undone.
 
 use std::sync::Arc;
 
@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::study::failure::Result;
 
-/// A line with the data of its points.
+/// A vessel line: its points, with radius, confidence and bridging of each point.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Line {
     /// At least two points (mm, LPS).
@@ -77,7 +77,7 @@ impl Line {
         }
     }
 
-    /// The line as other vessels meet it while they are traced. Its width is zero if its radius is unknown.
+    /// The line in the form in which traced vessels can join it. Its width is zero if its radius is unknown.
     pub(crate) fn met(&self) -> Centerline {
         let radius = self.known_radius().unwrap_or_else(|| vec![0.0; self.points.len()]);
         Centerline { points: self.points.clone(), radius, confidence: Vec::new() }

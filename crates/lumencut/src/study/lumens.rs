@@ -1,4 +1,4 @@
-//! The lumens under a pointer, each with the section across it.
+//! Finds the lumens under the pointer, each with the section across it.
 
 use glam::DVec3;
 use lumencut_vessels::trace::lumen::on_ray::lumens_on_ray;
@@ -13,7 +13,7 @@ use crate::study::open_study::Study;
 #[derive(Clone, Copy, Debug, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "PointedAt"))]
 pub(crate) struct PointedMessage {
-    /// The place (LPS, mm).
+    /// The pointed place (LPS, mm).
     pub point: WorldPoint,
     /// Unit vector of the ray, away from the viewer; none if only the place counts.
     pub along: Option<WorldPoint>,

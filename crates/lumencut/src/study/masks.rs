@@ -23,7 +23,7 @@ use crate::study::open_study::Study;
 use crate::study::tracing::Watch;
 use crate::study::voxels::Stored;
 
-/// A volume with more distinct values is a scan and no mask.
+/// A volume with more distinct values than this is a scan, not a mask.
 const MOST_LABELS: usize = 1000;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -37,7 +37,7 @@ impl Study {
     /// Allocates memory for a mask, whose voxels then follow as bytes.
     ///
     /// # Errors
-    /// `volume` without an open scan, without enough memory, or for an invalid grid.
+    /// `volume` if no scan is open, memory is insufficient, or the grid is invalid.
     pub fn begin_mask(&mut self, header: &str) -> Result<()> {
         self.mask = None;
         self.content.held.as_ref().ok_or_else(no_volume)?;
@@ -49,7 +49,7 @@ impl Study {
     /// `count` writable bytes of the mask's voxels from `offset` on.
     ///
     /// # Errors
-    /// `volume` beyond the end of the mask.
+    /// `volume` if the bytes lie beyond the end of the mask.
     pub fn mask_bytes(&mut self, offset: usize, count: usize) -> Result<&mut [u8]> {
         HeldVolume::bytes(self.mask.as_mut().map(|mask| &mut mask.held), offset, count)
     }

@@ -1,4 +1,4 @@
-//! Measurements as page and worker exchange them. The page's types are generated from these types.
+//! Messages about measurements between page and worker. The page's types are generated from these types.
 
 use crate::flag_table::{FLAGS, FlagLook};
 use crate::measure_words::{of_bounds, of_c_arm, of_doubts, of_flags, of_source, of_stenosis, of_wall};
@@ -25,7 +25,7 @@ type Vector = [f64; 3];
 pub(crate) struct SpotMessage {
     /// Arc length on the vessel (mm).
     at: f64,
-    /// mm
+    /// The diameter (mm).
     diameter: f64,
 }
 
@@ -43,13 +43,13 @@ pub(crate) struct ProfileMessage {
     /// Diameter of the circle of the same area (mm).
     #[cfg_attr(test, ts(type = "Array<number | null>"))]
     diameter: Vec<f64>,
-    /// mm
+    /// The shortest diameter of the lumen (mm).
     #[cfg_attr(test, ts(type = "Array<number | null>"))]
     diameter_min: Vec<f64>,
-    /// mm
+    /// The longest diameter of the lumen (mm).
     #[cfg_attr(test, ts(type = "Array<number | null>"))]
     diameter_max: Vec<f64>,
-    /// mm²
+    /// The area of the lumen (mm²).
     #[cfg_attr(test, ts(type = "Array<number | null>"))]
     area: Vec<f64>,
     /// The standard deviation of `diameter` (mm).
@@ -66,7 +66,7 @@ pub(crate) struct ProfileMessage {
     center: Vec<Vector>,
     /// FWHM of the point spread (mm).
     fwhm: f64,
-    /// Where the point-spread width comes from: `given`, `estimated on …`, `assumed: …`.
+    /// The source of the point-spread width: `given`, `estimated on …`, `assumed: …`.
     fwhm_source: String,
     /// The expected level of the wall, or why walls were not separated.
     wall_source: String,
@@ -225,7 +225,7 @@ impl StenosisMessage {
     }
 }
 
-/// Places to compare with a stenosis before it is graded, such as offered references (arc lengths, mm).
+/// A stenosis and the places to compare it with before it is graded, such as offered references (arc lengths, mm).
 #[derive(Clone, Debug, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Compared"))]
 pub(crate) struct ComparedMessage {

@@ -25,7 +25,7 @@ impl Study {
         Ok(self.profiles.kept(found))
     }
 
-    /// The profile of a shown line for the width that was last requested.
+    /// The profile of a shown line, with the point-spread width that was last requested for it.
     pub fn measured(&mut self, line: usize, stop: Stop) -> Result<&Profile> {
         self.profile(line, self.profiles.width(line), stop)
     }
@@ -34,7 +34,7 @@ impl Study {
         self.profiles = Profiles::default();
     }
 
-    /// The CSV of `lumencut measure -o x.csv`; it says if lengths are assumed.
+    /// The CSV of `lumencut measure -o x.csv`; it states whether lengths are assumed.
     pub(crate) fn profiles_csv(
         &mut self,
         vessels: &[VesselMessage],

@@ -1,4 +1,4 @@
-//! Names for vessels that an edit adds.
+//! Chooses names for the vessels that an edit adds.
 
 /// A name that is not in use: the kind and the first free number, such as `Branch 3`.
 pub(crate) fn fresh_name(taken: &[String], kind: &str) -> String {

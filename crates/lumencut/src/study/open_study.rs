@@ -1,4 +1,4 @@
-//! The open study and its basic questions. Only the turning view can use a GPU.
+//! The open study and its basic questions. Only the 3D view can use a GPU.
 
 use crate::views;
 use glam::DVec3;
@@ -47,17 +47,17 @@ pub struct Study {
     pub(crate) reformed: Option<Reformed>,
     pub(crate) profiles: Profiles,
     pub(crate) lines: Lines,
-    /// What is kept about the volume between tracings, and the last lines.
+    /// The data of the volume that are kept between tracings, and the last lines.
     pub(crate) tracer: Tracer,
     pub(crate) traced: Vec<usize>,
-    /// The vessels of the scan, once they were searched for.
+    /// The vessels of the scan; None until they are searched for.
     pub(crate) trees: Option<Trees>,
     pub(crate) last_id: u32,
     pub(crate) mask: Option<HeldMask>,
 }
 
 impl Study {
-    /// The scene for renderers.
+    /// The open volume and vessels as the scene that renderers need.
     ///
     /// # Errors
     /// `volume` for an invalid grid.

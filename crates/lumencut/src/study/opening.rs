@@ -11,7 +11,7 @@ impl Study {
     /// Closes the current study and allocates memory for a volume, whose voxels then follow as bytes.
     ///
     /// # Errors
-    /// `settings` for an invalid header; `volume` without enough memory or for an invalid grid.
+    /// `settings` for an invalid header; `volume` if memory is insufficient or the grid is invalid.
     pub fn begin_volume(&mut self, header: &str) -> Result<()> {
         let header = VolumeHeader::read(header)?;
         self.close();
@@ -22,7 +22,7 @@ impl Study {
     /// `count` writable bytes of voxels from `offset` on.
     ///
     /// # Errors
-    /// `volume` beyond the end of the volume.
+    /// `volume` if the bytes lie beyond the end of the volume.
     pub fn voxel_bytes(&mut self, offset: usize, count: usize) -> Result<&mut [u8]> {
         HeldVolume::bytes(self.content.held.as_mut(), offset, count)
     }

@@ -1,4 +1,4 @@
-//! Vessel colours of Okabe and Ito, in order of brightness on dark. Yellow, orange and red are omitted, since they mark warnings.
+//! Vessel colours for dark backgrounds, after Okabe and Ito. Yellow, orange and red are omitted, since they mark warnings.
 
 /// Colours with their names, in the order in which vessels get them.
 pub(crate) const PALETTE: [(&str, &str); 12] = [

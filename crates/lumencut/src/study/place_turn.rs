@@ -1,4 +1,4 @@
-//! Views of one vessel: the one that shows most of it, and a turn about a place.
+//! Views of one vessel: the view that shows most of the vessel, and a turn about a place on it.
 
 use lumencut_core::error::{Error, ErrorKind};
 use lumencut_core::stop::Stop;
@@ -21,7 +21,7 @@ const HALF_TURN: u32 = 180;
 pub(crate) struct PlaceTurn {
     /// The first view: the one nearest to the anterior view.
     pub camera: CameraMessage,
-    /// The cut diameter (mm) after each degree from 0 to 179, from where the diameters repeat. None if two walls are not found.
+    /// The cut diameter (mm) after each degree from 0 to 179; then the diameters repeat. None if two walls are not found.
     pub(crate) diameters: Vec<Option<f64>>,
 }
 

@@ -15,7 +15,7 @@ pub(super) fn nearest_point(points: &[DVec3], place: DVec3) -> usize {
     (0..points.len()).min_by(|a, b| apart(a).total_cmp(&apart(b))).unwrap_or(0)
 }
 
-/// Number of the click before which a point of the line lies; never the first click, and the last click for points behind it.
+/// Number of the next click after a point of the line: at least 1, and the last click for points behind it.
 pub(super) fn click_after(clicks: &[DVec3], points: &[DVec3], number: usize) -> usize {
     let last = clicks.len().saturating_sub(1);
     let after = clicks.iter().position(|click| nearest_point(points, *click) > number);

@@ -43,12 +43,12 @@ type Vector = [f64; 3];
 /// Level and width.
 type Window = [f64; 2];
 
-/// Time limit of the search for a path while the pointer moves (ms).
+/// Time limit (ms) of the search for a path, which runs while the pointer moves.
 const PATH_TIME_LIMIT_MS: f64 = 40.0;
 
 questions! { |study, asking|
 of_the_study {
-    /// The state of all that is open.
+    /// The state of the open volume and vessels.
     [Turn::Later] report(_nothing: ()) -> Report = study.report()?;
 
     /// Closes the study.
@@ -78,16 +78,16 @@ of_the_study {
     /// The brightest voxel on the ray of a pixel.
     [Turn::First] brightest { view: ViewMessage, pixel: [f64; 2] } -> Pick = study.brightest(&study.view_of(&view)?, pixel)?;
 
-    /// What lies at a point, and the vessel around it.
+    /// The value at a point, and the vessel in which the point lies.
     [Turn::First] at(point: Vector) -> Pick = study.at(point);
 
     /// The histogram of the volume.
     [Turn::Later] histogram { bins: usize } -> Histogram = study.histogram(bins)?;
 
-    /// The picture of a plane, with the given window.
+    /// The picture of a plane through the volume, with the given window.
     [Turn::First] slice { plane: Plane, window: Window } -> Picture = study.slice(&plane, window)?;
 
-    /// The section at an arc length (mm), a measured section if the vessel was measured: centre, unit vectors right and down.
+    /// The section at an arc length (mm); a measured section, if the vessel was measured: centre, unit vectors right and down.
     [Turn::First] across { vessel: usize, at: f64 } -> [Vector; 3] = study.across(vessel, at)?;
 
     /// The straightened CPR of a vessel, with the given window.
@@ -123,7 +123,7 @@ of_the_study {
     /// The lumens along a ray, the nearest first, or the lumen at a place.
     [Turn::First] lumens(pointed: PointedMessage) -> Vec<PointedLumen> = study.lumens(&pointed)?;
 
-    /// The path to the pointer through voxel centres; null if not found within 40 ms. It is never rejected for lack of lumen.
+    /// The path through voxel centres to the pointer; null if not found within 40 ms. Missing lumen does not cause an error.
     [Turn::First] path(request: PathMessage) -> Option<Vec<Vector>> = {
         let end = (asking.clock)() + PATH_TIME_LIMIT_MS;
         study.path(&request, &|| (asking.clock)() >= end)?
@@ -133,7 +133,7 @@ of_the_study {
     [Turn::First] whole_vessel { click: Vector, vessels: Vec<DocumentVessel> } -> Option<WholeVessel> =
         study.whole_vessel(click, &vessels)?;
 
-    /// The content of a line.
+    /// The points of a line, with their radii and other data.
     [Turn::First] line { line: usize } -> LineContent = study.line(line)?;
 
     /// Adds a line, such as a line of a saved session; returns the number that it gets.
@@ -241,7 +241,7 @@ at_once {
 }
 }
 
-/// The profile of a line for the width that was last requested.
+/// The profile of a line, with the point-spread width that was last requested.
 fn measured<'a>(study: &'a mut Study, line: usize, asking: &Asking) -> Result<&'a Profile> {
     study.measured(line, asking.watch.stop)
 }

@@ -116,7 +116,7 @@ impl Laid {
         }
     }
 
-    /// The arc length at a position (mm), if its row shows a single place along a vessel.
+    /// The arc length at a position (mm), if the row of the position shows a single place along a vessel.
     pub(super) fn arc_length(&self, [_, row]: [f64; 2]) -> Option<f64> {
         match self {
             Self::Untangled(_) | Self::Uncurl(..) => None,

@@ -1,4 +1,4 @@
-//! Looks by body region: the look, window and slab with which readers usually view the region.
+//! For each body region: the look (group of settings), window and slab with which readers usually view it.
 
 use lumencut_core::settings::{LOOKS, Slab, SlabMode, Value};
 use serde::Serialize;

@@ -1,4 +1,4 @@
-//! Findings and reports of measured vessels, as a viewer requests them. The viewer supplies pictures; the facade does the rest.
+//! Findings and reports of measured vessels, as a viewer requests them. The viewer supplies the pictures.
 
 use lumencut_core::stop::Stop;
 use serde::{Deserialize, Serialize};
@@ -69,7 +69,7 @@ impl ReportMessage {
         }
     }
 
-    /// Other lengths of the vessel with this index; the first vessel's page also shows the distances in the scan.
+    /// Other measurements of the vessel with this index; the straight distances belong to the first vessel's page.
     fn lengths(&self, number: usize) -> Lengths {
         let distances = if number == 0 { self.distances.clone() } else { Vec::new() };
         Lengths { distances, ..lengths_of(&self.vessels[number].vessel) }

@@ -16,7 +16,7 @@ const SOFTWARE: &str = concat!("lumencut ", env!("CARGO_PKG_VERSION"));
 /// How much rounding may change the scan's grid in a file (mm).
 const GRID_TOLERANCE_MM: f64 = 1e-3;
 
-/// A session as the page has it. Lines are numbers; everything else is as in the file, without the data of points.
+/// A session as the page stores it: lines by number, and everything else as in the file, without the data of points.
 #[derive(Debug, Deserialize, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct SessionContent {

@@ -1,4 +1,4 @@
-//! Converts settings, named as in the common table, from and to JSON.
+//! Converts settings from and to JSON. Their names are those of the table in the core.
 
 use lumencut_core::named::Named;
 use lumencut_core::settings::{
@@ -50,7 +50,7 @@ pub(crate) struct LookRow {
     pub name: &'static str,
     words: &'static str,
     sentence: &'static str,
-    /// The values of all settings that at least one look sets; the default of a setting that this look does not set.
+    /// The values of all settings that any look sets; the default if this look does not set one.
     #[cfg_attr(test, ts(type = "Settings"))]
     pub settings: Map<String, Json>,
 }
@@ -63,7 +63,7 @@ pub(crate) fn looks() -> Vec<LookRow> {
     LOOKS.iter().map(row).collect()
 }
 
-/// The values of all settings that at least one look sets: those chosen, else the defaults.
+/// The values of all settings that any look sets: the chosen value, else the default.
 pub(crate) fn settings_of_a_look(chosen: &[(&'static str, Value)]) -> Map<String, Json> {
     let value = |setting: &Setting| {
         let own = chosen.iter().find(|(name, _)| *name == setting.name);

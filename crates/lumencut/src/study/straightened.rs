@@ -67,7 +67,7 @@ impl From<Aggregated> for Feature {
 
 #[derive(Clone)]
 pub(crate) struct Laid {
-    /// The request.
+    /// The request for the CPR.
     pub message: CprMessage,
     pub(crate) cpr: Cpr,
 }

@@ -1,4 +1,4 @@
-//! The report on a traced vessel: its length, the vessels that it joins, and its doubtful stretches.
+//! Reports on a traced vessel: its length, the vessels that it joins, and its doubtful stretches.
 
 use glam::DVec3;
 use lumencut_core::math::arc_length::arc_lengths;

@@ -23,7 +23,7 @@ use crate::study::open_study::Study;
 /// Controls long work: stops it and receives its progress.
 #[derive(Clone, Copy)]
 pub struct Watch<'a> {
-    /// Asked during the work whether to stop.
+    /// Called during the work to ask whether to stop.
     pub stop: Stop<'a>,
     /// Receives the progress.
     pub progress: &'a Progress,

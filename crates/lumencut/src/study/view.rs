@@ -1,4 +1,4 @@
-//! The turning view as the page requests it: camera, method and settings.
+//! The 3D view as the page requests it: camera, method and settings.
 
 use crate::flight::flight;
 use crate::method::Method;
@@ -25,7 +25,7 @@ pub struct CameraMessage {
 }
 
 impl CameraMessage {
-    /// The camera in the form that the core uses.
+    /// The camera as the type of the core.
     pub fn camera(&self) -> Result<Camera> {
         let [center, direction, up] = [self.center, self.direction, self.up].map(DVec3::from_array);
         Ok(Camera::new(center, direction, up, self.size, self.pixel_spacing)?)
@@ -105,7 +105,7 @@ impl ViewMessage {
         let first = if self.method == "csr-paper" { Settings::paper_values() } else { Vec::new() };
         let mut settings = settings(first, &self.settings)?;
         if method != Method::CutSurface {
-            // The viewer shows one picture by several methods, but only the cut surface has a focus.
+            // The viewer may use the same settings for several methods, but only the cut surface supports a focus.
             settings.focus = None;
             settings.focus_vessels.clear();
         }

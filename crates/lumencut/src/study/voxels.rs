@@ -1,4 +1,4 @@
-//! Voxels in their own type. The page converts voxels of other types to one of these types.
+//! Voxels in one of four types. The page converts voxels of other types to one of them.
 
 use lumencut_core::error::{Error, ErrorKind, Mend};
 use lumencut_core::volume::Voxels;
@@ -62,7 +62,7 @@ impl Stored {
         })
     }
 
-    /// The voxels in the form that the core borrows.
+    /// The voxels as the type of the core, which borrows them.
     pub fn voxels(&self) -> Voxels<'_> {
         match self {
             Self::U8(voxels) => Voxels::U8(voxels),

@@ -58,7 +58,7 @@ impl Study {
         self.check_click(click)?;
         self.trees(watch)?;
         let known = self.known_vessel(click, &draft.document.vessels);
-        // If the error advises a second click, the scan shows too little of the vessel.
+        // An error that advises a second click means that the scan shows too little of the vessel.
         let is_short = known.as_ref().is_err_and(|refused| !refused.mend.is_empty());
         let short = if is_short { self.short_vessel(click, &draft.document.vessels, watch)? } else { None };
         if let Some(line) = short {

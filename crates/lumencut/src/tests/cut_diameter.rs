@@ -8,7 +8,7 @@ fn slab(lumen: f32, around: f32) -> Vec<f32> {
     (0..40 * 9 * 9).map(|n| if (12..=20).contains(&(n % 40)) { lumen } else { around }).collect()
 }
 
-/// The diameter in a view from the front, `beside` mm away from the slab's middle.
+/// The diameter in a view from the front, centred `beside` mm away from the slab's middle.
 fn described(voxels: &[f32], beside: f64, radius: f64) -> Option<f64> {
     let volume = Volume::new(Voxels::F32(voxels), [40, 9, 9], [1, 40, 360], DAffine3::IDENTITY).unwrap();
     let place = DVec3::new(16.0 + beside, 4.0, 4.0);

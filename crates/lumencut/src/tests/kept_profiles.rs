@@ -1,4 +1,4 @@
-//! Profiles are measured once and then cached.
+//! Tests that profiles are measured once and then cached.
 
 use lumencut_core::error::ErrorKind;
 use lumencut_core::volume::Voxels;

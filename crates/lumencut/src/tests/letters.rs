@@ -1,4 +1,4 @@
-//! The letters of directions and of the edges of pictures.
+//! Tests of the letters of directions and of the edges of pictures.
 
 use glam::DVec3;
 

@@ -1,4 +1,4 @@
-//! Lines in order raise no doubt. Disorder, stray points, gaps and two lines of one vessel do.
+//! Tests that lines in order raise no doubt, unlike disorder, stray points, gaps and two lines of one vessel.
 
 use std::f64::consts::TAU;
 

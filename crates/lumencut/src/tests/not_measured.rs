@@ -1,4 +1,4 @@
-//! Messages about unmeasured stretches.
+//! Tests of messages about unmeasured stretches.
 
 use super::*;
 use crate::tube::tube;

@@ -213,7 +213,7 @@ fn values_that_speak_for_the_mirrored_lines_are_told() {
     let meant = CoordinateSystem { space: Space::Ras, unit: Unit::Millimetre };
     assert_eq!(described(20, 80), Some(Misplaced { found: found.into(), meant }));
     assert_eq!((described(80, 20), described(30, 80), described(0, 49)), (None, None, None));
-    // If mirrored lines leave the volume, the lines stay as they were read.
+    // Lines stay as they were read if they would leave the volume when mirrored.
     let judge = Judge { extent: volume(), lumen: &counts(0, 100) };
     assert_eq!(better_place(&self::points(Space::Lps, Unit::Millimetre), &judge), None);
 }

@@ -1,4 +1,4 @@
-//! Points are sorted if their order is unambiguous, and rejected otherwise.
+//! Tests that points are sorted if their order is unambiguous, and rejected otherwise.
 
 use super::*;
 

@@ -1,4 +1,4 @@
-//! Length, label and pixels of scale bars.
+//! Tests of the length, label and pixels of scale bars.
 
 use super::ScaleBar;
 

@@ -1,4 +1,4 @@
-//! Profiles are stored as numbers and restored.
+//! Tests that profiles are stored as numbers and restored.
 
 use lumencut_core::volume::{Volume, Voxels};
 use lumencut_phantom::Phantom;

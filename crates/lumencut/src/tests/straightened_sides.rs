@@ -1,4 +1,4 @@
-//! The sides of straightened volumes with known frames.
+//! Tests of the sides of straightened volumes with known frames.
 
 use std::f64::consts::PI;
 use std::sync::Arc;

@@ -1,4 +1,4 @@
-//! Guessed units of volumes with few distinct values.
+//! Tests of the guessed units of volumes with few distinct values.
 
 use lumencut_core::settings::Window;
 use lumencut_core::volume::{Volume, Voxels};

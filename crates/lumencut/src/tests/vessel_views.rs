@@ -13,7 +13,7 @@ fn front() -> Camera {
 
 #[test]
 fn about_a_place_the_vessel_runs_upwards_through_the_middle() {
-    // The head is up, whatever the direction of the points.
+    // The head is up for both orders of the points.
     for points in [[[1.0, 2.0, -30.0], [7.0, 2.0, 70.0]], [[7.0, 2.0, 70.0], [1.0, 2.0, -30.0]]] {
         let along = (DVec3::from_array(points[1]) - DVec3::from_array(points[0])).normalize();
         let camera = about(&vessel(&points, 2.0), 40.0, 0.0, [100, 80]).unwrap();

@@ -40,7 +40,7 @@ fn unit_vectors_that_were_kept_elsewhere_are_taken_to_the_last_bit() {
     let nudged = DVec3::new(0.0, 1f64.next_down(), 0.0);
     let kept = camera.with_axes(nudged, camera.right(), camera.up()).unwrap();
     assert_eq!(kept.direction(), nudged);
-    // The axes of derived cameras have unit length again.
+    // Cameras that are derived from this camera have axes of unit length.
     assert_eq!(zoomed(&kept, 2.0).unwrap().direction(), DVec3::Y);
     let error = camera.with_axes(nudged, camera.up(), camera.right()).unwrap_err();
     assert_eq!(error.subject, "axes of the camera");

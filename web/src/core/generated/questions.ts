@@ -8,13 +8,13 @@ export type Territory = 'carotid' | 'coronary';
 
 export type AfterEdit = {
   readonly edited: Edited;
-  /** The state; the vessels of the document that are not doubtful are shown. */
+  /** The state after the edit, in which all vessels that are not doubtful are shown. */
   readonly report: Report;
   /** The lines that the document before the edit did not have. */
   readonly lines: ReadonlyArray<NumberedLine>;
   /** Facts about the lines that are not doubtful. */
   readonly facts: ReadonlyArray<LineFacts>;
-  /** What lies at the edited place, if the edit has one. */
+  /** What lies at the place of the edit, if the edit has a place. */
   readonly pick: Pick | null;
 };
 
@@ -36,7 +36,7 @@ export type CenterlineWish = {
   readonly reorder?: boolean;
 };
 
-/** Places to compare with a stenosis before it is graded, such as offered references (arc lengths, mm). */
+/** A stenosis and the places to compare it with before it is graded, such as offered references (arc lengths, mm). */
 export type Compared = {
   readonly at: number;
   readonly references: ReadonlyArray<number>;
@@ -82,7 +82,7 @@ export type DocumentVessel = {
 };
 
 export type DoubtRow = {
-  /** The phrase in documents and session files. */
+  /** The reason as a phrase, for documents and session files. */
   readonly words: string;
   readonly short: string;
 };
@@ -295,7 +295,7 @@ export type LookRow = {
   readonly name: string;
   readonly words: string;
   readonly sentence: string;
-  /** The values of all settings that at least one look sets; the default of a setting that this look does not set. */
+  /** The values of all settings that any look sets; the default if this look does not set one. */
   readonly settings: Settings;
 };
 
@@ -373,7 +373,7 @@ export type NumberedLine = {
 
 export type OpenedLines = {
   readonly notes: ReadonlyArray<string>;
-  /** Evidence against the space or unit used. */
+  /** Evidence against the space or unit in which the file was read. */
   readonly doubt: PlaceDoubt | null;
 };
 
@@ -412,7 +412,7 @@ export type PictureLabels = {
 export type PlaceDoubt = {
   /** The finding, in words. */
   readonly found: string;
-  /** Alternatives such as `lps in cm`; may be empty. */
+  /** Other spaces and units that fit, such as `lps in cm`; may be empty. */
   readonly readings: ReadonlyArray<string>;
 };
 
@@ -420,7 +420,7 @@ export type PlaceDoubt = {
 export type PlaceTurn = {
   /** The first view: the one nearest to the anterior view. */
   readonly camera: Camera;
-  /** The cut diameter (mm) after each degree from 0 to 179, from where the diameters repeat. None if two walls are not found. */
+  /** The cut diameter (mm) after each degree from 0 to 179; then the diameters repeat. None if two walls are not found. */
   readonly diameters: ReadonlyArray<number | null>;
 };
 
@@ -436,7 +436,7 @@ export type Plane = {
 };
 
 export type PointedAt = {
-  /** The place (LPS, mm). */
+  /** The pointed place (LPS, mm). */
   readonly point: Vector;
   /** Unit vector of the ray, away from the viewer; none if only the place counts. */
   readonly along: Vector | null;
@@ -461,11 +461,11 @@ export type Profile = {
   readonly arc_length: ReadonlyArray<number>;
   /** Diameter of the circle of the same area (mm). */
   readonly diameter: ReadonlyArray<number | null>;
-  /** mm */
+  /** The shortest diameter of the lumen (mm). */
   readonly diameter_min: ReadonlyArray<number | null>;
-  /** mm */
+  /** The longest diameter of the lumen (mm). */
   readonly diameter_max: ReadonlyArray<number | null>;
-  /** mm² */
+  /** The area of the lumen (mm²). */
   readonly area: ReadonlyArray<number | null>;
   /** The standard deviation of `diameter` (mm). */
   readonly uncertainty: ReadonlyArray<number | null>;
@@ -480,7 +480,7 @@ export type Profile = {
   readonly center: ReadonlyArray<Vector>;
   /** FWHM of the point spread (mm). */
   readonly fwhm: number;
-  /** Where the point-spread width comes from: `given`, `estimated on …`, `assumed: …`. */
+  /** The source of the point-spread width: `given`, `estimated on …`, `assumed: …`. */
   readonly fwhm_source: string;
   /** The expected level of the wall, or why walls were not separated. */
   readonly wall_source: string;
@@ -549,11 +549,11 @@ export type Report = {
 
 /** A place in a report, with its name and colour. */
 export type ReportPlace = {
-  /** Such as `marked place` or `reference before (suggestion)`. */
+  /** The name, such as `marked place` or `reference before (suggestion)`. */
   readonly name: string;
   /** Arc length (mm). */
   readonly at: number;
-  /** Suggested, not marked. */
+  /** Whether the place is suggested, and was not marked by a reader. */
   readonly is_suggestion: boolean;
   /** Whether it is a reference of the stenosis. */
   readonly is_reference: boolean;
@@ -561,7 +561,7 @@ export type ReportPlace = {
 
 /** The pictures of a vessel. */
 export type ReportPlan = {
-  /** The width of the straightened vessel (mm); a host shows less if the volume is narrower. */
+  /** The width of the straightened vessel (mm). It is shown narrower if the volume is narrower. */
   readonly width: number;
   /** Pixel side of the straightened vessel (mm). */
   readonly spacing: number;
@@ -633,7 +633,7 @@ export type Sentence = {
 
 export type SentenceKind = "finding" | "doubt" | "remark";
 
-/** A session as the page has it. Lines are numbers; everything else is as in the file, without the data of points. */
+/** A session as the page stores it: lines by number, and everything else as in the file, without the data of points. */
 export type SessionContent = {
   readonly lines: ReadonlyArray<NamedLine>;
   readonly doubtful_lines: ReadonlyArray<NamedLine>;
@@ -664,7 +664,7 @@ export type Side = {
 export type Spot = {
   /** Arc length on the vessel (mm). */
   readonly at: number;
-  /** mm */
+  /** The diameter (mm). */
   readonly diameter: number;
 };
 
@@ -771,7 +771,7 @@ export type View = {
 export type VolumeReport = {
   /** Voxels along (i, j, k). */
   readonly size: Vector;
-  /** World position of a continuous index, row by row. */
+  /** Affine from voxel indices to world positions (LPS, mm), row by row. */
   readonly world_from_index: ReadonlyArray<ReadonlyArray<number>>;
   readonly corners: ReadonlyArray<Vector>;
   /** Smallest voxel side (mm). */
@@ -808,7 +808,7 @@ export type WrittenFile = {
 
 /** The questions that the engine answers, by their names. */
 export type Questions = {
-  /** The state of all that is open. */
+  /** The state of the open volume and vessels. */
   readonly report: {
     readonly message: null;
     readonly answer: Report;
@@ -874,7 +874,7 @@ export type Questions = {
     };
     readonly answer: Pick;
   };
-  /** What lies at a point, and the vessel around it. */
+  /** The value at a point, and the vessel in which the point lies. */
   readonly at: {
     readonly message: Vector;
     readonly answer: Pick;
@@ -886,7 +886,7 @@ export type Questions = {
     };
     readonly answer: Histogram;
   };
-  /** The picture of a plane, with the given window. */
+  /** The picture of a plane through the volume, with the given window. */
   readonly slice: {
     readonly message: {
       readonly plane: Plane;
@@ -894,7 +894,7 @@ export type Questions = {
     };
     readonly answer: Picture;
   };
-  /** The section at an arc length (mm), a measured section if the vessel was measured: centre, unit vectors right and down. */
+  /** The section at an arc length (mm); a measured section, if the vessel was measured: centre, unit vectors right and down. */
   readonly across: {
     readonly message: {
       readonly vessel: number;
@@ -966,7 +966,7 @@ export type Questions = {
     readonly message: PointedAt;
     readonly answer: ReadonlyArray<PointedLumen>;
   };
-  /** The path to the pointer through voxel centres; null if not found within 40 ms. It is never rejected for lack of lumen. */
+  /** The path through voxel centres to the pointer; null if not found within 40 ms. Missing lumen does not cause an error. */
   readonly path: {
     readonly message: PathRequest;
     readonly answer: ReadonlyArray<Vector> | null;
@@ -979,7 +979,7 @@ export type Questions = {
     };
     readonly answer: WholeVessel | null;
   };
-  /** The content of a line. */
+  /** The points of a line, with their radii and other data. */
   readonly line: {
     readonly message: {
       readonly line: number;

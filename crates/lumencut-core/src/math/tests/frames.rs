@@ -69,7 +69,7 @@ fn a_finely_sampled_helix_has_the_analytic_frame() {
 
 #[test]
 fn frames_are_orthonormal_and_continuous_everywhere() {
-    // A right angle, a point of inflection, a straight run, and a reversal.
+    // The path has a right angle, a point of inflection, a straight run, and a reversal.
     let points =
         [[0, 0, 0], [20, 0, 0], [20, 30, 0], [22, 35, 0], [20, 40, 0], [20, 60, 0], [20, 50, 0], [20, 40, 9]];
     let points = points.map(|p| DVec3::from_array(p.map(f64::from))).to_vec();
@@ -91,7 +91,7 @@ fn frames_are_orthonormal_and_continuous_everywhere() {
 
 #[test]
 fn the_viewer_of_a_turned_frame_moves_to_the_right() {
-    // Downwards along the body, seen from the front: the patient's left is on the right.
+    // The path runs down the body, seen from the front, so the patient's left is on the right.
     let front = MovingFrame::looking(DVec3::NEG_Z, DVec3::Y);
     assert_eq!(front.across, DVec3::X);
     let turned = front.turned(std::f64::consts::FRAC_PI_2.sin_cos().into());

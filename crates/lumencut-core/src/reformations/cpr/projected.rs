@@ -1,4 +1,5 @@
-//! Projected CPR: the vessel as seen. A pixel has the depth of the vessel's point nearest along its row.
+//! Projected CPR: the vessel as the viewer sees it. A pixel's depth is that of the nearest vessel point in
+//! its row.
 
 use std::sync::Arc;
 
@@ -16,7 +17,7 @@ pub(super) struct Projected {
     axes: Axes,
     heights: Vec<f64>,
     ends: [f64; 2],
-    /// Half of the vessel's extent across the view, and its middle (mm).
+    /// Half of the vessel's extent across the view, and the middle of this extent (mm).
     reach: f64,
     middle: f64,
 }
@@ -56,7 +57,7 @@ impl Projected {
             } else {
                 Run::at(self.anchor(segment, (height - from) / (to - from)))
             };
-            // A row through a point of the vessel meets both segments there.
+            // A row through a vessel point meets both segments that share the point; only one run is kept.
             let end = runs.last().map_or(f64::NEG_INFINITY, |last| last.to.arc_length);
             if run.to.arc_length > end + ON_PICTURE {
                 if runs.last().is_some_and(|last| {

@@ -11,21 +11,21 @@ use crate::reformations::Wall;
 /// Number of diameter directions compared, over half a turn.
 const DIRECTIONS: usize = 48;
 
-/// Distance along the vessel between the angles (mm); neighbours differ by one direction at most.
+/// Distance along the vessel between neighbouring angles (mm); they differ by at most one direction.
 const STEP_MM: f64 = 0.5;
 
-/// Cost of a change by one direction (mm of diameter): keeps the picture steady if all diameters are alike.
+/// Cost of a change by one direction (mm of diameter); it keeps the angle steady if all diameters are alike.
 const CHANGE_COST_MM: f64 = 0.15;
 
 /// Standard deviations (mm) of the Gaussians that smooth the diameters and the angle along the vessel.
 const SMOOTHING_MM: [f64; 2] = [1.5, 2.0];
 
-/// Which side of the lumen a picture follows.
+/// The side of the lumen that a picture follows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Side {
-    /// The narrowest one.
+    /// The narrowest side.
     Narrowest,
-    /// The widest one.
+    /// The widest side.
     Widest,
 }
 
@@ -42,8 +42,8 @@ pub struct Roll {
 }
 
 impl Roll {
-    /// The roll with these angles (radians) at rising arc lengths (mm). Fails with [`ErrorKind::Camera`] for
-    /// angles that are not finite, or not one for each arc length.
+    /// The roll with these angles (radians) at rising arc lengths (mm). Fails with [`ErrorKind::Camera`] if
+    /// an angle is not finite or there is not one angle per arc length.
     pub fn new(at: Vec<f64>, angle: Vec<f64>) -> Result<Self> {
         let rises = at.windows(2).all(|ends| ends[1] > ends[0]);
         if at.is_empty() || at.len() != angle.len() || !rises || !angle.iter().all(|a| a.is_finite()) {
@@ -54,8 +54,8 @@ impl Roll {
         Ok(Self { at, angle })
     }
 
-    /// The roll that minimises or maximises the sum of the wall's diameters along a vessel of `length` mm, by
-    /// dynamic programming.
+    /// The roll for which the sum of the wall's diameters along a vessel of `length` mm is smallest or
+    /// largest, by dynamic programming.
     pub fn following(wall: &Wall, length: f64, side: Side) -> Self {
         let count = (length / STEP_MM).ceil().max(1.0) as usize;
         let at: Vec<f64> = (0..=count).map(|n| length * n as f64 / count as f64).collect();
@@ -90,7 +90,7 @@ impl Roll {
     }
 }
 
-/// The cheapest path of directions, unwrapped. Ties go to the one that stays, then to the smaller direction.
+/// The directions with the smallest cost, unwrapped. Ties go to no change, then to the smaller direction.
 fn cheapest(cost: &[Vec<f64>]) -> Vec<i32> {
     let places = cost[0].len();
     let mut best: Vec<f64> = cost.iter().map(|column| column[0]).collect();
@@ -114,7 +114,7 @@ fn cheapest(cost: &[Vec<f64>]) -> Vec<i32> {
         let here: i32 = way[place];
         way[place - 1] = here - i32::from(came[place][here.rem_euclid(DIRECTIONS as i32) as usize]);
     }
-    // The picture begins as near to angle 0 as it can.
+    // The first angle is as near to 0 as possible.
     let turns = (f64::from(way[0]) / DIRECTIONS as f64).round() as i32 * DIRECTIONS as i32;
     way.iter().map(|step| step - turns).collect()
 }

@@ -37,15 +37,15 @@ impl Run {
 pub(super) struct Row {
     /// Unit vector to the right.
     pub across: DVec3,
-    /// Unit vector into the scene, along which a slab is thick.
+    /// Unit vector into the scene, along which the thickness of a slab is measured.
     pub ahead: DVec3,
-    /// Where the row meets the vessel, at least once, by rising arc length.
+    /// The places at which the row meets the vessel, at least one, by rising arc length.
     pub runs: Vec<Run>,
 }
 
 impl Row {
-    /// The world point at `x` on the line through the vessel point nearest along the row; of equally near
-    /// ones the one in front.
+    /// The world point at `x` on the line through the vessel point nearest in the row; if two are equally
+    /// near, through the front one.
     pub(super) fn place(&self, x: f64) -> DVec3 {
         let mut best = self.runs[0].nearest_anchor(x);
         for run in &self.runs[1..] {

@@ -1,4 +1,4 @@
-//! The sections across a straightened vessel, and those that hold a world point.
+//! The sections across a straightened vessel, and the search for those that contain a world point.
 
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ const MAX_TURN_RADIANS: f64 = 0.1;
 pub(super) struct Sections {
     pub path: Arc<CenterlinePath>,
     pub frames: Frames,
-    /// Arc lengths between which path and frame are smooth, rising.
+    /// Rising arc lengths; between neighbouring ones path and frame are smooth.
     marks: Vec<Mark>,
 }
 
@@ -48,7 +48,7 @@ impl Sections {
         for ends in frames.stations().windows(2) {
             let [from, to] = [ends[0].at, ends[1].at];
             let parts = (ends[0].turn.length() * (to - from) / MAX_TURN_RADIANS).ceil().max(1.0);
-            // At most 32: no turn is larger than half a circle.
+            // At most 32 parts, since no turn is larger than half a circle.
             at.extend((0..parts as usize).map(|part| from + (to - from) * (part as f64 / parts)));
         }
         at.extend(frames.stations().last().map(|station| station.at));
@@ -62,7 +62,7 @@ impl Sections {
         self.marks.len() - 1
     }
 
-    /// The sections that hold a point, at least one: they continue straight beyond the vessel.
+    /// The sections that contain a point: at least one, since sections continue straight beyond the vessel.
     pub(super) fn through(&self, point: DVec3) -> Vec<Section> {
         let mut found = Vec::new();
         let [first, last] = [self.marks[0], self.marks[self.intervals()]];
@@ -90,7 +90,7 @@ impl Sections {
         if station.turn == DVec3::ZERO {
             return;
         }
-        // Sections turn in between: the point may be nearer to one there than at both ends, and lie in two.
+        // Sections turn in between, so a point on the same side of both end sections may lie in two sections.
         let direction = self.path.direction()[self.path.segment(from)];
         let [start, end] = ends.map(|mark| mark.section(point).change(station, direction));
         let approaches = if low >= 0.0 { start < 0.0 && end > 0.0 } else { start > 0.0 && end < 0.0 };
@@ -110,7 +110,7 @@ impl Sections {
         Section { at, frame: station.frame_at(at), offset: point - self.path.at(at) }
     }
 
-    /// The section between two arc lengths of one interval, at which a point lies on different sides.
+    /// The section that contains a point, between two arc lengths whose sections have it on different sides.
     fn crossing(&self, from: f64, to: f64, point: DVec3) -> Section {
         let station = self.frames.station(from);
         let is_after = |at: f64| self.section(station, at, point).ahead() >= 0.0;
@@ -119,8 +119,8 @@ impl Sections {
         self.section(station, at, point)
     }
 
-    /// Whether a line surely meets no section of an interval in the picture from `angle`, or from any.
-    /// Sections exceed those at the ends of an interval by at most the margin.
+    /// Whether a line certainly meets no section of interval `n`, in the picture from `angle` or from any.
+    /// Within an interval, sections differ from those at its ends by at most the margin.
     pub(super) fn is_apart(&self, n: usize, line: [DVec3; 2], angle: Option<[f64; 2]>) -> bool {
         let ends = [self.marks[n], self.marks[n + 1]];
         let length = ends[1].at - ends[0].at;
@@ -135,8 +135,8 @@ impl Sections {
         same(ends.map(|mark| mark.frame.tangent)) || angle.is_some_and(|angle| same(ahead(angle)))
     }
 
-    /// Whether an interval holds the section at `at` and surely no other one through a point `aside` mm off:
-    /// the image, which moves by `moves` per mm, never reverses there.
+    /// Whether interval `n` contains the section at `at`, and surely no other one through a point `aside` mm
+    /// off. The image, which moves by `moves` per mm, then never reverses in the interval.
     pub(super) fn holds_no_other(&self, n: usize, at: f64, aside: f64, moves: f64) -> bool {
         let [from, to] = [self.marks[n].at, self.marks[n + 1].at];
         let rate = self.frames.station(from).turn.length();
@@ -145,7 +145,7 @@ impl Sections {
 }
 
 impl Section {
-    /// Change of the point's distance beyond the section per mm along the vessel.
+    /// Change, per mm along the vessel, of the distance by which the point lies ahead of the section.
     fn change(&self, station: &Station, direction: DVec3) -> f64 {
         self.offset.dot(station.turn.cross(self.frame.tangent)) - direction.dot(self.frame.tangent)
     }
@@ -175,7 +175,7 @@ impl Mark {
         Section { at: self.at + along, offset: here.offset - self.frame.tangent * along, ..here }
     }
 
-    /// Side of a plane through the centre on which a line lies with a margin: 1, -1, or 0 for neither.
+    /// The side of a plane through the centre on which a line lies by `margin`: 1, −1, or 0 for neither.
     fn side(&self, line: [DVec3; 2], normal: DVec3, margin: f64) -> i8 {
         let [one, other] = line.map(|end| (end - self.point).dot(normal));
         if one.min(other) > margin { 1 } else { -i8::from(one.max(other) < -margin) }

@@ -1,4 +1,4 @@
-//! Straightened CPR: rows by arc length, lines across in the rotation-minimising frame.
+//! Straightened CPR: rows follow the arc length, in the rotation-minimising frame of the vessel.
 
 use std::sync::Arc;
 
@@ -52,7 +52,7 @@ impl Straightened {
         let is_along = |v: DVec3| v.cross(tangent).length() <= PARALLEL * v.dot(tangent).abs();
         let ahead = match view.normal {
             Some(normal) => -unit("normal of the CPR", normal)?,
-            // A vessel that begins along the direction of view is seen from below there.
+            // If a vessel begins along the direction of view, its beginning is seen from below.
             None if is_along(axes.ahead) => axes.up,
             None => axes.ahead,
         };
@@ -89,7 +89,7 @@ impl Straightened {
         self.sections.path.at(place.z) + frame.across * place.x + frame.ahead * place.y
     }
 
-    /// The straightened position of a world point: in the section through it whose centre is nearest.
+    /// The straightened position of a world point, in the section that contains it with the nearest centre.
     pub fn straightened_from_world(&self, point: DVec3) -> DVec3 {
         let sections = self.sections.through(point);
         let nearest = sections.iter().min_by(|a, b| a.offset.length().total_cmp(&b.offset.length()));
@@ -101,7 +101,7 @@ impl Straightened {
         self.sections.frames.at(at).turned(self.angle.at(at))
     }
 
-    /// How far a point at an offset (mm) moves per mm of the vessel: 1 on a straight run, 0 where
+    /// Movement of a point at an offset (mm), per mm along the vessel: 1 on a straight run, 0 where
     /// neighbouring sections meet.
     pub fn advance(&self, at: f64, offset: DVec2) -> f64 {
         let Sections { path, frames, .. } = &*self.sections;
@@ -135,7 +135,8 @@ impl Surface for Straightened {
     fn image_from_world(&self, point: DVec3) -> DVec2 {
         let places: Vec<_> = self.sections.through(point).iter().map(|section| self.place(section)).collect();
         let within = -ON_PICTURE..=self.length() + ON_PICTURE;
-        // A point in the plane of the picture is placed there, however near other parts of the vessel are.
+        // A point in the picture's plane is shown at its place there, even if another part of the vessel is
+        // nearer.
         let shown = places.iter().filter(|place| place.y.abs() <= ON_PICTURE && within.contains(&place.z));
         let first = shown.reduce(|best, place| {
             let [one, other] = [place, best].map(|place| [place.x.abs(), place.z]);
@@ -147,7 +148,7 @@ impl Surface for Straightened {
     }
 
     fn folded(&self, y: f64, x: &[f64]) -> Vec<bool> {
-        // Movement of each pixel's point per mm of the vessel.
+        // How far each pixel's point moves per mm of the vessel.
         let moves: Vec<_> = x.iter().map(|x| self.advance(y, DVec2::new(*x, 0.0))).collect();
         let mut folded: Vec<_> = moves.iter().map(|moves| *moves <= 0.0).collect();
         self.mark_shown_elsewhere(y, x, &moves, &mut folded);
@@ -156,7 +157,7 @@ impl Surface for Straightened {
 }
 
 impl Straightened {
-    /// Marks the pixels of a row whose points belong to another row that shows them too.
+    /// Marks the pixels of a row whose points lie in another row too, which also shows them.
     fn mark_shown_elsewhere(&self, y: f64, x: &[f64], moves: &[f64], folded: &mut [bool]) {
         let row = self.row(y);
         let line = [x[0], x[x.len() - 1]].map(|x| row.place(x));

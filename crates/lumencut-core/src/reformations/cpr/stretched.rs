@@ -1,6 +1,6 @@
-//! Stretched CPR: the surface of parallel lines through the vessel, unrolled. Along these lines the surface
-//! is a curve, the vessel's projection. A row's position is the length of that curve, so lengths on the
-//! surface are true. A step ds of the vessel is √(ds² − (ds·l)²) high and ds·l wide.
+//! Stretched CPR: the surface of parallel lines through the vessel, unrolled. Seen along these lines the
+//! surface is a curve. A row's position is the length along this curve, so lengths on the surface are true.
+//! With the unit vector l of the lines, a step ds is √(ds² − (ds·l)²) high and ds·l wide.
 
 use std::sync::Arc;
 
@@ -20,7 +20,7 @@ struct Strip {
     /// Top edge in the image, downwards (mm), and height.
     y: f64,
     height: f64,
-    /// Its unit vector in the plane across the lines.
+    /// Unit vector from top to bottom edge, perpendicular to the lines.
     down: DVec3,
 }
 
@@ -35,7 +35,7 @@ pub(super) struct Stretched {
 impl Stretched {
     pub(super) fn new(path: Arc<CenterlinePath>, axes: Axes) -> Result<Self> {
         let points = path.points();
-        // The vessel runs downwards in the image; one that rises in space is shown upside down.
+        // The vessel runs downwards in the image, so a vessel that rises in space is shown upside down.
         let rises = (points[points.len() - 1] - points[0]).dot(axes.up) > 0.0;
         let across = if rises { -axes.across } else { axes.across };
         let (mut strips, mut y) = (Vec::new(), 0.0);

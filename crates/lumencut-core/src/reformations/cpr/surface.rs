@@ -1,4 +1,4 @@
-//! What the modes of CPR share: a surface of lines across the vessel, as an image without pixels.
+//! The common form of all CPR modes: a surface of lines across the vessel, as an image without pixels.
 
 use crate::math::same_place::ON_PICTURE;
 use glam::{DVec2, DVec3};
@@ -15,7 +15,7 @@ pub(super) trait Surface: Send + Sync {
     fn folded(&self, y: f64, x: &[f64]) -> Vec<bool>;
 }
 
-/// Whether a point belongs to the first of two positions (mm aside, mm down): the nearer, then the upper one.
+/// Whether the first of two positions (mm aside, mm down) has precedence: the nearer one, then the upper one.
 pub(super) fn comes_first([aside, y]: [f64; 2], [other_aside, other_y]: [f64; 2]) -> bool {
     let nearer = other_aside - aside;
     if nearer.abs() > ON_PICTURE { nearer > 0.0 } else { y + ON_PICTURE < other_y }

@@ -11,7 +11,7 @@ pub struct View {
     pub up: DVec3,
     /// Rotation of the viewer to the right (radians): around `up`, or around a straightened vessel.
     pub angle: f64,
-    /// Towards the viewer at the first point of a straightened vessel (any length); `None` is the front.
+    /// Direction to the viewer at the first point of a straightened vessel (any length); `None`: the front.
     pub normal: Option<DVec3>,
 }
 
@@ -28,7 +28,7 @@ pub(super) struct Axes {
 pub(super) const PARALLEL: f64 = 0.05;
 
 impl View {
-    /// The view at angle 0: along +y, perpendicular to up; from below, like axial slices, if up runs along y.
+    /// The view at angle 0: along +y, perpendicular to `up`; from below, like axial slices, if `up` is ±y.
     pub(super) fn unturned(&self) -> Result<Axes> {
         let up = unit("up of the CPR", self.up)?;
         let along = up.y.abs() * PARALLEL > up.x.hypot(up.z);

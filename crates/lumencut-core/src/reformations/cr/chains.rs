@@ -1,4 +1,4 @@
-//! The segments of a view in the order of their vessels: sixteen consecutive ones are a chain.
+//! The segments of a view, in the order of their vessels; sixteen consecutive segments form a chain.
 
 use crate::math::hierarchy::NO_SLOT;
 use crate::math::lanes::{FAN, gap};
@@ -8,7 +8,7 @@ use crate::math::tile::Area;
 
 pub(super) struct Chains {
     pub bundles: Vec<Bundle>,
-    /// The box around each chain in the image: from and to view x, from and to view y (mm).
+    /// The box around each chain in the image: smallest and largest view x, smallest and largest view y (mm).
     boxes: [Vec<f32>; 4],
     first_of_vessel: Vec<u32>,
 }

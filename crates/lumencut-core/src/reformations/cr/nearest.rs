@@ -1,4 +1,4 @@
-//! The piece of one vessel nearest to each pixel in the image: CR of one vessel without a threshold.
+//! The piece of one vessel that is nearest to each pixel in the image, as in CR without an arc threshold.
 
 use rayon::prelude::*;
 

@@ -7,9 +7,9 @@ const MAX_THRESHOLD_PIXELS: f64 = 1e6;
 /// The two thresholds of CR.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CrParameters {
-    /// Distance beyond its radius within which a vessel hides what lies behind it (pixels).
+    /// A vessel hides what lies behind it up to this distance beyond its radius (pixels).
     pub radius_offset: f64,
-    /// Points within this distance along the tree (pixels) form a stretch, which shows its nearest point.
+    /// Points nearer than this along the tree (pixels) form a stretch; its point nearest to a pixel is shown.
     pub arc_threshold: f64,
 }
 

@@ -1,4 +1,4 @@
-//! CR over the tiles of a view: two walks through hierarchies of pieces, and a search if they disagree.
+//! CR for the tiles of a view: two walks find each pixel's nearest and foremost piece, and a search decides.
 
 use super::stretch::StretchSearch;
 use super::view::{CrView, NO_PIECE, Seen};
@@ -39,7 +39,7 @@ impl Kernel for CrRow<'_> {
     }
 }
 
-/// The piece nearest to pixel `l` in the image, or in the stretch of the foremost piece if that is another.
+/// The nearest piece in the image; if it is not in the foremost piece's stretch, the nearest in that.
 #[inline(always)]
 fn shown(view: &CrView, search: &mut StretchSearch, tile: &Tile, pieces: [u32; 2], l: usize) -> Seen {
     let ([nearest, foremost], [x, y]) = (pieces, [tile.x[l], tile.y[l]]);

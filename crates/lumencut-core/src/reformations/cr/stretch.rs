@@ -10,13 +10,13 @@ use crate::math::tile::{Area, Tile};
 
 const MAX_CACHED_CHAINS: usize = 256;
 
-/// Finds the piece nearest to a pixel within the threshold along the tree. Caches the pieces around a chain:
-/// they are nearly the same for all its points, and for the pixels of a tile.
+/// Finds the piece nearest to a pixel within a stretch. Caches the pieces around a chain, because they are
+/// nearly the same for all points of the chain and for the pixels of a tile.
 pub(super) struct StretchSearch<'a> {
     view: &'a CrView<'a>,
     /// For a chain, the ranges of chains within the threshold of a point on it.
     around: HashMap<u32, Vec<[u32; 2]>>,
-    /// For a chain, the chains around it as seen from this tile.
+    /// For a chain, the chains around it, ordered by distance from this tile.
     in_tile: Vec<(u32, NearFirst)>,
 }
 
@@ -29,7 +29,7 @@ impl<'a> StretchSearch<'a> {
         self.in_tile.clear();
     }
 
-    /// The piece nearest to (x, y) in the stretch around `front`; the first of equally near ones.
+    /// The piece in the stretch around `front` that is nearest to (x, y); the first of equally near ones.
     #[inline(never)]
     pub(super) fn nearest_piece(&mut self, tile: &Tile, front: Seen, [x, y]: [f32; 2]) -> Seen {
         let view = self.view;
@@ -72,7 +72,7 @@ struct NearFirst {
 }
 
 impl NearFirst {
-    /// The n-th chain by distance, unless it lies beyond `limit` (mm²); n rises by one from call to call.
+    /// The n-th chain by distance, unless it is farther than `limit` (mm²); calls must raise n by one.
     #[inline(always)]
     fn within(&mut self, place: usize, limit: f32) -> Option<u32> {
         if place == self.ordered.len() {

@@ -1,4 +1,4 @@
-//! The pieces of a tree in one view for CR: the nearest one, and the foremost whose disc holds a pixel.
+//! The pieces of a tree in one view for CR: the nearest piece, and the foremost whose disc contains a pixel.
 
 use super::chains::Chains;
 use super::parameters::CrParameters;
@@ -18,10 +18,10 @@ pub(super) struct CrView<'a> {
     pub level: &'a Level,
     pub camera: &'a Camera,
     projected: Vec<Projected>,
-    /// The pieces without depth and radius: the smallest key is the smallest distance.
+    /// The pieces without depth and radius, so that the smallest key is the smallest distance.
     plane: Hierarchy,
     pub plane_rule: Rule,
-    /// The pieces with disc radii: the smallest key is the foremost disc that holds the pixel.
+    /// The pieces with disc radii: the smallest key is the foremost disc that contains the pixel.
     discs: Hierarchy,
     disc_rule: Rule,
     pub chains: Chains,
@@ -46,7 +46,7 @@ impl<'a> CrView<'a> {
         Self { level, camera, projected, plane, plane_rule, discs, disc_rule, chains, connections }
     }
 
-    /// The piece of each pixel that is nearest in the image; the first of equally near ones.
+    /// The piece nearest to each pixel in the image; the first of equally near ones.
     #[inline(always)]
     pub(super) fn nearest_pieces(&self, tile: &Tile, seeds: &mut Seeds) -> [u32; PIXELS] {
         let mut nearest = Envelope::new(&[1.0; PIXELS]);
@@ -55,11 +55,11 @@ impl<'a> CrView<'a> {
         nearest.piece
     }
 
-    /// The foremost piece whose disc holds each pixel, or [`NO_PIECE`].
+    /// The foremost piece whose disc contains each pixel, or [`NO_PIECE`].
     #[inline(always)]
     pub(super) fn foremost(&self, tile: &Tile, seeds: &mut Seeds) -> [u32; PIXELS] {
         let mut foremost = Envelope::new(&[1.0; PIXELS]);
-        // The key of a piece whose disc does not hold the pixel is above this.
+        // The key of a piece whose disc does not contain the pixel is larger.
         foremost.key = [-1.5 * self.disc_rule.lift; PIXELS];
         lowest_keys::<true>(&self.discs, tile, &self.disc_rule, seeds, &mut foremost);
         *seeds = Seeds::collect(&foremost, &self.level.bundle_of_slot);

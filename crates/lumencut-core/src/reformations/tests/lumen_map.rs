@@ -69,7 +69,7 @@ fn places_and_pixels_are_inverse() {
         let there = map.world_from_pixel(pixel);
         assert!(map.pixel_from_world(there).distance(pixel) < 1e-5, "{pixel} came back elsewhere");
     }
-    // Repeated pixels lie where the other side shows them.
+    // A repeated column maps to the column that it repeats.
     assert!(
         (map.pixel_from_world(map.world_from_pixel(DVec2::new(0.0, 9.0))) - DVec2::new(50.0, 9.0)).length()
             < 1e-5
@@ -100,7 +100,7 @@ fn the_area_of_a_torus_is_that_of_its_pixels() {
 
 #[test]
 fn beyond_the_middle_of_a_circle_it_is_folded() {
-    // Sections of a circle of 10 mm meet in its middle: beyond 10 mm / cos α towards it.
+    // Sections of a circle with a radius of 10 mm meet in its middle, 10 mm / cos α away in direction α.
     let map = map(&half_circle(10.0), |_| 9.0, LumenMapParameters { beyond: 4.0, mean_radius: 9.0, ..TUBE });
     let [width, height] = map.size();
     let folded = map.folded(NEVER).unwrap();

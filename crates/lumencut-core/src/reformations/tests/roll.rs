@@ -28,7 +28,7 @@ fn it_follows_an_ellipse_that_turns() {
         let at = f64::from(n) / 10.0;
         let [least, most] = [&narrow, &wide].map(|roll| diameter(&wall, at, roll.angle(at)));
         assert!(least < 6.04, "{least} mm at {at} mm");
-        // The wide side is sharper: the same degrees are more mm there.
+        // The ellipse bends more at its wide side, so the same angle in degrees is more mm there.
         assert!(most > 11.7, "{most} mm at {at} mm");
         assert!((narrow.angle(at) - narrow.angle((at - 0.5).max(0.0))).abs() <= PI / 48.0 + 1e-12);
     }
@@ -52,7 +52,7 @@ fn it_goes_on_through_whole_turns() {
 
 #[test]
 fn the_cheapest_way_is_that_of_all_ways() {
-    // Brute force over all paths of five positions, with few directions that differ.
+    // Tries all paths of five positions with few directions, and compares the costs.
     let random = |n: usize| ((n as f64 * 12.9898).sin() * 43758.5453).fract().abs();
     let cost: Vec<Vec<f64>> = (0..DIRECTIONS).map(|k| (0..5).map(|n| random(k * 5 + n)).collect()).collect();
     let total = |way: &[i32]| -> f64 {

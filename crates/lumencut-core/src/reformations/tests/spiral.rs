@@ -67,7 +67,7 @@ fn neighbours_are_a_pixel_apart() {
 #[test]
 fn windings_are_a_pitch_apart() {
     let spiral = straight(SpiralParameters { pixel_spacing: 0.05, ..FINE });
-    // Along any ray both spirals together pass once per pitch.
+    // Along any ray, one winding of either spiral passes per pitch.
     let mut passes: Vec<f64> = spiral
         .columns
         .windows(2)
@@ -92,7 +92,7 @@ fn places_and_pixels_are_inverse() {
         for (i, j) in (0..width).step_by(7).zip((3..height - 3).step_by(5).cycle()) {
             let pixel = DVec2::new(i as f64 + 0.2, j as f64 - 0.3);
             let back = spiral.pixel_from_world(spiral.world_from_pixel(pixel));
-            // The middle of a section is one position.
+            // The middle belongs to both spirals and is left out.
             if (pixel.x - spiral.middle()).abs() > 1.0 {
                 assert!(back.distance(pixel) < 1e-5, "{pixel} came back as {back}");
             }

@@ -31,7 +31,7 @@ fn it_is_cr_of_one_vessel_without_a_threshold() {
             (camera.view_from_world(*point).z - f64::from(*depth)).abs() < 1e-3
         };
         let equal = curved.position().iter().zip(frame.depth()).filter(|both| same(*both)).count();
-        // Of positions that are equally near but for rounding either may be shown.
+        // If two positions are equally near up to rounding, either may be shown.
         assert!(equal + 2 >= 97 * 131, "{equal} pixels");
     }
 }

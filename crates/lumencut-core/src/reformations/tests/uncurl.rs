@@ -43,7 +43,7 @@ fn at_0_every_pixel_lies_on_its_ray_at_the_depth_of_the_nearest_place() {
         });
         let all: Vec<_> = on.collect();
         let least = all.iter().map(|(distance, _)| *distance).fold(f64::INFINITY, f64::min);
-        // Of equally near positions any may be shown.
+        // Of equally near positions, any may be shown.
         all.into_iter().filter(|(distance, _)| distance - least < 1e-4).map(|(_, z)| z).collect::<Vec<_>>()
     };
     for (n, point) in curved.position().iter().enumerate().step_by(7) {
@@ -110,7 +110,7 @@ fn a_helix_stays_a_helix_of_the_same_torsion() {
         let bent = curvature * (1.0 - amount);
         let rate = (bent * bent + torsion * torsion).sqrt();
         let along = uncurl.path.length() / 600.0;
-        // Points apart by whole turns differ along the axis only: by torsion / rate of their length.
+        // Points whole turns apart differ only along the axis: by torsion / rate times their arc length.
         let step = (TAU / rate / along).round() as usize;
         let chord = uncurl.points()[step + 20].distance(uncurl.points()[20]);
         let expected = torsion / rate * step as f64 * along;
@@ -198,7 +198,7 @@ fn what_cannot_be_uncurled_is_refused() {
 
 #[test]
 fn a_vessel_turns_little_from_one_picture_to_the_next() {
-    // An arch like the aorta that leaves its plane; its first segment opposes the straight vessel.
+    // An arch like the aorta that leaves its plane; its first segment runs against the straight vessel.
     let point =
         |t: f64| DVec3::new(8.0 * t.sin() * t, 30.0 * t.cos(), 20.0 * t.sin() - 25.0 * (t / PI).powi(2));
     let arch: Vec<_> = (0..=200).map(|n| point(1.2 * PI * f64::from(n) / 200.0)).collect();

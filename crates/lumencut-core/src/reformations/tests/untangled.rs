@@ -31,7 +31,7 @@ fn length(part: &LaidOut, spacing: f64) -> f64 {
 
 const PIXEL: f64 = 0.5;
 
-/// splitmix64, numbers from 0 to 1.
+/// Random numbers from 0 to 1 by splitmix64.
 struct Random(u64);
 
 impl Random {
@@ -129,7 +129,7 @@ fn two_vessels_one_before_the_other_turn_apart_by_the_same_angle() {
     ]);
     let made = untangled(&twins, UntangledParameters::new(PIXEL));
     let [none, first, second] = made.rotations().try_into().unwrap();
-    // Sectors that turn by all of it lie apart; the hulls only need discs that touch at the nearest point.
+    // The bound sets sectors apart completely; hulls need less, as only their discs must not overlap.
     let most = (5.0f64 / (1.5 * 5.0 + 2.0)).asin();
     assert_eq!(none, 0.0);
     assert!(made.overlaps().is_empty());
@@ -154,7 +154,7 @@ fn sectors_move_by_the_least_sum_of_squares() {
     assert!((narrow[0] - 0.3).abs() < 1e-12 && (narrow[1] + 0.2).abs() < 1e-12);
 }
 
-/// The last vessel common to the paths to two vessels; vessel n has the children 2n + 1 and 2n + 2.
+/// The last vessel common to the paths from the root to two vessels; vessel n has children 2n + 1 and 2n + 2.
 fn common([mut first, mut second]: [usize; 2]) -> usize {
     while first != second {
         let later = if first > second { &mut first } else { &mut second };
@@ -163,7 +163,7 @@ fn common([mut first, mut second]: [usize; 2]) -> usize {
     first
 }
 
-/// Asserts that hulls of two vessels overlap only near the point where the paths to them part.
+/// Asserts that hulls of two vessels overlap only near the point at which the paths to them part.
 fn assert_apart(made: &Untangled, tree: &VesselTree, pair: [usize; 2]) {
     let radius = |vessel: usize| tree.vessels()[vessel].radius_or_zero(0) + 2.0;
     let parting = common(pair);
@@ -280,7 +280,7 @@ fn it_grows_from_the_widest_free_end_or_from_a_named_one() {
     let made = untangled(&fork, UntangledParameters { root, ..UntangledParameters::new(PIXEL) });
     let reversed: Vec<bool> = made.laid_out().iter().map(|part| part.is_reversed).collect();
     assert_eq!(reversed, [true, true, false]);
-    // Of equally wide ends the first one of the first vessel.
+    // Of equally wide free ends, the first end of the first vessel is the root.
     let line = tree(&[(&[[0.0, 0.0, 0.0], [0.0, 0.0, 30.0]], 2.0)]);
     assert!(!untangled(&line, UntangledParameters::new(PIXEL)).laid_out()[0].is_reversed);
 }

@@ -1,4 +1,4 @@
-//! A partly straightened vessel: its points, and the map from space around it to that around the true one.
+//! A partly straightened vessel, and the map from the space around it to that around the true vessel.
 
 use glam::{DQuat, DVec3};
 
@@ -50,7 +50,7 @@ impl Bent {
         bent
     }
 
-    /// The rotation from the space around the bent vessel to that around the true one at an arc length (mm).
+    /// The rotation from space around the bent vessel to space around the true one at an arc length (mm).
     #[inline]
     pub(super) fn true_from_bent(&self, at: f64) -> DQuat {
         let turning = &self.turnings[self.turnings.partition_point(|turning| turning.at <= at).max(1) - 1];
@@ -68,7 +68,7 @@ impl Bent {
         let mut point = path.points()[0];
         self.points = vec![point];
         for (direction, ends) in path.direction().iter().zip(path.arc_length().windows(2)) {
-            // In its middle a segment has its own direction.
+            // In the middle of a segment, the tangent is the segment's direction.
             let middle = f64::midpoint(ends[0], ends[1]);
             point += self.true_from_bent(middle).inverse() * *direction * (ends[1] - ends[0]);
             self.points.push(point);
@@ -89,7 +89,7 @@ impl Bent {
     }
 }
 
-/// The direction of view at the first point of a vessel; one that begins along the view is seen from below.
+/// The direction of view at the first point of a vessel; from below if the vessel begins along the view.
 fn ahead_at(first: DVec3, camera: &Camera) -> DVec3 {
     let aside = first.cross(camera.direction()).length();
     if aside > ALONG_VIEW * first.dot(camera.direction()).abs() { camera.direction() } else { camera.up() }
@@ -104,7 +104,7 @@ fn turnings(frames: &Frames, amount: f64) -> Vec<Turning> {
             let before = &stations[n - 1];
             let end = before.frame_at(station.at);
             from_bent = DQuat::from_scaled_axis(before.turn * amount * (station.at - before.at)) * from_bent;
-            // The frame's own rotation between stations is rounded to the third order of the turn.
+            // Between stations the frames turn at a constant rate, up to a remainder of third order, added here.
             let rest = rotation(&station.frame) * rotation(&end).inverse();
             from_bent = DQuat::from_scaled_axis(shorter(rest).to_scaled_axis() * amount) * from_bent;
         }
@@ -121,8 +121,8 @@ fn shorter(rotation: DQuat) -> DQuat {
     if rotation.w < 0.0 { -rotation } else { rotation }
 }
 
-/// The chord of a bent vessel turns downwards by `amount`; the vessel turns about it so that the straight
-/// vessel, along whose middle `frame` moves, faces the camera.
+/// The rotation that places a bent vessel. By `amount`, its chord turns downwards, and the vessel turns about
+/// the chord to face the camera as the straight vessel does; `frame` is that in its middle.
 fn placed([own, bent]: [&[DVec3]; 2], frame: &MovingFrame, camera: &Camera, amount: f64) -> DQuat {
     let chord =
         |points: &[DVec3]| (points[points.len() - 1] - points[0]).try_normalize().unwrap_or(frame.tangent);
@@ -135,7 +135,7 @@ fn placed([own, bent]: [&[DVec3]; 2], frame: &MovingFrame, camera: &Camera, amou
     DQuat::from_axis_angle(target, about * amount) * to_target
 }
 
-/// The smallest rotation vector (radians) between two directions; opposite ones turn in the image.
+/// The smallest rotation vector (radians) between two directions; opposite ones turn about the view.
 fn turn(from: DVec3, to: DVec3, camera: &Camera) -> DVec3 {
     let axis = from.cross(to);
     let angle = axis.length().atan2(from.dot(to));

@@ -60,7 +60,7 @@ impl Feet {
         })
     }
 
-    /// The nearest point on the segments from one point to another; the first of equally near ones.
+    /// The point nearest to `place` on the segments from `first` to `last`; the first of equally near ones.
     fn among(&self, place: DVec2, first: usize, last: usize) -> Foot {
         let mut best = self.on_segment(place, first);
         for segment in first + 1..last {
@@ -86,7 +86,7 @@ impl Feet {
         }
     }
 
-    /// The point behind each slot: a level leaves out points that practically repeat the previous one.
+    /// The index of the point for each slot: a level omits points that practically repeat the previous one.
     fn points_of_slots(&self, level: &Level) -> Vec<usize> {
         let mut numbered = self.points.iter().enumerate();
         let own = |slot: &DVec3| numbered.by_ref().find(|(_, point)| *point == slot).map(|(n, _)| n);

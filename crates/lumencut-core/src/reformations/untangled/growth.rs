@@ -1,4 +1,4 @@
-//! How pieces of vessels grow from a root: their order, the cycles they close, and connected parts.
+//! The growth of vessel pieces from a root: their order, the cycles that they close, and connected parts.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -34,8 +34,8 @@ pub(super) struct Growth {
 }
 
 impl Growth {
-    /// The part with the vessel end nearest to `root` grows from there, other parts from the free end with
-    /// the largest mean radius. Fails with [`ErrorKind::VesselTree`] for another part without a free end.
+    /// The part with the vessel end nearest to `root` grows from that end, other parts from the free end with
+    /// the largest mean radius. Fails with [`ErrorKind::VesselTree`] if one of the others has no free end.
     pub(super) fn new(pieces: &[Piece], nodes: usize, root: Option<DVec3>) -> Result<Self> {
         let graph = Graph::new(pieces, nodes);
         let mut growth = Self {
@@ -67,7 +67,7 @@ impl Growth {
         let root = pieces[piece].nodes[end];
         let point = if end == 0 { pieces[piece].points[0] } else { *last_of(&pieces[piece].points) };
         let mut part = Part { root: point, order: Vec::new(), first: Vec::new() };
-        // The piece that led to each junction; none for the root.
+        // The piece along which the search reached each junction; none for the root.
         let mut led: Vec<Option<Option<usize>>> = vec![None; graph.ends.len()];
         let mut is_used = vec![false; pieces.len()];
         let mut late = Vec::new();
@@ -115,7 +115,7 @@ impl Growth {
         }
     }
 
-    /// Adds a piece whose two ends are reached already: it begins at end `near`, and its other end is free.
+    /// Adds a piece whose ends have both been reached; it grows from end `near` and stays free at the other.
     fn close(
         &mut self,
         part: &mut Part,
@@ -127,7 +127,7 @@ impl Growth {
         self.is_reversed[piece] = near == 1;
         self.attach(part, piece, led[pieces[piece].nodes[near]].flatten());
         let far = pieces[piece].nodes[1 - near];
-        // The cycle closes at the end of the piece that led there, or at the start of a piece at the root.
+        // The cycle closes at the end of the piece that was followed, or at the start of a piece at the root.
         let there = match led[far].flatten() {
             Some(by) => (by, 1 - self.start(by)),
             None => (part.first[0], self.start(part.first[0])),

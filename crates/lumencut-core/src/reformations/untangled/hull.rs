@@ -1,10 +1,10 @@
-//! The hulls of vessels in the image: discs as wide as the lumen and a margin, and tests for overlap.
+//! The hulls of vessels in the image: discs larger than the lumen by a margin, and tests for overlap.
 
 use glam::DVec2;
 
 use super::pieces::Piece;
 
-/// Number of consecutive discs within one circle, and of these circles within another one.
+/// Number of consecutive discs that a circle encloses, and of such circles that a larger circle encloses.
 const DISCS_PER_CIRCLE: usize = 16;
 
 const TOUCH_TOLERANCE_MM: f64 = 1e-9;
@@ -65,12 +65,12 @@ pub(super) fn beyond(discs: &[Disc], distance: f64) -> Vec<Disc> {
     kept
 }
 
-/// The share between two positions at which a distance from the origin is crossed.
+/// Where the line between two positions crosses a distance from the origin, as a share of the line.
 fn crossing(from: DVec2, to: DVec2, distance: f64) -> f64 {
     let step = to - from;
     let [a, b, c] = [step.length_squared(), from.dot(step), from.length_squared() - distance * distance];
     let root = (b * b - a * c).max(0.0).sqrt();
-    // On the way outwards the larger solution, inwards the smaller one.
+    // Outwards the larger solution counts, inwards the smaller one.
     let share = if c < 0.0 { (root - b) / a } else { (-root - b) / a };
     share.clamp(0.0, 1.0)
 }
@@ -80,7 +80,7 @@ type Circle = (DVec2, f64);
 #[derive(Clone, Debug, Default)]
 pub(super) struct Hull {
     discs: Vec<Disc>,
-    /// A circle around the discs of each run, and one around the circles of as many runs.
+    /// A circle around each run of discs, and one around each run of circles.
     runs: Vec<Circle>,
     groups: Vec<Circle>,
 }
@@ -114,14 +114,14 @@ impl Hull {
         });
     }
 
-    /// Whether discs of a piece overlap that are farther apart along it than twice the sum of their radii.
+    /// Whether two discs overlap that are farther apart along the piece than twice the sum of their radii.
     pub(super) fn overlaps_itself(&self) -> bool {
         let is_far =
             |disc: &Disc, other: &Disc| (disc.at - other.at).abs() > 2.0 * (disc.radius + other.radius);
         self.pairs(self, 0.0, &mut |disc, other| is_far(disc, other))
     }
 
-    /// Visits overlapping discs, the other hull turned, until `is_last` holds; returns whether it did.
+    /// Passes overlapping discs of this hull and the other, turned, to `is_last` until it returns true.
     fn pairs(&self, other: &Self, angle: f64, is_last: &mut impl FnMut(&Disc, &Disc) -> bool) -> bool {
         let turn = DVec2::from_angle(angle);
         for (m, group) in other.groups.iter().enumerate() {
@@ -167,7 +167,7 @@ fn circle_around(circles: &[Circle]) -> Circle {
     (center, circles.iter().map(reach).fold(0.0, f64::max))
 }
 
-/// The indices within circle `n`, of `count` in all.
+/// The indices of what circle `n` encloses, of `count` in all.
 fn members(n: usize, count: usize) -> std::ops::Range<usize> {
     n * DISCS_PER_CIRCLE..count.min((n + 1) * DISCS_PER_CIRCLE)
 }

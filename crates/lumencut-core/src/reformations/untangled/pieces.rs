@@ -1,4 +1,4 @@
-//! Vessels cut where they meet, each piece with stations dense enough for an image.
+//! Vessels cut at the points where they meet; each piece has stations that are dense enough for an image.
 
 use glam::DVec3;
 
@@ -12,7 +12,7 @@ const MAX_STATION_DISTANCE_MM: f64 = 0.5;
 
 const MIN_STEPS: f64 = 4.0;
 
-/// A point of the vessel nearer to the last station than this share of a step becomes no station.
+/// A vessel point nearer to the last station than this share of a step becomes no station.
 const MIN_STEP_SHARE: f64 = 0.1;
 
 /// A part of a vessel between two points where vessels meet or end. Stations follow the vessel's own order.
@@ -51,7 +51,7 @@ impl Piece {
     }
 }
 
-/// The pieces in the order of vessels and along them, and the number of junctions.
+/// All pieces, in the order of the vessels and along each vessel, and the number of junctions.
 pub(super) fn pieces_of(tree: &VesselTree, unknown_radius: f64) -> Result<(Vec<Piece>, usize)> {
     let first_and_last = |vessel: &Vessel| [vessel.points()[0], vessel.points()[vessel.points().len() - 1]];
     let ends = Ends::of(tree.vessels().iter().flat_map(first_and_last));
@@ -72,14 +72,14 @@ pub(super) fn pieces_of(tree: &VesselTree, unknown_radius: f64) -> Result<(Vec<P
     Ok((pieces, ends.count as usize))
 }
 
-/// The points where a vessel is cut, ends included, and their junctions; lengths between are positive.
+/// The points where a vessel is cut, ends included, and their junctions; no two are at the same arc length.
 fn cuts(vessel: &Vessel, ends: &Ends) -> Vec<(usize, usize)> {
     let (points, at) = (vessel.points(), vessel.arc_length());
     let last = points.len() - 1;
     let mut cuts: Vec<(usize, usize)> = Vec::new();
     for (i, point) in points.iter().enumerate() {
         let Some(node) = ends.at(*point) else { continue };
-        // Points within the same junction make one cut; the vessel's last point makes the last cut.
+        // Points within one junction make a single cut; the vessel's last point makes the last cut.
         let is_same = |&(n, _): &(usize, usize)| at[i] - at[n] <= 2.0 * VESSEL_END;
         match cuts.last() {
             Some(cut) if is_same(cut) && i == last && cuts.len() > 1 => {
@@ -116,7 +116,7 @@ impl Stations<'_> {
         }
         let places: Vec<_> = at.iter().map(|at| LinePlace::at(along, *at)).collect();
         let mut points: Vec<_> = places.iter().map(|place| place.point(self.vessel.points())).collect();
-        // Of points at the same arc length, those of the vessel itself count.
+        // The first and last station are the vessel's own points, without rounding.
         points[0] = self.vessel.points()[first];
         let end = points.len() - 1;
         points[end] = self.vessel.points()[last];

@@ -11,7 +11,7 @@ use crate::reformations::layout::checked_size;
 /// Distance between the hulls of parts that are not connected (mm), if the image is wide enough.
 const PART_GAP_MM: f64 = 10.0;
 
-/// Roots in the image (mm): as the camera sees them, but moved right until clear of the hull to the left.
+/// Roots in the image (mm): as the camera sees them, but moved right until clear of hulls to their left.
 pub(super) fn roots(parts: &[Part], hulls: &[Vec<Disc>], camera: &Camera, width: f64) -> Vec<DVec2> {
     let mut roots: Vec<DVec2> =
         parts.iter().map(|part| camera.view_from_world(part.root).truncate()).collect();
@@ -28,7 +28,7 @@ pub(super) fn roots(parts: &[Part], hulls: &[Vec<Disc>], camera: &Camera, width:
     roots
 }
 
-/// The centre of the first pixel (mm), and width and height of all vessels with their surroundings (mm).
+/// The centre of the first pixel (mm), and the width and height of all that is shown (mm).
 pub(super) fn extent(places: &[Vec<DVec2>], width: f64) -> (DVec2, DVec2) {
     let all = places.iter().flatten();
     let (low, high) = all.fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), place| {

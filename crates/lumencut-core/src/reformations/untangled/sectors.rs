@@ -1,4 +1,4 @@
-//! How branches turn at their common point: by the smallest angles that set them apart.
+//! The smallest angles by which branches must turn about their common point, so that they do not overlap.
 
 use std::f64::consts::{PI, TAU};
 
@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::hull::Disc;
 
-/// Tolerance for missing room (radians).
+/// A smaller lack of room counts as rounding (radians).
 const ROUNDING: f64 = 1e-9;
 
 /// The angles of a branch, seen from where it begins (radians, counter-clockwise from the forward direction).
@@ -39,9 +39,9 @@ fn wrapped(angle: f64) -> f64 {
     (angle + PI).rem_euclid(TAU) - PI
 }
 
-/// The turns (radians) with the smallest sum of squares that set sectors apart within a room, in the order of
-/// their middles; of several with the same middle the first lies lowest. If the room is too small, all
-/// sectors share what is missing.
+/// The turns (radians) with the smallest sum of squares that separate sectors within the sector `room`, in
+/// the order of their middles. If middles are equal, the first sector lies lowest. If the room is too small,
+/// all sectors share the missing angle.
 pub(super) fn turns(sectors: &[Sector], room: Sector) -> Vec<f64> {
     let mut order: Vec<usize> = (0..sectors.len()).collect();
     let middle = |n: &usize| sectors[*n].low + sectors[*n].high;

@@ -9,7 +9,7 @@ use crate::math::same_place::ON_PICTURE;
 use crate::reformations::cut_locus::MIN_DISTANCE_EXCESS;
 use crate::reformations::segments::Segments;
 
-/// The largest number of bisections in the search for a section; this many reach the resolution of a number.
+/// The largest number of bisections in the search for a section; this many reach the resolution of an f64.
 const BISECTIONS: usize = 60;
 
 const MAX_MOVES: usize = 4;
@@ -27,7 +27,7 @@ pub(super) struct Station {
     pub at: f64,
 }
 
-/// A position on a sheet: segment, share of it (below 0 or above 1 beyond free ends), offset right (mm).
+/// A position on a sheet: segment, share along it (below 0 or above 1 beyond free ends), offset right (mm).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SheetPosition {
     pub segment: usize,
@@ -87,11 +87,11 @@ impl Sheet {
     pub(super) fn near(&self, middle: DVec2, radius: f64) -> Vec<usize> {
         let middle = middle.extend(0.0);
         let Some((_, squared)) = self.seen.nearest(middle, self.width + radius) else { return Vec::new() };
-        // With a margin for rounding.
+        // The radius has a margin for rounding.
         self.seen.within(middle, (squared.sqrt() + 2.0 * radius) * (1.0 + 1e-9) + ON_PICTURE)
     }
 
-    /// The position on the nearest segment to a point of the image (mm), the first one of several.
+    /// The position of an image point (mm) on the nearest segment, or on the first of equally near ones.
     pub(super) fn place(&self, seen: DVec2) -> Option<SheetPosition> {
         self.place_within(seen, self.width)
     }
@@ -101,7 +101,7 @@ impl Sheet {
         Some(self.on_segment(segment, seen))
     }
 
-    /// The nearest segment, the first one of several, if it is one of `segments`, which are in their order.
+    /// The nearest segment within the width, of `segments` in rising order; the first of equally near ones.
     pub(super) fn nearest_among(&self, segments: &[usize], seen: DVec2) -> Option<usize> {
         let mut best = (None, self.width * self.width);
         for segment in segments {
@@ -113,7 +113,7 @@ impl Sheet {
         best.0
     }
 
-    /// The sheet position nearest to an image point on a segment, or at corners on the next one.
+    /// The position of an image point on a segment; at a corner, it may be on the next segment.
     pub(super) fn on_segment(&self, mut segment: usize, seen: DVec2) -> SheetPosition {
         let mut place = self.across_segment(segment, seen);
         for _ in 0..MAX_MOVES {
@@ -149,7 +149,7 @@ impl Sheet {
         let right = DVec2::new(along.y, -along.x);
         let from = seen - a.place;
         let aside = from.dot(right);
-        // Lines across end as far from the segment at both of its ends, so they move evenly between them.
+        // The lines across both ends of the segment meet the parallel to it through the point here.
         let start = aside * a.normal.dot(along);
         let end = length + aside * b.normal.dot(along);
         let share = if end > start { (from.dot(along) - start) / (end - start) } else { 0.5 };
@@ -178,7 +178,7 @@ impl Sheet {
         a.point.lerp(b.point, place.share)
     }
 
-    /// The direction across the sheet; into the scene if the vessel is seen from its side.
+    /// The direction of a slab, across the sheet; into the scene if the vessel is seen from its side.
     pub(super) fn slab_direction(&self, place: &SheetPosition) -> DVec3 {
         let [a, b] = self.ends(place.segment);
         let across = a.across.lerp(b.across, place.share.clamp(0.0, 1.0));
@@ -196,7 +196,7 @@ impl Sheet {
         a.place.lerp(b.place, place.share) + a.normal.lerp(b.normal, share) * place.aside
     }
 
-    /// Whether the sheet runs backwards, or another part of the tree is nearer to what it shows.
+    /// Whether the sheet runs backwards, or another part of the tree is nearer to the point that it shows.
     pub(super) fn is_folded(&self, place: &SheetPosition) -> bool {
         let [a, b] = self.ends(place.segment);
         let along = b.point - a.point;
@@ -210,7 +210,7 @@ impl Sheet {
         nearer > 0.0 && self.world.any_within(self.point(place), nearer)
     }
 
-    /// Of the shown positions of a world point: the nearest to the sheet, then to its vessel, then the first.
+    /// The position that shows a world point; of several, that nearest to the sheet, then to its vessel.
     pub(super) fn place_of(&self, point: DVec3) -> Option<SheetPosition> {
         let mut best: Option<(SheetPosition, [f64; 2])> = None;
         for segment in self.world.within(point, self.reach) {
@@ -235,7 +235,7 @@ impl Sheet {
             && (self.arc_length(&there) - self.arc_length(place)).abs() < ON_PICTURE.sqrt()
     }
 
-    /// The positions of a segment whose sections hold a world point, also beyond it if the piece ends there.
+    /// The positions on a segment, or beyond it at an end of the piece, whose sections contain a world point.
     fn sections(&self, segment: usize, point: DVec3) -> Vec<SheetPosition> {
         let [a, b] = self.ends(segment);
         let along = b.point - a.point;
@@ -261,7 +261,7 @@ impl Sheet {
             }
             found.push(place(f64::midpoint(low, high)));
         }
-        // Points off the sheet may fall between adjacent sections, and by rounding also points on it.
+        // No section may contain a point off the sheet, or by rounding a point on it.
         let beyond = |share: f64, towards: DVec3| {
             share + (point - a.point.lerp(b.point, share)).dot(towards) / along.length_squared()
         };

@@ -1,4 +1,4 @@
-//! One piece of a vessel as a strip of the image: its direction there, and the world line across it.
+//! One piece of a vessel as a strip of the image: the strip's direction, and the world lines across it.
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -7,14 +7,14 @@ use glam::{DVec2, DVec3};
 use super::pieces::Piece;
 use crate::camera::Camera;
 
-/// Below this sine of the angle to the view, a vessel's direction does not define the line across it.
+/// If the sine of its angle to the view is smaller, a vessel's direction does not define the line across it.
 const MIN_VIEW_SINE: f64 = 0.1;
 
 const SMOOTHING_ACROSS_MM: f64 = 2.0;
 
 const CUT_OFF_SIGMAS: f64 = 4.0;
 
-/// Longest extension of a line across a sharp corner, so that it ends at the same place as its neighbours.
+/// Largest factor by which a line across a sharp corner is lengthened, to end where its neighbours end.
 pub(super) const LONGEST_MITRE: f64 = 3.0;
 
 /// A shorter vector has no direction.
@@ -51,7 +51,7 @@ impl Strip {
         Self { theta, across }
     }
 
-    /// The stations (mm) from where the piece begins to grow, with a share `stiffness` of its bends.
+    /// The stations (mm) from the start of growth, with the share `stiffness` of the piece's bends kept.
     pub(super) fn bent(&self, piece: &Piece, is_reversed: bool, stiffness: f64) -> Vec<DVec2> {
         let last = self.theta.len() - 1;
         let first = if is_reversed { self.theta[last] } else { self.theta[0] };
@@ -80,7 +80,7 @@ pub(super) fn normals(places: &[DVec2]) -> Vec<DVec2> {
     (0..places.len()).map(normal).collect()
 }
 
-/// The line across a vessel at a station, perpendicular to it, as long as its neighbours need it.
+/// The vector across a vessel at a station: perpendicular to the vessel, and longer at corners.
 fn across(directions: &[DVec3], lines: &[DVec3], n: usize) -> DVec3 {
     let (first, second) = (n.saturating_sub(1), n.min(lines.len() - 1));
     let (before, after) = (directions[first], directions[second]);
@@ -95,8 +95,8 @@ fn across(directions: &[DVec3], lines: &[DVec3], n: usize) -> DVec3 {
     line / (1.0 - slope * slope).max(0.0).sqrt().max(1.0 / LONGEST_MITRE)
 }
 
-/// The angles of directions, each within half a turn of the previous one. A segment along the view takes the
-/// angle of its neighbour; a vessel never seen from the side runs downwards.
+/// The angles of directions, each within half a turn of the previous one. A segment along the view takes its
+/// neighbour's angle; if all run along the view, the vessel runs downwards.
 fn unwrapped(directions: &[DVec2]) -> Vec<f64> {
     let known = |d: &DVec2| d.length() > MIN_DIRECTION_LENGTH;
     let mut last = directions.iter().find(|d| known(d)).map_or(-FRAC_PI_2, |d| d.to_angle());
@@ -111,7 +111,7 @@ fn unwrapped(directions: &[DVec2]) -> Vec<f64> {
     angles
 }
 
-/// Values of segments, weighted by length and smoothed along the vessel by a Gaussian of `sigma` mm.
+/// Values of segments, smoothed along the vessel by a Gaussian of `sigma` mm, with weights by length.
 fn smooth(at: &[f64], values: &[DVec3], sigma: f64) -> Vec<DVec3> {
     if sigma <= 0.0 {
         return values.to_vec();

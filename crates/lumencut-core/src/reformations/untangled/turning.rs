@@ -1,4 +1,4 @@
-//! Which branches of a tree turn, and by how much, so that no vessel lies before another in the image.
+//! Decides which branches of a tree turn, and by how much, so that no vessel hides another in the image.
 
 use std::f64::consts::PI;
 
@@ -13,15 +13,15 @@ use super::strip::Strip;
 use crate::error::{Error, Result};
 use crate::stop::{Stop, go_on};
 
-/// Hull radii around a branching point, plus `OVERLAP_EXTRA_MM` mm, within which branches may overlap, in the
-/// order tried.
+/// Within this number of hull radii (plus `OVERLAP_EXTRA_MM` mm) around a branching point, branches may
+/// overlap. The numbers are tried in this order.
 const OVERLAP_RADII: [f64; 5] = [1.5, 2.5, 4.0, 7.0, 12.0];
 pub(super) const OVERLAP_EXTRA_MM: f64 = 2.0;
 
-/// The share of the bends of vessels that is kept, tried in this order.
+/// Shares of the bends of vessels that are kept, tried in this order.
 const STIFFNESS: [f64; 4] = [1.0, 0.6, 0.3, 0.0];
 
-/// Number of steps of a turn, and of bisections of the first step that suffices.
+/// Number of steps into which a turn is divided, and of bisections of the first step that suffices.
 const TURN_STEPS: usize = 16;
 const BISECTIONS: usize = 16;
 
@@ -30,19 +30,19 @@ pub(super) struct Tree<'a> {
     pub pieces: &'a [Piece],
     pub strips: &'a [Strip],
     pub growth: &'a Growth,
-    /// How much wider than the lumen a hull is (mm).
+    /// The margin by which a hull is wider than the lumen (mm).
     pub hull_margin: f64,
 }
 
 #[derive(Clone, Debug)]
 pub(super) struct Turning {
-    /// The stations of each piece (mm), from where it begins to grow, before any turn.
+    /// The stations of each piece (mm) before any turn; the first is where the piece begins to grow.
     pub places: Vec<Vec<DVec2>>,
     /// The turn of each piece and all that follows it (radians, counter-clockwise).
     pub turns: Vec<f64>,
-    /// The hull of each part relative to its root.
+    /// The hull of each connected part, relative to its root.
     pub hulls: Vec<Vec<Disc>>,
-    /// Hull radii around a branching point, besides [`OVERLAP_EXTRA_MM`], within which branches may overlap.
+    /// Number of hull radii around a branching point (plus [`OVERLAP_EXTRA_MM`]) where branches may overlap.
     pub near: f64,
     /// Number of branching points at which sectors did not fit, so branches turned too much or too little.
     pub without_room: usize,
@@ -90,7 +90,7 @@ fn attempt(tree: Tree, near: f64, stiffness: f64, stop: Stop) -> Result<Turning>
         without_room: 0,
         overlaps: Vec::new(),
     };
-    // Each piece with all pieces that follow it, from its beginning, already turned beyond that point.
+    // The discs of each piece and all that follow it, from its start; the followers are turned already.
     let mut units: Vec<Vec<Disc>> = vec![Vec::new(); pieces.len()];
     for part in &growth.parts {
         for &piece in part.order.iter().rev() {
@@ -126,7 +126,7 @@ fn forward_of(places: &[DVec2], is_reversed: bool) -> DVec2 {
     step.normalize_or(DVec2::NEG_Y)
 }
 
-/// Turns apart the units that begin at one point, after a piece ending there, and returns them.
+/// Turns the units that begin at one point apart from each other and from `parent`; returns their discs.
 fn turn_apart(
     turning: &mut Turning,
     units: &mut [Vec<Disc>],
@@ -161,7 +161,7 @@ impl Node {
     fn new(branches: &[Hull], parent: Option<(Vec<Disc>, DVec2)>, near: f64) -> Self {
         let (parent, forward) = parent.map_or((Vec::new(), None), |(discs, forward)| (discs, Some(forward)));
         let all = branches.iter().map(Hull::discs).chain([parent.as_slice()]);
-        // The disc at the point itself is the first or the last one of each piece that meets it.
+        // The disc at the point is the first or the last one of each piece that meets there.
         let at_node = |discs: &[Disc]| {
             let here = discs.iter().filter(|disc| disc.center == DVec2::ZERO).map(|disc| disc.radius);
             here.fold(0.0, f64::max)
@@ -190,7 +190,7 @@ impl Node {
         (wanted.collect(), has_room)
     }
 
-    /// The smallest share of the wanted turns without overlap; 1 if there is none.
+    /// The smallest share of the wanted turns at which nothing overlaps; 1 if there is none.
     fn smallest_share(&self, wanted: &[f64]) -> f64 {
         let mut shares = (0..=TURN_STEPS).map(|step| step as f64 / TURN_STEPS as f64);
         let Some(mut enough) = shares.find(|share| self.is_apart(wanted, *share)) else { return 1.0 };

@@ -1,4 +1,4 @@
-//! What the rays of a view need, prepared once.
+//! Prepares the data that the rays of a view need.
 
 use crate::camera::Camera;
 use crate::error::{Error, ErrorKind, Result};
@@ -58,7 +58,7 @@ impl<'a> Plan<'a> {
         context: &Context,
     ) -> Result<Self> {
         let (step, colors) = (step(volume, context)?, Colors::new(&context.transfer));
-        // The CPU finds blocks through `Blocks`.
+        // The layout stays empty, because the CPU finds blocks through `Blocks`.
         let parameters = ContextParameters::new(settings, context, &colors, step, &BlockLayout::default());
         Ok(Self {
             volume,

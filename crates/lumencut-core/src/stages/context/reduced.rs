@@ -24,7 +24,7 @@ pub(super) fn reduce_raster(
     pixels: &mut [[f32; 4]],
 ) -> Result<()> {
     let (colors, window) = (Colors::new(&context.transfer), Ramp::grey(context.window));
-    // The colour is constant beyond the last control point, and black below the black end of the window.
+    // Values beyond the last control point, or below the black end of the window, do not change the colour.
     let limit = match reduction {
         Reduction::Largest => colors.last(),
         Reduction::Smallest => window.zero(),

@@ -86,7 +86,7 @@ impl Kernel for Tile<'_> {
 }
 
 impl Tile<'_> {
-    /// The column of a ray, and its row counted from the first of these rows.
+    /// The column and row of a ray in the image part; rows are counted from its first row.
     #[inline(always)]
     fn ray(&self, packet: usize, lane: usize) -> [usize; 2] {
         let column = self.place[0] + packet % ACROSS * PACKET[0] + lane % PACKET[0];

@@ -3,7 +3,7 @@
 use crate::math::lanes::{PIXELS, smaller};
 
 pub(super) struct LevelBlend {
-    /// k0, the finer level, as a float: integers compare exactly.
+    /// k0, the finer level, stored as a float; integers up to 2²⁴ compare exactly.
     fine: [f32; PIXELS],
     fine_weight: [f32; PIXELS],
     /// The weight of k0 + 1; 0 if k0 = N.
@@ -11,7 +11,7 @@ pub(super) struct LevelBlend {
 }
 
 impl LevelBlend {
-    /// Selects the levels at distance D: f = √(N·D/σ) lies between ⌊f⌋ and ⌊f⌋ + 1; beyond N only N.
+    /// Selects the levels at distance D: f = √(N·D/σ) lies between the levels ⌊f⌋ and ⌊f⌋ + 1, capped at N.
     #[inline(always)]
     pub(super) fn select(selection: f32, coarsest: usize, distance: &[f32; PIXELS]) -> Self {
         let zero = [0.0; PIXELS];

@@ -18,10 +18,10 @@ impl CutSurface<'_> {
     ) -> TileSurface {
         let blend = LevelBlend::select(self.selection, self.projected.len() - 1, distance);
         let (mut depth, mut vessel) = ([0.0; PIXELS], [0; PIXELS]);
-        // For each pixel the slot with the larger weight, and its level.
+        // For each pixel, the slot of the level with the larger weight, and that level.
         let (mut slot, mut ruling_level, mut ruling_weight) = ([0; PIXELS], [0; PIXELS], [0.0; PIXELS]);
         let mut sheets = BlendedSheets::new();
-        // Finest first: the coarse term is added to the fine one, and the finer level wins a tie.
+        // Finest first: the coarse term is added to the fine one, and the finer level wins ties.
         for level in places(blend.needed()) {
             let mut weight = [0.0; PIXELS];
             for l in 0..PIXELS {
@@ -37,7 +37,7 @@ impl CutSurface<'_> {
                 slot[l] = if rules { envelope.piece[l] / 2 } else { slot[l] };
             }
             if with_sheet {
-                // Pixels without a winner at this level have no weight: any slot is allowed.
+                // Pixels without a winner at this level do not use it, so any slot will do.
                 envelope.piece = envelope.piece.map(|piece| if piece == u32::MAX { 0 } else { piece });
                 let own = self.own_pieces(level);
                 let found = Decision::of::<LUMEN_FIRST>(&envelope, own.projected, tile, &self.rule);

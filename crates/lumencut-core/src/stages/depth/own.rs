@@ -1,4 +1,4 @@
-//! One decision: the winner on the finest level decides the vessel; only its levels are blended.
+//! One decision per pixel: the winner on the finest level decides the vessel; only its levels are blended.
 
 use super::blend::LevelBlend;
 use super::{CHOSEN_GAP, CutSurface, Search, TileSurface};
@@ -49,7 +49,7 @@ impl CutSurface<'_> {
 struct Sum {
     depth: [f32; PIXELS],
     slope: [[f32; PIXELS]; 2],
-    /// Arc length of the finer and the coarser level relative to the winner (mm).
+    /// Arc length of the blended point at the finer and at the coarser level, minus the winner's (mm).
     finer: [f32; PIXELS],
     coarser: [f32; PIXELS],
     has_any: [bool; PIXELS],

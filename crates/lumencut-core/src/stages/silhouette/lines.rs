@@ -1,9 +1,9 @@
-//! The lines of leaps: each lies on one side of its leap, and never in a lumen that continues.
+//! Lines at depth jumps (leaps): each is drawn on one side of its leap, and never in a lumen that continues.
 
 use crate::math::lanes::FAN;
 use crate::math::leaps::{DOWNWARDS, LEAPS, LINE_DOWNWARDS, LINE_TO_THE_RIGHT, LUMEN, TO_THE_RIGHT};
 
-/// A pixel, or a step from one to another: to the right, downwards.
+/// A pixel, or a step between two: columns to the right, rows downwards.
 type PixelStep = [isize; 2];
 
 const STEPS: [PixelStep; 4] = [[1, 0], [-1, 0], [0, 1], [0, -1]];
@@ -17,7 +17,7 @@ pub(super) struct LeapLines<'a> {
     line_width: f32,
     /// The largest share of a pixel that a line covers.
     most: f32,
-    /// The largest distance (pixels) between a pixel and a leap whose line can cover it.
+    /// The largest distance (pixels) between a depth jump and a pixel that the jump's line can cover.
     reach: isize,
 }
 
@@ -30,7 +30,7 @@ impl<'a> LeapLines<'a> {
     pub(super) fn new(leap: &'a [u32], value: &'a [f32], width: usize, line_width: f32) -> Self {
         let size = [width as isize, (leap.len() / width) as isize];
         let most = line_width.min(1.0);
-        // A line narrower than a pixel is drawn one pixel wide, only fainter.
+        // A line narrower than a pixel is drawn one pixel wide, but fainter.
         let line_width = line_width.max(1.0);
         Self { leap, value, size, line_width, most, reach: line_width.ceil() as isize }
     }
@@ -53,7 +53,7 @@ impl<'a> LeapLines<'a> {
         }
     }
 
-    /// Whether the line of any leap can reach the sixteen pixels of row `j` that begin at column `i`.
+    /// Whether the line of any depth jump can reach the sixteen pixels of row `j` from column `i` on.
     fn has_leaps_near(&self, i: isize, j: isize) -> bool {
         let [width, height] = self.size;
         let columns = (i - self.reach).max(0)..(i + FAN as isize + self.reach).min(width);
@@ -64,7 +64,7 @@ impl<'a> LeapLines<'a> {
         })
     }
 
-    /// Lines cover a lumen only next to a leap to another lumen, along the row or column across the leap.
+    /// Lines cover a lumen only next to a leap to another lumen, in the row or column that crosses the leap.
     fn cover_of_lumen(&self, here: PixelStep) -> f32 {
         let ends = |at: PixelStep, step| {
             let beyond = ahead(at, step);
@@ -81,8 +81,8 @@ impl<'a> LeapLines<'a> {
         cover
     }
 
-    /// The cover of a pixel outside all lumens, by its distance to the nearest leap whose line lies on this
-    /// side. A pixel on the other side of a leap has no cover.
+    /// The covered share of a pixel outside all lumens, by the distance to the nearest leap whose line lies
+    /// on this side. On the other side of a leap it is 0.
     fn cover_beside_lumen(&self, here: PixelStep) -> f32 {
         let mut leaps = STEPS.into_iter().filter(|step| self.border(here, *step).is_leap).peekable();
         if leaps.peek().is_some() && !leaps.any(|step| self.shows_line(here, step)) {
@@ -91,7 +91,7 @@ impl<'a> LeapLines<'a> {
         let mut cover = 0f32;
         for down in -self.reach..=self.reach {
             for right in -self.reach..=self.reach {
-                // The pixel whose leaps these are: that many steps to the left of `here` and above it.
+                // The pixel whose leaps are tested: `right` columns left of `here` and `down` rows above.
                 let owner = [here[0] - right, here[1] - down];
                 let (bits, x, y) = (self.bits(owner), right as f32, down as f32);
                 if bits & TO_THE_RIGHT != 0 && self.shows_line_of(owner, [1, 0], right > 0) {
@@ -105,7 +105,7 @@ impl<'a> LeapLines<'a> {
         cover
     }
 
-    /// Whether the line of the leap from a pixel to a neighbour is shown on the side of either of them.
+    /// Whether either of two neighbouring pixels shows the line of the leap between them.
     fn shows_line_of(&self, owner: PixelStep, step: PixelStep, beyond: bool) -> bool {
         if beyond {
             self.shows_line(ahead(owner, step), [-step[0], -step[1]])
@@ -114,14 +114,14 @@ impl<'a> LeapLines<'a> {
         }
     }
 
-    /// A pixel shows a leap's line that lies in it, or whose own pixel shows nothing while this one is not
-    /// lumen.
+    /// Whether a shown pixel shows the line of a leap: the line lies in this pixel, or it would lie in the
+    /// other, which shows nothing, and this pixel is not lumen.
     fn shows_line(&self, here: PixelStep, step: PixelStep) -> bool {
         let may_lie_here = !(self.is_lumen(here) || self.is_shown(ahead(here, step)));
         self.is_shown(here) && (self.border(here, step).has_line || may_lie_here)
     }
 
-    /// How much of a pixel a line covers, by the offset between its leap and the pixel (pixels).
+    /// The share of a pixel that a line covers, by the offset between its leap and the pixel (pixels).
     fn cover_at(&self, x: f32, y: f32) -> f32 {
         self.most * (self.line_width + 0.5 - (x * x + y * y).sqrt()).clamp(0.0, 1.0)
     }

@@ -90,8 +90,8 @@ fn way_inwards(radius: impl Fn(f64) -> f64, step: f64, limit: f64) -> f64 {
     way.min(limit)
 }
 
-/// Extends the start of the line straight to the wall, from one radius inside; replaces at most `most` mm of
-/// the line.
+/// Replaces the start of the line by a straight piece that ends at the wall. The piece begins where the line is one
+/// radius away from its start; at most `most` mm are replaced.
 pub(crate) fn lead_to_cap(points: &mut Vec<DVec3>, lumen: &Lumen, most: f64) {
     let ways = arc_lengths(points);
     let whole = ways[ways.len() - 1];

@@ -1,4 +1,4 @@
-//! The answer to an edit equals the answers to separate questions.
+//! Tests that the answer to an edit equals the answers to separate questions.
 
 use lumencut_core::progress::Progress;
 use serde_json::{Value as Json, json};

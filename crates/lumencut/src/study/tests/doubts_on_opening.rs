@@ -1,4 +1,4 @@
-//! Opening scans or centerlines reports doubts about order, unit and size.
+//! Tests that opening a scan or centerlines reports doubts about order, unit and size.
 
 use glam::DVec3;
 use lumencut_io::Unit;

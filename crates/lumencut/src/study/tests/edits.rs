@@ -1,4 +1,4 @@
-//! Edits of vessels and their results.
+//! Tests of edits of vessels and their results.
 
 use glam::DVec3;
 use lumencut_core::progress::Progress;
@@ -72,11 +72,11 @@ fn an_id_is_never_given_twice() {
     let line = json!({"kind": "add_lines", "lines": [{"line": 0, "name": "d"}]});
     let more = edited(&mut study, &document, &line.clone());
     assert_eq!((more.words.as_str(), &more.added), ("open centerlines", &vec![4]));
-    // Ids are not used again after the last vessel was removed or its step was undone …
+    // Ids are not used again after the last vessel was removed or its step was undone.
     let fewer = after(&mut study, &more.document, &json!({"kind": "remove", "ids": [4]}));
     assert_eq!(fewer, document);
     assert_eq!(edited(&mut study, &document, &line.clone()).added, [5]);
-    // … and neither are those of a document that was read.
+    // Ids of a document that was read from a file are not used again either.
     let mut read = document;
     read.vessels[1].id = 70;
     assert_eq!(edited(&mut study, &read, &line).added, [71]);
@@ -127,7 +127,7 @@ fn clicks_are_added_inserted_moved_and_removed_and_the_line_follows() {
     assert_eq!(removed.words, "remove a point");
     has(&removed.document, &[0.35, 0.5, 0.8]);
     assert!(removed.without_marks.is_empty(), "a vessel that is traced again keeps its marks");
-    // The same clicks give the same line, whatever happened in between.
+    // The same clicks give the same line, independently of the edits in between.
     let again = after(&mut study, &begun, &json!({"kind": "add_click", "id": 1, "point": at(0.9)}));
     let [again, added] = [&again, &added.document].map(|document| points(&study, document.vessels[0].line));
     assert_eq!(again, added);

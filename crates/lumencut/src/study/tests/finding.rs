@@ -1,4 +1,4 @@
-//! Edits that find the vessels of a scan.
+//! Tests of edits that find the vessels of a scan.
 
 use serde_json::json;
 

@@ -1,4 +1,4 @@
-//! Lines are edited, shown and saved by their numbers.
+//! Tests that lines are edited, shown and saved by their numbers.
 
 use glam::DVec3;
 use lumencut_core::error::ErrorKind;
@@ -91,7 +91,7 @@ fn a_path_runs_from_its_first_line_to_its_last_whatever_their_directions() {
 #[test]
 fn a_path_leaves_a_line_and_enters_it_where_another_one_begins() {
     let trunk = straight(0.0, 21);
-    // Branches that leave the trunk at its points 5 and 15, since a branch starts at a point of its parent.
+    // Branches start at the trunk's points 5 and 15, since a branch starts at a point of its parent.
     let branch = |x: usize, side: f64| {
         let points = (0..4).map(|n| trunk.points[x] + f64::from(n) * side * DVec3::Y).collect();
         Line { points, radius: Some(vec![0.5; 4]), confidence: Some(vec![1.0; 4]), bridged: None }

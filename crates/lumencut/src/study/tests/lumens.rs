@@ -1,4 +1,4 @@
-//! The lumens under a pointer, with their sections.
+//! Tests of the lumens under a pointer, with their sections.
 
 use glam::DVec3;
 

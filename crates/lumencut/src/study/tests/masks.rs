@@ -1,4 +1,4 @@
-//! Masks with a volume, and the brightest place on a ray.
+//! Tests of masks with a volume, and of the brightest place on a ray.
 
 use glam::{DAffine3, DMat4, DVec3};
 use lumencut_core::progress::Progress;

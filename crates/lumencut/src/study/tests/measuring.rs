@@ -1,4 +1,4 @@
-//! Measurements through the study, compared with tubes of known diameter and with the core.
+//! Tests measurements by the study against tubes of known diameter and against the core.
 
 use std::f64::consts::{FRAC_PI_6, PI};
 

@@ -1,4 +1,4 @@
-//! The behaviour of the study on which viewers rely.
+//! Tests the behaviour of the study on which viewers rely.
 
 mod after_edit;
 mod doubts_on_opening;
@@ -93,9 +93,9 @@ fn a_pick_is_the_pixel_of_the_whole_picture() {
             [x as f64, y as f64],
             f64::from(depth[y * 96 + x]),
         );
-        // Rounding is the only difference of the partial view.
+        // Picking renders only a part of the view; the result differs only by rounding.
         assert!(point.distance(DVec3::from_array(pick.point)) < 1e-3, "pixel {x}, {y}");
-        // The tube is in the middle. Pixels outside it select no vessel, although all pixels lie in its zone.
+        // The tube is in the middle. Pixels outside it select no vessel, although the tube is the vessel nearest to all pixels.
         assert_eq!(vessel[y * 96 + x], 0);
         assert_eq!(pick.vessel, (x == 48 || x == 50).then_some(0), "pixel {x}, {y}");
     }

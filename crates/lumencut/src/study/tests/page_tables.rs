@@ -2,6 +2,7 @@
 
 use super::generated::require_current;
 use crate::defaults::{PIXEL_SIDES, QUANTITIES};
+use crate::drags::GESTURES;
 use crate::file_kinds::{centerline_files, volume_files};
 use crate::study::palette::PALETTE;
 use crate::vessel_names::{NamedVessel, VESSEL_NAMES};
@@ -26,6 +27,16 @@ fn record<T: serde::Serialize>(about: &str, name: &str, rows: &[(&str, T)]) -> S
     format!("\n/** {about} */\nexport const {name} = {{\n{rows}}} as const;\n")
 }
 
+fn constants() -> String {
+    let rows: String = GESTURES
+        .iter()
+        .map(|row| format!("  /** {} ({}). */\n  {}: {},\n", row.about, row.unit, row.name, row.value))
+        .collect();
+    format!(
+        "\n/** Constants of drags, the wheel and keys. */\nexport const GESTURES = {{\n{rows}}} as const;\n"
+    )
+}
+
 #[test]
 fn the_tables_of_the_page_are_those_of_the_facade() {
     let names: Vec<String> = VESSEL_NAMES.iter().flat_map(NamedVessel::offered).collect();
@@ -41,6 +52,7 @@ fn the_tables_of_the_page_are_those_of_the_facade() {
             &PIXEL_SIDES,
         ),
         record("Files that can be opened, in the words of messages.", "FILES", &files),
+        constants(),
     ];
     require_current("tables.ts", &(HEAD.to_owned() + &tables.concat()));
 }

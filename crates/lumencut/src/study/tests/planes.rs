@@ -1,4 +1,4 @@
-//! The section that is shown lies in the plane of its measured contour.
+//! Tests that the section that is shown lies in the plane of its measured contour.
 
 use glam::DVec3;
 use lumencut_vessels::measure::profile::Profile;

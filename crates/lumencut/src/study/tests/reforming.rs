@@ -44,7 +44,7 @@ fn each_fits_into_its_pane_and_a_pick_leads_back_to_its_pixel() {
         assert!(width >= PANE[0] - 8 || height >= PANE[1] - 8, "{asked:?}: {width} × {height}");
         assert_eq!(picture.bytes.len(), 4 * width * height);
         assert!(picture.words.ends_with('.'), "{}", picture.words);
-        // A place exactly in the middle of the vessel does not lie on a wall.
+        // The point is moved off the middle of the vessel, since a point in the middle belongs to no side of the wall.
         let point = middle_of(&study, 1) + DVec3::X * 0.2;
         let pixel =
             study.on_reformed(point.to_array()).unwrap_or_else(|| panic!("{asked:?} does not show {point}"));

@@ -1,4 +1,4 @@
-//! Findings are sentences, and reports have a page for each vessel.
+//! Tests that findings are sentences, and that reports have a page for each vessel.
 
 use serde_json::{Value as Json, json};
 

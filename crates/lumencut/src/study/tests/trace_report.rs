@@ -1,4 +1,4 @@
-//! Reports on vessels traced in scenes with a known answer.
+//! Tests the reports on vessels that were traced in scenes with a known answer.
 
 use glam::{DAffine3, DVec3};
 use lumencut_core::math::arc_length::arc_lengths;

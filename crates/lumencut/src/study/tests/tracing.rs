@@ -1,4 +1,4 @@
-//! Checks what the page expects of tracing, on the native target.
+//! Tests what the page expects of tracing; these tests run without a browser.
 
 use glam::{DAffine3, DMat4, DVec3};
 use lumencut_core::progress::Progress;
@@ -135,7 +135,7 @@ fn branches_from_a_place_that_is_no_lumen_by_its_value_are_refused_before_anythi
         "document": Document::default(), "edit": {"kind": "add_branches", "seed": fat}, "bridging": false,
     });
     let message: EditMessage = serde_json::from_value(message).expect("a message");
-    // A search would notice the stop and end as interrupted.
+    // If there were a search, it would notice the stop and end as interrupted.
     let watch = Watch { stop: &|| true, progress: &Progress::default() };
     let failure = study.edit(&message, watch).expect_err("no lumen");
     assert_eq!((failure.kind, failure.more.seen.map(|seen| seen.place)), ("tracing", Some(fat)));

@@ -1,4 +1,4 @@
-//! Edge letters and reported points are checked in volumes whose values are positions.
+//! Tests edge letters and reported points in volumes whose values are positions.
 
 use glam::{DAffine3, DVec3};
 use lumencut_core::vessel_tree::{Vessel, VesselTree};

@@ -1,4 +1,4 @@
-//! The whole vessel of one click, as the page requests it.
+//! Tests of the whole vessel that one click adds, as the page requests it.
 
 use glam::DVec3;
 use lumencut_core::math::arc_length::arc_lengths;

@@ -60,7 +60,7 @@ pub(crate) fn attached(
     Ok(made)
 }
 
-/// The point of this line at `knot`, where another line meets it: the line's end, or its point nearest to the node.
+/// The point at which another line meets this one: an end if `knot` is its first or last index, otherwise the point nearest to `place`.
 fn joint(points: &[LinePoint], knot: usize, last: usize, place: DVec3) -> LinePoint {
     let away = |point: &&LinePoint| point.place.distance_squared(place);
     let nearest = points.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
