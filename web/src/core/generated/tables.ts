@@ -118,6 +118,8 @@ export const PIXEL_SIDES = [
 export const FILES = {
   'volumes': "a DICOM folder, file or zip archive, NIfTI (.nii, .nii.gz, .hdr + .img), NRRD (.nrrd, .nhdr) or MetaImage (.mha, .mhd)",
   'centerlines': "centerlines (.vtp, .vtk, .mrk.json, .fcsv, .pth, .swc, .tre, .csv)",
+} as const;
+
 /** Constants of drags, the wheel and keys. */
 export const GESTURES = {
   /** Movement above which a press becomes a drag (px). */
