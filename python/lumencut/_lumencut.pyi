@@ -41,8 +41,11 @@ class _Marked(Protocol):
 
 __all__ = [
     "CHART_FRAME",
+    "CENTERLINE_FILES",
     "DEFAULTS",
     "DICOM_ATTRIBUTES",
+    "FILE_HEAD",
+    "FILE_KINDS",
     "LARGEST_EXTENT",
     "LOOKS",
     "LOOK_SENTENCES",
@@ -51,6 +54,9 @@ __all__ = [
     "MENDS",
     "MILLIMETRES",
     "PAPER",
+    "PIXEL_SIDE",
+    "POINT_DISTANCE",
+    "QUANTITIES",
     "REORDERED",
     "SECTION_PIXELS",
     "SETTINGS",
@@ -61,6 +67,7 @@ __all__ = [
     "VESSEL_NAMES",
     "VIEWS",
     "VIEW_METHODS",
+    "VOLUME_FILES",
     "WINDOW_PRESETS",
     "CenterlineFile",
     "Cpr",
@@ -108,6 +115,7 @@ __all__ = [
     "doubted_size",
     "edge_letters",
     "feature_window",
+    "file_kind",
     "find_vessels",
     "find_window",
     "fits_nowhere",
@@ -136,6 +144,7 @@ __all__ = [
     "parts",
     "path",
     "picture",
+    "pixel_side",
     "place_mask",
     "placement",
     "positions",
@@ -232,7 +241,17 @@ MEASURING_NOTICE: str
 STENOSIS_METHODS: list[tuple[str, str]]
 STENOSIS_TERRITORIES: list[str]
 VIEW_METHODS: list[tuple[str, str]]
+#: By function and parameter, such as ``untangled.width``.
 DEFAULTS: dict[str, float]
+#: Name, other functions with the parameter, unit, range, default and sentence.
+QUANTITIES: list[tuple[str, list[str], str, tuple[float, float], float, str]]
+POINT_DISTANCE: float
+PIXEL_SIDE: str
+#: Identifier, role, format, extensions, and those that are written.
+FILE_KINDS: list[tuple[str, str, str, list[str], list[str]]]
+FILE_HEAD: int
+VOLUME_FILES: str
+CENTERLINE_FILES: str
 SMALLEST_EXTENT: float
 LARGEST_EXTENT: float
 #: How the note ends that says of a line that its points were moved.
@@ -373,6 +392,8 @@ def coloured(
 ) -> npt.NDArray[np.uint8]: ...
 def fitted_uncurling(camera: Any, points: npt.NDArray[np.float64], smoothing: float) -> dict[str, Any]: ...
 def scale_end(value: npt.NDArray[np.float32]) -> float: ...
+def pixel_side(smallest_side: float) -> float: ...
+def file_kind(head: bytes | None, name: str = "") -> tuple[str, str, str, str]: ...
 def spiral_pitch(
     usual: float, smallest_side: float, radius: float, pixel_spacing: float, columns: float
 ) -> float: ...

@@ -8,7 +8,7 @@ import numpy.typing as npt
 
 from lumencut import _lumencut
 from lumencut._checks import choice, number, numbers
-from lumencut._reformation_checks import check_vessel, flat_settings
+from lumencut._reformation_checks import check_vessel, flat_settings, pixel_side
 from lumencut.errors import CameraError, MeasuringError, SettingsError, VesselTreeError, VolumeError
 from lumencut.planar_reformation import one_angle
 from lumencut.profile import Profile
@@ -20,9 +20,6 @@ from lumencut.vessel import Vessel
 from lumencut.vessel_tree import VesselTree
 
 _HEAD = (0.0, 0.0, 1.0)
-
-#: Largest default pixel side (mm).
-_COARSEST = 0.25
 
 
 def lumen_map(
@@ -63,8 +60,8 @@ def lumen_map(
         wall is from the centerline, in colour. ``"thickness"`` shows how thick calcium or metal lies at the
         wall, in colour. ``"shaded"`` shows the wall as a surface, lit from inside.
     pixel_spacing : float, optional
-        Side of a pixel (mm), along the vessel and around it at the mean radius; half of the smallest side of
-        a voxel by default, at most 0.25 mm.
+        Side of a pixel (mm), along the vessel and around it at the mean radius; default: the smallest voxel
+        side, at least 0.05 and at most 0.25 mm.
     angle : float, optional
         The direction of the middle column around the vessel (radians); 0 is to the right of the straightened
         CPR at angle 0. By default, the side with most calcium is in the middle, so that the cut does not
@@ -164,9 +161,8 @@ def lumen_map_of(
         raise VolumeError("volume of the lumen map", "None", "a volume to show")
     smooth = number(SettingsError, "smoothing of the centerline", smoothing)
     upwards = numbers(CameraError, "up of the lumen map", up, (3,)).tolist()
-    spacing = min(_COARSEST, grid.spacing.min() / 2) if pixel_spacing is None else pixel_spacing
     wanted = {
-        "pixel_spacing": number(CameraError, "pixel_spacing of the lumen map", spacing),
+        "pixel_spacing": pixel_side(grid, pixel_spacing, "lumen map"),
         "angle": None if angle is None else number(CameraError, "angle of the lumen map", angle),
         "overlap": number(CameraError, "overlap of the lumen map", overlap),
         "band": [low, high],

@@ -10,7 +10,14 @@ import numpy.typing as npt
 
 from lumencut import _lumencut
 from lumencut._checks import choice, number, numbers
-from lumencut._reformation_checks import SlabArgument, check_vessel, flat_settings, radians, rotation
+from lumencut._reformation_checks import (
+    SlabArgument,
+    check_vessel,
+    flat_settings,
+    pixel_side,
+    radians,
+    rotation,
+)
 from lumencut.camera import Camera
 from lumencut.errors import CameraError, SettingsError, VolumeError
 from lumencut.profile import Profile
@@ -195,7 +202,7 @@ def cpr(
         Distance of the outermost columns (mm), at most; an odd number of pixels is taken. By default,
         the image shows 25 mm on each side of the vessel: 50 mm where it is straightened.
     pixel_spacing : float, optional
-        Side of a pixel (mm); the smallest side of a voxel by default.
+        Side of a pixel (mm); default: the smallest voxel side, at least 0.05 and at most 0.25 mm.
     angle : float, default 0
         By how much the viewer moves to the right (radians), from the front of the patient where ``up`` is the
         head: around ``up``, or around the vessel where it is straightened.
@@ -297,11 +304,7 @@ def cpr_of(
     volume = renderer.volume
     if volume is None:
         raise VolumeError("volume of the CPR", "None", "a volume to show")
-    spacing = number(
-        CameraError,
-        "pixel_spacing of the CPR",
-        volume.spacing.min() if pixel_spacing is None else pixel_spacing,
-    )
+    spacing = pixel_side(volume, pixel_spacing, "CPR")
     if normal is not None and mode != "straightened":
         raise CameraError("normal of the CPR", f"a normal with the mode {mode!r}", "the mode 'straightened'")
     given = flat_settings(settings, slab)

@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from lumencut import _lumencut
 from lumencut._checks import choice, number, numbers
-from lumencut._reformation_checks import SlabArgument, check_vessel, flat_settings
+from lumencut._reformation_checks import SlabArgument, check_vessel, flat_settings, pixel_side
 from lumencut.errors import CameraError, SettingsError, VesselTreeError, VolumeError
 from lumencut.planar_reformation import one_angle
 from lumencut.reformation import Reformation
@@ -27,9 +27,6 @@ _AREAS, _WIDEST = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000), 0.4
 
 #: Largest number of columns with a default pitch.
 _MOST_COLUMNS = 16_000
-
-#: Largest default pixel side (mm).
-_COARSEST = 0.5
 
 
 class SpiralReformation(Reformation):
@@ -132,7 +129,7 @@ def spiral(
         ``"arc"``: samples are a pixel apart along the spirals. ``"angle"``: they are an even angle apart, so
         that every winding has the same width.
     pixel_spacing : float, optional
-        Side of a pixel (mm); the smallest side of a voxel by default, at most 0.5 mm.
+        Side of a pixel (mm); default: the smallest voxel side, at least 0.05 and at most 0.25 mm.
     angle : float, default 0
         The angle by which sections are turned (radians): 0 begins to the right of the straightened CPR.
     up : array_like, shape (3,), default (0, 0, 1)
@@ -195,18 +192,16 @@ def spiral_of(
     volume = renderer.volume
     if volume is None:
         raise VolumeError("volume of the spiral CPR", "None", "a volume to show")
-    finest = float(volume.spacing.min())
-    spacing = min(_COARSEST, finest) if pixel_spacing is None else pixel_spacing
     reach = _reach(vessel) if radius is None else radius
     parameters: dict[str, Any] = {
-        "pixel_spacing": number(CameraError, "pixel_spacing of the spiral CPR", spacing),
+        "pixel_spacing": pixel_side(volume, pixel_spacing, "spiral CPR"),
         "radius": number(CameraError, "radius of the spiral CPR", reach),
         "sampling": sampling,
         "angle": number(CameraError, "angle of the spiral CPR", angle),
         "up": numbers(CameraError, "up of the spiral CPR", up, (3,)).tolist(),
         "smoothing": number(SettingsError, "smoothing of the centerline", smoothing),
     }
-    fine = _fine_pitch(vessel, finest, parameters) if pitch is None else pitch
+    fine = _fine_pitch(vessel, float(volume.spacing.min()), parameters) if pitch is None else pitch
     parameters["pitch"] = number(CameraError, "pitch of the spiral CPR", fine)
     given = flat_settings(settings, slab)
     lengths = [parameters[name] for name in ("pitch", "radius", "pixel_spacing")]
@@ -229,8 +224,8 @@ def _reach(vessel: Vessel) -> float:
     return _lumencut.spiral_reach(float(_radii(vessel, "radius").max()))
 
 
-def _fine_pitch(vessel: Vessel, finest: float, parameters: dict[str, Any]) -> float:
+def _fine_pitch(vessel: Vessel, voxel: float, parameters: dict[str, Any]) -> float:
     """Return a quarter of the median radius, or more if voxels or the widest picture require that."""
     usual = float(np.median(_radii(vessel, "pitch")))
     radius, spacing = parameters["radius"], parameters["pixel_spacing"]
-    return _lumencut.spiral_pitch(usual, finest, radius, spacing, _MOST_COLUMNS)
+    return _lumencut.spiral_pitch(usual, voxel, radius, spacing, _MOST_COLUMNS)

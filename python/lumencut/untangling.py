@@ -8,7 +8,7 @@ import numpy.typing as npt
 
 from lumencut import _lumencut
 from lumencut._checks import number, numbers
-from lumencut._reformation_checks import SlabArgument, flat_settings
+from lumencut._reformation_checks import SlabArgument, flat_settings, pixel_side
 from lumencut.camera import Camera
 from lumencut.errors import CameraError, SettingsError, VesselTreeError, VolumeError
 from lumencut.renderer import Renderer
@@ -55,7 +55,7 @@ def untangled(
         Standard deviation of the Gaussian that smooths the directions in which vessels are seen, along them
         (mm, 0 to 1000). Positions are not smoothed.
     pixel_spacing : float, optional
-        Side of a pixel (mm); the smallest side of a voxel by default.
+        Side of a pixel (mm); default: the smallest voxel side, at least 0.05 and at most 0.25 mm.
     root : array_like, shape (3,), optional
         A point (mm, LPS) near the end of the vessel from which the tree grows. By default, and for parts
         without it, the free end with the largest mean radius over 10 mm; on equal ones that of the smallest
@@ -121,7 +121,7 @@ def untangled_of(
     if not isinstance(camera, (Camera, type(None))):
         raise CameraError("camera", type(camera).__name__, "a Camera or None")
     view = Camera.anterior(tree) if camera is None else camera
-    spacing = volume.spacing.min() if pixel_spacing is None else pixel_spacing
+    spacing = pixel_side(volume, pixel_spacing, "untangled CPR")
     named = {
         "width": width,
         "hull_margin": hull_margin,

@@ -17,9 +17,6 @@ if TYPE_CHECKING:
 #: The names of ``lumencut.feature_aggregation.FEATURES``; copied so that ``--help`` does not import numpy.
 FEATURES = ("max", "mean", "min", "range", "share")
 
-#: Largest default pixel side (mm), as for ``lumencut cpr``.
-_COARSEST = 0.25
-
 
 @click.command(short_help="Show all around vessels, straightened (CFA).")
 @reformations.file_options
@@ -43,12 +40,7 @@ _COARSEST = 0.25
 )
 @reformations.vessel_options
 @reformations.up_option
-@click.option(
-    "--pixel-spacing",
-    type=float,
-    metavar="MM",
-    help="Side of a pixel (mm); default: the smallest side of a voxel, at most 0.25 mm.",
-)
+@reformations.pixel_spacing_option
 @reformations.smoothing_option
 @reformations.picture_options
 def cfa(beside: str | None, **given: Any) -> None:
@@ -99,11 +91,8 @@ def _made(
     from lumencut.feature_aggregation import cfa_of
     from lumencut.planar_reformation import cpr_of
 
-    spacing = chosen["pixel_spacing"]
-    if spacing is None and renderer.volume is not None:
-        spacing = min(_COARSEST, float(renderer.volume.spacing.min()))
-    how: dict[str, Any] = {"pixel_spacing": spacing, "settings": settings}
-    how |= {name: chosen[name] for name in ("up", "smoothing")}
+    how: dict[str, Any] = {name: chosen[name] for name in ("pixel_spacing", "up", "smoothing")}
+    how["settings"] = settings
     if shown == "cpr":
         return cpr_of(renderer, vessel, "straightened", width=2 * chosen["radius"], **how)
     return cfa_of(renderer, vessel, chosen["radius"], shown, level=chosen["level"], **how)  # type: ignore[arg-type]

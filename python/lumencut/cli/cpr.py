@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from lumencut._lumencut import DEFAULTS
 from lumencut.cli import options, reformations
 from lumencut.cli.dicom import study_of
 from lumencut.cli.parameters import SIZE
@@ -24,9 +25,6 @@ if TYPE_CHECKING:
 
 #: The modes of ``lumencut.cpr``; copied so that ``--help`` does not import numpy.
 MODES = ("projected", "stretched", "straightened", "tangential")
-
-#: Largest default pixel side (mm); it leaves room for labels on pictures of most vessels.
-_COARSEST = 0.25
 
 
 @click.command(short_help="Lay vessels out as images (CPR).")
@@ -76,12 +74,7 @@ _COARSEST = 0.25
     metavar="MM",
     help="Width of the image (mm); default: 25 mm on each side of the vessel.",
 )
-@click.option(
-    "--pixel-spacing",
-    type=float,
-    metavar="MM",
-    help="Side of a pixel (mm); default: the smallest side of a voxel, at most 0.25 mm.",
-)
+@reformations.pixel_spacing_option
 @reformations.smoothing_option
 @click.option(
     "--volume-out",
@@ -133,14 +126,9 @@ def _plane(
     """Return the image of one vessel, for all modes except the tangential one."""
     from lumencut.planar_reformation import cpr_of
 
-    spacing = chosen["pixel_spacing"]
-    if spacing is None and renderer.volume is not None:
-        spacing = min(_COARSEST, float(renderer.volume.spacing.min()))
-    named = {name: chosen[name] for name in ("width", "up", "smoothing", "roll")}
+    named = {name: chosen[name] for name in ("width", "pixel_spacing", "up", "smoothing", "roll")}
     angle = math.radians(chosen["angle"])
-    return cpr_of(
-        renderer, vessel, chosen["mode"], pixel_spacing=spacing, angle=angle, settings=settings, **named
-    )
+    return cpr_of(renderer, vessel, chosen["mode"], angle=angle, settings=settings, **named)
 
 
 def _write_volume(path: Path, voxels: Volume, vessel: Vessel, chosen: dict[str, Any]) -> None:
@@ -151,7 +139,7 @@ def _write_volume(path: Path, voxels: Volume, vessel: Vessel, chosen: dict[str, 
         made = straightened_volume(
             voxels,
             vessel,
-            chosen["width"] or 50.0,
+            chosen["width"] or DEFAULTS["cpr.width"],
             chosen["pixel_spacing"],
             math.radians(chosen["angle"]),
             chosen["up"],

@@ -68,12 +68,7 @@ MODES = ("wall", "radius", "thickness", "shaded")
     "of its contrast, at least 130.",
 )
 @reformations.up_option
-@click.option(
-    "--pixel-spacing",
-    type=float,
-    metavar="MM",
-    help="Side of a pixel (mm); default: half of the smallest side of a voxel, at most 0.25 mm.",
-)
+@reformations.pixel_spacing_option
 @reformations.smoothing_option
 @reformations.picture_options
 def lumen_map(**given: Any) -> None:

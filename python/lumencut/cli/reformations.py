@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from lumencut._lumencut import PIXEL_SIDE
 from lumencut.cli import options
 from lumencut.cli.dicom import check_objects, dicom_options, object_options, save_sheet
 from lumencut.cli.like import typed
@@ -46,6 +47,10 @@ smoothing_option = click.option(
     show_default=True,
     metavar="MM",
     help="Smooth the centerlines by a Gaussian with this standard deviation (mm).",
+)
+
+pixel_spacing_option = click.option(
+    "--pixel-spacing", type=float, metavar="MM", help=f"Side of a pixel (mm); default: {PIXEL_SIDE}."
 )
 
 up_option = click.option(

@@ -42,12 +42,7 @@ if TYPE_CHECKING:
     "--angle", type=float, default=0.0, show_default=True, metavar="DEGREES", help="Turn the sections."
 )
 @reformations.up_option
-@click.option(
-    "--pixel-spacing",
-    type=float,
-    metavar="MM",
-    help="Side of a pixel (mm); default: the smallest side of a voxel, at most 0.5 mm.",
-)
+@reformations.pixel_spacing_option
 @reformations.smoothing_option
 @reformations.picture_options
 def spiral(**given: Any) -> None:

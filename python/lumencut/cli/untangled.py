@@ -58,12 +58,7 @@ _UNUSED = {"size": (64, 64), "zoom": 1.0}
     metavar="MM",
     help="Smooth the directions of vessels in the view by a Gaussian with this standard deviation (mm).",
 )
-@click.option(
-    "--pixel-spacing",
-    type=float,
-    metavar="MM",
-    help="Side of a pixel (mm); default: the smallest side of a voxel.",
-)
+@reformations.pixel_spacing_option
 @click.option(
     "--root",
     type=VECTOR,
