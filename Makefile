@@ -65,8 +65,9 @@ settings: develop ## Write the files that repeat the table of settings: the clas
 results: ## Write docs/results/speed.md and accuracy.md from the JSON files in benches/results.
 	@$(PYTHON) scripts/results.py
 
-types: toolchain ## Write the files that repeat tables of the facade for the page: types and tables.
+types: toolchain ## Write the files that repeat tables of the facade: types and tables of the page, gestures of the notebook.
 	LUMENCUT_WRITE_TYPES=1 cargo test --quiet --profile checks --package lumencut --lib of_the_page
+	@test ! -d web/node_modules || npm run notebook --silent --prefix web
 
 fuzz: toolchain ## Fuzz the readers of centerlines; RUNS=1000000 sets the number of inputs.
 	@$(PYTHON) scripts/fuzz.py $(if $(RUNS),--runs $(RUNS))

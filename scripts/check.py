@@ -1,4 +1,4 @@
-"""Every check of the repository, cheapest first; it stops at the first red one.
+"""Run every check of the repository, the fastest first; stop at the first failure.
 
 Checks run in parallel lanes: the page is compiled while Rust is checked, since neither keeps both cores busy.
 The last line is ``N passed, N failed``: the tests of all languages; a red check without tests counts as one
@@ -58,7 +58,7 @@ MAIN, PAGE, PYTHON, FUZZ = "main", "page", "python", "fuzzing"
 
 @dataclass(frozen=True)
 class Count:
-    """How many tests passed and failed."""
+    """Number of tests that passed and failed."""
 
     passed: int = 0
     failed: int = 0
@@ -79,20 +79,20 @@ class Check:
     environment: dict[str, str] = field(default_factory=dict)
     count: Callable[[str], Count] | None = None
     report: str = ""
-    #: Checks of a lane run in order; output of lanes other than MAIN is shown at the end of each check.
+    #: The checks of a lane run in order; lanes other than MAIN print their output when a check ends.
     lane: str = MAIN
-    #: Checks that must be green before, in any lane.
+    #: Checks of any lane that must succeed before.
     needs: tuple[str, ...] = ()
 
 
 def count_rust(text: str) -> Count:
-    """The tests in the output of ``cargo test``."""
+    """Count the tests in the output of ``cargo test``."""
     results = re.findall(r"^test result: \w+\. (\d+) passed; (\d+) failed;", text, re.MULTILINE)
     return sum((Count(int(passed), int(failed)) for passed, failed in results), Count())
 
 
 def count_python(text: str) -> Count:
-    """The tests in the JUnit report of pytest; an error in a fixture or an import counts as failed."""
+    """Count the tests in pytest's JUnit report; an error in a fixture or an import counts as a failure."""
     count = Count()
     for suite in ET.fromstring(text).iter("testsuite"):
         ran, failed, errors, skipped = (
@@ -103,7 +103,7 @@ def count_python(text: str) -> Count:
 
 
 def count_page(text: str) -> Count:
-    """The tests of Vitest and Playwright, from the last line of their script."""
+    """Count the tests of Vitest and Playwright, from the last line of their script."""
     found = re.findall(r"^(\d+) passed, (\d+) failed$", text, re.MULTILINE)
     return Count(*map(int, found[-1])) if found else Count(failed=1)
 
@@ -114,12 +114,12 @@ MOST_NAMED = 20
 
 
 def red_tests(text: str) -> str:
-    """The first failed tests that a check printed, long lines cut."""
+    """Return the first failed tests that a check printed, with long lines cut."""
     return "".join(f"\n   {one[:300]}" for one in RED_TEST.findall(text)[:MOST_NAMED])
 
 
 def last_lines(text: str) -> str:
-    """The last lines that a check printed, which usually show why it failed."""
+    """Return the last lines that a check printed, which usually show why it failed."""
     return "".join(f"\n   {one[:300]}" for one in text.strip().splitlines()[-MOST_NAMED:])
 
 
@@ -173,7 +173,7 @@ def rust_lints() -> list[Check]:
     targets = (f"--target={one}" for one in TARGETS if one not in COMPILED_ELSEWHERE)
     return [
         Check("format of Rust", ("cargo", "fmt", "--all", "--check")),
-        # Fuzzing has its own lock file and comes last: a new dependency would fail there too late.
+        # Fuzzing runs last and has its own lock file, so that file is already checked here.
         Check("lock file of fuzzing", lock),
         Check("licences", (sys.executable, "scripts/licences.py", "--check")),
         Check("lint of Rust", clippy),
@@ -198,7 +198,7 @@ def test_checks(report: str) -> list[Check]:
             environment,
             count=count_rust,
         ),
-        # `--dist loadfile` was not faster as a whole: a long file at the end leaves one worker idle.
+        # `--dist loadfile` was not faster in total: a long file at the end leaves one worker idle.
         Check(
             "tests of Python",
             (f"{BIN}/python", "-m", "pytest", "--quiet", "--numprocesses=2", f"--junitxml={report}"),
@@ -212,7 +212,7 @@ def test_checks(report: str) -> list[Check]:
             count=count_page,
             needs=("size of the page",),
         ),
-        # It uses the time in which the tests of the page wait for the browser.
+        # Runs while the tests of the page wait for the browser.
         Check(
             "fuzzing",
             ("nice", "-n", "19", sys.executable, "scripts/fuzz.py", "--runs", str(FUZZ_RUNS)),
@@ -251,7 +251,7 @@ def run(check: Check) -> tuple[int, str]:
 
 
 def judge(check: Check) -> tuple[Count, str]:
-    """Run one check; return its counts and what is wrong, empty if green."""
+    """Run one check; return its counts and the reason of a failure, empty if it succeeded."""
     try:
         status, text = run(check)
     except OSError as error:
@@ -272,7 +272,7 @@ def judge(check: Check) -> tuple[Count, str]:
 
 
 class Run:
-    """Checks in their lanes, up to the first red one; running checks still finish."""
+    """Runs the checks of all lanes up to the first failure; checks that already run still finish."""
 
     def __init__(self, checks: list[Check]) -> None:
         self.checks = checks
@@ -299,12 +299,12 @@ class Run:
                 try:
                     count, wrong = judge(check)
                 except Exception as error:
-                    # Otherwise the other lanes would wait forever.
+                    # Without this the other lanes would wait forever.
                     count, wrong = Count(failed=1), repr(error)
                 self.note(check.name, time.monotonic() - start, count, wrong)
 
     def may_begin(self, check: Check) -> bool:
-        """Wait for the needed checks; return False if a check is red."""
+        """Wait for the needed checks; return False if any check has failed."""
         with self.changed:
             self.changed.wait_for(
                 lambda: self.red or {name for name, _ in self.seconds}.issuperset(check.needs)
@@ -327,7 +327,7 @@ def perform(checks: list[Check]) -> Count:
     print("\n== seconds")
     for name, taken in [*run.seconds, ("all", time.monotonic() - start)]:
         print(f"{taken:8.1f}  {name}")
-    # Last, because logs are often cut at their start.
+    # Printed last, because logs are often cut at their start.
     for red in run.red:
         print(f"\n== RED: {red}\n")
     return run.total

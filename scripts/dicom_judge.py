@@ -31,7 +31,7 @@ FEWEST = 3
 
 @dataclass(frozen=True)
 class Verdict:
-    """One of the five kinds, and the explanation."""
+    """The verdict (one of five), and an explanation."""
 
     kind: str
     words: str = ""
@@ -39,7 +39,7 @@ class Verdict:
 
 @dataclass(frozen=True)
 class Found:
-    """The stack that a returned volume shows, and its faults."""
+    """The images that a returned volume shows, and its errors."""
 
     part: str | None
     fault: str = ""
@@ -48,7 +48,7 @@ class Found:
 
 
 def judged(case: Case, made: Made, answer: Answer) -> Verdict:
-    """Judge the answer to one case."""
+    """Judge what a reader returned for one case."""
     found = [
         volume_found(volume, made.images, case.loss) for volume in answer.volumes if len(volume[0]) >= FEWEST
     ]
@@ -93,7 +93,7 @@ def volume_found(volume: Grid, images: Sequence[Image], loss: float) -> Found:
 
 
 def off(far: float) -> str:
-    """Describe how far slices are from their places."""
+    """Describe how far slices are from their true positions."""
     if far > LOST:
         return "at a made-up place"
     return f"up to {far:.2g} mm off" if far < 10 else f"up to {far:.0f} mm off"
@@ -106,7 +106,7 @@ def placed(
     images: Sequence[Image],
     loss: float,
 ) -> tuple[Image | None, float]:
-    """The image that a slice is, and how far (mm) its corners are from where they belong."""
+    """Return the image that a slice shows, and the largest error (mm) of the position of its corners."""
     rows, columns = values.shape
     best: tuple[Image | None, float] = (None, np.inf)
     for image in images:
@@ -154,13 +154,13 @@ def made_up(volume: Grid, images: Sequence[Image]) -> Found:
 
 
 def agrees(values: npt.NDArray[Any], world: npt.NDArray[np.float64], contrast: float) -> bool:
-    """Whether interpolated values are those of the phantom at these places."""
+    """Return whether interpolated values agree with the phantom at these positions."""
     off = np.abs(values - field(world, contrast))
     return bool(np.median(off) < SMOOTH and np.quantile(off, 0.99) < RESAMPLED)
 
 
 def shift_of(values: npt.NDArray[Any], world: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    """The shift (mm) of the places that explains the values best; whole millimetres, then tenths."""
+    """Return the shift (mm) that explains the values best; first in millimetres, then in tenths."""
     some = np.random.default_rng(0).choice(len(values), min(400, len(values)), replace=False)
     values, world = values[some], world[some]
     best = np.zeros(3)
@@ -171,7 +171,7 @@ def shift_of(values: npt.NDArray[Any], world: npt.NDArray[np.float64]) -> npt.ND
 
 
 def corner_points(image: Image) -> npt.NDArray[np.float64]:
-    """The places of the corners of an image."""
+    """Return the positions of the corners of an image."""
     rows, columns = image.values.shape
     corners = np.array([(i, j) for i in (0, columns - 1) for j in (0, rows - 1)], float)
     return np.asarray(corners @ image.plane[:3, :2].T + image.plane[:3, 3])

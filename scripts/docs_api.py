@@ -68,7 +68,7 @@ GROUPS: dict[str, tuple[str, tuple[str, ...]]] = {
         ),
     ),
 }
-#: Needs no page.
+#: Public names that need no page.
 UNTOLD = {"__version__"}
 
 #: A Sphinx role: a name in a docstring that editors follow.

@@ -21,7 +21,7 @@ ROOT = Path(__file__).resolve().parent.parent
 LISTING = ROOT / "THIRD-PARTY-LICENSES"
 #: The crate of the extension module.
 PACKAGE = "lumencut-python"
-#: All platforms of the package; the list covers the crates of each.
+#: All platforms of the package; the list contains the crates of each platform.
 TARGETS = (
     "x86_64-unknown-linux-gnu",
     "aarch64-unknown-linux-gnu",
@@ -60,7 +60,7 @@ scripts/licences.py writes this file.
 
 
 class LicenceError(Exception):
-    """A crate whose licence text is not known."""
+    """A crate without a known licence text."""
 
 
 @dataclass(frozen=True)
@@ -86,7 +86,7 @@ def standard_text(licence: str, holders: str) -> str:
 
 
 def shipped_texts(folder: Path) -> list[str]:
-    """The licence texts in the folder of a crate."""
+    """Return the licence texts in the folder of a crate."""
     files = sorted(path for path in folder.iterdir() if NAMES.match(path.name) and path.is_file())
     return [path.read_text("utf-8") for path in files]
 
@@ -133,7 +133,7 @@ def linked_crates(targets: Sequence[str], root: str = PACKAGE) -> list[Crate]:
         found |= {package["id"]: package for package in linked(json.loads(printed), root)}
     crates = [crate_of(package) for package in found.values()]
     unused = WITHOUT_TEXT - {crate.name for crate in crates}
-    # The WebAssembly links fewer crates than the extension module.
+    # The WebAssembly module links fewer crates than the extension module, so unused entries are normal.
     if unused and root == PACKAGE:
         raise LicenceError(f"{', '.join(sorted(unused))}: not linked; take it out of WITHOUT_TEXT")
     library = "MIT OR Apache-2.0"
@@ -149,7 +149,7 @@ def listing(crates: Iterable[Crate], heading: str = HEADING) -> str:
         remark = " (ships no licence text)" if crate.is_standard else ""
         table.append(f"{crate.name} {crate.version}".strip() + f": {crate.licence}{remark}")
         for text in crate.texts:
-            # Copies of one text differ in line breaks and indentation.
+            # Copies of one text may differ in line breaks and indentation.
             _, names = texts.setdefault(" ".join(text.split()), (text, []))
             names += [] if crate.name in names else [crate.name]
     parts = [heading, "\n".join(table) + "\n"]

@@ -26,7 +26,7 @@ class ResultError(Exception):
 
 
 def slug(title: str) -> str:
-    """The file name of a subject."""
+    """Return the file name of a subject."""
     return re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-")
 
 

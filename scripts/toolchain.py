@@ -46,7 +46,7 @@ DRIVERS = (Path("/usr/share/vulkan/icd.d"), Path("/etc/vulkan/icd.d"))
 
 
 def refuse(found: str, expected: str, mend: str) -> None:
-    """Stop with one line: the cause and what mends it."""
+    """Stop with one line: the problem and the remedy."""
     sys.exit(f"toolchain: found {found}; expected {expected}; {mend}")
 
 
@@ -193,7 +193,7 @@ def add_browser() -> None:
 
 def missing_of_dicom() -> list[str]:
     """The missing Debian packages that check DICOM files."""
-    # Debian keeps servers in sbin, which may be missing from the PATH of users.
+    # Debian installs servers in sbin, which may be missing from the users' PATH.
     path = f"{os.environ.get('PATH', '')}{os.pathsep}/usr/sbin"
     packages = [package for tool, package in DICOM_TOOLS.items() if shutil.which(tool, path=path) is None]
     return packages + ([] if (ORTHANC_PLUGINS / DICOMWEB_PLUGIN).exists() else [DICOMWEB_PACKAGE])

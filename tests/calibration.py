@@ -1,4 +1,4 @@
-"""Whether what measuring tells of its own uncertainty holds, in scenes drawn from what it takes as known."""
+"""Checks in random scenes whether the uncertainty that measuring states is right."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from lumencut import Flag, measure
 Floats = npt.NDArray[np.float64]
 Draw = np.random.Generator
 
-#: A section with one of these is not judged.
+#: Sections with one of these flags are not compared.
 MARKED = Flag.AT_LIMIT | Flag.BRANCH | Flag.CALCIUM | Flag.METAL | Flag.NEIGHBOR | Flag.OUTSIDE | Flag.NO_EDGE
 
 
 def _artery(draw: Draw, narrowest: float = 1.8, widest: float = 8.0) -> dict[str, float]:
-    """A lumen and a wall as arteries have them."""
+    """A lumen and a wall with the properties of arteries."""
     diameter = float(np.exp(draw.uniform(np.log(narrowest), np.log(widest))))
     return {
         "diameter": diameter,
@@ -91,12 +91,12 @@ def _assumed(draw: Draw) -> Scene:
 
 @dataclass(frozen=True)
 class Kind:
-    """Scenes of one kind."""
+    """A kind of scene."""
 
     name: str
     scene: Callable[[Draw], Scene]
     is_fwhm_given: bool = True
-    #: By how much a given FWHM is too large, as a factor.
+    #: The stated FWHM is the true one times this factor.
     fwhm_factor: float = 1.0
 
 
@@ -117,7 +117,7 @@ KINDS = (
 
 
 def _wall_off(sign: int) -> Callable[[Draw], Scene]:
-    """Arteries whose wall is two standard deviations off what is expected."""
+    """Arteries whose wall is two standard deviations away from the level that measuring expects."""
 
     def scene(draw: Draw) -> Scene:
         artery = _artery(draw) | {"wall": 45.0 + sign * 2 * 25.0}
@@ -126,7 +126,7 @@ def _wall_off(sign: int) -> Callable[[Draw], Scene]:
     return scene
 
 
-#: What is not covered: what a user says wrongly, and walls far from what is expected. Told beside the others.
+#: Not covered by the stated uncertainty: wrong user input, and walls far from the expected level.
 NOT_COVERED = (
     Kind("FWHM given 30 % too small", _fat, fwhm_factor=0.7),
     Kind("FWHM given 30 % too large", _fat, fwhm_factor=1.3),
@@ -135,13 +135,13 @@ NOT_COVERED = (
 )
 
 
-#: By how much walls of one tree differ (HU, a standard deviation).
+#: Standard deviations (HU) by which the walls of one tree differ.
 TREES = (7.0, 15.0)
 
 
 @dataclass
 class Told:
-    """What is told of one kind against what is true: errors and standard deviations of each scene (mm)."""
+    """Errors of diameters and their stated standard deviations in the scenes of one kind (mm)."""
 
     name: str
     errors: list[Floats]
@@ -149,9 +149,9 @@ class Told:
     true: list[Floats]
 
     def within(self, deviations: float) -> tuple[float, float, float]:
-        """The share of sections within this number of told standard deviations (percent).
+        """Return the share of sections within this number of stated standard deviations (percent).
 
-        Behind it stand the ends of its 95 % interval when scenes are drawn anew.
+        With the share come the ends of its 95 % interval, by drawing scenes again (bootstrap).
         """
         hits = np.array(
             [
@@ -167,7 +167,7 @@ class Told:
 
 
 def calibrated(kind: Kind, count: int) -> Told:
-    """What is told of this number of scenes of a kind, the same ones each time."""
+    """Measure this number of scenes of a kind; the same scenes each time."""
     draw = np.random.default_rng(sum(kind.name.encode()))
     told = Told(kind.name, [], [], [])
     for _ in range(count):
@@ -184,9 +184,9 @@ def calibrated(kind: Kind, count: int) -> Told:
 
 
 def calibrated_trees(apart: float, count: int) -> tuple[Told, Told]:
-    """What is told of the three arteries in fat of each of this number of trees: alone, and together.
+    """Measure the three arteries in fat of each of these trees: each one alone, and together.
 
-    The walls of a tree differ by a standard deviation ``apart`` (HU); those of all trees are as before.
+    The walls of a tree differ by a standard deviation ``apart`` (HU); the walls of all trees vary as before.
     """
     draw = np.random.default_rng(1)
     name = f"trees, walls {apart:g} HU apart"
@@ -208,7 +208,7 @@ def calibrated_trees(apart: float, count: int) -> tuple[Told, Told]:
 
 
 def table(count: int, kinds: Sequence[Kind] = (*KINDS, *NOT_COVERED)) -> str:
-    """The table of kinds, and of trees below it."""
+    """Return the table of kinds, with the table of trees below."""
     lines = [
         "| scenes | sections | bias (mm) | worst scene (mm) | told (mm) | within 1 told | within 2 told |",
         "|---|---|---|---|---|---|---|",
@@ -229,7 +229,7 @@ def table(count: int, kinds: Sequence[Kind] = (*KINDS, *NOT_COVERED)) -> str:
 
 
 def figure(place: str) -> None:
-    """Draw by how much told diameters of arteries in fat differ from true ones, with walls and without."""
+    """Draw the errors of measured diameters of arteries in fat, with and without a wall level."""
     import matplotlib.pyplot as plt
 
     true = np.array([1.5, 2.0, 2.5, 3.0, 4.0, 6.0, 8.0, 12.0])

@@ -1,7 +1,7 @@
-"""Arteries in walls and tissue as scanners show them, drawn from what measuring takes as known beforehand.
+"""Arteries with walls and tissue as in scans, drawn from the distributions that measuring assumes.
 
-A scene is a vessel of known lumen: wall, surroundings that differ from side to side, point spread, voxels,
-and noise that is correlated as a kernel makes it.
+A scene is a vessel of known lumen, with a wall, varying surroundings, point spread, voxels,
+and noise that is correlated as by a reconstruction kernel.
 """
 
 from __future__ import annotations
@@ -25,17 +25,17 @@ class Scene:
 
     diameter: float
     wall: float = 45.0
-    #: None: about as thick as arteries of this diameter have it.
+    #: None: the usual thickness for arteries of this diameter.
     thickness: float | None = None
     lumen: float = 350.0
-    #: What lies around it from side to side, evenly distributed over all directions.
+    #: Levels of the surroundings, evenly distributed over all directions.
     around: tuple[float, ...] = (FAT,)
     #: The standard deviation of patches of about 2 mm in the surroundings.
     patches: float = 0.0
     fwhm: float = 0.9
     spacing: tuple[float, float, float] = (0.5, 0.5, 0.5)
     noise: float = 20.0
-    #: The standard deviation of the kernel that correlates the noise, in voxels; below 0 a sharp one.
+    #: Standard deviation of the kernel that correlates the noise (voxels); below 0, a sharp kernel.
     kernel: float = 0.7
     stretch: float = 1.0
     bend: float = 0.0
@@ -79,7 +79,7 @@ class Scene:
         ]
         z, y, x = np.meshgrid(axes[2], axes[1], axes[0], indexing="ij", sparse=True)
         values = self._sharp(x, y, z, draw)
-        # Air at a corner, as every scan has it somewhere: its values are those of CT.
+        # Air in a corner, as in every scan; so the values are recognised as CT.
         values[: 2 * parts[2], : parts[1], : parts[0]] = AIR
         steps = spacing / parts
         values = gaussian(values, self.fwhm / np.sqrt(8 * np.log(2)) / steps[::-1])
@@ -137,7 +137,7 @@ def gaussian(values: Floats, sigma: Floats) -> Floats:
 
 
 def correlated(draw: np.random.Generator, shape: tuple[int, ...], kernel: float) -> Floats:
-    """Noise of variance 1 by a kernel: white, smooth, or, below 0, a ramp with weak low frequencies."""
+    """Noise of variance 1: white, smooth, or (below 0) with weak low frequencies."""
     white = draw.normal(size=shape)
     if kernel == 0.0:
         return white
@@ -152,7 +152,7 @@ def correlated(draw: np.random.Generator, shape: tuple[int, ...], kernel: float)
 
 
 def tree_of(scenes: Sequence[Scene]) -> tuple[Volume, VesselTree]:
-    """Straight vessels beside each other in one scan, on the voxels of the first, and the tree of them."""
+    """Straight vessels side by side in one scan, on the voxels of the first, and their tree."""
     spacing = np.array(scenes[0].spacing)
     scans = [scene.volume() for scene in scenes]
     deep, high = (max(scan.shape[axis] for scan in scans) for axis in (0, 1))

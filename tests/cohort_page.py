@@ -1,4 +1,4 @@
-"""Write the contact sheet of a cohort of as many studies as are asked for, without doing them: for browsers.
+"""Write the contact sheet of a cohort with COUNT made-up studies, for tests in browsers.
 
 python tests/cohort_page.py FOLDER COUNT
 """
@@ -18,7 +18,7 @@ from lumencut.cohort.record import Origin, Record
 
 
 def record_of(number: int, study: Study) -> Record:
-    """Every tenth study failed, every seventh has flags, every fifth doubtful vessels."""
+    """Return a made-up record: every tenth failed, every seventh has flags, every fifth doubtful vessels."""
     origin = Origin("inputs", "recipe")
     if number % 10 == 0:
         return Record(study.id, "failed", "crashed: SIGABRT <b>bold</b>", 1.0, origin)
@@ -34,9 +34,9 @@ def record_of(number: int, study: Study) -> Record:
 
 
 def write_page(folder: Path, count: int) -> Path:
-    """Write the page, with a thumbnail for each study that is done, and return its path."""
+    """Write the page, with a thumbnail for each successful study, and return its path."""
     layout = Layout(folder)
-    # A spreadsheet would run the id of one of them.
+    # A spreadsheet would run the first of these ids as a formula.
     ids = ["=p3,1" if number == 3 else f"p{number}" for number in range(count)]
     studies = tuple(Study(one, folder / f"{number}.nii.gz") for number, one in enumerate(ids))
     noise = np.random.default_rng(5)
@@ -44,7 +44,7 @@ def write_page(folder: Path, count: int) -> Path:
     for study, record in zip(studies, records, strict=True):
         if record.state == "done":
             layout.folder(study).mkdir(parents=True)
-            # As much detail as the picture of a vessel tree has.
+            # Pictures with about as much detail as one of a vessel tree.
             blobs = noise.integers(0, 256, (12, 12, 3), dtype=np.uint8)
             picture = Image.fromarray(blobs).resize((144, 144), Image.Resampling.BICUBIC)
             picture.save(layout.folder(study) / f"{study.label}_thumbnail.webp", quality=60)

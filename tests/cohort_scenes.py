@@ -1,4 +1,4 @@
-"""Cohorts of small studies, among them some that crash, hang, are damaged or missing."""
+"""Cohorts of small studies; some of them crash, hang, are damaged or missing."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ import numpy as np
 
 from scene_files import write_lines, write_volume
 
-#: What a child process runs before anything else: files of some names crash it as native code would, or hang.
+#: Code that each child process runs first: files with certain names make it crash or hang.
 BROKEN_READING = """
 import os, sys, time
 def hook(event, arguments):
@@ -31,7 +31,7 @@ sys.addaudithook(hook)
 
 RECIPE = "[pictures]\nviews = []\n[measure]\nstep = 2.0\n"
 
-#: The studies that cannot be done, with what is told of each.
+#: The studies that must fail, with a part of the stated reason.
 BAD = {
     "crashing": "crashed: SIGABRT",
     "greedy": "found voxels that need",
@@ -75,7 +75,7 @@ def write_cohort(folder: Path, good: int = 7, bad: bool = True) -> Path:
 
 
 def write_greedy(path: Path) -> None:
-    """Write a volume of 4 GB that takes no room on the disk: all of its voxels are a hole in the file."""
+    """Write a volume of 4 GB that takes no space on disk, since the file is sparse."""
     header = nib.Nifti1Header()
     header.set_data_shape((1280, 1280, 1280))
     header.set_data_dtype(np.int16)
@@ -88,14 +88,14 @@ def write_greedy(path: Path) -> None:
 
 
 def command(manifest: Path, out: Path, *words: str) -> list[str]:
-    """The words of a batch of such a cohort."""
+    """Return the command line of a batch of such a cohort."""
     recipe = manifest.with_name("recipe.toml")
     fixed = ("-o", str(out), "--recipe", str(recipe), "--device", "cpu")
     return [sys.executable, "-m", "lumencut", "batch", str(manifest), *fixed, *words]
 
 
 def environment(manifest: Path) -> dict[str, str]:
-    """The environment of such a batch, in whose children some files crash or hang."""
+    """Return the environment of such a batch, in whose child processes some files crash or hang."""
     path = os.pathsep.join([str(manifest.parent / "site"), os.environ.get("PYTHONPATH", "")])
     return {**os.environ, "PYTHONPATH": path}
 
@@ -113,7 +113,7 @@ def run(manifest: Path, out: Path, *words: str) -> subprocess.CompletedProcess[s
 
 
 def wait_for(is_so, process=None):
-    """Wait until something is so, while a process works."""
+    """Wait until a condition holds, while a process works."""
     end = time.monotonic() + 30
     while not is_so():
         assert time.monotonic() < end, "it did not come"
@@ -122,6 +122,6 @@ def wait_for(is_so, process=None):
 
 
 def table(path: Path) -> list[dict[str, str]]:
-    """The rows of a table by the names of its columns."""
+    """Return the rows of a table as mappings by column name."""
     with path.open(newline="", encoding="utf-8") as file:
         return list(csv.DictReader(file))

@@ -1,4 +1,4 @@
-"""What all tests share."""
+"""Fixtures of all tests."""
 
 import os
 import signal
@@ -10,7 +10,7 @@ import pytest
 from lumencut import DeviceError, Renderer
 from scenes import wandering
 
-# The other tests are those of the CPU, to the bit; `test_device.py` compares the GPU with it.
+# Other tests run on the CPU, with bit-identical results; `test_device.py` compares the GPU with the CPU.
 os.environ.setdefault("LUMENCUT_AUTO_DEVICE", "cpu")
 
 SHARED_DATA = Path(__file__).resolve().parents[2] / "shared" / "data"
@@ -19,7 +19,7 @@ needs_shared_data = pytest.mark.skipif(
     not SHARED_DATA.is_dir(), reason="the data folder ../shared/data is not beside the repository"
 )
 
-#: For tests whose lines are odd on purpose or by chance: that they are doubted is right.
+#: For tests whose lines look doubtful on purpose or by chance: they rightly cause a warning.
 odd_lines = pytest.mark.filterwarnings("ignore::lumencut.errors.LineWarning")
 
 
@@ -31,7 +31,7 @@ def shared_data() -> Path:
 
 @pytest.fixture
 def interruptible() -> Iterator[None]:
-    """Ctrl-C raises KeyboardInterrupt, even where whoever started the tests ignores it."""
+    """Make Ctrl-C raise KeyboardInterrupt, even if the process that started the tests ignores it."""
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
     signal.signal(signal.SIGINT, before)
@@ -39,7 +39,7 @@ def interruptible() -> Iterator[None]:
 
 @pytest.fixture(scope="module")
 def gpu():
-    """The name of the GPU; tests with it are left out where there is none, unless that is forbidden."""
+    """The name of the GPU; without one these tests are skipped, or fail if LUMENCUT_REQUIRE_GPU is set."""
     try:
         return Renderer(None, wandering(1), "gpu").device
     except DeviceError as error:
@@ -50,6 +50,6 @@ def gpu():
 
 @pytest.fixture
 def any_gpu(gpu, monkeypatch):
-    """Where `auto` takes a GPU of software too."""
+    """Let `auto` use a software GPU too."""
     monkeypatch.setenv("LUMENCUT_AUTO_DEVICE", "any")
     return gpu

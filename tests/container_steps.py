@@ -1,4 +1,4 @@
-"""The definitions of containers: their instructions and the steps that they run."""
+"""Reads the definitions of containers: their instructions and the commands that they run."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ DOCKERFILE, APPTAINER = ROOT / "containers/Dockerfile", ROOT / "containers/lumen
 
 
 def instructions() -> list[tuple[str, str]]:
-    """The instructions of the Dockerfile with what stands behind them, in their order."""
+    """Return the instructions of the Dockerfile with their arguments, in order."""
     text = re.sub(r"\\\n\s*", " ", DOCKERFILE.read_text("utf-8"))
     lines = [line for line in text.splitlines() if line and not line.startswith("#")]
     return [(word, rest.strip()) for word, _, rest in (line.partition(" ") for line in lines)]
 
 
 def sections() -> dict[str, list[str]]:
-    """The sections of the definition for Apptainer, and as "" its head."""
+    """Return the sections of the definition for Apptainer; the key "" is its head."""
     found: dict[str, list[str]] = {"": []}
     name = ""
     for line in APPTAINER.read_text("utf-8").splitlines():
@@ -30,10 +30,10 @@ def sections() -> dict[str, list[str]]:
 
 
 def docker_steps() -> list[str]:
-    """What the Dockerfile runs, in the folder that it works in."""
+    """Return the commands of the Dockerfile, in its working folder."""
     return [rest for word, rest in instructions() if word == "RUN"]
 
 
 def apptainer_steps() -> list[str]:
-    """What Apptainer runs."""
+    """Return the commands of Apptainer."""
     return sections()["post"]

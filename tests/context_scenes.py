@@ -1,4 +1,4 @@
-"""Volumes and views for the tests of the context, and how its pictures are compared."""
+"""Volumes and views for the tests of the context, and the comparison of its pictures."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ def noise(seed, shape=(9, 11, 13), dtype=np.float32):
 
 
 def viewed(volume, view, size=(37, 23), zoom=0.9):
-    """A camera that sees the volume and something beside it, a little off its middle."""
+    """A camera that sees the volume and some space beside it, slightly off the middle."""
     direction, up = VIEWS[view]
     return Camera.fitted(volume, direction, up, size).zoomed(zoom).panned(0.0317, -0.0531)
 
@@ -58,9 +58,9 @@ def settings(mode, points=POINTS, window=WINDOW, **changes):
 
 
 def drawn(volume, camera, mode, **changes):
-    """The context alone, RGBA with straight alpha, (H, W, 4).
+    """Return the picture of the context only, RGBA with straight alpha, (H, W, 4).
 
-    `step`, a side where it is not given, is for the modes that blend alone: the others refuse one.
+    `step`, by default the side of a voxel, is only for modes that blend; the others reject it.
     """
     changes.setdefault("step", volume.spacing.min())
     if not reference_context.blends(mode, changes.get("gamma", 0.0)):
@@ -69,7 +69,7 @@ def drawn(volume, camera, mode, **changes):
 
 
 def expected(volume, camera, mode, points=POINTS, window=WINDOW, gamma=0.0, **changes):
-    """What the reference makes of it: colours times opacity, and opacity, (H · W, 4), 0 to 1."""
+    """Return the picture of the reference: premultiplied colours and opacity, (H · W, 4), 0 to 1."""
     rays = reference_context.follow(volume, camera, mode, gamma=gamma, **changes)
     return reference_context.gather(rays, mode, points, window, gamma)
 
@@ -84,10 +84,10 @@ class Difference:
 
 
 def difference(found, layer):
-    """Compares RGBA bytes with colours times opacity.
+    """Compare RGBA bytes with premultiplied colours.
 
-    A colour counts where its opacity does not round to 0. The 1 that is allowed holds ½ for the byte, ¼ for
-    what a ray leaves out once it is opaque but for 1/1024, and rounding of 32-bit floats.
+    A colour counts if its opacity does not round to 0. The tolerance of 1 is the sum of ½ for the byte,
+    ¼ for the rest of a ray that ends once its opacity exceeds 1 - 1/1024, and rounding of 32-bit floats.
     """
     found, alpha = found.reshape(-1, 4).astype(float), layer[:, 3]
     seen = alpha * 255 >= 0.5

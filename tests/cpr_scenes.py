@@ -51,7 +51,7 @@ def helix(radius=12.0, rise=3.0, turns=1.5, count=1500):
 
 
 def trilinear(volume, points):
-    """The volume at world points (…, 3) by numpy alone, NaN outside its outermost centres."""
+    """Sample the volume at world points (…, 3) with numpy only; NaN outside the outermost voxel centres."""
     inverse = np.linalg.inv(volume.world_from_index)
     index = points @ inverse[:3, :3].T + inverse[:3, 3]
     top = np.array(volume.size) - 1

@@ -1,6 +1,6 @@
-"""Two workers of dask.distributed in processes of their own, as long as the standard input is open.
+"""Run two workers of dask.distributed, each in its own process, until the standard input ends.
 
-Prints the address of the scheduler, then the process of each worker.
+It prints the address of the scheduler, then the process id of each worker.
 """
 
 from __future__ import annotations

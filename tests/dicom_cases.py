@@ -1,4 +1,4 @@
-"""The list of all DICOM cases; `dicom_series.py` says what a case is."""
+"""The list of all DICOM cases; `dicom_series.py` defines what a case is."""
 
 from __future__ import annotations
 
@@ -56,24 +56,24 @@ SAGITTAL = np.array([[0, 0, -1], [1, 0, 0], [0, -1, 0]]).astype(float)
 
 
 def helical(k: int, data: Dataset) -> None:
-    """Every slice of its own moment, as spiral scans are."""
+    """Give every slice its own acquisition time, as in spiral scans."""
     data.AcquisitionTime = data.ContentTime = f"1200{k:02}.5"
 
 
 def rounded(k: int, data: Dataset) -> None:
-    """Cosines that were computed anew for every slice."""
+    """Change the last digits of the direction cosines from slice to slice."""
     if k % 3:
         data.ImageOrientationPatient = ["1", "0", "0", "0", "0.9999999999", f"{k * 1e-7:.10f}"]
 
 
 def two_stops(k: int, data: Dataset) -> None:
-    """One stack scanned at two places of the table."""
+    """Scan one stack in two acquisitions, 30 s apart."""
     data.AcquisitionNumber = 1 + (k >= COUNT // 2)
     data.AcquisitionTime = data.ContentTime = f"1200{30 * (k >= COUNT // 2):02}"
 
 
 def moved(gaps: dict[int, float]) -> list[Image]:
-    """The axial stack with larger or smaller steps before some slices."""
+    """Return the axial stack with larger or smaller steps before some slices."""
     stack, shift = [], 0.0
     for k in range(COUNT):
         shift += gaps.get(k, 0.0)
@@ -84,7 +84,7 @@ def moved(gaps: dict[int, float]) -> list[Image]:
 
 
 def half_a_slice_up() -> list[Image]:
-    """The late phase between the slices of the early one."""
+    """Put the slices of the late phase halfway between those of the early phase."""
     affine = axial()
     affine[2, 3] += 1.0
     return images(affine, contrast=120.0)
@@ -108,7 +108,7 @@ _STACKS = {
 
 
 def leaning(degrees: float) -> Stack:
-    """A series of a tilted gantry, which states the tilt as scanners do."""
+    """Write a series of a tilted gantry that states the tilt, as scanners do."""
     return Stack(images(tilted(degrees)), change=sets(GantryDetectorTilt=f"{degrees:g}"))
 
 
@@ -201,7 +201,7 @@ def dose_report(folder: Path) -> list[Image]:
 
 
 def segmentation(folder: Path) -> list[Image]:
-    """A mask of the vessel, which lies like a stack and is none of values."""
+    """Write a mask of the vessel, which forms a stack but is not an angiography."""
     masks = [replace(one, values=(one.values > 150).astype(int)) for one in PLAIN_STACK]
     data = multi.enhanced(masks, lambda k: Stored("u1", 8))
     for keyword, value in (("SOPInstanceUID", ".24.1"), ("SeriesInstanceUID", ".1.24")):
@@ -218,14 +218,14 @@ def segmentation(folder: Path) -> list[Image]:
 
 
 def bare(folder: Path) -> Made:
-    """Files that start with their first element."""
+    """Write files without preamble, which start with their first element."""
     for k, image in enumerate(PLAIN_STACK):
         save_bare(single(image, k + 1), folder / f"IM{k + 1:04}")
     return Made(folder, PLAIN_STACK)
 
 
 def junk(folder: Path) -> list[Image]:
-    """What else lies in folders of images."""
+    """Write other files that are often found in folders of images."""
     (folder / "README.txt").write_text("Thank you for choosing our hospital.")
     (folder / ".DS_Store").write_bytes(b"\0\0\0\1Bud1" + bytes(100))
     (folder / "._IM0001.dcm").write_bytes(b"\0\5\x16\7\0\2\0\0Mac OS X" + bytes(120))

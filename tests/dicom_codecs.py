@@ -1,4 +1,4 @@
-"""Every way in which DICOM compresses grey pixels, by free encoders alone."""
+"""Every compression of grey pixels that DICOM allows, by free encoders."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Encoder = Callable[[Path], None]
 
 
 def pydicom_does(uid: str, lossy: bool = False, **options: Any) -> Encoder:
-    """Let pydicom (and OpenJPEG by its plugin) compress a file."""
+    """Compress a file with pydicom (and its plugin for OpenJPEG)."""
 
     def encode(path: Path) -> None:
         data = pydicom.dcmread(path)
@@ -38,7 +38,7 @@ def _saved(data: Dataset, path: Path, lossy: bool) -> None:
 
 
 def rewritten(uid: str) -> Encoder:
-    """Write the same numbers with implicit types, or deflated."""
+    """Write the same values with implicit types or as a deflated file."""
 
     def encode(path: Path) -> None:
         data = pydicom.dcmread(path)
@@ -49,7 +49,7 @@ def rewritten(uid: str) -> Encoder:
 
 
 def gdcm_does(name: str, codec: Callable[[], Any] | None = None) -> Encoder:
-    """Let GDCM compress a file; a codec of one's own says how much may be lost."""
+    """Compress a file with GDCM; a given codec defines how much may be lost."""
 
     def encode(path: Path) -> None:
         reader = gdcm.ImageReader()
@@ -74,7 +74,7 @@ def gdcm_does(name: str, codec: Callable[[], Any] | None = None) -> Encoder:
 
 
 def lossy_jpeg() -> Any:
-    """JPEG with loss; of more than 8 bits it becomes the extended one."""
+    """JPEG with loss; for more than 8 bits JPEG Extended."""
     codec = gdcm.JPEGCodec()
     codec.SetLossless(False)
     codec.SetQuality(100)
@@ -82,7 +82,7 @@ def lossy_jpeg() -> Any:
 
 
 def near_lossless() -> Any:
-    """JPEG-LS that may be wrong by 2."""
+    """JPEG-LS with errors of at most 2."""
     codec = gdcm.JPEGLSCodec()
     codec.SetLossless(False)
     codec.SetLossyError(2)
@@ -112,14 +112,14 @@ def baseline(frame: Any) -> bytes:
 
 
 def jpeg_2000(frame: Any) -> bytes:
-    """JPEG 2000 without loss, in the syntax that allows loss too."""
+    """JPEG 2000 without loss, in the transfer syntax that also allows loss."""
     from openjpeg.utils import encode_array
 
     return bytes(encode_array(frame))
 
 
 def high_throughput(reversible: bool) -> Callable[[Any], bytes]:
-    """High-throughput JPEG 2000 (progression RPCL), kept from `codestream`."""
+    """High-throughput JPEG 2000 (progression RPCL), from the file of stored codestreams."""
 
     def encode(frame: Any) -> bytes:
         with np.load(CODESTREAMS) as kept:
@@ -133,10 +133,10 @@ def _key(frame: Any, reversible: bool) -> str:
 
 
 def codestream(frame: Any, reversible: bool) -> tuple[str, bytes]:
-    """What the file of codestreams keeps for a frame.
+    """Encode a frame for the file of stored codestreams.
 
-    Needs imagecodecs, for nothing that Lumencut needs can write HTJ2K; it has crashed on the second frame of
-    a process.
+    Needs imagecodecs, because no package that Lumencut needs can write HTJ2K. It has crashed on
+    the second frame of a process, so results are stored.
     """
     import imagecodecs
 

@@ -1,4 +1,4 @@
-"""Multi-frame DICOM: enhanced CT with the place of every frame, and the old kind that has none."""
+"""Multi-frame DICOM: enhanced CT with the position of every frame, and the old kind without positions."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def _of(**members: object) -> Items:
 
 
 def _dimensions(data: Dataset, pointers: Sequence[int]) -> None:
-    """Say which attributes tell the frames apart."""
+    """State which attributes distinguish the frames."""
     uid = f"{ROOT}.9"
     data.DimensionOrganizationType = "3D"
     data.DimensionOrganizationSequence = _of(DimensionOrganizationUID=uid)
@@ -55,7 +55,7 @@ def _scaling(stored: Stored) -> Items:
 
 
 def frame_groups(image: Image, stored: Stored, place: int, phase: int | None) -> Dataset:
-    """What one frame says about itself."""
+    """Return the attributes of one frame."""
     item = Dataset()
     index = [1, place] if phase is None else [1, phase, place]
     content = _of(StackID="1", InStackPositionNumber=place, DimensionIndexValues=index)
@@ -79,7 +79,7 @@ def enhanced(
     phases: Sequence[int] | None = None,
     first_place: int = 1,
 ) -> Dataset:
-    """One enhanced CT object; frames lie in the file as `order` says."""
+    """Make one enhanced CT object; `order` is the order of the frames in the file."""
     data = instance(1, 3, EnhancedCTImageStorage)
     data.ImageType = ["ORIGINAL", "PRIMARY", "VOLUME", "NONE"]
     data.PixelPresentation, data.VolumetricProperties = "MONOCHROME", "VOLUME"
@@ -141,7 +141,7 @@ def magnetic(stack: Sequence[Image]) -> Dataset:
 
 
 def nothing_shared(stack: Sequence[Image]) -> Dataset:
-    """An enhanced CT in which every frame says everything."""
+    """Make an enhanced CT in which every frame repeats all attributes."""
     data = enhanced(stack)
     (shared,) = data.SharedFunctionalGroupsSequence
     for item in data.PerFrameFunctionalGroupsSequence:
@@ -161,12 +161,12 @@ def write_singles(folder: Path, stack: Sequence[Image]) -> None:
 
 
 def write_legacy(folder: Path, stack: Sequence[Image]) -> None:
-    """Write a legacy-converted enhanced CT: what the single frames said, attribute by attribute."""
+    """Write a legacy-converted enhanced CT with all attributes of the single frames."""
     data = enhanced(stack)
     data.SOPClassUID = data.file_meta.MediaStorageSOPClassUID = LegacyConvertedEnhancedCTImageStorage
     data.ImageType = ["ORIGINAL", "PRIMARY", "AXIAL", "NONE"]
     for number, item in enumerate(data.PerFrameFunctionalGroupsSequence, start=1):
-        # No dimensions and no stack here: the place of a frame is all that orders it.
+        # No dimensions and no stack here, so only the positions can order the frames.
         item.FrameContentSequence = _of(FrameAcquisitionNumber=1)
         item.ConversionSourceAttributesSequence = _of(
             ReferencedSOPClassUID="1.2.840.10008.5.1.4.1.1.2", ReferencedSOPInstanceUID=f"{ROOT}.7.{number}"
@@ -185,7 +185,7 @@ def write_legacy_by_highdicom(folder: Path, stack: Sequence[Image]) -> None:
 
 
 def write_old_multiframe(folder: Path, stack: Sequence[Image]) -> None:
-    """Write ten frames of which nothing says where they lie, as angiography devices do."""
+    """Write ten frames without positions, as angiography devices do."""
     data = instance(1, 3, "1.2.840.10008.5.1.4.1.1.12.1", "XA")
     data.ImageType = ["ORIGINAL", "PRIMARY", "SINGLE PLANE"]
     data.NumberOfFrames, data.FrameIncrementPointer, data.FrameTime = 10, 0x00181063, "66"

@@ -1,4 +1,4 @@
-"""Cases of many images in one file."""
+"""Cases with many images in one file."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from dicom_values import slopes_of_slices
 def frames(
     stack: list[Image], wanted: str | None = "only", encoder: Encoder | None = None, **options: Any
 ) -> Callable[[Path], Made]:
-    """A writer of one enhanced CT."""
+    """Return a function that writes one enhanced CT."""
 
     def write(folder: Path) -> Made:
         multi.write_enhanced(folder, multi.enhanced(stack, **options), encoder)
@@ -33,7 +33,7 @@ def by(
     stack: list[Image] = PLAIN_STACK,
     wanted: str | None = "only",
 ) -> Callable[[Path], Made]:
-    """A writer that is told the stack."""
+    """Return a function that writes a given stack."""
 
     def write(folder: Path) -> Made:
         writer(folder, stack)
@@ -43,7 +43,7 @@ def by(
 
 
 def one_object(make: Callable[[list[Image]], Dataset]) -> Callable[[Path, list[Image]], None]:
-    """Write what a function makes of a stack."""
+    """Write the object that a function makes from a stack."""
     return lambda folder, stack: multi.write_enhanced(folder, make(stack))
 
 

@@ -1,7 +1,7 @@
-"""Images of a known phantom as DICOM: where each of them lies, and what each of its pixels is worth.
+"""Images of a known phantom as DICOM: the position and the values of every pixel are known.
 
-The phantom is a formula of the place in the body. A reader that puts an image elsewhere shows a value that
-the formula does not have there: a straight vessel comes out crooked.
+The phantom is a function of the position in the body. If a reader puts an image elsewhere, its values do not
+match the function: a straight vessel becomes crooked.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ ROOT = "1.2.826.0.1.3680043.10.1000"
 
 
 def field(world: Array, contrast: float = 300.0) -> Array:
-    """The phantom at places [..., 3] (mm, LPS): a vessel along z and a sphere, in tissue that varies."""
+    """Return the phantom at positions [..., 3] (mm, LPS): a vessel along z, a sphere, varying tissue."""
     off = world - CENTER
     vessel = contrast * np.exp(-((off[..., 0] + 4) ** 2 + (off[..., 1] - 3) ** 2) / (2 * 3.0**2))
     sphere = 250 * np.exp(-((off - (8, -6, 5)) ** 2).sum(-1) / (2 * 5.0**2))
@@ -63,16 +63,16 @@ def tilted(degrees: float) -> Affine:
 
 @dataclass(frozen=True, eq=False)
 class Image:
-    """One image and the truth about it.
+    """One image, with its true position and values.
 
     Attributes
     ----------
     values : ndarray [j, i]
-        What the pixels are worth (as rescaled).
+        The values of the pixels after rescaling.
     plane : ndarray, shape (4, 4)
         Affine from (i, j, 0) to world (mm, LPS).
     part : str
-        The stack that it belongs to: a series, or a phase of one.
+        The stack of the image: a series, or a phase of a series.
     """
 
     values: Array
@@ -106,14 +106,14 @@ def sampled(
 
 
 def textured(stack: list[Image], low: int, high: int) -> list[Image]:
-    """The same places with values that use the whole range, every one of which must come back."""
+    """The same positions with values that use the whole range; a reader must return each of them."""
     random = np.random.default_rng(7)
     return [replace(one, values=random.integers(low, high + 1, one.values.shape)) for one in stack]
 
 
 @dataclass(frozen=True)
 class Stored:
-    """How values become stored numbers."""
+    """How values are converted to stored numbers."""
 
     dtype: str = "i2"
     bits: int = 16
@@ -121,7 +121,7 @@ class Stored:
     intercept: float = 0.0
 
     def numbers(self, values: Array) -> Array:
-        """What a file holds for these values."""
+        """Return the stored numbers of these values."""
         stored = np.rint((values - self.intercept) / self.slope)
         low = -(1 << (self.bits - 1)) if self.dtype[0] == "i" else 0
         assert stored.min() >= low, "the values fit what is stored"
@@ -150,7 +150,7 @@ def pixel_spacing(plane: Affine) -> list[str]:
 
 
 def instance(number: int, series: int, sop_class: str = CTImageStorage, modality: str = "CT") -> Dataset:
-    """The head of an object that several programs agree to read; the UIDs depend on the numbers alone."""
+    """Return an object with the attributes that several programs need; UIDs depend only on the numbers."""
     data = Dataset()
     data.file_meta = FileMetaDataset()
     data.file_meta.TransferSyntaxUID = ExplicitVRLittleEndian
@@ -172,7 +172,7 @@ def instance(number: int, series: int, sop_class: str = CTImageStorage, modality
 
 
 def pixels(data: Dataset, numbers: Array, stored: Stored) -> None:
-    """Give an object its pixels, [j, i] or [frame, j, i]."""
+    """Set the pixels of an object, [j, i] or [frame, j, i]."""
     data.Rows, data.Columns = numbers.shape[-2:]
     data.SamplesPerPixel, data.PhotometricInterpretation = 1, "MONOCHROME2"
     data.BitsAllocated, data.BitsStored = 8 * numbers.dtype.itemsize, stored.bits
@@ -198,7 +198,7 @@ def single(
 
 
 def save_bare(data: Dataset, path: Path) -> None:
-    """Write one object without preamble and file meta information, as old programs do."""
+    """Write one object without preamble and file meta information, as old programs did."""
     del data.file_meta
     pydicom.dcmwrite(path, data, implicit_vr=True, little_endian=True)
 

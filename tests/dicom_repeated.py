@@ -1,4 +1,4 @@
-"""DICOM series whose parts overlap, whose files are copies, whose slices are series, or of two patients."""
+"""DICOM series with overlapping parts, copied files, one series per slice, or two patients."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ SCALES = (Stored("u2", 16, 1.0, -1024.0), Stored("i2", 16, 1.0, 0.0))
 def acquired(
     parts: Sequence[Part], late: Sequence[int] = (), scales: Sequence[Stored] = SCALES[1:], **more: object
 ) -> Callable[[Path], Made]:
-    """Acquisitions of these stretches in one series; the acquisitions `late` hold other values."""
+    """Put acquisitions of these ranges into one series; the acquisitions in `late` have other values."""
 
     def write(folder: Path) -> Made:
         number, read = 0, {}
@@ -52,7 +52,7 @@ def frames(folder: Path) -> Made:
 
 
 def part(parts: Sequence[Part], number: int, late: Sequence[int] = ()) -> Callable[[Path], Made]:
-    """Acquisitions of which one is asked for, the part of that number."""
+    """Several acquisitions; the one with this number is requested."""
 
     def write(folder: Path) -> Made:
         acquired(parts, late)(folder)
@@ -63,24 +63,24 @@ def part(parts: Sequence[Part], number: int, late: Sequence[int] = ()) -> Callab
 
 
 def own_series(k: int, data: Dataset) -> None:
-    """A series of its own for each slice."""
+    """Put each slice into its own series."""
     data.SeriesInstanceUID = f"{ROOT}.55.{k + 1}"
 
 
 def own_frame(k: int, data: Dataset) -> None:
-    """Each slice with a series and a space of its own, which form no scan."""
+    """Put each slice into its own series and frame of reference, so that they form no scan."""
     own_series(k, data)
     data.FrameOfReferenceUID = f"{ROOT}.56.{k + 1}"
 
 
 def own_numbers(k: int, data: Dataset) -> None:
-    """Each slice as another series of the study."""
+    """Number each slice as another series of the study."""
     own_series(k, data)
     data.SeriesNumber = k + 1
 
 
 def in_folders(folder: Path) -> Made:
-    """A stack of which every file lies in a folder below too."""
+    """Write a stack, and a copy of every file in a subfolder."""
     made = Stack(PLAIN_STACK)(folder)
     names = [path.name for path in folder.iterdir()]
     (folder / "copy").mkdir()
@@ -109,7 +109,7 @@ def compressed(folder: Path) -> Made:
 
 
 def changed(**values: object) -> Callable[[Path], Made]:
-    """A stack and a file that has the identifier of an image of it, and something else in it."""
+    """Write a stack, and a file with the UID of one of its images but other content."""
 
     def write(folder: Path) -> Made:
         made = Stack(PLAIN_STACK)(folder)
@@ -133,7 +133,7 @@ def two_ids(k: int, data: Dataset) -> None:
 
 
 def padded(k: int, data: Dataset) -> None:
-    """One patient, written in several ways."""
+    """Write one patient in several spellings."""
     data.PatientID = ("P1", "P1 ", " P1", "P1  ")[k % 4]
     data.PatientName = ("Doe^Jane", "Doe^Jane^^^", "DOE^JANE", "Doe^Jane ")[k % 4]
     data.IssuerOfPatientID = ("", "Here")[k % 2]

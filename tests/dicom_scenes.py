@@ -1,4 +1,4 @@
-"""A scan that is read from a DICOM series, and a vessel in it, for the tests of what is written as DICOM."""
+"""A scan read from a DICOM series, and a vessel in it, for tests of written DICOM objects."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ def no_change(k: int, data: Any) -> None:
 
 
 def write_series(folder: Path, change: Change = no_change, **stack: Any) -> Path:
-    """Write the phantom as a CT series with what `change` makes of each header, and return its folder."""
+    """Write the phantom as a CT series; `change` alters each header. Return the folder."""
     folder.mkdir(exist_ok=True)
     Stack(images(axial()), stored=HOUNSFIELD, change=change, **stack)(folder)
     return folder
 
 
 def stated(k: int, data: Any) -> None:
-    """A header that says all that is copied, and some that never is."""
+    """Add all attributes that objects repeat, and some that they must never repeat."""
     data.PatientName, data.PatientID, data.IssuerOfPatientID = "Doe^Jane", "J-17", "Hospital"
     data.PatientBirthDate, data.PatientSex, data.PatientAge = "19500102", "F", "076Y"
     data.AccessionNumber, data.StudyDescription = "A-4711", "CTA abdomen"
@@ -43,7 +43,7 @@ def stated(k: int, data: Any) -> None:
 
 @cache
 def series() -> Path:
-    """A folder of one series with all that is stated."""
+    """A folder with one series with all these attributes."""
     folder = mkdtemp(prefix="lumencut-series-")
     atexit.register(shutil.rmtree, folder, ignore_errors=True)
     return write_series(Path(folder), stated)

@@ -1,4 +1,4 @@
-"""DICOM series of known truth: what readers of volumes meet, and what each of them must make of it."""
+"""DICOM series of known truth, and what a reader must make of each."""
 
 from __future__ import annotations
 
@@ -21,18 +21,18 @@ LATE_STACK = images(axial(), contrast=120.0)
 
 @dataclass(frozen=True)
 class Made:
-    """What a case wrote, and the truth about it.
+    """The files of a case, and the truth about them.
 
     Attributes
     ----------
     path : Path
-        What to read: a folder or a file.
+        The folder or file to read.
     images : list of Image
-        All images with a place, of every stack.
+        All images that state a position, of every stack.
     wanted : str, optional
-        The part that is the volume; None where nothing is one volume.
+        The stack that forms the volume; None if no volume can be formed.
     distance : float, optional
-        The distance (mm) of the regular grid that slices of uneven distances are put on.
+        The slice distance (mm) of the regular grid on which uneven slices are resampled.
     """
 
     path: Path
@@ -64,28 +64,28 @@ def on_grid(voxels: Array, heights: Array, last: int) -> Array:
 
 @dataclass(frozen=True)
 class Case:
-    """One thing that a reader of DICOM meets.
+    """A situation that readers of DICOM meet.
 
     Attributes
     ----------
     name : str
-        What it is.
+        Its description.
     group : str
-        The row of the table that it counts for.
+        The row of the table in which it is counted.
     write : callable
-        Makes the files in an empty folder.
+        Writes the files into an empty folder.
     words : tuple of str
-        What the refusal must say; empty where the volume must be read.
+        Words that the error must contain; empty if the volume must be read.
     notes : tuple of str
-        What a note must say.
+        Words that a note must contain.
     loss : float
-        How much a value may be off, where compression loses some.
+        Largest allowed error of a value, if the compression is lossy.
     series : str, optional
-        The series that is asked for.
+        The requested series.
     phase : str, optional
-        The phase that is asked for.
+        The requested phase.
     resample_slices : bool
-        Whether slices of uneven distances are to be put on a regular grid.
+        Whether slices of uneven distances shall be resampled to a regular grid.
     needs : str
         A package that only this case needs.
     """
@@ -130,7 +130,7 @@ class Stack:
 
 
 def quantised(stack: Sequence[Image], scale: Callable[[int], Stored]) -> list[Image]:
-    """The same images with the values that are left after being stored."""
+    """Return the images with their values as they are after being stored."""
     scales = [scale(k) for k in range(len(stack))]
     return [
         replace(one, values=s.numbers(one.values) * s.slope + s.intercept)
@@ -139,7 +139,7 @@ def quantised(stack: Sequence[Image], scale: Callable[[int], Stored]) -> list[Im
 
 
 def sets(**values: object) -> Change:
-    """A change that gives every image the same attributes; None takes one away."""
+    """Return a change that gives every image the same attributes; None removes an attribute."""
 
     def change(k: int, data: Dataset) -> None:
         for keyword, value in values.items():
@@ -152,14 +152,14 @@ def sets(**values: object) -> Change:
 
 
 def shuffled(count: int) -> list[int]:
-    """An order that is neither up nor down."""
+    """Return an order that neither rises nor falls."""
     return [int(k) for k in np.random.default_rng(3).permutation(count)]
 
 
 def two_phases(
     stack: Sequence[Image], late: Sequence[Image], change: Callable[[int, Dataset], None]
 ) -> Stack:
-    """Two phases in one series, one after the other; `change` is told the phase (1 or 2)."""
+    """Put two phases into one series, one after the other; `change` gets the number of the phase (1 or 2)."""
     both = [replace(one, part="early") for one in stack] + [replace(one, part="late") for one in late]
     return Stack(both, change=lambda k, data: change(1 + (k >= len(stack)), data), wanted=None)
 
@@ -171,7 +171,7 @@ def trigger(phase: int, data: Dataset) -> None:
 
 
 def acquisition(phase: int, data: Dataset) -> None:
-    """Phases of contrast that only the acquisition tells apart."""
+    """Write phases of contrast that only the acquisition number distinguishes."""
     data.AcquisitionNumber = phase
     data.AcquisitionTime = data.ContentTime = f"1200{30 * (phase - 1):02}"
 
@@ -194,7 +194,7 @@ def doubled(stack: Sequence[Image]) -> Callable[[Path], Made]:
 
 
 def truncated(stack: Sequence[Image]) -> Callable[[Path], Made]:
-    """A stack whose last file lacks its end."""
+    """Write a stack whose last file is cut off."""
 
     def write(folder: Path) -> Made:
         made = Stack(stack)(folder)
@@ -206,7 +206,7 @@ def truncated(stack: Sequence[Image]) -> Callable[[Path], Made]:
 
 
 def resampled(stack: Sequence[Image], distance: float) -> Callable[[Path], Made]:
-    """A stack of uneven distances that belongs on a regular grid of this distance (mm)."""
+    """Write a stack of uneven distances that must be resampled to this slice distance (mm)."""
     return lambda folder: replace(Stack(stack)(folder), distance=distance)
 
 
@@ -225,7 +225,7 @@ def zipped(stack: Sequence[Image]) -> Callable[[Path], Made]:
 
 
 def localiser(series: int, first: int = 1, same_series: bool = False) -> Callable[[Path], list[Image]]:
-    """Two projections from the side and the front, of their own size and spacing."""
+    """Write two projections, lateral and frontal, each with its own size and spacing."""
 
     def write(folder: Path) -> list[Image]:
         scouts = []
@@ -246,7 +246,7 @@ def localiser(series: int, first: int = 1, same_series: bool = False) -> Callabl
 
 
 def together(*writers: Callable[[Path], Made | list[Image]], wanted: str | None) -> Callable[[Path], Made]:
-    """Several writers into one folder."""
+    """Let several functions write into one folder."""
 
     def write(folder: Path) -> Made:
         found: list[Image] = []

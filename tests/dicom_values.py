@@ -1,4 +1,4 @@
-"""Cases of what the numbers in a file mean, and of how they are compressed."""
+"""Cases about the meaning of stored numbers, and about compression."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from dicom_series import PLAIN_STACK, Case, Stack, quantised, sets
 
 
 def slopes_of_slices(k: int) -> Stored:
-    """Another slope for every slice."""
+    """Give every slice another slope."""
     return Stored("i2", 16, 1.0 + k % 3, -100.0 - k)
 
 
 def fractions(k: int) -> Stored:
-    """Slopes that make fractions, as in PET."""
+    """Use slopes that make fractional values, as in PET."""
     return Stored("i2", 16, 0.01 + 0.001 * k, 0.0)
 
 
 def spoilt(bits: int) -> Stack:
-    """Numbers of 12 bits whose other bits hold something else: an overlay, or no sign."""
+    """Use numbers of 12 bits whose unused bits are not 0: they hold an overlay, or no sign."""
     signed = not bits
     low, high = (-2048, 2047) if signed else (0, 4095)
     stack = textured(PLAIN_STACK, low, high)
@@ -36,7 +36,7 @@ def spoilt(bits: int) -> Stack:
 
 
 def padded() -> Stack:
-    """A round field of view with a number for outside."""
+    """Use a round field of view, with one padding value outside."""
     j, i = np.indices((SIZE[1], SIZE[0]))
     outside = np.hypot(i - 31.5, j - 23.5) > 30
     stack = [replace(one, values=np.where(outside, -2000, one.values)) for one in PLAIN_STACK]
@@ -61,7 +61,7 @@ BYTES = Stored("u1", 8, 2.0, -100.0)
 
 
 def ramps() -> list[Image]:
-    """Numbers that compress well and are the same everywhere, for their codestreams are kept."""
+    """Use numbers that compress well and never change, because their codestreams are stored."""
     random, (j, i) = np.random.default_rng(5), np.indices((SIZE[1], SIZE[0]))
     return [
         replace(one, values=25 * i - 10 * j - 60 * k + random.integers(0, 8, i.shape))
@@ -71,7 +71,7 @@ def ramps() -> list[Image]:
 
 def coded(name: str, encoder: Encoder | None, lossy: bool) -> Case:
     """A short stack in one transfer syntax."""
-    # Loss is bounded where values are smooth, and few encoders with loss take signed numbers.
+    # The loss is bounded only for smooth values, and few lossy encoders accept signed numbers.
     stack = Stack(PLAIN_STACK[:5], HOUNSFIELD, encoder=encoder) if lossy else Stack(_SMALL, encoder=encoder)
     if name.startswith("HTJ2K"):
         stack = Stack(ramps(), encoder=encoder)

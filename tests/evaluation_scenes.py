@@ -1,4 +1,4 @@
-"""Scenes for the tests of evaluations, and frames made up for them."""
+"""Scenes for the tests of evaluations, and made-up frames of them."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from lumencut.evaluation.centerline import centerline_of, width_stations
 from lumencut.evaluation.shown import Shown
 from lumencut.evaluation.truth import truth_of
 
-#: What shows lumens exactly: the nearest lumen first, no levels of detail, no filter.
+#: Settings that show lumens exactly: nearest lumen first, no levels of detail, no filter.
 EXACT = Settings(lumen_first=True, lumen_margin=0, levels=0, depth_filter=False, zone_filter=False)
 
 
@@ -29,7 +29,7 @@ def crossing_tubes(gap=20.0):
 
 
 def front(size=(161, 161), spacing=0.5):
-    """The view along y onto the origin; pixels beside their middle, so that none lies on a border."""
+    """The view along y onto the origin; the image centre is shifted, so that no pixel lies on a border."""
     return Camera((0.013, 0, 0.017), (0, 1, 0), (0, 0, 1), size, spacing)
 
 
@@ -40,7 +40,7 @@ def truth_in(tree, camera, unknown_radius=1.0):
 
 
 def perfect(truth, camera, beyond=0.0):
-    """A frame that shows the truth, and a plane at `beyond` mm beside all lumens; nothing moves."""
+    """A frame that shows the truth, and a plane at depth `beyond` (mm) elsewhere; it never changes."""
     depth = np.where(np.isfinite(truth.nearest.depth), truth.nearest.depth, beyond)
     vessel = np.maximum(truth.nearest.vessel, 0)
     return Shown(depth, vessel, truth.seen.world(depth), depth.copy(), vessel.copy())

@@ -1,4 +1,4 @@
-"""Compares the frames of the GPU with those of the CPU: how many pixels may be how far apart."""
+"""Compares frames of the GPU with frames of the CPU: how many pixels may differ, and by how much."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import numpy as np
 
 from image_comparison import compare
 
-#: For each buffer: how far apart (mm, ids, HU, of 255), and how large a share of the pixels may be farther.
+#: For each image: the tolerance (mm, ids, HU, of 255), and the share of pixels that may exceed it.
 LIMITS = {
     "depth": ((1e-3, 1e-3),),
     "distance": ((1e-3, 1e-3),),
@@ -20,7 +20,7 @@ LIMITS = {
 
 
 def excess(found: Any, expected: Any) -> dict[str, str]:
-    """What differs by more than `LIMITS` allow, in words, by the name of the buffer."""
+    """Return in words what exceeds `LIMITS`, by the name of the image."""
     worse = {}
     for name, limits in LIMITS.items():
         if not expected.has(name):
@@ -40,6 +40,6 @@ def excess(found: Any, expected: Any) -> dict[str, str]:
 
 
 def assert_alike(found: Any, expected: Any) -> None:
-    """Refuse frames that differ by more than `LIMITS` allow."""
+    """Fail if frames differ by more than `LIMITS` allow."""
     worse = excess(found, expected)
     assert not worse, worse

@@ -1,4 +1,4 @@
-"""Public callables with arguments that work, and values that are none of what an argument can be."""
+"""Public functions with valid arguments, and values that no argument accepts."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from scene_files import write_lines, write_volume
 
 
 class Unknown:
-    """An object that Lumencut has never seen."""
+    """An object of a class that Lumencut does not know."""
 
 
-#: What is given in the place of each argument.
+#: Values that are passed instead of each argument.
 WRONG: list[Any] = [
     None,
     "wrong",
@@ -47,16 +47,16 @@ WRONG: list[Any] = [
     Path("nowhere/at.all"),
 ]
 
-#: Callables that ask the outer world, change the process, take long, or take what they are given as it is.
+#: Functions that use the network, change the process, take long, or accept any value.
 _LEFT_OUT = {"batch", "show", "set_threads", "devices", "get_threads", "evaluate"}
-#: Methods of these do nothing but hold what they are given: errors, notes, results.
+#: Classes whose methods only store their arguments: errors, notes, results.
 _HELD = {"BatchSummary", "Device", "DeviceWarning", "Flag", "Gap", "Mend", "Ostium", "SeriesReport"}
 _HELD |= {"CenterlineComparison", "CrossSection", "Evaluation", "FeatureAggregation", "Frame", "LumenMap"}
 _HELD |= {"PlanarReformation", "Profile", "Reformation", "ScanDetails", "SpiralReformation", "Stenosis"}
 _HELD |= {"StraightenedVolume", "TangentialReformation", "Uncurled", "UntangledTree"}
 
 
-#: Arguments with a default without which a call does not work.
+#: Arguments that a call needs although they have defaults.
 _ASKED = {
     ("Camera.rotated", "angle"),
     ("PlanarReformation.rotated", "angle"),
@@ -66,14 +66,14 @@ _ASKED = {
 
 @dataclasses.dataclass(frozen=True)
 class Case:
-    """A callable and arguments, by name, with which it works."""
+    """A function with valid arguments by name."""
 
     name: str
     callable: Callable[..., Any]
     given: dict[str, Any]
 
     def call(self, **changed: Any) -> None:
-        """Call it with some arguments changed; of what comes one by one the first is taken."""
+        """Call it with some arguments changed; of an iterator take only the first item."""
         made = self.callable(**{**self.given, **changed})
         if isinstance(made, Iterator):
             next(made, None)
@@ -112,7 +112,7 @@ def _methods(name: str, kind: type, good: _Good) -> Iterator[Case]:
 
 
 class _Good:
-    """Arguments that work."""
+    """Valid arguments."""
 
     def __init__(self, folder: Path) -> None:
         self.folder = folder

@@ -1,4 +1,4 @@
-"""Compares arrays pixel by pixel with two numbers: how far apart, and how many."""
+"""Compares arrays pixel by pixel: the largest difference, and the number of pixels that differ."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which modules of a package import which, read from the sources, and a circle among them."""
+"""Finds which modules of a package import which, from their sources, and whether imports form a circle."""
 
 import ast
 from graphlib import CycleError, TopologicalSorter
@@ -9,9 +9,9 @@ Graph = dict[str, set[str]]
 
 
 def import_graph(package: Path) -> Graph:
-    """The imports within a package: at the top, within functions and for type checkers alike."""
+    """Return the imports within a package: at the top, inside functions and for type checkers."""
     files = {module_name(path, package.parent): path for path in package.rglob("*.py")}
-    # Of a compiled module only the stub is there; it is imported, and imports nothing itself.
+    # A compiled module has only a stub; it is imported but imports nothing.
     stubs = {module_name(path, package.parent) for path in package.rglob("*.pyi")}
     known = files.keys() | stubs
     return {name: imported(name, path, known) for name, path in files.items()}
@@ -23,23 +23,23 @@ def module_name(path: Path, root: Path) -> str:
 
 
 def imported(name: str, path: Path, known: set[str]) -> set[str]:
-    """The known modules that the module imports, with the packages whose `__init__` runs before them."""
+    """Return the known modules that a module imports, and the packages whose `__init__` runs before them."""
     targets = set()
     for node in ast.walk(ast.parse(path.read_text("utf-8"))):
         if isinstance(node, ast.Import):
             targets |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
             source = absolute(name, path, node)
-            # What is taken from a package is a module of it, or else defined in it.
+            # A name imported from a package is a module of the package, or else defined in its `__init__`.
             inner = {alias.name: f"{source}.{alias.name}" for alias in node.names}
             targets |= {module if module in known else source for module in inner.values()}
-    # A package that holds the importing module has begun to run already.
+    # The packages that contain the importing module already run.
     around = packages_of(name) | {name}
     return {one for target in targets & known for one in {target, *(packages_of(target) - around)}}
 
 
 def absolute(name: str, path: Path, node: ast.ImportFrom) -> str:
-    """The full name of the module that the statement takes something from."""
+    """Return the full name of the module from which a statement imports."""
     if not node.level:
         return node.module or ""
     package = name.split(".") if path.name == "__init__.py" else name.split(".")[:-1]
@@ -52,10 +52,10 @@ def packages_of(name: str) -> set[str]:
 
 
 def circle(graph: Graph) -> list[str]:
-    """The modules of a circle, each of which imports the next, ending with the first; empty without one."""
+    """Return the modules of a circle, each importing the next, ending with the first; empty without one."""
     try:
         TopologicalSorter(graph).prepare()
     except CycleError as error:
-        # It tells for each node the one that needs it, which is the other way round.
+        # The cycle lists for each node the node that needs it, so reverse it.
         return error.args[1][::-1]
     return []

@@ -1,4 +1,4 @@
-"""Processes that are interrupted while they work."""
+"""Runs processes and interrupts them while they work."""
 
 import signal
 import subprocess
@@ -6,7 +6,7 @@ import sys
 
 
 def ends_by_ctrl_c(code: str, word: str) -> None:
-    """Run Python code that prints a word once it works, interrupt it, and see that it says so and ends."""
+    """Run Python code that prints a word once it works; interrupt it; check that it reports that and ends."""
     with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True) as process:
         try:
             assert process.stdout.readline() == f"{word}\n"

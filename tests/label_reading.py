@@ -1,4 +1,4 @@
-"""Reading the labels off a picture: by the shape of the letters that are there."""
+"""Reads the labels of a picture by comparing the shapes of letters."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import itertools
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-#: All that can stand at an edge: one to three sides, no two of one axis.
+#: All possible labels of an edge: one to three sides, no two on one axis.
 SIDES = [
     "".join(letters)
     for count in (1, 2, 3)
@@ -23,7 +23,7 @@ def heights(size: tuple[int, int]) -> tuple[int, int]:
 
 
 def shape_of(text: str, height: int) -> np.ndarray:
-    """The brightness of a text in white on black, without the border around it."""
+    """Return the brightness of a text, white on black, without the border around it."""
     font = ImageFont.load_default(height)
     picture = Image.new("L", (height * (len(text) + 2), 3 * height))
     ImageDraw.Draw(picture).text((height, height), text, font=font, fill=255)
@@ -37,7 +37,7 @@ def trimmed(grey: np.ndarray) -> np.ndarray:
 
 
 def read(grey: np.ndarray, candidates: list[str], height: int) -> str | None:
-    """The text that stands on black ground, None where nothing does."""
+    """Return the text on a black background; None if there is none."""
     found = trimmed(grey)
     if not found.size:
         return None

@@ -1,4 +1,4 @@
-"""What is told of the uncertainty of diameters holds in all scenes of ``make calibration``.
+"""The stated uncertainty of diameters is right in all scenes of ``make calibration``.
 
 This takes minutes, so ``make test-long`` runs it and ``make test`` does not.
 """
@@ -8,7 +8,7 @@ import pytest
 from calibration import KINDS, calibrated
 from test_calibration import WITHIN
 
-#: Here walls are allowed for that are not there: the uncertainty is told too large, which misleads nobody.
+#: These scenes have no walls although walls are expected: the uncertainty is too large, which is harmless.
 CAUTIOUS = "even tissue, white noise"
 
 

@@ -1,4 +1,4 @@
-"""Cohorts at length, for ``make test-long``: 200 studies, 20 kills of a batch and of its scheduler, SLURM."""
+"""Long tests of cohorts (``make test-long``): 200 studies, 20 kills of a batch and its scheduler, SLURM."""
 
 from __future__ import annotations
 
@@ -101,7 +101,7 @@ def test_twenty_kills_of_a_scheduler_end_each_batch_in_time_and_lose_no_study(tm
 
 @pytest.fixture(scope="module")
 def node(tmp_path_factory):
-    """The environment of SLURM of one node."""
+    """The environment for SLURM with one node."""
     if not is_there():
         pytest.skip("needs root and the packages slurm-wlm and munge of Debian")
     with slurm(tmp_path_factory.mktemp("slurm")) as found:
@@ -110,7 +110,7 @@ def node(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def cohort(tmp_path_factory):
-    """A cohort, and its results on this machine alone."""
+    """A cohort, and its results computed on this machine."""
     manifest = write_cohort(tmp_path_factory.mktemp("cohort"), good=6, bad=False)
     here = manifest.with_name("here")
     assert run(manifest, here).returncode == 0

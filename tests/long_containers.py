@@ -1,4 +1,4 @@
-"""The steps of the containers in a plain environment: what they install runs. Packages are fetched."""
+"""Runs the steps of the containers in a plain environment; packages are downloaded."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from container_steps import ROOT, apptainer_steps, docker_steps
 
 
 def write_wheel(folder: Path) -> None:
-    """Write the package as it is here as a wheel; that of `make wheel` takes minutes."""
+    """Write the current package as a wheel; `make wheel` would take minutes."""
     package = Path(lumencut.__file__).parent
     version = lumencut.__version__
     info = f"lumencut-{version}.dist-info"
@@ -35,7 +35,7 @@ def write_wheel(folder: Path) -> None:
     rows = [f"{name},sha256={_digest(content)},{len(content)}" for name, content in files.items()]
     files[f"{info}/RECORD"] = "\n".join([*rows, f"{info}/RECORD,,", ""]).encode()
     folder.mkdir()
-    # The name ends as the definitions expect it, though the tag within is for any machine.
+    # The file name must be as the definitions expect, although the tag inside says any machine.
     with zipfile.ZipFile(folder / f"lumencut-{version}-1_x86_64-py3-none-any.whl", "w") as archive:
         for name, content in files.items():
             archive.writestr(name, content)

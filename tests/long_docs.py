@@ -1,4 +1,4 @@
-"""The whole site of the documentation, built and opened in a browser; needs the CT of the demo and Node."""
+"""Builds the documentation site and opens it in a browser; needs the demo's CT and Node."""
 
 import os
 import subprocess

@@ -1,4 +1,4 @@
-"""Views of vessels in notebooks, at length: several, a busy and a restarted kernel, tracing, and marimo."""
+"""Long tests of views in notebooks: several views, a busy and a restarted kernel, tracing, and marimo."""
 
 import ast
 import time
@@ -35,7 +35,7 @@ def started():
 
 @pytest.fixture(scope="module")
 def lab(started, tmp_path_factory):
-    """Opens notebooks of some cells in JupyterLab, the first of which has run."""
+    """Return a function that opens a notebook of some cells in JupyterLab and runs the first cell."""
     folder = tmp_path_factory.mktemp("lab")
     with jupyterlab(folder) as address:
 
@@ -44,7 +44,7 @@ def lab(started, tmp_path_factory):
             name = f"view-{len(list(folder.glob('*.ipynb')))}.ipynb"
             (folder / name).write_text(notebook(*cells))
             visit = Visit(started, address)
-            # A place for what is open: each notebook alone.
+            # A workspace per notebook, so that only this notebook is open.
             visit.open(f"lab/workspaces/{name.removesuffix('.ipynb')}/tree/{name}")
             visit.wait_for_kernel()
             visit.run_cell(0)
@@ -57,7 +57,7 @@ def lab(started, tmp_path_factory):
 
 
 def words_with(view, text):
-    """Wait until the words below the pictures hold a text."""
+    """Wait until the words below the pictures contain a text."""
     words = view.locator(".words", has_text=text)
     words.wait_for()
     return words.inner_text()
@@ -91,12 +91,12 @@ def test_several_views_of_several_widgets(lab):
 
 
 def picture(visit, view, pane="vessels"):
-    """What a canvas shows, as text."""
+    """Return the content of a canvas as text."""
     return view.locator(f"[data-pane={pane}] canvas").evaluate("canvas => canvas.toDataURL()")
 
 
 def until(holds):
-    """Wait until something holds."""
+    """Wait until a condition holds."""
     end = time.monotonic() + PATIENCE / 1000
     while not holds():
         assert time.monotonic() < end
@@ -142,12 +142,12 @@ def test_a_page_that_is_loaded_again_goes_on(lab):
         view = visit.views().first
         answered(view, lambda: visit.page.mouse.click(*place(view, 150, 200)))
         visit.page.keyboard.press("Control+s")
-        # The key goes past the view: the notebook is kept, with its outputs.
+        # The view ignores this key: JupyterLab saves the notebook with its outputs.
         visit.page.locator(".lm-TabBar-tab.jp-mod-current:not(.jp-mod-dirty)").first.wait_for()
         visit.page.reload()
         view = visit.views().first
         view.wait_for()
-        # What was picked is shown as before, and the view turns.
+        # The pick is shown as before, and the view turns.
         assert view.locator(".words").inner_text().startswith("trunk at ")
         assert visit.colours(view, "section") > 5
         seen = picture(visit, view)
@@ -194,7 +194,7 @@ def test_keys_turn_and_choose_views(lab):
         view, keyboard = visit.views().first, visit.page.keyboard
         view.locator("[data-pane=vessels]").focus()
         answered(view, lambda: keyboard.press("ArrowLeft"))
-        # A key of JupyterLab too, which inserts a cell, and must not.
+        # In JupyterLab this key would insert a cell, which must not happen.
         answered(view, lambda: keyboard.press("a"))
         answered(view, lambda: keyboard.press("l"))
         visit.run_cell(1)

@@ -1,4 +1,4 @@
-"""Masks whose topology and middle are known, and independent counts of both."""
+"""Masks with known topology and centerlines, and independent methods to count pieces and cycles."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from lumencut import Volume
 
 
 def lumen_mask(tree, volume):
-    """The voxels of a volume whose centres lie in the lumen of a tree: rods whose radius runs linearly."""
+    """Return the voxels whose centres lie in the lumen of a tree: rods with linearly changing radius."""
     world, spacing = volume.world_from_index, volume.spacing
     inverse = np.linalg.inv(world)
     inside = np.zeros(volume.shape, np.uint8)
@@ -47,7 +47,7 @@ def tubes(lines, radius, size=(40, 40, 40), world_from_index=None):
 
 
 def parts(mask, *, by_corners):
-    """The number of parts of what is not 0, as SimpleITK counts them."""
+    """Return the number of connected parts that are not 0, as counted by SimpleITK."""
     count = SimpleITK.ConnectedComponentImageFilter()
     count.SetFullyConnected(by_corners)
     count.Execute(SimpleITK.GetImageFromArray((np.asarray(mask) > 0).astype(np.uint8)))
@@ -55,7 +55,7 @@ def parts(mask, *, by_corners):
 
 
 def filled(mask):
-    """A mask without cavities: background that is not joined by faces with the outside is lumen."""
+    """Return a mask without cavities: background not joined by faces with the outside becomes lumen."""
     background = SimpleITK.GetImageFromArray(
         np.pad(np.asarray(mask) == 0, 1, constant_values=True).astype(np.uint8)
     )
@@ -77,14 +77,14 @@ def euler_characteristic(mask):
 
 
 def betti(mask):
-    """The pieces and the cycles of a mask after its cavities are filled."""
+    """Return the number of pieces and cycles of a mask after its cavities are filled."""
     solid = filled(mask)
     pieces = parts(solid, by_corners=True)
     return pieces, pieces - euler_characteristic(solid)
 
 
 def betti_of(tree):
-    """The pieces and the cycles of a tree, by the end points that vessels share to the bit."""
+    """Return the number of pieces and cycles of a tree; vessels meet at bit-identical end points."""
     ends = [[vessel.points[n].tobytes() for n in (0, -1)] for vessel in tree]
     piece = {end: end for pair in ends for end in pair}
 

@@ -1,4 +1,4 @@
-"""Vessels of known width under a known point spread, with seeded noise, to be measured."""
+"""Vessels of known width, blurred by a known point spread, with seeded noise."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ Paint = Callable[[Floats, Floats, Floats], Floats]
 
 LUMEN, TISSUE, NOISE, FWHM = 310.0, 50.0, 26.0, 0.8
 
-#: Places within a voxel that its value is the mean of, along each axis.
+#: Number of samples along each axis of a voxel whose mean is the value of the voxel.
 PARTS = 3
 
 
 @dataclass
 class Grid:
-    """Voxels whose middle lies at the origin: their sides are the columns of a matrix (mm)."""
+    """Voxels around the origin; the columns of a matrix are their sides (mm)."""
 
     sides: Floats
     size: tuple[int, int, int]
@@ -40,7 +40,7 @@ class Grid:
         return affine
 
     def points(self, parts: int) -> Floats:
-        """The places within all voxels, shape (3, k, j, i), each axis with `parts` times as many."""
+        """Return positions in all voxels, shape (3, k, j, i), each axis with `parts` times as many."""
         along = [(np.arange(n * parts) - (parts - 1) / 2) / parts for n in self.size]
         k, j, i = np.meshgrid(along[2], along[1], along[0], indexing="ij")
         affine = self.affine
@@ -57,7 +57,7 @@ class Grid:
 
 
 def blurred(values: Floats, steps: tuple[float, ...], fwhm: float) -> Floats:
-    """Values on a grid of these steps (mm), blurred along each axis; the grid goes on as at its ends."""
+    """Return values on a grid (steps in mm), blurred along each axis; border values continue outside."""
     sigma = fwhm / np.sqrt(8 * np.log(2))
     for axis, step in enumerate(steps):
         margin = int(np.ceil(5 * sigma / step))
@@ -78,13 +78,13 @@ def blurred(values: Floats, steps: tuple[float, ...], fwhm: float) -> Floats:
 
 @dataclass
 class Tube:
-    """A straight vessel through the origin, the same everywhere along itself."""
+    """A straight vessel through the origin with the same section everywhere."""
 
     diameters: tuple[float, float]
     direction: tuple[float, float, float] = (0.0, 0.0, 1.0)
     fwhm: float = FWHM
     levels: tuple[float, float] = (LUMEN, TISSUE)
-    #: Changes the sharp section by the distances along its axes (mm).
+    #: Changes the sharp section, given the distances along both axes (mm).
     paint: Paint | None = None
 
     def axes(self) -> Floats:

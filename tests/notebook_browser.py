@@ -1,4 +1,4 @@
-"""A notebook as its user has it: JupyterLab or marimo, and Chromium beside it that reaches nothing else."""
+"""A notebook in JupyterLab or marimo, opened in Chromium, which can reach no other server."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from pathlib import Path
 from playwright.sync_api import Browser, Locator, Page, Route, sync_playwright
 
 CHROMIUM = os.environ.get("LUMENCUT_CHROMIUM", "/usr/bin/chromium")
-#: Patience for busy machines (ms): a wait ends as soon as what it waits for is there.
+#: Time limit for busy machines (ms); each wait ends as soon as its condition holds.
 PATIENCE = 60_000
 _KERNEL = {"display_name": "Python 3", "language": "python", "name": "python3"}
 
 
 def notebook(*cells: str) -> str:
-    """A notebook of cells of code, with its kernel, so that JupyterLab does not ask for one."""
+    """Return a notebook with cells of code; it names its kernel, so that JupyterLab does not ask for one."""
     listed: list[dict[str, object]] = [
         {
             "cell_type": "code",
@@ -48,12 +48,12 @@ def free_port() -> int:
 
 @contextmanager
 def serving(command: Sequence[str], url: str, folder: Path) -> Iterator[None]:
-    """A server while it is needed; its own folders, so that nothing of the user's is read or changed."""
+    """Run a server while the context is open; its own folders keep it from the user's files."""
     own = {
         name: str(folder / name.lower())
         for name in ("HOME", "JUPYTER_CONFIG_DIR", "JUPYTER_DATA_DIR", "JUPYTER_RUNTIME_DIR", "IPYTHONDIR")
     }
-    # The package of these tests, wherever it was imported from.
+    # The package under test, from wherever it was imported.
     environment = os.environ | own | {"PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
     with (folder / "server.log").open("w") as log:
         process = subprocess.Popen(
@@ -85,7 +85,7 @@ def jupyterlab(folder: Path) -> Iterator[str]:
     port = free_port()
     settings = folder / "jupyter_config_dir/lab/user-settings/@jupyterlab/apputils-extension"
     settings.mkdir(parents=True)
-    # A question that is open covers what is tested.
+    # Without these settings an open dialog covers the view.
     (settings / "notification.jupyterlab-settings").write_text(
         '{"fetchNews": "false", "checkForUpdates": false}'
     )
@@ -127,7 +127,7 @@ def browser() -> Iterator[Browser]:
 
 
 class Visit:
-    """A page of a notebook that reaches its own server alone, and what it asked others for."""
+    """A page of a notebook that reaches only its own server; it records requests to other hosts."""
 
     def __init__(self, started: Browser, address: str) -> None:
         self.asked_elsewhere: list[str] = []
@@ -148,7 +148,7 @@ class Visit:
         self.page.goto(f"{self._address}/{path}")
 
     def wait_for_kernel(self) -> None:
-        """Wait until the kernel of a notebook in JupyterLab can be asked; before that it asks for one."""
+        """Wait until the kernel of a notebook in JupyterLab answers."""
         self.page.locator("#jp-main-statusbar", has_text="| Idle").wait_for()
 
     def run_cell(self, number: int) -> None:
@@ -157,13 +157,13 @@ class Visit:
         self.page.keyboard.press("Control+Enter")
 
     def output(self, number: int) -> str:
-        """What a cell printed, once it has printed something."""
+        """Return the output of a cell, once there is some."""
         area = self.page.locator(".jp-Notebook .jp-Cell").nth(number).locator(".jp-OutputArea-output")
         area.first.wait_for()
         return area.first.inner_text()
 
     def restart_kernel(self) -> None:
-        """Restart the kernel by the menu, and wait until it is there again."""
+        """Restart the kernel from the menu, and wait until it is ready."""
         self.page.get_by_role("menuitem", name="Kernel", exact=True).click()
         self.page.locator('[data-command="kernelmenu:restart"]').click()
         self.page.locator(".jp-Dialog-button.jp-mod-accept").click()
@@ -171,11 +171,11 @@ class Visit:
         self.wait_for_kernel()
 
     def views(self) -> Locator:
-        """The views that show their first picture."""
+        """Return the views, once they show their first picture."""
         return self.page.locator(".lumencut[data-is-ready]")
 
     def colours(self, view: Locator, pane: str = "vessels") -> int:
-        """How many colours a picture has: one where it is blank."""
+        """Return the number of colours in a picture; a blank picture has one."""
         canvas = view.locator(f"[data-pane={pane}] canvas")
         found: int = canvas.evaluate(
             """canvas => new Set(new Uint32Array(canvas.getContext('2d')
@@ -185,7 +185,7 @@ class Visit:
 
 
 def place(view: Locator, column: float, row: float, pane: str = "vessels") -> tuple[float, float]:
-    """Where a pixel of a picture is in the page."""
+    """Return the position of a pixel of a picture in the page."""
     box = view.locator(f"[data-pane={pane}]").bounding_box()
     assert box is not None
     return box["x"] + column + 0.5, box["y"] + row + 0.5
@@ -201,7 +201,7 @@ def drag(view: Locator, start: tuple[float, float], end: tuple[float, float], st
 
 
 def answered(view: Locator, act: Callable[[], object]) -> str:
-    """The words below the pictures, once what makes the view ask the kernel is answered and at rest."""
+    """Do what makes the view ask the kernel; return the words below the pictures after the answer."""
     before = view.get_attribute("data-answers")
     act()
     page = view.page

@@ -1,4 +1,4 @@
-"""The page of a notebook in Python: asks a widget for steps and keeps its answers, without a browser."""
+"""The page of a notebook, simulated in Python: sends requests to a widget and keeps the answers."""
 
 from __future__ import annotations
 
@@ -11,22 +11,22 @@ from lumencut.notebook.widget import VesselWidget
 
 
 class Page:
-    """What a page would be told by a widget."""
+    """The messages that a widget sends to its page."""
 
     def __init__(self, widget: VesselWidget) -> None:
         self.widget = widget
         self.answers: list[tuple[dict[str, Any], list[bytes]]] = []
-        # In the place of the connection to a page, which no kernel of these tests has.
+        # Replaces the connection to a page, which does not exist in these tests.
         widget.send = lambda content, buffers=None: self.answers.append((content, list(buffers or ())))
 
     def ask(self, *steps: list[Any], moving: bool = True) -> dict[str, bytes]:
-        """Ask for steps; the pictures of the answer by name, which must have no words of an error."""
+        """Request steps; return the pictures of the answer by name. The answer must not contain an error."""
         answer, pictures = self.refused(*steps, moving=moving)
         assert answer["words"] == ""
         return pictures
 
     def refused(self, *steps: list[Any], moving: bool = True) -> tuple[dict[str, Any], dict[str, bytes]]:
-        """Ask for steps; the answer as it is, and its pictures by name."""
+        """Request steps; return the answer as it is, and its pictures by name."""
         name = f"page-{len(self.answers)}"
         content = {"kind": "steps", "id": name, "steps": list(steps), "moving": moving}
         self.widget._handle_custom_msg(content, [])

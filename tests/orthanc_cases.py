@@ -1,4 +1,4 @@
-"""What a real PACS, Orthanc, makes of pull and push; run by `test_orthanc.py` in a network of its own."""
+"""Pull and push with a real PACS, Orthanc; run by `test_orthanc.py` in a separate network."""
 
 import json
 import os
@@ -42,7 +42,7 @@ def free_port():
 
 
 class Orthanc:
-    """A running Orthanc, and what it says of what it was asked."""
+    """A running Orthanc, and its records of requests."""
 
     def __init__(self, folder):
         self.http, self.dicom, self.log = free_port(), free_port(), folder / "orthanc.log"
@@ -81,7 +81,7 @@ class Orthanc:
         raise AssertionError(self.log.read_text())
 
     def asked(self):
-        """The instances that were asked for, by its own log."""
+        """Return the instances that were requested, from its log."""
         return REQUEST.findall(self.log.read_text())
 
 
@@ -95,7 +95,7 @@ def orthanc(tmp_path_factory):
 
 @pytest.fixture(autouse=True)
 def known(monkeypatch, tmp_path):
-    """The name and the password, in netrc."""
+    """Write the name and the password into netrc."""
     place = tmp_path / "netrc"
     place.write_text(f"machine 127.0.0.1 login {NAME} password {PASSWORD}\n")
     monkeypatch.setenv("NETRC", str(place))
@@ -104,7 +104,7 @@ def known(monkeypatch, tmp_path):
 
 @pytest.fixture(scope="module")
 def scan(tmp_path_factory):
-    """A CT of 72 slices, 24 of them with an odd name in an odd character set."""
+    """A CT of 72 slices; 24 of them have an odd name in an odd character set."""
     folder = tmp_path_factory.mktemp("ct")
     for k in range(72):
         data = single(PLAIN_STACK[k % 24], k + 1)
@@ -116,7 +116,7 @@ def scan(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def stored(orthanc, scan, tmp_path_factory):
-    """The scan in the PACS, by push."""
+    """The scan, pushed into the PACS."""
     home = tmp_path_factory.mktemp("home")
     (home / "netrc").write_text(f"machine 127.0.0.1 login {NAME} password {PASSWORD}\n")
     known = {"NETRC": str(home / "netrc"), "XDG_STATE_HOME": str(home)}
@@ -224,7 +224,7 @@ def test_from_a_scan_to_pictures_and_numbers_beside_it_in_three_commands(stored,
 
 def test_what_the_viewer_saves_for_a_pacs_is_read_back_from_it(orthanc, tmp_path):
     unpacked, got = tmp_path / "unpacked", tmp_path / "got"
-    # The server has a study of this UID already, of another patient.
+    # The server already has a study with this UID, of another patient.
     own = header().replace(b"1.2.826.0.1.3680043.10.1000.1", b"1.2.826.0.1.3680043.10.1000.7")
     sent = members(pacs_zip(sent_as(dropped(header=encoded(own))), None), unpacked)
     assert len(sent) == 5

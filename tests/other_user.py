@@ -1,4 +1,4 @@
-"""What another user of the machine can see and fetch of a viewer; who is not root looks as themselves."""
+"""Looks as another user at what a viewer reveals; without root rights, as the same user."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ NOBODY = 65534
 
 
 def everything_seen(port: int, ground: Path, until: Callable[[], bool] | None = None) -> dict[str, list[str]]:
-    """Look around as another user until something is so, and at least for a second.
+    """Look around as another user until a condition holds, for at least a second.
 
-    Gives the command lines of all processes (`command_lines`), and what could be fetched of the viewer at
-    `port` or read of its files below `ground` (`got`).
+    Return the command lines of all processes (`command_lines`), and everything that could be fetched from the
+    viewer at `port` or read from its files below `ground` (`got`).
     """
     receiving, sending = os.pipe()
-    # No program is started: another user may not be allowed to read that of the tests.
+    # A fork, because another user may not be allowed to run the Python of the tests.
     child = os.fork()
     if child == 0:
         try:
@@ -61,7 +61,7 @@ def _look(port: int, ground: Path, until: Callable[[], bool] | None) -> dict[str
 
 
 def _of_processes(name: str) -> list[str]:
-    """What stands in this file of each process, as far as it may be read."""
+    """Return the content of this file of each process, if readable."""
     found = []
     for folder in filter(str.isdigit, os.listdir("/proc")):
         try:
@@ -73,13 +73,13 @@ def _of_processes(name: str) -> list[str]:
 
 
 def _named_files(words: set[str], ground: Path) -> list[str]:
-    """The files of the viewer that command lines name."""
+    """Return the viewer's files that command lines name."""
     named = (word.removeprefix("file://") for word in words)
     return [path for path in named if path.startswith(str(ground)) and path.endswith((".html", ".gz"))]
 
 
 def _paths(ground: Path) -> list[str]:
-    """The files of the viewer that can be found by listing folders."""
+    """Return the viewer's files that can be found by listing folders."""
     found = []
     for folder, _, names in os.walk(ground):
         found += [os.path.join(folder, name) for name in names if name.startswith("open-")]
@@ -95,7 +95,7 @@ def _reads(path: str) -> bool:
 
 
 def _addresses(words: set[str], paths: list[str], port: int) -> set[str]:
-    """The paths of addresses that are worth a try: those that were seen, and those made of other names."""
+    """Return paths of addresses to try: those that were seen, and those made from other names."""
     seen = {word.partition(f":{port}")[2] for word in words if f":{port}/" in word}
     names = {Path(word).stem for word in (*words, *paths) if word.endswith(".html")}
     guessed = {f"/{name}/" for name in names} | {f"/{name.removeprefix('open-')}/" for name in names}
@@ -103,7 +103,7 @@ def _addresses(words: set[str], paths: list[str], port: int) -> set[str]:
 
 
 def _fetches(port: int, path: str) -> bool:
-    """Whether the server gives anything."""
+    """Return whether the server sends any content."""
     try:
         with socket.create_connection(("127.0.0.1", port), timeout=5) as connection:
             request = f"GET {path} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nConnection: close\r\n\r\n"

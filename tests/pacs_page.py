@@ -1,7 +1,7 @@
-"""For the browser's test of "Save for PACS": serves a built page, and reads the archive that it saves.
+"""For the browser test of "Save for PACS": serves a built page, and reads the saved archive.
 
 python tests/pacs_page.py serve web/dist [scan]    prints a line of JSON, and serves until its input ends
-python tests/pacs_page.py read archive.zip         prints what the objects of an archive say, as JSON
+python tests/pacs_page.py read archive.zip         prints the content of an archive's objects as JSON
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from test_dicom_reports import child, code, groups, numbers
 
 
 def serve(page: Path, shows_scan: bool) -> None:
-    """Serve the page, empty or with the phantom and its vessel, and tell where, and which files there are."""
+    """Serve the page, empty or with the phantom and its vessel; print the address and the names of files."""
     tree = VesselTree([Vessel(LINE[0].points, 3.0, NAME)])
     scene = ArrivingScene(open_volume(series()), lambda _: tree) if shows_scan else None
     with tempfile.TemporaryDirectory() as folder, ViewerServer(Page.of(page), scene) as server:
@@ -47,14 +47,14 @@ def serve(page: Path, shows_scan: bool) -> None:
 
 
 def _write_other_patient(path: Path) -> None:
-    """Write a slice of the scan as one of another patient."""
+    """Write a slice of the scan under the name of another patient."""
     data = pydicom.dcmread(next(iter(sorted(series().iterdir()))))
     data.PatientID, data.PatientName = "B-2", "Roe^Mary"
     data.save_as(path)
 
 
 def _tube() -> Volume:
-    """The lumen of the phantom's vessel as a mask on the grid of the scan."""
+    """Return the lumen of the phantom's vessel as a mask on the grid of the scan."""
     volume = scan()
     index = np.stack(np.meshgrid(*map(np.arange, volume.size), indexing="ij"), -1).reshape(-1, 3)
     places = index @ volume.world_from_index[:3, :3].T + volume.world_from_index[:3, 3]
@@ -65,7 +65,7 @@ def _tube() -> Volume:
 
 
 def read(archive: Path) -> dict[str, Any]:
-    """What the objects say, by their names."""
+    """Return the content of the objects by their names."""
     with tempfile.TemporaryDirectory() as folder:
         found = members(archive.read_bytes(), Path(folder))
         return {name: _told(path) for name, path in found.items()}
@@ -83,6 +83,7 @@ def _told(path: Path) -> dict[str, Any]:
     if path.name == "report.dcm":
         told["findings"] = [code(child(one, "Finding")[0].ConceptCodeSequence)[2] for one in groups(path)]
         told["names"] = sorted({child(one, "Tracking Identifier")[0].TextValue for one in groups(path)})
+        told["words"] = [one.value for one in data.iterall() if one.keyword == "TextValue"]
         told["diameters"] = [numbers(one)[0][1] for one in groups(path)]
     return told
 

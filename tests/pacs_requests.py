@@ -1,4 +1,4 @@
-"""Requests for "Save for PACS" as the page sends them, of vessels that Python measured."""
+"""Requests for "Save for PACS" as the page sends them, about vessels that Python measured."""
 
 from __future__ import annotations
 
@@ -6,20 +6,21 @@ import base64
 import io
 import json
 import zipfile
+from dataclasses import asdict
 from functools import cache
 from pathlib import Path
 from typing import Any
 
 import lumencut
 from dicom_scenes import LINE, scan, series
-from lumencut import Camera, Renderer, Vessel, VesselTree
+from lumencut import Camera, Renderer, Vessel, VesselTree, _lumencut
 from lumencut.frame import picture_as_png
 from lumencut.measure_report import report
-from lumencut.measured_vessel import Marked, MeasuredVessel, vessels_json
+from lumencut.measured_vessel import Marked, MeasuredVessel
 
 NAME = "left renal artery"
 MARKED = Marked(12.0, (24.0,))
-#: The options of `lumencut measure` that its JSON and its report tell.
+#: The options of `lumencut measure` that its JSON and its report repeat.
 ASKED: dict[str, Any] = {
     "step": 0.5,
     "fwhm": None,
@@ -31,14 +32,14 @@ ASKED: dict[str, Any] = {
 
 @cache
 def measured(marked: Marked = MARKED, name: str | None = NAME) -> MeasuredVessel:
-    """The vessel of the phantom with what is marked on it."""
+    """The vessel of the phantom, with marks."""
     vessel = Vessel(LINE[0].points, 3.0, name)
     return MeasuredVessel.of("0", vessel, lumencut.measure(scan(), vessel), marked)
 
 
 @cache
 def renderer() -> Renderer:
-    """What draws the phantom."""
+    """A renderer of the phantom."""
     return Renderer(scan(), VesselTree([Vessel(LINE[0].points, 3.0, NAME)]))
 
 
@@ -64,13 +65,13 @@ def html(marked: Marked = MARKED, name: str | None = NAME) -> str:
 
 
 def header() -> bytes:
-    """What stands before the pixels of a slice of the scan."""
+    """Return the part of a slice's file before the pixels."""
     content = next(iter(sorted(series().iterdir()))).read_bytes()
     return content[: content.rindex(b"\xe0\x7f\x10\x00") + 12]
 
 
 def view_part() -> dict[str, Any]:
-    """The turning view."""
+    """The part of the request about the turning view."""
     shown = camera()
     vectors = {name: [float(one) for one in getattr(shown, name)] for name in ("center", "direction", "up")}
     return {
@@ -82,38 +83,34 @@ def view_part() -> dict[str, Any]:
     }
 
 
-def finding_part(one: MeasuredVessel) -> dict[str, Any]:
+def finding_part(one: MeasuredVessel, marked: Marked = MARKED) -> dict[str, Any]:
     """A finding with its key image."""
-    profile = one.profile
-    marked = [mark.arc_length for mark in one.marks if not mark.is_suggestion]
-    contours = [[at, profile.contour[profile._core.nearest(at)].tolist()] for at in marked]
     return {
         "picture": encoded(picture_as_png(frame().image)),
+        "name": one.vessel.name or "",
         "points": one.vessel.points.tolist(),
-        "contours": contours,
-        "marks": [[mark.name, mark.arc_length, mark.is_suggestion] for mark in one.marks],
-        "words": None if one.stenosis is None else one.stenosis._graded.words(),
+        "profile": _lumencut.profile_record(one.profile._core),
+        "marks": {**asdict(marked), "stretch": None, "secondStretch": None},
     }
 
 
 def request(choice: str = "scan", marked: Marked = MARKED, name: str | None = NAME) -> dict[str, Any]:
-    """A request for all objects, of a scan that the server shows."""
+    """A request for all objects of a scan that the server shows."""
     one = measured(marked, name)
     return {
-        "version": 1,
+        "version": 2,
         "study": {"choice": choice, "is_served": True, "header": None, "instances": [], "study_count": 1},
         "fingerprint": "a scan",
         "stated": {"spacing": True, "orientation": True},
         "view": view_part(),
         "pane": {"picture": encoded(picture_as_png(frame().image)), "axes": "Rows run along the vessel."},
-        "findings": [finding_part(one)],
-        "numbers": vessels_json(ASKED, [one]),
+        "findings": [finding_part(one, marked)],
         "report": html(marked, name),
     }
 
 
 def dropped(choice: str = "scan", **study: Any) -> dict[str, Any]:
-    """The same of a DICOM folder that was dropped into the page."""
+    """The same request for a DICOM folder that was dropped into the page."""
     asked = request(choice)
     uids = [data.SOPInstanceUID for data in slices()]
     given = {"choice": choice, "is_served": False, "header": encoded(header()), "instances": uids}
@@ -122,19 +119,19 @@ def dropped(choice: str = "scan", **study: Any) -> dict[str, Any]:
 
 @cache
 def slices() -> list[Any]:
-    """The headers of the scan."""
+    """Return the headers of all slices of the scan."""
     import pydicom
 
     return [pydicom.dcmread(path, stop_before_pixels=True) for path in sorted(series().iterdir())]
 
 
 def sent(asked: dict[str, Any]) -> bytes:
-    """A request as bytes."""
+    """Return a request as bytes."""
     return json.dumps(asked).encode()
 
 
 def members(archive: bytes, folder: Path) -> dict[str, Path]:
-    """The files of an archive, unpacked."""
+    """Return the files of an archive, unpacked."""
     with zipfile.ZipFile(io.BytesIO(archive)) as opened:
         assert opened.testzip() is None
         opened.extractall(folder)

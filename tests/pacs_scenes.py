@@ -1,4 +1,4 @@
-"""A scan in a PACS that runs on this machine, and a user whom no PACS knows."""
+"""A scan in a PACS on this machine, and a user without credentials for any PACS."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from pacs_stub import Pacs, running
 
 
 def write_scan(folder: Path, count: int = 24) -> Path:
-    """Write a CT of so many slices."""
+    """Write a CT with this number of slices."""
     for k in range(count):
         save(single(PLAIN_STACK[k % len(PLAIN_STACK)], k + 1), folder / f"IM{k:03}.dcm")
     return folder
 
 
 def forget_user(monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:
-    """Take away the credentials and habits of whoever runs the tests."""
+    """Hide the credentials and known addresses of the user who runs the tests."""
     for name in ("TOKEN", "TOKEN_FILE", "CA"):
         monkeypatch.delenv(f"LUMENCUT_DICOMWEB_{name}", raising=False)
     monkeypatch.setenv("NETRC", str(folder / "no-netrc"))
@@ -32,7 +32,7 @@ def forget_user(monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:
 
 @contextmanager
 def holding(scan: Path) -> Iterator[Pacs]:
-    """Run a PACS that has a scan; it knows its study, its series and the address of that."""
+    """Run a PACS that has a scan; yield the PACS, the study, the series and the address of the series."""
     with running(Pacs()) as pacs:
         pacs.study, pacs.series = pacs.add(scan)
         pacs.address = f"{pacs.base}/studies/{pacs.study}/series/{pacs.series}"

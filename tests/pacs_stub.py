@@ -1,4 +1,4 @@
-"""A small PACS on this machine that speaks DICOMweb, and fails in whatever way a test asks for."""
+"""A small PACS on this machine that speaks DICOMweb, and fails as a test requires."""
 
 from __future__ import annotations
 
@@ -23,22 +23,22 @@ BOUNDARY = "between"
 
 
 class Pacs:
-    """What the server has and what it was asked.
+    """The objects that the server has, and the requests that it got.
 
     Attributes
     ----------
     held : dict
         Content by (study, series, instance).
     asked : Counter
-        How often each instance was asked for alone.
+        How often each instance was requested alone.
     streamed : int
-        How often all of a series was asked for.
+        How often an entire series was requested.
     fault : callable
-        Gets the handler of a request and its path; true where it has answered in place of the server.
+        Called with the handler and the path of a request; true if it answered instead of the server.
     tokens : set
-        The tokens that are taken; where it is empty, anybody is answered.
+        The accepted tokens; if empty, no token is needed.
     refused : dict
-        For instances that are not taken the reason, and how often they are refused.
+        Rejected instances: the reason, and how many times they are rejected.
     """
 
     def __init__(self) -> None:
@@ -53,13 +53,13 @@ class Pacs:
         self.base = ""
 
     def add(self, folder: Path) -> tuple[str, str]:
-        """Take all files of a folder; return the UIDs of the study and series of the last one."""
+        """Add all files of a folder; return the UIDs of study and series of the last file."""
         for path in sorted(folder.glob("*")):
             key = self.take(path.read_bytes())
         return key[:2]
 
     def take(self, content: bytes) -> tuple[str, str, str]:
-        """Keep an instance; one that is there already stays as it was."""
+        """Store an instance; an instance that is already stored does not change."""
         data = pydicom.dcmread(BytesIO(content), stop_before_pixels=True)
         key = (str(data.StudyInstanceUID), str(data.SeriesInstanceUID), str(data.SOPInstanceUID))
         self.held.setdefault(key, content)
@@ -76,7 +76,7 @@ class Handler(BaseHTTPRequestHandler):
         """Say nothing."""
 
     def do_GET(self) -> None:
-        """Answer a search, or give an instance."""
+        """Answer a search, or send an instance."""
         parts = urlsplit(self.path)
         path, query = parts.path.removeprefix("/web"), parse_qs(parts.query)
         self.pacs.headers.append(dict(self.headers))
@@ -93,7 +93,7 @@ class Handler(BaseHTTPRequestHandler):
             self.search(path, query)
 
     def do_POST(self) -> None:
-        """Take instances."""
+        """Store the instances of a request."""
         body = self.rfile.read(int(self.headers["Content-Length"]))
         self.pacs.headers.append(dict(self.headers))
         if self.is_refused() or self.pacs.fault(self, self.path):
@@ -106,7 +106,7 @@ class Handler(BaseHTTPRequestHandler):
         self.send_json(*self.stored(contents))
 
     def stored(self, contents: list[bytes]) -> tuple[int, object]:
-        """Keep what is not refused, and say what became of each."""
+        """Store instances unless they must be rejected, and report on each of them."""
         taken, failed = [], []
         for content in contents:
             uid = str(pydicom.dcmread(BytesIO(content), stop_before_pixels=True).SOPInstanceUID)
@@ -121,7 +121,7 @@ class Handler(BaseHTTPRequestHandler):
         return (409 if failed else 200), {**told, "00081199": {"vr": "SQ", "Value": taken}}
 
     def is_refused(self) -> bool:
-        """Whether the token is none that is taken."""
+        """Return whether the token of a request is not accepted."""
         sent = self.headers.get("Authorization", "").removeprefix("Bearer ")
         if not self.pacs.tokens or sent in self.pacs.tokens:
             return False
@@ -129,7 +129,7 @@ class Handler(BaseHTTPRequestHandler):
         return True
 
     def search(self, path: str, query: dict[str, list[str]]) -> None:
-        """Answer a search, a page of it."""
+        """Answer a search with one page of results."""
         words = path.strip("/").split("/")
         level = {"studies": 0, "series": 1, "instances": 2}[words[-1]]
         within = words[1::2][: (len(words) - 1) // 2]
@@ -142,7 +142,7 @@ class Handler(BaseHTTPRequestHandler):
         self.send_json(200, [self.described(key) for key in page])
 
     def described(self, key: tuple[str, ...]) -> dict[str, object]:
-        """What a search tells of a study, a series or an instance."""
+        """Return what a search reports about a study, a series or an instance."""
         content = next(value for held, value in self.pacs.held.items() if held[: len(key)] == key)
         data = pydicom.dcmread(BytesIO(content), stop_before_pixels=True)
         told: dict[str, object] = {}
@@ -155,22 +155,22 @@ class Handler(BaseHTTPRequestHandler):
         return told | _element("00200011", int(data.SeriesNumber)) | _element("00080020", str(data.StudyDate))
 
     def send_instance(self, content: bytes, status: int = 200) -> None:
-        """Give an instance as a message of one part."""
+        """Send an instance as a message of one part."""
         self.send_instances([content], status)
 
     def send_instances(self, contents: Iterable[bytes], status: int = 200) -> None:
-        """Give instances as a message of as many parts."""
+        """Send instances as a message with a part for each."""
         head = f"--{BOUNDARY}\r\nContent-Type: application/dicom\r\n\r\n".encode()
         body = b"".join(head + content + b"\r\n" for content in contents)
         kind = f'multipart/related; type="application/dicom"; boundary={BOUNDARY}'
         self.send(status, body + f"--{BOUNDARY}--\r\n".encode(), kind)
 
     def send_json(self, status: int, value: object) -> None:
-        """Answer in the JSON of DICOM."""
+        """Send an answer in DICOM JSON."""
         self.send(status, json.dumps(value).encode(), "application/dicom+json")
 
     def send(self, status: int, body: bytes, kind: str = "text/plain", **headers: str) -> None:
-        """Answer."""
+        """Send an answer."""
         self.send_response(status)
         for name, value in {"Content-Type": kind, "Content-Length": str(len(body)), **headers}.items():
             self.send_header(name, value)
@@ -178,7 +178,7 @@ class Handler(BaseHTTPRequestHandler):
         self.wfile.write(body)
 
     def die(self, content: bytes) -> None:
-        """Begin to give an instance, and end the connection in the middle of it."""
+        """Send the beginning of an instance, and break the connection."""
         self.send_response(200)
         self.send_header("Content-Type", f"multipart/related; boundary={BOUNDARY}")
         self.send_header("Content-Length", str(len(content)))
@@ -195,12 +195,12 @@ class _Server(ThreadingHTTPServer):
     daemon_threads = True
 
     def handle_error(self, *_: object) -> None:
-        """Say nothing of clients that end their connection."""
+        """Ignore clients that break their connection."""
 
 
 @contextmanager
 def running(pacs: Pacs, certificate: tuple[Path, Path] | None = None) -> Iterator[Pacs]:
-    """Let a PACS answer on this machine, by TLS where it has a certificate and its key."""
+    """Run a PACS on this machine, with TLS if a certificate with its key is given."""
     server = _Server(("127.0.0.1", 0), type("OneHandler", (Handler,), {"pacs": pacs}))
     scheme = "http"
     if certificate is not None:

@@ -1,4 +1,4 @@
-"""Volumes whose values are places: what is shown or written of them says where it truly lies."""
+"""Volumes whose values are coordinates: each value in a picture or a file shows its true position."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _SIZE, _SPACING = 81, 1.25
 
 
 def oblique() -> npt.NDArray[np.float64]:
-    """World from index (LPS) of a left-handed grid, oblique in the patient, its middle at the origin."""
+    """Return world from index (LPS) of a left-handed, oblique grid whose middle is the origin."""
     turn, _ = np.linalg.qr(np.array([[1, 0.3, 0.2], [-0.3, 1, 0.1], [0.1, -0.2, -1.0]]))
     affine = np.eye(4)
     affine[:3, :3] = turn * _SPACING
@@ -25,7 +25,7 @@ def oblique() -> npt.NDArray[np.float64]:
 
 @cache
 def ramp_volumes() -> list[Volume]:
-    """Three volumes on the oblique grid: the value of a voxel is its place along x, y or z (mm, LPS)."""
+    """Return three volumes on the oblique grid: the value of a voxel is its x, y or z (mm, LPS)."""
     affine = oblique()
     index = np.stack(np.meshgrid(*[np.arange(_SIZE)] * 3, indexing="ij"), axis=-1)
     world = index @ affine[:3, :3].T + affine[:3, 3]
@@ -36,7 +36,7 @@ def ramp_volumes() -> list[Volume]:
 
 
 def letters_of(direction: npt.ArrayLike) -> str:
-    """The sides that a direction (LPS) points to with at least a fifth of its length, the main one first."""
+    """The sides that a direction (LPS) points to with at least a fifth of its length, main side first."""
     parts = np.asarray(direction, float) / np.linalg.norm(direction)
     order = np.argsort(-np.abs(parts).round(6), kind="stable")
     return "".join(_ENDS[axis][int(parts[axis] > 0)] for axis in order if abs(parts[axis]) >= 0.2)

@@ -1,6 +1,6 @@
-"""The pieces of the method once more: slow, in numpy with 64-bit floats, written from its description alone.
+"""The pieces of the method, computed again: slow, in numpy with 64-bit floats, from their description.
 
-`reference_surface` decides between them, `reference_images` is what follows.
+`reference_surface` chooses between the pieces, `reference_images` makes the images.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import numpy as np
 
 #: Segments shorter than this in projection are collinear with the view (mm).
 COLLINEAR = 1e-3
-#: How far rounding moves a projected point (mm), for scenes of some 100 mm.
+#: How far rounding moves a projected point (mm), in scenes of about 100 mm.
 ROUNDING = 1e-5
 
 
@@ -49,7 +49,7 @@ def basis(count, parameters):
 
 
 def coarser(points, radius, arc):
-    """The next level of detail of one vessel; arc lengths are those of the vessel itself."""
+    """Return the next coarser level of detail of one vessel; arc lengths remain those of the vessel."""
     controls = np.column_stack([points, radius, arc])
     count = max(-(-len(points) // 2), 2)
     if len(points) < 4:
@@ -73,7 +73,7 @@ def levels_of(tree, count):
 
 
 def distinct(points):
-    """The points that do not repeat the one before them: a segment without length is not along the view."""
+    """Return which points differ from the point before: segments without length do not run along the view."""
     kept = [0]
     for i in range(1, len(points)):
         if np.linalg.norm(points[i] - points[kept[-1]]) >= COLLINEAR:
@@ -83,7 +83,7 @@ def distinct(points):
 
 @dataclass
 class Pieces:
-    """The stripes, and the pieces at points, of one projected vessel; an edge that is not there is zero."""
+    """The stripes, and the pieces at points, of one projected vessel; a missing edge is zero."""
 
     start: np.ndarray
     edge: np.ndarray
@@ -105,10 +105,10 @@ def pieces_of(view, radius, arc):
         fans = [(p[nearest], nothing, nothing, zrs[nearest])]
     else:
         first, last, end = solid[0], solid[-1], len(p) - 1
-        # A half-plane before the first segment, or a plane where a run starts the vessel; so at the end.
+        # A half-plane before the first segment, or a plane if a run starts the vessel; likewise at the end.
         fans = [(p[0], nothing, edges[0] if first == 0 else nothing, zrs[0])]
         for i in solid[solid != last]:
-            # A wedge, or a half-plane directed forward where a run follows.
+            # A wedge, or a half-plane in forward direction if a run follows.
             after = edges[i + 1] if i + 1 in solid else nothing
             fans.append((p[i + 1], edges[i], after, zrs[i + 1]))
         fans.append((p[end], edges[last] if last + 1 == end else nothing, nothing, zrs[end]))
@@ -118,7 +118,7 @@ def pieces_of(view, radius, arc):
 
 
 def beyond(offset, edge):
-    """How far (mm) offsets (P, S, 2) lie along edges (S, 2); infinitely where the edge is not there."""
+    """Return how far (mm) offsets (P, S, 2) lie along edges (S, 2); infinite if the edge is missing."""
     length = np.linalg.norm(edge, axis=-1)
     along = (offset * edge).sum(axis=-1)
     return np.divide(along, length, out=np.full(along.shape, np.inf), where=length > 0)
@@ -126,7 +126,7 @@ def beyond(offset, edge):
 
 @dataclass
 class Candidates:
-    """What the pieces of a vessel, stripes first, are at some pixels, each (P, S)."""
+    """Values of the pieces of a vessel, stripes first, at some pixels, each (P, S)."""
 
     z: np.ndarray
     r: np.ndarray
@@ -142,8 +142,8 @@ class Candidates:
 def candidates(pieces, q):
     """Evaluate every piece at every pixel.
 
-    The errors are what the slope of a stripe makes of ends that rounding has moved: much where it is short
-    and steep, as it turns about its ends.
+    The errors are changes of a stripe's depth if rounding moves its ends: large for a short and
+    steep stripe, which turns about its ends.
     """
     offset = q[:, None] - pieces.start
     length = np.linalg.norm(pieces.edge, axis=1)
@@ -164,7 +164,7 @@ def candidates(pieces, q):
 
 
 def distance_to(vessels, q):
-    """The smallest projected distance to any segment of any vessel (points, radius) in view space."""
+    """Return the smallest projected distance to any segment of any vessel (points, radius) in view space."""
     nearest = np.full(len(q), np.inf)
     for view in vessels:
         start, edge = view[:-1, :2], np.diff(view[:, :2], axis=0)

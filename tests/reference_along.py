@@ -1,7 +1,7 @@
-"""Largest, smallest and mean values along rays again: in numpy with 64-bit floats, from their description.
+"""Largest, smallest and mean values along rays, computed again in numpy with 64-bit floats.
 
-Between two crossings of a ray with the planes through voxel centres the trilinear field is a cubic. Four
-samples give it, so that its extremes and its integral are exact but for rounding. Pixels are rows of arrays,
+Between two planes through voxel centres, the trilinear field along a ray is a cubic. Four samples
+define it, so its extremes and its integral are exact except for rounding. Pixels are rows of arrays,
 the crossings of their rays are columns.
 """
 
@@ -14,7 +14,7 @@ import numpy as np
 
 @dataclass
 class Extremes:
-    """What each ray meets, (P,); NaN where it meets no value."""
+    """The values of each ray, (P,); NaN if the ray meets no value."""
 
     smallest: np.ndarray
     largest: np.ndarray
@@ -33,7 +33,7 @@ def crossings(foot, toward, near, far, size):
 
 
 class Cells:
-    """The cells of eight voxels [k, j, i] around continuous indices (..., 3); the outermost ones go on."""
+    """The cells of eight voxels [k, j, i] at continuous indices (..., 3); border values continue outside."""
 
     def __init__(self, array, middle):
         self.last = np.array(array.shape[::-1]) - 1
@@ -50,7 +50,7 @@ class Cells:
         self.whole = ~np.any([np.isnan(corner) for corner in self.corners.values()], axis=0)
 
     def at(self, index):
-        """The field of each cell at an index of its own (..., 3)."""
+        """Return the field of each cell at one index (..., 3) per cell."""
         share = np.clip(index, 0, self.last) - self.low
         weights = [(1 - share[..., a], share[..., a]) for a in range(3)]
         return sum(
@@ -60,12 +60,12 @@ class Cells:
 
 
 def turns(samples):
-    """Where, from 0 to 1, the cubics through four equidistant samples turn; 0 where they do not."""
+    """Return where (0 to 1) cubics through four equidistant samples have extremes; 0 if they have none."""
     f0, f1, f2, f3 = samples
     cubic = 4.5 * (f3 - 3 * f2 + 3 * f1 - f0)
     square = 9 * f0 - 22.5 * f1 + 18 * f2 - 4.5 * f3
     slope = -5.5 * f0 + 9 * f1 - 4.5 * f2 + f3
-    # The form of the roots that keeps its digits where the cubic is almost a parabola or a line.
+    # This form of the roots keeps its digits if the cubic is almost a parabola or a line.
     with np.errstate(divide="ignore", invalid="ignore"):
         root = -(square + np.copysign(np.sqrt(square**2 - 3 * cubic * slope), square))
         places = (root / (3 * cubic), slope / root)
@@ -73,9 +73,9 @@ def turns(samples):
 
 
 def along(array, foot, toward, near, far):
-    """The extremes between the depths `near` and `far` of rays.
+    """Return the extremes of rays between the depths `near` and `far`.
 
-    A ray is at the continuous indices `foot` + depth · `toward`, (P, 3) and (3,).
+    A ray has the continuous indices `foot` + depth · `toward`, (P, 3) and (3,).
     """
     hits = far > near
     near, far = np.where(hits, near, 0), np.where(hits, far, 0)

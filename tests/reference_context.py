@@ -1,7 +1,7 @@
-"""The context once more: slow, in numpy with 64-bit floats, written from its description alone.
+"""The context, computed again: slow, in numpy with 64-bit floats, from the description only.
 
-Where colours blend, every ray is sampled from end to end: nothing is skipped, nothing ends early. Pixels are
-rows of arrays, the parts of their rays are columns; what a ray does not have is NaN. The other modes take no
+If colours blend, every ray is sampled from end to end: no part is skipped, no ray ends early. Pixels are
+rows of arrays, the parts of their rays are columns; missing parts are NaN. The other modes use no
 samples: see `reference_along`.
 """
 
@@ -14,7 +14,7 @@ import numpy as np
 import reference_along
 from reference import pixel_centers
 
-#: By how much of a step a chord may exceed whole steps without a part more, and how exactly that is known.
+#: By this part of a step a chord may exceed whole steps without another part, and the error of that length.
 SPARE, ROUNDING = 1e-3, 1e-9
 
 
@@ -29,7 +29,7 @@ class Rays:
 
     @property
     def largest(self):
-        """The largest sample of each ray, (P,)."""
+        """Return the largest sample of each ray, (P,)."""
         largest = np.where(np.isnan(self.value), -np.inf, self.value).max(axis=1)
         return np.where(np.isfinite(largest), largest, np.nan)
 
@@ -44,7 +44,7 @@ def index_from_view(volume, camera):
 
 
 def interpolate(array, index):
-    """The voxels [k, j, i] at continuous indices (..., 3); the outermost ones go on beyond their centres."""
+    """Return the voxels [k, j, i] at continuous indices (..., 3); border values continue outside."""
     last = np.array(array.shape[::-1]) - 1
     index = np.clip(index, 0, last)
     low = np.minimum(np.floor(index).astype(int), np.maximum(last - 1, 0))
@@ -78,12 +78,12 @@ def chords(volume, camera, q, start):
 
 
 def blends(mode, gamma=0.0):
-    """Whether a mode blends samples; the others take exact values along the rays, and no step."""
+    """Return whether a mode blends samples; the other modes use exact values along rays, without steps."""
     return mode == "dvr" or (mode == "mida" and gamma < 1)
 
 
 def follow(volume, camera, mode, *, gamma=0.0, step=None, **others):
-    """What a mode takes of the rays: samples, or exact values. `step` is for samples alone."""
+    """Return what a mode needs of the rays: samples, or exact values. `step` is only for samples."""
     if blends(mode, gamma):
         rays = trace(volume, camera, step, **others)
         assert not rays.unsure.any(), "choose another step: here rounding decides about the number of parts"
@@ -93,7 +93,7 @@ def follow(volume, camera, mode, *, gamma=0.0, step=None, **others):
 
 
 def exact(volume, camera, *, start=None, q=None):
-    """The exact extremes and means along the rays at view x and y `q` from depth `start` on."""
+    """Return exact extremes and means along the rays at view x and y `q`, from depth `start` on."""
     q = pixel_centers(camera) if q is None else q
     start = np.full(len(q), -np.inf) if start is None else start
     near, far = chords(volume, camera, q, start)
@@ -103,7 +103,7 @@ def exact(volume, camera, *, start=None, q=None):
 
 
 def trace(volume, camera, step=None, *, start=None, q=None, shading=False):
-    """The samples of the rays at view x and y `q`, where not given of all pixels, from depth `start` on."""
+    """Return the samples of the rays at view x and y `q`, by default of all pixels, from depth `start` on."""
     q = pixel_centers(camera) if q is None else q
     start = np.full(len(q), -np.inf) if start is None else start
     step = volume.spacing.min() if step is None else step
@@ -125,7 +125,7 @@ def trace(volume, camera, step=None, *, start=None, q=None, shading=False):
 
 
 def slopes(array, index, matrix):
-    """How far gradients point along the view, NaN where none or a neighbour is NaN; the change."""
+    """Return the cosine between gradient and view, NaN if a neighbour is missing, and the change of value."""
     sides = np.eye(3)
     change = [interpolate(array, index + s) - interpolate(array, index - s) for s in sides]
     change = np.stack(change, axis=-1)
@@ -136,25 +136,25 @@ def slopes(array, index, matrix):
 
 
 def normalised(window, value):
-    """0 at the window's black end, 1 at its white end."""
+    """Map the window's black end to 0, its white end to 1."""
     level, width = window
     return np.clip((value - level) / width + 0.5, 0, 1)
 
 
 def colour(points, value):
-    """RGB (..., 3) from 0 to 1 of a transfer function [(intensity, rgb, opacity per mm), …]."""
+    """Return RGB (..., 3) from 0 to 1 of a transfer function [(intensity, rgb, opacity per mm), …]."""
     at = [p[0] for p in points]
     return np.stack([np.interp(value, at, [p[1][c] / 255 for p in points]) for c in range(3)], axis=-1)
 
 
 def opacity(points, value, length):
-    """The opacity of `length` mm."""
+    """Return the opacity of `length` mm."""
     per_mm = np.interp(value, [p[0] for p in points], [p[2] for p in points])
     return 1 - (1 - per_mm) ** length
 
 
 def shaded(rgb, slope, window):
-    """Light from the viewer on colours, half of it where the change is a tenth of the window."""
+    """Return colours lit from the viewer; half the shading at a change of a tenth of the window."""
     cosine, change = slope[..., :1], slope[..., 1:]
     share = change**2 / (change**2 + (0.1 * window[1]) ** 2)
     lit = rgb * (1 + share * (0.4 + 0.6 * cosine - 1)) + share * 0.2 * cosine**16
@@ -182,7 +182,7 @@ def blend(rays, points, window, gamma):
 
 
 def plain_dvr(rays, points, window):
-    """Front-to-back compositing as every textbook has it: the product of what all before let through."""
+    """Front-to-back compositing as in textbooks, with the product of the transparencies in front."""
     there = ~np.isnan(rays.value)
     value = np.where(there, rays.value, 0)
     own = np.where(there, opacity(points, value, rays.length[:, None]), 0)
@@ -194,23 +194,23 @@ def plain_dvr(rays, points, window):
 
 
 def opaque(rgb, value):
-    """Opaque where a ray has a value."""
+    """Return opacity 1 if a ray has a value, otherwise 0."""
     there = ~np.isnan(value)
     return np.where(there[:, None], np.column_stack([rgb, np.ones(len(rgb))]), 0)
 
 
 def coloured(value, points):
-    """The colours of the values of rays."""
+    """Return the colours of the values of rays."""
     return opaque(colour(points, value), value)
 
 
 def grey(value, window):
-    """The greys of the values of rays."""
+    """Return the grey levels of the values of rays."""
     return opaque(np.column_stack([normalised(window, value)] * 3), value)
 
 
 def gather(rays, mode, points, window, gamma=0.0):
-    """What a mode makes of the rays: colours times opacity, and opacity, (P, 4), 0 to 1."""
+    """Return what a mode makes of the rays: premultiplied colours and opacity, (P, 4), 0 to 1."""
     made = {
         "mida": lambda: blend(rays, points, window, gamma) if gamma < 1 else coloured(rays.largest, points),
         "dvr": lambda: plain_dvr(rays, points, window),
@@ -222,20 +222,20 @@ def gather(rays, mode, points, window, gamma=0.0):
 
 
 def starts(value, depth, behind, opacity):
-    """Where the rays of pixels start whose cut surface has these values: nowhere (∞) where it is opaque."""
+    """Return where the rays of pixels with these surface values start: nowhere (∞) if it is opaque."""
     shown = np.where(np.isnan(value), 0, ramp(opacity, value))
     return np.where(np.isnan(value), -np.inf, np.where(shown < 1, depth + behind, np.inf)).ravel()
 
 
 def ramp(opacity, value):
-    """The opacity ramp (transparent, opaque); `None` is opaque everywhere."""
+    """Return the opacity by the ramp (transparent, opaque); without a ramp everything is opaque."""
     if opacity is None:
         return np.ones(np.shape(value))
     return np.clip((value - opacity[0]) / (opacity[1] - opacity[0]), 0, 1)
 
 
 def picture(value, context, window, opacity, background):
-    """Surface over context over background, (P, 4), colours times opacity, and opacity."""
+    """Return surface over context over background, (P, 4): premultiplied colours and opacity."""
     there = ~np.isnan(value)
     shown = np.where(there, ramp(opacity, np.where(there, value, 0)), 0)[:, None]
     grey = normalised(window, np.where(there, value, 0))
@@ -246,7 +246,7 @@ def picture(value, context, window, opacity, background):
 
 
 def slab(volume, camera, depth, thickness, kind):
-    """The values (H, W) of a thick cut surface at `depth` (H, W): none where the surface itself has none."""
+    """Return the values (H, W) of a thick cut surface at `depth` (H, W); NaN if the surface has none."""
     matrix, origin = index_from_view(volume, camera)
     q, depth, array = pixel_centers(camera), depth.ravel(), volume.array.astype(float)
     foot = origin + q @ matrix[:, :2].T
@@ -256,5 +256,5 @@ def slab(volume, camera, depth, thickness, kind):
     near, far = chords(volume, camera, q, depth - thickness / 2)
     found = reference_along.along(array, foot, matrix[:, 2], near, np.minimum(far, depth + thickness / 2))
     thick = {"max": found.largest, "min": found.smallest, "mean": found.mean}[kind]
-    # A slab that meets nothing shows the surface alone.
+    # If the slab meets no value, the value of the surface itself is shown.
     return np.where(np.isnan(thin) | np.isnan(thick), thin, thick).reshape((camera.size[1], camera.size[0]))

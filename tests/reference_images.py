@@ -1,4 +1,4 @@
-"""What the slow reference makes of a cut surface: filtered depth, leaps, positions and values."""
+"""The images of the slow reference: filtered depth, jumps in depth, positions and values."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def depth_filter(image):
 
 
 def zone_filter(depth, vessel, leap, tolerance):
-    """The Gaussian within zones, columns first; and where rounding may count a pair that leaps, or not."""
+    """Filter within zones, columns first; also return where rounding may decide which pairs count."""
     once, doubt = pairs_along(depth.T, vessel.T, leap, tolerance)
     smooth, further = pairs_along(once.T, vessel, leap, tolerance)
     for k in range(1, 4):
@@ -29,7 +29,7 @@ def zone_filter(depth, vessel, leap, tolerance):
 
 
 def pairs_along(depth, vessel, leap, tolerance):
-    """Filter each row by itself: neighbours at ± k count only as a pair."""
+    """Filter each row separately: neighbours at ± k count only as a pair."""
     out, doubt = depth.copy(), np.zeros(depth.shape, bool)
     count = depth.shape[1]
     for i in range(count):
@@ -37,7 +37,7 @@ def pairs_along(depth, vessel, leap, tolerance):
         for k in range(1, 4):
             if i - k < 0 or i + k >= count:
                 break
-            # Another zone ends the pixel's own one: nothing beyond it counts.
+            # The zone of the pixel ends at another zone; nothing beyond counts.
             on_even_surface &= (vessel[:, i - k] == vessel[:, i]) & (vessel[:, i + k] == vessel[:, i])
             bend = np.abs(depth[:, i - k] + depth[:, i + k] - 2 * depth[:, i])
             weight = np.exp(-(k**2) / (2 * SIGMA**2)) * (on_even_surface & (bend < leap))
@@ -49,10 +49,10 @@ def pairs_along(depth, vessel, leap, tolerance):
 
 
 def silhouettes(surface, camera, tolerance):
-    """The strength of silhouettes of the rule leap, and where rounding may make it another one.
+    """Return the strength of silhouettes by the rule `leap`, and where rounding may change the strength.
 
-    Two neighbours leap where the depth differs from what the slope of either of them alone makes it, each
-    time by more than the diameter of the vessel, and by more than 2 mm. Each leap draws its own line.
+    The depth jumps between two neighbours if it differs from the extrapolation of either slope, both
+    times by more than the diameter of the vessel and by more than 2 mm. Each jump draws its own line.
     """
     lumen, strength = surface.beyond <= 0, np.zeros(surface.depth.shape)
     vague_here = surface.unsure_depth | surface.unsure_vessel | (np.abs(surface.beyond) < tolerance)
@@ -76,7 +76,7 @@ def silhouettes(surface, camera, tolerance):
 
 
 def draw_line(strength, side, other, width, lumen, leaps):
-    """Draw the line of one leap on the side of the pixel `side`."""
+    """Draw the line of one jump on the side of the pixel `side`."""
     middle, outwards = (np.add(side, other)) / 2, np.subtract(side, other)
     for step in np.ndindex(5, 5):
         pixel = (side[0] + step[0] - 2, side[1] + step[1] - 2)
@@ -95,7 +95,7 @@ def draw_line(strength, side, other, width, lumen, leaps):
 
 
 def leaps_between(surface, camera):
-    """Of each pair of neighbours both pixels and by how much they exceed the smaller bound of a leap (mm)."""
+    """Return both pixels of each pair of neighbours, and the excess over the smaller bound of a jump (mm)."""
     side, pairs = camera.pixel_spacing, []
     for axis, along in ((1, (side, 0.0)), (0, (0.0, -side))):
         ends = [slice(None, -1), slice(1, None)]
@@ -118,13 +118,13 @@ def _at(pixel, shape):
 
 
 def _near(pixels):
-    """The pixels and all that are up to two pixels away along both axes."""
+    """Return the pixels of a mask and all pixels up to two away along both axes."""
     padded = np.pad(pixels, 2)
     return np.lib.stride_tricks.sliding_window_view(padded, (5, 5)).any(axis=(2, 3))
 
 
 def position(depth, camera):
-    """World points (H, W, 3) of a depth image."""
+    """Return the world points (H, W, 3) of a depth image."""
     q = pixel_centers(camera).reshape(*depth.shape, 2)
     right = np.cross(camera.direction, camera.up)
     right /= np.linalg.norm(right)
@@ -133,7 +133,7 @@ def position(depth, camera):
 
 
 def trilinear(volume, world):
-    """The volume at world points (H, W, 3): the border goes on for half a voxel, beyond is NaN."""
+    """Sample the volume at world points (H, W, 3): border values continue for half a voxel; NaN beyond."""
     affine, last = volume.world_from_index, np.asarray(volume.size) - 1
     index = np.linalg.solve(affine[:3, :3], (world - affine[:3, 3])[..., None])[..., 0]
     outside = ((index < -0.5) | (index > last + 0.5)).any(axis=-1)

@@ -1,4 +1,4 @@
-"""mpCPR and CR once more, in 64-bit floats and without any search: every pixel against everything."""
+"""mpCPR and CR, computed again in 64-bit floats without a search: every pixel against every piece."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def places(camera):
 
 
 def mpcpr(tree, camera):
-    """Depth, vessel and folded (H, W) of mpCPR; segments within a row are none of its matters."""
+    """Return depth, vessel and folded (H, W) of mpCPR; segments within a row are ignored."""
     columns, rows = places(camera)
     shape = (len(rows), len(columns))
     depth, vessel, folded = np.full(shape, np.nan), np.full(shape, -1), np.zeros(shape, bool)
@@ -37,7 +37,7 @@ def mpcpr(tree, camera):
 
 
 def crossed(points, y, number):
-    """Where a row crosses a vessel: view x, depth and the number of the vessel, (n, 3)."""
+    """Return where a row crosses a vessel: view x, depth and the number of the vessel, (n, 3)."""
     before, after = points[:-1], points[1:]
     owned = before[:, 1] == y
     inside = (before[:, 1] - y) * (after[:, 1] - y) < 0
@@ -49,13 +49,13 @@ def crossed(points, y, number):
 
 
 class Pieces(NamedTuple):
-    """Pieces of a tree as one pixel sees them."""
+    """The pieces of a tree that cover one pixel."""
 
     distance: np.ndarray
     depth: np.ndarray
     radius: np.ndarray
     vessel: np.ndarray
-    #: The point at the start of the piece, and how far beyond it the place lies along the vessel (mm).
+    #: The start point of the piece, and how far along the vessel the place is from this point (mm).
     start: np.ndarray
     beyond: np.ndarray
 
@@ -89,14 +89,14 @@ class Lines:
         self.radius = np.concatenate([vessel.radius for vessel in tree])
         self.vessel = np.repeat(np.arange(len(view)), [len(points) for points in view])
         steps = np.diff(np.concatenate([vessel.points for vessel in tree]), axis=0)
-        #: Of the segment that starts at each point; 0 at the end of a vessel.
+        #: Whether a segment starts at each point; 0 at the end of a vessel.
         goes_on = np.append(self.vessel[1:] == self.vessel[:-1], False)
         self.lengths = np.where(goes_on, np.append(np.linalg.norm(steps, axis=1), 0.0), 0.0)
         self.edge = np.append(np.diff(self.points, axis=0), [[0, 0, 0]], axis=0) * goes_on[:, None]
         self.before = np.concatenate([[[0, 0, 0]], self.edge[:-1]])
 
     def seen(self, x, y):
-        """All stripes and wedges that cover the pixel at (x, y)."""
+        """Return all stripes and wedges that cover the pixel at (x, y)."""
         to = np.array([x, y]) - self.points[:, :2]
         edge, square = self.edge[:, :2], (self.edge[:, :2] ** 2).sum(axis=1)
         along = (to * edge).sum(axis=1)
@@ -115,7 +115,7 @@ class Lines:
 
 
 def all_ways(tree):
-    """The length of the shortest way along the tree between all its points, (n, n): Floyd and Warshall."""
+    """Return the shortest path length along the tree between any two points, (n, n): Floyd and Warshall."""
     points = np.concatenate([vessel.points for vessel in tree])
     ends = np.cumsum([len(vessel.points) for vessel in tree])
     ways = np.full((len(points), len(points)), np.inf)
@@ -132,7 +132,7 @@ def all_ways(tree):
 
 
 def distance_along(ways, lengths, pieces, front):
-    """How far the place of each piece lies from that of one of them, along the tree (mm)."""
+    """Return how far the place of each piece is from that of a given piece, along the tree (mm)."""
     same = pieces.start == pieces.start[front]
     far = np.where(same, np.abs(pieces.beyond - pieces.beyond[front]), np.inf)
     here = pieces.start[front], pieces.beyond[front], lengths[pieces.start[front]]
@@ -144,13 +144,13 @@ def distance_along(ways, lengths, pieces, front):
 
 
 def _ends(start, beyond, length):
-    """Both ends of segments, and how far a place on them lies from each."""
+    """Return both end points of the segments, and the distance of a place from each."""
     following = np.where(length > 0, start + 1, start)
     return (start, beyond), (following, length - beyond)
 
 
 def index_valued(affine, size=(30, 26, 22)):
-    """Three volumes whose voxels have their own index i, j and k as values."""
+    """Return three volumes; the values of their voxels are the indices i, j and k."""
     k, j, i = np.meshgrid(*(np.arange(n, dtype=np.float64) for n in size[::-1]), indexing="ij")
     return [Volume(axis, world_from_index=affine) for axis in (i, j, k)]
 

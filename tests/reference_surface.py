@@ -1,7 +1,7 @@
-"""The cut surface of the slow reference: which piece each pixel sees, and at which depth.
+"""The cut surface of the slow reference: the piece that each pixel shows, and its depth.
 
-The package must agree with it except where two pieces cost the same or a pixel lies on the border of a piece,
-both within rounding: there `Surface.unsure_depth` and `Surface.unsure_vessel` say so.
+The package must agree except if two pieces have equal costs or a pixel lies on the border of a piece, both
+within rounding: `Surface.unsure_depth` and `Surface.unsure_vessel` mark these pixels.
 """
 
 from __future__ import annotations
@@ -12,9 +12,9 @@ import numpy as np
 
 from reference import candidates, distance_to, distinct, levels_of, pieces_of, pixel_centers, view_from_world
 
-#: Costs closer than this may tie in 32-bit floats (mm of depth); so may arc lengths (mm).
+#: Costs closer than this may be equal in 32-bit floats (mm of depth); the same holds for arc lengths (mm).
 TIE = 1e-3
-#: Pixels nearer than this to the border of a piece, or to where the lumen ends, may fall on either side (mm).
+#: Pixels closer than this to the border of a piece or of the lumen may fall on either side (mm).
 BORDER = 1e-4
 LIFT = 1e7
 
@@ -39,7 +39,7 @@ class Surface:
 
 @dataclass
 class Winners:
-    """The winners of one level at some pixels, and between what they may vary within rounding."""
+    """The winners of one level at some pixels, and the range of values that rounding allows."""
 
     z: np.ndarray
     slack: np.ndarray
@@ -55,7 +55,7 @@ class Winners:
 
 
 def key(found, settings, slack=0.0):
-    """What orders the pieces: under `lumen_first` lumen, wall, surroundings; else the cost alone."""
+    """Return the order of pieces: with `lumen_first` lumen, wall, surroundings; otherwise only the cost."""
     beyond = found.d - found.r
     cost = found.z + settings.cost_weight * np.maximum(beyond, 0)
     if not settings.lumen_first:
@@ -98,7 +98,7 @@ def winners(vessels, q, settings):
 
 
 def own(vessels, q, settings, decided):
-    """At each pixel the piece of the vessel that won it whose arc length is nearest to the winner's."""
+    """Return at each pixel the piece of the winning vessel whose arc length is nearest to the winner's."""
     shape = len(q)
     z, slack, s, z_range = (np.zeros(shape) for _ in range(4))
     slope = np.zeros((shape, 2))
@@ -125,7 +125,7 @@ def own(vessels, q, settings, decided):
 
 
 def pieces_at(level, camera, settings):
-    """The pieces of all vessels of a level; what a radius is where it does not count or is not known."""
+    """Return the pieces of all vessels of a level; radii that do not count or are unknown are replaced."""
     made = []
     for points, known, arc in level:
         radius = known * settings.preserve_lumen
@@ -137,13 +137,13 @@ def pieces_at(level, camera, settings):
 
 
 def cut_surface(tree, camera, settings, depth_tolerance=1e-3):
-    """The cut surface, and where it may differ within rounding by more than `depth_tolerance` (mm)."""
+    """Return the cut surface, and where rounding may change it by more than `depth_tolerance` (mm)."""
     q, n = pixel_centers(camera), settings.levels
     levels = levels_of(tree, n)
     distance = distance_to([view_from_world(points, camera) for points, *_ in levels[0]], q)
     decided = winners(pieces_at(levels[0], camera, settings), q, settings)
     is_own = settings.level_choice == "own"
-    # What selects the levels: the distance to any centerline, or that to the wall of the winner.
+    # The levels are selected by the distance to any centerline, or by the distance to the wall of the winner.
     beyond = decided.d - decided.r - settings.lumen_margin if is_own else distance
     f = np.sqrt(n * np.maximum(beyond, 0) / settings.level_distance)
     fine = np.minimum(n, np.floor(f)).astype(int)
@@ -165,7 +165,7 @@ def cut_surface(tree, camera, settings, depth_tolerance=1e-3):
         {name: np.stack(values)[k, pixel] for name, values in made.items()} for k in (fine, coarse)
     )
     weight = np.where(fine == n, 0.0, f - fine)
-    # The square root makes much of little where the distance is nearly 0.
+    # Near distance 0 the square root amplifies rounding.
     low, high = np.sqrt(np.maximum(beyond, 0)), np.sqrt(np.maximum(beyond + 2e-5, 0))
     blur = np.sqrt(n / settings.level_distance) * (high - low)
 
@@ -177,7 +177,7 @@ def cut_surface(tree, camera, settings, depth_tolerance=1e-3):
     unsure, same = vague > depth_tolerance, first["vessel"] == second["vessel"]
     if is_own:
         vessel, other = decided.vessel, decided.other_vessel
-        # Where the winner may be another one, so may all that follows from it at coarser levels.
+        # If another winner is possible, everything at coarser levels may differ too.
         unsure |= (f > 0) & (decided.other_vessel | decided.other_place)
     else:
         vessel = np.where(weight > 0.5, second["vessel"], first["vessel"])

@@ -1,4 +1,4 @@
-"""A report as its reader's browser finds it."""
+"""A report as a browser parses it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which files of a Rust crate need which others, read from their `use` lines."""
+"""Finds which files of a Rust crate need which others, from their `use` lines."""
 
 from __future__ import annotations
 

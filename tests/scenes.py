@@ -20,9 +20,9 @@ def wandering(seed: int, vessels: int = 6, points: int = 40, step: float = 2.0) 
 
 
 def lattice(seed: int, vessels: int = 8, points: int = 25) -> VesselTree:
-    """Vessels along the axes of a lattice: along an axis of view, runs of collinear segments everywhere.
+    """Vessels along the axes of a lattice: in axis-aligned views, many segments are collinear with the view.
 
-    They cross and touch, turn back on themselves, and a tenth of the points repeat the one before.
+    The vessels cross, touch, turn back on themselves; a tenth of the points repeat the point before.
     """
     random = np.random.default_rng(seed)
     made = []
@@ -48,7 +48,7 @@ def nearly_along_y(seed: int, vessels: int = 5, points: int = 30) -> VesselTree:
 
 
 def of_few_points(seed: int) -> VesselTree:
-    """Vessels of 2 to 7 points: too few for a cubic, just enough, and a little more."""
+    """Vessels of 2 to 7 points: too few for a cubic spline, just enough, and a few more."""
     random = np.random.default_rng(seed)
     counts = (2, 2, 3, 3, 4, 4, 5, 6, 7)
     return VesselTree([Vessel(random.uniform(-5, 5, (n, 3)), random.uniform(0, 3, n)) for n in counts])

@@ -1,4 +1,4 @@
-"""The scripts of the repository as modules, for the tests of what they do."""
+"""Loads the scripts of the repository as modules, to test their functions."""
 
 import importlib.util
 import sys
@@ -7,15 +7,15 @@ from pathlib import Path
 from types import ModuleType
 
 SCRIPTS = Path(__file__).resolve().parents[1] / "scripts"
-# Where they find each other when they run.
+# So that the scripts find each other.
 sys.path.append(str(SCRIPTS))
 
 
 def script(name: str) -> Iterator[ModuleType]:
-    """A script as a module; for a fixture, which forgets the module at its end."""
+    """Load a script as a module; for a fixture, which unloads the module at its end."""
     spec = importlib.util.spec_from_file_location(name, SCRIPTS / f"{name}.py")
     module = importlib.util.module_from_spec(spec)
-    # Data classes look their module up by its name.
+    # Data classes look up their module by name.
     sys.modules[name] = module
     spec.loader.exec_module(module)
     yield module

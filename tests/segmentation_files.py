@@ -1,4 +1,4 @@
-"""DICOM segmentations of known masks, as several programs write them."""
+"""DICOM segmentations of known masks, in the forms that several programs write."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def segmentation(
 ) -> Dataset:
     """A segmentation of one mask for each segment, all on one grid.
 
-    Fractional masks are worth 0 to 1. `order` shuffles the frames; frames without any voxel are left out.
+    Fractional masks have values from 0 to 1. `order` shuffles the frames; frames without voxels are omitted.
     """
     volume = next(iter(masks.values()))
     data = instance(1, 24, SegmentationStorage, "SEG")
@@ -64,7 +64,7 @@ def segmentation(
 
 
 def label_map(labels: Volume, names: Mapping[int, str]) -> Dataset:
-    """A label map as a segmentation: the pixels are the numbers of the segments."""
+    """Write a label map as a segmentation whose pixels are the numbers of the segments."""
     data = segmentation({1: labels}, names, kind="LABELMAP")
     data.SOPClassUID = data.file_meta.MediaStorageSOPClassUID = "1.2.840.10008.5.1.4.1.1.66.7"
     for groups in data.PerFrameFunctionalGroupsSequence:

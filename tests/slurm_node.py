@@ -1,4 +1,4 @@
-"""SLURM of one node on this machine, as long as it is needed: munge, controller and daemon, on loopback.
+"""Runs SLURM with one node on this machine: munge, controller and daemon, only on loopback.
 
 Needs root, and Debian's packages slurm-wlm and munge.
 """
@@ -41,13 +41,13 @@ PartitionName=long Nodes={host} Default=YES MaxTime=INFINITE State=UP
 
 
 def is_there() -> bool:
-    """Whether SLURM can run here."""
+    """Return whether SLURM can run on this machine."""
     return os.name == "posix" and os.geteuid() == 0 and all(map(shutil.which, _PROGRAMS))
 
 
 @contextmanager
 def slurm(home: Path) -> Iterator[dict[str, str]]:
-    """Run SLURM out of a folder, and give the environment in which its commands find it."""
+    """Run SLURM in a folder; yield the environment in which its commands find it."""
     for name in ("state", "spool"):
         (home / name).mkdir()
     home.chmod(0o755)
@@ -83,7 +83,7 @@ def _free_ports() -> tuple[int, int]:
 
 
 def _wait_for_the_node(environment: dict[str, str]) -> None:
-    """Wait until the node takes jobs."""
+    """Wait until the node accepts jobs."""
     end = time.monotonic() + 60
     while True:
         told = subprocess.run(["sinfo", "-h", "-o", "%T"], env=environment, capture_output=True, text=True)

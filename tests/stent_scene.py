@@ -1,4 +1,4 @@
-"""A stand-in for the CT of the demo, which is on the network: its centerlines in a volume that is made."""
+"""A substitute for the demo's CT, which must be downloaded: its centerlines in an artificial volume."""
 
 from importlib.resources import as_file, files
 
@@ -10,7 +10,7 @@ _LUMEN, _TISSUE, _SHAPE = 310, 60, (256, 128, 128)
 
 
 def stent_stand_in() -> tuple[Volume, VesselTree]:
-    """The tree of the demo, and a CT of its size with tubes of the tree's radii as bright as its lumen."""
+    """Return the tree of the demo, and a CT of the same size with bright tubes of the tree's radii."""
     with as_file(files("lumencut.demo") / "stent-centerlines.vtp") as path:
         tree = read_centerlines(path, "lps", unit="mm")
     voxels = np.full(_SHAPE, _TISSUE, np.int16)

@@ -1,4 +1,4 @@
-"""Labels on pictures: read back by their shapes, and compared with where things are seen."""
+"""Labels on pictures: they are read by their shapes and compared with the true sides of the patient."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def cameras():
 
 
 def one_bright_voxel(grid, way):
-    """A dark volume with one bright voxel as far as it goes from the middle to one side of the patient."""
+    """A dark volume with one bright voxel, far from the middle towards one side of the patient."""
     middle = np.full(3, SIDE // 2)
     step = np.linalg.inv(grid[:3, :3]) @ np.array(way, dtype=float)
     index = np.rint(middle + step / np.abs(step).max() * 9).astype(int)
@@ -69,7 +69,7 @@ def one_bright_voxel(grid, way):
 
 @pytest.mark.parametrize("grid", [PLAIN, PERMUTED, OBLIQUE], ids=["plain", "permuted", "oblique"])
 def test_letters_stand_where_the_side_of_the_patient_is_seen(grid):
-    """Where one voxel is seen from the middle tells how far each side lies to the right and to the top."""
+    """The position of one visible voxel relative to the middle shows which sides are right and on top."""
     center = (grid @ [SIDE // 2, SIDE // 2, SIDE // 2, 1])[:3]
     renderers = [(letter, *one_bright_voxel(grid, way)) for letter, way in WAYS.items()]
     renderers = [(letter, Renderer(volume), offset) for letter, volume, offset in renderers]
@@ -87,7 +87,7 @@ def test_letters_stand_where_the_side_of_the_patient_is_seen(grid):
         for axis, (low, high) in enumerate((("left", "right"), ("bottom", "top"))):
             for edge, sign in ((low, -1), (high, 1)):
                 parts = {letter: sign * seen[letter][axis] for letter in WAYS}
-                # On the oblique grid no voxel lies exactly on the way to a side: within 0.06 both may be.
+                # On the oblique grid no voxel lies exactly towards a side: letters within 0.06 may appear.
                 sure = {letter for letter, part in parts.items() if part > 0.26}
                 possible = {letter for letter, part in parts.items() if part > 0.14}
                 assert sure <= set(letters[edge]) <= possible, (camera, edge, parts)
@@ -116,7 +116,7 @@ def resized(frame, size, pixel_spacing=1.0):
 
 
 def bar_of(picture):
-    """Length (pixels) and words of the scale bar on black ground."""
+    """Return length (pixels) and text of the scale bar on a black background."""
     height, width = picture.shape[:2]
     small = heights((width, height))[0]
     corner = picture[height - 4 * small :, : width // 2 - 2 * small, 0]
@@ -137,7 +137,7 @@ def bar_of(picture):
 def test_the_bar_is_as_long_as_it_says(frame, size, spacing):
     pixels, millimetres = bar_of(resized(frame, size, spacing).annotated())
     assert abs(pixels - millimetres / spacing) <= 1
-    # The largest round length in a quarter of the width: the next one is at most 2.5 times as long.
+    # The largest round length within a quarter of the width; the next is at most 2.5 times as long.
     assert size[0] / 10 <= pixels <= size[0] / 4 + 1
 
 
@@ -187,7 +187,7 @@ def test_letters_can_be_read_on_any_ground(frame, ground):
     for shift in (-1, 1):
         for axis in (0, 1):
             touching |= np.roll(letters, shift, axis)
-    # Half-lit pixels belong to the letters; beyond them all around is dark.
+    # Partly lit pixels belong to the letters; everything beyond them must be dark.
     around = touching & (on_black == 0)
     assert around.sum() > 150
     assert (picture[around] < 70).all()

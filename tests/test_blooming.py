@@ -1,4 +1,4 @@
-"""Beside calcium the diameter is told from both sides: without all that is bright, and with it."""
+"""Next to calcium two diameters are stated: without everything brighter than lumen, and with it."""
 
 import numpy as np
 import pytest
@@ -10,7 +10,7 @@ RADIUS, CALCIUM = 2.5, 1100.0
 
 
 def plaque(inner, outer, half):
-    """Paints calcium between two distances from the middle (mm), that many radians to both sides of x."""
+    """Return a function that paints calcium between two distances (mm), within an angle of the x axis."""
 
     def paint(values, x, y):
         distance, angle = np.hypot(x, y), np.abs(np.arctan2(y, x))
@@ -20,7 +20,7 @@ def plaque(inner, outer, half):
 
 
 def truth(inner, outer, half):
-    """The diameter of a circle of the area that calcium leaves (mm)."""
+    """Return the diameter of a circle with the area that calcium leaves (mm)."""
     inside = max(min(outer, RADIUS) ** 2 - min(inner, RADIUS) ** 2, 0.0) * half
     return 2 * np.sqrt(RADIUS**2 - inside / np.pi)
 
@@ -31,7 +31,7 @@ def truth(inner, outer, half):
         (2.5, 3.5, 0.6),  # In the wall.
         (2.0, 3.0, 0.6),  # Half of it in the lumen.
         (1.5, 2.5, 0.5),  # All of it in the lumen.
-        (2.4, 2.8, 0.8),  # As thin as a voxel.
+        (2.4, 2.8, 0.8),  # Thinner than a voxel.
         (2.2, 3.4, 1.4),  # Nearly half around.
     ],
 )
@@ -47,7 +47,7 @@ def test_the_true_diameter_lies_between_both(kind):
     assert (truth(*kind) <= high + slack).all()
     assert (low <= profile.diameter_equivalent + 1e-9).all()
     assert (profile.diameter_equivalent <= high + 1e-9).all()
-    # Blooming is of the width of the blur: the bounds say something.
+    # The bounds differ by no more than the width of the blur, so they are useful.
     assert (high - low < 2.0).all()
 
 

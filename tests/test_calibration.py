@@ -1,11 +1,11 @@
-"""What is told of the uncertainty of diameters holds: a part of the scenes of ``make calibration``."""
+"""The stated uncertainty of diameters is right in some of the scenes of ``make calibration``."""
 
 import numpy as np
 import pytest
 
 from calibration import KINDS, calibrated
 
-#: Shares of sections within one and two told standard deviations (percent) that a well told uncertainty has.
+#: Expected shares of sections within one and two stated standard deviations (percent).
 WITHIN = {1: (60, 76), 2: (90, 98)}
 
 FEW = [kind for kind in KINDS if kind.name in ("fat", "muscle", "sharp kernel", "stenoses")]

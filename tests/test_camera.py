@@ -1,4 +1,4 @@
-"""Views: the six of the body, fitted views, and what turning, zooming and panning do."""
+"""Views: the six named ones, fitted views, turning, zooming and panning."""
 
 from __future__ import annotations
 

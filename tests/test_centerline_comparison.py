@@ -1,4 +1,4 @@
-"""Comparisons of centerlines against values computed by hand, and against another way to compute them."""
+"""Comparisons of centerlines, against values computed by hand and against an independent algorithm."""
 
 import heapq
 
@@ -14,7 +14,7 @@ def straight(start, end, count=50, radius=2.0, name=None):
 
 
 def cheapest_sum(first, second):
-    """The smallest sum of lengths of connections, by Dijkstra's search, in which either line advances."""
+    """Return the smallest total length of connections, by Dijkstra's search; each step advances one line."""
     lengths = np.linalg.norm(first[:, None] - second, axis=2)
     end = (len(first) - 1, len(second) - 1)
     waiting, done = [(lengths[0, 0], (0, 0))], set()
@@ -52,7 +52,7 @@ def test_the_same_line_overlaps_wholly():
     assert (found.ov, found.of, found.ot, found.false_length) == (1, 1, 1, 0)
     assert found.first_error is None
     assert found.length == pytest.approx(40)
-    # Every other connection joins a point with the next one of the other line.
+    # Every second connection joins a point with the next point of the other line.
     assert found.ai == pytest.approx(0.015, rel=0.01)
 
 
@@ -66,7 +66,7 @@ def test_a_line_beside_the_reference_is_as_far_as_it_is(sampling):
 
 
 def test_a_line_that_ends_early_misses_the_rest():
-    # The last point is connected to what follows; of that the first 2 mm are nearer than the radius.
+    # The last point is connected to all following points; the first 2 mm of these are closer than the radius.
     found = compare_centerlines(straight((0, 0, 0), (0, 0, 30)), straight((0, 0, 0), (0, 0, 40)))
     assert found.of == pytest.approx(32 / 40, abs=0.002)
     assert found.first_error == pytest.approx(32, abs=0.06)
@@ -92,7 +92,7 @@ def test_errors_near_the_start_are_no_first_error():
 
 
 def test_the_relevant_part_ends_where_the_vessel_becomes_narrow():
-    # 0.75 mm wide at a half of the way; the traced line is wrong beyond.
+    # The radius is 0.75 mm at half of the length; beyond it the traced line is wrong.
     reference = Vessel(np.linspace((0, 0, 0), (0, 0, 40), 81), np.linspace(1.25, 0.25, 81))
     traced = Vessel([(0, 0, 0), (0, 0, 24), (6, 0, 40)])
     found = compare_centerlines(traced, reference)
@@ -106,7 +106,7 @@ def test_what_comes_before_the_disc_at_the_start_is_left_out():
     reference = straight((0, 0, 0), (0, 0, 40))
     early = Vessel([(0, 0, -30), (0, 0, 40)])
     assert compare_centerlines(early, reference).ov == pytest.approx(1, abs=1e-3)
-    # It passes the plane of the disc outside the disc, whose radius is 4 mm.
+    # The line crosses the plane of the disc, but outside the disc, whose radius is 4 mm.
     aside = Vessel([(20, 0, -30), (20, 0, 5), (0, 0, 5), (0, 0, 40)])
     assert compare_centerlines(aside, reference).ov < 0.8
 
@@ -130,7 +130,7 @@ def test_inside_counts_only_what_is_nearer_than_the_radius():
 
 
 def forked(step=50):
-    """A trunk with two branches in three vessels, and the same in two."""
+    """Return a trunk with two branches as three vessels, and the same as two vessels."""
     trunk = straight((0, 0, 0), (0, 0, 30), step, name="trunk")
     left, right = straight((0, 0, 30), (20, 0, 60), step), straight((0, 0, 30), (-20, 0, 60), step)
     through = Vessel(np.concatenate([trunk.points, left.points[1:]]), 2.0)
@@ -151,12 +151,12 @@ def test_a_missing_branch_is_missed():
     three, _ = forked()
     found = compare_centerlines(three.without(2), three)
     assert [round(one.ov, 2) for one in found.vessels[:2]] == [1, 1]
-    # The way to the end that is missing stays at the fork.
+    # The path to the missing end stays at the fork.
     assert found.vessels[2].ov < 0.2
     assert found.ov < 0.8
     more = compare_centerlines(three, three.without(2))
     assert more.ov == 1
-    # Its start lies in the lumen of the other branch, 2 mm wide, at an angle whose sine is 12/13.
+    # It starts in the lumen of the other branch, 2 mm wide, at an angle whose sine is 12/13.
     assert more.false_length == pytest.approx(three[2].length - 2 / (12 / 13), abs=0.6)
 
 

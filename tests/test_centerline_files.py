@@ -1,4 +1,4 @@
-"""Real centerline files of every format and encoding give the expected vessels; VTK is the oracle."""
+"""Real centerline files of every format and encoding give the expected vessels, compared with VTK."""
 
 import json
 from itertools import pairwise
@@ -41,7 +41,7 @@ def vessels_of(tree: VesselTree) -> list:
 
 
 def shared_ends(tree: VesselTree) -> int:
-    """Number of end points, equal to the last bit, at which more than one vessel ends."""
+    """Return the number of bit-identical end points that several vessels share."""
     ends = [tuple(p) for v in vessels_of(tree) for p in (v.points[0], v.points[-1])]
     return len({p for p in ends if ends.count(p) > 1})
 
@@ -67,7 +67,7 @@ def test_lines_that_repeat_a_trunk_become_vessels_that_meet(name, vessels, point
 def test_every_encoding_gives_the_same_vessels(path, shared_data):
     assert len(VARIANTS) == 11
     reference = read_centerlines(shared_data / "aorta-mra" / "aorta_full_centerlines_LPS.vtp")
-    # The ascii variants of VTK's legacy writer carry 6 digits; the others are exact.
+    # ASCII files of VTK's legacy writer have only 6 digits; the others are exact.
     tolerance = 1e-3 if path.suffix == ".vtk" and "ascii" in path.name else 0.0
     tree = read_centerlines(path)
     assert len(tree) == len(reference)
@@ -101,7 +101,7 @@ def test_the_vessels_cover_exactly_what_vtk_reads(name, shared_data):
     tree = read_centerlines(shared_data / name)
     steps_read = {step for v in vessels_of(tree) for step in steps(v.points, v.radius)}
     steps_of_vtk = {step for points, radius in expected for step in steps(points, radius)}
-    # Points within the weld distance (1/1000 of the spacing) of an earlier line take its place.
+    # A line within the weld distance (1/1000 of the spacing) of an earlier line uses its points.
     assert len(steps_read ^ steps_of_vtk) <= 0.025 * len(steps_of_vtk)
     places = np.concatenate([v.points for v in vessels_of(tree)])
     for points, _ in expected:
@@ -112,7 +112,7 @@ def test_the_vessels_cover_exactly_what_vtk_reads(name, shared_data):
 
 
 def steps(points: np.ndarray, radius: np.ndarray) -> set:
-    """The steps between different neighbouring points with the radii at both, without a direction."""
+    """Return the steps between different neighbouring points with both radii, in no particular direction."""
     rows = [(*p, r) for p, r in zip(points.tolist(), radius.tolist(), strict=True)]
     return {frozenset(pair) for pair in pairwise(rows) if pair[0][:3] != pair[1][:3]}
 

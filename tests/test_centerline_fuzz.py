@@ -1,4 +1,4 @@
-"""Whatever the bytes are, the readers give sound vessels or a FormatError."""
+"""For any bytes, the readers return valid vessels or raise a FormatError."""
 
 import base64
 import json
@@ -54,7 +54,7 @@ SMALL = {"a.vtp": small_vtp(), "a.vtk": small_vtk(), "a.mrk.json": small_markup(
 
 
 def read_soundly(content: bytes, name: str) -> int:
-    """Number of vessels; 0 for a FormatError."""
+    """Return the number of vessels, 0 for a FormatError."""
     try:
         file = _lumencut.CenterlineFile(content, name)
         vessels, space = file.vessels(1.0, reorder=False)[0], file.space

@@ -1,4 +1,4 @@
-"""Files that VTK itself writes, in every mode of its writers, are read as VTK made them."""
+"""Files written by VTK in every mode are read exactly as VTK defined them."""
 
 from pathlib import Path
 
@@ -25,7 +25,7 @@ RADII = [np.linspace(3.0, 1.0, 2000), np.linspace(2.0, 0.5, 500)]
 
 
 def poly_data(dtype: type, *, space: str | None = None, others: bool = False):
-    """Poly data of LINES, with `others` among vertices, a triangle and arrays that are no radius."""
+    """Return poly data with LINES; `others` adds vertices, a triangle and arrays that are not radii."""
     data = vtk.vtkPolyData()
     points = vtk.vtkPoints()
     points.SetData(numpy_support.numpy_to_vtk(np.concatenate(LINES).astype(dtype), deep=True))

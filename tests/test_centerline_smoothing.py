@@ -1,4 +1,4 @@
-"""Quiet centerlines: `VesselTree.smoothed`, the setting, and what ``lumencut info`` tells."""
+"""Smooth centerlines: `VesselTree.smoothed`, the setting, and the report of ``lumencut info``."""
 
 import json
 import re
@@ -21,7 +21,7 @@ def trembling_tree():
 
 
 def integrated(points, at, sigma):
-    """The Gaussian mean around a point far from the ends, by fine steps along the polyline."""
+    """Return the Gaussian mean around a point far from the ends, by small steps along the polyline."""
     arc = np.concatenate([[0], np.linalg.norm(np.diff(points, axis=0), axis=1).cumsum()])
     steps = np.linspace(-6, 6, 24_001)
     weights = np.exp(-(steps**2) / 2)
@@ -36,7 +36,7 @@ def test_a_smoothed_point_is_the_gaussian_mean_of_the_curve():
     trunk, smoothed = tree[1], tree.smoothed(0.5)[1]
     for at in range(40, 80):
         expected = integrated(trunk.points, at, 0.5 * trunk.radius[at])
-        # The Gaussian of the core is a stack of boxes.
+        # The core approximates the Gaussian by several box filters.
         assert np.linalg.norm(smoothed.points[at] - expected) < 2e-3
 
 

@@ -1,4 +1,4 @@
-"""LPS and RAS: what is stated, what is asked for, what the volume tells, and what has to be asked for."""
+"""LPS and RAS: as stated in the file, as requested, as decided by the volume, or an error."""
 
 import warnings
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Units of lines and scans: none is wrong without a word, and what is advised leads to the right lines."""
+"""Units of lines and scans: none is silently wrong, and the proposed remedy gives the right lines."""
 
 import json
 import logging
@@ -32,7 +32,7 @@ def line(length: float) -> np.ndarray:
 
 
 def volume_around(points: np.ndarray, *, is_bright: bool) -> Volume:
-    """A volume of voxels of 1 mm that holds the origin, with or without a bright lumen along the points."""
+    """A volume with voxels of 1 mm around the origin, with or without a bright lumen along the points."""
     low = np.floor(np.minimum(points.min(axis=0), 0) - 40)
     size = np.ceil(np.maximum(points.max(axis=0), 0) + 40 - low).astype(int)
     values = np.zeros(size[::-1], np.int16)
@@ -45,7 +45,7 @@ def volume_around(points: np.ndarray, *, is_bright: bool) -> Volume:
 
 
 def write(folder: Path, kind: str, points: np.ndarray) -> Path:
-    """Lines as they stand in a file that states nothing, its space, or its space and mm."""
+    """Write lines to a file that states nothing, its space, or its space and mm."""
     path = folder / ("line.mrk.json" if kind == "mrk" else "line.csv")
     if kind == "mrk":
         controls = [{"position": point.tolist()} for point in points]
@@ -58,7 +58,7 @@ def write(folder: Path, kind: str, points: np.ndarray) -> Path:
 
 
 def read(path: Path, volume: Volume, **stated: str):
-    """Give the lines and what was warned of, or the refusal."""
+    """Return the lines and the warnings, or the error."""
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         try:
@@ -68,7 +68,7 @@ def read(path: Path, volume: Volume, **stated: str):
 
 
 def followed(error: FormatError) -> list[dict[str, str]]:
-    """What the mends of a refusal advise."""
+    """Return the options that the remedy of an error proposes."""
     ways: list[dict[str, str]] = []
     for mend in error.mends:
         for value in mend.values:

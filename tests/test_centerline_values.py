@@ -1,4 +1,4 @@
-"""The space of centerlines where both fit the volume: told by the values along the lines, or asked for."""
+"""The space of centerlines if both spaces fit the volume: decided by values along the lines, or an error."""
 
 import re
 import warnings
@@ -19,7 +19,7 @@ FLIP = np.array([-1.0, -1.0, 1.0])
 
 
 def moved(volume: Volume, tree: VesselTree, by):
-    """The scene elsewhere in the world."""
+    """Move the scene elsewhere in world space."""
     affine = volume.world_from_index.copy()
     affine[:3, 3] += by
     vessels = [Vessel(vessel.points + by, vessel.radius, vessel.name) for vessel in tree]
@@ -27,7 +27,7 @@ def moved(volume: Volume, tree: VesselTree, by):
 
 
 def silent(folder: Path, points, radius=None) -> Path:
-    """A file of one line that states no space."""
+    """Write a file with one line that states no space."""
     path = folder / "line.csv"
     columns = points if radius is None else np.column_stack([points, radius])
     np.savetxt(
@@ -72,7 +72,7 @@ def test_values_along_the_lines_tell_the_space_with_a_warning(space, signs, kind
         warnings.simplefilter("error")
         report = inspect_centerlines(path, volume=volume)
         read_centerlines(path, space, volume=volume)
-        # Whoever was warned once is not warned again.
+        # A second use gives no second warning.
         Renderer(volume, tree)
     assert (report.space, report.space_from, report.unit_from, report.is_unusual) == (
         space,

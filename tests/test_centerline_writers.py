@@ -1,4 +1,4 @@
-"""What `write_centerlines` writes, it reads back to the bit, and VTK reads it too."""
+"""`read_centerlines` and VTK read back what `write_centerlines` wrote, `read_centerlines` bit-identically."""
 
 import json
 import os
@@ -29,7 +29,7 @@ names = (
 
 @st.composite
 def trees(draw) -> VesselTree:
-    """Trees, many of whose vessels begin at a point of another one."""
+    """Return random trees, in which many vessels begin at a point of another one."""
     vessels: list[Vessel] = []
     for _ in range(draw(st.integers(1, 4))):
         points = draw(st.lists(point, min_size=2, max_size=8))
@@ -228,12 +228,12 @@ def test_rows_and_nodes(tmp_path):
 def test_the_points_of_any_tree_come_back_from_the_other_formats(tmp_path_factory, ending, tree):
     path = tmp_path_factory.getbasetemp() / f"tree{ending}"
     if ending == ".csv":
-        # A table cannot hold names with line breaks, and gives none back.
+        # A table cannot hold names with line breaks, and names in tables are not read.
         tree = VesselTree(Vessel(vessel.points, vessel.radius) for vessel in tree)
     write_centerlines(tree, path)
     found = lumencut.read_centerlines(path, "lps", unit="mm")
     read, written = ({tuple(point) for point in one.points} for one in (found, tree))
-    # Lines of a table that meet within some hundredths of a millimetre are joined at one of their points.
+    # Lines of a table that meet within some hundredths of a millimetre are joined at a point of one of them.
     assert (read <= written) if ending == ".csv" else (read == written)
 
 

@@ -54,7 +54,7 @@ def test_a_tube_is_even_and_lies_above_a_level_within_its_wall():
     distance, _, affine = distances()
     tube = Volume((1000 - 100 * distance).astype(np.float32), world_from_index=affine)
     wide = np.abs(cfa(tube, LINE, 8, "range", 0.5).value[20:60])
-    # What is left is what lines between voxels leave of a circle.
+    # The remaining spread comes from interpolation between voxels.
     assert wide.max() < 25
     share = cfa(tube, LINE, 8, "share", 0.5, level=500)
     inside = np.abs(share.radius)
@@ -84,7 +84,7 @@ def test_both_halves_together_do_not_depend_on_the_side_from_which_it_is_seen():
         made = cfa(rod(0.8), LINE, 9, "max", 0.5, up=up).value[20:60]
         return np.maximum(made, made[:, ::-1])
 
-    # The view of a vessel that runs along z turns with the direction that is upwards.
+    # The view of a vessel along z turns with the up direction.
     np.testing.assert_allclose(around((0, 0, 1)), around((0.05, 0.02, 1)), atol=160)
 
 

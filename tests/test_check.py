@@ -1,4 +1,4 @@
-"""The script behind `make test` counts rightly and never calls a red run green."""
+"""The script of `make test` counts correctly, and never reports success after a failure."""
 
 import os
 import re
@@ -90,7 +90,7 @@ def test_red_tests_are_named_at_the_end(check, capfd):
 
 
 def test_the_end_says_why_each_red_check_failed(check, capfd):
-    """Logs are often kept from their end, and lanes can fail beside each other."""
+    """Logs are often cut at their start, and several lanes can fail at once."""
     wait = "import time; time.sleep(1); print('the input that failed'); raise SystemExit(1)"
     checks = [
         check.Check("beside", (sys.executable, "-c", wait), lane="page"),
@@ -113,7 +113,7 @@ def test_a_red_check_stops_the_run(check, tmp_path, capfd):
 
 
 def test_lanes_run_beside_each_other_and_wait_for_what_they_need(check, tmp_path, capfd):
-    """Each of the first two waits for the file that the other one writes."""
+    """Each of the first two checks waits for a file that the other one writes."""
     wait = (
         "import pathlib, sys, time\n"
         "pathlib.Path(sys.argv[1]).touch()\n"
@@ -218,7 +218,7 @@ def test_missing_judges_of_dicom_are_installed_by_root_and_else_refused(toolchai
     monkeypatch.setattr(toolchain.os, "geteuid", lambda: 0)
     toolchain.add_dicom()
     toolchain.add_dicom()
-    # At run level 1 no server is started, which would listen beyond this machine.
+    # At run level 1 Debian starts no servers, which would be reachable from other machines.
     assert asked == [(["dicom3tools", "orthanc", "poppler-utils", "orthanc-dicomweb"], "1")]
 
 
@@ -255,7 +255,7 @@ def test_a_missing_vulkan_is_installed_by_root_and_else_refused(toolchain, monke
 
 @pytest.fixture
 def broken_copy(tmp_path) -> Path:
-    """What `.ci/run` needs, in a place where nothing can be built."""
+    """Copy the files that `.ci/run` needs to a folder in which nothing can be built."""
     for name in (".ci/run", "Makefile", "scripts/check.py", "scripts/toolchain.py"):
         (tmp_path / name).parent.mkdir(exist_ok=True)
         shutil.copy(ROOT / name, tmp_path / name)

@@ -31,7 +31,7 @@ def files(tmp_path):
 
 @pytest.fixture
 def run(files, tmp_path):
-    """Runs ``lumencut render`` on the tiny scene with more options."""
+    """Return a function that runs ``lumencut render`` on the tiny scene with more options."""
 
     def with_options(*more, output="out.png"):
         return CliRunner().invoke(
@@ -43,7 +43,7 @@ def run(files, tmp_path):
 
 @pytest.fixture
 def rendered(run, monkeypatch):
-    """Runs ``lumencut render`` and returns the camera and the settings it asked for."""
+    """Return a function that runs ``lumencut render`` and returns the camera and the settings used."""
     asked = []
     original = Renderer.render
 
@@ -62,7 +62,7 @@ def rendered(run, monkeypatch):
 
 
 def one_line(result):
-    """The only line of an error."""
+    """Return the error message, which must be a single line."""
     assert result.stderr.count("\n") == 1, result.stderr
     assert "Traceback" not in result.output
     return result.stderr.rstrip("\n")
@@ -261,7 +261,7 @@ def test_centerlines_in_ras_are_read_so_where_only_that_fits_and_the_option_is_n
     result = CliRunner().invoke(main, [*command, "--coordinates", "ras"])
     assert (result.exit_code, result.stderr) == (0, "")
     assert (tmp_path / "out.png").read_bytes() == warned
-    # As they are written, the lines lie beside the volume: nothing else makes this picture.
+    # Read as they are, the lines lie outside the volume; only the right space gives this picture.
     write_lines(Path(files[1]), bent_line())
     result = CliRunner().invoke(main, [*command, "--coordinates", "lps"])
     assert (result.exit_code, result.stderr) == (0, "")
@@ -325,7 +325,7 @@ def test_ctrl_c_leaves_with_130_without_a_traceback(tmp_path):
         main(["render", "ct.nii", "lines.vtk", "-o", sys.argv[1]])
     """
     command = [sys.executable, "-c", code, str(tmp_path / "out.png")]
-    # Whoever runs the tests in the background may have told their processes to ignore Ctrl-C.
+    # If the tests run in the background, their processes may ignore Ctrl-C.
     heeding = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
     with subprocess.Popen(command, preexec_fn=heeding, **pipes) as running:

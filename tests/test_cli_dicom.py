@@ -1,4 +1,4 @@
-"""DICOM files of the command line: which pictures, into which study, and what is refused."""
+"""DICOM files from the command line: which pictures are written, into which study, and what is rejected."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def test_views_are_one_series_in_their_order(line, tmp_path):
     ]
     assert len({data.SeriesInstanceUID for data in made}) == 1
     assert len({data.SOPInstanceUID for data in made}) == 3
-    # Letters and scale are burnt in where nobody says otherwise: viewers show none.
+    # By default letters and scale are part of the pixels, because viewers show none.
     frame = lumencut.render(scan(), LINE, lumencut.Camera.left(LINE, (200, 200)))
     assert (made[1].pixel_array != frame.image[..., :3]).any()
 

@@ -1,4 +1,4 @@
-"""``lumencut info``: what it tells of files, and what it finds odd."""
+"""``lumencut info``: its report on files, and what it calls unusual."""
 
 import json
 import re
@@ -18,7 +18,7 @@ def files(tmp_path):
 
 
 def one_line(result):
-    """The only line of an error."""
+    """Return the error message, which must be a single line."""
     assert result.stderr.count("\n") == 1, result.stderr
     assert "Traceback" not in result.output
     return result.stderr.rstrip("\n")

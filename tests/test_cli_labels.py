@@ -25,7 +25,7 @@ def files(tmp_path_factory):
 
 @pytest.fixture
 def rendered(files, tmp_path):
-    """Renders the tiny scene with more options; returns the picture and what was said."""
+    """Return a function that renders the tiny scene with options, and returns picture and messages."""
 
     def with_options(*more, output="out.png", code=0, command="render", lines=True):
         scene = files if lines else files[:1]
@@ -160,7 +160,7 @@ def test_options_beside_like_come_on_top(rendered):
     assert (left.center == before.camera.center).all()
     assert left.pixel_spacing == before.camera.pixel_spacing
     np.testing.assert_allclose(like("--up", "0,0,-1").camera.up, [0, 0, -1], atol=1e-12)
-    # A default that the user typed is an option of theirs.
+    # Even a typed value that equals the default is an option of the user.
     assert like("--size", "768x768").camera.size == (768, 768)
     assert like("--no-annotate").annotate is False
     assert like("--vessel-names").vessel_names is True

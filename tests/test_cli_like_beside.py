@@ -1,4 +1,4 @@
-"""``--like`` and labels beside several views, files, chosen vessels, named windows and settings as a file."""
+"""``--like`` and labels with several views, files, chosen vessels, named windows and a settings file."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ SIZE = ("--size", "240x220")
 
 @dataclass
 class Scene:
-    """Renders a volume along two files of one vessel each."""
+    """Return a function that renders a volume along two files with one vessel each."""
 
     folder: Path
     volume: Path

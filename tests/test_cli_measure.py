@@ -1,4 +1,4 @@
-"""``lumencut measure``: outputs, what it says, and mistakes."""
+"""``lumencut measure``: outputs, messages, and mistakes."""
 
 import csv
 import importlib
@@ -104,7 +104,7 @@ def test_a_marked_stenosis_with_all_outputs(files, tmp_path):
     page = Page.read(tmp_path / "report.html")
     assert page.count("section") == 1
     assert "(NASCET): 3." in page.text
-    # The name of the files; its sign is in no picture, either.
+    # The name of the patient is in the names of the files, but not in the report.
     assert "Doe^John" not in page.source
 
 
@@ -235,7 +235,7 @@ def test_without_matplotlib_nothing_is_measured_and_the_extra_is_named(files, tm
     assert result.exit_code == 1
     assert 'pip install "lumencut[plot]"' in result.stderr
     assert list(tmp_path.iterdir()) == []
-    # Sections and the report need none, and the numbers beside them are the same.
+    # Sections and the report need no matplotlib, and the numbers do not change.
     assert run(*files, "-o", tmp_path / "p.csv", "--sections", tmp_path / "s.png").exit_code == 0
     alone = (tmp_path / "p.csv").read_text("utf-8")
     assert run(*files, "-o", tmp_path / "p.csv", "--report", tmp_path / "r.html").exit_code == 0

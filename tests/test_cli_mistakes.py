@@ -1,4 +1,4 @@
-"""What a user cannot mean: options that do nothing, and files in each other's place."""
+"""Mistakes of users: options without effect, and volume and centerlines given in the wrong order."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from volume_samples import coded, write_stack
 
 POINTS = TransferFunction([(0, (0, 0, 0), 0), (300, (255, 200, 100), 0.5)])
 IDLE = [
-    # What is given, the words that say why, and two values that then give one picture.
+    # Options, the words that explain the error, and two values that give the same picture.
     ("--context none", "--context-window 300/100", "with --context none", {"context_window": Window(9, 5)}),
     ("--context none", "--context-step 2", "with --context none", {"context_step": 3.0}),
     ("", "--context-from whole", "without a focus", {"context_from": "whole"}),
@@ -78,7 +78,7 @@ def invoke(*words):
 
 
 def told(result):
-    """The usage error in one line, however it was wrapped."""
+    """Return the usage error as one line, however it was wrapped."""
     assert result.exit_code == 2, result.output
     return " ".join(result.stderr.split())
 
@@ -89,7 +89,7 @@ def settings_of(words):
 
 @pytest.fixture(scope="module")
 def scene(tmp_path_factory):
-    """A volume, and lines with and without radii, that lie over each other."""
+    """A volume, and lines with and without radii within the volume."""
     folder = tmp_path_factory.mktemp("scene")
     volume = read_volume(write_volume(folder / "ct.nii.gz"))
     rounded = read_centerlines(write_lines(folder / "round.vtk"), "lps")

@@ -1,4 +1,4 @@
-"""The command line where files are odd: several series, doubtful spaces, pipes, views beside the volume."""
+"""The command line with unusual files: several series, doubtful spaces, pipes, views beside the volume."""
 
 import json
 import os
@@ -16,7 +16,7 @@ POINTS = [[3.0, 2.0, 2.0], [3.0, 3.0, 4.0], [4.0, 3.0, 8.0]]
 
 
 def one_line(result):
-    """The only line on stderr."""
+    """Return the only line on stderr."""
     assert result.stderr.count("\n") == 1, result.stderr
     assert "Traceback" not in result.output
     return result.stderr.rstrip("\n")
@@ -111,7 +111,7 @@ def test_a_doubtful_space_is_told_once_and_can_be_answered(tmp_path, command):
     if command == "info":
         words.append(write_volume(tmp_path / "again.nii"))
     else:
-        # The unit is stated, so that the space alone is doubtful.
+        # The unit is given, so only the space is doubtful.
         words += ["-o", tmp_path / "view.png", "--size", "16x16", "--unit", "mm"]
     words += ["--frames", "2"] if command == "turntable" else []
     result = invoke(*words)
@@ -120,7 +120,7 @@ def test_a_doubtful_space_is_told_once_and_can_be_answered(tmp_path, command):
     warned = result.stdout if command == "info" else (tmp_path / "view.png").read_bytes()
     result = invoke(*words, "--coordinates", "lps")
     assert (result.exit_code, result.stderr) == (0, "")
-    # What the answer names was taken before it: only who said so changes.
+    # The answer gives what was assumed before; only the source of the decision changes.
     if command == "info":
         assert "lps (as asked)" in result.stdout
         assert result.stdout.replace("as asked", "stated in the file") == warned

@@ -19,7 +19,7 @@ def files(tmp_path):
 
 
 def chosen(command, words):
-    """The settings that a command takes from these words."""
+    """Return the settings that a command uses for these options."""
     return settings_from(command.make_context("x", ["volume", "lines", "-o", "out.png", *words]).params)
 
 

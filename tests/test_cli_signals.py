@@ -1,4 +1,4 @@
-"""SIGTERM and SIGHUP: a command ends at once, tidies up and leaves with 128 and the signal's number."""
+"""SIGTERM and SIGHUP: a command ends at once, removes its files, exits with 128 + the signal's number."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from scene_files import write_lines, write_volume
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="these signals are those of POSIX")
 
-#: What would take many minutes.
+#: Options of a run that would take many minutes.
 LONG = ("--frames", "10000", "--size", "900x900", "--device", "cpu")
 LARGE = ("--size", "4000x4000", "--samples", "4", "--device", "cpu", "--verbose")
 ENDING = [signal.SIGTERM, signal.SIGHUP]
@@ -31,14 +31,14 @@ def files(tmp_path):
 
 @pytest.fixture
 def folder(tmp_path):
-    """Where the command writes."""
+    """The folder for output."""
     folder = tmp_path / "out"
     folder.mkdir()
     return folder
 
 
 def handle(how):
-    """Whoever runs the tests may have told their processes to ignore signals."""
+    """Handle signals even if the process that started the tests ignores them."""
     for number in ENDING:
         signal.signal(number, how)
 

@@ -1,4 +1,4 @@
-"""``lumencut batch``: a crash takes nobody with it, nothing is done twice, kills leave whole studies."""
+"""``lumencut batch``: a crash affects only its study, no work is repeated, kills leave complete results."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ LIMITS = ("--memory", "2GB", "--time-limit", "10s", "--jobs", "2", "--threads", 
 
 @pytest.fixture(scope="module")
 def done(tmp_path_factory):
-    """A cohort of twelve studies, five of them bad, and how its batch ended."""
+    """A cohort of twelve studies, five of which must fail, and the result of its batch."""
     manifest = write_cohort(tmp_path_factory.mktemp("cohort"))
     out = manifest.with_name("out")
     return manifest, out, run(manifest, out, *LIMITS)
@@ -146,7 +146,7 @@ def test_a_second_batch_into_one_folder_is_refused(tmp_path):
         assert refused.returncode == 1
         assert f"process {first.pid}" in refused.stderr
         assert "another batch" in refused.stderr
-        # A lock of a process that is gone is taken over; here the study is too slow for the second one too.
+        # The lock of a dead process is taken over; here the study is too slow for the second batch as well.
         first.send_signal(signal.SIGKILL)
         first.wait()
         assert list(out.glob(".lumencut/lock-*"))
@@ -230,14 +230,14 @@ def test_a_batch_from_python(tmp_path):
 
 
 def started(manifest, out, *words):
-    """A batch that works, and is killed where the test leaves it."""
+    """Start a batch, and kill it when the test ends."""
     return _Started(manifest, out, *words)
 
 
 class _Started:
     def __init__(self, manifest, out, *words):
         pipes = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-        # Whoever runs the tests in the background may have told their processes to ignore Ctrl-C.
+        # If the tests run in the background, their processes may ignore Ctrl-C.
         told = {"preexec_fn": lambda: signal.signal(signal.SIGINT, signal.default_int_handler)}
         self.process = subprocess.Popen(
             command(manifest, out, *words), env=environment(manifest), **pipes, **told

@@ -1,4 +1,4 @@
-"""``lumencut bids``: participants and sessions of a data set of BIDS, one job each, and the tables of all."""
+"""``lumencut bids``: participants and sessions of a BIDS data set, one job each, and the tables of all."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from scene_files import write_volume
 
 @pytest.fixture(scope="module")
 def data(tmp_path_factory):
-    """Two participants, of whom the second has two sessions, and other pictures beside the angiographies."""
+    """Two participants, the second one with two sessions, and further images next to the angiographies."""
     home = tmp_path_factory.mktemp("bids")
     names = [
         "sub-01/anat/sub-01_angio",
@@ -85,7 +85,7 @@ def test_participants_and_then_the_group(data):
 
 @pytest.fixture
 def ragged(tmp_path):
-    """Five participants, of whom one alone has an angiography, and a session without one."""
+    """Five participants, of which only one has an angiography, and a session without one."""
     names = [
         "sub-01/anat/sub-01_angio",
         "sub-02/anat/sub-02_TOF",
@@ -104,7 +104,7 @@ def ragged(tmp_path):
     return tmp_path
 
 
-#: What is said of each study of that data set that has no angiography.
+#: The reason stated for each study of that data set without an angiography.
 LEFT_OUT = {
     "sub-02": "no name that ends with _angio.nii.gz, _cta.nii.gz, _ct.nii.gz; found sub-02_TOF.nii.gz",
     "sub-03": "no name that ends with _angio.nii.gz, _cta.nii.gz, _ct.nii.gz; found no image",

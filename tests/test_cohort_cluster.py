@@ -1,4 +1,4 @@
-"""Cohorts on dask.distributed: studies end with their batch, and mistakes are told before any of them."""
+"""Cohorts on dask.distributed: studies end with their batch; mistakes are reported before any starts."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def workers(manifest):
 
 @contextmanager
 def scheduler(manifest, folder):
-    """A scheduler in a process of its own with one worker: its process, and its address."""
+    """A scheduler in its own process, with one worker: its process and its address."""
     place = folder / "scheduler.json"
     place.unlink(missing_ok=True)
     quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "env": environment(manifest)}
@@ -52,13 +52,13 @@ def scheduler(manifest, folder):
             try:
                 yield process, json.loads(place.read_text("utf-8"))["address"]
             finally:
-                # A worker that is asked to end waits for its scheduler.
+                # A worker that is asked to end would wait for its scheduler.
                 worker.kill()
                 process.kill()
 
 
 def lose_scheduler(manifest, out, moment, number=signal.SIGKILL):
-    """Lose the scheduler of a batch at a moment, and return what the batch said before it ended."""
+    """Kill the scheduler of a batch at a certain moment; return the output of the batch."""
     folder = manifest.parent
     with scheduler(manifest, folder) as (process, address):
         pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
@@ -75,13 +75,13 @@ def lose_scheduler(manifest, out, moment, number=signal.SIGKILL):
     return told
 
 
-#: What is there at a moment of a batch: it has connected, a study works, one is done.
+#: Files that exist once the batch has connected, a study works, or a study is done.
 CONNECTED, WORKING, DONE = ".lumencut/lock-*", ".lumencut/unfinished/*", "sub-*/*_record.json"
 
 
 @pytest.fixture(scope="module")
 def cohort(tmp_path_factory):
-    """A cohort, and its results on this machine alone."""
+    """A cohort, and its results computed on this machine."""
     manifest = write_cohort(tmp_path_factory.mktemp("cohort"), good=3, bad=False)
     whole = manifest.with_name("whole")
     assert run(manifest, whole).returncode == 0
@@ -154,7 +154,7 @@ def test_studies_end_when_their_batch_is_interrupted(tmp_path):
 
 
 def processes_of(out):
-    """The processes of studies of a cohort."""
+    """Return the processes of the studies of a cohort."""
     told = subprocess.run(["ps", "-eo", "args="], capture_output=True, text=True).stdout
     return [line for line in told.splitlines() if f"--output={out}" in line and "--one=" in line]
 

@@ -1,4 +1,4 @@
-"""Studies side by side: how their processes end is told, whatever starts them."""
+"""Studies in parallel: the end of each process is reported, however the process was started."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def outcomes(jobs, count=2):
 
 @pytest.fixture(params=["forked", "fresh"])
 def way(request, monkeypatch):
-    """Both ways to start a process."""
+    """Both methods to start a process."""
     if request.param == "fresh":
         monkeypatch.setattr(engine, "Nursery", _Broken)
     elif sys.platform != "linux":
@@ -36,7 +36,7 @@ def way(request, monkeypatch):
 
 
 class _Broken(Nursery):
-    """A process that ends before it forks anything."""
+    """A forking process that ends before it forks anything."""
 
     def start(self, job):
         raise NurseryError
@@ -55,7 +55,7 @@ def test_ends_are_told_by_code_and_last_words(tmp_path):
 def test_no_more_work_at_once_than_is_asked_for(tmp_path):
     begun = outcomes(jobs_of(tmp_path, *[("--version",)] * 5), count=1)
     assert [one.state for one in begun.values()] == ["done"] * 5
-    # One after the other: in the order in which they were asked for.
+    # One after the other, in the requested order.
     assert list(begun) == [f"job-{n}" for n in range(5)]
 
 

@@ -1,4 +1,4 @@
-"""Who may write into the folder of a cohort, and how limits of studies are written."""
+"""Which batch may write into the folder of a cohort, and the syntax of limits."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ def test_shards_of_one_division_work_beside_each_other(layout):
 
 
 def test_locks_of_the_dead_are_taken_over(layout):
-    # This process has begun at another time than the one that left the lock: the number was given anew.
+    # The process started at another time than the one that wrote the lock: its process id was reused.
     write_lock(layout)
     with held(layout, Shard()):
         pass

@@ -1,4 +1,4 @@
-"""Manifests and recipes of cohorts: what is read, and what is refused with all mistakes named."""
+"""Manifests and recipes of cohorts: what is read; an error lists all mistakes."""
 
 from __future__ import annotations
 
@@ -334,8 +334,8 @@ def test_voxels_that_do_not_fit_into_the_memory_are_found_before(tmp_path):
     write_greedy(tmp_path / "greedy.nii")
     study = Study("a", tmp_path / "greedy.nii")
     trouble = verdict_of(study, Reading(), 4 << 30).trouble
-    assert "found 4.194 GB of voxels; expected at most 4.027 GB, what --memory leaves" in trouble
+    assert "found 4.194 GB of voxels; expected at most 4.027 GB, the memory that --memory leaves" in trouble
     verdict = verdict_of(study, Reading(), 8 << 30)
     assert verdict.trouble == ""
-    assert "whether the memory is enough is known once they are measured" in verdict.unsure[0]
+    assert "only measuring can show whether the memory is enough" in verdict.unsure[0]
     assert verdict_of(study, Reading(), 64 << 30).unsure == ()

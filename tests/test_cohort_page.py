@@ -1,4 +1,4 @@
-"""The contact sheet of a cohort: what its tiles tell, and that no other script can run in it."""
+"""The contact sheet of a cohort: the content of its tiles, and that no other script can run in it."""
 
 from __future__ import annotations
 

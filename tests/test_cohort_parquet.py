@@ -1,4 +1,4 @@
-"""The tables of a cohort as Parquet: the same values, numbers as numbers and ids as words."""
+"""The tables of a cohort as Parquet: the same values; numbers are numbers, ids are text."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def test_a_batch_writes_its_tables_as_parquet_too(tmp_path):
                 assert values == written, column
     studies = parquet.read_table(out / "studies.parquet")
     assert studies.column("id").to_pylist() == ["01", "02"]
-    # A further column holds what the manifest says, whatever its name.
+    # A further column holds text as in the manifest, whatever its name.
     assert studies.column("visit_mm").to_pylist() == ["007", None]
     sections = parquet.read_table(out / "sections.parquet", columns=["diameter_equivalent_mm", "flags"])
     assert pa.types.is_floating(sections.schema.field("diameter_equivalent_mm").type)

@@ -29,7 +29,7 @@ def write(path, columns, rows):
 
 
 def write_run(folder, error=0.0, shift=0.0, renumbered=False):
-    """Two studies of two vessels, whose diameters are wrong by `error`, and middles beside by `shift`."""
+    """Write two studies of two vessels: diameters differ by `error`, middles of sections by `shift`."""
     folder.mkdir()
     vessels, sections = [], []
     for study in ("p1", "p2"):
@@ -90,7 +90,7 @@ def test_the_agreement_of_two_runs_is_that_of_bland_and_altman(tmp_path):
     low, high = sections.limits
     assert (low + high) / 2 == pytest.approx(sections.bias)
     assert high - low == pytest.approx(2 * 1.96 * sections.sd)
-    # Both are known to 0.1 mm, so that 0.2 mm is within 1.96 · 0.14 mm.
+    # Both diameters have an uncertainty of 0.1 mm, so 0.2 mm is within 1.96 · 0.14 mm.
     assert sections.within_uncertainty == 1
     assert set(sections.studies) == {"p1", "p2"}
     third = write_run(tmp_path / "third", error=0.3)

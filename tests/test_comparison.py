@@ -15,7 +15,7 @@ CAMERA = Camera((0, 0, 0), (0, 1, 0), (0, 0, 1), (240, 200), 1.0)
 
 
 def made_up(depth, value=1.0):
-    """A grey frame with this depth and value in every pixel, or in rows of them."""
+    """A grey frame with this depth and this value in every pixel, or in some rows."""
     shape = (200, 240)
     image = np.full((*shape, 4), 100, np.uint8)
     fill = {"_depth": np.full(shape, depth, np.float32), "_value": np.full(shape, value, np.float32)}
@@ -44,14 +44,14 @@ def test_colours_stand_where_depths_differ():
         other._depth[row : row + 10] = depth
     picture = side_by_side([Panel("one", other), Panel("ours", ours)], [other.image, ours.image])
     assert picture.shape == (2 * 224, 480, 4)
-    # Below a strip of 24 pixels with the title, twice.
+    # The lower row begins below a row of 224 pixels and a strip of 24 pixels with the title.
     lower = picture[224 + 24 :, :239, :3].astype(int)
     colors = [tuple(lower[row + 5, 20]) for row in rows]
     assert colors[0] == (60, 60, 60)
     assert len(set(colors)) == 6
     assert tuple(lower[150, 20]) == (60, 60, 60)
     assert colors[1] == (177, 166, 96)
-    # The legend beside it shows each of the five colours at full strength.
+    # The legend shows each of the five colours at full strength.
     legend = picture[224 + 24 :, 240:, :3].reshape(-1, 3)
     shown = {tuple(color) for color in np.unique(legend, axis=0).tolist()}
     assert {(255, 236, 120), (255, 160, 40), (230, 40, 40), (190, 40, 190), (70, 130, 255)} <= shown

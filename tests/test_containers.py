@@ -1,4 +1,4 @@
-"""The definitions of containers: what a linter would say of them, and that both install the same."""
+"""The definitions of containers: checks as by a linter, and both install the same packages."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ def test_the_dockerfile_holds_to_the_rules_of_its_linters():
     words = [word for word, _ in found]
     assert set(words) <= KNOWN
     assert words[0] == "FROM"
-    # A base image of a version, not of whatever is the latest.
+    # A base image with a version, not the latest one.
     assert re.fullmatch(r"python:3\.\d+-slim-\w+", found[0][1])
     by_word = dict(found)
-    # Nothing runs as root, and signals reach the command itself.
+    # Nothing runs as root, and the command itself receives signals.
     assert words.index("USER") > max(n for n, word in enumerate(words) if word == "RUN")
     assert not by_word["USER"].startswith(("root", "0"))
     assert by_word["ENTRYPOINT"] == '["lumencut"]'

@@ -1,4 +1,4 @@
-"""Rays through volumes for which the answer is a formula."""
+"""The context along rays through volumes for which a formula gives the answer."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ import reference_context
 from context_scenes import GRIDS, POINTS, VIEWS, WINDOW, assert_same, drawn, noise, placed, viewed
 from lumencut import Camera, Volume
 
-#: What rounding to whole numbers takes from a byte, and rounding of 32-bit floats besides.
+#: Error from rounding to a byte, and from rounding of 32-bit floats.
 BYTE = 0.5 + 0.02
-#: Views along the axes of a plain grid, and which axis of the array [k, j, i] that is, from which end.
+#: Views along the axes of a plain grid: the axis of the array [k, j, i], and from which end.
 ALONG = {"along i": (2, 1), "along j": (1, 1), "against k": (0, -1)}
 
 
@@ -109,7 +109,7 @@ def test_dvr_of_a_ramp_tends_to_the_integral(view):
 @pytest.mark.parametrize("gamma", [-1.0, -0.7, 0.0, 0.4, 1.0])
 @pytest.mark.parametrize("view", ALONG)
 def test_a_brighter_slab_shines_through_by_the_formula(view, gamma):
-    # Samples lie on voxel centres: 3 mm of one value, a gap, 2 mm of another.
+    # Samples lie on voxel centres: 3 mm of one value, a gap, then 2 mm of another value.
     dim, bright = 65.0, 175.0
     profile = [0.0, dim, dim, dim, 0.0, 0.0, bright, bright, 0.0]
     points = [
@@ -146,13 +146,13 @@ def test_a_dimmer_slab_behind_is_composited_as_in_dvr(view):
 
 @pytest.mark.parametrize("view", ALONG)
 def test_clear_values_in_front_do_not_dampen_what_shines(view):
-    # What is clear counts for the maximum so far, as everything does: behind 120, 150 is only 30 brighter.
+    # Transparent values also raise the maximum so far: behind 120, the value 150 is only 30 brighter.
     points = [(60.0, (0, 0, 0), 0.0), (65.0, (250, 0, 0), 0.6), (70.0, (0, 0, 0), 0.0)]
     points += [(140.0, (0, 0, 0), 0.0), (150.0, (0, 250, 0), 0.5)]
     for gap, rise in (([0.0, 0.0], 85 / 200), ([120.0, 120.0], 30 / 200)):
         volume, camera = along([0.0, 65.0, *gap, 150.0, 0.0], view)
         image = drawn(volume, camera, "mida", points=points, window=(100.0, 200.0))
-        # In the second case the clear 120 itself pushes the front back before 150 does.
+        # In the second case the transparent 120 dims what lies in front before 150 does.
         front = 0.6 * (1 - rise) * (1 - (55 / 200 if gap[0] else 0))
         back = (1 - front) * 0.5
         expected = [250 * front / (front + back), 250 * back / (front + back), 0, 255 * (front + back)]
@@ -212,7 +212,7 @@ def test_the_ends_of_gamma_are_dvr_and_mip_bit_for_bit(view, points):
 def test_gamma_moves_the_picture_without_leaps(gamma):
     volume = placed(noise(3), GRIDS["oblique"])
     camera = viewed(volume, "oblique", zoom=1.6)
-    # γ = 1 takes the exact maximum, to which that of dense samples is close.
+    # γ = 1 takes the exact maximum; the maximum of dense samples is close to it.
     near = drawn(volume, camera, "mida", gamma=round(gamma), step=0.002).astype(float)
     there = np.abs(drawn(volume, camera, "mida", gamma=gamma, step=0.002) - near)
     opaque = near[..., 3] > 50
@@ -273,7 +273,7 @@ PRESETS = {
 
 @pytest.mark.parametrize("preset", PRESETS)
 def test_presets_follow_the_context_window(preset):
-    # The same picture for values and window that are scaled and shifted alike; clear below its first point.
+    # Scaling and shifting values and window alike gives the same picture.
     from lumencut import Renderer, Settings, Window
 
     array = noise(4)

@@ -23,7 +23,7 @@ def invoke(*words):
 
 @pytest.fixture
 def asked(monkeypatch):
-    """The settings that pictures were asked for."""
+    """Return the settings with which pictures were requested."""
     found = []
     original = Renderer.render
 

@@ -1,4 +1,4 @@
-"""What must not change the context: turning everything, and what cannot be seen."""
+"""The context does not change if the whole scene moves, or if invisible values change."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ STEP = 0.437
 
 
 def turned(volume, camera, turn, shift):
-    """The whole scene moved: volume and camera alike."""
+    """Move the whole scene: volume and camera together."""
     move = np.eye(4)
     move[:3, :3], move[:3, 3] = turn, shift
     view = Camera(
@@ -44,14 +44,14 @@ def test_a_mirrored_scene_gives_the_mirrored_picture(mode):
     volume = placed(noise(11), GRIDS["anisotropic"])
     camera = viewed(volume, "oblique")
     mirror = np.diag([-1.0, 1, 1])
-    # A camera is right-handed, so the mirrored view has its columns the other way round.
+    # A camera is always right-handed, so the columns of the mirrored view run in the other direction.
     flipped, view = turned(volume, camera, mirror, np.zeros(3))
     one, other = drawn(volume, camera, mode, step=STEP), drawn(flipped, view, mode, step=STEP)
     assert np.abs(one.astype(int) - other[:, ::-1])[one[..., 3] > 2].max() <= 1
 
 
 def blobs():
-    """Bright blobs in something clear, and the voxels all of whose neighbours are clear too."""
+    """Return bright blobs in transparent values, and the voxels with only transparent neighbours."""
     random = np.random.default_rng(12)
     array = random.uniform(0, 55, (40, 44, 48)).astype(np.float32)
     k, j, i = np.mgrid[:40, :44, :48]
@@ -68,7 +68,7 @@ def blobs():
     "mode", [("dvr", {}), ("dvr", {"shading": True}), ("mida", {}), ("mida", {"gamma": -0.5})], ids=str
 )
 def test_painting_what_is_clear_changes_nothing_to_the_bit(mode, value):
-    # Hidden values in voxels whose neighbours are hidden too: no sample that shows changes.
+    # Change values of voxels whose neighbours are all hidden too: no visible sample uses them.
     array, hidden = blobs()
     assert 0.5 < hidden.mean() < 0.99
     still = np.lib.stride_tricks.sliding_window_view(np.pad(hidden, 1), (3, 3, 3)).all(axis=(3, 4, 5))
@@ -83,7 +83,7 @@ def test_painting_what_is_clear_changes_nothing_to_the_bit(mode, value):
 
 
 def test_painting_what_is_too_bright_to_be_seen_changes_nothing_for_dvr():
-    # Clear above 300 as well: DVR does not care, MIDA pushes back what is in front of it.
+    # Transparent above 300 as well: DVR ignores this, MIDA dims what lies in front.
     points = [*POINTS, (300.0, (0, 0, 0), 0.0)]
     array, hidden = blobs()
     array[:, 34:] = np.where(hidden[:, 34:], 300.0, array[:, 34:])
@@ -117,7 +117,7 @@ def test_something_brighter_shines_through_what_is_opaque_in_mida():
     volume[:, 5:8] = 200
     volume[:, 12:15] = 400
     camera = Camera((2, 0, 2), (0, 1, 0), (0, 0, 1), (5, 5))
-    # Samples on voxel centres: δ = ½ keeps half of the red.
+    # The samples lie on voxel centres: δ = ½ keeps half of the red.
     image = drawn(Volume(volume), camera, "mida", points=points, window=(200.0, 400.0))
     assert np.abs(image - [125, 0, 125, 255.0]).max() <= 0.52
     assert (drawn(Volume(volume), camera, "dvr", points=points)[..., :3] == (250, 0, 0)).all()

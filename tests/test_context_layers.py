@@ -29,7 +29,7 @@ RAMP = (90.0, 140.0)
 
 
 def tree_in(volume, seed=0):
-    """A few vessels inside the volume."""
+    """Return a few vessels inside the volume."""
     random = np.random.default_rng(seed)
     low, high = volume.corners.min(axis=0), volume.corners.max(axis=0)
     return VesselTree(
@@ -55,7 +55,7 @@ def layered(mode="mida", opacity=RAMP, background=(10, 60, 200, 255), **changes)
 
 
 def context_behind(frame, volume, opacity=RAMP, behind=0.0, mode="mida"):
-    """The reference's rays, started where the frame's own depth and value say."""
+    """Return the reference's context, with rays that start at the frame's own depth and value."""
     start = reference_context.starts(frame.value.astype(float), frame.depth.astype(float), behind, opacity)
     rays = reference_context.follow(volume, frame.camera, mode, step=STEP, start=start)
     return reference_context.gather(rays, mode, POINTS, WINDOW)
@@ -63,7 +63,7 @@ def context_behind(frame, volume, opacity=RAMP, behind=0.0, mode="mida"):
 
 def assert_layers(frame, volume, background, opacity=RAMP, behind=0.0, mode="mida"):
     layer = context_behind(frame, volume, opacity, behind, mode)
-    # The surface is just opaque, or not quite, within the rounding of 32-bit floats.
+    # The surface may be opaque or not within the rounding of 32-bit floats.
     transparent, opaque = opacity or (0, 1)
     share = (frame.value.ravel().astype(float) - transparent) / (opaque - transparent)
     sure = ~(np.abs(share - 1) < 1e-6)
@@ -87,7 +87,7 @@ def test_rays_start_at_a_transparent_surface_and_cross_all_where_it_is_outside(m
         assert group.mean() > 0.05, "all kinds of pixels must be seen"
     layer = assert_layers(frame, volume, background, mode=mode)
     assert not frame.context[shown == 1].any()
-    # Where the cut surface is outside, but within sight of the volume, the whole volume is crossed.
+    # If the cut surface is outside the volume but the ray meets the volume, the ray crosses all of it.
     assert (layer[outside.ravel()][:, 3] > 0.1).any()
 
 
@@ -143,7 +143,7 @@ def test_slabs_are_measured_in_millimetres(grid, thickness, kind):
     frame = Renderer(volume, tree).render(camera, layered(slab=Slab(thickness, kind)))
     depth = frame.depth.astype(float)
     expected = reference_context.slab(volume, camera, depth, thickness, kind)
-    # 80 mm reach out of the volume on both sides.
+    # A slab of 80 mm extends out of the volume on both sides.
     assert 0.1 < np.isnan(expected).mean() < 0.9
     np.testing.assert_allclose(frame.value, expected, rtol=0, atol=2e-3)
 

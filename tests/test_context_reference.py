@@ -1,4 +1,4 @@
-"""The context is what the slow reference makes of it, each channel of each pixel within 1 of 255."""
+"""The context agrees with the slow reference: each channel of each pixel within 1 of 255."""
 
 from __future__ import annotations
 
@@ -34,9 +34,9 @@ MODES = {
     "mida, shaded": ("mida", {"shading": True}),
     "between mida and mip, shaded": ("mida", {"gamma": 0.3, "shading": True}),
 }
-#: Those that take samples at steps.
+#: The modes that take samples at steps.
 BLENDS = [name for name, (mode, _) in MODES.items() if reference_context.blends(mode)]
-#: Of no chord along an axis a whole fraction (mm).
+#: A step (mm) that divides no chord along an axis.
 STEP = 0.437
 
 
@@ -87,7 +87,7 @@ def test_odd_sizes_of_the_image(size):
 
 
 def test_a_volume_of_many_blocks():
-    # Smooth blobs in nothing, so that much can be left out, and a wall that ends rays.
+    # Smooth blobs in empty space, so that much can be skipped, and a wall that ends rays.
     k, j, i = np.mgrid[:70, :50, :60]
     blobs = 240 * np.exp(-(((i - 20) ** 2 + (j - 25) ** 2 + (k - 30) ** 2) / 60))
     blobs += 150 * np.exp(-(((i - 45) ** 2 + (j - 15) ** 2 + (k - 50) ** 2) / 90)) + 250 * (j > 44)
@@ -138,7 +138,7 @@ def test_nothing_but_nan_and_nothing_in_sight_leave_no_trace():
 
 
 def test_rays_in_the_faces_of_the_box_and_just_beside_them():
-    # Whole and half numbers only: these rays run exactly in the outer faces, half a voxel beyond the centres.
+    # Only integers and halves: these rays run exactly in the outer faces, half a voxel beyond the centres.
     volume = Volume(noise(10, (8, 8, 8)))
     camera = Camera((3.5, 0, 3.5), (0, 1, 0), (0, 0, 1), (11, 11), 1.0)
     on_faces = Camera((3.5, 0, 3.5), (0, 1, 0), (0, 0, 1), (9, 9), 1.0)
@@ -197,7 +197,7 @@ def test_the_comparison_sees_wrong_settings():
 
 
 def test_the_reference_agrees_with_itself():
-    # γ = −1 is what every textbook calls compositing, γ just below 1 almost the maximum.
+    # γ = -1 is usual compositing; γ just below 1 is almost the maximum.
     volume = placed(noise(12), GRIDS["oblique"])
     rays = reference_context.trace(volume, viewed(volume, "oblique"), STEP)
     for gamma, plain, tolerance in ((-1.0, "dvr", 1e-12), (1 - 1e-9, "mip", 1e-8)):

@@ -1,4 +1,4 @@
-"""Renderers with a context: of a volume alone, from view to view, and what their frames hold."""
+"""Renderers with a context: of only a volume, over several views, and the images of their frames."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ from lumencut.turntables import fitted_turn, turntable
 
 SIZE = (50, 40)
 WINDOW = Window(350, 900)
-#: Almost clear everywhere, so that no ray ends early and no part of one is skipped.
+#: Almost transparent everywhere, so that no ray ends early and no part is skipped.
 CLEAR = TransferFunction([(0, (255, 255, 255), 1e-6)])
 
 
@@ -186,7 +186,7 @@ def test_a_turntable_of_a_volume_alone(alone, made):
     first = next(turntable(alone, settings=Settings(context_preview=True), frames=3))
     expected = fitted_turn(Camera.anterior(made.volume), made.volume)
     assert first.camera.pixel_spacing == expected.pixel_spacing
-    # The corners swing around, so that their distance from the axis must fit.
+    # The corners move on circles, so their distance from the axis must fit into the view.
     reach = np.linalg.norm((made.volume.corners - expected.center)[:, :2], axis=1).max()
     assert reach < 256 * expected.pixel_spacing < 1.2 * reach
 

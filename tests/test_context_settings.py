@@ -1,4 +1,4 @@
-"""Settings of the context and the slab: what they take and refuse, and the window from a volume alone."""
+"""Settings of context and slab: which values are valid, and the window computed from only a volume."""
 
 from __future__ import annotations
 
@@ -186,7 +186,7 @@ def test_a_window_of_no_width_is_no_window():
 
 def test_every_preset_and_every_context_is_taken_and_makes_another_picture():
     made = phantom.aorta(scale=0.25)
-    # Of air too, so that smallest values and means are not all black.
+    # Includes air, so that smallest and mean values are not all black.
     camera, window = Camera.anterior(made.volume, (60, 60)), Window(0.0, 2200.0)
 
     def picture(**given):
@@ -197,7 +197,7 @@ def test_every_preset_and_every_context_is_taken_and_makes_another_picture():
     contexts = [picture(context=name) for name in _lumencut.SETTINGS["context"].choices]
     assert len(set(contexts)) == len(contexts) == 5
     assert picture(context="dvr") == picture(context_gamma=-1)
-    # Where gamma is 1 the transfer function is still that of MIDA; MIP has its own.
+    # Even with gamma 1 the transfer function is that of MIDA; MIP has its own.
     assert picture(context="mip", context_transfer="angio") == picture(context_gamma=1)
     assert picture() == picture(context_transfer="angio")
     assert picture(context="mip") == picture(context="mip", context_transfer="grey")
@@ -219,7 +219,7 @@ def test_the_window_of_a_volume_is_the_same_in_any_order_of_its_axes():
 
 
 def test_the_window_of_a_large_volume_looks_at_a_part_of_it():
-    # Every second cube along each axis of the larger one.
+    # Of the larger volume, every second cube along each axis is examined.
     part, whole = (
         Window.from_data(Volume(noisy((128, 256, 192)))),
         Window.from_data(Volume(noisy((64, 128, 96)))),
@@ -234,7 +234,7 @@ def test_the_window_of_a_volume_alone_shows_the_lumen_and_not_the_tissue(name):
     alone, along = Window.from_data(made.volume), Window.from_data(made.volume, made.tree)
     lumen = np.nanmedian(made.volume.sample(np.concatenate([vessel.points for vessel in made.tree])))
     assert 0.6 - 1e-6 <= (lumen - along.level) / along.width + 0.5 <= 0.72 + 1e-6
-    # The lumen and the tissue of the phantoms.
+    # Values of lumen and tissue in the phantoms.
     assert 0.4 < (350 - alone.level) / alone.width + 0.5 < 0.8
     assert (60 - alone.level) / alone.width + 0.5 < 0.28
 

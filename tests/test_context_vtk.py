@@ -1,15 +1,15 @@
-"""DVR and MIP are what VTK's ray caster for the CPU draws of the same scene.
+"""DVR and MIP agree with VTK's CPU ray caster for the same scene.
 
-What keeps the two apart, and how it is met:
+Differences between both, and how the tests treat them:
 
-* VTK's rays stop at the outermost voxel centres, and it leaves out columns of pixels near them. So every
-  volume gets a rim of its smallest value, which shows nothing.
-* Along a ray VTK's samples lie elsewhere. So both sample densely for DVR, 4 times a voxel; what is left is
-  how much values change within a part of a ray, at edges of metal most.
-* A MIP of ours is the exact maximum along the ray, VTK's that of 8 samples a voxel: darker or the same.
-  At edges of metal VTK is up to 4 grey values brighter all the same, in fewer than one of a hundred pixels;
-  there ours is within half a grey value of the maximum that 64-bit floats give.
-* VTK computes with 15 bits and rounds down: about a grey value in a hundred samples.
+* VTK's rays stop at the outermost voxel centres, and VTK omits columns of pixels near them. So every
+  volume gets a border of its smallest value, which is invisible.
+* VTK's samples lie at other positions on a ray. So both sample densely for DVR, 4 times per voxel; the rest
+  is the change of values within a step, mostly at edges of metal.
+* Our MIP is the exact maximum along the ray; VTK's is that of 8 samples per voxel: darker or equal.
+  At edges of metal VTK is still up to 4 grey values brighter, in less than 1 % of the pixels;
+  there ours is within half a grey value of the maximum in 64-bit floats.
+* VTK computes with 15 bits and rounds down: about one grey value per hundred samples.
 """
 
 from __future__ import annotations
@@ -26,11 +26,11 @@ from context_scenes import settings
 from lumencut import Camera, Renderer, Volume, phantom, read_volume
 from vtk_context import Drawing
 
-#: Parts of a ray for the smallest side of a voxel; ours has parts for DVR alone.
+#: Steps per smallest side of a voxel; ours uses them only for DVR.
 PARTS = {"dvr": 4, "mip": 8}
-#: Largest mean and 99 % quantile of the difference of a pixel, of 255: about half more than what was found.
+#: Largest mean and 99 % quantile of differences, of 255: about 1.5 times the observed ones.
 TOLERANCE = {"dvr": (2.0, 5.0), "mip": (1.0, 5.0)}
-#: By how much VTK's maxima may exceed the exact ones in 99 of 100 pixels that show something, of 255.
+#: In 99 % of the visible pixels, VTK's maximum may exceed the exact one by this (of 255).
 EXCESS = 1.5
 VIEWS = {"front": (0.0, 0.0), "oblique": (0.4, 0.3)}
 RIM = 5
@@ -38,14 +38,14 @@ RIM = 5
 
 @pytest.fixture(scope="module", autouse=True)
 def vtk_can_draw():
-    """VTK ends the whole process where it finds nothing to draw with; so another one tries first."""
+    """VTK ends the whole process if it has nothing to draw with, so another process tries first."""
     trial = (
         "from vtkmodules.vtkRenderingCore import vtkRenderWindow as W; import vtkmodules.vtkRenderingOpenGL2"
     )
     trial += "; w = W(); w.SetOffScreenRendering(1); w.SetSize(8, 8); w.Render()"
     found = subprocess.run([sys.executable, "-c", trial], capture_output=True, check=False, timeout=120)
     if found.returncode != 0:
-        # Where nobody reads what was skipped, the comparison must not go missing unseen.
+        # In CI a skipped comparison could stay unnoticed, so it fails there.
         end = pytest.fail if os.environ.get("CI") else pytest.skip
         end("VTK has nothing to draw with on this machine: neither a screen nor EGL")
 
@@ -56,7 +56,7 @@ def rimmed(array, spacing):
 
 
 def points_for(array, mode):
-    """The brightest tenth in colours for DVR, all in grey for MIP."""
+    """The brightest tenth of the range in colours for DVR, the whole range in grey for MIP."""
     low, high = (float(q) for q in np.percentile(array, [90, 99.9]))
     at = lambda share: low + share * (high - low)  # noqa: E731
     if mode == "mip":
@@ -66,7 +66,7 @@ def points_for(array, mode):
 
 
 def both(volume, view, mode, shift=0.0, thicker=1.0):
-    """Our picture and VTK's, 0 to 255; VTK's moved by `shift` pixels, its opacity that of more mm."""
+    """Return our picture and VTK's, 0 to 255; VTK's is moved by `shift` pixels, with `thicker` mm opacity."""
     around, over = VIEWS[view]
     camera = Camera.anterior(volume, (161, 121)).rotated(around).rotated(over, "right")
     points, step = points_for(volume.array, mode), volume.spacing.min() / PARTS[mode]
@@ -79,13 +79,13 @@ def both(volume, view, mode, shift=0.0, thicker=1.0):
 
 
 def excess(ours, theirs):
-    """By how much theirs is brighter in 99 of 100 pixels that show something, at most."""
+    """Return how much brighter VTK is in 99 % of the visible pixels, at most."""
     seen = ours[..., :3].max(axis=2) > 3
     return np.quantile((theirs - ours)[..., :3].max(axis=2)[seen], 0.99)
 
 
 def gaps(ours, theirs):
-    """The largest difference of each pixel that shows something: beside the volume both are black."""
+    """Return the largest difference of each visible pixel; beside the volume both pictures are black."""
     seen = np.maximum(ours, theirs)[..., :3].max(axis=2) > 3
     return np.abs(ours - theirs)[..., :3].max(axis=2)[seen]
 

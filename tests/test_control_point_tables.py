@@ -1,4 +1,4 @@
-"""Tables of control points as 3D Slicer writes them, read by Python: what is not defined is no point."""
+"""Tables of control points as written by 3D Slicer, read by Python: undefined points are ignored."""
 
 import json
 

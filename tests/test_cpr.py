@@ -1,4 +1,4 @@
-"""Curved Planar Reformation: where its pixels look, and what they show."""
+"""Curved Planar Reformation: the positions of its pixels, and their values."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ each_mode = pytest.mark.parametrize("mode", MODES)
 
 
 def blank(reach=60.0):
-    """A volume around the origin that shows nothing in particular."""
+    """A volume around the origin, whose values do not matter."""
     return Volume(np.zeros((3, 3, 3), np.int16), spacing=[reach] * 3, origin=[-reach] * 3)
 
 
 def along(points, at):
-    """The polyline at arc lengths."""
+    """Return points of a polyline at arc lengths."""
     length = np.r_[0, np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))]
     return np.stack([np.interp(at, length, points[:, axis]) for axis in range(3)], axis=1)
 
@@ -97,7 +97,7 @@ def test_world_and_pixel_are_inverse_off_the_folds(mode, angle):
     points = made.world_from_pixel(pixels)
     np.testing.assert_allclose(points, made.position[j, i], atol=1e-9)
     np.testing.assert_allclose(made.pixel_from_world(points), pixels, atol=1e-6)
-    # Between pixels too, away from the borders of folds.
+    # Also between pixels, but not near the borders of folds.
     near = pixels[np.abs(pixels[:, 0] - made.size[0] // 2) < 4] + 0.37
     near = near[near[:, 1] < made.size[1] - 1]
     np.testing.assert_allclose(made.pixel_from_world(made.world_from_pixel(near)), near, atol=1e-6)
@@ -108,13 +108,13 @@ def test_points_off_the_image_lie_where_the_documentation_says():
     for mode in MODES:
         made = cpr(blank(), line, mode, width=40, pixel_spacing=1)
         np.testing.assert_allclose(made.pixel_from_world([7, 11, 5]), [[27, 15]], atol=1e-9)
-        # Beyond the ends the vessel goes on straight.
+        # Beyond its ends the vessel continues straight.
         np.testing.assert_allclose(made.pixel_from_world([7, 0, 25]), [[27, -5]], atol=1e-9)
         np.testing.assert_allclose(made.world_from_pixel([27, 43]), [[7, 0, -23]], atol=1e-9)
 
 
 def test_rows_that_several_points_share_show_the_nearest_and_are_folded():
-    # Down, and up again beside it and farther away; the lowest row has the one point where it turns.
+    # Down, then up again, farther away; the lowest row contains only the turning point.
     made = cpr(blank(), vessel([[-10, 0, 10], [-10, 0, -10], [10, 6, 10]]), width=40, pixel_spacing=1)
     assert made.folded[:-1].all()
     assert not made.folded[-1].any()
@@ -144,7 +144,7 @@ def test_lengths_on_a_stretched_surface_are_true():
     down = np.linalg.norm(np.diff(made.position, axis=0), axis=2)
     diagonal = np.linalg.norm(made.position[1:, 1:] - made.position[:-1, :-1], axis=2)
     np.testing.assert_allclose(across, 0.5, atol=1e-9)
-    # Chords of a curved surface are a little shorter than the way along it.
+    # Chords of a curved surface are slightly shorter than the path along the surface.
     assert (down <= 0.5 + 1e-9).all()
     assert down.min() > 0.5 * 0.999
     assert np.abs(diagonal / np.sqrt(0.5) - 1).max() < 1e-3
@@ -155,7 +155,7 @@ def test_a_stretched_helix_has_its_closed_form():
     line, a, length = helix(radius, rise, turns=0.5)
     assert line.length == pytest.approx(length, rel=1e-6)
     made = cpr(blank(), line, "stretched", width=60, pixel_spacing=0.5)
-    # Seen along x the step is (dy, dz): its length is an elliptic integral, here summed finely.
+    # Seen along x, a step is (dy, dz); its length is an elliptic integral, summed here in small steps.
     fine = np.linspace(0, np.pi, 200_001)
     speed = np.hypot(radius * np.cos(fine), rise)
     downwards = np.r_[0, np.cumsum((speed[1:] + speed[:-1]) / 2 * np.diff(fine))]
@@ -168,7 +168,7 @@ def test_a_stretched_helix_has_its_closed_form():
 
 
 def test_a_planar_arc_is_stretched_to_its_length():
-    # A half circle in the sagittal plane: seen from the front it has no width, and it is π R long.
+    # A half circle in the sagittal plane: from the front it has no width, but a length of π R.
     a = np.linspace(0, np.pi, 2000)
     made = cpr(
         blank(),
@@ -181,7 +181,7 @@ def test_a_planar_arc_is_stretched_to_its_length():
 
 
 def test_a_stretched_vessel_that_returns_is_folded_where_it_was_shown_before():
-    # Down and up again within one coronal plane: every line of the second half is one of the first.
+    # Down and up again in one coronal plane: every line of the second half repeats one of the first.
     made = cpr(
         blank(),
         vessel([[-8, 0, 10], [-8, 0, -10], [8, 0, -10], [8, 0, 10]]),
@@ -193,7 +193,7 @@ def test_a_stretched_vessel_that_returns_is_folded_where_it_was_shown_before():
     x = np.arange(33) - 16
     for row in (3, 12, 17):
         np.testing.assert_array_equal(made.folded[row], x > 0)
-        # In the middle both limbs are as near: the upper row has the point.
+        # In the middle both limbs are equally near: the upper row gets the point.
         np.testing.assert_array_equal(made.folded[40 - row], x <= 0)
 
 
@@ -209,7 +209,7 @@ def test_sections_of_a_helix_are_perpendicular_and_do_not_turn():
     tangent = np.stack([-radius * sine, radius * cosine, zero - rise], axis=1) / np.hypot(radius, rise)
     normal = np.stack([-cosine, -sine, zero], axis=1)
     assert np.abs((across * tangent).sum(axis=1)).max() < 5e-3
-    # Against the Frenet frame the rotation-minimising one turns by the integral of the torsion.
+    # Relative to the Frenet frame, the rotation-minimising frame turns by the integral of the torsion.
     binormal = np.cross(tangent, normal)
     turned = np.unwrap(np.arctan2((across * binormal).sum(axis=1), (across * normal).sum(axis=1)))
     torsion = -rise / (radius**2 + rise**2)
@@ -221,7 +221,7 @@ def test_the_first_section_is_seen_from_the_front():
     right = made.position[0, -1] - made.position[0, 0]
     assert right[0] > 9.9
     assert right[1] == pytest.approx(0, abs=1e-9) or abs(right[1]) < 0.2
-    # A vessel that begins along the view is seen from below, as axial slices are.
+    # A vessel that starts along the view direction is seen from below, like axial slices.
     made = cpr(blank(), vessel([[0, -10, 0], [0, 10, 0]]), "straightened", width=10, pixel_spacing=1)
     np.testing.assert_allclose(made.position[0, -1] - made.position[0, 0], [10, 0, 0], atol=1e-12)
     line = vessel([[0, 0, 10], [0, 0, -10]])
@@ -241,7 +241,7 @@ def test_the_viewer_of_a_turned_cpr_moves_to_the_right(mode):
 
 
 def test_cross_lines_beyond_the_centre_of_curvature_are_folded():
-    # Half of a circle of 10 mm in the coronal plane, with its centre on the picture's right.
+    # Half of a circle of 10 mm in the coronal plane, with its centre on the right in the picture.
     a = np.linspace(0, np.pi, 800)
     line = vessel(np.stack([-10 * np.sin(a), 0 * a, 10 * np.cos(a)], axis=1))
     made = cpr(blank(), line, "straightened", width=40, pixel_spacing=0.5)
@@ -252,10 +252,10 @@ def test_cross_lines_beyond_the_centre_of_curvature_are_folded():
     assert not middle[:, x < 9.9].any()
 
 
-# Each limb is one long step beyond a bend of short ones.
+# Each limb is one long step after a bend of short steps, which looks doubtful.
 @odd_lines
 def test_limbs_that_cross_lines_reach_are_folded_there():
-    # A hairpin in the coronal plane, 16 mm wide: the symmetry axis divides what belongs to each limb.
+    # A hairpin in the coronal plane, 16 mm wide: its symmetry axis separates the pixels of both limbs.
     a = np.linspace(0, np.pi, 200)
     bend = np.stack([-8 * np.cos(a), 0 * a, -10 - 8 * np.sin(a)], axis=1)
     made = cpr(blank(), vessel([[-8, 0, 20], *bend, [8, 0, 20]]), "straightened", width=30, pixel_spacing=0.5)
@@ -272,7 +272,7 @@ def test_right_angles_inflections_and_straight_runs():
     made = cpr(blank(), vessel(points), "straightened", width=6, pixel_spacing=0.25)
     across = made.position[:, -1] - made.position[:, 0]
     np.testing.assert_allclose(np.linalg.norm(across, axis=1), 6, atol=1e-9)
-    # In the middle of straight runs the lines are perpendicular to the vessel, and there is no jump anywhere.
+    # In straight parts the lines are perpendicular to the vessel, and nothing jumps anywhere.
     for at, direction in ((10, [0, 0, -1]), (30, [1, 0, 0]), (47.5, [0, 1, 0]), (65, [0, 0, -1])):
         assert abs(across[int(at / 0.25)] @ direction) < 1e-9
     assert np.linalg.norm(np.diff(across, axis=0), axis=1).max() < 0.6
@@ -283,7 +283,7 @@ def test_right_angles_inflections_and_straight_runs():
 @pytest.mark.parametrize("make", [lattice, nearly_along_y, of_few_points])
 @pytest.mark.parametrize("seed", [1, 2, 3])
 def test_any_vessel_has_a_layout_or_lies_in_one_row(mode, make, seed):
-    """Vessels that turn straight back, repeat points, run along the view or have two points."""
+    """Vessels that turn back, repeat points, run along the view or have two points."""
     shown = 0
     for line in make(seed):
         if line.length == 0:
@@ -317,13 +317,13 @@ def test_a_slab_is_that_of_many_samples(mode, kept):
     reduced = {"max": samples.max(axis=0), "mean": samples.mean(axis=0), "min": samples.min(axis=0)}[kept]
     sure = ~np.isnan(reduced)
     assert sure.mean() > 0.6
-    # Extremes lie between the samples, which are 2.5 µm apart; the steepest slope is some 2000 per mm.
+    # The extremes lie between samples 2.5 µm apart; the steepest slope is about 2000 per mm.
     assert np.abs(made.value - reduced)[sure].max() < 3
     assert np.abs(thin.value - reduced)[sure].max() > 500
 
 
 def through_the_surface(volume, made):
-    """The unit vector along which the slab of each row is thick, found without asking the image, (H, 3)."""
+    """Return the unit vector along which each row's slab is thick, computed independently, (H, 3)."""
     count = made.size[1]
     if made.mode == "projected":
         return np.tile([0.0, 1.0, 0.0], (count, 1))

@@ -1,4 +1,4 @@
-"""CPR on the GPU beside the CPU."""
+"""CPR on the GPU compared with the CPU."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ SETTINGS = {
 
 
 def assert_alike(one, other):
-    """Values within 0.1 and pictures within one grey value, but for one pixel of a thousand."""
+    """Values agree within 0.1 and pictures within one grey value, except for one pixel in a thousand."""
     pixels = one.value.size
     assert compare(one.value, other.value, 0.1).count <= pixels / 1000
     assert compare(one.image, other.image, 1).count <= pixels / 1000
@@ -59,7 +59,7 @@ def test_aggregated_features():
 def test_the_cpu_takes_over_where_the_gpu_has_no_room():
     if (most := devices()[0].buffer_bytes) > 1 << 28:
         pytest.skip(f"no picture of a test is too large for buffers of {most} bytes")
-    # 48 bytes for each of three million pixels are more than the 128 MiB that shaders may bind.
+    # 48 bytes for each of three million pixels exceed the 128 MiB that a shader may bind.
     spacing = 0.02
     words = "curved geometry: found [0-9]+ pixels"
     made = cpr(noise(), wave(), "straightened", 30, spacing, device="auto")

@@ -1,4 +1,4 @@
-"""What CPR refuses, paths through a tree, straightened volumes and aggregated features."""
+"""What CPR rejects, paths through a tree, straightened volumes, and aggregated features."""
 
 from __future__ import annotations
 
@@ -287,7 +287,7 @@ def test_its_voxels_are_those_of_the_volume(volume, straightened):
     sure = ~np.isnan(expected)
     assert sure.mean() > 0.8
     assert np.abs(found - expected)[sure].max() < 0.05
-    # Off the axis sections meet where the vessel bends strongly; near it none do.
+    # Far from the axis, sections intersect if the vessel bends strongly; near the axis they do not.
     near = np.hypot(*(index[:, :2] - 7).T) < 3
     np.testing.assert_allclose(straightened.index_from_world(world[near]), index[near], atol=1e-6)
     np.testing.assert_allclose(straightened.arc_length, 0.8 * np.arange(made.size[2]), atol=1e-9)
@@ -333,7 +333,7 @@ def test_the_straightened_volume_is_checked(volume, straightened, tmp_path):
 
 
 def test_features_are_aggregated_over_half_circles():
-    # A bright rod beside a straight vessel, to the patient's left and behind: it shows on the right alone.
+    # A bright rod next to a straight vessel, to the patient's left and behind: only the right side shows it.
     size = (61, 61, 61)
     affine = grid("straight", size)
     index = np.stack(np.meshgrid(*map(np.arange, size), indexing="ij"), axis=-1)
@@ -349,7 +349,7 @@ def test_features_are_aggregated_over_half_circles():
     assert shown.max() < np.hypot(4, 5) + 2.5
     np.testing.assert_array_equal(cfa(volume, STRAIGHT, 12, "min", 0.5).value, 0)
     mean = cfa(volume, STRAIGHT, 12, "mean", 0.5).value[40]
-    # A circle of 6.5 mm meets the rod along some 3 of the 20 mm of its half.
+    # A circle of 6.5 mm meets the rod over about 3 of the 20 mm of its half.
     at = np.argmin(np.abs(made.radius - 6.5))
     assert 100 < mean[at] < 250
     assert mean[48 - at] == 0

@@ -1,4 +1,4 @@
-"""CPR that follows the narrow or the wide side of a lumen."""
+"""CPR that follows the narrowest or the widest side of a lumen."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ LINE = Vessel([[0, 0, 25], [0, 0, -25]], radius=4.0)
 
 @pytest.fixture(scope="module")
 def turning():
-    """A lumen of 300, an ellipse of 12 × 6 mm whose axis turns by a quarter of a turn over 50 mm."""
+    """A lumen of 300: an ellipse of 12 × 6 mm that turns by 90° over 50 mm."""
     z, y, x = np.meshgrid(*(np.arange(-r, r + 0.1, 0.5) for r in (28, 12, 12)), indexing="ij")
     turn = 0.4 + (25 - z) / 50 * math.pi / 2
-    # Seen against its way, a vessel turns to the left from x to y.
+    # Seen against its direction, the axis turns to the left, from x to y.
     along = x * np.cos(turn) + y * np.sin(turn)
     across = y * np.cos(turn) - x * np.sin(turn)
     inside = (1 - np.hypot(along / 6, across / 3)) * 4
@@ -31,7 +31,7 @@ def turning():
 
 
 def widths(made):
-    """The width of the lumen in each row but the ends (mm)."""
+    """Return the width of the lumen in each row, without rows near the ends (mm)."""
     return (made.value[8:-8] > 150).sum(axis=1) * made.pixel_spacing
 
 

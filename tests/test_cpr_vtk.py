@@ -1,4 +1,4 @@
-"""CPR of real vessels beside VTK: the values that vtkProbeFilter finds at the places of the pixels."""
+"""CPR of real vessels: values as vtkProbeFilter computes them at the positions of the pixels."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from vtk_context import image_data
 
 
 def probed(volume, points):
-    """The values at world points (…, 3), NaN where VTK finds none; the grid must lie along the axes."""
+    """Return the values at world points (…, 3), NaN if VTK finds none; the grid must be axis-aligned."""
     data, places = vtkPolyData(), vtkPoints()
     places.SetData(numpy_to_vtk(np.ascontiguousarray(points.reshape(-1, 3)), deep=True))
     data.SetPoints(places)
@@ -42,7 +42,7 @@ def test_the_stent_as_vtk_sees_it(mode):
         expected = probed(as_float, made.position)
         sure = ~np.isnan(expected) & ~np.isnan(made.value)
         assert sure.mean() > 0.7
-        # Of values up to 2000: what 32-bit floats leave.
+        # For values up to 2000, this is the rounding of 32-bit floats.
         assert np.abs(made.value - expected)[sure].max() < 0.01
 
 

@@ -1,4 +1,4 @@
-"""CR: an independent computation, the trade-off of its thresholds, both devices, and bad input."""
+"""CR: an independent computation, the effect of its thresholds, both devices, and invalid input."""
 
 import re
 
@@ -24,7 +24,7 @@ from scenes import wandering
 
 
 def joined(seed):
-    """Vessels of which each but the first begins at a point of another one: an end, or an inner point."""
+    """Return vessels; each except the first begins at a point of another one: an end or an inner point."""
     random = np.random.default_rng(seed)
     made = [*wandering(seed, vessels=4, points=25)]
     for number, vessel in enumerate(made[1:], 1):
@@ -42,7 +42,7 @@ def test_every_pixel_shows_what_a_search_of_everything_finds(seed, thresholds):
     frame = cr(None, tree, camera, None, *thresholds)
     depth, vessel = reference.cr(tree, camera, *thresholds)
     same = (np.abs(frame.depth - depth) < 1e-3) & (frame.vessel == vessel)
-    # 32-bit floats decide otherwise where two are as near as one rounding.
+    # 32-bit floats may decide differently if two points are equally near within rounding.
     same |= (frame.vessel != vessel) & (np.abs(frame.depth - depth) < 1e-3)
     assert (~same).sum() <= 3
     nearest, _ = reference.cr(tree, camera, -1e9, 0)
@@ -50,13 +50,13 @@ def test_every_pixel_shows_what_a_search_of_everything_finds(seed, thresholds):
 
 
 def crossing():
-    """A vessel across in front, and one upright 40 mm behind it, both of 4 mm radius."""
+    """A horizontal vessel in front, and a vertical one 40 mm behind it, both with a radius of 4 mm."""
     return VesselTree([Vessel([(-60, 0, 0), (60, 0, 0)], 4.0), Vessel([(0, 40, -60), (0, 40, 60)], 4.0)])
 
 
 @pytest.mark.parametrize("offset", [0, 5, 20, 55])
 def test_a_larger_offset_keeps_more_surroundings_and_hides_more_lumen(offset):
-    """Of a crossing of 120 mm: tissue around the vessel in front, and lumen of the other that is left."""
+    """A crossing of 120 mm: tissue around the vessel in front, and visible lumen of the vessel behind."""
     camera = Camera((0, 0, 0), (0, 1, 0), (0, 0, 1), (240, 240), 0.5)
     frame = cr(None, crossing(), camera, radius_offset=2 * offset)
     x, y = np.meshgrid(*reference.places(camera))
@@ -71,14 +71,14 @@ def test_a_larger_offset_keeps_more_surroundings_and_hides_more_lumen(offset):
 
 
 def test_the_threshold_decides_what_is_one_stretch():
-    """A hairpin: within one stretch the nearer limb in the image is shown, else the one in front."""
+    """A hairpin: within one stretch the limb nearer in the image is shown, otherwise the one in front."""
     tree = VesselTree(
         [Vessel([(0, 0, 50), (0, 0, -50)], 2.0), Vessel([(0, 0, -50), (10, 40, -50), (10, 40, 50)], 2.0)]
     )
     camera = Camera((0, 0, 0), (0, 1, 0), (0, 0, 1), (60, 21), 1.0)
     way = 50 + np.hypot(10, 40) + 50
     short, long = (cr(None, tree, camera, None, 10, threshold) for threshold in (way - 12, way + 12))
-    # At (8.5, 0), in the disc of the limb in front and nearer to the one behind.
+    # The pixel at (8.5, 0) is in the disc of the limb in front, but nearer to the limb behind.
     assert [frame.vessel[10, 38] for frame in (short, long)] == [0, 1]
 
 

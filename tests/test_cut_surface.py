@@ -1,6 +1,6 @@
-"""The cut surface is what the slow reference makes of the same scene.
+"""The cut surface agrees with the slow reference for the same scene.
 
-Where the reference cannot tell which of two pieces wins within rounding, a pixel may differ; such pixels are
+If rounding decides which of two pieces wins in the reference, a pixel may differ. Such pixels are
 counted and must be few.
 """
 
@@ -42,7 +42,7 @@ def fitted(tree, direction, size=(46, 42)):
 
 
 def differences(frame, expected):
-    """Counts of pixels by what is wrong with them."""
+    """Return the number of pixels with each kind of difference."""
     error = np.abs(frame.depth - expected.depth)
     depth, vessel = error > TOLERANCE, frame.vessel != expected.vessel
     return {
@@ -60,7 +60,7 @@ def assert_same(tree, camera, rule, most_unsure=0.005, most_different=0.001):
     expected = reference_surface.cut_surface(tree, camera, rule, TOLERANCE)
     found = differences(frame, expected)
     assert (found["depth"], found["vessel"], found["distance"]) == (0, 0, 0), found
-    # Ties are broken alike; what is left is rounding in one pixel of a thousand.
+    # Ties are broken in the same way; the rest is rounding in one pixel of a thousand.
     different = found["depth, unsure or not"] + found["vessel, unsure or not"]
     assert different <= most_different * frame.depth.size, found
     assert found["unsure depth"] <= most_unsure * frame.depth.size, found
@@ -88,9 +88,9 @@ def test_phantoms(name, direction, rule):
 @pytest.mark.parametrize("direction", [(0, 1, 0), (1, 0, 0)])
 @pytest.mark.parametrize("seed", range(2))
 def test_runs_of_collinear_segments(seed, direction, levels, rule):
-    # The center is odd, so that no pixel lies on the border of a piece.
+    # The center has odd coordinates, so that no pixel lies on the border of a piece.
     camera = Camera((0.1313, 0.2777, 0.3177), direction, (0, 0, 1), (47, 33), 1.37)
-    # Vessels that turn back on themselves have places that lie equally far along from the winner's.
+    # Vessels that turn back on themselves have several places at the same arc distance from the winner's.
     assert_same(lattice(seed), camera, replace(RULES[rule], levels=levels), most_unsure=0.02)
 
 
@@ -121,7 +121,7 @@ def test_vessels_without_radius_count_as_lumen(known, unknown_radius):
 
 
 def known_radius(radius, known):
-    """The radii as far as they are known."""
+    """Return the radii, where known."""
     if known == "not at some points":
         return np.where(np.arange(len(radius)) // 8 % 2, radius, 0.0)
     return radius if known == "every second" else None
@@ -174,7 +174,7 @@ def test_far_from_the_origin_of_world_space():
 )
 def test_real_trees(file, direction, rule, shared_data):
     tree = read_centerlines(shared_data / file)
-    # Places along a bend may lie equally far along from the winner's, within rounding.
+    # Within rounding, several places along a bend may have the same arc distance from the winner's.
     assert_same(tree, fitted(tree, direction), RULES[rule], most_unsure=0.02, most_different=0.003)
 
 
@@ -202,7 +202,7 @@ def test_the_comparison_sees_a_wrong_setting(changes, rule):
     changed = replace(RULES[rule], **changes)
     found = differences(frame, reference_surface.cut_surface(tree, camera, changed, TOLERANCE))
     if changed == RULES[rule] or (rule == "paper" and changes.keys() & {"lumen_margin", "unknown_radius"}):
-        # The rule itself, or what does not count under it.
+        # The rule itself, or settings without effect under this rule.
         assert found["depth"] == found["vessel"] == 0, found
     else:
         assert found["depth"] > 10, found
@@ -236,7 +236,7 @@ def test_on_a_tie_the_smaller_id_wins_to_the_bit():
 @pytest.mark.parametrize("link", [True, False], ids=["one vessel", "two vessels"])
 @pytest.mark.parametrize("deep_first", [True, False])
 def test_on_a_tie_the_earlier_piece_wins(deep_first, link):
-    # From the front, 1.5 mm above the shallow line: 0 + 10 · 1.5 = 10 + 10 · 0.5.
+    # From the front, 1.5 mm above the shallow line both costs are equal: 0 + 10 · 1.5 = 10 + 10 · 0.5.
     lines = [[[-64.0, 0, 0], [64, 0, 0]], [[64.0, 10, 2], [-64, 10, 2]]]
     lines = lines[::-1] if deep_first else lines
     tree = VesselTree([Vessel(np.concatenate(lines))] if link else [Vessel(line) for line in lines])
@@ -312,7 +312,7 @@ def test_the_filter_within_zones(rule, size, leap):
     renderer, camera = Renderer(None, wandering(2)), fitted(wandering(2), "oblique", size)
     filtered = replace(rule, depth_filter=True, zone_filter=True, depth_leap=leap)
     raw, smooth = renderer.cut_surface(camera, rule), renderer.cut_surface(camera, filtered)
-    # Where no pair counts, none is in doubt.
+    # If no pair counts, nothing is in doubt.
     tolerance = 1e-4 if leap else -1.0
     expected, doubt = reference_images.zone_filter(raw.depth.astype(float), raw.vessel, leap, tolerance)
     assert doubt.mean() < 0.02
@@ -335,7 +335,7 @@ def test_silhouettes_of_leaps_and_how_far_apart_blends_are(seed, direction, spac
     surface = reference_surface.cut_surface(tree, camera, Settings(), TOLERANCE)
     strength, doubt = reference_images.silhouettes(surface, camera, 0.01)
     assert doubt.mean() < 0.1
-    # At 2 mm per pixel the lines have half their strength.
+    # At 2 mm per pixel lines have half their strength.
     assert (strength[~doubt] > 0.4).any()
     np.testing.assert_allclose(found["strength"][~doubt], strength[~doubt], rtol=0, atol=1e-5)
     sure = ~(surface.unsure_depth | surface.unsure_vessel)
@@ -344,7 +344,7 @@ def test_silhouettes_of_leaps_and_how_far_apart_blends_are(seed, direction, spac
 
 
 def oblique_affine():
-    """Sheared, left-handed, about 3 mm per voxel, around the origin; 40 × 36 × 30 voxels."""
+    """Return a sheared, left-handed grid around the origin: about 3 mm per voxel, 40 × 36 × 30 voxels."""
     columns = np.array([[3.0, 0.4, -0.3], [-0.5, 3.2, 0.2], [0.6, 0.1, -3.4]])
     affine = np.eye(4)
     affine[:3, :3], affine[:3, 3] = columns, -columns @ (19.5, 17.5, 14.5)
@@ -385,6 +385,6 @@ def test_from_end_to_end(direction, rule):
     sure = ~near_unsure
     np.testing.assert_allclose(frame.depth[sure], depth[sure], rtol=0, atol=TOLERANCE)
     np.testing.assert_allclose(frame.position[sure], position[sure], rtol=0, atol=TOLERANCE)
-    # The value changes by less than 2 per mm.
+    # The value changes by less than 2 per mm of depth.
     value = reference_images.trilinear(volume, position)
     np.testing.assert_allclose(frame.value[sure], value[sure], rtol=0, atol=2 * TOLERANCE)

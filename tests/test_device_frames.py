@@ -1,4 +1,4 @@
-"""The frames of the GPU beside those of the CPU, and the comparison of the two."""
+"""Frames of the GPU compared with frames of the CPU, and tests of this comparison."""
 
 from __future__ import annotations
 
@@ -127,7 +127,7 @@ def test_the_comparison_counts(name, limit):
     assert excess(one, other) == {}
     tolerance, share = LIMITS[name][limit]
     array, most = getattr(one, f"_{name}"), int(share * 200 * 150)
-    # Upwards where there is room, in the last channel.
+    # Values below 128 are raised, all others lowered, in the last channel.
     last = array.reshape(200 * 150, -1)[:, -1]
     moved = np.where(last < 128, last + max(2.0 * tolerance, 2.0), last - max(2.0 * tolerance, 2.0))
     places = np.flatnonzero(np.isfinite(last))[: most + 1]

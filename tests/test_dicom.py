@@ -1,4 +1,4 @@
-"""DICOM series: one affine per stack, shear kept, exact values, and refusal by name of all else."""
+"""DICOM series: one affine per stack, with shear; exact values; an error with a reason for all else."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ AXIAL = np.diag([0.5, 0.75, 2.0, 1.0])
 
 
 def right_handed():
-    """An oblique grid that slices of DICOM can have: k along the normal."""
+    """Return an oblique grid that DICOM slices can have, with k along the normal."""
     affine = oblique()
     affine[:3, 1] *= -1
     return affine
@@ -123,7 +123,7 @@ def test_no_preamble_and_implicit(tmp_path):
 def test_progress(tmp_path):
     calls = []
     read_volume(write_stack(tmp_path / "s", coded(), AXIAL), progress=lambda *call: calls.append(call))
-    # The headers of all files first, then the slices.
+    # First the headers of all files are read, then the slices.
     assert calls == 2 * [(n, 5) for n in range(1, 6)]
 
 

@@ -1,4 +1,4 @@
-"""Folders of several DICOM series: all are listed, and one is read only where there is no doubt."""
+"""Folders with several DICOM series: all are listed; one is read only if the choice is clear."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ UIDS = {"arterial": "1.2.1", "venous": "1.2.2", "scout": "1.2.3", "screen": "1.2
 
 
 def part(name, number, **extra):
-    """Change slices of a stack into a series of its own."""
+    """Move slices of a stack into a separate series."""
 
     def change(k, data):
         data.SeriesInstanceUID, data.SeriesNumber, data.SeriesDescription = UIDS[name], number, name
@@ -31,7 +31,7 @@ def part(name, number, **extra):
 
 @pytest.fixture
 def study(tmp_path):
-    """A study with one angiography volume."""
+    """Write a study with one angiography volume."""
     folder = tmp_path / "study"
     folder.mkdir()
     write_stack(folder / "a", coded(), AXIAL, part("arterial", 2))
@@ -98,7 +98,7 @@ def test_a_number_that_two_series_share_chooses_none(study):
 
 
 def phases(folder, **keyword):
-    """A series of two phases, the second one with values that are larger by 1000."""
+    """Write a series of two phases; the values of the second one are larger by 1000."""
     for number, (name, values) in enumerate(keyword.items()):
         for phase, value in enumerate(values):
             array = coded() + 1000 * phase

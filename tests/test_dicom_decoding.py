@@ -1,4 +1,4 @@
-"""How pixels of DICOM are decoded: damaged, empty, by processes of their own, by several readers at once."""
+"""Decoding of DICOM pixels: damaged and empty ones, in separate processes, and by several readers at once."""
 
 from __future__ import annotations
 
@@ -87,7 +87,7 @@ def test_the_decoders_take_no_module_from_the_current_folder(tmp_path):
     home = str(Path(lumencut.__file__).parents[1])
     code = f"import sys; sys.path[0] = {home!r}; import lumencut; print(lumencut.read_volume('scan').size)"
     run = [sys.executable, "-c", code]
-    # The reader itself must not look there either, hence its own first entry is replaced above.
+    # The reader must not look there either, so its first search path was replaced above.
     done = subprocess.run(run, cwd=tmp_path, capture_output=True, text=True, check=True)
     assert done.stdout.split() == ["(64,", "48,", "24)"]
     assert not (tmp_path / "was-here").exists()

@@ -1,4 +1,4 @@
-"""Odd DICOM: whatever stands in the attributes and wherever a file is damaged, a volume or a named refusal.
+"""Odd DICOM files: for any attribute values and damage, the result is a volume or an error with a reason.
 
 LUMENCUT_FUZZ_EXAMPLES=100 makes each test try a hundred times as many inputs.
 """
@@ -36,7 +36,7 @@ TEXTS = st.sampled_from(
 
 @pytest.fixture(scope="module")
 def enhanced(tmp_path_factory):
-    """The bytes of a sound enhanced multi-frame image."""
+    """The bytes of a valid enhanced multi-frame image."""
     folder = tmp_path_factory.mktemp("enhanced")
     BY_NAME["enhanced"].write(folder)
     (path,) = (path for path in folder.rglob("*") if path.is_file())
@@ -62,14 +62,14 @@ def edited(data, changes):
 @FUZZ
 @given(changes=EDITS, header=st.floats(0.01, 1))
 def test_changed_bytes_of_frames(tmp_path, enhanced, changes, header):
-    """Mostly in the header, where the functional groups stand."""
+    """Mostly changes in the header, which contains the functional groups."""
     changes = [(place * header, value) for place, value in changes]
     volume_or_refusal(put(tmp_path, {"x.dcm": edited(enhanced, changes)}), needed=64 << 20)
 
 
 @pytest.fixture(scope="module")
 def archive(tmp_path_factory):
-    """The bytes of a sound archive."""
+    """The bytes of a valid archive."""
     return zipped(tmp_path_factory.mktemp("zip") / "x.zip", ["a/1", "a/2", "../3"])
 
 
@@ -80,7 +80,7 @@ def test_changed_bytes_of_an_archive(tmp_path, archive, changes):
 
 
 def spliced(data, keyword, text):
-    """A file (explicit, little-endian) whose attribute is another text, or is missing."""
+    """Return a file (explicit, little-endian) with one attribute replaced by another text, or removed."""
     tag = pydicom.datadict.tag_for_keyword(keyword)
     vr = pydicom.datadict.dictionary_VR(tag).split(" or ")[0].encode()
     start = data.find(struct.pack("<HH", tag >> 16, tag & 0xFFFF) + vr)

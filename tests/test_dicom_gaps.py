@@ -1,4 +1,4 @@
-"""Missing DICOM slices: refused by name, or interpolated and marked where the caller asks for it."""
+"""Missing DICOM slices: rejected with a reason, or interpolated and marked on request."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def test_holes_are_filled_on_request_and_marked(tmp_path, affine, caplog):
     ):
         read_volume(folder)
     volume = read_volume(folder, fill_gaps=True)
-    # The values grow evenly from slice to slice, so that what is interpolated is what was taken out.
+    # Values change linearly between slices, so interpolated slices equal the removed ones.
     np.testing.assert_array_equal(volume.array, coded(SIZE))
     np.testing.assert_allclose(volume.world_from_index, affine, atol=1e-6)
     assert volume.filled_slices == (3, 7, 8)

@@ -1,4 +1,4 @@
-"""The judge of readers of DICOM: it must see every way in which a volume was wrong, and nothing else."""
+"""The script that judges DICOM readers: it must notice every kind of error in a volume, and nothing else."""
 
 from __future__ import annotations
 

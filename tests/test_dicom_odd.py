@@ -1,4 +1,4 @@
-"""DICOM from the wild: damaged attributes, archives and links, hostile folders."""
+"""Unusual DICOM files: damaged attributes, archives and links, hostile folders."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ needs_posix = pytest.mark.skipif(os.name == "nt", reason="no pipes and no such n
 
 
 def spoil(path, keyword, vr, value):
-    """Give an element of a file another type and any bytes."""
+    """Replace type and bytes of an element in a file."""
     data, tag = path.read_bytes(), tag_for_keyword(keyword)
     at = data.find(bytes([tag >> 16 & 255, tag >> 24, tag & 255, tag >> 8 & 255]), 300)
     length = int.from_bytes(data[at + 6 : at + 8], "little")

@@ -1,4 +1,4 @@
-"""Pictures as DICOM: what judges find, what is repeated of the scan and what never, pixels, UIDs, spacing."""
+"""Pictures as DICOM: validity, attributes (never) repeated from the scan, pixels, UIDs, spacing."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def test_judges_find_no_error_and_two_readers_the_pixels(frame, tmp_path, compre
         assert data.PhotometricInterpretation == "YBR_RCT"
         assert path.stat().st_size < shown.nbytes / 3
     else:
-        # dcmtk of Debian has no decoder of JPEG 2000.
+        # Debian's dcmtk cannot decode JPEG 2000.
         np.testing.assert_array_equal(seen_by_dcmtk(path), shown)
 
 
@@ -97,7 +97,7 @@ def test_every_method_and_reformation_is_without_error(tmp_path):
         if "PixelSpacing" in data:
             with_spacing.add(name)
             assert data.PixelSpacingCalibrationType == "GEOMETRY"
-    # A ruler across any other picture would be wrong.
+    # A ruler would measure wrongly across any other picture.
     assert with_spacing == {"CSR", "MIDA", "CR", "projected", "tangential"}
     data = pydicom.dcmread(tmp_path / "MIDA.dcm")
     assert data.DerivationCodeSequence[0].CodeMeaning == "Volume rendering"
@@ -135,7 +135,7 @@ def test_anonymous_pictures_name_nobody(frame, tmp_path):
     source = pydicom.dcmread(next(series().iterdir()))
     assert source.StudyInstanceUID not in str(data)
     assert source.SeriesInstanceUID not in str(data)
-    # What a reader called a vessel may be anybody's name: it is not in the picture either.
+    # The name of a vessel may be that of a person, so it is not in the picture either.
     np.testing.assert_array_equal(data.pixel_array, on_black(frame.annotated()))
     assert (
         save(frame, tmp_path / "b.dcm", annotate=True, vessel_names=True).pixel_array != data.pixel_array
@@ -238,7 +238,7 @@ def test_a_side_of_the_body_is_stated_where_there_are_two(tmp_path, part, side):
     data = save(lumencut.render(volume, None, settings=SETTINGS), tmp_path / "a.dcm")
     assert faults(tmp_path / "a.dcm") == []
     assert data.get("Laterality") == (None if part in ("HEAD", "CHEST") else side or "")
-    # Where there may be a face, a rendering of the body says so.
+    # If there may be a face, a rendering of the body states that.
     assert data.RecognizableVisualFeatures == ("NO" if part in ("LEG", "CHEST") else "YES")
 
 

@@ -1,4 +1,4 @@
-"""The border to the core's judgements of DICOM: values as plain records, documents in and out."""
+"""The interface to the core's DICOM decisions: values as plain records, JSON in and out."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Places, images and patients that a DICOM series names more than once: what is read, and what is said."""
+"""DICOM series with repeated positions, images or patients: what is read, and what is reported."""
 
 from __future__ import annotations
 
@@ -240,7 +240,7 @@ def test_skewed_cosines_are_refused(tmp_path):
 
 
 def by(**values):
-    """Attributes of the first 16 slices and of the others."""
+    """Set attributes of the first 16 slices and of the others."""
 
     def change(k, data):
         for keyword, pair in values.items():

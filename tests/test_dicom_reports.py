@@ -43,7 +43,7 @@ def graded(method="nascet"):
 
 
 def child(item, meaning):
-    """The items below one whose concept has this meaning."""
+    """Return the items below an item whose concept has this meaning."""
     return [one for one in item.ContentSequence if one.ConceptNameCodeSequence[0].CodeMeaning == meaning]
 
 
@@ -58,7 +58,7 @@ def groups(path):
 
 
 def numbers(group):
-    """Concept, value, unit, and what the number is modified by, of each number of a group."""
+    """Return concept, value, unit and modifiers of each number in a group."""
     found = []
     for item in group.ContentSequence:
         if item.ValueType == "NUM":
@@ -107,7 +107,7 @@ def test_a_report_is_preliminary_and_without_error(tmp_path):
     assert code(procedure.ConceptCodeSequence) == ("77477000", "SCT", "Computed tomography")
     (model,) = child(data, "Device Observer Model Name")
     assert "(research, not for diagnosis)" in model.TextValue
-    # One image of the scan stands for all: with each of them the report would be many times as large.
+    # One image of the scan is enough: with all of them the report would be many times as large.
     (study,) = data.CurrentRequestedProcedureEvidenceSequence
     assert len(study.ReferencedSeriesSequence[0].ReferencedSOPSequence) == 1
     said = subprocess.run(["dsrdump", path], capture_output=True, text=True, check=True).stdout
@@ -171,7 +171,7 @@ def test_a_percentage_names_the_walls_that_it_was_inferred_from(tmp_path, method
     *places, percent, _ = groups(save(tmp_path, stenoses=[graded(method)]))
     (number,) = child(percent, "Lumen Diameter Stenosis")
     walls = [one for one in number.ContentSequence if one.ValueType == "SCOORD3D"]
-    # The narrow place first: a viewer such as OHIF goes to the first one, and fails where there is none.
+    # The narrow place comes first: viewers such as OHIF jump to the first position, and fail without one.
     outlines = [child(place, "Image Region")[0].GraphicData for place in places]
     assert [wall.GraphicData for wall in walls] == outlines
     assert len(walls) == (2 if method == "nascet" else 1)
@@ -285,7 +285,7 @@ def test_without_highdicom_the_extra_is_named(tmp_path, monkeypatch):
 
 
 def words_of(path, tmp_path):
-    """The text of an encapsulated PDF, as another program selects it."""
+    """Return the text of an encapsulated PDF, as another program extracts it."""
     data = pydicom.dcmread(path)
     (tmp_path / "a.pdf").write_bytes(data.EncapsulatedDocument[: data.EncapsulatedDocumentLength])
     done = subprocess.run(["pdftotext", tmp_path / "a.pdf", "-"], capture_output=True, text=True, check=True)

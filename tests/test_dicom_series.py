@@ -1,4 +1,4 @@
-"""Every kind of DICOM series that was thought of: read exactly, or refused with the words that say why."""
+"""All kinds of DICOM series that we know: each is read exactly, or rejected with the right reason."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def test_series(tmp_path, caplog, case):
 
 @pytest.mark.parametrize("case", [*CASES, *REPEATED], ids=lambda case: case.name)
 def test_datasets_in_memory_are_what_their_files_are(tmp_path, case):
-    """The datasets of a folder become the volume of the folder, or are refused in the same words."""
+    """Datasets in memory give the same volume as their folder, or the same error."""
     if case.needs:
         pytest.importorskip(case.needs)
     made = case.write(tmp_path)

@@ -1,4 +1,4 @@
-"""A tilted gantry on the picture: what is straight in the body is straight in the view."""
+"""A tilted gantry: what is straight in the body is straight in the picture."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from dicom_cases import CASES
 from lumencut import Camera, Renderer, Settings, Volume, Window, read_volume
 from lumencut.cli import main
 
-#: By the name of the case; the vessel of the phantom runs along z.
+#: The cases by name; the vessel of the phantom runs along z.
 TILTED = {case.name: case for case in CASES if "gantry tilt" in case.group and "enhanced" not in case.group}
 
 
 def vessel_columns(picture):
-    """Where the vessel is in each row that it crosses: the middle of its brightness, in pixels."""
+    """Return where the vessel is in each row that it crosses: its mean column, weighted by brightness."""
     grey = picture[..., :3].mean(axis=2).astype(float)
     rows = np.flatnonzero(grey.max(axis=1) > 110)
     near = np.abs(np.arange(grey.shape[1]) - grey[rows[4:-4]].argmax(axis=1)[:, None]) <= 5
@@ -34,7 +34,7 @@ def test_a_vessel_along_the_table_is_drawn_upright(tmp_path, name):
     columns = vessel_columns(Renderer(volume, None).render(camera, settings).image)
     assert len(columns) > 50
     assert np.ptp(columns) < 1.0
-    # The same picture of a reader that drops the shear is not.
+    # A reader that dropped the shear would show a crooked vessel.
     dropped = volume.world_from_index.copy()
     normal = np.cross(dropped[:3, 0], dropped[:3, 1])
     dropped[:3, 2] = 2.0 * normal / np.linalg.norm(normal)

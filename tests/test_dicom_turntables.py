@@ -76,7 +76,7 @@ def test_the_command_line_writes_turntables(line, tmp_path):
     data = pydicom.dcmread(path)
     assert (data.NumberOfFrames, data.FrameTime, data.SamplesPerPixel) == (3, 250, 1)
     bare = greys(on_black(lumencut.render(scan(), LINE, Camera.anterior(LINE, (200, 200))).image))
-    # With labels, where nobody says otherwise.
+    # By default frames have labels.
     assert (data.pixel_array[0] != bare).any()
     said = run("turntable", series(), line, "-o", tmp_path / "a.webp", *words, "--grey", code=2)
     assert "--grey needs an output that ends in .dcm" in said
@@ -89,7 +89,7 @@ def test_the_command_line_writes_a_vessel_that_becomes_straight(line, tmp_path):
     data = pydicom.dcmread(path)
     assert (data.NumberOfFrames, data.FrameTime, data.SamplesPerPixel) == (3, 250, 3)
     assert data.SeriesDescription == "Lumencut CPR uncurl film (research, not for diagnosis)"
-    # Lengths are true along the vessel alone, and so a ruler would be wrong.
+    # Lengths are true only along the vessel, so a ruler would measure wrongly.
     assert "PixelSpacing" not in data
     made = lumencut.uncurl(scan(), LINE[0], fitted_uncurling(Camera.anterior(LINE, (200, 200)), LINE[0]))
     for shown, amount in zip(data.pixel_array, (0, 0.5, 1), strict=True):

@@ -1,4 +1,4 @@
-"""DICOM slices at uneven distances: refused by name, or put on a regular grid on request."""
+"""DICOM slices at uneven distances: rejected with a reason, or resampled to a regular grid on request."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ PHASE = [4.0] * 13 + [1.08] + [7.0] * 13
 
 
 def stack_of(gaps, affine=None):
-    """Images of whole values that are linear along the slices' line, at these distances from each other."""
+    """Return images at these distances, with integer values that change linearly from slice to slice."""
     affine = axial((*SIZE, 1), (0.8, 0.8, 2.0)) if affine is None else affine
     step = affine[:3, 2] / np.linalg.norm(affine[:3, 2])
     j, i = np.indices(SIZE[::-1])
@@ -42,7 +42,7 @@ def written(folder, gaps, affine=None):
 
 
 def assert_linear(volume, total):
-    """Every voxel has the value of its height, which is exact but for rounding."""
+    """Every voxel has the value for its height, exact except for rounding."""
     k, j, i = np.indices(volume.array.shape)
     truth = i - 2 * j + 100 * total * k / (volume.size[2] - 1)
     np.testing.assert_allclose(volume.array, truth, atol=0.51)

@@ -1,4 +1,4 @@
-"""Values as derived CT and MR images: their numbers, their place in a frame of their own, and the series."""
+"""Values as derived CT and MR images: numbers, positions in their own frame of reference, and series."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def save(made, path, **how):
 
 
 def values_of(data):
-    """What the pixels are worth, NaN where they are padding."""
+    """Return the values of the pixels, NaN for padding."""
     stored = data.pixel_array.astype(np.float64)
     value = stored * float(data.get("RescaleSlope", 1)) + float(data.get("RescaleIntercept", 0))
     return np.where(stored == data.PixelPaddingValue, np.nan, value)
@@ -35,7 +35,7 @@ def test_values_are_those_of_the_cut(tmp_path):
     made, path = frame(camera=Camera.anterior(LINE, (120, 130)).zoomed(0.2)), tmp_path / "a.dcm"
     data = save(made, path)
     assert faults(path) == []
-    # "CSR" is no term that the class of CT defines.
+    # The class of CT images defines no term "CSR".
     assert [words for words in faults(path, "Warning") if "ImageType" not in words] == []
     assert np.isnan(made.value).any()
     np.testing.assert_array_equal(np.isnan(values_of(data)), np.isnan(made.value))
@@ -108,7 +108,7 @@ def test_a_straightened_volume_is_a_series_that_is_read_back(tmp_path):
     assert list(headers[0].ImageType) == ["DERIVED", "SECONDARY", "CPR"]
     read = lumencut.read_volume(folder)
     known = np.isfinite(made.volume.array)
-    # Readers count slices upwards, the vessel runs downwards.
+    # Readers number slices upwards, but the vessel runs downwards.
     np.testing.assert_allclose(read.array[::-1][known], made.volume.array[known], atol=0.5)
     np.testing.assert_allclose(read.spacing, made.volume.spacing, rtol=1e-6)
     with pytest.raises(lumencut.FileError, match="there already"):

@@ -66,7 +66,7 @@ def test_every_link_of_a_page_leads_somewhere(name):
 
 @pytest.mark.parametrize("name", docs_pages.page_sources())
 def test_a_part_of_a_list_is_indented_by_four(name):
-    """GitHub accepts less indentation, MkDocs does not."""
+    """GitHub accepts a smaller indentation, MkDocs does not."""
     text = re.sub(r"^```.*?^```$", "", docs_pages.page_sources()[name].read_text("utf-8"), flags=re.S | re.M)
     assert re.findall(r"^\n {1,3}(?! ).*", text, re.MULTILINE) == []
 

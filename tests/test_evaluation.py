@@ -1,4 +1,4 @@
-"""`evaluate`, what it gives back, and `lumencut evaluate`."""
+"""`evaluate`, its results, and `lumencut evaluate`."""
 
 import csv
 import re
@@ -34,12 +34,12 @@ SMALL = {"views": 4, "size": (96, 96)}
 
 @pytest.fixture(scope="module")
 def block():
-    """A volume around the crossing tubes, in which every voxel has a value."""
+    """A volume around the crossing tubes, with a value in every voxel."""
     return Volume(np.full((8, 8, 8), 100, np.int16), spacing=(10, 10, 10), origin=(-35, -30, -35))
 
 
 def alone(volume=None, tree=None, settings=EXACT, **more):
-    """The row of the method csr."""
+    """Return the row of the method csr."""
     (row,) = evaluate(
         volume, tree or crossing_tubes(), ("csr",), settings=settings, **{**SMALL, **more}
     ).table
@@ -47,7 +47,7 @@ def alone(volume=None, tree=None, settings=EXACT, **more):
 
 
 def test_a_straight_tube_is_shown_as_it_is():
-    # 19 pixels and a half across: 19 or 20 of them, wherever the tube lies between their centres.
+    # The tube is 19.5 pixels wide: it covers 19 or 20 pixel centres, depending on its position.
     row = alone(tree=VesselTree([tube(4.875)]), pixel_spacing=0.5, size=(200, 200))
     for name in ("visible_centerline", "lumen_within_0.05_mm", "lumen_within_0.5_mm", "lumen_within_2_mm"):
         assert row[f"{name}_percent"] == 100, name
@@ -71,11 +71,11 @@ def test_without_levels_and_filter_lumen_first_shows_every_lumen():
 
 
 def test_crossing_tubes_by_cost_show_less_of_the_one_behind():
-    """By cost the front tube reaches 20 mm / λ = 2 mm beyond its wall, where the other one is lumen."""
+    """By cost the front tube extends 20 mm / λ = 2 mm beyond its wall, into the lumen of the other tube."""
     front = {"views": 1, "size": (401, 401), "pixel_spacing": 0.2}
     cost = alone(settings=replace(EXACT, lumen_first=False), **front)
     assert alone(settings=EXACT, **front)["lumen_within_0.05_mm_percent"] == 100
-    # Two bands of 2 mm by 6 mm of: both tubes with their round ends, less what the front one hides.
+    # It loses two bands of 2 mm by 6 mm. The total is both tubes with round ends, minus the hidden part.
     lumen = 60 * 8 + np.pi * 16 + 60 * 6 + np.pi * 9 - 8 * 6
     assert cost["lumen_within_0.05_mm_percent"] == pytest.approx(100 * (1 - 2 * 2 * 6 / lumen), abs=0.3)
     assert cost["visible_centerline_percent"] == pytest.approx(100 * (1 - 4 / (122 - 9)))
@@ -128,7 +128,7 @@ def test_lines_of_the_rule_leap_are_at_leaps_and_nowhere_else():
 
 
 def test_a_straight_upright_vessel_is_the_same_by_all_methods():
-    """All of them cut it along the plane that it lies in, wherever rows cross it."""
+    """All methods cut it along the plane in which it lies, wherever rows cross it."""
     tree = VesselTree([tube(4.875, axis=2)])
     found = evaluate(None, tree, views=1, size=(200, 110), pixel_spacing=0.5, settings=EXACT)
     for row in found.table:
@@ -140,7 +140,7 @@ def test_a_straight_upright_vessel_is_the_same_by_all_methods():
 
 
 def test_a_vessel_along_the_rows_is_too_thin_by_mpcpr_and_as_wide_as_it_is_by_the_others():
-    """Out of the plane by 45 degrees and 20 to the rows: 8 mm appear as 8·sin 20° / √(1 − dx²)."""
+    """45 degrees out of the plane and 20 degrees to the rows: 8 mm appear as 8·sin 20° / √(1 − dx²)."""
     phi, theta = np.radians([20, 45])
     along = np.array([np.cos(phi) * np.cos(theta), np.sin(theta), np.sin(phi) * np.cos(theta)])
     tree = VesselTree([Vessel(along * np.linspace(-50, 50, 101)[:, None], 4.0)])
@@ -154,14 +154,14 @@ def test_a_vessel_along_the_rows_is_too_thin_by_mpcpr_and_as_wide_as_it_is_by_th
 
 
 def test_of_two_crossing_tubes_each_method_shows_what_it_can():
-    """The upright tube lies 20 mm behind the one across: mpCPR knows no front."""
+    """The upright tube lies 20 mm behind the horizontal one; mpCPR does not know which one is in front."""
     front = {"views": 1, "size": (161, 161), "pixel_spacing": 0.5}
     rows = {row["method"]: row for row in evaluate(None, crossing_tubes(), settings=EXACT, **front).table}
     assert rows["csr"]["lumen_shown_percent"] == rows["cpr"]["visible_centerline_percent"] == 100
     assert rows["csr"]["crossings_in_order_percent"] == rows["cr"]["crossings_in_order_percent"] == 100
     # A disc of 50 pixels of 0.5 mm around the front tube leaves 30 − 4 − 25 mm at both ends of the other.
     assert rows["cr"]["lumen_shown_percent"] < 75 < rows["csr-paper"]["lumen_shown_percent"]
-    # Each tube by itself: all of it is seen, and none crosses another.
+    # Each tube has its own image: all of it is visible, and no other tube crosses it.
     assert rows["cpr"]["hidden_centerline_points"] == 0
     assert (rows["cpr"]["crossings"], rows["csr"]["crossings"]) == (0, 1)
     assert rows["cpr"]["centerline_points"] == 122

@@ -1,4 +1,4 @@
-"""Each measure: right on what is right, and wrong by the known amount on frames that are made up wrong."""
+"""Each measure gives no error for correct frames, and the known error for made-up wrong frames."""
 
 from dataclasses import replace
 
@@ -37,7 +37,7 @@ def test_a_perfect_frame_is_perfect(tubes, camera):
     found = numbers(tubes, perfect(tubes, camera, beyond=10.0))
     for name in ("visible_centerline", "lumen_within_0.05_mm", "lumen_within_2_mm", "crossings_in_order"):
         assert found[f"{name}_percent"] == 100
-    # 61 points each, of which those of the second tube within 4 mm of the axis of the first are hidden.
+    # Each tube has 61 points; those of the second tube within 4 mm of the first tube's axis are hidden.
     assert (found["centerline_points"], found["hidden_centerline_points"]) == (122 - 9, 9)
     assert found["width_error_max_mm"] <= 0.25
     assert found["depth_change_per_degree_mm"] == 0
@@ -65,31 +65,31 @@ def test_a_narrowed_vessel(lone, camera):
     narrow = numbers(lone, shown)
     assert narrow["width_error_max_mm"] <= 0.25
     depth = shown.depth.copy()
-    # The rows on which the tube is 6 mm wide.
+    # The rows in which the tube is 6 mm wide.
     lumen = np.flatnonzero(np.isfinite(lone.nearest.depth[:, 80]))
     depth[lumen[:2]] = depth[lumen[-2:]] = 50.0
     found = numbers(lone, with_depth(shown, lone, depth))
     for name in ("width_error_mean_mm", "width_error_95_percent_mm", "width_error_max_mm"):
         assert found[name] == pytest.approx(2.0, abs=0.26)
     assert found["width_bias_mm"] == pytest.approx(-2.0, abs=0.26)
-    # What is not connected to the middle does not count.
+    # Pixels that are not connected to the middle do not count.
     depth[lumen[0]] = 0.0
     assert numbers(lone, with_depth(shown, lone, depth))["width_bias_mm"] == found["width_bias_mm"]
-    # A vessel of which the middle is not shown has no width.
+    # If its middle is not shown, a vessel has no width.
     gone = numbers(lone, with_depth(shown, lone, np.full_like(depth, 50.0)))
     assert gone["width_bias_mm"] == -8.0
 
 
 def test_stations_that_cannot_be_judged(tubes, camera):
-    # 9 stations 8 mm off the ends of the first, 10 stations 6 mm off the ends of the second.
+    # Stations begin 8 mm from the ends of the first tube, and 6 mm from the ends of the second.
     assert len(tubes.stations) == 8 + 10
     found = numbers(tubes, perfect(tubes, camera))
-    # Of the second tube two stations lie behind the first, at ± 2.5 mm.
+    # Two stations of the second tube, at ± 2.5 mm, lie behind the first.
     assert found["width_stations"] == 8 + 8
     assert found["width_stations_left_out"] == 24 - 16
     small = front((60, 161))
     found = numbers(truth := truth_in(crossing_tubes(), small), perfect(truth, small))
-    # 30 mm wide: the first tube lies in the picture within 15 mm.
+    # In a picture 30 mm wide only the stations of the first tube within 15 mm are visible.
     assert found["width_stations"] == 6 + 8
     along = VesselTree([tube(4.0, axis=2)])
     up = replace(front(), direction=(0, 0.1, 1), up=(0, 1, 0))
@@ -105,7 +105,7 @@ def test_the_wrong_vessel_at_a_crossing(tubes, camera):
     found = numbers(tubes, with_depth(shown, tubes, depth))
     assert (found["crossings_in_order_percent"], found["crossings"]) == (0, 1)
     assert found["visible_centerline_percent"] < 95
-    # Within the radius of the nearer one and half a millimetre.
+    # Within the nearer vessel's radius plus half a millimetre.
     depth[70:90, 70:90] = 4.4
     assert numbers(tubes, with_depth(shown, tubes, depth))["crossings_in_order_percent"] == 100
 
@@ -134,7 +134,7 @@ def test_surroundings_and_blends(tubes, camera):
 
 
 def test_surroundings_end_at_leaps(lone, camera):
-    """Of 20 mm beside a tube on either side: a leap 12 mm above its wall, nothing shown 5 mm below it."""
+    """Of 20 mm on each side of a tube: a jump 12 mm above its wall, nothing shown 5 mm below it."""
     shown = perfect(lone, camera)
     assert numbers(lone, shown)["unbroken_surroundings_percent"] == 100
     middle = np.flatnonzero(np.isfinite(lone.nearest.depth[:, 80]))
@@ -145,7 +145,7 @@ def test_surroundings_end_at_leaps(lone, camera):
     depth[middle[-1] + 1 + 10 :] = np.nan
     found = numbers(lone, with_depth(shown, lone, depth))
     assert found["unbroken_surroundings_percent"] == pytest.approx(100 * 17 / 40, abs=1.5)
-    # A slope is no leap; what begins elsewhere shows no surroundings of this vessel.
+    # A slope is not a jump; surroundings that start elsewhere do not belong to this vessel.
     slope = shown.depth + 3.0 * (np.arange(161)[:, None] - 80.0)
     assert numbers(lone, with_depth(shown, lone, slope))["unbroken_surroundings_percent"] == 100
     away = numbers(lone, with_depth(shown, lone, shown.depth + 40.0))
@@ -153,14 +153,14 @@ def test_surroundings_end_at_leaps(lone, camera):
 
 
 def test_surroundings_reach_to_the_next_lumen_and_to_the_border():
-    """A second tube begins 10 mm above the wall; 8 mm below the other wall the picture ends."""
+    """A second tube begins 10 mm above the wall; the picture ends 8 mm below the other wall."""
     above = tube(4.0)
     above = Vessel(above.points + np.array([0, 0, 18.0]), 4.0)
     tree, camera = VesselTree([tube(4.0), above]), front((161, 48))
     truth = truth_in(tree, camera)
     shown = perfect(truth, camera)
     assert numbers(truth, shown)["unbroken_surroundings_percent"] == 100
-    # Nothing upwards from the lower tube, beside which 10 mm are tissue up to the next lumen.
+    # Above the lower tube nothing is connected; there are 10 mm of tissue up to the next lumen.
     depth = shown.depth.copy()
     depth[np.isnan(truth.nearest.arc) & (np.arange(48)[:, None] < 24)] = np.nan
     found = numbers(truth, with_depth(shown, truth, depth))
@@ -168,11 +168,11 @@ def test_surroundings_reach_to_the_next_lumen_and_to_the_border():
 
 
 def test_lumen_that_is_shown_anywhere_in_it(lone, camera):
-    """Other depths of the same lumen count; those beyond its wall do not."""
+    """Other depths within the same lumen count; depths beyond its wall do not."""
     shown = perfect(lone, camera)
     assert numbers(lone, shown)["lumen_shown_percent"] == 100
     deeper = numbers(lone, with_depth(shown, lone, shown.depth + 1.9))
-    # Within 4 mm of the axis in space: of the pixels within 4 mm, those within √(4² − 1.9²) of it.
+    # Within 4 mm of the axis in space: of these pixels, those within √(4² − 1.9²) of the axis.
     x, z = np.meshgrid(lone.seen.grid.x(np.arange(161)) + 0.013, lone.seen.grid.y(np.arange(161)) + 0.017)
     away = np.hypot(np.maximum(np.abs(x) - 30, 0), z)
     expected = 100 * (away <= np.sqrt(16 - 1.9**2)).sum() / (away <= 4).sum()
@@ -225,7 +225,7 @@ def test_leaps_are_steps_and_no_slopes():
     across, down = leaps(step.T, bound.T)
     assert np.argwhere(down)[:, 0].tolist() == [7] * 12
     assert not across.any()
-    # A step lower than the bound, and a fold, which leaves only one side's slope.
+    # A step lower than the bound, and a fold, where only one side has a slope.
     assert not leaps(step, bound + 2)[0].any()
     assert not leaps(np.maximum(0, 9 * (columns - 8)), bound)[0].any()
     assert [which.shape for which in leaps(np.zeros((1, 1)), np.ones((1, 1)))] == [(1, 0), (0, 1)]
@@ -242,9 +242,9 @@ def test_lines_at_leaps_and_elsewhere(lone, camera):
     found = numbers(lone, replace(shown, plain_depth=depth, strength=drawn))
     assert found["leaps"] == 161
     assert found["leaps_with_line_percent"] == pytest.approx(100 * 82 / 161)
-    # 161 pixels of 0.5 mm on all columns but the two at the leap and one beside each.
+    # Lines of 161 pixels of 0.5 mm in all columns except two at the jump and one on each side.
     assert found["lines_elsewhere_mm_per_mm2"] == pytest.approx(1 / (157 * 0.5))
-    # A leap must be higher than the vessel is wide.
+    # A jump must be higher than the vessel is wide.
     low = numbers(lone, replace(shown, plain_depth=depth * 7.9 / 30, strength=drawn))
     assert (low["leaps"], low["leaps_with_line_percent"]) == (0, None)
 

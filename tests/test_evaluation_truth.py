@@ -1,4 +1,4 @@
-"""The truth of evaluations: against every piece at every pixel, and against closed forms."""
+"""The truth of evaluations, compared with every piece at every pixel and with closed forms."""
 
 import time
 
@@ -26,7 +26,7 @@ def radius_of(vessel, unknown):
 
 
 def brute_force(tree, camera, places, unknown=1.0, slack=0.0):
-    """The depth of the nearest lumen at places (n, 2): every piece of the reference; `slack` widens them."""
+    """Return the depth of the nearest lumen at positions (n, 2), from all pieces; `slack` widens them."""
     best = np.full(len(places), np.inf)
     for vessel in tree:
         kept = reference.distinct(vessel.points)
@@ -39,7 +39,7 @@ def brute_force(tree, camera, places, unknown=1.0, slack=0.0):
 
 
 def assert_between(found, tree, camera, places, unknown=1.0):
-    """The found depths are those of the pieces, whichever side rounding puts their borders on."""
+    """Check that depths are those of the pieces, on whichever side rounding puts the borders."""
     low = brute_force(tree, camera, places, unknown, 1e-6)
     high = brute_force(tree, camera, places, unknown, -1e-6)
     assert (found >= low - 1e-6).all()
@@ -57,7 +57,7 @@ def test_the_truth_is_that_of_every_piece_at_every_pixel(scene, seed, view):
     nearest = nearest_lumen(seen)
     assert np.isfinite(nearest.depth).any()
     assert_between(nearest.depth.ravel(), tree, camera, reference.pixel_centers(camera))
-    # The same at places anywhere in their pixels, those beside the picture left out.
+    # The same at random positions in the pixels, without positions outside the picture.
     places = seen.place + 0.3 * np.random.default_rng(seed).normal(size=seen.place.shape)
     _, within = seen.grid.pixels(places)
     assert_between(lumen_depth_at(seen, places)[within], tree, camera, places[within])
@@ -123,7 +123,7 @@ def test_crossings_are_where_lumens_do_not_touch(gap, count):
 
 def test_a_crossing_behind_a_third_vessel_does_not_count():
     tree = VesselTree([*crossing_tubes(), Vessel([(-5, -30, -5), (5, -30, 5)], 3.0)])
-    # What is left are the crossings of the third vessel with both others.
+    # The remaining crossings are those of the third vessel with both others.
     assert truth_in(tree, front()).crossings.depth == pytest.approx([-30.0, -30.0], abs=1e-6)
 
 
@@ -134,7 +134,7 @@ def test_a_vessel_crosses_itself_when_the_stretches_are_far_apart():
 
 
 def crossings_by_hand(tree, camera):
-    """The number of crossings, pair of segments by pair of segments."""
+    """Count the crossings, comparing all pairs of segments."""
     line, found = centerline_of(tree, 1.0), 0
     view = reference.view_from_world(line.points, camera)
     segments = line.segments
@@ -165,7 +165,7 @@ def test_crossings_are_those_of_all_pairs():
 def test_stations_keep_off_ends_and_junctions():
     trunk, branch = tube(4.0), Vessel([(0, 0, 0), (0, 0, 30)], 2.0)
     stations, left_out = width_stations(centerline_of(VesselTree([trunk, branch]), 1.0))
-    # Every 5 mm, 8 mm off the ends of the trunk and 6 mm off the middle, 4 mm off the end of the branch.
+    # Every 5 mm, except 8 mm from the trunk's ends, 6 mm from its middle, 4 mm from the branch's end.
     assert stations.points[stations.vessel == 0, 0].tolist() == [-17.5, -12.5, -7.5, 7.5, 12.5, 17.5]
     assert stations.points[stations.vessel == 1, 2].tolist() == [7.5, 12.5, 17.5, 22.5]
     assert left_out == 12 + 6 - 10

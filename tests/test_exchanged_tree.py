@@ -1,4 +1,4 @@
-"""A renderer with another tree, frames of the images that are asked for, and pictures of several samples."""
+"""A renderer with another tree, frames with only some images, and pictures of several samples."""
 
 from __future__ import annotations
 
@@ -107,7 +107,7 @@ def test_samples_change_the_picture_alone(scene, samples, device, request):
     camera = Camera.anterior(scene[1], SIZE).rotated(0.4)
     one, several = renderer.render(camera), renderer.render(camera, Settings(samples=samples))
     assert_same(several, one, [name for name in IMAGES if name != "image"])
-    # The mean of the views from the places within a pixel, each rendered by itself.
+    # The mean of views from several positions within a pixel, each rendered alone.
     offsets = ((np.arange(samples) + 0.5) / samples - 0.5) * camera.pixel_spacing
     views = [camera.panned(float(right), float(up)) for up in offsets for right in offsets]
     pictures = [renderer.render(view).image.astype(float) for view in views]
@@ -117,7 +117,7 @@ def test_samples_change_the_picture_alone(scene, samples, device, request):
 
 
 def test_samples_of_a_transparent_picture_keep_their_colours(scene):
-    """Where half of a pixel is transparent, its colour is that of the other half."""
+    """If half of a pixel is transparent, its colour is that of the other half."""
     settings = Settings(context=None, silhouettes=False, background=(0, 0, 0, 0), samples=4)
     camera = Camera.anterior(scene[0], SIZE).zoomed(0.4)
     image = Renderer(*scene, "cpu").render(camera, settings).image

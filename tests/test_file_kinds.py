@@ -1,4 +1,4 @@
-"""Files that were given in the place of others: whoever reads them says what they are."""
+"""Files given in place of others: the error says what kind of file it is."""
 
 from __future__ import annotations
 
@@ -117,13 +117,14 @@ def test_info_judges_lines_by_the_volume_that_they_fit_best(tmp_path):
     result = info(first, second, lines)
     assert (result.exit_code, result.stderr) == (0, "")
     assert (
-        f"> judged by {second}, which it fits best: 25 of 25 points lie in {second}; 0 of 25" in result.stdout
+        f"> decided by {second}, which it fits best: 25 of 25 points lie in {second}; 0 of 25"
+        in result.stdout
     )
     assert "ras (the volume fits it)" in result.stdout
     assert "no point lies inside the volume" not in result.stdout
     result = info(second, write_volume(tmp_path / "again.nii"), lines)
-    assert f"> judged by the first volume, {second}: all volumes fit alike (25 of 25" in result.stdout
-    assert "judged by the" not in info(second, lines).stdout
+    assert f"> decided by the first volume, {second}: all volumes fit equally (25 of 25" in result.stdout
+    assert "decided by the" not in info(second, lines).stdout
 
 
 def test_info_warns_by_the_best_volume_alone(tmp_path):
@@ -137,7 +138,7 @@ def test_info_warns_by_the_best_volume_alone(tmp_path):
 
 
 def far_volume(folder):
-    """A volume that has nothing to do with the lines."""
+    """A volume far away from the lines."""
     affine = np.diag([2.0, 2.0, 3.0, 1.0])
     affine[:3, 3] = (500, 500, 500)
     return write_stack(folder, coded((8, 8, 8)), affine)

@@ -1,4 +1,4 @@
-"""All vessels of an angiography, with no point given."""
+"""All vessels of an angiography, found without any point."""
 
 import re
 import sys
@@ -54,7 +54,7 @@ def test_single_tubes_are_found_whole_in_their_middle_with_their_radius(name, ra
     assert len(tree) == len(tree.parts) == parts
     assert sorted(number for part in tree.parts for number in part) == list(range(parts))
     for truth in made.tree:
-        # Ends are round: a tube is longer than its line by up to a radius at either end.
+        # Tubes have round ends, so they are up to a radius longer than their line at each end.
         assert away(truth.points, tree.points).max() < 0.3 * radius
     for vessel in tree:
         assert np.median(away(vessel.points, made.tree.points)) < 0.3
@@ -93,7 +93,7 @@ def test_a_path_leads_from_the_root_to_the_end_of_a_branch(found):
     np.testing.assert_array_equal(path.points[0], found[0].points[0])
     np.testing.assert_array_equal(path.points[-1], found[1].points[-1])
     assert np.linalg.norm(np.diff(path.points, axis=0), axis=1).max() < 0.55
-    # Two straight legs of 30 and 36 mm, their round ends, and the turn within the junction.
+    # Two straight legs of 30 and 36 mm, their round ends, and the bend in the junction.
     assert 66 < path.length < 84
 
 
@@ -111,7 +111,7 @@ def test_a_vessel_beside_bone_is_found_and_the_bone_is_not():
     scene.paint(line, 2.5, LUMEN)
     tree = find_vessels(scene.volume(5))
     first = [tree[n] for n in tree.parts[0]]
-    # The whole line lies within the lumen, though it moves aside where bone touches the wall.
+    # All points lie in the lumen, although the line moves aside where bone touches the wall.
     assert away(line[5:-5], np.concatenate([vessel.points for vessel in first])).max() < 2.0
     assert away(tree.points, line).max() < 4
 
@@ -178,7 +178,7 @@ def test_a_constant_volume_has_no_vessel(value):
 
 
 def ct_of(lumen, around):
-    """A CT, with noise of 10 HU, of a vessel of one level among tissue of another one, and air beside it."""
+    """Return a CT with noise of 10 HU: a vessel in tissue, each with its own level, and air at the side."""
     line = arc(120)
     scene = Scene(room(line, 0.8), (0.8,) * 3)
     scene.values[:] = around
@@ -232,7 +232,7 @@ def test_thick_slices_are_no_hindrance():
 
 
 def found_or_none(volume):
-    """The points that are found; none where no vessel is."""
+    """Return the points found; none if there is no vessel."""
     try:
         return find_vessels(volume).points
     except TracingError:
@@ -250,7 +250,7 @@ def test_voxels_of_1_by_1_by_10_mm_end_with_an_answer():
 def test_dark_lumens_are_no_vessels(fork):
     values = -np.asarray(fork.volume.array)
     points = found_or_none(Volume(values, world_from_index=fork.volume.world_from_index))
-    # What is between two dark lumens may look like a vessel, never the lumens themselves.
+    # The tissue between two dark lumens may look like a vessel, but the lumens themselves must not.
     assert (away(points, fork.tree.points) > 3).all()
 
 

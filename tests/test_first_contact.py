@@ -1,4 +1,4 @@
-"""The forms for reports and the workflow of a release say what the repository says elsewhere."""
+"""The issue forms and the release workflow agree with the rest of the repository."""
 
 import re
 import tomllib

@@ -1,4 +1,4 @@
-"""What a newcomer meets first: the bare command, completion in a shell, and ``lumencut doctor``."""
+"""First steps of a new user: the command without arguments, shell completion, and ``lumencut doctor``."""
 
 import json
 import os
@@ -25,7 +25,7 @@ def ran(*words):
 
 @pytest.fixture
 def built(tmp_path, monkeypatch):
-    """A page that is there, and small."""
+    """A small page that was built."""
     folder = tmp_path / "page"
     folder.mkdir()
     (folder / "index.html").write_text("<html><head></head><body>page</body></html>", "utf-8")
@@ -35,7 +35,7 @@ def built(tmp_path, monkeypatch):
 
 
 def tried(text: str) -> list[list[str]]:
-    """The commands that the first words name."""
+    """Return the commands that the first words name."""
     lines = [line for line in text.splitlines() if line.startswith("  ")]
     return [line.strip().partition("   ")[0].split() for line in lines]
 

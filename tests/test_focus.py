@@ -1,4 +1,4 @@
-"""The focus from Python and the command line: its laws on a phantom, its look, and what is refused."""
+"""The focus from Python and the command line: its formula on a phantom, its look, and errors."""
 
 import dataclasses
 
@@ -55,7 +55,7 @@ def test_a_margin_far_below_zero_with_whole_rays_is_the_context_alone(
 
 
 def test_between_two_tubes_the_share_is_that_of_the_nearer_wall() -> None:
-    """White tubes in a white volume before a black background without a context show the share itself."""
+    """White tubes in a white volume on black, no context: the brightness is the share of the cut surface."""
     volume = Volume(np.full((40, 40, 60), 1000, np.int16), origin=(-30, -20, -20))
     tree = VesselTree(
         Vessel([[x, 0, -15], [x, depth, 15]], radius) for x, depth, radius in ((-12, 0, 2), (9, 4, 5))

@@ -1,4 +1,4 @@
-"""Chosen vessels before all others: names and ids, what they show, and what refuses them."""
+"""Chosen vessels in front of all others: names and ids, what they show, and errors."""
 
 import dataclasses
 
@@ -28,7 +28,7 @@ from scene_files import write_volume_of
 
 @pytest.fixture(scope="module")
 def scene() -> phantom.Phantom:
-    """Two tubes, of which "front" crosses before "back"."""
+    """Two tubes; in the view "front" crosses in front of "back"."""
     return phantom.crossing()
 
 

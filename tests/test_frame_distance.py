@@ -1,4 +1,4 @@
-"""The distance of a frame: computed when it is first asked for, where nothing else needs it."""
+"""The distance image of a frame: computed on first use if nothing else needs it."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import pytest
 from lumencut import Camera, Renderer, Settings, VolumeError, phantom
 from lumencut.frame import Frame
 
-#: The settings with which the distance comes later, and those with which it comes at once.
+#: Settings with which the distance is computed later, and settings with which it is computed at once.
 LATER = Settings()
 AT_ONCE = Settings(level_choice="nearest")
 
@@ -29,7 +29,7 @@ def camera(scene):
 
 @pytest.fixture
 def computed(scene, monkeypatch):
-    """A renderer, and the images that its core was asked for, one list per call."""
+    """A renderer, and the images requested from its core: one list per call."""
     renderer, asked = Renderer(scene.volume, scene.tree, "cpu"), []
     core = renderer._core
 
@@ -47,7 +47,7 @@ def computed(scene, monkeypatch):
 
 
 def drawn(renderer, way, camera, settings=LATER):
-    """A frame of the picture, or of the cut surface."""
+    """Return a frame with a picture, or one of only the cut surface."""
     return getattr(renderer, way)(camera, settings)
 
 

@@ -1,4 +1,4 @@
-"""Frames as files: whole or not at all, and back as they were."""
+"""Frames as files: complete or absent, and equal when read back."""
 
 from __future__ import annotations
 

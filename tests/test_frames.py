@@ -1,4 +1,4 @@
-"""Comparing the frames of two states of the code: what is in the list, and that no difference is missed."""
+"""Comparison of frames between two states of the code: the list, and that no difference is missed."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def test_the_list_has_every_view_size_and_type():
         for name in DTYPES
         if any(entry.scene == f"voxels {name}" for entry in LIST)
     }
-    # The package makes half-precision floats single ones and bools bytes.
+    # The package converts half-precision floats to single precision, and bools to bytes.
     assert types == {f"{kind}int{bits}" for kind in ("", "u") for bits in (8, 16, 32, 64)} | {
         "float32",
         "float64",
@@ -208,7 +208,7 @@ def test_other_devices_are_named(tmp_path, capsys):
 
 
 def folders(tmp_path: Path, **other: np.ndarray) -> tuple[Path, Path]:
-    """Two folders with frames `one` and `two`; in the second folder some arrays of `two` are others."""
+    """Two folders with frames `one` and `two`; the second folder has other arrays for `two`."""
     made = []
     for name in "ab":
         folder = tmp_path / name
@@ -224,7 +224,7 @@ def row(told: str, array: str) -> str:
 
 
 def moved(array: str, pixels: int, by: float) -> np.ndarray:
-    """An array of which some pixels are others."""
+    """Change some pixels of an array."""
     value = arrays()[array]
     value.reshape(1200, -1)[:pixels, 0] += np.asarray(by).astype(value.dtype)
     return value

@@ -1,4 +1,4 @@
-"""Hanging: which views, in which order, with one field of view, as one series."""
+"""Hangings: their views, order, common pixel spacing, and numbers in a series."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Long calls of the extension module look for signals while they work: a handler runs in their midst."""
+"""Long calls of the extension module check for signals, so a signal handler runs during the call."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ FRONT = lumencut.Camera.fitted(TUBE.tree, (0, 1, 0), (0, 0, 1), size=(4096, 4096
 
 
 def curved(mode, **more):
-    """The layout of a large CPR in the extension module."""
+    """Lay out a large CPR in the extension module."""
     return lumencut.cpr(TUBE.volume, VESSEL, mode, width=40, pixel_spacing=0.01, **more)._core
 
 
@@ -27,7 +27,7 @@ def depth():
     return np.zeros((4096, 4096), np.float32)
 
 
-#: What is prepared, and the call of the extension module that works on it.
+#: For each name, a preparation and the call of the extension module that uses it.
 CALLS = {
     "phantom": (lambda: None, lambda _: phantom.aorta(scale=0.5)),
     "position": (lambda: curved("stretched"), lambda core: core.position()),
@@ -56,7 +56,7 @@ CALLS = {
 
 @pytest.mark.parametrize("name", CALLS)
 def test_a_signal_is_heard_in_the_midst_of_a_call(name):
-    # Signals that come while nobody looks are handled once, after the call, and perhaps once before it.
+    # Signals that arrive before the first check are handled once after the call, and perhaps once before.
     prepare, call = CALLS[name]
     given, heard = prepare(), []
     before = signal.signal(signal.SIGALRM, lambda number, frame: heard.append(number))

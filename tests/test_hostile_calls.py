@@ -1,4 +1,4 @@
-"""Every public call refuses what is no argument of its kind, by an error of Lumencut, or gives a result."""
+"""Every public call rejects arguments of the wrong kind by a Lumencut error, or returns a result."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ def every_case(tmp_path_factory):
 
 @pytest.mark.filterwarnings("ignore")
 def test_wrong_values_give_errors_of_lumencut_or_results(every_case, tmp_path, monkeypatch):
-    # Names of files among the wrong values are written here.
+    # Some wrong values are file names; files are written here.
     monkeypatch.chdir(tmp_path)
     foreign = []
     for case in every_case:
         for parameter in case.given:
             for wrong in WRONG:
-                # What a function that is called back raises passes through.
+                # Errors raised by a function that is called back pass through.
                 if parameter == "progress" and callable(wrong):
                     continue
                 try:

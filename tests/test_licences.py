@@ -1,4 +1,4 @@
-"""The licence texts of the linked crates: none is missing, none stands twice, and a stale file is noticed."""
+"""Licence texts of linked crates: none is missing, none is repeated, and an outdated file is noticed."""
 
 import pytest
 
@@ -83,7 +83,7 @@ def test_a_shared_text_stands_once_with_all_its_crates(licences):
 
 
 def metadata(**edges) -> dict:
-    """What cargo would say of crates that need others; the names of macros begin with `macro`."""
+    """Return metadata as from cargo, with crates that need others; macro crates are called `macro…`."""
     names = {"root", *edges, *(name for needs in edges.values() for name, _ in needs)}
     return {
         "packages": [
@@ -122,7 +122,7 @@ def test_only_what_is_linked_is_listed(licences):
 
 @pytest.fixture
 def run(licences, monkeypatch, tmp_path):
-    """Runs the script with one crate, whose text is given, beside a file in a folder of its own."""
+    """Return a function that runs the script with one crate, whose text is given, in a separate folder."""
     listing = tmp_path / "THIRD-PARTY-LICENSES"
 
     def main(text, *arguments):

@@ -1,4 +1,4 @@
-"""What docs/limits.md and docs/comparison.md call missing is missing, and what they claim exists."""
+"""Features that docs/limits.md and docs/comparison.md call missing are missing; claimed ones exist."""
 
 import inspect
 import re
@@ -28,7 +28,7 @@ def source(path: str) -> str:
 
 
 def no_name_is_about(pattern):
-    """No command, public name or option is about it."""
+    """Check that no command, public name or option is about the words."""
     options = {name for one in main.commands.values() for part in one.params for name in part.opts}
     return [name for name in NAMES | options if re.search(pattern, name)] == []
 
@@ -43,7 +43,7 @@ def rejects_stack(folder, **changes):
 
 
 def rejects_syntax(folder, uid):
-    """The UID is put into files of a video, as pydicom writes no unknown ones."""
+    """Check that a transfer syntax is rejected; its UID is put into files of a video directly."""
     video = "1.2.840.10008.1.2.4.102"
 
     def change(_, data):
@@ -131,7 +131,7 @@ def plaque_has_no_score(_):
     assert lumencut.Profile.diameter_calcium_included
 
 
-#: What the pages call missing, by its first words, and the check of it.
+#: Features that the pages call missing, by their first words, and how to check each.
 MISSING = {
     "The projection is orthographic": cameras_are_orthographic,
     '`device="auto"` does not use a software GPU': auto_takes_no_software,
@@ -153,7 +153,7 @@ MISSING = {
     "the classic DICOM network protocol": no_classic_network,
     "stenosis grading without a reader": places_are_marked_by_a_reader,
 }
-#: What no program can check.
+#: Statements that no program can check.
 UNCHECKED = (
     "approval for diagnosis",
     "DICOMweb was tested with",
@@ -196,7 +196,7 @@ def centerlines_of_others():
     return all(ending in kinds for ending in (".vtp", ".mrk.json", ".fcsv", ".pth"))
 
 
-#: What the pages claim, by words of them, and the check of it.
+#: Features that the pages claim, by some of their words, and how to check each.
 CLAIMED = {
     "from a scan alone, points, a mask or files": lambda: {"find_vessels", "trace", "trace_mask"} <= NAMES,
     "CSR of all vessels at once": lambda: {"render", "untangled", "cpr", "lumen_map"} <= NAMES,

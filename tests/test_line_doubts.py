@@ -1,4 +1,4 @@
-"""Lines that are doubtful by themselves, as their points are out of order: said wherever they are used."""
+"""Lines that are doubtful by themselves, such as unsorted points: a warning wherever they are used."""
 
 from __future__ import annotations
 
@@ -135,7 +135,7 @@ def test_every_use_of_a_line_says_its_doubt_once(name):
         assert heard[0].filename == __file__
     with warnings.catch_warnings():
         warnings.simplefilter("error", LineWarning)
-        # It was said of this vessel, and goes for what is made of it.
+        # The warning for this vessel was shown; objects made from it give no second one.
         tree = VesselTree([vessel])
         lumencut.Renderer(scan, tree)
         lumencut.measure(scan, tree.path([0]))
@@ -174,7 +174,7 @@ def test_the_command_line_says_it_and_takes_the_mend(tmp_path):
 
 
 def jittered(seed: int) -> np.ndarray:
-    """The line in steps of 0.25 mm, as programs with 0.2 mm of noise write it."""
+    """The line in steps of 0.25 mm with 0.2 mm of noise, as some programs write it."""
     along = np.arange(0, 69, 0.25)
     line = np.stack([np.interp(along, T, LINE[:, axis]) for axis in range(3)], -1)
     return line + np.random.default_rng(seed).uniform(-0.2, 0.2, line.shape)

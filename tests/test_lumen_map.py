@@ -1,4 +1,4 @@
-"""Lumen maps: the wall of a vessel unrolled, by shapes whose wall is known."""
+"""Lumen maps: the unrolled wall of shapes whose wall is known."""
 
 from __future__ import annotations
 
@@ -25,19 +25,19 @@ LINE = Vessel([[0, 0, 15], [0, 0, -15]], radius=4.0)
 
 
 def scene(values):
-    """A volume of 24 × 24 × 40 mm around the origin; values are told by x, y, z (mm)."""
+    """A volume of 24 × 24 × 40 mm around the origin, with values as a function of x, y, z (mm)."""
     z, y, x = np.meshgrid(*(np.arange(-r, r + 1e-9, SPACING) for r in (20, 12, 12)), indexing="ij")
     return Volume(values(x, y, z).astype(np.float32), (SPACING,) * 3, (-12, -12, -20))
 
 
 def soft(inside):
-    """1 inside and 0 outside of a distance (mm), blurred as by a scanner."""
+    """Return 1 inside and 0 outside a distance (mm), blurred as by a scanner."""
     return 1 / (1 + np.exp(-inside / 0.25))
 
 
 @pytest.fixture(scope="module")
 def crusted():
-    """A lumen of 300 and 4 mm, with 1,000 on its wall towards the patient's back, 4 to 6 mm from 0 mm up."""
+    """A lumen of 300, radius 4 mm; on its posterior wall 1,000, 4 to 6 mm from the middle, above 0 mm."""
 
     def values(x, y, z):
         away = np.hypot(x, y)
@@ -115,7 +115,7 @@ def test_positions_lie_beyond_the_wall_and_come_back(plain):
 
 
 def test_positions_are_exact_on_a_sheared_grid():
-    """The value of a voxel is its first index, so that values tell where the pixels look."""
+    """The value of a voxel is its first index, so values show at which positions the pixels look."""
     affine = np.array([[0.4, 0.1, 0.05, -10], [0.0, 0.5, 0.1, -10], [0.02, 0.0, 0.6, -18], [0, 0, 0, 1.0]])
     index = np.broadcast_to(np.arange(50, dtype=np.float32), (60, 44, 50))
     volume = Volume(np.ascontiguousarray(index), world_from_index=affine)

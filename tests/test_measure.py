@@ -1,4 +1,4 @@
-"""The lumen measured on vessels of known width, under a known blur and noise."""
+"""Measurements of vessels of known width, with known blur and noise."""
 
 from pathlib import Path
 
@@ -14,12 +14,12 @@ EVEN = (0.4, 0.4, 0.4)
 
 
 def bias(profile: Profile, diameter: float) -> float:
-    """How far the mean diameter is off, in percent."""
+    """Return the error of the mean diameter in percent."""
     return 100 * (np.nanmean(profile.diameter_equivalent) / diameter - 1)
 
 
 def spread(profile: Profile) -> float:
-    """How far diameters scatter, in percent."""
+    """Return the scatter of diameters in percent."""
     measured = profile.diameter_equivalent
     return 100 * np.nanstd(measured) / np.nanmean(measured)
 
@@ -43,7 +43,7 @@ def test_narrow_vessels_have_no_bias_by_the_blur(diameter, most):
     assert abs(bias(profile, diameter)) <= most
     assert (diameter < 2 * FWHM) or spread(profile) <= 3
     assert np.isfinite(profile.area).all()
-    # The scatter is what it is said to be.
+    # The scatter agrees with the stated uncertainty.
     off = (profile.diameter_equivalent - diameter) / profile.uncertainty
     assert 0.4 < np.sqrt(np.mean(off**2)) < 1.6
 
@@ -123,7 +123,7 @@ def test_the_scene_may_be_turned():
     vessel = tube.vessel(20)
     first = measure(volume, vessel, fwhm=FWHM)
     second = measure(turned, Vessel(vessel.points @ turn.T), fwhm=FWHM)
-    # Rays begin in another direction; nothing else differs.
+    # The rays begin in another direction; nothing else differs.
     assert second.diameter_equivalent == pytest.approx(first.diameter_equivalent, abs=0.02)
     assert second.center == pytest.approx(first.center @ turn.T, abs=0.02)
 
@@ -161,7 +161,7 @@ def test_a_line_beside_the_middle_is_recentred_and_where_it_is_outside_that_is_s
     assert abs(bias(profile, 4.0)) < 2
     assert np.abs(profile.center[:, 0]).max() < 0.1
     assert (profile.flags == 0).all()
-    # It leaves the lumen at 2 mm from the middle.
+    # The centerline leaves the lumen 2 mm from its middle.
     shift = np.linspace(0, 2.8, len(vessel))
     profile = measure(volume, Vessel(vessel.points + shift[:, None] * np.array([1, 0, 0])), fwhm=FWHM)
     outside = profile.flags & Flag.RECENTERED > 0
@@ -184,7 +184,7 @@ def test_calcium_in_the_wall_is_no_lumen():
     ("away", "reach", "value"), [(2.4, 0.8, 164.0), (0.0, 3.0, 155.0), (-1.0, 2.0, 155.0)]
 )
 def test_what_is_brighter_than_lumen_by_more_than_its_noise_is_no_lumen(away, reach, value):
-    # Dense plaque over 6 mm in a scan of 8 bits without HU: at the wall, through all of the lumen, across it.
+    # Dense plaque over 6 mm in an 8-bit scan without HU: at the wall, in the entire lumen, or across it.
     grid = Grid.even((0.5, 0.5, 0.5), (14, 14, 42))
     x, y, z = grid.points(PARTS)
     share = np.clip(0.5 - (np.hypot(x, y) - 3) * PARTS / 0.5, 0, 1)
@@ -206,7 +206,7 @@ def test_contrast_medium_that_mixes_and_an_edge_that_is_enhanced_are_lumen():
     share = np.clip(0.5 - (np.hypot(x, y) - 3) * PARTS / 0.5, 0, 1)
     step = (0.5 / PARTS,) * 3
     values = blurred(5 + 115 * (1 + 0.15 * np.tanh(z / 10)) * share, step, 0.9)
-    # A sharp kernel overshoots at edges.
+    # A sharp reconstruction kernel overshoots at edges.
     sharp = values + (values - blurred(values, step, 1.8))
     along = np.linspace(-19, 19, 77)
     for scanned in (values, sharp):
@@ -225,7 +225,7 @@ def test_a_stent_is_metal():
     profile = measure(tube.volume(Grid.even(EVEN, box(tube, 24))), tube.vessel(20), fwhm=FWHM)
     assert (profile.flags & Flag.METAL > 0).all()
     assert profile.diameter_equivalent.min() == pytest.approx(6.0, rel=0.12)
-    # A strut blooms: no place within a stent is suggested, and the reason is told.
+    # A strut blooms, so no place within a stent is suggested, and the reason is stated.
     assert profile.narrowest() is None
     (reason,) = profile.not_suggested()
     assert "no section is reliable (metal)" in reason
@@ -294,12 +294,12 @@ def test_cross_sections_lie_across_the_vessel():
     assert (section.position - vessel.points[14]) @ section.normal == pytest.approx(
         np.zeros((60, 60)), abs=1e-9
     )
-    # The patient's left is on the right, the back is below.
+    # The patient's left is on the right of the image, the back at the bottom.
     assert section.position[0, -1, 0] > section.position[0, 0, 0]
     assert section.position[-1, 0, 1] > section.position[0, 0, 1]
     assert section.value[30, 30] == pytest.approx(LUMEN, rel=0.02)
     inside = section.value > (LUMEN + TISSUE) / 2
-    # Half of the maximum errs by the blur.
+    # A half-maximum threshold errs by the blur.
     assert inside.sum() * 0.04 == pytest.approx(np.pi * 2.5**2, rel=0.05)
     pixels = section.pixel_from_world(section.position[[3, 10], [50, 7]])
     assert pixels == pytest.approx(np.array([[50.0, 3.0], [7.0, 10.0]]), abs=1e-9)
@@ -310,7 +310,7 @@ def test_a_line_that_leaves_its_vessel_is_measured_as_far_as_there_is_a_wall():
     grid = Grid.even((0.8, 0.8, 0.8), (24.0, 24.0, 140.0))
     volume = tube.volume(grid)
     voxels = np.array(volume.array)
-    # From 10 mm below the middle of the volume on there is tissue alone.
+    # From 10 mm below the middle of the volume on there is only tissue.
     end = voxels.shape[0] // 2 - 12
     voxels[end:] = np.random.default_rng(5).normal(TISSUE, 26, voxels[end:].shape)
     cut = Volume(voxels, world_from_index=grid.affine)

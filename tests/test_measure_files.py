@@ -1,4 +1,4 @@
-"""What profiles leave behind: tables, JSON, plots and pictures of sections."""
+"""Files of profiles: tables, JSON, plots and pictures of sections."""
 
 import csv
 import io
@@ -145,7 +145,7 @@ def test_places_that_nobody_named_are_suggestions(profile):
         ("marked place", 30.0),
         ("reference", 50.0),
     ]
-    # Before the place no reference is marked: one is offered there.
+    # Only the reference before the place is unmarked, so one is suggested there.
     assert [mark.is_suggestion for mark in named] == [False, True, False]
     before, _ = profile.suggested_references(30.0)
     assert before is not None
@@ -198,7 +198,7 @@ def test_without_matplotlib_the_extra_is_named(profile, monkeypatch):
 
 
 def near(picture, color):
-    """Columns and rows of the pixels that have a colour, mostly."""
+    """Return columns and rows of the pixels that are close to a colour."""
     apart = np.abs(picture[..., :3].astype(int) - color).max(axis=-1)
     return np.argwhere(apart < 40)[:, ::-1]
 
@@ -248,5 +248,5 @@ def test_the_sheet_shows_marked_places_and_tells_its_progress(narrow, marked):
     few = sections_sheet(view, [bare, bare], 3, lambda *step: told.append(step))
     more = sections_sheet(view, [marked, marked], 3)
     assert told == [(1, 2), (2, 2)]
-    # Beside the first, the middle and the last section those at 10 and 50 mm; each has its contour.
+    # Sections at 10 and 50 mm are added to the first, middle and last; each shows its contour.
     assert len(near(more, CYAN)) > 1.3 * len(near(few, CYAN))

@@ -1,4 +1,4 @@
-"""What cannot be measured is refused by name and value."""
+"""What cannot be measured is rejected with a reason and the value."""
 
 import numpy as np
 import pytest
@@ -88,7 +88,7 @@ def test_all_types_of_voxels_give_the_same(volume, kind):
         ),
         world_from_index=GRID.affine,
     )
-    # The values of one are HU and those of the other are not: so no wall is told apart in either.
+    # Only one volume has values in HU, so walls are not distinguished in either.
     first = lumencut.measure(volume, TUBE.vessel(20), fwhm=FWHM, wall="off")
     second = lumencut.measure(typed, TUBE.vessel(20), fwhm=FWHM, wall="off")
     assert second.diameter_equivalent == pytest.approx(first.diameter_equivalent, abs=0.02)

@@ -1,4 +1,4 @@
-"""Ctrl-C while a Python process measures, and how far its measuring is."""
+"""Ctrl-C while a Python process measures, and its progress."""
 
 import sys
 
@@ -8,7 +8,7 @@ import lumencut
 from interrupted import ends_by_ctrl_c
 from lumencut import phantom
 
-#: A process that measures without end, tells once it does, and what ended it.
+#: A process that measures without end; it prints when it starts, and what ended it.
 MEASURES = """
 import signal
 import lumencut

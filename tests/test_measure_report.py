@@ -1,4 +1,4 @@
-"""Reports of measured vessels: whole pages that need nothing beside themselves."""
+"""Reports of measured vessels: complete pages that load nothing else."""
 
 import re
 
@@ -14,7 +14,7 @@ from report_reading import Page
 
 @pytest.fixture(scope="module")
 def page() -> Page:
-    """Two pages: a marked stenosis, and the same vessel by an odd name with suggestions alone."""
+    """Two pages: a marked stenosis, and the same vessel under an odd name with only suggestions."""
     scene = phantom.stenosis(60)
     vessel = scene.tree[0]
     profile = measure(scene.volume, vessel)
@@ -38,7 +38,7 @@ def test_nothing_is_fetched_and_nothing_runs(page):
 
 
 def test_pictures_are_whole_and_show_something(page):
-    # On each page the plot with the CPR, and sections at the marked place and two references.
+    # Each page has the plot with the CPR, and sections at the marked place and two references.
     pictures = page.pictures()
     assert len(pictures) == 2 * 4
     for picture in pictures:
@@ -68,7 +68,7 @@ def test_no_percentage_without_method_references_and_mm(page):
 
 def test_every_number_of_the_table_has_its_unit(page):
     heads = ["arc length (mm)", "diameter ± 1 SD (mm)", "shortest (mm)", "longest (mm)", "area (mm²)"]
-    # The marked places and the longest diameter of one vessel, and the suggestions of the other.
+    # Marked places and the longest diameter of one vessel, and suggestions for the other.
     assert page.count("table") == 3
     for head in heads:
         assert page.source.count(f"<th>{head}</th>") == 3

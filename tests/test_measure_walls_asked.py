@@ -1,4 +1,4 @@
-"""The level of walls as it is asked for, wherever vessels are measured."""
+"""The wall level as given by the user, in all functions that measure vessels."""
 
 import csv
 
@@ -13,14 +13,14 @@ from lumencut.cli import main
 from lumencut.errors import SettingsError
 from scene_files import write_volume_of
 
-#: A wall that is brighter than that of soft tissue, and surer.
+#: A wall brighter than soft tissue, with a small uncertainty.
 BRIGHT = (70.0, 5.0)
 ASKED = [(None, "auto"), ("off", "off"), (BRIGHT, "70,5")]
 
 
 @pytest.fixture(scope="module")
 def scene():
-    """An artery of 3 mm in fat, and the tree that it is."""
+    """An artery of 3 mm in fat, and a tree of this artery."""
     made = Scene(3.0)
     return made.volume(), VesselTree([made.vessel()])
 
@@ -39,7 +39,7 @@ def profile_of(scene, wall):
 
 def test_each_wall_gives_another_diameter(scene):
     auto, off, bright = (np.nanmedian(profile_of(scene, wall).diameter_equivalent) for wall, _ in ASKED)
-    # The brighter the wall is, the more of the edge is its own.
+    # The brighter the wall is, the more of the edge belongs to it.
     assert off > auto + 0.1
     assert auto > bright + 0.01
 

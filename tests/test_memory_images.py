@@ -1,4 +1,4 @@
-"""Images of other packages in memory: the same world, shared voxels, refusal by name."""
+"""Images of other packages in memory: the same world coordinates, shared voxels, errors with reasons."""
 
 from __future__ import annotations
 
@@ -155,7 +155,7 @@ class StandInRegion:
 
 
 class StandInImage:
-    """The part of an itk image that is used, for machines without the package."""
+    """A class with the used part of an itk image, for machines without that package."""
 
     __module__ = "itk.itkImagePython"
 

@@ -1,4 +1,4 @@
-"""What mends an error: every host words every mend, and nobody reads words to find out."""
+"""Remedies of errors: every host words every remedy, and programs need not parse text."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ def test_every_mend_has_words_for_python_and_for_the_command_line(name):
     options = mend.written(as_option)
     assert len(options) > 10
     assert not re.search(r"\w=|`|_", options)
-    # What names arguments of Python names as many options.
+    # Each argument of Python in the remedy has an option of the command line.
     named = re.findall(r"\w=|`\w+`|pixel_spacing|width", str(mend))
     assert len(re.findall(r"--\w", options)) >= len(named)
 

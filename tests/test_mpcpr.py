@@ -1,4 +1,4 @@
-"""mpCPR: closed forms, an independent computation, both devices, and bad input."""
+"""mpCPR: closed forms, an independent computation, both devices, and invalid input."""
 
 import re
 
@@ -58,7 +58,7 @@ def tilted(phi, theta, radius=4.0, length=400.0):
 
 
 def inside(frame, along, radius):
-    """Which pixels look into the lumen of a tube through the origin."""
+    """Return which pixels show the lumen of a tube through the origin."""
     position = frame.position
     return np.linalg.norm(np.cross(position, along), axis=2) <= radius
 
@@ -71,7 +71,7 @@ def width(mask, phi, side):
 
 @pytest.mark.parametrize(("phi", "theta"), [(90, 0), (90, 50), (60, 30), (30, 45), (12, 45), (20, 70)])
 def test_a_slanted_vessel_is_as_thin_as_the_geometry_predicts(phi, theta):
-    """c(t) + s·(v × u) leaves the tube where s·√(1 − dx²) = r, and a row meets the band at sin φ."""
+    """c(t) + s·(v × u) leaves the tube if s·√(1 − dx²) = r, and a row crosses the band at the angle φ."""
     tree, along = tilted(phi, theta)
     camera = front((801, 101), 0.1)
     found = width(inside(mpcpr(None, tree, camera), along, 4.0), phi, 0.1)
@@ -95,7 +95,7 @@ def test_values_are_those_of_the_positions(grid):
     within = (expected >= 0).all(axis=1) & (expected <= np.array([29, 25, 21])).all(axis=1)
     assert within.sum() > 800
     assert np.abs(found - expected)[within].max() < 1e-3
-    # The position itself: on c(t) + s·(v × u), which for each row is the depth of the centerline there.
+    # The position itself lies on c(t) + s·(v × u): each row has the depth of the centerline in this row.
     depth, _, _ = reference.mpcpr(tree, camera)
     shown = (position - camera.center) @ camera.direction
     assert np.nanmax(np.abs(shown - depth.ravel())) < 1e-4
@@ -136,7 +136,7 @@ def test_a_vessel_that_folds_over_a_row():
     frame = mpcpr(None, tree, front())
     rows = np.abs(25 - np.arange(51)) <= 10
     assert np.array_equal(frame.folded[:, 0], rows & (np.arange(51) != 15))
-    # At z = 0 the row meets it at x = -7 and 3, depths 2 and 6.5; midway lies x = -2.
+    # At z = 0 the row crosses it at x = -7 and 3, at depths 2 and 6.5; the middle is x = -2.
     assert set(frame.depth[25, :28]) == {2.0}
     assert set(frame.depth[25, 29:]) == {6.5}
 
@@ -178,7 +178,7 @@ def test_samples_are_means_of_views_within_a_pixel():
 def test_both_devices_show_the_same(name):
     volume, tree = scene("phantom")
     camera = oblique(tree, (113, 91))
-    # Beside rows that show nothing the gradient is the largest there is.
+    # Next to rows that show nothing the gradient is as large as it can be.
     settings = Settings(silhouette_rule="gradient") if name == "gradient" else SETTINGS[name]
     found, expected = (mpcpr(volume, tree, camera, settings, device) for device in ("gpu", "cpu"))
     assert np.array_equal(found.vessel, expected.vessel)

@@ -1,4 +1,4 @@
-"""Messages of several parts, however they are cut into pieces on their way."""
+"""Messages of several parts, received in pieces of any size."""
 
 import pytest
 

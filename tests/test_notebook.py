@@ -1,4 +1,4 @@
-"""The view of vessels in a notebook, without a browser: traits, what steps do, and what bad input gets."""
+"""The view of vessels in a notebook, without a browser: traits, the effect of steps, and invalid input."""
 
 import base64
 import io
@@ -62,7 +62,7 @@ def test_a_drag_turns_the_camera_and_answers_with_a_quick_picture(page):
     with Image.open(io.BytesIO(answer["vessels"])) as picture:
         assert picture.format == "JPEG"
         assert picture.size == (240, 200)
-    # The whole height is half a turn; the scene follows the pointer, so the viewer goes the other way.
+    # A drag over the full height is half a turn; the scene follows the pointer, the viewer moves oppositely.
     expected = before.rotated(-np.pi / 2)
     np.testing.assert_allclose(page.widget.camera.direction, expected.direction, atol=1e-12)
     rest = page.widget.picture

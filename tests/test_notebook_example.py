@@ -1,4 +1,4 @@
-"""The notebook of the examples runs and keeps a picture for readers without a kernel; its file has none."""
+"""The example notebook runs and stores a picture; the file in the repository has none."""
 
 import base64
 import io
@@ -21,7 +21,7 @@ NOTEBOOK = ROOT / "examples" / "notebook.ipynb"
 
 @pytest.fixture(scope="module")
 def done(tmp_path_factory):
-    """The notebook after it was run, in folders of its own."""
+    """The notebook after running it in separate folders."""
     folder = str(tmp_path_factory.mktemp("kernel"))
     kept = {"IPYTHONDIR": folder, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
     before = {name: os.environ.get(name) for name in kept}

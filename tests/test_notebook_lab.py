@@ -1,4 +1,4 @@
-"""A view of vessels in JupyterLab and Chromium: shown, turned, picked from, closed, asking no other host."""
+"""A view of vessels in JupyterLab and Chromium: shown, turned, picked, closed; no other host is asked."""
 
 import ast
 

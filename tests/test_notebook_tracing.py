@@ -21,7 +21,7 @@ def page(scene):
 
 
 def click(page, point):
-    """Click where a point of the scene is seen."""
+    """Click on the pixel that shows a point of the scene."""
     [[column, row, _]] = page.widget.camera.project(point)
     return page.refused(["click", "vessels", column, row])[0]["words"]
 

@@ -1,4 +1,4 @@
-"""Arguments of the wrong kind, and paths that name no plain file: errors of ours, at once."""
+"""Arguments of the wrong kind, and paths that cannot name a file: immediate errors of Lumencut."""
 
 from __future__ import annotations
 

@@ -56,7 +56,7 @@ def test_the_views_of_the_body(name, left, right, top, bottom):
 @pytest.mark.parametrize("to_the_left", [-180, -179, -120, -30, -1, 0, 1, 30, 45, 90, 135, 180])
 @pytest.mark.parametrize("to_the_head", [-89, -60, -15, 0, 20, 88])
 def test_c_arm_angles(to_the_left, to_the_head):
-    """The viewer stands at spherical coordinates about the patient, the head on top."""
+    """The viewer's position in spherical coordinates around the patient, with the head on top."""
     side, height = math.radians(to_the_left), math.radians(to_the_head)
     viewer = (math.sin(side) * math.cos(height), -math.cos(side) * math.cos(height), math.sin(height))
     name = view_name(seen_from(viewer))
@@ -77,7 +77,7 @@ def test_turning_by_the_options_of_a_camera_gives_its_angles():
 @pytest.mark.parametrize(
     ("name", "up", "expected"),
     [
-        # The top is 30 degrees to the patient's right of the head: the head is seen right of the top.
+        # The top points 30 degrees from the head to the patient's right: the head appears right of the top.
         ("anterior", (-0.5, 0, math.sqrt(0.75)), "anterior turned -30°"),
         ("anterior", (0.5, 0, math.sqrt(0.75)), "anterior turned 30°"),
         ("anterior", (0, 0, -1), "anterior turned 180°"),

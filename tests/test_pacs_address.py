@@ -1,4 +1,4 @@
-"""Addresses of a PACS: which are none, and that they stand where a volume stands."""
+"""Addresses of a PACS: which are invalid, and that they are accepted in place of a volume."""
 
 from pathlib import Path
 

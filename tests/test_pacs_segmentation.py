@@ -1,4 +1,4 @@
-"""A segmentation that is dropped into the page: the mask that the server makes of it, and what is refused."""
+"""A segmentation that is dropped into the page: the mask that the server makes from it, and errors."""
 
 import base64
 import json
@@ -22,7 +22,7 @@ def encoded(path):
 
 
 def request(path, volume, **change):
-    """What the page sends of a file beside a scan that it read."""
+    """Return the request of the page for a file, with a scan that the page read."""
     return {
         "name": path.name,
         "file": encoded(path),

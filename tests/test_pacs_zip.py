@@ -1,4 +1,4 @@
-"""What "Save for PACS" gives for what the page sends: the objects that Python writes, and plain refusals."""
+"""The archive of "Save for PACS" has the same objects as Python writes; bad requests give plain errors."""
 
 from __future__ import annotations
 
@@ -12,13 +12,15 @@ import pytest
 
 from dicom_judges import faults
 from dicom_scenes import scan, series
-from lumencut import FormatError, MissingPackageError
+from lumencut import FormatError, MissingPackageError, Profile
 from lumencut.dicom_objects.chosen_study import chosen_study
 from lumencut.dicom_objects.measured import measured as reported
 from lumencut.dicom_objects.structured_report import write_report
 from lumencut.measured_vessel import Marked
 from lumencut.pacs_zip.archive import pacs_zip
+from lumencut.pacs_zip.given import Given
 from lumencut.pacs_zip.placing import chosen_file
+from lumencut.pacs_zip.vessels import measured_vessel
 from pacs_requests import (
     dropped,
     encoded,
@@ -41,7 +43,7 @@ def made(asked, folder, served=True):
 
 
 def own_report(path, anonymous=False, marked=None):
-    """The structured report that Python writes of the same."""
+    """The structured report that Python writes about the same findings."""
     one = measured() if marked is None else measured(marked)
     one = one.unnamed() if anonymous else one
     study = chosen_study(scan()._origin, None, anonymous=anonymous)
@@ -75,7 +77,7 @@ def test_the_structured_report_is_that_of_python(tmp_path, marked):
     [
         (Marked(12.0), ["Site of Lumen Minimum"]),
         (Marked(12.0, diameters=(24.0,)), ["Site of Lumen Minimum"]),
-        # A diameter that was noted says nothing of a narrowing.
+        # A noted diameter does not mean a narrowing.
         (Marked(diameters=(24.0,)), []),
     ],
 )
@@ -93,7 +95,7 @@ def test_the_view_is_the_picture_that_is_shown(tmp_path):
     assert float(data.PixelSpacing[0]) == pytest.approx(own.pixel_spacing)
     assert list(data.PatientOrientation) == ["L", "F"]
     assert len(data.SourceImageSequence) == len(slices())
-    # No ruler is true across the others.
+    # A ruler would measure wrongly across the other pictures.
     assert "PixelSpacing" not in pydicom.dcmread(tmp_path / "vessel.dcm")
 
 
@@ -153,7 +155,7 @@ def test_a_file_of_the_study_can_be_chosen(tmp_path):
 
 
 def with_header(folder, change):
-    """What stands before the pixels of a slice of the scan that a change was made to."""
+    """Change a slice of the scan; return the part of its file before the pixels."""
     data = pydicom.dcmread(next(iter(sorted(series().iterdir()))))
     change(data)
     data.save_as(folder / "changed.dcm")
@@ -161,7 +163,7 @@ def with_header(folder, change):
 
 
 def of_patient(name):
-    """A change of the header: another ID."""
+    """Change the ID in a header."""
     return lambda data: setattr(data, "PatientID", name)
 
 
@@ -259,11 +261,9 @@ def test_what_is_missing_is_named_with_its_extra(monkeypatch, package, extra):
 
 def broken():
     """Requests that no page sends, each with a part of what is said of it."""
-    yield {"version": 2}, "another version"
+    yield {"version": 3}, "another version"
     yield {"study": None}, "the request: study"
     yield {"findings": 3}, "a number as the request: findings"
-    yield {"numbers": "{}"}, "vessels"
-    yield {"numbers": "no"}, "no JSON"
     yield {"report": "<h1>one</h1><svg></svg><h1>two</h1><svg></svg>"}, "a report of other vessels"
     view = request()["view"]
     yield {"view": {**view, "picture": "%"}}, "base64"
@@ -272,12 +272,48 @@ def broken():
     yield {"view": {**view, "settings": {"none": 1}}}, "invalid settings"
     yield {"view": {**view, "camera": {**view["camera"], "direction": [0, 0, 0]}}}, "an invalid camera"
     finding = finding_part(measured())
-    yield {"findings": [{**finding, "points": [[0, 0]]}]}, "no points"
-    yield {"findings": [{**finding, "points": [[0, 0, 0]]}]}, "an invalid vessel"
-    yield {"findings": [{**finding, "contours": []}]}, "without the contour"
-    yield {"findings": [{**finding, "contours": [3]}]}, "a contour"
-    yield {"findings": [{**finding, "marks": [["a", "b", False]]}]}, "a mark"
-    yield {"findings": [finding, finding]}, "1 vessels for 2 findings"
+    record, marks = json.loads(finding["profile"]), finding["marks"]
+    for part, words in (
+        ({"points": [[0, 0]]}, "no points"),
+        ({"points": [[0, 0, 0]]}, "an invalid vessel"),
+        ({"profile": None}, "nothing as the request: findings: profile"),
+        ({"profile": "{}"}, "record of a profile"),
+        ({"profile": json.dumps({**record, "format": 9})}, "version 9 as record of a profile"),
+        ({"profile": json.dumps({**record, "flags": [1 << 20] * len(record["flags"])})}, "unknown flags"),
+        ({"marks": {**marks, "at": "b"}}, "a text as"),
+        ({"marks": {**marks, "references": [None]}}, "nothing as"),
+        ({"marks": {**marks, "method": "none"}}, "method of the stenosis"),
+        ({"marks": {**marks, "group": "none"}}, "vessel of the group"),
+    ):
+        yield {"findings": [{**finding, **part}]}, words
+
+
+def test_a_page_of_the_version_before_is_told_to_reload():
+    before = finding_part(measured())
+    before |= {"marks": [["marked place", 12.0, False]], "contours": [[12.0, []]], "words": None}
+    asked = {**request(), "version": 1, "findings": [before], "numbers": "{}"}
+    with pytest.raises(FormatError, match="another version; expected version 2; reload the page"):
+        pacs_zip(sent(asked), scan())
+
+
+def test_a_place_beyond_the_vessel_is_not_graded(tmp_path):
+    part = finding_part(measured())
+    part["marks"] |= {"at": 1e9}
+    found = groups(made({**request(), "findings": [part]}, tmp_path)["report.dcm"])
+    assert [code(child(one, "Finding")[0].ConceptCodeSequence)[2] for one in found] == ["Centerline"]
+
+
+@pytest.mark.parametrize("marked", [Marked(12.0, (24.0,)), Marked(12.0, method="ecst", original=9.0)])
+def test_a_finding_is_graded_as_python_grades_it(marked):
+    one = measured(marked)
+    finding = json.loads(json.dumps(finding_part(one, marked)))
+    again = measured_vessel(Given(finding, "a finding"), 0, has_name=True)
+    assert type(again.profile) is Profile
+    assert again.profile.to_json() == one.profile.to_json()
+    assert (again.lines, again.marks, again.name) == (one.lines, one.marks, one.name)
+    numbers = [vars(graded.stenosis)["_numbers"] for graded in (again, one)]
+    assert numbers[0] == numbers[1]
+    assert again.stenosis.references == one.stenosis.references
 
 
 @pytest.mark.parametrize(("change", "words"), list(broken()), ids=lambda one: str(one)[:30])

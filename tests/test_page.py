@@ -1,4 +1,4 @@
-"""How the viewer's page is built and packed: only when it is out of date, and with all licence texts."""
+"""Building and packing of the viewer's page: only when out of date, and with all licence texts."""
 
 import json
 import os
@@ -15,7 +15,7 @@ BUILT = '<head><script src="./assets/a.js"></script></head>'
 
 @pytest.fixture
 def room(tmp_path, monkeypatch):
-    """The script in a repository of its own, whose npm only writes down what it is asked."""
+    """The script in a repository of its own, with an npm that only records its arguments."""
     loaded = script("page")
     module = next(loaded)
     asked = []
@@ -167,7 +167,7 @@ def test_a_named_package_gets_the_standard_text(notices, tmp_path, monkeypatch):
 
 
 def test_the_packed_sources_have_what_their_build_needs():
-    """The backend imports the scripts of the page only where `web/` is, and packed sources have none."""
+    """The backend imports the scripts of the page only if `web/` exists; packed sources have none."""
     project = (SCRIPTS.parent / "pyproject.toml").read_text("utf-8")
     assert '{ path = "scripts/build_backend.py", format = "sdist" }' in project
     backend = (SCRIPTS / "build_backend.py").read_text("utf-8")

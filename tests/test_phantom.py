@@ -1,4 +1,4 @@
-"""The truth that phantoms state is the truth that their voxels show."""
+"""The truth stated by phantoms agrees with their voxels."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def sample(volume, points):
 
 
 def measured_radius(volume, point, tangent, threshold, reach=8.0):
-    """Mean distance from `point` across the vessel at which the value falls below `threshold` (mm)."""
+    """Return the mean distance (mm) from `point`, across the vessel, where values fall below `threshold`."""
     tangent = tangent / np.linalg.norm(tangent)
     u = np.cross(tangent, [0.3, 0.5, 0.81])
     u /= np.linalg.norm(u)
@@ -169,7 +169,7 @@ def test_workload_vessels_lie_inside_and_shine(name):
     points = np.concatenate([vessel.points for vessel in made.tree])
     assert made.volume.contains(points).all()
     wide = np.concatenate([vessel.radius > 4 for vessel in made.tree])
-    # The noise is 14 HU; a voxel of 3 mm blurs only what is narrower than that.
+    # The noise is 14 HU; voxels of 3 mm blur only vessels narrower than that.
     assert sample(made.volume, points[wide]) == pytest.approx(LUMEN, abs=90)
 
 
@@ -187,7 +187,7 @@ def test_workload_vessels_hang_together(name):
     for a, b in ends:
         parent[root(a)] = root(b)
     assert len({root(end) for end in parent}) == 1
-    # One edge more than a tree has for each cycle: the bypass, and the ring of both vertebral arteries.
+    # Each cycle adds an edge to a tree: the bypass, and the ring of both vertebral arteries.
     cycles = len(ends) - (len(parent) - 1)
     assert cycles == {"aorta": 0, "runoff": 1, "cervical": 1}[name]
 

@@ -1,4 +1,4 @@
-"""The point spread is that of the scan: a tree shares it, and no sharp wall passes for a blurred one."""
+"""The point spread belongs to the scan: a tree shares one estimate; sharp walls do not count as blurred."""
 
 import json
 
@@ -16,7 +16,7 @@ LINE = Vessel(np.linspace([0, 0, -10], [0, 0, 10], 41))
 
 
 def binary(diameter: float, noise: float) -> Profile:
-    """A tube of 300 in 0, on voxels of 1 mm that are one or the other."""
+    """A tube of 300 in 0, in voxels of 1 mm without intermediate values."""
     grid = Grid.even((1, 1, 1), (25, 25, 25))
     points = grid.points(1)
     values = np.where(np.hypot(points[0], points[1]) <= diameter / 2, 300.0, 0.0)
@@ -46,7 +46,7 @@ def test_all_vessels_of_a_tree_are_measured_with_one_point_spread():
     grid = Grid.even((0.4, 0.4, 0.4), (24, 12, 24))
     wide, narrow = round_tube(6.0), round_tube(3.0)
     x = grid.points(1)[0]
-    # Side by side: each of them is moved by whole voxels.
+    # Side by side: each tube is moved by whole voxels.
     left, right = (np.roll(tube.volume(grid).array, by, axis=2) for tube, by in ((wide, -12), (narrow, 14)))
     volume = Volume(np.where(x < 1.6, left, right), world_from_index=grid.affine)
     lines = (Vessel(LINE.points - [4.8, 0, 0], 3.0), Vessel(LINE.points - [-5.6, 0, 0], 1.5))
@@ -70,7 +70,7 @@ def branches(tmp_path_factory):
 
 
 def told(files, path, *words):
-    """The widths and sources that `lumencut measure` tells."""
+    """Return the widths and sources that `lumencut measure` reports."""
     result = CliRunner().invoke(main, ["measure", *map(str, (*files, "-o", path, *words))])
     assert result.exit_code == 0, result.output
     return {(one["fwhm_mm"], one["fwhm_source"]) for one in json.loads(path.read_text("utf-8"))["vessels"]}
@@ -87,7 +87,7 @@ def test_a_tree_that_tells_nothing_tells_nothing_of_a_path_either():
     grid = Grid.even((0.4, 0.4, 0.4), (14, 14, 30))
     volume = round_tube(5.0).volume(grid)
     whole = Vessel(np.linspace([0, 0, -12], [0, 0, 12], 49))
-    # By itself the vessel tells it; its pieces are shorter than three sections.
+    # The whole vessel gives an estimate; its pieces are shorter than three sections.
     assert measure(volume, whole).fwhm_source.startswith("estimated on ")
     pieces = VesselTree(Vessel(np.linspace([0, 0, z], [0, 0, z + 0.4], 2)) for z in (-12.0, 11.6))
     profile = measure(volume, whole, tree=pieces)
@@ -112,7 +112,7 @@ def test_a_tree_is_asked_once(branches, monkeypatch):
     first = [measure(volume, vessel, tree=scene.tree) for vessel in vessels]
     assert len(asked) == 1
     assert len({(one.fwhm, one.fwhm_source) for one in first}) == 1
-    # Another step is another question, and so is a width that is given, as walls are told under it.
+    # Another step is measured separately, and so is a given width, since walls depend on it.
     measure(volume, vessels[0], 1.0, tree=scene.tree)
     assert len(asked) == 2
     for vessel in vessels:

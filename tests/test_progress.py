@@ -1,4 +1,4 @@
-"""How far a rendering is, and how many threads render it."""
+"""The progress of a rendering, and the number of threads that render."""
 
 from __future__ import annotations
 
@@ -105,7 +105,7 @@ def narrow():
     return phantom.stenosis()
 
 
-#: Sections so near to each other that something is told on the way (mm).
+#: A distance of sections so small that progress is reported before the end (mm).
 NEAR = 0.01
 
 

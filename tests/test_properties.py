@@ -1,4 +1,4 @@
-"""Whatever the arguments are, constructors give a valid object or an error that says what is wrong."""
+"""For any arguments, constructors return a valid object or raise an error that says what is wrong."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ from lumencut import (
 LINE = [[0.0, 0.0, 0.0], [1.0, 2.0, 3.0], [4.0, 4.0, 4.0]]
 TREE = VesselTree([Vessel(LINE)])
 
-#: Anything at all, with what has broken numpy conversions before.
+#: Arbitrary values, including some that break numpy conversions.
 odd = st.sampled_from(
     [
         None,
@@ -91,7 +91,7 @@ thorough = settings(max_examples=300, deadline=None)
 
 
 def attempt(make, kind=LumencutError):
-    """Make the object, or None where that is refused with an error that says what was found and expected."""
+    """Make the object; return None if an error says what was found and expected."""
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         try:
@@ -276,7 +276,7 @@ def test_settings_of_anything(name, value):
     made = attempt(lambda: Settings(**{name: value}), SettingsError)
     if made is not None:
         camera = Camera((0, 0, 0), (0, 1, 0), (0, 0, 1), (3, 2))
-        # A vessel that the tree does not have is told by the renderer: the settings know no tree.
+        # Unknown vessels are reported only by the renderer, since settings know no tree.
         told = VesselTreeError if name == "focus_vessels" else ()
         cut = attempt(lambda: Renderer(None, TREE).cut_surface(camera, made), told)
         assert cut is None or np.isfinite(cut.depth).all()

@@ -1,4 +1,4 @@
-"""``lumencut pull`` against a PACS that fails by design: whole or not at all, and nobody else hears of it."""
+"""``lumencut pull`` with a PACS that fails on purpose: complete files or none; no other host is asked."""
 
 import os
 import shutil
@@ -178,7 +178,7 @@ def test_a_pacs_that_is_gone_is_not_asked_for_everything(pacs, tmp_path):
 
 @pytest.mark.skipif(os.name != "posix" or os.geteuid() != 0, reason="only root can mount a small disk")
 def test_a_full_disk_is_named_and_leaves_no_half_file(pacs, tmp_path):
-    """In a name space of mounts of its own, so that nothing stays of it."""
+    """Uses a separate mount namespace, so that nothing remains of it."""
     code = "import sys; from lumencut.cli import main; main(sys.argv[1:])"
     script = f"mount -t tmpfs -o size=48k none {tmp_path} || exit 99; {sys.executable} -c '{code}' pull "
     script += f"{pacs.address} -o {tmp_path}/out; code=$?; find {tmp_path} -type f; exit $code"
@@ -283,7 +283,7 @@ def test_redirects_within_a_host_are_followed_with_the_token(pacs, tmp_path, mon
 
 
 def certificate(folder):
-    """A certificate of nobody known for 127.0.0.1, and its key."""
+    """A certificate for 127.0.0.1 of an unknown authority, and its key."""
     paths = folder / "cert.pem", folder / "key.pem"
     subprocess.run(
         [

@@ -1,4 +1,4 @@
-"""``lumencut push``, against a PACS that fails on purpose."""
+"""``lumencut push`` with a PACS that fails on purpose."""
 
 import zipfile
 
@@ -159,7 +159,7 @@ def test_what_was_written_twice_is_sent_once(pacs, scan, tmp_path):
 
 
 def changed(path, folder, **values):
-    """A file of an object with other values, and another UID."""
+    """Write an object with other values and another UID into a file."""
     data = pydicom.dcmread(path)
     for keyword, value in values.items():
         setattr(data, keyword, value)
@@ -170,7 +170,7 @@ def changed(path, folder, **values):
 
 
 def holds(pacs, path, folder, **values):
-    """Let the PACS have an image of the study, with other values."""
+    """Store an image of the study with other values in the PACS."""
     pacs.take(changed(path, folder / "held", **values).read_bytes())
 
 

@@ -1,4 +1,4 @@
-"""The first lines of Python that README.md shows run as they stand, and give what it says."""
+"""The first lines of Python in README.md run as printed, with the result that they state."""
 
 import csv
 import re
@@ -16,7 +16,7 @@ BLOCKS = re.findall(r"^```python\n(.*?)^```$", README, re.MULTILINE | re.DOTALL)
 
 @pytest.fixture
 def tube(tmp_path, monkeypatch):
-    """A tube in the place of the demo's CT, which is on the network, and points along it."""
+    """A tube in place of the demo's CT, which must be downloaded, and points along the tube."""
     made = phantom.stenosis()
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(demo, "stent_scene", lambda: (made.volume, made.tree))

@@ -1,4 +1,4 @@
-"""The text in a PNG that says how it was rendered: complete, without the patient, and hard to fool."""
+"""The text in a PNG that says how it was rendered: complete, without patient data, and robust."""
 
 from __future__ import annotations
 
@@ -98,7 +98,7 @@ def test_a_png_states_the_size_of_its_pixels(frame, tmp_path, spacing):
 
 @pytest.mark.parametrize("spacing", [1e-6, 900.0, 1e4])
 def test_the_extremes_of_a_camera_can_be_written(frame, tmp_path, spacing):
-    """PNG counts whole pixels in a metre: where a pixel is longer, its size is in the recipe alone."""
+    """PNG stores whole pixels per metre; the size of pixels above 1 m is only in the recipe."""
     camera = dataclasses.replace(frame.camera, pixel_spacing=spacing)
     dataclasses.replace(frame, camera=camera).save(tmp_path / "view.png", annotate=True)
     assert (b"pHYs" in (tmp_path / "view.png").read_bytes()) == (spacing < 2000)
@@ -155,7 +155,7 @@ def text_of(path):
 
 
 def changed(**parts):
-    """What to change in the content of a sound text: values by their place."""
+    """Changes to the content of a valid text: values by their path."""
 
     def change(content):
         for place, value in parts.items():

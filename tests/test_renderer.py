@@ -1,4 +1,4 @@
-"""Renderers and frames: what a picture of known scenes shows, and what is refused."""
+"""Renderers and frames: pictures of known scenes, and errors."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def indices():
 
 
 def grey(value, window):
-    """Values from black to white as grey, not rounded."""
+    """Return values from black to white as grey levels, not rounded."""
     return 255 * np.clip((np.asarray(value, float) - window.level) / window.width + 0.5, 0, 1)
 
 
@@ -142,7 +142,7 @@ def test_silhouettes_stand_where_the_surface_leaps():
     border = lined.vessel != np.roll(lined.vessel, 1, axis=0)
     rows, columns = np.nonzero(border[20:-20, 20:-20] & ~np.isnan(lined.value[20:-20, 20:-20]))
     assert len(rows) > 50
-    # A line lies on one side of a leap.
+    # A line is on one side of a jump.
     either = yellow | np.roll(yellow, 1, axis=0)
     assert either[rows + 20, columns + 20].mean() > 0.9
     row, column = pixel(lined.camera, (0, -10, 0))
@@ -180,7 +180,7 @@ def test_a_stenosis_can_be_measured_in_the_picture(percent):
         row, column = pixel(frame.camera, (0, 0, z))
         dark = np.flatnonzero(~bright[row])
         width = dark[dark > column].min() - dark[dark < column].max() - 1
-        # The picture's pixels are 0.13 mm wide and the volume's 0.5 mm.
+        # Pixels of the picture are 0.13 mm wide, voxels 0.5 mm.
         assert width * frame.camera.pixel_spacing == pytest.approx(diameter, abs=0.3)
 
 

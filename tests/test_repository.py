@@ -1,4 +1,4 @@
-"""What holds for the repository as a whole: versions, licences, names, sizes, the weight of an import."""
+"""Properties of the repository: versions, licences, names, sizes, and the cost of an import."""
 
 import ast
 import inspect
@@ -22,7 +22,7 @@ from rust_graph import rust_graph
 
 ROOT = Path(__file__).resolve().parents[1]
 LONGEST_FILE = 400
-#: Licences that a crate may be under; of an expression with OR one is enough, with AND all must be here.
+#: Licences that a crate may have; in an expression with OR one must be listed, with AND all.
 ALLOWED = {
     "0BSD",
     "Apache-2.0",
@@ -35,7 +35,7 @@ ALLOWED = {
     "Unlicense",
     "Zlib",
 }
-#: Packages that only some calls need; none of them may be imported before such a call.
+#: Packages that only some calls need; they must not be imported before such a call.
 HEAVY = {
     "PIL",
     "SimpleITK",
@@ -124,7 +124,7 @@ def test_oldest_python_and_licence_are_stated_once():
 
 
 def pins(path: str) -> dict[str, set[str]]:
-    """The versions that a lock file allows of each package; each must carry hashes."""
+    """Return the versions that a lock file allows of each package; each must have hashes."""
     found: dict[str, set[str]] = {}
     for entry in re.split(r"\n(?=\S)", text(path).strip()):
         pin = re.match(r"([\w.-]+)==([^\s;]+)", entry)
@@ -158,7 +158,7 @@ def test_locks_hold_what_is_declared():
 
 
 def is_allowed(expression: str) -> bool:
-    """Whether an SPDX expression leaves a choice that is within `ALLOWED`."""
+    """Return whether an SPDX expression can be satisfied by licences in `ALLOWED`."""
     while "(" in expression:
         expression = re.sub(r"\(([^()]*)\)", lambda m: "MIT" if is_allowed(m[1]) else "refused", expression)
     choices = re.split(r" OR |/", expression)
@@ -185,7 +185,7 @@ def test_licence_expressions(expression, allowed):
 
 @pytest.fixture(scope="module")
 def crates() -> list[dict]:
-    """The crates of the workspace and everything that they need, on any platform."""
+    """The crates of the workspace and all their dependencies, on any platform."""
     command = ["cargo", "metadata", "--locked", "--format-version=1"]
     told = subprocess.run(command, cwd=ROOT, check=True, capture_output=True)
     packages = json.loads(told.stdout)["packages"]
@@ -210,7 +210,7 @@ def test_licences_of_the_crates(crates):
 
 
 def runtime_packages() -> dict[str, metadata.Distribution]:
-    """The package and everything that it needs, found through what is installed."""
+    """The package and all its dependencies, as installed."""
     found: dict[str, metadata.Distribution] = {}
     wanted = ["lumencut"]
     while wanted:
@@ -268,7 +268,7 @@ def test_public_names_are_documented():
     undocumented = [
         name
         for name, member in members.items()
-        # A data class without a docstring is given its signature as one.
+        # A data class without a docstring gets its signature as docstring.
         if not (member.__doc__ or "").strip() or member.__doc__.startswith(f"{name}(")
     ]
     assert undocumented == []
@@ -299,7 +299,7 @@ def test_every_error_is_a_builtin_one_too():
 
 
 def imported_by(code: str) -> set[str]:
-    """The top-level modules that are there after `code` ran in an interpreter of its own."""
+    """Return the top-level modules that are loaded after `code` ran in a separate interpreter."""
     listing = f"import sys\n{code}\nprint(*sorted({{name.partition('.')[0] for name in sys.modules}}))"
     told = subprocess.run([sys.executable, "-c", listing], check=True, capture_output=True, text=True)
     return set(told.stdout.split())

@@ -14,7 +14,7 @@ def results():
 
 
 def broken(results, tmp_path, **changes):
-    """A copy of the files of results, one of which is changed; a field set to None is left out."""
+    """Return a copy of the files of results with one changed; a field set to None is removed."""
     data = tmp_path / "results"
     shutil.copytree(results.DATA, data)
     path = data / "memory.json"

@@ -1,4 +1,4 @@
-"""The rooms of tracing and measuring, and which of them may need which."""
+"""The groups of modules of tracing and measuring, and which group may use which."""
 
 from pathlib import Path
 
@@ -20,7 +20,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
 
 
 def stray_arrows(graph, order):
-    """Which modules need one of a room that `order` does not list for theirs."""
+    """Return the modules that use a group that `order` does not allow for their own group."""
 
     def room(module):
         return next((name for name in order if (module + "::").startswith(name + "::")), None)

@@ -1,4 +1,4 @@
-"""Files that are written: one at a time or side by side, behind links, with the permissions they had."""
+"""Writing of files: one or several at a time, through links, with the old permissions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Numbers that are measured are told with how their scan was made, as its file tells it."""
+"""Measured numbers come with the acquisition details of their scan, as its file states them."""
 
 import copy
 import csv
@@ -20,7 +20,7 @@ WHOLE = ScanDetails("3", "CTA 2.0", "70 % of the cardiac cycle", 2.0, "Bv40f, 3"
 
 
 def written(folder, change):
-    """A series of the phantom, each of its images changed."""
+    """Write a series of the phantom with changed headers."""
     folder.mkdir()
     for number, image in enumerate(images(axial()), 1):
         data = single(image, number)

@@ -1,4 +1,4 @@
-"""The contour of a section lies in the plane that is drawn."""
+"""The contour of a section lies in the plane of the picture."""
 
 import json
 from types import SimpleNamespace
@@ -22,7 +22,7 @@ def scene():
 
 
 def off_plane(section, points):
-    """How far points lie from the plane of a section (mm)."""
+    """Return how far points are from the plane of a section (mm)."""
     return (points - section.position[0, 0]) @ section.normal
 
 
@@ -34,7 +34,7 @@ def test_a_contour_lies_in_the_measured_plane(scene, at):
     assert section.arc_length == profile.arc_length[number]
     assert np.abs(off_plane(section, profile.contour[number])).max() < 1e-9
     pixels = section.pixel_from_world(profile.contour[number])
-    # Within the contour the image shows lumen, beyond it tissue; the vessel is in the middle of the image.
+    # Inside the contour the image shows lumen, outside tissue; the vessel is in the middle of the image.
     rows, columns = np.mgrid[:120, :120]
     away = np.hypot(columns - pixels[:, 0].mean(), rows - pixels[:, 1].mean()) * section.pixel_spacing
     assert section.value[away < 2.0].mean() == pytest.approx(LUMEN, rel=0.05)
@@ -63,9 +63,9 @@ def test_a_vessel_with_radii_is_cut_as_it_is_measured(scene):
     radius = float(np.median(profile.diameter_equivalent)) / 2
     known = lumencut.cross_section(volume, Vessel(vessel.points, radius), at)
     cut = lumencut.cross_section(volume, vessel, at, profile=profile)
-    # Sections were laid by the radii that were measured, but for what the fit made of them.
+    # The directions of sections depend on the measured radii, up to small changes by the fit.
     assert np.degrees(np.arccos(known.normal @ cut.normal)) < 0.5
-    # The centerline jitters: without a radius it is followed more closely.
+    # The centerline jitters; without a radius it is smoothed less.
     bare = lumencut.cross_section(volume, vessel, at)
     assert np.degrees(np.arccos(bare.normal @ known.normal)) > 1
 
@@ -79,7 +79,7 @@ def test_pictures_of_sections_show_the_measured_plane(scene):
     section = lumencut.cross_section(
         volume, vessel, profile.arc_length[number], side * spacing, spacing, profile=profile
     )
-    # The picture has the lumen in its middle, the section the vessel.
+    # The middle of the picture is the lumen's, that of the section the vessel's.
     shift = section.pixel_from_world(profile.center[[number]])[0] - (side - 1) / 2
     assert np.abs(shift).max() < 5
     grey = np.clip((section.value - 200) / 400 + 0.5, 0, 1) * 255

@@ -1,4 +1,4 @@
-"""Centerlines of the vessels that hang together with the one that a seed lies in."""
+"""Centerlines of the vessels connected to the vessel that contains a seed."""
 
 import numpy as np
 import pytest
@@ -52,14 +52,14 @@ def test_bone_that_touches_the_vessel_is_left_out():
     line = arc(60)
     scene = Scene(room(line, 0.7), (0.7,) * 3)
     middle = line[len(line) // 2]
-    # A round body of marrow as bright as lumen, within bone, whose wall has a hole at the vessel.
+    # A sphere of marrow as bright as lumen inside bone, with a hole in the bone at the vessel.
     body = middle + np.array([11.5, 0.0, 0.0])
     scene.paint(body[None], 10.0, BONE)
     scene.paint(body[None], 8.6, LUMEN)
     scene.paint(line, 2.5, LUMEN)
     tree = trace_from(scene.volume(3), line[20])
     points = np.concatenate([vessel.points for vessel in tree])
-    # At the hole the line moves towards the marrow, by about the radius of the vessel.
+    # At the hole the line moves towards the marrow by about the vessel's radius.
     far = np.linalg.norm(line - middle, axis=1) > 16
     assert away(line[far][8:-8], points).max() < 1.0
     assert away(points, line).max() < 3.0

@@ -1,4 +1,4 @@
-"""DICOM segmentations as masks: placed by positions, segments by label, and what is refused by name."""
+"""DICOM segmentations as masks: placed by frame positions, named by segments, rejected with reasons."""
 
 import highdicom
 import numpy as np
@@ -18,7 +18,7 @@ from mask_scenes import tubes
 from segmentation_files import label_map, packed, segmentation
 
 NAMES = {1: "aorta", 7: "left renal artery"}
-#: Not a multiple of eight pixels in a frame: frames begin within a byte.
+#: The pixels of a frame are not a multiple of eight, so frames begin within a byte.
 SIZE = (29, 31, 24)
 AORTA = [[(9, 9, 5), (9, 9, 19)]]
 RENAL = [[(20, 20, 3), (20, 20, 16)]]
@@ -58,7 +58,7 @@ def scan(tmp_path_factory):
 
 
 def cut(mask):
-    """The slices of an array from the first to the last that are not empty."""
+    """Return the slices of an array from the first to the last non-empty one."""
     full = np.flatnonzero(mask.any(axis=(1, 2)))
     return mask[full[0] : full[-1] + 1]
 
@@ -273,7 +273,7 @@ def test_another_frame_of_reference_or_grid_is_refused_by_name(tmp_path, scan):
 
 
 def broken(name):
-    """A segmentation that is wrong in one way."""
+    """A segmentation with one error."""
     data = segmentation(masks(), NAMES)
     frames = data.PerFrameFunctionalGroupsSequence
     if name == "short":

@@ -52,7 +52,7 @@ MARKS = {
 
 
 def write_session(path, tree, view=VIEW, hidden=(), marks=None, fwhm=None, **more):
-    """Write a session file as the viewer does: markups with a field of their own."""
+    """Write a session file as the viewer does: markups with an additional field."""
     write_centerlines(tree, path)
     vessels = [
         {
@@ -84,7 +84,7 @@ def write_session(path, tree, view=VIEW, hidden=(), marks=None, fwhm=None, **mor
 
 
 def scan_of(volume, shift=0.0, every=1):
-    """The grid of a volume as the viewer saves it, moved along x (mm); of every second voxel for 2."""
+    """Return the grid of a volume as the viewer saves it, moved along x (mm); for 2, every second voxel."""
     rows = (volume.world_from_index * ([every] * 3 + [1])).tolist()
     rows[0][3] += shift
     return {"size": [-(-n // every) for n in volume.size], "world_from_index": rows}

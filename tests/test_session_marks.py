@@ -1,4 +1,4 @@
-"""What a reader marked in the viewer: no state that the page can save costs ``lumencut measure`` a vessel."""
+"""Marks of a reader in the viewer: whatever the page saved, ``lumencut measure`` measures all vessels."""
 
 import csv
 import json
@@ -13,7 +13,7 @@ from test_session_file import MARKS, write_session
 
 ECST = "ECST needs the assumed original diameter at that place."
 
-#: States that the page saves, by name: each is a place at 30 mm that was graded one way and then another.
+#: States that the page may save, by name: a place at 30 mm that was graded one way and then another.
 STATES = {
     "ECST, the original still empty": {"method": "ecst"},
     "an original given, then back to NASCET": {"original_mm": 8.0},
@@ -43,7 +43,7 @@ def narrow(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def graded(narrow, tmp_path_factory):
-    """What is told of the vessel in each state: the JSON of the vessel, the rows of its table, the words."""
+    """Return the results for the vessel in each state: JSON, rows of the table, and messages."""
     scene, volume = narrow
     told = {}
     for name, changes in STATES.items():

@@ -1,4 +1,4 @@
-"""Settings as a file: all of them come back, and what is wrong in a file is told with its name."""
+"""Settings as a file: all are read back, and errors name the faulty setting."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ POINTS = TransferFunction([(-50.5, (0, 0, 0), 0), (300, (255, 128, 0), 0.25), (3
 
 
 def other(name):
-    """A value of a setting that is not its default."""
+    """Return a value of a setting that differs from the default."""
     setting = _lumencut.SETTINGS[name]
     match setting.kind:
         case "flag":
@@ -77,7 +77,7 @@ def test_every_setting_survives(tmp_path, name):
         Settings(context_transfer="bone"),
         Settings(window="mra", context_window="full"),
         Settings(window="cta"),
-        # Other contexts than mida have no gamma, and chosen vessels need lumen first.
+        # Only mida has a gamma, and chosen vessels need `lumen_first`.
         Settings(
             **{name: other(name) for name in _lumencut.SETTINGS if name not in ("context", "lumen_first")}
         ),
@@ -170,7 +170,7 @@ def test_what_cannot_be_opened_is_a_file_error(tmp_path, name):
 
 @pytest.fixture
 def asked(monkeypatch, tmp_path):
-    """Runs ``lumencut render`` with more options, and returns the settings it asked for."""
+    """Return a function that runs ``lumencut render`` and returns the settings it used."""
     files = [str(write_volume(tmp_path / "ct.nii.gz")), str(write_lines(tmp_path / "lines.vtk"))]
     found = []
     original = Renderer.render

@@ -1,4 +1,4 @@
-"""What comes from the table of settings: the class, the page, the checks, which are made once."""
+"""Everything generated from the table of settings: the class, the page, and checks, made only once."""
 
 from __future__ import annotations
 
@@ -99,6 +99,6 @@ def test_settings_are_checked_when_they_are_made_and_not_when_they_are_used(monk
     renderer.cut_surface(camera, settings)
     renderer.render(camera, settings)
     assert counted == [settings]
-    # Where windows are open, the settings with those from the data are new ones.
+    # If windows are None, settings with windows from the data are new objects.
     renderer.render(camera, replace(settings, window=None))
     assert [made.window is None for made in counted] == [False, True, False]

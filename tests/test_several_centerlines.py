@@ -1,4 +1,4 @@
-"""Several centerline files as one tree, and vessels chosen out of it."""
+"""Several centerline files as one tree, and the choice among its vessels."""
 
 from __future__ import annotations
 
@@ -161,7 +161,7 @@ def test_files_that_cannot_be_read_are_named(tmp_path):
 
 @dataclass
 class Runs:
-    """Runs commands on a volume and three files of one vessel each."""
+    """Run commands on a volume and three files with one vessel each."""
 
     folder: Path
     volume: Path

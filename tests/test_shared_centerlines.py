@@ -1,4 +1,4 @@
-"""Every real centerline file of the shared data, against a plain reading of its text or by VTK."""
+"""Every centerline file of the shared data, compared with a simple parser of its text or with VTK."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from lumencut.centerlines import inspect_centerlines
 
 pytestmark = needs_shared_data
 
-#: Format, unit, vessels and points of the tree, whether all vessels have a radius.
+#: Format, unit, number of vessels and points of the tree, and whether all vessels have radii.
 FILES = {
     "centerlines/simvascular/aorta.pth": ("SimVascular path", "cm", 1, 316, False),
     "centerlines/simvascular/left-iliac.pth": ("SimVascular path", "cm", 1, 90, False),
@@ -45,7 +45,7 @@ FILES = {
         }.items()
     },
 }
-#: One point and no line: `test_centerline_files.py` refuses it.
+#: One point and no line: `test_centerline_files.py` checks that it is rejected.
 NO_CENTERLINE = "aorta-mra/aorta-centerline-referencesystem.vtp"
 POLY_DATA = sorted(
     name
@@ -55,7 +55,7 @@ POLY_DATA = sorted(
 
 
 def stated_points(path: Path) -> np.ndarray:
-    """All points of a file in mm and LPS, read in the plainest way that its format allows."""
+    """Return all points of a file in mm and LPS, read in the simplest way for its format."""
     if path.suffix == ".pth":
         places = re.findall(r'<pos x="([^"]+)" y="([^"]+)" z="([^"]+)"', path.read_text())
         return 10.0 * np.array(places, float)
@@ -76,7 +76,7 @@ def stated_points(path: Path) -> np.ndarray:
 
 
 def distances(points: np.ndarray, others: np.ndarray) -> np.ndarray:
-    """From each point to the nearest of the others."""
+    """Return the distance from each point to the nearest of the others."""
     return np.array([np.linalg.norm(others - point, axis=1).min() for point in points])
 
 
@@ -89,7 +89,7 @@ def test_a_file_holds_what_stands_in_its_text(name, caplog):
     assert (len(tree), len(tree.points)) == (report.vessels, report.points)
     if vessels is not None:
         assert (report.vessels, report.points) == (vessels, count)
-    # Ends that run closely along another line move onto it; all other points are those of the text.
+    # Ends that run closely along another line are moved onto it; all other points are those in the file.
     stated = stated_points(path)
     assert np.quantile(distances(tree.points, stated), 0.99) < 1e-9
     assert distances(tree.points, stated).max() < 0.5
@@ -112,14 +112,14 @@ def test_poly_data_hold_what_vtk_reads(name):
     assert all(vessel.radius is not None and (vessel.radius > 0).all() for vessel in tree)
     assert np.quantile(distances(tree.points, stated), 0.99) < 1e-9
     assert distances(tree.points, stated).max() < 0.5
-    # What ran along another line lies within a tenth of the radius of it, or half of it in one group.
+    # Points that ran along another line are within a tenth of its radius, or half of it in one group.
     assert distances(stated, tree.points).max() < 5.0
     assert np.quantile(distances(stated, tree.points), 0.9) < 0.5
 
 
 @pytest.mark.parametrize(("name", "vessels"), [("lca", 5), ("rca", 4), ("rca_short", 4)])
 def test_coronary_tables_have_no_vessel_across_the_heart(name, vessels):
-    """Their branches stand one behind the other, up to 112 mm apart."""
+    """Branches in these tables follow one after the other, with gaps of up to 112 mm."""
     tree = read_centerlines(SHARED_DATA / f"centerlines/multimodars/centerline_{name}.csv")
     steps = np.concatenate([np.linalg.norm(np.diff(vessel.points, axis=0), axis=1) for vessel in tree])
     assert steps.max() < 2.0

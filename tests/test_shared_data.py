@@ -1,4 +1,4 @@
-"""Every real volume of the shared data: its grid and all its voxels, or the refusal it deserves."""
+"""Every volume of the shared data: its grid and all voxels, or the right error."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ pytestmark = pytest.mark.skipif(
     not DATA.is_dir(), reason="the data folder ../shared/data is not beside the repository"
 )
 
-# Size, spacing, type, range and origin (LPS), as read once by SimpleITK and checked by hand.
+# Size, spacing, type, range and origin (LPS), once read by SimpleITK and checked by hand.
 VOLUMES = {
     "stent-cta/stent_cta.nii.gz": ((128, 128, 256), (1, 1, 1), "int16", (0, 2000), (0, 0, 0)),
     "stent-cta/stent_lumen_mask.nii.gz": ((128, 128, 256), (1, 1, 1), "uint8", (0, 1), (0, 0, 0)),
@@ -64,7 +64,7 @@ REFUSED = {
     "odd-volumes/ct_perfusion.nii.gz": "colour voxels; expected one integer or float .*; write one channel"
 }
 FOLDERS = ("dicom/ct-jpeg2000", "dicom/ct-missing-slices", "dicom/ct-gantry-tilt")
-# Lines and curves: the tests of centerlines read these.
+# Lines and curves, which the tests of centerlines read.
 ELSEWHERE = ("formats", "centerlines")
 LINES = (".vtp", ".vtk", ".json", ".swc", ".csv", ".txt", ".pth")
 TEXTS = ("README.md", "LICENSE")
@@ -124,12 +124,12 @@ def test_refused(name):
 
 @pytest.mark.parametrize("other", ["PSL", "RAS"])
 def test_permuted_and_flipped_axes_show_one_world(other):
-    """Each voxel of one file lies, with its value, on a voxel of the other."""
+    """Each voxel of one file coincides in position and value with a voxel of the other."""
     one, two = (read_volume(DATA / "odd-volumes" / f"{name}.nii.gz") for name in ("LPS", other))
     index = np.moveaxis(np.indices(one.size), 0, -1).reshape(-1, 3)
     world = index @ one.world_from_index[:3, :3].T + one.origin
     found = np.linalg.solve(two.world_from_index[:3, :3], (world - two.origin).T).T
-    # The files place the two within 0.01 mm of each other.
+    # The grids of both files differ by at most 0.01 mm.
     np.testing.assert_allclose(found, np.rint(found), atol=0.01)
     i, j, k = np.rint(found).astype(int).T
     np.testing.assert_array_equal(one.array[tuple(index.T[::-1])], two.array[k, j, i])

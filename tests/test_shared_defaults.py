@@ -1,4 +1,4 @@
-"""Defaults, and what methods are called, are decided once, below Python."""
+"""Defaults and names of methods are defined only once, below Python."""
 
 import inspect
 

@@ -1,4 +1,4 @@
-"""How wide silhouettes are in pictures: the same in mm with one sample of each pixel and with several."""
+"""The width of silhouettes in pictures: equal in mm for one sample per pixel and for several."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ import pytest
 from lumencut import Camera, Renderer, Settings, Vessel, VesselTree, Volume, Window
 
 SIZE = (80, 72)
-#: Pixel spacings and widths of lines there (mm): 1 mm, but 0.5 to 1.5 pixels (docs/method/surroundings.md).
+#: Pixel spacings, and line widths (mm): 1 mm, but at least 0.5 and at most 1.5 pixels.
 WIDTHS = [(0.4, 0.6), (0.8, 1.0), (1.0, 1.0), (1.6, 1.0), (3.0, 1.5)]
-#: How far widths may differ (pixels): rounding to 8 bits, in each of the few pixels across two lines.
+#: Allowed error of widths (pixels): rounding to 8 bits in the few pixels across two lines.
 ROUNDING = 0.02
 SETTINGS = Settings(
     context=None,
@@ -24,7 +24,7 @@ SETTINGS = Settings(
 
 
 def renderer(vessels, spacing):
-    """Vessels in a volume that is one white."""
+    """Vessels in a volume with one value, shown white."""
     voxel = 300 * spacing
     white = Volume(np.full((9, 9, 9), 1000, np.int16), spacing=(voxel,) * 3, origin=(-4 * voxel,) * 3)
     return Renderer(white, VesselTree(vessels))
@@ -37,7 +37,7 @@ def straight(middle, angle, spacing, radius):
 
 
 def covered(scene, spacing, samples):
-    """The part of each pixel that lines cover, (H, W)."""
+    """Return how much of each pixel is covered by lines, (H, W)."""
     camera = Camera((0, 0, 0), (0, 1, 0), (0, 0, 1), SIZE, spacing)
     image = scene.render(camera, Settings(**{**vars(SETTINGS), "samples": samples})).image
     assert (image[..., 3] == 255).all()
@@ -46,7 +46,7 @@ def covered(scene, spacing, samples):
 
 @pytest.mark.parametrize(("spacing", "width"), WIDTHS)
 def test_lines_along_the_rows_are_as_wide_with_one_sample_and_with_several(spacing, width):
-    """Each column crosses both borders of a tube that lies before a far larger one."""
+    """Each column crosses both borders of a tube in front of a much larger one."""
     near, far = ((0, 0, 0), 10 * spacing), ((0, 250 * spacing, 0), 90 * spacing)
     scene = renderer([straight(middle, 0, spacing, radius) for middle, radius in (near, far)], spacing)
     for samples in (1, 2, 3):
@@ -57,7 +57,7 @@ def test_lines_along_the_rows_are_as_wide_with_one_sample_and_with_several(spaci
 @pytest.mark.parametrize("degrees", [10, 30, 45])
 @pytest.mark.parametrize(("spacing", "width"), WIDTHS)
 def test_inclined_lines_are_as_wide_with_one_sample_and_with_several(spacing, width, degrees):
-    """Pixels step along the border between two surroundings, which the 12 % allow for."""
+    """The border between two zones has steps of one pixel; the 12 % allow for them."""
     angle = np.radians(degrees)
     aside = 500 * spacing * np.array([-np.sin(angle), 0, np.cos(angle)])
     middles = (aside, [0, 30 * spacing, 0] - aside)

@@ -1,4 +1,4 @@
-"""Segmentations of 3D Slicer, and masks of a part of the scan: places, names, choices and refusals."""
+"""Segmentations of 3D Slicer, and masks that cover part of a scan: positions, names, choices, errors."""
 
 import gzip
 
@@ -19,7 +19,7 @@ RAS = np.diag([-1.0, -1.0, 1.0, 1.0])
 
 
 def two_tubes():
-    """Labels (i, j, k): 1 along k at (10, 9), 2 along k at (24, 20) above slice 12; oblique on purpose."""
+    """Labels (i, j, k) on an oblique grid: 1 along k at (10, 9), 2 along k at (24, 20) above slice 12."""
     i, j, k = np.indices(SIZE)
     labels = (np.hypot(i - 10, j - 9) < 3.6).astype(np.uint8)
     labels[(np.hypot(i - 24, j - 20) < 3.2) & (k > 12)] = 2
@@ -90,7 +90,7 @@ def test_a_cropped_segmentation_is_placed_by_its_own_grid(tmp_path, space, affin
     cut = box(labels)
     whole = read_volume(save_seg(tmp_path / "whole.seg.nrrd", labels, affine, NAMED))
     moved = cropped_to(affine, cut)
-    # The axes in another order, the first of them the other way round.
+    # The axes in another order, the first of them reversed.
     part = labels[cut].transpose(axes)[::-1]
     turned = moved[:, [*axes, 3]]
     turned[:3, 3] += turned[:3, 0] * (part.shape[0] - 1)
@@ -101,7 +101,7 @@ def test_a_cropped_segmentation_is_placed_by_its_own_grid(tmp_path, space, affin
     tree = trace_mask(mask, volume)
     assert sorted(points_of(tree)) == ["aorta", "iliac artery"]
     assert_same_lines(tree, trace_mask(whole, volume))
-    # The truth: axes of the tubes, to a fifth of a voxel.
+    # The true axes of the tubes, to a fifth of a voxel.
     for name, place in (("aorta", (10, 9)), ("iliac artery", (24, 20))):
         index = (np.linalg.inv(affine) @ np.c_[points_of(tree)[name], np.ones(len(points_of(tree)[name]))].T)[
             :2
@@ -142,7 +142,7 @@ def test_other_masks_of_a_part_are_placed_too_and_say_so(tmp_path, end):
 
 
 def overlapping():
-    """Two layers: all of the first tube, and its upper half once more as a stent."""
+    """Two layers: the complete first tube, and its upper half as a stent."""
     first = (two_tubes() == 1).astype(np.uint8)
     stent = first.copy()
     stent[:, :, :22] = 0
@@ -180,7 +180,7 @@ def test_layers_that_do_not_overlap_are_one_label_map(tmp_path):
     np.testing.assert_array_equal(read.array.T, layers.sum(axis=0))
     np.testing.assert_allclose(read.world_from_index, affine, atol=1e-9)
     assert sorted(points_of(trace_mask(read, scan(affine)))) == ["aorta", "vein"]
-    # A layer may hold several segments, of which one is chosen.
+    # A layer may hold several segments; one of them is chosen.
     path = save_seg(tmp_path / "y.seg.nrrd", labels, affine, NAMED)
     np.testing.assert_array_equal(read_volume(path, segments=[2]).array.T, 2 * (labels == 2))
 

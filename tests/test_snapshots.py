@@ -1,6 +1,6 @@
-"""Small pictures that must stay as they are, and the comparer that would notice if they did not.
+"""Small pictures that must not change, and tests that the comparison would notice a change.
 
-A picture that changes on purpose is written anew with ``LUMENCUT_WRITE_SNAPSHOTS=1`` and looked at.
+After an intended change write them again with ``LUMENCUT_WRITE_SNAPSHOTS=1`` and look at them.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ from lumencut import Camera, Opacity, Renderer, Settings, Slab, TransferFunction
 
 SNAPSHOTS = Path(__file__).parent / "snapshots"
 
-#: A rounding step of one grey value may differ on another platform; more may not, and not in many pixels.
+#: On other platforms a few pixels may differ by one grey value, due to rounding.
 TOLERANCE, PIXELS = 1.0, 4
 
-#: Pictures of the cut surface alone, and two with what is behind it. Those named after the paper are its own.
+#: Without context, and with context. Pictures with "paper" in their names use the paper's rules.
 BARE, GRADED = Settings(context=None), Settings(context_window=Window(350.0, 900.0))
 
 SCENES = {

@@ -1,4 +1,4 @@
-"""Whether a volume's source states spacing and orientation: only then do labels name sides and mm."""
+"""Whether a volume's source states spacing and orientation: otherwise labels have no sides or no mm."""
 
 from __future__ import annotations
 
@@ -70,7 +70,7 @@ FLIPPED = np.diag([-1.0, 1.0, 1.0, 1.0])
     [
         (2, 0, "mm", (True, True)),
         (0, 1, "mm", (True, True)),
-        # Placed without a unit: mm by convention.
+        # A position without a unit: mm by convention.
         (2, 0, "unknown", (True, True)),
         (0, 0, "mm", (True, False)),
         (0, 0, "unknown", (False, False)),
@@ -136,7 +136,7 @@ def test_nrrd(tmp_path, fields, expected):
             (True, True),
         ),
         ("AnatomicalOrientation = ???\nTransformMatrix = 1 0 0 0 1 0 0 0 1", (False, True)),
-        # Two orientations are none that can be relied on.
+        # Two different orientations are unreliable.
         ("AnatomicalOrientation = LAI\nTransformMatrix = 1 0 0 0 1 0 0 0 1", (False, False)),
         ("AnatomicalOrientation = LAI", (False, False)),
     ],
@@ -167,7 +167,7 @@ def test_simpleitk(grid, expected):
 
 
 class StandInImage:
-    """The part of an itk image that is used, for machines without the package."""
+    """A class with the used part of an itk image, for machines without that package."""
 
     __module__ = "itk.itkImagePython"
 

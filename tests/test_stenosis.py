@@ -1,4 +1,4 @@
-"""Stenoses, lengths and angles on vessels whose truth is known, and what is refused."""
+"""Stenoses, lengths and angles on known vessels, and errors."""
 
 import numpy as np
 import pytest
@@ -92,7 +92,7 @@ def test_nascet_is_refused_at_a_near_occlusion(half):
     assert half.stenosis(30, 45, comparison=5.5).percent > 40
     with pytest.raises(MeasuringError, match="near-occlusion"):
         half.stenosis(30, 45, comparison=6.0)
-    # ... and where the vessel is less than half as wide as before the stenosis.
+    # ... and if the vessel is less than half as wide as before the stenosis.
     grid = Grid.even((0.5, 0.5, 0.5), (15, 15, 64))
     x, y, z = grid.points(1)
     radius = np.where(z < -2, 3.0, np.where(z < 2, 0.9, 1.3))
@@ -173,7 +173,7 @@ def test_c_arms_see_a_stretch_in_its_whole_length(bent):
         )
         assert towards @ bent.direction(2, 16) == pytest.approx(0, abs=1e-9)
         assert lao is None or arm.lao == pytest.approx(lao)
-    # From the front this stretch is seen in its whole length already.
+    # From the front this stretch has its full length.
     assert str(bent.c_arm(2, 16)).startswith(("LAO 0°", "RAO 0°", "LAO 1°", "RAO 1°"))
 
 
@@ -197,7 +197,7 @@ BETWEEN = "A branch lies between the place and a reference: beyond it a vessel m
 
 @pytest.fixture(scope="module")
 def past_a_junction() -> Profile:
-    """A trunk of 10.6 mm that becomes a narrower branch 30 mm from its beginning."""
+    """A trunk of 10.6 mm that becomes a narrower branch 30 mm from its start."""
     scene = phantom.y_junction()
     return measure(scene.volume, scene.tree.path([0, 1]), tree=scene.tree)
 

@@ -1,4 +1,4 @@
-"""The sides that files of a straightened volume state, against ramps that know where every voxel lies."""
+"""The sides stated in files of a straightened volume, checked with volumes whose values are coordinates."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ramp_scenes import ramp_volumes
 from test_cli_dicom import run
 
 #: Directions (LPS) of straight vessels, with the letters of i, j and k of the straightened volume.
-#: The scan of the ramps lies elsewhere than the study that its results are written into.
+#: The volumes lie elsewhere than the study into which the results are written.
 pytestmark = pytest.mark.filterwarnings("ignore::lumencut.errors.StudyWarning")
 
 ALONG = {
@@ -77,7 +77,7 @@ READERS = {"a.nrrd": by_pynrrd, "a.nii": by_nibabel, "a.nii.gz": by_nibabel, "se
 
 
 def true_from_stated(ramps, vessel, folder, name, sections=slice(None), **how):
-    """How true places change with those that a file states, (3, 3), and the letters that it states."""
+    """Return how true positions change with those stated in a file, (3, 3), and the stated side letters."""
     true = []
     for axis, ramp in enumerate(ramps):
         made = straightened_volume(ramp, vessel, 16, 1.0, **how)
@@ -91,7 +91,7 @@ def true_from_stated(ramps, vessel, folder, name, sections=slice(None), **how):
     )
     stated = index @ affine[:3, :3].T + affine[:3, 3]
     known = np.isfinite(true).all(axis=0)
-    # Lumencut reads the same from its own file.
+    # Lumencut reads the same from the file that it wrote.
     own = lumencut.read_volume(path)
     inner = stated[known][::97]
     np.testing.assert_allclose(own.sample(inner), true[-1][known][::97], atol=0.01)
@@ -109,7 +109,7 @@ def test_a_stated_side_is_the_true_side(ramps, tmp_path, way, name):
     along, letters = ALONG[way]
     turn, stated = true_from_stated(ramps, straight(along), tmp_path, name)
     assert stated == letters
-    # A turn, and no mirror image, under which every stated side is the true one.
+    # A rotation without reflection maps every stated side to the true side.
     np.testing.assert_allclose(turn @ turn.T, np.eye(3), atol=0.01)
     assert np.linalg.det(turn) > 0
     assert np.diag(turn).min() > np.cos(np.radians(50))
@@ -140,7 +140,7 @@ def test_places_are_those_of_the_ramps(ramps):
         expected = np.stack([one.volume.array[tuple(index.T[::-1])] for one in made], axis=1)
         np.testing.assert_allclose(made[0].world_from_index(index), expected, atol=1e-4)
         np.testing.assert_allclose(made[0].index_from_world(expected), index, atol=1e-3)
-        # In the coordinates of the file the vessel begins at the origin.
+        # In the file's coordinates the vessel begins at the origin.
         np.testing.assert_allclose(made[0].volume.world_from_index @ [4, 4, 0, 1], [0, 0, 0, 1], atol=1e-9)
 
 

@@ -1,4 +1,4 @@
-"""Results of a scan in a chosen study: another patient is refused by ID, what else differs is a warning."""
+"""Results in a chosen study: another PatientID is rejected; other differences cause a warning."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ WIDTH, TALL = (96, 64), "96x64"
 
 @pytest.fixture(scope="module")
 def studies(tmp_path_factory):
-    """A maker of folders of the phantom's series with other values in all of their headers."""
+    """Return a function that writes the phantom's series with other values in all headers."""
     place = tmp_path_factory.mktemp("studies")
 
     def made(**values):
@@ -50,7 +50,7 @@ def studies(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def outputs():
-    """Everything that takes a study, by the name of the file that it writes."""
+    """Functions that write into a study, by the name of the file that they write."""
     camera = lumencut.Camera.anterior(LINE, WIDTH)
     frame = lumencut.render(scan(), LINE, camera, settings=SETTINGS)
     profile = lumencut.measure(scan(), LINE[0])
@@ -65,7 +65,7 @@ def outputs():
 
 
 def of_study(made, path, **how):
-    """One object that a function of `outputs` wrote."""
+    """Return one object that a function of `outputs` wrote."""
     made(path, **how)
     return pydicom.dcmread(path if path.is_file() else next(path.iterdir()))
 
@@ -94,10 +94,10 @@ def test_a_follow_up_is_a_warning_that_names_both_studies(outputs, studies, tmp_
     for told in (scan()._study.text("StudyInstanceUID"), "20260101", "1.2.9", "20260505", "same patient"):
         assert told in words
     assert "DOE" not in words
-    # The line of whoever saves is named.
+    # The warning names the line of the user.
     assert {one.filename for one in caught} == {__file__}
     assert (data.StudyInstanceUID, data.PatientName) == ("1.2.9", "DOE^JANE")
-    # The images of the other study are no sources of what the scan shows.
+    # The images of the other study are not sources, since the picture does not show them.
     assert "SourceImageSequence" not in data
 
 

@@ -1,4 +1,4 @@
-"""Cells of CSV that come from names: no spreadsheet runs them, and they are read back unchanged."""
+"""Cells of CSV made from names: no spreadsheet runs them, and reading gives the original names."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ PLAIN = ["", "LAD", "-1", "+2.5", "-1.5e-3", "a=b", "'LAD", "'", " =1", "Arteria
 
 
 def cells(text):
-    """The cells as a spreadsheet has them."""
+    """Return the cells as a spreadsheet shows them."""
     return list(csv.reader(io.StringIO(text, newline="")))
 
 

@@ -25,7 +25,7 @@ def test_it_is_cr_of_one_vessel_without_a_threshold():
             volume, VesselTree([line]), camera, Settings(window=made.settings.window), arc_threshold=1e6
         )
         apart = np.linalg.norm(made.position - frame.position, axis=-1)
-        # Of places that are equally near but for rounding each may be shown.
+        # If two places are equally near within rounding, either may be shown.
         assert (apart > 1e-3).sum() <= 2
         seen = ~np.isnan(made.value) & (apart <= 1e-3)
         assert np.abs(made.value - frame.value)[seen].mean() < 1

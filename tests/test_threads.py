@@ -1,4 +1,4 @@
-"""Renderers beside other threads of Python, and Ctrl-C."""
+"""Renderers next to other threads of Python, and Ctrl-C."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from lumencut import Camera, Renderer, Settings, Vessel, VesselTree
 from scenes import wandering
 
 FINEST = Settings(levels=0, depth_filter=False)
-#: How often another thread must have found the rendering going on before it raises the signal.
+#: How often another thread must run during the rendering before it sends the signal.
 LOOKS = 5
 
 
@@ -32,7 +32,7 @@ def test_ctrl_c_ends_a_rendering_and_the_renderer_goes_on():
     main, ended, looks = threading.get_ident(), threading.Event(), []
 
     def interrupt_once_it_runs():
-        # This thread goes on only if the rendering lets other threads of Python run.
+        # This thread runs only if the rendering lets other threads of Python run.
         while len(looks) < LOOKS and not ended.wait(0.02):
             if sys._current_frames()[main].f_code.co_name == "cut_surface":
                 looks.append(True)
@@ -73,7 +73,7 @@ for frame, other in zip(found, expected * 20, strict=True):
 
 
 def test_threads_may_share_a_renderer():
-    # In a process of its own, so that threads which wait for each other forever fail the test.
+    # In a separate process, so that a deadlock of threads fails the test.
     subprocess.run([sys.executable, "-c", SHARED], check=True, timeout=120)
 
 

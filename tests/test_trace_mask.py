@@ -55,7 +55,7 @@ def test_pieces_and_cycles_of_random_masks_stay():
         pieces, wanted = betti(mask)
         tree = trace_mask(mask, shortest_branch=0)
         found = betti_of(tree)
-        # A piece without a line, round or a single voxel, is left out and told.
+        # A piece without a line, such as a sphere or a single voxel, is left out with a note.
         assert found[1] == wanted
         left_out = next((int(note.split()[0]) for note in tree.notes if "left out" in note), 0)
         assert found[0] + left_out == pieces
@@ -120,7 +120,7 @@ def test_a_flat_cut_leaves_no_fork():
 
 @pytest.fixture(scope="module")
 def star():
-    """Five arms that meet."""
+    """Five arms that meet at one point."""
     return tubes([*CROSS, [(20, 20, 20), (31, 27, 35)]], 2.6)
 
 
@@ -137,7 +137,7 @@ def test_the_storage_of_the_axes_does_not_matter(star, axes):
         assert stored.points == pytest.approx(vessel.points, abs=1e-9)
         assert stored.radius == pytest.approx(vessel.radius, abs=1e-9)
         back = mirrored.points @ turned[:3, :3].T + turned[:3, 3]
-        # A mirror image rounds otherwise: where a ray only just grazes the wall it may end elsewhere.
+        # A mirror image rounds differently: a ray that barely touches the wall may end elsewhere.
         assert back == pytest.approx(vessel.points, abs=0.01)
 
 
@@ -189,7 +189,7 @@ def test_phantoms_in_their_middle(name):
     assert found.false_length == 0
 
 
-# In larger voxels arteries of the aorta would touch; those of the neck do not. The bounds are in voxels.
+# In larger voxels arteries of the aorta would touch, those of the neck do not. Bounds are in voxels.
 @pytest.mark.parametrize(("name", "scale", "cycles"), [("aorta", 1.0, 0), ("cervical", 0.7, 5)])
 def test_workloads_in_their_middle(name, scale, cycles):
     made = getattr(phantom, name)(scale=scale)

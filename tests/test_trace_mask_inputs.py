@@ -1,4 +1,4 @@
-"""Masks as they come: labels, gaps, borders, odd types and grids, interruption, and the command line."""
+"""Masks as given by users: labels, gaps, borders, odd types and grids, interruption, the command line."""
 
 import nibabel
 import numpy as np
@@ -87,7 +87,7 @@ def test_a_gap_leads_to_the_wall_of_a_vessel_that_goes_on():
     tree = trace_mask(Volume(array), bridge=5)
     (gap,) = tree.gaps
     assert gap.width == pytest.approx(4.3, abs=0.6)
-    # The bridge goes on to the centerline, where it ends in one of its points.
+    # The bridge continues to a point of the centerline.
     bridge = tree[2]
     assert any((vessel.points == bridge.points[-1]).all(axis=1).any() for vessel in tree[:2])
 

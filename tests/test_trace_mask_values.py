@@ -1,4 +1,4 @@
-"""Masks with a volume: the grey values move the lines to the true middle and tell the true radius."""
+"""Masks with a volume: grey values move the lines to the true middle and give the true radius."""
 
 import numpy as np
 import pytest
@@ -23,7 +23,7 @@ def blurred_tube(start, end, radius, lumen=400.0, tissue=60.0, shape=(30, 32, 60
 
 
 def shifted_mask(shift):
-    """A mask of the tube that lies beside its lumen by `shift` (mm)."""
+    """Return a mask of the tube, moved sideways by `shift` (mm)."""
     vessel = Vessel(np.stack([START, END]) + shift, RADIUS)
     return lumen_mask(VesselTree([vessel]), Volume(np.zeros((30, 32, 60), np.int16)))
 
@@ -87,5 +87,5 @@ def test_vessels_that_meet_still_share_their_ends():
     for vessel in traced:
         steps = np.linalg.norm(np.diff(vessel.points, axis=0), axis=1)
         assert steps.max() <= 0.5 + 1e-9
-        # Where vessels meet, and at the caps, a cross-section is not that of the tube.
+        # Where vessels meet, and at their ends, a cross-section is not a circle of the tube.
         assert vessel.radius[12:-8] == pytest.approx(2.6, abs=0.3)

@@ -1,4 +1,4 @@
-"""Centerlines from clicks against vessels whose centerlines are known."""
+"""Centerlines from clicks, in vessels with known centerlines."""
 
 import numpy as np
 import pytest
@@ -24,7 +24,7 @@ from trace_scenes import (
 
 
 def painted(line, radius, *, spacing=0.6, value=LUMEN, seed=1, before=None, after=None, background=TISSUE):
-    """A volume of one vessel, with what `before` and `after` paint into the scene."""
+    """Return a volume of one vessel; `before` and `after` paint more into the scene."""
     scene = Scene(room(line, spacing), (spacing,) * 3)
     scene.values[:] = background
     if before:
@@ -80,7 +80,7 @@ def test_clicks_off_the_middle_move_the_line_by_less_than_a_tenth_of_a_millimetr
         clicks.append(line[n] + 0.7 * radius[n] * across / np.linalg.norm(across))
     (central,) = trace(volume, [line[5], line[-6]])
     (vessel,) = trace(volume, clicks)
-    # Points that lie beyond the other line's end in its direction are no nearer to it.
+    # Points beyond the end of the other line do not count as near to it.
     assert away(vessel.points[3:-3], central.points).max() < 0.1
     assert away(vessel.points[3:-3], line).max() < 0.1
 
@@ -151,7 +151,7 @@ def test_the_orientation_of_the_grid_changes_nothing(short):
 
 
 def _flipped(affine, array):
-    """The affine of an array whose k runs the other way."""
+    """Return the affine of an array with reversed k."""
     flip = np.eye(4)
     flip[2, 2], flip[2, 3] = -1, len(array) - 1
     return affine @ flip
@@ -234,7 +234,7 @@ def test_a_stopper_forbids_a_place():
     tracer = Tracer(volume)
     for click in clicks:
         tracer.add(click)
-    # A loop of two vessels: the line takes the other one where one is forbidden.
+    # A loop of two vessels: if one is blocked, the line takes the other.
     taken = way if away(tracer.tree[0].points, way).max() < 1 else other
     stopper = tracer.stop(taken[100], radius=4.0)
     left = other if taken is way else way
@@ -257,7 +257,7 @@ def test_an_occlusion_is_bridged_only_where_that_is_asked_for():
     assert vessel.bridged[middle < 4].all()
     assert not vessel.bridged[middle > 8].any()
     assert (vessel.confidence[vessel.bridged] == 0).all()
-    # The bridge is straight, the vessel was not.
+    # The bridge is straight, but the vessel was not.
     assert away(vessel.points, line).max() < 2.0
 
 

@@ -1,4 +1,4 @@
-"""What tracing says to points that lie in no lumen, or that no lumen connects."""
+"""Errors of tracing for points outside lumen, and for points that no lumen connects."""
 
 import re
 import signal
@@ -13,7 +13,7 @@ from trace_scenes import BONE, FAT, LUMEN, Scene, arc, away, beside, room
 
 @pytest.fixture(scope="module")
 def scene():
-    """A vessel in fat with a muscle, an air bubble and a bone beside it, and another vessel apart from it."""
+    """A vessel in fat next to a muscle, an air bubble and a bone, and a separate second vessel."""
     line = arc(60)
     made = Scene(room(line, 0.6, 18), (0.6,) * 3)
     made.values[:] = FAT
@@ -53,7 +53,7 @@ def test_a_click_beside_the_lumen_is_told_what_it_hit_and_where_lumen_is(scene, 
 
 @pytest.fixture(scope="module")
 def without_air():
-    """A vessel beside muscle, an air bubble, a bone and weakly enhanced tissue; no voxels of fat around."""
+    """A vessel next to muscle, an air bubble, a bone and weakly enhanced tissue; without fat."""
     line = arc(60)
     made = Scene(room(line, 0.6, 18), (0.6,) * 3)
     for angle, value in ((0.5, 80.0), (1.75, 0.0), (3.0, 1600.0), (4.5, 110.0)):
@@ -110,7 +110,7 @@ def test_vessels_that_do_not_meet_are_never_joined_by_a_straight_line(scene):
         trace(volume, [line[5], other[-8]])
     text = str(raised.value)
     length = float(re.search(r"found ([\d.]+) mm between them", text)[1])
-    # The vessels are 13 mm apart, with 2.5 mm of lumen on both sides.
+    # The vessels are 13 mm apart; each end of this path has 2.5 mm of lumen.
     assert 7 < length < 11
     x, y, z, value = re.search(
         r"least at \((.*?), (.*?), (.*?)\) mm, where the volume has (-?\d+)", text
@@ -227,7 +227,7 @@ def test_voxels_that_are_no_numbers_are_no_lumen():
 def test_ctrl_c_ends_the_tracing():
     volume = Volume(np.full((260, 260, 260), 300, dtype=np.int16))
     array = np.array(volume.array)
-    # A maze of lumen without an end: the front has much to do.
+    # An endless maze of lumen, which keeps the search busy.
     array[::6] = -100
     array[:, ::40, ::40] = 300
     volume = Volume(array)

@@ -1,4 +1,4 @@
-"""Vessels of one tree tell each other of the level of their walls."""
+"""Vessels of one tree share the estimated level of their walls."""
 
 from collections.abc import Sequence
 
@@ -8,7 +8,7 @@ import pytest
 from calibration_scenes import MUSCLE, Scene, tree_of
 from lumencut import Profile, Vessel, VesselTree, Volume, measure
 
-#: Walls of 0 HU are far from what is expected; the narrowest lumen tells little of its own by itself.
+#: Walls of 0 HU differ much from the expected level; the narrowest vessel alone says little about its wall.
 DIAMETERS = (5.0, 4.0, 1.8)
 
 

@@ -1,4 +1,4 @@
-"""Sides, places and angles of whatever is written, against ramps that know where every pixel truly lies."""
+"""Sides, positions and angles in all outputs, checked with volumes whose values are coordinates."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ from lumencut.orientation import c_arm_angles, view_name
 from lumencut.turntables import turntable
 from ramp_scenes import letters_of, oblique, ramp_volumes
 
-#: The scan of the ramps lies elsewhere than the study that its results are written into.
+#: The volumes lie elsewhere than the study into which the results are written.
 pytestmark = pytest.mark.filterwarnings("ignore::lumencut.errors.StudyWarning")
 
 BARE = Settings(context=None, silhouettes=False, window=Window(1000, 10))
-#: Views by the angles of a C-arm (degrees) and a turn of the picture.
+#: Views by C-arm angles (degrees), and by a rotation of the picture.
 VIEWS = [
     (0, 0, 0),
     (90, 0, 0),
@@ -39,31 +39,31 @@ VIEWS = [
 
 
 def viewed(lao, cranial, turned=0, size=(240, 240)):
-    """The view of a C-arm, by its definition: from the patient's left and from the head above 0."""
+    """Return the view of a C-arm by its definition: angles above 0 are from the patient's left and head."""
     lao, cranial = math.radians(lao), math.radians(cranial)
     viewer = np.array(
         [math.sin(lao) * math.cos(cranial), -math.cos(lao) * math.cos(cranial), math.sin(cranial)]
     )
     up = np.array([-math.sin(lao) * math.sin(cranial), math.cos(lao) * math.sin(cranial), math.cos(cranial)])
-    # The head moves counterclockwise in the picture where what is on top moves clockwise.
+    # If the top of the camera turns clockwise, the head moves counterclockwise in the picture.
     right = np.cross(-viewer, up)
     top = math.cos(math.radians(turned)) * up + math.sin(math.radians(turned)) * right
     return Camera((0, 0, 0), -viewer, top, size, 0.25)
 
 
 def within(camera):
-    """A straight vessel in the plane of a view, oblique in it: its cut surface is that plane."""
+    """Return a straight vessel in the plane of a view, oblique in it: its cut surface is this plane."""
     way = camera.right_axis + 2 * camera.up
     return VesselTree([Vessel(np.linspace(-24, 24, 25)[:, None] * way / np.linalg.norm(way), 3.0)])
 
 
 def shown(make):
-    """What a picture of each ramp shows: the true place of every pixel, (H, W, 3)."""
+    """Return the true position of every pixel, shown by a picture of each volume, (H, W, 3)."""
     return np.stack([make(volume).value for volume in ramp_volumes()], axis=-1)
 
 
 def steps(places):
-    """How true places change along rows and down columns of a picture, in the mean, two of (3,)."""
+    """Return the mean change of true positions along rows and down columns, two arrays of shape (3,)."""
     return [np.nanmean(np.diff(places, axis=axis), axis=(0, 1)) for axis in (1, 0)]
 
 
@@ -91,14 +91,14 @@ def test_a_view_states_its_true_sides_and_angles(view, tmp_path):
 
 
 def angles_of(name):
-    """LAO, cranial and the turn of the picture (degrees) that the name of a view says."""
+    """Return LAO, cranial and rotation (degrees) from the name of a view."""
     known = {
         "anterior": (0, 0), "posterior": (180, 0), "left": (90, 0), "right": (-90, 0),
         "superior": (0, 90), "inferior": (0, -90),
     }  # fmt: skip
     found = {word: float(number) for word, number in re.findall(r"(LAO|RAO|CRA|CAU|turned) (-?\d+)", name)}
     word = name.split()[0]
-    # The picture from above has the front on top, that of a C-arm there the back.
+    # The picture from above has the front on top; a C-arm view from there has the back on top.
     turned = found.get("turned", 0) + (180 if word == "superior" else 0)
     if word in known:
         return *known[word], turned
@@ -160,7 +160,7 @@ MADE = {
 
 
 def flat(ahead):
-    """What leaves out of a vector its part along a direction."""
+    """Return a vector without its part along a direction."""
     ahead = np.array(ahead) / np.linalg.norm(ahead)
     return np.eye(3) - np.outer(ahead, ahead)
 
@@ -191,7 +191,7 @@ def test_a_reformation_states_true_places_and_only_true_sides(name, tmp_path):
         assert letters[edges[0]] == letters[edges[1]].translate(OPPOSITE)
         ways = np.diff(places, axis=axis)
         ways = ways[np.isfinite(ways).all(axis=-1)]
-        # As they are seen: a camera, or a projected CPR, leaves out how far they are.
+        # A camera or a projected CPR cannot show distances along the view, so they are left out.
         seen = ways @ SEEN[name] if name in SEEN else ways
         assert {letters_of(way) for way in seen[:: max(len(seen) // 500, 1)]} == {letters[edges[1]]}
         if stated:
@@ -228,7 +228,7 @@ def test_centerlines_are_written_where_they_lie(ending, tmp_path):
 
 
 def tube():
-    """A tube of 3 mm radius about the bow, on the oblique grid."""
+    """A tube of 3 mm radius around the bow, on the oblique grid."""
     affine, size = oblique(), ramp_volumes()[0].size[0]
     index = np.stack(np.meshgrid(*[np.arange(size)] * 3, indexing="ij"), axis=-1)
     world = (index @ affine[:3, :3].T + affine[:3, 3]).reshape(-1, 3)
@@ -308,7 +308,7 @@ def test_info_names_each_axis_of_the_patient_once():
             [np.eye(3)["RLAPIS".index(one) // 2] * (1 if one in "LPS" else -1) for one in letters]
         )
         assert np.sign(np.linalg.det(sides)) == np.sign(np.linalg.det(turn))
-        # Where the grid is not far from the axes nibabel says the same.
+        # If the grid is nearly axis-aligned, nibabel says the same.
         if (np.abs(turn).max(axis=0) > 0.9).all():
             assert letters == "".join(nibabel.aff2axcodes(np.diag([-1, -1, 1, 1]) @ affine))
 
@@ -338,6 +338,6 @@ def test_traced_lines_lie_in_their_vessel(found):
         tree = lumencut.trace_mask(Volume(scan.array > 200, world_from_index=scan.world_from_index))
     assert sum(vessel.length for vessel in tree) > 40
     away = np.linalg.norm(tree.points[:, None] - bow().points, axis=2).min(axis=1)
-    # A line through a mask goes on to the end of its tube, which is round.
+    # A line through a mask continues to the round end of its tube.
     assert np.quantile(away, 0.75) < 0.8
     assert away.max() < 3.5

@@ -1,4 +1,4 @@
-"""Turntables: the views of a turn, and the files it is written to."""
+"""Turntables: the views of a turn, and the files into which it is written."""
 
 import errno
 import sys
@@ -113,7 +113,7 @@ def test_a_single_frame_is_an_animation_too(renderer, tmp_path):
 
 
 def two_alive(frames):
-    """Passes frames on, of which the receiver may keep the one before."""
+    """Yield frames; the receiver may keep only the previous one."""
     alive = []
     for frame in frames:
         alive.append(weakref.ref(frame.image))
@@ -221,7 +221,7 @@ def test_a_video_without_its_package_names_the_extra(tmp_path, monkeypatch):
 
 
 class FakeVideo:
-    """Stands in for the package av: writes the size of each frame into the file."""
+    """Replaces the package av: writes the size of each frame into the file."""
 
     def __init__(self):
         self.VideoFrame = SimpleNamespace(from_ndarray=lambda array, **how: (array.shape, how["format"]))

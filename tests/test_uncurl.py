@@ -42,7 +42,7 @@ def test_at_0_it_is_the_tangential_cpr():
 def test_at_1_it_is_the_straightened_cpr():
     made = uncurl(noise(), wave(), VIEW, 1.0)
     own = cpr(noise(), wave(), "straightened", 40, 0.5, normal=-np.array(VIEW.direction))
-    # The middle of the vessel lies in the middle of the image: half of it is no whole number of pixels.
+    # The middle of the vessel is the middle of the image; half its length is no whole number of pixels.
     height = own.arc_length[-1] / 2 if own.arc_length[-1] == wave().length else wave().length / 2
     rows = 80 - height / 0.5 + np.arange(own.size[1])
     i, j = np.meshgrid(np.arange(own.size[0]), np.arange(own.size[1]))

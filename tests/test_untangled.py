@@ -1,4 +1,4 @@
-"""Untangled CPR in Python and on the command line: what it shows, its labels, its files and its refusals."""
+"""Untangled CPR from Python and the command line: its picture, labels, files and errors."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from lumencut.cli import main
 from lumencut.reformation_recipe import read_reformation_recipe
 from scene_files import write_volume_of
 
-#: Voxels of 1.5 mm whose value is their place along x, y or z (mm) plus a thousand.
+#: Voxels of 1.5 mm whose value is their x, y or z (mm) plus a thousand.
 _SHAPE, _SPACING = (80, 60, 60), 1.5
 
 
 def _volume(axis: int) -> lumencut.Volume:
-    """A volume whose values tell where its voxels are along an axis (0: x)."""
+    """Return a volume whose values are coordinates along an axis (0: x)."""
     k, j, i = np.indices(_SHAPE)
     place = (i - 30.0, j - 30.0, k - 60.0)[axis] * _SPACING
     return lumencut.Volume(
@@ -36,7 +36,7 @@ def _line(*points: tuple[float, float, float]) -> npt.NDArray[np.float64]:
 
 
 def _fork() -> lumencut.VesselTree:
-    """A trunk, and two branches that lie before one another seen from the front."""
+    """A trunk with two branches; seen from the front, one branch hides the other."""
     return lumencut.VesselTree(
         [
             lumencut.Vessel(_line((0, 0, 20), (0, 0, -10)), 3.0, "trunk"),
@@ -119,7 +119,7 @@ def test_a_ring_is_cut_open_and_both_places_bear_a_letter() -> None:
     )
     made = lumencut.untangled(_volume(0), ring, pixel_spacing=0.4)
     assert len(made.closures) == 1
-    # Both are the place (0, 0, -10), of which the second one shows more than the end of a line.
+    # Both are the point (0, 0, -10); the second one shows more than the end of a line.
     np.testing.assert_allclose(made.closures[0][0], made.parts[2].pixels[-1])
     np.testing.assert_allclose(made.closures[0][1], made.parts[1].pixels[-1])
     changed = (made.image != made.annotated()).any(axis=2)

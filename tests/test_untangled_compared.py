@@ -13,7 +13,7 @@ from scene_files import write_lines, write_volume
 
 
 def _twins():
-    """Two vessels that begin at one point, one before the other seen from the front."""
+    """Two vessels from one point; seen from the front, one hides the other."""
     begin = (0.0, 0.0, 0.0)
     return VesselTree([Vessel([begin, (0.0, y, -60.0)], 2.0) for y in (-25.0, 25.0)])
 

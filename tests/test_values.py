@@ -1,4 +1,4 @@
-"""Python habits: equality, hashes, pickles, arrays, names, pictures in notebooks."""
+"""Python protocols: equality, hashes, pickles, arrays, representations, pictures in notebooks."""
 
 from __future__ import annotations
 
@@ -104,7 +104,7 @@ def test_the_two_zeros_are_one_number():
 
 
 def arrays_of(thing):
-    """The arrays that it and its parts hold."""
+    """Return the arrays that an object and its parts hold."""
     parts = [*vars(thing).get("_vessels", ()), *([thing.camera] if isinstance(thing, Frame) else [])]
     own = [value for value in vars(thing).values() if isinstance(value, np.ndarray)]
     return own + [array for part in parts for array in arrays_of(part)]

@@ -63,7 +63,7 @@ def test_joined_vessels_run_as_the_first_one():
     between = (vessel.points[:, 0] > 10) & (vessel.points[:, 0] < 13)
     np.testing.assert_array_equal(vessel.bridged, between)
     assert between.sum() == 5
-    # It keeps the direction and the place of the first one.
+    # The result has the direction and the position of the first vessel.
     turned = tree.joined("tail", "head")
     np.testing.assert_array_equal(turned[0].points, vessel.points)
     other = VesselTree([straight(20, 13), straight(0, 10)]).joined(0, 1)
@@ -101,7 +101,7 @@ def test_the_brightest_place_of_a_ray_is_found():
     pixel = (4, 7)
     np.testing.assert_allclose(lumencut.brightest(volume, VIEW, pixel), [4, 15, 12])
     np.testing.assert_allclose(lumencut.brightest(volume, VIEW, pixel, (-9, 0)), [4, 5, 12])
-    # Of two that are as bright the nearer one is taken.
+    # Of two equally bright voxels the nearer one is taken.
     twins = lit(((4, 5, 12), 500), ((4, 15, 12), 500))
     np.testing.assert_allclose(lumencut.brightest(twins, VIEW, pixel), [4, 5, 12])
 
@@ -138,7 +138,7 @@ def test_a_vessel_is_measured_once(scan):
     measurements = lumencut.Measurements(volume, tree, step=2.0, fwhm=FWHM)
     assert (measurements.volume, measurements.tree) == (volume, tree)
     first = measurements.profile(0)
-    # What is kept is not measured again: the voxels are not looked at any more.
+    # Stored profiles are not measured again, so changed voxels have no effect.
     values[:] = 0
     for asked in (0, "bent", tree[0]):
         np.testing.assert_array_equal(measurements.profile(asked).area, first.area)

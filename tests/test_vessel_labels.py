@@ -1,4 +1,4 @@
-"""Names of vessels on pictures: where they stand, and which are left out."""
+"""Names of vessels on pictures: their positions, and which are left out."""
 
 from __future__ import annotations
 
@@ -40,9 +40,9 @@ def test_a_name_stands_to_the_right_of_its_dot():
 @pytest.mark.parametrize(
     ("place", "part"),
     [
-        # No room to the right of the picture: to the left of the dot.
+        # No room on the right side: the name is to the left of the dot.
         ((392, 60), (slice(45, 75), slice(330, 388))),
-        # The letter R stands to the left, the picture ends to the right of nothing: above the dot.
+        # The letter R is on the left, and the picture ends on the right: the name is above the dot.
         ((100, 60), (slice(45, 75), slice(105, 190))),
     ],
 )
@@ -53,7 +53,7 @@ def test_a_name_stands_where_there_is_room(place, part):
 
 def test_names_that_would_overlap_move_or_are_left_out():
     _, named = pictures({"first": (120, 80), "second": (124, 80), "third": (122, 80), "far": (250, 200)})
-    # The dots of the others are in the way to the right of the first; where theirs would be, its dot is.
+    # Other dots are to the right of the first; their names would cover its dot, so only it has a name.
     assert read(named[60:100, 60:116], ["first"], HIGH) == "first"
     assert not named[60:100, 128:].any()
     assert not named[100:140, 60:].any()

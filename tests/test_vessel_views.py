@@ -1,4 +1,4 @@
-"""Views about a place on a vessel and of one vessel, and the diameters that a turn writes."""
+"""Views centred on a point of a vessel, views of one vessel, and the diameters that a turn shows."""
 
 import math
 
@@ -17,7 +17,7 @@ def ellipse() -> tuple[Volume, Vessel]:
     """A tube along z whose lumen is an ellipse, wider to the left and right, with soft walls."""
     half = np.arange(-50, 51) * SPACING
     x, y = np.meshgrid(half, half)
-    # The distance from the wall along the line through the middle, where it is far from any wall.
+    # The distance from the wall along the line through the middle, away from the middle itself.
     share = np.maximum(np.hypot(x / A, y / B), 1e-3)
     beyond = (share - 1) * np.maximum(np.hypot(x, y), 1e-3 * B) / share
     section = np.clip(0.5 - beyond / SPACING, 0, 1) * 300

@@ -1,4 +1,4 @@
-"""``lumencut view``: its address, its words, its end."""
+"""``lumencut view``: its address, its messages, and how it ends."""
 
 import os
 import re
@@ -48,7 +48,7 @@ def files(tmp_path):
 
 @pytest.fixture
 def run(built, monkeypatch, tmp_path):
-    """Runs the command; the server ends as soon as it serves. The result knows what the browser was told."""
+    """Run the command; the server ends as soon as it is ready. The result holds what the browser got."""
     opened = []
     monkeypatch.setattr(page_room, "FOLDER", built)
     monkeypatch.setattr(browser.webbrowser, "open", opened.append)
@@ -68,14 +68,14 @@ def run(built, monkeypatch, tmp_path):
 
 
 def handle_signals():
-    """Whoever runs the tests may have told their processes to ignore signals."""
+    """Handle signals even if the process that started the tests ignores them."""
     signal.signal(signal.SIGINT, signal.default_int_handler)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
 
 
 @contextmanager
 def viewing(built, *words):
-    """The command in a process of its own, and its address."""
+    """Run the command in a separate process; yield its address."""
     command = [sys.executable, "-c", PROGRAM, str(built), "view", "--no-browser", *words]
     pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
 
@@ -244,7 +244,7 @@ def test_a_signal_ends_it_while_a_volume_is_sent(built, tmp_path):
         viewing(built, str(path)) as (process, address),
         urlopen(f"{address.strip()}data/volume", timeout=10) as answer,
     ):
-        # The rest fills what the system keeps for whoever does not read.
+        # The rest fills the system's buffers, since nobody reads it.
         answer.read(1000)
         assert_ends(process, signal.SIGINT, 130, "interrupted")
 

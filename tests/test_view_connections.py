@@ -1,4 +1,4 @@
-"""The connections of the viewer's server: how long one may take, how many there are, and who ends first."""
+"""The connections of the viewer's server: their duration, their number, and which are closed first."""
 
 import socket
 import subprocess
@@ -22,14 +22,14 @@ def page(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def client(page):
-    """A client of one server for the tests that leave it as it was."""
+    """A client of a server shared by tests that do not change it."""
     with serving(page) as client:
         yield client
 
 
 @pytest.fixture
 def patience(monkeypatch):
-    """The server waits only shortly for a request."""
+    """Shorten the server's time limit for a request."""
     monkeypatch.setattr(Connection, "patience", 0.2)
 
 
@@ -91,7 +91,7 @@ def test_one_connection_too_many_of_the_owner_is_refused(page):
         assert client.ask().status == 200
 
 
-#: What a stranger may have sent of a request.
+#: Incomplete requests that a stranger may send.
 HALVES = [
     b"",
     b"G",
@@ -118,7 +118,7 @@ def test_half_open_connections_do_not_keep_the_owner_out(page, count):
         assert client.ask("data/volume").body.endswith(coded().tobytes())
 
 
-#: Opens connections that ask nothing, again and again, until its standard input ends.
+#: Opens connections without a request, again and again, until its standard input ends.
 FLOOD = """
 import select, socket, sys
 print("begun", flush=True)
@@ -153,7 +153,7 @@ def test_the_stranger_who_came_first_ends_first(page, monkeypatch):
         with ExitStack() as held:
             first, second, *_ = [held.enter_context(half_open(place, 0)) for _ in range(4)]
             assert rest_of(first) == b""
-            # Its request comes in time, and so it is no stranger any more.
+            # The request arrives in time, so its client is no longer a stranger.
             second.sendall(head(client))
             assert b"200 OK" in second.recv(65536)
             for _ in range(3):

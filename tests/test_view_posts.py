@@ -1,4 +1,4 @@
-"""What the viewer's server makes of content that the page sends, and whose content it does not take."""
+"""Objects that the viewer's server makes from posted content, and requests that it rejects."""
 
 import threading
 import time
@@ -24,7 +24,7 @@ def page(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def client(page):
-    """A client of a server that shows the scan of a DICOM folder, read to its end."""
+    """A client of a server that shows the scan of a DICOM folder, completely read."""
     with serving(page, ArrivingScene(open_volume(series()))) as client:
         client.ask("data/volume")
         yield client
@@ -35,7 +35,7 @@ def post(client, content, name=OBJECTS, **headers):
 
 
 def head(client, *lines):
-    """The bytes of a request without its content."""
+    """Return the bytes of a request without its content."""
     own = (f"POST /{client.place.token}/{OBJECTS} HTTP/1.1", f"Host: 127.0.0.1:{client.place.port}")
     return "\r\n".join([*own, "Content-Type: application/json", *lines, "", ""]).encode()
 

@@ -1,4 +1,4 @@
-"""A volume that is sent while it is read, and one that cannot be read to its end."""
+"""A volume that is sent while it is read, and a volume that cannot be read completely."""
 
 import threading
 import time

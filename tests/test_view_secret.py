@@ -1,4 +1,4 @@
-"""The secret address of ``lumencut view``: other users see neither it nor the scan while a browser opens."""
+"""The secret address of ``lumencut view``: other users see neither address nor scan while a browser opens."""
 
 import os
 import re
@@ -23,7 +23,7 @@ from view_serving import serving, write_page
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="modes and users are those of POSIX")
 
-#: A browser that is slow to start, follows what it is given, and stays open as long as its program is there.
+#: A slow browser that follows redirects and stays open as long as its program runs.
 BROWSER = """#!{python}
 import os, re, sys, time, urllib.request
 time.sleep(1.5)
@@ -41,7 +41,7 @@ while os.path.exists(__file__):
 
 @pytest.fixture
 def ground():
-    """A folder that all users may look into, as ``/home`` is one."""
+    """A folder that all users may list, like ``/home``."""
     with tempfile.TemporaryDirectory(prefix="view-") as folder:
         Path(folder).chmod(0o755)
         yield Path(folder)
@@ -54,7 +54,7 @@ def private(folder):
 
 @contextmanager
 def opening(ground, **places):
-    """The command with a scan, and a slow browser: its process, its address, and where the page arrives."""
+    """Run the command with a scan and a slow browser: yield process, address, and where the page arrives."""
     arrived = ground / "arrived"
     script = ground / "browser"
     script.write_text(BROWSER.format(python=sys.executable, log=str(arrived)), "utf-8")
@@ -101,14 +101,14 @@ def test_another_user_gets_nothing_while_a_browser_opens_and_afterwards(ground, 
             assert scan.read(8) == b"LCVOLUME"
         assert ends(process) == 143
     for seen in (while_it_opens, afterwards):
-        # It looked: the command line of the browser is among what it saw.
+        # The other user did look: the command line of the browser was seen.
         assert any(str(ground / "browser") in words for words in seen["command_lines"])
         assert not [words for words in seen["command_lines"] if token in words]
         assert seen["got"] == []
 
 
 def held_by(ground):
-    """The files of a viewer that runs."""
+    """Return the files of a running viewer."""
     return [path for path in ground.rglob("open-*.html") if path.is_file()]
 
 
@@ -153,7 +153,7 @@ def test_what_a_killed_run_left_is_removed_by_the_next_one_and_no_other_file(gro
 
 @contextmanager
 def places(**folders):
-    """The environment with other folders."""
+    """Return the environment with other folders."""
     with pytest.MonkeyPatch.context() as patch:
         patch.delenv("XDG_RUNTIME_DIR", raising=False)
         for name, folder in folders.items():
@@ -226,5 +226,5 @@ def test_chromium_follows_the_file_to_the_viewer(ground):
         assert page.title() == "stand-in"
         assert page.evaluate("[document.referrer, crossOriginIsolated]") == ["", True]
         assert set(referrers) == {None}
-        # The blank page of a new tab, then the viewer in place of the file: "back" leads to no file.
+        # The blank page of a new tab, then the viewer instead of the file: "back" does not show the file.
         assert page.evaluate("history.length") == 2

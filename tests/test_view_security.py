@@ -1,4 +1,4 @@
-"""What the viewer's server refuses, and the headers that every answer of it has."""
+"""What the viewer's server rejects, and the headers of all its answers."""
 
 import socket
 
@@ -22,7 +22,7 @@ def page(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def client(page):
-    """A client of one server for the tests that leave it as it was."""
+    """A client of a server shared by tests that do not change it."""
 
     def tree_in(volume):
         raise FormatError("lines.vtk", "one thing", "another")
@@ -32,7 +32,7 @@ def client(page):
 
 
 def refusals(client):
-    """An answer of every kind that the server gives."""
+    """Every kind of rejection by the server."""
     yield 200, client.ask()
     yield 200, client.ask("", "HEAD")
     yield 200, client.ask("assets/app.js")
@@ -74,7 +74,7 @@ def assert_protected(headers):
 
 
 def parsed(received):
-    """The headers of an answer as it came in."""
+    """Return the headers of an answer as received."""
     lines = received.partition(b"\r\n\r\n")[0].decode().split("\r\n")[1:]
     return {name.lower(): value for name, value in (line.split(": ", 1) for line in lines)}
 
@@ -202,7 +202,7 @@ def test_paths_with_a_second_spelling_are_refused(client, trick):
 def test_targets_that_are_no_plain_paths_are_refused(client, target):
     filled = target.format(token=client.place.token)
     received = client.raw(head(client, target=filled))
-    # A request that is too long may be cut off before the answer is read.
+    # A request that is too long may be cut off before its answer is read.
     assert received == b"" or status_of(received) in (400, 404)
 
 

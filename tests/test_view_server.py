@@ -182,7 +182,7 @@ def test_a_head_request_waits_for_no_voxels(page):
     scene.stop = lambda: None
     with serving(page, scene) as client:
         answer = client.ask("data/volume", "HEAD")
-    # Whoever reads on bends the way of warnings for the tests that follow.
+    # If reading continued, it would change the handling of warnings in later tests.
     asked.set()
     scene._thread.join(10)
     assert not scene._thread.is_alive()

@@ -1,4 +1,4 @@
-"""The Volume constructor: geometry, sharing, and refusal of whatever cannot be a volume."""
+"""The Volume constructor: geometry, sharing of memory, and errors."""
 
 from __future__ import annotations
 
@@ -168,7 +168,7 @@ def test_any_array_and_affine(array, affine):
 )
 def test_any_view_keeps_world_to_value(rows, steps, axes):
     affine = np.eye(4)
-    # Each diagonal element is larger than the others of its row together: no such matrix is singular.
+    # Each diagonal element exceeds the sum of the others in its row: such matrices are invertible.
     affine[:3, :3] = rows + 16 * np.eye(3)
     array = coded()[tuple(slice(None, None, step) for step in steps)].transpose(axes)
     volume = Volume(array, world_from_index=affine)

@@ -1,4 +1,4 @@
-"""NIfTI, NRRD and MetaImage: every voxel where the file says, or a refusal that names file and cause."""
+"""NIfTI, NRRD and MetaImage: every voxel at its stated position, or an error with file and reason."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ LPS_FROM_RAS = np.diag([-1.0, -1.0, 1.0, 1.0])
 
 
 def save_nifti(path, array, affine, kind=nibabel.Nifti1Image, **fields):
-    """Write voxels [k, j, i] on an LPS grid; `fields` are set in the header of the file afterwards."""
+    """Write voxels [k, j, i] on an LPS grid; afterwards `fields` are set in the header."""
     image = kind(array.T, LPS_FROM_RAS @ affine, dtype=array.dtype)
     image.header.set_xyzt_units("mm")
     nibabel.save(image, path)
@@ -143,7 +143,7 @@ def test_nan_voxels_are_noted(tmp_path):
 
 
 def save_nrrd(path, array, affine, detached=False, **fields):
-    """Write voxels [k, j, i]; `affine` is in the space that the fields name (LPS unless told)."""
+    """Write voxels [k, j, i]; `affine` is in the space that the fields name, LPS by default."""
     header = {"space": "left-posterior-superior", "kinds": ["domain"] * 3, "encoding": "gzip"}
     header |= {"space directions": affine[:3, :3].T, "space origin": affine[:3, 3]} | fields
     header = {name: value for name, value in header.items() if value is not None}
@@ -219,7 +219,7 @@ def test_nrrd_refusals(tmp_path):
 
 
 def save_meta(path, array, affine, data=None, **fields):
-    """Write voxels [k, j, i] on an LPS grid; `data` replaces the plain voxels."""
+    """Write voxels [k, j, i] on an LPS grid; `data` replaces the uncompressed voxels."""
     lengths = np.linalg.norm(affine[:3, :3], axis=0)
     types = {
         "i1": "CHAR",

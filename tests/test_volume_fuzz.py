@@ -1,4 +1,4 @@
-"""Damaged volume files: a volume or a LumencutError, no other exception, no memory that a header invents.
+"""Damaged volume files: a volume or a LumencutError, no other exception, no memory only because of a header.
 
 LUMENCUT_FUZZ_EXAMPLES=100 makes each test try a hundred times as many inputs; with -s figures are printed.
 """
@@ -77,7 +77,7 @@ WRITERS = {
 
 
 class Tally:
-    """What the run was like."""
+    """Counts and times of the run."""
 
     inputs = volumes = peak = 0
     slowest = (0.0, "")
@@ -85,7 +85,7 @@ class Tally:
 
 @pytest.fixture(scope="module", autouse=True)
 def figures():
-    """The figures of the run, at its end."""
+    """Print the counts at the end of the run."""
     yield
     sys.stdout.write(
         f"\n{Tally.inputs} inputs, {Tally.volumes} volumes, slowest {Tally.slowest[0]:.3f} s "
@@ -95,11 +95,11 @@ def figures():
 
 @pytest.fixture(scope="module")
 def sound(tmp_path_factory):
-    """The bytes of one sound volume per kind, file by file, the one to open first."""
+    """The bytes of one valid volume per kind, by file name, the file to open first."""
     result = {}
     for name, write in WRITERS.items():
         folder = tmp_path_factory.mktemp("sound")
-        # Also imports whatever the format needs: that is no memory of the file.
+        # Imports everything that the format needs, so that this memory is not counted.
         read_volume(write(folder / name))
         files = sorted(folder.iterdir(), key=lambda path: path.name != name)
         result[name] = {path.name: path.read_bytes() for path in files}
@@ -113,7 +113,7 @@ def put(folder, files):
 
 
 def volume_or_refusal(path, needed=0):
-    """Read a file in every way, watching memory and time; `needed` bytes are what its voxels truly take."""
+    """Read a file in all ways with limits of memory and time; `needed` is the size of its voxels in bytes."""
     length = sum(file.stat().st_size for file in path.parent.iterdir() if file.is_file())
     tracemalloc.start()
     faulthandler.dump_traceback_later(HANG, exit=True, file=sys.__stderr__)
@@ -167,7 +167,7 @@ EDITS = st.lists(
 
 
 def edited(data, edits):
-    """Change a file: bytes set, put in, taken out or doubled, a word replaced, the end cut off."""
+    """Change a file: set, insert, remove or repeat bytes, replace a word, cut the end off."""
     data = bytearray(data)
     for kind, place, patch in edits:
         start = min(int(place * len(data)) if isinstance(place, float) else place, max(len(data) - 1, 0))
@@ -204,7 +204,7 @@ def test_changed_files(tmp_path, sound, name, edits, which):
 @FUZZ
 @given(edits=EDITS)
 def test_changed_files_compressed_anew(tmp_path, sound, name, edits):
-    """The damage lies below the check sum."""
+    """The damage is inside the compressed data; the checksum is valid."""
     if name == "x.nii.gz":
         data = gzip.compress(edited(gzip.decompress(sound[name][name]), edits), 1)
     else:
@@ -242,7 +242,7 @@ def test_any_bytes(tmp_path, data, prefix):
     parts=st.sampled_from([1, 1, 2, 50]),
 )
 def test_claims_and_bombs(tmp_path, pack, sizes, held, parts):
-    """A stream of zeros in a file that claims some size: no memory beyond what it truly holds."""
+    """A stream of zeros in a file that claims some size: no more memory than the real content."""
     encoding = "bzip2" if pack is bz2.compress else "gzip"
     head = (
         f"NRRD0004\ntype: uchar\ndimension: 3\nsizes: {' '.join(map(str, sizes))}\nencoding: {encoding}\n\n"
@@ -268,7 +268,7 @@ def test_nrrd_and_dicom_that_lie_about_their_size(tmp_path, sound):
     path = tmp_path / "x.nrrd"
     for kind in ("raw.nrrd", "gzip.nrrd", "bzip2.nrrd", "ascii.nrrd"):
         path.write_bytes(sound[kind][kind].replace(b"sizes: 4 3 5", b"sizes: 40000 30000 50000"))
-        # A codec without a bound of its own is refused by the memory that it would need.
+        # A codec without its own limit is rejected because of the memory that it would need.
         with pytest.raises(FormatError, match=r"as the header says|voxels that need .* of memory"):
             read_volume(path)
         volume_or_refusal(path)
@@ -279,7 +279,7 @@ def test_nrrd_and_dicom_that_lie_about_their_size(tmp_path, sound):
 
 @pytest.fixture(scope="module")
 def compressed(tmp_path_factory):
-    """The bytes of one sound compressed slice per codec."""
+    """The bytes of one valid compressed slice per codec."""
     folder, array = tmp_path_factory.mktemp("compressed"), coded((20, 24, 1), np.uint16)
     result = {}
     for syntax in ("RLELossless", "JPEG2000Lossless", "JPEGLosslessProcess14_1", "JPEGLSLossless"):
@@ -290,7 +290,7 @@ def compressed(tmp_path_factory):
 
 
 def damage(data, seed):
-    """Change a few bytes of the pixels."""
+    """Change some bytes of the pixels."""
     random, start = np.random.default_rng(seed), data.index(b"\xe0\x7f\x10\x00") + 8
     changed = bytearray(data)
     for place in random.integers(start, min(start + 150, len(data)), random.integers(1, 7)):

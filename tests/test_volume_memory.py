@@ -1,4 +1,4 @@
-"""Memory of volume files: no more is unpacked than the pixels; what exceeds the memory is refused before."""
+"""Memory of volume files: only the pixels are unpacked, and too large volumes are rejected before that."""
 
 import gzip
 import io
@@ -19,11 +19,11 @@ from lumencut.volume_files import read_volume, room
 from lumencut.volume_writers import write_volume
 from test_volume_files import save_meta, save_nifti, save_nrrd
 
-#: Zeros behind the pixels; each MB of them is packed to a kilobyte.
+#: Zeros after the pixels (bytes); each MB is compressed to a kilobyte.
 TRAILING = 300 << 20
 SIZE = (20, 24, 10)
 
-#: Prints the sum of a volume or why it is refused, and by how many MB reading it has raised the peak.
+#: Prints the sum of a volume or the error, and by how many MB reading increased the peak memory.
 PROBE = """
 import resource, sys
 import lumencut, numpy, nibabel, nrrd, pydicom, pydicom.pixels, lumencut.volume_files
@@ -41,7 +41,7 @@ print((resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before) >> 10)
 
 
 def probed(path, limit=0):
-    """What reading a file gives, and by how many MB it has raised the peak of a fresh process."""
+    """Read a file in a new process; return the result, and the increase of peak memory in MB."""
     done = subprocess.run(
         [sys.executable, "-c", PROBE, str(path), str(limit)], capture_output=True, text=True, check=False
     )
@@ -55,7 +55,7 @@ def values():
 
 
 def slices():
-    """Each slice of a CT as the bytes of its file."""
+    """Return each slice of a CT as the bytes of its file."""
     for k, plane in enumerate(values()):
         target = io.BytesIO()
         affine = np.eye(4)
@@ -74,7 +74,7 @@ def deflated(content):
 
 
 def inflated_with(content, more):
-    """A deflated file that inflates to more zeros behind its pixels."""
+    """Return a deflated file with more zeros after its pixels."""
     start = 144 + struct.unpack("<I", content[140:144])[0]
     inside = zlib.decompress(content[start:], -zlib.MAX_WBITS)
     packer = zlib.compressobj(9, zlib.DEFLATED, -zlib.MAX_WBITS)
@@ -106,7 +106,7 @@ def folder_of(path, contents):
 
 
 def with_zeros(path):
-    """A gzipped file that unpacks to more zeros behind its end."""
+    """Return a gzipped file with more zeros after its end."""
     content = gzip.decompress(path.read_bytes())
     path.write_bytes(gzip.compress(content + bytes(TRAILING), 6))
     return path
@@ -178,7 +178,7 @@ def _large_slices():
 
 
 def _scaled(folder):
-    """A NIfTI file of bytes, which fit, whose values are floats, which do not."""
+    """A NIfTI file of bytes, which fit into memory; its values are floats, which do not fit."""
     path = save_nifti(folder / "x.nii.gz", LARGE[:10].astype(np.uint8), np.eye(4))
     content = bytearray(gzip.decompress(path.read_bytes()))
     content[112:120] = struct.pack("<2f", 0.5, 1)
@@ -207,7 +207,7 @@ TOO_LARGE = {
 def test_more_than_the_available_memory_is_refused_before_it_is_taken(tmp_path, make, monkeypatch):
     path = make(tmp_path)
     monkeypatch.setattr(room, "available_memory", lambda: 20_000_000)
-    words = r"voxels that need [\d.]+ MB of memory; expected at most the 20 MB that are available; crop"
+    words = r"voxels that need [\d.]+ MB of memory; expected at most the available 20 MB; crop"
     with pytest.raises(FormatError, match=words) as caught:
         read_volume(path)
     assert caught.value.subject.startswith(str(path.with_suffix("")))
@@ -244,13 +244,13 @@ def test_fast_compression(tmp_path):
         write_volume(Volume(values()), tmp_path / name)
         content = (tmp_path / name).read_bytes()
         start = content.index(b"\x1f\x8b\x08")
-        # The byte of a gzip header that says the fastest level was taken (RFC 1952, XFL).
+        # The byte of a gzip header that states the fastest level (RFC 1952, XFL).
         assert content[start + 8] == 4
         np.testing.assert_array_equal(read_volume(tmp_path / name).array, values())
 
 
 def test_the_limits_of_control_groups_are_read(tmp_path, monkeypatch):
-    """Of both versions, on every level above the process; files that may be dropped count as free."""
+    """For both versions, on every level above the process; reclaimable files count as free."""
     inner = tmp_path / "job" / "task"
     inner.mkdir(parents=True)
     (tmp_path / "job" / "memory.max").write_text("5000000\n")

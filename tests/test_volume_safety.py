@@ -1,4 +1,4 @@
-"""Files from strangers: no path out of their folder, no memory they do not fill, no word of theirs told."""
+"""Untrusted files: none may name files elsewhere, reserve memory, or put text into messages."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ TO_FLOAT = "could not convert string to float"
 
 
 def detached(folder, kind, name):
-    """A header that says its voxels are in the file of this name."""
+    """Write a header that says its voxels are in another file."""
     if kind == "mhd":
         return save_meta(folder / "x.mhd", coded(), np.eye(4), b"", ElementDataFile=name)
     return save_by_hand(folder / "x.nhdr", b"", lines=f"data file: {name}\n")
@@ -35,7 +35,7 @@ def detached(folder, kind, name):
 
 @pytest.fixture
 def folder(tmp_path):
-    """A folder of a stranger's files, and beside it one of the user's."""
+    """A folder with untrusted files, and next to it a file of the user."""
     (tmp_path / "given" / "sub").mkdir(parents=True)
     (tmp_path / "private.raw").write_bytes(RAW)
     (tmp_path / "given" / "sub" / "x.raw").write_bytes(RAW)
@@ -129,7 +129,7 @@ def test_bombs_are_refused_in_little_memory(tmp_path, codec, data, shape):
     path = tmp_path / "x"
     path.write_bytes(data)
     tracemalloc.start()
-    words = r"bytes of voxels.* as the header says|GB of memory; expected at most .* that are available"
+    words = r"bytes of voxels.* as the header says|GB of memory; expected at most the available "
     with pytest.raises(FormatError, match=words):
         read_voxels(path, shape, np.dtype("u1"), codec=codec)
     peak = tracemalloc.get_traced_memory()[1]
@@ -190,7 +190,7 @@ def test_text_takes_no_more_memory_than_its_file(tmp_path):
 
 
 def texts_of(path, caplog, capfd):
-    """Everything that is told about a file."""
+    """Return all texts that describe a file to the user."""
     found = [*capfd.readouterr()]
     try:
         found += inspect_volume(path).notes

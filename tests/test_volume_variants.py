@@ -1,4 +1,4 @@
-"""The rarer ways to write NIfTI, NRRD and MetaImage: read as SimpleITK and nibabel do, or refused by name."""
+"""Rare variants of NIfTI, NRRD and MetaImage: read as by SimpleITK and nibabel, or rejected with a reason."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def sheared():
 
 
 def assert_as_simpleitk(path):
-    """The same voxels at the same places as SimpleITK reads."""
+    """Check that SimpleITK reads the same voxels at the same positions."""
     image, volume = SimpleITK.ReadImage(str(path)), read_volume(path)
     np.testing.assert_array_equal(
         volume.array, SimpleITK.GetArrayFromImage(image).reshape(volume.array.shape)

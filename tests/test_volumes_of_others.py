@@ -1,4 +1,4 @@
-"""Every public entry that takes a volume takes what `render` takes as one, and sees the same in it."""
+"""Every public function accepts the same kinds of volumes as `render`, and sees the same voxels."""
 
 from __future__ import annotations
 
@@ -116,7 +116,7 @@ def test_what_is_no_volume_is_refused_as_such(tmp_path):
 
 
 def poly_data(radius="MaximumInscribedSphereRadius"):
-    """Two vessels that share a point, as vmtk holds them."""
+    """Two vessels that share a point, in the form that vmtk uses."""
     points, lines, cells = vtk.vtkPoints(), [[0, 1, 2], [2, 3]], vtk.vtkCellArray()
     points.SetDataTypeToDouble()
     for place in ([0, 0, 0], [0, 0, 10.1], [0, 0, 1 / 3 + 20], [9, 0, 30]):

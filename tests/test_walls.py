@@ -1,4 +1,4 @@
-"""Arteries in walls and fat: lumens without their walls, and what is said where no wall is told apart."""
+"""Arteries with walls in fat: the lumen without the wall, and the message if walls are not distinguished."""
 
 import numpy as np
 import pytest
@@ -22,7 +22,7 @@ def test_an_artery_in_fat_is_measured_without_its_wall(diameter):
     scene = Scene(diameter, seed=1)
     told = of(scene)
     bias = np.mean(told.diameter_equivalent) - diameter
-    # Diameters from two widths of the blur on must hold 0.1 mm or 3 %, narrower ones 0.15 mm.
+    # Errors may be 0.1 mm or 3 % for diameters above twice the blur, 0.15 mm for narrower ones.
     assert abs(bias) < (max(0.1, 0.03 * diameter) if diameter >= 2 * scene.fwhm else 0.15)
     if 2.0 <= diameter <= 6.0:
         assert np.mean(of(scene, wall="off").diameter_equivalent) - diameter > 0.35
@@ -58,7 +58,7 @@ def test_walls_as_bright_as_muscle_are_not_told_apart():
     assert np.isnan(told.wall).all()
     assert np.isnan(told.diameter_outer).all()
     assert np.mean(told.diameter_equivalent) == pytest.approx(4.0, abs=0.06)
-    # That one may be there all the same is a part of what is unsure.
+    # The chance that there is a wall after all is part of the uncertainty.
     assert (told.uncertainty_parts["wall"] > 0.02).all()
 
 

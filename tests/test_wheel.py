@@ -1,4 +1,4 @@
-"""A wheel that would not install or run everywhere is noticed before it is kept."""
+"""A wheel that could not be installed or run everywhere is rejected before it is kept."""
 
 import sys
 import zipfile
@@ -8,7 +8,7 @@ import pytest
 from script_modules import SCRIPTS, script
 
 ROOT = SCRIPTS.parent
-#: The headers of programs for either machine, and one that needs symbols of glibc.
+#: ELF headers of both machines, and one that needs newer glibc symbols.
 X86, ARM = (b"\x7fELF" + bytes(14) + number.to_bytes(2, "little") for number in (62, 183))
 MODULE = X86 + b"\0GLIBC_2.2.5\0GLIBC_2.17\0"
 
@@ -20,7 +20,7 @@ def wheel():
 
 @pytest.fixture
 def made(tmp_path, wheel):
-    """A wheel with as much in it as is looked at."""
+    """A wheel with all parts that are checked."""
 
     def make(platform="manylinux_2_17_x86_64", tag=None, binary=MODULE, page=wheel.PAGE, **licences):
         path = tmp_path / f"lumencut-0.1.0-cp311-abi3-{platform}.whl"

@@ -1,4 +1,4 @@
-"""The windows from the data: found once for a volume and a tree, and only where an image needs one."""
+"""Windows from the data: computed once per volume and tree, and only if an image needs one."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from window_scenes import angiography
 
 @pytest.fixture
 def found(monkeypatch):
-    """How often each window was searched in the data, by its name."""
+    """Return how often each window was computed from the data, by its name."""
     counts, find = Counter(), _lumencut.find_window
 
     def counting(name, *given):
@@ -30,7 +30,7 @@ def found(monkeypatch):
 
 @pytest.fixture
 def scene():
-    """A volume and a tree that no other test has seen."""
+    """A volume and a tree that no other test uses."""
     made = angiography("CTA, HU")
     return Volume(made.array.T.copy()), made.tree
 

@@ -1,4 +1,4 @@
-"""Windows: those from the data on every kind of angiography, and those that have names."""
+"""Windows computed from every kind of angiography, and named windows."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ def test_along_centerlines_the_lumen_is_light_and_its_tissue_dark(name):
     window = Window.from_data(scene.volume, scene.tree)
     assert 0.60 - 1e-6 <= share(window, lumen[np.isfinite(lumen)]) <= 0.72 + 1e-6
     assert 0.58 <= found["centerline"] <= 0.75
-    # Not a number where only the vessels are numbers.
+    # NaN if only the vessels have finite values.
     assert not found["tissue"] >= 0.40
     assert name == "CTA, lumen in NaN" or found["tissue"] < 0.40
 
@@ -74,7 +74,7 @@ def test_along_centerlines_of_a_ct_fat_is_above_black(name):
     window = Window.from_data(scene.volume, scene.tree)
     fat = share(window, scene.array[scene.labels == FAT])
     assert 0.01 < fat < 0.25
-    # Beside it soft tissue, of which more than half is brighter.
+    # There is also soft tissue; more than half of it is brighter.
     assert share(window, scene.array[scene.labels == SOFT]) > fat + 0.05
 
 
@@ -134,7 +134,7 @@ def test_a_dark_lumen_is_darker_than_its_tissue(name):
     found = shares(scene, Window.from_data(scene.volume, scene.tree))
     window = Window.from_data(scene.volume, scene.tree)
     assert found["centerline"] <= 0.42
-    # Or as dark as the darkest there is, which is black.
+    # Or black, if nothing is darker.
     assert found["centerline"] >= 0.15 or ends(window)[0] == pytest.approx(np.min(scene.array))
     assert found["tissue"] > 0.60
     alone = Window.from_data(scene.volume)
@@ -143,13 +143,13 @@ def test_a_dark_lumen_is_darker_than_its_tissue(name):
 
 
 def beside(points, radius, distance):
-    """Six places so far beyond the wall of each point (mm)."""
+    """Return six positions at this distance beyond the wall of each point (mm)."""
     sides = np.concatenate([np.eye(3), -np.eye(3)])
     return (points[:, None] + (radius[:, None, None] + distance) * sides).reshape(-1, 3)
 
 
 def lumen_and_tissue(volume, vessels):
-    """The values along the centerlines, and of all that is 3 to 10 mm beyond the walls."""
+    """Return the values along the centerlines, and all values 3 to 10 mm beyond the walls."""
     points = np.concatenate([vessel.points for vessel in vessels])
     radius = np.concatenate([vessel.radius for vessel in vessels])
     around = np.concatenate([volume.sample(beside(points, radius, mm)) for mm in (3, 5, 7, 10)])
@@ -328,7 +328,7 @@ def test_python_command_line_and_page_have_the_same_windows_by_name():
     assert names == WINDOW_NAMES == CLI_NAMES
     for name, _, fixed in _lumencut.WINDOW_PRESETS:
         assert fixed is None or (Window.named(name).level, Window.named(name).width) == fixed
-    # The page shows the list that the facade reports; its keys and their help are written there.
+    # The page shows the list of keys from the facade; its bindings with their help are in this file.
     bindings = (ROOT / "web/src/input/bindings.ts").read_text()
     keys = re.findall(r"key\('(\d)', 'preset (\d)', 'window (?:for|from) ([^']+)'\)", bindings)
     said = {"auto": "the data", "full": "the smallest to the largest value"}

@@ -1,4 +1,4 @@
-"""The checks of scripts/words.py find what they are for, and nothing in plain text."""
+"""The checks of scripts/words.py find the faults they are made for, and none in plain text."""
 
 import subprocess
 

@@ -1,4 +1,4 @@
-"""Vessels made from formulas among bone, veins and stents, with seeded noise, to trace centerlines in."""
+"""Vessels from formulas among bone, veins and stents, with seeded noise, for tests of tracing."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ FAT, TISSUE, LUMEN, BONE, STENT = -100.0, 50.0, 350.0, 1150.0, 1600.0
 
 @dataclass
 class Scene:
-    """A volume that is painted bit by bit, and the true centerline of its vessel."""
+    """A volume that is painted step by step, and the true centerline of its vessel."""
 
     size: tuple[int, int, int]
     spacing: tuple[float, float, float]
@@ -32,7 +32,7 @@ class Scene:
         self.affine[:3, 3] = -self.affine[:3, :3] @ (np.asarray(self.size) - 1) / 2
 
     def distance(self, line: Floats, radius: Floats) -> tuple[Floats, Floats]:
-        """The signed distance of voxels from a tube's surface (mm), and the nearest point of its line."""
+        """Return the signed distance of voxels from a tube's surface (mm), and the nearest line point."""
         inverse = np.linalg.inv(self.affine)
         found = np.full(self.size[::-1], 1e3)
         nearest = np.zeros(self.size[::-1])
@@ -56,7 +56,7 @@ class Scene:
         return found, nearest
 
     def paint(self, line: Floats, radius: Floats | float, value: Floats | float) -> None:
-        """Paint a tube, its edge a ramp one voxel wide whose middle lies on the surface."""
+        """Paint a tube whose edge is a ramp one voxel wide, centred on the surface."""
         radius = np.broadcast_to(np.asarray(radius, dtype=float), len(line))
         distance, nearest = self.distance(line, radius)
         if np.ndim(value):
@@ -68,14 +68,14 @@ class Scene:
         self.values += share * (value - self.values)
 
     def shell(self, line: Floats, radius: float, thickness: float, value: float, every: float) -> None:
-        """Paint rings of a stent around a line, at an even distance (mm)."""
+        """Paint the rings of a stent around a line, at equal distances (mm)."""
         distance, nearest = self.distance(line, np.full(len(line), radius))
         along = np.r_[0, np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))][nearest.astype(int)]
         ring = (np.abs(distance) < thickness / 2) & (nearest > 0) & (nearest < len(line) - 1)
         self.values[ring & (along % every < every / 2)] = value
 
     def volume(self, seed: int, noise: float = 20.0) -> Volume:
-        """The volume, blurred a little as scanners do, with noise."""
+        """Return the volume with noise, slightly blurred as by a scanner."""
         values = self.values
         for axis in range(3):
             ends = np.pad(values, [(1, 1) if a == axis else (0, 0) for a in range(3)], mode="edge")
@@ -109,7 +109,7 @@ def narrowed(line: Floats, radius: float, percent: float, at: float = 0.5, lengt
 
 
 def away(points: Floats, line: Floats) -> Floats:
-    """The distance of each point from a line (mm)."""
+    """Return the distance of each point from a line (mm)."""
     found = np.full(len(points), np.inf)
     for a, b in itertools.pairwise(line):
         ab = b - a
@@ -126,7 +126,7 @@ def room(line: Floats, spacing: float, margin: float = 12.0) -> tuple[int, int, 
 
 
 def beside(line: Floats, distance: float, angle: float, first: float, last: float) -> Floats:
-    """The part of a line from `first` to `last` (mm), moved across it by a length (mm) at an angle."""
+    """Return the part of a line from `first` to `last` (mm), moved sideways by a length (mm) at an angle."""
     ahead = np.gradient(line, axis=0)
     ahead /= np.linalg.norm(ahead, axis=1)[:, None]
     u = np.cross(ahead, [0.3, 0.9, 0.1])
@@ -138,7 +138,7 @@ def beside(line: Floats, distance: float, angle: float, first: float, last: floa
 
 @dataclass(frozen=True)
 class Case:
-    """A scene with its truth, and clicks: the ends of the vessel and a point between them."""
+    """A scene with its true centerline, and clicks: the ends of the vessel and a point between them."""
 
     volume: Volume
     line: Floats
@@ -148,7 +148,7 @@ class Case:
 
 
 def random_case(seed: int) -> Case:
-    """A vessel among what lies next to vessels, all of it chosen by the seed."""
+    """Return a vessel with random neighbouring structures; the seed decides all."""
     random = np.random.default_rng(seed)
     spacing = random.uniform(0.5, 0.8)
     line = _turned(arc(random.uniform(70, 110), bend=random.uniform(20, 80)), random)
@@ -194,7 +194,7 @@ def _off_middle(line: Floats, radius: Floats, n: int, random: np.random.Generato
 
 
 def leaks(points: Floats, case: Case) -> bool:
-    """Whether a traced line leaves the healthy vessel, or does not follow it from end to end."""
+    """Return whether a traced line leaves the vessel, or does not follow it from end to end."""
     healthy = float(case.radius.max())
     inner = case.line[10:-10]
     return bool((away(points, case.line) > healthy).any() or (away(inner, points) > healthy).any())

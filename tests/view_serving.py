@@ -1,4 +1,4 @@
-"""The viewer's server on a stand-in page, and a client that may ask for anything."""
+"""The viewer's server with a substitute page, and a client that can send any request."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from lumencut.viewer.server import ViewerServer
 from lumencut.volume_files.opened import VolumeFile
 
 INDEX = "<!doctype html><html><head lang='en'><title>stand-in</title></head><body></body></html>"
-#: The same as it is served: it says where the server makes something of what the page sends.
+#: The index as served: it also states where the server accepts posted content.
 SERVED = INDEX.replace(
     "<head lang='en'>",
     "<head lang='en'>"
@@ -39,7 +39,7 @@ def write_page(folder: Path) -> Path:
 
 @dataclass(frozen=True)
 class Answer:
-    """What the server said."""
+    """An answer of the server."""
 
     status: int
     headers: dict[str, str]
@@ -51,7 +51,7 @@ class Answer:
 
 
 class Client:
-    """Asks a server, under its token unless a whole path is given."""
+    """Sends requests to a server, with its token unless a full path is given."""
 
     def __init__(self, server: ViewerServer) -> None:
         self.place = server.place
@@ -76,7 +76,7 @@ class Client:
             connection.close()
 
     def raw(self, sent: bytes) -> bytes:
-        """What comes back to these bytes until the server ends the connection."""
+        """Return the answer to these bytes, until the server closes the connection."""
         with socket.create_connection(("127.0.0.1", self.place.port), timeout=10) as connection:
             connection.sendall(sent)
             return rest_of(connection)
@@ -94,7 +94,7 @@ def status_of(received):
 
 
 def rest_of(connection: socket.socket) -> bytes:
-    """What comes in until the other side ends the connection."""
+    """Return all bytes that arrive until the other side closes the connection."""
     received = b""
     with suppress(ConnectionResetError):
         while part := connection.recv(65536):
@@ -103,7 +103,7 @@ def rest_of(connection: socket.socket) -> bytes:
 
 
 def answer(response: http.client.HTTPResponse) -> Answer:
-    """The whole of a response, or what came of it."""
+    """Return the complete response."""
     try:
         body = response.read()
     except http.client.IncompleteRead as error:
@@ -113,7 +113,7 @@ def answer(response: http.client.HTTPResponse) -> Answer:
 
 @contextmanager
 def serving(page: Path, scene: ArrivingScene | None = None) -> Iterator[Client]:
-    """A server with a client."""
+    """Run a server; yield a client of it."""
     with ViewerServer(Page.of(page), scene) as server:
         yield Client(server)
 
@@ -127,7 +127,7 @@ def split(stream: bytes):
 
 
 def made_file(array, load=None, settled=True, affine=None, **more) -> VolumeFile:
-    """A volume file that hands an array over, or does as `load` says."""
+    """Return a volume file that loads a given array, or calls `load`."""
     nk, nj, ni = array.shape
     return VolumeFile(
         Path("/somewhere/made.nrrd"),

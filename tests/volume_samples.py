@@ -1,4 +1,4 @@
-"""Volumes whose voxels say where they are, and writers of small files that hold them."""
+"""Volumes whose voxels encode their indices, and functions that write them to small files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The same view drawn by VTK's ray caster for the CPU, as far as it can draw it."""
+"""The same view drawn by VTK's CPU ray caster, as far as VTK supports it."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from vtkmodules.vtkRenderingCore import (
 )
 from vtkmodules.vtkRenderingVolume import vtkFixedPointVolumeRayCastMapper
 
-# Registers the windows, some of which need no screen, and what shows the ray caster's image in them.
+# These imports register the windows, also off-screen ones, and the display of the ray caster's image.
 import vtkmodules.vtkRenderingVolumeOpenGL2  # noqa: F401  isort: skip
 
 
@@ -34,7 +34,7 @@ def image_data(volume):
 
 
 def volume_property(points, mode, shading):
-    """The transfer function, linear between its points, opacity per mm; opaque for maxima."""
+    """Return the transfer function: linear between its points, opacity per mm; opaque for maxima."""
     colour, opacity = vtkColorTransferFunction(), vtkPiecewiseFunction()
     for intensity, rgb, per_mm in points:
         colour.AddRGBPoint(intensity, *(c / 255 for c in rgb))
@@ -53,7 +53,7 @@ def volume_property(points, mode, shading):
 
 
 class Drawing:
-    """A window without a screen that shows one volume through one camera."""
+    """An off-screen window that shows one volume through one camera."""
 
     def __init__(self, volume, camera, mode, points, step, *, shading=False, threads=None):
         self.mapper = vtkFixedPointVolumeRayCastMapper()
@@ -88,14 +88,14 @@ class Drawing:
         self.window.AddRenderer(renderer)
 
     def render(self):
-        """Draws the view anew."""
+        """Draw the view again."""
         self.camera.Modified()
         self.window.Render()
 
     def image(self):
-        """The ray caster's own image: colours times opacity, and opacity, 0 to 1, (H, W, 4).
+        """Return the ray caster's own image: premultiplied colours and opacity, 0 to 1, (H, W, 4).
 
-        The window shows it stretched by a pixel, so it is read from memory: 15 bits a channel.
+        The window shows it stretched by a pixel, so it is read from memory, with 15 bits per channel.
         """
         self.render()
         rays = self.mapper.GetRayCastImage()

@@ -1,4 +1,4 @@
-"""Which shares of the grey range a window gives to tissues, and how far a lumen stands out."""
+"""The part of the grey range that a window gives to each tissue, and the contrast of the lumen."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from window_scenes import BONE, FAT, LUMEN, SOFT, WALL, Angiography
 
 PICTURE = (96, 96)
 
-#: How a colour's channels add up to its brightness (Rec. 709).
+#: Weights of red, green and blue in the brightness of a colour (Rec. 709).
 BRIGHTNESS = (0.2126, 0.7152, 0.0722)
 
 
 def share(window: Window, values: npt.ArrayLike) -> float:
-    """Where the median of some values lies: 0 is black, 1 white, and beyond there is more."""
+    """Return the median of some values within a window: 0 is black, 1 white; values may exceed both."""
     return float((np.median(np.asarray(values, np.float64)) - window.level) / window.width + 0.5)
 
 
@@ -28,7 +28,7 @@ def along_centerlines(scene: Angiography) -> npt.NDArray[np.float64]:
 
 
 def shares(scene: Angiography, window: Window) -> dict[str, float]:
-    """The share of each tissue's median, nan for what the angiography lacks."""
+    """Return the position of each tissue's median in the window; NaN if the angiography lacks the tissue."""
     near = _near_vessels(scene)
     masks = {
         "lumen": scene.labels == LUMEN,
@@ -44,7 +44,7 @@ def shares(scene: Angiography, window: Window) -> dict[str, float]:
 
 
 def _near_vessels(scene: Angiography) -> npt.NDArray[np.bool_]:
-    """Within 6 mm of a lumen, along each axis."""
+    """Return the voxels within 6 mm of a lumen along each axis."""
     near: npt.NDArray[np.bool_] = scene.labels == LUMEN
     for axis in range(3):
         reach = [np.roll(near, step, axis) for step in range(-6, 7)]
@@ -53,9 +53,9 @@ def _near_vessels(scene: Angiography) -> npt.NDArray[np.bool_]:
 
 
 def contrast(scene: Angiography, context: ContextName, window: Window | None = None) -> tuple[float, float]:
-    """The brightness of the lumen and of what is around it in a picture of the volume alone, 0 to 1.
+    """Return the brightness of the lumen and of its surroundings in a picture of only the volume, 0 to 1.
 
-    Each is a median of pixels, of those whose rays meet neither bone nor calcifications.
+    Each is a median over pixels whose rays meet neither bone nor calcifications.
     """
     camera = Camera.left(scene.volume, PICTURE)
     frame = Renderer(scene.volume).render(camera, Settings(context=context, context_window=window))
@@ -70,7 +70,7 @@ def contrast(scene: Angiography, context: ContextName, window: Window | None = N
 
 
 def background(scene: Angiography, context: ContextName, window: Window | None = None) -> float:
-    """The brightness of what rays show that meet the darkest value alone, 0 to 1: a median of pixels."""
+    """Return the median brightness of rays that meet only the darkest value, 0 to 1."""
     camera = Camera.left(scene.volume, PICTURE)
     frame = Renderer(scene.volume).render(camera, Settings(context=context, context_window=window))
     bright = frame.image[..., :3] @ np.array(BRIGHTNESS) / 255
@@ -81,7 +81,7 @@ def background(scene: Angiography, context: ContextName, window: Window | None =
 
 
 def _seen(camera: Camera, mask: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
-    """The pixels whose rays pass through some voxels."""
+    """Return the pixels whose rays pass through some voxels."""
     place = np.rint(camera.project(np.argwhere(mask).astype(np.float64))[:, :2]).astype(int)
     seen = np.zeros(camera.size[::-1], bool)
     inside = ((place >= 0) & (place < camera.size)).all(axis=1)
@@ -91,7 +91,7 @@ def _seen(camera: Camera, mask: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
 
 
 def _grown(mask: npt.NDArray[np.bool_], pixels: int) -> npt.NDArray[np.bool_]:
-    """The mask and all within some pixels along both axes."""
+    """Return the mask, widened by some pixels along both axes."""
     for axis in range(2):
         mask = np.any([np.roll(mask, step, axis) for step in range(-pixels, pixels + 1)], axis=0)
     return mask

@@ -1,6 +1,6 @@
-"""Small angiographies of every kind that windows must suit, each with what its voxels are.
+"""Small angiographies of every kind that windows must suit, with the tissue of each voxel.
 
-One body and one head hold the same vessels; a kind gives every tissue its intensity, noise and mask.
+One body and one head contain the same vessels; each kind defines intensities, noise and mask.
 """
 
 from __future__ import annotations
@@ -21,22 +21,22 @@ AIR, FAT, SOFT, LUNG, BONE, WALL, CALCIFIED, LUMEN, METAL = range(9)
 
 #: Intensities of a CT angiography (HU), in the order above.
 HU = (-1000.0, -100.0, 45.0, -850.0, 700.0, 60.0, 800.0, 320.0, 2800.0)
-#: The same of magnetic resonance, where air and bone are dark.
+#: The same for magnetic resonance, where air and bone are dark.
 TIME_OF_FLIGHT = (12.0, 130.0, 100.0, 15.0, 25.0, 90.0, 25.0, 320.0, 10.0)
 CONTRAST_MR = (20.0, 420.0, 180.0, 30.0, 60.0, 180.0, 40.0, 1300.0, 10.0)
 
 
 @dataclass(frozen=True)
 class Angiography:
-    """A volume on a grid of 1 mm, its centerlines, and what each voxel is."""
+    """A volume on a grid of 1 mm, its centerlines, and the tissue of each voxel."""
 
     name: str
     array: npt.NDArray[Any]
     tree: VesselTree
     labels: npt.NDArray[np.uint8]
-    #: Whether the lumen is darker than what is around it.
+    #: Whether the lumen is darker than its surroundings.
     is_dark: bool
-    #: Tissues that hide it where rays show what is brightest.
+    #: Tissues that hide the lumen in a picture of the brightest values.
     brighter: tuple[int, ...]
 
     @property
@@ -47,7 +47,7 @@ class Angiography:
 
 @dataclass(frozen=True)
 class Kind:
-    """How a kind of angiography turns tissues into voxels."""
+    """How a kind of angiography converts tissues to voxels."""
 
     intensities: tuple[float, ...]
     noise: float = 0.0
@@ -56,7 +56,7 @@ class Kind:
         default=lambda array, labels: array
     )
     is_dark: bool = False
-    #: Tissues that are brighter than the lumen.
+    #: Tissues brighter than the lumen.
     brighter: tuple[int, ...] = (BONE, CALCIFIED, METAL)
 
 
@@ -74,7 +74,7 @@ def _as(dtype: str, scale: float = 1.0, shift: float = 0.0) -> Callable[..., npt
 
 
 def _kept(kept: tuple[int, ...], outside: float, dtype: str = "int16") -> Callable[..., npt.NDArray[Any]]:
-    """Only voxels of some tissues; all others have one value."""
+    """Keep only voxels of some tissues; all others get one value."""
 
     def finish(array: npt.NDArray[Any], labels: npt.NDArray[np.uint8]) -> npt.NDArray[Any]:
         return _as(dtype)(np.where(np.isin(labels, kept), array, outside), labels)
@@ -83,7 +83,7 @@ def _kept(kept: tuple[int, ...], outside: float, dtype: str = "int16") -> Callab
 
 
 def _round_field(outside: float) -> Callable[..., npt.NDArray[Any]]:
-    """The round field of view of a scanner, and one value beyond it."""
+    """Keep the round field of view of a scanner; all other voxels get one value."""
 
     def finish(array: npt.NDArray[Any], labels: npt.NDArray[np.uint8]) -> npt.NDArray[Any]:
         x, y = np.indices(labels.shape)[:2] - 23.5
@@ -97,14 +97,14 @@ def _cropped_values(low: float, high: float, dtype: str) -> Callable[..., npt.ND
 
 
 def _changed(intensities: tuple[float, ...], **given: float) -> tuple[float, ...]:
-    """Intensities of which some are others."""
+    """Return the intensities with some of them replaced."""
     named = {"air": AIR, "fat": FAT, "soft": SOFT, "bone": BONE, "lumen": LUMEN, "calcified": CALCIFIED}
     places = {named[name]: value for name, value in given.items()}
     return tuple(places.get(place, value) for place, value in enumerate(intensities))
 
 
 VESSELS = (WALL, CALCIFIED, LUMEN)
-#: An angiography of the head from which all but the vessels was subtracted.
+#: A subtraction angiography of the head: everything except the vessels is removed.
 ROTATIONAL = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 540.0, 439.0, 560.0)
 
 KINDS = {
@@ -162,7 +162,7 @@ def angiography(name: str) -> Angiography:
 
 @functools.cache
 def tree() -> VesselTree:
-    """A trunk that divides, and a branch (mm, LPS)."""
+    """A trunk that divides, and a side branch (mm, LPS)."""
     along = np.linspace(0.0, 1.0, 40)[:, None]
     trunk = np.array([25.0, 21.0, 4.0]) + along * (0.0, 0.0, 28.0) + np.sin(6 * along) * (1.5, 1.0, 0.0)
     fork = trunk[-1]
@@ -196,7 +196,7 @@ def _labels(anatomy: str) -> npt.NDArray[np.uint8]:
 
 
 def _beyond_wall(place: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    """How far each place lies beyond the nearest wall (mm), below 0 inside a lumen."""
+    """Return how far each position lies beyond the nearest wall (mm), below 0 inside."""
     nearest = np.full(place.shape[:3], np.inf)
     for vessel in tree():
         assert vessel.radius is not None

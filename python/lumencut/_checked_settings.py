@@ -40,7 +40,7 @@ class CheckedSettings:
         Parameters
         ----------
         **changes
-            Settings that shall have other values, by their names.
+            Other values for single settings, as keyword arguments.
 
         Raises
         ------
@@ -56,11 +56,11 @@ class CheckedSettings:
         Parameters
         ----------
         name : {"lumen", "focus", "body", "mip", "slab"}
-            ``lumen``: the cut over all of the picture, as by default. ``focus``: the cut around the vessels
-            amid the shaded body. ``body``: the shaded body alone, nothing cut. ``mip``: the largest value
-            along each ray, nothing cut. ``slab``: the largest value of 10 mm around the cut.
+            ``lumen``: the cut over the entire picture, the default. ``focus``: the cut close to the vessels,
+            within the shaded body. ``body``: the shaded body without a cut. ``mip``: the largest value
+            along each ray, without a cut. ``slab``: the largest value in 10 mm around the cut.
         **changes
-            Settings that shall have other values, by their names.
+            Other values for single settings, as keyword arguments.
 
         Raises
         ------
@@ -72,7 +72,7 @@ class CheckedSettings:
 
     @classmethod
     def focused(cls, **changes: Any) -> Self:
-        """Return the look *focus*: the exact cut around the vessels amid the shaded body around them.
+        """Return the look *focus*: the exact cut close to the vessels, within the shaded body.
 
         It has ``focus=Focus(2.0, 6.0)``, ``context="mida"`` and ``context_shading=True``; all other settings
         have their defaults.
@@ -80,7 +80,7 @@ class CheckedSettings:
         Parameters
         ----------
         **changes
-            Settings that shall have other values, by their names.
+            Other values for single settings, as keyword arguments.
 
         Raises
         ------
@@ -93,7 +93,7 @@ class CheckedSettings:
     def from_file(cls, path: str | os.PathLike[str]) -> Self:
         """Return the settings of a TOML file as :meth:`save` writes it.
 
-        Each key is the name of a setting; settings that the file leaves out have their defaults. Windows,
+        Each key is the name of a setting; settings missing in the file have their defaults. Windows,
         opacities and slabs are tables of their fields, colours texts such as ``"#ffdc00"``, control points of
         a transfer function an array of tables with ``intensity``, ``color`` and ``opacity``. ``"none"``
         stands for None.
@@ -108,7 +108,7 @@ class CheckedSettings:
         FileError
             If the file cannot be read.
         FormatError
-            For a file that is no TOML.
+            If the file is not TOML.
         SettingsError
             For a key that no setting has, or a value of another type or outside its range. The error names
             the file.
@@ -120,13 +120,13 @@ class CheckedSettings:
     def save(self, path: str | os.PathLike[str]) -> None:
         """Write all settings as a TOML file with comments, which appears only when complete.
 
-        :meth:`from_file` gives equal settings back. What is taken from the data (None) is left out, in a
-        comment.
+        :meth:`from_file` reads equal settings back. A setting of None, whose value comes from the data,
+        appears only in a comment.
 
         Parameters
         ----------
         path : path-like
-            The file; ``.toml`` is the usual ending.
+            The file, usually with the extension ``.toml``.
 
         Raises
         ------
@@ -149,18 +149,18 @@ class CheckedSettings:
 
 
 def checked(settings: CheckedSettings) -> _lumencut.Settings:
-    """Return the settings as the core reads them; they were checked when they were made."""
+    """Return the settings in the form of the core; they were checked when they were created."""
     return settings._checked
 
 
 def look_values(look: str) -> dict[str, Any]:
-    """Return the settings of a look by name."""
+    """Return the settings of the look with this name."""
     values = _lumencut.LOOKS[look]
     return {name: _CLASSES[name](*value) if name in _CLASSES else value for name, value in values.items()}
 
 
 def _value(name: str, setting: _lumencut.Setting, value: Any) -> Any:
-    """The value of a setting in its own type, or an error that names the setting; the core checks ranges."""
+    """Convert a value to the type of its setting; an error names the setting. The core checks ranges."""
     if value is None and setting.optional:
         return None
     or_none = " or None" if setting.optional else ""
@@ -190,7 +190,7 @@ def _value(name: str, setting: _lumencut.Setting, value: Any) -> Any:
 
 
 def _vessels(name: str, value: Any) -> tuple[int | str, ...]:
-    """Ids and names of vessels, resolved later with a tree."""
+    """Check the type of ids and names of vessels; whether a tree has them is checked later."""
     try:
         if isinstance(value, (str, bytes)):
             raise TypeError
@@ -201,7 +201,7 @@ def _vessels(name: str, value: Any) -> tuple[int | str, ...]:
 
 
 def _id_or_name(one: Any) -> int | str:
-    """An id or a name as it is; TypeError for what is neither, such as a truth value or an array."""
+    """Return an id or a name unchanged; raise TypeError for anything else, such as True or an array."""
     if isinstance(one, bool):
         raise TypeError
     return one if isinstance(one, str) else operator.index(one)

@@ -1,4 +1,4 @@
-"""Arguments as arrays of a known shape, or an error that names the argument."""
+"""Convert arguments to arrays of a known shape, or raise an error that names the argument."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from lumencut.errors import LumencutError
 def numbers(
     error: type[LumencutError], subject: str, value: Any, shape: tuple[int, ...]
 ) -> npt.NDArray[np.float64]:
-    """Return ``value`` as a read-only float64 array of ``shape``, in which -1 stands for any length."""
+    """Return ``value`` as a read-only float64 array of ``shape``; -1 in ``shape`` allows any length."""
     array = _floats(value)
     found = () if array is None else array.shape
     fits = len(found) == len(shape) and all(want in (-1, n) for want, n in zip(shape, found, strict=True))
@@ -31,14 +31,14 @@ def number(error: type[LumencutError], subject: str, value: Any) -> float:
 
 
 def flag(error: type[LumencutError], subject: str, value: Any) -> bool:
-    """Return ``value`` as True or False; numbers are neither."""
+    """Return ``value`` as True or False; reject numbers."""
     if not isinstance(value, (bool, np.bool_)):
         raise error(subject, repr(value), "True or False")
     return bool(value)
 
 
 def callback(error: type[LumencutError], subject: str, value: Any) -> None:
-    """Reject anything but None or a function."""
+    """Reject anything except None and functions."""
     if value is not None and not callable(value):
         raise error(subject, _short(value), "a function, or None")
 
@@ -46,7 +46,7 @@ def callback(error: type[LumencutError], subject: str, value: Any) -> None:
 def integers(
     error: type[LumencutError], subject: str, value: Any, low: int, high: int, count: int
 ) -> tuple[int, ...]:
-    """Return ``value`` as ``count`` whole numbers from ``low`` to ``high``."""
+    """Return ``value`` as ``count`` integers from ``low`` to ``high``."""
     array = numbers(error, subject, value, (count,))
     if not ((array >= low) & (array <= high) & (array == np.floor(array))).all():
         found, what = (value[0], "a whole number") if count == 1 else (value, f"{count} whole numbers")
@@ -57,13 +57,13 @@ def integers(
 def choice(
     error: type[LumencutError], subject: str, value: Any, choices: Sequence[str], others: str = ""
 ) -> None:
-    """Reject anything but these names; ``others`` describes further accepted values."""
+    """Reject anything except these names; in the error, ``others`` describes further accepted values."""
     if not (isinstance(value, str) and value in choices):
         raise error(subject, _short(value), "one of " + ", ".join(map(repr, choices)) + others)
 
 
 def _floats(value: Any) -> npt.NDArray[np.float64] | None:
-    """A copy of real numbers without mask; None for anything else, such as text and complex numbers."""
+    """Return a copy of an array of real numbers without a mask; None for anything else, such as text."""
     try:
         array = np.asarray(value)
         if value is None or array.dtype.kind not in "biufO" or np.ma.is_masked(value):

@@ -1,4 +1,4 @@
-"""Paths that a file can have, and files that appear only when complete."""
+"""Checks of file paths, and files that appear only when they are complete."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ def checked_path(path: Any, expected: str) -> Path:
     path : path-like
         The argument of the caller.
     expected : str
-        What was expected, for the error.
+        What the error says was expected.
 
     Raises
     ------
     FormatError
         For anything that is not a path.
     FileError
-        For texts that can name no file, and for pipes and devices.
+        For texts that cannot be the name of a file, and for pipes and devices.
     """
     try:
         checked = Path(path)
@@ -57,8 +57,8 @@ def checked_path(path: Any, expected: str) -> Path:
 
 
 def replace_whole(path: Path, write: Callable[[Path], object]) -> None:
-    """Let ``write`` make a temporary file, and move it to ``path`` when complete."""
-    # Next to the target of a link, because a move across disks is not atomic.
+    """Let ``write`` write a temporary file, then rename it to ``path``."""
+    # In the folder of the link's target, because a move across disks is not atomic.
     place = Path(os.path.realpath(checked_path(path, WRITABLE)))
     with private_folder(path, place.parent) as folder:
         write(folder / "whole.part")
@@ -66,7 +66,7 @@ def replace_whole(path: Path, write: Callable[[Path], object]) -> None:
 
 
 def write_text(path: str | os.PathLike[str], text: str) -> None:
-    """Write a text that appears only when complete."""
+    """Write a text file that appears only when it is complete."""
     replace_whole(checked_path(path, WRITABLE), lambda whole: whole.write_text(text, "utf-8", newline="\n"))
 
 
@@ -74,7 +74,7 @@ def write_text(path: str | os.PathLike[str], text: str) -> None:
 def private_folder(subject: Path, home: Path) -> Iterator[Path]:
     """Create a hidden folder in ``home`` that only this user can enter, and remove it at the end.
 
-    System errors are reported for ``subject``.
+    An error of the system is reported as an error of ``subject``.
     """
     # The name is known before the folder is created, so a signal right afterwards cannot leave it behind.
     folder = home / f".lumencut.{secrets.token_hex(8)}.part"
@@ -90,7 +90,7 @@ def private_folder(subject: Path, home: Path) -> Iterator[Path]:
 
 
 def move(whole: Path, path: Path) -> None:
-    """Replace an old file by a new one, following links and keeping its permissions.
+    """Replace an old file by a new one; links are followed and the old permissions are kept.
 
     Without an old file, the new one keeps the default permissions of the user.
     """
@@ -105,6 +105,6 @@ def move(whole: Path, path: Path) -> None:
 
 
 def _short(text: str) -> str:
-    """The text, printable and not too long."""
+    """Return the text without unprintable characters, shortened if it is long."""
     shown = text if text.isprintable() else ascii(text)
     return shown if len(shown) <= 200 else shown[:197] + "..."

@@ -9,17 +9,17 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 import numpy.typing as npt
 
-#: Number of trees with cached values, and of sampled voxels that detect a change of the array.
+#: Largest number of cached values, and number of voxels compared to detect a change of the volume.
 _MOST, _LOOKED_AT = 32, 32768
 
 _T = TypeVar("_T")
 
 
 class FoundOnce(Generic[_T]):
-    """Cache of values found in one volume, by name and by vessels (the same objects in order).
+    """Cache of values computed from one volume, by name and by vessels (the same objects in the same order).
 
-    The cache keeps each tree, so that no other vessels get its address in memory. Callers may write to the
-    voxels: if any of the evenly spread samples changed, all values are found again.
+    The cache keeps the vessels alive, so that no new vessel gets the same id. Callers may write to the
+    voxels: if any of the evenly spread samples changed, all values are computed again.
     """
 
     def __init__(self) -> None:
@@ -32,18 +32,18 @@ class FoundOnce(Generic[_T]):
         return len(self._found)
 
     def once(self, voxels: npt.NDArray[Any], name: str, tree: Any, find: Callable[[], _T]) -> _T:
-        """Return the value of this name for the vessels of a tree, or for the volume only.
+        """Return the value with this name for the vessels of a tree, or for the volume only.
 
         Parameters
         ----------
         voxels : numpy.ndarray, shape (n,)
             The voxels of the volume, in the order of memory.
         name : str
-            Its key.
+            The name of the value.
         tree : VesselTree or None
-            The vessels along which it is found.
+            The vessels that the value depends on; None if it depends on the volume only.
         find : callable
-            Computes it; called if it is not cached.
+            Computes the value if it is not cached.
         """
         key = (name, *map(id, tree or ()))
         with self._lock:

@@ -14,7 +14,7 @@ _Array = npt.NDArray[np.float64]
 
 
 def checked_radius(smallest_radius: float) -> float:
-    """Return the smallest radius of vessels (mm), checked."""
+    """Return the checked smallest radius of vessels to find (mm)."""
     smallest = number(SettingsError, "smallest_radius", smallest_radius)
     if not 0 <= smallest < float("inf"):
         raise SettingsError("smallest_radius", f"{smallest:g}", "0 or more (mm)")
@@ -24,7 +24,7 @@ def checked_radius(smallest_radius: float) -> float:
 def found_tree(
     vessels: list[tuple[_Array, _Array, _Array, str]], parts: list[list[int]], notes: list[str]
 ) -> VesselTree:
-    """Return the tree of vessels with their doubts, empty without doubts, and the notes on it."""
+    """Return the tree of the certain vessels; it also stores the doubtful ones, the parts and the notes."""
     made = [
         (Vessel(points, radius, confidence=confidence), doubt)
         for points, radius, confidence, doubt in vessels

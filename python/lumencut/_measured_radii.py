@@ -26,7 +26,7 @@ def measured_radii(
     wall: Wall,
     progress: Callable[[int, int], object] | None,
 ) -> tuple[list[_Floats | None], list[str]]:
-    """Return the radii of each vessel, and a sentence for each vessel that was not measured as a whole."""
+    """Return the radii of each vessel, and a sentence for each vessel that was measured only in part."""
     found = _lumencut.measured_radii(
         as_volume(volume),
         vessels,

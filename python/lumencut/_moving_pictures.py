@@ -16,7 +16,7 @@ from typing import IO, TYPE_CHECKING, Any, Protocol
 if TYPE_CHECKING:
     from PIL.Image import Image
 
-# Lossless files are five times larger, without a visible difference at this quality.
+# Lossless files are five times larger; at this quality no difference is visible.
 _WEBP = {"quality": 90, "method": 4}
 #: Flags of the chunk VP8X: an animation with transparency.
 _HAS_ANIMATION, _HAS_ALPHA = 0x02, 0x10
@@ -26,15 +26,15 @@ _SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
 
 class MovingPicture(Protocol):
-    """A file for frames; `close` completes it."""
+    """A file of frames; `close` completes it."""
 
     def __init__(self, file: IO[bytes]) -> None: ...
 
     def add(self, picture: Image, milliseconds: int) -> None:
-        """Add a frame, of the same size as all others."""
+        """Add a frame; all frames have the same size."""
 
     def close(self) -> None:
-        """Complete the headers; the file stays open."""
+        """Complete the headers of the animation; the file stays open."""
 
 
 class WebP:
@@ -44,7 +44,7 @@ class WebP:
         self._file, self._flags, self._size = file, _HAS_ANIMATION, (0, 0)
 
     def add(self, picture: Image, milliseconds: int) -> None:
-        """Add a frame, of the same size as all others."""
+        """Add a frame; all frames have the same size."""
         if self._size == (0, 0):
             self._size = picture.size
             self._file.write(self._head(0))
@@ -57,7 +57,7 @@ class WebP:
         self._file.write(_riff_chunk(b"ANMF", frame + b"".join(_riff_chunk(*part) for part in parts)))
 
     def close(self) -> None:
-        """Write the header again, with the length of the file."""
+        """Write the header again, now that the length of the file is known."""
         length = self._file.tell()
         self._file.seek(0)
         self._file.write(self._head(length - 8))
@@ -75,7 +75,7 @@ class Apng:
         self._file, self._frames, self._sequence, self._place = file, 0, 0, 0
 
     def add(self, picture: Image, milliseconds: int) -> None:
-        """Add a frame, of the same size as all others."""
+        """Add a frame; all frames have the same size."""
         # The first chunk states the pixel type of all frames, and a later frame may be transparent.
         parts = list(_png_chunks(_encoded(picture.convert("RGBA"), "PNG")))
         if not self._frames:
@@ -92,7 +92,7 @@ class Apng:
         self._frames += 1
 
     def close(self) -> None:
-        """Write the end, and the number of frames near the beginning."""
+        """Write the end of the file, and the number of frames near its beginning."""
         self._file.write(_png_chunk(b"IEND", b""))
         self._file.seek(self._place)
         self._write_count()
@@ -116,7 +116,7 @@ def _riff_chunk(name: bytes, data: bytes) -> bytes:
 
 
 def _riff_chunks(content: bytes) -> Iterator[tuple[bytes, bytes]]:
-    """The picture and transparency of a WebP file, without its other chunks."""
+    """Return the chunks of a WebP file that hold the picture and its transparency."""
     place = 12
     while place < len(content):
         name, length = struct.unpack_from("<4sI", content, place)

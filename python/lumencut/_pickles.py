@@ -1,4 +1,4 @@
-"""Pickles of public values: they name a class by its public name, so that they survive a move of modules."""
+"""Pickles that refer to a class by its public name, so that they stay readable if its module moves."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import importlib
 import sys
 from typing import Any, TypeVar
 
-#: Modules of the non-public classes that public values hold.
+#: Modules of the private classes that are stored inside public values.
 _PARTS = {
     "Angle": "profile",
     "Box": "dicom_objects.extents",
@@ -24,7 +24,7 @@ _Kind = TypeVar("_Kind", bound=type)
 def by_name(kind: _Kind) -> _Kind:
     """Decorate a class so that its objects are pickled by the name of the class.
 
-    The name is public, or one of the parts listed in this file. A subclass is pickled by its own path.
+    The name is public or listed in this file. An object of a subclass is pickled by its module and name.
     """
 
     def reduced(self: Any, protocol: Any) -> Any:
@@ -44,7 +44,7 @@ def restored() -> Any:
 
 
 def part(name: str) -> type:
-    """Return a class listed in this file by its name.
+    """Return the class with this name from the list in this file.
 
     Raises
     ------

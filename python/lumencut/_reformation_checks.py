@@ -15,12 +15,12 @@ from lumencut.slab import Slab
 from lumencut.vessel import Vessel
 from lumencut.vessel_tree import VesselTree
 
-#: A slab as users pass it: a Slab, a thickness (mm) with a mode, or only a thickness (mm).
+#: A slab in the forms that users pass: a Slab, a thickness (mm) with a mode, or a thickness (mm).
 SlabArgument: TypeAlias = "Slab | tuple[float, str] | float | None"
 
 
 def check_vessel(vessel: Any) -> None:
-    """Reject anything but a vessel, and warn once of doubts about its line."""
+    """Reject anything except a vessel, and warn once if the order of its points or its line is doubtful."""
     if not isinstance(vessel, Vessel):
         mend = (
             "take one of its vessels, or several as one by its path()"
@@ -32,7 +32,7 @@ def check_vessel(vessel: Any) -> None:
 
 
 def flat_settings(settings: Any, slab: SlabArgument = None) -> Settings:
-    """Return the settings of an image without context behind it, with the slab of the caller.
+    """Return settings for an image without context and with one sample per pixel, with this slab.
 
     Raises
     ------
@@ -47,7 +47,7 @@ def flat_settings(settings: Any, slab: SlabArgument = None) -> Settings:
 
 
 def _thick(settings: Settings, slab: SlabArgument) -> Settings:
-    """The settings with the slab that the caller names."""
+    """Return the settings with the slab that the caller passed."""
     if slab is None:
         return settings
     if not isinstance(slab, Slab):
@@ -58,7 +58,7 @@ def _thick(settings: Settings, slab: SlabArgument) -> Settings:
 
 
 def radians(subject: str, angle: float | None, degrees: float | None) -> float:
-    """Return the angle that was given, in radians."""
+    """Return the angle in radians; exactly one of both units must be given."""
     if degrees is not None:
         return math.radians(number(CameraError, subject.replace("angle", "degrees"), degrees))
     return number(CameraError, subject, angle)
@@ -70,7 +70,7 @@ def rotation(angle: float | None, degrees: float | None) -> float:
     Raises
     ------
     CameraError
-        For both angles or neither, or one that is not a finite number.
+        If both angles or none are given, or if the angle is not a finite number.
     """
     if (angle is None) == (degrees is None):
         found = "neither" if angle is None else "an angle in radians and one in degrees"

@@ -1,4 +1,4 @@
-"""Rows as CSV and back: texts that spreadsheets would run as formulas are marked, and read back unchanged."""
+"""Rows as CSV: texts that a spreadsheet would run as formulas get an apostrophe, removed again on reading."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import csv
 import re
 from collections.abc import Iterable, Iterator, Sequence
 
-#: Start of cells that spreadsheets run as formulas, after any apostrophes of the text itself.
+#: Start of a cell that spreadsheets run as a formula; apostrophes in front belong to the text itself.
 FORMULA = r"'*[=+\-@\t\r]"
 _FORMULA = re.compile(FORMULA)
 #: Numbers, which may begin with a sign but are not formulas.
@@ -20,7 +20,7 @@ def written(rows: Iterable[Sequence[object]]) -> str:
 
 
 def _cell(value: object) -> str:
-    """A value as a cell, in quotes if required."""
+    """Return the cell for a value, in quotes if necessary."""
     text = marked(value) if isinstance(value, str) else "" if value is None else str(value)
     return '"' + text.replace('"', '""') + '"' if _PARTED.search(text) else text
 
@@ -36,7 +36,7 @@ def unmarked(cell: str) -> str:
 
 
 def read_rows(lines: Iterable[str]) -> Iterator[list[str]]:
-    """Read the rows of a CSV, with their texts as they were before `written` marked them.
+    """Read the rows of a CSV; the apostrophes that `written` added are removed.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Value semantics: pickling, copying, and comparison of arrays by content."""
+"""Base classes of values: pickling, copying, and comparison of arrays by content."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ class KeepsReadOnly:
 
 
 class Value(KeepsReadOnly):
-    """A base of objects that are equal if class and content are equal.
+    """A base class; two objects are equal if their class and content are equal.
 
-    `_content` returns the content in comparable and hashable form.
+    Subclasses return their content from `_content` in a comparable and hashable form.
     """
 
     __slots__ = ()
@@ -50,5 +50,5 @@ class Value(KeepsReadOnly):
 
 
 def content_of(array: npt.NDArray[np.float64] | None) -> tuple[tuple[int, ...], bytes] | None:
-    """A key of a finite array: equal for equal shapes and numbers, with -0.0 equal to 0.0."""
+    """Return a key of a finite array: arrays of equal shape and numbers have equal keys; -0.0 equals 0.0."""
     return None if array is None else (array.shape, (array + 0.0).tobytes())

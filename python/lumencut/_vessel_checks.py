@@ -1,4 +1,4 @@
-"""Values per point of a vessel, checked."""
+"""Checks of values that a vessel has for each of its points."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from lumencut.errors import VesselTreeError
 
 
 def radii(radius: Any, count: int) -> npt.NDArray[np.float64]:
-    """Return radii (mm) per point; a single one applies to all points."""
+    """Return radii (mm) per point; a single radius applies to all points."""
     if not isinstance(radius, Sequence) and np.ndim(radius) == 0:
         radius = np.full(count, numbers(VesselTreeError, "radius of the vessel", radius, ()))
     return numbers(VesselTreeError, "radius of the vessel", radius, (-1,))
 
 
 def shares(confidence: Any, count: int) -> npt.NDArray[np.float64]:
-    """Return shares, 0 to 1."""
+    """Return values from 0 to 1, one per point."""
     shares = numbers(VesselTreeError, "confidence of the vessel", confidence, (count,))
     if not ((shares >= 0) & (shares <= 1)).all():
         found = f"{shares.min():g} to {shares.max():g}"
@@ -29,7 +29,7 @@ def shares(confidence: Any, count: int) -> npt.NDArray[np.float64]:
 
 
 def marks(bridged: Any, count: int) -> npt.NDArray[np.bool_]:
-    """Return marks, True or False."""
+    """Return True or False per point."""
     try:
         marks = np.array(bridged)
     except ValueError as error:

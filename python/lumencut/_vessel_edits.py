@@ -1,4 +1,4 @@
-"""Vessels cut in two, and two vessels joined to one."""
+"""Cuts a vessel into two, and joins two vessels into one."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from lumencut.vessel import Vessel
 
 
 def parts_of(vessel: Vessel, at: float, taken: list[str]) -> list[Vessel]:
-    """Return both parts of a vessel cut at an arc length (mm), with names that are not taken."""
+    """Return both parts of a vessel cut at an arc length (mm), with names that no other vessel has."""
     name = vessel.name
     names = [name, None if name is None else _lumencut.part_name(taken, name)]
     parts = _lumencut.cut(_arrays(vessel), at)

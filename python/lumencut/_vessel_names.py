@@ -1,4 +1,4 @@
-"""Vessels of a tree by their names."""
+"""Finds vessels of a tree by their names."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ _MOST_DIGITS = 18
 
 
 class _VesselNameError(VesselTreeError, KeyError):
-    """A name that no vessel of a tree has, or several have."""
+    """No vessel of a tree has the name, or several have it."""
 
 
 def id_or_name(vessels: Iterable[Vessel], word: int | str) -> int | str:
-    """Return the id of a word of digits, unless it is the name of a vessel."""
+    """Return the id that the digits of `word` state, unless `word` is the name of a vessel."""
     if not isinstance(word, str) or any(vessel.name == word for vessel in vessels):
         return word
     return int(word) if word.isascii() and word.isdecimal() and len(word) <= _MOST_DIGITS else word
 
 
 def all_named(vessels: Sequence[Vessel], name: str) -> list[int]:
-    """Return the ids of the vessels of a name, at least one."""
+    """Return the ids of all vessels with this name; there must be at least one."""
     meant = [index for index, vessel in enumerate(vessels) if vessel.name == name]
     if meant:
         return meant
@@ -43,7 +43,7 @@ def all_named(vessels: Sequence[Vessel], name: str) -> list[int]:
 
 
 def the_one_named(vessels: Sequence[Vessel], name: str) -> int:
-    """Return the id of the one vessel of a name."""
+    """Return the id of the only vessel with this name."""
     meant = all_named(vessels, name)
     if len(meant) == 1:
         return meant[0]

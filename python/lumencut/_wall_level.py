@@ -1,4 +1,4 @@
-"""The level of the walls of vessels, as a caller gives it."""
+"""The brightness of the walls of vessels, as an argument of a public function."""
 
 from __future__ import annotations
 
@@ -7,17 +7,17 @@ from typing import Literal, TypeAlias
 from lumencut._checks import choice, numbers
 from lumencut.errors import SettingsError
 
-#: Level and standard deviation in the unit of the volume; "off" for no wall; None for the default in CT.
+#: Level and its standard deviation in the unit of the volume; "off": no walls; None: the default for CT.
 Wall: TypeAlias = tuple[float, float] | Literal["off"] | None
 
 
 def wall_level(wall: Wall) -> tuple[float, float] | None:
-    """Return the wall level for the core; a standard deviation of 0 means no distinct walls.
+    """Return the wall level in the form of the core; a standard deviation of 0 means no distinct walls.
 
     Raises
     ------
     SettingsError
-        For another word, or a level or a standard deviation that is invalid.
+        For an unknown word, or an invalid level or standard deviation.
     """
     if wall is None:
         return None

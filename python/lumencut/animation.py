@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 Writer: TypeAlias = "Callable[[Iterable[Frame], float], None]"
 
-#: Frames per second: a frame of an APNG lasts from 1 ms to 65 s.
+#: Frames per second that every format can hold: APNG allows 1 ms to 65 s per frame.
 _SLOWEST, _FASTEST = 1 / 60, 1000.0
 _NUMBER = re.compile(r"%0?\d*d")
 _MOVING: dict[str, type[MovingPicture]] = {".webp": WebP, ".png": Apng, ".apng": Apng}
@@ -39,10 +39,10 @@ def writer_for(
     vessel_names: bool = False,
     dicom: dict[str, Any] | None = None,
 ) -> Writer:
-    """Return the writer of frames for the format of the path; an error before anything is rendered.
+    """Return the function that writes frames in the format of the path; errors appear before any rendering.
 
     `dicom` holds the options of a DICOM object (`study`, `anonymous`, `other_patient`, `grey`, `compress`);
-    without it none can be written.
+    without `dicom`, no DICOM object can be written.
     """
     checked = checked_path(path, WRITABLE)
     for name, value in {"annotate": annotate, "vessel_names": vessel_names}.items():
@@ -51,7 +51,7 @@ def writer_for(
         raise SettingsError("vessel_names", "True without annotate", "annotate=True with it")
     labels = {"annotate": annotate, "vessel_names": vessel_names}
     if dicom is not None and checked.suffix.lower() == ".dcm":
-        # A vessel may carry the name of a person.
+        # Names of vessels may contain the name of a person.
         labels["vessel_names"] &= not dicom["anonymous"]
         return partial(_save_checked, checked, labels, partial(_save_object, checked, dicom))
     check_dicom_alone(checked, **(dicom or {}))
@@ -59,7 +59,7 @@ def writer_for(
 
 
 def is_sequence(path: str | os.PathLike[str]) -> bool:
-    """Return whether each frame becomes a separate picture, without a speed."""
+    """Return whether the format writes each frame as a separate picture, without a frame rate."""
     return _is_folder(os.fspath(path), Path(path)) or "%" in Path(path).name
 
 
@@ -79,12 +79,12 @@ def _save_checked(
 
 
 def _labelled(frames: Iterable[Frame], vessel_names: bool) -> Iterator[Frame]:
-    """Pass frames on with labels on their pictures."""
+    """Yield the frames with labels drawn on their pictures."""
     return (replace(frame, _image=frame.annotated(vessel_names=vessel_names)) for frame in frames)
 
 
 def _alike(path: Path, frames: Iterable[Frame]) -> Iterator[Frame]:
-    """Pass frames on as long as they are frames of one size."""
+    """Yield the frames; raise an error if one is not a frame, or its size differs from that of the first."""
     first = None
     try:
         frames = iter(frames)
@@ -120,7 +120,7 @@ def _is_folder(name: str, path: Path) -> bool:
 
 
 def _save_moving(path: Path, kind: type[MovingPicture], frames: Iterable[Frame], fps: float) -> None:
-    """Write frames into one file as they come."""
+    """Write the frames one after the other into one file."""
     from PIL import Image
 
     def write(temporary: Path) -> None:
@@ -137,7 +137,7 @@ def _save_moving(path: Path, kind: type[MovingPicture], frames: Iterable[Frame],
 
 
 def _save_sequence(pattern: Path, labels: dict[str, bool], frames: Iterable[Frame], _: float) -> None:
-    """Write one picture per frame; all appear together at the end."""
+    """Write one picture per frame; all pictures appear together at the end."""
     from PIL import Image
 
     parent = pattern.parent
@@ -216,7 +216,7 @@ def _checked_pattern(path: Path) -> Path:
 
 
 def _without_idle_alpha(image: Any) -> Any:
-    """The picture without alpha if it is fully opaque: smaller in memory and on disk."""
+    """Return the picture without its alpha channel if it is fully opaque: smaller in memory and on disk."""
     return image if (image[:, :, 3] != 255).any() else np.ascontiguousarray(image[:, :, :3])
 
 

@@ -17,14 +17,14 @@ if TYPE_CHECKING:
     from lumencut.frame_source import FrameSource
     from lumencut.window import Window
 
-#: Pictures with a shorter side than this (pixels) have no room for labels.
+#: Pictures whose shorter side is smaller than this (pixels) get no labels.
 SMALLEST_SIDE = 200
 
 
 def annotated(
     image: npt.NDArray[np.uint8], camera: Camera, source: FrameSource, *, vessel_names: bool
 ) -> npt.NDArray[np.uint8]:
-    """Return a copy of an RGBA picture (H, W, 4) with labels, or without them if it is too small."""
+    """Return a copy of an RGBA picture (H, W, 4) with labels; too small pictures get none."""
     if min(camera.size) < SMALLEST_SIDE:
         return image.copy()
     sheet = Sheet(image)
@@ -40,10 +40,10 @@ def annotated(
 def with_labels(
     image: npt.NDArray[np.uint8], words: Iterable[str], letters: dict[str, str], spacing: float | None
 ) -> npt.NDArray[np.uint8]:
-    """Return a copy of an RGBA picture (H, W, 4) with labels, or without them if it is too small.
+    """Return a copy of an RGBA picture (H, W, 4) with labels; too small pictures get none.
 
-    Text is in the upper left corner, letters are at the edges that they name. With the side of a pixel (mm)
-    a scale bar is in the lower left corner.
+    Text is in the upper left corner; the letters of the patient's sides are at the edges. If the side of a
+    pixel (mm) is given, a scale bar is in the lower left corner.
     """
     if min(image.shape[:2]) < SMALLEST_SIDE:
         return image.copy()
@@ -56,7 +56,7 @@ def with_labels(
 
 
 def _write_sides(sheet: Sheet, letters: dict[str, str]) -> None:
-    """Write the sides of the patient in the middle of the edges that look to them."""
+    """Write the letter of each side of the patient in the middle of the edge on that side."""
     width, height, margin = *sheet.size, sheet.margin
     places = {
         "left": ((margin, height / 2), "lm"),
@@ -96,10 +96,10 @@ def _write_scale(sheet: Sheet, camera: Camera, source: FrameSource) -> None:
 
 
 def window_words(window: Window) -> str:
-    """Return the width and the level of a window as viewers write them."""
+    """Return the width and the level of a window, written as in other DICOM viewers."""
     return f"W {_short(window.width)} L {_short(window.level)}"
 
 
 def _short(value: float) -> str:
-    """A number with about four digits; intensities of usual scales have no exponent."""
+    """Return a number with about four digits, without an exponent at usual intensities."""
     return f"{value:.0f}" if 100 <= abs(value) < 1e7 else f"{value:.3g}"

@@ -1,4 +1,4 @@
-"""The orthographic camera: where the view lies in world space and how many pixels it has."""
+"""The orthographic camera: its position and direction in world space, and its number of pixels."""
 
 from __future__ import annotations
 
@@ -29,16 +29,16 @@ Scene: TypeAlias = VesselTree | Vessel | Volume | Any
 @by_name
 @dataclass(frozen=True, eq=False)
 class Camera(Value):
-    """An orthographic view; cameras with the same place, size and pixels are equal.
+    """An orthographic view; two cameras are equal if position, directions and pixels are equal.
 
     Parameters
     ----------
     center : array_like, shape (3,)
-        The world point (mm, LPS) in the middle of the image at depth 0; rotations turn about it.
+        The world point (mm, LPS) in the middle of the image, at depth 0; rotations turn about this point.
     direction : array_like, shape (3,)
-        From the viewer into the scene; any length.
+        The direction from the viewer into the scene; a vector of any length.
     up : array_like, shape (3,)
-        Upwards in the image; need not be perpendicular to the direction, but not parallel to it.
+        The upward direction in the image; not parallel to ``direction``, and made perpendicular to it.
     size : (int, int), default (512, 512)
         Width and height (pixels), 1 to 32768.
     pixel_spacing : float, default 1.0
@@ -78,7 +78,7 @@ class Camera(Value):
         object.__setattr__(self, name, value)
 
     def _moved(self, place: dict[str, Any]) -> Camera:
-        """The camera at another place; its unit axes are copied without normalising them again."""
+        """Return the camera at another position; its unit axes are copied without normalising them again."""
         moved = copy(self)
         moved._set("pixel_spacing", place["pixel_spacing"])
         for name in ("center", "direction", "right_axis", "up"):
@@ -93,23 +93,23 @@ class Camera(Value):
         up: npt.ArrayLike,
         size: tuple[int, int] = (512, 512),
     ) -> Camera:
-        """Return the view along ``direction`` in which all of ``scene`` just fits into ``size`` pixels.
+        """Return the view along ``direction`` with the largest scale at which all of ``scene`` is visible.
 
         Parameters
         ----------
         scene : VesselTree, Vessel, Volume, or anything :func:`lumencut.render` takes as a volume
             The objects to fit: ``tree["LAD"]`` zooms to one vessel.
         direction : array_like, shape (3,)
-            From the viewer into the scene; any length.
+            The direction from the viewer into the scene; a vector of any length.
         up : array_like, shape (3,)
-            Upwards in the image.
+            The upward direction in the image.
         size : (int, int), default (512, 512)
             Width and height (pixels).
 
         Raises
         ------
         CameraError
-            For a scene of another kind, or invalid vectors or size.
+            For a scene of an unsupported type, or an invalid vector or size.
         VolumeError
             For an image that is not a volume, such as one of several time points.
         """
@@ -120,7 +120,7 @@ class Camera(Value):
 
     @classmethod
     def named(cls, name: str, scene: Scene, size: tuple[int, int] = (512, 512)) -> Camera:
-        """Return the fitted view of this name, one of :data:`VIEWS`."""
+        """Return the fitted view with this name, one of :data:`VIEWS`."""
         if not (isinstance(name, str) and name in VIEWS):
             raise CameraError("name of the view", repr(name), "one of " + ", ".join(VIEWS))
         return cls.fitted(scene, *VIEWS[name], size)
@@ -165,9 +165,9 @@ class Camera(Value):
         degrees: float | None = None,
         size: tuple[int, int] = (512, 512),
     ) -> Camera:
-        """Return the view centred on a place on a vessel, with the vessel running upwards.
+        """Return the view centred on a point of a vessel, with the vessel running upwards.
 
-        Each angle shows another diameter of the vessel at that place. The picture extends eight radii of the
+        Each angle shows another diameter of the vessel at that point. The picture extends eight radii of the
         vessel to each side (8 mm if its radius is unknown).
 
         Parameters
@@ -175,7 +175,7 @@ class Camera(Value):
         vessel : Vessel
             The vessel, such as ``tree["LAD"]``.
         at : float
-            The place (mm from the vessel's first point).
+            The arc length of the point (mm from the vessel's first point).
         angle : float, default 0
             How far the viewer moves about the vessel (radians), with the sign of :meth:`rotated` about "up".
             Of all these views, 0 is the one nearest to the anterior view with the head up.
@@ -187,7 +187,7 @@ class Camera(Value):
         Raises
         ------
         CameraError
-            For an invalid vessel, a place that is not on it, both angles, or an infinite angle.
+            For an invalid vessel, a point beyond its ends, both angles, or an infinite angle.
         VesselTreeError
             For a vessel without length.
         """
@@ -208,10 +208,10 @@ class Camera(Value):
         *,
         start: Camera | None = None,
     ) -> Camera:
-        """Return the view that shows most of a vessel, fitted to everything within two radii of it.
+        """Return the view that shows most of a vessel, fitted to everything within two radii of the vessel.
 
-        Of 256 directions all around, the projected length of the vessel, without parts hidden by the vessel
-        itself, is largest. A direction half a turn away from ``start`` is penalised by a fifth of the
+        Of 256 directions all around, it has the largest projected length of the vessel; parts hidden behind
+        the vessel itself do not count. A direction opposite to ``start`` is penalised by a fifth of the
         vessel's length.
 
         Parameters
@@ -260,7 +260,7 @@ class Camera(Value):
         Raises
         ------
         CameraError
-            For both angles or neither, one that is no number, or an axis that is no direction.
+            For both angles or none, an angle that is not a number, or an axis that is not a direction.
         """
         about = checked_axis(axis, ("up", "right", "direction"))
         return self._moved(_lumencut.rotated(self, _radians(angle, degrees), about))
@@ -273,7 +273,7 @@ class Camera(Value):
         return self._moved(_lumencut.zoomed(self, checked))
 
     def panned(self, right: float, up: float) -> Camera:
-        """Return the view moved by ``right`` and ``up`` (mm) in its plane."""
+        """Return the view moved within its plane, to the right by ``right`` and upwards by ``up`` (mm)."""
         shift = [number(CameraError, "shift of the camera", value) for value in (right, up)]
         if not np.isfinite(shift).all():
             raise CameraError("shift of the camera", f"{shift}", "finite distances in mm")
@@ -282,7 +282,7 @@ class Camera(Value):
     def project(self, points: npt.ArrayLike) -> npt.NDArray[np.float64]:
         """Return the pixels and depths of world points.
 
-        The inverse of ``Frame.position``: a point that a frame shows in row j and column i is projected to
+        This inverts ``Frame.position``: a point that a frame shows in row j and column i is projected to
         (i, j) and the depth there.
 
         Parameters
@@ -294,14 +294,14 @@ class Camera(Value):
         -------
         numpy.ndarray, shape (n, 3)
             For each point its column and its row (pixels, with fractions), and its depth (mm), which grows
-            away from the viewer and is 0 at the camera's center. The centre of the pixel in column i and row
-            j is at (i, j), the first one at (0, 0): the image extends from -0.5 to width - 0.5 and height -
-            0.5. Points outside it are projected too.
+            away from the viewer and is 0 at the camera's center. Pixel centres have integer coordinates; the
+            first one is at (0, 0), so the image extends from -0.5 to width - 0.5 and height -
+            0.5. Points outside the image are projected too.
 
         Raises
         ------
         CameraError
-            For points of another shape, or that are no numbers.
+            For points of another shape, or with coordinates that are not numbers.
         """
         try:
             shape = (3,) if np.ndim(points) == 1 else (-1, 3)
@@ -315,7 +315,7 @@ class Camera(Value):
 
 
 def _radians(angle: float | None, degrees: float | None) -> float:
-    """The angle of a rotation (radians), given in one of two units."""
+    """Return the angle of a rotation in radians; it is given either in radians or in degrees."""
     if (angle is None) == (degrees is None):
         found = "neither" if angle is None else "an angle in radians and one in degrees"
         raise CameraError("angle of the rotation", found, "one of angle= (radians) and degrees=")
@@ -327,7 +327,7 @@ def _radians(angle: float | None, degrees: float | None) -> float:
 def upright(direction: Sequence[float] | npt.NDArray[np.float64]) -> tuple[float, float, float]:
     """Return the up vector of a view along ``direction``, shape (3,).
 
-    Up is towards the head, or towards the patient's front if the view runs along the body.
+    Up is towards the head; if the view runs along the body, up is towards the patient's front.
     """
     across = math.hypot(direction[0], direction[1])
     return (0.0, 0.0, 1.0) if across > 0.05 * abs(direction[2]) else (0.0, -1.0, 0.0)
@@ -350,7 +350,7 @@ def scene_points(scene: Scene) -> npt.NDArray[np.float64]:
 
 
 def checked_axis(axis: Any, names: tuple[str, ...]) -> str | npt.NDArray[np.float64]:
-    """Return one of the names, or a vector as an array of shape (3,)."""
+    """Return ``axis`` if it is one of the names; otherwise return it as a vector of shape (3,)."""
     if isinstance(axis, str) and axis in names:
         return axis
     return numbers(CameraError, "axis of the rotation", axis, (3,))

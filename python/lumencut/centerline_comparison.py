@@ -21,13 +21,13 @@ from lumencut.errors import SettingsError, VesselTreeError
 from lumencut.vessel import Vessel
 from lumencut.vessel_tree import VesselTree
 
-#: Errors closer than this to the start of the reference (mm) do not count as the first error.
+#: Errors within this distance from the start of the reference (mm) do not count as the first error.
 _FREE_START = 5.0
 
-#: A reference is clinically relevant from its start to its last point with at least this radius (mm).
+#: The part of a reference up to its last point with at least this radius (mm) is clinically relevant.
 _RELEVANT_RADIUS = 0.75
 
-#: The disc at the start of the reference is wider than the vessel there by this factor.
+#: Radius of the disc at the start of the reference, as a multiple of the radius of the vessel there.
 _DISC = 2.0
 
 _Points = npt.NDArray[np.float64]
@@ -41,10 +41,10 @@ class CenterlineComparison:
     Attributes
     ----------
     ov : float
-        Overlap: the share of points of both lines that are connected to a point of the other line nearer
-        than the radius of the reference there.
+        Overlap: the share of points of both lines that are connected to a point of the other line closer
+        than the radius of the reference at that point.
     of : float
-        Overlap until the first error: the share of the reference before its first unconnected point; points
+        Overlap until the first error: the share of the reference before its first unmatched point; points
         in the first 5 mm do not count.
     ot : float
         Overlap of the clinically relevant part: as ``ov``, for the reference up to its last point with a
@@ -54,10 +54,10 @@ class CenterlineComparison:
     length : float
         Length of the reference (mm).
     first_error : float or None
-        Position of the first error along the reference (mm); None without an error, and always for a tree.
+        Position of the first error along the reference (mm); None if there is no error, and for trees.
     false_length : float
-        Length of traced vessels outside the lumen of the reference (mm): every point of the reference is
-        farther away than its radius.
+        Length of the traced vessels outside the lumen of the reference (mm): each point of the reference is
+        farther away than its own radius.
     vessels : tuple of CenterlineComparison
         For a tree, the comparison of each vessel of the reference, in order.
     """
@@ -134,7 +134,7 @@ def compare_centerlines(
 
 @dataclass(frozen=True)
 class _Counts:
-    """Counts of one vessel of the reference: correct and all points, and connections inside."""
+    """Counts for one vessel of the reference: correct points, all points, connections in the lumen."""
 
     right: int
     all: int
@@ -171,7 +171,7 @@ def _summary(
 
 
 def _counted(traced: _Points | None, reference: Vessel, step: float) -> _Counts:
-    """Count correct points along a vessel of the reference; ``traced`` is None without a counterpart."""
+    """Count correct points along a vessel of the reference; without a match ``traced`` is None."""
     points, radius = _sampled(reference.points, step, reference.radius)
     length, count = reference.length, len(points)
     relevant = np.flatnonzero(radius >= _RELEVANT_RADIUS)
@@ -204,7 +204,7 @@ def _counted(traced: _Points | None, reference: Vessel, step: float) -> _Counts:
 def _sampled(
     points: _Points, step: float, values: npt.NDArray[np.float64] | None = None
 ) -> tuple[_Points, npt.NDArray[np.float64]]:
-    """Points at equal distances of about ``step`` along a line, including both ends, and the values there."""
+    """Return points about ``step`` apart along a line, including both ends, and the values there."""
     ways = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
     count = max(2, round(float(ways[-1]) / step) + 1)
     wanted = np.linspace(0.0, ways[-1], count)
@@ -228,7 +228,7 @@ def _clipped(line: _Points, reference: _Points, width: float) -> _Points:
 
 
 def _like(points: _Points, reference: _Points) -> _Points:
-    """The points in the direction in which their ends fit those of the reference better."""
+    """Return the points, reversed if their ends then fit those of the reference better."""
     ends = reference[[0, -1]]
     kept = np.linalg.norm(points[[0, -1]] - ends, axis=1).sum()
     turned = np.linalg.norm(points[[-1, 0]] - ends, axis=1).sum()
@@ -236,7 +236,7 @@ def _like(points: _Points, reference: _Points) -> _Points:
 
 
 def _false_length(traced: Vessel | VesselTree, references: Sequence[Any], step: float = 0.5) -> float:
-    """Length of traced vessels outside all lumens of the reference (mm)."""
+    """Return the length of the traced vessels outside all lumens of the reference (mm)."""
     known = [_sampled(vessel.points, step, vessel.radius) for vessel in references]
     points = np.concatenate([points for points, _ in known])
     radius = np.concatenate([radius for _, radius in known])

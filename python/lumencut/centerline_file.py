@@ -44,13 +44,13 @@ class CenterlineReport:
     Attributes
     ----------
     format : str
-        Such as ``VTK XML PolyData``.
+        The format, such as ``VTK XML PolyData``.
     space, unit : str
         The space and unit in which its coordinates were read.
     stated, stated_unit : str or None
         The space and unit that the file itself states.
     space_from, unit_from : "asked", "stated", "volume", "values" or "assumed"
-        Who decided it: the caller, the file, the extent of the volume, its values along the lines, or nobody.
+        What decided: the caller, the file, the extent of the volume, its values along the lines, or nothing.
     vessels, points : int
         The number of vessels, and of their points.
     radius : bool
@@ -58,7 +58,7 @@ class CenterlineReport:
     decision : Told
         What was assumed or decided about space and unit, and why; empty if file or caller stated it.
     is_unusual : bool
-        Whether the volume decided against LPS or the usual unit of the format, or the space by its values.
+        Whether the volume decided against LPS or the format's usual unit, or its values decided the space.
     notes : tuple of str
         Notes on the file, one sentence each, including those of `doubts`.
     doubts : tuple of LineDoubt
@@ -88,7 +88,7 @@ class CenterlineReport:
 
     @property
     def reordered(self) -> tuple[str, ...]:
-        """The notes on lines whose points were sorted."""
+        """Return the notes on lines whose points were sorted."""
         return tuple(note for note in self.notes if note.endswith(_lumencut.REORDERED))
 
 
@@ -134,7 +134,7 @@ class CenterlineFile:
         *,
         reorder: bool = False,
     ) -> tuple[VesselTree, CenterlineReport]:
-        """Return the vessels in world space and a report on reading; parameters as `read_centerlines`."""
+        """Return the vessels in world space, and a report; parameters as for `read_centerlines`."""
         check_choice(coordinates, unit)
         if not isinstance(reorder, bool):
             raise SettingsError("reorder", repr(reorder), "True or False")
@@ -151,7 +151,7 @@ class CenterlineFile:
         lines = Lines(in_mm.points / MILLIMETRES[likely], in_mm.radii / MILLIMETRES[likely])
         place = placement(self.path.name, lines, stated, coordinates, unit, volume)
         if place.unit != likely:
-            # Lines are joined by distances in mm.
+            # After conversion to mm, because lines are joined by distances in mm.
             vessels, notes = content.vessels(MILLIMETRES[place.unit], reorder)
         tree = VesselTree([Vessel(points * place.signs, radius, name) for points, radius, name in vessels])
         is_told = place.is_unusual or (volume is not None and bool(place.doubt))
@@ -169,7 +169,7 @@ class CenterlineFile:
         *,
         reorder: bool = False,
     ) -> VesselTree:
-        """Return the vessels in world space, and warn of assumptions like `read_centerlines`."""
+        """Return the vessels in world space, with the warnings of `read_centerlines`."""
         return self.tree_and_report(coordinates, unit, volume, reorder=reorder)[0]
 
     def tree_and_report(
@@ -181,7 +181,7 @@ class CenterlineFile:
         reorder: bool = False,
         are_lines: bool = True,
     ) -> tuple[VesselTree, CenterlineReport]:
-        """Like `tree`, with a report on reading; points that are not lines may be in any order."""
+        """Like `tree`, with a report on reading; lists of loose points may be in any order."""
         tree, report = self.placed(coordinates, unit, volume, reorder=reorder)
         if are_lines:
             warn_of(report.doubts, self.path.name)

@@ -17,17 +17,17 @@ _SAME = 1e-3
 #: Largest distance of neighbouring points after splitting segments (mm).
 _STEP = 0.5
 
-#: Distance between sampled points of a line, which decide its connected piece (mm).
+#: Distance between the samples of a line that decide to which connected piece the line belongs (mm).
 _VOTES = 1.0
 
-#: A path shorter than this share of the line may run along the wrong side of a cycle.
+#: A path shorter than this share of the line may follow the wrong side of a cycle.
 _AS_LONG = 0.8
 
 _Points = npt.NDArray[np.float64]
 
 
 class CenterlinePaths:
-    """The points of vessels as a graph: neighbours along a vessel are joined, points at one place are merged.
+    """The points of vessels as a graph: neighbours along a vessel are joined, coincident points are merged.
 
     Parameters
     ----------
@@ -54,9 +54,9 @@ class CenterlinePaths:
     def along(self, line: _Points) -> _Points | None:
         """Return the shortest path from the point nearest to a line's start to the one nearest to its end.
 
-        Both points belong to the connected piece nearest to most of the line. A path shorter than four fifths
-        of the line may run along the other side of a cycle: it is led through the points nearest to both
-        thirds of the line if its length then fits better.
+        Both points belong to the connected piece that is nearest to most of the line. A path shorter than
+        four fifths of the line may follow the wrong side of a cycle. Then a path through the points nearest
+        to both thirds of the line replaces it if the length of that path fits better.
 
         Parameters
         ----------
@@ -81,7 +81,7 @@ class CenterlinePaths:
         return way if len(way) > 1 else None
 
     def _through(self, stops: Sequence[int]) -> list[int]:
-        """The shortest path through points in their order."""
+        """Return the shortest path through these points in their order."""
         ways = (self._shortest(start, end)[1:] for start, end in itertools.pairwise(stops))
         return [stops[0], *itertools.chain.from_iterable(ways)]
 
@@ -131,7 +131,7 @@ class CenterlinePaths:
 
 
 def _parted(points: _Points, step: float) -> _Points:
-    """The points, with further ones on segments longer than ``step``."""
+    """Return the points, with more points on segments longer than ``step``."""
     lengths = np.linalg.norm(np.diff(points, axis=0), axis=1)
     counts = np.maximum(1, np.ceil(lengths / step)).astype(int)
     parts = [

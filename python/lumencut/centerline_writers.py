@@ -15,8 +15,8 @@ _FORMATS = ("vtp", "mrk.json", "vtk", "csv", "swc")
 def write_centerlines(tree: VesselTree, path: str | os.PathLike[str]) -> None:
     """Write a tree as a centerline file (mm, LPS), which appears only when complete.
 
-    From ``.vtp`` and ``.mrk.json``, `read_centerlines` returns bit-identical vessels with their order,
-    direction and names: a mark in the file prevents that vessels are joined. The other formats are for other
+    From ``.vtp`` and ``.mrk.json``, `read_centerlines` returns bit-identical vessels in the same order and
+    direction, with their names: a mark in the file prevents joining. The other formats are for other
     programs and hold less:
 
     * ``.vtk`` (legacy): the same, but only VTK reads the names, `read_centerlines` does not.
@@ -28,9 +28,9 @@ def write_centerlines(tree: VesselTree, path: str | os.PathLike[str]) -> None:
       states no space: read it with ``coordinates="lps"``.
 
     The confidence of traced vessels is written too, for other programs: as the array of points
-    ``Confidence``, the measurement ``Confidence`` or the column ``confidence``. Points of other vessels
-    beside them have 1, bridged points have 0. ``.swc`` has no place for it, and `read_centerlines` does not
-    read it.
+    ``Confidence``, the measurement ``Confidence`` or the column ``confidence``. In such a tree, points of
+    vessels without a confidence get 1, bridged points get 0. ``.swc`` cannot hold the confidence, and
+    `read_centerlines` ignores it.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ def write_centerlines(tree: VesselTree, path: str | os.PathLike[str]) -> None:
 
 
 def centerline_content(tree: VesselTree, kind: str) -> bytes:
-    """Return the content of a centerline file of a kind, such as ``vtp``, that `write_centerlines` writes."""
+    """Return the content that `write_centerlines` would write into a file of a format, such as ``vtp``."""
     try:
         return _lumencut.write_centerlines(
             [(vessel.points, vessel.radius, vessel.name, vessel.confidence) for vessel in tree], kind

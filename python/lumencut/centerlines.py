@@ -74,7 +74,7 @@ def read_centerlines(
     volume = None if volume is None else as_volume(volume)
     if isinstance(path, (list, tuple)):
         files, read = CenterlineFiles(path), []
-        # Warnings name the line of the caller, so no further function may be added in between.
+        # Each warning must name the caller's line, so no further function may be added in between.
         for file in files:
             read.append(file.within(volume, coordinates, unit, reorder=reorder))  # noqa: PERF401
         return files.joined(read)

@@ -20,29 +20,29 @@ if TYPE_CHECKING:
     from lumencut.renderer import Renderer
     from lumencut.settings import Settings
 
-#: Pictures with a shorter side than this (pixels) have no room for titles and legend.
+#: Pictures whose shorter side is smaller than this (pixels) get no titles and no legend.
 SMALLEST_SIDE = 200
 OURS = "CSR (Lumencut)"
 
-#: Differences of depth (mm) at which each colour begins, and the colour of pixels that a method lacks.
+#: Colour of pixels from each difference of depth on (mm), and colour of pixels that a method does not show.
 _COLORS = ((0.5, (255, 236, 120)), (2.0, (255, 160, 40)), (5.0, (230, 40, 40)), (20.0, (190, 40, 190)))
 _NOTHING = (70, 130, 255)
-#: Smallest difference that is counted (mm).
+#: Smallest difference of depth that the legend counts (mm).
 _COUNTED = 2.0
-#: Opacity of the colour of a marked pixel, and brightness of the picture below.
+#: Opacity of the colour over a marked pixel, and brightness of the picture below the colour.
 _COVER, _DIM = 0.6, 0.6
 
 
 @dataclass(frozen=True, eq=False)
 class Panel:
-    """A method's picture of the view.
+    """The picture of a view by one method.
 
     Parameters
     ----------
     title : str
         The name of the method.
     frame : Frame
-        Its title.
+        The frame of the view.
     """
 
     title: str
@@ -98,7 +98,7 @@ def side_by_side(
 
 
 def marks(frame: Frame, ours: Frame) -> npt.NDArray[np.float64]:
-    """Return how far the depth of a frame differs from that of ours (mm), (H, W).
+    """Return how far the depth of a frame differs from that of the frame to compare with (mm), (H, W).
 
     It is NaN where neither shows a value of the volume, and infinite where ours does and the frame has no
     depth.
@@ -116,7 +116,7 @@ def share_beyond(mark: npt.NDArray[np.float64], bound: float) -> float:
 
 
 def _painted(frame: Frame, mark: npt.NDArray[np.float64]) -> npt.NDArray[np.uint8]:
-    """A dim grey picture with the colours of the differences over it."""
+    """Return the picture in dim grey, with the colours of the differences over it."""
     grey = frame.image[..., :3].mean(axis=2) * _DIM
     picture = np.repeat(grey[..., None], 3, axis=2)
     for bound, color in (*_COLORS, (np.inf, _NOTHING)):
@@ -128,7 +128,7 @@ def _painted(frame: Frame, mark: npt.NDArray[np.float64]) -> npt.NDArray[np.uint
 def _legend(
     size: tuple[int, ...], differences: Sequence[tuple[str, npt.NDArray[np.float64]]]
 ) -> npt.NDArray[np.uint8]:
-    """The colours and their meaning, and how much of the tissue differs, on black."""
+    """Return the legend on black: the colours, their meaning, and how much of the tissue differs."""
     sheet = Sheet(_opaque(np.zeros((*size[:2], 3), np.uint8)))
     bounds = [bound for bound, _ in _COLORS]
     ends = [*(f"{bound:g} to {end:g} mm" for bound, end in itertools.pairwise(bounds))]
@@ -150,7 +150,7 @@ def _legend(
 
 
 def _fitted(picture: npt.NDArray[np.uint8], shape: tuple[int, ...]) -> npt.NDArray[np.uint8]:
-    """A picture in the middle of black pixels of a shape, as large as it fits."""
+    """Return a picture as large as it fits, in the middle of black pixels of a given shape."""
     from PIL import Image
 
     (height, width), (rows, columns) = shape[:2], picture.shape[:2]
@@ -163,7 +163,7 @@ def _fitted(picture: npt.NDArray[np.uint8], shape: tuple[int, ...]) -> npt.NDArr
 
 
 def _without_depth(shape: tuple[int, ...]) -> npt.NDArray[np.uint8]:
-    """The reason, on black, why there is nothing to compare."""
+    """Return black pixels with the reason why there is nothing to compare."""
     sheet = Sheet(_opaque(np.zeros((*shape[:2], 3), np.uint8)))
     for number, line in enumerate(
         ("Its pixels are not those", "of the view: it has", "no depth to compare.")
@@ -173,7 +173,7 @@ def _without_depth(shape: tuple[int, ...]) -> npt.NDArray[np.uint8]:
 
 
 def _titled(title: str, picture: npt.NDArray[np.uint8]) -> npt.NDArray[np.uint8]:
-    """A picture below a strip with its title, and a dark line at its right."""
+    """Return a picture below a strip with its title, with a dark line at the right."""
     height, width = picture.shape[:2]
     strip = Sheet(_opaque(np.zeros((max(24, round(min(height, width) / 16)), width, 3), np.uint8)))
     strip.write(title, (width / 2, strip.size[1] / 2), "mm", is_large=True)

@@ -25,7 +25,7 @@ def contact_sheet(
 ) -> Picture:
     """Return pictures (H, W, 4) as one, each below its title, in lines from the upper left.
 
-    Long titles are shortened before the last comma. Pictures with numbers in `starts` begin a line.
+    Long titles are shortened before their last comma. Pictures whose numbers are in `starts` begin a line.
     """
     panels = [_titled(picture, title) for picture, title in zip(pictures, titles, strict=True)]
     lines = _lines(panels, starts)
@@ -43,7 +43,7 @@ def contact_sheet(
 
 
 def _titled(picture: Picture, title: str) -> Picture:
-    """A picture below its title, as wide as both need."""
+    """Return a picture below its title, as wide as the wider of both."""
     probe = Sheet(np.zeros((SMALLEST_SIDE, SMALLEST_SIDE, 4), np.uint8))
     name, comma, rest = title.rpartition(", ")
     words = f"{writable(name)}{comma}{writable(rest)}"
@@ -60,7 +60,7 @@ def _titled(picture: Picture, title: str) -> Picture:
 
 
 def _lines(panels: Sequence[Picture], starts: Collection[int]) -> list[list[Picture]]:
-    """The panels in lines that make the sheet about 1.5 times as wide as high."""
+    """Return the pictures in lines that make the sheet about 1.5 times as wide as high."""
     area = sum((panel.shape[0] + _GAP) * (panel.shape[1] + _GAP) for panel in panels)
     widest = max(math.sqrt(1.5 * area), max(panel.shape[1] for panel in panels) + 2 * _GAP)
     lines: list[list[Picture]] = []

@@ -50,7 +50,7 @@ def devices() -> list[Device]:
 
 
 def look_for_no_display() -> None:
-    """Suppress the message of a Mesa layer on stderr that it finds no display to choose a GPU."""
+    """Suppress a message on stderr: a Mesa layer complains that no display is there to choose a GPU."""
     screens = ("DISPLAY", "WAYLAND_DISPLAY", "MESA_VK_DEVICE_SELECT")
     if sys.platform == "linux" and not any(os.environ.get(name) for name in screens):
         os.environ.setdefault("NODEVICE_SELECT", "1")

@@ -1,4 +1,4 @@
-"""Facts about an installation for bug reports: versions, GPUs, the page, and missing parts.
+"""Facts about an installation for bug reports: versions, GPUs, the viewer's page, and what is missing.
 
 Nothing here names a file of the user: paths in the home folder begin with `~`.
 """
@@ -19,7 +19,7 @@ from urllib.request import ProxyHandler, build_opener
 from lumencut.errors import LumencutError
 
 _VARIABLES = ("RAYON_NUM_THREADS", "VK_DRIVER_FILES", "VK_ICD_FILENAMES", "XDG_CACHE_HOME")
-#: Headers that allow a page to share memory between its workers.
+#: Headers with which browsers allow a page to share memory between its workers.
 _ISOLATION = {"Cross-Origin-Opener-Policy": "same-origin", "Cross-Origin-Embedder-Policy": "require-corp"}
 #: Side of the test picture (pixels), and timeout of the viewer's server (s).
 _SIDE, _PATIENCE = 64, 10.0
@@ -78,7 +78,7 @@ def _environment() -> dict[str, str]:
 
 
 def _packages(problems: list[str]) -> tuple[dict[str, str | None], dict[str, dict[str, Any]]]:
-    """The packages that are always needed, and the extras."""
+    """Return the versions of the required packages, and the state of the extras."""
     packages: dict[str, str | None] = {}
     extras: dict[str, dict[str, Any]] = {}
     try:
@@ -108,7 +108,7 @@ def _version(name: str) -> str | None:
 
 
 def _gpus(problems: list[str]) -> tuple[list[dict[str, Any]], str]:
-    """The GPUs, and the default device."""
+    """Return the GPUs, and the default device."""
     try:
         from lumencut import _lumencut
         from lumencut.device import devices
@@ -120,7 +120,7 @@ def _gpus(problems: list[str]) -> tuple[list[dict[str, Any]], str]:
 
 
 def _tried(device: _Device, problems: list[str]) -> float | None:
-    """Time of a second small picture (ms); the first one includes preparation."""
+    """Return the time of a second small picture (ms); the first one includes preparation."""
     from lumencut.camera import Camera
     from lumencut.phantom import straight_tube
     from lumencut.renderer import Renderer
@@ -143,7 +143,7 @@ def _tried(device: _Device, problems: list[str]) -> float | None:
 
 
 def _page(problems: list[str]) -> dict[str, Any] | None:
-    """The viewer's page, and whether its server lets browsers isolate it, so that it may use all cores."""
+    """Return facts about the viewer's page; only if browsers may isolate it, it can use all cores."""
     try:
         from lumencut.viewer.page import FOLDER, Page
         from lumencut.viewer.server import ViewerServer
@@ -164,7 +164,7 @@ def _page(problems: list[str]) -> dict[str, Any] | None:
 
 
 def _headers(address: str) -> Message:
-    """The headers of the server for the page, requested without proxies of the environment."""
+    """Return the headers that the server sends with the page, requested without proxies."""
     with build_opener(ProxyHandler({})).open(address, timeout=_PATIENCE) as answer:
         headers: Message = answer.headers
         return headers

@@ -25,7 +25,7 @@ class LumencutError(Exception):
     mends : tuple of Mend
         The remedies that programs can act on, by stable names, such as ``Mend("fill_gaps")``; may be empty.
     advice : str
-        The rest of `mend`, only in words.
+        The remedy as text only, as far as it is not in `mends`.
     """
 
     def __init__(self, subject: str, found: str, expected: str, mend: str = "") -> None:
@@ -40,7 +40,7 @@ class LumencutError(Exception):
 
     @property
     def mends(self) -> tuple[Mend, ...]:
-        """The remedies, by stable names."""
+        """The remedies that programs can act on."""
         return self.mend.mends if isinstance(self.mend, Told) else ()
 
     @property
@@ -49,7 +49,7 @@ class LumencutError(Exception):
         return self.mend.advice if isinstance(self.mend, Told) else self.mend
 
     def written(self, write: Write) -> str:
-        """Return the message with its options as a host writes them."""
+        """Return the message; the host writes the options in it."""
         tail = f"; {written(self.mend, write)}" if self.mend else ""
         return f"{self.subject}: found {self.found}; expected {self.expected}{tail}"
 
@@ -75,7 +75,7 @@ class DeviceError(LumencutError, RuntimeError):
 
 
 class TracingError(LumencutError, ValueError):
-    """Points between which no centerline can be traced: outside the lumen, or without lumen between them."""
+    """Points between which no centerline can be traced: outside the lumen, or not connected by lumen."""
 
 
 class MeasuringError(LumencutError, ValueError):
@@ -109,14 +109,14 @@ class DeviceWarning(UserWarning):
 
 
 class StudyWarning(UserWarning):
-    """A chosen study, or a mask, that may not belong to the scan: of another patient, day, part or place."""
+    """A chosen study or mask that may not belong to the scan: another patient, day, body part or place."""
 
 
 class LineWarning(UserWarning):
     """A centerline that is doubtful by itself: its points are in another order, far away, or missing."""
 
     def written(self, write: Write) -> str:
-        """Return the warning with its options as a host writes them."""
+        """Return the warning; the host writes the options in it."""
         return written(self.args[0], write)
 
 
@@ -124,5 +124,5 @@ class SpaceWarning(UserWarning):
     """Coordinates that fit the volume better in another space than the one stated."""
 
     def written(self, write: Write) -> str:
-        """Return the warning with its options as a host writes them."""
+        """Return the warning; the host writes the options in it."""
         return written(self.args[0], write)

@@ -1,4 +1,4 @@
-"""Curvicircular feature aggregation (CFA): the straightened vessel without a need to turn it."""
+"""Curvicircular feature aggregation (CFA): a straightened vessel that shows all sides in one picture."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class FeatureAggregation(Reformation):
     Attributes
     ----------
     feature : {"max", "mean", "min", "range", "share"}
-        The value of a half circle that is shown.
+        Which value of a half circle is shown.
     level : float or None
         The value above which ``"share"`` counts.
     radius : numpy.ndarray, float64, shape (W,)
@@ -91,7 +91,7 @@ class FeatureAggregation(Reformation):
     def settings(self) -> Settings:
         """The settings, with numbers for the window; values of the volume have its window.
 
-        The window of a range begins at 0, and a share is shown from 0 to 1.
+        The window of ``"range"`` begins at 0; ``"share"`` is shown from 0 to 1.
         """
         found = self._renderer.windowed(self._given)
         if not isinstance(found.window, Window):
@@ -120,22 +120,22 @@ def cfa(
     *,
     level: float | None = None,
 ) -> FeatureAggregation:
-    """Return one straightened picture of all that surrounds a vessel.
+    """Return one straightened picture of everything around a vessel.
 
     This is our reading of curvicircular feature aggregation (Mistelbauer et al. 2013): a pixel r mm from
     the vessel shows the chosen feature of the half circle of radius r on its side, in the section of its row.
-    So everything around the vessel is visible without turning it, on the side where it lies.
+    So everything around the vessel is visible without turning it, on its true side.
 
     Parameters
     ----------
     volume, vessel, pixel_spacing, up, smoothing, settings, device
-        As for :func:`lumencut.cpr`. A slab of the settings is thick along the circle's tangent.
+        As for :func:`lumencut.cpr`. The slab of the settings extends along the tangent of the circle.
     radius : float, default 10
-        The largest circle (mm).
+        The radius of the largest circle (mm).
     feature : {"max", "mean", "min", "range", "share"}, default "max"
-        The value of a half circle that is shown: its largest, mean or smallest value; ``"range"``, by how
-        much the largest exceeds the smallest, which shows uneven surroundings; or ``"share"``, how much of it
-        lies above ``level``, from 0 to 1. Its samples are no farther apart than a pixel, and one of them is
+        Which value of a half circle is shown: its largest, mean or smallest value; ``"range"``, the largest
+        minus the smallest, which shows uneven surroundings; or ``"share"``, the share of the half circle
+        above ``level``, from 0 to 1. Its samples are at most a pixel apart, and one of them is
         the pixel of the straightened CPR.
     level : float, optional
         The value above which ``"share"`` counts, in the volume's unit; only for ``"share"``.

@@ -1,6 +1,6 @@
 """Kinds of files by their first bytes, for errors about a wrong file.
 
-Another module chooses the reader of a file; here a file may remain unknown.
+Readers of files are chosen in another module; here a file may remain unknown.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from typing import Literal
 _HEAD = 4096
 _CONVERT = "convert it to NIfTI, NRRD or MetaImage"
 _LINES = (".vtp", ".fcsv", ".pth", ".swc", ".tre", ".csv", ".mrk.json")
-#: By the length of the header: position and values of its magic.
+#: For each length of the header: position and possible values of the magic bytes.
 _NIFTI: dict[int, tuple[int, tuple[bytes, ...]]] = {
     348: (344, (b"n+1\0", b"ni1\0")),
     540: (4, (b"n+2\0", b"ni2\0")),
@@ -28,7 +28,7 @@ class Kind:
     Attributes
     ----------
     role : "volume" or "centerlines"
-        Which of the two it can be.
+        Which of the two the file may be.
     name : str
         Its description, such as ``a NIfTI volume``.
     mend : str
@@ -58,7 +58,7 @@ def kind_of(path: Path) -> Kind | None:
 
 
 def _head(path: Path) -> bytes:
-    """The first bytes, decompressed if gzipped."""
+    """Return the first bytes of a file, decompressed if it is gzipped."""
     with path.open("rb") as file:
         head = file.read(_HEAD)
     if not head.startswith(b"\x1f\x8b"):

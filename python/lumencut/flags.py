@@ -9,7 +9,7 @@ from lumencut._pickles import restored
 
 
 class Flag(IntFlag):
-    """Flags of a section; sections keep their numbers with any flag.
+    """Flags of a section; even a flagged section keeps its numbers.
 
     Sections with `BRANCH`, `OUTSIDE`, `NO_EDGE`, `RECENTERED` or `RESTLESS_LINE` are excluded from extrema,
     suggestions and references.
@@ -21,20 +21,20 @@ class Flag(IntFlag):
 
     #: The diameter is below 1.5 times the width (FWHM) of the point spread.
     AT_LIMIT = 1
-    #: The section lies within a junction, or the lumen continues sideways.
+    #: The section lies in a junction, or the lumen continues sideways.
     BRANCH = 2
-    #: Something in the wall is brighter than lumen; it is not lumen, and what it touches is not fitted.
+    #: Something brighter than lumen lies in the wall; it is not lumen, and the fit leaves it out.
     CALCIUM = 4
-    #: Something brighter than lumen goes all around it, or is far brighter: a stent, or metal.
+    #: Something brighter than lumen surrounds it, or is much brighter: a stent or other metal.
     METAL = 8
     #: Another lumen or bone is next to the wall.
     NEIGHBOR = 16
     OUTSIDE = 32
     #: No wall was found, or it does not enclose a lumen; numbers are NaN, or unreliable.
     NO_EDGE = 64
-    #: The vessel's point lies outside of the lumen, whose middle was found elsewhere.
+    #: The centerline lies outside the lumen; the middle of the lumen was found elsewhere.
     RECENTERED = 128
-    #: The wall is far from an ellipse.
+    #: The wall differs much from an ellipse.
     IRREGULAR = 256
-    #: The centerline turns by more than 75° within one diameter, as no vessel does.
+    #: The centerline turns by more than 75° within one diameter, which no vessel does.
     RESTLESS_LINE = 512

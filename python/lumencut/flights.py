@@ -1,4 +1,4 @@
-"""Flights: the view goes from one camera to another."""
+"""Flights: the view moves smoothly from one camera to another."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def flight(
 ) -> Iterator[Frame]:
     """Render a flight from one view to another, one frame at a time.
 
-    It begins and ends at rest. The view turns by the shortest rotation, in proportion to the distance
+    The speed is 0 at both ends. The view turns by the shortest rotation, in proportion to the distance
     covered, and the pixel spacing changes by equal factors over equal distances.
 
     Parameters
@@ -34,8 +34,8 @@ def flight(
     renderer : Renderer
         The scene.
     start, end : Camera
-        The first and the last view, of one size; such as ``Camera.refocused(tree, "LAD", size,
-        start=start)`` as the end.
+        The first and the last view, with equal sizes; the end may be ``Camera.refocused(tree, "LAD", size,
+        start=start)``.
     settings : Settings, optional
         The settings; defaults if omitted.
     frames : int, default 36

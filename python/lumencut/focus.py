@@ -13,7 +13,7 @@ from lumencut.errors import SettingsError
 @by_name
 @dataclass(frozen=True)
 class Focus:
-    """The cut surface around the vessels, amid the context (after the VesselGlyph of Straka et al. 2004).
+    """The cut surface near the vessels, within the context (after the VesselGlyph of Straka et al. 2004).
 
     Both lengths are measured in the picture, from the nearest wall of any vessel.
 
@@ -21,7 +21,7 @@ class Focus:
     ----------
     margin : float, default 2.0
         Distance beyond the nearest wall up to which the cut surface is fully shown (mm, -1000000 to 1000000).
-        Below 0 lumens fade too.
+        If negative, lumens fade too.
     fade : float, default 6.0
         Further distance over which the cut surface fades into the context (mm, 0 to 1000000). 0 is a hard
         edge; any other fade is at least two pixels wide.

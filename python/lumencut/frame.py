@@ -30,7 +30,7 @@ _OPAQUE = ("BMP", "EPS", "JPEG", "MPO", "PCX")
 
 IMAGES = ("image", "depth", "vessel", "distance", "value", "context")
 
-#: All images; the position follows from the depth.
+#: All images that a frame may have; positions are computed from the depth.
 _IMAGES = ("image", "depth", "vessel", "distance", "position", "value", "context", "folded")
 
 
@@ -39,15 +39,15 @@ _IMAGES = ("image", "depth", "vessel", "distance", "position", "value", "context
 class Frame(KeepsReadOnly):
     """The images of one view, each (H, W) from the top row down.
 
-    Asking for an image that the view does not have raises a ``VolumeError`` that says why: a cut surface
-    without a volume has no picture, the context alone no depth.
+    Requesting an image that the frame does not have raises a ``VolumeError`` with the reason: without a
+    volume there is no picture, without centerlines no depth.
 
     Attributes
     ----------
     camera : Camera
         The view.
     timings : dict of str to float
-        Wall time of each stage (ms), in the order they ran.
+        Wall time of each stage (ms), in the order in which they ran.
     """
 
     camera: Camera
@@ -55,7 +55,7 @@ class Frame(KeepsReadOnly):
     _image: npt.NDArray[np.uint8] | None = None
     _depth: npt.NDArray[np.float32] | None = None
     _vessel: npt.NDArray[np.int32] | None = None
-    # A function that computes it, until it is first used.
+    # The distance; until the first use, a function that computes it.
     _distance: npt.NDArray[np.float32] | Callable[[], npt.NDArray[np.float32]] | None = None
     _value: npt.NDArray[np.float32] | None = None
     _context: npt.NDArray[np.uint8] | None = None
@@ -91,7 +91,7 @@ class Frame(KeepsReadOnly):
     def distance(self) -> npt.NDArray[np.float32]:
         """Projected distance to the nearest centerline (mm), float32, shape (H, W).
 
-        With the level choice ``own`` it is computed on first use, unless ``images`` named it; until then the
+        With ``level_choice="own"`` it is computed on first use, unless ``images`` named it; until then the
         frame keeps its renderer.
         """
         if not isinstance(self._distance, (np.ndarray, type(None))):
@@ -107,7 +107,7 @@ class Frame(KeepsReadOnly):
 
     @property
     def context(self) -> npt.NDArray[np.uint8]:
-        """The context alone, RGBA, uint8, shape (H, W, 4).
+        """The picture of the context only, RGBA, uint8, shape (H, W, 4).
 
         Its colours are not multiplied by its opacity, and it is transparent where the cut surface hides it.
         """
@@ -116,7 +116,7 @@ class Frame(KeepsReadOnly):
 
     @property
     def folded(self) -> npt.NDArray[np.bool_]:
-        """Pixels whose row several points of one vessel share (the nearest is shown), bool, shape (H, W).
+        """Pixels in whose row one vessel has several points (the nearest is shown), bool, shape (H, W).
 
         Only frames of :func:`lumencut.mpcpr` have it.
         """
@@ -130,7 +130,7 @@ class Frame(KeepsReadOnly):
         return _lumencut.positions(self.camera, depth)
 
     def __getstate__(self) -> tuple[dict[str, Any], list[str]]:
-        """Return the state to copy or pickle: all images, computed now."""
+        """Return the state for copies and pickles; images not yet computed are computed now."""
         if self.has("distance"):
             _ = self.distance
         return super().__getstate__()
@@ -141,7 +141,7 @@ class Frame(KeepsReadOnly):
         return f"Frame({width} × {height} pixels: {', '.join(name for name in _IMAGES if self.has(name))})"
 
     def _repr_png_(self) -> bytes | None:
-        """Return the picture as Jupyter shows it, None for a frame without one."""
+        """Return the picture for Jupyter; None if the frame has none."""
         return picture_as_png(self.image) if self.has("image") else None
 
     def has(self, name: str) -> bool:
@@ -171,10 +171,10 @@ class Frame(KeepsReadOnly):
         raise VolumeError(f"{name} of the frame", found, expected, mend)
 
     def annotated(self, *, vessel_names: bool = False) -> npt.NDArray[np.uint8]:
-        """Return the picture with labels, RGBA, uint8, shape (H, W, 4); the frame itself stays as it is.
+        """Return the picture with labels, RGBA, uint8, shape (H, W, 4); the frame does not change.
 
         The edges are labelled with the sides of the patient: R, L, A, P, S and I for right, left,
-        anterior, posterior, superior and inferior, several where the view is oblique, the main one first.
+        anterior, posterior, superior and inferior. Oblique views have several letters, the main side first.
         The upper left corner shows the view and the window (W width, L level), the lower left one a scale bar
         of a round length in mm. If the source of the volume states no orientation
         (`Volume.states_orientation`) or no spacing (`Volume.states_spacing`), a text replaces letters and
@@ -183,7 +183,7 @@ class Frame(KeepsReadOnly):
         Parameters
         ----------
         vessel_names : bool, default False
-            Write the names of the vessels at their ends, as far as there is room.
+            Write the names of the vessels at their ends, if there is room.
 
         Raises
         ------
@@ -221,13 +221,13 @@ class Frame(KeepsReadOnly):
         annotate : bool, default False
             Write the picture with labels, see :meth:`annotated`. The arrays of ``.npz`` have none.
         vessel_names : bool, default False
-            The names of the vessels among the labels.
+            Write the names of the vessels too.
         study : Volume or path-like, optional
             For ``.dcm``: a volume that was read from DICOM, or a DICOM folder, file or zip archive, whose
             study the picture is put into; by default, the study of the scan that is shown.
         anonymous : bool, default False
-            For ``.dcm``: leave patient and study out, and the names of vessels too. A study of its own is
-            made for each scan. That is not the Basic Profile of PS3.15.
+            For ``.dcm``: leave out patient, study and the names of vessels. Each scan gets a new study
+            instead. This is not the Basic Profile of PS3.15.
         other_patient : bool, default False
             For ``.dcm``: accept a `study` of another PatientID than that of the scan, which is an error
             otherwise. A `StudyWarning` names other differences, such as the study of a follow-up.
@@ -277,7 +277,7 @@ class Frame(KeepsReadOnly):
         values: bool,
         number: int = 1,
     ) -> None:
-        """Write the picture or its values as DICOM, with their place in a series of several views."""
+        """Write the picture or its values as DICOM, numbered within a series of several views."""
         from lumencut.dicom_objects.picture import write_picture
         from lumencut.dicom_objects.values import write_plane
         from lumencut.dicom_objects.views import view_values
@@ -294,14 +294,14 @@ class Frame(KeepsReadOnly):
         write_picture(path, made, found, number=number, compress=compress)
 
     def _as_object(self, *, annotate: bool, vessel_names: bool) -> Picture:
-        """The picture with the description for its DICOM object."""
+        """Return the picture with the description for its DICOM object."""
         from lumencut.dicom_objects.views import view_picture
 
         image = self.annotated(vessel_names=vessel_names) if annotate else self.image
         return view_picture(image, self.camera, self._known_source(), has_cut=self.has("depth"))
 
     def _study(self, study: Any, *, anonymous: bool, other_patient: bool = False) -> Study:
-        """The study that DICOM objects of the frame belong to."""
+        """Return the study into which DICOM objects of the frame are put."""
         from lumencut.dicom_objects.chosen_study import chosen_study
 
         origin = self._known_source().origin
@@ -314,7 +314,7 @@ class Frame(KeepsReadOnly):
         return self._source
 
     def _png_options(self, *, annotate: bool, vessel_names: bool) -> dict[str, Any]:
-        """Metadata that Pillow writes into a PNG."""
+        """Return the metadata that Pillow writes into a PNG."""
         from lumencut.recipe import Recipe, pixel_size, png_options
 
         if self._source is None:
@@ -322,7 +322,7 @@ class Frame(KeepsReadOnly):
         source = self._source
         labels = {"annotate": annotate, "vessel_names": vessel_names}
         if source.method != "csr":
-            # `--like` would render this picture by another method.
+            # No recipe: `--like` would render this picture by another method.
             return pixel_size(self.camera) if source.states_spacing else {}
         recipe = Recipe(self.camera, source.settings, **labels, vessels=source.vessels)
         return png_options(recipe, states_spacing=source.states_spacing)
@@ -334,7 +334,7 @@ class Frame(KeepsReadOnly):
 
 
 def check_dicom_alone(path: Path, **given: Any) -> None:
-    """Reject options of DICOM files for a file of another format."""
+    """Reject options that only DICOM files support if the file has another format."""
     for name, value in given.items():
         if value is not None and value is not False:
             found = f"{value!r}, with the extension {path.suffix!r}"
@@ -358,7 +358,7 @@ def picture_as_png(image: npt.NDArray[np.uint8]) -> bytes:
 
 
 def save_picture(image: npt.NDArray[np.uint8], path: Path, png_options: dict[str, Any] | None = None) -> None:
-    """Write an RGBA picture in the format of the ending; a PNG with metadata."""
+    """Write an RGBA picture in the format of the extension; a PNG gets metadata."""
     from PIL import Image
 
     expected = "a picture format such as .png, .tif or .webp"
@@ -375,7 +375,7 @@ def save_picture(image: npt.NDArray[np.uint8], path: Path, png_options: dict[str
         try:
             picture.save(temporary, format=kind, **options)
         except (OSError, ValueError) as error:
-            # Errors of the system have a number; those of Pillow, for what a format cannot hold, have none.
+            # Errors of the system have a number; errors of Pillow about what a format cannot hold have none.
             if isinstance(error, OSError) and error.errno is not None:
                 raise
             raise FormatError(str(path), f"{kind}: {error}", expected) from error

@@ -1,4 +1,4 @@
-"""The source of a frame, for its labels and the text in its files."""
+"""What a frame was made from, for its labels and the text in its files."""
 
 from __future__ import annotations
 
@@ -22,24 +22,24 @@ VesselEnd = tuple[str, tuple[float, float, float]]
 @by_name
 @dataclass(frozen=True)
 class FrameSource:
-    """The source of a frame.
+    """What a frame was made from.
 
     Attributes
     ----------
     settings : Settings
-        The settings with the windows that were used, those from the data among them.
+        The settings, including the windows that were computed from the data.
     window : Window or None
-        The window of the picture: of the cut surface, or of the context alone; None where nothing has one.
+        The window of the picture: of the cut surface, or of the context without one; None if it has none.
     states_spacing, states_orientation : bool
         As for the volume.
     vessels : int
         The number of shown vessels.
     vessel_ends : tuple of (str, (float, float, float))
-        Each named vessel and where its name belongs.
+        The name of each named vessel, and the point at which to write it.
     method : str, default "csr"
         The method: ``"csr"``, ``"mpcpr"`` or ``"cr"``.
     origin : Origin or None
-        The scan as described by DICOM objects; None for a source made by hand.
+        The scan in the form that DICOM objects need; None if the source was created by hand.
     """
 
     settings: Settings
@@ -59,7 +59,7 @@ def frame_source(
     ends: tuple[VesselEnd, ...],
     method: str = "csr",
 ) -> FrameSource:
-    """Return the source of a frame with these settings, windows as numbers; `ends` are those of the tree."""
+    """Return the source of a frame with these settings and windows; `ends` are those of the tree."""
     window = cast(Window | None, _context_window(settings) if tree is None else settings.window)
     vessels = 0 if tree is None else len(tree)
     return FrameSource(
@@ -75,13 +75,13 @@ def frame_source(
 
 
 def _context_window(settings: Settings) -> Window | str | None:
-    """The window of the context, None if only control points define the look of an intensity."""
+    """Return the window of the context; None if control points of a transfer function replace it."""
     has_points = isinstance(settings.context_transfer, TransferFunction)
     return None if has_points and settings.context in ("dvr", "mip") else settings.context_window
 
 
 def vessel_ends(tree: VesselTree) -> tuple[VesselEnd, ...]:
-    """Return the named vessels and their ends: the last point, or the first if only that one is free."""
+    """Return the named vessels with one end each: the last point, or the first if only the first is free."""
     ends = [tuple(vessel.points[place].tolist()) for vessel in tree for place in (0, -1)]
     vessels_at = Counter(ends)
     found = []

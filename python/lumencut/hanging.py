@@ -1,4 +1,4 @@
-"""Hanging: fixed views in a fixed order with one field of view, so that studies can be compared."""
+"""Hangings: fixed views in a fixed order with one pixel spacing, so that studies can be compared."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from lumencut.vessel_tree import VesselTree
     from lumencut.volume import Volume
 
-#: Angles of a C-arm for each view of a hanging (degrees): LAO above 0, RAO below; cranial above 0, caudal
-#: below. The order is that of the series.
+#: Angles of a C-arm for each view of a hanging (degrees): LAO and cranial above 0, RAO and caudal
+#: below. The views are in the order of the series.
 HANGINGS: dict[str, tuple[tuple[int, int], ...]] = {
     "evar": ((0, 0), (45, 0), (90, 0), (180, 0), (-45, 0), (-90, 0)),
     "carotid": ((0, 0), (45, 0), (90, 0), (-45, 0), (-90, 0)),
@@ -28,7 +28,7 @@ HANGINGS: dict[str, tuple[tuple[int, int], ...]] = {
 def hanging_views(name: str, size: tuple[int, int]) -> list[tuple[str, Camera]]:
     """Return the views of a hanging in their order, with their names in file names.
 
-    The place and the magnification of the cameras are still open.
+    The position and the magnification of the cameras are not set yet.
 
     Parameters
     ----------
@@ -42,13 +42,13 @@ def hanging_views(name: str, size: tuple[int, int]) -> list[tuple[str, Camera]]:
     found = []
     for number, (lao, cranial) in enumerate(HANGINGS[name], 1):
         turned = front.rotated(math.radians(lao), (0.0, 0.0, 1.0))
-        # A right-handed turn about the right axis would lower the viewer.
+        # The sign is negative because a right-handed turn about the right axis would lower the viewer.
         found.append((f"{number}-{_called(lao, cranial)}", turned.rotated(-math.radians(cranial), "right")))
     return found
 
 
 def fitted_alike(views: list[Camera], scene: VesselTree | Volume) -> list[Camera]:
-    """Return the views centred on the scene, all with the pixel spacing at which the largest just fits."""
+    """Return the views centred on the scene, all with the smallest pixel spacing at which every view fits."""
     fitted = [Camera.fitted(scene, view.direction, view.up, view.size) for view in views]
     spacing = max(camera.pixel_spacing for camera in fitted)
     return [replace(camera, pixel_spacing=spacing) for camera in fitted]

@@ -1,4 +1,4 @@
-"""Writing and drawing on a picture so that it can be read on any background: white with a dark outline."""
+"""Writing and drawing on pictures in white with a dark outline, readable on any background."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ from lumencut.errors import MissingPackageError
 if TYPE_CHECKING:
     from PIL.ImageFont import FreeTypeFont
 
-#: Left, top, right and bottom (pixels).
+#: The left, top, right and bottom edge of a rectangle (pixels).
 Box: TypeAlias = tuple[float, float, float, float]
 
 _LIGHT, _DARK = (255, 255, 255, 255), (0, 0, 0, 255)
 
-#: Height of the letters (pixels): a fortieth of the shorter side, within these.
+#: Height of letters (pixels): a fortieth of the shorter side of the picture, within these limits.
 _SMALLEST, _LARGEST, _PART = 12, 64, 40
 
-#: Size of the letters of the sides, relative to other letters.
+#: Size of the letters for the patient's sides, relative to other letters.
 _LARGER = 1.3
 
 #: Widest name (letters) that is written in full.
@@ -33,7 +33,7 @@ _LONGEST_NAME = 32
 
 
 class Sheet:
-    """A copy of an RGBA picture (H, W, 4) to write on; it knows which boxes are taken."""
+    """A copy of an RGBA picture (H, W, 4) to write on; it remembers which rectangles are already used."""
 
     def __init__(self, image: npt.NDArray[np.uint8]) -> None:
         from PIL import Image, ImageDraw
@@ -49,13 +49,13 @@ class Sheet:
         self.taken: list[Box] = []
 
     def pixels(self) -> npt.NDArray[np.uint8]:
-        """Return the picture with all that was drawn, uint8, shape (H, W, 4)."""
+        """Return the picture with everything drawn so far, uint8, shape (H, W, 4)."""
         return np.array(self._picture)
 
     def write(
         self, text: str, place: tuple[float, float], anchor: str = "la", *, is_large: bool = False
     ) -> None:
-        """Write one line; `anchor` says in Pillow's letters which point of it lies at `place`."""
+        """Write one line; `anchor` is Pillow's code for the point of the line that lies at `place`."""
         self.taken.append(self.box(text, place, anchor, is_large=is_large))
         self._draw.text(
             _whole(place),
@@ -70,16 +70,16 @@ class Sheet:
     def box(
         self, text: str, place: tuple[float, float], anchor: str = "la", *, is_large: bool = False
     ) -> Box:
-        """Return the pixels that a line would take, its outline too."""
+        """Return the rectangle that a line would cover, including its outline."""
         return self._draw.textbbox(
             _whole(place), text, font=self._fonts[is_large], anchor=anchor, stroke_width=self._outline
         )
 
     def wrapped(self, line: str) -> list[str]:
-        """Return a line in pieces that fit between the left edge and a letter in the middle."""
+        """Split a line into pieces that fit between the left edge and a letter in the middle."""
         room = self.size[0] / 2 - 2 * self.margin - self._fonts[1].getlength("SAL") / 2
         pieces: list[str] = []
-        # Lines break only before a letter, so that a number stays with the word before it.
+        # Lines break only before a letter, so that a number stays on the line of the word before it.
         for word in re.split(" (?=[a-zA-Z])", line):
             longer = f"{pieces[-1]} {word}" if pieces else word
             if pieces and self._fonts[0].getlength(longer) <= room:
@@ -96,11 +96,11 @@ class Sheet:
             self.ruler(pixels, words)
 
     def ruler(self, length: float, words: str) -> None:
-        """Draw a bar of this length (pixels) into the lower left corner, words above it."""
+        """Draw a bar of this length (pixels) into the lower left corner, with words above."""
         self._bar(round(length), self.size[1] - self.margin, words)
 
     def _bar(self, length: int, bottom: float, words: str) -> None:
-        """Draw a bar of this length (pixels) at the left above `bottom`, with ticks, words above it."""
+        """Draw a bar of this length (pixels) at the left, above `bottom`, with ticks, and words above."""
         outline, thick = self._outline, max(2, self._outline)
         left, base = self.margin + outline, round(bottom) - outline
         right, tall = left + length - 1, 3 * thick
@@ -120,7 +120,7 @@ class Sheet:
 
     def arc(self, center: tuple[float, float], radius: float, start: float, end: float) -> None:
         """Draw an arc about a point between two angles (radians, counter-clockwise from the right)."""
-        # Pillow counts clockwise, in degrees, and draws from the smaller angle to the larger one.
+        # Pillow expects clockwise angles in degrees, the smaller angle first.
         first, last = sorted((-math.degrees(start), -math.degrees(end)))
         for fill, width, beyond in ((_DARK, 3 * self._outline, self._outline), (_LIGHT, self._outline, 0)):
             self._draw.arc(around(center, radius + beyond), first, last, fill=fill, width=width)
@@ -133,7 +133,7 @@ class Sheet:
 
     @property
     def dot_radius(self) -> float:
-        """Radius of a dot with its outline (pixels)."""
+        """Return the radius of a dot with its outline (pixels)."""
         return 3 * self._outline
 
     def is_free(self, box: Box, others: Iterable[Box] = ()) -> bool:
@@ -144,13 +144,13 @@ class Sheet:
 
 
 def around(place: tuple[float, float], radius: float) -> Box:
-    """Return the box about a point."""
+    """Return the rectangle of a dot at a point."""
     x, y = place
     return x - radius, y - radius, x + radius, y + radius
 
 
 def writable(name: str) -> str:
-    """Return a name in letters that the font has: without accents, with `?` for others, cut if long."""
+    """Return a name in letters that the font has: without accents, others as `?`, cut if long."""
     bare = (letter for letter in unicodedata.normalize("NFKD", name) if not unicodedata.combining(letter))
     known = "".join(letter if letter.isascii() and letter.isprintable() else "?" for letter in bare).strip()
     return known if len(known) <= _LONGEST_NAME else known[: _LONGEST_NAME - 1] + "…"
@@ -161,7 +161,7 @@ def _overlap(one: Box, other: Box) -> bool:
 
 
 def _whole(place: tuple[float, float]) -> tuple[int, int]:
-    """A place in whole pixels, so that letters are sharp."""
+    """Return a position rounded to integers, so that letters are sharp."""
     return round(place[0]), round(place[1])
 
 

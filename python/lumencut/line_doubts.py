@@ -21,9 +21,9 @@ class LineDoubt(NamedTuple):
     vessel : int
         Its id among the given vessels.
     other : int or None
-        The id of the other vessel where two lie side by side.
+        The id of the other vessel if two vessels lie side by side.
     text : Told
-        The finding and the mend.
+        The finding and the remedy.
     """
 
     vessel: int
@@ -38,7 +38,7 @@ def line_doubts(vessels: Iterable[Vessel], *, parallel: bool = False) -> list[Li
 
 
 def worded(doubts: Iterable[tuple[int, int | None, str, Any]]) -> list[LineDoubt]:
-    """Return doubts of the facade with their remedies in words."""
+    """Return doubts of the core with their remedies in words."""
     return [LineDoubt(vessel, other, mend.after(f"{found}; ")) for vessel, other, found, mend in doubts]
 
 
@@ -64,7 +64,7 @@ def warn_of(doubts: Iterable[LineDoubt], subject: str) -> None:
 
 
 def _level_outside() -> int:
-    """Count the frames up to the first one outside of the package, as `warnings.warn` does for its caller."""
+    """Return the stack level of the first caller outside the package, as `warnings.warn` counts it."""
     level, frame = 1, sys._getframe(1)
     while frame.f_back is not None and frame.f_globals.get("__name__", "").partition(".")[0] == "lumencut":
         level, frame = level + 1, frame.f_back

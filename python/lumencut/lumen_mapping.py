@@ -1,4 +1,4 @@
-"""The making of a lumen map: measures the vessel, finds its wall and unrolls it."""
+"""Makes a lumen map: measures the vessel, finds its wall and unrolls the wall."""
 
 from __future__ import annotations
 
@@ -46,8 +46,8 @@ def lumen_map(
 ) -> LumenMap:
     """Return the wall of a vessel cut open along it and unrolled.
 
-    Rays go out from the centerline in all directions of each section. The wall is the measured contour. In
-    sections without a contour it is where values first fall halfway to those around the vessel; if no lumen
+    Rays are cast from the centerline in all directions of each section. The wall is the measured contour. In
+    sections without a contour it is where values first fall halfway to those outside the vessel; if no lumen
     can be measured, it is the radius of the centerline. A ray that meets no wall within 1.6 radii leaves
     through the opening of a branch, which is drawn as a hole. Casting rays radially from a curve follows
     Lampe et al. 2009 (doi:10.1109/TVCG.2009.136); the formulas are ours.
@@ -61,16 +61,16 @@ def lumen_map(
     mode : {"wall", "radius", "thickness", "shaded"}, default "wall"
         ``"wall"`` shows the volume at the wall: calcium, struts of stents. ``"radius"`` shows how far the
         wall is from the centerline, in colour. ``"thickness"`` shows how thick calcium or metal lies at the
-        wall, in colour. ``"shaded"`` shows the wall as a surface that is lit from within.
+        wall, in colour. ``"shaded"`` shows the wall as a surface, lit from inside.
     pixel_spacing : float, optional
         Side of a pixel (mm), along the vessel and around it at the mean radius; half of the smallest side of
         a voxel by default, at most 0.25 mm.
     angle : float, optional
         The direction of the middle column around the vessel (radians); 0 is to the right of the straightened
         CPR at angle 0. By default, the side with most calcium is in the middle, so that the cut does not
-        run through it; 0 where there is none.
+        run through it; 0 if there is no calcium.
     overlap : float, default 0
-        How much of the other side is repeated beyond each edge (radians, 0 to 3), dimmed.
+        The angle by which the map repeats the other side beyond each edge (radians, 0 to 3), dimmed.
     band : (float, float), default (-1, 3)
         Range beyond the wall that ``"wall"`` and ``"thickness"`` search (mm).
     show : {"max", "mean", "min"}, default "max"
@@ -159,7 +159,7 @@ class LumenMapRequest(ReformationRequest):
 
 
 def _measured(volume: Any, vessel: Vessel, tree: VesselTree | None) -> Profile | None:
-    """The profile of the vessel; None if it has radii and no lumen can be measured."""
+    """Return the profile of the vessel; None if no lumen can be measured but the vessel has radii."""
     from lumencut.measuring import measure
 
     try:

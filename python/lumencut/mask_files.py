@@ -21,7 +21,7 @@ class MaskFile:
     file : VolumeFile
         The file; only the chosen segments of a segmentation are read.
     labels : dict of int to str, or None
-        The labels that are lumen, with their names; None for every value but 0.
+        The labels that are lumen, with their names; None if every value except 0 is lumen.
     """
 
     file: VolumeFile
@@ -48,8 +48,8 @@ def open_mask(path: str | os.PathLike[str], words: Iterable[str] = ()) -> MaskFi
     path : path-like
         Any file that :func:`lumencut.read_volume` reads.
     words : iterable of str
-        The labels that are lumen, as ``52``, ``52=aorta`` or by a name that the file has; by default all that
-        have a name, or every value but 0.
+        The labels that are lumen, as ``52``, ``52=aorta`` or a name in the file; by default all that
+        have a name, or every value except 0.
 
     Raises
     ------

@@ -18,7 +18,7 @@ _ANOTHER = "take the segmentation that was made on this scan, or write it on the
 
 
 class Grid(Protocol):
-    """The grid of a volume or of a file of one."""
+    """The grid of a volume, or of a volume file."""
 
     @property
     def size(self) -> tuple[int, int, int]:
@@ -35,7 +35,7 @@ class Grid(Protocol):
 
 @dataclass(frozen=True)
 class MaskPlace:
-    """The voxels of a mask among those of its scan.
+    """Where the voxels of a mask lie among those of its scan.
 
     Attributes
     ----------
@@ -44,7 +44,7 @@ class MaskPlace:
     forward : tuple of 3 bool
         For each axis of the scan, whether the mask runs in the same direction.
     low : tuple of 3 int
-        The least index of the mask along each axis of the scan.
+        The smallest index that the mask has along each axis of the scan.
     note : str
         The note on a mask that covers a part of the scan.
     """
@@ -68,7 +68,7 @@ def on_grid_of(mask: Volume, volume: Grid) -> Volume:
     Returns
     -------
     Volume
-        The mask itself where it has the grid of the scan and is no segmentation.
+        The mask itself if it has the grid of the scan and is not a segmentation.
 
     Raises
     ------
@@ -82,7 +82,7 @@ def on_grid_of(mask: Volume, volume: Grid) -> Volume:
 
 
 def placed(mask: Volume, volume: Grid, place: MaskPlace) -> Volume:
-    """Return a mask at its place on the grid of its scan, 0 elsewhere."""
+    """Return a mask on the grid of its scan, at its position; all other voxels are 0."""
     require_memory("mask", int(np.prod(volume.size)) * mask.dtype.itemsize)
     # Arrays have their axes in the order k, j, i.
     turned = mask.array.transpose([2 - place.axes.index(axis) for axis in (2, 1, 0)])
@@ -97,7 +97,7 @@ def placed(mask: Volume, volume: Grid, place: MaskPlace) -> Volume:
 
 
 def other_patient(mask: Patient, scan: Patient) -> str | None:
-    """Return a sentence if a mask is of another patient than its scan; None if not, or if unknown."""
+    """Return a sentence if mask and scan have different patients; None if not, or if unknown."""
     return f"the mask is of {mask}, the scan of {scan}" if mask.differs_from(scan) else None
 
 
@@ -109,12 +109,12 @@ def place_within(mask: Grid, volume: Grid, *, always: bool) -> MaskPlace | None:
     mask, volume : Volume or VolumeFile
         The mask and the scan.
     always : bool
-        Find them also where the mask has the grid of the scan.
+        Whether to find them even if the mask has the grid of the scan.
 
     Returns
     -------
     MaskPlace or None
-        None where the mask has the grid of the scan, whose axes may be stored in another order or direction.
+        None if the mask has the grid of the scan, whose axes may be stored in another order or direction.
 
     Raises
     ------

@@ -17,7 +17,7 @@ from lumencut.vessel_gap import Gap
 from lumencut.vessel_tree import VesselTree
 from lumencut.volume_files.memory import as_volume
 
-#: The largest distance of neighbouring points of the result (mm).
+#: Largest distance between neighbouring points of the result (mm).
 _STEP = _lumencut.DEFAULTS["point_distance"]
 
 _LARGEST_LABEL = 2**53
@@ -95,7 +95,7 @@ def trace_mask(
         warnings.warn(StudyWarning(words), stacklevel=2)
     notes: list[str] = []
     if shown is not None and (place := place_within(grid, shown, always=grid._is_segmentation)):
-        # Segmentations are usually cropped; for other masks a note is added.
+        # A segmentation is usually cropped; other cropped masks get a note.
         notes = [] if grid._is_segmentation else [place.note]
         grid = placed(grid, shown, place)
     shortest, widest = _at_least_zero("shortest_branch", shortest_branch), _at_least_zero("bridge", bridge)

@@ -1,4 +1,4 @@
-"""The report of measured vessels: the core writes it, and its pictures are made here."""
+"""The report of measured vessels: the core writes the text, this module adds the pictures."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ def report(
     asked: Mapping[str, Any],
     progress: Callable[[int, int], object] = lambda done, total: None,
 ) -> str:
-    """Return measured vessels as HTML: pictures are part of it, and it holds no script and no address.
+    """Return a report of measured vessels as HTML; it contains its pictures, no script and no link.
 
-    About the patient it contains only the pictures and the names of vessels.
+    About the patient the report contains only the pictures and the names of vessels.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ def report(
     asked : mapping
         The options of ``lumencut measure`` by name, from ``step`` to ``group``; None where one was not given.
     progress : function of (done, total), optional
-        Called with the number of vessels whose pictures are made, and how many there are.
+        Called with the number of finished vessels, and the number of all vessels.
     """
     view = SectionView(volume, Window.from_data(volume, renderer.tree), _SIDE)
     pages = []
@@ -56,7 +56,7 @@ def report(
 
 
 def _page(renderer: Renderer, view: SectionView, one: MeasuredVessel) -> dict[str, Any]:
-    """A vessel with the pictures that its report asks for."""
+    """Return a vessel with the pictures that its report needs."""
     places = [(mark.name, mark.arc_length, mark.is_suggestion) for mark in one.marks]
     width, spacing, sections, _ = _lumencut.report_plan(one.profile._core, places)
     return {
@@ -70,9 +70,9 @@ def _page(renderer: Renderer, view: SectionView, one: MeasuredVessel) -> dict[st
 def _strip(
     renderer: Renderer, view: SectionView, one: MeasuredVessel, wished: tuple[float, float]
 ) -> tuple[str, tuple[int, int], float]:
-    """The vessel lying from left to right, its columns and rows, and the side of a pixel (mm)."""
+    """Return the straightened vessel from left to right, its columns and rows, and its pixel side (mm)."""
     width, spacing = wished
-    # No CPR is wider than the volume.
+    # A wider CPR would reach out of the volume.
     width = min(width, float(np.linalg.norm(np.ptp(view.volume.corners, axis=0))) / 2)
     made = CprRequest("straightened", width, spacing).of(renderer, one.vessel)
     picture = np.rot90(made.image)
@@ -80,7 +80,7 @@ def _strip(
 
 
 def _section(view: SectionView, one: MeasuredVessel, at: float) -> str:
-    """The section at an arc length (mm), with its contour and without."""
+    """Return the section at an arc length (mm), once with its contour and once without."""
     number = nearest(one.profile, at)
     pair = [view.picture(one, number, has_contour=has_contour) for has_contour in (True, False)]
     return _encoded(np.concatenate(pair, axis=1))

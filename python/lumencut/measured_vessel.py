@@ -72,7 +72,7 @@ class MeasuredVessel:
     def of(cls, number: str, vessel: Vessel, profile: Profile, marked: Marked) -> MeasuredVessel:
         """Return a measured vessel with the places that a reader marked on it.
 
-        A place that cannot be graded is no error: :attr:`not_graded` says why there is no percentage.
+        If a place cannot be graded, no error is raised: :attr:`not_graded` states the reason.
 
         Raises
         ------
@@ -90,38 +90,38 @@ class MeasuredVessel:
 
     @property
     def group(self) -> str | None:
-        """The group of the stenosis, with its source; None where its method has none."""
+        """The group of the stenosis, with its source; None if its method defines no groups."""
         return None if self._grade is None else self._grade.group
 
     @property
     def not_graded(self) -> str | None:
-        """Why a marked place has no percentage: what is missing, or what is wrong with a place."""
+        """Why a marked place has no percentage: what is missing, or why a place is invalid."""
         return None if self._grade is None else self._grade.not_graded
 
     def unnamed(self) -> MeasuredVessel:
-        """Return the same without the name of the vessel."""
+        """Return the measured vessel without its name."""
         return replace(self, vessel=Vessel(self.vessel.points, self.vessel.radius))
 
     @property
     def name(self) -> str:
-        """The id and, where it has one, the name."""
+        """The id and, if there is one, the name."""
         return self.number if self.vessel.name is None else f"{self.number} {self.vessel.name}"
 
     @property
     def parts(self) -> tuple[str, str | None, _lumencut.Profile, _lumencut.Grade | None]:
-        """Content for tables, JSON and reports."""
+        """The data from which tables, JSON and reports are made."""
         return self.number, self.vessel.name, self.profile._core, self._grade
 
     @property
     def _not_suggested(self) -> tuple[str, ...]:
-        """Why no place is suggested in addition to the marked ones; empty if a reference is marked."""
+        """Why no place is suggested in addition to the marked ones; empty if a reference is marked too."""
         marked = [mark.arc_length for mark in self.marks if not mark.is_suggestion]
         at = marked[0] if marked else None
         return () if len(marked) > 1 else self.profile.not_suggested(at)
 
     @property
     def lines(self) -> list[str]:
-        """The findings, in lines: each percentage with its method, its references and mm."""
+        """The findings as lines: each percentage with its method, its references and diameters in mm."""
         lines = [] if self._grade is None else self._grade.lines
         if self.stenosis is None:
             lines = [*map(str, self.marks), *self._not_suggested, *lines]
@@ -129,7 +129,7 @@ class MeasuredVessel:
 
 
 def vessels_csv(measured: Sequence[MeasuredVessel]) -> str:
-    """Return vessels as one table, a line for each section after the line of the names.
+    """Return vessels as one table: a line with the column names, then a line for each section.
 
     Columns with equal values in all lines of a vessel identify it, and give the place that a reader marked on
     it: ``stenosis``, ``doubts`` or ``not_graded``.

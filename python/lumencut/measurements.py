@@ -19,7 +19,7 @@ from lumencut.volume_files.memory import as_volume
 
 @by_name
 class Measurements:
-    """The measured vessels of one volume and tree: each is measured on first request, and kept.
+    """The measured vessels of one volume and tree: each vessel is measured on first request only.
 
     The point spread is estimated once, from the vessels of the tree, and is the same for all of them, as in
     the viewer. Results apply to this volume, tree, step, wall and width of the point spread; for others

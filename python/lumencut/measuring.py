@@ -1,4 +1,4 @@
-"""The lumen of a vessel measured, and cross-sections of it."""
+"""Measures the lumen of vessels, and shows cross-sections of them."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def measure(
 ) -> Profile:
     """Measure the lumen of a vessel in sections across it.
 
-    An ellipse, blurred as the scanner blurs, is fitted to the voxels around each section: its position and
+    An ellipse with the blur of the scanner is fitted to the voxels around each section: its position and
     shape, and the levels of lumen and background. The levels of narrow sections come from wider ones around
     them. So the blur does not bias the diameter, as it does with a threshold at half of the maximum.
     docs/method/measuring.md describes the method.
@@ -111,7 +111,7 @@ def _tree_estimates(
     fwhm: float | None,
     wall: tuple[float, float] | None,
 ) -> _lumencut.TreeFindings:
-    """Estimates from a tree in a volume, computed once for all measurements along it."""
+    """Return estimates from a tree in a volume, computed once for all measurements along the tree."""
     name = f"step {step}, fwhm {fwhm}, wall {wall}"
     return volume._tree_findings.once(
         volume._voxels, name, tree, lambda: _lumencut.tree_findings(volume, arrays, step, fwhm, wall)

@@ -1,4 +1,4 @@
-"""Remedies of errors: names shared by all hosts, and texts with arguments or options."""
+"""Remedies of errors: names for programs, and texts that each host writes with its own options."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ MendName: TypeAlias = Literal[
 
 
 class Option(NamedTuple):
-    """An argument of Python, which is an option of the command line.
+    """An argument in Python, and the same option on the command line.
 
     Attributes
     ----------
@@ -40,7 +40,7 @@ _Parts: TypeAlias = tuple[str | Option, ...]
 
 
 def as_argument(option: Option) -> str:
-    """Write an option as an argument of Python."""
+    """Return the option as an argument in Python."""
     value = f'"{option.value}"' if isinstance(option.value, str) else option.value
     return {
         "whole": f"{option.name}={'' if value is None else value}",
@@ -50,12 +50,12 @@ def as_argument(option: Option) -> str:
     }[option.form]
 
 
-#: Names of the values of options in the help of the command line.
+#: Placeholders for values of options, as in the help of the command line.
 _VALUES = {"series": "NUMBER|UID", "phase": "VALUE"}
 
 
 def as_option(option: Option) -> str:
-    """Write an option as one of the command line."""
+    """Return the option as on the command line."""
     name = f"--{option.name.replace('_', '-')}"
     if option.form == "quoted":
         return f"{name} {_VALUES[option.name]}"
@@ -85,7 +85,7 @@ class Mend:
         return self.written(as_argument)
 
     def written(self, write: Write) -> str:
-        """Return the words with its options as a host writes them."""
+        """Return the text; the host writes the options in it."""
         return _written(WORDS[self.name](self.values), write)
 
 
@@ -102,7 +102,7 @@ def _place(_: Sequence[str]) -> _Parts:
 
 
 def _reading(values: Sequence[str]) -> _Parts:
-    """The options for space and unit of each of the readings, such as ``lps in cm``."""
+    """Return the options for space and unit of each possible reading, such as ``lps in cm``."""
     parts: list[str | Option] = []
     for value in values:
         space, unit = value.split(" in ")
@@ -151,7 +151,7 @@ WORDS: dict[MendName, Callable[[Sequence[str]], _Parts]] = {
 
 
 class Told(str):
-    """A text with Python arguments that other hosts can write with their own options.
+    """A text with options, which each host writes in its own form.
 
     Attributes
     ----------
@@ -166,7 +166,7 @@ class Told(str):
     _parts: _Parts
 
     def __new__(cls, *parts: str | Option, advice: str = "", mends: tuple[Mend, ...] = ()) -> Told:
-        """Join texts and options."""
+        """Create a text from strings and options."""
         made = super().__new__(cls, _written(parts, as_argument))
         made.advice, made.mends, made._parts = advice, mends, parts
         return made
@@ -175,11 +175,11 @@ class Told(str):
         return _remade, (self._parts, self.advice, self.mends)
 
     def written(self, write: Write) -> str:
-        """Return the text with its options as a host writes them."""
+        """Return the text; the host writes the options in it."""
         return _written(self._parts, write)
 
     def after(self, words: str) -> Told:
-        """Return the text after other words."""
+        """Return a new text: `words`, then this one."""
         return Told(words, *self._parts, advice=self.advice, mends=self.mends)
 
 
@@ -188,7 +188,7 @@ def _remade(parts: _Parts, advice: str, mends: tuple[Mend, ...]) -> Told:
 
 
 def advised(advice: str, mends: Sequence[tuple[MendName, Sequence[str]]]) -> Told:
-    """Return advice and mends, given by their names and values, in one text."""
+    """Return advice and remedies as one text; remedies are given by name and values."""
     typed = tuple(Mend(name, tuple(values)) for name, values in mends)
     parts: list[str | Option] = [advice] if advice else []
     for mend in typed:
@@ -197,7 +197,7 @@ def advised(advice: str, mends: Sequence[tuple[MendName, Sequence[str]]]) -> Tol
 
 
 def written(text: object, write: Write) -> str:
-    """Return a text, an error or a warning with its options as a host writes them."""
+    """Return a text, an error or a warning; the host writes the options in it."""
     own = getattr(text, "written", None)
     return str(text) if own is None else str(own(write))
 

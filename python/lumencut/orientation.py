@@ -13,7 +13,7 @@ from lumencut import _lumencut
 if TYPE_CHECKING:
     from lumencut.camera import Camera
 
-#: Angles (degrees) closer than this are the same in the name of a view.
+#: Angles that differ by less than this (degrees) are equal in the name of a view.
 _SAME_ANGLE = 0.5
 
 
@@ -46,13 +46,13 @@ def view_name(camera: Camera) -> str:
     named = (name for name, (ahead, _) in VIEWS.items() if _angle(camera.direction, ahead) < _SAME_ANGLE)
     name = next(named, None)
     top = VIEWS["anterior" if name is None else name][1]
-    # Direction of the head in the picture, counterclockwise from its top.
+    # Direction of the head in the picture, counterclockwise from the top.
     turned = _whole_degrees(-np.dot(top, camera.right_axis), np.dot(top, camera.up))
     return (name or c_arm_angles(camera)) + (f" turned {turned}°" if turned else "")
 
 
 def c_arm_angles(camera: Camera) -> str:
-    """Return the angles at which a C-arm sees the patient as a view does, "anterior" where both are 0."""
+    """Return the angles at which a C-arm has the same view, "anterior" if both are 0."""
     viewer = -camera.direction
     to_the_left = _whole_degrees(viewer[0], -viewer[1])
     to_the_head = _whole_degrees(viewer[2], math.hypot(viewer[0], viewer[1]))
@@ -64,13 +64,13 @@ def c_arm_angles(camera: Camera) -> str:
 
 
 def _whole_degrees(opposite: float, adjacent: float) -> int:
-    """The angle from -179 to 180 degrees."""
+    """Return the angle in whole degrees, from -179 to 180."""
     degrees = round(math.degrees(math.atan2(opposite, adjacent)))
     return 180 if degrees == -180 else degrees
 
 
 def _angle(first: npt.NDArray[np.float64], other: tuple[float, float, float]) -> float:
-    """The angle (degrees) between two vectors."""
+    """Return the angle (degrees) between two vectors."""
     second = np.array(other)
     across, along = np.linalg.norm(np.cross(first, second)), np.dot(first, second)
     return math.degrees(math.atan2(across, along))

@@ -48,8 +48,8 @@ __all__ = [
 class Stenosis:
     """A narrowing of the lumen, concentric with the centerline.
 
-    The radius is smallest over the middle two fifths of the length and widens to the reference radius along
-    half a cosine on both sides.
+    The radius is smallest over the middle two fifths of the length. On both sides it widens to the reference
+    radius along half a cosine.
 
     Attributes
     ----------

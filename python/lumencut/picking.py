@@ -1,4 +1,4 @@
-"""The place in the volume that a click on a pixel picks."""
+"""The point in the volume that a click on a pixel picks."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ def brightest(
     pixel: npt.ArrayLike,
     depths: npt.ArrayLike = (-np.inf, np.inf),
 ) -> npt.NDArray[np.float64]:
-    """Return the brightest place on the ray of a pixel, which a click into a MIP picks, as in the viewer.
+    """Return the brightest point on the ray of a pixel, which a click on a MIP picks, as in the viewer.
 
     The ray is sampled in steps of half the smallest side of a voxel, from the first voxel to the last. Of
-    several places that are equally bright the nearest one to the viewer is taken.
+    several equally bright points, the one nearest to the viewer is taken.
 
     Parameters
     ----------

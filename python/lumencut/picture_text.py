@@ -21,14 +21,14 @@ _CLASSES: dict[str, Any] = {"window": Window, "opacity": Opacity, "slab": Slab, 
 
 
 def text_of(path: Path, expected: str) -> str:
-    """Return the text in a PNG. Its pixels are not decoded; a file without its end is refused.
+    """Return the text in a PNG. Its pixels are not decoded; a file that is cut off is rejected.
 
     Parameters
     ----------
     path : Path
         The picture.
     expected : str
-        What was expected, for errors.
+        What the error says was expected.
 
     Raises
     ------
@@ -64,7 +64,7 @@ def _unreadable(path: Path, expected: str) -> NoReturn:
 
 
 def plain_settings(settings: Settings) -> dict[str, Any]:
-    """Return settings as JSON has them: windows, slabs and transfer functions by their fields."""
+    """Return settings in a form for JSON: windows, slabs and transfer functions by their fields."""
     return {name: _plain(getattr(settings, name)) for name in _lumencut.SETTINGS}
 
 
@@ -74,7 +74,7 @@ def _plain(value: Any) -> Any:
 
 
 def settings_of(content: dict[str, Any]) -> Settings:
-    """Return the settings that JSON holds.
+    """Return settings from their form in JSON.
 
     Raises
     ------
@@ -89,7 +89,7 @@ def settings_of(content: dict[str, Any]) -> Settings:
 
 
 def _made(name: str, value: Any) -> Any:
-    """The value of a setting, made of its fields where it has some; `Settings` checks all others."""
+    """Create the value of a setting from its fields, if it has fields; `Settings` checks all others."""
     kind = _lumencut.SETTINGS[name].kind
     if not isinstance(value, dict):
         return value

@@ -92,7 +92,7 @@ def cut_diameter(volume: Volume, camera: Camera, radius: float) -> float:
 
 
 def _written(turn: Iterable[Frame], volume: Volume, radius: float) -> Iterator[Frame]:
-    """Pass frames on with their diameters in the lower right corner."""
+    """Yield the frames with the diameters written into the lower right corner."""
     seen: list[float] = []
     for frame in turn:
         diameter = cut_diameter(volume, frame.camera, radius)

@@ -2,7 +2,7 @@
 
 A volume decides by its extent, and between two spaces by its values along the lines if they are evident.
 
-Nothing is decided in silence: every choice that the file does not state is noted with the counts behind it.
+Nothing is decided silently: every choice that the file does not state is noted, with the counts behind it.
 """
 
 from __future__ import annotations
@@ -56,11 +56,11 @@ class Placement:
     space, unit : str
         The space and unit in which they are read.
     space_from, unit_from : "asked", "stated", "volume", "values" or "assumed"
-        Who decided it: the caller, the file, the extent of the volume, its values along the lines, or nobody.
+        What decided: the caller, the file, the extent of the volume, its values along the lines, or nothing.
     decision : Told
         The decision, its reason, and how to confirm it; empty if file or caller stated everything.
     is_unusual : bool
-        Whether the volume decided against LPS or the usual unit, or the space by its values alone.
+        Whether the volume decided against LPS or the usual unit, or only its values decided the space.
     also : tuple of str
         Other units that would also fit the volume, if the usual one was chosen.
     doubt : Told
@@ -84,7 +84,7 @@ class Placement:
 
 @dataclass(frozen=True)
 class Lines:
-    """Points (n, 3) of lines and the radius at each, (n,), NaN where it is not known, in one unit."""
+    """Points (n, 3) of lines, and the radius at each, (n,), NaN if unknown, in one unit."""
 
     points: npt.NDArray[np.float64]
     radii: npt.NDArray[np.float64]
@@ -107,12 +107,12 @@ def placement(
     unit: Unit | None,
     volume: Volume | None,
 ) -> Placement:
-    """Decide space and unit of the lines of a file.
+    """Decide the space and unit of the lines of a file.
 
     Raises
     ------
     FormatError
-        If the volume cannot decide: several places fit it equally, or none does.
+        If the volume cannot decide: several spaces and units fit it equally, or none does.
     """
     known = {
         "asked_space": coordinates,
@@ -129,13 +129,13 @@ def placement(
 
 
 def _units(units: Sequence[Unit]) -> list[str | Option]:
-    """The options for units, of which the user must give one."""
+    """Return the options for units, of which the user must give one."""
     parts = [part for unit in units for part in (" or ", Option("unit", unit))]
     return parts[1:]
 
 
 def _doubt(found: tuple[str, Sequence[Unit]] | None) -> Told:
-    """Reasons against the unit, and the option that reads the lines in another one."""
+    """Return reasons against the unit, and the option to read the lines in another unit."""
     if found is None:
         return _NOTHING
     words, units = found
@@ -143,7 +143,7 @@ def _doubt(found: tuple[str, Sequence[Unit]] | None) -> Told:
 
 
 def _decision(words: str, space: Coordinates | None, unit: Unit | None, also: Sequence[Unit]) -> Told:
-    """The decision, and the options to confirm or change it."""
+    """Return the decision, and the options to confirm or change it."""
     if also:
         return Told(words, "; ", *_units(also), " reads them so")
     stated = [Option(name, value) for name, value in (("coordinates", space), ("unit", unit)) if value]
@@ -183,13 +183,13 @@ def check_space(tree: VesselTree, volume: Volume, subject: str = "vessel tree") 
 def check_space_once(
     tree: VesselTree, volume: Volume, subject: str = "vessel tree", stacklevel: int = 3
 ) -> None:
-    """Do as `check_space` for the caller's caller, unless the space was asked for or warned about."""
+    """Like `check_space` for the caller's caller, unless the space was given or already warned about."""
     if not tree._space_settled:
         tree._space_settled = _warn_if_another_fits(tree, volume, subject, stacklevel)
 
 
 def check_meeting(volume: Volume, tree: VesselTree) -> None:
-    """Reject a tree wholly outside the volume, and warn once of doubtful lines and space.
+    """Reject a tree completely outside the volume; warn once of doubtful lines and space.
 
     Raises
     ------
@@ -214,7 +214,7 @@ def _as_ras(count: int) -> Told:
 
 
 def _warn_if_another_fits(tree: VesselTree, volume: Volume, subject: str, stacklevel: int = 2) -> bool:
-    """Warn if another place brings twice as many points into the volume, and at least a tenth of all more.
+    """Warn if another space or unit has twice as many points in the volume, and a tenth of all points more.
 
     It also warns if the values of the volume clearly favour the other space. Returns whether it warned.
     `stacklevel` counts as for `warnings.warn` from the caller.
@@ -227,7 +227,7 @@ def _warn_if_another_fits(tree: VesselTree, volume: Volume, subject: str, stackl
 
 
 def _misread(subject: str, found: str, meant: tuple[Coordinates, Unit]) -> Told:
-    """The finding, and the options to read the centerlines in the space and unit that fit."""
+    """Return the finding, and the options to read the centerlines in the fitting space and unit."""
     space, unit = meant
     parts: list[str | Option] = [f"{subject}: {found}; read the centerlines with "]
     if space == "ras":

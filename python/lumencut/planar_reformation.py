@@ -69,7 +69,7 @@ class PlanarReformation(Reformation):
     mode : {"projected", "stretched", "straightened"}
         How the vessel is laid out. Distances are true except in ``"projected"``.
     angle : float
-        By how much the viewer has moved to the right (radians).
+        How far the viewer has moved to the right around the vessel or around up (radians).
     roll : numpy.ndarray, float64, shape (H,), or None
         The angle of each row (radians, without jumps at full turns), if the rows follow a side of the lumen.
     """
@@ -121,7 +121,7 @@ class PlanarReformation(Reformation):
         return PlanarReformation(self._renderer, core, self._given, parameters)
 
     def _title(self) -> str:
-        """The mode with the angle."""
+        """Return the mode with the angle."""
         if self.roll is not None:
             return f"{self.mode}, {self.recipe.parameters['roll']} side"
         return f"{self.mode} {round(math.degrees(self.angle)) % 360}°"
@@ -136,10 +136,10 @@ class PlanarReformation(Reformation):
         return image if self.roll is None else np.hstack([image, _strip(self.roll)])
 
     def _edges(self) -> dict[str, str]:
-        """The sides of the patient that edges look to, as far as they do so in all rows."""
+        """Return the sides of the patient at the edges, if they are the same in all rows."""
         if self.mode == "straightened":
             return {}
-        # Above the image it continues straight, and no two points of the vessel share a row.
+        # Measured above the image: there the vessel continues straight, and each row has one point.
         origin, *ends = self.world_from_pixel([[0, -2], [1, -2], [0, -1]])
         right, down = np.array(ends) - origin
         named = ("left", "right", "top", "bottom") if self.mode == "projected" else ("left", "right")
@@ -147,7 +147,7 @@ class PlanarReformation(Reformation):
 
 
 def _strip(roll: npt.NDArray[np.float64]) -> npt.NDArray[np.uint8]:
-    """A strip that shows angles (H,) as a light line on grey, RGBA, shape (H, 32, 4)."""
+    """Return a strip that shows angles (H,) as a light line on grey, RGBA, shape (H, 32, 4)."""
     strip = np.full((len(roll), _STRIP, 4), (40, 40, 40, 255), np.uint8)
     columns = (np.mod(roll, math.pi) / math.pi * _STRIP).astype(int) % _STRIP
     strip[np.arange(len(roll)), columns] = 255
@@ -303,7 +303,7 @@ class CprRequest(ReformationRequest):
 
 
 def _rolled(volume: Volume, vessel: Vessel, parameters: dict[str, Any], profile: Profile | None) -> _Rolled:
-    """Arc lengths (mm), and the angles (radians) that cut the requested side."""
+    """Return arc lengths (mm), and the angles (radians) of the planes through the requested side."""
     from lumencut.measuring import measure
 
     choice(CameraError, "roll of the CPR", parameters["roll"], ROLLS)

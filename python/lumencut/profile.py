@@ -13,7 +13,6 @@ from lumencut import _lumencut
 from lumencut._checks import choice, number, numbers
 from lumencut._pickles import by_name
 from lumencut.errors import MeasuringError, SettingsError
-from lumencut.profile_numbers import ProfileNumbers
 from lumencut.profile_outputs import ProfileOutputs
 from lumencut.scan_details import ScanDetails
 from lumencut.stenosis import METHODS, Method, Stenosis
@@ -31,14 +30,14 @@ class Spot(NamedTuple):
 
 @by_name
 class Stretch(NamedTuple):
-    """The length of a stretch of a vessel (mm): along it, and straight from end to end."""
+    """The length of a part of a vessel (mm): along the vessel, and straight from end to end."""
 
     length: float
     straight: float
 
     @property
     def tortuosity(self) -> float:
-        """The length along the vessel in straight distances: 1 for a straight stretch."""
+        """The length along the vessel divided by the straight distance: 1 for a straight part."""
         return self.length / self.straight if self.straight > 0 else math.inf
 
 
@@ -65,15 +64,12 @@ class CArm(NamedTuple):
 
 
 @by_name
-class Profile(ProfileNumbers, ProfileOutputs):
+class Profile(ProfileOutputs):
     """The lumen of one vessel by its arc length; :func:`lumencut.measure` makes it.
 
     Arrays have one row for each section, n in all, and cannot be written to. What could not be measured is
     NaN. A diameter is that of the lumen: thrombus and plaque are not lumen.
     """
-
-    def __len__(self) -> int:
-        return len(self.arc_length)
 
     def __repr__(self) -> str:
         length = self.arc_length[-1]
@@ -85,18 +81,13 @@ class Profile(ProfileNumbers, ProfileOutputs):
         return self._core.noise
 
     @property
-    def fwhm(self) -> float:
-        """The full width at half maximum of the point spread that was used (mm)."""
-        return self._core.fwhm[0]
-
-    @property
     def fwhm_source(self) -> str:
         """How :attr:`fwhm` was found: ``"given"``, ``"estimated on …"`` or ``"assumed: …"``."""
         return self._core.fwhm[1]
 
     @property
     def scan(self) -> ScanDetails:
-        """Acquisition details of the measured scan, from its file; :attr:`fwhm_source` has its blur."""
+        """Acquisition details of the measured scan, from its file; :attr:`fwhm_source` describes the blur."""
         return ScanDetails(*_lumencut.scan_of(self._core))
 
     @property

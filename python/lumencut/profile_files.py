@@ -11,7 +11,7 @@ from lumencut import _lumencut
 from lumencut._files import WRITABLE, checked_path, write_text
 from lumencut.errors import FormatError
 from lumencut.frame import check_dicom_alone
-from lumencut.profile_sections import Sections
+from lumencut.profile_numbers import ProfileNumbers
 from lumencut.stenosis import Stenosis
 
 NOTICE = _lumencut.MEASURING_NOTICE
@@ -20,19 +20,19 @@ _ENDINGS = (".csv", ".json")
 
 
 def is_profile_file(path: Path) -> bool:
-    """Return whether the ending of a path is that of a profile."""
+    """Return whether the file name extension is that of a profile."""
     return path.suffix.lower() in _ENDINGS
 
 
-def csv_text(sections: Sections) -> str:
+def csv_text(sections: ProfileNumbers) -> str:
     """Return a profile as a table, a line for each section after the line of the names.
 
-    Numbers have seven digits, and what could not be measured is empty.
+    Numbers have seven digits; unmeasured values are empty.
     """
     return _lumencut.profile_csv(sections._core)
 
 
-def json_text(sections: Sections) -> str:
+def json_text(sections: ProfileNumbers) -> str:
     """Return a profile as JSON, with the version of the software and a disclaimer.
 
     Unmeasured values are null.
@@ -41,7 +41,7 @@ def json_text(sections: Sections) -> str:
 
 
 def save_object(
-    sections: Sections,
+    sections: ProfileNumbers,
     path: str | os.PathLike[str],
     study: Any,
     stenoses: Sequence[Stenosis],
@@ -62,7 +62,7 @@ def save_object(
     write_report(checked, [measured(sections, stenoses)], found, names=not anonymous)
 
 
-def save(sections: Sections, path: str | os.PathLike[str], **of_objects: Any) -> None:
+def save(sections: ProfileNumbers, path: str | os.PathLike[str], **of_objects: Any) -> None:
     """Write one profile as ``.csv`` or ``.json``; reject options of DICOM."""
     checked = checked_path(path, WRITABLE)
     if not is_profile_file(checked):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import math
 from typing import Any
 
 import numpy as np
@@ -10,11 +12,12 @@ import numpy.typing as npt
 from lumencut import _lumencut
 from lumencut.dicom_objects.study import Origin
 from lumencut.errors import MeasuringError
-from lumencut.scan_details import ScanDetails
 from lumencut.vessel import Vessel
 
-#: The version of the pickle of a profile.
-_VERSION = 1
+#: The version of the pickle of a profile, and the one that held columns instead of a record.
+_VERSION, _OF_COLUMNS = 2, 1
+#: The fields of a scan in that pickle, in their order.
+_SCAN = ("series_number", "series_description", "phase", "slice_thickness_mm", "kernel")
 
 _Floats = npt.NDArray[np.float64]
 
@@ -38,18 +41,27 @@ class ProfileNumbers:
         """Return the state to copy or pickle: plain values by stable names."""
         return {
             "version": _VERSION,
-            "stored": _lumencut.stored_profile(self._core),
-            "scan": _lumencut.scan_of(self._core),
+            "record": _lumencut.profile_record(self._core),
             "vessel": self._vessel,
             "origin": self._origin,
         }
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        if state["version"] != _VERSION:
-            found = f"version {state['version']}"
-            raise MeasuringError("stored profile", found, f"version {_VERSION}", "measure the vessel again")
-        core = _lumencut.restored_profile(state["stored"], ScanDetails(*state["scan"]))
+        version = state["version"]
+        if version not in (_VERSION, _OF_COLUMNS):
+            found, expected = f"version {version}", f"version {_OF_COLUMNS} or {_VERSION}"
+            raise MeasuringError("stored profile", found, expected, "measure the vessel again")
+        record = state["record"] if version == _VERSION else _record_of_columns(state)
+        core = _lumencut.profile_from_record(record)
         ProfileNumbers.__init__(self, core, state["vessel"], state["origin"])
+
+    def __len__(self) -> int:
+        return len(self.arc_length)
+
+    @property
+    def fwhm(self) -> float:
+        """The full width at half maximum of the point spread that was used (mm)."""
+        return self._core.fwhm[0]
 
     @property
     def arc_length(self) -> _Floats:
@@ -179,3 +191,25 @@ class ProfileNumbers:
 def _locked(values: _Floats) -> _Floats:
     values.flags.writeable = False
     return values
+
+
+def _record_of_columns(state: dict[str, Any]) -> str:
+    """The record of a profile that was pickled as columns."""
+    columns, flags, fwhm_source, wall_source = state["stored"]
+    record = {
+        "format": 1,
+        "flag_names": {},
+        "flags": flags.tolist(),
+        "columns": {name: list(map(_plain, values.tolist())) for name, values in columns},
+        "fwhm_source": fwhm_source,
+        "wall_source": wall_source,
+        "scan": dict(zip(_SCAN, state["scan"], strict=True)),
+    }
+    return json.dumps(record)
+
+
+def _plain(value: float) -> float | str | None:
+    """A number as records have it: null where it is NaN, a text where it is infinite."""
+    if math.isnan(value):
+        return None
+    return value if math.isfinite(value) else f"{value}inity"

@@ -8,18 +8,18 @@ from typing import TYPE_CHECKING, Any
 
 from lumencut._files import WRITABLE, checked_path
 from lumencut.errors import MeasuringError
-from lumencut.profile_sections import Sections
+from lumencut.profile_numbers import ProfileNumbers
 from lumencut.stenosis import Stenosis
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-class ProfileOutputs:
+class ProfileOutputs(ProfileNumbers):
     """The files and the plot of a profile, a base of :class:`lumencut.Profile`."""
 
     def save(
-        self: Sections,
+        self,
         path: str | os.PathLike[str],
         *,
         study: Any = None,
@@ -72,7 +72,7 @@ class ProfileOutputs:
         dicom = {"study": study, "anonymous": anonymous, "other_patient": other_patient}
         save(self, path, **dicom, stenoses=tuple(stenoses) or None)
 
-    def to_json(self: Sections) -> str:
+    def to_json(self) -> str:
         """Return the profile as JSON: a list for each column of the sections, suggestions, the point spread.
 
         Numbers have all their digits; what could not be measured is null.
@@ -81,7 +81,7 @@ class ProfileOutputs:
 
         return json_text(self)
 
-    def plot(self: Sections, axes: Axes | None = None) -> Axes:
+    def plot(self, axes: Axes | None = None) -> Axes:
         """Draw the diameter by arc length (mm) with its uncertainty, flags and suggested places.
 
         Needs matplotlib: ``pip install lumencut[plot]``.

@@ -13,13 +13,14 @@ from lumencut import _lumencut
 from lumencut._files import replace_whole
 from lumencut.errors import MissingPackageError
 from lumencut.flags import Flag
-from lumencut.profile_sections import Mark, Sections, counts, word_of
+from lumencut.profile_numbers import ProfileNumbers
+from lumencut.profile_sections import Mark, counts, word_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-#: Half width of the band in standard deviations, and resolution of pictures (pixels per inch).
+#: Half width of the uncertainty band (standard deviations), and resolution of pictures (pixels per inch).
 _DEVIATIONS, _DPI = 2, 150
 
 #: Size of a plot (inches), left and right edge of its axes (shares), and the other edges (inches).
@@ -54,7 +55,7 @@ def new_axes() -> Axes:
     return axes
 
 
-def draw(axes: Axes, sections: Sections, marks: Sequence[Mark]) -> None:
+def draw(axes: Axes, sections: ProfileNumbers, marks: Sequence[Mark]) -> None:
     """Draw the diameters of sections, their flags and marked places."""
     counted = counts(sections)
     shown = [np.where(counted, values, np.nan) for values in _diameters(sections)]
@@ -72,7 +73,7 @@ def draw(axes: Axes, sections: Sections, marks: Sequence[Mark]) -> None:
         label=f"± {_DEVIATIONS} standard deviations (noise and fit)",
     )
     axes.plot(x, wide, color=_LINE, lw=1.6, label="diameter of a circle of the same area")
-    # A section between two that do not count is drawn as a dot, not as a line.
+    # A section between two sections that do not count is drawn as a dot, not as a line.
     lonely = counted & ~np.append(counted[1:], False) & ~np.append(False, counted[:-1])
     axes.plot(x[lonely], wide[lonely], ".", color=_LINE, ms=4)
     top = _top(sections, counted)
@@ -96,7 +97,7 @@ def draw(axes: Axes, sections: Sections, marks: Sequence[Mark]) -> None:
     axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.03), fontsize=8, frameon=False)
 
 
-def figure_of(profiles: Sequence[tuple[str, Sections, Sequence[Mark]]]) -> Figure:
+def figure_of(profiles: Sequence[tuple[str, ProfileNumbers, Sequence[Mark]]]) -> Figure:
     """Return a figure of profiles below each other, each with its title."""
     check_matplotlib()
     from matplotlib import style
@@ -116,11 +117,11 @@ def figure_of(profiles: Sequence[tuple[str, Sections, Sequence[Mark]]]) -> Figur
 
 
 def write(figure: Figure, path: Path) -> None:
-    """Write a figure as ``.png`` or ``.svg``, the same each time."""
+    """Write a figure as ``.png`` or ``.svg``; equal figures give equal bytes."""
     import matplotlib as mpl
 
     kind = path.suffix.lower().removeprefix(".")
-    # Without the date, and without the address of a web page.
+    # The metadata contain neither a date nor the address of a web page.
     software = f"lumencut {_lumencut.__version__}"
     metadata: dict[str, Any] = {"Software": software}
     if kind == "svg":
@@ -129,16 +130,16 @@ def write(figure: Figure, path: Path) -> None:
         replace_whole(path, lambda whole: figure.savefig(whole, format=kind, dpi=_DPI, metadata=metadata))
 
 
-def _diameters(sections: Sections) -> tuple[npt.NDArray[np.float64], ...]:
+def _diameters(sections: ProfileNumbers) -> tuple[npt.NDArray[np.float64], ...]:
     return sections.diameter_equivalent, sections.diameter_min, sections.diameter_max
 
 
 def _edges(height: float) -> tuple[float, float, float, float]:
-    """Left, bottom, right and top of the axes (shares of the figure)."""
+    """Return left, bottom, right and top of the axes (shares of the figure)."""
     return _SIDES[0], _BELOW / height, _SIDES[1], 1 - _ABOVE / height
 
 
-def _top(sections: Sections, counted: npt.NDArray[np.bool_]) -> float:
+def _top(sections: ProfileNumbers, counted: npt.NDArray[np.bool_]) -> float:
     """The largest diameter that fits into the plot (mm)."""
     wide = sections.diameter_max[counted]
     if not len(wide):
@@ -156,7 +157,7 @@ def _draw_marks(axes: Axes, marks: Sequence[Mark]) -> None:
         )  # fmt: skip
 
 
-def _draw_flags(axes: Axes, sections: Sections) -> float:
+def _draw_flags(axes: Axes, sections: ProfileNumbers) -> float:
     """Draw a row for each flag that is set somewhere, and return the share of the height that rows take."""
     present = [flag for flag in Flag if (sections.flags & int(flag)).any()]
     row = 0.052
@@ -181,7 +182,7 @@ def _draw_flags(axes: Axes, sections: Sections) -> float:
     return row * len(present)
 
 
-def _runs(sections: Sections, flag: Flag) -> list[tuple[float, float]]:
+def _runs(sections: ProfileNumbers, flag: Flag) -> list[tuple[float, float]]:
     """Where stretches with a flag begin, half a step before their first section, and their lengths (mm)."""
     x = sections.arc_length
     step = float(x[1] - x[0]) if len(x) > 1 else 1.0

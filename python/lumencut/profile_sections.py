@@ -1,56 +1,16 @@
-"""Content for plots and reports of a profile: words of its flags, and marked places."""
+"""What plots and reports show of a profile: names of flags, and marked places."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
-from lumencut.dicom_objects.study import Origin
 from lumencut.flags import Flag
-
-Floats = npt.NDArray[np.float64]
-
-
-class Sections(Protocol):
-    """The measured sections of a vessel: the part of :class:`lumencut.Profile` that plots and files need."""
-
-    _core: _lumencut.Profile
-    _origin: Origin | None
-
-    def __len__(self) -> int: ...
-
-    @property
-    def arc_length(self) -> Floats:
-        """Arc length (mm), shape (n,)."""
-
-    @property
-    def diameter_min(self) -> Floats:
-        """The shortest diameter (mm), shape (n,)."""
-
-    @property
-    def diameter_max(self) -> Floats:
-        """The longest diameter (mm), shape (n,)."""
-
-    @property
-    def diameter_equivalent(self) -> Floats:
-        """The diameter of a circle of the same area (mm), shape (n,)."""
-
-    @property
-    def uncertainty(self) -> Floats:
-        """The standard deviation of the diameter (mm), shape (n,)."""
-
-    @property
-    def flags(self) -> npt.NDArray[np.uint32]:
-        """Bits of :class:`lumencut.Flag`, shape (n,)."""
-
-    @property
-    def fwhm(self) -> float:
-        """The width of the point spread (mm)."""
+from lumencut.profile_numbers import ProfileNumbers
 
 
 @dataclass(frozen=True)
@@ -74,7 +34,7 @@ class Mark:
 
     @property
     def is_reference(self) -> bool:
-        """Whether it is a reference of a stenosis."""
+        """Return whether it is a reference of a stenosis."""
         return self.name == "reference"
 
     @property
@@ -84,15 +44,15 @@ class Mark:
 
     @property
     def title(self) -> str:
-        """Its name, and whether it is only a suggestion."""
+        """Return its name, and whether it is only a suggestion."""
         return f"{self.name} (suggestion)" if self.is_suggestion else self.name
 
     def __str__(self) -> str:
-        """The place in words, with its diameter."""
+        """Return the place in words, with its diameter."""
         return f"{self.title}: {self.diameter:.2f} mm at {self.arc_length:.1f} mm"
 
 
-def counts(sections: Sections) -> npt.NDArray[np.bool_]:
+def counts(sections: ProfileNumbers) -> npt.NDArray[np.bool_]:
     """Return which sections count for extrema, suggestions and references, shape (n,)."""
     return sections._core.counts
 
@@ -107,12 +67,12 @@ def word_of(flag: Flag) -> str:
     return ", ".join(flag_words(flag))
 
 
-def nearest(sections: Sections, at: float) -> int:
+def nearest(sections: ProfileNumbers, at: float) -> int:
     """Return the number of the section that is nearest to an arc length (mm), the first of two."""
     return sections._core.nearest(at)
 
 
-def marks(sections: Sections, at: float | None = None, references: Sequence[float] = ()) -> list[Mark]:
+def marks(sections: ProfileNumbers, at: float | None = None, references: Sequence[float] = ()) -> list[Mark]:
     """Return the places to check: those that a reader marked, and suggestions for the others.
 
     Raises

@@ -29,7 +29,7 @@ _PLACE = ("center", "direction", "right_axis", "up", "pixel_spacing")
 
 @dataclass(frozen=True)
 class Recipe:
-    """A picture without its volume and vessel tree, except for the number of vessels."""
+    """How a picture was made, except volume and vessel tree; it holds the number of vessels."""
 
     camera: Camera
     settings: Settings
@@ -51,7 +51,7 @@ def png_options(recipe: Recipe, *, states_spacing: bool) -> dict[str, Any]:
 def pixel_size(camera: Camera) -> dict[str, Any]:
     """Return the PNG metadata with the pixel size; empty if PNG cannot hold it."""
     per_metre = round(1000 / camera.pixel_spacing)
-    # PNG stores whole pixels per metre; the size of larger pixels is only in the recipe.
+    # PNG stores integer pixels per metre; the size of pixels above 1 m is only in the recipe.
     return {"dpi": (per_metre * 0.0254,) * 2} if per_metre else {}
 
 
@@ -94,7 +94,7 @@ def read_recipe(path: str | Path) -> Recipe:
             raise FormatError(str(place), found, f"a text of format {_FORMAT}", "give the options themselves")
         return _recipe(content)
     except (CameraError, SettingsError) as error:
-        # The text is not quoted, because anybody may have written it.
+        # The error does not quote the text, because anybody may have written it.
         found = f"a text whose {error.subject.partition(' of ')[0]} cannot be used"
     except (ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError) as error:
         if isinstance(error, FormatError):
@@ -118,7 +118,7 @@ def _recipe(content: dict[str, Any]) -> Recipe:
 
 
 def _camera(content: dict[str, Any]) -> Camera:
-    """The exact camera; normalising its unit axes again would round them."""
+    """Create the camera with exactly these axes; normalising them again would round them."""
     made = Camera(**{name: content[name] for name in ("center", "direction", "up", "size", "pixel_spacing")})
     stated = {name: np.asarray(content[name], dtype=np.float64) for name in _PLACE[:-1]}
     for name in ("direction", "right_axis", "up"):

@@ -27,14 +27,14 @@ if TYPE_CHECKING:
     from lumencut.volume import Volume
 
 
-#: On narrower pictures (pixels) there is no room for a sentence.
+#: Narrower pictures (pixels) get no label with a sentence.
 _WIDE = 400
 
 
 class Reformation:
-    """Vessels as an image (H, W) of their surroundings; every pixel looks at its own place.
+    """Vessels as an image (H, W) of their surroundings; each pixel shows its own point in the world.
 
-    Each image is made when it is first asked for, from the volume, whose voxels must not be changed
+    Each image is computed on first use from the volume, whose voxels must not be changed
     meanwhile. :func:`lumencut.cpr` and the other reformations return one, some with more attributes.
 
     Attributes
@@ -95,7 +95,7 @@ class Reformation:
 
     @property
     def shown_window(self) -> Window | None:
-        """The window that the picture is shown in; None where it shows no values of the volume."""
+        """The window in which the picture is shown; None if it shows no values of the volume."""
         window = self.settings.window
         return window if isinstance(window, Window) else None
 
@@ -200,18 +200,18 @@ class Reformation:
         volume, window = self._renderer.volume, self.shown_window
         words = [self._title()]
         words += [] if window is None else [window_words(window)]
-        # On a narrow picture the sentence would cover what it is about; the file states it too.
+        # On a narrow picture the sentence would cover the content; the file also contains it.
         words += [self.recipe.axes] if self.size[0] >= _WIDE else []
         letters = self._edges() if volume is not None and volume.states_orientation else {}
         has_scale = self.measurable and volume is not None and volume.states_spacing
         return with_labels(self.image, words, letters, self.pixel_spacing if has_scale else None)
 
     def _title(self) -> str:
-        """The first label of the picture."""
+        """Return the first label of the picture."""
         return self.recipe.name
 
     def _edges(self) -> dict[str, str]:
-        """The sides of the patient that edges look to."""
+        """Return the sides of the patient at the edges."""
         return {}
 
     def save(
@@ -267,7 +267,7 @@ class Reformation:
             save_picture(image, path, png_options(self.recipe, self.settings))
 
     def _as_object(self, *, annotate: bool, vessel_names: bool) -> Picture:
-        """The picture with the description for its DICOM object."""
+        """Return the picture with the description for its DICOM object."""
         from lumencut.dicom_objects.views import reformed_picture
 
         volume = self._renderer.volume
@@ -279,7 +279,7 @@ class Reformation:
         )
 
     def _study(self, study: Any, *, anonymous: bool, other_patient: bool = False) -> Study:
-        """The study that DICOM objects of the reformation belong to."""
+        """Return the study into which DICOM objects of the reformation are put."""
         from lumencut.dicom_objects.chosen_study import chosen_study
 
         origin = self._known_volume()._origin
@@ -297,7 +297,7 @@ class Reformation:
 
 
 def _points(points: npt.ArrayLike, count: int) -> npt.NDArray[np.float64]:
-    """Points as finite numbers of shape (n, count)."""
+    """Return points as finite numbers of shape (n, count)."""
     try:
         shape = (count,) if np.ndim(points) == 1 else (-1, count)
     except ValueError:  # lists of several lengths

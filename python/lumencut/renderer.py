@@ -74,7 +74,7 @@ class Renderer:
         self._core = _lumencut.Renderer(None if tree is None else tree._arrays(), device)
 
     def _set_scene(self, volume: Volume | None, tree: VesselTree | None) -> None:
-        """Set the scene, after checking that it is not empty and that volume and tree meet."""
+        """Set the scene; it must not be empty, and tree and volume must overlap."""
         scene = volume if tree is None else tree
         if scene is None:
             raise VolumeError("scene of the renderer", "neither a volume nor a tree", "one of them or both")
@@ -108,7 +108,7 @@ class Renderer:
         return self._sharing(other)
 
     def _with_part(self, vessels: Iterable[Vessel]) -> Renderer:
-        """A renderer of some vessels of the tree, which need not be compared with the volume again."""
+        """Return a renderer of some vessels of the tree, which are not compared with the volume again."""
         tree = VesselTree(vessels)
         other = object.__new__(Renderer)
         other._volume, other._tree, other._scene = self._volume, tree, tree
@@ -223,7 +223,7 @@ class Renderer:
         settings: Settings | None,
         images: Iterable[str] | None = None,
     ) -> Frame:
-        """Return one view by a reformation, named with its numbers as the extension module takes them."""
+        """Return one view by a reformation, given its name and its numbers for the extension module."""
         if self._tree is None:
             raise VesselTreeError("tree of the renderer", "None", "a tree to lay the image through")
         camera, settings = self._view(camera, settings)
@@ -241,7 +241,7 @@ class Renderer:
     def _with_source(
         self, settings: Settings, asked: list[str] | None, method: str = "csr"
     ) -> tuple[Settings, FrameSource | None]:
-        """The settings with windows, and the source of a picture, if a requested image needs them.
+        """Return the settings with windows, and the source of a picture, if a requested image needs them.
 
         Depth, vessel, distance and value need no window.
         """
@@ -251,10 +251,10 @@ class Renderer:
         return used, frame_source(used, self._volume, self._tree, self._vessel_ends, method)
 
     def _at_once(self, settings: Settings) -> list[str] | None:
-        """The images that are made where none are named; None stands for all."""
+        """Return the images to compute if none are named; None means all."""
         if self._tree is None or settings.level_choice != "own":
             return None
-        # The distance is then needed only for its own image, which is rarely used.
+        # All except the distance, which no other image needs and which is rarely used.
         return [name for name in IMAGES if name != "distance"]
 
     def _frame(
@@ -265,7 +265,7 @@ class Renderer:
         asked: list[str] | None,
         source: FrameSource | None = None,
     ) -> Frame:
-        """The frame of some images; an omitted distance is computed on first use."""
+        """Return the frame with some images; a missing distance is computed on first use."""
         arrays = {f"_{name}": array for name, array in buffers.items() if name != "timings"}
         if asked is None and self._at_once(settings) is not None:
             core = self._core
@@ -276,7 +276,7 @@ class Renderer:
         return Frame(camera, buffers["timings"], **arrays, _asked=names, _source=source)
 
     def _view(self, camera: Camera | None, settings: Settings | None) -> tuple[Camera, Settings]:
-        """The camera and the settings, or their defaults."""
+        """Return the camera and the settings, or their defaults."""
         if not isinstance(camera, (Camera, type(None))):
             raise CameraError("camera", type(camera).__name__, "a Camera or None")
         if not isinstance(settings, (Settings, type(None))):
@@ -284,7 +284,7 @@ class Renderer:
         return camera or Camera.anterior(self._scene), self._choosing(settings or Settings())
 
     def _choosing(self, settings: Settings) -> Settings:
-        """The settings with ids instead of names of chosen vessels; a word that is a name is no id."""
+        """Return the settings with ids instead of names; a word of digits that is a name is not an id."""
         words, tree = settings.focus_vessels, self._tree
         if not words:
             return settings
@@ -297,7 +297,7 @@ class Renderer:
         return settings if ids == words else replace(settings, focus_vessels=ids)
 
     def windowed(self, settings: Settings) -> Settings:
-        """Return the settings as :meth:`render` uses them: with windows from the data where they name none.
+        """Return the settings as :meth:`render` uses them: missing windows come from the data.
 
         Raises
         ------
@@ -310,7 +310,7 @@ class Renderer:
 
     @property
     def window(self) -> Window:
-        """The window of cut surface and context where the settings name none; see :meth:`Window.from_data`.
+        """The window of cut surface and context if the settings name none; see :meth:`Window.from_data`.
 
         Contexts of minimum and mean have their own, see :meth:`windowed`.
         """

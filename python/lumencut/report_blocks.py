@@ -49,7 +49,7 @@ def blocks_of(html: str) -> list[Block]:
 
 
 class _Reader(HTMLParser):
-    """Lays out the report; the host draws its plots."""
+    """Converts the report into blocks; the host draws its plots."""
 
     def __init__(self) -> None:
         super().__init__()

@@ -1,4 +1,4 @@
-"""The report of measured vessels as a PDF of A4 pages, drawn by matplotlib, whose text can be selected."""
+"""The report of measured vessels as a PDF with A4 pages and selectable text, drawn by matplotlib."""
 
 from __future__ import annotations
 
@@ -6,17 +6,17 @@ import io
 import textwrap
 import warnings
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 from lumencut import _lumencut
+from lumencut.measured_vessel import MeasuredVessel
 from lumencut.profile_plot import check_matplotlib, draw
-from lumencut.profile_sections import Mark, Sections
 from lumencut.report_blocks import Block, blocks_of
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-#: A4, its margin and the height that a plot takes (inches).
+#: A4 page, its margin, and the height of a plot (inches).
 _WIDTH, _HEIGHT, _MARGIN, _PLOT = 8.27, 11.69, 0.55, 2.6
 #: Font size (points) and whether letters are bold, by kind of text.
 _SIZES = {
@@ -27,35 +27,23 @@ _SIZES = {
     "doubt": (9, True),
 }
 _USUAL, _SMALL = (9, False), (7.5, False)
-#: Width of a letter and height of a line in font sizes, and the size of a point (inches).
+#: Width of a letter and height of a line, relative to the font size; the size of a point (inches).
 _LETTER, _LINE, _POINT = 0.6, 1.4, 1 / 72
-#: Height of a heading and of the beginning of its text (inches).
+#: Height needed for a heading and the beginning of its text (inches).
 _WITH_HEADING = 1.7
-#: Pictures of a row, and the share of the width that the first column of a table takes.
+#: Number of pictures in a row, and the share of the width for the first column of a table.
 _IN_A_ROW, _FIRST = 3, 0.26
 
 
-class Plotted(Protocol):
-    """The data of a vessel that its plot needs."""
-
-    @property
-    def profile(self) -> Sections:
-        """Its sections."""
-
-    @property
-    def marks(self) -> Sequence[Mark]:
-        """The places to look at."""
-
-
-def report_pdf(html: str, measured: Sequence[Plotted]) -> bytes:
+def report_pdf(html: str, measured: Sequence[MeasuredVessel]) -> bytes:
     """Return a report as a PDF; the same report gives the same bytes.
 
     Parameters
     ----------
     html : str
         The report of the vessels by :func:`lumencut.measure_report.report`.
-    measured : sequence of Plotted
-        The vessels, such as MeasuredVessel, whose plots are drawn again.
+    measured : sequence of MeasuredVessel
+        The vessels whose plots are drawn again.
 
     Raises
     ------
@@ -69,9 +57,9 @@ def report_pdf(html: str, measured: Sequence[Plotted]) -> bytes:
     content = io.BytesIO()
     software = f"Lumencut {_lumencut.__version__}"
     about = {"Title": "Lumencut: measured vessels", "Creator": software, "CreationDate": None}
-    # Fonts are embedded, not drawn as outlines, so that text can be searched and copied.
+    # Fonts are embedded instead of outlines, so that text can be searched and copied.
     with mpl.rc_context({"pdf.fonttype": 42}), warnings.catch_warnings():
-        # A letter that the font lacks becomes a box, without a warning of the font library.
+        # A letter that the font lacks is drawn as a box; the font library shall not warn about it.
         warnings.filterwarnings("ignore", message="Glyph .* missing")
         with PdfPages(content, metadata=about) as pages:
             sheet = _Sheet(pages)
@@ -80,7 +68,7 @@ def report_pdf(html: str, measured: Sequence[Plotted]) -> bytes:
     return content.getvalue()
 
 
-def _lay_out(sheet: _Sheet, blocks: list[Block], measured: list[Plotted]) -> None:
+def _lay_out(sheet: _Sheet, blocks: list[Block], measured: list[MeasuredVessel]) -> None:
     vessel = -1
     waiting: list[Block] = []
     for number, block in enumerate(blocks):
@@ -125,7 +113,7 @@ class _Sheet:
         self._write(notice, _MARGIN, _MARGIN / 2, _SMALL)
 
     def end(self) -> None:
-        """Put the page into the file."""
+        """Write the page into the file."""
         if self._figure is not None:
             self._pages.savefig(self._figure)
 
@@ -134,7 +122,7 @@ class _Sheet:
         size = _SIZES.get(block.style, _SIZES.get(block.kind, _USUAL))
         size = _SMALL if block.style == "small" or block.kind == "figcaption" else size
         if block.kind == "h2":
-            # A heading stays on the page of its text.
+            # A heading is kept on the same page as its text.
             self._room(_WITH_HEADING)
             self._top -= 0.08
         letters = int((_WIDTH - 2 * _MARGIN) / (size[0] * _LETTER * _POINT))
@@ -154,7 +142,7 @@ class _Sheet:
         wide = _WIDTH - 2 * _MARGIN
         for number, row in enumerate(rows):
             step = wide * (1 - _FIRST) / max(len(row) - 1, 1)
-            # The last column holds words, which may need several lines.
+            # The last column holds text that may need several lines.
             letters = [int(wide * _FIRST / (_SMALL[0] * _LETTER * _POINT))]
             letters += [int(step / (_SMALL[0] * _LETTER * _POINT))] * (len(row) - 1)
             cells = [textwrap.wrap(cell, count) or [""] for cell, count in zip(row, letters, strict=True)]
@@ -167,7 +155,7 @@ class _Sheet:
             self._top -= lines * height
         self._top -= 0.06
 
-    def plot(self, block: Block, one: Plotted) -> None:
+    def plot(self, block: Block, one: MeasuredVessel) -> None:
         """Draw the vessel, and below it its diameters by arc length."""
         picture = block.picture
         wide, strip = (_WIDTH - 2 * _MARGIN) * 0.58, 0.9
@@ -218,7 +206,7 @@ class _Sheet:
         )
 
     def _room(self, height: float) -> None:
-        """Begin a new page where there is no room."""
+        """Begin a new page if the rest of this page is too small."""
         if self._top - height < _MARGIN:
             self.turn()
 

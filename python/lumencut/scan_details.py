@@ -35,7 +35,7 @@ class ScanDetails:
     kernel: str | None = None
 
     def __str__(self) -> str:
-        """All details in words, including which are not stated."""
+        """Return all details in words, also which ones the file does not state."""
         from lumencut import _lumencut
 
         return _lumencut.scan_words(self)

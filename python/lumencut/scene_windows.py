@@ -1,4 +1,4 @@
-"""Windows of a scene as numbers, for settings that name a window or leave it to the data."""
+"""Windows of a scene as numbers, if the settings give a window by name or not at all."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from lumencut.window import Window
 
 
 class SceneWindows:
-    """The windows of a volume, each taken from it once, when it is first needed.
+    """The windows of a volume; each is computed once, on first use.
 
     Parameters
     ----------
     volume : Volume or None
-        The volume shown; without it every window is a ``VolumeError``.
+        The volume shown; without a volume every window raises a ``VolumeError``.
     tree : VesselTree or None
         The vessels along which the main window is taken. Renderers of other trees of the same volume share
         it, so that the picture does not become lighter or darker with the tree.
@@ -31,11 +31,11 @@ class SceneWindows:
 
     @functools.cached_property
     def main(self) -> Window:
-        """The window of cut surface and context where the settings name none."""
+        """Return the window of cut surface and context if the settings name none."""
         return Window.from_data(self._shown, self._tree)
 
     def used(self, settings: Settings, *, has_tree: bool) -> Settings:
-        """Return the settings with a window for each that is a name or left to the data."""
+        """Return the settings with numbers for each window that is a name or missing."""
         window, context_window = map(self._known, (settings.window, settings.context_window))
         if window is None and has_tree:
             window = self.main
@@ -46,12 +46,12 @@ class SceneWindows:
         return replace(settings, window=window, context_window=context_window)
 
     def _of_context(self, context: ContextName) -> Window:
-        """The window of a context that the settings leave to the data."""
+        """Return the window of a context if the settings name none."""
         name = _lumencut.context_window(context, self._tree is not None)
         return self.main if name == "auto" else self._kept(name)
 
     def _known(self, window: Window | str | None) -> Window | None:
-        """A window as numbers; a named one is computed from the whole volume."""
+        """Return a window as numbers; a named window is computed from the whole volume."""
         return self._kept(window) if isinstance(window, str) else window
 
     def _kept(self, name: str) -> Window:

@@ -1,4 +1,4 @@
-"""Pictures of the sections across a vessel with the contour of the lumen, alone and side by side."""
+"""Pictures of sections across a vessel with the contour of the lumen, single or on a sheet."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ from lumencut.profile_sections import counts, flag_words, nearest
 from lumencut.volume import Volume
 from lumencut.window import Window
 
-#: Contours of sections that count, and of others.
+#: Colours of contours: of sections that count, and of all others.
 _COUNTED, _LEFT_OUT = (64, 220, 255, 255), (255, 150, 40, 255)
 
-#: Contours are drawn larger by this factor and scaled down, for smooth edges.
+#: Contours are drawn this many times larger and then scaled down, for smooth edges.
 _FINER = 3
 
-#: Width of a picture in lumen diameters, and its limits (mm).
+#: Width of a picture in lumen diameters, and its smallest and largest value (mm).
 _ROOM, _SIZES = 2.5, (12.0, 120.0)
 
 
@@ -38,7 +38,7 @@ def fitting_size(profile: Profile) -> float:
 
 @dataclass(frozen=True, eq=False)
 class SectionView:
-    """The display of sections: volume, window and size.
+    """How sections are shown: volume, window and size.
 
     Attributes
     ----------
@@ -57,9 +57,9 @@ class SectionView:
     def picture(
         self, one: MeasuredVessel, number: int, words: str = "", *, has_contour: bool = True
     ) -> Picture:
-        """Return one section (H, W, 4): the plane that was measured, contour, numbers with units, a scale.
+        """Return one section (H, W, 4): the measured plane, the contour, numbers with units, a scale.
 
-        The contour is cyan where the section counts for what is narrowest or widest, and orange where flags
+        The contour is cyan if the section counts for narrowest and widest places, orange if flags exclude it.
         leave it out. Without it there are neither words nor numbers. `words` stand above the numbers.
         """
         profile, spacing = one.profile, fitting_size(one.profile) / (self.side - 1)
@@ -101,13 +101,13 @@ def sections_sheet(
 
 
 def _even(profile: Profile, count: int) -> list[int]:
-    """Sections evenly along a vessel, from its first to its last."""
+    """Return sections at equal distances along a vessel, including the first and the last."""
     wanted = np.linspace(0, len(profile) - 1, min(count, len(profile)))
     return [int(number) for number in np.unique(wanted.round())]
 
 
 def _marked(one: MeasuredVessel) -> dict[int, str]:
-    """The sections nearest to marked places, and what is marked there."""
+    """Return the sections nearest to marked places, and what is marked there."""
     found: dict[int, list[str]] = {}
     for mark in one.marks:
         found.setdefault(nearest(one.profile, mark.arc_length), []).append(mark.title)
@@ -115,14 +115,14 @@ def _marked(one: MeasuredVessel) -> dict[int, str]:
 
 
 def grey_picture(value: npt.NDArray[np.float32], window: Window) -> Picture:
-    """Return values (H, W) in a window as an RGBA picture (H, W, 4); what is not finite is black."""
+    """Return values (H, W) in a window as an RGBA picture (H, W, 4); values that are not finite are black."""
     share = (np.nan_to_num(value, nan=-np.inf) - window.level) / window.width + 0.5
     grey = (np.clip(share, 0, 1) * 255).round().astype(np.uint8)
     return np.stack([grey, grey, grey, np.full_like(grey, 255)], axis=-1)
 
 
 def _with_line(picture: Picture, points: npt.NDArray[np.float64], color: tuple[int, ...]) -> Picture:
-    """A picture with a closed line through points (column and row)."""
+    """Return a picture with a closed line through points (column and row)."""
     from PIL import Image, ImageDraw
 
     height, width = picture.shape[:2]
@@ -134,7 +134,7 @@ def _with_line(picture: Picture, points: npt.NDArray[np.float64], color: tuple[i
 
 
 def _labelled(picture: Picture, profile: Profile, number: int, words: str, spacing: float) -> Picture:
-    """A section with its numbers in the upper left corner and a scale in the lower one."""
+    """Return a section with its numbers in the upper left corner and a scale in the lower left corner."""
     sheet = Sheet(picture)
     short, long = profile.diameter_min[number], profile.diameter_max[number]
     lines = _wrapped(sheet, words)
@@ -154,7 +154,7 @@ def _with_scale(sheet: Sheet, spacing: float) -> Picture:
 
 
 def _wrapped(sheet: Sheet, words: str) -> list[str]:
-    """Words that are separated by commas in lines that fit a sheet."""
+    """Return words separated by commas, in lines that fit a sheet."""
     lines: list[str] = []
     for word in words.split(", ") if words else []:
         longer = f"{lines[-1]}, {word}" if lines else word

@@ -1,7 +1,7 @@
 """Session files: the work of a reader on a scan in the viewer, for use on the command line.
 
 A session file is a 3D Slicer markups file, so :func:`lumencut.read_centerlines` reads its vessels. It
-also holds colours, marks and the view, which are read here. The core checks the whole of it.
+also holds colours, marks and the view; this module reads them. The core checks the entire file.
 """
 
 from __future__ import annotations
@@ -130,7 +130,7 @@ def view_settings(method: str, given: dict[str, Any]) -> Settings:
 
 
 def _made(name: str, value: Any) -> Any:
-    """The value of a setting as the viewer writes it: windows and slabs are pairs, colours lists."""
+    """Return a setting from its form in the viewer: windows and slabs are pairs, colours lists."""
     setting = _lumencut.SETTINGS.get(name)
     if setting is None or not isinstance(value, list):
         return value

@@ -1,4 +1,4 @@
-"""Whether a session file belongs to the scan that it is read with."""
+"""Checks whether a session file belongs to the scan with which it is read."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from lumencut.dicom_objects.extents import Box
 from lumencut.errors import FormatError
 from lumencut.volume import Volume
 
-#: The viewer may load every second voxel, so the outermost voxels may differ by this number of steps.
+#: The viewer may load every second voxel, so outermost voxels may differ by this number of steps.
 _STEPS = 2.0
 
 
@@ -45,7 +45,7 @@ def other_scan(content: bytes, name: str, volume: Volume) -> str | None:
 
 
 def _middles(size: Any, world_from_index: Any) -> Box:
-    """The box around the middles of the voxels of a grid."""
+    """Return the box around the centres of the voxels of a grid."""
     ends = np.array(np.meshgrid(*((0, n - 1) for n in size))).reshape(3, -1).T
     affine = np.asarray(world_from_index, np.float64)
     return Box.around(ends @ affine[:3, :3].T + affine[:3, 3])

@@ -1,4 +1,4 @@
-"""Settings as a TOML file: a key for each setting, with a comment that says what it does."""
+"""Settings as a TOML file: a key for each setting, with a comment about its effect."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ _TABLES: dict[str, tuple[Callable[..., Any], tuple[str, ...]]] = {
 }
 _POINT = ("intensity", "color", "opacity")
 
-#: Example values of settings whose defaults are taken from the data.
+#: Example values for settings whose defaults come from the data.
 _EXAMPLES = {
     "number": "0.5",
     "window": "{ level = 300.0, width = 900.0 }",
@@ -68,7 +68,7 @@ def write_settings(settings: Any, path: str | os.PathLike[str]) -> None:
 
 
 def read_settings(path: str | os.PathLike[str], make: Callable[..., _Settings]) -> _Settings:
-    """Return the settings of a file, created by ``make``, their class; all errors name the file."""
+    """Read the settings of a file; ``make`` creates them, and all errors name the file."""
     place = checked_path(path, _EXPECTED)
     found = _parsed(place)
     for name in found:
@@ -81,7 +81,7 @@ def read_settings(path: str | os.PathLike[str], make: Callable[..., _Settings]) 
 
 
 def _comment(setting: _lumencut.Setting) -> list[str]:
-    """What the setting does, its default, and what else it can be."""
+    """Return the effect of the setting, its default, and other possible values."""
     default = setting.open if setting.default is None else _line(setting, setting.default)
     others = ""
     if setting.kind == "choice":
@@ -97,12 +97,12 @@ def _comment(setting: _lumencut.Setting) -> list[str]:
 
 
 def _line(setting: _lumencut.Setting, value: Any) -> str:
-    """The value of a setting as TOML."""
+    """Return the value of a setting as a line of TOML."""
     return f"[{', '.join(map(_written, value))}]" if setting.kind == "vessels" else _written(value)
 
 
 def _written(value: Any) -> str:
-    """A value as TOML."""
+    """Return a value as TOML."""
     match value:
         case None:
             return f'"{_NONE}"'
@@ -111,7 +111,7 @@ def _written(value: Any) -> str:
         case int() | float():
             return repr(value)
         case str():
-            # JSON escapes what TOML has to, but for one character.
+            # JSON escapes the same characters as TOML, except one.
             return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
         case tuple():
             return f'"#{bytes(value).hex()}"'
@@ -148,7 +148,7 @@ def _unknown(path: Path, name: str) -> SettingsError:
 
 
 def _read(subject: str, setting: _lumencut.Setting, value: Any) -> Any:
-    """A TOML value in the form that the setting takes."""
+    """Return a TOML value in the form that the setting accepts."""
     if value == _NONE and setting.optional:
         return None
     match setting.kind:
@@ -175,7 +175,7 @@ def _read(subject: str, setting: _lumencut.Setting, value: Any) -> Any:
 
 
 def _of_type(subject: str, value: Any, kind: Any, expected: str) -> Any:
-    # True and False are whole numbers to Python, not to TOML.
+    # In Python True and False are integers, in TOML they are not.
     if not isinstance(value, kind) or (isinstance(value, bool) and kind is not bool):
         raise SettingsError(subject, f"{value!r:.80}", expected)
     return value
@@ -199,7 +199,7 @@ def _point(subject: str, value: Any) -> tuple[Any, Any, Any]:
 
 
 def _fields(subject: str, value: Any, names: tuple[str, ...]) -> dict[str, Any]:
-    """The values of a table with exactly these names."""
+    """Return the values of a table that must have exactly these names."""
     if not isinstance(value, dict) or set(value) != set(names):
         found = listed([repr(name) for name in value]) if isinstance(value, dict) and value else repr(value)
         raise SettingsError(subject, f"{found:.80}", f"a table of {', '.join(names)}")

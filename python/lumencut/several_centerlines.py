@@ -1,4 +1,4 @@
-"""Several centerline files as one tree: 3D Slicer, for one, writes a file for each curve."""
+"""Several centerline files as one tree; for example, 3D Slicer writes a file for each curve."""
 
 from __future__ import annotations
 
@@ -88,7 +88,7 @@ class CenterlineFiles:
 
 
 def _called(part: VesselTree, path: Path) -> Iterable[Vessel]:
-    """The vessels of a file; a single one without a name gets the name of the file."""
+    """Return the vessels of a file; if there is only one and it has no name, it gets the name of the file."""
     if len(part) > 1 or part[0].name is not None:
         return part
     name = path.name.removesuffix(path.suffix)
@@ -97,7 +97,7 @@ def _called(part: VesselTree, path: Path) -> Iterable[Vessel]:
 
 
 def _is_across(doubt: LineDoubt, owner: Sequence[int]) -> bool:
-    """Whether a doubt is about vessels of two files."""
+    """Return whether a doubt is about vessels of two files."""
     return doubt.other is not None and owner[doubt.vessel] != owner[doubt.other]
 
 

@@ -1,4 +1,4 @@
-"""Slabs: how thick the cut surface is, and what is shown of its thickness."""
+"""Slabs: the thickness of the cut surface, and which value of this thickness is shown."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class Slab:
     Parameters
     ----------
     thickness : float
-        The whole slab along the view direction, the cut surface in its middle (mm, 0 to 1000): 4 mm show what
+        The thickness along the view direction, centred on the cut surface (mm, 0 to 1000): 4 mm show what
         is up to 2 mm before and 2 mm behind.
     mode : {"max", "mean", "min"}, default "max"
         The value along the view direction that is shown.

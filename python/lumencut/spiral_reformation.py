@@ -23,7 +23,7 @@ from lumencut.vessel_tree import VesselTree
 
 SAMPLINGS = ("arc", "angle")
 
-#: The areas that a ruler can have (mm²), and the widest ruler as a share of the picture.
+#: The areas that a ruler may show (mm²), and its greatest width as a share of the picture.
 _AREAS, _WIDEST = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000), 0.4
 
 
@@ -92,7 +92,7 @@ class SpiralReformation(Reformation):
         return sheet.pixels()
 
     def _ruler(self, area: float) -> float:
-        """The width of an area in a row (pixels)."""
+        """Return the width of an area in a row (pixels)."""
         return area / self.pitch / self.pixel_spacing
 
 
@@ -201,7 +201,7 @@ class SpiralRequest(ReformationRequest):
 
 
 def _radii(vessel: Vessel, missing: str) -> npt.NDArray[np.float64]:
-    """The radii of a vessel that are above 0."""
+    """Return the radii of a vessel that are above 0."""
     known = np.zeros(0) if vessel.radius is None else vessel.radius[vessel.radius > 0]
     if not known.size:
         expected = "radii, or the other"
@@ -214,7 +214,7 @@ def _reach(vessel: Vessel) -> float:
 
 
 def _fine_pitch(vessel: Vessel, finest: float, parameters: dict[str, Any]) -> float:
-    """A quarter of the usual radius, as far as voxels and the widest picture allow it."""
+    """Return a quarter of the median radius, or more if voxels or the widest picture require that."""
     usual = float(np.median(_radii(vessel, "pitch")))
     radius, spacing = parameters["radius"], parameters["pixel_spacing"]
     return _lumencut.spiral_pitch(usual, finest, radius, spacing, _MOST_COLUMNS)

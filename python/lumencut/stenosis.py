@@ -107,7 +107,7 @@ class Stenosis:
         return self._graded.group(vessel)
 
     def __str__(self) -> str:
-        """One line with method, mm and both diameters, and what makes it doubtful."""
+        """Return one line with the method, both diameters in mm, and the doubts."""
         return self._graded.doubtful_words()
 
     def __repr__(self) -> str:

@@ -23,13 +23,13 @@ from lumencut.vessel_tree import VesselTree
 from lumencut.volume import Volume
 from lumencut.volume_writers import write_volume
 
-#: The most voxels of a straightened volume: two gigabytes of floats.
+#: Largest number of voxels of a straightened volume: two gigabytes of floats.
 _MOST_VOXELS = 1 << 29
 
-#: Voxels that are sampled together.
+#: Number of voxels that are sampled in one call.
 _TOGETHER = 1 << 20
 
-#: Comment that viewers show with each image of the series, after its sides.
+#: A comment that viewers show with each image of the series, after the letters of its sides.
 _PLACE = "Position and sides are those of a patient whose vessel is straight"
 
 
@@ -132,7 +132,7 @@ class StraightenedVolume:
 
     @functools.cached_property
     def _grid(self) -> tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-        """Across, ahead and along (mm) from i, j and k: scale and origin."""
+        """Return scale and origin that convert i, j and k to distances across, ahead and along (mm)."""
         affine, step = self.volume.world_from_index, self.volume.spacing
         return step, (affine[:3, :3] / step).T @ affine[:3, 3]
 
@@ -199,7 +199,7 @@ def straightened_volume(
 
 
 def _affine(axes: npt.NDArray[np.float64], step: float, first: float) -> npt.NDArray[np.float64]:
-    """World from index of a straightened volume, whose vessel begins at the origin.
+    """Return world from index of a straightened volume, whose vessel begins at the origin.
 
     Rows of `axes` are the directions (LPS) of i, j and k; `first` is the place of the first i and j (mm).
     """

@@ -68,7 +68,7 @@ class TangentialReformation(Reformation):
         return TangentialReformation(self._renderer, self._vessel, camera, self._smoothing, self._given)
 
     def _edges(self) -> dict[str, str]:
-        """The sides of the patient that edges look to."""
+        """Return the sides of the patient at the edges."""
         return dict(_lumencut.edge_letters(np.array(self.camera.right_axis), -np.array(self.camera.up)))
 
 

@@ -91,7 +91,7 @@ def trace(
 class Tracer:
     """Centerlines of one volume that follow points and stoppers as they are added, moved and removed.
 
-    Asked for its :attr:`tree` after a change, it recomputes the paths between points next to the change and
+    Reading its :attr:`tree` after a change recomputes the paths between points next to the change and
     keeps all others. Lines may differ from those of :func:`trace` by small parts of a voxel, because the
     values of lumen are not estimated again as long as all points fit. Changes must not come from several
     threads at a time.
@@ -223,7 +223,7 @@ class Tracer:
 
 
 def _lists(points: Any) -> list[_Points]:
-    """The points of each vessel, from those of one or of several."""
+    """Return the points of each vessel, given those of one or of several vessels."""
     try:
         is_one = np.ndim(points) == 2
     except ValueError:
@@ -242,7 +242,7 @@ def _lists(points: Any) -> list[_Points]:
 def _rows(subject: str, points: Any) -> _Points:
     """Points as an array (n, 3), with n = 0 for an empty list."""
     with suppress(ValueError):
-        # Lists of several lengths make no array.
+        # An empty list cannot become an array of shape (n, 3).
         if np.size(points) == 0:
             return np.empty((0, 3))
     return numbers(TracingError, subject, points, (-1, 3))

@@ -13,7 +13,7 @@ from lumencut.renderer import Renderer
 from lumencut.settings import Settings
 from lumencut.vessel_tree import VesselTree
 
-#: The thresholds of CR (pixels): those of the picture of the neck in the paper of CSR (its Fig. 8).
+#: The thresholds of CR (pixels), as in the picture of the neck in the CSR paper (Fig. 8).
 RADIUS_OFFSET, ARC_THRESHOLD = 50.0, 150.0
 
 MPCPR = ("mpcpr",)
@@ -22,7 +22,7 @@ MPCPR = ("mpcpr",)
 def cr_method(
     radius_offset: float = RADIUS_OFFSET, arc_threshold: float = ARC_THRESHOLD
 ) -> tuple[str, float, float]:
-    """Return CR with its thresholds (pixels) as the renderer takes it, or refuse them."""
+    """Return CR with its thresholds (pixels) in the renderer's form; reject invalid thresholds."""
     offset = number(SettingsError, "radius_offset", radius_offset)
     threshold = number(SettingsError, "arc_threshold", arc_threshold)
     _lumencut.check_cr(offset, threshold)
@@ -91,7 +91,7 @@ def cr(
 ) -> Frame:
     """Return a Centerline Reformation (CR): every pixel takes the depth of the nearest projected centerline.
 
-    What lies in front is brought back within a disc around it. Of all stretches of the tree whose disc holds
+    Vessels in front stay visible within a disc around them. Of all stretches of the tree whose disc holds
     a pixel, the foremost one is shown there, by its point nearest in the image. A larger offset keeps more of
     the surroundings of the vessels in front, and cuts off more of those behind. Mistelbauer et al.,
     "Centerline Reformations of Complex Vascular Structures", IEEE PacificVis 2012; the rule is in

@@ -1,4 +1,4 @@
-"""Turntables: the view turns about an axis, at one magnification from the first frame to the last."""
+"""Turntables: the view turns about an axis, with the same pixel spacing in all frames."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ def turntable(
 
 
 def fitted_turn(camera: Camera, scene: Any, degrees: float = 360.0, axis: Axis = "superior") -> Camera:
-    """Return the camera at the middle of the scene, with a pixel spacing at which every frame of a turn fits.
+    """Return the camera at the middle of the scene, with a pixel spacing at which all frames show all of it.
 
     Parameters
     ----------
@@ -100,7 +100,7 @@ def fitted_turn(camera: Camera, scene: Any, degrees: float = 360.0, axis: Axis =
 
 
 def frame_angles(frames: int, degrees: float) -> npt.NDArray[np.float64]:
-    """Angles of the frames (radians), shape (frames,); the last of a whole turn comes before its end."""
+    """Return the angles of the frames (radians), shape (frames,); a full turn omits its last frame."""
     (count,) = integers(CameraError, "frames of the turntable", [frames], 1, MOST_FRAMES, 1)
     angle = number(CameraError, "degrees of the turntable", degrees)
     return np.array(_lumencut.frame_angles(count, angle))

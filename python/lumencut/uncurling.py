@@ -26,7 +26,7 @@ _MOST_FRAMES = 10_000
 
 
 class Uncurled(Reformation):
-    """One vessel straightened by degrees in the pixels of a camera, made by :func:`lumencut.uncurl`.
+    """One vessel, partly straightened, in the pixels of a camera; made by :func:`lumencut.uncurl`.
 
     At an amount of 0 it is the tangential CPR, at 1 the straightened CPR in the middle of the image, seen
     from the camera's side of the vessel's first point. In between, the vessel keeps its length and bends
@@ -71,7 +71,7 @@ class Uncurled(Reformation):
         super().__init__(renderer, core, given, recipe, measurable=False)
 
     def changed(self, amount: float) -> Uncurled:
-        """Return the same vessel straightened by another amount, from 0 to 1; the renderer is used again.
+        """Return the same vessel straightened by another amount, from 0 to 1, with the same renderer.
 
         Raises
         ------
@@ -186,14 +186,14 @@ def fitted_uncurling(camera: Camera, vessel: Vessel, smoothing: float = 0.0) -> 
 
 
 def film_amounts(frames: int) -> npt.NDArray[np.float64]:
-    """Return the amounts of a film's frames, shape (frames,): from 0 to 1, slow at both ends."""
+    """Return the amounts of a film's frames, shape (frames,): from 0 to 1, changing slowly at both ends."""
     (count,) = integers(CameraError, "frames of the uncurling", [frames], 2, _MOST_FRAMES, 1)
     at = np.linspace(0, 1, count)
     return at * at * (3 - 2 * at)
 
 
 def uncurling(first: Uncurled, frames: int = 48) -> Iterator[Uncurled]:
-    """Yield a vessel frame by frame as it is straightened, from an amount of 0 to 1; nothing is kept.
+    """Yield a vessel frame by frame as it is straightened, from an amount of 0 to 1; no frame is kept.
 
     Parameters
     ----------
@@ -207,7 +207,7 @@ def uncurling(first: Uncurled, frames: int = 48) -> Iterator[Uncurled]:
 
 
 def _with_pixels(camera: Camera, spacing: float) -> Camera:
-    """The same view in pixels of another size."""
+    """Return the same view with pixels of another size."""
     if not (np.isfinite(spacing) and spacing > 0):
         raise CameraError("pixel_spacing of the uncurling", f"{spacing:g} mm", "a length above 0 mm")
     width, height = (max(1, round(side * camera.pixel_spacing / spacing)) for side in camera.size)

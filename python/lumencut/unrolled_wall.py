@@ -27,7 +27,7 @@ Mode: TypeAlias = Literal["wall", "radius", "thickness", "shaded"]
 
 MODES = ("wall", "radius", "thickness", "shaded")
 
-#: The name of each map, and the unit of its colours.
+#: The name of each mode in the labels, and the unit of its colours.
 _SHOWN = {
     "wall": ("lumen map of the wall", None),
     "radius": ("lumen map of the radius", "mm"),
@@ -35,7 +35,7 @@ _SHOWN = {
     "shaded": ("lumen map, shaded", None),
 }
 
-#: Brightness of the columns that repeat the other side.
+#: Brightness of the columns that repeat the other side of the wall.
 _DIMMED = 0.55
 
 
@@ -67,7 +67,7 @@ class Ostium:
 
 @dataclass(frozen=True)
 class MappedVessel:
-    """Data shared by the maps of one vessel."""
+    """What the maps of one vessel have in common."""
 
     renderer: Renderer
     wall: _lumencut.LumenWall
@@ -198,7 +198,7 @@ class LumenMap(Reformation):
         return np.where(self.open, np.float32(np.nan), self._measured())
 
     def _measured(self) -> npt.NDArray[np.float32]:
-        """The shown quantity of the modes other than ``"wall"``."""
+        """Return the shown quantity for all modes except ``"wall"``."""
         if self.mode == "radius":
             return self.wall.astype(np.float32)
         if self.mode == "shaded":
@@ -222,7 +222,7 @@ class LumenMap(Reformation):
 
     @property
     def _scale(self) -> tuple[float, float]:
-        """The values at both ends of the colours."""
+        """Return the values at both ends of the colour scale."""
         if self.mode == "shaded":
             return 0.0, 1.0
         return 0.0, _lumencut.scale_end(self.value)
@@ -240,5 +240,5 @@ class LumenMap(Reformation):
 
 
 def _band_of(mode: Mode, band: list[float]) -> tuple[float, float]:
-    """The band beyond the wall that a mode searches; only the wall itself in modes that show it."""
+    """Return the band beyond the wall that a mode searches; for modes that show the wall, only the wall."""
     return (band[0], band[1]) if mode in ("wall", "thickness") else (0.0, 0.0)

@@ -21,10 +21,10 @@ from lumencut.vessel_tree import VesselTree
 if TYPE_CHECKING:
     from lumencut.lettering import Box
 
-#: Smallest turn that is drawn (radians).
+#: Smallest turn of a branch for which an arc is drawn (radians).
 _DRAWN_FROM = math.radians(5.0)
 
-#: The radius of an arc that shows a turn, in heights of a line of letters.
+#: The radius of an arc that shows a turn, in line heights.
 _ARC = 2.0
 
 
@@ -37,14 +37,14 @@ class LaidOut:
     vessel : int
         The id of the vessel.
     arc_length : numpy.ndarray, float64, shape (n,)
-        Places along the vessel (mm from its first point), rising.
+        Positions along the vessel (mm from its first point), increasing.
     pixels : numpy.ndarray, float64, shape (n, 2)
         Column and row of each (pixels).
     turn : float
         Turn of the part at its beginning, with all that follows it (radians, counter-clockwise in the
         picture).
     is_reversed : bool
-        Whether it begins at its last place.
+        Whether it begins at its last position.
     """
 
     vessel: int
@@ -70,7 +70,7 @@ class UntangledTree(Reformation):
     parts : tuple of LaidOut
         The vessels in the image, in the order of their ids and along them.
     closures : tuple of numpy.ndarray, shape (2, 2)
-        The cuts of cycles: column and row of two places that are one place of the body.
+        The cuts of cycles: column and row of the two positions that are one point in the body.
     """
 
     _core: _lumencut.Untangled
@@ -133,7 +133,7 @@ class UntangledTree(Reformation):
         return sheet.pixels()
 
     def _ends(self, names: bool) -> dict[str, tuple[float, float]]:
-        """The name of each vessel, or its id, and where it ends in the image."""
+        """Return the name or the id of each vessel, and where the vessel ends in the image."""
         named = [
             ((vessel.name if names else None) or str(n), self._core.ends[n])
             for n, vessel in enumerate(self._tree)
@@ -142,7 +142,7 @@ class UntangledTree(Reformation):
 
 
 def _written(changed: npt.NDArray[np.bool_]) -> list[Box]:
-    """The boxes around what was written in the upper and in the lower left quarter of a picture."""
+    """Return the rectangles of the texts in the upper left and lower left quarter of a picture."""
     height, width = changed.shape[0] // 2, changed.shape[1] // 2
     boxes: list[Box] = []
     for top in (0, height):
@@ -153,16 +153,16 @@ def _written(changed: npt.NDArray[np.bool_]) -> list[Box]:
 
 
 def _letters(count: int) -> list[str]:
-    """As many names of cycles: A, B, … and AA after Z."""
+    """Return this number of names for cycles: A, B, … and AA after Z."""
     letters = string.ascii_uppercase
     return [letters[n % 26] * (n // 26 + 1) for n in range(count)]
 
 
 def _draw_turn(sheet: Any, part: LaidOut) -> None:
-    """Draw the arc from where a part would begin to where it begins, and its degrees."""
+    """Draw an arc from the original direction of a part to its direction in the image, with degrees."""
     line = part.pixels[::-1] if part.is_reversed else part.pixels
     (column, row), radius = line[0], _ARC * sheet.line_height
-    # The first place a radius away gives the direction in which the part begins.
+    # The first point at least a radius away gives the direction of the part.
     distance = np.hypot(*(line - line[0]).T)
     along = line[min(int(np.argmax(distance >= radius)), len(line) - 1) or len(line) - 1] - line[0]
     now = math.atan2(-along[1], along[0])

@@ -1,4 +1,4 @@
-"""Making an untangled CPR of a tree."""
+"""Makes an untangled CPR of a tree."""
 
 from __future__ import annotations
 

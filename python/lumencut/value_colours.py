@@ -13,7 +13,7 @@ from lumencut import _lumencut
 def coloured(
     value: npt.NDArray[np.float32], ends: tuple[float, float], *, grey: bool = False
 ) -> npt.NDArray[np.uint8]:
-    """Return values (H, W) as RGBA, uint8, shape (H, W, 4), from the first colour at one end to the last.
+    """Return values (H, W) as RGBA, uint8, shape (H, W, 4), coloured from the first colour to the last.
 
     Values that are not finite are transparent.
     """
@@ -25,14 +25,14 @@ def with_scale(
     places: Iterable[tuple[str, npt.NDArray[np.float64]]],
     scale: tuple[float, float, str] | None,
 ) -> npt.NDArray[np.uint8]:
-    """Return a copy of an RGBA picture (H, W, 4) with names at places, and the scale of its colours.
+    """Return a copy of an RGBA picture (H, W, 4) with names at given positions, and a colour scale.
 
     Parameters
     ----------
     image : numpy.ndarray, uint8, shape (H, W, 4)
         The picture; a side below 200 pixels gets no labels.
     places : iterable of (str, numpy.ndarray of shape (2,))
-        Names, each with column and row of its place.
+        Names, each with the column and row at which to write it.
     scale : (float, float, str), optional
         The values at both ends of the colours, and their unit.
     """

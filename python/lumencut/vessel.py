@@ -38,7 +38,7 @@ class Vessel(Value):
         For points or radii of another shape or value.
     """
 
-    #: Whether doubts about its line were reported.
+    #: Whether doubts about the line of this vessel were reported.
     _line_settled = False
 
     def __init__(

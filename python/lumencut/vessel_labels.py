@@ -26,7 +26,7 @@ def write_vessel_names(sheet: Sheet, camera: Camera, ends: tuple[VesselEnd, ...]
 
 
 def write_names(sheet: Sheet, ends: Sequence[tuple[str, _Place]]) -> None:
-    """Write each name next to a dot at its place (pixels), in their order.
+    """Write each name next to a dot at its position (pixels), in this order.
 
     A name stands to the right of its dot, or else to the left, above or below: the first place where it lies
     within the picture and over nothing that was written before, nor over the dot of another name. A name
@@ -46,7 +46,7 @@ def write_names(sheet: Sheet, ends: Sequence[tuple[str, _Place]]) -> None:
 
 
 def _places(dot: _Place, radius: float) -> Iterator[tuple[_Place, str]]:
-    """Possible places of a name next to a dot, the best first, with Pillow's anchors."""
+    """Return possible positions of a name next to a dot, the best first, with Pillow's anchors."""
     x, y = dot
     gap = 2 * radius
     yield (x + gap, y), "lm"

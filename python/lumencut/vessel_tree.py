@@ -43,7 +43,7 @@ class VesselTree(Value):
         For a tree without vessels, or members that are not vessels.
     """
 
-    #: Whether the user named the space of the coordinates, or was warned that it looks wrong.
+    #: Whether the user stated the space of the coordinates, or was warned about it.
     _space_settled = False
     _gaps: tuple[Gap, ...] = ()
     _notes: tuple[str, ...] = ()
@@ -274,25 +274,25 @@ class VesselTree(Value):
         return self._with(vessels[:gone] + vessels[gone + 1 :])
 
     def _with(self, vessels: Iterable[Vessel]) -> VesselTree:
-        """A tree of other vessels in the same space."""
+        """Return a tree of other vessels in the same space."""
         tree = VesselTree(vessels)
         tree._space_settled = self._space_settled
         return tree
 
     def _settle_lines_of(self, other: VesselTree) -> None:
-        """Remember the checked lines of a tree of the same vessels."""
+        """Copy to this tree that the lines of equal vessels were checked."""
         for vessel, same in zip(self._vessels, other._vessels, strict=True):
             vessel._line_settled = same._line_settled
 
     def _id(self, vessel: SupportsIndex | str) -> int:
-        """The id of the one vessel that is meant."""
+        """Return the id of the only vessel with this id or name."""
         return the_one_named(self._vessels, vessel) if isinstance(vessel, str) else self.ids(vessel)[0]
 
     def _part(self, ids: Iterable[int]) -> VesselTree:
         return self._with(self._vessels[index] for index in ids)
 
     def _ids(self, vessels: Iterable[SupportsIndex | str]) -> set[int]:
-        """The ids of vessels by their ids and names."""
+        """Return the ids of vessels, given by id or name."""
         found: set[int] = set()
         for vessel in vessels:
             if isinstance(vessel, str):

@@ -63,11 +63,11 @@ class Volume(KeepsReadOnly):
     _filled_slices: tuple[int, ...] = ()
     _scan = ScanDetails()
     _frame_of_reference = ""
-    #: Whether it is a segmentation of DICOM, and the names of its labels.
+    #: Whether the volume is a DICOM segmentation, and the names of its labels.
     _is_segmentation = False
     _label_names: Mapping[int, str] = MappingProxyType({})
     _study: Study | None = None
-    #: The patient, from DICOM.
+    #: The patient, from the DICOM header.
     _patient = Patient()
 
     def __init__(
@@ -190,7 +190,7 @@ class Volume(KeepsReadOnly):
     @functools.cached_property
     def _origin(self) -> Origin:
         """The origin of objects made from the volume."""
-        # A few thousand evenly spread voxels distinguish scans; reading all would take as long as a picture.
+        # A few thousand evenly spread voxels identify a scan; reading all of them would be slow.
         voxels = self._voxels
         some = voxels[:: max(1, len(voxels) // 4096)]
         grid = repr((self.size, self.dtype.str, self._affine_rows))
@@ -201,12 +201,12 @@ class Volume(KeepsReadOnly):
 
     @functools.cached_property
     def _windows(self) -> FoundOnce[tuple[float, float]]:
-        """The windows that were found in the voxels."""
+        """The cache of windows computed from the voxels."""
         return FoundOnce()
 
     @functools.cached_property
     def _tree_findings(self) -> FoundOnce[_lumencut.TreeFindings]:
-        """Estimates of point spread and walls from trees."""
+        """The cache of point spreads and wall levels estimated from trees."""
         return FoundOnce()
 
     @property
@@ -217,7 +217,7 @@ class Volume(KeepsReadOnly):
 
     @property
     def _strides(self) -> tuple[int, ...]:
-        """Distance between neighbours along i, j, k in elements."""
+        """Distance between neighbours along i, j, k, in array elements."""
         pairs = zip(self._array.strides, self._array.shape, strict=True)
         return tuple(s // self._array.itemsize if n > 1 else 0 for s, n in pairs)[::-1]
 
@@ -278,7 +278,7 @@ def _points(points: npt.ArrayLike) -> npt.NDArray[np.float64]:
     except (TypeError, ValueError, OverflowError) as error:
         raise VolumeError("points", type(points).__name__, expected) from error
     if array.shape == (3,) or (array.ndim == 2 and array.shape[1] == 3):
-        # The extension module reads aligned numbers only.
+        # The extension module reads only aligned numbers.
         return (array if array.flags.aligned else array.copy()).reshape(-1, 3)
     raise VolumeError("points", f"shape {np.shape(array)}", expected)
 
@@ -327,7 +327,7 @@ def _checked_voxels(array: npt.ArrayLike) -> npt.NDArray[Any]:
 
 
 def _plain(voxels: npt.NDArray[Any]) -> tuple[npt.NDArray[Any], npt.NDArray[np.float64]]:
-    """The voxels as a dense, aligned view with positive strides, and the affine old-index-from-new-index."""
+    """Return a dense, aligned view of the voxels with positive strides, and the affine to the old index."""
     flipped = np.eye(4)
     for axis, stride in enumerate(voxels.strides):
         if stride < 0:

@@ -3,7 +3,7 @@ import { expect, test } from '@playwright/test';
 import { SIZE } from './measured-tube';
 import { Viewer } from './page';
 
-test('what was not saved is not closed unasked, and measuring does not go on in the next scan', async ({
+test('the page asks before it closes unsaved work, and measuring does not continue in the next scan', async ({
   browser,
 }) => {
   const tube = await Viewer.open(browser, '?phantom=stenosis&device=cpu', { viewport: SIZE });
@@ -28,7 +28,7 @@ test('what was not saved is not closed unasked, and measuring does not go on in 
   await expect(page.locator('main.layout')).toHaveAttribute('data-layout', 'strip');
   await tube.rest();
   await expect(page.getByRole('alert')).toHaveCount(0);
-  // Nothing has changed since: it closes without a question, even with a tool active.
+  // Nothing has changed since it was saved, so it closes without a question, even while a tool is active.
   await tube.press('m', 't');
   await expect(page.locator('main.layout')).toHaveAttribute('data-layout', 'four');
   await close.click();

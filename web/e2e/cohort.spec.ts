@@ -1,4 +1,4 @@
-/** Contact sheet of a cohort of 2,000 studies: opened, filtered, sorted and rated from a file. */
+/** The contact sheet of a cohort of 2,000 studies is opened from a file, filtered, sorted and rated. */
 import { spawnSync } from 'node:child_process';
 import { mkdtempSync, readFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -25,7 +25,7 @@ const ids = (page: Page) =>
     .locator('li:not(.hidden)')
     .evaluateAll((tiles) => tiles.map((tile) => (tile as HTMLElement).dataset.id));
 
-test('two thousand studies are shown and filtered without a complaint', async ({ page }) => {
+test('two thousand studies are shown and filtered without an error', async ({ page }) => {
   const complaints: string[] = [];
   page.on('console', (message) => complaints.push(message.text()));
   await page.goto(address);
@@ -35,7 +35,7 @@ test('two thousand studies are shown and filtered without a complaint', async ({
   expect(complaints).toEqual([]);
 });
 
-test('studies are filtered, ordered and rated, and the ratings outlive the page', async ({ page }) => {
+test('studies are filtered, sorted and rated, and the ratings remain after a reload', async ({ page }) => {
   await page.goto(address);
   await page.selectOption('#filter', 'failed');
   expect((await ids(page)).slice(0, 3)).toEqual(['p0', 'p10', 'p20']);
@@ -47,7 +47,7 @@ test('studies are filtered, ordered and rated, and the ratings outlive the page'
   await page.selectOption('#order', 'row');
   await page.fill('#search', 'p199');
   await page.locator('li:not(.hidden)').first().focus();
-  // Rating the first tile focuses the second.
+  // After the first tile is rated, the second one has the focus.
   await page.keyboard.press('g');
   await page.keyboard.press('x');
   await page.keyboard.press('ArrowLeft');

@@ -7,16 +7,16 @@ export interface Pixels {
   readonly bytes: Uint8Array;
 }
 
-/** Allowed difference of channels (steps of 255), and the share that may exceed it. */
+/** Largest allowed difference of a channel (0 to 255), and the share of channels that may exceed it. */
 export interface Tolerance {
   readonly apart: number;
   readonly share: number;
 }
 
-/** Same code: rounding moves a channel by one step. */
+/** Tolerance for the same code: rounding may change a channel by 1. */
 export const SAME_CODE: readonly Tolerance[] = [{ apart: 1, share: 0 }];
 
-/** Another device: `COLOR` and `COLOR_LEAP`. */
+/** Tolerances for another device, as `COLOR` and `COLOR_LEAP` in `tolerances.rs`. */
 export const OTHER_DEVICE: readonly Tolerance[] = [
   { apart: 1, share: 5e-4 },
   { apart: 4, share: 1e-4 },
@@ -24,7 +24,7 @@ export const OTHER_DEVICE: readonly Tolerance[] = [
 
 export const OTHER_DEVICE_WITH_CONTEXT: readonly Tolerance[] = [{ apart: 4, share: 1e-3 }];
 
-/** Description of the difference; null within the tolerances. */
+/** Description of a difference beyond the tolerances; null if there is none. */
 export function difference(found: Pixels, expected: Pixels, tolerances: readonly Tolerance[]): string | null {
   if (found.width !== expected.width || found.height !== expected.height) {
     return `found ${found.width} × ${found.height} pixels; expected ${expected.width} × ${expected.height}`;

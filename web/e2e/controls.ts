@@ -1,4 +1,4 @@
-/** Shared actions of the tests on vessels, measurements and sessions. */
+/** Actions that the tests of vessels, measurements and sessions share. */
 import { readFileSync } from 'node:fs';
 import { type Browser, type BrowserContextOptions, expect, type Locator } from '@playwright/test';
 import { Viewer } from './page';
@@ -15,7 +15,7 @@ export async function rename(viewer: Viewer, n: number, name: string): Promise<v
 }
 export const button = (viewer: Viewer, words: string): Locator =>
   viewer.page.getByRole('button', { name: words, exact: true });
-/** Window in which the list fits next to the views. */
+/** A window size at which the vessel list fits next to the views. */
 export const SIZE = { width: 1100, height: 720 };
 
 export async function untraced(
@@ -61,7 +61,7 @@ export const fileOf = (name: string, buffer: Buffer): MadeFile => ({
   buffer,
 });
 
-/** Saves by a button of the menu, which closes; checks the reported name. */
+/** Saves by a button of the menu "Save". Checks that the menu closes and that the reported name is right. */
 export async function saved(viewer: Viewer, words: string): Promise<Buffer> {
   const { page } = viewer;
   await menu(viewer).click();
@@ -104,7 +104,7 @@ export async function countInput(viewer: Viewer): Promise<() => Promise<{ clicks
     viewer.page.evaluate(() => (window as unknown as { counted: { clicks: number; keys: number } }).counted);
 }
 
-/** Presses Tab until a control has the focus; `back` reverses. */
+/** Presses Tab, or Shift+Tab if `back`, until a control has the focus. */
 export async function tabTo(viewer: Viewer, words: string | RegExp, back = false): Promise<void> {
   const wanted = new RegExp(words);
   const seen: string[] = [];

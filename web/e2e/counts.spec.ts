@@ -1,4 +1,4 @@
-/** Number of user actions from a scan to a clean tree and a saved finding. */
+/** Counts the user actions from a scan to a clean tree and a saved finding. */
 import { readFileSync } from 'node:fs';
 import { expect, type Locator, test } from '@playwright/test';
 import { button, countInput, rows, untraced } from './controls';
@@ -6,7 +6,7 @@ import { button, countInput, rows, untraced } from './controls';
 const MAX_ACTIONS = 20;
 
 async function slide(slider: Locator, part: number): Promise<void> {
-  // The range is known once the lengths are.
+  // The range of the slider is known once the lengths of the vessels are.
   await expect.poll(async () => Number(await slider.getAttribute('max'))).toBeGreaterThan(10);
   const width = (await slider.boundingBox())?.width ?? 0;
   await slider.click({ position: { x: part * width, y: 4 } });

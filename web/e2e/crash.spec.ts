@@ -6,7 +6,7 @@ import { NARROWED, openScan, traceTube, tubes } from './scans';
 
 const SCAN = tubes('tubes.nrrd');
 
-/** Makes the next question fail like a crashed module. */
+/** Makes the next request to the engine fail like a crash of the WebAssembly module. */
 async function crash(viewer: Viewer): Promise<void> {
   // The first worker is the engine; the others are its threads.
   await viewer.page.workers()[0]?.evaluate(() => {
@@ -18,7 +18,7 @@ async function crash(viewer: Viewer): Promise<void> {
   });
 }
 
-test('after a crash the message offers to save the session, which brings back what was traced', async ({
+test('after a crash the message offers to save the session, which restores the traced vessels', async ({
   browser,
 }) => {
   const viewer = await Viewer.open(browser, '?device=cpu', { viewport: SIZE, acceptDownloads: true });

@@ -1,4 +1,4 @@
-/** A synthetic DICOM series: slices of 16 × 16 voxels every 2 mm with a bright rod. */
+/** Creates a synthetic DICOM series: slices of 16 × 16 voxels, 2 mm apart, with a bright rod. */
 
 const SIDE = 16;
 const CT = '1.2.840.10008.5.1.4.1.1.2';

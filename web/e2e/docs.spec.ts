@@ -1,4 +1,4 @@
-/** The documentation site in a browser, opened from files: no external requests, and a working search. */
+/** Opens the built documentation from files; checks that it loads nothing from other hosts and can be searched. */
 import { join } from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { expect, type Page, test } from '@playwright/test';
@@ -42,7 +42,7 @@ for (const [width, height] of [
   });
 }
 
-test('a word is found, without a server', async ({ page }) => {
+test('the search finds a word without a server', async ({ page }) => {
   const faults = recordFaults(page);
   await page.goto(at('index'));
   await page.keyboard.press('/');

@@ -1,12 +1,12 @@
-/** Choosing files: centerlines for an open scan, also without a stated coordinate system. */
+/** Tests of opening files: centerlines for an open scan, also if they state no coordinate system. */
 import { expect, test } from '@playwright/test';
 import { button, choose, fileOf, rows, SESSION, saved } from './controls';
 import { Viewer } from './page';
 
-/** A line that fits the phantom even with x and y negated. */
+/** A centerline that lies in the phantom even if x and y change their signs. */
 const AXIS = 'x,y,z,radius\n0,0,-8,1.5\n0,0,0,1.5\n0,0,8,1.5\n';
 
-test('centerlines whose space nothing tells are read as the user says', async ({ browser }) => {
+test('centerlines of unknown coordinate system are read as the user chooses', async ({ browser }) => {
   const viewer = await Viewer.open(browser, '?phantom=stenosis&device=cpu');
   await viewer.rest();
   const chooser = viewer.page.locator('input[type=file]').first();
@@ -21,7 +21,9 @@ test('centerlines whose space nothing tells are read as the user says', async ({
   await viewer.close();
 });
 
-test('centerlines whose space and unit nothing tells are read as the user says', async ({ browser }) => {
+test('centerlines of unknown coordinate system and unit are read as the user chooses', async ({
+  browser,
+}) => {
   const viewer = await Viewer.open(browser, '?phantom=stenosis&device=cpu');
   await viewer.rest();
   const chooser = viewer.page.locator('input[type=file]').first();
@@ -55,7 +57,7 @@ function bar(): { name: string; mimeType: string; buffer: Buffer } {
   return { name: 'bar.nrrd', mimeType: 'application/octet-stream', buffer };
 }
 
-test('a scan that states no distances gets mm by consent alone, and undo takes them back', async ({
+test('a scan without voxel spacing has mm only if the user assumes them, and undo reverts this', async ({
   browser,
 }) => {
   const viewer = await Viewer.open(browser, '?device=cpu');
@@ -75,7 +77,7 @@ test('a scan that states no distances gets mm by consent alone, and undo takes t
   await expect(scale).toBeVisible();
   await expect(assume).toHaveCount(0);
   await expect(viewer.readOut).toContainText('10.0 mm');
-  // The button handles the press; the cross-hair stays.
+  // The press acts on the button only; the cross-hair stays.
   expect(await viewer.hair('turning')).toEqual(hair);
   await viewer.screenshot('one-millimetre');
   await viewer.press('Control+z');
@@ -87,7 +89,7 @@ test('a scan that states no distances gets mm by consent alone, and undo takes t
   await viewer.close();
 });
 
-test('the millimetre that is assumed is kept in the session, and told with what was measured', async ({
+test('assumed voxels of 1 mm are kept in the session, and stated with the measurements', async ({
   browser,
 }) => {
   const viewer = await Viewer.open(browser, '?device=cpu', { acceptDownloads: true });
@@ -113,7 +115,7 @@ test('the millimetre that is assumed is kept in the session, and told with what 
   await viewer.press('m');
   await expect(viewer.page.getByTestId('section-numbers')).toContainText('mm', { timeout: 30_000 });
   const words = 'The scan has no voxel spacing: 1 mm is assumed.';
-  const numbers = 'Numbers of measured vessels';
+  const numbers = 'Measurements of all measured vessels';
   for (const file of [`${numbers} (CSV)`, `${numbers} (JSON)`, 'Report (HTML)']) {
     expect(`${await saved(viewer, file)}`).toContain(words);
   }

@@ -1,4 +1,4 @@
-/** Finding all vessels of a scan from the page's offer, as one undo step. */
+/** The button offered by the page finds all vessels of a scan, as one undo step. */
 import { expect, test } from '@playwright/test';
 import { button, rows, untraced } from './controls';
 
@@ -11,7 +11,7 @@ test('a page without vessels offers to find all of them, in one step that can be
   const count = await rows(viewer).count();
   await expect(button(viewer, 'Find all vessels')).toHaveCount(1);
   await viewer.screenshot('find-vessels');
-  // The message closes by Escape and by a press elsewhere; the vessels stay.
+  // The list of notes closes by Escape and by a press elsewhere; the vessels stay.
   const notes = viewer.page.locator('footer summary');
   const note = viewer.page.locator('footer .menu-body li').first();
   for (const close of [() => viewer.press('Escape'), () => viewer.click([0.5, 0.1])]) {
@@ -29,7 +29,7 @@ test('a page without vessels offers to find all of them, in one step that can be
   await viewer.close();
 });
 
-test('finding tells how far it is, and Escape stops it', async ({ browser }) => {
+test('finding vessels shows its progress, and Escape stops it', async ({ browser }) => {
   test.setTimeout(120_000);
   const viewer = await untraced(browser, 'aorta');
   await button(viewer, 'Find all vessels').last().click();
@@ -43,7 +43,7 @@ test('finding tells how far it is, and Escape stops it', async ({ browser }) => 
   await viewer.close();
 });
 
-test('branches from a place that is no lumen by its value are refused at once, with what lies there', async ({
+test('searching branches from a point outside lumen is rejected at once, with the value there', async ({
   browser,
 }) => {
   const viewer = await untraced(browser, 'aorta');

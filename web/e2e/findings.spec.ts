@@ -29,9 +29,7 @@ async function mark(viewer: Viewer, vessel: number): Promise<void> {
 
 const WITH_CLIPBOARD = { permissions: ['clipboard-read', 'clipboard-write'], acceptDownloads: true };
 
-test('findings of all vessels stand in one list, are copied, and are saved as one report', async ({
-  browser,
-}) => {
+test('findings of all vessels are listed, copied, and saved as one report', async ({ browser }) => {
   const viewer = await threeVessels(browser, WITH_CLIPBOARD);
   const before = await viewer.camera();
   await mode(viewer, 'Report').click();
@@ -86,7 +84,7 @@ test('findings of all vessels stand in one list, are copied, and are saved as on
   await viewer.close();
 });
 
-test('the report is reached, read and saved by keys alone', async ({ browser }) => {
+test('the report is opened, read and saved by keys only', async ({ browser }) => {
   const viewer = await threeVessels(browser, { acceptDownloads: true });
   await mark(viewer, 1);
   await viewer.pane().focus();

@@ -1,4 +1,4 @@
-/** WebGPU: all shaders compile, the view is drawn, and a lost device is replaced. */
+/** Tests of WebGPU: all shaders compile, the view is drawn, and a lost device is replaced. */
 import { readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { type Browser, expect, test } from '@playwright/test';
@@ -12,7 +12,7 @@ const CORE = join(CRATES, 'lumencut-core/src');
 const SAMPLED = { samples: 2 };
 const ONE = viewFragment({ layout: 'one', settings: SAMPLED });
 
-/** Shader source with its imports, each once. */
+/** Source of a shader, in which each imported module is included once. */
 function assembled(room: string, seen = new Set<string>()): string {
   if (seen.has(room)) {
     return '';
@@ -64,7 +64,7 @@ test('every shader compiles in the browser', async ({ browser }) => {
     }
     return found;
   }, all);
-  // A deliberately broken one proves that errors are reported.
+  // A deliberately broken shader proves that errors are reported.
   expect(errors.filter((error) => !error.startsWith('broken:'))).toEqual([]);
   expect(errors).toHaveLength(1);
   viewer.expectNoFault();
@@ -74,7 +74,7 @@ test('every shader compiles in the browser', async ({ browser }) => {
 /** Few enough pixels for supersampling by a software GPU. */
 const SMALL_VIEW = [160, 120] as const;
 
-/** The supersampled view, equal on every device. */
+/** The supersampled picture of the view, which must be equal on every device. */
 async function complete(viewer: Viewer): Promise<Pixels> {
   await viewer.rest();
   return viewer.pixels();
@@ -82,12 +82,14 @@ async function complete(viewer: Viewer): Promise<Pixels> {
 
 async function crashGpu(browser: Browser): Promise<void> {
   const session = await browser.newBrowserCDPSession();
-  // The protocol command has no type.
+  // This protocol command is missing in the types of Playwright.
   await session.send('Browser.crashGpuProcess' as 'Browser.close');
   await session.detach();
 }
 
-test('the GPU draws; lost, it comes back; lost again, the CPU shows the same', async ({ browser }) => {
+test('the GPU draws; after a loss it recovers; after a second loss the CPU shows the same', async ({
+  browser,
+}) => {
   test.setTimeout(120_000);
   const viewer = await Viewer.open(browser, `?phantom=stenosis&device=any${ONE}`);
   await viewer.pin(SMALL_VIEW);
@@ -122,7 +124,7 @@ test('the GPU draws; lost, it comes back; lost again, the CPU shows the same', a
   await viewer.close();
 });
 
-/** A junction without vessels, with one traced vessel, and after undo. */
+/** Pictures of the phantom "junction": without vessels, with a traced vessel, and after undo. */
 async function tracedOn(browser: Browser, device: 'any' | 'cpu'): Promise<[Pixels, Pixels, Pixels]> {
   const viewport = { width: 1100, height: 720 };
   const viewer = await Viewer.open(
@@ -134,7 +136,7 @@ async function tracedOn(browser: Browser, device: 'any' | 'cpu'): Promise<[Pixel
   await expect(viewer.device).toContainText(device === 'any' ? 'GPU' : 'CPU');
   await viewer.press('v');
   await button(viewer, 'Delete all').click();
-  await expect(viewer.pane('straightened')).toContainText('once there is one');
+  await expect(viewer.pane('straightened')).toContainText('once there is a vessel');
   await viewer.pin(SMALL_VIEW);
   await viewer.drag([0.3, 0.4], [25, 15]);
   const before = await complete(viewer);
@@ -151,14 +153,14 @@ async function tracedOn(browser: Browser, device: 'any' | 'cpu'): Promise<[Pixel
   const after = await complete(viewer);
   await viewer.screenshot(`traced-${device}`);
   await viewer.press('Control+z');
-  await expect(viewer.pane('straightened')).toContainText('once there is one');
+  await expect(viewer.pane('straightened')).toContainText('once there is a vessel');
   const undone = await complete(viewer);
   viewer.expectNoFault();
   await viewer.close();
   return [before, after, undone];
 }
 
-test('a vessel that two clicks trace is cut open on the GPU as on the CPU', { tag: '@long' }, async ({
+test('a vessel traced by two clicks is cut open on the GPU as on the CPU', { tag: '@long' }, async ({
   browser,
 }) => {
   test.setTimeout(120_000);
@@ -172,13 +174,13 @@ test('a vessel that two clicks trace is cut open on the GPU as on the CPU', { ta
   }
 });
 
-/** A margin smaller than the lumen, so that a single tube shows the fading context. */
+/** A focus with a margin smaller than the lumen, so that a single tube shows how the cut fades. */
 const FADING = viewFragment({
   layout: 'one',
   settings: { ...SAMPLED, focus: [-2, 4], context_shading: true },
 });
 
-/** A focus in few pixels; on the CPU also without focus. */
+/** Small pictures of a focus; on the CPU also of the view without a focus. */
 async function focusedOn(browser: Browser, device: 'any' | 'cpu'): Promise<Pixels[]> {
   const viewer = await Viewer.open(browser, `?phantom=stenosis&device=${device}${FADING}`);
   await expect(viewer.pane()).toBeVisible({ timeout: 50_000 });

@@ -4,7 +4,7 @@ import { expect, test } from '@playwright/test';
 import { button, expectBegun, menu, REPORT, rows, startTracing, stenosis, traced } from './controls';
 import { Viewer } from './page';
 
-const START = 'Guided tour in two minutes';
+const START = 'Two-minute guided tour';
 let viewer: Viewer;
 
 test.beforeEach(async ({ browser }) => {
@@ -27,7 +27,7 @@ async function serious(): Promise<string[]> {
     .map(({ id, nodes }) => `${id}: ${nodes.map(({ target }) => target.join(' ')).join(', ')}`);
 }
 
-test('each step that is done leads to the next one, up to the report', async () => {
+test('each completed step leads to the next one, up to the report', async () => {
   await expectStep('1 of 5: Trace the vessel');
   await viewer.screenshot('guide-1');
   await startTracing(viewer);
@@ -49,7 +49,7 @@ test('each step that is done leads to the next one, up to the report', async () 
   await button(viewer, 'Measure').click();
 
   await expectStep('4 of 5: Grade the stenosis');
-  // Tracing has ended and restored the layout.
+  // Tracing has ended, so the bar is gone and the layout is as before.
   await expect(viewer.page.locator('.trace-bar')).toHaveCount(0);
   await expect(viewer.field('Context')).toHaveValue('mida');
   await expect(button(viewer, 'Confirm the suggested places')).toBeVisible({ timeout: 30_000 });
@@ -70,7 +70,7 @@ test('each step that is done leads to the next one, up to the report', async () 
   await expect(guide()).toHaveCount(0);
 });
 
-test('it is left in the middle, and what was done stays', async () => {
+test('the user leaves it in the middle, and the work is kept', async () => {
   await button(viewer, 'Skip this step').click();
   await expectStep('2 of 5: Turn it');
   const direction = async () => (await viewer.camera()).direction;

@@ -1,4 +1,4 @@
-/** The vessel list: names, keeping over a reload, centerlines in the menu "Save", and region presets. */
+/** Tests of vessel names, of keeping vessels over a reload, of saving centerlines, and of region presets. */
 import { expect, test } from '@playwright/test';
 import { button, nameOf, rename, rows, SIZE } from './controls';
 import { Viewer } from './page';
@@ -22,7 +22,7 @@ test('a click on a name picks its vessel, a second one or F2 changes it, and ves
   await nameOf(viewer, 2).click();
   await expect(rows(viewer).nth(2).getByRole('radio')).toBeChecked();
   await expect(nameOf(viewer, 2)).toHaveAttribute('readonly');
-  // A name that is not being edited does not capture keys.
+  // While a name has the focus but is not edited, keys act on the page.
   await viewer.press('m');
   await expect(viewer.page.locator('main.layout')).toHaveAttribute('data-layout', 'measure');
   await viewer.press('m');
@@ -38,7 +38,7 @@ test('a click on a name picks its vessel, a second one or F2 changes it, and ves
   await viewer.close();
 });
 
-test('the browser asks before an unsaved tree goes, and what the tab keeps on request is offered again', async ({
+test('the browser asks before an unsaved tree is lost, and a session kept on request is offered again', async ({
   browser,
 }) => {
   const viewer = await opened(browser);
@@ -64,7 +64,7 @@ test('the browser asks before an unsaved tree goes, and what the tab keeps on re
   await viewer.close();
 });
 
-test('centerlines are saved from the menu "Save", and what is told then lies over no button', async ({
+test('centerlines are saved from the menu "Save", and the message then covers no button', async ({
   browser,
 }) => {
   const viewer = await opened(browser);
@@ -83,7 +83,7 @@ test('centerlines are saved from the menu "Save", and what is told then lies ove
   await viewer.close();
 });
 
-test('a region chooses look, slab and window; its window is a step that undo takes back', async ({
+test('a region selects look, slab and window; the change of the window is an undo step', async ({
   browser,
 }) => {
   const viewer = await opened(browser);

@@ -1,4 +1,4 @@
-/** Opening, cancelling and closing: complete, broken, slow and repeated streams. */
+/** Tests of opening, cancelling and closing, with complete, broken, slow and repeated voxel streams. */
 import { spawnSync } from 'node:child_process';
 import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -45,7 +45,7 @@ test.describe('streams', () => {
     await serve(viewer.page, WHOLE);
     await viewer.page.goto(`./${ADDRESSES}`);
     await viewer.rest();
-    // Outside of the volume the cut ends and reveals what is behind.
+    // Outside the volume the cut ends, and what lies behind it is visible.
     await viewer.drag([0.5, 0.3], [50, 60]);
     await viewer.pane().focus();
     await viewer.press('-', '-', '-', '-', '-');
@@ -81,7 +81,7 @@ test.describe('streams', () => {
     viewer.expectNoFault();
   });
 
-  test('a look is one button; of the cut amid the body a slider sets the margin', async () => {
+  test('each look has a button, and a slider sets the margin of the cut', async () => {
     await serve(viewer.page, WHOLE);
     await viewer.page.goto(`./${ADDRESSES}`);
     await viewer.rest();
@@ -164,19 +164,19 @@ test.describe('streams', () => {
       await expect(viewer.problem).toHaveCount(0);
       await viewer.page.getByRole('button', { name: 'A tube with a stenosis of 50 %' }).click();
       await viewer.rest();
-      // The browser reports the failed request itself.
+      // The browser itself also reports the failed request (404).
       expect(viewer.faults.filter((fault) => !fault.includes('404'))).toEqual([]);
     });
   }
 
-  test('an invalid file of centerlines is refused in words', async () => {
+  test('an invalid centerline file is rejected with an explanation', async () => {
     await serve(viewer.page, WHOLE, 'nothing of the kind');
     await viewer.page.goto(`./${ADDRESSES}`);
     await expect(viewer.problem).toHaveText(/Found .*; expected .*/);
     viewer.expectNoFault();
   });
 
-  test('a load is cancelled by its button and by Escape', async () => {
+  test('loading is cancelled by a button and by Escape', async () => {
     for (const how of ['button', 'Escape']) {
       await viewer.page.goto('./?volume=slow/volume&device=cpu');
       await expect(viewer.page.getByText(/^Volume: \d+ %$/)).toBeVisible();
@@ -194,7 +194,7 @@ test.describe('streams', () => {
     viewer.expectNoFault();
   });
 
-  test('addresses of another origin are not asked', async () => {
+  test('addresses of another origin are not requested', async () => {
     await viewer.page.goto('./?volume=https://example.org/volume&device=cpu');
     await expect(viewer.page.getByRole('button', { name: 'Aorta' })).toBeEnabled();
     viewer.expectNoFault();
@@ -238,7 +238,7 @@ function openAndClose(page: Page, times: number): Promise<void> {
   }, times);
 }
 
-test('50 opens of a phantom do not grow the memory', { tag: '@long' }, async ({ browser }) => {
+test('opening a phantom 50 times does not increase the memory', { tag: '@long' }, async ({ browser }) => {
   const viewer = await Viewer.open(browser, '?device=cpu&test=1');
   await expect(viewer.page.getByRole('button', { name: 'Aorta' })).toBeEnabled();
   await viewer.page.getByRole('button', { name: 'A tube with a stenosis of 50 %' }).click();
@@ -248,7 +248,7 @@ test('50 opens of a phantom do not grow the memory', { tag: '@long' }, async ({ 
   const before = await viewer.memory();
   await openAndClose(viewer.page, 40);
   expect(before).toBeGreaterThan(MEGABYTE);
-  // A leaked volume or picture would exceed this by far.
+  // If a volume or picture were leaked at each opening, memory would grow far more.
   expect((await viewer.memory()) - before).toBeLessThan(5 * MEGABYTE);
   viewer.expectNoFault();
   await viewer.close();

@@ -1,4 +1,4 @@
-/** The lumen under the pointer: what a click takes, and stepping to lumens behind it. */
+/** Tests of the lumen shown at the pointer: a click selects it, and the wheel steps to lumens behind it. */
 import { expect, test } from '@playwright/test';
 import { button, expectBegun, rows, startTracing, untraced } from './controls';
 import type { Viewer } from './page';
@@ -6,9 +6,7 @@ import type { Viewer } from './page';
 const inset = (viewer: Viewer, pane: 'turning' | 'coronal' = 'turning') =>
   viewer.pane(pane).getByTestId('lumen-inset');
 
-test('in a slice the lumen under the pointer is shown beside it, and nothing in tissue', async ({
-  browser,
-}) => {
+test('in a slice the lumen under the pointer is shown next to it, in tissue nothing', async ({ browser }) => {
   const viewer = await untraced(browser);
   await startTracing(viewer);
   const [width, height] = await viewer.size('coronal');
@@ -23,7 +21,7 @@ test('in a slice the lumen under the pointer is shown beside it, and nothing in 
   await viewer.close();
 });
 
-test('along a ray the nearest lumen is shown first, Alt and the wheel step to the one behind, and one click takes it', async ({
+test('in a projection the nearest lumen is shown, Alt and the wheel step to the one behind, and a click selects it', async ({
   browser,
 }) => {
   const viewer = await untraced(browser);

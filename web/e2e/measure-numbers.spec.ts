@@ -1,4 +1,4 @@
-/** Numbers of a measured vessel, next to the profile and in the section. */
+/** Tests of the measurements shown in the panel, in the chart and in the section. */
 import { AxeBuilder } from '@axe-core/playwright';
 import { expect, test } from '@playwright/test';
 import { menu } from './controls';
@@ -11,7 +11,7 @@ test.beforeAll(async ({ browser }) => {
 test.afterEach(() => tube.viewer.expectNoFault());
 test.afterAll(() => tube.viewer.close());
 
-test('by ECST an original diameter is asked for; by area the percentage is that of Python', async () => {
+test('ECST requires an original diameter; the percentage by area equals that of the Python package', async () => {
   await tube.marked();
   const numbers = tube.viewer.page.getByTestId('numbers');
   await numbers.getByLabel('Method').selectOption('ecst');
@@ -56,7 +56,7 @@ test('axe finds no serious fault, and the menu stays within a small window', asy
   await page.setViewportSize(SIZE);
 });
 
-test('a page at 200 % has no words over the lumen, and no look beneath a button', async () => {
+test('at 200 % no text covers the lumen, and no button covers a look', async () => {
   const { page } = tube.viewer;
   await expect(page.getByTestId('section-numbers')).toBeVisible();
   await page.setViewportSize({ width: 720, height: 450 });
@@ -70,7 +70,7 @@ test('a page at 200 % has no words over the lumen, and no look beneath a button'
 });
 
 test('vessel and profile share their axis', async () => {
-  // Retried, because chart and picture update separately.
+  // Retried, because chart and picture are updated at different times.
   await expect(async () => {
     const [canvas, from, to] = await Promise.all([
       tube.viewer.page.locator('[data-testid=profile] canvas').boundingBox(),
@@ -84,7 +84,7 @@ test('vessel and profile share their axis', async () => {
   }).toPass({ timeout: 10_000 });
 });
 
-test('legend and reading stand apart', async () => {
+test('legend and read-out do not overlap', async () => {
   const [legend, reading] = await Promise.all([
     tube.viewer.page.locator('.profile-chart .legend').boundingBox(),
     tube.viewer.page.getByTestId('chart-reading').boundingBox(),
@@ -126,7 +126,7 @@ test('a ruler measures between two clicks; its ends can be dragged, and it can b
   await expect(ruler).toHaveCount(0);
 });
 
-test('another width of the point spread is reckoned with, and said', async () => {
+test('another FWHM is used for measuring, and stated', async () => {
   const blur = tube.viewer.page.getByRole('region', { name: 'Blur of the scan' });
   await expect(blur).toContainText('assumed: ');
   await blur.getByLabel('Known FWHM').fill('0.6');

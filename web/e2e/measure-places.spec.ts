@@ -1,4 +1,4 @@
-/** Places of a measurement, by mouse and keys, with the numbers of the Python package (`expected/make.py`). */
+/** Places are marked by mouse and keys. The measurements are those of the Python package (`expected/make.py`). */
 import { expect, test } from '@playwright/test';
 import { MeasuredTube, PYTHON } from './measured-tube';
 
@@ -15,7 +15,7 @@ test('measuring begins at the narrowest place, with the section and with the cro
   await expect(tube.viewer.readOut).toContainText(`${at.toFixed(1)} mm`);
 });
 
-test('places are suggested, and nothing is graded before a reader marks one', async () => {
+test('places are suggested, and nothing is graded before the user marks one', async () => {
   await tube.nothingMarked();
   const [at] = PYTHON.narrowest;
   const [diameter] = PYTHON.diameter;
@@ -31,7 +31,7 @@ test('places are suggested, and nothing is graded before a reader marks one', as
   );
 });
 
-test('by keys alone: the stenosis is that of Python', async () => {
+test('by keys only: the stenosis equals that of the Python package', async () => {
   await tube.marked();
   await expect(tube.stenosis()).toHaveText(PYTHON.nascet);
   await tube.viewer.screenshot('measuring');
@@ -62,7 +62,7 @@ test('each place can be dragged in the profile, the CPR and on the vessel, and m
   await expect(tube.stenosis()).toHaveText(PYTHON.nascet);
 });
 
-test('one drag moves one place: a reference passes the stenosis, and stops there where one is behind', async () => {
+test('a drag moves one place: a reference passes the stenosis unless another one lies behind it', async () => {
   await tube.nothingMarked();
   const main = await tube.arcLength('place-0');
   const from = await tube.arcLength('reference-1');
@@ -116,7 +116,7 @@ test('a place and a reference are marked at the section that is shown', async ()
   await expect(tube.stenosis()).toContainText('% of the diameter');
 });
 
-test('a third reference takes the place of the one on its side', async () => {
+test('a third reference replaces the one on its side', async () => {
   await tube.nothingMarked();
   await tube.button(/^Confirm the suggested places/).click();
   const before = await tube.arcLength('reference-0');
@@ -168,7 +168,7 @@ test('by keys a reference passes the stenosis too, and stays the one that has th
   await expect(tube.viewer.page.locator(':focus')).toHaveAttribute('aria-label', /^reference before, /);
 });
 
-test('values change while a place is dragged, and Escape takes the drag back', async () => {
+test('values change while a place is dragged, and Escape undoes the drag', async () => {
   await tube.marked();
   const { mouse } = tube.viewer.page;
   const [x, y] = await tube.middleOf(tube.handle('marked place', 'in the profile'));
@@ -183,7 +183,7 @@ test('values change while a place is dragged, and Escape takes the drag back', a
   await expect(tube.row('place-0')).toContainText('at 30.0 mm');
 });
 
-test('every step is undone and done again', async () => {
+test('every step is undone and redone', async () => {
   await tube.marked();
   await tube.handle('marked place', 'in the profile').focus();
   await tube.viewer.press('ArrowRight', 'ArrowRight');
@@ -198,7 +198,7 @@ test('every step is undone and done again', async () => {
   await tube.viewer.press('Control+z');
 });
 
-test('Enter takes a suggestion, Delete takes a mark away', async () => {
+test('Enter confirms a suggestion, Delete removes a mark', async () => {
   await tube.nothingMarked();
   await tube.handle('narrowest place', 'in the CPR').focus();
   await tube.viewer.press('Enter');
@@ -209,7 +209,7 @@ test('Enter takes a suggestion, Delete takes a mark away', async () => {
   await expect(tube.row('place-0')).toContainText('(suggestion)');
 });
 
-test('the whole line of a place is its grip, 20 pixels beside it too, and a miss changes nothing', async () => {
+test('a place can be dragged by its whole line, up to 20 pixels beside it; a miss changes nothing', async () => {
   await tube.marked();
   const box = await tube.viewer.page.getByTestId('chart').boundingBox();
   const [column] = await tube.middleOf(tube.tick('30'));
@@ -228,7 +228,7 @@ test('the whole line of a place is its grip, 20 pixels beside it too, and a miss
   await tube.viewer.press('Control+z');
   await expect(tube.row('place-0')).toContainText('at 30.0 mm');
 
-  // A press without a drag clicks the chart; a drag between lines moves only the section.
+  // A click acts on the chart; a drag that begins far from all lines moves only the section.
   await mouse.click(column + 10, (box?.y ?? 0) + (box?.height ?? 0) * 0.6);
   await drag(column + (await tube.pixels(10)), await tube.pixels(2));
   await expect(tube.row('place-0')).toContainText('at 30.0 mm');
@@ -237,7 +237,7 @@ test('the whole line of a place is its grip, 20 pixels beside it too, and a miss
   expect(await tube.viewer.window.textContent()).toBe(window);
 });
 
-test('grips on the vessel are taken from 20 pixels beside their middle', async () => {
+test('handles on the vessel can be dragged from 20 pixels beside their centre', async () => {
   await tube.marked();
   const grip = tube.handle('marked place', 'on the vessel');
   const [x, y] = await tube.middleOf(grip);

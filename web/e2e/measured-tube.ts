@@ -1,4 +1,4 @@
-/** The tube with a stenosis at 30 mm, in the layout for measuring. */
+/** Opens the phantom tube, with a stenosis at 30 mm, in the layout for measuring. */
 import { readFileSync } from 'node:fs';
 import { type Browser, expect, type Locator } from '@playwright/test';
 import { saved, stenosis } from './controls';
@@ -63,13 +63,13 @@ export class MeasuredTube {
     await mouse.up();
   }
 
-  /** Chart pixels for a length (mm) along the 60 mm vessel. */
+  /** How many pixels of the chart a length (mm) takes; the vessel is 60 mm long. */
   async pixels(mm: number): Promise<number> {
     const [from, to] = await Promise.all([this.middleOf(this.tick('0')), this.middleOf(this.tick('60'))]);
     return ((to[0] - from[0]) * mm) / 60;
   }
 
-  /** Section pixels per mm: the view shows 50 mm. */
+  /** Pixels per mm in the section view, which shows 50 mm. */
   async sectionPixels(): Promise<number> {
     return Math.min(...(await this.viewer.size('section'))) / 50;
   }
@@ -89,7 +89,7 @@ export class MeasuredTube {
     await expect(this.row('place-0')).toContainText('(suggestion)');
   }
 
-  /** Stenosis at 30 mm, references at 10 and 50 mm, by keys only. */
+  /** Marks the stenosis at 30 mm and references at 10 and 50 mm, by keys only. */
   async marked(): Promise<void> {
     await this.nothingMarked();
     await this.movedByKeys('place-0', this.handle('(narrowest|marked) place', 'in the profile'), 30, 'Right');
@@ -103,7 +103,7 @@ export class MeasuredTube {
     to: number,
     ahead: 'Right' | 'Down',
   ): Promise<void> {
-    // The suggestion may still follow the previous move.
+    // Retried, since the suggestion may still move after the previous change.
     await expect(async () => {
       const steps = Math.round(2 * (to - (await this.arcLength(row))));
       const back = { Right: 'Left', Down: 'Up' }[ahead];

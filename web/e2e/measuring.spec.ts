@@ -1,4 +1,4 @@
-/** Measuring while the page does other work. */
+/** A vessel can be measured while the page does other work. */
 import { expect, test } from '@playwright/test';
 import { Viewer } from './page';
 
@@ -17,7 +17,7 @@ test('a vessel is measured while the view is turned', async ({ browser }) => {
   await viewer.close();
 });
 
-test('a line that is not shown is refused', async ({ browser }) => {
+test('measuring a line that is not displayed is rejected', async ({ browser }) => {
   const viewer = await Viewer.open(browser, '?phantom=stenosis&device=cpu&test');
   await viewer.rest();
   const words = await viewer.ask('diameter_at', { line: 1e6, at: 0 }).then(String, String);
@@ -25,7 +25,7 @@ test('a line that is not shown is refused', async ({ browser }) => {
   await viewer.close();
 });
 
-test('while a vessel is measured the section says that it is computed, until it is the one that was asked for', async ({
+test('while a vessel is measured, the section is marked as outdated until the requested one is shown', async ({
   browser,
 }) => {
   const viewer = await Viewer.open(browser, '?phantom=aorta&device=cpu', {
@@ -34,7 +34,7 @@ test('while a vessel is measured the section says that it is computed, until it 
   await viewer.rest();
   await viewer.press('m');
   const busy = viewer.pane('section').locator('.busy');
-  const measuring = viewer.page.getByRole('progressbar', { name: 'measuring the vessel' });
+  const measuring = viewer.page.getByRole('progressbar', { name: 'Measuring the vessel' });
   await expect(measuring).toBeVisible();
   await viewer.wheel([0.5, 0.5], 120, 'section');
   await expect(busy).toBeVisible({ timeout: 2000 });

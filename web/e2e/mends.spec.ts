@@ -1,4 +1,4 @@
-/** Rejected DICOM series, and the buttons that mend them, worded for the page. */
+/** For a rejected DICOM series, the page offers buttons that fix the problem. */
 import { expect, test } from '@playwright/test';
 import { series } from './dicom';
 import { Viewer } from './page';
@@ -56,7 +56,7 @@ test('among several series each shows its middle slice, and one is read by its b
   expect((await viewer.report()).volume?.size).toEqual([16, 16, 5]);
 });
 
-test('points of a line in another order are noted, and put in order', async () => {
+test('a note reports points in the wrong order, and a button orders them', async () => {
   await choose(series([0, 2, 4, 6, 8, 10]));
   await viewer.rest();
   const [corner, far] = await viewer.report().then(({ volume }) => [volume?.corners[0], volume?.corners[7]]);

@@ -49,7 +49,7 @@ for (const view of views) {
     const other = withContext ? OTHER_DEVICE_WITH_CONTEXT : OTHER_DEVICE;
     expect(difference(found, expected, isGpu ? other : SAME_CODE)).toBeNull();
     expect(isEmpty(found)).toBe(false);
-    // Proves that an object of 8 pixels in the wrong position is detected.
+    // Proves that the comparison detects an object of 8 pixels in the wrong position.
     const broken = expected.bytes.slice();
     broken.copyWithin(4 * (80 * WIDTH + 60), 4 * (80 * WIDTH + 90), 4 * (80 * WIDTH + 130));
     expect(difference(found, { ...expected, bytes: broken }, SAME_CODE)).not.toBeNull();
@@ -78,7 +78,7 @@ interface Labelled {
   readonly pixels: number;
 }
 
-test('letters and scale bar are those of the Python package', async ({ browser }) => {
+test('letters and scale bar equal those of the Python package', async ({ browser }) => {
   const { size, views } = JSON.parse(readFileSync(file('labels.json'), 'utf-8')) as {
     size: readonly [number, number];
     views: readonly Labelled[];

@@ -1,4 +1,4 @@
-/** A noted diameter and a reference can exist alone, and nothing at the section leaves the pane. */
+/** A noted diameter or a reference can be the only mark, and the buttons at the section stay inside the pane. */
 import { expect, test } from '@playwright/test';
 import { REPORT, SESSION } from './controls';
 import { MeasuredTube } from './measured-tube';
@@ -10,7 +10,7 @@ test.beforeAll(async ({ browser }) => {
 test.afterEach(() => tube.viewer.expectNoFault());
 test.afterAll(() => tube.viewer.close());
 
-test('a diameter is noted where the section stands: in the table, in all views, in report and session', async () => {
+test('a diameter noted at the section appears in the table, all views, report and session', async () => {
   await tube.button('Diameter here').click();
   const row = tube.row('diameter-0');
   await expect(row).toContainText('noted diameter');
@@ -28,7 +28,7 @@ test('a diameter is noted where the section stands: in the table, in all views, 
   await expect(row).toHaveCount(0);
 });
 
-test('a reference alone is drawn, and nobody is scolded', async () => {
+test('a single reference is drawn, and no error is shown', async () => {
   await tube.nothingMarked();
   await tube.button('Reference here').click();
   await expect(tube.viewer.page.getByTestId('stenosis').locator('.refused')).toHaveCount(0);
@@ -36,7 +36,7 @@ test('a reference alone is drawn, and nobody is scolded', async () => {
   await tube.nothingMarked();
 });
 
-test('at the end of the vessel buttons and reading stay within the pane', async () => {
+test('at the end of the vessel, buttons and read-out stay within the pane', async () => {
   const { page } = tube.viewer;
   const chart = await page.getByTestId('chart').boundingBox();
   if (!chart) {

@@ -1,4 +1,4 @@
-/** "Save for PACS": the page's server returns DICOM objects in an archive that Python reads. */
+/** "Save for PACS" saves an archive of DICOM objects from the server of the page; Python can read them. */
 import { type ChildProcess, spawn, spawnSync } from 'node:child_process';
 import { once } from 'node:events';
 import { join } from 'node:path';
@@ -28,6 +28,7 @@ interface Told {
   readonly findings?: readonly string[];
   readonly names?: readonly string[];
   readonly diameters?: readonly number[];
+  readonly words?: readonly string[];
 }
 
 const running: ChildProcess[] = [];
@@ -63,7 +64,7 @@ async function measured(viewer: Viewer): Promise<void> {
   await expect(viewer.page.getByTestId('stenosis')).toContainText('NASCET');
 }
 
-/** Saves by the menu with an answer to its question; returns the archive's content. */
+/** Saves by the menu, and answers the question about the study. Returns the content of the archive. */
 async function saved(viewer: Viewer, answer: string): Promise<Record<string, Told>> {
   await menu(viewer).click();
   await button(viewer, 'For PACS (DICOM, zip)').click();
@@ -78,7 +79,7 @@ async function saved(viewer: Viewer, answer: string): Promise<Record<string, Tol
 
 const ALL = ['finding-1.dcm', 'report-pdf.dcm', 'report.dcm', 'vessel.dcm', 'view.dcm'];
 
-test('from a folder of DICOM to an archive beside the scan', async ({ browser }) => {
+test('from a DICOM folder to an archive of objects in the study of the scan', async ({ browser }) => {
   const place = await served();
   const viewer = await opened(browser, place);
   await expect(button(viewer, 'Choose files')).toBeEnabled();
@@ -87,6 +88,7 @@ test('from a folder of DICOM to an archive beside the scan', async ({ browser })
     .first()
     .setInputFiles([...place.files, place.lines]);
   await measured(viewer);
+  const shown = await viewer.page.locator('[data-testid=stenosis] .graded').innerText();
   const found = await saved(viewer, 'Save in the study of the scan');
   expect(Object.keys(found).sort()).toEqual(ALL);
   for (const told of Object.values(found)) {
@@ -97,12 +99,14 @@ test('from a folder of DICOM to an archive beside the scan', async ({ browser })
   expect(found['view.dcm']?.sources).toBe(place.files.length);
   expect(found['report.dcm']?.findings).toContain('Site of Lumen Minimum');
   expect(found['report.dcm']?.findings).toContain('stenosis');
+  // DICOM text has no sign for plus or minus.
+  expect(found['report.dcm']?.words?.join('\n')).toContain(shown.replaceAll('±', '+/-'));
   expect(found['report.dcm']?.names?.join()).toContain('left renal artery');
   viewer.expectNoFault();
   await viewer.close();
 });
 
-test('the scan of the server, anonymous and in its study: the same numbers, and no name', async ({
+test('a scan opened by the server, saved anonymously and in its study: the same numbers, and no name', async ({
   browser,
 }) => {
   const viewer = await opened(browser, await served('scan'));
@@ -116,7 +120,7 @@ test('the scan of the server, anonymous and in its study: the same numbers, and 
   await viewer.close();
 });
 
-test('a scan that is no DICOM takes the study of a file that is chosen, and refuses one that is none', async ({
+test('a scan that is not DICOM uses the study of a chosen file, and other files are rejected', async ({
   browser,
 }) => {
   const place = await served();
@@ -146,7 +150,9 @@ test('a scan that is no DICOM takes the study of a file that is chosen, and refu
   await viewer.close();
 });
 
-test('a file of another patient is shown and refused, and another one can be chosen', async ({ browser }) => {
+test('a file of another patient is shown and rejected, and another one can be chosen', async ({
+  browser,
+}) => {
   for (const words of [['scan'], []]) {
     const place = await served(...words);
     const viewer = await opened(browser, place);
@@ -175,7 +181,7 @@ test('a file of another patient is shown and refused, and another one can be cho
   }
 });
 
-test('a page of a server of files says what it needs', async ({ browser }) => {
+test('a page from a plain file server says which server it needs', async ({ browser }) => {
   const viewer = await Viewer.open(browser, '?phantom=stenosis&device=cpu', { viewport: SIZE });
   await viewer.rest();
   await menu(viewer).click();
@@ -185,7 +191,7 @@ test('a page of a server of files says what it needs', async ({ browser }) => {
   await viewer.close();
 });
 
-test('a segmentation is taken as a mask of the scan, and contours are refused by name', async ({
+test('a segmentation is used as a vessel mask, and contours are rejected with an explanation', async ({
   browser,
 }) => {
   const place = await served('scan');

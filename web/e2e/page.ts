@@ -1,8 +1,8 @@
-/** The page from the user's perspective; it records all faults. */
+/** Operates the page as a user would, and records all errors that occur in it. */
 import { type Browser, type BrowserContextOptions, expect, type Locator, type Page } from '@playwright/test';
 import type { Answer, Asked, Message, Question } from '../src/core/asked';
+import { GESTURES } from '../src/core/generated/tables';
 import type { Camera, Pair, Report } from '../src/core/messages';
-import { DOUBLE_NEAR, DOUBLE_WITHIN } from '../src/input/pointer';
 import { stateOf, type ViewState } from '../src/url/fragment';
 import type { Pixels } from './compare';
 
@@ -14,12 +14,12 @@ interface TestHook extends Asked {
 
 export class Viewer {
   readonly faults: string[] = [];
-  /** Position of the last click, and until when (ms) another click there is a double click. */
+  /** Position of the last click, and the time (ms) until which another click there is a double click. */
   private lastClick: { readonly at: Pair; readonly until: number } = { at: [0, 0], until: 0 };
 
   private constructor(readonly page: Page) {}
 
-  /** Opens the page in its own context; `query` follows the address, with `?` or `#`. */
+  /** Opens the page in a new browser context; `query` is appended to the address and begins with `?` or `#`. */
   static async open(browser: Browser, query = '', options: BrowserContextOptions = {}): Promise<Viewer> {
     const context = await browser.newContext(options);
     const page = await context.newPage();
@@ -76,7 +76,7 @@ export class Viewer {
     return this.page.getByRole('alert');
   }
 
-  /** Waits for two frames: requests of a change start after the next frame. */
+  /** Waits for two frames, since the requests that follow a change start only after the next frame. */
   async frames(): Promise<void> {
     await this.page.evaluate(
       () =>
@@ -122,7 +122,7 @@ export class Viewer {
     return box;
   }
 
-  /** Position in a pane (CSS pixels); values below 1 are shares of its size. */
+  /** Converts a position in a pane to CSS pixels of the page; values below 1 are shares of the pane size. */
   async place([x, y]: Pair, name: PaneName = 'turning'): Promise<Pair> {
     const box = await this.box(name);
     return [
@@ -151,11 +151,11 @@ export class Viewer {
   async click(at: Pair, name: PaneName = 'turning'): Promise<void> {
     const [x, y] = await this.place(at, name);
     const { at: last, until } = this.lastClick;
-    if (Math.hypot(x - last[0], y - last[1]) <= DOUBLE_NEAR) {
+    if (Math.hypot(x - last[0], y - last[1]) <= GESTURES.double_near) {
       await this.page.waitForTimeout(Math.max(0, until - Date.now()));
     }
     await this.page.mouse.click(x, y);
-    this.lastClick = { at: [x, y], until: Date.now() + DOUBLE_WITHIN };
+    this.lastClick = { at: [x, y], until: Date.now() + GESTURES.double_within };
     await this.frames();
   }
 
@@ -204,7 +204,7 @@ export class Viewer {
     return label.locator('select, input');
   }
 
-  /** Presses the key of a named view, and waits for its letters. */
+  /** Presses the key of a named view, and waits for the orientation letters of that view. */
   async look(key: string, left: string, top: string): Promise<void> {
     await this.press(key);
     await expect(this.pane().locator('.edge.left')).toHaveText(left);
@@ -244,7 +244,7 @@ export class Viewer {
     return this.ask('report', null);
   }
 
-  /** The engine's answer, or its failure. */
+  /** Sends a request to the engine; returns its answer or throws its failure. */
   ask<N extends Question>(name: N, message: Message<N>): Promise<Answer<N>> {
     const asked = JSON.stringify([name, message]);
     return this.page.evaluate(`window.lumencutTest.ask(...${asked})`) as Promise<Answer<N>>;
@@ -262,7 +262,7 @@ interface DragOptions {
   readonly isHeld?: boolean;
 }
 
-/** Runs in the page. */
+/** Reads size and pixels of a canvas; this function runs in the page. */
 function readCanvas(canvas: HTMLElement | SVGElement): { width: number; height: number; text: string } {
   const { width, height } = canvas as HTMLCanvasElement;
   const copy = new OffscreenCanvas(width, height).getContext('2d');

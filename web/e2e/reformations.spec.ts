@@ -1,4 +1,4 @@
-/** Reformations have the pictures and positions of the Python package (`expected/make_reformations.py`). */
+/** Pictures and positions of reformations equal those of the Python package (`expected/make_reformations.py`). */
 import { readFileSync } from 'node:fs';
 import { type Browser, expect, test } from '@playwright/test';
 import type { Pair, Reformation, Vector } from '../src/core/messages';
@@ -22,7 +22,7 @@ const table = JSON.parse(readFileSync(file('reformations.json'), 'utf-8')) as {
   readonly reformations: readonly Expected[];
 };
 
-/** Opens a phantom with the pane of the picked vessel in the size of the table. */
+/** Opens a phantom; the pane of the picked vessel has the size that the table of expected pictures requires. */
 async function opened(browser: Browser, phantom: string, state: Partial<ViewState> = {}) {
   const fragment = viewFragment({ window: table.window, layout: 'two', vessel: 0, ...state });
   const viewer = await Viewer.open(browser, `?phantom=${phantom}&device=cpu${fragment}`);
@@ -71,7 +71,7 @@ for (const row of table.reformations) {
     const hair = (await viewer.state()).hair ?? [0, 0, 0];
     const away = Math.hypot(...row.point.map((place, n) => place - (hair[n] ?? 0)));
     expect(away).toBeLessThan(row.pixel_spacing);
-    // The cross-hair is where it was placed; in a map, on its ray.
+    // The cross-hair is at the clicked pixel; in a lumen map, on the ray of that pixel.
     await expect
       .poll(async () => {
         const [x, y] = await viewer.hair('straightened');
@@ -83,7 +83,7 @@ for (const row of table.reformations) {
   });
 }
 
-test('a click in a CFA picks the place that it shows, and a roll has no angle of its own', async ({
+test('a click in a CFA picks the point that it shows, and a CPR that follows the lumen has no angle', async ({
   browser,
 }) => {
   const viewer = await opened(browser, 'y_junction');

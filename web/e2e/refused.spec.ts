@@ -1,4 +1,4 @@
-/** Rejected clicks change nothing; the page reports what it found, what it expected, and where. */
+/** A rejected click changes nothing. The page reports what was found, what was expected, and where. */
 import { expect, test } from '@playwright/test';
 import { button, expectBegun, rows, startTracing, traced } from './controls';
 import { Viewer } from './page';
@@ -59,7 +59,7 @@ test('in a vessel that does not meet the other one, which can be bridged', async
     /least lumen-like point: -\d+/,
   );
   await viewer.screenshot('refused-apart');
-  await expect(viewer.problem.getByRole('button', { name: 'Click between' })).toBeVisible();
+  await expect(viewer.problem.getByRole('button', { name: 'Add a point between' })).toBeVisible();
   await bridge().click();
   await expect(button(viewer, 'Undo')).toHaveAttribute('title', /bridge gaps/);
   await expect(viewer.problem).toHaveCount(0);
@@ -75,7 +75,7 @@ test('as the first click of a vessel, at once', async () => {
   await expect(viewer.page.locator('[data-place=first]')).toHaveCount(0);
 });
 
-test('also as its first two clicks; once bridged, that vessel goes on', async () => {
+test('also as its first two clicks; once bridged, that vessel can be extended', async () => {
   await clickAt(viewer, [STRAIGHT, -15]);
   await expectBegun(viewer);
   await expect(viewer.problem).toHaveCount(0);
@@ -84,9 +84,7 @@ test('also as its first two clicks; once bridged, that vessel goes on', async ()
   await expect(rows(viewer)).toHaveCount(1);
   await bridge().click();
   await traced(viewer, 2);
-  await expect(viewer.page.locator('.trace-bar')).toContainText(
-    'Click, or press Enter at the cross-hair, further along Vessel 2',
-  );
+  await expect(viewer.page.locator('.trace-bar')).toContainText('Add a point further along Vessel 2');
   await expect(viewer.page.locator('[data-place=first]')).toHaveCount(0);
   await viewer.rest();
   await viewer.screenshot('refused-bridged');

@@ -1,4 +1,4 @@
-/** Files saved of a measured vessel: table, JSON and report. */
+/** Tests of the files that are saved for a measured vessel: CSV table, JSON and report. */
 import { readFileSync } from 'node:fs';
 import { expect, test } from '@playwright/test';
 import { menu, REPORT, SESSION } from './controls';
@@ -11,18 +11,18 @@ test.beforeAll(async ({ browser }) => {
 test.afterEach(() => tube.viewer.expectNoFault());
 test.afterAll(() => tube.viewer.close());
 
-test('the table and the JSON are those of Python', async () => {
+test('the table and the JSON equal those of the Python package', async () => {
   await tube.marked();
-  const table = await tube.saved('Numbers of measured vessels (CSV)');
+  const table = await tube.saved('Measurements of all measured vessels (CSV)');
   expect(table.split('\n').map(withoutRounding)).toEqual(
     expected('measuring.csv').split('\n').map(withoutRounding),
   );
-  const told = JSON.parse(await tube.saved('Numbers of measured vessels (JSON)'));
+  const told = JSON.parse(await tube.saved('Measurements of all measured vessels (JSON)'));
   expect(told.vessels[0].stenosis.method).toBe('nascet');
   expect(PYTHON.nascet).toContain(`${told.vessels[0].stenosis.percent.toFixed(0)} ± 1 % of the diameter`);
 });
 
-/** Rounds coordinates that are 0 except for rounding, which depends on the compiler. */
+/** Replaces coordinates that are 0 up to rounding errors, which depend on the compiler. */
 const withoutRounding = (line: string): string =>
   line
     .split(',')
@@ -45,7 +45,7 @@ test('the menu closes by Escape and by a press elsewhere', async () => {
   await expect(body).not.toBeVisible();
 });
 
-test('a report without a percentage says so where a place is marked, and what nobody looked at stands apart', async () => {
+test('a report of a marked place without a percentage says so, and lists suggestions separately', async () => {
   await tube.nothingMarked();
   await tube.row('place-0').getByRole('button', { name: 'Confirm' }).click();
   const [download] = await Promise.all([
@@ -87,7 +87,7 @@ test('the report opens offline, on one page of paper', async ({ browser }) => {
   await page.close();
 });
 
-test('the name of the scan is in the report where it is ticked', async () => {
+test('the name of the scan is in the report if the user chooses so', async () => {
   await menu(tube.viewer).click();
   await tube.viewer.page.getByLabel('include the name of the scan').check();
   await menu(tube.viewer).click();

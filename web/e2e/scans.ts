@@ -1,25 +1,25 @@
-/** A scan file for page and command line: two separate tubes, one with a stenosis, in front of bone. */
+/** Creates a scan file for page and command line: two separate tubes, one with a stenosis, in front of bone. */
 import { expect } from '@playwright/test';
 import type { Pair } from '../src/core/messages';
 import { expectBegun, fileOf, type MadeFile, traced } from './controls';
 import type { PaneName, Viewer } from './page';
 
-/** Voxels per axis, and their side (mm); the volume is centred at 0. */
+/** Numbers of voxels along the axes, and voxel size (mm); the centre of the volume is at 0. */
 const COUNTS = [80, 56, 90] as const;
 const SIDE = 0.8;
 const HALF = COUNTS.map((count) => ((count - 1) * SIDE) / 2) as [number, number, number];
 
-/** Axes of the tubes (mm to the patient's left), and depth of the bone (mm backwards). */
+/** Positions of the two tubes (mm to the patient's left), and depth of the bone (mm towards the back). */
 export const NARROWED = -12;
 export const STRAIGHT = 12;
 export const BONE = 15;
 
 const radius = (z: number): number => 4 - 2 * Math.exp(-((z / 6) ** 2));
 
-/** 350 HU inside, -100 outside, with a blurred edge. */
+/** Value (HU) at a depth in the lumen (mm): 350 inside, -100 outside, with a blurred edge. */
 const lumen = (inside: number): number => -100 + 450 * Math.min(Math.max(0.5 + inside / 1.6, 0), 1);
 
-/** `shift` moves everything along the patient (mm), for another grid. */
+/** The scan file. `shift` moves the whole scan along the patient (mm), which gives it another grid. */
 export function tubes(name: string, shift = 0): MadeFile {
   const [columns, rows, slices] = COUNTS;
   const values = new Int16Array(columns * rows * slices);
@@ -51,7 +51,7 @@ export async function openScan(viewer: Viewer, scan: MadeFile): Promise<void> {
   await viewer.rest();
 }
 
-/** Axes shown by a slice, and the direction of the second. */
+/** The two axes that a slice shows, and the direction of the second one. */
 const SHOWN: Readonly<Partial<Record<PaneName, readonly [number, number, number]>>> = {
   axial: [0, 1, 1],
   coronal: [0, 2, -1],

@@ -4,7 +4,7 @@ import { defineConfig, type Plugin } from 'vite';
 import page from '../vite.config.ts';
 import { header, type StreamParts, VOLUME } from './streams.ts';
 
-/** Delay per slice of the slow volume (ms). */
+/** The server waits this long before each slice of the slow volume (ms). */
 const PAUSE = 250;
 
 const SLOW: StreamParts = { ...VOLUME, size: [64, 64, 400] };
@@ -24,5 +24,5 @@ const slow: Plugin = {
   },
 };
 
-// Like other servers, it serves only its files.
+// Like other servers, it answers 404 for paths without a file.
 export default defineConfig({ ...page, appType: 'mpa', plugins: [slow] });

@@ -1,4 +1,4 @@
-/** A session file restores everything, in the page and on the command line. */
+/** A session file restores all work of the user, in the page and on the command line. */
 import { spawnSync } from 'node:child_process';
 import { existsSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
@@ -24,7 +24,7 @@ const SCAN = tubes('tubes.nrrd');
 const ROOT = join(import.meta.dirname, '../..');
 const PYTHON = process.env.LUMENCUT_PYTHON ?? join(ROOT, '.venv/bin/python');
 
-// Each test continues from the previous one.
+// Each test continues with the state that the previous one left.
 test.describe.configure({ mode: 'serial' });
 
 let viewer: Viewer;
@@ -118,7 +118,7 @@ test.beforeAll(async ({ browser }) => {
 test.afterEach(() => viewer.expectNoFault());
 test.afterAll(() => viewer.close());
 
-test('a page that is loaded again has kept nothing', async () => {
+test('a reloaded page has kept nothing', async () => {
   await viewer.page.reload();
   await expect(viewer.page.getByRole('heading', { name: 'Lumencut' })).toBeVisible();
   const kept = await viewer.page.evaluate(async () => [
@@ -130,20 +130,20 @@ test('a page that is loaded again has kept nothing', async () => {
   ]);
   expect(kept).toEqual([0, 0, 0, 0, 0]);
   await openScan(viewer, SCAN);
-  await expect(viewer.page.getByText('No vessels yet: find them')).toBeVisible();
+  await expect(viewer.page.getByText('No vessels yet: find all')).toBeVisible();
   await viewer.press('v');
   await expect(rows(viewer)).toHaveCount(0);
   await expect(button(viewer, 'Undo')).toBeDisabled();
 });
 
-test('chosen after its scan, the session brings everything back, and is saved with the same bytes', async () => {
+test('opened after its scan, the session restores everything, and is saved again with the same bytes', async () => {
   await choose(viewer, fileNow());
   await expectAllBack();
   await viewer.screenshot('session-back');
   await expect(button(viewer, 'Undo')).toBeDisabled();
 });
 
-test('what was clicked can still be dragged', async () => {
+test('clicked points can still be dragged', async () => {
   await viewer.press('t');
   const point = viewer.pane('coronal').getByRole('button', { name: /^Point 2 of narrowed/ });
   const box = await point.boundingBox();
@@ -160,7 +160,7 @@ test('what was clicked can still be dragged', async () => {
   await expect.poll(length).toBe(whole);
 });
 
-test('dropped together with its scan, the session brings everything back', async ({ browser }) => {
+test('dropped together with its scan, the session restores everything', async ({ browser }) => {
   await viewer.close();
   viewer = await started(browser);
   await expect(button(viewer, 'Choose files')).toBeEnabled();
@@ -170,7 +170,7 @@ test('dropped together with its scan, the session brings everything back', async
   await expectAllBack();
 });
 
-test('a session of another scan is refused in words, and nothing changes', async () => {
+test('a session of another scan is rejected with an explanation, and nothing changes', async () => {
   await choose(viewer, tubes('later.nrrd', 5), fileNow());
   await expect(viewer.problem).toContainText(
     /Found a session of a scan of 80 × 56 × 90 voxels in another place; expected a session of the open scan\./,
@@ -188,7 +188,7 @@ async function openInstead(): Promise<void> {
   await viewer.rest();
 }
 
-test('a damaged session is refused in words, and nothing changes', async () => {
+test('a damaged session is rejected with an explanation, and nothing changes', async () => {
   const text = session.toString('utf-8');
   const damaged = [
     text.slice(0, text.length - 400),
@@ -206,7 +206,7 @@ test('a damaged session is refused in words, and nothing changes', async () => {
   }
 });
 
-/** Text of a PNG chunk; the chunk length bounds it, since later bytes may be letters. */
+/** Text of a PNG chunk. It ends by the length of the chunk, since the bytes that follow may be letters. */
 function textOf(png: Buffer, keyword: string): string {
   const begin = png.indexOf(`tEXt${keyword}\0`);
   expect(begin).toBeGreaterThan(0);
@@ -214,7 +214,7 @@ function textOf(png: Buffer, keyword: string): string {
   return png.toString('latin1', text + keyword.length + 1, text + png.readUInt32BE(begin - 4));
 }
 
-test('the command line measures and renders what the session tells', async () => {
+test('the command line measures and renders what the session contains', async () => {
   test.skip(!existsSync(PYTHON), 'there is no Python package beside the repository');
   const [scan, made] = ['tubes.nrrd', 'session.mrk.json'].map((name) => test.info().outputPath(name));
   const [table, rendered] = ['numbers.json', 'view.png'].map((name) => test.info().outputPath(name));
@@ -227,10 +227,10 @@ test('the command line measures and renders what the session tells', async () =>
   expect(measured.stdout + measured.stderr).toContain(before.stenosis ?? 'a stenosis');
   const drawn = lumencut('render', scan, '--like', made, '-o', rendered);
   expect(drawn.status, drawn.stderr).toBe(0);
-  // A picture stores its settings: the session's view, with the one visible vessel.
+  // A picture stores how it was made: the view of the session, with the only visible vessel.
   const recipe = JSON.parse(textOf(readFileSync(rendered ?? ''), 'Lumencut'));
   const { camera } = JSON.parse(session.toString('utf-8')).LumencutSession.view;
-  // The axes were normalised again.
+  // Compared with a tolerance, since the axes were normalised again.
   for (const name of ['center', 'direction', 'up', 'size', 'pixel_spacing']) {
     const found: number[] = [recipe.camera[name]].flat();
     const expected: number[] = [camera[name]].flat();

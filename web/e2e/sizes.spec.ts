@@ -1,4 +1,4 @@
-/** Window sizes, dense screens, touch, screen readers and keyboards. */
+/** Tests of window sizes, high-resolution screens, touch, accessibility and keyboard use. */
 import { AxeBuilder } from '@axe-core/playwright';
 import { type CDPSession, expect, test } from '@playwright/test';
 import type { Pair } from '../src/core/messages';
@@ -38,7 +38,7 @@ for (const [name, viewport] of [
   });
 }
 
-test('at 200 % the view has as many pixels as the screen, and picks where it is clicked', async ({
+test('at 200 % the view has as many pixels as the screen, and a click picks the right point', async ({
   browser,
 }) => {
   const viewer = await Viewer.open(browser, '?phantom=y_junction&device=cpu', {
@@ -51,7 +51,7 @@ test('at 200 % the view has as many pixels as the screen, and picks where it is 
   expect([pixels.width, pixels.height]).toEqual([2 * width, 2 * height]);
   await viewer.click([0.5, 0.7]);
   await expect(viewer.readOut).toHaveText(/ · trunk · /);
-  // A longer read-out does not shrink the views.
+  // When the read-out becomes longer, the views keep their size.
   expect(await viewer.size()).toEqual([width, height]);
   const [x, y] = await viewer.hair('turning');
   expect(Math.abs(x - 0.5 * width)).toBeLessThan(2);
@@ -175,7 +175,7 @@ test('every control is reached by the keyboard', async ({ browser }) => {
   await viewer.close();
 });
 
-test('the bar is one row in windows of the usual sizes', async ({ browser }) => {
+test('the toolbar is one row in windows of usual sizes', async ({ browser }) => {
   const viewer = await Viewer.open(browser, '?phantom=stenosis&device=cpu');
   await viewer.rest();
   for (const width of [1024, 1280, 1440, 1920]) {
@@ -187,7 +187,7 @@ test('the bar is one row in windows of the usual sizes', async ({ browser }) => 
   await viewer.close();
 });
 
-/** Usual windows: a touch tablet, three screens, and one at 200 % zoom. */
+/** Usual window sizes: a tablet with touch, three screens, and a screen at 200 % zoom. */
 const USUAL = [
   { viewport: { width: 1024, height: 768 }, hasTouch: true },
   { viewport: { width: 1280, height: 720 } },
@@ -205,7 +205,7 @@ for (const options of USUAL) {
       test.setTimeout(120_000);
       const viewer = await Viewer.open(browser, '?phantom=stenosis&device=cpu', { ...options, colorScheme });
       await viewer.rest();
-      // Each key switches the mode; tracing ends before the next one.
+      // Each key switches the mode; the key m also ends tracing.
       for (const [mode, key] of [
         ['look', 'v'],
         ['trace', 't'],

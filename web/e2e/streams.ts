@@ -8,7 +8,7 @@ export interface StreamParts {
   readonly name: string;
 }
 
-/** 96 × 88 × 32 voxels of 1 mm; mirrored, the centerline would leave the volume. */
+/** A volume of 96 × 88 × 32 voxels of 1 mm. If it were mirrored, its centerline would lie outside. */
 export const VOLUME: StreamParts = {
   size: [96, 88, 32],
   dtype: 'int16',
@@ -30,7 +30,7 @@ export function header(parts: object, magic = 'LCVOLUME', text = JSON.stringify(
   return Buffer.concat([Buffer.from(magic, 'latin1'), length, padded]);
 }
 
-/** A tube of 350 HU along z in fat, next to bone that gets denser backwards. */
+/** Voxels of a tube of 350 HU along z in fat, next to bone that becomes denser towards the back. */
 export function voxels({ size: [columns, rows, slices] }: StreamParts): Buffer {
   const values = new Int16Array(columns * rows * slices);
   for (let n = 0; n < values.length; n++) {

@@ -1,10 +1,10 @@
-/** Stretches of a vessel: length, C-arm angles, and the angle between two. */
+/** Tests of marked stretches of a vessel: length, C-arm angles, and the angle between two stretches. */
 import { expect, test } from '@playwright/test';
 import { PYTHON, SIZE } from './measured-tube';
 import { Viewer } from './page';
 
 test('a stretch, its C-arm angles, and the angle to another one', async ({ browser }) => {
-  // The phantom is large, and its longest vessel is measured.
+  // This takes long, since the longest vessel of a large phantom is measured.
   test.setTimeout(90_000);
   const aorta = await Viewer.open(browser, '?phantom=aorta&device=cpu', { viewport: SIZE });
   await expect(aorta.pane('section')).toBeVisible({ timeout: 30_000 });

@@ -1,21 +1,21 @@
-/** The first tour step by a user faster than the engine, and the focus after keys. */
+/** The first step of the tour by a user who acts before the engine has answered; and keys that move the keyboard focus. */
 import { type Browser, expect, type Page, test } from '@playwright/test';
 import { Viewer } from './page';
 
 const SIZE = { width: 1100, height: 720 };
-/** On the tube, as shares of the coronal pane's height. */
+/** Heights of two points on the tube, as shares of the height of the coronal pane. */
 const [UPPER, LOWER] = [0.3, 0.7];
 
 async function guided(browser: Browser): Promise<Viewer> {
   const viewer = await Viewer.open(browser, '?device=cpu', { viewport: SIZE });
-  await viewer.page.getByRole('button', { name: 'Guided tour in two minutes' }).click({ timeout: 30_000 });
+  await viewer.page.getByRole('button', { name: 'Two-minute guided tour' }).click({ timeout: 30_000 });
   await expect(viewer.pane()).toBeVisible({ timeout: 50_000 });
   return viewer;
 }
 
 const guide = (page: Page) => page.getByLabel('Guided tour');
 
-test('points that are set quickly become a vessel, though Done is pressed at once', async ({ browser }) => {
+test('points that are set quickly become a vessel, even if Done is pressed at once', async ({ browser }) => {
   const viewer = await guided(browser);
   const { page } = viewer;
   await expect(guide(page)).toContainText('Press “Trace” or');
@@ -51,7 +51,7 @@ test('points that are set quickly become a vessel, though Done is pressed at onc
   viewer.expectNoFault();
 });
 
-test('a first click outside of the scan is refused at once', async ({ browser }) => {
+test('a first click outside the scan is rejected at once', async ({ browser }) => {
   const viewer = await guided(browser);
   await viewer.press('t');
   await expect(viewer.pane('coronal')).toBeVisible();

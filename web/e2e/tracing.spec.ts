@@ -1,4 +1,4 @@
-/** Tracing by clicks and keys, editing, undoing, saving and reloading. */
+/** Tests of tracing by clicks and keys, and of editing, undoing, saving and opening the vessels. */
 import { readFileSync } from 'node:fs';
 import { expect, type Locator, test } from '@playwright/test';
 import { button, listAsTheyCame, nameOf, rename, rows, SIZE, untraced } from './controls';
@@ -9,7 +9,7 @@ const lengthOf = async (viewer: Viewer, n: number): Promise<number> =>
 const point = (viewer: Viewer, n: number, pane: PaneName = 'coronal'): Locator =>
   viewer.pane(pane).getByRole('button', { name: new RegExp(`^Point ${n} of`) });
 
-/** Position in a slice of the junction, in heights of the pane, which the volume fills. */
+/** Position in a slice of the phantom "junction", in units of the height of the pane, which the volume fills. */
 async function place(viewer: Viewer, across: number, down: number, pane: PaneName = 'coronal') {
   const [width, height] = await viewer.size(pane);
   return [Math.round(width / 2 + across * height), Math.round(down * height)] as const;
@@ -37,7 +37,7 @@ async function traceTo(viewer: Viewer, end: readonly [number, number], count: nu
   await button(viewer, 'End this vessel').click();
 }
 
-test('a page without vessels offers the three ways to them', async ({ browser }) => {
+test('a page without vessels offers three ways to get them', async ({ browser }) => {
   const viewer = await untraced(browser);
   const offer = viewer.page.locator('.trace-bar.offer');
   for (const words of ['Find all vessels', 'Trace one vessel', 'I have centerlines']) {
@@ -59,9 +59,7 @@ test('a page without vessels offers the three ways to them', async ({ browser })
   await viewer.close();
 });
 
-test('the vessel that was traced is shown cut open, though it was traced in a slice that was shown alone', async ({
-  browser,
-}) => {
+test('a traced vessel is shown cut open, even if it was traced in a maximised slice', async ({ browser }) => {
   const viewer = await untraced(browser);
   await startTool(viewer);
   await viewer.page.getByRole('button', { name: 'Show Coronal alone' }).click();
@@ -73,7 +71,7 @@ test('the vessel that was traced is shown cut open, though it was traced in a sl
   await viewer.close();
 });
 
-test('by mouse: two clicks trace a vessel, a live path leads to the pointer, and points are edited', async ({
+test('by mouse: two clicks trace a vessel, a path preview leads to the pointer, and points are edited', async ({
   browser,
 }) => {
   const viewer = await untraced(browser);
@@ -88,7 +86,7 @@ test('by mouse: two clicks trace a vessel, a live path leads to the pointer, and
   await viewer.screenshot('trace-live');
   await click(viewer, RIGHT);
   await expect(nameOf(viewer, 0)).toHaveValue('Vessel 1');
-  // From 1/5 of the height into the other branch: trunk 30 mm, branch 36 mm.
+  // From 1/5 of the height, the vessel runs along the trunk (30 mm long) into the other branch (36 mm long).
   await expect.poll(() => lengthOf(viewer, 0)).toBeGreaterThan(45);
   const whole = await lengthOf(viewer, 0);
   expect(whole).toBeLessThan(66);
@@ -117,12 +115,12 @@ test('by mouse: two clicks trace a vessel, a live path leads to the pointer, and
   await viewer.close();
 });
 
-test('where no lumen is under the pointer, a click in the projection is looked at in the slices before it becomes a point', async ({
+test('if no lumen is under the pointer, a click in the projection must be confirmed in the slices', async ({
   browser,
 }) => {
   const viewer = await untraced(browser, 'y_junction', { hasTouch: true });
   await startTool(viewer);
-  // A finger does not hover: no inset, and the brightest position is proposed. Two taps are a double tap.
+  // A finger cannot hover, so the brightest point is proposed. Two quick taps are a double click.
   await viewer.tap([0.5, 0.75]);
   await expect(viewer.page.locator('[data-place=candidate]')).toHaveCount(4);
   await expect(viewer.page.locator('[data-place=first]')).toHaveCount(0);
@@ -138,7 +136,7 @@ test('where no lumen is under the pointer, a click in the projection is looked a
   await viewer.close();
 });
 
-test('by keyboard alone: a vessel is traced, edited and saved', async ({ browser }) => {
+test('by keys only: a vessel is traced, edited and saved', async ({ browser }) => {
   const viewer = await untraced(browser);
   const { page } = viewer;
   await viewer.press('t');
@@ -173,7 +171,7 @@ test('by keyboard alone: a vessel is traced, edited and saved', async ({ browser
   await viewer.close();
 });
 
-test('a vessel that nobody clicked takes points, runs where it ran, and is edited by them', async ({
+test('a vessel traced without clicks gets points, keeps its path, and is edited by these points', async ({
   browser,
 }) => {
   const viewer = await Viewer.open(browser, '?phantom=stenosis&device=cpu', { viewport: SIZE });
@@ -185,7 +183,7 @@ test('a vessel that nobody clicked takes points, runs where it ran, and is edite
   await expect(point(viewer, 1)).toHaveCount(0);
   const [x, y] = await viewer.place(await place(viewer, 0, 0.5), 'coronal');
   await viewer.page.mouse.click(x, y, { button: 'right' });
-  // Both ends, two points between them, and the added one.
+  // The vessel has five points: both ends, two between them, and the added one.
   await expect(point(viewer, 5)).toHaveCount(1);
   await expect(point(viewer, 6)).toHaveCount(0);
   await expect(button(viewer, 'Undo')).toHaveAttribute('title', /add a point/);
@@ -200,7 +198,9 @@ test('a vessel that nobody clicked takes points, runs where it ran, and is edite
   await viewer.close();
 });
 
-test('two vessels that meet are joined, cut, hidden, and saved files are read again', async ({ browser }) => {
+test('two vessels that meet are joined, cut and hidden, and saved files are opened again', async ({
+  browser,
+}) => {
   const viewer = await untraced(browser);
   const { page } = viewer;
   await startTool(viewer);
@@ -244,12 +244,12 @@ test('two vessels that meet are joined, cut, hidden, and saved files are read ag
   await viewer.close();
 });
 
-test('all branches from here are those that hang together with the vessel at the cross-hair', {
+test('"All branches from here" finds those connected to the vessel at the cross-hair', {
   tag: '@long',
 }, async ({ browser }) => {
   test.setTimeout(400_000);
   const viewer = await untraced(browser, 'aorta');
-  // The page placed the cross-hair, so the user must place the seed.
+  // The user has not placed the cross-hair, so the next click is the seed.
   await viewer.press('b');
   await expect(viewer.page.getByRole('status').first()).toContainText('Click where the tree begins');
   await expect(rows(viewer)).toHaveCount(0);
@@ -262,7 +262,7 @@ test('all branches from here are those that hang together with the vessel at the
   await viewer.close();
 });
 
-test('all vessels, of which doubtful ones are accepted and left out', async ({ browser }) => {
+test('finds all vessels; doubtful ones are accepted or left out', async ({ browser }) => {
   test.setTimeout(120_000);
   const viewer = await untraced(browser, 'aorta');
   await button(viewer, 'Find all vessels').last().click();

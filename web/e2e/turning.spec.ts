@@ -1,4 +1,4 @@
-/** Mouse and keys in the turning view. */
+/** Tests of mouse and keys in the turning view. */
 import { expect, test } from '@playwright/test';
 import { pixelOf } from '../src/core/camera';
 import type { Camera, Pair, Vector } from '../src/core/messages';
@@ -24,14 +24,14 @@ function pointAt(camera: Camera, [x, y]: Pair): Vector {
 
 const differs = (a: Pixels, b: Pixels) => difference(a, b, SAME_CODE) !== null;
 
-/** A view in which branches overlap and none lies in the picture plane. */
+/** Shows a view in which branches overlap and none lies in the picture plane. */
 async function showOverlap(): Promise<void> {
   await viewer.look('l', 'A', 'S');
   await viewer.drag([0.5, 0.4], [12, 18]);
   await viewer.rest();
 }
 
-test('the phantom is shown with letters, scale bar, cube, device and time', async () => {
+test('the page shows a phantom with letters, scale bar, cube, device and time', async () => {
   expect(isEmpty(await viewer.pixels())).toBe(false);
   const pane = viewer.pane();
   await expect(pane.locator('.edge.left')).toHaveText('R');
@@ -60,9 +60,9 @@ test('Alt and a drag rotate about the axis of the picked vessel', async () => {
   expect(length(subtract((await viewer.camera()).direction, camera.direction))).toBeGreaterThan(0.05);
 });
 
-test('the wheel zooms, and the place at the pointer stays', async () => {
+test('the wheel zooms, and the point under the pointer stays', async () => {
   const camera = await viewer.camera();
-  // The browser rounds wheel positions to page pixels, while a view may start between them.
+  // The browser rounds wheel positions to integer pixels of the page, but the view may start at a fraction.
   const box = await viewer.box();
   const at: Pair = [Math.round(box.x + 150) - box.x, Math.round(box.y + 90) - box.y];
   const kept = pointAt(camera, at);
@@ -99,7 +99,7 @@ for (const how of [{ button: 'right' }, { modifier: 'Control' }] as const) {
   });
 }
 
-test('Escape puts a drag back', async () => {
+test('Escape undoes a drag', async () => {
   const state = await viewer.state();
   await viewer.drag([0.5, 0.5], [90, 40], { isHeld: true });
   expect(await viewer.state()).not.toEqual(state);
@@ -119,7 +119,7 @@ test('keys show the six sides of the patient', async () => {
   await viewer.look('a', 'R', 'S');
 });
 
-test('keys choose the windows, and the strip and its list do so too', async () => {
+test('keys, the window strip and its list choose the window', async () => {
   const texts = new Set<string>();
   for (const key of ['1', '2', '3', '4', '5', '6', '7']) {
     await viewer.press(key);
@@ -141,7 +141,7 @@ test('keys choose the windows, and the strip and its list do so too', async () =
   await level.focus();
   await viewer.press('ArrowRight', 'ArrowRight');
   await expect(viewer.window).not.toHaveText('W 400 L 40');
-  await expect(chosen).toHaveText('Own window');
+  await expect(chosen).toHaveText('Custom window');
   const white = viewer.page.getByRole('slider', { name: 'White of the window' });
   const value = Number(await white.getAttribute('aria-valuenow'));
   const box = await white.boundingBox();
@@ -158,7 +158,7 @@ test('keys choose the windows, and the strip and its list do so too', async () =
   await viewer.reset();
 });
 
-test('silhouettes and inversion change the picture, and come back', async () => {
+test('silhouettes and inversion change the picture, and can be undone', async () => {
   await showOverlap();
   const first = await viewer.picture();
   await viewer.press('s');

@@ -22,7 +22,7 @@ const undoButton = () => button(viewer, 'Undo');
 const point = (n: number, name: string) =>
   viewer.pane('coronal').getByRole('button', { name: `Point ${n} of ${name}` });
 
-/** The user's work in the session file, without the display state. */
+/** What the user has made, from a session file, without the state of the display. */
 async function made(): Promise<string> {
   const text = (await saved(viewer, SESSION)).toString('utf-8');
   const { view, ...session } = JSON.parse(text).LumencutSession;
@@ -30,7 +30,7 @@ async function made(): Promise<string> {
   return JSON.stringify({ ...JSON.parse(text), LumencutSession: session });
 }
 
-/** Performs an edit and waits until it is the last step. */
+/** Performs an edit and waits until it is the last undo step. */
 async function step(words: RegExp, edit: () => Promise<unknown>): Promise<void> {
   await edit();
   await expect(undoButton()).toHaveAttribute('title', words);
@@ -64,7 +64,7 @@ async function editVessels(): Promise<number> {
   await step(/hide a vessel/, () => button(viewer, 'Hide Vessel 2').click());
   await expect(rows(viewer).nth(1).locator('.buttons')).toHaveCount(0);
   await step(/show a vessel/, () => button(viewer, 'Show Vessel 2').click());
-  // It is picked once displayed.
+  // The vessel is picked once it is displayed.
   await rows(viewer).nth(1).getByRole('radio').click();
   await expect(rows(viewer).nth(1).getByRole('radio')).toBeChecked();
   await step(/delete a vessel/, () => viewer.press('Delete'));
@@ -83,7 +83,7 @@ async function editVessels(): Promise<number> {
 async function editMarks(): Promise<number> {
   const numbers = viewer.page.getByTestId('numbers');
   await viewer.press('m');
-  await step(/take the suggested places/, () =>
+  await step(/confirm the suggested places/, () =>
     button(viewer, 'Confirm the suggested places').click({ timeout: 30_000 }),
   );
   const place = viewer.page.getByRole('button', { name: /^marked place.*, in the profile$/ });
@@ -93,7 +93,7 @@ async function editMarks(): Promise<number> {
   }
   await step(/choose the method/, () => numbers.getByLabel('Method').selectOption('ecst'));
   const original = numbers.getByLabel('Original diameter');
-  await step(/give the original diameter/, () => original.fill('9').then(() => original.press('Enter')));
+  await step(/enter the original diameter/, () => original.fill('9').then(() => original.press('Enter')));
   await step(/choose the severity group/, () => numbers.getByLabel('Severity group').selectOption('carotid'));
   await step(/stretch/, () => button(viewer, 'Mark a stretch').click());
   await step(/remove the reference/, () => button(viewer, 'Remove the reference after').click());
@@ -107,7 +107,7 @@ async function editMarks(): Promise<number> {
   return 1 + 6 + 8;
 }
 
-test('thirty steps and more are undone to the beginning and done again, and the file is the same', async () => {
+test('more than thirty steps are undone and redone, and the saved file is the same', async () => {
   await viewer.press('v');
   const first = await made();
   const count = (await editVessels()) + (await editMarks());
@@ -131,7 +131,7 @@ test('thirty steps and more are undone to the beginning and done again, and the 
   }
 });
 
-test('nothing of a study is left in the next one', async () => {
+test('nothing of a study remains in the next one', async () => {
   const { page } = viewer;
   await startTracing(viewer);
   await traceTube(viewer, NARROWED, [26, -26], 1);
@@ -163,7 +163,7 @@ test('nothing of a study is left in the next one', async () => {
   await viewer.screenshot('next-study');
   const session = JSON.parse(await made()).LumencutSession;
   expect(session).toMatchObject({ vessels: [], doubtful: [], stoppers: [], rulers: [], bridge: false });
-  // Measured there: no marks, and its own estimated FWHM.
+  // The next scan is measured without marks and with its own estimate of the FWHM.
   await startTracing(viewer);
   await expect(page.locator('[data-place]')).toHaveCount(0);
   await traceTube(viewer, NARROWED, [26, -26], 1);

@@ -1,20 +1,20 @@
-/** Best view of a vessel, and turning about a place on it, by mouse and keys. */
+/** Tests of the best view of a vessel, and of turning about a place on it, by mouse and keys. */
 import { expect, type Locator, test } from '@playwright/test';
 import { dot } from '../src/core/vectors';
 import { button, fileOf, type MadeFile } from './controls';
 import { Viewer } from './page';
 
 const SIZE = { width: 1280, height: 800 };
-/** Voxels per axis, and their side (mm). */
+/** Numbers of voxels along the axes, and voxel size (mm). */
 const COUNTS = [60, 60, 90] as const;
 const SIDE = 0.6;
 const HALF = COUNTS.map((count) => ((count - 1) * SIDE) / 2) as [number, number, number];
-/** Tube position to the patient's left (mm): mirrored, its line would leave the scan. */
+/** Position of the tube (mm to the patient's left). If the scan were mirrored, the tube would lie outside. */
 const LEFT = 100;
 /** Semi-axes of the lumen (mm), right to left and front to back. */
 const AXES = [6, 3.5] as const;
 
-/** A tube with an elliptical lumen; values pass half way at the wall on every ray. */
+/** A scan of a tube with an elliptical lumen; on every ray the value at the wall is half way. */
 function tube(): MadeFile {
   const [columns, rows, slices] = COUNTS;
   const values = new Int16Array(columns * rows * slices);
@@ -67,7 +67,7 @@ async function diameters(): Promise<number[]> {
   return [...words.matchAll(/([\d.]+) mm/g)].map(([, number]) => Number(number));
 }
 
-/** Diameters of the ellipse, up to rounding and voxel size. */
+/** Expects the diameters of the ellipse, up to errors from rounding and voxel size. */
 function expectDiameters(found: readonly number[], expected: readonly number[]): void {
   expect(found).toHaveLength(expected.length);
   found.forEach((diameter, n) => {
@@ -75,7 +75,7 @@ function expectDiameters(found: readonly number[], expected: readonly number[]):
   });
 }
 
-test('by keys: a turn about a place sweeps its diameters, and the place stays where it is', async () => {
+test('by keys: turning about a place shows its diameters, and the place keeps its pixel', async () => {
   await viewer.press('o');
   await expect(angle()).toBeFocused();
   const first = await viewer.camera();
@@ -93,7 +93,7 @@ test('by keys: a turn about a place sweeps its diameters, and the place stays wh
   expect(await viewer.camera()).toEqual(side);
 });
 
-test('by mouse: a drag turns about the place of the section, and Escape puts it back', async () => {
+test('by mouse: a drag turns about the place of the section, and Escape undoes it', async () => {
   await viewer.press('m');
   const begin = viewer.page.getByTestId('numbers').getByRole('button', { name: /^Turn about/ });
   await begin.click();
@@ -109,13 +109,13 @@ test('by mouse: a drag turns about the place of the section, and Escape puts it 
   await viewer.drag([0.3, 0.8], [height / 2, 0]);
   await expect(bar().locator('.place-turn-degrees')).toHaveText('-90°');
   expectDiameters(await diameters(), [7, 7, 12]);
-  // Zooming keeps the turn; another view ends it.
+  // Zooming does not end turning about the place; another view does.
   await viewer.wheel([0.5, 0.6], -240);
   expect((await viewer.camera()).pixel_spacing).toBeLessThan(0.9 * first.pixel_spacing);
   await expect(begin).toHaveAttribute('aria-pressed', 'true');
   await viewer.press('Shift+S');
   await expect(bar()).toHaveCount(0);
-  // Pressing the button again ends it without moving the cross-hair.
+  // Pressing the button again ends turning without moving the cross-hair.
   await begin.click();
   await expect(bar()).toBeVisible();
   const place = await viewer.readOut.textContent();
@@ -125,7 +125,7 @@ test('by mouse: a drag turns about the place of the section, and Escape puts it 
   await viewer.press('m');
 });
 
-test('the best view of a vessel shows it across, by its row and by a key', async () => {
+test('the best view shows a vessel from the side, by a button in its row and by a key', async () => {
   for (const ask of [
     async () => {
       await viewer.press('v');

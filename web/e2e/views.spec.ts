@@ -1,4 +1,4 @@
-/** Slices, straightened vessel, section and layouts: linked by the cross-hair, and each can be maximised. */
+/** Tests of slices, straightened vessel, section and layouts: the cross-hair links them, each can be maximised. */
 import { expect, test } from '@playwright/test';
 import { difference, isEmpty, OTHER_DEVICE, SAME_CODE } from './compare';
 import { type PaneName, Viewer } from './page';
@@ -44,7 +44,7 @@ test('each layout shows its views, none of them empty', async () => {
   }
 });
 
-test('a click in the turning view puts the cross-hair into all views', async () => {
+test('a click in the turning view places the cross-hair in all views', async () => {
   await layOut('four');
   await viewer.reset();
   await viewer.click([0.3, 0.7]);
@@ -60,13 +60,13 @@ test('a click in the turning view puts the cross-hair into all views', async () 
   }
 });
 
-test('a click on a vessel names it, its value and the place along it', async () => {
+test('a click on a vessel shows its name, its value and the arc length', async () => {
   await viewer.reset();
   await viewer.click([0.5, 0.7]);
   await expect(viewer.readOut).toHaveText(/ · 350 · trunk · \d+\.\d mm$/);
 });
 
-test('a click in a slice puts the cross-hair there, and hovering alone does not', async () => {
+test('a click in a slice places the cross-hair there, but hovering does not', async () => {
   await layOut('four');
   const text = (await viewer.readOut.textContent()) ?? '';
   const [x, y] = await viewer.place([0.3, 0.3], 'axial');
@@ -95,7 +95,7 @@ test('with Shift held the cross-hair follows the pointer', async () => {
   await expect(viewer.readOut).not.toHaveText(text);
 });
 
-test('a notch of the wheel goes one slice, with Shift ten, by the distance of the slices', async () => {
+test('a notch of the wheel scrolls by one slice, with Shift by ten', async () => {
   await layOut('four');
   await viewer.click([0.5, 0.5], 'axial');
   const height = async () => {
@@ -111,7 +111,7 @@ test('a notch of the wheel goes one slice, with Shift ten, by the distance of th
   await expect.poll(async () => (await height()) - before).toBeCloseTo(4.5, 5);
 });
 
-test('in a slice Ctrl and the wheel zoom, a drag pans, a drag with the right button windows', async () => {
+test('in a slice, the wheel with Ctrl zooms, a drag pans, and a right drag changes the window', async () => {
   await layOut('four');
   await expectChange('coronal', async () => {
     await viewer.page.keyboard.down('Control');
@@ -127,7 +127,7 @@ test('in a slice Ctrl and the wheel zoom, a drag pans, a drag with the right but
   await viewer.reset();
 });
 
-test('Escape puts back the pan of a slice', async () => {
+test('Escape undoes the pan of a slice', async () => {
   await layOut('four');
   const hair = await viewer.hair('coronal');
   await viewer.drag([0.5, 0.5], [40, 25], { pane: 'coronal', button: 'middle', isHeld: true });
@@ -161,7 +161,7 @@ test('a double click shows a view alone, and Escape shows all again', async () =
   }
 });
 
-test('a view that was hidden while another one filled the page is as it was', async () => {
+test('a view that was hidden by a maximised one is unchanged', async () => {
   await layOut('four');
   const [picture, camera] = [await viewer.picture(), await viewer.camera()];
   await viewer.page.getByRole('button', { name: 'Show Axial alone' }).click();
@@ -173,7 +173,7 @@ test('a view that was hidden while another one filled the page is as it was', as
   expect(difference(await viewer.picture(), picture, SAME_CODE)).toBeNull();
 });
 
-test('another layout is shown whole, whatever filled the page before', async () => {
+test('another layout shows all its views, also after a view was maximised', async () => {
   await layOut('strip');
   await viewer.page.getByRole('button', { name: 'Show Section alone' }).click();
   await layOut('four');
@@ -181,7 +181,7 @@ test('another layout is shown whole, whatever filled the page before', async () 
   await expect.poll(async () => isEmpty(await viewer.pixels('sagittal'))).toBe(false);
 });
 
-test('a slice fills its pane when that grows', async () => {
+test('a slice fills its pane when the pane grows', async () => {
   await layOut('strip');
   await viewer.reset();
   const bar = viewer.pane('axial').getByRole('img', { name: 'scale bar' });
@@ -198,7 +198,7 @@ test('a slice fills its pane when that grows', async () => {
   await expect.poll(mmPerPixel).toBeCloseTo(before, 6);
 });
 
-test('a divider moves the border between views, and views keep their middle', async () => {
+test('a divider moves the border between views, and views keep their centre', async () => {
   await layOut('four');
   const divider = viewer.page.getByRole('separator', { name: 'Width of the left views' });
   const before = await viewer.size();
@@ -227,7 +227,7 @@ function rounded(state: object): unknown {
   return JSON.parse(JSON.stringify(state, (_, value) => number(value)));
 }
 
-test('a page that is loaded again shows the same view', async () => {
+test('a reloaded page shows the same view', async () => {
   await layOut('four');
   await viewer.reset();
   await viewer.drag([0.4, 0.4], [50, -35]);
@@ -241,7 +241,7 @@ test('a page that is loaded again shows the same view', async () => {
   await viewer.page.reload();
   await viewer.rest();
   expect(rounded(await viewer.state())).toEqual(rounded(state));
-  // The address rounds the centre to 0.001 mm, which moves some edges by a step.
+  // The address stores the centre rounded to 0.001 mm, which changes some pixels at edges slightly.
   expect(difference(await viewer.picture(), picture, OTHER_DEVICE)).toBeNull();
   await expect.poll(async () => difference(await viewer.pixels('axial'), axial, OTHER_DEVICE)).toBeNull();
   expect(decodeURIComponent(viewer.page.url())).not.toContain('trunk');

@@ -18,7 +18,7 @@ import { Viewer } from './page';
 import { pixelAt } from './scans';
 
 const SCAN = join(import.meta.dirname, '../../../shared/data/stent-cta/stent_cta.nii.gz');
-/** Extent of the scan (mm), and start of its stent and left limb from the centre. */
+/** Extent of the scan (mm), and where its stent and its left limb begin, measured from the centre (mm). */
 const EXTENT = [128, 128, 256] as const;
 const STENT = [9, 64] as const;
 const LIMB = [8.4, -71.7] as const;
@@ -26,7 +26,7 @@ const SIZE = { width: 1400, height: 860 };
 const MOST_CLICKS = 12;
 const GRADED = /\d+ % of the diameter.*NASCET.*\d+\.\d\d? mm/;
 
-test('by mouse, from the file of a scan to the report', async ({ browser }) => {
+test('by mouse, from a scan file to the report', async ({ browser }) => {
   test.skip(!existsSync(SCAN), 'there are no real scans beside the repository');
   test.setTimeout(60_000);
   const viewer = await Viewer.open(browser, '?device=cpu', { viewport: SIZE });
@@ -49,7 +49,7 @@ test('by mouse, from the file of a scan to the report', async ({ browser }) => {
   await viewer.screenshot('way-3-traced');
   await button(viewer, 'Done').click();
   await button(viewer, 'Measure').click();
-  // Within a stent there may be no safe reference; then the user is told and marks one.
+  // In a stent no safe reference may be suggested; then the page says so, and the user marks one.
   await page.getByRole('button', { name: /^Confirm the suggested places?$/ }).click({ timeout: 30_000 });
   const told = /No percentage: Mark a reference: where the vessel is normal\./;
   await expect(stenosis(viewer)).toHaveText(new RegExp(`${GRADED.source}|${told.source}`));
@@ -73,7 +73,7 @@ test('by mouse, from the file of a scan to the report', async ({ browser }) => {
   await viewer.close();
 });
 
-test('by keys alone, from the start page to the report', async ({ browser }) => {
+test('by keys only, from the start page to the report', async ({ browser }) => {
   const viewer = await Viewer.open(browser, '?device=cpu', { viewport: SIZE });
   const { page } = viewer;
   const counted = await countInput(viewer);

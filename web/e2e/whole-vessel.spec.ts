@@ -1,9 +1,9 @@
-/** A whole vessel by one click: from its parent vessel to its end. */
+/** One click traces a whole vessel, from its parent vessel to its end. */
 import { expect, test } from '@playwright/test';
 import { button, countInput, expectBegun, nameOf, rows, startTracing, untraced } from './controls';
 import type { Viewer } from './page';
 
-/** Positions in the coronal slice: across from its centre and down, in pane heights. */
+/** Positions in the coronal slice: to the right of its centre and downwards, in units of the pane height. */
 const TRUNK = [0, 0.8] as const;
 const RIGHT = [-0.19, 0.22] as const;
 const LEFT = [0.19, 0.22] as const;
@@ -16,16 +16,14 @@ async function at(viewer: Viewer, [across, down]: readonly [number, number]) {
 
 const ghost = (viewer: Viewer) => viewer.pane('coronal').getByTestId('whole-vessel');
 
-test('a vessel and the one that hangs on it take two actions each: a click and Enter', async ({
-  browser,
-}) => {
+test('a vessel and its branch take two actions each: a click and Enter', async ({ browser }) => {
   const viewer = await untraced(browser);
   await startTracing(viewer);
   const counted = await countInput(viewer);
   for (const [n, place] of [TRUNK, RIGHT].entries()) {
     await viewer.click(await at(viewer, place), 'coronal');
     await expectBegun(viewer);
-    // The first search finds all vessels; after that a click previews its vessel.
+    // The first use searches all vessels; afterwards a click previews its whole vessel.
     await expect(ghost(viewer)).toHaveCount(n > 0 ? 1 : 0);
     await viewer.press('Enter');
     await expect(rows(viewer)).toHaveCount(n + 1);
@@ -43,7 +41,7 @@ test('a vessel and the one that hangs on it take two actions each: a click and E
   await viewer.close();
 });
 
-test('a double click or its button takes the whole vessel, and a second click elsewhere still traces to there', async ({
+test('a double click or the button traces the whole vessel, and a second click elsewhere traces to that point', async ({
   browser,
 }) => {
   const viewer = await untraced(browser);
@@ -64,7 +62,7 @@ test('a double click or its button takes the whole vessel, and a second click el
   await viewer.close();
 });
 
-test('by keys alone: Enter twice at the cross-hair, and the key w', async ({ browser }) => {
+test('by keys only: Enter twice at the cross-hair, and the key w', async ({ browser }) => {
   const viewer = await untraced(browser);
   await startTracing(viewer);
   await viewer.click(await at(viewer, TRUNK), 'coronal');
@@ -85,7 +83,7 @@ test('by keys alone: Enter twice at the cross-hair, and the key w', async ({ bro
   await viewer.close();
 });
 
-test('where there is a vessel already, and where there is none, the page says so and forgets the point', async ({
+test('if a vessel is already traced there, or there is none, the page says so and drops the point', async ({
   browser,
 }) => {
   const viewer = await untraced(browser);
@@ -96,7 +94,7 @@ test('where there is a vessel already, and where there is none, the page says so
   await viewer.press('w');
   await expect(viewer.problem).toContainText('a vessel that is already traced');
   await expect(rows(viewer)).toHaveCount(1);
-  // It does not begin a vessel, which the next click would extend.
+  // The rejected point begins no vessel, so the next click does not extend one.
   await expect(button(viewer, 'Whole vessel')).toHaveCount(0);
   await viewer.press('Escape');
   await viewer.click(await at(viewer, AIR), 'coronal');

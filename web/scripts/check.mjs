@@ -9,7 +9,7 @@ import { stripVTControlCharacters } from 'node:util';
 
 const web = dirname(dirname(fileURLToPath(import.meta.url)));
 
-/** Runs a test program; returns its JSON report, or null. */
+/** Runs a test program. Returns its exit status, and its JSON report or null. */
 function run(program, programArguments, environment, report) {
   const command = join(web, 'node_modules/.bin', program);
   const done = spawnSync(command, programArguments, {
@@ -24,7 +24,7 @@ function run(program, programArguments, environment, report) {
   return { status: done.status ?? 1, report: JSON.parse(readFileSync(report, 'utf-8')) };
 }
 
-/** Counts a part; a failed part without failed tests, or without tests, counts as one failure. */
+/** Adds the results of a test program. If it failed without a failed test, or ran no test, this counts as a failure. */
 function counted(name, { status, report }, passed, failed, red) {
   const count = report ? { passed: passed(report), failed: failed(report) } : { passed: 0, failed: 0 };
   if (count.failed === 0 && (status !== 0 || count.passed === 0)) {
@@ -50,7 +50,7 @@ const redOfBrowser = ({ suites = [], specs = [] }) => [
     .map(({ file, title, tests }) => line(`e2e/${file}`, title, tests[0]?.results[0]?.error?.message)),
 ];
 
-/** Formatted like pytest's, so that logs can be searched alike. */
+/** A failed test, in the format of pytest, so that logs can be searched in the same way. */
 const line = (file, title, message = 'no message') =>
   `FAILED web/${file} > ${title} - ${stripVTControlCharacters(message).split('\n')[0]}`;
 

@@ -9,7 +9,7 @@ const built = readdirSync(join(web, 'dist'), { recursive: true, encoding: 'utf8'
 const budget = JSON.parse(readFileSync(join(web, 'budget.json'), 'utf8'));
 let isRed = false;
 
-/** Built files that match a pattern; `*` is any part of a name. */
+/** Built files whose names match a pattern, in which `*` stands for any characters. */
 function matching(pattern) {
   const [before, after] = pattern.split('*');
   return built.filter((name) => name.startsWith(before) && name.endsWith(after ?? ''));

@@ -1,6 +1,6 @@
-// Compiles the page's crates to src/core/pkg: the engine, and in `dicom/` the judge of DICOM series, loaded on demand.
+// Compiles the crates of the page to src/core/pkg: the engine, and in `dicom/` the module for DICOM, loaded on demand.
 // Workers share the engine's memory, so Rust's standard library is recompiled (RUSTC_BOOTSTRAP, `build-std`).
-// Without `panic=immediate-abort`, which ends the module at once, the modules are 5 % larger.
+// Without `panic=immediate-abort`, which ends the module at a panic, the modules would be 5 % larger.
 import { spawnSync } from 'node:child_process';
 import { existsSync, mkdirSync, renameSync, rmSync, statSync } from 'node:fs';
 import { dirname, join } from 'node:path';
@@ -48,7 +48,7 @@ function compile() {
   );
 }
 
-/** Writes a crate's module in the form that browsers load. */
+/** Writes the module of a crate in the form that browsers load. */
 function write({ crate, folder, name }) {
   const compiled = join(root, 'target', target, profile, `${crate.replaceAll('-', '_')}.wasm`);
   const fresh = join(root, 'target/page-module');

@@ -1,4 +1,4 @@
-/** Starts the page: engine, keys, and files named by its address. */
+/** Starts the page: the engine, the keys, and the files that the address of the page names. */
 import { render } from 'preact';
 import { engine } from './client/shared';
 import { followEdits } from './edit/following';
@@ -32,7 +32,7 @@ function addressOf(name: string): string | null {
 }
 
 async function begin(): Promise<void> {
-  // Read first, because the displayed state is written to the hash.
+  // Read before anything is displayed, because later the page overwrites the hash.
   const state = stateOf(window.location.hash);
   await start(asked.get('device') ?? 'auto');
   const [volume, centerlines, phantom] = [
@@ -62,7 +62,7 @@ followKeeping(sessionStorage, async () => new TextDecoder().decode(await savedSe
 followEdits(engine);
 followPlaceTurn();
 if (asked.has('test')) {
-  // For tests only: memory size and engine answers.
+  // For tests only: gives access to the memory size and to requests to the engine.
   Object.assign(window, {
     lumencutTest: {
       memory: () => engine.memory(),

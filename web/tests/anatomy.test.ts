@@ -1,8 +1,8 @@
-/** The anatomical names offered for vessels. */
+/** Tests of the anatomical names that are offered for vessels. */
 import { expect, test } from 'vitest';
 import { namesToOffer } from '../src/edit/anatomy';
 
-test('paired arteries are offered once for each side, and no name twice', () => {
+test('paired arteries are offered once per side, and no name twice', () => {
   const names = namesToOffer([]);
   expect(names).toContain('Left renal artery');
   expect(names).toContain('Right renal artery');
@@ -11,7 +11,7 @@ test('paired arteries are offered once for each side, and no name twice', () => 
   expect(names).toEqual([...names].sort((a, b) => a.localeCompare(b, 'en')));
 });
 
-test('a name that a vessel has is not offered again, however it is written', () => {
+test('a name that a vessel already has is not offered, whatever its capitals', () => {
   const names = namesToOffer(['aorta ', 'RIGHT RENAL ARTERY', '']);
   expect(names).not.toContain('Aorta');
   expect(names).not.toContain('Right renal artery');

@@ -4,14 +4,14 @@ import { actionOf, actionOfKey, BINDINGS, inputName, type Where } from '../src/i
 const inputOf = (row: (typeof BINDINGS)[number], where: Where) =>
   [where, row.gesture, row.button ?? '', row.modifier ?? '', row.key ?? ''].join('|');
 
-test('no two rows stand for one input', () => {
+test('no two rows of the table have the same input', () => {
   const inputs = BINDINGS.flatMap((row) =>
     row.where === 'everywhere' ? [inputOf(row, 'turning'), inputOf(row, 'flat')] : [inputOf(row, row.where)],
   );
   expect(new Set(inputs).size).toBe(inputs.length);
 });
 
-test('the help names each input of a part once, and says what it does', () => {
+test('the help lists each input once per part, and describes it', () => {
   for (const where of ['turning', 'flat', 'everywhere', 'tracing', 'marks'] as const) {
     const names = BINDINGS.filter((row) => row.where === where).map(inputName);
     expect(new Set(names).size).toBe(names.length);
@@ -20,7 +20,7 @@ test('the help names each input of a part once, and says what it does', () => {
   expect(BINDINGS.every((row) => row.words.length > 2)).toBe(true);
 });
 
-describe('the habits of the field', () => {
+describe('inputs are those usual in medical viewers', () => {
   test.each([
     ['turning', 'left', '', 'rotate'],
     ['turning', 'left', 'Alt', 'rotate about vessel'],
@@ -59,7 +59,7 @@ describe('the habits of the field', () => {
     expect(actionOf('tracing', gesture, button, '')).toBe(action);
   });
 
-  test('while tracing all else is done as in the view', () => {
+  test('while tracing, all other inputs act as in the view', () => {
     expect(actionOf('tracing', 'wheel', null, '')).toBeNull();
     expect(actionOf('tracing', 'drag', 'left', '')).toBeNull();
   });
@@ -109,14 +109,14 @@ describe('keys', () => {
     expect(actionOfKey(key, modifier)).toBe(action);
   });
 
-  test('with Ctrl stand for nothing else, so that the browser has its own', () => {
+  test('with Ctrl have no other action, so that shortcuts of the browser work', () => {
     expect(actionOfKey('z')).toBeNull();
     for (const key of ['a', 'p', 'r', 't', 'c', '1', ' ', 'Enter']) {
       expect(actionOfKey(key, 'Ctrl')).toBeNull();
     }
   });
 
-  test('1 to 8 choose the windows that have a name, by their order', () => {
+  test('1 to 8 choose the named windows in their order', () => {
     const keys = BINDINGS.filter((row) => row.action.startsWith('preset '));
     expect(keys).toHaveLength(8);
     keys.forEach((row, n) => {
@@ -125,7 +125,7 @@ describe('keys', () => {
     });
   });
 
-  test('the help writes capitals as Shift and the space as a word', () => {
+  test('the help writes capitals with Shift, and the space key as a word', () => {
     const nameOf = (key: string) => BINDINGS.filter((row) => row.key === key).map(inputName);
     expect(nameOf('R')).toEqual(['Shift+r']);
     expect(nameOf(' ')).toEqual(['Space']);

@@ -14,13 +14,13 @@ function streamOf(parts: readonly Uint8Array[]): ReadableStream<Uint8Array> {
   });
 }
 
-/** The bytes, cut after each bit of `cuts` that is set. */
+/** The bytes in pieces: cut after byte n if bit n of `cuts` is set. */
 function split(cuts: number): Uint8Array[] {
   const ends = [...Array(8).keys()].filter((n) => cuts & (1 << n)).map((n) => n + 1);
   return [...ends, 9].map((end, n) => WHOLE.slice(n === 0 ? 0 : (ends[n - 1] ?? 0), end));
 }
 
-test('all splittings of a stream give the same pieces', async () => {
+test('a stream gives the same pieces however it is split', async () => {
   for (let cuts = 0; cuts < 256; cuts++) {
     const reader = new ByteReader(streamOf(split(cuts)));
     expect([...(await reader.take(4))]).toEqual([1, 2, 3, 4]);
@@ -32,7 +32,7 @@ test('all splittings of a stream give the same pieces', async () => {
   }
 });
 
-test('whole voxels come in order, and half a voxel at the end is left', async () => {
+test('complete voxels come in order, and an incomplete one at the end remains', async () => {
   for (let cuts = 0; cuts < 256; cuts++) {
     const reader = new ByteReader(streamOf(split(cuts)));
     const taken: number[] = [];
@@ -45,7 +45,7 @@ test('whole voxels come in order, and half a voxel at the end is left', async ()
   }
 });
 
-test('empty parts of a stream end nothing', async () => {
+test('empty parts do not end a stream', async () => {
   const reader = new ByteReader(
     streamOf([new Uint8Array(), WHOLE.slice(0, 1), new Uint8Array(), WHOLE.slice(1)]),
   );
@@ -53,14 +53,14 @@ test('empty parts of a stream end nothing', async () => {
   expect([...(await reader.takeWhole(7))]).toEqual([3, 4, 5, 6, 7, 8, 9]);
 });
 
-test('an error of the stream is told', async () => {
+test('an error of the stream is reported', async () => {
   const broken = new ReadableStream<Uint8Array>({
     start: (controller) => controller.error(new Error('the line is cut')),
   });
   await expect(new ByteReader(broken).take(1)).rejects.toThrow('the line is cut');
 });
 
-test('what was taken is a copy', async () => {
+test('returned bytes are a copy', async () => {
   const part = WHOLE.slice();
   const reader = new ByteReader(streamOf([part]));
   const taken = await reader.take(3);

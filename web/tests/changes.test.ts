@@ -16,12 +16,12 @@ const edited = (document: Document, ...lost: number[]) => ({
   told: null,
 });
 
-test('a vessel without a name is called by its id', () => {
+test('a vessel without a name is named by its id', () => {
   const document = changed(THREE, 2, { name: '' });
   expect(document.vessels.map(nameOf)).toEqual(['n11', 'vessel 2', 'n13']);
 });
 
-test('the next colour is the first that the fewest vessels have', () => {
+test('the next colour is the first of those that the fewest vessels have', () => {
   const colors = PALETTE.map(([color]) => color);
   const of = (...taken: string[]) =>
     nextColor(taken.map((color, n) => ({ ...THREE.vessels[n], color }) as never));
@@ -29,7 +29,7 @@ test('the next colour is the first that the fewest vessels have', () => {
   expect(colors).not.toContain(DOUBTFUL);
 });
 
-test('a document is never changed in place, and what is not there is not changed', () => {
+test('a document is never changed in place, and editing a missing vessel changes nothing', () => {
   const text = JSON.stringify(THREE);
   changed(THREE, 1, { name: 'x' });
   afterEdit(THREE, edited({ ...THREE, vessels: [] }, 1, 2, 3));
@@ -37,12 +37,12 @@ test('a document is never changed in place, and what is not there is not changed
   expect(changed(THREE, 9, { name: 'x' })).toBe(THREE);
 });
 
-describe('what comes of an edit', () => {
-  test('that left all as it was is the same document', () => {
+describe('the document after an edit', () => {
+  test('that changed nothing is the same object', () => {
     expect(afterEdit(THREE, edited(THREE))).toBe(THREE);
   });
 
-  test('has the same objects for vessels and stoppers that it left as they were', () => {
+  test('keeps the objects of unchanged vessels and stoppers', () => {
     const moved = changed(THREE, 2, { line: 99 });
     const after = afterEdit(THREE, edited(moved));
     expect([after.vessels[0], after.vessels[2], after.stoppers]).toEqual([first, third, THREE.stoppers]);
@@ -52,7 +52,7 @@ describe('what comes of an edit', () => {
     expect(after.vessels[1]).toEqual({ ...second, line: 99 });
   });
 
-  test('has no marks of vessels that lost theirs, and all others of the page', () => {
+  test('has no marks of vessels that lost them, and keeps all other marks', () => {
     const now = { ...THREE, rulers: [{ from: [0, 0, 0], to: [1, 0, 0] }] as const };
     const after = afterEdit(now, edited(changed(THREE, 2, { line: 99 }), 2));
     expect(after.marks).toEqual({ 1: NO_MARKS });

@@ -35,7 +35,7 @@ async function begun(from = A, to = B): Promise<number> {
 }
 
 describe('an edit', () => {
-  test('is one step with the words of the engine, and is undone as one', async () => {
+  test('is one undo step with the description from the engine', async () => {
     const id = await begun();
     expect(document_.value.vessels).toMatchObject([{ id, clicks: [A, B] }]);
     expect(undoWords.value).toBe('begin_vessel');
@@ -44,7 +44,7 @@ describe('an edit', () => {
     expect(undoWords.value).toBeNull();
   });
 
-  test('asks the engine with the document as it is, without what the page keeps to itself', async () => {
+  test('sends the current document to the engine, without data that only the page needs', async () => {
     await begun();
     await addStopper(tracing, C);
     const { vessels, stoppers } = document_.value;
@@ -56,7 +56,7 @@ describe('an edit', () => {
     });
   });
 
-  test('is asked for again where the user has redone a step meanwhile', async () => {
+  test('is requested again if the user has redone a step meanwhile', async () => {
     const id = await begun();
     await addClick(tracing, id, C);
     undo();
@@ -72,7 +72,7 @@ describe('an edit', () => {
     expect(clicks()).toEqual([A, B, C, A]);
   });
 
-  test('that come while one is traced take their turn', async () => {
+  test('that arrive while one is traced wait for it', async () => {
     const id = await begun();
     let open = () => {};
     tracing.gate = new Promise((resolve) => {
@@ -87,8 +87,8 @@ describe('an edit', () => {
   });
 });
 
-describe('a click that is refused', () => {
-  test('changes nothing, and the cross-hair jumps to the weakest place', async () => {
+describe('a rejected click', () => {
+  test('changes nothing, and the cross-hair jumps to the least lumen-like point', async () => {
     const id = await begun();
     const before = document_.value;
     expect(await addClick(tracing, id, AIR)).toBeNull();
@@ -99,7 +99,7 @@ describe('a click that is refused', () => {
     expect(refusal.value?.failure).toBe(store.problem.value);
   });
 
-  test('is taken where the gap is bridged, in one step', async () => {
+  test('is accepted if the gap is bridged, as one undo step', async () => {
     const id = await begun();
     await addClick(tracing, id, AIR);
     refusal.value?.bridge?.();
@@ -111,7 +111,7 @@ describe('a click that is refused', () => {
     expect(clicks()).toEqual([A, B]);
   });
 
-  test('drops those that wait behind it', async () => {
+  test('drops clicks that wait behind it', async () => {
     const id = await begun();
     const both = [addClick(tracing, id, AIR), addClick(tracing, id, C)];
     expect(await Promise.all(both)).toEqual([null, null]);
@@ -119,7 +119,7 @@ describe('a click that is refused', () => {
     expect(await addClick(tracing, id, C)).not.toBeNull();
   });
 
-  test('for what no bridge mends offers none', async () => {
+  test('offers no bridge if none would help', async () => {
     tracing.edit = () => Promise.reject(new Failure('tracing', 'x', 'y', 'z', '', { place: AIR }));
     await beginVessel(tracing, [A, B]);
     expect(refusal.value?.bridge).toBeNull();
@@ -138,7 +138,7 @@ test('an edit that was stopped, or whose study was closed, does nothing', async 
   expect(store.problem.value).toBeNull();
 });
 
-test('what is changed while a vessel is traced stays', async () => {
+test('changes made while a vessel is traced are kept', async () => {
   const id = await begun();
   let open = () => {};
   tracing.gate = new Promise((resolve) => {
@@ -153,14 +153,14 @@ test('what is changed while a vessel is traced stays', async () => {
   expect(clicks()).toEqual([A, B, C]);
 });
 
-test('what was odd about a mask is told once', async () => {
+test('notes about a mask are shown once', async () => {
   tracing.notes = ['the mask has holes'];
   await addMask(tracing, []);
   await addMask(tracing, []);
   expect(store.notes.value).toEqual(['the mask has holes']);
 });
 
-test('all vessels of a scan are one step, and what is told of the scan is told once', async () => {
+test('finding all vessels is one undo step, and notes about the scan are shown once', async () => {
   tracing.notes = ['vessels have about 330, 322 above their surroundings'];
   expect(await findVessels(tracing)).toBe(true);
   expect(tracing.edits.at(-1)?.edit).toEqual({ kind: 'find_vessels', doubtful: false });
@@ -179,14 +179,14 @@ describe('whole vessels', () => {
     expect(document_.value.vessels).toEqual([]);
   });
 
-  test('a change to what is there already makes no step', async () => {
+  test('an unchanged value makes no undo step', async () => {
     const id = await begun();
     await rename(id, document_.value.vessels[0]?.name ?? '');
     await hide(id, false);
     expect(undoWords.value).toBe('begin_vessel');
   });
 
-  test('get their fields at once, without the engine', async () => {
+  test('change their fields at once, without the engine', async () => {
     const id = await begun();
     const asked = tracing.edits.length;
     await Promise.all([rename(id, 'SMA'), recolor(id, '#cc79a7'), hide(id, true)]);
@@ -195,7 +195,7 @@ describe('whole vessels', () => {
   });
 });
 
-test('a file has all vessels but the doubtful ones', async () => {
+test('a centerline file contains all vessels except doubtful ones', async () => {
   const { vessels, ...rest } = documentOf(1, 2, 3);
   const doubts = [null, 'touches bone', null];
   beginStudy({ ...rest, vessels: vessels.map((vessel, n) => ({ ...vessel, doubt: doubts[n] ?? null })) });
@@ -204,7 +204,7 @@ test('a file has all vessels but the doubtful ones', async () => {
   expect(await file.text()).toBe('vtp: n1,n3');
 });
 
-test('thirty steps are undone and done again, to the letter', async () => {
+test('thirty steps are undone and redone exactly', async () => {
   const id = await begun();
   const states = [document_.value];
   for (let n = 0; n < 29; n++) {

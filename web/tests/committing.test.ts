@@ -7,7 +7,7 @@ import { progress } from '../src/state/store';
 
 const FINDING: Progress = { words: 'Finding vessels', done: 0, total: null };
 
-/** An engine that reports progress and answers on command. */
+/** A fake engine that reports progress and answers only when the test says so. */
 class Slow {
   onProgress: (report: Progress) => void = () => {};
   end: () => void = () => {};
@@ -40,7 +40,7 @@ async function begun(
   return { slow, done };
 }
 
-test('an edit that tells only at its begin that it runs is shown as running all the same', async () => {
+test('an edit that reports progress only at its start is still shown as running', async () => {
   const { slow, done } = await begun();
   slow.onProgress(FINDING);
   expect(progress.value).toBeNull();
@@ -51,7 +51,7 @@ test('an edit that tells only at its begin that it runs is shown as running all 
   expect(progress.value).toBeNull();
 });
 
-test('what is told after the end of an edit is no longer shown', async () => {
+test('progress reported after the end of an edit is not shown', async () => {
   const { slow, done } = await begun();
   await vi.advanceTimersByTimeAsync(1000);
   slow.end();
@@ -60,7 +60,7 @@ test('what is told after the end of an edit is no longer shown', async () => {
   expect(progress.value).toBeNull();
 });
 
-test('an edit that is done at once shows no progress', async () => {
+test('a quick edit shows no progress', async () => {
   const { slow, done } = await begun();
   slow.onProgress(FINDING);
   slow.end();
@@ -69,7 +69,7 @@ test('an edit that is done at once shows no progress', async () => {
   expect(progress.value).toBeNull();
 });
 
-test('branches that take long are asked about after 20 s, and go on meanwhile', async () => {
+test('after 20 s of searching branches the page asks, and the search continues meanwhile', async () => {
   const { slow, done } = await begun({ kind: 'add_branches', seed: [0, 0, 0] });
   await vi.advanceTimersByTimeAsync(19_900);
   expect(isLong.value).toBe(false);
@@ -80,7 +80,7 @@ test('branches that take long are asked about after 20 s, and go on meanwhile', 
   expect(isLong.value).toBe(false);
 });
 
-test('nobody is asked about a search of the whole scan, nor about branches that were found in time', async () => {
+test('the page does not ask during a search of the whole scan, nor about branches found in time', async () => {
   const whole = await begun();
   await vi.advanceTimersByTimeAsync(30_000);
   expect(isLong.value).toBe(false);

@@ -1,4 +1,4 @@
-/** The picture comparison of the browser tests rejects what it should. */
+/** The picture comparison of the browser tests detects wrong pictures. */
 import { expect, test } from 'vitest';
 import {
   difference,
@@ -16,12 +16,12 @@ function ramp(changes: Readonly<Record<number, number>> = {}): Pixels {
   return { width: WIDTH, height: WIDTH, bytes };
 }
 
-test('a picture is the same as itself, and but for one step', () => {
+test('a picture equals itself, also if a channel differs by one step', () => {
   expect(difference(ramp(), ramp(), SAME_CODE)).toBeNull();
   expect(difference(ramp({ 5: 1, 77: -1 }), ramp(), SAME_CODE)).toBeNull();
 });
 
-test('a single channel that is two steps off is refused', () => {
+test('a single channel that differs by two steps is detected', () => {
   expect(difference(ramp({ 5: 2 }), ramp(), SAME_CODE)).toContain('1 of 16384 channels');
   expect(difference(ramp({ 16383: 2 }), ramp(), SAME_CODE)).toContain('at most 2');
 });
@@ -37,7 +37,7 @@ test('another device may differ in a few channels, but not in many', () => {
   expect(difference(changed(17, 50), ramp(), OTHER_DEVICE_WITH_CONTEXT)).toContain('further apart than 4');
 });
 
-test('another size is refused, and so is a picture that is too short', () => {
+test('another size is detected, and so is a picture with too few bytes', () => {
   const wide: Pixels = { ...ramp(), width: 2 * WIDTH, height: WIDTH / 2 };
   expect(difference(wide, ramp(), SAME_CODE)).toContain('128 × 32');
   const short: Pixels = { ...ramp(), bytes: ramp().bytes.slice(4) };

@@ -1,4 +1,4 @@
-/** Damaged compressed slices are read or rejected, never hang, and do not affect the next series. */
+/** Damaged compressed slices are read or rejected. They never hang the reader or affect the next series. */
 import { readFileSync } from 'node:fs';
 import { describe, expect, test } from 'vitest';
 import { changed, file } from './made';

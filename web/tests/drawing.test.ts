@@ -45,7 +45,7 @@ const hairAt = (point: Vector) => {
 };
 
 describe('points', () => {
-  test('the second begins a vessel, further ones go on, and after its end another begins', async () => {
+  test('the second begins a vessel, further ones extend it, and after its end another begins', async () => {
     await setPoint(tracing, A);
     expect(first.value).toEqual(A);
     expect(clicks()).toEqual([]);
@@ -61,13 +61,13 @@ describe('points', () => {
     ]);
   });
 
-  test('that are set while the first two are traced are of the same vessel', async () => {
+  test('that are set while the first two are traced belong to the same vessel', async () => {
     await Promise.all([setPoint(tracing, A), setPoint(tracing, B), setPoint(tracing, C)]);
     expect(clicks()).toEqual([[A, B, C]]);
     expect(drawn.value?.clicks).toHaveLength(3);
   });
 
-  test('a vessel that was ended while it was traced does not go on', async () => {
+  test('a vessel that was ended while it was traced is not extended', async () => {
     await setPoint(tracing, A);
     const setting = setPoint(tracing, B);
     endVessel();
@@ -76,7 +76,7 @@ describe('points', () => {
     expect(anchor.value).toBeNull();
   });
 
-  describe('that are still traced', () => {
+  describe('that are still being traced', () => {
     let open: () => void;
     beforeEach(async () => {
       tracing.gate = new Promise((resolve) => {
@@ -115,7 +115,7 @@ describe('points', () => {
       expect(drawn.value?.clicks?.[0]).toEqual([1, 2, 3]);
     });
 
-    test('are told where they are refused though the vessel was ended', async () => {
+    test('are reported if they are rejected after the vessel was ended', async () => {
       const setting = setPoint(tracing, [0, 0, FLOOR - 1]);
       layDown();
       open();
@@ -125,7 +125,7 @@ describe('points', () => {
     });
   });
 
-  test('the first is refused at once where no vessel can begin, and what was told is forgotten with the next', async () => {
+  test('the first is rejected at once if no vessel can begin there; the next one clears the message', async () => {
     const found = () => store.problem.value?.found ?? 'nothing wrong';
     const fat: Vector = [0, 0, FLOOR - 1];
     const setting = setPoint(tracing, fat);
@@ -139,7 +139,7 @@ describe('points', () => {
     expect(found()).toBe('nothing wrong');
   });
 
-  test('a second point that is refused leaves the first', async () => {
+  test('a rejected second point keeps the first', async () => {
     await setPoint(tracing, A);
     await setPoint(tracing, [0, 0, FLOOR - 1]);
     expect(clicks()).toEqual([]);
@@ -148,7 +148,7 @@ describe('points', () => {
     expect(clicks()).toEqual([[A, B]]);
   });
 
-  test('after the vessel was undone the next point begins one', async () => {
+  test('after undo of a vessel, the next point begins another', async () => {
     await setPoint(tracing, A);
     await setPoint(tracing, B);
     undo();
@@ -171,7 +171,7 @@ describe('points', () => {
     expect(anchor.value).toBeNull();
   });
 
-  test('in the tool for stoppers are stoppers', async () => {
+  test('set with the stopper tool are stoppers', async () => {
     tool.value = 'stopper';
     await setPoint(tracing, A);
     expect(document_.value.stoppers).toEqual([{ center: A, radius: 3 }]);
@@ -179,7 +179,7 @@ describe('points', () => {
 });
 
 describe('by keys', () => {
-  test('Enter sets points at the cross-hair, and twice at one place ends the vessel', async () => {
+  test('Enter sets points at the cross-hair; twice at one position it ends the vessel', async () => {
     for (const point of [A, B, C]) {
       hairAt(point);
       enter(tracing);
@@ -191,7 +191,7 @@ describe('by keys', () => {
     expect(clicks()).toEqual([[A, B, C]]);
   });
 
-  test('Enter accepts the place of a projection before all else', async () => {
+  test('Enter first confirms a pending point from a projection', async () => {
     hairAt(C);
     candidate.value = A;
     enter(tracing);
@@ -200,7 +200,7 @@ describe('by keys', () => {
     expect(acceptCandidate(tracing)).toBe(false);
   });
 
-  test('Escape goes back step by step: the place, the vessel, the tool', () => {
+  test('Escape leaves step by step: the pending point, the vessel, the tool', () => {
     first.value = A;
     candidate.value = B;
     expect(leave()).toBe(true);
@@ -213,7 +213,7 @@ describe('by keys', () => {
   });
 });
 
-describe('the live path', () => {
+describe('the path preview', () => {
   test('leads from the last point to the pointer, and ends with the vessel', async () => {
     await setPoint(tracing, A);
     target.value = C;
@@ -224,7 +224,7 @@ describe('the live path', () => {
     expect(livePaths.value).toEqual([]);
   });
 
-  test('that comes after the vessel was left is not shown', async () => {
+  test('that arrives after the vessel was ended is not shown', async () => {
     await setPoint(tracing, A);
     let open = () => {};
     tracing.gate = new Promise((resolve) => {
@@ -240,7 +240,7 @@ describe('the live path', () => {
     expect(Math.max(...seen)).toBe(0);
   });
 
-  test('is straight and told so where none is found', async () => {
+  test('is straight and marked as missing if none is found', async () => {
     await setPoint(tracing, A);
     const far: Vector = [1, 1, FLOOR - 1];
     target.value = far;
@@ -248,7 +248,7 @@ describe('the live path', () => {
     expect(livePaths.value).toEqual([{ points: [A, far], isFound: false }]);
   });
 
-  test('is asked for again while it is not found and the pointer rests, but not for ever', async () => {
+  test('is requested again while the pointer rests, but not without end', async () => {
     await setPoint(tracing, A);
     let asked = 0;
     const path = tracing.path.bind(tracing);
@@ -265,7 +265,7 @@ describe('the live path', () => {
     expect(asked).toBe(43);
   });
 
-  test('leads to both neighbours of a point that is dragged', async () => {
+  test('leads to both neighbours of a dragged point', async () => {
     for (const point of [A, B, C]) {
       await setPoint(tracing, point);
     }
@@ -277,7 +277,7 @@ describe('the live path', () => {
     ]);
   });
 
-  test('only the latest place is asked for while one is under way', async () => {
+  test('while a request runs, only the latest position is remembered', async () => {
     await setPoint(tracing, A);
     await idle();
     let asked = 0;

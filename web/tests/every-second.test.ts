@@ -18,7 +18,7 @@ class Closable extends Memory {
 const placed = (affine: readonly (readonly number[])[], index: readonly number[]) =>
   affine.slice(0, 3).map((row) => row.reduce((sum, value, a) => sum + value * (index[a] ?? 1), 0));
 
-/** Streams the voxels 0, 1, 2 … in pieces of random length; returns what was kept. */
+/** Streams voxels with the values 0, 1, 2 … in pieces of random length; returns the kept ones. */
 function streamed(size: [number, number, number], dtype: keyof typeof ARRAYS, unit: number): Memory {
   const memory = new Closable();
   const sink = new EverySecond(memory);
@@ -57,7 +57,7 @@ test.each([
   });
 });
 
-test('a type that the engine has not is refused', () => {
+test('a type that the engine does not support is rejected', () => {
   const sink = new EverySecond(new Closable());
   const header = { size: [2, 2, 2], dtype: 'complex64', world_from_index: AFFINE };
   expect(() => sink.begin_volume(JSON.stringify(header))).toThrow(Failure);

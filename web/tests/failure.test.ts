@@ -3,18 +3,18 @@ import { CRASH, Failure } from '../src/core/failure';
 
 const FAILURE = new Failure('format', 'the file', 'no voxels', 'a volume', 'choose another file');
 
-test('the message says what was found, expected, and what mends it', () => {
+test('the message states what was found, what was expected, and the remedy', () => {
   expect(FAILURE.message).toBe('the file: found no voxels; expected a volume; choose another file');
   expect(new Failure('a', 'b', 'c', 'd').message).toBe('b: found c; expected d');
 });
 
-test('a failure survives the way between worker and page', () => {
+test('a failure stays the same between worker and page', () => {
   expect(Failure.of(new Error(FAILURE.text))).toEqual(FAILURE);
   expect(Failure.of(FAILURE.text)).toEqual(FAILURE);
   expect(Failure.of(FAILURE)).toBe(FAILURE);
 });
 
-test('the place of a failure and the value there survive it too', () => {
+test('its position and the value there stay the same too', () => {
   const failure = new Failure('tracing', 'points', 'no lumen', 'lumen', '', {
     place: [1, -2, 3.5],
     value: 0,
@@ -24,7 +24,7 @@ test('the place of a failure and the value there survive it too', () => {
   expect([FAILURE.place, FAILURE.value]).toEqual([null, null]);
 });
 
-test('the end of the module is a crash, also after it was told from the worker to the page', () => {
+test('a crash of the module is recognised, also after the worker reported it to the page', () => {
   const crash = Failure.of(new WebAssembly.RuntimeError('memory access out of bounds'));
   expect([crash.kind, crash.found]).toEqual([CRASH, 'a crash: memory access out of bounds']);
   expect(crash.mending).toContain('save the session');
@@ -32,7 +32,7 @@ test('the end of the module is a crash, also after it was told from the worker t
   expect(Failure.of(new RangeError('too long')).kind).toBe('unexpected');
 });
 
-test('what mends it comes behind the advice, in the words of the page', () => {
+test('remedies follow the advice, in the words of the page', () => {
   const mends = [{ name: 'fill_gaps', values: [] }] as const;
   const failure = new Failure('format', 'the file', '1 missing slice', 'slices', 'add it', { mends });
   expect(failure.mending).toBe('add it, or interpolate the missing slices');
@@ -43,7 +43,7 @@ test('what mends it comes behind the advice, in the words of the page', () => {
   expect(Failure.of(failure.text)).toEqual(failure);
 });
 
-test('a request that was stopped is no error, whatever its words', () => {
+test('a stopped request is an interruption, whatever its text', () => {
   const stop = new AbortController();
   stop.abort();
   expect(Failure.of(stop.signal.reason).kind).toBe('interrupted');

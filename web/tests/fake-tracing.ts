@@ -1,4 +1,4 @@
-/** A fake engine with straight vessels between clicks; it records its questions. */
+/** A fake engine that traces straight lines between clicks, and records all requests. */
 import type { Answer, Asked, Message, Question } from '../src/core/asked';
 import { Failure } from '../src/core/failure';
 import type {
@@ -16,7 +16,7 @@ import type {
   VesselDocument,
 } from '../src/core/messages';
 
-/** The fake has no lumen below this z (mm). */
+/** Below this z (mm), the fake engine finds no lumen. */
 export const FLOOR = -50;
 
 export class FakeTracing implements Asked {
@@ -24,7 +24,7 @@ export class FakeTracing implements Asked {
   readonly edits: EditRequest[] = [];
   readonly shown: (readonly ListedLine[])[] = [];
   notes: readonly string[] = [];
-  /** Delays edits and trees. */
+  /** Edits and trees are delayed until this promise resolves. */
   gate: Promise<void> = Promise.resolve();
   windows: Report['windows'] = null;
   private lastId = 100;
@@ -62,7 +62,7 @@ export class FakeTracing implements Asked {
     return NOTHING;
   }
 
-  /** Minimal edits: clicks, straight lines, and a bridge below the floor. */
+  /** Performs the edits that tests need: clicks, straight lines, and bridges below `FLOOR`. */
   async edit(request: EditRequest): Promise<AfterEdit> {
     const edited = await this.made(request);
     const { vessels } = edited.document;
@@ -192,7 +192,7 @@ function vesselOf(id: number): DocumentVessel {
   return { id, line: id, name: `n${id}`, color: '#ffffff', isHidden: false, clicks: null, doubt: null };
 }
 
-/** Vessels with these lines; ids count from 1. */
+/** A document of vessels with these line numbers; the ids count from 1. */
 export function documentOf(...lines: readonly number[]): VesselDocument {
   return { ...NOTHING, vessels: lines.map((line, n) => ({ ...vesselOf(n + 1), line, name: `n${line}` })) };
 }

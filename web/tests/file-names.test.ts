@@ -3,18 +3,18 @@ import { fileName, sideOf } from '../src/output/file-names';
 
 const NOW = new Date(2026, 1, 3, 9, 5);
 
-test('a name tells the scan without the ending of its format, content, side and time', () => {
+test('a name consists of the scan without its extension, content, side and time', () => {
   const named = { scan: 'thorax 7.nii.gz', content: 'picture', side: 'anterior', ending: 'png' };
   expect(fileName(named, NOW)).toBe('thorax-7-picture-anterior-2026-02-03-0905.png');
 });
 
-test('a file that must not tell its scan has a name all the same', () => {
+test('a file that must not identify its scan has a name too', () => {
   const named = { scan: null, content: 'report', ending: 'html' };
   expect(fileName(named, NOW)).toBe('lumencut-report-2026-02-03-0905.html');
   expect(fileName({ ...named, scan: '../?*' }, NOW)).toBe(fileName(named, NOW));
 });
 
-test('a name of a scan never leads to another folder and is not too long for a system of files', () => {
+test('a scan name never leads to another folder and is not too long for a file system', () => {
   const name = fileName(
     { scan: `../a/b:c\\${'x'.repeat(300)}`, content: 'session', ending: 'mrk.json' },
     NOW,
@@ -26,7 +26,7 @@ test('a name of a scan never leads to another folder and is not too long for a s
   );
 });
 
-test('the side of a view is where the camera stands, and two sides from 22.5 degrees between them on', () => {
+test('the side of a view is that of the camera; two sides are named if it is more than 22.5 degrees off', () => {
   expect(sideOf([0, 1, 0])).toBe('anterior');
   expect(sideOf([0, -2, 0])).toBe('posterior');
   expect(sideOf([-1, 0, 0])).toBe('left');

@@ -9,7 +9,7 @@ import { CAMERA } from './helpers';
 
 const TURNED_CAMERA = turnedAbout({ ...CAMERA, pixel_spacing: 0.25 }, [0, 0, 0], [0, 0, 1], 1);
 
-/** Requests and views; each view is identified by its centre. */
+/** Recorded requests for flights, and the requested views; each view is identified by its centre. */
 let asked: Message<'flight'>[] = [];
 const viewsOf = ({ from, to, views }: Message<'flight'>): Camera[] =>
   Array.from({ length: views }, (_, n) => ({ ...(n < views - 1 ? from : to), center: [n, 0, 0] }));
@@ -49,7 +49,7 @@ describe('a flight', () => {
     vi.unstubAllGlobals();
   });
 
-  test('shows the views of the engine at their times, in less than half a second, and leads to nowhere else', async () => {
+  test('shows the views of the engine at their times, in less than half a second, and ends exactly at its destination', async () => {
     flyTo(engine, TURNED_CAMERA);
     expect(destination.value).toBe(TURNED_CAMERA);
     await answered();
@@ -69,7 +69,7 @@ describe('a flight', () => {
     expect([destination.value, steps.length]).toEqual([null, 0]);
   });
 
-  test('goes on where its pane changes its size, also before the engine has answered', async () => {
+  test('continues if its pane changes size, also before the engine has answered', async () => {
     flyTo(engine, TURNED_CAMERA);
     store.camera.value = { ...CAMERA, size: [200, 150], pixel_spacing: 2 * CAMERA.pixel_spacing };
     await answered();
@@ -99,7 +99,7 @@ describe('a flight', () => {
     },
   );
 
-  test('gives way to a later one', async () => {
+  test('ends if another flight begins', async () => {
     flyTo(engine, TURNED_CAMERA);
     const last = { ...CAMERA, pixel_spacing: 1 };
     flyTo(engine, last);
@@ -109,7 +109,7 @@ describe('a flight', () => {
     expect(store.camera.value).toEqual(last);
   });
 
-  test('is none where the engine refuses it, and the page says why', async () => {
+  test('does not begin if the engine rejects it, and the page says why', async () => {
     store.report.value = { volume: null, vessels: [], windows: null };
     answer = () => Promise.reject(new Failure('camera', 'size of the flight', 'two', 'one'));
     flyTo(engine, TURNED_CAMERA);

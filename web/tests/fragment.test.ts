@@ -63,7 +63,7 @@ afterEach(() => {
 
 const stateOfJson = (state: unknown) => stateOf(`#v1=${encodeURIComponent(JSON.stringify(state))}`);
 
-test('a view goes into the address and back', () => {
+test('a view can be written to the address and read back', () => {
   store.window_.value = [40, 400.5];
   store.method.value = 'mpcpr';
   store.layout.value = 'four';
@@ -102,14 +102,14 @@ test('the same part of the scene is shown in a window of another size', () => {
   expect(store.camera.value?.pixel_spacing).toBeCloseTo(0.25, 12);
 });
 
-test('the address holds no name and no value of the study', () => {
+test('the address contains no name and no voxel value of the study', () => {
   const text = decodeURIComponent(fragmentOf(currentState()));
   for (const secret of ['DOE', 'JANE', '1970', 'renal', 'aorta', '312']) {
     expect(text).not.toContain(secret);
   }
 });
 
-describe('what cannot be read is left out', () => {
+describe('invalid parts are ignored', () => {
   test.each([
     '',
     '#',
@@ -135,7 +135,7 @@ describe('what cannot be read is left out', () => {
     height: 300,
   };
 
-  test('a camera as it is written is read', () => {
+  test('a camera is read as it is written', () => {
     expect(stateOfJson({ camera })).toEqual({ camera });
   });
 
@@ -213,7 +213,7 @@ describe('what cannot be read is left out', () => {
     expect(store.settings.value).toEqual({});
   });
 
-  test('settings of the right kind stay beside others', () => {
+  test('valid settings are kept if others are invalid', () => {
     restore(stateOfJson({ settings: { step: 1, context: null, samples: 'many', slab: [5, 'max'] } }) ?? {});
     expect(store.settings.value).toEqual({ step: 1, context: null, slab: [5, 'max'] });
   });

@@ -8,7 +8,7 @@ import { CAMERA } from './helpers';
 const VIEW: View = { camera: CAMERA, method: 'csr', settings: { levels: 3 } };
 const other = (x: number): View => ({ ...VIEW, camera: { ...CAMERA, center: [x, 0, 0] } });
 
-/** Frames take `time(view)` ms; NaN fails at once, negative values fail after that time; stops immediately. */
+/** A frame takes `time(view)` ms. If the time is NaN, it fails at once; if negative, after that many ms. */
 class FakeEngine {
   readonly asked: View[] = [];
   underWay = 0;
@@ -81,7 +81,7 @@ afterEach(() => {
 });
 
 describe('at rest', () => {
-  test('a picture with all pixels follows, then one with samples, then nothing', async () => {
+  test('a picture in full resolution follows, then a supersampled one, then nothing', async () => {
     const { engine, loop } = loopOf(() => 20);
     loop.want(VIEW);
     await vi.advanceTimersByTimeAsync(10_000);
@@ -93,14 +93,14 @@ describe('at rest', () => {
     expect(vi.getTimerCount()).toBe(0);
   });
 
-  test('full resolution is there within 300 ms where it takes 100', async () => {
+  test('full resolution is shown within 300 ms if it takes 100 ms', async () => {
     const { loop } = loopOf(() => 100);
     loop.want(VIEW);
     await vi.advanceTimersByTimeAsync(300);
     expect(stages()).toContain('full');
   });
 
-  test('pictures that take long get no samples', async () => {
+  test('slow pictures are not supersampled', async () => {
     const { loop } = loopOf(() => 900);
     loop.want(VIEW);
     await vi.advanceTimersByTimeAsync(10_000);
@@ -108,7 +108,7 @@ describe('at rest', () => {
     expect(lasts()).toEqual([false, true]);
   });
 
-  test('a picture is not the last one where another view is wanted meanwhile', async () => {
+  test('a picture is not the last one if another view was requested meanwhile', async () => {
     const { loop } = loopOf(() => 900);
     loop.want(VIEW);
     await vi.advanceTimersByTimeAsync(100);
@@ -121,7 +121,7 @@ describe('at rest', () => {
     ]);
   });
 
-  test('a dense screen gets its own pixels, but no more than two along a side', async () => {
+  test('a high-resolution screen gets its own pixels, at most two per CSS pixel and side', async () => {
     Object.assign(window, { devicePixelRatio: 3 });
     const { engine, loop } = loopOf(() => 20);
     loop.want(VIEW);
@@ -134,8 +134,8 @@ describe('at rest', () => {
   });
 });
 
-describe('while something changes', () => {
-  test('one picture is under way at a time, and the latest view wins', async () => {
+describe('while the view moves', () => {
+  test('one picture is rendered at a time, and the latest view comes next', async () => {
     const { engine, loop } = loopOf(() => 30);
     loop.want(other(1));
     loop.want(other(2));
@@ -147,7 +147,7 @@ describe('while something changes', () => {
     expect(shown.at(-1)?.wanted).toEqual(other(3));
   });
 
-  test('the resolution adapts until a picture takes as long as it may', async () => {
+  test('the resolution adapts until a picture takes the wanted time', async () => {
     const { loop } = loopOf((view) => (400 * pixels(view)) / pixels(VIEW));
     for (let n = 0; n < 40; n++) {
       loop.want(other(n));
@@ -159,7 +159,7 @@ describe('while something changes', () => {
     expect(new Set(stages())).toEqual(new Set(['moving']));
   });
 
-  test('the resolution has a bound below, and comes back where there is time', async () => {
+  test('the resolution has a lower limit, and rises again if there is time', async () => {
     let slow = 4000;
     const { loop, engine } = loopOf(() => slow);
     for (let n = 0; n < 10; n++) {
@@ -175,7 +175,7 @@ describe('while something changes', () => {
     expect(lastMoving(engine).camera.size).toEqual([400, 300]);
   });
 
-  test('what was learnt of the resolution stays over a rest', async () => {
+  test('the adapted resolution is kept while the view rests', async () => {
     const { engine, loop } = loopOf((view) => (1600 * pixels(view)) / pixels(VIEW));
     for (let n = 0; n < 20; n++) {
       loop.want(other(n));
@@ -187,7 +187,7 @@ describe('while something changes', () => {
     expect(engine.time(lastMoving(engine))).toBeLessThan(80);
   });
 
-  test('a picture with all pixels is stopped for a new view', async () => {
+  test('a picture in full resolution is stopped for a new view', async () => {
     const { engine, loop } = loopOf(({ settings }) => (settings.context_preview ? 20 : 500));
     loop.want(other(1));
     await vi.advanceTimersByTimeAsync(200);
@@ -199,7 +199,7 @@ describe('while something changes', () => {
     expect(failures).toEqual([]);
   });
 
-  test('a picture while something changes is not stopped', async () => {
+  test('a picture of a moving view is not stopped', async () => {
     const { engine, loop } = loopOf(() => 50);
     loop.want(other(1));
     await vi.advanceTimersByTimeAsync(10);
@@ -208,8 +208,8 @@ describe('while something changes', () => {
   });
 });
 
-describe('a view that gives way', () => {
-  test('at rest is tried again after a pause that doubles each time', async () => {
+describe('a view that was stopped', () => {
+  test('at rest is rendered again after a pause that doubles each time', async () => {
     const { engine, loop } = loopOf(({ settings }) => (settings.context_preview ? 20 : 500));
     loop.want(VIEW);
     await vi.advanceTimersByTimeAsync(200);
@@ -228,7 +228,7 @@ describe('a view that gives way', () => {
     expect(failures).toEqual([]);
   });
 
-  test('while something changes is tried again at once, with fewer pixels', async () => {
+  test('in motion is rendered again at once, with fewer pixels', async () => {
     const { engine, loop } = loopOf((view) => (4000 * pixels(view)) / pixels(VIEW));
     loop.want(VIEW);
     await vi.advanceTimersByTimeAsync(100);
@@ -242,7 +242,7 @@ describe('a view that gives way', () => {
 });
 
 describe('failures', () => {
-  test('are told once, and the next view is tried again', async () => {
+  test('are reported once, and the next view is rendered', async () => {
     let isBroken = true;
     const { loop } = loopOf(() => (isBroken ? Number.NaN : 20));
     loop.want(VIEW);
@@ -255,7 +255,7 @@ describe('failures', () => {
   });
 });
 
-test('the first picture of a device may be slow: only the next one tells whether there is time for samples', async () => {
+test('the first picture of a device may be slow: only the next one decides about supersampling', async () => {
   const slow = { pictures: 1 };
   const { engine, loop } = loopOf((view) => {
     const isSlow = !view.settings.context_preview && slow.pictures > 0;
@@ -267,7 +267,7 @@ test('the first picture of a device may be slow: only the next one tells whether
   expect(stages()).toEqual(['moving', 'full']);
   for (const [pictures, expected] of [
     [1, ['moving', 'full', 'full', 'samples']],
-    // A persistently slow view is not redrawn repeatedly.
+    // If a view is always slow, it is rendered in full only twice.
     [9, ['moving', 'full', 'full']],
   ] as const) {
     shown = [];
@@ -291,8 +291,8 @@ test('nothing is shown after the end', async () => {
   expect(engine.asked).toHaveLength(1);
 });
 
-describe('after what draws was exchanged while a picture was under way', () => {
-  test('that picture is not shown, and the view is drawn anew', async () => {
+describe('after the device changed while a picture was rendered', () => {
+  test('that picture is not shown, and the view is rendered again', async () => {
     const { engine, loop } = loopOf(() => 50);
     loop.want(VIEW);
     await vi.advanceTimersByTimeAsync(20);
@@ -303,7 +303,7 @@ describe('after what draws was exchanged while a picture was under way', () => {
     expect(engine.most).toBe(1);
   });
 
-  test('its failure is not told', async () => {
+  test('its failure is not reported', async () => {
     let time = -50;
     const { loop } = loopOf(() => time);
     loop.want(VIEW);
@@ -315,7 +315,7 @@ describe('after what draws was exchanged while a picture was under way', () => {
     expect(stages()).toEqual(['moving', 'full', 'samples']);
   });
 
-  test('a failure after that is told', async () => {
+  test('a later failure is reported', async () => {
     const { loop } = loopOf(() => -50);
     loop.want(VIEW);
     await vi.advanceTimersByTimeAsync(20);

@@ -24,7 +24,7 @@ const vessel = (id: number, number: number) => ({
   doubt: null,
 });
 
-test('vessels keep all but the numbers of their lines; those whose lines the page does not hold are left out', async () => {
+test('vessels keep all but their line numbers; vessels whose lines are not loaded are dropped', async () => {
   const taken: unknown[] = [];
   const other = {
     ask: (name: string, message: unknown) => {

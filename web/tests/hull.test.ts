@@ -3,13 +3,13 @@ import { type Disc, hullPath, thinned } from '../src/views/hull';
 
 const disc = (x: number, y: number, radius: number): Disc => ({ at: [x, y], radius });
 
-/** Corners of the closed parts of a path; arcs contribute their ends. */
+/** Corners of a closed part of an SVG path; of an arc, its end. */
 function corners(part: string): readonly (readonly [number, number])[] {
   const ends = part.replaceAll(/A[\d.]+ [\d.]+ 0 1 1 /g, 'L');
   return [...ends.matchAll(/[ML](-?[\d.]+) (-?[\d.]+)/g)].map(([, x, y]) => [Number(x), Number(y)] as const);
 }
 
-/** Twice the signed area. */
+/** Twice the signed area of a polygon. */
 function turned(points: readonly (readonly [number, number])[]): number {
   const sum = (n: number) => {
     const [a, b] = [points[n] ?? [0, 0], points[(n + 1) % points.length] ?? [0, 0]];
@@ -18,13 +18,13 @@ function turned(points: readonly (readonly [number, number])[]): number {
   return points.reduce((all, _, n) => all + sum(n), 0);
 }
 
-test('points that lie on each other in the picture are one, and the last one stays', () => {
+test('of points at the same pixel only one is kept, and always the last one', () => {
   const discs = [disc(0, 0, 3), disc(0.5, 0, 3), disc(2.5, 0, 4), disc(3, 0, 5)];
   expect(thinned(discs)).toEqual([discs[0], discs[2], discs[3]]);
   expect(thinned([])).toEqual([]);
 });
 
-test('a hull is a circle around each point and a strip between two, each as wide as asked for', () => {
+test('a hull is a circle around each point and a strip between two points, widened as requested', () => {
   const parts = hullPath([disc(10, 20, 3), disc(10, 50, 5)], 2)
     .split('Z')
     .filter(Boolean);
@@ -38,16 +38,16 @@ test('a hull is a circle around each point and a strip between two, each as wide
   ]);
 });
 
-test('strips turn the same way whichever way the vessel runs, and as circles do', () => {
+test('strips have the same orientation as circles, whatever the direction of the vessel', () => {
   for (let n = 0; n < 12; n++) {
     const angle = (2 * Math.PI * n) / 12;
     const path = hullPath([disc(0, 0, 4), disc(30 * Math.cos(angle), 30 * Math.sin(angle), 4)], 0);
-    // With y downwards, an arc with sweep flag 1 has a positive area.
+    // Since y points downwards, an arc with sweep flag 1 encloses a positive area.
     expect(turned(corners(path.split('Z')[2] ?? ''))).toBeGreaterThan(0);
   }
 });
 
-test('two points at one place have no strip between them', () => {
+test('there is no strip between two points at the same position', () => {
   expect(
     hullPath([disc(1, 1, 2), disc(1, 1, 2)], 0)
       .split('Z')

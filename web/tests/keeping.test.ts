@@ -35,13 +35,13 @@ afterEach(() => {
 
 const later = () => vi.advanceTimersByTimeAsync(1500);
 
-test('without leave nothing is kept', async () => {
+test('nothing is kept without permission', async () => {
   change('add', withLines(document_.value, 1));
   await later();
   expect(held.size).toBe(0);
 });
 
-test('with leave a change is kept, and is offered after a reload; what is saved or discarded is kept no longer', async () => {
+test('with permission a change is kept and offered after a reload, until it is saved or discarded', async () => {
   isKeeping.value = true;
   change('add', withLines(document_.value, 1));
   await later();

@@ -1,4 +1,4 @@
-/** Unsaved work is not lost without a question. */
+/** The user is asked before unsaved work is lost. */
 import { beforeEach, expect, test } from 'vitest';
 import { EMPTY } from '../src/state/document';
 import { begin, change, document_, markSaved, undo } from '../src/state/history';
@@ -17,7 +17,7 @@ beforeEach(() => {
   gone = 0;
 });
 
-test('where nothing was edited, or the edits are undone, nothing is asked', async () => {
+test('nothing is asked if nothing was edited, or all edits are undone', async () => {
   await leave(go);
   change('add', more(1));
   undo();
@@ -37,7 +37,7 @@ test('vessels that were not saved are counted', async () => {
   expect(gone).toBe(1);
 });
 
-test('other changes are told of, as those since it was saved', async () => {
+test('the question mentions other changes too, such as those since the last save', async () => {
   change('add', more(8));
   markSaved(document_.value);
   await leave(go);
@@ -48,7 +48,7 @@ test('other changes are told of, as those since it was saved', async () => {
   expect(lossWords(EMPTY, document_.value)).toBe('Discard changes that were not saved?');
 });
 
-test('the browser asks before a page goes with what was not saved, and not where all is saved', () => {
+test('the browser asks before the page closes only if something is not saved', () => {
   const page = new EventTarget();
   guardLeaving(page as Window);
   const isAsked = () => {

@@ -1,16 +1,16 @@
-/** Which place line a drag grabs. */
+/** Which place a drag moves: the one whose line is nearest to the pointer. */
 import { expect, test, vi } from 'vitest';
 import { GRAB_DISTANCE_PX, nearestLine } from '../src/measure/line-grips';
 import type { VesselPlace } from '../src/measure/marks';
 
-// The page's engine needs a worker, which tests lack.
+// The real engine needs a worker, which these tests do not have.
 vi.mock('../src/client/shared', () => ({ engine: {} }));
 
 const place = (at: number): VesselPlace => ({ kind: 'place', slot: 0, at, isSuggestion: false });
-/** 10 pixels per mm, from pixel 5. */
+/** An axis with 10 pixels per mm that starts at pixel 5. */
 const AXIS = { low: 0, high: 60, start: 5, end: 605 };
 
-test('a line is taken within 22 pixels, of two the one that is nearer, and none from farther away', () => {
+test('a drag moves the nearest line within 22 pixels, and none that is farther away', () => {
   const places = [place(30), place(33)];
   expect(nearestLine(places, AXIS, 305 - GRAB_DISTANCE_PX)?.at).toBe(30);
   expect(nearestLine(places, AXIS, 305 - GRAB_DISTANCE_PX - 1)).toBeNull();

@@ -75,7 +75,7 @@ afterEach(() => {
   store.method.value = 'csr';
 });
 
-test('the settings tell which look was chosen', () => {
+test('the settings determine which look is shown as chosen', () => {
   expect(chosenLook.value).toBe('lumen');
   for (const chosen of [...LOOKS, ...LOOKS.toReversed()]) {
     chooseLook(chosen);
@@ -83,7 +83,7 @@ test('the settings tell which look was chosen', () => {
   }
 });
 
-test('how far a focus reaches is no other look; a slab of another thickness is none', () => {
+test('the size of a focus does not change the look; a slab of another thickness is no look', () => {
   chooseLook(FOCUS);
   setSetting('focus', [12, 6]);
   expect(chosenLook.value).toBe('focus');
@@ -91,7 +91,7 @@ test('how far a focus reaches is no other look; a slab of another thickness is n
   expect(chosenLook.value).toBeNull();
 });
 
-test('a look shows the cut surface, and keeps what no look chooses', () => {
+test('a look shows the cut surface, and keeps settings that no look contains', () => {
   store.method.value = 'cr';
   setSetting('levels', 3);
   chooseLook(MIP);
@@ -99,7 +99,7 @@ test('a look shows the cut surface, and keeps what no look chooses', () => {
   expect(store.settings.value).toEqual({ ...NONE, levels: 3, focus: [-1e6, 0], context: 'mip' });
 });
 
-test('without vessels only what cuts nothing is offered, and the context says which it is', () => {
+test('without vessels, only looks without a cut are offered, and the context determines the chosen one', () => {
   open(0);
   expect(LOOKS.filter(isOffered)).toEqual([BODY, MIP]);
   expect(chosenLook.value).toBe('body');
@@ -107,7 +107,7 @@ test('without vessels only what cuts nothing is offered, and the context says wh
   expect(chosenLook.value).toBe('mip');
 });
 
-test('lines are none, near vessels or all, and come back as they were', () => {
+test('lines are none, near vessels or all, and can be restored', () => {
   expect(lines.value).toBe('near');
   for (const [wanted, silhouettes, reach] of [
     ['all', true, null],
@@ -120,7 +120,7 @@ test('lines are none, near vessels or all, and come back as they were', () => {
   }
 });
 
-test('stents are read in the cut of the lumen and a window of their own, which undo takes back', () => {
+test('stents are shown in the lumen look and their own window, which can be undone', () => {
   const presets = [
     { name: 'auto', words: 'From the data', window: [200, 600] },
     { name: 'stent', words: 'Stent', window: [400, 1500] },
@@ -143,7 +143,7 @@ test('stents are read in the cut of the lumen and a window of their own, which u
   expect(mayHoldStents.value, 'an MRA holds nothing as bright as metal').toBe(false);
 });
 
-test('a region chooses look, slab and window, the latter by what the values stand for', () => {
+test('a region selects look, slab and window; the window depends on the unit of the values', () => {
   const presets = [
     { name: 'cta', words: 'CT angiography', window: [300, 900] },
     { name: 'mra', words: 'MR angiography', window: [2037, 1039] },

@@ -1,4 +1,4 @@
-/** Lumens under the pointer: the nearest first, and stepping by the wheel. */
+/** Of the lumens under the pointer the nearest is selected; the wheel steps to those behind. */
 import { beforeEach, expect, test } from 'vitest';
 import type { Asked } from '../src/core/asked';
 import type { PointedAt, PointedLumen, Vector } from '../src/core/messages';
@@ -25,7 +25,7 @@ beforeEach(() => {
   pointed.value = null;
 });
 
-test('the nearest lumen is meant, and steps go to those behind it and no farther', async () => {
+test('the nearest lumen is selected, and steps reach only those behind it', async () => {
   const engine = engineOf([NEAR, FAR]);
   expect(await lookForLumens(engine, ['turning', [3, 4]], ASKED)).toBe(NEAR);
   expect(meant.value).toBe(NEAR);
@@ -34,7 +34,7 @@ test('the nearest lumen is meant, and steps go to those behind it and no farther
   expect([stepLumen(-3), meant.value]).toEqual([true, NEAR]);
 });
 
-test('the lumen that was stepped to stays meant while it is under the pointer, and then the nearest one is', async () => {
+test('a selected lumen stays selected while it is under the pointer; then the nearest one is selected', async () => {
   const engine = engineOf([NEAR, FAR]);
   await lookForLumens(engine, ['turning', [3, 4]], ASKED);
   stepLumen(1);
@@ -44,7 +44,7 @@ test('the lumen that was stepped to stays meant while it is under the pointer, a
   expect(await lookForLumens(engineOf([NEAR, other]), ['turning', [9, 9]], ASKED)).toBe(NEAR);
 });
 
-test('where there is no lumen, or nothing is open, none is meant and nothing is stepped through', async () => {
+test('without a lumen, or without an open scan, none is selected and there are no steps', async () => {
   for (const engine of [engineOf([]), engineOf(null)]) {
     expect(await lookForLumens(engine, ['axial', [0, 0]], { ...ASKED, along: null })).toBeNull();
     expect([meant.value, stepLumen(1)]).toEqual([null, false]);
@@ -53,12 +53,12 @@ test('where there is no lumen, or nothing is open, none is meant and nothing is 
   expect(stepLumen(1)).toBe(false);
 });
 
-test('while tracing, the wheel with Alt steps, and the wheel alone does what it did', () => {
+test('while tracing, the wheel with Alt steps, and without Alt it acts as before', () => {
   expect(actionOf('tracing', 'wheel', null, 'Alt')).toBe('step');
   expect(actionOf('tracing', 'wheel', null, '')).toBeNull();
 });
 
-test('the ray of a pixel runs along the camera through every place that is seen at it', () => {
+test('the ray of a pixel runs along the view direction through every point seen at this pixel', () => {
   const volume = {
     size: [1, 1, 1],
     world_from_index: [],

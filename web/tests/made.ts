@@ -1,4 +1,4 @@
-/** Small test files, and ways to damage them. */
+/** Creates small test files, and damages them. */
 import { deflateRawSync, gzipSync } from 'node:zlib';
 import { BlobSource, type Source } from '../src/io/source';
 
@@ -6,7 +6,7 @@ export function file(path: string, bytes: Uint8Array | string): Source {
   return new BlobSource(path, new Blob([bytes as Uint8Array<ArrayBuffer>]));
 }
 
-/** A NIfTI-1 file of 16-bit numbers counting from 0, with a stated size. */
+/** A NIfTI-1 file of 16-bit numbers that count from 0; its header states the size `stated`. */
 export function nifti(size: readonly [number, number, number] = [7, 5, 3], stated = size): Buffer {
   const header = Buffer.from(new ArrayBuffer(352));
   header.writeInt32LE(348, 0);
@@ -69,7 +69,7 @@ function crc32(bytes: Uint8Array): number {
   return ~sum >>> 0;
 }
 
-/** A DICOM slice of 16-bit numbers, without preamble. */
+/** A DICOM slice of 16-bit numbers; the file has no preamble. */
 export function slice(changes: Readonly<Record<string, string | number>> = {}, z = 0): Buffer {
   const stated: Record<string, readonly [string, string | number]> = {
     '00080016': ['UI', '1.2.840.10008.5.1.4.1.1.2'],

@@ -1,4 +1,4 @@
-/** Profile axes, curves and flags, with the horizontal vessel on the same axis. */
+/** Axes, curves and flags of the diameter chart, and the vessel above it on the same axis. */
 import { describe, expect, test } from 'vitest';
 import { axisAlong, chartLayout, LEFT, RIGHT } from '../src/measure/chart-layout';
 import { bandPath, counted, isolated, linePath, spreadOf, stretches, topOf } from '../src/measure/curves';
@@ -11,18 +11,18 @@ import { madeProfile } from './measured';
 const AXIS = { low: 0, high: 60, start: 50, end: 650 };
 
 describe('an axis', () => {
-  test('goes from lengths to pixels and back', () => {
+  test('converts lengths to pixels and back', () => {
     expect(pixelAt(AXIS, 0)).toBe(50);
     expect(pixelAt(AXIS, 30)).toBe(350);
     expect(valueAt(AXIS, pixelAt(AXIS, 12.5))).toBeCloseTo(12.5, 12);
   });
 
-  test('ends where the vessel does', () => {
+  test('ends at the end of the vessel', () => {
     expect(valueAt(AXIS, -1000)).toBe(0);
     expect(valueAt(AXIS, 5000)).toBe(60);
   });
 
-  test('may go upwards', () => {
+  test('may point upwards', () => {
     const up = { low: 0, high: 10, start: 200, end: 20 };
     expect(pixelAt(up, 10)).toBe(20);
     expect(valueAt(up, 110)).toBeCloseTo(5, 12);
@@ -53,17 +53,17 @@ describe('curves', () => {
   ] as const;
   const places = [0, 1, 2, 3, 4];
 
-  test('are interrupted where nothing counts', () => {
+  test('are interrupted at sections that are left out', () => {
     expect(stretches([1, 2, null, 3, null])).toEqual([[0, 1], [3]]);
     expect(linePath(...axes, places, [1, 2, null, 3, 4])).toBe('M0.00 9.00L1.00 8.00M3.00 7.00L4.00 6.00');
   });
 
-  test('sections that stand alone are dots', () => {
+  test('single sections are dots', () => {
     expect(isolated([1, null, 2, null, null])).toEqual([0, 2]);
     expect(linePath(...axes, places, [1, null, 2, null, null])).toBe('');
   });
 
-  test('a band goes forth above and back below', () => {
+  test('a band runs forth along its upper edge and back along its lower edge', () => {
     const path = bandPath(...axes, places, [
       [1, 1, null, null, null],
       [2, 3, 4, null, null],
@@ -71,7 +71,7 @@ describe('curves', () => {
     expect(path).toBe('M0.00 8.00L1.00 7.00L1.00 9.00L0.00 9.00Z');
   });
 
-  test('the band is two standard deviations wide to both sides', () => {
+  test('the band extends two standard deviations to both sides', () => {
     const profile = madeProfile();
     const [low, high] = spreadOf(profile);
     expect(low[20]).toBeCloseTo(7.8, 12);
@@ -79,7 +79,7 @@ describe('curves', () => {
     expect(low[118]).toBeNull();
   });
 
-  test('the largest diameter that counts has room', () => {
+  test('the largest valid diameter fits in the chart', () => {
     expect(topOf(madeProfile())).toBeCloseTo(1.12 * 8.8, 12);
     const none = { ...madeProfile(), counts: madeProfile().counts.map(() => false) };
     expect(topOf(none)).toBeCloseTo(1.12 * 8.8, 12);
@@ -89,11 +89,11 @@ describe('curves', () => {
 });
 
 describe('flags', () => {
-  test('each has a row in the order of Python, where it is set', () => {
+  test('each flag that occurs has a row, in the order of the Python package', () => {
     expect(flagsIn(madeProfile()).map(({ word }) => word)).toEqual(['branch', 'calcium']);
   });
 
-  test('runs reach half a step beyond their sections', () => {
+  test('runs extend half a section distance beyond their sections', () => {
     expect(runs(madeProfile(), 'calcium')).toEqual([[18.75, 21.25]]);
     expect(runs(madeProfile(), 'branch')).toEqual([[50.25, 60.25]]);
     expect(runs(madeProfile(), 'metal')).toEqual([]);
@@ -109,17 +109,17 @@ describe('flags', () => {
   });
 });
 
-describe('the words of flags', () => {
+describe('the labels of flags', () => {
   const profile = madeProfile();
   const words = profile.flag_table.map(({ word }) => word);
   const flagged = { ...profile, flags: profile.flags.map(() => words) };
 
-  test('stand beside rows that have room for them', () => {
+  test('stand beside the rows if these are high enough', () => {
     const { row, wordRow } = chartLayout(flagged, [900, 500]);
     expect(wordRow).toBe(row);
   });
 
-  test('spread beside the curve where rows are lower than letters', () => {
+  test('extend upwards beside the curve if rows are lower than letters', () => {
     const { row, wordRow, bottom, y } = chartLayout(flagged, [900, 140]);
     expect(row).toBeLessThan(9);
     expect(wordRow).toBe(11);
@@ -127,7 +127,7 @@ describe('the words of flags', () => {
   });
 });
 
-describe('the lying vessel', () => {
+describe('the horizontal vessel', () => {
   const size = [900, 260] as const;
 
   test('has the axis of the chart', () => {
@@ -135,10 +135,10 @@ describe('the lying vessel', () => {
     expect(axisAlong(60, 900)).toEqual({ low: 0, high: 60, start: LEFT, end: 900 - RIGHT });
   });
 
-  test('the middle of each column is at the arc length of its row in the CPR', () => {
+  test('the centre of each column is at the arc length of its row in the CPR', () => {
     const x = axisAlong(60, 900);
     const lying = lyingIn(x, { height: 150, density: 2, fitting: 22 });
-    // The engine's layout: a row every `spacing` mm, starting at the first point.
+    // The picture of the engine has a row every `spacing` mm, starting at the first point of the vessel.
     const columns = Math.floor(60 / lying.spacing + 1e-9) + 1;
     const box = lyingBox(x, lying, [columns, 41]);
     const pixel = box.width / columns;
@@ -156,7 +156,7 @@ describe('the lying vessel', () => {
     expect(short.height).toBe(150);
   });
 
-  test('its first row is its first column, its last column its first row', () => {
+  test('the first row of the CPR becomes the first column, its last column the first row', () => {
     const pixels = new Uint32Array([1, 2, 3, 4, 5, 6]);
     const picture = { size: [2, 3] as const, bytes: new Uint8ClampedArray(pixels.buffer) };
     const { size: turned, bytes } = lyingPicture(picture);
@@ -164,7 +164,7 @@ describe('the lying vessel', () => {
     expect([...new Uint32Array(bytes.buffer)]).toEqual([2, 4, 6, 1, 3, 5]);
   });
 
-  test('pictures of sections fit the lumens that count', () => {
+  test('pictures of sections fit all valid lumens', () => {
     expect(fittingSide(madeProfile())).toBe(22);
     const nothing = madeProfile().diameter_max.map(() => null);
     expect(fittingSide({ ...madeProfile(), diameter_max: nothing })).toBe(30);

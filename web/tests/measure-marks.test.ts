@@ -1,4 +1,4 @@
-/** Marks of a user, and suggestions. */
+/** Places that the user marks, and places that Lumencut suggests. */
 import { describe, expect, test } from 'vitest';
 import type { Pair, Vector } from '../src/core/messages';
 import {
@@ -43,13 +43,13 @@ describe('noted diameters', () => {
   const given = marks({ diameters: [12, 50] });
   const diameters = found(given).filter(({ kind }) => kind === 'diameter');
 
-  test('are places of their own, which grade nothing', () => {
+  test('are separate places, which do not affect the percentage', () => {
     expect(short(diameters)).toEqual(['diameter 0 12', 'diameter 1 50']);
     expect(comparedIn(diameters)).toBeNull();
     expect(diameters.map(placeName)).toEqual(['noted diameter', 'noted diameter']);
   });
 
-  test('move and go alone, and one place is noted once', () => {
+  test('are moved and removed one by one, and no place is noted twice', () => {
     const second = place(given, 'diameter', 1);
     const after = moved(profile, given, second, 40);
     expect(after).toEqual(marks({ diameters: [12, 40] }));
@@ -61,20 +61,20 @@ describe('noted diameters', () => {
 });
 
 describe('places', () => {
-  test('a reference alone is shown where no narrowest place is known', () => {
+  test('a reference is shown even if no narrowest place is known', () => {
     const alone = placesOf({ ...profile, narrowest: null }, marks({ references: [40] }), NOTHING_SUGGESTED);
     expect(short(alone)).toEqual(['reference 0 40']);
   });
 
-  test('all are suggestions while nothing is marked', () => {
+  test('all places are suggestions while nothing is marked', () => {
     expect(short(found(marks({})))).toEqual(['place 0 30?', 'reference 0 15?', 'reference 1 45?']);
   });
 
-  test('a vessel of which no section counts has none', () => {
+  test('a vessel without valid sections has no places', () => {
     expect(placesOf({ ...profile, narrowest: null }, marks({}), NOTHING_SUGGESTED)).toEqual([]);
   });
 
-  test('a reference stands on its side of the stenosis, and the other side is still suggested', () => {
+  test('if one reference is marked, the one on the other side of the stenosis is still suggested', () => {
     expect(short(found(marks({ at: 30, references: [40] }), [{ at: 15, diameter: 8 }, null]))).toEqual([
       'place 0 30',
       'reference 0 15?',
@@ -84,7 +84,7 @@ describe('places', () => {
     expect(referenceSlots(marks({ references: [50, 40] }), 30)).toEqual([40, 50]);
   });
 
-  test('two references on one side are both called by that side', () => {
+  test('two references on one side are both named after that side', () => {
     const names = (references: number[]) =>
       found(marks({ at: 30, references }))
         .filter(({ kind }) => kind === 'reference')
@@ -93,7 +93,7 @@ describe('places', () => {
     expect(names([10, 50])).toEqual(['reference before', 'reference after']);
   });
 
-  test('with two references nothing more is suggested', () => {
+  test('with two marked references, no reference is suggested', () => {
     expect(short(found(marks({ at: 30, references: [10, 50] })))).toEqual([
       'place 0 30',
       'reference 0 10',
@@ -102,7 +102,7 @@ describe('places', () => {
   });
 });
 
-test('what is compared is the place with its references, marked or suggested', () => {
+test('the stenosis is compared with its references, whether marked or suggested', () => {
   const compared = comparedIn(found(marks({ references: [40], stretch: [1, 5] })));
   expect(compared?.at).toBe(30);
   expect(compared?.references.map(({ at }) => at)).toEqual([15, 40]);
@@ -110,21 +110,21 @@ test('what is compared is the place with its references, marked or suggested', (
 });
 
 describe('moving', () => {
-  test('a suggestion that is moved becomes a mark, and nothing else does', () => {
+  test('only a suggestion that is moved becomes a mark', () => {
     const given = marks({});
     const after = moved(profile, given, place(given, 'reference', 1), 42);
     expect(after).toEqual(marks({ references: [42] }));
     expect(moved(profile, given, place(given, 'place'), 28)).toEqual(marks({ at: 28 }));
   });
 
-  test('references stay on their side, and both in order', () => {
+  test('two references stay on their sides and in order', () => {
     const given = marks({ at: 30, references: [15, 45] });
     expect(moved(profile, given, place(given, 'reference', 0), 50).references).toEqual([30, 45]);
     expect(moved(profile, given, place(given, 'reference', 1), 3).references).toEqual([15, 30]);
     expect(moved(profile, given, place(given, 'reference', 1), 1000).references).toEqual([15, 60]);
   });
 
-  test('a single reference passes the stenosis, and is the one on the other side then', () => {
+  test('a single reference may pass the stenosis, and then belongs to the other side', () => {
     for (const given of [marks({}), marks({ references: [45] }), marks({ at: 30, references: [45] })]) {
       const one = place(given, 'reference', 1);
       for (const [to, slot] of [
@@ -141,7 +141,7 @@ describe('moving', () => {
     }
   });
 
-  test('a reference that lies exactly at the stenosis is kept from passing another one', () => {
+  test('a reference exactly at the stenosis cannot pass the other reference', () => {
     const given = marks({ at: 30, references: [15, 30] });
     const one = place(given, 'reference', 1);
     const after = moved(profile, given, one, 20);
@@ -149,7 +149,7 @@ describe('moving', () => {
     expect(placeAfter(profile, given, one, after)).toMatchObject({ slot: 1, at: 30 });
   });
 
-  test('the stenosis passes its references', () => {
+  test('the stenosis may pass its references', () => {
     const given = marks({ at: 30, references: [15, 45] });
     const main = place(given, 'place');
     for (const to of [5, 15, 45, 55]) {
@@ -160,13 +160,13 @@ describe('moving', () => {
     expect(moved(profile, marks({}), place(marks({}), 'place'), -4).at).toBe(0);
   });
 
-  test('a reference that the stenosis has passed is the one on the other side', () => {
+  test('a reference that the stenosis has passed belongs to the other side', () => {
     const given = marks({ at: 30, references: [45] });
     const after = moved(profile, given, place(given, 'place'), 50);
     expect(short(found(after, NOTHING_SUGGESTED))).toEqual(['place 0 50', 'reference 0 45']);
   });
 
-  test('two references of a file that lie on one side can both be moved', () => {
+  test('two references from a file can both be moved if they lie on one side', () => {
     const given = marks({ at: 10, references: [20, 40] });
     expect(moved(profile, given, place(given, 'reference', 0), 25).references).toEqual([25, 40]);
   });
@@ -178,13 +178,13 @@ describe('moving', () => {
   });
 });
 
-describe('taking and removing', () => {
-  test('all suggestions are taken at once', () => {
+describe('confirming and removing', () => {
+  test('all suggestions are confirmed at once', () => {
     const after = allConfirmed(profile, marks({}), SUGGESTED);
     expect(after).toEqual(marks({ at: 30, references: [15, 45] }));
   });
 
-  test('what is taken stands where it was shown, also beside references that lie on one side', () => {
+  test('a confirmed place stays where it was shown, even if both references lie on one side', () => {
     for (const references of [[10, 20], [35, 50], [20], [40]]) {
       const given = marks({ references });
       const dashed = found(given).filter(({ isSuggestion }) => isSuggestion);
@@ -196,14 +196,14 @@ describe('taking and removing', () => {
     }
   });
 
-  test('a mark that is removed is a suggestion again; a suggestion stays', () => {
+  test('a removed mark is suggested again; a suggestion cannot be removed', () => {
     const given = marks({ at: 30, references: [15, 45] });
     expect(removed(given, place(given, 'reference', 0)).references).toEqual([45]);
     expect(removed(given, place(given, 'place')).at).toBeNull();
     expect(removed(marks({}), place(marks({}), 'place'))).toEqual(marks({}));
   });
 
-  test('where the first stretch goes the second one takes its place', () => {
+  test('if the first stretch is removed, the second one becomes the first', () => {
     const given = marks({ stretch: [1, 5], secondStretch: [9, 20] });
     expect(removed(given, place(given, 'stretch', 1))).toEqual(marks({ stretch: [9, 20] }));
     expect(removed(given, place(given, 'secondStretch'))).toEqual(marks({ stretch: [1, 5] }));
@@ -217,25 +217,25 @@ describe('taking and removing', () => {
 });
 
 describe('sections', () => {
-  test('the nearest one counts, of two the first', () => {
+  test('the nearest section is found; of two equally near, the first', () => {
     expect(snapped(profile, 12.3)).toBe(12.5);
     expect(snapped(profile, 12.25)).toBe(12);
     expect(snapped(profile, 99)).toBe(60);
   });
 
-  test('between two sections the middle lies between their middles', () => {
+  test('a centre between two sections is interpolated', () => {
     expect(centerAt(profile, 12.2)).toEqual([0, 0, 12.2]);
     expect(centerAt(profile, 0)).toEqual([0, 0, 0]);
     expect(centerAt(profile, 70)).toEqual([0, 0, 60]);
   });
 
-  test('what is seen nearest to the pointer is found', () => {
+  test('the section seen nearest to the pointer is found', () => {
     const seen = ([, , z]: Vector): Pair => [10, 4 * z];
     expect(seenNearest(profile, seen, [17, 81], 5)).toBe(20);
   });
 
-  test('where the vessel crosses itself the place stays on its side of the loop', () => {
-    // Seen along a bend: 20 mm and 40 mm share a pixel.
+  test('if the vessel crosses itself in the view, the place stays on its side of the loop', () => {
+    // The view direction is such that the places at 20 mm and 40 mm lie on the same pixel.
     const seen = ([, , z]: Vector): Pair => [200 - 10 * Math.abs(z - 30), 0];
     expect(seenNearest(profile, seen, [100, 2], 23)).toBe(20);
     expect(seenNearest(profile, seen, [100, 2], 37)).toBe(40);
@@ -254,7 +254,7 @@ describe('the document', () => {
   });
   const before = { ...EMPTY, vessels: [vessel(4, 9), vessel(5, 7)] };
 
-  test('keeps marks by the ids of vessels, which stay when their lines change', () => {
+  test('keeps marks by vessel ids, which stay the same when lines change', () => {
     const after = withMarks(before, 9, marks({ at: 3 }));
     expect(after.marks).toEqual({ 4: marks({ at: 3 }) });
     expect(marksOf(after, 9).at).toBe(3);
@@ -263,13 +263,13 @@ describe('the document', () => {
     expect(marksOf(edited, 12).at).toBe(3);
   });
 
-  test('stays as it is where no vessel has the line', () => {
+  test('stays the same if no vessel has the line', () => {
     expect(withMarks(before, 12345, marks({ at: 5 }))).toBe(before);
   });
 });
 
-describe('what is marked at the section', () => {
-  test('a reference comes to one on the other side, and takes the place of one on its own', () => {
+describe('marks at the section', () => {
+  test('a new reference replaces one on its side of the stenosis, but not one on the other side', () => {
     const both = marks({ at: 30, references: [15, 45] });
     expect(withReference(profile, marks({ at: 30, references: [15] }), 45).references).toEqual([15, 45]);
     expect(withReference(profile, marks({ at: 30, references: [15] }), 15).references).toEqual([15]);
@@ -278,14 +278,14 @@ describe('what is marked at the section', () => {
     expect(withReference(profile, both, 10).references).toEqual([10, 45]);
   });
 
-  test('a stretch lies between two places in either order, is no shorter than 1 mm, and ends within the vessel', () => {
+  test('a stretch lies between two places in any order, is at least 1 mm long, and lies within the vessel', () => {
     expect(withStretch(profile, marks({}), 40, 12).stretch).toEqual([12, 40]);
     expect(withStretch(profile, marks({}), 20, 20).stretch).toEqual([20, 21]);
     const length = profile.arc_length.at(-1) ?? 0;
     expect(withStretch(profile, marks({}), length, length).stretch).toEqual([length - 1, length]);
   });
 
-  test('a second stretch leaves the first one as it is', () => {
+  test('a second stretch does not change the first one', () => {
     const after = withStretch(profile, marks({ stretch: [5, 9] }), 12, 40);
     expect([after.stretch, after.secondStretch]).toEqual([
       [5, 9],

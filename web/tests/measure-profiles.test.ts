@@ -1,4 +1,4 @@
-/** Profiles are measured once, cached by line, and can be stopped. */
+/** A diameter profile is measured once and cached by line; measuring can be stopped. */
 import { beforeEach, expect, test } from 'vitest';
 import type { Asked, Message } from '../src/core/asked';
 import { Failure } from '../src/core/failure';
@@ -17,7 +17,7 @@ import {
 import * as store from '../src/state/store';
 import { madeProfile } from './measured';
 
-/** Measures on command, and records requests. */
+/** A fake engine that measures only when the test says so, and records requests. */
 class Fake {
   readonly asked: [number, number | null][] = [];
   answer: (profile: Profile) => void = () => undefined;
@@ -45,7 +45,7 @@ beforeEach(() => {
 test('a line is measured once', async () => {
   const first = measure(measuring, 3);
   await measure(measuring, 3);
-  expect(store.progress.value?.words).toBe('measuring the vessel');
+  expect(store.progress.value?.words).toBe('Measuring the vessel');
   fake.answer(madeProfile());
   await first;
   await measure(measuring, 3);
@@ -54,7 +54,7 @@ test('a line is measured once', async () => {
   expect(store.progress.value).toBeNull();
 });
 
-test('why a line cannot be measured is kept too', async () => {
+test('the reason why a line cannot be measured is cached too', async () => {
   const asked = measure(measuring, 3);
   fake.refuse(new Failure('measuring', 'vessel', 'nothing', 'lumen'));
   await asked;
@@ -63,7 +63,7 @@ test('why a line cannot be measured is kept too', async () => {
   expect(fake.asked).toHaveLength(1);
 });
 
-test('what was stopped is measured only when it is asked for again', async () => {
+test('after a stop, a line is measured only on request', async () => {
   const asked = measure(measuring, 3);
   stopMeasuring();
   expect([beingMeasured.value, stopped.value]).toEqual([null, 3]);
@@ -82,7 +82,7 @@ test('a stop while nothing is measured does nothing', () => {
   expect(stopped.value).toBeNull();
 });
 
-test('an answer of another study is not kept', async () => {
+test('an answer about another study is not cached', async () => {
   const asked = measure(measuring, 3);
   forgetProfiles();
   fake.answer(madeProfile());
@@ -90,7 +90,7 @@ test('an answer of another study is not kept', async () => {
   expect(profiles.value.size).toBe(0);
 });
 
-test('with another width all is measured again', async () => {
+test('with another FWHM, all vessels are measured again', async () => {
   const asked = measure(measuring, 3);
   fake.answer(madeProfile());
   await asked;

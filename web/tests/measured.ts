@@ -2,7 +2,7 @@
 import type { Profile, Vector } from '../src/core/messages';
 import { NO_MARKS, type VesselMarks } from '../src/state/document';
 
-/** Sections every 0.5 mm; 8 mm wide, 4 mm in the middle; the first 1 mm is not measured. */
+/** A profile with sections every 0.5 mm: diameter 8 mm, in the middle 4 mm. The first 1 mm is not measured. */
 export function madeProfile(length = 60): Profile {
   const places = Array.from({ length: 2 * length + 1 }, (_, n) => n / 2);
   const width = (at: number) => (Math.abs(at - length / 2) < 4 ? 4 : 8);

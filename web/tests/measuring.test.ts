@@ -1,4 +1,4 @@
-/** The page measures the same as the Python package (`measured.py`). */
+/** The page measures the same as the Python package, whose results `measured.py` writes. */
 import { spawnSync } from 'node:child_process';
 import { existsSync } from 'node:fs';
 import { join } from 'node:path';
@@ -8,7 +8,7 @@ import type { MeasuredVessel, Pair, Profile } from '../src/core/messages';
 import { NO_MARKS } from '../src/state/document';
 import { opened } from './traced';
 
-/** Rounding of sums and sines differs between compilers: relative, or in mm. */
+/** Allowed difference, relative or in mm, since compilers round sums and sines differently. */
 const ROUNDING = 1e-9;
 
 interface Truth {
@@ -33,7 +33,7 @@ function truth(phantom: string): Truth {
   return JSON.parse(done.stdout);
 }
 
-/** Where two JSON values differ by more than rounding; empty if nowhere. */
+/** The first place where two JSON values differ by more than `ROUNDING`; empty if they agree. */
 function apart(found: unknown, expected: unknown, path = ''): string {
   if (typeof found === 'number' && typeof expected === 'number') {
     const most = ROUNDING * Math.max(1, Math.abs(expected));
@@ -71,7 +71,7 @@ async function answers(engine: Asked, line: number, length: number, { at, refere
     at: graded?.at,
     references: graded?.references.map((spot) => spot.at),
     percent: graded?.percent,
-    // Percentage and doubts are one line in Python.
+    // The Python package writes percentage and doubts as one line.
     words: [graded?.words, graded?.doubts.join(' ')].filter(Boolean).join('. '),
     doubts: await engine.ask('doubts', { line, compared: { at, references, method: 'area' } }),
     suggested: spots.map((spot) => spot && { arc_length: spot.at, diameter: spot.diameter }),
@@ -111,14 +111,14 @@ async function reported(engine: Asked, vessel: MeasuredVessel, length: number): 
   });
 }
 
-/** Text of a report, without the page's view and the date. */
+/** The text of a report, without the picture of the view and the date. */
 function textOf(report: string): string[] {
   const body = report.slice(report.indexOf('<body>'));
   const words = body.split(/<[^>]*>/).map((text) => text.replace('; view CSR', '').trim());
   return words.filter((text) => text !== '' && text !== 'Saved on a day' && !text.startsWith('CSR of'));
 }
 
-test('numbers that differ are told', () => {
+test('different numbers are detected', () => {
   const same = { a: [1, null], b: 'x' };
   expect(apart(same, { a: [1 + 1e-12, null], b: 'x' })).toBe('');
   expect(apart(same, { a: [1 + 1e-6, null], b: 'x' })).toBe('/a/0: 1, not 1.000001');

@@ -1,4 +1,4 @@
-/** Every mend is worded for the page, without Python terms. */
+/** The page has a text for every remedy, without names of Python arguments. */
 import { readdirSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { expect, test } from 'vitest';
@@ -12,7 +12,7 @@ const VALUES: Partial<Record<MendName, readonly string[]>> = {
   unit: ['cm', 'dm'],
   phase: ['0', '400'],
 };
-/** A Python argument, such as `fill_gaps=True`, `coordinates=` or `window`. */
+/** Matches the name of a Python argument, such as `fill_gaps=True`, `coordinates=` or `window`. */
 const PYTHON = /\w=|`\w+_\w+`|=True/;
 
 test.each(MEND_NAMES)('%s is worded by the page', (name) => {
@@ -27,14 +27,14 @@ test.each(MEND_NAMES)('%s is worded by the page', (name) => {
   }
 });
 
-test('what can be chosen among is named', () => {
+test('the choices are named', () => {
   const words = (name: MendName) => mendWords({ name, values: VALUES[name] ?? [] });
   expect(words('coordinates')).toContain('LPS or RAS');
   expect(words('unit')).toContain('cm or dm');
   expect(words('reading')).toContain('LPS in cm or RAS in m');
 });
 
-test('no text of the page names an argument of Python, and none is read for words', () => {
+test('no text of the page names a Python argument, and no code searches error texts for words', () => {
   const folder = join(import.meta.dirname, '../src');
   const files = readdirSync(folder, { recursive: true, encoding: 'utf8' });
   const sources = files.filter((name) => /\.tsx?$/.test(name) && !name.startsWith('core/pkg'));

@@ -1,4 +1,4 @@
-/** Method names agree with the engine. */
+/** The names of the methods in the page are those of the engine. */
 import { spawnSync } from 'node:child_process';
 import { join } from 'node:path';
 import { expect, test } from 'vitest';
@@ -10,7 +10,7 @@ from lumencut import _lumencut
 print(json.dumps([_lumencut.VIEW_METHODS, _lumencut.STENOSIS_METHODS]))
 `;
 
-test('methods are called as the engine calls them', () => {
+test('methods have the names that the engine uses', () => {
   const python = join(import.meta.dirname, '../../.venv/bin/python');
   const { stdout, stderr } = spawnSync(python, ['-c', TABLES], { encoding: 'utf-8' });
   expect(stderr).toBe('');

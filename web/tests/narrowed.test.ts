@@ -27,14 +27,14 @@ describe.each([
   ['uint32', Uint32Array.of(0, 1, 65_535, 2 ** 24, 2 ** 32 - 1)],
   ['float64', Float64Array.of(-0.1, 1e-3, 3071.25, Number.NaN, 1e300)],
 ] as const)('%s', (name, numbers) => {
-  test('becomes float32, rounded to the nearest', () => {
+  test('becomes float32, rounded to the nearest value', () => {
     const { dtype, bytesPerVoxel, narrow } = narrowed(name);
     expect([dtype, bytesPerVoxel]).toEqual(['float32', numbers.BYTES_PER_ELEMENT]);
     const found = new Float32Array(narrow(bytesOf(numbers)).buffer as ArrayBuffer);
     expect([...found]).toEqual([...numbers].map(Math.fround));
   });
 
-  test('is read at any place of a larger piece', () => {
+  test('is converted at any offset in a larger piece', () => {
     const raw = bytesOf(numbers);
     const odd = new Uint8Array(raw.length + 3);
     odd.set(raw, 3);

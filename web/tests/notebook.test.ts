@@ -1,4 +1,4 @@
-/** Requests of the notebook page to the kernel: `asking.js` of the Python package. */
+/** Tests of `asking.js` in the Python package, which sends requests from the notebook page to the kernel. */
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
@@ -43,8 +43,8 @@ beforeEach(() => {
 });
 afterEach(() => vi.useRealTimers());
 
-describe('what a notebook asks its kernel for', () => {
-  it('has one request under way, and adds up what comes meanwhile', () => {
+describe('requests of a notebook to its kernel', () => {
+  it('one request runs at a time, and later steps are summed', () => {
     asker.ask(['rotate', 1, 2]);
     asker.ask(['rotate', 10, 20]);
     asker.ask(['rotate', 5, 5]);
@@ -63,7 +63,7 @@ describe('what a notebook asks its kernel for', () => {
     ]);
   });
 
-  it('keeps the order of steps of several kinds, and each click', () => {
+  it('steps of several kinds keep their order, and no click is lost', () => {
     asker.ask(['begin']);
     for (const step of [
       ['pan', 1, 1],
@@ -78,7 +78,7 @@ describe('what a notebook asks its kernel for', () => {
     expect(last().steps.map(([name]) => name)).toEqual(['pan', 'zoom', 'pan', 'click', 'click']);
   });
 
-  it('asks for the picture at rest once nothing moves any more', () => {
+  it('the picture at rest is requested once nothing moves', () => {
     asker.ask(['rotate', 1, 2]);
     expect(last().moving).toBe(true);
     asker.answered(last().id);
@@ -94,7 +94,7 @@ describe('what a notebook asks its kernel for', () => {
     expect(told).toEqual([]);
   });
 
-  it('says that the kernel is busy, and what to do where it does not answer at all', () => {
+  it('the page says that the kernel is busy, and what to do if it does not answer', () => {
     asker.ask(['rotate', 1, 2]);
     vi.advanceTimersByTime(1499);
     expect(told).toEqual([]);
@@ -103,41 +103,12 @@ describe('what a notebook asks its kernel for', () => {
     vi.advanceTimersByTime(8500);
     expect(told.at(-1)).toContain('run the cell again');
     expect(told).toHaveLength(2);
-    // A late answer is shown, and a lost one blocks nothing.
+    // An answer that arrives late is shown, and one that is lost blocks nothing.
     expect(asker.answered(last().id)).toBeNull();
     asker.ask(['rotate', 1, 2]);
     expect(sent).toHaveLength(2);
     asker.ask(['rotate', 3, 4]);
     asker.answered(last().id);
     expect(last().steps).toEqual([['rotate', 3, 4]]);
-  });
-});
-
-describe('gestures of a notebook', () => {
-  function constant(file: string, name: string): number {
-    const text = readFileSync(join(import.meta.dirname, file), 'utf-8');
-    const found = new RegExp(`^(?:export const |const |_)?${name} = ([\\d.e-]+)`, 'm').exec(text);
-    if (!found) {
-      throw new Error(`${file} has no ${name}`);
-    }
-    return Number(found[1]);
-  }
-  const front = '../../python/lumencut/notebook/front/pointers.js';
-  const python = '../../python/lumencut/notebook/gestures.py';
-
-  it.each([
-    [
-      '../src/input/pointer.ts',
-      front,
-      ['DRAG_FROM', 'DOUBLE_WITHIN', 'DOUBLE_NEAR', 'ZOOM_PER_WHEEL', 'MOST_WHEEL'],
-    ],
-    ['../src/input/pointer.ts', front, ['LINE']],
-    ['../src/input/wheel.ts', front, ['NOTCH_FROM', 'NOTCH']],
-    ['../src/views/TurningView.tsx', front, ['KEY_STEP']],
-    ['../src/state/actions.ts', python, ['WINDOW_PER_PIXEL', 'NARROWEST']],
-  ])('are as large as in the viewer (%s)', (viewer, notebook, names) => {
-    expect(names.map((name) => constant(notebook, name))).toEqual(
-      names.map((name) => constant(viewer, name)),
-    );
   });
 });

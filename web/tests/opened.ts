@@ -1,4 +1,4 @@
-/** Opens files with the page's readers, into plain memory. */
+/** Opens files with the readers of the page, and keeps the voxels in memory. */
 import { readdirSync, readFileSync, statSync } from 'node:fs';
 import { join, relative } from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -60,7 +60,7 @@ export interface Result {
   readonly failure: Failure | null;
 }
 
-// The page fetches decoders from its server; here they are files.
+// The page fetches the decoders from its server; tests read them from files.
 vi.stubGlobal('fetch', async (address: string) => {
   return new Response(readFileSync(address.replace(/^\/node_modules/, modules)));
 });
@@ -78,7 +78,7 @@ export function below(folder: string): Source[] {
   return files.map((path) => sourceOf(path, relative(join(folder, '..'), path)));
 }
 
-/** Opens sources as the page does; they may name `others`. */
+/** Opens files as the page does; they may refer to the files in `others`. */
 export async function openSources(
   sources: readonly Source[],
   { others = sources, wanted = {}, signal = new AbortController().signal }: Options = {},

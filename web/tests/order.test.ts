@@ -1,9 +1,9 @@
-/** The order of tasks in `Latest` and `Queue`. */
+/** Tests of the order in which `Latest` and `Queue` run tasks. */
 import { describe, expect, test } from 'vitest';
 import { Latest } from '../src/core/latest';
 import { Queue } from '../src/worker/queue';
 
-/** A task that ends on command. */
+/** A task that ends when the test says so. */
 function held(name: string, log: string[]) {
   let release: () => void = () => undefined;
   const ended = new Promise<void>((resolve) => {
@@ -19,7 +19,7 @@ function held(name: string, log: string[]) {
 const soon = () => new Promise((resolve) => setTimeout(resolve, 0));
 
 describe('Latest', () => {
-  test('of what comes meanwhile only the latest runs', async () => {
+  test('of tasks that arrive meanwhile, only the latest runs', async () => {
     const [latest, log] = [new Latest(), [] as string[]];
     const [a, b, c] = [held('a', log), held('b', log), held('c', log)];
     latest.run(a.work);
@@ -38,7 +38,7 @@ describe('Latest', () => {
 });
 
 describe('Queue', () => {
-  test('work runs one after the other, in order', async () => {
+  test('tasks run one after the other, in order', async () => {
     const [queue, log] = [new Queue(), [] as string[]];
     const [a, b] = [held('a', log), held('b', log)];
     const done = [queue.run(a.work), queue.run(b.work), queue.run(() => 3)];
@@ -52,7 +52,7 @@ describe('Queue', () => {
     expect(log).toEqual(['a', 'b']);
   });
 
-  test('work that fails tells so and holds nothing up', async () => {
+  test('a task that fails reports it and does not block later tasks', async () => {
     const queue = new Queue();
     const failed = queue.run(() => {
       throw new Error('no');

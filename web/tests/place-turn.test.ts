@@ -20,7 +20,7 @@ import { tool } from '../src/state/tool';
 import { CAMERA, expectNear } from './helpers';
 
 const FIRST: Camera = { ...CAMERA, center: [5, 6, 7], pixel_spacing: 0.1 };
-/** 10 mm, 1 mm less every 10°, down to 2 mm at 80° and 90°; null at 100°. */
+/** Diameters per degree: 10 mm at 0°, 1 mm less every 10°, 2 mm at 80° and 90°; null at 100°. */
 const DIAMETERS = Array.from({ length: 180 }, (_, n) =>
   n === 100 ? null : 10 - Math.floor(Math.min(n, 179 - n) / 10),
 );
@@ -53,7 +53,7 @@ let end: () => void;
 beforeEach(() => {
   questions = [];
   answer = () => Promise.resolve({ camera: FIRST, diameters: DIAMETERS });
-  // Reduced motion, so that each view appears at once.
+  // The user prefers reduced motion, so each view appears at once.
   vi.stubGlobal('window', { matchMedia: () => ({ matches: true }) });
   placeTurn.value = null;
   tool.value = 'look';
@@ -77,7 +77,7 @@ describe('the diameters of a turn', () => {
     }
   });
 
-  test('so far are those of all cuts between, by the shorter way', () => {
+  test('so far include those of all cuts passed in the shorter direction', () => {
     const there = sweptTo(TURN, 45);
     expect([there.angle, there.least, there.largest]).toEqual([45, 6, 10]);
     const back = sweptTo(there, 10);
@@ -87,7 +87,7 @@ describe('the diameters of a turn', () => {
     expect(sweptTo(TURN, 400).angle).toBe(40);
   });
 
-  test('that are not seen count for nothing', () => {
+  test('that are not visible are ignored', () => {
     const none = { ...TURN, diameters: [null, 3], least: null, largest: null };
     expect(sweptTo(none, 0).least).toBeNull();
     expect(sweptTo(none, 1)).toMatchObject({ angle: 1, least: 3, largest: 3 });
@@ -95,7 +95,7 @@ describe('the diameters of a turn', () => {
 });
 
 describe('a turn', () => {
-  test('is about the place of the section, and is asked for once', async () => {
+  test('is about the place of the section, and is requested once', async () => {
     await togglePlaceTurn(engine);
     expect(questions).toEqual([['turn_about', { vessel: 0, at: 20, size: CAMERA.size }]]);
     expect(placeTurn.value).toEqual({ ...TURN, least: 10, largest: 10 });
@@ -105,19 +105,19 @@ describe('a turn', () => {
     expect(store.camera.value).toEqual(FIRST);
   });
 
-  test('leaves the place where it is seen, also after the view was moved', async () => {
+  test('keeps the place at its pixel, also after the view was moved', async () => {
     await togglePlaceTurn(engine);
     store.camera.value = { ...FIRST, center: [6, 6, 8], pixel_spacing: 0.2 };
     const before = pixelOf(store.camera.value, FIRST.center);
     turnTo(90);
     const camera = store.camera.value;
     expectNear(pixelOf(camera, FIRST.center), before, 9);
-    // From the front, the viewer moves to the patient's left and looks right, like the engine.
+    // The viewer moves from the front to the left of the patient, and then looks to the right, as in the engine.
     expectNear(camera.direction, [-1, 0, 0], 12);
     expect(placeTurn.value).toMatchObject({ angle: 90, least: 2, largest: 10 });
   });
 
-  test('follows a drag by whole degrees, and Escape puts the drag back', async () => {
+  test('follows a drag in integer degrees, and Escape undoes the drag', async () => {
     await togglePlaceTurn(engine);
     const drag = windowBack();
     drag.begin();
@@ -132,7 +132,7 @@ describe('a turn', () => {
     expect(store.camera.value).toEqual(FIRST);
   });
 
-  test('is put back to its first view by Escape where a drag began before that was reached', async () => {
+  test('returns to its first view on Escape if the drag began before this view was reached', async () => {
     vi.stubGlobal('window', { matchMedia: () => ({ matches: false }) });
     const turn = { camera: FIRST, diameters: DIAMETERS };
     answer = () => (questions.length > 1 ? new Promise(() => undefined) : Promise.resolve(turn));
@@ -160,7 +160,7 @@ describe('a turn', () => {
     expect(placeTurn.value).toBeNull();
   });
 
-  test('is none where the engine refuses it, and the page says why', async () => {
+  test('does not begin if the engine rejects it, and the page says why', async () => {
     const failure = new Failure('measuring', 'radius', 'none', 'one');
     answer = () => Promise.reject(failure);
     await togglePlaceTurn(engine);
@@ -168,7 +168,7 @@ describe('a turn', () => {
     expect(store.problem.value?.subject).toBe('radius');
   });
 
-  test('is not begun on a vessel that was left meanwhile, nor without one', async () => {
+  test('does not begin on a vessel that is no longer picked, nor without a vessel', async () => {
     const asked = togglePlaceTurn(engine);
     store.report.value = shown(5);
     await asked;

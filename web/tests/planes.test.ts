@@ -16,7 +16,7 @@ import { expectNear } from './helpers';
 
 const NAMES: readonly SliceName[] = ['axial', 'coronal', 'sagittal'];
 
-/** A box of 100 × 60 × 40 mm with voxels of 1 × 2 × 4 mm. */
+/** A volume of 100 × 60 × 40 mm with voxels of 1 × 2 × 4 mm. */
 const VOLUME: VolumeReport = {
   size: [100, 30, 10],
   world_from_index: [
@@ -39,7 +39,7 @@ describe.each(NAMES)('%s', (name) => {
   const look = fittedLook(VOLUME, name, size);
   const plane = planeOf(name, look, THROUGH, size);
 
-  test('a pixel goes to the world and back', () => {
+  test('a pixel converts to the world and back', () => {
     for (const at of [
       [0, 0],
       [319, 239],
@@ -49,11 +49,11 @@ describe.each(NAMES)('%s', (name) => {
     }
   });
 
-  test('the plane holds the point that it goes through', () => {
+  test('the plane contains the point that it goes through', () => {
     expectNear(pointOn(plane, pixelOn(plane, THROUGH)), THROUGH);
   });
 
-  test('all of the volume fits', () => {
+  test('the whole volume fits', () => {
     for (const corner of VOLUME.corners) {
       const [x, y] = pixelOn(plane, corner);
       expect(x).toBeGreaterThan(-0.5);
@@ -63,7 +63,7 @@ describe.each(NAMES)('%s', (name) => {
     }
   });
 
-  test('a zoom keeps the place at the pointer, and a pan goes with it', () => {
+  test('a zoom keeps the point under the pointer, and a pan moves with the pointer', () => {
     const kept = pointOn(plane, [40, 200]);
     const closer = planeOf(name, zoomedLook(look, plane, 2.5, [40, 200]), THROUGH, size);
     expectNear(pixelOn(closer, kept), [40, 200]);
@@ -73,7 +73,7 @@ describe.each(NAMES)('%s', (name) => {
   });
 });
 
-test('in a pane of another size as much is seen along the shorter side', () => {
+test('in a pane of another size, the shorter side shows the same extent', () => {
   const look = { center: THROUGH, spacing: 0.5 };
   expect(resizedLook(look, [300, 200], [800, 400])).toEqual({ center: THROUGH, spacing: 0.25 });
   expect(resizedLook(resizedLook(look, [300, 200], [7, 9]), [7, 9], [300, 200])).toEqual(look);

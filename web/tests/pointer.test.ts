@@ -2,7 +2,7 @@ import { afterEach, beforeEach, describe, expect, test, vi } from 'vitest';
 import type { Where } from '../src/input/bindings';
 import { type Handlers, listen } from '../src/input/pointer';
 
-/** An element at (100, 50) that records its handler calls. */
+/** A fake element at (100, 50) that records which handlers are called. */
 class Pane extends EventTarget {
   readonly captured: number[] = [];
 
@@ -77,7 +77,7 @@ describe('drag or click', () => {
     expect(handlers.click.mock.calls).toEqual([['pick', [14, 10]]]);
   });
 
-  test('more than 4 pixels are a drag, which loses none of them', () => {
+  test('more than 4 pixels are a drag, which includes the first 4', () => {
     send('pointerdown', [10, 10]);
     send('pointermove', [13, 10]);
     send('pointermove', [15, 10]);
@@ -93,7 +93,7 @@ describe('drag or click', () => {
     expect(pane.captured).toEqual([1]);
   });
 
-  test('a drag that comes back to its start is no click', () => {
+  test('a drag that returns to its start is not a click', () => {
     send('pointerdown', [10, 10]);
     send('pointermove', [40, 10]);
     send('pointermove', [10, 10]);
@@ -113,7 +113,7 @@ describe('drag or click', () => {
     expect(handlers.drag.mock.calls.map(([name]) => name)).toEqual([action]);
   });
 
-  test('the right button windows, and is no pick', () => {
+  test('the right button changes the window and picks nothing', () => {
     send('pointerdown', [10, 10], { button: 2 });
     send('pointermove', [10, 60], { button: 2 });
     expect(handlers.drag.mock.calls).toEqual([['window', [0, 50], [10, 60]]]);
@@ -127,7 +127,7 @@ describe('drag or click', () => {
     expect(send('contextmenu').defaultPrevented).toBe(true);
   });
 
-  test('hovering tells whether Shift is held', () => {
+  test('hovering reports whether Shift is held', () => {
     send('pointermove', [7, 8], { shiftKey: true });
     send('pointermove', [9, 8], { shiftKey: false });
     expect(handlers.hover.mock.calls).toEqual([
@@ -136,7 +136,7 @@ describe('drag or click', () => {
     ]);
   });
 
-  test('nothing is heard after the end', () => {
+  test('events after the end are ignored', () => {
     stop();
     send('pointerdown', [10, 10]);
     send('pointerup', [10, 10]);
@@ -151,14 +151,14 @@ describe('double click', () => {
   };
   const actions = () => handlers.click.mock.calls.map(([action]) => action);
 
-  test('two quick clicks at one place maximise, and a third begins anew', () => {
+  test('two quick clicks at one position maximise a view, and a third begins a new double click', () => {
     click([50, 50], 1000);
     click([53, 50], 1300);
     click([53, 50], 1400);
     expect(actions()).toEqual(['pick', 'maximise', 'pick']);
   });
 
-  test('slow ones and ones far apart are two clicks', () => {
+  test('slow clicks and clicks far apart are single clicks', () => {
     click([50, 50], 1000);
     click([50, 50], 1400);
     click([80, 50], 1500);
@@ -179,7 +179,7 @@ describe('touch', () => {
     expect(handlers.scroll.mock.calls.flat().reduce((a, b) => a + b)).toBe(5);
   });
 
-  test('two fingers pan by their middle and zoom by their distance', () => {
+  test('two fingers pan by their centre and zoom by their distance', () => {
     send('pointerdown', [100, 100], finger(1));
     send('pointerdown', [200, 100], finger(2));
     send('pointermove', [300, 100], finger(2));
@@ -203,7 +203,7 @@ describe('touch', () => {
     expect(handlers.end).toHaveBeenCalledOnce();
   });
 
-  test('a touch that the browser takes away ends the drag', () => {
+  test('a touch that the browser cancels ends the drag', () => {
     send('pointerdown', [10, 10], finger(1));
     send('pointermove', [10, 30], finger(1));
     send('pointercancel', [10, 30], finger(1));
@@ -212,7 +212,7 @@ describe('touch', () => {
 });
 
 describe('Escape', () => {
-  test('puts a drag back and goes no further', () => {
+  test('undoes a drag and has no further effect', () => {
     send('pointerdown', [10, 10]);
     send('pointermove', [60, 10]);
     const event = send('keydown', [0, 0], { key: 'Escape' });
@@ -224,7 +224,7 @@ describe('Escape', () => {
     expect(handlers.click).not.toHaveBeenCalled();
   });
 
-  test('is left to the page where nothing is dragged', () => {
+  test('is handled by the page if nothing is dragged', () => {
     expect(send('keydown', [0, 0], { key: 'Escape' }).defaultPrevented).toBe(false);
     expect(handlers.putBack).not.toHaveBeenCalled();
   });
@@ -234,7 +234,7 @@ describe('wheel', () => {
   const wheel = (deltaY: number, more: object = {}) =>
     send('wheel', [40, 30], { deltaY, deltaMode: 0, ctrlKey: false, metaKey: false, ...more });
 
-  test('zooms at the pointer, up is closer, gently for a trackpad', () => {
+  test('zooms at the pointer: up is closer, in small steps for a trackpad', () => {
     expect(wheel(-100).defaultPrevented).toBe(true);
     wheel(2);
     wheel(100_000);
@@ -245,18 +245,18 @@ describe('wheel', () => {
     expect(handlers.zoom.mock.calls[0]?.[1]).toEqual([40, 30]);
   });
 
-  test('with Alt steps through what is under the pointer where a tool has such a row', () => {
+  test('with Alt steps through the objects under the pointer, if the tool has this binding', () => {
     Object.assign(handlers, { rows: () => 'tracing' });
     wheel(100, { altKey: true });
     expect([handlers.step.mock.calls, handlers.zoom.mock.calls]).toEqual([[[1]], []]);
     expect(handlers.leave).not.toHaveBeenCalled();
-    // Turning or zooming changes what is under the pointer.
+    // Turning or zooming changes the content under the pointer.
     wheel(100);
     expect([handlers.zoom.mock.calls.length, handlers.leave.mock.calls.length]).toEqual([1, 1]);
     Object.assign(handlers, { rows: undefined });
   });
 
-  test('goes one slice for each notch of a mouse, whatever a browser says of it', () => {
+  test('scrolls one slice per notch of a mouse, in all browsers', () => {
     begin('flat');
     wheel(100);
     wheel(-120);
@@ -265,7 +265,7 @@ describe('wheel', () => {
     expect(handlers.scroll.mock.calls.flat()).toEqual([1, -1, 1, -1]);
   });
 
-  test('goes as many slices as notches that come together', () => {
+  test('scrolls as many slices as notches arrive together', () => {
     begin('flat');
     wheel(200);
     wheel(-240);
@@ -274,7 +274,7 @@ describe('wheel', () => {
     expect(handlers.scroll.mock.calls.flat()).toEqual([2, -2, 3, -3]);
   });
 
-  test('with Shift goes ten slices for each, also where it is told as one across', () => {
+  test('with Shift scrolls ten slices per notch, also if reported as horizontal', () => {
     begin('flat');
     wheel(100, { shiftKey: true });
     wheel(0, { deltaX: -120, shiftKey: true });
@@ -282,7 +282,7 @@ describe('wheel', () => {
     expect(handlers.scroll.mock.calls.flat()).toEqual([10, -10]);
   });
 
-  test('of a trackpad adds small movements up to slices and keeps the rest; with Ctrl it zooms', () => {
+  test('of a trackpad sums small movements to slices; with Ctrl it zooms', () => {
     begin('flat');
     wheel(30);
     expect(handlers.scroll).not.toHaveBeenCalled();
@@ -295,7 +295,7 @@ describe('wheel', () => {
   });
 });
 
-describe('while a tool is in use', () => {
+describe('while a tool is active', () => {
   let rows: Where | null = 'tracing';
   const withTool = { ...handlers, rows: () => rows };
 
@@ -310,19 +310,19 @@ describe('while a tool is in use', () => {
     send('pointerup', [10, 10], { button, timeStamp });
   };
 
-  test('a click sets a point, a second one at the same place ends the vessel', () => {
+  test('a click sets a point, a second one at the same position ends the vessel', () => {
     click(0, 100);
     click(0, 200);
     expect(handlers.click.mock.calls.map(([action]) => action)).toEqual(['set point', 'end vessel']);
   });
 
-  test('a right click adds a point on a curve, and two of them are no double click', () => {
+  test('a right click adds a point on a curve, and two of them are not a double click', () => {
     click(2, 100);
     click(2, 200);
     expect(handlers.click.mock.calls.map(([action]) => action)).toEqual(['add point', 'add point']);
   });
 
-  test('a drag does what it does in the view', () => {
+  test('a drag acts as in the view', () => {
     send('pointerdown', [10, 10]);
     send('pointermove', [30, 10]);
     send('pointerup', [30, 10]);
@@ -330,7 +330,7 @@ describe('while a tool is in use', () => {
     expect(handlers.click).not.toHaveBeenCalled();
   });
 
-  test('afterwards clicks are those of the view again, and the right one is none', () => {
+  test('afterwards clicks act as in the view, and a right click does nothing', () => {
     rows = null;
     click(0, 100);
     click(2, 900);

@@ -1,7 +1,7 @@
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import { Precedence } from '../src/core/precedence';
 
-/** A sequential worker with views that can be stopped. */
+/** A fake worker that handles one request at a time; its views can be stopped. */
 class FakeWorker {
   stops = 0;
   private last: Promise<unknown> = Promise.resolve();
@@ -68,7 +68,7 @@ async function waited(answer: Promise<unknown>): Promise<number> {
   return took;
 }
 
-test('an answer does not wait for a view that refines what is shown', async () => {
+test('a request does not wait for a view that only refines the picture', async () => {
   const worker = new FakeWorker();
   const { precedence, ends, draw } = begun(worker, true);
   void draw();
@@ -77,7 +77,7 @@ test('an answer does not wait for a view that refines what is shown', async () =
   expect(ends).toEqual(['stopped']);
 });
 
-test('an answer waits a moment for a view of something that changes, and no longer', async () => {
+test('a request waits only briefly for a view in motion', async () => {
   const worker = new FakeWorker();
   const { precedence, ends, draw } = begun(worker, false);
   void draw();
@@ -86,7 +86,7 @@ test('an answer waits a moment for a view of something that changes, and no long
   expect(ends).toEqual(['stopped']);
 });
 
-test('a quick view of something that changes is not stopped', async () => {
+test('a quick view in motion is not stopped', async () => {
   const worker = new FakeWorker();
   const { precedence, ends, draw } = begun(worker, false, 40);
   void draw();
@@ -94,7 +94,7 @@ test('a quick view of something that changes is not stopped', async () => {
   expect([worker.stops, ends]).toEqual([0, ['drawn']]);
 });
 
-test('a view that waits for its turn itself is stopped once it begins', async () => {
+test('a view that waits in the queue is stopped once it begins', async () => {
   const worker = new FakeWorker();
   const { precedence, ends, draw } = begun(worker, true);
   void precedence.first(worker.work(50));
@@ -103,7 +103,7 @@ test('a view that waits for its turn itself is stopped once it begins', async ()
   expect(ends).toEqual(['stopped']);
 });
 
-test('several answers stop a view once', async () => {
+test('several requests stop a view only once', async () => {
   const worker = new FakeWorker();
   const { precedence, draw } = begun(worker, true);
   void draw();
@@ -112,7 +112,7 @@ test('several answers stop a view once', async () => {
   expect(worker.stops).toBe(1);
 });
 
-test('a view that was stopped again and again runs to its end, and the count begins anew', async () => {
+test('a view that was stopped several times runs to completion, and counting starts again', async () => {
   const worker = new FakeWorker();
   const { precedence, ends, draw } = begun(worker, true);
   for (let n = 0; n < 9; n++) {
@@ -124,7 +124,7 @@ test('a view that was stopped again and again runs to its end, and the count beg
   expect(ends).toEqual([...stopped, 'drawn', 'stopped', 'stopped']);
 });
 
-test('nothing is stopped where no view is under way', async () => {
+test('nothing is stopped if no view is being rendered', async () => {
   const worker = new FakeWorker();
   const { precedence, draw } = begun(worker, true);
   expect(await waited(precedence.first(worker.work(30)))).toBe(30);
@@ -133,7 +133,7 @@ test('nothing is stopped where no view is under way', async () => {
   expect(worker.stops).toBe(0);
 });
 
-test('where views cannot be stopped the answer comes after them', async () => {
+test('if views cannot be stopped, the answer comes after them', async () => {
   const worker = new FakeWorker(false);
   const { precedence, ends, draw } = begun(worker, true);
   void draw();

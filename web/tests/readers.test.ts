@@ -1,4 +1,4 @@
-/** The page's readers agree with Python's, on synthetic and real files. */
+/** The readers of the page give the same results as those of the Python package, on synthetic and real files. */
 import { statSync } from 'node:fs';
 import { relative } from 'node:path';
 import { describe, expect, test } from 'vitest';
@@ -7,12 +7,12 @@ import { type Expected, everyTruth, refusedLike, sameVolume } from './truth';
 
 const truths = everyTruth();
 
-/** Supported by Python only: there is no small free decoder. */
+/** Formats that only the Python package reads, since there is no small free decoder for browsers. */
 const NOT_READ: Readonly<Record<string, RegExp>> = {
   'JPEG extended, 12 bits': /^JPEG Extended of 1\d bits$/,
 };
 
-/** Opens what Python read; it may name neighbouring files. */
+/** Opens the file that Python has read; it may refer to other files in its folder. */
 function opened({ path, folder, kind, wanted = {} }: Expected): Promise<Result> {
   const isFolder = statSync(path).isDirectory();
   const sources = isFolder ? below(path) : [sourceOf(path, relative(`${folder}/..`, path))];

@@ -1,4 +1,4 @@
-/** Requests for reformations, and captions of their pictures. */
+/** Tests of the requests for reformations, and of the captions of their pictures. */
 import { expect, test } from 'vitest';
 import { wrapped } from '../src/output/wrapping';
 import { type Chosen, REFORMATIONS, reformationOf } from '../src/state/reformation';
@@ -11,7 +11,7 @@ const CHOSEN: Chosen = {
   of: 'radius',
 };
 
-test('each reformation is asked with what it is made from, and nothing else', () => {
+test('the request of each reformation contains only what it needs', () => {
   const { side } = CHOSEN;
   expect(reformationOf('untangled', CHOSEN)).toEqual({ kind: 'untangled', side });
   expect(reformationOf('uncurl', CHOSEN)).toEqual({ kind: 'uncurl', vessel: 2, side, amount: 0.25 });
@@ -19,7 +19,7 @@ test('each reformation is asked with what it is made from, and nothing else', ()
   expect(reformationOf('map', CHOSEN)).toEqual({ kind: 'map', vessel: 2, of: 'radius' });
 });
 
-test('none is asked for before there is a vessel, or a view where it needs one', () => {
+test('none is requested before there is a vessel, or a view if it needs one', () => {
   for (const [kind] of REFORMATIONS) {
     if (kind !== 'cpr') {
       expect(reformationOf(kind, { ...CHOSEN, vessel: null })).toBeNull();
@@ -29,7 +29,7 @@ test('none is asked for before there is a vessel, or a view where it needs one',
   }
 });
 
-test('words are broken where a line is full, and no word is lost', () => {
+test('text is broken between words if a line is full, and no word is lost', () => {
   const lines = wrapped('Down: along the vessel, in mm.', 12, (text) => text.length);
   expect(lines).toEqual(['Down: along', 'the vessel,', 'in mm.']);
   expect(wrapped('incomprehensible word', 5, (text) => text.length)).toEqual(['incomprehensible', 'word']);

@@ -12,11 +12,11 @@ async function refusal(...sources: Parameters<typeof openSources>[0]): Promise<s
 }
 
 describe('volumes', { timeout: 60_000 }, () => {
-  test('a whole file is read', async () => {
+  test('a complete file is read', async () => {
     const { memory, failure } = await openSources([file('v.nii.gz', gzipped(nifti()))]);
     expect(failure).toBeNull();
     expect(memory.header?.size).toEqual([7, 5, 3]);
-    // RAS becomes LPS, the shear stays.
+    // The axes change from RAS to LPS; the shear stays the same.
     expect(memory.header?.world_from_index).toEqual([
       [-2, 0, 0, -5],
       [0, -3, -0.5, -6],
@@ -26,17 +26,17 @@ describe('volumes', { timeout: 60_000 }, () => {
     expect([...memory.values]).toEqual(Array.from({ length: 105 }, (_, i) => i));
   });
 
-  test('the content decides the kind, not the name', async () => {
+  test('the content of a file determines its format, not the name', async () => {
     const { memory } = await openSources([file('scan.dcm', nifti())]);
     expect(memory.header?.size).toEqual([7, 5, 3]);
   });
 
-  test('a wrong check sum is damage', async () => {
+  test('a file with a wrong checksum is damaged', async () => {
     const packed = gzipped(nifti([40, 40, 40]));
     expect(await refusal(file('v.nii.gz', changed(packed, packed.length - 6)))).toContain('damaged');
   });
 
-  test('a stream that breaks off is too short', async () => {
+  test('a truncated stream is rejected', async () => {
     const packed = gzipped(nifti([40, 40, 40]));
     expect(await refusal(file('v.nii.gz', packed.subarray(0, packed.length - 3000)))).toContain(
       'bytes of voxels',
@@ -44,7 +44,7 @@ describe('volumes', { timeout: 60_000 }, () => {
     expect(await refusal(file('v.nii.gz', packed.subarray(0, packed.length - 5)))).toContain('breaks off');
   });
 
-  test('a size that the file does not fill takes no memory', async () => {
+  test('no memory is allocated for a stated size that the file does not contain', async () => {
     const huge = nifti([7, 5, 3], [32000, 32000, 2]);
     for (const bytes of [huge, gzipped(huge)]) {
       const { memory, failure } = await openSources([file('v.nii', bytes)]);
@@ -53,7 +53,7 @@ describe('volumes', { timeout: 60_000 }, () => {
     }
   });
 
-  test('much that unpacks from little is counted before memory is taken', async () => {
+  test('the unpacked size is checked before memory is allocated', async () => {
     const head = nifti([7, 5, 3], [400, 400, 400]).subarray(0, 352);
     const zeros = Buffer.concat([head, randomBytes(200_000), Buffer.alloc(99_800_000)]);
     const { memory, failure } = await openSources([file('v.nii', gzipped(zeros))]);
@@ -61,7 +61,7 @@ describe('volumes', { timeout: 60_000 }, () => {
     expect(memory.header).toBeNull();
   });
 
-  test('every first part of a file is refused', async () => {
+  test('every truncated file is rejected', async () => {
     const whole = nifti();
     for (let length = 0; length < whole.length; length += 7) {
       await refusal(file('v.nii', whole.subarray(0, length)));
@@ -84,7 +84,7 @@ describe('DICOM', { timeout: 60_000 }, () => {
     expect([...memory.values].slice(10, 14)).toEqual([10, 11, 100, 101]);
   });
 
-  test('every first part of a slice is refused, or leaves the others', async () => {
+  test('every truncated slice is rejected, or the other slices are read', async () => {
     const whole = slice({}, 2);
     for (let length = 0; length < whole.length; length += 5) {
       const { failure } = await openSources([
@@ -95,7 +95,7 @@ describe('DICOM', { timeout: 60_000 }, () => {
     }
   });
 
-  test('every changed byte is read or refused', async () => {
+  test('a file with any changed byte is read or rejected', async () => {
     const whole = slice({}, 2);
     for (let at = 0; at < whole.length; at += 1) {
       const { failure } = await openSources([...series.slice(0, 2), file('scan/IM2', changed(whole, at))]);
@@ -103,7 +103,7 @@ describe('DICOM', { timeout: 60_000 }, () => {
     }
   });
 
-  test('slopes of fractions make floats, whole ones integers of the type that holds them', async () => {
+  test('fractional slopes give floats, integer slopes the integer type that holds the values', async () => {
     const scaled = (slope: string) =>
       [0, 1, 2].map((z) => file(`s/${z}`, slice({ '00281053': slope, '00281052': '-1024' }, z)));
     expect((await openSources(scaled('1'))).memory.header?.dtype).toBe('int16');
@@ -113,25 +113,27 @@ describe('DICOM', { timeout: 60_000 }, () => {
     expect(wide.memory.values[35]).toBe(300 * 211 - 1024);
   });
 
-  test('an archive is read; one that lies or claims too much is refused', async () => {
+  test('an archive is read; one with wrong or too large stated sizes is rejected', async () => {
     const inside = slice({}, 0);
     const { memory } = await openSources([file('a.zip', archived('IM0', inside))]);
     expect(memory.header?.size).toEqual([4, 3, 1]);
-    expect(await refusal(file('a.zip', archived('IM0', inside, 3_000_000_000)))).toContain('claim to unpack');
+    expect(await refusal(file('a.zip', archived('IM0', inside, 3_000_000_000)))).toContain(
+      'claims to unpack',
+    );
     expect(await refusal(file('a.zip', archived('IM0', inside, inside.length - 20)))).toContain('damaged');
     expect(await refusal(file('a.zip', changed(archived('IM0', inside), 60)))).toContain('damaged');
     expect(await refusal(file('a.zip', archived('IM0', inside).subarray(0, 200)))).toContain('damaged');
   });
 });
 
-describe('what is given', { timeout: 60_000 }, () => {
-  test('a mask beside the scan is refused with a sentence', async () => {
+describe('opening files', { timeout: 60_000 }, () => {
+  test('a mask together with a scan is rejected with an explanation', async () => {
     const words = await refusal(file('ct.nii', nifti()), file('mask.nii', nifti()));
     expect(words).toContain('2 volumes, ct.nii and mask.nii');
     expect(words).toContain('lumencut trace');
   });
 
-  test('centerlines come after their volume, or alone', async () => {
+  test('centerlines are opened after their volume, or without one', async () => {
     const lines = file('lines.vtp', '<VTKFile type="PolyData">');
     const { memory } = await openSources([lines, file('ct.nii', nifti())]);
     expect(memory.lines).toBe('lines.vtp');
@@ -139,7 +141,7 @@ describe('what is given', { timeout: 60_000 }, () => {
     expect(alone.memory).toMatchObject({ lines: 'lines.vtp', header: null });
   });
 
-  test('files of no known kind are named', async () => {
+  test('files of unknown formats are named', async () => {
     expect(await refusal(file('a.pdf', '%PDF-1.7 ...'))).toContain('a.pdf: found a file of unknown format');
     expect(await refusal(file('empty', ''))).toContain('an empty file');
     expect(await refusal(file('v.vti', '<VTKFile type="ImageData">'))).toContain(
@@ -155,7 +157,7 @@ describe('what is given', { timeout: 60_000 }, () => {
     ).toContain('choose both files together');
   });
 
-  test('a stop is heard between two pieces', async () => {
+  test('loading can be stopped between two pieces', async () => {
     const stop = new AbortController();
     const begun = openSources([file('v.nii', nifti([400, 400, 100]))], { signal: stop.signal });
     stop.abort();

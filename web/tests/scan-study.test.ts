@@ -1,4 +1,4 @@
-/** The study data kept of a series, for objects saved with it. */
+/** What the page keeps of the DICOM study of a series, to save objects in this study. */
 import { expect, test } from 'vitest';
 import { series } from '../e2e/dicom';
 import { type ExaminedFile, examine } from '../src/io/dicom/headers';
@@ -14,7 +14,7 @@ const read = (): Promise<ExaminedFile[]> =>
   Promise.all(sources.map((source) => examine(source, new Recorder({ SOPInstanceUID: [] }))));
 const plan = { slices: [{ file: 1 }, { file: 2 }] } as unknown as Plan;
 
-test('it has the header of one slice without its pixels, and the UIDs of all that were read', async () => {
+test('it contains the header of one slice without pixels, and the UIDs of all slices that were read', async () => {
   const study = await studyOf(plan, await read());
   expect(study?.instances).toEqual(['1.2.3.2.0', '1.2.3.4.0']);
   expect(study?.studyCount).toBe(1);
@@ -23,14 +23,14 @@ test('it has the header of one slice without its pixels, and the UIDs of all tha
   expect(study?.header).toEqual(whole?.subarray(0, whole.length - pixels));
 });
 
-test('slices of two studies are counted', async () => {
+test('the number of studies is counted', async () => {
   const [first, second, third] = await read();
   const other = third?.image ? [{ ...third, image: { ...third.image, study: '1.2.9' } }] : [];
   const files = [...[first, second].filter((one) => one !== undefined), ...other];
   expect((await studyOf(plan, files))?.studyCount).toBe(2);
 });
 
-test('a file that is no DICOM is refused', async () => {
+test('a file that is not DICOM is rejected', async () => {
   const source = new BlobSource('lines.csv', new Blob(['x,y,z']));
   await expect(headOf(source)).rejects.toThrow('lines.csv: found no DICOM');
 });

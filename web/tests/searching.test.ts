@@ -1,4 +1,4 @@
-/** Searching for vessels: seeds, clicks during the search, and the first view of the result. */
+/** Tests of the search for vessels: its seeds, clicks during the search, and the first view of the result. */
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import type { EngineClient } from '../src/client/engine';
 import type { Camera, DocumentVessel, Vector } from '../src/core/messages';
@@ -15,7 +15,7 @@ import * as store from '../src/state/store';
 import { tool } from '../src/state/tool';
 import { FakeTracing, withLines } from './fake-tracing';
 
-// The page's engine needs a worker, which tests lack.
+// The real engine needs a worker, which these tests do not have.
 vi.mock('../src/client/shared', () => ({ engine: {} }));
 
 const OPENED: Vector = [0, 0, 0];
@@ -43,7 +43,7 @@ afterEach(() => {
   message.value = null;
 });
 
-test('where the reader did not put the cross-hair a click says where a tree begins', async () => {
+test('if the user has not placed the cross-hair, a click chooses where a tree begins', async () => {
   branchesFromHere(engine());
   expect([tool.value, kinds()]).toEqual(['seed', []]);
   await setPoint(tracing, CHOSEN);
@@ -55,13 +55,13 @@ test('where the reader did not put the cross-hair a click says where a tree begi
   expect(tool.value, 'the cross-hair stands where the reader put it').toBe('look');
 });
 
-test('a second press lays the question where a tree begins down again', () => {
+test('a second press of the key cancels the choice of a seed', () => {
   branchesFromHere(engine());
   branchesFromHere(engine());
   expect([tool.value, kinds()]).toEqual(['look', []]);
 });
 
-test('clicks while vessels are looked for are no points of others, and the page says so', async () => {
+test('clicks during a search for vessels set no points, and the page says so', async () => {
   let open = () => {};
   tracing.gate = new Promise((resolve) => {
     open = resolve;
@@ -79,7 +79,7 @@ test('clicks while vessels are looked for are no points of others, and the page 
   expect(first.value).toEqual(CHOSEN);
 });
 
-test('of the vessels that were found first the widest is picked and seen best; later finds leave the view', async () => {
+test('of the first vessels found, the widest is picked and shown best; later searches do not change the view', async () => {
   const camera = { size: [10, 10], center: [0, 0, 0] } as unknown as Camera;
   const best = { ...camera, center: [7, 7, 7] } as unknown as Camera;
   const asked: unknown[] = [];

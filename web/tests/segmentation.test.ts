@@ -1,4 +1,4 @@
-/** DICOM segmentations as masks: recognition and vessel names. */
+/** DICOM segmentations are recognised as masks, and their segments name the vessels. */
 import { expect, test } from 'vitest';
 import type { DocumentVessel } from '../src/core/messages';
 import { isSegmentation, namedBySegment } from '../src/edit/segmentation';
@@ -29,13 +29,13 @@ test.each([
   expect(await isSegmentation([given('a.dcm', uid)])).toBe(isOne);
 });
 
-test('several files are no single segmentation', async () => {
+test('several files are not one segmentation', async () => {
   const one = given('a.dcm', '1.2.840.10008.5.1.4.1.1.66.4\0');
   expect(await isSegmentation([])).toBe(false);
   expect(await isSegmentation([one, one])).toBe(false);
 });
 
-test('vessels are called as their segments', () => {
+test('vessels are named after their segments', () => {
   const several = { 1: 'aorta', 7: 'left renal artery' };
   expect(namedBySegment(vessel('label 7'), several).name).toBe('left renal artery');
   expect(namedBySegment(vessel('label 7 2'), several).name).toBe('left renal artery 2');

@@ -1,11 +1,11 @@
-/** 3D Slicer segmentations: layers and names, and archives unpacked no further than needed. */
+/** Layers and names of 3D Slicer segmentations; compressed files are inflated no further than needed. */
 import { gzipSync } from 'node:zlib';
 import { describe, expect, test } from 'vitest';
 import { membersOf } from '../src/io/dicom/archive';
 import { archived, file } from './made';
 import { openSources } from './opened';
 
-/** 4 × 3 × 2 voxels with layers whose values count upwards. */
+/** A segmentation of 4 × 3 × 2 voxels with these header lines and layers. */
 function segmentation(lines: readonly string[], layers: readonly (readonly number[])[]): Buffer {
   const list = layers.length > 1;
   const header = [
@@ -34,7 +34,7 @@ const first = Array.from({ length: 24 }, (_, i) => Number(i < 5));
 const second = Array.from({ length: 24 }, (_, i) => Number(i > 20));
 
 describe('a segmentation', () => {
-  test('of one layer is as it is, with the names of its labels', async () => {
+  test('of one layer stays unchanged, with the names of its labels', async () => {
     const lines = [...segment(0, 'aorta', 0, 1), ...segment(1, 'vein', 0, 7)];
     const values = first.map((one, i) => one + 7 * (second[i] ?? 0));
     const { memory, failure } = await openSources([file('a.seg.nrrd', segmentation(lines, [values]))]);
@@ -43,7 +43,7 @@ describe('a segmentation', () => {
     expect([...memory.values]).toEqual(values);
   });
 
-  test('in layers becomes one label map, whose segments count from 1 where they share a label', async () => {
+  test('in layers becomes one label map; segments that share a label are numbered from 1', async () => {
     const lines = [...segment(0, 'aorta', 0, 1), ...segment(1, 'vein', 1, 1)];
     const { memory, failure } = await openSources([file('a.seg.nrrd', segmentation(lines, [first, second]))]);
     expect(failure).toBeNull();
@@ -56,13 +56,13 @@ describe('a segmentation', () => {
     expect([...memory.values]).toEqual(first.map((one, i) => one + 2 * (second[i] ?? 0)));
   });
 
-  test('of before 2020 has a segment in each layer', async () => {
+  test('from before 2020 has one segment in each layer', async () => {
     const lines = ['Segment0_ID:=a', 'Segment0_Name:=aorta', 'Segment1_ID:=b', 'Segment1_Name:=vein'];
     const { memory } = await openSources([file('a.seg.nrrd', segmentation(lines, [first, second]))]);
     expect([...memory.values]).toEqual(first.map((one, i) => one + 2 * (second[i] ?? 0)));
   });
 
-  test('whose segments overlap, or cannot be, is refused by name', async () => {
+  test('with overlapping or impossible segments is rejected, and the segments are named', async () => {
     const refused = async (lines: readonly string[], layers: readonly (readonly number[])[]) =>
       (await openSources([file('a.seg.nrrd', segmentation(lines, layers))])).failure?.found;
     const both = [...segment(0, 'aorta', 0, 1), ...segment(1, 'stent', 1, 1)];
@@ -75,7 +75,7 @@ describe('a segmentation', () => {
   });
 });
 
-test('a part of a member of an archive takes the memory of that part', async () => {
+test('reading part of a member of an archive takes memory only for that part', async () => {
   const content = Buffer.from(Uint8Array.from({ length: 3_000_000 }, (_, i) => (i * 7) % 251));
   const [member] = await membersOf(file('a.zip', archived('IM0', content)));
   const part = await member?.slice(1_500_000, 1_500_010);

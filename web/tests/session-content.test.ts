@@ -1,4 +1,4 @@
-/** Round trip of a document through a session file. */
+/** A document stays the same when it is saved as a session and opened again. */
 import { describe, expect, test } from 'vitest';
 import type { Report } from '../src/core/messages';
 import { cameraOf, contentOf, type DisplayState, documentOf } from '../src/session/content';
@@ -70,11 +70,11 @@ const LOOKED: DisplayState = {
 };
 
 describe('the content of a session', () => {
-  test('gives the document back', () => {
+  test('restores the document', () => {
     expect(documentOf(contentOf(DOCUMENT, REPORT, LOOKED))).toEqual(DOCUMENT);
   });
 
-  test('keeps the millimetre that is assumed; a file that says nothing of it assumes none', () => {
+  test('states whether voxels of 1 mm are assumed; a file without this statement assumes nothing', () => {
     const assumed = { ...DOCUMENT, isOneMillimetre: true };
     const content = contentOf(assumed, REPORT, LOOKED);
     expect(documentOf(content)).toEqual(assumed);
@@ -82,7 +82,7 @@ describe('the content of a session', () => {
     expect(documentOf({ ...content, session: silent }).isOneMillimetre).toBe(false);
   });
 
-  test('is made of numbers from 0, whatever the ids were', () => {
+  test('numbers vessels from 0, whatever their ids were', () => {
     const [first, second, third] = DOCUMENT.vessels;
     if (!first || !second || !third) {
       throw new Error('three vessels');
@@ -102,17 +102,17 @@ describe('the content of a session', () => {
     expect(back.marks[0]?.at).toBe(12.5);
   });
 
-  test('has whole pixels, and no view where there is none', () => {
+  test('has integer pixels, and no view if there is none', () => {
     expect(contentOf(DOCUMENT, REPORT, LOOKED).session.view?.camera.size).toEqual([640, 481]);
     expect(contentOf(DOCUMENT, REPORT, null).session.view).toBeNull();
   });
 
-  test('has the width of the point spread that the reader gave', () => {
+  test('contains the FWHM that the user entered', () => {
     expect(contentOf(DOCUMENT, REPORT, null, 0.9).session.fwhm_mm).toBe(0.9);
     expect(contentOf(DOCUMENT, REPORT, null).session.fwhm_mm).toBeNull();
   });
 
-  test('says nothing of files or the patient', () => {
+  test('contains nothing about files or the patient', () => {
     const keys = Object.keys(contentOf(DOCUMENT, REPORT, LOOKED).session);
     expect(keys).toEqual([
       'scan',
@@ -128,7 +128,7 @@ describe('the content of a session', () => {
   });
 });
 
-test('a camera shows as much in a pane of another size', () => {
+test('a camera shows the same extent in a pane of another size', () => {
   const view = contentOf(DOCUMENT, REPORT, LOOKED).session.view;
   const camera = view && cameraOf(view, [1000, 962]);
   expect(camera?.pixel_spacing).toBeCloseTo((0.5 * 480.6) / 962, 11);

@@ -35,14 +35,14 @@ afterEach(() => {
   beginStudy(null);
 });
 
-test('what a study is opened with is shown already, and no step', async () => {
+test('the vessels with which a study is opened are displayed, and are no undo step', async () => {
   open(1, 2);
   await idle();
   expect(tracing.shown).toEqual([]);
   expect(tree.value.map((vessel) => vessel.line)).toEqual([1, 2]);
 });
 
-test('each change is shown, undo and redo too; what does not change the tree is not', async () => {
+test('each change of the tree is displayed, also by undo and redo; other changes cause no request', async () => {
   open(1);
   add(2);
   await idle();
@@ -55,7 +55,7 @@ test('each change is shown, undo and redo too; what does not change the tree is 
   expect(shownLines()).toEqual([[1, 2], [1], [1, 2]]);
 });
 
-test('the volume, its views and the cross-hair stay', async () => {
+test('volume, views and cross-hair stay the same', async () => {
   open(1);
   const { volume } = store.report.value ?? {};
   store.crossHair.value = { point: [1, 2, 3], value: 4, vessel: 0, arcLength: 5 };
@@ -68,7 +68,7 @@ test('the volume, its views and the cross-hair stay', async () => {
   expect([store.camera.value, store.window_.value]).toEqual([camera, window]);
 });
 
-test('where the vessel of the cross-hair is deleted, all views go on to the one that is picked then', async () => {
+test('if the vessel of the cross-hair is deleted, all views move to the vessel picked next', async () => {
   open(1, 2);
   store.crossHair.value = { point: [1, 2, 3], value: 4, vessel: 0, arcLength: 5 };
   const [first] = document_.value.vessels;
@@ -80,7 +80,7 @@ test('where the vessel of the cross-hair is deleted, all views go on to the one 
   expect(store.crossHair.value).toEqual({ point: [0, 0, at], value: 7, vessel: 0, arcLength: at });
 });
 
-test('the window that the data suggest follows the vessels, one that was chosen stays', async () => {
+test('a suggested window follows the vessels; a chosen window stays', async () => {
   const told = (main: Pair): Report => ({
     ...reportOf([{ line: 1, name: 'n1' }]),
     windows: { main, contexts: {}, presets: [], is_hounsfield: false, may_hold_stents: false },
@@ -105,7 +105,7 @@ test('the window that the data suggest follows the vessels, one that was chosen 
   }
 });
 
-test('while a tree is made others do not pile up: the latest follows', async () => {
+test('while a tree is requested, only the latest further change is remembered', async () => {
   open();
   let go = () => {};
   tracing.gate = new Promise((resolve) => {
@@ -121,7 +121,7 @@ test('while a tree is made others do not pile up: the latest follows', async () 
   expect(shownLines()).toEqual([[1], [1, 2, 3, 4]]);
 });
 
-test('a tree of a study that was closed is not taken', async () => {
+test('a tree of a closed study is ignored', async () => {
   open(1);
   let go = () => {};
   tracing.gate = new Promise((resolve) => {
@@ -136,7 +136,7 @@ test('a tree of a study that was closed is not taken', async () => {
   expect(tree.value.map((vessel) => vessel.line)).toEqual([9]);
 });
 
-test('what vessels are measured among counts hidden ones too, and no doubtful ones', async () => {
+test('hidden vessels affect measurements, doubtful ones do not', async () => {
   open(1, 2);
   expect(listedLines.value).toBe('1,2');
   await hide(2, true);
@@ -151,8 +151,8 @@ test('what vessels are measured among counts hidden ones too, and no doubtful on
   expect(listedLines.value).toBe('1');
 });
 
-describe('the vessel that is picked', () => {
-  test('stays the same one where others go', async () => {
+describe('the picked vessel', () => {
+  test('stays picked if others are deleted', async () => {
     open(1, 2, 3);
     store.pickedVessel.value = 2;
     store.pickedPlace.value = 7;
@@ -163,7 +163,7 @@ describe('the vessel that is picked', () => {
     expect(store.pickedPlace.value).toBe(7);
   });
 
-  test('is the next one where it goes, and shows its middle', async () => {
+  test('is the next vessel, at half its length, if it is deleted', async () => {
     open(1, 2, 3);
     store.pickedVessel.value = 1;
     await hide(2, true);
@@ -172,7 +172,7 @@ describe('the vessel that is picked', () => {
     expect(store.pickedPlace.value).toBe(5);
   });
 
-  test('is none where all go, and the cross-hair is on none', async () => {
+  test('is none if all are deleted, and the cross-hair lies on none', async () => {
     open(1);
     store.crossHair.value = { point: [1, 2, 3], value: 4, vessel: 0, arcLength: 5 };
     await remove(tracing, [1]);
@@ -181,7 +181,7 @@ describe('the vessel that is picked', () => {
     expect(store.crossHair.value).toMatchObject({ point: [1, 2, 3], vessel: null, arcLength: null });
   });
 
-  test('is the last one where none follows, and the one that is drawn first of all', () => {
+  test('is the last vessel if none follows, but a vessel being drawn comes first', () => {
     open(1, 2, 3);
     const all = tree.value;
     expect(successor(all, 2, all.slice(0, 2))).toBe(1);
@@ -190,7 +190,7 @@ describe('the vessel that is picked', () => {
   });
 });
 
-test('the content of lines is asked for once, and gives their length', async () => {
+test('the content of a line is requested once, and contains its length', async () => {
   forgetLines();
   const line = await tracing.add_line({
     points: [

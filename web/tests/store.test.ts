@@ -1,5 +1,7 @@
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
 import { afterEach, expect, test } from 'vitest';
-import type { Report } from '../src/core/messages';
+import type { Pair, Report, Window } from '../src/core/messages';
 import { choosePreset, dragWindow, windowBack } from '../src/state/actions';
 import { begin, change, document_, hasEdits, redo, undo, undoWords } from '../src/state/history';
 import * as store from '../src/state/store';
@@ -20,17 +22,17 @@ afterEach(() => {
   store.window_.value = [300, 900];
 });
 
-test('a window that the user did not move leaves the others as they are', () => {
+test('while the user has not changed the window, other windows stay the same', () => {
   expect(store.moved([400, 600], [300, 900], [300, 900])).toEqual([400, 600]);
 });
 
-test('a window of its own is moved and widened with the main one', () => {
+test('a separate window is moved and widened with the main one', () => {
   expectNear(store.moved([400, 600], [300, 900], [350, 900]), [450, 600]);
   expectNear(store.moved([400, 600], [300, 900], [300, 1800]), [500, 1200]);
   expectNear(store.moved([300, 900], [300, 900], [-12, 77]), [-12, 77]);
 });
 
-test('each context has the window of its kind', () => {
+test('each context has its own window', () => {
   store.report.value = { volume: null, vessels: null, windows: WINDOWS } as unknown as Report;
   const windowOf = (context: string | null) => {
     store.settings.value = { context };
@@ -45,7 +47,7 @@ test('each context has the window of its kind', () => {
   expect(store.viewSettings.value).toEqual({ window: [320, 900], context_window: [320, 900] });
 });
 
-test('a window that has a name is the one of its number; without a volume there is none', () => {
+test('a preset has the window of its number; without a volume there is none', () => {
   choosePreset(1);
   expect(store.window_.value).toEqual([300, 900]);
   store.report.value = { volume: null, vessels: null, windows: WINDOWS } as unknown as Report;
@@ -55,7 +57,7 @@ test('a window that has a name is the one of its number; without a volume there 
   expect(store.window_.value).toEqual([40, 400]);
 });
 
-test('a drag of the window is a step of its own, between those of the document', () => {
+test('a drag of the window is a separate undo step between those of the document', () => {
   const [empty, changed] = [document_.value, { ...document_.value, bridge: true }];
   begin(empty);
   store.window_.value = [300, 900];
@@ -80,7 +82,7 @@ test('a drag of the window is a step of its own, between those of the document',
   begin(empty);
 });
 
-test('a drag that changes no window is no step, nor is one that Escape takes back', () => {
+test('a drag is no undo step if it changes no window, or if Escape undoes it', () => {
   begin(document_.value);
   const drag = windowBack();
   drag.begin();
@@ -93,7 +95,7 @@ test('a drag that changes no window is no step, nor is one that Escape takes bac
   expect(undoWords.value).toBeNull();
 });
 
-test('a window alone is no edit of the vessels', () => {
+test('a change of the window is not an edit of the vessels', () => {
   begin(document_.value);
   store.report.value = { volume: null, vessels: null, windows: WINDOWS } as unknown as Report;
   choosePreset(1);
@@ -102,4 +104,15 @@ test('a window alone is no edit of the vessels', () => {
   change('name a vessel', { ...document_.value, bridge: true });
   expect(hasEdits.value).toBe(true);
   begin({ ...document_.value });
+});
+
+/** Windows after drags, which the tests of Rust and Python read too. */
+test('a drag changes the window as in all hosts', () => {
+  const text = readFileSync(join(import.meta.dirname, '../../tests/drags.json'), 'utf-8');
+  const { windows } = JSON.parse(text) as { windows: { window: Window; drag: Pair; end: Window }[] };
+  for (const { window, drag, end } of windows) {
+    store.window_.value = window;
+    dragWindow(drag);
+    expect(store.window_.value).toEqual(end);
+  }
 });

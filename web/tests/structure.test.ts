@@ -1,11 +1,11 @@
-/** Rules for all page files: length, no import cycles between files or folders, and one file that touches wasm. */
+/** Rules for all files of the page: limited length, no import cycles, and only one file that imports WebAssembly. */
 import { readdirSync, readFileSync } from 'node:fs';
 import { dirname, join, normalize } from 'node:path';
 import { describe, expect, test } from 'vitest';
 
 const SRC = join(import.meta.dirname, '../src');
 const LONGEST = 300;
-/** Generated, so exempt from the length limit. */
+/** Generated files may be longer than the limit. */
 const GENERATED = 'core/generated/';
 
 const files = readdirSync(SRC, { recursive: true, encoding: 'utf8' }).filter(
@@ -19,7 +19,7 @@ function imported(name: string): string[] {
   return paths.flatMap((path) => files.filter((file) => [path, `${path}.ts`, `${path}.tsx`].includes(file)));
 }
 
-/** Folder of a file within src; `main.tsx` has none. */
+/** Folder of a file below src; for a file directly in src, such as `main.tsx`, its own name. */
 const folderOf = (name: string): string => name.split(/[/\\]/).slice(0, -1)[0] ?? name;
 
 function circle(graph: ReadonlyMap<string, readonly string[]>): string[] {
@@ -44,17 +44,17 @@ function circle(graph: ReadonlyMap<string, readonly string[]>): string[] {
 }
 
 describe('the files of the page', () => {
-  test('are read', () => expect(files.length).toBeGreaterThan(20));
+  test('are found', () => expect(files.length).toBeGreaterThan(20));
 
   test.each(files.filter((name) => !name.startsWith(GENERATED)))('%s is short', (name) => {
     expect(readFileSync(join(SRC, name), 'utf8').split('\n').length).toBeLessThanOrEqual(LONGEST);
   });
 
-  test('need each other in no circle', () => {
+  test('do not import each other in a cycle', () => {
     expect(circle(new Map(files.map((name) => [name, imported(name)])))).toEqual([]);
   });
 
-  test('lie in folders that need each other in no circle', () => {
+  test('lie in folders that do not import each other in a cycle', () => {
     const folders = [...new Set(files.map(folderOf))];
     const needed = (folder: string) =>
       files
@@ -68,7 +68,7 @@ describe('the files of the page', () => {
     expect(circle(graph)).toEqual([]);
   });
 
-  test('a circle would be found', () => {
+  test('a cycle would be detected', () => {
     const graph = new Map([
       ['a', ['b']],
       ['b', ['c']],
@@ -77,7 +77,7 @@ describe('the files of the page', () => {
     expect(circle(graph)).toEqual(['a', 'b', 'c', 'a']);
   });
 
-  test('touch the wasm in one place', () => {
+  test('import WebAssembly in only one file', () => {
     const touching = files.filter((name) => readFileSync(join(SRC, name), 'utf8').includes('/pkg/'));
     expect(touching).toEqual(['core/module.ts']);
   });

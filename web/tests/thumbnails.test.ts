@@ -1,11 +1,11 @@
-/** Thumbnails of series. */
+/** Tests of the thumbnails of series. */
 import { expect, test } from 'vitest';
 import { series } from '../e2e/dicom';
 import { pictureOf } from '../src/io/dicom/thumbnails';
 import { file } from './made';
 import { openSources } from './opened';
 
-test('each of several series comes with its middle slice, and one alone is read as before', async () => {
+test('each of several series has a thumbnail of its middle slice; a single series is opened directly', async () => {
   const sources = (heights: readonly number[], uid: string) =>
     series(heights, 1, { uid, number: uid.slice(-1) }).map(({ name, buffer }) =>
       file(name, new Uint8Array(buffer)),
@@ -22,13 +22,13 @@ test('each of several series comes with its middle slice, and one alone is read 
   expect((await openSources(first)).failure).toBeNull();
 });
 
-test('a slice of any shape is 64 pixels at its longer side, from black to white without its extremes', () => {
+test('a thumbnail has 64 pixels on its longer side, and its grey scale ignores extreme values', () => {
   const values = Float32Array.from({ length: 256 * 128 }, (_, n) => (n === 0 ? 1e6 : n % 256));
   const { width, height, grey } = pictureOf(values, [256, 128]);
   expect([width, height, grey.length]).toEqual([64, 32, 64 * 32]);
   expect([grey[0], grey.at(-1)]).toEqual([0, 255]);
   expect(grey[32]).toBeGreaterThan(120);
   expect(grey[32]).toBeLessThan(136);
-  // A constant slice is black, without division by zero.
+  // The thumbnail of a constant slice is black; nothing is divided by zero.
   expect(new Set(pictureOf(new Int16Array(4).fill(7), [2, 2]).grey)).toEqual(new Set([0]));
 });

@@ -14,7 +14,7 @@ import { begin, document_, undo } from '../src/state/history';
 import { pickedVessel, started } from '../src/state/store';
 import { markNone, shorterThan, thinnerThan, treeChosen } from '../src/state/tidy';
 
-// The page's engine needs a worker, which tests lack.
+// The real engine needs a worker, which these tests do not have.
 vi.mock('../src/client/shared', () => ({ engine: {} }));
 
 const vessel = (id: number, doubt: string | null = null): DocumentVessel => ({
@@ -26,7 +26,7 @@ const vessel = (id: number, doubt: string | null = null): DocumentVessel => ({
   clicks: null,
   doubt,
 });
-/** A trunk with two branches, and two separate vessels, one of unknown radius. */
+/** Sure vessels: a trunk with two branches, and two separate vessels, one of them of unknown radius. */
 const SURE = [1, 2, 3, 4, 5].map((id) => vessel(id));
 const DOUBTFUL = [6, 7, 8].map((id) => vessel(id, `reason ${id}`));
 const FACTS: readonly LineFacts[] = [
@@ -96,7 +96,7 @@ afterEach(() => {
   begin(EMPTY);
 });
 
-test('short and thin vessels are marked while the limits move, and one step removes them', async () => {
+test('short and thin vessels are marked while the limits change, and are removed in one step', async () => {
   expect(marked.value.size).toBe(0);
   shorterThan.value = 10;
   expect([...marked.value]).toEqual([3, 5]);
@@ -116,7 +116,7 @@ test('short and thin vessels are marked while the limits move, and one step remo
   expect(ids()).toEqual([1, 2, 3, 4, 5, 6, 7, 8]);
 });
 
-test('a slider of limits reaches to what most vessels lie below, and no farther than is usual', () => {
+test('a limit slider covers most vessels, but not more than its usual range', () => {
   const to = (last: number) => Array.from({ length: last + 1 }, (_, n) => n);
   expect(reachOf(to(40), 60)).toBe(38);
   expect(reachOf(to(100), 60), 'a pixel of a slider to 95 would be too much').toBe(60);
@@ -125,7 +125,7 @@ test('a slider of limits reaches to what most vessels lie below, and no farther 
   expect(reachOf([], 60), 'nothing is known yet').toBe(0);
 });
 
-test('only what hangs together with the picked vessel is kept; doubtful branches stay to be judged', async () => {
+test('only vessels connected to the picked one are kept; doubtful branches stay for review', async () => {
   expect(unconnected.value, 'none is picked').toEqual([]);
   pickedVessel.value = 3;
   expect(unconnected.value).toEqual([1, 2, 3, 5]);
@@ -135,7 +135,7 @@ test('only what hangs together with the picked vessel is kept; doubtful branches
   expect(ids()).toEqual([1, 2, 3, 6, 7, 8]);
 });
 
-test('the list is a tree where vessels join, unless the reader wants none: branches under what they hang on, the widest first', () => {
+test('if vessels join, the list is a tree unless the user wants none: branches under their parents, the widest first', () => {
   const rows = () => listedVessels.value.map(({ vessel, depth }) => [vessel.id, depth]);
   treeChosen.value = false;
   expect(rows()).toEqual([1, 2, 3, 4, 5].map((id) => [id, 0]));
@@ -157,7 +157,7 @@ test('the list is a tree where vessels join, unless the reader wants none: branc
   treeChosen.value = null;
 });
 
-test('doubtful branches are counted by their reasons in a word, the most frequent one first', () => {
+test('doubtful branches are counted by their short reasons, the most frequent first', () => {
   const doubts = [
     { words: 'it is short', short: 'short' },
     { words: 'it is bright on most sides: bone?', short: 'beside bone' },
@@ -170,7 +170,7 @@ test('doubtful branches are counted by their reasons in a word, the most frequen
   started.value = null;
 });
 
-test('one walks through doubtful branches in a circle', async () => {
+test('doubtful branches are shown in turn, and after the last comes the first', async () => {
   expect(placeOfDoubt()).toEqual([-1, 3]);
   const seen = [1, 1, 1, 1, -1, -1].map((by) => {
     stepDoubt(engine, by as 1 | -1);
@@ -180,7 +180,7 @@ test('one walks through doubtful branches in a circle', async () => {
   expect(placeOfDoubt()).toEqual([1, 3]);
 });
 
-test('each answer leads to the next doubtful branch, the last one to none', async () => {
+test('after each answer the next doubtful branch is shown, after the last one none', async () => {
   await showDoubt(engine, DOUBTFUL[1] as DocumentVessel);
   await answerDoubt(engine, 'accept');
   expect(chosenDoubt.value).toBe(8);

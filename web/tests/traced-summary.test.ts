@@ -24,7 +24,7 @@ const edited = (vessel: DocumentVessel, told: Told | null) => ({
   told,
 });
 
-test('what is told of a vessel holds as long as the vessel runs where it ran', () => {
+test('the summary of a vessel is shown until the vessel changes', () => {
   begin(EMPTY);
   change('trace', document(VESSEL));
   storeSummary(edited(VESSEL, TOLD));
@@ -40,7 +40,7 @@ test('what is told of a vessel holds as long as the vessel runs where it ran', (
   expect(tracedSummary.value).toBeNull();
 });
 
-test('an edit that traces no single vessel tells nothing', () => {
+test('an edit that does not trace a single vessel has no summary', () => {
   begin(document(VESSEL));
   storeSummary(edited(VESSEL, TOLD));
   storeSummary(edited(VESSEL, null));

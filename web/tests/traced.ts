@@ -1,4 +1,4 @@
-/** The real engine as the page's worker uses it. */
+/** Runs the real engine, as the worker of the page does. */
 import { readFileSync } from 'node:fs';
 import type { Asked } from '../src/core/asked';
 import { Failure } from '../src/core/failure';
@@ -22,7 +22,7 @@ export async function opened(phantom: string, scale = 1): Promise<Opened> {
   const engine: Asked = {
     ask: async (name, message, attachments = {}) => {
       const { signal } = cancelled;
-      // As in the queue, work starts after its request returns.
+      // As in the queue of the worker, work starts only after the request has returned.
       await Promise.resolve();
       try {
         refuseStopped(name, signal);

@@ -1,4 +1,4 @@
-/** The page traces and writes the same as Python. */
+/** The page traces the same vessels and writes the same files as the Python package. */
 import { spawnSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -23,7 +23,7 @@ interface Truth {
 
 const root = fileURLToPath(new URL('../..', import.meta.url));
 
-/** Empty without an installed Python package. */
+/** Results of the Python package; empty if it is not installed. */
 function everyTruth(): readonly Truth[] {
   const python = join(root, '.venv/bin/python');
   if (!existsSync(python)) {
@@ -37,7 +37,7 @@ function everyTruth(): readonly Truth[] {
   return JSON.parse(readFileSync(join(folder, 'truth.json'), 'utf-8'));
 }
 
-/** Largest difference of two lines with equal numbers of points. */
+/** Largest difference between corresponding points of two lines (mm). */
 function apart(found: LineContent, truth: LineContent): number {
   const flat = ({ points, radius, confidence }: LineContent) => [
     ...points.flat(),
@@ -50,9 +50,9 @@ function apart(found: LineContent, truth: LineContent): number {
   return Math.max(...own.map((number, n) => Math.abs(number - (others[n] ?? Number.NaN))));
 }
 
-/** Sines differ in the last bit between machines (mm). */
+/** Allowed difference if only the last bits of sines differ between machines (mm). */
 const LAST_BITS = 1e-9;
-/** Voxel order by wall distance may depend on the last bit (mm). */
+/** Allowed difference if the order of voxels depends on the last bits of their distance from the wall (mm). */
 const SHOWN = 1e-3;
 
 const ADD_MASK = { document: EMPTY, edit: { kind: 'add_mask' }, bridging: false } as const;
@@ -62,7 +62,7 @@ const every = everyTruth();
 describe.skipIf(every.length === 0)('as Python', () => {
   test.each(every)('traces $phantom', async ({ phantom, clicks, lines, files }) => {
     const { engine } = await opened(phantom);
-    // Earlier vessels are given; the last one is begun, and all are traced together.
+    // All vessels but the last are given; the last one is begun, and all are traced in one edit.
     const vessel = { line: 0, name: '', color: '', isHidden: false, doubt: null };
     const vessels = clicks.slice(0, -1).map((own, n) => ({ ...vessel, id: n + 1, clicks: own }));
     const begin = { kind: 'begin_vessel', clicks: clicks.at(-1) ?? [] } as const;

@@ -3,7 +3,7 @@ import type { Vector } from '../src/core/messages';
 import { nextColor, PALETTE } from '../src/state/palette';
 import { distance, EMPTY, edited, lineOf, opened, refusal } from './traced';
 
-test('a vessel between two clicks follows the one that is there', async () => {
+test('a line between two clicks follows the vessel there', async () => {
   const { engine, report } = await opened('y_junction');
   const [trunk] = report().vessels ?? [];
   const truth = await engine.ask('line', { line: trunk?.line ?? -1 });
@@ -27,7 +27,7 @@ test('a vessel between two clicks follows the one that is there', async () => {
   expect(way?.at(-1)).toEqual(ends[1]);
 });
 
-test('a click into no lumen is refused with its place and the value there', async () => {
+test('a click outside lumen is rejected, with its position and the value there', async () => {
   const { engine, report } = await opened('y_junction');
   const [corner] = report().volume?.corners ?? [];
   const truth = await engine.ask('line', { line: report().vessels?.[0]?.line ?? -1 });
@@ -40,7 +40,7 @@ test('a click into no lumen is refused with its place and the value there', asyn
   expect(await engine.ask('path', { from: inside, to: air, stoppers: [], bridge: false })).toBeNull();
 });
 
-test('a stop is heard by tracing that has not begun, and not by what is asked for later', async () => {
+test('a stop cancels tracing that has not begun, but no later request', async () => {
   const { engine, report, cancel } = await opened('y_junction');
   const { points } = await engine.ask('line', { line: report().vessels?.[0]?.line ?? -1 });
   const ends = [points[4], points.at(-5)] as Vector[];
@@ -51,7 +51,7 @@ test('a stop is heard by tracing that has not begun, and not by what is asked fo
   expect((await edited(engine, begin)).added).toHaveLength(1);
 });
 
-test('what is shown can be cut, joined and shown again', async () => {
+test('displayed vessels can be cut, joined and displayed again', async () => {
   const { engine } = await opened('stenosis');
   const whole = await engine.ask('begin_document', null);
   expect(whole.vessels).toMatchObject([
@@ -73,7 +73,7 @@ test('what is shown can be cut, joined and shown again', async () => {
   expect(far.kind).toBe('vessel tree');
 });
 
-test('the colour of a vessel that is drawn is the one that the engine gives it', async () => {
+test('a vessel being drawn has the colour that the engine will give it', async () => {
   const { engine } = await opened('stenosis');
   const { vessels } = await engine.ask('begin_document', null);
   const lines = Array.from({ length: 2 * PALETTE.length }, () => ({
@@ -86,7 +86,7 @@ test('the colour of a vessel that is drawn is the one that the engine gives it',
   }
 });
 
-test('a document comes back from the engine with the numbers that it had, to the last bit', async () => {
+test('the engine returns a document with bit-identical numbers', async () => {
   const { engine } = await opened('stenosis');
   const odd: Vector = [0.1 + 0.2, 1 / 3, -1e-17];
   const { vessels, ...rest } = await engine.ask('begin_document', null);
@@ -95,7 +95,7 @@ test('a document comes back from the engine with the numbers that it had, to the
   expect(JSON.stringify(same.document.vessels)).toBe(JSON.stringify(document.vessels));
 });
 
-test('files that are no mask are refused, and the scan stays', async () => {
+test('files that are not masks are rejected, and the scan stays open', async () => {
   const { engine, report } = await opened('stenosis');
   const before = report();
   const table = new File(['x,y,z\n0,0,0\n1,0,0\n'], 'line.csv');

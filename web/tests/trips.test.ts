@@ -1,4 +1,4 @@
-/** A tracing click takes one request to the worker. */
+/** A click while tracing needs only one request to the worker. */
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import type { Vector } from '../src/core/messages';
 import { answered, dropEdits } from '../src/edit/committing';
@@ -16,7 +16,7 @@ import * as store from '../src/state/store';
 import { tool } from '../src/state/tool';
 import { documentOf, FakeTracing, reportOf } from './fake-tracing';
 
-// The page's engine needs a worker, which tests lack.
+// The real engine needs a worker, which these tests do not have.
 vi.mock('../src/client/shared', () => ({ engine: {} }));
 
 const [A, B, C]: Vector[] = [
@@ -29,7 +29,7 @@ let tracing: FakeTracing;
 let ends: (() => void)[];
 const idle = () => new Promise((resolve) => setTimeout(resolve, 5));
 
-/** Questions since the last call, once all work is done. */
+/** Waits until all work is done; returns the requests since the last call. */
 async function trips(): Promise<readonly string[]> {
   await idle();
   return tracing.trips.splice(0);
@@ -58,7 +58,7 @@ afterEach(() => {
   beginStudy(null);
 });
 
-test('each click of a vessel is one trip, and its answer is all that the page shows', async () => {
+test('each click takes one request, whose answer contains all that the page shows', async () => {
   expect((await setPoint(tracing, A as Vector))?.value).toBe(300);
   expect(await trips()).toEqual(['first_click']);
   for (const point of [B, C] as Vector[]) {
@@ -73,13 +73,13 @@ test('each click of a vessel is one trip, and its answer is all that the page sh
   }
 });
 
-test('the whole vessel of a first click comes with what was hit, and is picked once it is taken', async () => {
+test('the answer to a first click contains the whole vessel, which is picked once it is added', async () => {
   await setPoint(tracing, A as Vector);
   takeWhole(tracing);
   expect(await trips()).toEqual(['first_click', 'edit']);
 });
 
-test('undo, and what the page changes itself, is shown as before', async () => {
+test('undo and changes by the page itself are displayed by a separate request', async () => {
   await setPoint(tracing, A as Vector);
   await setPoint(tracing, B as Vector);
   await trips();
@@ -92,7 +92,7 @@ test('undo, and what the page changes itself, is shown as before', async () => {
   expect(tree.value).toEqual([]);
 });
 
-test('after an edit that was dropped while the engine made it, the document is shown again', async () => {
+test('after an edit that was dropped while the engine worked, the document is displayed again', async () => {
   await setPoint(tracing, A as Vector);
   let open = () => {};
   tracing.gate = new Promise((resolve) => {

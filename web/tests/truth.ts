@@ -1,4 +1,4 @@
-/** Python's results for the same files, and the comparison with the page's readers. */
+/** Results of the Python package for test files, and their comparison with those of the page. */
 import { spawnSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
 import { existsSync, mkdtempSync, readFileSync } from 'node:fs';
@@ -21,7 +21,7 @@ export interface Expected {
   readonly affine: readonly (readonly number[])[];
   readonly dtype: string;
   readonly sha256: string;
-  /** Values of lossy files, which decoders round differently. */
+  /** Present for lossy files, whose values decoders round differently. */
   readonly values?: string;
   readonly notes: readonly string[];
   readonly states: { readonly spacing: boolean; readonly orientation: boolean };
@@ -34,7 +34,7 @@ export interface Expected {
 
 const here = fileURLToPath(new URL('.', import.meta.url));
 
-/** Empty without an installed Python package. */
+/** Results of the Python package; empty if it is not installed. */
 export function everyTruth(): readonly Expected[] {
   const folder = process.env.LUMENCUT_SAMPLES ?? written();
   const path = folder === null ? '' : join(folder, 'expected.json');
@@ -70,7 +70,7 @@ export function sameVolume({ memory, failure, notes, states }: Result, truth: Ex
     expect(Math.abs(value - (truth.affine.flat()[i] ?? 0))).toBeLessThanOrEqual(1e-12 * largest);
   });
   sameValues(memory.values, truth);
-  // Statements of `lumencut info` and of the engine are not notes of a reader.
+  // Notes that `lumencut info` or the engine adds do not come from a reader, so they are not compared.
   const isNote = (note: string) => !/^(values are scaled|a straightened vessel:|the scan is )/.test(note);
   expect(notes).toEqual(truth.notes.filter(isNote));
 }

@@ -30,7 +30,7 @@ pub struct Frame {
     pub distance: Vec<f32>,
     /// The volume at the cut surface, NaN outside the volume.
     pub value: Vec<f32>,
-    /// Only the context: RGBA, straight alpha, transparent where it is not needed; empty without a context.
+    /// The context alone: RGBA, straight alpha, transparent in pixels that need none; empty without a context.
     pub context: Vec<[u8; 4]>,
     /// For reformations: whether other points of the vessel share the pixel. Otherwise empty.
     pub folded: Vec<bool>,

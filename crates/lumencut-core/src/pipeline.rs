@@ -1,7 +1,7 @@
 //! The method from end to end: the stages in the order of the paper's Fig. 4.
 //!
-//! `cut_surface` finds the position of every pixel, `look` shows what is there. A reformation brings its own
-//! geometry and shares `look`.
+//! `cut_surface` finds the position of every pixel, `look` shows the volume there. A reformation finds the
+//! positions in another way and then also uses `look`.
 
 mod clock;
 mod details;
@@ -107,7 +107,7 @@ pub struct CpuRenderer {
     projected: Vec<ProjectedLevel>,
     /// The vessels that take precedence in `projected`.
     first: Vec<usize>,
-    /// The sheet of the previous view, kept because it is the largest of the images that no frame has.
+    /// The sheet of the previous view, kept to reuse its buffer, the largest of those that no frame needs.
     sheet: Vec<Sheet>,
     isa: Isa,
 }

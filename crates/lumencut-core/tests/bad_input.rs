@@ -20,7 +20,7 @@ use lumencut_scenes::views::{front, pixel, view};
 
 const DIRECTIONS: [[f64; 3]; 4] = [[0.0, 1.0, 0.0], [0.0, 0.0, -1.0], [1.0, 2.0, 3.0], [1e-5, 1e-5, 1.0]];
 
-/// The default rules, by cost only, many close levels, the paper's rules, and the default with its filter.
+/// Rules without the depth filter (default, by cost only, many close levels, the paper's), and the default with it.
 fn rules() -> [Settings; 5] {
     [
         unfiltered(),

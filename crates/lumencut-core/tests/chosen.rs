@@ -78,7 +78,7 @@ fn a_chosen_vessel_is_seen_wherever_its_own_cut_would_be_if_it_were_alone() {
         ];
         let mut pixels = 0;
         for n in 0..own.vessel.len() {
-            // The share at the margin of a hard edge marks lumen and wall of the vessel.
+            // Up to 1 mm (the assumed wall) beyond its lumen, the chosen vessel is shown.
             let edge = beyond(&alone, &camera, n);
             if edge < 0.999 {
                 assert_eq!(found.vessel[n], chosen as i32, "seed {seed}, pixel {n}");

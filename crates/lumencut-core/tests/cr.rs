@@ -141,7 +141,7 @@ fn the_vessel_in_front_keeps_its_disc_and_a_larger_offset_hides_more() {
 
 #[test]
 fn a_loop_is_two_stretches_where_the_threshold_is_short_and_one_where_it_is_long() {
-    // A vessel runs down, and up again 40 mm behind and 10 mm aside: its limbs' middles are 140 mm apart.
+    // A vessel runs down, and up again 40 mm behind and 10 mm aside: its limbs' middles are 141 mm apart along it.
     let hairpin =
         vessel(&[[0., 0., 50.], [0., 0., -0.], [0., 0., -50.], [10., 40., -50.], [10., 40., 50.]], 2.0);
     let camera = front([60, 60], 1.0);
@@ -184,7 +184,7 @@ fn two_ways_around_a_ring_and_the_shorter_one_counts() {
     let half = |y: f64| vessel(&[[0., 0., 0.], [0., y, 10.], [0., 0., 20.]], 1.0);
     let tree = tree(vec![half(10.0), half(-30.0), vessel(&[[0., 0., 20.], [0., 0., 50.]], 1.0)]);
     let level = Level::new(&tree);
-    // The way leads from 25 mm beyond the ring to its start, over the shorter half of the ring.
+    // The path leads from 25 mm beyond the ring to its start, over the shorter half of the ring.
     let short = 25.0 + 2.0 * 200f64.sqrt();
     assert!(Connections::new(&level, short + 1e-4).are_near((2, 25.0), (1, 0.0)));
     assert!(!Connections::new(&level, short - 1e-4).are_near((2, 25.0), (1, 0.0)));

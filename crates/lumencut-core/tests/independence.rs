@@ -24,7 +24,7 @@ fn scene() -> (VesselTree, Vec<i16>, DAffine3) {
     (random_tree(11, 20, 50, 2.0, 70.0).unwrap(), voxels, affine)
 }
 
-/// The default rules, the paper's, and own levels by cost only with many levels.
+/// The default rules, the paper's, and the level choice `own` by cost only with many levels.
 fn rules() -> [Settings; 3] {
     let by_cost = Settings { lumen_first: false, levels: 15, level_distance: 1.0, ..Settings::default() };
     [Settings::default(), Settings::paper(), by_cost]

@@ -1,4 +1,4 @@
-//! One decision per pixel: only the vessel that wins it on the finest level gives its depth.
+//! One decision per pixel: only the vessel that the pixel shows on the finest level gives its depth.
 #![allow(clippy::unwrap_used)]
 
 use glam::DVec3;
@@ -87,7 +87,7 @@ fn a_lumen_that_rounding_may_change_is_not_certain() {
     assert_eq!(depths(3.0001), [None; 2]);
 }
 
-/// Own levels with *lumen first* and with cost only, with few levels and with many.
+/// The level choice `own` with *lumen first*, with cost only, and with many levels.
 fn own_levels() -> [Settings; 3] {
     [
         unfiltered(),

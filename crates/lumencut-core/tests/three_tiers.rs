@@ -71,7 +71,8 @@ fn tube(height: f64, depth: f64, radius: f64) -> Tube {
 
 #[test]
 fn lumen_beats_wall_and_wall_beats_surroundings_whatever_the_depth() {
-    // Far tube: lumen to 2, wall to 2.75. Nearer tube: wall from 2.75, lumen from 3.5. The nearest is higher.
+    // Heights: far tube, lumen to 2, wall to 2.75; nearer tube, wall from 2.75, lumen from 3.5; nearest tube
+    // above.
     let tubes = [tube(0.0, 1000.0, 2.0), tube(5.0, 500.0, 1.5), tube(12.0, -900.0, 0.5)];
     let thin_wall = Settings { lumen_margin: 0.75, ..unfiltered() };
     assert_eq!(

@@ -38,7 +38,7 @@ impl Directions {
         line.and_then(|line| self.across(line)).unwrap_or(self)
     }
 
-    /// Turns the directions across `normal`; None if a cosine changes by more than rounding.
+    /// Makes the directions perpendicular to `normal`; None if a cosine changes by more than rounding.
     fn across(&self, normal: DVec3) -> Option<Self> {
         let within = |vector: DVec3| vector - vector.dot(normal) * normal;
         let [along_i, along_j] = orthonormal([within(self.along_i), within(self.along_j)])?;

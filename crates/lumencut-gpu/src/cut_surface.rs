@@ -17,7 +17,7 @@ use crate::recording::Recording;
 use crate::stage::Stage;
 use crate::view::groups;
 
-/// Columns of quads and rows in a thread's tile on software: large, so that each read serves many pixels.
+/// Columns of quads and rows in a thread's tile on software adapters: large, so that each read serves many pixels.
 pub(crate) const TILE_ON_SOFTWARE: [usize; 2] = [1, 4];
 /// Columns of quads and rows in a thread's tile on hardware: small, so that there are many threads.
 pub(crate) const TILE_ON_HARDWARE: [usize; 2] = [1, 1];

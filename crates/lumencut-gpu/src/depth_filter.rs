@@ -51,7 +51,7 @@ impl DepthFilter {
         self.record_as(self.stage.name, recording, view, size, from_to);
     }
 
-    /// Records the filter as a part of the stage `name`, which its time is added to.
+    /// Records the filter as a part of the stage `name`; its time is added to that stage.
     pub(crate) fn record_as(
         &self,
         name: &'static str,

@@ -18,7 +18,7 @@ pub(crate) struct Images {
     pub leap: Buffer,
     pub focus: Buffer,
     pub value: Buffer,
-    /// Slopes from which silhouettes are made; before, the depth filtered within zones along columns only.
+    /// First the depth filtered along columns only (within zones), later the slopes that give the silhouettes.
     pub raised: Buffer,
     pub strength: Buffer,
     pub start: Buffer,

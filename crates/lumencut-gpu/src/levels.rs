@@ -124,7 +124,7 @@ pub(crate) struct DeviceLevels {
     origin: DVec3,
     reach: f64,
     unit: f64,
-    /// The chosen vessels written last, and all spans.
+    /// The chosen vessels that were written last.
     first: Vec<usize>,
     all_spans: Vec<Span>,
     pub spans: Buffer,

@@ -104,7 +104,7 @@ impl<'a> Pass<'a> {
             Stage::Silhouette => self.silhouette(),
             Stage::Context => return self.context(),
             Stage::Composite => self.composite(),
-            // These are made by the CPU, sent before the view, or recorded with another stage.
+            // These stages run on the CPU, before the view, or as part of another stage.
             Stage::Levels | Stage::Projection | Stage::Blocks => {}
         }
         Ok(())

@@ -62,7 +62,7 @@ impl<'a> Recording<'a> {
         self.run_as(stage.name, stage, resources, groups);
     }
 
-    /// Runs `stage` as a part of the stage `name`, which its time is added to.
+    /// Runs `stage` as a part of the stage `name`; its time is added to that stage.
     pub(crate) fn run_as(
         &mut self,
         name: &'static str,

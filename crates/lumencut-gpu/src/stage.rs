@@ -38,7 +38,7 @@ impl Stage {
         Self { name, pipeline, first_binding: 0 }
     }
 
-    /// The same stage, if the entry point does not use the bindings before this one.
+    /// The same stage for an entry point that does not use the bindings before `first_binding`.
     pub(crate) fn with_first_binding(mut self, first_binding: u32) -> Self {
         self.first_binding = first_binding;
         self

@@ -20,11 +20,11 @@ use crate::volume::DeviceVolume;
 #[derive(Clone, Copy, Debug, Pod, Zeroable)]
 #[repr(C)]
 pub(crate) struct CurvedPixel {
-    /// The integer part of its continuous index.
+    /// The integer part of the pixel's continuous index.
     pub whole: [f32; 4],
     /// The remainder of the index.
     pub part: [f32; 4],
-    /// Index per mm along the slab direction.
+    /// Change of the index per mm along the slab direction.
     pub per_mm: [f32; 4],
 }
 

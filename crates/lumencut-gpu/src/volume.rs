@@ -19,7 +19,7 @@ use crate::blocks::DeviceBlocks;
 use crate::device::Device;
 use crate::view::{power_above, split};
 
-/// Floats with a larger absolute value count as missing.
+/// Floats whose absolute value exceeds this count as missing.
 const LARGEST_FLOAT: f32 = 1e30;
 /// The largest number of bytes gathered for one transfer.
 const SLAB_BYTES: usize = 64 << 20;

@@ -77,8 +77,8 @@ pub(crate) struct Budget {
 }
 
 impl Budget {
-    /// The budget for a file: 1 MiB plus 16 times its size. A point with radius and line entry takes 66
-    /// bytes, rarely below 8 if compressed. A decompression bomb unpacks to thousands of times its size.
+    /// The budget for a file: 1 MiB plus 16 times its size. A point with radius and line entry takes 66 bytes;
+    /// compressed, it rarely takes less than 8. A decompression bomb unpacks to thousands of times its size.
     pub(crate) fn of_file(size: usize) -> Self {
         Self { left: (size as u64).saturating_mul(16).saturating_add(1 << 20) }
     }

@@ -1,7 +1,8 @@
 //! Session files store a reader's work on a scan, so that it can be continued.
 //!
 //! A session file is a markups file of 3D Slicer (`.mrk.json`) whose curves are the vessels. The field
-//! [`FIELD`] contains everything else, but no file names or patient data. Points are in LPS, lengths in mm.
+//! [`FIELD`] has everything else, but no file names or patient data. Points are in LPS, lengths in mm.
+//! The page's types are generated from the types here; they skip what the page leaves to the engine.
 
 use std::collections::BTreeMap;
 
@@ -37,13 +38,17 @@ pub struct SessionFile {
 
 /// Everything in a session file except the lines.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "types", derive(ts_rs::TS), ts(rename = "SavedSession"))]
 #[serde(deny_unknown_fields)]
 pub struct Session {
     /// Version of the field [`FIELD`].
+    #[cfg_attr(feature = "types", ts(skip))]
     pub format: u32,
     /// Name and version of the program that wrote the file.
+    #[cfg_attr(feature = "types", ts(skip))]
     pub software: String,
     /// Statement that the program is not a medical device.
+    #[cfg_attr(feature = "types", ts(skip))]
     pub notice: String,
     /// Grid of the scan, by which the scan is recognised; None if there was no scan.
     pub scan: Option<Scan>,
@@ -63,6 +68,7 @@ pub struct Session {
     pub view: Option<View>,
     /// Whether a voxel spacing of 1 mm was assumed; exists since version 2.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    #[cfg_attr(feature = "types", ts(as = "Option<bool>", optional))]
     pub one_millimetre_assumed: bool,
 }
 
@@ -82,16 +88,19 @@ impl Session {
 
 /// The grid of a scan.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "types", derive(ts_rs::TS), ts(rename = "SavedScan"))]
 #[serde(deny_unknown_fields)]
 pub struct Scan {
     /// Number of voxels along (i, j, k).
     pub size: [usize; 3],
-    /// Affine from voxel indices to world positions (LPS, mm), row by row.
+    /// World position (LPS, mm) of a continuous index, row by row.
+    #[cfg_attr(feature = "types", ts(type = "Array<Array<number>>"))]
     pub world_from_index: [[f64; 4]; 4],
 }
 
 /// The state of a vessel, except its line.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "types", derive(ts_rs::TS), ts(rename = "SavedVessel"))]
 #[serde(deny_unknown_fields)]
 pub struct VesselState {
     /// Colour as `#rrggbb`.
@@ -101,8 +110,10 @@ pub struct VesselState {
     /// Clicks in order; None if the vessel was not traced from clicks.
     pub clicks: Option<Vec<Point>>,
     /// Confidence of each point, 0 to 1.
+    #[cfg_attr(feature = "types", ts(skip))]
     pub confidence: Option<Vec<f64>>,
     /// Whether each point lies on a bridged stretch without lumen.
+    #[cfg_attr(feature = "types", ts(skip))]
     pub bridged: Option<Vec<bool>>,
     /// Marks that the reader set, if any.
     pub marks: Option<Marks>,
@@ -110,6 +121,7 @@ pub struct VesselState {
 
 /// Marks that the reader set on a vessel; arc lengths and diameters are in mm.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "types", derive(ts_rs::TS), ts(rename = "SavedMarks"))]
 #[serde(deny_unknown_fields)]
 pub struct Marks {
     /// Arc length of a stenosis.
@@ -130,29 +142,36 @@ pub struct Marks {
     pub second_stretch_mm: Option<[f64; 2]>,
     /// Arc lengths of noted diameters; exist since version 2.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(feature = "types", ts(as = "Option<Vec<f64>>", optional))]
     pub diameters_mm: Vec<f64>,
 }
 
 /// A doubtful branch that was found from a seed.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "types", derive(ts_rs::TS), ts(rename = "SavedBranch"))]
 #[serde(deny_unknown_fields)]
 pub struct DoubtfulBranch {
     /// Name of the branch; may be empty.
+    #[cfg_attr(feature = "types", ts(skip))]
     pub name: String,
     /// Colour as `#rrggbb`.
     pub color: String,
     /// Reason for the doubt.
     pub doubt: String,
     /// Points of the branch.
+    #[cfg_attr(feature = "types", ts(skip))]
     pub points: Vec<Point>,
     /// Radius of each point (mm).
+    #[cfg_attr(feature = "types", ts(skip))]
     pub radius: Option<Vec<f64>>,
     /// Confidence of each point, 0 to 1.
+    #[cfg_attr(feature = "types", ts(skip))]
     pub confidence: Option<Vec<f64>>,
 }
 
 /// A sphere that traced vessels must not enter.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "types", derive(ts_rs::TS), ts(rename = "SavedStopper"))]
 #[serde(deny_unknown_fields)]
 pub struct Stopper {
     /// Centre.
@@ -163,6 +182,7 @@ pub struct Stopper {
 
 /// A straight distance between two points.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "types", derive(ts_rs::TS), ts(rename = "SavedRuler"))]
 #[serde(deny_unknown_fields)]
 pub struct Ruler {
     /// Position of one end.
@@ -173,6 +193,7 @@ pub struct Ruler {
 
 /// The view of a scan.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "types", derive(ts_rs::TS), ts(rename = "SavedView"))]
 #[serde(deny_unknown_fields)]
 pub struct View {
     /// Camera of the 3D view.
@@ -180,6 +201,7 @@ pub struct View {
     /// Reformation: `csr`, `csr-paper`, `mpcpr` or `cr`.
     pub method: String,
     /// Values of settings that differ from the default, by name; a window is level and width.
+    #[cfg_attr(feature = "types", ts(type = "Settings"))]
     pub settings: BTreeMap<String, Value>,
     /// Layout of the page.
     pub layout: String,
@@ -191,6 +213,7 @@ pub struct View {
 
 /// A place on a vessel.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "types", derive(ts_rs::TS), ts(rename = "SavedPlace"))]
 #[serde(deny_unknown_fields)]
 pub struct Picked {
     /// Number of the vessel, from 0.
@@ -201,6 +224,7 @@ pub struct Picked {
 
 /// An orthographic camera; its axes are unit vectors.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "types", derive(ts_rs::TS), ts(rename = "SavedCamera"))]
 #[serde(deny_unknown_fields)]
 pub struct Camera {
     /// Centre of the image.

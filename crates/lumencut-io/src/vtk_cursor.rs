@@ -117,7 +117,7 @@ impl<'a> Cursor<'a> {
         self.rest = at.map_or(&[], |at| &self.rest[at..]);
     }
 
-    /// Reads texts: one per line, or each after its length, which states its own width in two bits.
+    /// Reads texts: one per line, or in binary each after its length, whose first two bits state how wide it is.
     fn texts(&mut self, subject: &str, count: usize) -> Result<Vec<f64>> {
         let mut out = Vec::new();
         for _ in 0..count {

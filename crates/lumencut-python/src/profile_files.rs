@@ -2,8 +2,8 @@
 
 use lumencut::measure::stretch::CArm;
 use lumencut::measure_words;
+use lumencut::profile_json::{self as for_programs, Asked, NOTICE};
 use lumencut::profile_marks::{Mark, Measured, marks};
-use lumencut::profile_record::{self, Asked, NOTICE};
 use lumencut::profile_table;
 use lumencut::scan_details::ScanDetails;
 use lumencut::{not_measured, not_suggested};
@@ -76,13 +76,13 @@ pub(crate) fn vessels_csv(measured: Vec<MeasuredParts>) -> String {
 
 #[pyfunction]
 pub(crate) fn profile_json(profile: &Profile) -> String {
-    profile_record::profile_json(&profile.0, &profile.1)
+    for_programs::profile_json(&profile.0, &profile.1)
 }
 
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn vessels_json(options: Options, measured: Vec<MeasuredParts>) -> String {
-    profile_record::vessels_json(&options.into(), &rows(&measured))
+    for_programs::vessels_json(&options.into(), &rows(&measured))
 }
 
 /// Name, arc length and diameter (mm) of a place to review, and whether it is suggested.

@@ -55,7 +55,7 @@ impl DerivedView {
     }
 }
 
-fn placed(made: lumencut::error::Result<Camera>) -> PyResult<DerivedView> {
+pub(crate) fn placed(made: lumencut::error::Result<Camera>) -> PyResult<DerivedView> {
     made.map(|camera| DerivedView::of(&camera)).map_err(to_python)
 }
 

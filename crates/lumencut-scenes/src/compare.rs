@@ -102,7 +102,7 @@ mod tests {
         })
     }
 
-    /// Asserts that `assert_equal` rejects a changed frame with `words`.
+    /// Asserts that `assert_equal` rejects a changed frame with a message that contains `words`.
     fn refuses(words: &str, size: [usize; 2], change: impl Fn(&mut Frame)) {
         let (a, mut b) = (frame(size), frame(size));
         assert_eq!(refused(&a, &b), None, "before the change");

@@ -4,7 +4,8 @@ use glam::{DVec2, DVec3};
 use lumencut_core::camera::Camera;
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
 
-/// The depth (mm) of the nearest lumen at view (x, y): the smallest depth of the pieces with distance d ≤ radius r there.
+/// The depth (mm) of the nearest lumen at view (x, y): the smallest one of the pieces whose distance is at most
+/// their radius.
 pub fn nearest_lumen(scene: &VesselTree, camera: &Camera, x: f64, y: f64) -> Option<f64> {
     lumen_within(scene, camera, [x, y], 0.0)
 }

@@ -25,7 +25,7 @@ pub fn context_alone(volume: Volume, camera: &Camera, settings: &Settings, stop:
     render(&Scene::default().with_volume(volume), camera, settings, stop)
 }
 
-/// The depths of a frame, for changes.
+/// The depths of a frame, to be changed by the caller.
 pub fn depth_of(frame: &mut Frame) -> &mut [f32] {
     match &mut frame.geometry {
         Geometry::Orthographic { depth, .. } => depth,

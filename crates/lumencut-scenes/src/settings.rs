@@ -5,7 +5,7 @@ use lumencut_core::settings::{ControlPoint, Settings, TransferFunction, Window};
 /// The context window of [`crate::volumes::ball_and_rod`].
 pub const WINDOW: Window = Window { level: 300.0, width: 900.0 };
 
-/// Settings without the depth filter: each pixel has the depth of the piece that wins it.
+/// Settings without the depth filter: each pixel has the depth of the piece that it shows.
 pub fn unfiltered() -> Settings {
     Settings { depth_filter: false, ..Settings::default() }
 }

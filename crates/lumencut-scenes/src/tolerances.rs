@@ -41,7 +41,8 @@ impl Tolerance {
     }
 }
 
-/// Shares of a focus, 0 to 1. Wall distances round to a few 10⁻⁶ mm, and fades are at least 1 mm wide; a grey step is 4·10⁻³.
+/// Shares of a focus, 0 to 1. Wall distances are rounded by a few 10⁻⁶ mm, fades are at least 1 mm wide; a grey
+/// step is 4·10⁻³.
 pub const SHARE: Tolerance = Tolerance::new(1e-4, 0.0);
 
 /// Side of a neighbourhood (pixels).

@@ -1,238 +1,203 @@
-//! Profiles as JSON for programs, with full precision; null means not measured.
+//! The record of a profile: all of it as text, from which any host restores it exactly.
 
-use lumencut_core::named::Named;
-use lumencut_vessels::measure::profile::Profile;
-use serde::Serialize;
-use serde::ser::{SerializeMap, Serializer};
-use serde_json::ser::PrettyFormatter;
+use std::collections::BTreeMap;
 
-use crate::measure_words::{of_doubts, of_flags, of_source, of_wall};
-use crate::not_measured::{NotMeasured, not_measured};
-use crate::not_suggested::not_suggested;
-use crate::profile_marks::{Grade, Mark, Measured, marks};
-use crate::profile_table::columns;
+use glam::DVec3;
+use lumencut_core::error::{Error, ErrorKind, Result};
+use lumencut_vessels::measure::profile::{CONTOUR_POINTS, Profile, Source};
+use lumencut_vessels::measure::section_plane::MOST_SECTIONS;
+use lumencut_vessels::measure::tree_walls::PooledWall;
+use lumencut_vessels::measure::wall_level::WallSource;
+use serde::{Deserialize, Serialize};
+
+use crate::flag_table::FLAGS;
+use crate::profile_columns::{columns, empty, lengths, whole};
+use crate::recorded_number::{Numbers, recorded, restored};
 use crate::scan_details::ScanDetails;
 
-/// The notice in every file.
-pub const NOTICE: &str = "Lumencut is not a medical device.";
+const SUBJECT: &str = "record of a profile";
 
-/// The request of a measurement. Places are set only if a single vessel was measured.
-#[derive(Clone, Debug, Default, Serialize)]
-pub struct Asked {
-    /// Distance between sections (mm).
-    pub step_mm: f64,
-    /// Point-spread width (mm), if given.
-    pub fwhm_mm: Option<f64>,
-    /// The place of the stenosis (arc length, mm).
-    pub at_mm: Option<f64>,
-    /// The references of the stenosis (arc lengths, mm).
-    pub reference_mm: Option<Vec<f64>>,
-    /// The method's name.
-    pub method: Option<String>,
-    /// The assumed original diameter (mm).
-    pub original_mm: Option<f64>,
-    /// The diameter of a comparable normal vessel (mm).
-    pub comparison_mm: Option<f64>,
-    /// The territory of the severity groups.
-    pub group: Option<String>,
-}
+/// The version of records.
+const FORMAT: u32 = 1;
 
-/// One profile as JSON.
-pub fn profile_json(profile: &Profile, scan: &ScanDetails) -> String {
-    document(&ProfileRecord::of(profile, scan))
-}
-
-/// Measured vessels as JSON, with the request.
-pub fn vessels_json(asked: &Asked, vessels: &[Measured]) -> String {
-    #[derive(Serialize)]
-    struct Vessels<'a> {
-        settings: &'a Asked,
-        vessels: Vec<VesselRecord>,
-    }
-    document(&Vessels { settings: asked, vessels: vessels.iter().map(VesselRecord::of).collect() })
-}
-
-fn document<T: Serialize>(content: &T) -> String {
-    #[derive(Serialize)]
-    struct Document<'a, T> {
-        software: String,
-        notice: &'static str,
-        #[serde(flatten)]
-        content: &'a T,
-    }
-    let software = format!("lumencut {}", env!("CARGO_PKG_VERSION"));
-    let whole = Document { software, notice: NOTICE, content };
-    let mut text = Vec::new();
-    let mut writer = serde_json::Serializer::with_formatter(&mut text, PrettyFormatter::with_indent(b" "));
-    // Writing to memory cannot fail, and neither can numbers and texts.
-    let written = whole.serialize(&mut writer);
-    debug_assert!(written.is_ok(), "{written:?}");
-    text.push(b'\n');
-    String::from_utf8(text).unwrap_or_default()
-}
-
-#[derive(Serialize)]
-struct VesselRecord {
-    id: String,
-    name: Option<String>,
-    #[serde(flatten)]
-    profile: ProfileRecord,
-    stenosis: Option<StenosisRecord>,
-    not_graded: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    assumed: Option<&'static str>,
-}
-
-impl VesselRecord {
-    fn of(one: &Measured) -> Self {
-        Self {
-            id: one.id.clone(),
-            name: one.name.clone(),
-            profile: ProfileRecord::of(one.profile, one.scan),
-            stenosis: one.grade.and_then(StenosisRecord::of),
-            not_graded: one.grade.and_then(Grade::not_graded).map(str::to_owned),
-            assumed: one.assumed(),
-        }
-    }
-}
-
-#[derive(Serialize)]
-struct ProfileRecord {
+/// A measured profile as JSON. Numbers keep all bits; null means NaN, since JSON has no NaN.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ProfileRecord {
+    /// Version of the record.
+    format: u32,
+    /// Bits of the flags by name, for other programs. Our reader uses only the bits in `flags`.
+    flag_names: BTreeMap<String, u32>,
+    /// The flags of each section.
+    flags: Vec<u32>,
+    /// Columns by name, in mm, LPS or the volume's unit. The coordinates of points follow each other. Each contour begins
+    /// with its number of points.
+    columns: BTreeMap<String, Numbers>,
+    /// Where the point spread comes from: kind and words.
+    fwhm_source: (String, String),
+    /// Where the wall level comes from: kind and numbers.
+    wall_source: (String, Numbers),
+    /// How the scan was made.
     scan: ScanDetails,
-    fwhm_mm: f64,
-    fwhm_uncertainty_mm: f64,
-    fwhm_source: String,
-    wall_source: String,
-    noise: f64,
-    length_mm: f64,
-    not_measured: Vec<NotMeasured>,
-    longest_diameter: Option<Longest>,
-    suggestions: Suggestions,
-    sections: Sections,
 }
 
 impl ProfileRecord {
-    fn of(profile: &Profile, scan: &ScanDetails) -> Self {
-        let longest = |spot: lumencut_vessels::measure::suggestions::Spot| Longest {
-            arc_length_mm: spot.at,
-            diameter_max_mm: spot.diameter,
-        };
+    /// The record of a profile.
+    pub fn of(profile: &Profile, scan: &ScanDetails) -> Self {
+        let mut profile = profile.clone();
+        let columns =
+            columns(&mut profile).map(|(name, column)| (name.to_owned(), recorded(column.stored())));
+        let (kind, numbers) = stored_wall(&profile.wall_source);
         Self {
+            format: FORMAT,
+            flag_names: FLAGS.iter().map(|flag| (flag.name.to_owned(), flag.bit)).collect(),
+            columns: columns.into(),
+            fwhm_source: stored_source(&profile.fwhm_source),
+            wall_source: (kind, recorded(numbers)),
+            flags: profile.flags,
             scan: scan.clone(),
-            fwhm_mm: profile.fwhm,
-            fwhm_uncertainty_mm: profile.fwhm_deviation,
-            fwhm_source: of_source(&profile.fwhm_source),
-            wall_source: of_wall(&profile.wall_source),
-            noise: profile.noise,
-            length_mm: profile.length(),
-            not_measured: not_measured(profile),
-            longest_diameter: profile.offered_widest().map(longest),
-            suggestions: Suggestions::of(profile),
-            sections: Sections::of(profile),
         }
     }
-}
 
-#[derive(Serialize)]
-struct Longest {
-    arc_length_mm: f64,
-    diameter_max_mm: f64,
-}
-
-#[derive(Serialize)]
-struct PlaceRecord {
-    arc_length_mm: f64,
-    diameter_mm: f64,
-}
-
-impl From<&Mark> for PlaceRecord {
-    fn from(mark: &Mark) -> Self {
-        Self { arc_length_mm: mark.at, diameter_mm: mark.diameter }
+    /// The record as text.
+    pub fn text(&self) -> String {
+        let text = serde_json::to_string(self);
+        // Numbers and texts can always be written.
+        debug_assert!(text.is_ok(), "{text:?}");
+        text.unwrap_or_default()
     }
-}
 
-#[derive(Serialize)]
-struct Suggestions {
-    narrowest: Option<PlaceRecord>,
-    references: Vec<PlaceRecord>,
-    not_suggested: Vec<String>,
-}
-
-impl Suggestions {
-    fn of(profile: &Profile) -> Self {
-        // Only sections whose `counts` is true are suggested.
-        let found = marks(profile, None, &[]).unwrap_or_default();
-        let narrowest = found.first().map(PlaceRecord::from);
-        let references = found.iter().skip(1).map(PlaceRecord::from).collect();
-        Self { narrowest, references, not_suggested: not_suggested(profile, None, &[]) }
-    }
-}
-
-struct Sections {
-    numbers: Vec<(&'static str, Vec<f64>)>,
-    counts: Vec<bool>,
-    flags: Vec<Vec<String>>,
-}
-
-impl Sections {
-    fn of(profile: &Profile) -> Self {
-        Self {
-            numbers: columns(profile).into_iter().chain(axes(profile)).collect(),
-            counts: (0..profile.len()).map(|n| profile.counts(n)).collect(),
-            flags: profile.flags.iter().map(|flags| of_flags(*flags)).collect(),
+    /// Reads the text of a record.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Measuring`] for another text, or a record of another version.
+    pub fn read(text: &str) -> Result<Self> {
+        #[derive(Deserialize)]
+        struct Version {
+            format: u32,
         }
-    }
-}
-
-/// The planes of the sections: unit vectors right and down (LPS).
-fn axes(profile: &Profile) -> impl Iterator<Item = (&'static str, Vec<f64>)> {
-    const NAMES: [[&str; 3]; 2] =
-        [["right_x_lps", "right_y_lps", "right_z_lps"], ["down_x_lps", "down_y_lps", "down_z_lps"]];
-    let along = |which: usize, axis: usize| profile.axes.iter().map(|axes| axes[which][axis]).collect();
-    (0..6).map(move |n| (NAMES[n / 3][n % 3], along(n / 3, n % 3)))
-}
-
-impl Serialize for Sections {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut map = serializer.serialize_map(None)?;
-        for (name, values) in &self.numbers {
-            map.serialize_entry(name, values)?;
+        let no_record = |error: serde_json::Error| damaged(format!("{:.120}", error.to_string()));
+        let Version { format } = serde_json::from_str(text).map_err(no_record)?;
+        if format != FORMAT {
+            let expected = format!("version {FORMAT}");
+            let error = Error::new(ErrorKind::Measuring, SUBJECT, format!("version {format}"), expected);
+            return Err(error.mend("measure the vessel again"));
         }
-        map.serialize_entry("counts", &self.counts)?;
-        map.serialize_entry("flags", &self.flags)?;
-        map.end()
+        serde_json::from_str(text).map_err(no_record)
+    }
+
+    /// Restores the profile, which is bit-identical, and how the scan was made.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Measuring`] for columns that do not make up a profile, and for unknown flags.
+    pub fn profile(self) -> Result<(Profile, ScanDetails)> {
+        let mut stored = self.columns;
+        let mut profile = empty();
+        for (name, column) in columns(&mut profile) {
+            let numbers = restored(&stored.remove(name).ok_or_else(|| damaged(format!("no column {name}")))?);
+            column.filled(&numbers).ok_or_else(|| damaged(format!("{} numbers as {name}", numbers.len())))?;
+        }
+        if let Some((name, _)) = stored.first_key_value() {
+            return Err(damaged(format!("a column {name:.40}")));
+        }
+        profile.flags = self.flags;
+        profile.fwhm_source = restored_source(&self.fwhm_source)?;
+        profile.wall_source = restored_wall((&self.wall_source.0, &restored(&self.wall_source.1)))?;
+        check(&profile)?;
+        Ok((profile, self.scan))
     }
 }
 
-#[derive(Serialize)]
-struct StenosisRecord {
-    percent: f64,
-    percent_uncertainty: f64,
-    method: &'static str,
-    at_mm: f64,
-    diameter_mm: f64,
-    uncertainty_mm: f64,
-    reference_mm: f64,
-    references: Vec<PlaceRecord>,
-    group: Option<String>,
-    doubts: Vec<String>,
+/// Rejects a profile that no measurement makes.
+fn check(profile: &Profile) -> Result<()> {
+    let sections = profile.arc_length.len();
+    if sections == 0 || lengths(profile).iter().any(|length| *length != sections) {
+        return Err(damaged(format!("columns of {sections} and other numbers of sections")));
+    }
+    if sections > MOST_SECTIONS as usize {
+        return Err(damaged(format!("{sections} sections, more than {MOST_SECTIONS}")));
+    }
+    let ascend = profile.arc_length.windows(2).all(|two| two[0] < two[1]);
+    if !(ascend && profile.arc_length.iter().all(|at| at.is_finite())) {
+        return Err(damaged("arc lengths that do not ascend".to_owned()));
+    }
+    if !(profile.fwhm.is_finite() && profile.fwhm > 0.0) {
+        return Err(damaged(format!("a point spread of {} mm", profile.fwhm)));
+    }
+    let is_contour = |points: &Vec<DVec3>| [0, CONTOUR_POINTS].contains(&points.len());
+    if let Some(odd) = profile.contour.iter().find(|points| !is_contour(points)) {
+        return Err(damaged(format!("a contour of {} points", odd.len())));
+    }
+    let known = FLAGS.iter().fold(0, |bits, flag| bits | flag.bit);
+    if let Some(odd) = profile.flags.iter().map(|flags| flags & !known).find(|unknown| *unknown > 0) {
+        let found = format!("unknown flags (bits {odd:#x})");
+        let expected = format!("flags of this version (bits {known:#x})");
+        return Err(
+            Error::new(ErrorKind::Measuring, SUBJECT, found, expected).mend("measure the vessel again")
+        );
+    }
+    Ok(())
 }
 
-impl StenosisRecord {
-    fn of(grade: &Grade) -> Option<Self> {
-        let graded = grade.stenosis()?;
-        let place = |[at, diameter]: &[f64; 2]| PlaceRecord { arc_length_mm: *at, diameter_mm: *diameter };
-        Some(Self {
-            percent: graded.percent,
-            percent_uncertainty: graded.percent_uncertainty,
-            method: graded.method.name(),
-            at_mm: graded.at,
-            diameter_mm: graded.diameter,
-            uncertainty_mm: graded.uncertainty,
-            reference_mm: graded.reference,
-            references: graded.references.iter().map(place).collect(),
-            group: grade.group().map(str::to_owned),
-            doubts: of_doubts(&graded.doubts),
-        })
+fn stored_source(source: &Source) -> (String, String) {
+    let (name, words) = match source {
+        Source::Given => ("given", ""),
+        Source::Estimated { on } => ("estimated", on.as_str()),
+        Source::Assumed { from } => ("assumed", from.as_str()),
+    };
+    (name.to_owned(), words.to_owned())
+}
+
+fn restored_source((name, words): &(String, String)) -> Result<Source> {
+    match name.as_str() {
+        "given" => Ok(Source::Given),
+        "estimated" => Ok(Source::Estimated { on: words.clone() }),
+        "assumed" => Ok(Source::Assumed { from: words.clone() }),
+        _ => Err(damaged(format!("a point spread from '{name}'"))),
     }
 }
+
+fn stored_wall(source: &WallSource) -> (String, Vec<f64>) {
+    let (name, numbers) = match source {
+        WallSource::Hounsfield => ("hounsfield", vec![]),
+        WallSource::Given(level) => ("given", level.to_vec()),
+        WallSource::Pooled { given, by_others } => {
+            let by_others = [by_others.level[0], by_others.level[1], by_others.vessels as f64];
+            ("pooled", given.iter().flatten().copied().chain(by_others).collect())
+        }
+        WallSource::NotAsked => ("not asked", vec![]),
+        WallSource::DarkLumen => ("dark lumen", vec![]),
+        WallSource::OtherUnit => ("other unit", vec![]),
+        WallSource::AsBright => ("as bright", vec![]),
+    };
+    (name.to_owned(), numbers)
+}
+
+fn restored_wall((name, numbers): (&str, &[f64])) -> Result<WallSource> {
+    let pooled = |given, level, vessels: f64| {
+        let by_others = PooledWall { level, vessels: whole(vessels)? };
+        Some(WallSource::Pooled { given, by_others })
+    };
+    let found = match (name, numbers) {
+        ("hounsfield", []) => Some(WallSource::Hounsfield),
+        ("given", [level, deviation]) => Some(WallSource::Given([*level, *deviation])),
+        ("pooled", [a, b, vessels]) => pooled(None, [*a, *b], *vessels),
+        ("pooled", [given, deviation, a, b, vessels]) => {
+            pooled(Some([*given, *deviation]), [*a, *b], *vessels)
+        }
+        ("not asked", []) => Some(WallSource::NotAsked),
+        ("dark lumen", []) => Some(WallSource::DarkLumen),
+        ("other unit", []) => Some(WallSource::OtherUnit),
+        ("as bright", []) => Some(WallSource::AsBright),
+        _ => None,
+    };
+    found.ok_or_else(|| damaged(format!("a wall from '{name}' with {} numbers", numbers.len())))
+}
+
+fn damaged(found: String) -> Error {
+    Error::new(ErrorKind::Measuring, SUBJECT, found, "the columns of one profile")
+}
+
+#[cfg(test)]
+#[path = "tests/profile_record.rs"]
+mod tests;

@@ -15,8 +15,8 @@ use lumencut_vessels::measure::profile::Profile;
 use serde::Deserialize;
 
 use crate::flag_table::{FLAGS, FlagLook};
+use crate::profile_json::{Asked, NOTICE};
 use crate::profile_marks::Measured;
-use crate::profile_record::{Asked, NOTICE};
 use crate::study::view::method_word;
 use findings::findings;
 pub(crate) use findings::{Sentence, distances, sentences};

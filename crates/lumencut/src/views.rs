@@ -143,7 +143,8 @@ pub fn rotated(camera: &Camera, angle: f64, axis: Axis) -> Result<Camera> {
     Camera::new(camera.center(), direction, up, camera.size(), camera.pixel_spacing())
 }
 
-fn rotation(axis: DVec3, angle: f64) -> Result<DMat3> {
+/// The rotation about an axis (LPS) by an angle (radians).
+pub(crate) fn rotation(axis: DVec3, angle: f64) -> Result<DMat3> {
     let largest = axis.abs().max_element();
     if !(angle.is_finite() && axis.is_finite() && largest > 0.0) {
         let found = format!("angle {} about [{}]", shortest(angle), axis.to_array().map(shortest).join(", "));

@@ -49,14 +49,14 @@ class _Quantity(_Type):
 
 
 class _Part(_Type):
-    """One part of N."""
+    """A part and the number of all parts, such as 3/40."""
 
     name = "K/N"
 
     def convert(
         self, value: Any, param: click.Parameter | None, ctx: click.Context | None
     ) -> tuple[int, int]:
-        """Return the number of the part and their count."""
+        """Return the number of the part and the number of all parts."""
         if not isinstance(value, str):
             return tuple(value)
         found = re.fullmatch(r"(\d+)/(\d+)", value)
@@ -145,7 +145,7 @@ _OF_ALL = ("shard", "retry", "dask", "slurm", "parquet")
 
 
 def _refuse(chosen: dict[str, Any], beside: str, names: Sequence[str]) -> None:
-    """Reject options that have no effect with another one."""
+    """Reject options that have no effect together with another option."""
     for name in names:
         if chosen.get(name):
             raise click.UsageError(f"--{name} with {beside} does nothing; leave out --{name}")
@@ -192,7 +192,7 @@ def tell_ended(layout: Layout, study: Study, code: int) -> None:
 
 
 def _check(found: Manifest, recipe: CohortRecipe, memory: float | None) -> None:
-    """List the studies that will fail, those that only the run can decide, and their number."""
+    """List the studies that will fail and those that only the run can decide, and count both."""
     from lumencut.cohort.checking import verdict_of
 
     for note in found.notes:

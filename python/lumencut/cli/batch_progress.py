@@ -14,12 +14,12 @@ if TYPE_CHECKING:
 
     from lumencut.cohort.child import Outcome
 
-#: Interval between lines without a terminal, as in the log of a cluster job (s).
+#: Interval between progress lines if there is no terminal, as in the log of a cluster job (s).
 EVERY = 60.0
 
 
 class BatchProgress:
-    """Reports each study that failed, and how many have ended."""
+    """Reports each study that failed, and how many studies have ended."""
 
     def __init__(self, bar: tqdm) -> None:
         self._bar = bar

@@ -16,7 +16,7 @@ from lumencut.errors import FormatError
 if TYPE_CHECKING:
     from lumencut.cohort.batch import Cohort
 
-#: The names of `lumencut.cohort.bids.SUFFIXES`, here so that ``--help`` need not import numpy.
+#: A copy of `lumencut.cohort.bids.SUFFIXES`, so that ``--help`` need not import numpy.
 SUFFIXES = ("angio", "cta", "ct")
 
 
@@ -91,7 +91,7 @@ def bids(
 
 
 def _participants(cohort: Cohort, device: Literal["auto", "cpu", "gpu"]) -> int:
-    """Process the studies that are not done yet, and return how many failed."""
+    """Process the studies without results, and return how many failed."""
     from lumencut.cohort.one import do_one
 
     failed = 0

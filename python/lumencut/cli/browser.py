@@ -1,4 +1,4 @@
-"""The browser of the viewer: opened on the user's screen, or instructions on how to reach it."""
+"""Opens the viewer in the user's browser, or explains how to reach it."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ if TYPE_CHECKING:
 
 @contextmanager
 def open_or_explain(place: Place, *, is_wanted: bool) -> Iterator[None]:
-    """Open the page in a browser, or print what the user has to do; the address is printed already.
+    """Open the viewer in a browser, or print what the user has to do; the address is printed before.
 
-    A temporary file leads the browser there; it is removed at the end.
+    A temporary file redirects the browser to the viewer; the file is removed at the end.
     """
     if os.environ.get("SSH_CONNECTION"):
         inform(f"on your own machine, open a tunnel with: {_tunnel(place.port)}")
@@ -48,12 +48,12 @@ def _open(file: Path | None) -> None:
         inform("no folder is private to you: open the address above in a browser; Ctrl-C ends the viewer")
         return
     inform("the address opens in your browser; Ctrl-C ends the viewer")
-    # Some launchers return only once the browser is closed.
+    # In a thread, because some launchers return only when the browser is closed.
     threading.Thread(target=webbrowser.open, args=(file.as_uri(),), daemon=True).start()
 
 
 def _tunnel(port: int) -> str:
-    """The command that forwards the port of this machine to the user's own machine."""
+    """Return the command that forwards the port from the user's own machine to this machine."""
     # SSH_CONNECTION: address and port of the client, then address and port of this machine.
     words = os.environ["SSH_CONNECTION"].split()
     host = words[2] if len(words) == 4 else "HOST"
@@ -64,7 +64,7 @@ def _user() -> str:
     try:
         return f"{getpass.getuser()}@"
     except (KeyError, OSError):
-        # The user of a process may have no name.
+        # The user id of this process may have no name.
         return ""
 
 

@@ -16,11 +16,11 @@ from pathlib import Path
 try:
     import fcntl
 except ImportError:
-    # Windows does not remove an open file, which has the same effect.
+    # Without locks: Windows does not remove open files, which protects a file in use as well.
     fcntl = None  # type: ignore[assignment]
 
 _NAMES = "open-*.html"
-#: No script runs and nothing is loaded; a browser that does not redirect shows the link.
+#: The file runs no script and loads nothing; a browser that does not redirect shows the link.
 _TEXT = """<!doctype html>
 <html lang="en">
 <head>
@@ -63,8 +63,8 @@ def leading_to(address: str) -> Iterator[Path | None]:
 def _folders() -> Iterator[Path]:
     """Yield the folders that may hold the file, the best one first.
 
-    A browser from a snap reads neither the runtime folder, nor hidden folders of the home, nor ``/tmp``. One
-    from a flatpak can open the file anywhere.
+    A browser installed as a snap cannot read the runtime folder, hidden folders of the home, or ``/tmp``. A
+    browser installed as a flatpak can open the file in any folder.
     """
     visible = _home() / "lumencut-viewer"
     if (_home() / "snap").is_dir():
@@ -87,7 +87,7 @@ def _user() -> int:
 def _is_private(folder: Path) -> bool:
     """Return whether a folder belongs to this user, and is closed to all others."""
     if os.name != "posix":
-        # On Windows user folders are private, which file modes do not show.
+        # On Windows user folders are private; file modes do not show this.
         return True
     try:
         found = folder.lstat()
@@ -97,14 +97,14 @@ def _is_private(folder: Path) -> bool:
 
 
 def _written(folder: Path, text: str) -> tuple[int, Path]:
-    """Write the file into its own folder, and keep it open and locked to mark it as in use."""
+    """Write the file into this folder, and keep it open and locked to mark it as in use."""
     with suppress(FileExistsError):
         folder.mkdir(0o700)
     if not _is_private(folder):
         raise PermissionError(f"{folder} is open to other users")
     with _alone_in(folder):
         _remove_unused(folder)
-        # New, and only this user can read and write it.
+        # A new file that only this user can read and write.
         descriptor, name = tempfile.mkstemp(".html", "open-", folder)
         try:
             _lock(descriptor)
@@ -117,7 +117,7 @@ def _written(folder: Path, text: str) -> tuple[int, Path]:
 
 
 def _remove_unused(folder: Path) -> None:
-    """Remove files of runs that were killed."""
+    """Remove files left by viewers that were killed."""
     for file in folder.glob(_NAMES):
         with suppress(OSError):
             descriptor = os.open(file, os.O_RDWR)
@@ -134,13 +134,13 @@ def _remove(file: Path) -> None:
 
 @contextmanager
 def _alone_in(folder: Path) -> Iterator[None]:
-    """Keep other runs out while a file exists that is not locked yet."""
+    """Let no other process clean the folder between the creation and the locking of a file."""
     if fcntl is None:
         yield
         return
     descriptor = os.open(folder, os.O_RDONLY)
     try:
-        # Some file systems have no locks for folders.
+        # Some file systems cannot lock folders.
         with suppress(OSError):
             fcntl.flock(descriptor, fcntl.LOCK_EX)
         yield

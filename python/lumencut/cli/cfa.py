@@ -53,7 +53,7 @@ def _write_beside(
     vessels: list[tuple[str, Vessel]],
     makers: Mapping[str, Callable[[Vessel], Reformation]],
 ) -> None:
-    """Write the images of each vessel by all `makers` in one row."""
+    """Make the images of each vessel by all `makers`, and write a sheet with one row per vessel."""
     from lumencut.contact_sheet import contact_sheet
 
     pictures, titles, all_made = [], [], []

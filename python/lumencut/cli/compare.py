@@ -1,4 +1,4 @@
-"""Centerlines and volumes: which volume decides the space of a file, and how many points lie in each."""
+"""Compares centerlines with volumes: which volume decides the space, and how many points it contains."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ class Place:
     Attributes
     ----------
     tree, report : VesselTree, CenterlineReport
-        The file as it was read.
+        The vessels and the report of the file.
     judge : str or None
-        The volume that decides.
+        The volume that decided the space and unit.
     undecided : tuple of str
         What the volume could not decide.
     choice : str
@@ -47,7 +47,7 @@ def best(
     *,
     reorder: bool = False,
 ) -> Place:
-    """Place a file by the volume that contains the most of its points; the first one if several are equal."""
+    """Decide space and unit by the volume that contains the most points; among equals, by the first."""
     if not volumes:
         return Place(*file.placed(coordinates, unit, reorder=reorder))
     places: list[Place] = []
@@ -72,13 +72,13 @@ def _choice(places: Sequence[Place], counts: Sequence[tuple[int, int]], n: int) 
         for place, (inside, _) in zip(places, counts, strict=True)
     ]
     if len(set(counts)) == 1:
-        return f"judged by the first volume, {places[n].judge}: all volumes fit alike ({fit[n]})"
+        return f"decided by the first volume, {places[n].judge}: all volumes fit equally ({fit[n]})"
     others = "; ".join(text for m, text in enumerate(fit) if m != n)
-    return f"judged by {places[n].judge}, which it fits best: {fit[n]}; {others}"
+    return f"decided by {places[n].judge}, which it fits best: {fit[n]}; {others}"
 
 
 def compared(lines: dict[str, Any], volumes: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """Compare a tree with volumes; unrelated volumes count only if it fits none.
+    """Compare a tree with volumes; volumes without its points count only if no volume contains any.
 
     Only the volume that decided the space of the tree reports on it.
     """
@@ -87,7 +87,7 @@ def compared(lines: dict[str, Any], volumes: list[dict[str, Any]]) -> list[dict[
 
 
 def _pair(lines: dict[str, Any], volume: dict[str, Any]) -> dict[str, Any]:
-    """Count the points of a tree that lie inside a volume, as read and with x and y negated."""
+    """Count the points of a tree inside a volume, once as read and once with x and y negated."""
     from lumencut.placement import check_space_once
 
     tree, grid = lines["_tree"], volume["_volume"]
@@ -106,6 +106,6 @@ def _pair(lines: dict[str, Any], volume: dict[str, Any]) -> dict[str, Any]:
 
 
 def _counts(tree: VesselTree, volume: Volume) -> tuple[int, int]:
-    """Number of points inside, as read and with x and y negated."""
+    """Return the number of points inside, once as read and once with x and y negated."""
     inside, flipped = (int(volume.contains(tree.points * signs).sum()) for signs in ((1, 1, 1), (-1, -1, 1)))
     return inside, flipped

@@ -128,19 +128,19 @@ def compare_methods(
 
 
 def _words(camera: Camera) -> str:
-    """Description of the sheet for its DICOM object."""
+    """Return the description of the sheet for its DICOM object."""
     from lumencut.orientation import view_name
 
     return f"mpCPR, CR and CSR side by side, and how far their depths differ. View {view_name(camera)}."
 
 
 def _picture(tree: UntangledTree, labels: dict[str, bool]) -> Any:
-    """The untangled tree, with labels if requested."""
+    """Return the picture of the untangled tree, with labels if requested."""
     return tree.annotated() if labels["annotate"] else tree.image
 
 
 def _labelled(found: list[Panel], labels: dict[str, bool]) -> list[Any]:
-    """The pictures of the panels, with the requested labels."""
+    """Return the pictures of the panels with the requested labels."""
     if not labels["annotate"]:
         return [panel.frame.image for panel in found]
     return [panel.frame.annotated(vessel_names=labels["vessel_names"]) for panel in found]

@@ -29,7 +29,7 @@ MODES = ("projected", "stretched", "straightened", "tangential")
 
 _TANGENTIAL = "tangential"
 
-#: Options that place a view, and those that place the rows of the other modes.
+#: Options of the tangential mode only, and options of the other modes only.
 _OWN, _OTHERS = ("view", "size"), ("width", "angle", "roll")
 
 _SIZE = (768, 768)
@@ -54,7 +54,7 @@ def show_cpr(volume_out: Path | None, **given: Any) -> None:
 
 
 def _check_view(chosen: dict[str, Any]) -> None:
-    """Reject options without effect in the chosen mode."""
+    """Reject options that have no effect in the chosen mode."""
     is_own = chosen["mode"] == _TANGENTIAL
     idle = [name for name in (_OTHERS if is_own else _OWN) if name in typed(chosen)]
     if idle:
@@ -76,7 +76,7 @@ def _check_outputs(output: Path, volume_out: Path | None) -> None:
 def _tangential(
     renderer: Renderer, chosen: dict[str, Any], settings: Settings, vessel: Vessel
 ) -> TangentialReformation:
-    """The tangential CPR of a vessel in the view of --like, or fitted to it by the options."""
+    """Return the tangential CPR in the view of --like, or in that of the options, fitted to the vessel."""
     from lumencut.reformation_recipe import recipe_camera
     from lumencut.tangential import TangentialRequest
     from lumencut.vessel_tree import VesselTree
@@ -93,7 +93,7 @@ def _tangential(
 
 
 def _write_volume(path: Path, voxels: Volume, vessel: Vessel, chosen: dict[str, Any]) -> None:
-    """Write the sections across a vessel, with the voxels of the volume unless the user names pixels."""
+    """Write the sections across a vessel as a volume, by default with the voxel size of the scan."""
     from lumencut.straightening import straightened_volume
 
     with busy(f"writing {path.name}"):

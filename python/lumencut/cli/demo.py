@@ -97,14 +97,14 @@ def _views(renderer: Renderer) -> Iterator[tuple[str, Camera, Settings]]:
     yield "left", Camera.left(scene, _SIZE), Settings()
     yield "oblique", oblique, Settings()
     yield "inferior", Camera.inferior(scene, _SIZE), Settings()
-    # A window from the data puts tissue at about a fifth: tissue and darker voxels become transparent.
+    # A window from the data shows tissue at a fifth of its width: tissue becomes nearly transparent.
     tissue = Opacity(window.level - window.width / 3, window.level - window.width / 6)
     yield "context", oblique, Settings(opacity=tissue)
     yield "focus", Camera.left(scene, _SIZE), Settings.focused()
 
 
 def _trace(renderer: Renderer, points: Any, path: Path, *, annotate: bool) -> None:
-    """Trace vessels from points alone, and show them from the front."""
+    """Trace vessels from points only, and write their picture from the front."""
     from lumencut.camera import Camera
     from lumencut.tracing import trace
 

@@ -21,12 +21,12 @@ _OPTIONS = ("like_study", "anonymous", "other_patient", "compress", "grey", "val
 
 
 def dicom_options(command: Command) -> Command:
-    """Add the options for the study of a .dcm, and for how its pixels are stored."""
+    """Add the options that choose the study of a .dcm file, and how its pixels are stored."""
     return added((study_options, compress_option), command)
 
 
 def study_options(command: Command) -> Command:
-    """Add the options for the study of a .dcm."""
+    """Add the options that choose the study of a .dcm file."""
     parts = (
         click.option(
             "--like-study",
@@ -60,14 +60,14 @@ grey_option = click.option(
 
 
 def is_object(path: Path) -> bool:
-    """Return whether the file name asks for DICOM."""
+    """Return whether the file name has the extension of DICOM."""
     return path.suffix.lower() == ".dcm"
 
 
 def check_objects(chosen: dict[str, Any], outputs: Iterable[Path], *, has_series: bool = False) -> None:
-    """Reject options of DICOM objects that exclude each other, or that have no DICOM output.
+    """Reject options of DICOM files that exclude each other, or whose command writes no DICOM file.
 
-    With `has_series` a series is written as well.
+    If `has_series`, the command also writes a DICOM series.
     """
     asked = [f"--{name.replace('_', '-')}" for name in _OPTIONS if chosen.get(name)]
     if asked and not has_series and not any(is_object(path) for path in outputs):
@@ -77,7 +77,7 @@ def check_objects(chosen: dict[str, Any], outputs: Iterable[Path], *, has_series
 
 
 def check_study_options(chosen: dict[str, Any]) -> None:
-    """Reject options of a study that exclude or need each other."""
+    """Reject options of the study that exclude each other, or need another option."""
     if chosen["like_study"] is not None and chosen["anonymous"]:
         raise click.UsageError("--like-study and --anonymous exclude each other; leave out one of them")
     if chosen["other_patient"] and chosen["like_study"] is None:
@@ -91,7 +91,7 @@ def study_of(chosen: dict[str, Any]) -> dict[str, Any]:
 
 
 def object_options(path: Path, chosen: dict[str, Any]) -> dict[str, Any]:
-    """Return the arguments of `save` for a DICOM file; none for other files."""
+    """Return the arguments of `save` for a DICOM file; empty for other formats."""
     return {**study_of(chosen), "compress": chosen["compress"]} if is_object(path) else {}
 
 
@@ -102,7 +102,7 @@ def save_sheet(
     about: tuple[str, str, Settings],
     volume: Volume | None,
 ) -> None:
-    """Write several pictures on one sheet in the format that the ending names.
+    """Write several pictures on one sheet, in the format of the file name extension.
 
     `about` holds a short title, a description of how the sheet was made, and the settings.
     """

@@ -1,4 +1,4 @@
-"""``lumencut evaluate``: how much of the truth methods show."""
+"""``lumencut evaluate``: how well methods show the true lumen."""
 
 from __future__ import annotations
 
@@ -103,7 +103,7 @@ def evaluate(
 
 
 def _scene(files: tuple[Path, ...], chosen: dict[str, Any]) -> SceneFiles:
-    """The files of the scene: the first of several is the volume, unless all are centerlines."""
+    """Return volume and centerlines: the first of several files is the volume, unless all are centerlines."""
     from lumencut.file_kinds import kind_of
 
     roles = [None if kind is None else kind.role for kind in map(kind_of, files)]

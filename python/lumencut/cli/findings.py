@@ -24,12 +24,12 @@ _ORIGINS = {
     "values": "the values of the volume decide",
     "assumed": "assumed",
 }
-#: Centerline smoothing that is tried on a tree (radii).
+#: Smoothing of centerlines that is tried, to report the largest movement of a point (radii).
 _TRIED_SMOOTHING = 0.5
 
 
 def of_volume(path: Path, **chosen: Any) -> dict[str, Any]:
-    """Inspect a volume file; series, phase and filling of gaps may be chosen."""
+    """Inspect a volume file; the arguments select series and phase, and whether gaps are filled."""
     from lumencut.volume_files import inspected_volume
 
     with bar(f"reading {path.name}", "slice") as progress:
@@ -121,7 +121,7 @@ def of_devices() -> dict[str, Any]:
 
 
 def orientation(affine: npt.NDArray[np.float64]) -> str:
-    """Directions of i, j, k as letters: LPS is an axial stack from the feet to the head."""
+    """Return letters for the directions of i, j, k: LPS is an axial stack from the feet to the head."""
     import numpy as np
 
     from lumencut import _lumencut
@@ -174,7 +174,7 @@ def _odd_tree(tree: VesselTree) -> list[str]:
 
 
 def _largest_shift(tree: VesselTree) -> dict[str, Any] | None:
-    """The largest movement of a point by slight centerline smoothing, and its place; None if none."""
+    """Return the largest movement of a point by slight smoothing, and where; None if no point moves."""
     import numpy as np
 
     smoothed = tree.smoothed(_TRIED_SMOOTHING)
@@ -199,14 +199,14 @@ def _largest_shift(tree: VesselTree) -> dict[str, Any] | None:
 
 
 def _with(read: Iterable[str], seen: Iterable[str]) -> list[str]:
-    """The notes of both, without repeating the reader's note on a shear."""
+    """Return both lists of notes, without repeating the reader's note on a shear."""
     read = list(read)
     known = any("sheared" in note for note in read)
     return read + [note for note in seen if not (known and "sheared" in note)]
 
 
 def _ends(tree: VesselTree) -> list[int]:
-    """Number of vessel ends that meet at each place where vessels end."""
+    """Return the number of vessel ends that meet at each end point."""
     import numpy as np
 
     ends = np.concatenate([vessel.points[[0, -1]] for vessel in tree])

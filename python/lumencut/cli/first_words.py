@@ -8,7 +8,7 @@ from pathlib import Path
 
 
 def program() -> str:
-    """How to call this program, which may not be on the path."""
+    """Return how to call this program, which may not be on the search path."""
     called = Path(sys.argv[0])
     on_path = shutil.which("lumencut")
     if called.name != "lumencut" or (on_path and Path(on_path).resolve() == called.resolve()):
@@ -17,7 +17,7 @@ def program() -> str:
 
 
 def first_words() -> str:
-    """Return what a new user can try at once with this installation."""
+    """Return commands that a new user can try at once with this installation."""
     from lumencut import __version__
     from lumencut.viewer.page import FOLDER
 

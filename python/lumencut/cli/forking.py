@@ -21,7 +21,7 @@ from lumencut.cohort.parent import PARENT, end_with_parent
 
 #: Interval between checks of the children (s).
 _LOOK = 0.01
-#: Imported before the first fork; otherwise each study would import them.
+#: Modules imported before the first fork; otherwise each study would have to import them.
 _LOADED = (
     *("lumencut.cohort.one", "lumencut.recipe", "nibabel", "pydicom", "tqdm", "numpy.ma"),
     *("PIL.Image", "PIL.ImageDraw", "PIL.ImageFont", "PIL.WebPImagePlugin"),
@@ -33,9 +33,9 @@ def serve() -> NoReturn:
     end_with_parent()
     for name in _LOADED:
         importlib.import_module(name)
-    # Loads the picture formats of Pillow.
+    # So that Pillow loads its file formats once, not in every study.
     sys.modules["PIL.Image"].init()
-    # Loaded objects are never collected, so that forks share their memory.
+    # Loaded objects are excluded from garbage collection, so that forked processes share their memory.
     gc.freeze()
     numbers: dict[int, int] = {}
     asked = b""
@@ -64,7 +64,7 @@ def _report_ended(numbers: dict[int, int]) -> None:
 
 
 def _become(order: dict[str, Any]) -> NoReturn:
-    """Become the process of a study, as if started by its command line."""
+    """Continue as the process of a study, as if started by the command line of the study."""
     code = 1
     try:
         os.environ[PARENT] = str(os.getppid())

@@ -20,12 +20,12 @@ if TYPE_CHECKING:
 
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 
-#: The options of `found_options` that do nothing without a seed or `--find`.
+#: Options of `found_options` that have no effect without a seed or `--find`.
 WITH_FOUND = ("smallest_radius", "doubtful")
 
 
 def found_options(command: _Command) -> _Command:
-    """Add the options of vessels that are found, from a seed or without one."""
+    """Add the options for finding vessels in the scan, with or without a seed."""
     parts = (
         click.option(
             "--seed", type=VECTOR, help="A point in a vessel (mm, LPS): find all vessels connected to it."
@@ -53,7 +53,7 @@ def found_options(command: _Command) -> _Command:
 
 
 def found_by(chosen: dict[str, Any]) -> str | None:
-    """Return the option that selects how vessels are found in the scan, if any."""
+    """Return the option that asks to find vessels in the scan, if there is one."""
     if chosen.get("find"):
         return "--find"
     has_seed = chosen.get("seed") is not None or chosen.get("seed_index") is not None
@@ -61,7 +61,7 @@ def found_by(chosen: dict[str, Any]) -> str | None:
 
 
 def check_found(chosen: dict[str, Any]) -> None:
-    """Reject options of finding vessels that contradict each other or have no effect."""
+    """Reject options for finding vessels that contradict each other or have no effect."""
     seeds = [name for name in ("seed", "seed_index") if chosen[name] is not None]
     given = [f"--{name.replace('_', '-')}" for name in seeds] + ["--find"] * chosen["find"]
     if len(given) > 1:
@@ -76,7 +76,7 @@ def check_found(chosen: dict[str, Any]) -> None:
 
 
 def shown_vessels(chosen: dict[str, Any], voxels: Volume) -> VesselTree:
-    """Find the vessels of a picture: only the most important part by default."""
+    """Find the vessels of a picture; by default only those of the most important part are shown."""
     from lumencut.vessel_tree import VesselTree
 
     tree = found_vessels(chosen, voxels)
@@ -101,7 +101,7 @@ def found_vessels(chosen: dict[str, Any], voxels: Volume) -> VesselTree:
 
 
 def _tree(chosen: dict[str, Any], voxels: Volume) -> VesselTree:
-    """The vessels, and the report on them."""
+    """Return the vessels, and a report on them."""
     from lumencut.seed_tracing import trace_from
     from lumencut.vessel_finding import find_vessels
 
@@ -120,7 +120,7 @@ def _tree(chosen: dict[str, Any], voxels: Volume) -> VesselTree:
 
 
 def _place(chosen: dict[str, Any], voxels: Volume) -> npt.NDArray[np.float64]:
-    """The seed (mm, LPS)."""
+    """Return the point of the seed (mm, LPS)."""
     import numpy as np
 
     if chosen["seed"] is None:

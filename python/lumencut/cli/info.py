@@ -66,7 +66,7 @@ def info(
     _check(click.get_current_context().params, files)
     gpus = findings.of_devices() if with_devices else None
     found: dict[Path, dict[str, Any]] = {}
-    # The volumes first: they decide the space of the centerlines.
+    # Volumes come first, because they decide the space of the centerlines.
     for path in sorted(dict.fromkeys(files), key=_holds_centerlines):
         volumes = [one for one in found.values() if one["kind"] == "volume"]
         try:
@@ -123,7 +123,7 @@ def _as_text(gpus: dict[str, Any] | None, found: list[dict[str, Any]], compared:
 
 
 def _block(one: dict[str, Any]) -> str:
-    """The file's name, one line per fact, one per decision, one per oddity."""
+    """Return the file name, then one line per fact, decision and note."""
     title = one.get("file") or f"{one['centerlines']} in {one['volume']}"
     shown = {
         key: value
@@ -141,14 +141,14 @@ def _block(one: dict[str, Any]) -> str:
 
 
 def _ranges(numbers: list[int]) -> str:
-    """Rising integers as text; consecutive ones become ranges."""
+    """Return increasing integers as text; consecutive integers become a range."""
     starts = [n for n, number in enumerate(numbers) if n == 0 or number != numbers[n - 1] + 1]
     parts = [numbers[a:b] for a, b in zip(starts, [*starts[1:], len(numbers)], strict=True)]
     return ", ".join(str(part[0]) if len(part) == 1 else f"{part[0]} to {part[-1]}" for part in parts)
 
 
 def _lines(value: Any) -> list[str]:
-    """A value in one line, or each item of a series in its own line."""
+    """Return a value as one line, or a list as one line per item."""
     if isinstance(value, dict):
         return [str(value["shown"])]
     if isinstance(value, list) and isinstance(value[0], dict):

@@ -54,7 +54,7 @@ def check_labels(chosen: dict[str, Any], outputs: Iterable[Path], size: tuple[in
 
 
 def labels_of(path: Path, chosen: dict[str, Any], recipe: Recipe | None) -> dict[str, bool]:
-    """Return which labels a file gets, as `Frame.save` takes them: with a recipe, those of its picture."""
+    """Return the label arguments of `Frame.save` for a file; a recipe adds the labels of its picture."""
     names = chosen["vessel_names"]
     annotate = chosen["annotate"]
     if annotate is None:

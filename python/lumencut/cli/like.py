@@ -36,7 +36,7 @@ like_option = click.option(
 
 
 def recipe_from(path: Path | None) -> Recipe | None:
-    """Return how the picture of ``--like`` was rendered, None without one."""
+    """Return how the picture of ``--like`` was rendered; None if there is no ``--like``."""
     if path is None:
         return None
     from lumencut.recipe import read_recipe
@@ -52,7 +52,7 @@ def recipe_from(path: Path | None) -> Recipe | None:
 
 
 def beside_session(chosen: dict[str, Any]) -> dict[str, Any]:
-    """Return the options, completed by the vessels of a session of ``--like``."""
+    """Return the options; missing ones are taken from a session file given to ``--like``."""
     from lumencut.session_file import is_session_file, read_session
 
     like = chosen["like"]
@@ -68,16 +68,16 @@ def beside_session(chosen: dict[str, Any]) -> dict[str, Any]:
 
 
 def typed(chosen: dict[str, Any]) -> dict[str, Any]:
-    """Return the options that the user typed: defaults must not change the picture."""
+    """Return only the options that the user typed, because defaults must not change the picture."""
     context = click.get_current_context()
     given = (ParameterSource.COMMANDLINE, ParameterSource.ENVIRONMENT)
     return {name: value for name, value in chosen.items() if context.get_parameter_source(name) in given}
 
 
 def views_of(chosen: dict[str, Any], recipe: Recipe | None) -> list[tuple[Any, Camera]]:
-    """Return each requested view and its camera, which has no place yet unless a recipe gives it.
+    """Return each requested view with its camera; without a recipe the camera has no position yet.
 
-    The view of a recipe is None without ``--view``.
+    Without ``--view`` the view of a recipe is None.
     """
     if recipe is None:
         return [(view, options.view_from({**chosen, "view": view})) for view in chosen["view"]]
@@ -94,12 +94,12 @@ def views_of(chosen: dict[str, Any], recipe: Recipe | None) -> list[tuple[Any, C
 def camera_of(
     view: Camera, scene: VesselTree | Volume, chosen: dict[str, Any], recipe: Recipe | None
 ) -> Camera:
-    """Return the camera of a view: a recipe also gives its place, unless it is to fit other vessels."""
+    """Return the camera of a view; a recipe fixes its position too, unless it must fit other vessels."""
     return options.placed(view, scene, chosen) if recipe is None or chosen["zoom_to"] else view
 
 
 def warn_of_vessels(chosen: dict[str, Any], recipe: Recipe | None, renderer: Renderer) -> None:
-    """Warn if the picture showed another number of vessels, since it does not store which ones.
+    """Warn if the picture showed another number of vessels, since it does not store which vessels they were.
 
     There is no warning if the user chooses vessels.
     """
@@ -123,7 +123,7 @@ def camera_like(camera: Camera, given: dict[str, Any]) -> Camera:
 
 
 def _resized(camera: Camera, given: dict[str, Any]) -> Camera:
-    """With another size in pixels, everything that was in view stays in view."""
+    """Return the camera with another size in pixels; everything that was visible stays visible."""
     if "size" not in given:
         return camera
     larger = min(new / old for new, old in zip(given["size"], camera.size, strict=True))
@@ -141,5 +141,5 @@ def _turned(camera: Camera, given: dict[str, Any]) -> Camera:
         camera = replace(camera, direction=np.array(ahead), up=np.array(given.get("up", up)))
     if "rotate" in given:
         camera = camera.rotated(math.radians(given["rotate"]), "up")
-    # A right-handed turn about the right axis would lower the viewer.
+    # The sign is negative because a right-handed turn about the right axis would lower the viewer.
     return camera.rotated(-math.radians(given["tilt"]), "right") if "tilt" in given else camera

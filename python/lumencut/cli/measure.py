@@ -159,13 +159,13 @@ def measure(output: tuple[Path, ...], **chosen: Any) -> None:
 
 
 def _described(profile: Profile) -> str:
-    """A description of how a vessel was measured."""
+    """Return a description of how a vessel was measured."""
     length = f"{len(profile)} sections over {profile.arc_length[-1]:.1f} mm"
     return f"{length}, FWHM {profile.fwhm:.2f} mm {profile.fwhm_source}"
 
 
 def _check_places(chosen: dict[str, Any]) -> None:
-    """Reject options of a stenosis without a marked place, and those that its method does not use."""
+    """Reject options of a stenosis if no place is marked, or if its method does not use them."""
     if chosen["at"] is None:
         for name in _OF_A_PLACE:
             if chosen[name] is not None:
@@ -181,13 +181,13 @@ def _check_places(chosen: dict[str, Any]) -> None:
 def _measured(
     voxels: Volume, tree: VesselTree, vessels: Sequence[tuple[str, Vessel]], chosen: dict[str, Any]
 ) -> list[MeasuredVessel]:
-    """The vessels that can be measured, with a warning for each other one; an error if there is none."""
+    """Return the measured vessels, and warn of vessels that cannot be measured; fail if none can."""
     from lumencut.measured_vessel import MeasuredVessel
     from lumencut.measuring import measure as library
 
     found, marked = [], _marked(chosen)
     session = _session(chosen)
-    # Options that mark a place or give the blur take precedence over the file.
+    # Options that mark a place or state the blur take precedence over the session file.
     marks = session.marks if session and chosen["at"] is None else ()
     marks_of = {str(number): each for number, each in enumerate(marks)}
     fwhm = session.fwhm if session and chosen["fwhm"] is None else chosen["fwhm"]
@@ -210,12 +210,12 @@ def _measured(
 def _report_share(
     progress: Callable[[int, int], None], before: int, count: int, done: int, total: int
 ) -> None:
-    """Report the progress over all vessels from the progress of one."""
+    """Report the progress over all vessels, computed from the progress of the present vessel."""
     progress(before * total + done, count * total)
 
 
 def _refuse(profile: Profile, at: float, marked: Marked) -> None:
-    """Reject options that cannot be graded; for marks of a session file the reason is reported instead."""
+    """Reject options that cannot be graded. Marks of a session file only get a reason in the report."""
     profile.diameter_at(at)
     if marked.references or marked.method == "ecst":
         of = (marked.references or None, marked.method, marked.original)
@@ -225,7 +225,7 @@ def _refuse(profile: Profile, at: float, marked: Marked) -> None:
 
 
 def _session(chosen: dict[str, Any]) -> SessionFile | None:
-    """The session file given as CENTERLINES, if it is one."""
+    """Return the session file if it is the only file of CENTERLINES."""
     from lumencut.session_file import is_session_file, read_session
 
     files = chosen["centerlines"]

@@ -18,12 +18,12 @@ if TYPE_CHECKING:
     from lumencut.vessel_tree import VesselTree
     from lumencut.volume import Volume
 
-#: Width of a straightened vessel, and its largest pixel side (mm).
+#: Width of the picture of a straightened vessel, and its largest pixel side (mm).
 _WIDTH, _COARSEST = 50.0, 0.25
 
 
 def check_dicom(chosen: dict[str, Any]) -> None:
-    """Reject what cannot be written as DICOM before any file is read."""
+    """Reject options that DICOM output cannot use before any file is read."""
     if chosen["dicom"] is None:
         for name in ("like_study", "anonymous", "other_patient"):
             if chosen[name]:

@@ -22,7 +22,7 @@ _ENDINGS = {
     "report": (".html", ".htm"),
 }
 
-#: Largest number of sections on a sheet: per vessel, and in all unless there are more vessels.
+#: Largest number of sections per vessel and on a sheet; every vessel may have the third number.
 _SECTIONS, _IN_ALL, _LEAST = 20, 240, 4
 
 #: Largest number of vessels in a plot: each adds 4 inches to its height.
@@ -76,7 +76,7 @@ def _check_sheet(path: Path) -> None:
 
 
 def _check_twice(paths: Sequence[Path | None]) -> None:
-    """Reject two outputs in one file."""
+    """Reject two outputs with the same file name."""
     places = [path.resolve() for path in paths if path is not None]
     twice = next((place for place in places if places.count(place) > 1), None)
     if twice is not None:

@@ -1,7 +1,7 @@
-"""User mistakes: files in each other's place, and options without effect.
+"""User mistakes: volume and centerlines given in the wrong order, and options without effect.
 
-An option for a case that may or may not arise, such as ``--fill-gaps`` for missing DICOM slices, is not a
-mistake. A switch that is off and a number of 0 request nothing.
+An option for a case that may not occur in the files, such as ``--fill-gaps`` for missing DICOM slices, is not
+a mistake. A switch that is off and a number of 0 ask for nothing, so they are not mistakes either.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 _CONTEXT = tuple(name for name in SETTINGS if name.startswith("context"))
 _OF_ALL = ("background", "samples", *_CONTEXT)
-#: ``--paper`` and ``--look`` choose settings of the cut surface but are not in the table of settings.
+#: Also ``--paper`` and ``--look``: they choose settings of the cut surface, but are not settings themselves.
 _CUT_SURFACE = (*(name for name in SETTINGS if name not in _OF_ALL), "paper", "look")
 _DICOM = ("series", "phase", "fill_gaps", "resample_slices")
 _NOTHING = (None, False, 0, ())
@@ -29,7 +29,7 @@ _PICTURE = ("window", "opacity", "silhouette_color", "background", "samples", *_
 
 
 def check_files(volume: Path | None, centerlines: Sequence[Path]) -> None:
-    """Reject a volume and centerlines in each other's place."""
+    """Reject a volume given as centerlines, and centerlines given as a volume."""
     from lumencut.file_kinds import kind_of
 
     first = None if volume is None else kind_of(volume)
@@ -51,7 +51,7 @@ def check_files(volume: Path | None, centerlines: Sequence[Path]) -> None:
 
 
 def check_reading(chosen: dict[str, Any], volumes: Iterable[Path], *, has_centerlines: bool) -> None:
-    """Reject options for reading DICOM or centerlines if none are given."""
+    """Reject options for reading DICOM or centerlines if no such file is given."""
     from lumencut.file_kinds import kind_of
 
     kinds = {path: kind_of(path) for path in volumes}
@@ -66,7 +66,7 @@ def check_reading(chosen: dict[str, Any], volumes: Iterable[Path], *, has_center
 
 
 def check_options(chosen: dict[str, Any], settings: Settings, *, has_centerlines: bool) -> None:
-    """Reject options of settings that have no effect with these settings."""
+    """Reject options whose setting has no effect together with the other settings."""
     if not has_centerlines:
         _refuse(
             chosen,
@@ -81,7 +81,7 @@ def check_options(chosen: dict[str, Any], settings: Settings, *, has_centerlines
 
 
 def check_measured(chosen: dict[str, Any]) -> None:
-    """Reject options of looks if only the cut surface is measured and no picture is written."""
+    """Reject options that only change pictures if the cut surface is measured and no picture is written."""
     _refuse(chosen, _PICTURE, "without --pictures: it changes no measure", "give --pictures, or leave out")
 
 
@@ -94,12 +94,12 @@ def check_radii(chosen: dict[str, Any], tree: VesselTree | None) -> None:
     _refuse(chosen, ("preserve_lumen",), f"{why}, from which no wall is known", "leave out")
 
 
-#: Names of settings without effect, the reason, and the remedy.
+#: Names of settings that have no effect, the reason, and what to do instead.
 _Idle: TypeAlias = tuple[tuple[str, ...], str, str]
 
 
 def _idle_context(settings: Settings) -> Iterator[_Idle]:
-    """Settings of the context."""
+    """Return the settings of the context that have no effect."""
     if settings.context is None:
         names = tuple(name for name in _CONTEXT if name != "context")
         yield names, "with --context none", "choose a context"
@@ -118,7 +118,7 @@ def _idle_context(settings: Settings) -> Iterator[_Idle]:
 
 
 def _idle_rules(settings: Settings) -> Iterator[_Idle]:
-    """Settings of the cut surface and its lines."""
+    """Return the settings of the cut surface and its lines that have no effect."""
     if settings.focus is None:
         yield ("others_strength",), "without a focus, in which it counts", "give --focus"
     if not settings.focus_vessels:

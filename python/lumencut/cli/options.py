@@ -1,4 +1,4 @@
-"""Options shared by the commands that make pictures, and their camera."""
+"""Options shared by the commands that make pictures, and the cameras made from them."""
 
 from __future__ import annotations
 
@@ -159,7 +159,7 @@ _NAMED: dict[str, Any] = {"metavar": "NAME|ID", "multiple": True}
 
 
 def vessel_options(command: Command) -> Command:
-    """Add the options that choose among the vessels."""
+    """Add the options that choose vessels."""
     zoom = click.option(
         "--zoom-to", help="Fit the view to this vessel, with any others shown; may be repeated.", **_NAMED
     )
@@ -167,7 +167,7 @@ def vessel_options(command: Command) -> Command:
 
 
 def shown_vessel_options(command: Command) -> Command:
-    """Add the options that select vessels."""
+    """Add the options that choose the vessels to show."""
     parts = (
         click.option("--vessel", help="Show only this vessel; may be repeated.", **_NAMED),
         click.option("--exclude", help="Leave this vessel out; may be repeated.", **_NAMED),
@@ -176,17 +176,17 @@ def shown_vessel_options(command: Command) -> Command:
 
 
 def view_options(command: Command) -> Command:
-    """Add the options that make the camera."""
+    """Add the options that define the camera."""
     return added((_view_option(default="anterior"), _camera_options), command)
 
 
 def direction_options(command: Command) -> Command:
-    """Add the options for the viewing direction, without a place or pixels."""
+    """Add the options for the viewing direction, without position and number of pixels."""
     return added((_view_option(default="anterior"), *_DIRECTION), command)
 
 
 def several_views_options(command: Command) -> Command:
-    """Add the options that make the cameras of several views."""
+    """Add the options that define the cameras of several views."""
     return added(
         (_view_option("; may be repeated", default=("anterior",), multiple=True), _camera_options), command
     )
@@ -204,7 +204,7 @@ def _view_option(more: str = "", **how: Any) -> Callable[[Command], Command]:
 
 
 def _camera_options(command: Command) -> Command:
-    """Add the options that make a camera of a view."""
+    """Add the options that define the camera of a view."""
     parts = (
         *_DIRECTION,
         click.option(
@@ -232,7 +232,7 @@ def _camera_options(command: Command) -> Command:
 
 
 def view_from(chosen: dict[str, Any]) -> Camera:
-    """Return a camera with the direction, up and size of the options; its place is not set yet."""
+    """Return a camera with the direction, up vector and size of the options; its position is not set yet."""
     import numpy as np
 
     from lumencut.camera import VIEWS, Camera, upright
@@ -242,21 +242,21 @@ def view_from(chosen: dict[str, Any]) -> Camera:
     try:
         camera = Camera(np.zeros(3), np.array(direction), np.array(chosen["up"] or up), chosen["size"])
         camera = camera.rotated(math.radians(chosen["rotate"]), "up")
-        # A right-handed turn about the right axis would lower the viewer.
+        # The sign is negative because a right-handed turn about the right axis would lower the viewer.
         return _magnified(camera.rotated(-math.radians(chosen["tilt"]), "right"), chosen)
     except CameraError as error:
         raise click.UsageError(str(error)) from error
 
 
 def placed(view: Camera, scene: VesselTree | Volume, chosen: dict[str, Any]) -> Camera:
-    """Return the camera of this view, fitted to the scene as far as the options leave that open."""
+    """Return the camera of this view; what the options do not fix is fitted to the scene."""
     from lumencut.camera import Camera
 
     return placed_like(Camera.fitted(scene, view.direction, view.up, view.size), chosen)
 
 
 def placed_like(fitted: Camera, chosen: dict[str, Any]) -> Camera:
-    """Return a fitted camera with the place and magnification of the options."""
+    """Return a fitted camera with the position and magnification of the options."""
     if chosen["center"] is not None:
         fitted = replace(fitted, center=chosen["center"])
     return _magnified(fitted, chosen)
@@ -269,14 +269,14 @@ def _magnified(camera: Camera, chosen: dict[str, Any]) -> Camera:
 
 
 def described(camera: Camera, name: str, window: Window) -> str:
-    """Describe a picture, in words that --size, --pixel-spacing and --NAME accept."""
+    """Describe a picture in the same notation as --size, --pixel-spacing and --NAME."""
     width, height = camera.size
     spacing, intensities = f"{camera.pixel_spacing:.4g} mm", f"{window.width:.4g}/{window.level:.4g}"
     return f"{width} × {height} pixels of {spacing}, {name} {intensities}"
 
 
 def check_picture(path: Path) -> None:
-    """Reject a picture that cannot be written before any work is done for it."""
+    """Reject a picture that cannot be written before any time is spent on it."""
     from PIL import Image
 
     kind = Image.registered_extensions().get(path.suffix.lower())

@@ -1,4 +1,4 @@
-"""The pictures that a run writes: every view into every output, under names that distinguish the views."""
+"""The pictures that a command writes: every view into every output, with the view in the file name."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ PLACE = "{view}"
 
 @dataclass(frozen=True)
 class Picture:
-    """One view, and the files that it is written to.
+    """One view, and the files into which it is written.
 
     Attributes
     ----------
     view : str, tuple of 3 float or None
-        The name of the view, or its direction; None for that of another picture.
+        The name of the view, or its direction; None for the view of the picture of ``--like``.
     paths : tuple of Path
-        Its files.
+        The files.
     """
 
     view: Any
@@ -31,10 +31,10 @@ class Picture:
 
 
 def pictures(views: Sequence[Any], outputs: Sequence[Path]) -> list[Picture]:
-    """Return the files of each view, and reject those that cannot be written before any file is read.
+    """Return the files of each view; files that cannot be written are rejected before anything is read.
 
-    The name of the view replaces ``{view}`` in an output. With several views it precedes the extension of an
-    output without ``{view}``.
+    The name of the view replaces ``{view}`` in an output. If there are several views, an output without
+    ``{view}`` gets the name of the view before its extension.
     """
     planned = [
         Picture(view, tuple(_path(output, view, is_one=len(views) == 1) for output in outputs))
@@ -51,7 +51,7 @@ def pictures(views: Sequence[Any], outputs: Sequence[Path]) -> list[Picture]:
 
 
 def name_of(view: Any) -> str:
-    """The name of a view in file names: a direction by its three numbers."""
+    """Return the name of a view in file names; three numbers for a direction."""
     return view if isinstance(view, str) else "_".join(f"{number:g}" for number in view)
 
 

@@ -1,4 +1,4 @@
-"""Syntax of options: vectors, sizes, colours, slabs and transfer functions as one word."""
+"""Types of options: vectors, sizes, colours, slabs and transfer functions, each written as one word."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ WINDOW_NAMES = ("auto", "cta", "soft-tissue", "bone", "lung", "full", "mra", "st
 
 
 class Parts(_Type):
-    """Numbers with a separator; ``form`` shows the user how to write them."""
+    """Numbers with a separator between them; ``form`` shows the user how to write them."""
 
     def __init__(self, form: str, separator: str, kind: type[float] | type[int]) -> None:
         self.name, self._separator, self._kind = form, separator, kind
@@ -56,7 +56,7 @@ class NumberOrNone(_Type):
 
 
 class Places(_Type):
-    """One place on a vessel, or two: arc lengths in mm."""
+    """One or two places on a vessel, as arc lengths in mm."""
 
     name = "MM[,MM]"
 
@@ -74,12 +74,12 @@ class Places(_Type):
 
 
 class PlaceOnVessel(_Type):
-    """A place on a vessel by the vessel's name or id and an arc length in mm."""
+    """A place on a vessel: the name or id of the vessel, and an arc length in mm."""
 
     name = "NAME|ID@MM"
 
     def convert(self, value: Any, param: _Parameter, ctx: _Context) -> tuple[str, float]:
-        """Return the word for the vessel and the arc length."""
+        """Return the name or id of the vessel, and the arc length."""
         if not isinstance(value, str):
             return tuple(value)
         word, _, place = value.rpartition("@")
@@ -93,13 +93,13 @@ class PlaceOnVessel(_Type):
 
 
 class WallOption(Parts):
-    """The level of walls and its standard deviation, no wall, or automatic."""
+    """The level of vessel walls with its standard deviation, "off" for no walls, or "auto"."""
 
     def __init__(self) -> None:
         super().__init__("LEVEL,DEVIATION", ",", float)
 
     def convert(self, value: Any, param: _Parameter, ctx: _Context) -> Any:
-        """Return the two numbers, "off", or None for automatic."""
+        """Return the level and its standard deviation, "off", or None for "auto"."""
         if value in ("auto", "off"):
             return None if value == "auto" else value
         try:
@@ -111,7 +111,7 @@ class WallOption(Parts):
 def joined_places(
     ctx: click.Context, param: click.Parameter, given: tuple[tuple[float, ...], ...]
 ) -> tuple[float, ...] | None:
-    """Return the places of all uses of an option; None if it was not given.
+    """Return the places of all uses of an option; None if the option was not given.
 
     Raises
     ------
@@ -127,7 +127,7 @@ def joined_places(
 
 
 class WindowOption(Parts):
-    """A window as its width and level, in this order, or by its name."""
+    """A window, given as width and level in this order, or by its name."""
 
     def __init__(self, names: tuple[str, ...]) -> None:
         super().__init__("WIDTH/LEVEL", "/", float)
@@ -147,7 +147,7 @@ class WindowOption(Parts):
 
 
 class Named(_Type):
-    """One of some names, or a vector."""
+    """One of several names, or a vector."""
 
     def __init__(self, names: tuple[str, ...]) -> None:
         self.names, self.name = names, "|".join(names) + "|X,Y,Z"
@@ -183,13 +183,13 @@ class Color(_Type):
 
 
 class Thickness(_Type):
-    """A thickness in mm and, after a colon, how its values are combined."""
+    """A thickness in mm and, after a colon, how the values within it are combined."""
 
     def __init__(self, names: tuple[str, ...]) -> None:
         self.names, self.name = names, "MM[:" + "|".join(names) + "]"
 
     def convert(self, value: Any, param: _Parameter, ctx: _Context) -> tuple[float, str]:
-        """Return the thickness and the name, by default the first one."""
+        """Return the thickness and how its values are combined, by default the first name."""
         length, colon, name = str(value).lower().partition(":")
         try:
             thickness = float(length.removesuffix("mm"))

@@ -117,7 +117,7 @@ def _list(client: Client, place: Address, wanted: dict[str, str], most: int) -> 
 
 
 def _table(found: list[Found], columns: tuple[str, ...], what: str) -> None:
-    """Print a table with the addresses last: they are long, and users copy them."""
+    """Print a table whose last column holds the addresses: they are long, and users copy them."""
     if not found:
         inform(f"no {what} found")
         return
@@ -145,7 +145,7 @@ def _pull(client: Client, place: Address, folder: Path) -> bool:
 
 
 def _warn_of_patients(client: Client, place: Address) -> None:
-    """Warn if the PACS has one study under several patients; if it cannot be asked, continue."""
+    """Warn if the PACS lists the study under several patients; if it cannot be asked, continue."""
     from lumencut.dicomweb.queries import find_patients
     from lumencut.errors import PacsError
 

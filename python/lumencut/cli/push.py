@@ -93,7 +93,7 @@ def _list(objects: list[Outgoing], address: Address, *, is_all: bool) -> None:
 def _check_studies(
     client: Client, address: Address, objects: list[Outgoing], *, is_new_allowed: bool
 ) -> None:
-    """Reject objects of another patient, and of studies that the PACS lacks: usually the wrong PACS."""
+    """Reject objects of another patient, and of studies that the PACS lacks: usually it is the wrong PACS."""
     from lumencut.dicomweb.patients import check_pacs
 
     unknown, doubts = check_pacs(client, address.base, objects)

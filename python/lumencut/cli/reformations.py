@@ -1,4 +1,4 @@
-"""Shared by the commands of reformations: choice of vessels, outputs, and ``--like``."""
+"""Shared by the commands of reformations: chosen vessels, outputs, and ``--like``."""
 
 from __future__ import annotations
 
@@ -28,15 +28,15 @@ if TYPE_CHECKING:
     from lumencut.vessel import Vessel
     from lumencut.vessel_tree import VesselTree
 
-#: Parameters of a recipe in radians, in degrees on the command line.
+#: Parameters that a recipe holds in radians and the command line in degrees.
 _ANGLES = ("angle", "overlap")
 
-#: Largest default pixel side of CPR and CFA (mm): most vessels then have room for labels.
+#: Largest default pixel side of CPR and CFA (mm): it leaves room for labels on pictures of most vessels.
 _COARSEST = 0.25
 
 
 def like(chosen: dict[str, Any], command: str) -> tuple[dict[str, Any], Settings]:
-    """Return the options, completed by those of ``--like``, and the settings."""
+    """Return the options, with missing ones taken from ``--like``, and the settings."""
     path = chosen.pop("like")
     if path is None:
         return chosen, settings_from(chosen)
@@ -59,7 +59,7 @@ def read_vessels(
 ) -> tuple[Renderer, VesselTree, list[tuple[str, Vessel]]]:
     """Return a renderer of the files, the tree, and the chosen vessels with their titles.
 
-    With `has_series` a DICOM series is written as well.
+    If `has_series`, the command also writes a DICOM series.
     """
     files = scene_from(chosen)
     check_objects(chosen, [chosen["output"]], has_series=has_series)
@@ -103,7 +103,7 @@ def show_each(command: str, **given: Any) -> None:
 
 
 def check_single(vessels: list[tuple[str, Vessel]], path: Path) -> None:
-    """Reject a file of one vessel if there are several."""
+    """Reject an output that can hold only one vessel if several are chosen."""
     if len(vessels) > 1:
         mend = "choose one by --vessel or --path"
         raise click.UsageError(f"{path} holds one vessel; found {len(vessels)}; {mend}")
@@ -112,7 +112,7 @@ def check_single(vessels: list[tuple[str, Vessel]], path: Path) -> None:
 def write_each(
     chosen: dict[str, Any], vessels: list[tuple[str, Vessel]], make: Callable[[Vessel], Reformation]
 ) -> None:
-    """Make the image of each vessel and write it, several as a contact sheet; report what was made."""
+    """Make the image of each vessel and write it, several as a contact sheet; report the files."""
     made = [made_of(title, vessel, make) for title, vessel in vessels]
     output, annotate = chosen["output"], chosen["annotate"]
     with busy(f"writing {output.name}"):
@@ -125,7 +125,7 @@ def write_each(
 
 
 def made_of(title: str, vessel: Vessel, make: Callable[[Vessel], Reformation]) -> Reformation:
-    """Return the image of one vessel, with a warning if it shows nothing."""
+    """Return the image of one vessel, and warn if it shows nothing."""
     import numpy as np
 
     with busy(f"vessel {title}"):
@@ -149,7 +149,7 @@ def _write(chosen: dict[str, Any], made: list[Reformation], titles: list[str], *
 
 
 def write_sheet(sheet: Any, chosen: dict[str, Any], made: list[Reformation]) -> None:
-    """Write the pictures of several vessels, or several of one, on one sheet."""
+    """Write the pictures of several vessels, or several pictures of one vessel, on one sheet."""
     recipes = {one.recipe.name: one.recipe.axes for one in made}
     words = " ".join(f"{name}: {axes}" for name, axes in recipes.items())
     about = (f"CPR {', '.join(recipes)}", words, made[0].settings)

@@ -143,7 +143,7 @@ def render(
 
 
 def _hanging(name: str, chosen: dict[str, Any]) -> list[tuple[Any, Camera]]:
-    """The views of a hanging, which excludes options for the viewing direction."""
+    """Return the views of a hanging; it cannot be combined with options for the viewing direction."""
     for other in ("view", "like", "up", "rotate", "tilt", "center", "zoom_to"):
         if other in typed(chosen):
             found = f"--{other.replace('_', '-')} does nothing with --hanging"
@@ -161,7 +161,7 @@ def _placed(
     *,
     is_hanging: bool,
 ) -> list[Camera]:
-    """The cameras of the views at their places; those of a hanging have one field of view."""
+    """Return the views with their cameras in position; all views of a hanging have one pixel spacing."""
     if not is_hanging:
         return [camera_of(view, scene, chosen, recipe) for _, view in views]
     from lumencut.hanging import fitted_alike

@@ -28,7 +28,7 @@ _BAR = {"share": "{desc}: {percentage:3.0f}%|{bar}| {elapsed}<{remaining}"}
 
 
 def _remember(ctx: click.Context, _: click.Parameter, verbose: bool) -> None:
-    # A context shares its meta with subcommands, so the option works before and after their names.
+    # A click context shares `meta` with its subcommands, so --verbose works before and after their names.
     ctx.meta[_VERBOSE] = verbose or ctx.meta.get(_VERBOSE, False)
 
 
@@ -59,7 +59,7 @@ def inform(text: str) -> None:
 
 
 def detail(text: str) -> None:
-    """Print a detail, shown only with --verbose."""
+    """Print a detail, visible only with --verbose."""
     if is_verbose():
         click.echo(text, err=True)
 
@@ -70,7 +70,7 @@ def warn(text: object) -> None:
 
 
 def complain(text: object) -> None:
-    """Print an error in one line."""
+    """Print an error message in one line."""
     click.echo(f"lumencut: error: {one_line(text)}", err=True)
 
 
@@ -82,7 +82,7 @@ def timings(title: str, milliseconds: dict[str, float]) -> None:
 
 @contextmanager
 def reported(ctx: click.Context) -> Iterator[None]:
-    """Turn anything that ends a command into one line and an exit code."""
+    """Report anything that ends a command by one line and an exit code."""
     with ended_by_signals(), warnings.catch_warnings(), _log_shown():
         warnings.simplefilter("always")
         warnings.showwarning = _shown_once()
@@ -101,7 +101,7 @@ def reported(ctx: click.Context) -> Iterator[None]:
         except MemoryError:
             _fail(ctx, "not enough memory; a smaller --size or volume needs less")
         except OSError as error:
-            # A reader such as head closed the pipe: click handles it.
+            # The reader of a pipe, such as head, closed it: click handles this case.
             if error.errno == errno.EPIPE:
                 raise
             _fail(ctx, error)
@@ -117,14 +117,14 @@ def _fail(ctx: click.Context, error: object) -> NoReturn:
 
 
 def one_line(text: object) -> str:
-    """Return a message in one line, with options instead of the library's arguments."""
-    # Names of files may hold control characters of the terminal.
+    """Return a message in one line; arguments of the library are written as options."""
+    # File names may contain control characters for terminals.
     words = written(text, as_option).split()
     return "".join(letter if letter.isprintable() else "�" for letter in " ".join(words))
 
 
 def _shown_once() -> Callable[..., None]:
-    """Return a function that shows warnings; warnings of one study appear only once."""
+    """Return a function that shows warnings; the same StudyWarning appears only once."""
     shown: set[str] = set()
 
     def show(message: Warning | str, category: type[Warning], *_: object) -> None:
@@ -156,7 +156,7 @@ class _Messages(logging.Handler):
 
 @contextmanager
 def _log_shown() -> Iterator[None]:
-    """Show what the package logs."""
+    """Show log messages of the package while the context is open."""
     log, handler = logging.getLogger("lumencut"), _Messages()
     log.addHandler(handler)
     spread, log.propagate = log.propagate, False
@@ -169,7 +169,7 @@ def _log_shown() -> Iterator[None]:
 
 @contextmanager
 def busy(what: str) -> Iterator[None]:
-    """Show on a terminal what is being done."""
+    """Show the present activity on a terminal."""
     if not sys.stderr.isatty():
         yield
         return
@@ -182,7 +182,7 @@ def busy(what: str) -> Iterator[None]:
 
 @contextmanager
 def bar(label: str, unit: str) -> Iterator[Callable[[int, int], None]]:
-    """Yield a function of (done, total) that moves a progress bar, drawn only on a terminal."""
+    """Yield a function of (done, total) that moves a progress bar; it is drawn only on a terminal."""
     from tqdm import tqdm
 
     with tqdm(

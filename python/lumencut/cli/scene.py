@@ -52,7 +52,7 @@ def scene_from(chosen: dict[str, Any]) -> SceneFiles:
 
 
 def check_scene(files: SceneFiles, chosen: dict[str, Any], settings: Settings) -> None:
-    """Reject contradictions before any file is read."""
+    """Reject options that contradict each other before any file is read."""
     found = found_by(chosen)
     has_centerlines = bool(files.centerlines) or found is not None
     if files.centerlines and found is not None:
@@ -68,7 +68,7 @@ def check_scene(files: SceneFiles, chosen: dict[str, Any], settings: Settings) -
 
 
 def read_scene(files: SceneFiles, chosen: dict[str, Any]) -> tuple[Renderer, VesselTree | Volume]:
-    """Return a renderer of the files, and what views fit; options without effect are rejected."""
+    """Return a renderer of the files and the vessels that views fit; reject options without effect."""
     from lumencut.renderer import Renderer
 
     voxels, tree = read_files(files, chosen)
@@ -76,16 +76,16 @@ def read_scene(files: SceneFiles, chosen: dict[str, Any]) -> tuple[Renderer, Ves
         renderer = Renderer(voxels, tree, files.device)
         return renderer, renderer.scene
     shown, fitted = vessels.chosen_of(tree, chosen)
-    # The renderer compares the tree with the volume and warns if the space looks wrong.
+    # The renderer checks whether the tree fits the volume, and warns if the space looks wrong.
     renderer = Renderer(voxels, tree, files.device)
-    # Chosen vessels keep the window of the whole tree, so brightness does not depend on the choice.
+    # The window is always that of the whole tree, so the brightness does not depend on the shown vessels.
     return (renderer if shown is tree else renderer.with_tree(shown)), fitted
 
 
 def read_files(files: SceneFiles, chosen: dict[str, Any]) -> tuple[Volume | None, VesselTree | None]:
-    """Return the volume and the vessel tree of the files; None without a file."""
+    """Return the volume and the vessel tree; None for each that has no file."""
     start = time.perf_counter()
-    # The small files first: their errors appear before gigabytes are read.
+    # Small files are read first: their errors appear before gigabytes are read.
     lines = centerlines_of(files.centerlines)
     voxels = None if files.volume is None else _read_volume(files.volume, files)
     tree = None if lines is None else lines.tree(files.coordinates, files.unit, voxels, reorder=files.reorder)
@@ -99,7 +99,7 @@ def read_files(files: SceneFiles, chosen: dict[str, Any]) -> tuple[Volume | None
 
 
 def centerlines_of(paths: tuple[Path, ...]) -> CenterlineFile | CenterlineFiles | None:
-    """Read the files of centerlines. Only the renderer compares a single one with the volume."""
+    """Read files of centerlines. If there is only one, the renderer later compares it with the volume."""
     from lumencut.centerline_file import CenterlineFile
 
     if len(paths) < 2:
@@ -114,7 +114,7 @@ def _read_volume(path: Path, files: SceneFiles) -> Volume:
 
 
 def volume_of(path: Path, chosen: dict[str, Any]) -> Volume:
-    """Read a volume with the options."""
+    """Read a volume as the options define."""
     from lumencut.volume_files import read_volume
 
     with bar(f"reading {path.name}", "slice") as progress:
@@ -145,7 +145,7 @@ def shown(camera: Camera, settings: Settings, renderer: Renderer) -> str:
 
 
 def _main_window(settings: Settings, renderer: Renderer) -> tuple[str, Window]:
-    """The setting and the window of the cut surface, or of the context without one."""
+    """Return the name and the window of the cut surface; without a cut surface, those of the context."""
     name = "context_window" if renderer.tree is None else "window"
     return name, getattr(renderer.windowed(settings), name) or renderer.window
 
@@ -166,7 +166,7 @@ def warn_of_window(settings: Settings, renderer: Renderer) -> None:
 
 
 def _meets(camera: Camera, corners: npt.NDArray[np.float64]) -> bool:
-    """Return whether a box around the volume reaches into the picture."""
+    """Return whether the bounding box of the volume reaches into the picture."""
     import numpy as np
 
     place = (corners - camera.center) @ np.stack([camera.right_axis, camera.up], axis=1)
@@ -175,7 +175,7 @@ def _meets(camera: Camera, corners: npt.NDArray[np.float64]) -> bool:
 
 
 def warn_of_emptiness(who: str, camera: Camera, renderer: Renderer) -> None:
-    """Report in one line that nothing of the volume is visible, and where it would be."""
+    """Report in one line that nothing of the volume is visible, and where the volume lies."""
     if renderer.volume is None:
         return
     corners = renderer.volume.corners

@@ -1,4 +1,4 @@
-"""Options for the settings of a picture, made from the table of settings."""
+"""Options for the settings of a picture, created from the table of settings."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ NO_CONTEXT = "none"
 #: The most common settings come first; the others follow in the order of the table.
 _FIRST = ("window", "opacity", "background")
 
-#: Placeholder of a number in the help by its unit, instead of "NUMBER".
+#: Placeholder for a number in the help, by the unit of the setting; otherwise "NUMBER".
 _METAVARS = {"mm": "MM", "mm per level": "MM", "mm per mm": "SLOPE", "radii": "RADII"}
 
-#: Syntax of values in the help, after the sentence about the setting.
+#: How to write values, for the help; it follows the sentence about the setting.
 _WRITTEN = {
     "window": f", such as 900/300 (width, then level), or one of {', '.join(WINDOW_NAMES)}",
     "flag": " (yes or no)",
@@ -36,14 +36,14 @@ _WRITTEN = {
 
 
 def paper_option(command: Command) -> Command:
-    """Add the flag that starts from the paper's rules."""
+    """Add the option --paper, which starts from the paper's rules."""
     rules = " ".join(_words(name, value) for name, value in PAPER.items())
     text = f"Start from the rules of the CSR paper (2013): {rules}. Other options change them further."
     return click.option("--paper", is_flag=True, help=text)(command)
 
 
 def _words(name: str, value: Any) -> str:
-    """The option that gives a setting this value."""
+    """Return the option that gives a setting this value, as the user types it."""
     words = name.replace("_", "-")
     if value is None:
         return f"--{words} {NO_CONTEXT}"
@@ -77,13 +77,13 @@ def setting_options(command: Command) -> Command:
 
 
 def look_options(command: Command) -> Command:
-    """Add the options for showing a surface, regardless of the method that found it."""
+    """Add the options that change how a surface is shown, by whatever method it was found."""
     names = (*_FIRST, "slab")
     return added((settings_option, *(_option(name, SETTINGS[name]) for name in names)), command)
 
 
 def _option(name: str, setting: Setting) -> Any:
-    """The option of a setting. Without the option the value is None, for the default of the setting."""
+    """Return the option of a setting. If it is not given, its value is None, for the setting's default."""
     words = f"--{name.replace('_', '-')}"
     if setting.kind == "flag":
         return click.option(f"{words}/--no-{words[2:]}", default=None, help=_help(setting))
@@ -94,7 +94,7 @@ def _option(name: str, setting: Setting) -> Any:
 
 
 def _type(setting: Setting) -> tuple[Any, str | None]:
-    """The type of an option's value, and its placeholder in the help."""
+    """Return the type of an option's value, and its placeholder in the help."""
     match setting.kind:
         case "number":
             metavar = _METAVARS.get(setting.unit or "", "NUMBER")
@@ -119,7 +119,7 @@ def _type(setting: Setting) -> tuple[Any, str | None]:
 
 
 def _help(setting: Setting) -> str:
-    """The help of a setting: its effect, syntax and default."""
+    """Return the help of a setting: its effect, how to write values, and its default."""
     sentence = re.sub(r"`(\w+)`", lambda name: name[1].replace("_", "-"), setting.sentence.rstrip("."))
     return f"{sentence}{_WRITTEN.get(setting.kind, '')}; {_default(setting)}."
 
@@ -141,9 +141,9 @@ def _default(setting: Setting) -> str:
 
 
 def settings_from(chosen: dict[str, Any], base: Settings | None = None) -> Settings:
-    """Return the settings of the options; the others are those of `base` or the paper's.
+    """Return the settings of the options; all others come from `base`, or from the paper's rules.
 
-    Without `base` they are the defaults.
+    Without both they have their defaults.
     """
     from lumencut.settings import Settings
 
@@ -165,7 +165,7 @@ def settings_from(chosen: dict[str, Any], base: Settings | None = None) -> Setti
 
 
 def _look(name: str | None) -> dict[str, Any]:
-    """The settings of a look."""
+    """Return the settings of a look."""
     from lumencut._checked_settings import look_values
 
     return {} if name is None else look_values(name)

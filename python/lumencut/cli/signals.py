@@ -1,4 +1,4 @@
-"""SIGTERM and SIGHUP end a command as Ctrl-C does: what runs is stopped, and temporary files are removed."""
+"""SIGTERM and SIGHUP end a command as Ctrl-C does: work stops, and temporary files are removed."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
 
-#: SIGHUP arrives when the terminal closes; some systems lack it.
+#: SIGHUP comes when the terminal closes; some systems do not have it.
 _ENDING = tuple(getattr(signal, name) for name in ("SIGTERM", "SIGHUP") if hasattr(signal, name))
 
 
@@ -24,7 +24,7 @@ class EndedError(BaseException):
 
 
 def _end(number: int, _: FrameType | None) -> None:
-    # Another signal must not disturb the cleanup.
+    # From now on signals are ignored, so that they do not interrupt the cleanup.
     for other in _ENDING:
         signal.signal(other, signal.SIG_IGN)
     raise EndedError(number)
@@ -32,7 +32,7 @@ def _end(number: int, _: FrameType | None) -> None:
 
 @contextmanager
 def ended_by_signals() -> Iterator[None]:
-    """Raise an `EndedError` on these signals; an ignored one, as under ``nohup``, stays ignored."""
+    """Raise an `EndedError` on these signals; a signal that is ignored, as under ``nohup``, stays ignored."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return

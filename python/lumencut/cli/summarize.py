@@ -10,7 +10,7 @@ import click
 from lumencut.cli.options import FILE, check_folder
 from lumencut.cli.report import say, verbose_option
 
-#: Number of reasons of failures listed, the most frequent first.
+#: The number of failure reasons to list, the most frequent first.
 _REASONS = 10
 
 
@@ -74,7 +74,7 @@ def _print_states(out: Path) -> None:
 
 
 def _print(rows: Sequence[Sequence[str]], output: Path | None) -> None:
-    """Print rows as columns of equal width, and write them if requested."""
+    """Print rows as columns of equal width; also write them to a file if requested."""
     widths = [max(len(row[n]) for row in rows) for n in range(len(rows[0]))]
     for row in rows:
         say("  ".join(word.ljust(width) for word, width in zip(row, widths, strict=True)).rstrip())

@@ -127,13 +127,13 @@ def trace(
         _render(voxels, tree, preview, device)
 
 
-#: The options of points, without effect on found vessels or a mask, except `ras`.
+#: Options for points; except `ras`, they have no effect on found vessels or a mask.
 _WITH_POINTS = ("point", "index", "points", "stopper", "bridge")
 _WITH_FOUND = ("seed", "seed_index", "find", "smallest_radius", "doubtful")
 
 
 def _check(volume: Path | None, output: Path, preview: Path | None, chosen: dict[str, Any]) -> None:
-    """Reject contradictions before any voxel is read."""
+    """Reject options that contradict each other before any voxel is read."""
     has_mask = chosen["mask"] is not None
     for name in (*_WITH_POINTS, *_WITH_FOUND, "ras") if has_mask else WITH_MASK:
         if chosen[name]:
@@ -158,7 +158,7 @@ def _check(volume: Path | None, output: Path, preview: Path | None, chosen: dict
 
 
 def _check_alone(chosen: dict[str, Any], found: str) -> None:
-    """Reject options without effect on vessels found by this option."""
+    """Reject options that have no effect on the vessels found by this option."""
     for name in _WITH_POINTS:
         if chosen[name]:
             raise click.UsageError(f"--{name} with {found} does nothing; leave out one of them")
@@ -168,7 +168,7 @@ def _check_alone(chosen: dict[str, Any], found: str) -> None:
 
 
 def _check_points(chosen: dict[str, Any]) -> None:
-    """Reject points that do not make a vessel."""
+    """Reject points that cannot define a vessel."""
     given = [name for name in ("point", "index", "points") if chosen[name]]
     if not given:
         raise click.UsageError(
@@ -202,7 +202,7 @@ def _traced(voxels: Volume, chosen: dict[str, Any], *, bridge: bool) -> VesselTr
 
 
 def _vessels(voxels: Volume, chosen: dict[str, Any]) -> tuple[list[Points], list[str | None]]:
-    """The points of each vessel (mm, LPS), and their names."""
+    """Return the points of each vessel (mm, LPS), and the names of the vessels."""
     import numpy as np
 
     lists: list[Points] = []
@@ -230,7 +230,7 @@ def _in_lps(points: tuple[tuple[float, ...], ...], chosen: dict[str, Any]) -> Po
 
 
 def _mean(name: str, numbers: Points | None, unit: str = "") -> str:
-    """The mean of a value per point of a vessel, as text."""
+    """Return the mean over all points of a vessel, as text."""
     return "" if numbers is None else f", {name} {float(numbers.mean()):.2f}{unit}"
 
 

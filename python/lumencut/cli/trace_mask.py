@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 
-#: Options of `mask_options` without effect without ``--mask``, and without a default.
+#: Options of `mask_options` that have no default and no effect without ``--mask``.
 WITH_MASK = ("label", "threshold", "bridge_gaps")
 
 
@@ -63,7 +63,7 @@ def mask_options(command: _Command) -> _Command:
 
 
 def traced_from_mask(chosen: dict[str, Any], volume: Volume | None) -> VesselTree:
-    """Trace the mask of the options, and report what was found."""
+    """Trace the mask of the options, and report the vessels."""
     from lumencut.mask_tracing import trace_mask
 
     path: Path = chosen["mask"]
@@ -95,7 +95,7 @@ def traced_from_mask(chosen: dict[str, Any], volume: Volume | None) -> VesselTre
 
 
 def _opened(path: Path, words: tuple[str, ...]) -> MaskFile:
-    """The mask, with the labels of the options."""
+    """Return the opened mask, with the labels of the options."""
     from lumencut.mask_files import open_mask
 
     try:

@@ -1,4 +1,4 @@
-"""``lumencut turntable``: a view that turns."""
+"""``lumencut turntable``: an animation of a turning view."""
 
 from __future__ import annotations
 
@@ -141,7 +141,7 @@ def turntable(
 
 
 def _check_about(chosen: dict[str, Any]) -> None:
-    """Reject options that place the view if it turns about a place."""
+    """Reject options that position the view if it turns about a place."""
     if chosen["about"] is None:
         return
     for name in ("axis", "center", "up", "tilt", "zoom_to"):
@@ -154,7 +154,7 @@ def _check_about(chosen: dict[str, Any]) -> None:
 def _about(
     renderer: Renderer, view: Camera, chosen: dict[str, Any], how: tuple[Settings, int]
 ) -> tuple[Camera, Iterator[Frame]]:
-    """The first view of a turn about a place, and its frames."""
+    """Return the first view of a turn about a place, and the frames of the turn."""
     from lumencut._vessel_names import id_or_name
     from lumencut.camera import Camera
     from lumencut.place_turns import radius_at, turn_about
@@ -172,7 +172,7 @@ def _about(
 
 
 def _check_flight(chosen: dict[str, Any], frames: int) -> None:
-    """Reject options of a turn for a flight."""
+    """Reject options that have no effect on a flight."""
     if chosen["fly_to"] is None:
         return
     for name, idle in (("about", None), ("axis", None), ("degrees", 360.0)):
@@ -186,7 +186,7 @@ def _check_flight(chosen: dict[str, Any], frames: int) -> None:
 def _flight(
     renderer: Renderer, first: Camera, chosen: dict[str, Any], how: tuple[Settings, int]
 ) -> tuple[Camera, Iterator[Frame]]:
-    """The first view of a flight to a vessel, and its frames."""
+    """Return the first view of a flight to a vessel, and the frames of the flight."""
     from lumencut._vessel_names import id_or_name
     from lumencut.camera import Camera
     from lumencut.flights import flight
@@ -199,7 +199,7 @@ def _flight(
 
 
 def watched(turn: Iterable[Frame], count: int, empty: list[Camera]) -> Iterator[Frame]:
-    """Yield frames with a progress bar, and record those that show nothing."""
+    """Yield frames while a progress bar moves, and count frames that show nothing."""
     with bar("turntable", "frame") as progress:
         for done, frame in enumerate(turn, 1):
             timings(f"frame {done}", frame.timings)
@@ -210,7 +210,7 @@ def watched(turn: Iterable[Frame], count: int, empty: list[Camera]) -> Iterator[
 
 
 def _check_turn(view: Camera, frames: int, degrees: float, axis: Any) -> None:
-    """Reject an impossible turn before any file is read."""
+    """Reject an invalid turn before any file is read."""
     from lumencut.turntables import frame_angles
 
     try:

@@ -48,7 +48,7 @@ def show_uncurled(**given: Any) -> None:
 
 
 def _writer(output: Path, amount: float | None, fps: float, dicom: dict[str, Any]) -> Writer | None:
-    """The writer of a film, None for one picture; reject what cannot be written."""
+    """Return the writer of a film, or None for one picture; reject files that cannot be written."""
     if amount is not None:
         if dicom["grey"]:
             raise click.UsageError("--grey does nothing with --amount; leave out one of them")
@@ -66,7 +66,7 @@ def _writer(output: Path, amount: float | None, fps: float, dicom: dict[str, Any
 
 
 def _camera(chosen: dict[str, Any], vessel: Vessel) -> Camera:
-    """The view of --like unless options give another one, fitted to the film."""
+    """Return the view of --like unless options define another one, fitted to the film."""
     from lumencut.reformation_recipe import recipe_camera
     from lumencut.uncurling import fitted_uncurling
 
@@ -80,7 +80,7 @@ def _camera(chosen: dict[str, Any], vessel: Vessel) -> Camera:
 def _made(
     renderer: Renderer, vessel: Vessel, camera: Camera, chosen: dict[str, Any], settings: Settings
 ) -> Uncurled:
-    """The vessel at the requested amount, in the window of all frames."""
+    """Return the vessel, straightened by the requested amount, in the window of all frames."""
     from lumencut.uncurling import UncurlRequest
 
     amount, shown = chosen["amount"] or 0.0, renderer.windowed(settings)
@@ -90,7 +90,7 @@ def _made(
 
 @dataclass(frozen=True)
 class _Picture:
-    """A frame of the film, as the writers of animations take it."""
+    """A frame of the film, in the form that the writers of animations accept."""
 
     made: Uncurled
     image: npt.NDArray[np.uint8]
@@ -110,7 +110,7 @@ class _Picture:
 
 
 def _film(first: Uncurled, frames: int, *, annotate: bool) -> Iterator[Any]:
-    """The frames, opaque, while a progress bar moves."""
+    """Yield the frames, opaque, while a progress bar moves."""
     from lumencut.uncurling import uncurling
 
     with bar("uncurl", "frame") as progress:

@@ -43,7 +43,7 @@ def show_untangled(**given: Any) -> None:
 
 
 def _renderer(chosen: dict[str, Any], settings: Settings) -> Renderer:
-    """A renderer of the chosen vessels, with the window of all."""
+    """Return a renderer of the chosen vessels, with the window of all vessels."""
     files = scene_from(chosen)
     check_objects(chosen, [chosen["output"]])
     check_files(files.volume, files.centerlines)
@@ -61,7 +61,7 @@ def _renderer(chosen: dict[str, Any], settings: Settings) -> Renderer:
 
 
 def _print(output: str, made: UntangledTree) -> None:
-    """Report what was made, and warn of vessels that could not be separated."""
+    """Print the files, and warn of vessels that could not be separated."""
     import numpy as np
 
     turns = [abs(part.turn) for part in made.parts if part.turn]

@@ -1,4 +1,4 @@
-"""The choice of vessels to show, and to fit the view to."""
+"""Chooses the vessels to show, and the vessels that the view must fit."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ path_option = click.option(
 
 
 def chosen_of(tree: VesselTree, chosen: dict[str, Any]) -> tuple[VesselTree, VesselTree]:
-    """Return the vessels to show, and those that the view fits."""
+    """Return the vessels to show, and the vessels that the view must fit."""
     wanted, fitted = shown_ids(tree, chosen), ids_of(tree, chosen["zoom_to"])
     kept = tree if len(wanted) == len(tree) else tree.select(*wanted)
     return kept, tree.select(*fitted) if fitted else kept
@@ -38,14 +38,14 @@ def shown_ids(tree: VesselTree, chosen: dict[str, Any]) -> list[int]:
 
 
 def ids_of(tree: VesselTree, words: tuple[str, ...]) -> list[int]:
-    """Return the ids of words; a word that is a name is not an id."""
+    """Return the ids that the words mean; a word of digits that is a name is not an id."""
     from lumencut._vessel_names import id_or_name
 
     return [index for word in words for index in tree.ids(id_or_name(tree, word))]
 
 
 def named_vessels(tree: VesselTree, chosen: dict[str, Any]) -> list[tuple[str, Vessel]]:
-    """Return the choice of --vessel, --exclude and --path, with ids: vessels, then paths through several."""
+    """Return the vessels of --vessel, --exclude and --path with their ids: single vessels, then paths."""
     ids = [] if chosen["path"] and not chosen["vessel"] else shown_ids(tree, chosen)
     found = [(str(n), tree[n]) for n in ids]
     return found + [
@@ -54,9 +54,9 @@ def named_vessels(tree: VesselTree, chosen: dict[str, Any]) -> list[tuple[str, V
 
 
 def titled_vessels(tree: VesselTree, chosen: dict[str, Any]) -> list[tuple[str, Vessel]]:
-    """Return the choice of the options, each with a title of ids, name and length.
+    """Return the chosen vessels, each with a title of ids, name and length.
 
-    --anonymous omits the names, which may be names of persons.
+    With --anonymous titles have no names, because a name may be that of a person.
     """
     named = named_vessels(tree, chosen)
     if chosen.get("anonymous"):
@@ -65,7 +65,7 @@ def titled_vessels(tree: VesselTree, chosen: dict[str, Any]) -> list[tuple[str, 
 
 
 def _one(tree: VesselTree, word: str) -> int:
-    """The one vessel of a word of --path."""
+    """Return the only vessel that a word of --path means."""
     ids = ids_of(tree, (word.strip(),))
     if len(ids) > 1:
         raise VesselTreeError("--path", f"{len(ids)} vessels named {word!r}", "one vessel", "give its id")

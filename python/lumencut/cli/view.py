@@ -89,7 +89,7 @@ def view(
 
 
 def _scene(volume: Path, centerlines: tuple[Path, ...], chosen: dict[str, Any]) -> ArrivingScene:
-    """The scene; small files and headers are read first, so that their errors appear at once."""
+    """Return the scene; small files and headers are read first, so that their errors appear at once."""
     from lumencut.viewer.arriving import ArrivingScene
 
     lines = centerlines_of(centerlines)

@@ -1,1 +1,1 @@
-"""Cohorts: many studies of a list, each processed in its own process, with tables of all."""
+"""Cohorts: the studies of a list, each processed in its own process, with tables of all studies."""

@@ -19,7 +19,7 @@ from lumencut.cohort.result_tables import ResultTable
 
 _Floats = npt.NDArray[np.float64]
 
-#: Largest distance between the middles of sections of the same place in two runs (mm).
+#: Sections of two runs are the same place if their middles are at most this far apart (mm).
 FARTHEST = 1.0
 _OF_VESSELS = ("diameter_median_mm", "suggested_narrowest_mm", "length_mm")
 _OF_SECTIONS = ("diameter_equivalent_mm", "diameter_min_mm", "area_mm2")
@@ -100,7 +100,7 @@ class Agreement:
 
     @property
     def row(self) -> list[str]:
-        """Its values in the order of `COLUMNS`."""
+        """Return the fields in the order of `COLUMNS`."""
         half = _NORMAL * self.sd / np.sqrt(len(self.first))
         numbers = (
             self.bias,
@@ -144,7 +144,7 @@ def agreements(first: Path, second: Path) -> list[Agreement]:
 
 
 def _keys(table: ResultTable) -> list[_Vessel]:
-    """The study and the vessel of each row; a name counts if it is unique within the study."""
+    """Return study and vessel of each row; a vessel is known by its name if that is unique in the study."""
     rows = list(zip(table.words("id"), table.words("vessel"), table.words("name"), strict=True))
     holders = Counter((study, name) for study, _, name in set(rows))
     return [
@@ -154,7 +154,7 @@ def _keys(table: ResultTable) -> list[_Vessel]:
 
 
 def _of_vessels(tables: Sequence[ResultTable], quantity: str) -> Agreement | None:
-    """The agreement of one number of each vessel; None if no vessel of both has it."""
+    """Return the agreement of one number per vessel; None if no vessel has it in both runs."""
     first, second = (dict(zip(_keys(table), table.numbers(quantity), strict=True)) for table in tables)
     both = [key for key in first if key in second and np.isfinite([first[key], second[key]]).all()]
     if not both:
@@ -165,7 +165,7 @@ def _of_vessels(tables: Sequence[ResultTable], quantity: str) -> Agreement | Non
 
 
 def _same_places(first: ResultTable, second: ResultTable) -> npt.NDArray[np.int64]:
-    """Pairs of rows of both tables with sections at one place, shape (n, 2)."""
+    """Return the pairs of rows of both tables whose sections are the same place, shape (n, 2)."""
     others = _rows_of_vessels(second)
     centers, other_centers = _centers(first), _centers(second)
     pairs: list[tuple[int, int]] = []
@@ -184,7 +184,7 @@ def _same_places(first: ResultTable, second: ResultTable) -> npt.NDArray[np.int6
 
 
 def _rows_of_vessels(table: ResultTable) -> dict[_Vessel, npt.NDArray[np.int64]]:
-    """The rows of each vessel that count."""
+    """Return the rows that count, by vessel."""
     rows: dict[_Vessel, list[int]] = {}
     for row, (key, counts) in enumerate(zip(_keys(table), table.words("counts"), strict=True)):
         if counts == "yes":
@@ -193,12 +193,12 @@ def _rows_of_vessels(table: ResultTable) -> dict[_Vessel, npt.NDArray[np.int64]]
 
 
 def _centers(table: ResultTable) -> _Floats:
-    """The middles of the sections, shape (n, 3), mm, LPS."""
+    """Return the middles of the sections, shape (n, 3), mm, LPS."""
     return np.stack([table.numbers(name) for name in _CENTER], axis=1)
 
 
 def _of_sections(tables: Sequence[ResultTable], pairs: npt.NDArray[np.int64], quantity: str) -> Agreement:
-    """The agreement of one number of each section; the uncertainty is that of the equivalent diameter."""
+    """Return the agreement of one number per section; its uncertainty is that of the equivalent diameter."""
     first, second = (table.numbers(quantity)[pairs[:, n]] for n, table in enumerate(tables))
     expected = np.full(len(pairs), np.nan)
     if quantity == "diameter_equivalent_mm":

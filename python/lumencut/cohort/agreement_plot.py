@@ -9,17 +9,17 @@ from lumencut._files import replace_whole
 from lumencut.cohort.agreement import Agreement
 from lumencut.profile_plot import check_matplotlib
 
-#: A vector picture with more points is too large to open.
+#: With more points than this, they are drawn as pixels, because a vector picture would be too large.
 _AS_PIXELS = 5000
 
 
 def write_plot(found: Sequence[Agreement], path: Path) -> None:
-    """Draw each agreement: differences by means, the mean difference, and the limits of agreement.
+    """Draw the differences of each agreement over the means, with the mean difference and the limits.
 
     Parameters
     ----------
     found : sequence of Agreement
-        Drawn one below the other.
+        The agreements, drawn one below the other.
     path : Path
         A picture, ``.png`` or ``.svg``.
 

@@ -1,4 +1,4 @@
-"""A cohort from its manifest to its tables: every study in its own process, none processed twice."""
+"""Processes a cohort, from the manifest to the tables: each study once, in its own process."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ from lumencut.cohort.record import read_record
 from lumencut.cohort.tables import OF_STUDIES, further_names, write_tables
 from lumencut.errors import FileError, SettingsError
 
-#: Called with the number of ended studies, the total, and how the last one ended.
+#: Function that is called with the number of ended studies, the total, and how the last study ended.
 Progress = Callable[[int, int, Outcome], object]
-#: Runs jobs while the lock file exists; yields how each ended, or None at intervals.
+#: Runs jobs as long as the lock file exists; yields how each ended, and None at intervals.
 Engine = Callable[[Sequence[Job], Path], Iterator[Outcome | None]]
 
-#: An interpreter with its libraries needs this much address space.
+#: The address space that Python with its libraries needs (bytes).
 _LEAST_MEMORY = 256 << 20
 
 
@@ -173,7 +173,7 @@ def batch(
     limits = _limits(threads, 0 if is_cluster else _fair_threads(side), memory, time_limit)
     start, wanted = partial(cohort.job, words=words, limits=limits), Wanted(checked_shard(shard), retry)
     if parquet:
-        # Checked before hours of work.
+        # Checked now, because writing comes after hours of work.
         check_parquet()
     with _engine(side, dask, slurm) as engine:
         summary = cohort.run(start, engine, wanted, progress)
@@ -184,7 +184,7 @@ def batch(
 
 @contextmanager
 def _engine(jobs: int, dask: str | None, slurm: str | None) -> Iterator[Engine]:
-    """The engine for the studies: this machine, or a cluster while it is needed."""
+    """Return the engine for the studies: this machine, or a cluster that ends with the context."""
     if dask is not None and slurm is not None:
         raise SettingsError("dask and slurm", "both", "one of them, or neither for this machine")
     if dask is None and slurm is None:
@@ -213,7 +213,7 @@ class Cohort:
     layout: Layout
 
     def job(self, study: Study, words: Sequence[str], limits: Limits) -> Job:
-        """Return the job that starts the process of a study."""
+        """Return the job that runs one study in a process."""
         manifest = str(Path(self.manifest.path).absolute())
         given = ["batch", manifest, f"--output={self.layout.out}", f"--one={study.id}", *words]
         if limits.memory is not None:
@@ -227,7 +227,7 @@ class Cohort:
         wanted: Wanted,
         progress: Progress | None = None,
     ) -> BatchSummary:
-        """Process the remaining studies, and write the tables, even if the batch is interrupted."""
+        """Process the remaining studies; write the tables even if the batch is interrupted."""
         self._make()
         with held(self.layout, wanted.shard) as lock:
             settle_recipe(self.layout, self.recipe, wanted.retry)
@@ -267,7 +267,7 @@ class Cohort:
             raise FileError(str(self.layout.out), found, "a folder to write into") from error
 
     def _sweep(self, studies: Iterable[Study]) -> None:
-        """Remove incomplete results of these studies that a killed batch left behind."""
+        """Remove incomplete results of these studies, left by a batch that was killed."""
         labels = {study.label for study in studies}
         for path in self.layout.unfinished.iterdir():
             if path.name.partition(".")[0] in labels:
@@ -301,7 +301,7 @@ class Cohort:
         return ended
 
     def _explained(self, one: Planned, outcome: Outcome) -> Outcome:
-        """How a study ended, with the reason that its own process recorded."""
+        """Return how a study ended, with the reason that the process of the study recorded."""
         if outcome.state != "failed" or outcome.reason:
             return outcome
         record = read_record(self.layout.failure(one.study))
@@ -329,13 +329,13 @@ def checked_shard(shard: tuple[int, int]) -> Shard:
 
 
 def _fair_threads(jobs: int) -> int:
-    """Threads per study on this machine."""
+    """Return the number of threads per study, so that all jobs share the cores of this machine."""
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     return max(1, cores // jobs)
 
 
 def _limits(threads: int | None, usual: int, memory: int | None, seconds: float | None) -> Limits:
-    """The limits of each study, checked; `usual` threads by default."""
+    """Return the checked limits of each study; by default it has `usual` threads."""
     used = usual if threads is None else integers(SettingsError, "threads", [threads], 1, 1024, 1)[0]
     if memory is not None and memory < _LEAST_MEMORY:
         raise SettingsError("memory", f"{memory} bytes", f"at least {_LEAST_MEMORY} bytes")

@@ -10,10 +10,10 @@ from lumencut.cohort.manifest import Manifest, Study
 from lumencut.cohort.manifest_table import table_of
 from lumencut.errors import FileError, FormatError, LumencutError
 
-#: Endings of the names of angiographies; BIDS has ``angio`` for MR and none for CT so far.
+#: Suffixes of the file names of angiographies; BIDS has ``angio`` for MR, and none for CT so far.
 SUFFIXES = ("angio", "cta", "ct")
 _ENDINGS = (".nii.gz", ".nii")
-#: Endings of the names of images that may replace an angiography.
+#: Extensions of images that may be the angiography in another format; named in the reason.
 _IMAGES = (*_ENDINGS, ".nrrd", ".nhdr", ".mha", ".mhd", ".hdr", ".dcm", ".mgz")
 _EXPECTED = "a BIDS data set with folders sub-…"
 _MOST_NAMED = 8
@@ -85,7 +85,7 @@ def _listed(path: Path, column: str, prefix: str, notes: list[str]) -> list[str]
 
 
 def _of_person(person: Path, suffixes: Sequence[str], notes: list[str]) -> list[Study]:
-    """The studies of a participant: one for each session, or one without sessions."""
+    """Return the studies of a participant: one for each session, or one if there are no sessions."""
     if not person.is_dir():
         return [Study(person.name, person, left_out="participants.tsv lists it, but there is no folder")]
     table = person / f"{person.name}_sessions.tsv"
@@ -103,7 +103,7 @@ def _of_person(person: Path, suffixes: Sequence[str], notes: list[str]) -> list[
 
 
 def _study(place: Path, name: str, suffixes: Sequence[str]) -> Study:
-    """The study of a folder, left out if the folder has no angiography."""
+    """Return the study of a folder; without an angiography the study is left out."""
     if not place.is_dir():
         return Study(name, place, left_out=f"no folder {place.name} of this session of the table of sessions")
     images = _images(place)
@@ -119,7 +119,7 @@ def _study(place: Path, name: str, suffixes: Sequence[str]) -> Study:
 
 
 def _images(place: Path) -> list[Path]:
-    """All files of a folder that may be images, by their names."""
+    """Return all files of a folder that may be images, judged by their names."""
     return sorted(path for path in place.rglob("*") if path.name.lower().endswith(_IMAGES))
 
 

@@ -21,7 +21,7 @@ from lumencut.volume_files.room import available_memory, in_words
 
 #: Smallest address space of the process of a study before it reads a voxel (bytes).
 _PROCESS = 256 << 20
-#: This much plus this multiple of the voxels is enough for any study; chosen, not measured.
+#: Memory that is enough for any study: the first number plus the second times the voxels; not measured.
 _AMPLE, _TIMES = 4 << 30, 12
 
 
@@ -34,7 +34,7 @@ class Verdict:
     trouble : str
         Why it will fail; empty if no failure is predicted.
     unsure : tuple of str
-        Questions that only the run can decide, a sentence each; empty if the study will fail anyway.
+        What only the run can show, a sentence each; empty if the study will fail anyway.
     """
 
     trouble: str = ""
@@ -54,9 +54,9 @@ def verdict_of(study: Study, how: Reading, memory: int | None = None) -> Verdict
     Parameters
     ----------
     study, how
-        The study, and the recipe for reading its scan.
+        The study, and the part of the recipe that defines how to read its scan.
     memory : int, optional
-        Its memory limit (bytes of address space); by default that of the machine.
+        Memory limit of the study (bytes of address space); by default the memory of the machine.
     """
     try:
         return Verdict(unsure=tuple(_judged(study, how, memory)))
@@ -68,7 +68,7 @@ def verdict_of(study: Study, how: Reading, memory: int | None = None) -> Verdict
 
 
 def _judged(study: Study, how: Reading, memory: int | None) -> Iterator[str]:
-    """Yield what only the run can decide.
+    """Yield what only the run can show.
 
     Raises
     ------
@@ -88,15 +88,15 @@ def _judged(study: Study, how: Reading, memory: int | None) -> Iterator[str]:
             _check_places(study, volume)
     for file in files:
         if not file.check_length():
-            yield f"{file.path}: whether all voxels are there is known once they are read"
+            yield f"{file.path}: only reading can show whether all voxels are there"
     needed = sum(_bytes(file) for file in files)
     _check_memory(study, needed, memory)
     if _AMPLE + _TIMES * needed > (memory or available_memory()):
-        yield f"{in_words(needed)} of voxels: whether the memory is enough is known once they are measured"
+        yield f"{in_words(needed)} of voxels: only measuring can show whether the memory is enough"
 
 
 def _bytes(file: VolumeFile) -> int:
-    """Smallest size of the voxels of a file in memory (bytes)."""
+    """Return the smallest size that the voxels of a file have in memory (bytes)."""
     return math.prod(file.size) * (file.settled_type or file.dtype).itemsize
 
 
@@ -105,14 +105,16 @@ def _check_memory(study: Study, needed: int, memory: int | None) -> None:
     room = available_memory() if memory is None else max(memory - _PROCESS, 0)
     if needed > room:
         expected = f"at most {in_words(room)}, " + (
-            "that are available" if memory is None else "what --memory leaves for them"
+            "the available memory" if memory is None else "the memory that --memory leaves for voxels"
         )
-        raise FormatError(str(study.volume), f"{in_words(needed)} of voxels", expected, "give it more")
+        raise FormatError(
+            str(study.volume), f"{in_words(needed)} of voxels", expected, "make more memory available"
+        )
 
 
 @dataclass(frozen=True)
 class _Grid:
-    """A grid in the form of the core."""
+    """A grid in the form that the core accepts."""
 
     size: tuple[int, int, int]
     _affine_rows: tuple[tuple[float, ...], ...]

@@ -1,4 +1,4 @@
-"""The process of one study in the batch that started it: its command, its limits, how it ended."""
+"""The process of one study, seen from the batch: its command, its limits, and how it ended."""
 
 from __future__ import annotations
 
@@ -56,11 +56,11 @@ class Started(Protocol):
         """Its number."""
 
     def poll(self) -> int | None:
-        """Return the exit code, below 0 for a signal; None while it works."""
+        """Return the exit code, below 0 if a signal ended the process; None while it works."""
 
 
 def _fresh(job: Job) -> Started:
-    """Start a new process for a study."""
+    """Start a new Python process for a study."""
     environment = {**os.environ, PARENT: str(os.getpid()), "RAYON_NUM_THREADS": str(job.threads)}
     with job.log.open("wb") as log:
         return subprocess.Popen(
@@ -69,7 +69,7 @@ def _fresh(job: Job) -> Started:
             stdout=log,
             stderr=subprocess.STDOUT,
             env=environment,
-            # Ctrl-C in the terminal is for the batch, which then ends its processes.
+            # Its own session: Ctrl-C in the terminal reaches only the batch, which then ends its processes.
             start_new_session=True,
         )
 
@@ -98,7 +98,7 @@ class Child:
 
     def end(self, number: signal.Signals = signal.SIGTERM) -> None:
         """Send a signal to it and its children."""
-        # It may have ended, or may not have its own process group yet.
+        # The process may have ended already, or may not lead its process group yet.
         for send in (os.killpg, os.kill):
             with suppress(ProcessLookupError):
                 send(self._process.pid, number)

@@ -1,4 +1,4 @@
-"""Studies on the workers of dask.distributed, which start the processes and say how they ended."""
+"""Runs studies on the workers of dask.distributed; a worker starts a process per study."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from lumencut.cohort.job import Job
 from lumencut.cohort.scheduler import SchedulerWatch, briefly, within
 from lumencut.errors import MissingPackageError, SettingsError
 
-#: How often a study restarts on another worker after its worker is lost.
+#: How often a study restarts on another worker if its worker is lost.
 _LOST_WORKERS = 5
-#: Interval at which the batch checks its studies, and a worker checks the batch (s).
+#: Intervals at which the batch checks its studies, and at which a worker checks the batch (s).
 _LOOK, _LOOK_FOR_BATCH = 0.1, 1.0
-#: Timeouts of a connection, and of the result of an ended study (s).
+#: Timeouts for connecting, and for the result of a study that has ended (s).
 _CONNECTING, _ANSWER = 10.0, 5.0
 _ENDED = ("finished", "error", "cancelled")
 #: Options of ``--slurm``, with their names in dask-jobqueue.
@@ -38,12 +38,12 @@ SLURM_NAMES = {
 
 @dataclass(frozen=True)
 class Cluster:
-    """Workers that process studies.
+    """The workers that process studies.
 
     Attributes
     ----------
     client : distributed.Client
-        Connected to their scheduler.
+        A client that is connected to their scheduler.
     """
 
     client: Any
@@ -51,7 +51,7 @@ class Cluster:
     def do(self, jobs: Sequence[Job], lock: Path) -> Iterator[Outcome | None]:
         """Run jobs on all workers, and yield how each ended, like `side_by_side`.
 
-        A study restarts elsewhere if its worker or machine is lost, but not if it crashes. Workers end the
+        A study restarts on another worker if its worker or machine is lost, but not if it crashes. Workers
         processes of their studies when the lock of the batch is gone.
 
         Raises
@@ -77,7 +77,7 @@ class Cluster:
 
 
 class _Studies:
-    """The studies that have not ended: waiting, or held by the scheduler."""
+    """The studies that have not ended: some wait, others were submitted to the scheduler."""
 
     def __init__(self, client: Any, jobs: Sequence[Job], lock: str) -> None:
         self._client, self._lock = client, lock
@@ -109,7 +109,7 @@ class _Studies:
         return [outcome for future in ended if (outcome := self._outcome(future)) is not None]
 
     def _outcome(self, future: Any) -> Outcome | None:
-        """How a study ended; None if it restarts, or dask does not know yet."""
+        """Return how a study ended; None if it restarts or its end is not known yet."""
         try:
             outcome: Outcome | None = future.result(_ANSWER)
         except (Exception, asyncio.CancelledError) as error:
@@ -123,7 +123,7 @@ class _Studies:
 
     def _after(self, job: Job, error: BaseException) -> Outcome | None:
         """Restart a study whose worker was lost, unless that happened too often."""
-        # The connection may come back; the study is not at fault.
+        # A lost connection does not count: it may come back, and the study is not the cause.
         self._lost[job.id] += getattr(error, "reason", "") != "scheduler-connection-lost"
         if self._lost[job.id] <= _LOST_WORKERS:
             self._waiting.append(job)
@@ -140,7 +140,7 @@ class _Studies:
 
 
 def run_on_worker(job: Job, lock: str) -> Outcome:
-    """Process a study in its own process on a worker, with a fair share of its cores."""
+    """Process a study in its own process on a worker, with an equal share of the worker's cores."""
     distributed = _package("distributed", "dask.distributed")
     cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
     threads = job.threads or max(1, cores // distributed.get_worker().state.nthreads)
@@ -172,7 +172,7 @@ def dask_cluster(address: str) -> Iterator[Cluster]:
     """
     distributed = _package("distributed", "dask.distributed")
     try:
-        # Client waits forever if the peer accepts the connection and sends nothing.
+        # With a time limit: Client waits forever if the other side accepts the connection but sends nothing.
         client = within(
             _CONNECTING + _ANSWER,
             lambda: distributed.Client(address, timeout=_CONNECTING, set_as_default=False),
@@ -188,7 +188,7 @@ def dask_cluster(address: str) -> Iterator[Cluster]:
 
 @contextmanager
 def slurm_cluster(options: str, jobs: int) -> Iterator[Cluster]:
-    """Start workers as jobs of SLURM, and end them with the batch.
+    """Start workers as jobs of SLURM; the jobs end with the batch.
 
     Parameters
     ----------
@@ -211,7 +211,7 @@ def slurm_cluster(options: str, jobs: int) -> Iterator[Cluster]:
         jobqueue.SLURMCluster(**given) as cluster,
         distributed.Client(cluster, set_as_default=False) as client,
     ):
-        # Jobs that end by their time limit or with their node are restarted.
+        # Jobs that end by their time limit, or because their node failed, are replaced.
         cluster.adapt(minimum_jobs=jobs, maximum_jobs=jobs)
         yield Cluster(client)
 
@@ -238,7 +238,7 @@ def slurm_options(options: str) -> dict[str, Any]:
     if "job_directives_skip" in made:
         made["job_directives_skip"] = made["job_directives_skip"].split()
     made["scheduler_options"] = {"dashboard_address": "127.0.0.1:0"}
-    # One worker thread, so that one study has all cores and all memory of the job.
+    # One worker thread, so that one study has all cores and all memory of its job.
     made |= {
         "processes": 1,
         "worker_extra_args": ["--nthreads", "1", "--memory-limit", "0", "--no-dashboard"],

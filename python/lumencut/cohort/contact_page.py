@@ -22,7 +22,7 @@ _ORDERS = {
     "doubtful": "doubtful vessels",
     "seconds": "time",
 }
-#: Number of tiles shown at first; the script has the same number.
+#: Number of tiles shown at first; the page's script uses the same number.
 _AT_ONCE = 200
 _HELP = (
     "Click a tile to select it, then rate it: g good, r redo, x exclude, u none. Arrows select the next; "
@@ -89,7 +89,7 @@ def contact_page(layout: Layout, manifest: Manifest, records: Sequence[Record | 
 
 
 def _tile(layout: Layout, row: int, study: Study, record: Record | None) -> str:
-    """A study: its thumbnail, how it ended, and what to check."""
+    """Return the tile of a study: its thumbnail, how it ended, and what to check."""
     state = "skipped" if record is None else record.state
     numbers = {} if record is None else record.numbers
     narrowest, flags, doubtful = (
@@ -114,7 +114,7 @@ def _tile(layout: Layout, row: int, study: Study, record: Record | None) -> str:
 
 
 def _lines(record: Record | None, narrowest: str, flags: str, doubtful: str) -> list[str]:
-    """The lines of a tile."""
+    """Return the lines of text of a tile."""
     if record is None:
         return ["not done yet"]
     if record.state == "failed":
@@ -129,14 +129,14 @@ def _lines(record: Record | None, narrowest: str, flags: str, doubtful: str) -> 
 
 
 def _picture(layout: Layout, study: Study) -> str:
-    """The thumbnail of a study, which leads to its first picture."""
+    """Return the thumbnail of a study, as a link to its first picture."""
     folder = layout.folder(study)
     thumbnail = folder / f"{study.label}_thumbnail.webp"
     pictures = sorted(folder.glob("*.png"))
     if not thumbnail.is_file() or not pictures:
         return f'<a href="{escape(study.folder.as_posix())}/">files</a>'
     encoded = base64.b64encode(thumbnail.read_bytes()).decode("ascii")
-    # Views come before reformations, and have a view in their names.
+    # Prefer views to reformations; file names of views contain "view".
     first = next((one for one in pictures if "_view-" in one.name), pictures[0])
     address = escape((study.folder / first.name).as_posix())
     image = f'<img loading="lazy" alt="{escape(study.id)}" src="data:image/webp;base64,{encoded}">'

@@ -23,12 +23,12 @@ COLUMNS = ("vessels", "quantity", "count", "mean", "sd", "min", "q1", "median", 
 
 @dataclass(frozen=True)
 class Distribution:
-    """One quantity over some vessels.
+    """The distribution of one quantity over some vessels.
 
     Attributes
     ----------
     vessels : str
-        Their name, or "all".
+        The name of the vessels, or "all".
     quantity : str
         The column of ``vessels.csv``.
     count : int
@@ -48,13 +48,13 @@ class Distribution:
 
     @property
     def row(self) -> list[str]:
-        """Its values in the order of `COLUMNS`."""
+        """Return the fields in the order of `COLUMNS`."""
         numbers = (self.mean, self.sd, *self.quartiles)
         return [self.vessels, self.quantity, str(self.count), *map(written, numbers)]
 
 
 def written(number: float) -> str:
-    """Return a number as in tables: five digits, empty for NaN."""
+    """Return a number as the tables show it: with five digits, empty for NaN."""
     return f"{number:.5g}" if np.isfinite(number) else ""
 
 

@@ -12,23 +12,23 @@ from lumencut.cohort.child import Child, Outcome
 from lumencut.cohort.job import Job
 from lumencut.cohort.nursery import Nursery, NurseryError
 
-#: Interval between checks of the processes, and between reports that all continue (s).
+#: Intervals between checks of the processes, and between calls of the caller if no study ends (s).
 _LOOK, _TICK = 0.02, 1.0
 #: How often a study is restarted if its process was lost together with the process that forked it.
 _LOST = 3
 
 
 def side_by_side(jobs: Sequence[Job], count: int) -> Iterator[Outcome | None]:
-    """Run jobs, `count` of them at once, and yield how each ended.
+    """Run jobs, at most `count` at once, and yield how each ended.
 
     If none ends for a second, None is yielded, so that the caller can do periodic work. When the caller
-    leaves, by Ctrl-C or any other way, all processes are ended. No job starts on a full disk.
+    stops iterating, by Ctrl-C or for another reason, all processes are ended. On a full disk no job starts.
     """
     if not jobs:
         return
     waiting, working = deque(jobs), list[Child]()
     lost: Counter[str] = Counter()
-    # Forking is safe only on Linux: the libraries of other systems may have threads.
+    # Forking is safe only on Linux: on other systems, libraries may already have started threads.
     is_forked = sys.platform.startswith("linux")
     while waiting:
         nursery = Nursery() if is_forked else None
@@ -38,7 +38,7 @@ def side_by_side(jobs: Sequence[Job], count: int) -> Iterator[Outcome | None]:
         except NurseryError:
             again = [child.job for child in working]
             working.clear()
-            # If it cannot start, each study gets a new process.
+            # If the forking process cannot start, each study gets a new Python process.
             is_forked = bool(again)
             lost.update(job.id for job in again)
             waiting.extendleft(job for job in again if lost[job.id] <= _LOST)
@@ -58,7 +58,7 @@ def side_by_side(jobs: Sequence[Job], count: int) -> Iterator[Outcome | None]:
 def _with(
     nursery: Nursery | None, waiting: deque[Job], working: list[Child], count: int
 ) -> Iterator[Outcome | None]:
-    """Run waiting jobs while the forking process works."""
+    """Run the waiting jobs as long as the forking process works."""
     start = None if nursery is None else nursery.start
     has_room, reported = True, time.monotonic()
     while working or (waiting and has_room):

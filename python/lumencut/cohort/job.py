@@ -1,4 +1,4 @@
-"""The start of a study's process, and of Python without modules from untrusted folders."""
+"""How to start the process of a study, and how to start Python without modules from untrusted folders."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ DONE, SOME_FAILED, NO_ROOM = 0, 3, 4
 
 @dataclass(frozen=True)
 class Job:
-    """The start of a study's process; can be sent to another machine.
+    """What is needed to start the process of a study; it can be sent to another machine.
 
     Attributes
     ----------
@@ -38,7 +38,7 @@ class Job:
 def launch_words(code: str, *words: str) -> list[str]:
     """Return the command that runs Python code with these arguments.
 
-    Modules come from the same folders as ours, never from the current folder, which may be untrusted.
+    Modules are loaded from the folders of this process, never from the current folder: it may be untrusted.
     """
     here = [entry for entry in sys.path if isinstance(entry, str)]
     start = f"import sys; n = int(sys.argv[1]) + 2; sys.path[:] = sys.argv[2:n]; del sys.argv[1:n]; {code}"

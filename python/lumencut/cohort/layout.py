@@ -1,4 +1,4 @@
-"""The folder of results of a cohort: a folder for each study, its log, and internal files of the batch."""
+"""The folder of a cohort's results: a folder and a log per study, and internal files of the batch."""
 
 from __future__ import annotations
 
@@ -28,28 +28,28 @@ class Layout:
 
     @property
     def unfinished(self) -> Path:
-        """Folders of incomplete studies; leftovers of a killed batch are removed."""
+        """Folders of incomplete studies; a later batch removes those of a killed one."""
         return self.own / "unfinished"
 
     @property
     def batch_file(self) -> Path:
-        """The recipe and the version of all results here."""
+        """The file with the recipe and the version of all results in this folder."""
         return self.own / "batch.json"
 
     def folder(self, study: Study) -> Path:
-        """The results of a study, complete if the folder exists."""
+        """Return the folder of a study's results; they are complete if the folder exists."""
         return self.out / study.folder
 
     def record(self, study: Study) -> Path:
-        """The record of a successful study."""
+        """Return the file with the record of a successful study."""
         return self.folder(study) / f"{study.label}_record.json"
 
     def failure(self, study: Study) -> Path:
-        """The record of a failed study."""
+        """Return the file with the record of a failed study."""
         return self.own / "failed" / f"{study.label}.json"
 
     def log(self, study: Study) -> Path:
-        """The output of the process of a study."""
+        """Return the file with the output of a study's process."""
         return self.out / "logs" / f"{study.label}.log"
 
     def make(self) -> None:

@@ -1,4 +1,4 @@
-"""Lock of a folder of results: one batch at a time, except for shards of the same batch."""
+"""The lock of a results folder: only one batch may write, except shards of the same batch."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from typing import Any
 from lumencut.cohort.layout import Layout
 from lumencut.errors import FileError
 
-#: Age at which a lock of another machine, whose processes are not visible here, counts as dead (s).
+#: A lock from another machine, whose processes are not visible here, is stale after this time (s).
 _DEAD_AFTER = 180.0
 #: Interval at which a batch refreshes its lock (s).
 _ALIVE_EVERY = 30.0
@@ -42,7 +42,7 @@ class Shard:
         return self.count == 1
 
     def has(self, place: int) -> bool:
-        """Return whether it contains the study at this index of the manifest, from 0."""
+        """Return whether the shard contains the study with this index in the manifest, from 0."""
         return place % self.count == self.number - 1
 
     def __str__(self) -> str:
@@ -50,14 +50,14 @@ class Shard:
 
 
 class Lock:
-    """The right of a batch to write into a folder while `held` is open."""
+    """The lock that a batch holds while the context of `held` is open."""
 
     def __init__(self, path: Path) -> None:
         self.path = path
         self._last = time.monotonic()
 
     def renew(self) -> None:
-        """Refresh the lock at intervals, for batches on other machines."""
+        """Refresh the time of the lock at intervals: batches on other machines then see that it is in use."""
         if time.monotonic() - self._last > _ALIVE_EVERY:
             self._last = time.monotonic()
             os.utime(self.path)
@@ -65,12 +65,12 @@ class Lock:
 
 @contextmanager
 def held(layout: Layout, shard: Shard) -> Iterator[Lock]:
-    """Take the right to write into a folder, also from a batch whose process is gone.
+    """Lock a folder for writing; the lock of a batch whose process has ended is replaced.
 
     Raises
     ------
     FileError
-        If another batch writes into it that is not another shard of the same division.
+        If another batch writes into the folder, unless it is another shard of the same division.
     """
     path = layout.own / f"lock-{shard.number}-of-{shard.count}.json"
     with one_at_a_time(layout):
@@ -90,12 +90,12 @@ def held(layout: Layout, shard: Shard) -> Iterator[Lock]:
 
 @contextmanager
 def one_at_a_time(layout: Layout) -> Iterator[None]:
-    """Keep other processes out while a few files are read and written; the system also releases it."""
+    """Keep other processes out while a few files are accessed; if this process dies, the lock ends too."""
     with (layout.own / "guard").open("w", encoding="ascii") as file:
         try:
             fcntl.flock(file, fcntl.LOCK_EX)
         except OSError as error:
-            # Some cluster file systems have no locks: simultaneous batches cannot be separated there.
+            # Some cluster file systems have no locks; then this process cannot keep others out.
             if error.errno not in (errno.ENOTSUP, errno.ENOSYS, errno.ENOLCK):
                 raise
         yield
@@ -106,7 +106,7 @@ def _owner() -> dict[str, Any]:
 
 
 def _started(process: int) -> str:
-    """Start time of a process on Linux, since process ids are reused. Empty if unknown."""
+    """Return the start time of a process on Linux, because process ids are reused. Empty if unknown."""
     try:
         return Path(f"/proc/{process}/stat").read_text("ascii", "replace").rpartition(")")[2].split()[19]
     except (OSError, IndexError):
@@ -114,7 +114,7 @@ def _started(process: int) -> str:
 
 
 def _is_alive(path: Path) -> bool:
-    """Whether the batch that holds a lock still works."""
+    """Return whether the batch that holds a lock still runs."""
     try:
         owner = json.loads(path.read_text("ascii"))
         host, process, started = owner["host"], int(owner["process"]), owner["started"]

@@ -13,7 +13,7 @@ from lumencut.cohort.manifest_table import Row, table_of
 from lumencut.dicomweb.address import is_address
 from lumencut.errors import FormatError
 
-#: The columns for the source of centerlines; a study uses at most one.
+#: The columns that say where centerlines come from; a study may use only one of them.
 SOURCES = ("centerlines", "mask", "points", "seeds")
 READING = ("label", "series", "phase", "fwhm")
 KNOWN = ("id", "volume", *SOURCES, *READING)
@@ -164,7 +164,7 @@ def read_manifest(path: str | Path, **patterns: str | None) -> Manifest:
 
 
 def _study(row: Row, further: tuple[str, ...], home: Path, mistakes: list[str]) -> Study:
-    """The study of a row; its errors are added to the mistakes."""
+    """Return the study of a row; mistakes in the row are added to the list of mistakes."""
     values = row.values
     sources = [name for name in SOURCES if values.get(name)]
     where = f"line {row.line}"
@@ -191,7 +191,7 @@ def _study(row: Row, further: tuple[str, ...], home: Path, mistakes: list[str]) 
 
 
 def _within(home: Path, given: str) -> str:
-    """A path relative to the folder of the table; an address of a PACS unchanged."""
+    """Return a path relative to the folder of the table; the address of a PACS is returned unchanged."""
     return given if is_address(given) else str(home / given)
 
 
@@ -209,7 +209,7 @@ def _check(path: str, studies: list[Study], where: list[str], mistakes: list[str
         if not _ID.fullmatch(one.id):
             mistakes.append(f"{place}: the id {one.id!r}, where {_ID_RULE} are expected")
             continue
-        # Some file systems ignore case.
+        # In lower case, because some file systems ignore case.
         key = one.label.lower()
         if key in seen:
             first, known = seen[key]
@@ -225,7 +225,7 @@ def _check(path: str, studies: list[Study], where: list[str], mistakes: list[str
 
 
 def _of_patterns(pattern: str, sources: Mapping[str, str]) -> Manifest:
-    """The studies whose volumes a pattern names, ordered by their ids."""
+    """Return the studies whose volumes match a pattern, ordered by their ids."""
     if len(sources) > 1:
         raise FormatError("manifest", f"patterns of {' and '.join(sources)}", "one of them")
     for name, other in sources.items():
@@ -244,7 +244,7 @@ def _of_patterns(pattern: str, sources: Mapping[str, str]) -> Manifest:
 
 
 def _matches(pattern: str) -> list[tuple[str, str]]:
-    """The ids and paths that match a pattern; if {id} occurs twice, both must be equal."""
+    """Return ids and paths of the files that match a pattern; if {id} occurs twice, both must be equal."""
     before, *others = pattern.split(PLACE)
     rest = [f"(?P=id){_expression(part)}" for part in others[1:]]
     expression = re.compile(f"{_expression(before)}(?P<id>[^/]+?){_expression(others[0])}{''.join(rest)}/?")
@@ -254,5 +254,5 @@ def _matches(pattern: str) -> list[tuple[str, str]]:
 
 
 def _expression(part: str) -> str:
-    """A part of a pattern as a regular expression: ``*`` and ``?`` match letters of one name."""
+    """Return a part of a pattern as a regular expression; ``*`` and ``?`` do not match ``/``."""
     return re.escape(part).replace(r"\*", "[^/]*").replace(r"\?", "[^/]")

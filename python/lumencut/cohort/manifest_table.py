@@ -1,4 +1,4 @@
-"""A table of studies as text: its rows by column names, and names that nearly match known ones."""
+"""Reads a table of studies: rows by column names, with notes on names that nearly match known ones."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from lumencut.errors import FileError, FormatError
 
 _EXPECTED = "a table of studies (.csv or .tsv)"
 _LARGEST = 1 << 28
-#: Separators. Spreadsheets write semicolons in countries with a decimal comma.
+#: Possible separators. Spreadsheets write semicolons in countries with a decimal comma.
 _SEPARATORS = ("\t", ",", ";")
 
 
@@ -98,7 +98,7 @@ def _check_names(path: Path, names: tuple[str, ...]) -> None:
 
 
 def _near(names: Sequence[str], known: Sequence[str]) -> list[str]:
-    """A note for each name that differs by one letter from a known one."""
+    """Return a note for each column name that differs by one letter from a known one."""
     notes = []
     for name in names:
         meant = next((one for one in known if _is_one_letter_off(name.lower(), one)), None)
@@ -108,7 +108,7 @@ def _near(names: Sequence[str], known: Sequence[str]) -> list[str]:
 
 
 def _is_one_letter_off(name: str, known: str) -> bool:
-    """Whether two names differ by at most one added, missing or changed letter."""
+    """Return whether two names differ by at most one added, missing or changed letter."""
     longer, shorter = (name, known) if len(name) >= len(known) else (known, name)
     if len(longer) - len(shorter) > 1:
         return False

@@ -1,4 +1,4 @@
-"""The process that forks studies, seen from the batch; it runs `lumencut.cli.forking`."""
+"""The process that forks a process per study, seen from the batch; it runs `lumencut.cli.forking`."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class Nursery:
         return Forked(self, self._count, self._born.pop(self._count))
 
     def code(self, number: int) -> int | None:
-        """Return the exit code of a forked process, below 0 for a signal; None while it works."""
+        """Return the exit code of a forked process, below 0 if a signal ended it; None while it works."""
         self._hear(0.0)
         return self._codes.pop(number, None)
 
@@ -62,7 +62,7 @@ class Nursery:
         self._process.communicate()
 
     def _hear(self, patience: float | None) -> None:
-        """Read the reports of the process: children started and ended."""
+        """Read the reports of the forking process: which children started and ended."""
         assert self._process.stdout is not None
         if not select.select([self._process.stdout], [], [], patience)[0]:
             return
@@ -76,14 +76,14 @@ class Nursery:
 
 
 class Forked:
-    """The process of one study, forked."""
+    """The process of one study, created by a fork."""
 
     def __init__(self, nursery: Nursery, number: int, pid: int) -> None:
         self._nursery, self._number, self.pid = nursery, number, pid
         self._code: int | None = None
 
     def poll(self) -> int | None:
-        """Return the exit code, below 0 for a signal; None while it works."""
+        """Return the exit code, below 0 if a signal ended the process; None while it works."""
         if self._code is None:
             self._code = self._nursery.code(self._number)
         return self._code

@@ -1,4 +1,4 @@
-"""One study in this process: its limits, its folder, which is renamed when complete, and its record."""
+"""Processes one study in this process: sets limits, fills a folder, renames it when complete."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ _MOST_WARNINGS = 20
 
 
 def limit_memory(most: int | None) -> None:
-    """Limit the memory of this process, and make it the first to be killed if memory runs out."""
-    # Other systems lack this file.
+    """Limit the memory of this process; if the machine runs out of memory, this process is killed first."""
+    # Only Linux has this file.
     with suppress(OSError):
         Path("/proc/self/oom_score_adj").write_text("1000", "ascii")
     if most is not None:
@@ -75,14 +75,14 @@ def do_one(study: Study, recipe: CohortRecipe, layout: Layout, device: Device) -
 
 
 def _check_unchanged(study: Study, origin: Origin) -> None:
-    """Reject results if the input files changed meanwhile."""
+    """Reject results if the input files changed while the study was processed."""
     if origin_of(study, origin.recipe) != origin:
         expected = "files that do not change during the study"
         raise FileError(str(study.volume), "changed files", expected, "run the batch again")
 
 
 def _is_disk_full(error: BaseException | None) -> bool:
-    """Whether the disk or the quota of the user is full; this is the cause of file errors."""
+    """Return whether a file error was caused by a full disk or by the user's quota."""
     full = (errno.ENOSPC, errno.EDQUOT)
     while error is not None:
         if isinstance(error, OSError) and error.errno in full:
@@ -92,7 +92,7 @@ def _is_disk_full(error: BaseException | None) -> bool:
 
 
 def _reason(error: Exception) -> str:
-    """Why a study failed."""
+    """Return the sentence that says why a study failed."""
     if isinstance(error, MemoryError) or (isinstance(error, OSError) and error.errno == errno.ENOMEM):
         return "not enough memory"
     if isinstance(error, (LumencutError, OSError)):
@@ -132,7 +132,7 @@ def record_failure(
 
 @contextmanager
 def _heard() -> Iterator[list[str]]:
-    """Record warnings, and also show them as before."""
+    """Collect warnings for the record; they are shown as well."""
     warned: list[str] = []
 
     class _Ear(logging.Handler):

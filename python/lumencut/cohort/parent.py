@@ -1,4 +1,4 @@
-"""Ends a process when its parent ends for any reason."""
+"""Ends a process when its parent process ends, for whatever reason."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _PR_SET_PDEATHSIG = 1
 
 
 def end_with_parent() -> None:
-    """Make the system end this process with the one in `PARENT`; do nothing without it."""
+    """Let the system end this process together with the process `PARENT`; without `PARENT` do nothing."""
     parent = os.environ.pop(PARENT, None)
     if parent is None or not sys.platform.startswith("linux"):
         return

@@ -1,4 +1,4 @@
-"""The tables of a cohort as Parquet, which programs read faster than CSV, and column by column."""
+"""Writes the tables of a cohort as Parquet, which programs read faster than CSV, even single columns."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from lumencut.errors import MissingPackageError
 if TYPE_CHECKING:
     import pyarrow as pa
 
-#: Suffixes of names of number columns, and number columns without them. Other columns hold text.
+#: Suffixes of columns that hold numbers, and further columns of numbers. All other columns hold text.
 _ENDINGS = ("_mm", "_mm2", "_lps", "_level", "_mean")
 _NUMBERS = {
     *("seconds", "vessels", "doubtful_vessels", "not_measured_vessels", "suggested_narrowest_vessel"),
@@ -77,7 +77,7 @@ def write_parquet(table: Path, words: frozenset[str] = frozenset()) -> None:
 
 
 def _unmarked(table: pa.Table) -> pa.Table:
-    """The table with its texts without the marks of CSV."""
+    """Return the table without the apostrophes that CSV adds to some texts."""
     import pyarrow as pa
     from pyarrow import compute
 

@@ -20,7 +20,7 @@ Retry = Literal["failed", "all"]
 
 @dataclass(frozen=True)
 class Planned:
-    """A study, its present origin, and its record if that agrees with the origin."""
+    """A study, the present state of its inputs, and its record if it was made from the same inputs."""
 
     study: Study
     origin: Origin
@@ -28,7 +28,7 @@ class Planned:
 
 
 def known_record(layout: Layout, study: Study, origin: Origin) -> Record | None:
-    """Return the record of a study if it agrees with its present files and recipe.
+    """Return the record of a study if its files and recipe are still the same.
 
     Raises
     ------
@@ -43,7 +43,7 @@ def known_record(layout: Layout, study: Study, origin: Origin) -> Record | None:
 
 
 def planned(layout: Layout, manifest: Manifest, recipe: CohortRecipe) -> list[Planned]:
-    """Check each study of the manifest, in its order. A study that is left out has no record."""
+    """Look up the record of each study in the order of the manifest. Studies that are left out have none."""
     found = []
     for study in manifest.studies:
         if study.left_out:
@@ -55,7 +55,7 @@ def planned(layout: Layout, manifest: Manifest, recipe: CohortRecipe) -> list[Pl
 
 
 def to_do(plans: Sequence[Planned], shard: Shard, retry: Retry | None) -> list[Planned]:
-    """Return the studies of a shard to process, or to process again."""
+    """Return the studies of a shard that must be processed now."""
     return [
         one
         for place, one in enumerate(plans)
@@ -66,12 +66,12 @@ def to_do(plans: Sequence[Planned], shard: Shard, retry: Retry | None) -> list[P
 
 
 def settle_recipe(layout: Layout, recipe: CohortRecipe, retry: Retry | None) -> None:
-    """Reject a folder that would mix results of several recipes or versions.
+    """Reject a folder whose results were made with another recipe or version.
 
     Raises
     ------
     FormatError
-        If results of others exist, unless all are processed again.
+        If such results exist, unless all studies are processed again.
     """
     now = {"format": FORMAT, "recipe": recipe.digest, "version": Origin("", "").version}
     path = layout.batch_file

@@ -137,7 +137,7 @@ class CohortRecipe:
 
     @property
     def digest(self) -> str:
-        """Sixteen letters that identify the recipe: the beginning of the SHA-256 of its values."""
+        """Return the beginning of the SHA-256 of all values: sixteen letters that identify the recipe."""
         return hashlib.sha256(json.dumps(asdict(self), sort_keys=True).encode()).hexdigest()[:16]
 
 
@@ -157,12 +157,12 @@ def read_cohort_recipe(path: str | os.PathLike[str] | None) -> CohortRecipe:
     ----------
     path : str or path, optional
         A TOML file with the tables ``reading``, ``centerlines``, ``pictures``, ``measure`` and ``outputs``,
-        whose keys are those of the classes here; missing keys have their defaults.
+        whose keys are the fields of the classes in this module; missing keys have their defaults.
 
     Returns
     -------
     CohortRecipe
-        Checked, so that no study fails because of it.
+        The checked recipe, so that no study fails because of a mistake in it.
 
     Raises
     ------
@@ -194,7 +194,7 @@ def _parsed(path: Path) -> dict[str, Any]:
 
 
 def _part(path: Path, name: str, value: Any) -> Any:
-    """A table of the recipe."""
+    """Return one table of the recipe as an object of its class."""
     if not isinstance(value, dict):
         raise FormatError(f"{name} of {path}", f"{value!r:.80}", f"a table [{name}]")
     known = [one.name for one in fields(_PARTS[name])]
@@ -225,7 +225,7 @@ _SIZES = (16, 8192)
 
 
 def _checked(subject: str, key: str, value: Any) -> Any:
-    """The value of a key, converted for the recipe."""
+    """Return the checked value of a key in the type of its field."""
     if key in _FLAGS:
         if not isinstance(value, bool):
             raise FormatError(subject, f"{value!r:.80}", "true or false")

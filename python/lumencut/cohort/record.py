@@ -1,4 +1,4 @@
-"""The record of a study: success or reason of failure, inputs, recipe and version."""
+"""The record of a study: whether it succeeded, why it failed, its inputs, its recipe and the version."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _EXPECTED = "a record of lumencut batch"
 
 @dataclass(frozen=True)
 class Origin:
-    """Inputs, recipe and version of results; results agree if all three are equal.
+    """What results were made from: inputs, recipe and version; results are current if all three are equal.
 
     Attributes
     ----------
@@ -70,7 +70,7 @@ class Record:
     numbers: dict[str, str | int | float] = field(default_factory=dict)
 
     def write(self, path: Path) -> None:
-        """Write it so that it appears only when it is complete."""
+        """Write the record; the file appears only when it is complete."""
         text = json.dumps({"format": FORMAT, **asdict(self)}, indent=1, ensure_ascii=False) + "\n"
         temporary = path.with_name(f".{path.name}.{os.getpid()}.part")
         try:
@@ -120,13 +120,13 @@ def _damaged(path: Path) -> FormatError:
 
 
 def origin_of(study: Study, recipe: str) -> Origin:
-    """Return the present origin of a study; missing files count as missing."""
+    """Return the present origin of a study; the origin also records that a file is missing."""
     digest = hashlib.sha256()
     said = [study.source, study.given if study.given_as_text else "", *sorted(study.reading.items())]
     digest.update(json.dumps(said).encode())
     for path in study.files:
         if is_address(path):
-            # An object with a UID does not change in a PACS.
+            # Only the address counts: an object with a UID does not change in a PACS.
             digest.update(f"\0{path}".encode())
             continue
         for name, size, time in _stated(path):
@@ -135,7 +135,7 @@ def origin_of(study: Study, recipe: str) -> Origin:
 
 
 def _stated(path: Path) -> Iterator[tuple[str, int, int]]:
-    """The name, size and modification time of a file, or of all files in a folder, sorted by name."""
+    """Return name, size and modification time of a file, or of all files in a folder, sorted by name."""
     try:
         if not path.is_dir():
             found = path.stat()

@@ -1,4 +1,4 @@
-"""Checks that the scheduler of a cluster answers; dask itself may wait forever for a lost one."""
+"""Checks that the scheduler of a cluster answers, since dask itself may wait forever for a lost one."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ Answer = TypeVar("Answer")
 
 _log = logging.getLogger("lumencut")
 
-#: Interval between requests to the scheduler, and timeout of its answer (s).
+#: Interval between requests to the scheduler, and timeout for its answer (s).
 _EVERY, _ANSWER = 1.0, 5.0
-#: Silence after which the scheduler counts as lost (s); long enough to restart it at its address.
+#: After this silence the scheduler counts as lost (s); a restart at the same address takes less time.
 _PATIENCE = 12.0
-#: Time without workers before a warning (s).
+#: Time without workers after which a warning appears (s).
 _IDLE = 30.0
 _GRACE = 2.0
 
@@ -81,7 +81,7 @@ class SchedulerWatch:
         return None
 
     def _note_idle(self, workers: int | None) -> None:
-        """Warn once each time there have been no workers for a while."""
+        """Warn once each time that there have been no workers for `_IDLE` seconds."""
         if workers != 0:
             self._idle_since = None
         elif self._idle_since is None:
@@ -92,7 +92,7 @@ class SchedulerWatch:
 
 
 def within(seconds: float, act: Callable[[], Answer]) -> Answer:
-    """Return an answer of dask with a time limit.
+    """Return the result of a call of dask; raise an error if it takes longer than a time limit.
 
     Raises
     ------

@@ -46,7 +46,7 @@ class StudyVessels:
     def of(cls, *trees: VesselTree) -> StudyVessels:
         """Return the vessels of trees, with the doubtful ones separate."""
         doubtful = [pair for tree in trees for pair in zip(tree.doubtful, tree.doubts, strict=True)]
-        # A single tree is kept, because it knows its space.
+        # A single tree is kept as it is, because it knows in which space its coordinates are.
         one = trees[0] if len(trees) == 1 else VesselTree([vessel for tree in trees for vessel in tree])
         return cls(one, tuple(doubtful))
 
@@ -57,7 +57,7 @@ def scan_of(study: Study, how: Reading) -> Volume:
 
 
 def reading_of(study: Study, how: Reading) -> dict[str, Any]:
-    """Return the arguments of :func:`lumencut.read_volume` for the scan of a study."""
+    """Return the arguments of :func:`lumencut.read_volume` with which to read the scan of a study."""
     chosen = {name: study.reading.get(name) for name in ("series", "phase")}
     return {**chosen, "fill_gaps": how.fill_gaps, "resample_slices": how.resample_slices}
 
@@ -87,7 +87,7 @@ def vessels_of(study: Study, volume: Volume, how: Centerlines) -> StudyVessels:
 
 
 def _most_important(found: VesselTree, how: Centerlines) -> StudyVessels:
-    """The most important part of the found vessels, or all parts by the recipe."""
+    """Return the most important part of the found vessels, or all parts if the recipe asks for them."""
     every = StudyVessels.of(found)
     if how.all_parts or len(found.parts) < 2:
         return every
@@ -95,7 +95,7 @@ def _most_important(found: VesselTree, how: Centerlines) -> StudyVessels:
 
 
 def mask_of(study: Study) -> MaskFile:
-    """Return the mask of a study, with the labels that are lumen.
+    """Return the mask of a study, and the labels in it that are lumen.
 
     Raises
     ------
@@ -127,7 +127,7 @@ def places_of(study: Study, volume: Volume | None = None) -> _Points:
 
 
 def _along_points(study: Study, volume: Volume, how: Centerlines) -> VesselTree:
-    """The vessels along points: one for points in the manifest, one for each line of a file."""
+    """Return the vessels along points: the manifest holds points of one vessel, a file those of several."""
     if study.given_as_text:
         return trace(volume, [places_of(study)], bridge=how.bridge)
     lines = list(read_centerlines(study.given, volume=volume))
@@ -136,13 +136,13 @@ def _along_points(study: Study, volume: Volume, how: Centerlines) -> VesselTree:
 
 
 def _from_seeds(seeds: _Points, volume: Volume, how: Centerlines) -> StudyVessels:
-    """All vessels that the seeds reach; a seed within vessels already reached adds nothing."""
+    """Return all vessels that the seeds reach; a seed inside vessels already reached adds nothing."""
     trees: list[VesselTree] = []
     for seed in seeds:
         if any(_reaches(tree, seed) for tree in trees):
             continue
         tree = trace_from(volume, seed, smallest_radius=how.smallest_radius)
-        # All seeds in one part give bit-identical vessels.
+        # Seeds in the same part give bit-identical vessels, which are kept once.
         if not any(np.array_equal(tree.points, other.points) for other in trees):
             trees.append(tree)
     if not trees:
@@ -151,7 +151,7 @@ def _from_seeds(seeds: _Points, volume: Volume, how: Centerlines) -> StudyVessel
 
 
 def _reaches(tree: VesselTree, seed: _Points) -> bool:
-    """Whether a seed lies in the lumen of a vessel of the tree."""
+    """Return whether a seed lies in the lumen of a vessel of the tree."""
     for vessel in tree:
         distance = np.linalg.norm(vessel.points - seed, axis=1)
         nearest = int(distance.argmin())

@@ -119,7 +119,7 @@ def _write_thumbnail(image: npt.NDArray[np.uint8], path: Path) -> None:
 
 
 def _measured(study: Study, volume: Volume, tree: VesselTree, how: Measure) -> list[StudyVessel]:
-    """The vessels with their measures, or the reason why they cannot be measured."""
+    """Return the vessels with their measures; for those not measured, the reason."""
     vessels = []
     for number, vessel in enumerate(tree):
         if not how.vessels:
@@ -135,12 +135,12 @@ def _measured(study: Study, volume: Volume, tree: VesselTree, how: Measure) -> l
 
 
 def _fwhm(study: Study, how: Measure) -> float | None:
-    """The width of the point spread: the manifest takes precedence over the recipe."""
+    """Return the width of the point spread; the manifest takes precedence over the recipe."""
     return float(study.reading["fwhm"]) if "fwhm" in study.reading else how.fwhm
 
 
 def _with_doubts(vessels: list[StudyVessel], found: StudyVessels) -> list[StudyVessel]:
-    """The vessels, the doubtful ones last, with their reasons."""
+    """Return the certain vessels, then the doubtful ones with their reasons."""
     sure = len(vessels) - len(found.doubtful)
     doubts = ["" for _ in range(sure)] + [reason for _, reason in found.doubtful]
     return [
@@ -152,7 +152,7 @@ def _with_doubts(vessels: list[StudyVessel], found: StudyVessels) -> list[StudyV
 def _tables(
     study: Study, vessels: list[StudyVessel], found: StudyVessels, begin: Path
 ) -> dict[str, str | int | float]:
-    """Write the tables of the study, and return its columns in ``studies.csv``."""
+    """Write the tables of the study; return its columns in ``studies.csv``."""
     sections = sections_rows(study.id, study.source, vessels)
     flags = flag_counts(sections)
     rows = vessels_rows(study.id, study.source, vessels, flags)
@@ -171,7 +171,7 @@ def _tables(
 
 
 def _narrowest(vessels: list[StudyVessel]) -> dict[str, str | int | float]:
-    """The narrowest suggested place and its vessel, if any."""
+    """Return the narrowest suggested place of all vessels, and its vessel; None without any."""
     spots = [
         (n, one.measured.profile.narrowest()) for n, one in enumerate(vessels) if one.measured is not None
     ]

@@ -40,7 +40,7 @@ VESSEL_COLUMNS = (
     "wall_source",
     "not_measured",
 )
-#: Two columns precede those of ``lumencut measure``.
+#: Columns that precede those of ``lumencut measure``.
 SECTION_BEGIN = ("id", "centerlines_from")
 
 
@@ -76,7 +76,7 @@ def sections_rows(study_id: str, source: str, vessels: Sequence[StudyVessel]) ->
 
 
 def flag_counts(sections: Sequence[Sequence[str]]) -> dict[str, Counter[str]]:
-    """Return the number of sections per vessel and flag, from the rows of sections."""
+    """Return how many sections of each vessel have each flag, counted in the rows of sections."""
     if not sections:
         return {}
     vessel, flags = (sections[0].index(name) for name in ("vessel", "flags"))
@@ -112,7 +112,7 @@ def vessels_rows(
 
 
 def _measures(measured: MeasuredVessel) -> dict[str, str]:
-    """The measures of a vessel. Places are suggestions to check, not findings."""
+    """Return the columns of a measured vessel. Its places are suggestions to check, not findings."""
     profile = measured.profile
     numbers, counted = profile.diameter_equivalent, counts(profile)
     found = {

@@ -17,7 +17,7 @@ from lumencut.cohort.manifest import Manifest, Study
 from lumencut.cohort.record import Record
 from lumencut.errors import FormatError
 
-#: The columns of ``studies.csv`` before the further ones; the numbers are those of `do_study`.
+#: Columns of ``studies.csv``: these come first, then those that `do_study` returns, then the warnings.
 BEGIN = ("id", "state", "reason", "seconds")
 NUMBERS = (
     "centerlines_from",
@@ -35,7 +35,7 @@ OF_STUDIES = ("vessels", "sections")
 
 
 def further_names(manifest: Manifest) -> tuple[str, ...]:
-    """Return the names of the further columns in ``studies.csv``, distinct from its own columns."""
+    """Return the further columns of ``studies.csv``, renamed if they equal one of its own columns."""
     return tuple(f"manifest_{name}" if name in COLUMNS else name for name in manifest.further)
 
 
@@ -68,7 +68,7 @@ def write_tables(layout: Layout, manifest: Manifest, records: Sequence[Record | 
 
 
 def _description() -> str:
-    """The description of the folder as a derived BIDS data set."""
+    """Return the text that describes the folder as a derived BIDS data set."""
     description = {
         "Name": "Vessels measured by Lumencut",
         "BIDSVersion": "1.10.0",
@@ -91,7 +91,7 @@ def _row(study: Study, record: Record | None) -> list[str]:
 
 
 def _joined(parts: Sequence[Path]) -> Callable[[Path], None]:
-    """Write tables of the same columns as one; empty ones are left out."""
+    """Join tables with the same columns into one; empty tables are skipped."""
 
     def write(whole: Path) -> None:
         head = b""
@@ -104,7 +104,7 @@ def _joined(parts: Sequence[Path]) -> Callable[[Path], None]:
 
 
 def _append(file: BinaryIO, rows: BinaryIO, head: bytes, part: Path) -> bytes:
-    """Append the rows of a table; the column names are written once and returned."""
+    """Append the rows of a table. The column names are written once, and returned."""
     names = rows.readline()
     if not names:
         return head

@@ -81,7 +81,7 @@ def stent_scene(cache: Path | None = None) -> tuple[Volume, VesselTree]:
 
 
 def _cached(cache: Path) -> tuple[str, bytes]:
-    """Path and content of the cached volume, downloaded first if missing."""
+    """Return path and content of the cached volume, after downloading it if missing."""
     kept = cache / "stent.npz"
     if not kept.exists():
         content = _checked(f"{MEMBER} of {REQUIREMENT}", _downloaded(), MEMBER_SHA256)
@@ -91,7 +91,7 @@ def _cached(cache: Path) -> tuple[str, bytes]:
 
 
 def _downloaded() -> bytes:
-    """The volume, extracted from the wheel."""
+    """Return the volume, extracted from the downloaded package (a wheel)."""
     with tempfile.TemporaryDirectory(prefix="lumencut-") as folder:
         _download(Path(folder))
         wheels = list(Path(folder).glob("*.whl"))

@@ -1,1 +1,1 @@
-"""DICOM objects of the study of a scan: pictures, values, reports and numbers."""
+"""DICOM objects that belong to the study of a scan: pictures, values, reports and numbers."""

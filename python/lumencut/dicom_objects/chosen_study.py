@@ -1,4 +1,4 @@
-"""Which study an object is put into: that of its scan, that of a folder, or one without a patient."""
+"""Decides into which study an object is put: that of its scan, that of a folder, or one without a patient."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ from lumencut.volume import Volume
 from lumencut.volume_files.dicom.study import study_below
 
 _log = logging.getLogger("lumencut")
-#: Marks warnings that the command line shows once for all objects.
+#: Marks a warning that the command line shows only once, even if it concerns several objects.
 _SAID_ONCE = {"is_said_once": True}
 _MEND = (
     "give study=FOLDER (--like-study FOLDER) of a scan of the same patient, or anonymous=True (--anonymous)"
 )
-#: Written if the patient was left out; the profiles of PS3.15, annex E, promise more.
+#: Written if the patient is left out; it claims less than the profiles of PS3.15, annex E.
 _METHOD = "Lumencut: patient and study left out, not the Basic Profile"
 
 
@@ -39,7 +39,7 @@ def chosen_study(origin: Origin, study: Any, *, anonymous: bool, other_patient: 
     Parameters
     ----------
     origin : Origin
-        Its origin.
+        What the object was made from.
     study : Volume, Study, path-like or None
         A volume that was read from DICOM, or a folder, file or zip archive of DICOM, instead of the
         origin.
@@ -85,9 +85,9 @@ def fitting_study(origin: Origin, study: Study | None, subject: str, *, other_pa
     origin : Origin
         The scan.
     study : Study or None
-        The choice; None for images that were not read from DICOM.
+        The study that the user chose; None for images that were not read from DICOM.
     subject : str
-        Its name in errors.
+        What errors call the study.
     other_patient : bool, default False
         Accept another patient than that of the scan.
 
@@ -103,7 +103,7 @@ def fitting_study(origin: Origin, study: Study | None, subject: str, *, other_pa
 
 
 def _given(study: Any) -> tuple[Study | None, str]:
-    """The study that a caller names, and its name in messages."""
+    """Return the study that the caller passed, and what messages call it."""
     if isinstance(study, Study):
         return study, "the chosen study"
     if isinstance(study, Volume):
@@ -115,7 +115,7 @@ def _given(study: Any) -> tuple[Study | None, str]:
 
 
 def _checked(study: Study | None, subject: str) -> Study:
-    """Reject a study that objects cannot belong to."""
+    """Reject a study into which no object can be put."""
     if study is None:
         raise FormatError(subject, "a scan that was not read from DICOM", "a study to belong to", _MEND)
     if study.study_count > 1:
@@ -128,10 +128,10 @@ def _checked(study: Study | None, subject: str) -> Study:
 
 
 def _joined(origin: Origin, study: Study) -> Study:
-    """Return patient and study of a chosen study, with the references to the images of a DICOM scan.
+    """Return patient and study of the chosen study, with references to the images of a DICOM scan.
 
-    Coordinates are in the frame of the scan, and only its images are sources. If the patient of the study was
-    removed, a scan of another study is not named, and its images are not sources.
+    Coordinates refer to the frame of reference of the scan, and only images of the scan are sources. If the
+    patient of the study was removed, a scan from another study is not named, and its images are not sources.
     """
     from pydicom.dataset import Dataset
 
@@ -153,12 +153,12 @@ def _joined(origin: Origin, study: Study) -> Study:
 
 
 def _is_removed(study: Study) -> bool:
-    """Whether a study is anonymous."""
+    """Return whether a study is anonymous."""
     return study.text("PatientIdentityRemoved").upper() == "YES" or not patient_of(study).id
 
 
 def _levels_within() -> int:
-    """The number of callers within this package, so that a warning names the line of its user."""
+    """Return the number of calls inside this package, so that a warning names the line of the user."""
     package, level = str(Path(__file__).parents[1]), 1
     frame = sys._getframe(1)
     while frame.f_back is not None and frame.f_code.co_filename.startswith(package):
@@ -167,7 +167,7 @@ def _levels_within() -> int:
 
 
 def _anonymous(origin: Origin) -> Study:
-    """A study without any link to that of the scan."""
+    """Return a study without any link to the study of the scan."""
     from pydicom.dataset import Dataset
 
     header = Dataset()
@@ -183,8 +183,8 @@ def _anonymous(origin: Origin) -> Study:
 
 
 def _hide_scan(header: Any, origin: Origin) -> None:
-    """Leave out the UIDs of the scan; coordinates are then in a separate frame."""
-    # Elements are deleted first: changing them in place would also change the header of the scan.
+    """Remove the UIDs of the scan; coordinates then have their own frame of reference."""
+    # Elements are deleted before others are set: changing them in place would change the scan's header too.
     for keyword in ("SeriesInstanceUID", "FrameOfReferenceUID"):
         if keyword in header:
             delattr(header, keyword)

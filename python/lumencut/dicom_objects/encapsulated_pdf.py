@@ -19,9 +19,9 @@ def write_pdf(target: Target, content: bytes, title: str, study: Study) -> None:
     content : bytes
         The PDF.
     title : str
-        Its title, which names nobody.
+        The title of the object, without the name of a person.
     study : Study
-        Its study.
+        The study that the object belongs to.
     """
     data = new_object(study, Kind(_PDF, "report", 9006, "DOC"), "")
     data.ConversionType = "WSD"

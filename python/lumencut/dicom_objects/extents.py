@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from lumencut._pickles import by_name
 
-#: An extent below this share of the other one is that of a few slices, which show no length.
+#: A side of a box counts only if the other box is longer than this share of it; a few slices show no length.
 _THIN = 0.2
 
 
@@ -36,14 +36,14 @@ class Box:
         return cls(_corner(places.min(axis=0)), _corner(places.max(axis=0)))
 
     def distance(self, other: Box) -> float:
-        """Return the distance of two boxes (mm), 0 if they meet."""
+        """Return the distance between two boxes (mm); 0 if they touch."""
         gaps = np.maximum(np.subtract(other.low, self.high), np.subtract(self.low, other.high))
         return float(np.linalg.norm(np.maximum(gaps, 0)))
 
     def part_within(self, other: Box) -> float:
-        """Return the smallest part of a side that lies within another box, between 0 and 1.
+        """Return the share of a side that lies within another box, for the side where it is smallest.
 
-        Sides along which the other box is thin, as that of one slice, do not count.
+        Sides along which the other box is thin, as the box of a single slice is, do not count.
         """
         length, its_length = np.subtract(self.high, self.low), np.subtract(other.high, other.low)
         common = np.minimum(self.high, other.high) - np.maximum(self.low, other.low)
@@ -58,7 +58,7 @@ def box_of_slices(records: Iterable[dict[str, Any]]) -> Box | None:
     Parameters
     ----------
     records : iterable of dict
-        Headers in the form of the judge of series; attributes of a frame are under ``frames`` or ``shared``.
+        Headers in the form of `lumencut-dicom`; attributes of a frame are under ``frames`` or ``shared``.
     """
     corners = []
     for record in records:
@@ -70,20 +70,20 @@ def box_of_slices(records: Iterable[dict[str, Any]]) -> Box | None:
 
 
 def _corners(attributes: dict[str, Any]) -> npt.NDArray[np.float64] | None:
-    """The four corners of a slice, shape (4, 3); None if the header does not state them."""
+    """Return the four corners of a slice, shape (4, 3); None if the header does not state them."""
     place = _numbers(attributes.get("ImagePositionPatient"), 3)
     axes = _numbers(attributes.get("ImageOrientationPatient"), 6)
     spacing = _numbers(attributes.get("PixelSpacing"), 2)
     shape = _numbers([attributes.get("Rows"), attributes.get("Columns")], 2)
     if place is None or axes is None or spacing is None or shape is None:
         return None
-    # PixelSpacing starts with the spacing of rows, ImageOrientation with the direction along rows.
+    # PixelSpacing states the distance of rows first, ImageOrientation the direction along a row.
     down, right = axes[3:] * spacing[0] * (shape[0] - 1), axes[:3] * spacing[1] * (shape[1] - 1)
     return np.array([place, place + down, place + right, place + down + right])
 
 
 def _numbers(values: Any, count: int) -> npt.NDArray[np.float64] | None:
-    """Finite numbers of a header, None for anything else."""
+    """Return the finite numbers of a header's value, None for anything else."""
     if not isinstance(values, Sequence) or isinstance(values, str) or len(values) != count:
         return None
     try:

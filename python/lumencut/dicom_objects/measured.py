@@ -1,16 +1,16 @@
-"""The content of a structured report: places that a reader marked, without suggestions."""
+"""The content of a structured report: the places that a reader marked, never suggestions."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from lumencut.dicom_objects.codes import DISTAL_REFERENCE, LUMEN_MINIMUM, PROXIMAL_REFERENCE, Coded
 from lumencut.errors import MeasuringError
+from lumencut.profile_numbers import ProfileNumbers
 from lumencut.profile_sections import Mark
 from lumencut.stenosis import Stenosis
 from lumencut.vessel import Vessel
@@ -23,7 +23,7 @@ class Place:
     Attributes
     ----------
     kind : (str, str, str)
-        Its code.
+        The code of what was marked.
     marked : float
         The place that the reader marked (mm along the vessel).
     arc_length : float
@@ -76,7 +76,10 @@ class Measured:
 
 
 def measured(
-    profile: Any, stenoses: Sequence[Stenosis], vessel: Vessel | None = None, marks: Sequence[Mark] = ()
+    profile: ProfileNumbers,
+    stenoses: Sequence[Stenosis],
+    vessel: Vessel | None = None,
+    marks: Sequence[Mark] = (),
 ) -> Measured:
     """Return the content of a report for a profile of :func:`lumencut.measure`.
 
@@ -87,14 +90,14 @@ def measured(
     stenoses : sequence of Stenosis
         Its graded stenoses.
     vessel : Vessel, optional
-        The vessel as it is to be called, instead of the one that was measured.
+        The vessel under the name that the report shall use, instead of the measured vessel.
     marks : sequence of Mark, default ()
-        The marks of a reader, used without grading; suggestions are never used.
+        The marks of a reader that are not graded; suggestions are never used.
 
     Raises
     ------
     MeasuringError
-        For anything that is not a stenosis, or one of a place beyond the vessel.
+        For anything that is not a stenosis, or a stenosis at a place beyond the vessel.
     """
     for one in stenoses:
         if not isinstance(one, Stenosis):
@@ -112,11 +115,13 @@ def measured(
         kinds = _marked_kinds([mark for mark in marks if not mark.is_suggestion])
     places = tuple(_place(profile, at, kind) for at, kind in sorted(kinds.items()))
     vessel = vessel or profile._vessel
+    if vessel is None:
+        raise MeasuringError("profile of the report", "a profile without its vessel", "one of measure")
     return Measured(vessel.name, vessel.points, vessel.length, places, tuple(stenoses))
 
 
 def _marked_kinds(marks: Sequence[Mark]) -> dict[float, Coded]:
-    """The kind of each marked place; references without a place and noted diameters are omitted."""
+    """Yield the kind of each marked place; skip references without a place and noted diameters."""
     at = next((mark.arc_length for mark in marks if not (mark.is_reference or mark.is_noted)), None)
     if at is None:
         return {}
@@ -126,7 +131,7 @@ def _marked_kinds(marks: Sequence[Mark]) -> dict[float, Coded]:
     }
 
 
-def _place(profile: Any, at: float, kind: Coded) -> Place:
+def _place(profile: ProfileNumbers, at: float, kind: Coded) -> Place:
     number = profile._core.nearest(at)
     names = ("diameter_equivalent", "uncertainty", "diameter_mean", "diameter_min", "diameter_max", "area")
     values = (float(getattr(profile, name)[number]) for name in names)

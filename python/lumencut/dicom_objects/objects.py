@@ -1,4 +1,4 @@
-"""Parts common to all objects: patient, study, series, equipment, sources, and the file."""
+"""What all objects have in common: patient, study, series, equipment, sources, and writing to a file."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ RESEARCH = "(research, not for diagnosis)"
 #: Codes of the standard (DCM): why an image is named as a source, and how an object was derived.
 SOURCE_IMAGE = ("121322", "Source image for image processing operation")
 CURVED_REFORMATION = ("113073", "Curved multiplanar reformatting")
-#: The most images of a scan that a picture names as its sources: each takes 330 bytes.
+#: Largest number of source images that a picture names: each takes 330 bytes.
 _MOST_NAMED = 2000
-#: Replacements of letters that some character sets lack.
+#: Replacements for characters that some character sets lack.
 _PLAIN = {"°": " deg", "×": "x", "–": "-", "±": "+/-", "²": "2", "ß": "ss", "…": "..."}
 Target = Path | BinaryIO
 #: The longest texts of the value representations LO, ST and LT.
@@ -39,7 +39,7 @@ class Kind:
     title : str
         The description of its series.
     series_number : int
-        The number of the series, far from those of scanners.
+        The number of the series, much higher than the numbers that scanners use.
     modality : str
         The modality; if empty, that of the scan.
     """
@@ -60,14 +60,14 @@ def new_object(study: Study, kind: Kind, settings: str, number: int = 1) -> Any:
     kind : Kind
         Its kind.
     settings : str
-        Objects of the same kind and with the same text are put into one series.
+        Objects of the same kind with the same text are put into one series.
     number : int, default 1
-        Its place in the series.
+        The number of the object in its series.
     """
     from pydicom.dataset import Dataset
 
     data = Dataset()
-    # Attributes of pixels do not apply to reports, which have their own modality.
+    # A kind with its own modality is a report: attributes of pixels do not apply to it.
     for keyword in (*PATIENT, *VISIT, *(() if kind.modality else SCAN)):
         if keyword in study.header and keyword not in ("Laterality", "PatientPosition"):
             data[keyword] = study.header[keyword]
@@ -88,7 +88,7 @@ def new_object(study: Study, kind: Kind, settings: str, number: int = 1) -> Any:
 
 
 def add_laterality(data: Any, study: Study) -> None:
-    """State the side of the body: omitted for unpaired parts, empty if unknown."""
+    """State the side of the body: no element for unpaired parts, an empty element if unknown."""
     if study.text("BodyPartExamined").upper() not in UNPAIRED:
         data.Laterality = study.text("Laterality")
 
@@ -101,11 +101,11 @@ def add_sources(data: Any, study: Study, code: tuple[str, str], words: str, most
     data : pydicom.Dataset
         The image.
     study : Study
-        Whose images are the sources.
+        The study whose images are the sources.
     code : (str, str)
         The method of derivation (DCM).
     words : str
-        The same in words, which name no file.
+        The method in words, without file names.
     most : int
         Largest number of sources; with more, every second or third etc. is named.
     """
@@ -129,7 +129,7 @@ def add_sources(data: Any, study: Study, code: tuple[str, str], words: str, most
 
 
 def coded(value: str, meaning: str, scheme: str = "DCM") -> Any:
-    """Return the item of a code."""
+    """Return a code as a sequence item."""
     from pydicom.dataset import Dataset
 
     item = Dataset()
@@ -149,7 +149,7 @@ def cut(text: str, longest: int) -> str:
     """Return a text in ASCII letters, no longer than its element allows."""
     for letters, others in _PLAIN.items():
         text = text.replace(letters, others)
-    # Accents are dropped; characters without a similar letter become question marks.
+    # Accents are removed; letters without a similar ASCII letter become question marks.
     bare = "".join(one for one in unicodedata.normalize("NFKD", text) if not unicodedata.combining(one))
     plain = bare.encode("ascii", "replace").decode()
     return plain if len(plain) <= longest else f"{plain[: longest - 4]} ..."

@@ -28,11 +28,11 @@ from lumencut.errors import FormatError
 _CAPTURE = "1.2.840.10008.5.1.4.1.1.7"
 _GREY_FRAMES = f"{_CAPTURE}.2"
 _COLOUR_FRAMES = f"{_CAPTURE}.4"
-#: The longest element, in bytes.
+#: Largest size of an element (bytes).
 _LARGEST = 2**32 - 2**16
-#: Placeholder for pixels that are already stored.
+#: Stands for an image whose pixels are already stored.
 _NO_IMAGE = np.empty((0, 0, 4), np.uint8)
-#: Parts of the body without a face; an unstated part may include one.
+#: Body parts without a face; an unstated body part may include one.
 _FACELESS = ("CHEST", "ABDOMEN", "PELVIS", "AORTA", "LEG", "EXTREMITY", "HEART", "ARM", "KNEE", "FOOT", "HIP")
 
 
@@ -54,16 +54,16 @@ class Picture:
         Side of a pixel (mm) if distances in the picture are projected ones; else None, since a ruler would be
         wrong.
     sides : tuple of (str, str) or None
-        The sides of the patient that rows (to the right) and columns (downwards) run to, as letters of
+        The sides of the patient at the right end of rows and at the lower end of columns, as letters of
         `lumencut.orientation`; None if they do not hold in the whole picture.
     comments : str, default ""
-        The label in a viewer, such as the view.
+        The text that a viewer shows, such as the name of the view.
     shows_body : bool, default False
         Whether the surface of the body may be seen.
     code : (str, str), default curved reformatting
         The method of derivation (DCM).
     film : str or None, default None
-        The short title of a film that it begins; None for a turntable of the method.
+        The short title of the film whose first picture this is; None for a turntable of the method.
     """
 
     image: npt.NDArray[np.uint8]
@@ -94,7 +94,7 @@ def write_picture(
     number : int, default 1
         Its place in the series.
     compress : bool, default False
-        Write the pixels as JPEG 2000, lossless, instead of bare numbers.
+        Compress the pixels as JPEG 2000 without loss.
     """
     kind = Kind(_CAPTURE, picture.method, 9001)
     data = _described(picture, study, kind, number)
@@ -120,9 +120,9 @@ def write_turning(
     study : Study
         Their study.
     grey : bool
-        Write grey bytes instead of colours: some programs read only these.
+        Write grey bytes instead of colours, for programs that read no colours.
     compress : bool
-        Write the pixels as JPEG 2000, lossless.
+        Compress the pixels as JPEG 2000 without loss.
     """
     pixels, shown = bytearray(), []
     for picture in pictures:
@@ -148,7 +148,7 @@ def write_turning(
 
 
 def _turning(shown: list[Picture]) -> Picture:
-    """The description of several views: that of the first, and the common facts."""
+    """Return the description of several views: that of the first one, with only facts true for all."""
     first = shown[0]
     spacings, sides = ({getattr(one, name) for one in shown} for name in ("pixel_spacing", "sides"))
     return replace(
@@ -161,12 +161,12 @@ def _turning(shown: list[Picture]) -> Picture:
 
 
 def _described(picture: Picture, study: Study, kind: Kind, number: int) -> Any:
-    """An object with all but its pixels."""
+    """Return an object with everything except pixels."""
     data = new_object(study, kind, picture.settings, number)
     add_laterality(data, study)
     data.ConversionType = "WSD"
     data.ImageType = ["DERIVED", "SECONDARY", picture.method.partition(" ")[0].upper()]
-    # The attribute means text that identifies the patient; sides, view and scale do not.
+    # The attribute asks for text that identifies the patient; side letters, view and scale do not.
     data.BurnedInAnnotation = "NO"
     data.RecognizableVisualFeatures = "YES" if picture.shows_body and _may_have_face(study) else "NO"
     data.PatientOrientation = [dicom_sides(side) for side in picture.sides] if picture.sides else None
@@ -190,7 +190,7 @@ def dicom_sides(letters: str) -> str:
 
 
 def on_black(image: npt.NDArray[np.uint8]) -> npt.NDArray[np.uint8]:
-    """Return an RGBA picture (H, W, 4) on black, RGB (H, W, 3)."""
+    """Return an RGBA picture (H, W, 4) in front of black, RGB (H, W, 3)."""
     if (image[..., 3] == 255).all():
         return np.ascontiguousarray(image[..., :3])
     part = image[..., 3:].astype(np.float32) / 255
@@ -198,7 +198,7 @@ def on_black(image: npt.NDArray[np.uint8]) -> npt.NDArray[np.uint8]:
 
 
 def greys(colours: npt.NDArray[np.uint8]) -> npt.NDArray[np.uint8]:
-    """Return the luminance (ITU-R BT.601) of colours (H, W, 3), uint8, shape (H, W)."""
+    """Return the luminance of colours (ITU-R BT.601), uint8, shape (H, W)."""
     return np.asarray(np.rint(colours @ np.array([0.299, 0.587, 0.114])), np.uint8)
 
 
@@ -209,7 +209,7 @@ def _set_colours(data: Any, pixels: bytes, size: tuple[int, ...]) -> None:
 
 def _set_greys(data: Any, pixels: bytes, size: tuple[int, ...]) -> None:
     data.SamplesPerPixel, data.PhotometricInterpretation = 1, "MONOCHROME2"
-    # Grey frames must state that their numbers are plain grey levels.
+    # For grey frames the standard requires a statement that numbers are plain grey levels.
     data.RescaleIntercept, data.RescaleSlope, data.RescaleType = "0", "1", "US"
     data.PresentationLUTShape = "IDENTITY"
     _set_bytes(data, pixels, size)
@@ -223,7 +223,7 @@ def _set_bytes(data: Any, pixels: bytes, size: tuple[int, ...]) -> None:
 
 
 def _set_timing(data: Any, count: int, fps: float) -> None:
-    """State the frame rate, and that the frames repeat."""
+    """State the frame rate, and that viewers shall repeat the frames."""
     data.NumberOfFrames = count
     data.FrameIncrementPointer = 0x00181063
     data.FrameTime = f"{1000 / fps:.10g}"
@@ -232,11 +232,11 @@ def _set_timing(data: Any, count: int, fps: float) -> None:
 
 
 def _packed(data: Any) -> None:
-    """Compress the pixels without loss."""
+    """Compress the pixels of an object without loss."""
     from pydicom.uid import JPEG2000Lossless
 
     if data.PhotometricInterpretation == "RGB":
-        # Every reader undoes the colour transform of JPEG 2000 if the object names it.
+        # JPEG 2000 transforms colours; every reader reverses that if the object names the transform.
         data.PhotometricInterpretation = "YBR_RCT"
     sealed_uid = data.SOPInstanceUID
     data.compress(JPEG2000Lossless, encoding_plugin="pylibjpeg", generate_instance_uid=False)

@@ -35,7 +35,7 @@ def write_straightened(
     volume : Volume
         The straightened volume, NaN outside of the scan.
     about : (ReformationRecipe, Settings, Window or None)
-        Its description, and its first window.
+        The description of the volume, its settings, and the window that viewers show first.
     study : Study
         Its study.
     comments : str

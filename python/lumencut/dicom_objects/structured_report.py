@@ -1,4 +1,4 @@
-"""Measured vessels as a structured report of TID 1500, which data bases and other programs read."""
+"""Measured vessels as a structured report (TID 1500), for databases and other programs."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from lumencut.dicom_objects.uids import uid_of
 from lumencut.errors import FormatError, MissingPackageError
 from lumencut.stenosis import Stenosis
 
-#: Attributes of highdicom that are not copied; it states the maker of the report as that of the images.
+#: Attributes of highdicom's document that are not copied: it names the scanner's maker as the report's maker.
 _OF_HIGHDICOM = ("ContributingEquipmentSequence", "InstanceCreationDate", "InstanceCreationTime")
 _REPORT = "1.2.840.10008.5.1.4.1.1.88.34"
 
@@ -41,7 +41,7 @@ def check_highdicom() -> None:
 
 
 def write_report(target: Target, vessels: Sequence[Measured], study: Study, *, names: bool = True) -> None:
-    """Write vessels with the marks of a reader: PRELIMINARY and UNVERIFIED.
+    """Write vessels with the marks of a reader, flagged as PRELIMINARY and UNVERIFIED.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ def write_report(target: Target, vessels: Sequence[Measured], study: Study, *, n
     vessels : sequence of Measured
         The content.
     study : Study
-        Its study; its frame of reference is that of all coordinates.
+        The study of the report; all coordinates are in the frame of reference of this study.
     names : bool, default True
         Whether vessels are called by their names.
 
@@ -82,7 +82,7 @@ def write_report(target: Target, vessels: Sequence[Measured], study: Study, *, n
 
 
 class _Vessel:
-    """The groups of measurements of one vessel."""
+    """Makes the groups of measurements of one vessel."""
 
     def __init__(self, one: Measured, name: str | None, number: int, frame: str) -> None:
         self._one, self._frame = one, frame
@@ -92,7 +92,7 @@ class _Vessel:
         self._sites = [_site(code, side)] if code is not None else None
 
     def groups(self) -> list[Any]:
-        """The marked places, the stenoses, and the centerline with its length."""
+        """Return the marked places, the stenoses, and the centerline with its length."""
         places = [self._place(place) for place in self._one.places]
         return [*places, *(self._stenosis(one) for one in self._one.stenoses), self._line()]
 
@@ -102,7 +102,7 @@ class _Vessel:
         return TrackingIdentifier(uid_of("tracking", self._key, words), f"{self._title}, {words}")
 
     def _place(self, place: Place) -> Any:
-        """A section with its contour (TID 1410)."""
+        """Return a section with its contour (TID 1410)."""
         from highdicom.sr import ImageRegion3D, PlanarROIMeasurementsAndQualitativeEvaluations
 
         return PlanarROIMeasurementsAndQualitativeEvaluations(
@@ -114,7 +114,7 @@ class _Vessel:
         )
 
     def _stenosis(self, one: Stenosis) -> Any:
-        """A percentage with its method (TID 1501) and its doubts."""
+        """Return a percentage with its method (TID 1501) and the doubts about it."""
         from highdicom.sr import MeasurementsAndQualitativeEvaluations
 
         name = codes.AREA_STENOSIS if one.method == "area" else codes.DIAMETER_STENOSIS
@@ -132,9 +132,9 @@ class _Vessel:
         return group
 
     def _walls(self, one: Stenosis) -> list[Any]:
-        """The walls that a percentage was inferred from: that of the narrow place first, then the references.
+        """Return the walls that a percentage was computed from: at the narrow place, then at the references.
 
-        OHIF cannot open a report with a group without a position.
+        They give the group a position: OHIF cannot open a report with a group without one.
         """
         from highdicom.sr import CoordinatesForMeasurement3D
 
@@ -143,7 +143,7 @@ class _Vessel:
         return [CoordinatesForMeasurement3D("POLYGON", _outline(place), self._frame) for place in used]
 
     def _line(self) -> Any:
-        """The centerline with its length (TID 1501)."""
+        """Return the centerline with its length (TID 1501)."""
         from highdicom.sr import (
             CoordinatesForMeasurement3D,
             Measurement,
@@ -166,12 +166,12 @@ class _Vessel:
 
 
 def _outline(place: Place) -> npt.NDArray[np.float64]:
-    """The wall of a section as a closed polygon, its first point again at the end (mm, LPS)."""
+    """Return the wall of a section as a closed polygon whose first point is repeated at the end (mm, LPS)."""
     return np.vstack([place.contour, place.contour[:1]])
 
 
 def _measurements(place: Place) -> list[Any]:
-    """The diameters and the area of a section."""
+    """Return the diameters and the area of a section."""
     found = [_number(codes.DIAMETER, place.equivalent, "mm", codes.BY_AREA, place.uncertainty)]
     derived = ((codes.MEAN, place.mean), (codes.SHORTEST, place.shortest), (codes.LONGEST, place.longest))
     for derivation, value in derived:
@@ -188,9 +188,9 @@ def _number(
     derivation: Coded | None = None,
     regions: Sequence[Any] | None = None,
 ) -> Any:
-    """A number; its uncertainty, if known, is one standard deviation to both sides.
+    """Return a number; its uncertainty, if known, is one standard deviation in both directions.
 
-    `regions` are its sources, unless the group states them for all of its numbers.
+    `regions` are the sources of the number, unless its group states them for all numbers.
     """
     from highdicom.sr import Measurement, MeasurementProperties
 
@@ -200,7 +200,7 @@ def _number(
         properties = MeasurementProperties(
             upper_measurement_uncertainty=spread, lower_measurement_uncertainty=spread
         )
-        # The unit is that of the number; highdicom has no argument for the uncertainty.
+        # The uncertainty has the unit of the number; highdicom has no argument for it.
         for item in properties:
             item.MeasuredValueSequence[0].MeasurementUnitsCodeSequence[0] = _unit(unit)
     return Measurement(
@@ -223,7 +223,7 @@ def _comment(group: Any, words: str) -> None:
 
 
 def _content(groups: list[Any], study: Study) -> Any:
-    """The tree of the report."""
+    """Return the content tree of the report."""
     from highdicom import sr
 
     device = sr.DeviceObserverIdentifyingAttributes(
@@ -242,12 +242,12 @@ def _content(groups: list[Any], study: Study) -> Any:
 
 
 def _document(content: Any, data: Any, study: Study) -> Any:
-    """The tree in a document of highdicom, with one image of the scan as evidence."""
+    """Return the content tree in a document of highdicom, with one image of the scan as evidence."""
     from highdicom.sr import Comprehensive3DSR
 
     image = copy.deepcopy(data)
     image.SeriesInstanceUID = study.text("SeriesInstanceUID") or data.SeriesInstanceUID
-    # All images of a long scan would make the report two hundred times as large.
+    # One image is enough: all images of a long scan would make the report two hundred times as large.
     kinds = study.instances or ((data.SOPClassUID, uid_of("nothing")),)
     image.SOPClassUID, image.SOPInstanceUID = kinds[len(kinds) // 2]
     return Comprehensive3DSR(
@@ -273,7 +273,7 @@ def _take(data: Any, document: Any) -> None:
 
 
 def _texts(group: Any) -> list[bytes]:
-    """The text of a group, for the UID of the report."""
+    """Yield all texts of a group; the UID of the report depends on them."""
     return [str(item).encode() for item in group]
 
 
@@ -295,5 +295,5 @@ def _site(code: Coded, side: Coded | None) -> Any:
 
 
 def _rounded(value: float) -> float:
-    """A number in seven digits, as in all tables."""
+    """Return a number with seven digits, as in all tables."""
     return float(f"{value:.7g}")

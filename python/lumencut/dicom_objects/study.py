@@ -1,4 +1,4 @@
-"""The study of a scan: the header attributes that derived objects repeat.
+"""The study of a scan: header attributes that are copied into objects made from the scan.
 
 Attributes in none of the lists below are not copied: private ones, institution, the scanner's serial number,
 the request, and how the slices were acquired.
@@ -12,32 +12,32 @@ from typing import Any
 from lumencut._pickles import by_name
 from lumencut.dicom_objects.extents import Box
 
-#: Attributes of the patient; empty under `anonymous`.
+#: Attributes of the patient; empty if `anonymous`.
 PATIENT = (
     *("PatientName", "PatientID", "IssuerOfPatientID", "PatientBirthDate", "PatientSex", "PatientAge"),
     *("PatientIdentityRemoved", "DeidentificationMethod", "DeidentificationMethodCodeSequence"),
 )
-#: Which study it is; empty under `anonymous`.
+#: Attributes that identify the study; empty if `anonymous`.
 VISIT = (
     *("StudyInstanceUID", "StudyDate", "StudyTime", "AccessionNumber", "StudyID", "StudyDescription"),
     *("ReferringPhysicianName", "SpecificCharacterSet"),
 )
-#: Attributes of the content. Objects from lossily compressed pixels must state so.
+#: Attributes of the images. Objects made from lossily compressed pixels must state that.
 SCAN = (
     *("Modality", "BodyPartExamined", "Laterality", "PatientPosition"),
     *("LossyImageCompression", "LossyImageCompressionRatio", "LossyImageCompressionMethod"),
 )
-#: Further attributes of the classes of CT and MR images only.
+#: Further attributes, copied only into CT and MR images.
 ACQUISITION = (
     *("KVP", "AcquisitionNumber", "RescaleType", "ScanningSequence", "SequenceVariant", "ScanOptions"),
     *("MRAcquisitionType", "EchoTime", "EchoTrainLength", "RepetitionTime"),
 )
-#: Attributes that the standard requires, even if empty.
+#: Attributes that the standard requires even if they are empty.
 NEVER_ABSENT = (
     *("PatientName", "PatientID", "PatientBirthDate", "PatientSex"),
     *("StudyDate", "StudyTime", "ReferringPhysicianName", "StudyID", "AccessionNumber"),
 )
-#: Unpaired parts of the body, without a side.
+#: Parts of the body that have no left and right.
 UNPAIRED = (
     *("HEAD", "NECK", "HEADNECK", "CHEST", "ABDOMEN", "PELVIS", "AORTA", "HEART", "CORONARYARTERY"),
     *("WHOLEBODY", "BRAIN", "SPINE", "CSPINE", "TSPINE", "LSPINE", "SSPINE", "SKULL", "LIVER", "PANCREAS"),
@@ -51,9 +51,9 @@ READ = (*PATIENT, *VISIT, *SCAN, *ACQUISITION, "SeriesInstanceUID", "FrameOfRefe
 @by_name
 @dataclass(frozen=True)
 class Study:
-    """The repeated attributes of the study of a scan.
+    """The attributes of the study of a scan that are copied into objects.
 
-    It contains the name of the patient if the scan does; ``repr`` shows nothing of it.
+    It contains the name of the patient if the scan does, but ``repr`` never shows it.
 
     Attributes
     ----------
@@ -62,9 +62,9 @@ class Study:
     instances : tuple of (str, str)
         SOP class and UID of each image of the scan.
     study_count : int, default 1
-        The number of studies of the images.
+        The number of studies that the images belong to.
     further : tuple of pydicom.Dataset, default ()
-        The same attributes of the other series, if there are several.
+        The same attributes of all other series, if there are several.
     box : Box or None, default None
         The bounding box of all images; None if unknown.
     """
@@ -89,16 +89,16 @@ class Study:
 @by_name
 @dataclass(frozen=True)
 class Origin:
-    """The origin of a picture, for its DICOM object.
+    """What a picture was made from, for its DICOM object.
 
     Attributes
     ----------
     study : Study or None
         The study of the scan; None if the scan was not read from DICOM.
     fingerprint : str
-        Distinguishes scans by their grid and some of their voxels; it names nobody.
+        A text that distinguishes scans by grid and some voxels; it contains no names.
     is_whole : bool, default False
-        Whether its voxels are integers.
+        Whether the voxels of the scan are integers.
     box : Box or None, default None
         The bounding box of the scan; None if its source does not state its position in the patient.
     """

@@ -1,4 +1,4 @@
-"""Doubts about putting results of a scan into a chosen study: another patient, study or place."""
+"""Doubts about putting results into a chosen study: another patient, study or body region than the scan."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _LEAST_WITHIN = 0.5
 
 
 def patient_of(study: Study) -> Patient:
-    """Return the patient that a study names."""
+    """Return the patient named in a study."""
     return Patient.in_header(study.header)
 
 
@@ -39,7 +39,7 @@ def check_same_patient(scan: Study, study: Study, subject: str) -> None:
 
 
 def doubts(origin: Origin, study: Study) -> list[str]:
-    """Return sentences of doubt about putting results of a scan into a study."""
+    """Return sentences of doubt about putting the results of a scan into a study."""
     found = [] if origin.study is None else list(_against_header(origin.study, study))
     return [*found, *_against_place(origin, study)]
 
@@ -61,7 +61,7 @@ def _against_header(scan: Study, study: Study) -> Iterator[str]:
 
 
 def is_other_study(scan: Study, study: Study) -> bool:
-    """Return whether both state a StudyInstanceUID and these differ."""
+    """Return whether both studies state a StudyInstanceUID and these are different."""
     own, its = scan.text("StudyInstanceUID"), study.text("StudyInstanceUID")
     return bool(own and its) and own != its
 
@@ -73,7 +73,7 @@ def _named(study: Study) -> str:
 
 def _against_body_part(scan: Study, study: Study) -> Iterator[str]:
     shown, known = _part(scan.text("BodyPartExamined")), study.texts("BodyPartExamined")
-    # A part may be a part of another one: CHEST of CHESTABDPELVIS.
+    # One body part may include another: CHESTABDPELVIS includes CHEST.
     is_known = any(shown in _part(one) or _part(one) in shown for one in known)
     if shown and known and not is_known:
         yield f"the scan shows the body part {shown}, the images of the study {', '.join(known)}"
@@ -84,7 +84,7 @@ def _part(text: str) -> str:
 
 
 def _against_place(origin: Origin, study: Study) -> Iterator[str]:
-    """Compare extents, which is only possible within one frame of reference."""
+    """Return doubts about the position; boxes are comparable only within one frame of reference."""
     own = "" if origin.study is None else origin.study.text("FrameOfReferenceUID")
     frames = study.texts("FrameOfReferenceUID")
     if origin.box is None or study.box is None or (own and frames and own not in frames):

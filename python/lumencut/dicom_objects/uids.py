@@ -1,4 +1,4 @@
-"""Unique identifiers that depend only on the content of an object: the same input gives the same UID.
+"""Unique identifiers computed from the content of an object: the same input gives the same UID.
 
 They use the root 2.25, which needs no registration (PS3.5, B.2): a UUID in decimal.
 """
@@ -10,12 +10,12 @@ import uuid
 
 
 def uid_of(*parts: str | bytes) -> str:
-    """Return the UID of these texts and bytes, whose order and boundaries matter.
+    """Return the UID for these texts and bytes; their order and boundaries matter.
 
     Parameters
     ----------
     *parts : str or bytes
-        Everything that the object depends on: the scan, kind and settings of the object, and the pixels.
+        Everything that distinguishes the object: scan, kind, settings and pixels.
     """
     digest = hashlib.sha256()
     for part in parts:

@@ -1,7 +1,7 @@
 """Values as derived CT or MR images, which a PACS shows in any window.
 
-They have their own frame of reference. In that of the scan, viewers would place the plane of a view in the
-scan, and show marks of the scan on it.
+They have their own frame of reference. With that of the scan, viewers would place the plane of a view inside
+the scan, and would show marks of the scan on it.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from lumencut.errors import FormatError
 from lumencut.window import Window
 
 _CLASSES = {"CT": "1.2.840.10008.5.1.4.1.1.2", "MR": "1.2.840.10008.5.1.4.1.1.4"}
-#: Required attributes of the classes, even if empty or with a meaningless value.
+#: Attributes that the classes require, here empty or with a value without meaning.
 _ASKED: dict[str, dict[str, Any]] = {
     "CT": {"KVP": None, "AcquisitionNumber": None},
     "MR": {
@@ -43,24 +43,24 @@ _ASKED: dict[str, dict[str, Any]] = {
         "RepetitionTime": None,
     },
 }
-#: The most slices of the scan that a plane names as its sources.
+#: Largest number of slices of the scan that a plane names as its sources.
 _NAMED_BY_PLANE = 64
-#: The stored number for missing values, and the range of all others.
+#: The stored number for missing values, and the smallest and largest stored number of all others.
 _NOTHING, _LOWEST, _HIGHEST = -32768, -32767, 32767
 
 
 @dataclass(frozen=True, eq=False)
 class Plane:
-    """Values on a plane.
+    """An image of values on a plane.
 
     Attributes
     ----------
     values : numpy.ndarray, shape (H, W)
-        In the unit of the scan, NaN without a value.
+        Values in the unit of the scan, NaN if missing.
     right, down : numpy.ndarray, shape (3,)
         Unit vectors along rows and columns (LPS).
     first : numpy.ndarray, shape (3,)
-        Centre of the first pixel (mm, LPS), in a separate frame.
+        Centre of the first pixel (mm, LPS), in a frame of reference of its own.
     spacing : float
         Side of a pixel (mm).
     thickness : float or None
@@ -77,20 +77,20 @@ class Plane:
 
 @dataclass(frozen=True)
 class About:
-    """The common description of the planes of a series.
+    """What the planes of a series have in common.
 
     Attributes
     ----------
     method : str
         A short title, such as ``"CSR"``.
     words : str
-        Its description.
+        The description of the planes.
     settings : str
-        Planes of the same method and with the same text are put into one series.
+        Planes of the same method with the same text are put into one series.
     comments : str
-        The label in a viewer.
+        The text that a viewer shows.
     window : Window or None
-        The first window.
+        The window that viewers show first.
     scaling : (float, float)
         Slope and intercept from stored numbers to values.
     """
@@ -104,12 +104,12 @@ class About:
 
 
 def scaling_of(values: npt.NDArray[Any], *, is_whole: bool) -> tuple[float, float]:
-    """Return slope and intercept to store values in 16 bits; 1 and 0 if integers fit.
+    """Return slope and intercept for storing values in 16 bits; 1 and 0 if the values are integers in range.
 
     Parameters
     ----------
     values : numpy.ndarray
-        All values of a series, NaN among them.
+        All values of a series; missing values are NaN.
     is_whole : bool
         Whether the voxels of the scan are integers, such as HU; interpolated values are then rounded.
     """
@@ -137,7 +137,7 @@ def write_plane(path: Path, plane: Plane, about: About, study: Study, *, number:
     data = new_object(study, kind, about.settings, number)
     data.ImageType = ["DERIVED", "SECONDARY", about.method.partition(" ")[0].upper()]
     add_laterality(data, study)
-    # A series of many planes would name the slices of the scan again and again.
+    # At most this many, because every plane of a series repeats the slices of the scan.
     add_sources(data, study, CURVED_REFORMATION, about.words, _NAMED_BY_PLANE)
     data.ImageComments = cut(about.comments, LT)
     _set_acquisition(data, study, modality)
@@ -150,7 +150,7 @@ def write_plane(path: Path, plane: Plane, about: About, study: Study, *, number:
 
 
 def _set_acquisition(data: Any, study: Study, modality: str) -> None:
-    """State only the attributes of the scan that the class requires."""
+    """Set only those attributes of the scan that the class requires."""
     for keyword, otherwise in _ASKED[modality].items():
         setattr(data, keyword, otherwise)
         if keyword in ACQUISITION and keyword in study.header:

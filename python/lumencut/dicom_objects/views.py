@@ -46,7 +46,7 @@ def view_picture(
     camera : Camera
         The view.
     source : FrameSource
-        Its source.
+        What the frame was made from.
     has_cut : bool
         Whether vessels are cut open; otherwise only the context is shown.
     """
@@ -56,7 +56,7 @@ def view_picture(
     view = view_name(camera) if source.states_orientation else "orientation not stated"
     angles = c_arm_angles(camera) if source.states_orientation else view
     sides = edges(camera) if source.states_orientation else {}
-    # A ruler across a picture of mpCPR, whose rows are moved, would be wrong.
+    # mpCPR moves the rows of its pictures, so a ruler across them would measure wrongly.
     is_true = source.states_spacing and source.method != "mpcpr"
     words = (
         f"{_NAMES.get(method, method.upper() + ' of the volume')} {written_by()} View {view}; "
@@ -85,7 +85,7 @@ def view_values(values: npt.NDArray[np.float32], camera: Camera, source: FrameSo
     camera : Camera
         The view.
     source : FrameSource
-        Its source.
+        What the frame was made from.
 
     Raises
     ------
@@ -137,18 +137,18 @@ def reformed_picture(
 
 
 def joined_picture(image: npt.NDArray[np.uint8], method: str, words: str, settings: Settings) -> Picture:
-    """Return several pictures on one sheet without a scale, with their description."""
+    """Return several pictures on one sheet without a scale, and their description."""
     text = f"{words} {written_by()} {changed(settings)}"
     return Picture(image, method, text, settings_text(settings) + words, None, None, words, True)
 
 
 def written_by() -> str:
-    """Return the words for who made a picture, and what for."""
+    """Return the sentence that says which program made a picture, and for what purpose."""
     return f"by Lumencut {_lumencut.__version__} {RESEARCH}."
 
 
 def settings_text(settings: Settings) -> str:
-    """Return settings as a unique text."""
+    """Return settings as a text that differs for different settings."""
     return json.dumps(plain_settings(settings), sort_keys=True, default=vars)
 
 
@@ -160,7 +160,7 @@ def changed(settings: Settings) -> str:
 
 
 def _rounded(value: Any) -> Any:
-    """A JSON value with numbers of six digits: short, and enough to reproduce the picture."""
+    """Return a JSON value with numbers of six digits: short, and enough to reproduce the picture."""
     if isinstance(value, dict):
         return {name: _rounded(one) for name, one in value.items()}
     if isinstance(value, (list, tuple)):

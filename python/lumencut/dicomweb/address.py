@@ -10,7 +10,7 @@ from urllib.parse import urlsplit
 
 from lumencut.errors import FormatError
 
-#: Prefix of an address in places that also accept a file.
+#: Prefix of an address if a file name would be accepted too.
 SCHEME = "dicomweb:"
 _FORM = "dicomweb:https://HOST/ROOT/studies/UID[/series/UID]"
 _UID = re.compile(r"[0-9]+(\.[0-9]+)*")
@@ -19,7 +19,7 @@ _PATH = re.compile(r"(?P<root>.*?)/?(/studies/(?P<study>[^/]*)(/series/(?P<serie
 
 @dataclass(frozen=True)
 class Address:
-    """A place in a PACS.
+    """The address of a PACS, or of a study or series in it.
 
     Attributes
     ----------
@@ -67,7 +67,7 @@ def parsed_address(given: str | os.PathLike[str]) -> Address:
     FormatError
         For addresses that contain a name or a password, http to other hosts, and other invalid addresses.
     """
-    # A Path has lost one of two consecutive slashes.
+    # A path object turns two consecutive slashes into one; here the second is added again.
     text = re.sub(r"^(https?):/+", r"\1://", str(given).removeprefix(SCHEME))
     try:
         parts = urlsplit(text)
@@ -91,7 +91,7 @@ def parsed_address(given: str | os.PathLike[str]) -> Address:
 
 
 def is_uid(text: str) -> bool:
-    """Return whether a text is a DICOM UID, and so safe as a file name."""
+    """Return whether a text is a DICOM UID, which is also safe as a file name."""
     return len(text) <= 64 and _UID.fullmatch(text) is not None
 
 

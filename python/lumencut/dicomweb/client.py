@@ -23,7 +23,7 @@ _JSON = "application/dicom+json"
 
 
 class Client:
-    """A connection to one PACS, closed by its context. Several threads may use it.
+    """A connection to one PACS, closed at the end of its context; several threads may use it.
 
     Parameters
     ----------
@@ -50,12 +50,12 @@ class Client:
         is_secure = parts.scheme == "https"
         self._http = httpx.Client(
             verify=_trusted(certificates) if is_secure else False,
-            # No proxies for this machine; netrc and certificates are read here.
+            # No proxies on this machine; this class reads netrc and certificates itself.
             trust_env=is_secure,
             timeout=_TIMEOUT,
             limits=httpx.Limits(max_connections=AT_ONCE),
             follow_redirects=False,
-            # Servers would compress incompressible pixels, which takes twenty times as long as sending them.
+            # Servers would compress the pixels, which takes twenty times as long as sending them.
             headers={"Accept-Encoding": "identity"},
         )
 
@@ -127,7 +127,7 @@ class Client:
                 try:
                     if answer.status_code == 401 and not is_renewed:
                         is_renewed = True
-                        # Another thread may already have read the new ones.
+                        # Another thread may already have read the new credentials.
                         if self._credentials.header != sent or self._credentials.renewed():
                             continue
                     elif answer.is_redirect:
@@ -140,7 +140,7 @@ class Client:
         raise PacsError(self._host, f"more than {_MOST_REDIRECTS} redirects", "an answer")
 
     def require(self, answer: httpx.Response, *expected: int) -> None:
-        """Reject an answer with an unexpected status, with the remedy."""
+        """Reject an answer with an unexpected status; the error states the remedy."""
         status = answer.status_code
         if status in expected:
             return
@@ -173,7 +173,7 @@ class Client:
         return listed
 
     def _followed(self, url: str, answer: httpx.Response, method: str) -> str:
-        """The target of a redirect; a redirect to another host is rejected, so that no token leaks."""
+        """Return the target of a redirect; another host is rejected, because it would get the token."""
         target: str = urljoin(url, answer.headers.get("location", ""))
         here, there = urlsplit(url), urlsplit(target)
         if (here.scheme, here.netloc) != (there.scheme, there.netloc):
@@ -188,7 +188,7 @@ class Client:
 
     @contextmanager
     def _in_words(self) -> Iterator[None]:
-        """Convert errors of httpx into an error that names the host and quotes nothing."""
+        """Convert errors of httpx into an error that names the host and quotes nothing of the answer."""
         try:
             yield
         except httpx.TimeoutException:
@@ -214,7 +214,7 @@ class Client:
 
 
 def _trusted(certificates: Path | None) -> ssl.SSLContext:
-    """The trusted authorities: those of a file only, otherwise those of the machine and of certifi."""
+    """Return the trusted certificate authorities: those of a file, or else of the machine and certifi."""
     named = os.environ.get(CERTIFICATES)
     place = certificates if certificates is not None else Path(named) if named else None
     try:

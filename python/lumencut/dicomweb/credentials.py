@@ -1,4 +1,4 @@
-"""Credentials for a PACS: a token from the environment or a file, or netrc; never shown."""
+"""Credentials for a PACS: a token from the environment or a file, or netrc; no message ever shows them."""
 
 from __future__ import annotations
 
@@ -44,16 +44,16 @@ class Credentials:
 
     @property
     def header(self) -> str:
-        """The value of Authorization; empty without credentials for the host."""
+        """The value of the header Authorization; empty without credentials for the host."""
         return self._header
 
     @property
     def mend(self) -> str:
-        """The remedy if they are rejected."""
+        """The remedy for rejected credentials."""
         return f"give a valid token in {_WAYS}"
 
     def renewed(self) -> bool:
-        """Read them again; return whether they changed."""
+        """Read the credentials again; return whether they changed."""
         before, self._header = self._header, self._read()
         return self._header != before
 
@@ -71,7 +71,7 @@ class Credentials:
         try:
             found = netrc.netrc(place).authenticators(self._host)
         except (netrc.NetrcParseError, UnicodeDecodeError):
-            # The message of the parser would quote the line with the password.
+            # The parser's own message would quote the line with the password.
             raise FileError(
                 str(place), "a line that netrc does not allow", "lines with machine, login and password"
             ) from None

@@ -72,8 +72,8 @@ def fetch_series(
     Returns
     -------
     set of str
-        The UIDs of the complete ones. The stream may break off or be empty; requests for each of the others
-        then show why.
+        The UIDs of the complete instances. The stream may break off or be empty; requests for single missing
+        instances then show the reason.
 
     Raises
     ------
@@ -106,7 +106,7 @@ def _next_part(reader: PartReader, part: Path) -> bool:
 
 
 def _write(answer: httpx.Response, write: Callable[[bytes], object], stop: threading.Event) -> None:
-    """Pass on the only instance of an answer."""
+    """Write the only instance of an answer into a file."""
     try:
         reader = _reader(answer, stop)
         if reader is None:
@@ -121,11 +121,11 @@ def _write(answer: httpx.Response, write: Callable[[bytes], object], stop: threa
 
 
 def _pass(_: bytes) -> None:
-    """Ignore a part."""
+    """Ignore the part of an answer."""
 
 
 def _reader(answer: httpx.Response, stop: threading.Event) -> PartReader | None:
-    """The reader of the parts of an answer; None if it has no parts."""
+    """Return a reader for the parts of an answer; None if the answer has no parts."""
     boundary = boundary_of(answer.headers.get("content-type", ""))
     return None if boundary is None else PartReader(_chunks(answer, stop), boundary)
 
@@ -138,7 +138,7 @@ def _chunks(answer: httpx.Response, stop: threading.Event) -> Iterator[bytes]:
 
 
 def _uid_in(part: Path) -> str:
-    """The UID of the instance in a file; empty if it is not a DICOM file."""
+    """Return the UID of the instance in a file; empty if the file is not DICOM."""
     import pydicom
 
     try:

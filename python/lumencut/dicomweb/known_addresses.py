@@ -1,4 +1,4 @@
-"""The addresses of earlier pushes: the user is asked before the first push."""
+"""Remembers the addresses to which a user has pushed: the first push to an address needs a confirmation."""
 
 from __future__ import annotations
 

@@ -26,14 +26,14 @@ def boundary_of(content_type: str) -> bytes | None:
 
 
 class PartReader:
-    """Reads the parts of a message one after the other, with only a piece of it in memory.
+    """Reads the parts of a message one after the other, holding only a small piece in memory.
 
     Parameters
     ----------
     chunks : iterable of bytes
         The message.
     boundary : bytes
-        Separates its parts.
+        The text that separates the parts.
     """
 
     def __init__(self, chunks: Iterable[bytes], boundary: bytes) -> None:
@@ -42,7 +42,7 @@ class PartReader:
         self._has_begun = False
 
     def read(self, write: Callable[[bytes], object]) -> bool:
-        """Pass on the content of the next part, piece by piece; return whether there was one.
+        """Pass the content of the next part on, piece by piece; return whether there was a next part.
 
         Raises
         ------
@@ -63,7 +63,7 @@ class PartReader:
         return True
 
     def _copy(self, write: Callable[[bytes], object]) -> None:
-        """Pass on the content before the next boundary, and skip the boundary."""
+        """Pass on the content up to the next boundary, and skip the boundary."""
         mark = b"\r\n" + self._opening
         while (end := self._held.find(mark)) < 0:
             if len(self._held) >= len(mark):
@@ -74,7 +74,7 @@ class PartReader:
         self._held = self._held[end + len(mark) :]
 
     def _skip(self, wanted: bytes) -> None:
-        """Skip to after the first match; the head of a part is short."""
+        """Skip everything up to the end of the first match; the header of a part is short."""
         while (place := self._held.find(wanted)) < 0:
             if len(self._held) > _LONGEST_HEAD:
                 raise MultipartError("no part")

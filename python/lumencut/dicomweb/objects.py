@@ -55,7 +55,7 @@ class Outgoing:
         return self.source.size
 
     def content(self) -> bytes:
-        """Read it."""
+        """Return the bytes of the object."""
         with self.source.open() as file:
             return file.read()
 
@@ -116,7 +116,7 @@ def _object(source: Source) -> Outgoing | None:
 
 
 def _once(objects: Sequence[Outgoing]) -> list[Outgoing]:
-    """Each object once: copies are left out, other content under the same UID is rejected."""
+    """Return each object once: equal copies are skipped, different content under one UID is rejected."""
     known: dict[str, Outgoing] = {}
     for one in objects:
         first = known.setdefault(one.uid, one)
@@ -127,7 +127,7 @@ def _once(objects: Sequence[Outgoing]) -> list[Outgoing]:
 
 
 def _lasting(one: Outgoing) -> Any:
-    """The object without the time of writing."""
+    """Return the bytes of an object without the time of writing."""
     import pydicom
 
     data = pydicom.dcmread(io.BytesIO(one.content()))

@@ -1,4 +1,4 @@
-"""Compares the patients of objects with those that a PACS has for their studies."""
+"""Compares the patients that objects name with the patients that a PACS has for their studies."""
 
 from __future__ import annotations
 
@@ -78,7 +78,7 @@ def _doubts(uid: str, own: Patient, other: Patient) -> list[str]:
 
 
 def _first_named(objects: Sequence[Outgoing]) -> Outgoing:
-    """The first object that names its patient, preferably with the issuer."""
+    """Return the first object that names its patient, if possible one with an issuer."""
     named = [one for one in objects if one.patient.id]
     issued = [one for one in named if one.patient.issuer]
     return (issued or named or objects)[0]

@@ -14,9 +14,9 @@ from lumencut.dicomweb.queries import Instance
 from lumencut.errors import FileError, PacsError
 
 _TRIES = 2
-#: A series is fetched as one stream if more than this many instances and more than half are missing.
+#: A series is fetched as one stream if more than this number and more than half of its instances are missing.
 STREAMED = 100
-#: Consecutive failures after which a PACS counts as lost.
+#: After this number of consecutive failures the PACS counts as unreachable.
 _PATIENCE = 12
 
 
@@ -31,9 +31,9 @@ class Pulled:
     listed : int
         The number of instances that the PACS lists.
     before : int
-        The number that existed before.
+        The number of instances that existed before.
     fetched : int
-        The number fetched now.
+        The number of instances fetched now.
     missing : dict of str to str
         The instances that are still missing, by their UIDs, each with the reason.
     """
@@ -96,13 +96,13 @@ def pull_instances(
         work.stream(wanted, instances)
         work.ask([one for one in wanted if not file_of(folder, one).exists()])
     finally:
-        # After Ctrl-C nothing more is requested, and partial files are removed.
+        # After Ctrl-C no further request starts, and partial files are removed.
         work.stop.set()
     return done
 
 
 class _Work:
-    """A running pull."""
+    """The state of a running pull."""
 
     def __init__(
         self, client: Client, folder: Path, done: Pulled, progress: Callable[[int, int], object] | None
@@ -142,14 +142,14 @@ class _Work:
             pool.shutdown(cancel_futures=True)
 
     def _told(self) -> None:
-        """Count one more instance."""
+        """Count one more complete instance."""
         done = self._done
         done.fetched += 1
         if self._progress is not None:
             self._progress(done.before + done.fetched, done.listed)
 
     def _fetched(self, one: Instance) -> str:
-        """Fetch one instance; return the reason of a failure."""
+        """Fetch one instance; return the reason if that fails."""
         reason = "not requested after the earlier failures"
         for _ in range(_TRIES):
             if self._broken or self.stop.is_set():
@@ -162,7 +162,7 @@ class _Work:
                 if error.mend:
                     reason += f"; {error.mend}"
             except OSError as error:
-                # A full disk fails for the others too.
+                # A full disk would stop all other files too, so the pull ends.
                 self._broken = f"{self._folder}: {error.strerror or error}"
                 return self._broken
         return reason

@@ -16,14 +16,14 @@ from lumencut.errors import PacsError
 _MOST_OBJECTS, _MOST_BYTES = 32, 64 << 20
 _TRIES = 2
 _FAILED, _UID, _REASON = "00081198", "00081155", "00081197"
-#: Failure reasons of PS3.18, table I.2-2, and whether they are permanent.
+#: Failure reasons of PS3.18, table I.2-2, and whether a retry is useless.
 _REASONS = {
     0x0110: ("processing failure", False),
     0x0122: ("the PACS does not accept this kind of object", True),
     0x0124: ("not allowed with these credentials", True),
     0xC122: ("the PACS does not accept this transfer syntax", True),
 }
-#: Reasons whose last digits have no meaning in the standard.
+#: Failure reasons whose last digits have no meaning in the standard.
 _FAMILIES = {
     0xA7: ("out of resources", False),
     0xA9: ("the object does not fit its class", True),
@@ -40,9 +40,9 @@ class Refusal:
     words : str
         The reason.
     is_final : bool
-        Whether it is permanent.
+        Whether a retry is useless.
     is_named : bool
-        Whether the PACS named this object; otherwise its whole request failed.
+        Whether the PACS named this object; otherwise the entire request failed.
     """
 
     words: str
@@ -62,9 +62,9 @@ class Pushed:
     confirmed : int
         The number of objects that were accepted and found again.
     before : int
-        The number that the PACS had before. It accepts them again, and usually keeps its own.
+        The number of objects that the PACS had before. It accepts them again, and usually keeps its own copy.
     failed : dict of str to Refusal
-        The others, by their UIDs.
+        The objects that are not stored, by their UIDs.
     """
 
     confirmed: int = 0
@@ -105,7 +105,7 @@ def push_objects(
         final = {uid: refusal for uid, refusal in failed.items() if refusal.is_final}
         failed = final | _sent(client, again, None)
     there = _found(client, address, objects)
-    # A search decides which objects are stored, regardless of the answers.
+    # Only a search shows which objects are stored, whatever the PACS answered before.
     for one in objects:
         if one.uid not in there:
             failed.setdefault(one.uid, _NOT_FOUND)
@@ -161,7 +161,7 @@ def _all_of(batch: Sequence[Outgoing], why: str) -> dict[str, Refusal]:
 
 
 def _failures(answer: dict[str, Any]) -> dict[str, Refusal]:
-    """The objects that an answer reports as failed, by UID."""
+    """Return the objects that an answer reports as failed, by UID."""
     found = {}
     for item in (answer.get(_FAILED) or {}).get("Value") or ():
         uid = ((item.get(_UID) or {}).get("Value") or [""])[0]
@@ -173,13 +173,13 @@ def _failures(answer: dict[str, Any]) -> dict[str, Refusal]:
 
 
 def _found(client: Client, address: Address, objects: Sequence[Outgoing]) -> set[str]:
-    """The UIDs that a search finds in the series of the objects."""
+    """Return the UIDs that a search finds in the series of the objects."""
     found: set[str] = set()
     for study, series in dict.fromkeys((one.study, one.series) for one in objects):
         try:
             listed = find_instances(client, Address(address.base, study, series))
         except PacsError:
-            # Without the series all of its objects are missing.
+            # A series that the PACS does not know has none of the objects.
             continue
         found.update(one.uid for one in listed)
     return found

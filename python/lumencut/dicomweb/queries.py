@@ -13,7 +13,7 @@ from lumencut.errors import PacsError
 
 _PAGE = 5000
 _STUDY, _SERIES, _INSTANCE = "0020000D", "0020000E", "00080018"
-#: PatientID and IssuerOfPatientID.
+#: Tags of PatientID and IssuerOfPatientID.
 _IDENTITY = ("00100020", "00100021")
 _STUDY_TEXTS = {
     "date": "00080020",
@@ -103,7 +103,7 @@ def find_instances(client: Client, address: Address) -> list[Instance]:
 def _pages(
     client: Client, path: str, fields: Mapping[str, str], key: str, most: int | None = None
 ) -> Iterator[dict[str, Any]]:
-    """All results of a search, page by page, up to `most`. Servers may ignore paging or use shorter pages."""
+    """Return all results of a search, page by page, up to `most`; servers may ignore the page size."""
     seen: set[str] = set()
     while most is None or len(seen) < most:
         size = _PAGE if most is None else min(_PAGE, most - len(seen))
@@ -126,7 +126,7 @@ def _texts(one: Mapping[str, Any], tags: Mapping[str, str]) -> dict[str, str]:
 
 
 def _text(one: Mapping[str, Any], tag: str) -> str:
-    """The values of an attribute in DICOM JSON as one printable text; empty without values."""
+    """Return the values of an attribute in DICOM JSON as one printable text; empty without values."""
     element = one.get(tag)
     values = element.get("Value") if isinstance(element, dict) else None
     texts = []

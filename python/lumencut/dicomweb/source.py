@@ -78,7 +78,7 @@ def _parts(client: Client, address: Address, series: str | None) -> list[Address
     if not every:
         raise PacsError(str(address), "no such study", "a study that the PACS has", "check the UID")
     if series is not None:
-        # The reader of the files reports a missing series.
+        # If the series is missing, the reader of the files reports that.
         chosen = [one for one in every if series in (one.address.series, one.texts["number"])]
     else:
         chosen = [one for one in every if one.texts["modality"] in _MODALITIES]

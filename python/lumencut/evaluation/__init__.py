@@ -44,8 +44,8 @@ def evaluate(
     """Measure how much of the truth methods show of a vessel tree, over views from all sides.
 
     The truth is the depth of the nearest lumen at each pixel, computed in 64-bit floats from the given
-    centerline without the engine. Where a vessel has no radius, or 0, ``unknown_radius`` is used. Shares are
-    of all views together.
+    centerline, without code of the engine. If a vessel has no radius, or 0, ``unknown_radius`` is used.
+    Shares are over all views together.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ def evaluate(
         ``"csr"``: Curved Surface Reformation with the settings. ``"csr-paper"``: the same with the paper's
         rules, see :meth:`Settings.paper`. ``"mpcpr"`` and ``"cr"``: :func:`lumencut.mpcpr` and
         :func:`lumencut.cr` with default thresholds. ``"cpr"``: the projected CPR of each vessel in its own
-        image, compared with the truth about that vessel alone; the numbers cover all images, so crossings are
+        image, compared with the truth about that vessel only; the numbers cover all images, so crossings are
         of a vessel with itself and no other vessel hides it. ``"untangled"``: :func:`lumencut.untangled`,
         which needs a volume. Its pixels are not those of the view, so only tissue and all centerline points
         are counted; other numbers are None.
@@ -87,30 +87,30 @@ def evaluate(
             mpCPR cut lumens at other depths.
         Lumen: width_error_mean_mm, width_error_95_percent_mm, width_error_max_mm, width_bias_mm
             Mean, 95th percentile and maximum of the absolute error of vessel widths, and mean of the signed
-            error (mm), at width_stations stations; width_stations_left_out could not be judged.
+            error (mm), at width_stations stations; width_stations_left_out could not be measured.
         Surroundings: tissue_percent
             Pixels whose position has a value of the volume; None without a volume.
         Surroundings: unbroken_surroundings_percent
             Pixels across the vessel, up to 20 mm from the wall and up to the next lumen, that the cut reaches
-            from the vessel without a leap.
+            from the vessel without a jump in depth.
         Surroundings: blended_sheets_percent
             Pixels that blend sheets of different vessels, or of one vessel more than 20 mm of arc length
             apart.
         Visibility: lumen_shown_percent
-            Share of lumen_pixels that show any point within the lumen of the nearest vessel.
+            Share of lumen_pixels that show some point within the lumen of the nearest vessel.
         Visibility: visible_centerline_percent
-            Share of centerline_points, those with no nearer lumen in front, shown within 0.05 mm. Not judged:
+            Share of centerline_points, which no nearer lumen hides, shown within 0.05 mm. Not counted:
             hidden_centerline_points lie behind a nearer lumen, centerline_points_off_lumen have a pixel whose
             centre lies in no lumen, centerline_points_outside lie outside the picture.
         Depth: crossings_in_order_percent, crossings, crossings_left_out
             Share of crossings in projection that show the nearer vessel, their number, and the number not
-            judged.
+            counted.
         Depth: depth_change_per_degree_mm, jumps_per_degree_percent, zone_changes_per_degree_percent
             When the camera turns by one degree: mean change of depth (mm) and share of pixels that change by
             more than 5 mm, where both depths exist; share of pixels that change their vessel.
         Silhouettes: leaps_with_line_percent, lines_elsewhere_mm_per_mm2, leaps
-            Share of depth leaps with a silhouette, length of silhouettes elsewhere (mm per mm²), and number
-            of leaps; None for methods without silhouettes.
+            Share of depth jumps with a silhouette, length of silhouettes elsewhere (mm per mm²), and number
+            of jumps; None for methods without silhouettes.
 
     Raises
     ------
@@ -159,14 +159,14 @@ def _cameras(tree: VesselTree, views: Any, size: Any, pixel_spacing: Any) -> tup
 
 @dataclass(frozen=True, eq=False)
 class _Part:
-    """Vessels of one image: the whole tree or a single vessel."""
+    """The vessels of one image: either the entire tree or a single vessel."""
 
     renderer: Renderer
     line: Centerline
     stations: tuple[Stations, int]
 
     def truth(self, camera: Camera) -> Truth:
-        """The truth about them in a view."""
+        """Return the truth about these vessels in a view."""
         return truth_of(self.line, camera, self.stations)
 
 
@@ -182,8 +182,8 @@ def _counts(
     chosen: dict[str, Settings],
     progress: Callable[[int, int], object],
 ) -> dict[str, list[_Counts]]:
-    """Counts of each view, for all methods against the same truth."""
-    # No method changes the unknown radius.
+    """Return the counts of each view, for all methods compared with the same truth."""
+    # All methods use the same unknown radius.
     unknown = next(iter(chosen.values())).unknown_radius
     whole = _part(renderer, tree, unknown)
     single = []
@@ -208,7 +208,7 @@ def _counts(
 
 
 def _counted(method: Method, renderer: Renderer, camera: Camera, truth: Truth, settings: Settings) -> _Counts:
-    """Counts of one image."""
+    """Return the counts of one image."""
     has_frame = method.own_picture is None
     shown = shown_by(method, renderer, camera, settings) if has_frame else nothing_shown(truth)
     counts = {key: measure.amounts(truth, shown) for key, measure in MEASURES.items()}
@@ -218,7 +218,7 @@ def _counted(method: Method, renderer: Renderer, camera: Camera, truth: Truth, s
 
 
 def _columns(name: str, counts: _Counts) -> Columns:
-    """The numbers of a method; None for those that need pixels of the view."""
+    """Return the numbers of a method; None for numbers that need the pixels of the view."""
     return columns_of(counts, None if METHODS[name].own_picture is None else COUNTED)
 
 

@@ -1,4 +1,4 @@
-"""Counts of one view and how several views are combined."""
+"""Counts of one view, and how the counts of several views are combined."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from typing import Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-#: Counts of a measure in one view, by name: sums, arrays of errors, or None for what cannot be counted.
+#: Counts of a measure in one view, by name: sums, arrays of errors, or None if it cannot be counted.
 Amounts: TypeAlias = dict[str, Any]
-#: The numbers of a table by column; None for undefined ones.
+#: The numbers of a table by column; None if undefined.
 Columns: TypeAlias = dict[str, float | int | None]
 
 
@@ -26,12 +26,12 @@ def _combined(found: list[Any]) -> Any:
 
 
 def ratio(part: float | None, whole: float | None) -> float | None:
-    """Return part / whole, or None without a whole."""
+    """Return part / whole, or None if whole is 0."""
     return None if part is None or not whole else float(part / whole)
 
 
 def percent(part: float | None, whole: float | None) -> float | None:
-    """Return part / whole in percent, or None without a whole."""
+    """Return part / whole in percent, or None if whole is 0."""
     share = ratio(part, whole)
     return None if share is None else 100.0 * share
 

@@ -1,4 +1,4 @@
-"""Extent of connected surroundings that the cut shows next to vessel walls."""
+"""How far the cut shows connected surroundings next to the walls of vessels."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ MAX_DISTANCE_MM = 20.0
 def beside_amounts(truth: Truth, shown: Shown) -> Amounts:
     """Count the pixels next to vessels, up to 20 mm from the wall, and those that the cut reaches unbroken.
 
-    From each width station pixels are walked straight across the vessel to both sides, up to the border of
-    the picture or the next foreign lumen. The unbroken part ends at the first leap or the first pixel that
-    shows nothing; it is empty if the pixel at the station does not show the vessel.
+    From each width station, pixels are followed straight across the vessel to both sides, up to the border of
+    the picture or the lumen of another vessel. The unbroken part ends at the first jump in depth or the first
+    pixel that shows nothing; it is empty if the pixel at the station does not show the vessel.
     """
     amounts = {"possible": 0, "unbroken": 0}
     for side in (1, -1):
@@ -34,7 +34,7 @@ def beside_columns(amounts: Amounts) -> Columns:
 
 
 def _along(truth: Truth, shown: Shown, direction: int) -> dict[str, int]:
-    """Counts on one side of all stations."""
+    """Return the counts on one side of all stations."""
     stations, place, across = lying(truth)
     grid, nearest = truth.seen.grid, truth.nearest
     widest = stations.radius.max() if len(stations) else 0.0

@@ -1,4 +1,4 @@
-"""The reference centerline as one array over all vessels, and stations along it."""
+"""The reference centerlines of all vessels in one array, and stations along them."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ if TYPE_CHECKING:
     from lumencut.vessel import Vessel
     from lumencut.vessel_tree import VesselTree
 
-#: Closer points are duplicates, and shorter projected segments have no direction (mm).
+#: Closer points count as one, and shorter projected segments have no direction (mm).
 COLLINEAR_MM = 1e-3
-#: Points of one vessel farther apart than this along it count as separate (mm of arc length).
+#: Points of one vessel that are farther apart along it than this count as different parts (mm).
 SEPARATE_ARC_MM = 20.0
 STATION_STEP_MM = 5.0
 
@@ -49,11 +49,11 @@ class Centerline:
 
     @property
     def lengths(self) -> npt.NDArray[np.float64]:
-        """Arc length of each vessel (mm), shape (vessels,)."""
+        """Return the arc length of each vessel (mm), shape (vessels,)."""
         return self.arc[np.flatnonzero(np.diff(self.vessel, append=self.vessel[-1] + 1))]
 
     def indices(self, vessel: npt.NDArray[np.intp], arc: npt.NDArray[np.float64]) -> npt.NDArray[np.intp]:
-        """Return the last point of each vessel at or before an arc length (mm), or its first one."""
+        """Return, per vessel, the last point at or before an arc length (mm), or the vessel's first point."""
         apart = self.lengths.max() + 1.0
         keys = self.vessel * apart + self.arc
         wanted = vessel * apart + np.clip(arc, 0.0, self.lengths[vessel])
@@ -61,7 +61,7 @@ class Centerline:
         return found
 
     def at(self, vessel: npt.NDArray[np.intp], arc: npt.NDArray[np.float64]) -> Stations:
-        """Return stations at these arc lengths (mm)."""
+        """Return the stations at these arc lengths (mm)."""
         inner = np.minimum(self.indices(vessel, arc), self.indices(vessel, self.lengths[vessel]) - 1)
         edge, length = self.points[inner + 1] - self.points[inner], self.arc[inner + 1] - self.arc[inner]
         t = (arc - self.arc[inner]) / length
@@ -78,7 +78,7 @@ class Centerline:
 
 @dataclass(frozen=True, eq=False)
 class Stations:
-    """Points (n, 3) and unit tangents (n, 3) in world; radius, vessel and arc (n,)."""
+    """Stations on vessels: world points and unit tangents (n, 3); radius, vessel and arc length (n,)."""
 
     points: npt.NDArray[np.float64]
     tangent: npt.NDArray[np.float64]
@@ -110,7 +110,7 @@ def centerline_of(tree: VesselTree, unknown_radius: float) -> Centerline:
 
 
 def width_stations(centerline: Centerline) -> tuple[Stations, int]:
-    """Return the stations where a vessel is a separate tube, and the number of other stations.
+    """Return the stations at which the width of a vessel is defined, and the number of all others.
 
     Excluded are stations within two radii of an end, and those whose lumen touches another vessel or a part
     of the same vessel more than 20 mm of arc length away: a junction has no width.
@@ -125,7 +125,7 @@ def width_stations(centerline: Centerline) -> tuple[Stations, int]:
 
 
 def _touches(stations: Stations, others: Stations) -> npt.NDArray[np.bool_]:
-    """Return which stations have a lumen that touches a separate one."""
+    """Return at which stations the lumen touches the lumen of another vessel or a distant part."""
     far = elsewhere(
         stations.vessel[:, None],
         stations.arc[:, None],
@@ -147,7 +147,7 @@ def elsewhere(
     other_arc: npt.NDArray[np.float64],
     apart: npt.NDArray[np.float64] | float,
 ) -> npt.NDArray[np.bool_]:
-    """Return what belongs to another vessel, or lies more than ``apart`` mm away along the same one."""
+    """Return which points belong to another vessel, or lie more than ``apart`` mm away along the same."""
     distant: npt.NDArray[np.bool_] = (vessel != other_vessel) | (np.abs(arc - other_arc) > apart)
     return distant
 
@@ -157,7 +157,7 @@ def _radius(vessel: Vessel) -> npt.NDArray[np.float64]:
 
 
 def _kept(points: npt.NDArray[np.float64]) -> npt.NDArray[np.intp]:
-    """Indices of the points without duplicates."""
+    """Return the indices of all points that are not duplicates."""
     if (np.linalg.norm(np.diff(points, axis=0), axis=1) >= COLLINEAR_MM).all():
         return np.arange(len(points))
     kept = [0]

@@ -1,4 +1,4 @@
-"""Crossings of vessels in projection."""
+"""Places where vessels cross in the projection."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from lumencut.evaluation.ragged import parts, ragged
 
 @dataclass(frozen=True, eq=False)
 class Crossings:
-    """Positions (n, 2) of crossings, and depth and radius (n,) of the nearer vessel there (mm)."""
+    """Crossings in the view: positions (n, 2), and depth and radius (n,) of the nearer vessel (mm)."""
 
     place: npt.NDArray[np.float64]
     depth: npt.NDArray[np.float64]
@@ -27,9 +27,9 @@ class Crossings:
 
 
 def crossings_of(seen: Projection) -> Crossings:
-    """Return the crossings of two vessels, or of parts of one more than 20 mm apart along it.
+    """Return the crossings of two vessels, or of two parts of one vessel more than 20 mm of arc length apart.
 
-    They count if the depths differ by more than the sum of both radii, so that the lumens do not touch.
+    They count if the depths differ by more than the sum of both radii: then the lumens do not touch.
     """
     segment = seen.centerline.segments
     low, high = np.sort([seen.place[segment], seen.place[segment + 1]], axis=0)
@@ -44,7 +44,7 @@ def crossings_of(seen: Projection) -> Crossings:
 def _overlapping(
     low: npt.NDArray[np.float64], high: npt.NDArray[np.float64]
 ) -> Iterator[tuple[npt.NDArray[np.intp], npt.NDArray[np.intp]]]:
-    """Yield each pair of boxes that overlap along one axis, the axis with fewer overlaps."""
+    """Yield each pair of boxes that overlap along the one axis with fewer overlaps."""
     sweeps = []
     for axis in (0, 1):
         order = np.argsort(low[:, axis], kind="stable")
@@ -60,7 +60,7 @@ def _overlapping(
 def _met(
     seen: Projection, first: npt.NDArray[np.intp], second: npt.NDArray[np.intp]
 ) -> npt.NDArray[np.float64]:
-    """Position, depth and radius of the nearer vessel, (n, 4), where segments cross without touching."""
+    """Return where segments cross without touching: position, depth, radius of the nearer vessel, (n, 4)."""
     line = seen.centerline
     far = elsewhere(
         line.vessel[first], line.arc[first], line.vessel[second], line.arc[second], SEPARATE_ARC_MM

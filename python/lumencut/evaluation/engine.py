@@ -1,4 +1,4 @@
-"""Rendering of a view by a method."""
+"""Renders a view by a method."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from lumencut.settings import Settings
 
 
 def shown_by(method: Method, renderer: Renderer, camera: Camera, settings: Settings) -> Shown:
-    """Render all images that the measures read."""
+    """Render all images that the measures need."""
     frame = method.surface(renderer, camera, settings)
     turned = method.surface(renderer, camera.rotated(math.radians(1.0), "up"), settings)
     unfiltered = replace(settings, depth_filter=False)

@@ -12,9 +12,9 @@ from lumencut.evaluation.truth import Truth
 
 
 class Measure(NamedTuple):
-    """Functions that count in one view and that turn the counts of all views into numbers.
+    """A measure: one function counts in one view, the other turns the counts of all views into numbers.
 
-    ``criterion`` is the one of the questionnaire in section 5 of the paper.
+    ``criterion`` is its criterion in the questionnaire in section 5 of the paper.
     """
 
     criterion: str
@@ -37,7 +37,7 @@ MEASURES = {
 
 
 def columns_of(amounts: dict[str, Amounts], counted: Collection[str] | None = None) -> Columns:
-    """Return the numbers of all measures; None for those not counted."""
+    """Return the numbers of all measures; None if not counted."""
     numbers: Columns = {}
     for name, measure in MEASURES.items():
         columns = measure.columns(amounts[name])
@@ -46,7 +46,7 @@ def columns_of(amounts: dict[str, Amounts], counted: Collection[str] | None = No
 
 
 def criteria_of(amounts: dict[str, Amounts]) -> dict[str, Columns]:
-    """Return the same numbers by criterion."""
+    """Return the same numbers, grouped by criterion."""
     criteria: dict[str, Columns] = {}
     for name, measure in MEASURES.items():
         criteria.setdefault(measure.criterion, {}).update(measure.columns(amounts[name]))

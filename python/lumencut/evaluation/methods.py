@@ -1,4 +1,4 @@
-"""The methods that can be evaluated: their settings and how each makes a frame."""
+"""The methods that can be evaluated: the settings of each, and how it makes a frame."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ class Method:
     Parameters
     ----------
     settings : function of Settings
-        The settings of the method, from those of the caller.
+        Returns the settings of the method, given those of the caller.
     surface : function of Renderer, Camera and Settings
-        A frame with depth and vessel, and with values if there is a volume.
+        Returns a frame with depth and vessel, and with values if there is a volume.
     picture : function of Renderer, Camera and Settings
-        A frame with a picture; needs a volume.
+        Returns a frame with a picture; needs a volume.
     details : function of Renderer, Camera and Settings
         ``"sheet_gap"``, the arc length between the points that a pixel blends (mm), and ``"strength"`` of the
         silhouettes (0 to 1), if the method has them.
@@ -42,7 +42,7 @@ class Method:
     has_image_per_vessel : bool, default False
         Whether it makes a separate frame for each vessel.
     own_picture : function of Renderer, Camera and Settings, optional
-        A picture whose pixels are not those of the view, so less can be counted.
+        Returns a picture whose pixels are not those of the view; then less can be counted.
     """
 
     settings: Callable[[Settings], Settings]
@@ -59,14 +59,14 @@ def _own(settings: Settings) -> Settings:
 
 
 def _paper(settings: Settings) -> Settings:
-    """The settings with the paper's rules."""
+    """Return the settings with the paper's rules."""
     return replace(settings, **_lumencut.PAPER)
 
 
 def _surface(renderer: Renderer, camera: Camera, settings: Settings) -> Frame:
     if renderer.volume is None:
         return renderer.cut_surface(camera, settings)
-    # None of these changes depth, vessel or value, but they take time.
+    # These settings change neither depth nor vessel nor value, but take time.
     bare = replace(settings, context=None, silhouettes=False, samples=1)
     return renderer.render(camera, bare, images=("depth", "vessel", "value"))
 
@@ -80,7 +80,7 @@ def _details(renderer: Renderer, camera: Camera, settings: Settings) -> dict[str
 
 
 def _reformation(method: tuple[Any, ...], **more: Any) -> Method:
-    """A method other than the cut surface."""
+    """Return a method other than Curved Surface Reformation."""
 
     def surface(renderer: Renderer, camera: Camera, settings: Settings) -> Frame:
         if renderer.volume is None:
@@ -102,7 +102,7 @@ def _reformation(method: tuple[Any, ...], **more: Any) -> Method:
 
 
 def _picture_of_the_longest(renderer: Renderer, camera: Camera, settings: Settings) -> Frame:
-    """The projected CPR of the longest vessel, because a file holds one picture."""
+    """Return the projected CPR of the longest vessel, because a file holds only one picture."""
     longest = max(renderer.tree or (), key=lambda vessel: vessel.length)
     return renderer._with_part([longest])._by(MPCPR, camera, settings)
 
@@ -117,7 +117,7 @@ METHODS = {
     "untangled": Method(_own, _surface, untangled_picture, _details, own_picture=untangled_picture),
 }
 
-#: Default methods: all whose frames have the pixels of the view.
+#: The default methods: all methods whose frames have the pixels of the view.
 USUAL = tuple(name for name, method in METHODS.items() if method.own_picture is None)
 
 

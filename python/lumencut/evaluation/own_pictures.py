@@ -1,4 +1,4 @@
-"""Counts of pictures whose pixels are not those of the view."""
+"""Counts for pictures whose pixels are not those of the view."""
 
 from __future__ import annotations
 
@@ -28,8 +28,8 @@ def untangled_picture(renderer: Renderer, camera: Camera, settings: Settings) ->
 def own_amounts(picture: Reformation, truth: Truth) -> dict[str, Amounts]:
     """Count the pixels with tissue and the centerline points shown.
 
-    A point is shown if the pixel that the picture assigns to it shows it within 0.05 mm. No point is hidden
-    or outside the picture.
+    A point is shown if the pixel to which the picture assigns the point shows it within 0.05 mm. No point is
+    hidden or outside the picture.
     """
     points = truth.seen.centerline.points
     pixels = picture.pixel_from_world(points)

@@ -1,4 +1,4 @@
-"""Measures of the whole picture: blends, surroundings and steadiness."""
+"""Measures of the whole picture: blends, surroundings, and changes when the camera turns."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ def surroundings_columns(amounts: Amounts) -> Columns:
 
 
 def steadiness_amounts(_: Truth, shown: Shown) -> Amounts:
-    """Add up the changes when the camera turns by one degree; of depth, where both exist."""
+    """Sum up the changes when the camera turns by one degree; changes of depth if both depths exist."""
     change = np.abs(shown.turned_depth.astype(float) - shown.depth)
     return {
         "pixels": change.size,

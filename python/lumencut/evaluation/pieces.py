@@ -1,7 +1,7 @@
-"""The pieces of docs/method/cut-surface.md, restricted to lumens.
+"""The pieces of the cut surface (docs/method/cut-surface.md), restricted to lumens.
 
-A piece covers a pixel if it also does there and the distance to the centerline is at most the radius. Both
-neighbours at a border compute the same number, so no pixel falls between them.
+A piece covers a pixel if the cut surface's piece does and if the centerline is at most a radius away. Both
+neighbours at a common border compute the same number, so no pixel falls between them.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ _Indices: TypeAlias = npt.NDArray[np.intp]
 
 
 class Offer(NamedTuple):
-    """For pieces at positions, (n,): whether they cover them, depth, radius, arc length (mm), vessel."""
+    """Values of pieces at positions (n,): whether they cover them, depth, radius, arc length (mm), vessel."""
 
     covers: npt.NDArray[np.bool_]
     depth: _Floats
@@ -32,13 +32,13 @@ class Offer(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Stripes:
-    """The lumens of segments; ``first`` is the index of each segment's first point."""
+    """The lumens of segments; ``first`` is the index of the first point of each segment."""
 
     seen: Projection
     first: _Indices
 
     def regions(self) -> Regions:
-        """The lumens, as four half-planes each."""
+        """Return each lumen as the intersection of four half-planes."""
         place, radius = self.seen.place, self.seen.centerline.radius
         start, end = place[self.first], place[self.first + 1]
         r0, r1 = radius[self.first], radius[self.first + 1]
@@ -72,9 +72,9 @@ class Stripes:
 
 @dataclass(frozen=True, eq=False)
 class Fans:
-    """The lumens at points: wedges, end half-planes and full planes.
+    """The lumens around points: wedges, half-planes at ends, and full planes.
 
-    ``before`` and ``after`` are the edges (n, 2) that set conditions; a missing edge is zero.
+    ``before`` and ``after`` are the two edges of a wedge (n, 2); a missing edge is zero.
     """
 
     seen: Projection
@@ -83,7 +83,7 @@ class Fans:
     after: _Floats
 
     def regions(self) -> Regions:
-        """The lumens, as a disc and two half-planes each."""
+        """Return each lumen as the intersection of a disc and two half-planes."""
         center = self.seen.place[self.point]
         normal = np.stack([-_unit(self.before), _unit(self.after)], axis=1)
         limit = (normal * center[:, None]).sum(axis=2)
@@ -99,7 +99,7 @@ class Fans:
 
 
 def pieces_of(seen: Projection) -> tuple[Stripes, Fans]:
-    """Return the pieces of all vessels of a view."""
+    """Return the pieces of all vessels in a view."""
     edge = np.append(np.diff(seen.place, axis=0), np.zeros((1, 2)), axis=0)
     vessel = seen.centerline.vessel
     within = np.append(vessel[:-1] == vessel[1:], False)
@@ -113,9 +113,9 @@ def pieces_of(seen: Projection) -> tuple[Stripes, Fans]:
 def _after_stripes(
     solid: npt.NDArray[np.bool_], within: npt.NDArray[np.bool_], edge: _Floats
 ) -> tuple[_Indices, _Floats, _Floats]:
-    """The wedges at the ends of stripes, and the half-planes before a collinear run or the end."""
+    """Return the wedges at the ends of stripes, and the half-planes before a collinear run or an end."""
     end = np.flatnonzero(solid) + 1
-    # If a run reaches the end of the vessel, the full plane there replaces the half-plane.
+    # If a run reaches the end of the vessel, the full plane there replaces this half-plane.
     runs_out = _last_solid(solid, within)[end - 1] & within[end]
     end = end[~runs_out]
     return end, edge[end - 1], edge[end]
@@ -133,7 +133,7 @@ def _last_solid(solid: npt.NDArray[np.bool_], within: npt.NDArray[np.bool_]) -> 
 def _at_ends(
     seen: Projection, solid: npt.NDArray[np.bool_], edge: _Floats
 ) -> list[tuple[_Indices, _Floats, _Floats]]:
-    """Half-planes before vessels, full planes at runs at their ends, and vessels projected to a point."""
+    """Return half-planes at starts, full planes at runs at vessel ends, and vessels projected to a point."""
     vessel = seen.centerline.vessel
     first = np.flatnonzero(np.diff(vessel, prepend=-1))
     last = np.append(first[1:], len(vessel)) - 1

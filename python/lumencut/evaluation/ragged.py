@@ -7,19 +7,19 @@ from collections.abc import Iterator
 import numpy as np
 import numpy.typing as npt
 
-#: Array elements per part of the work, to fit processor caches.
+#: Number of array elements that are processed together, so that they fit into processor caches.
 _MAX_PART = 1 << 18
 
 
 def ragged(
     first: npt.NDArray[np.intp], count: npt.NDArray[np.intp]
 ) -> tuple[npt.NDArray[np.intp], npt.NDArray[np.intp]]:
-    """Return all members of the ranges ``first`` to ``first + count - 1`` and their owners.
+    """Return the integers from ``first`` to ``first + count - 1`` for each range, and their ranges.
 
     Returns
     -------
     owner, member : numpy.ndarray, shape (sum of count,)
-        The index of the range, and the number in it.
+        The index of the range, and the integer in the range.
     """
     owner = np.repeat(np.arange(len(count)), count)
     before = np.cumsum(count) - count
@@ -27,7 +27,7 @@ def ragged(
 
 
 def parts(sizes: npt.NDArray[np.intp], most: int = _MAX_PART) -> Iterator[slice]:
-    """Split a list into slices with total size at most ``most``, or one entry."""
+    """Split a list into slices whose total size is at most ``most``; a larger entry is a slice of its own."""
     if not len(sizes):
         return
     total = np.cumsum(sizes)

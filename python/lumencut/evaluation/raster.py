@@ -1,4 +1,4 @@
-"""Pixels within many small convex regions."""
+"""Finds the pixels inside many small convex regions."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ class Regions:
     Parameters
     ----------
     center, reach : numpy.ndarray, shapes (n, 2) and (n,)
-        The discs.
+        Centres and radii of the discs.
     normal, limit : numpy.ndarray, shapes (n, k, 2) and (n, k)
-        The half-planes: all q with normal · q ≤ limit.
+        The half-planes: all points q with normal · q ≤ limit.
     """
 
     center: npt.NDArray[np.float64]
@@ -38,7 +38,7 @@ class Regions:
 def pixels_within(
     regions: Regions, grid: Grid
 ) -> Iterator[tuple[npt.NDArray[np.intp], npt.NDArray[np.intp]]]:
-    """Yield pairs of a region and a pixel whose centre lies in it, in parts."""
+    """Yield pairs of a region and a pixel whose centre lies in the region, a part of all pairs at a time."""
     region, row = _rows(regions, grid)
     first, count = _columns(regions, grid, region, row)
     met = count > 0
@@ -49,7 +49,7 @@ def pixels_within(
 
 
 def _rows(regions: Regions, grid: Grid) -> tuple[npt.NDArray[np.intp], npt.NDArray[np.intp]]:
-    """Pairs of a region and a row of pixels that its disc meets."""
+    """Return pairs of a region and a row of pixels that the region's disc meets."""
     middle = grid.height / 2 - 0.5 - regions.center[:, 1] / grid.side
     half = regions.reach / grid.side
     top = np.clip(np.ceil(middle - half), 0, grid.height).astype(int)
@@ -60,7 +60,7 @@ def _rows(regions: Regions, grid: Grid) -> tuple[npt.NDArray[np.intp], npt.NDArr
 def _columns(
     regions: Regions, grid: Grid, region: npt.NDArray[np.intp], row: npt.NDArray[np.intp]
 ) -> tuple[npt.NDArray[np.intp], npt.NDArray[np.intp]]:
-    """First column and number of columns of each region in each row."""
+    """Return the first column and the number of columns of each region in each row."""
     y = grid.y(row)
     half = np.sqrt(np.maximum(regions.reach[region] ** 2 - (y - regions.center[region, 1]) ** 2, 0.0))
     low, high = regions.center[region, 0] - half, regions.center[region, 0] + half
@@ -70,7 +70,7 @@ def _columns(
         border = np.divide(rest, slope, out=np.zeros_like(rest), where=slope != 0)
         high = np.where(slope > 0, np.minimum(high, border), high)
         low = np.where(slope < 0, np.maximum(low, border), low)
-        # A half-plane with its border along the rows contains all of a row or nothing.
+        # A half-plane whose border is parallel to the rows contains either the entire row or nothing.
         high = np.where((slope == 0) & (rest < 0), -np.inf, high)
     left, right = (np.clip(x / grid.side + grid.width / 2 - 0.5, -2, grid.width + 1) for x in (low, high))
     first = np.maximum(np.ceil(left).astype(int), 0)

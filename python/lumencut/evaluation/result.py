@@ -1,4 +1,4 @@
-"""The result of an evaluation and its files."""
+"""The result of an evaluation, and the files that it can write."""
 
 from __future__ import annotations
 
@@ -32,9 +32,9 @@ class Evaluation:
     table : list of dict
         A row for each method: its name under ``"method"``, and the numbers over all views.
     views : list of dict
-        The same for each method and view; ``"view"`` is the number of the view, from 0.
+        The same for each method and each view; ``"view"`` is the number of the view, from 0.
     cameras : tuple of Camera
-        The views.
+        The cameras of the views.
     settings : dict of str to Settings
         The settings of each method.
     """
@@ -44,7 +44,7 @@ class Evaluation:
     cameras: tuple[Camera, ...]
     settings: dict[str, Settings]
     _renderer: Renderer = field(repr=False)
-    # The first number of each criterion.
+    # The first column of each criterion.
     _first: dict[str, str] = field(repr=False)
 
     def __repr__(self) -> str:
@@ -54,7 +54,7 @@ class Evaluation:
     def worst_view(self, method: str) -> int:
         """Return the number of the view in which the smallest share of lumen pixels shows the exact depth.
 
-        The first one counts if several are equal, or if no pixel is in a lumen.
+        If several views are equal, or no pixel is in a lumen, the first view is returned.
         """
         shares = [row[_WORST] for row in self.views if row["method"] == method]
         known = [share if isinstance(share, float) else 101.0 for share in shares]
@@ -119,7 +119,7 @@ class Evaluation:
 
 
 def _formatted(value: str | float | int | None) -> str:
-    """A number with four significant digits."""
+    """Return a number with four significant digits."""
     if value is None:
         return "-"
     return f"{value:.4g}" if isinstance(value, float) else str(value)

@@ -1,4 +1,4 @@
-"""The images of a view that the measures read."""
+"""The images of a view that the measures need."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class Shown:
     Parameters
     ----------
     depth : numpy.ndarray
-        Depth of the shown point (mm); NaN if none.
+        Depth of the shown point (mm); NaN if nothing is shown.
     vessel : numpy.ndarray
         Id of the vessel of the pixel's zone; -1 if nothing is shown.
     position : numpy.ndarray, shape (H, W, 3)

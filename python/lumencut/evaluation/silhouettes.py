@@ -1,4 +1,4 @@
-"""Whether silhouettes lie at leaps of the cut surface and only there."""
+"""Whether silhouettes lie exactly where the cut surface jumps in depth."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from lumencut.evaluation.shown import Shown
 from lumencut.evaluation.truth import Truth
 
 _MIN_LINE_STRENGTH = 0.25
-#: Smallest leap, for vessels with less than half this radius.
+#: Smallest difference of depth that counts as a jump, for vessels with less than half this radius.
 _MIN_LEAP_MM = 2.0
 
 
 def silhouette_amounts(truth: Truth, shown: Shown) -> Amounts:
-    """Count the leaps and those with a line, and add up the length of lines elsewhere (mm)."""
+    """Count the jumps in depth and those with a line, and add up the length of lines elsewhere (mm)."""
     if shown.strength is None or shown.plain_depth is None:
         return dict.fromkeys(("leaps", "drawn", "stray", "area"))
     side = truth.seen.grid.side
@@ -27,7 +27,7 @@ def silhouette_amounts(truth: Truth, shown: Shown) -> Amounts:
     for first, second, leap in ((at_leap[:, :-1], at_leap[:, 1:], across), (at_leap[:-1], at_leap[1:], down)):
         first |= leap
         second |= leap
-    # A line may cover the pixels at a leap and their neighbours.
+    # A line may also cover the pixels next to a jump.
     elsewhere = ~_grown(at_leap)
     return {
         "leaps": counted(across) + counted(down),
@@ -47,7 +47,7 @@ def silhouette_columns(amounts: Amounts) -> Columns:
 
 
 def leap_bounds(truth: Truth, shown: Shown) -> npt.NDArray[np.float64]:
-    """Return the smallest leap at each pixel (mm), (H, W): the diameter of the vessel, at least 2 mm.
+    """Return the smallest jump at each pixel (mm), (H, W): the diameter of the vessel, at least 2 mm.
 
     The radius is that of the nearest lumen at the pixel; outside all lumens it is the median radius of the
     vessel of the pixel's zone.
@@ -64,21 +64,21 @@ def leap_bounds(truth: Truth, shown: Shown) -> npt.NDArray[np.float64]:
 def leaps(
     depth: npt.NDArray[np.floating], bound: npt.NDArray[np.float64]
 ) -> tuple[npt.NDArray[np.bool_], npt.NDArray[np.bool_]]:
-    """Return between which neighbours the depth leaps.
+    """Return between which neighbouring pixels the depth jumps.
 
-    A pair leaps if each depth differs from the other side's linear extrapolation by more than the larger
-    bound of both. Pairs at the border of the picture lack a slope and never leap.
+    It jumps if each depth differs from the linear extrapolation of the other side by more than the larger
+    bound of both. Pairs at the border of the picture have no slope, so they never jump.
 
     Returns
     -------
     across, down : numpy.ndarray, shapes (H, W - 1) and (H - 1, W)
-        For each pixel and its right neighbour, and for each pixel and the one below.
+        For each pixel and its right neighbour; for each pixel and the pixel below.
     """
     return leaps_along(depth, bound), leaps_along(depth.T, bound.T).T
 
 
 def leaps_along(depth: npt.NDArray[np.floating], bound: npt.NDArray[np.float64]) -> npt.NDArray[np.bool_]:
-    """Return between which neighbours of each row the depth leaps, (H, W - 1); see :func:`leaps`."""
+    """Return between which neighbours in a row the depth jumps, (H, W - 1); see :func:`leaps`."""
     height, width = depth.shape
     leap = np.zeros((height, max(width - 1, 0)), bool)
     if width >= 4:
@@ -90,6 +90,6 @@ def leaps_along(depth: npt.NDArray[np.floating], bound: npt.NDArray[np.float64])
 
 
 def _grown(pixels: npt.NDArray[np.bool_]) -> npt.NDArray[np.bool_]:
-    """The pixels and their eight neighbours."""
+    """Return the pixels of a mask and their eight neighbours."""
     padded = np.pad(pixels, 1)
     return np.asarray(np.lib.stride_tricks.sliding_window_view(padded, (3, 3)).any(axis=(2, 3)))

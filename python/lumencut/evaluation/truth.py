@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 #: Depths that differ by at most this are equal (mm).
 EXACT = 0.05
-#: Exceeds the effect of rounding on the border of a region (mm).
+#: Regions are widened by this (mm), more than rounding can move their border.
 _ROUNDING = 1e-6
 
 
@@ -35,11 +35,11 @@ class Nearest:
     Parameters
     ----------
     depth : numpy.ndarray
-        Its depth (mm); infinite without a lumen.
+        Depth of the lumen (mm); infinite without a lumen.
     vessel : numpy.ndarray
-        Its vessel; -1 without a lumen.
+        Id of the vessel; -1 without a lumen.
     arc, radius : numpy.ndarray
-        The arc length along the vessel and its radius there (mm).
+        The arc length along the vessel, and its radius at that point (mm).
     """
 
     depth: npt.NDArray[np.float64]
@@ -52,7 +52,7 @@ class Nearest:
 class Truth:
     """The truth about one view, the same for all methods.
 
-    ``hidden`` states for each centerline point whether a nearer lumen lies in front of it. Crossings behind a
+    ``hidden`` states for each centerline point whether a nearer lumen covers it. Crossings behind a
     third lumen are excluded.
     """
 
@@ -103,7 +103,7 @@ def lumen_depth_at(seen: Projection, place: npt.NDArray[np.float64]) -> npt.NDAr
     first = np.cumsum(count) - count
     depth = np.full(len(place), np.inf)
     for pieces in pieces_of(seen):
-        # A position is at most half a diagonal from the centre of its pixel.
+        # A position is at most half a pixel diagonal away from the centre of its pixel.
         regions = pieces.regions().widened(0.7072 * grid.side + _ROUNDING)
         for piece, met in pixels_within(regions, grid):
             busy = count[met] > 0

@@ -10,12 +10,12 @@ from lumencut.evaluation.truth import EXACT, Truth
 from lumencut.evaluation.width import inside_vessel
 
 TOLERANCES_MM = (0.05, 0.5, 2.0)
-#: Tolerance, beyond the radius, of the depth shown at a crossing.
+#: The depth shown at a crossing may differ from the vessel's by its radius and this (mm).
 _CROSSING_MARGIN_MM = 0.5
 
 
 def centerline_amounts(truth: Truth, shown: Shown) -> Amounts:
-    """Count the centerline points that no nearer lumen hides, and those shown."""
+    """Count the centerline points without a nearer lumen in front, and how many of them are shown."""
     pixel, within = truth.seen.grid.pixels(truth.seen.place)
     nearest = truth.nearest.depth.ravel()[pixel]
     lumen = np.isfinite(nearest)
@@ -42,7 +42,7 @@ def centerline_columns(amounts: Amounts) -> Columns:
 
 
 def lumen_amounts(truth: Truth, shown: Shown) -> Amounts:
-    """Count the pixels whose centre lies in a lumen, and those that show the nearest one within tolerance."""
+    """Count the pixels whose centre lies in a lumen, and those that show the nearest lumen accurately."""
     lumen = np.isfinite(truth.nearest.depth)
     error = np.abs(shown.depth[lumen] - truth.nearest.depth[lumen])
     within = {f"within {bound:g}": counted(error <= bound) for bound in TOLERANCES_MM}
@@ -72,9 +72,9 @@ def shown_lumen_columns(amounts: Amounts) -> Columns:
 
 
 def crossing_amounts(truth: Truth, shown: Shown) -> Amounts:
-    """Count the crossings in the picture, and those that show the nearer vessel.
+    """Count the crossings in the picture, and how many of them show the nearer vessel.
 
-    Crossings where even the truth shows something else are excluded: the nearer vessel may not reach the
+    Crossings are excluded if even the truth shows something else there: the nearer vessel may not cover the
     centre of the pixel.
     """
     crossings = truth.crossings

@@ -11,18 +11,18 @@ from lumencut.evaluation.ragged import parts
 from lumencut.evaluation.shown import Shown
 from lumencut.evaluation.truth import EXACT, Truth
 
-#: Shortest projected unit tangent of a station: less than 60° out of the view plane.
+#: A station needs a projected unit tangent of at least this length: less than 60° out of the view plane.
 _MIN_TANGENT = 0.5
-#: Exceeds the rounding of positions in 32-bit floats.
+#: More than the rounding error of positions in 32-bit floats (mm).
 _ROUNDING_MM = 1e-3
-#: Length of centerline beyond three radii that counts for the width of a station.
+#: The width at a station covers the centerline up to three radii and this length away (mm).
 _EXTRA_LENGTH_MM = 5.0
-#: Largest width error of a picture of the truth; sharp bends exceed it.
+#: The truth itself may have at most this width error in its pixels; sharp bends have more.
 _MAX_TRUE_ERROR_PIXELS = 1.5
 
 
 def width_amounts(truth: Truth, shown: Shown) -> Amounts:
-    """Return the width errors (mm) at all stations that can be judged in this view."""
+    """Return the width errors (mm) at all stations where a width is defined in this view."""
     stations, place, across = lying(truth)
     side = truth.seen.grid.side
     steps = _steps(stations, side)
@@ -54,7 +54,7 @@ def width_columns(amounts: Amounts) -> Columns:
 
 
 def lying(truth: Truth) -> tuple[Stations, npt.NDArray[np.float64], npt.NDArray[np.float64]]:
-    """The stations of vessels not along the view, their positions, and the directions across the vessel."""
+    """Return stations of vessels not along the view, their positions, and directions across the vessel."""
     tangent = (truth.stations.tangent @ truth.seen.axes)[:, :2]
     length = np.linalg.norm(tangent, axis=1)
     lying = length >= _MIN_TANGENT
@@ -65,7 +65,7 @@ def lying(truth: Truth) -> tuple[Stations, npt.NDArray[np.float64], npt.NDArray[
 
 
 def _steps(stations: Stations, side: float) -> npt.NDArray[np.float64]:
-    """The steps to both sides (pixels), well beyond the widest vessel."""
+    """Return the steps to both sides (pixels), far enough for the widest vessel."""
     widest = stations.radius.max() if len(stations) else 0.0
     most = int(np.ceil(1.5 * widest / side)) + 2
     return np.arange(-most, most + 1).astype(float)
@@ -78,7 +78,7 @@ def clear_stations(
     pixel: npt.NDArray[np.intp],
     within: npt.NDArray[np.bool_],
 ) -> npt.NDArray[np.bool_]:
-    """Return at which stations the vessel is entirely in the picture with no separate lumen in front."""
+    """Return at which stations the vessel is completely in the picture and no other lumen covers it."""
     side, nearest = truth.seen.grid.side, truth.nearest
     needed = distance <= stations.radius[:, None] + side
     depth = truth.seen.view(stations.points)[:, 2]
@@ -96,7 +96,7 @@ def clear_stations(
 def inside_vessel(
     truth: Truth, stations: Stations, position: npt.NDArray[np.float64]
 ) -> npt.NDArray[np.bool_]:
-    """Return which positions (n, walk, 3) lie in the lumen of each station's vessel, near the station."""
+    """Return which positions (n, walk, 3) lie in the lumen of the station's vessel, near the station."""
     line, reach = truth.seen.centerline, 3 * stations.radius + _EXTRA_LENGTH_MM
     first = line.indices(stations.vessel, stations.arc - reach)
     last = np.maximum(line.indices(stations.vessel, stations.arc + reach), first + 1)
@@ -105,7 +105,7 @@ def inside_vessel(
     inside = np.zeros(position.shape[:2], bool)
     for part in parts(np.full(len(stations), position.shape[1]) * count):
         segment = first[part, None] + np.minimum(np.arange(count[part].max()), count[part, None] - 1)
-        # Relative to the station, squared distances keep their digits.
+        # Coordinates relative to the station, so that squared distances keep their digits.
         middle = stations.points[part, None]
         start, place = line.points[segment] - middle, position[part] - middle
         edge = line.points[segment + 1] - line.points[segment]
@@ -120,12 +120,12 @@ def inside_vessel(
 
 
 def _squares(vectors: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-    """Squared lengths of vectors (n, m, 3)."""
+    """Return the squared lengths of vectors (n, m, 3)."""
     return np.asarray((vectors**2).sum(axis=2))
 
 
 def _run(inside: npt.NDArray[np.bool_]) -> npt.NDArray[np.float64]:
-    """Number of pixels around the middle of each walk (n, walk) that are inside without a gap."""
+    """Return how many pixels around the middle of each walk (n, walk) are inside without a gap."""
     middle = inside.shape[1] // 2
     right = np.logical_and.accumulate(inside[:, middle:], axis=1).sum(axis=1)
     left = np.logical_and.accumulate(inside[:, middle::-1], axis=1).sum(axis=1)

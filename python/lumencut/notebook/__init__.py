@@ -1,4 +1,4 @@
-"""A view of vessels in a notebook, which turns there: `lumencut.show`."""
+"""A view of vessels in a notebook that can be turned there: `lumencut.show`."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ def show(
 ) -> VesselWidget:
     """Return a view of an angiography for a notebook, turned with the mouse as in the viewer.
 
-    The kernel makes the pictures; no other server is contacted, and the volume stays there. Drags turn
+    The kernel renders the pictures; the volume stays in the kernel and no server is contacted. Drags turn
     (left), pan (middle, or Shift) and change the window (right, or Ctrl); the wheel zooms. A click, or a
-    double click, puts the cross-hair there and picks the vessel. docs/notebook.md lists all of it.
+    double click, puts the cross-hair there and picks the vessel. docs/notebook.md lists all actions.
 
     The widget that is returned has the traits ``camera``, ``settings``, ``picked``, ``vessel``, ``tree`` and
     ``picture``; see :class:`lumencut.notebook.widget.VesselWidget`.

@@ -47,7 +47,7 @@ class FirstView:
 
 
 def _changed(settings: Settings | None, changes: Mapping[str, Any], *, is_traced: bool) -> Settings:
-    """The settings with those that were given by name."""
+    """Return the settings, changed by those given by name."""
     if not isinstance(settings, (Settings, type(None))):
         raise SettingsError("settings", type(settings).__name__, "Settings or None")
     known = [field.name for field in fields(Settings)]
@@ -55,7 +55,7 @@ def _changed(settings: Settings | None, changes: Mapping[str, Any], *, is_traced
         if name not in known:
             expected = f"an argument of show, or a setting: {', '.join(known)}"
             raise SettingsError("argument of show", repr(name), expected)
-    # Cut open, vessels would hide those that are not traced yet.
+    # In a cut view, other vessels would be hidden that are still to be traced.
     first = Settings(context="mip") if is_traced else Settings()
     return replace(settings or first, **changes)
 

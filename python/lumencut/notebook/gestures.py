@@ -1,68 +1,45 @@
-"""Changes of a camera and a window by drags, the wheel and keys, as in the viewer."""
+"""How drags, the wheel and keys change a camera and a window; as in the viewer."""
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 
 import numpy as np
 import numpy.typing as npt
 
+from lumencut import _lumencut
 from lumencut.camera import Camera
 from lumencut.window import Window
 
 Point = npt.NDArray[np.float64]
 
-#: Change of the window per dragged pixel.
-_WINDOW_PER_PIXEL = 0.004
-_NARROWEST = 1e-3
-#: Limits of the pixel spacing when zooming (mm).
-_FINEST, _COARSEST = 0.005, 20.0
-
-
-def turned(camera: Camera, pivot: Point, axis: npt.ArrayLike, angle: float) -> Camera:
-    """Return the camera turned about an axis (LPS) through a point (mm, LPS), by an angle (radians)."""
-    rotated = camera.rotated(angle, axis)
-    before = np.stack([camera.right_axis, camera.up, camera.direction])
-    after = np.stack([rotated.right_axis, rotated.up, rotated.direction])
-    return replace(rotated, center=pivot + (before @ (camera.center - pivot)) @ after)
-
 
 def trackballed(camera: Camera, pivot: Point, right: float, down: float) -> Camera:
-    """Return the camera after a drag (pixels) over a ball: the height of the view is half a turn."""
-    pixels = math.hypot(right, down)
-    if pixels == 0:
-        return camera
-    axis = -right * camera.up - down * camera.right_axis
-    return turned(camera, pivot, axis, pixels * math.pi / camera.size[1])
+    """Return the camera after a drag (pixels) on a ball; the height of the view is half a turn."""
+    return camera._moved(_lumencut.trackballed(camera, pivot, (right, down)))
 
 
 def spun(camera: Camera, pivot: Point, axis: npt.ArrayLike, right: float) -> Camera:
     """Return the camera after a drag to the right (pixels) about an axis (LPS)."""
-    return turned(camera, pivot, axis, -right * math.pi / camera.size[1])
+    return camera._moved(_lumencut.spun(camera, pivot, axis, right))
 
 
 def panned(camera: Camera, right: float, down: float) -> Camera:
-    """Return the camera after the scene was dragged by these pixels."""
-    return camera.panned(-right * camera.pixel_spacing, down * camera.pixel_spacing)
+    """Return the camera after a drag that moved the scene by these pixels."""
+    return camera._moved(_lumencut.dragged(camera, (right, down)))
 
 
 def zoomed(camera: Camera, factor: float, column: float, row: float) -> Camera:
-    """Return the camera magnified by a factor; the place at the pixel stays where it is."""
-    spacing = min(max(camera.pixel_spacing / factor, _FINEST), _COARSEST)
-    away = camera.pixel_spacing - spacing
-    width, height = camera.size
-    moved = camera.panned((column - (width - 1) / 2) * away, ((height - 1) / 2 - row) * away)
-    return replace(moved, pixel_spacing=spacing)
+    """Return the camera magnified by a factor; the point at this pixel does not move."""
+    return camera._moved(_lumencut.zoomed_at(camera, factor, (column, row)))
 
 
 def sampled(camera: Camera, share: float) -> Camera:
     """Return the same view with fewer pixels along each side."""
-    width, height = (max(round(side * share), 1) for side in camera.size)
-    return replace(camera, size=(width, height), pixel_spacing=camera.pixel_spacing * camera.size[1] / height)
+    size, pixel_spacing = _lumencut.sampled(camera, share)
+    return replace(camera, size=size, pixel_spacing=pixel_spacing)
 
 
 def dragged_window(window: Window, right: float, down: float) -> Window:
     """Return the window after a drag (pixels): to the right it grows wider, upwards the picture brighter."""
-    width = max(window.width * math.exp(right * _WINDOW_PER_PIXEL), _NARROWEST)
-    return Window(window.level + down * _WINDOW_PER_PIXEL * window.width, width)
+    return Window(*_lumencut.dragged_window((window.level, window.width), (right, down)))

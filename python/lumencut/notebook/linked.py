@@ -1,4 +1,4 @@
-"""The two pictures next to the turning one: the picked vessel straightened, and its cross section."""
+"""The pictures next to the turning view: the picked vessel straightened, and its cross-section."""
 
 from __future__ import annotations
 
@@ -19,21 +19,21 @@ Point = npt.NDArray[np.float64]
 Picture = npt.NDArray[np.uint8]
 Pixel = tuple[float, float]
 
-#: A notch of the wheel turns the straightened vessel by this (radians), or moves the section by this (mm).
+#: One notch of the wheel turns the straightened vessel by this angle (radians), or moves the section (mm).
 TURN_STEP = math.pi / 36
 STEP = 0.5
 #: Half width of a section (radii of the vessel), and limits of its side (mm).
 _RADII, _SIDES = 4.0, (12.0, 120.0)
-#: Pixels of a section, and the most rows of a straightened vessel.
+#: Number of pixels of a section's side, and largest number of rows of a straightened vessel.
 _SECTION_PIXELS, _MOST_ROWS = 160, 512
-#: Largest number of pixels per voxel side of a straightened vessel, which enlarges short vessels.
+#: Largest magnification of short straightened vessels (pixels per voxel side).
 _FINER = 3
 
 
 class Linked:
     """The straightened vessel and the section of one place.
 
-    Both are made when the place becomes known; a new place on the same vessel makes only the section again.
+    Both are made when the place is first known; another place on the same vessel only changes the section.
     """
 
     def __init__(self, scene: Scene, place: Place) -> None:
@@ -44,17 +44,17 @@ class Linked:
         self.section = self._section()
 
     def moved(self, place: Place) -> Linked:
-        """Return the pictures of another place of the same scene."""
+        """Return the pictures for another place in the same scene."""
         if place.vessel != self.place.vessel:
             return Linked(self.scene, place)
         return self._changed(place, self.straightened)
 
     def turned(self, notches: int) -> Linked:
-        """Return the vessel seen from farther to the right by notches of the wheel."""
+        """Return the vessel turned to the right by a number of notches."""
         return self._changed(self.place, self.straightened.rotated(notches * TURN_STEP))
 
     def scrolled(self, notches: int) -> Linked:
-        """Return the pictures of the place farther along the vessel by notches of the wheel."""
+        """Return the pictures for a place farther along the vessel by a number of notches."""
         at = min(max(self.place.at + notches * STEP, 0.0), self.vessel.length)
         return self.moved(replace(self.place, at=at))
 
@@ -110,7 +110,7 @@ class Linked:
         return point
 
     def place_at(self, name: str, pixel: Pixel) -> Place:
-        """Return the place on the vessel that a pixel of one of the pictures lies at."""
+        """Return the place on the vessel that belongs to a pixel of one of the pictures."""
         if name == "section":
             return self.place
         row = min(max(round(pixel[1]), 0), self.straightened.size[1] - 1)

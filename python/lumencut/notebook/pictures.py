@@ -8,13 +8,13 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-#: JPEG quality; the losses are invisible in a moving picture.
+#: JPEG quality at which losses are invisible in a moving picture.
 _QUALITY = 80
-#: Moving pictures get more or fewer pixels if their times are below or above these (ms).
+#: If a moving picture takes less or more time than this (ms), the next ones get more or fewer pixels.
 _QUICK, _SLOW, _VERY_SLOW = 25.0, 60.0, 200.0
-#: The shares of the pixels along a side: few, so that the resolution does not fluctuate.
+#: Possible shares of the pixels along a side; few, so that the resolution does not fluctuate.
 _SHARES = (1.0, 0.75, 0.5, 0.35, 0.25)
-#: Consecutive slow pictures that indicate a slow machine, not a short disturbance.
+#: After this many consecutive slow pictures the machine counts as slow.
 _IN_A_ROW = 3
 
 
@@ -24,7 +24,7 @@ def as_jpeg(image: npt.NDArray[np.uint8]) -> bytes:
 
 
 def as_png(image: npt.NDArray[np.uint8]) -> bytes:
-    """Return an RGBA picture (H, W, 4) as the content of a PNG file, written quickly rather than small."""
+    """Return an RGBA picture (H, W, 4) as PNG; speed is more important than size."""
     return _written(image, "PNG", compress_level=1)
 
 
@@ -56,7 +56,7 @@ class Pace:
         self._slow = self._quick = 0
 
     def took(self, milliseconds: float) -> None:
-        """Record the time of a picture of this share; a very slow one counts at once."""
+        """Record the time of a picture with this share; one very slow picture already reduces it."""
         if milliseconds > _VERY_SLOW:
             fitting = self.share * math.sqrt(_SLOW / milliseconds)
             self.share = next((share for share in _SHARES if share <= fitting), _SHARES[-1])

@@ -1,4 +1,4 @@
-"""The scene of a notebook: a volume with its vessels, and the meaning of clicks into its pictures."""
+"""The scene of a notebook: a volume with its vessels, and what clicks on its pictures mean."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ class Scene:
         return other
 
     def window(self, settings: Settings) -> Window:
-        """Return the window that a picture with these settings has: of the context without a tree."""
+        """Return the window of a picture with these settings; without a tree, that of the context."""
         used = self.renderer.windowed(settings)
         window = used.context_window if self.tree is None else used.window
         assert isinstance(window, Window)
@@ -91,7 +91,7 @@ class Scene:
     def moving(
         self, camera: Camera, settings: Settings, progress: Callable[[int, int], object] | None = None
     ) -> Frame:
-        """Return a view with only its picture, for movement."""
+        """Return a view with only the picture, for fast movement."""
         quick = replace(settings, samples=1, context_preview=True)
         return self.renderer.render(camera, quick, images=["image"], progress=progress)
 
@@ -117,7 +117,7 @@ class Scene:
         return Pick(point, self._place(int(frame.vessel[row, column]), point, camera.pixel_spacing))
 
     def _shows_cut(self, camera: Camera, settings: Settings, pixel: tuple[float, float]) -> bool:
-        """Whether the pixel shows the cut surface, not its surroundings."""
+        """Return whether the pixel shows the cut surface."""
         if settings.focus is None:
             return True
         used = checked(self.renderer._choosing(settings))
@@ -129,7 +129,7 @@ class Scene:
         return Pick(point, next((place for place in places if place is not None), None))
 
     def _place(self, vessel: int, point: Point, pixel_spacing: float) -> Place | None:
-        """The place on a vessel, if the click means the vessel."""
+        """Return the place on a vessel if the click is close enough to it."""
         if self.tree is None or vessel < 0:
             return None
         at, is_meant = self._nearest(vessel, point, pixel_spacing)

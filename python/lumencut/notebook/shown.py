@@ -1,4 +1,4 @@
-"""The immutable state of a notebook view; a failed change leaves it as it was."""
+"""The state of a notebook view; it is immutable, so a failed change has no effect."""
 
 from __future__ import annotations
 
@@ -37,13 +37,13 @@ class Shown:
     scene : Scene
         The volume with its vessels.
     seen : Scene
-        The shown scene: all of it, or while tracing only its volume, with the vessels as lines.
+        The displayed scene: the complete one, or only the volume while vessels are traced and drawn as lines.
     camera, settings : Camera, Settings
         The view.
     has_names, is_linked : bool
         Whether to show the names of the vessels, and the pictures next to the view.
     tracing : ClickedVessels or None
-        The vessels that clicks trace; None where clicks pick.
+        The vessels traced by clicks; None if clicks pick vessels.
     picked : tuple of 3 floats, or None
         The cross-hair (mm, LPS).
     place : Place or None
@@ -82,7 +82,7 @@ class Shown:
         return self.camera.center if self.picked is None else np.array(self.picked)
 
     def frame(self, images: Iterable[str] | None = ("image",), progress: Progress | None = None) -> Frame:
-        """Return the view; all its images for None."""
+        """Return the view with these images; None means all."""
         return self.seen.renderer.render(self.camera, self.settings, images=images, progress=progress)
 
     def moving(self, share: float, progress: Progress) -> Frame:
@@ -91,7 +91,7 @@ class Shown:
         return self.seen.moving(camera, self.settings, progress)
 
     def with_volume(self, volume: Any, tree: VesselTree | None) -> Shown:
-        """Return another scene, with the same view if it lies in the same place."""
+        """Return the state for another scene; the view stays if the scene is in the same place."""
         scene = Scene(volume, tree, self.scene.device)
         lies_alike = np.array_equal(scene.volume.corners, self.scene.volume.corners)
         camera = self.camera if lies_alike else Camera.anterior(scene.renderer.scene, self.camera.size)
@@ -101,7 +101,7 @@ class Shown:
         return replace(plain, scene=scene, seen=seen, camera=camera, tracing=tracing)
 
     def with_tree(self, tree: VesselTree | None) -> Shown:
-        """Return the same volume with another tree; with the picked place looked up in it."""
+        """Return the state for another tree of the same volume; the picked place is looked up in it."""
         if tree is self.scene.tree:
             return self
         scene = self.scene.with_tree(tree)
@@ -124,19 +124,19 @@ class Shown:
         try:
             linked = Linked(self.scene, place) if self.linked is None else self.linked.moved(place)
         except LumencutError:
-            # A vessel that cannot be laid out, such as one without length, can be picked all the same.
+            # Even a vessel that cannot be straightened, such as one without length, can be picked.
             return replace(self, place=place, linked=None)
         return replace(self, place=place, linked=linked)
 
     def with_linked(self, linked: Linked) -> Shown:
-        """Return other pictures next to the view; the cross-hair follows the place."""
+        """Return the state with other pictures next to the view; the cross-hair follows the place."""
         if linked.place == self.place:
             return replace(self, linked=linked)
         x, y, z = (float(value) for value in linked.vessel_point())
         return replace(self, linked=linked, place=linked.place, picked=(x, y, z))
 
     def with_vessel(self, vessel: int | None) -> Shown:
-        """Return another vessel picked: at the place nearest to the cross-hair, or in its middle."""
+        """Return the state with another picked vessel: at the place near the cross-hair, or in its middle."""
         if vessel is None:
             return replace(self, place=None, linked=None)
         assert self.scene.tree is not None
@@ -177,7 +177,7 @@ class Shown:
         return self.with_pick(self.scene.at(np.array(value), self.camera.pixel_spacing))
 
     def traced(self, point: Point) -> Shown:
-        """Return the vessels with a further point.
+        """Return the state with one more point of a traced vessel.
 
         Raises
         ------
@@ -191,7 +191,7 @@ class Shown:
         return replace(self, picked=(x, y, z)).retraced()
 
     def retraced(self) -> Shown:
-        """Return the vessels that the points trace."""
+        """Return the state with the vessels that the points define."""
         return self if self.tracing is None else self.with_tree(self.tracing.tree())
 
     def linked_pictures(self) -> dict[str, npt.NDArray[np.uint8]]:
@@ -217,7 +217,7 @@ class Shown:
         return self.camera.project(np.array(listed))[:, :2].round(2).tolist() if listed else []
 
     def _lines(self) -> list[list[list[float]]]:
-        """The vessels as lines over the picture, while they are traced."""
+        """Return the vessels as lines over the picture while they are traced."""
         if self.tracing is None:
             return []
         return [
@@ -226,7 +226,7 @@ class Shown:
         ]
 
     def _words(self) -> str:
-        """The picked vessel, place and value as text."""
+        """Return picked vessel, place and value as text."""
         if self.picked is None:
             return ""
         value = float(self.scene.volume.sample(np.array([self.picked]))[0])

@@ -1,4 +1,4 @@
-"""The steps that the page asks for, one by one: drags, the wheel, clicks and keys."""
+"""The steps that the page requests, one by one: drags, the wheel, clicks and keys."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def _rotate(view: Shown, right: float, down: float) -> Shown:
 
 
 def _spin(view: Shown, right: float, _: float) -> Shown:
-    """Turn about the axis of the picked vessel where its section lies."""
+    """Turn about the direction of the picked vessel at its section."""
     axis = view.camera.up if view.linked is None else view.linked.section.normal
     return replace(view, camera=gestures.spun(view.camera, view.pivot, axis, right))
 

@@ -34,7 +34,7 @@ class ClickedVessels:
         return [point for vessel in self._tracer.points for point in vessel]
 
     def add(self, point: Point) -> None:
-        """Set a further point of the vessel under way, or the first one of the next.
+        """Add a point to the present vessel, or begin the next vessel with it.
 
         Raises
         ------
@@ -50,13 +50,13 @@ class ClickedVessels:
             raise
 
     def _current(self) -> int:
-        """The vessel that the next point belongs to."""
+        """Return the vessel to which the next point will be added."""
         filled = [vessel for vessel, points in enumerate(self._tracer.points) if len(points)]
         last = filled[-1] if filled else -1
         return last if last >= 0 and last not in self._ended else last + 1
 
     def end(self) -> None:
-        """Let the next point begin another vessel; a vessel of a single point is given up."""
+        """End the present vessel; if it has only one point, it is discarded."""
         current = self._current()
         points = self._tracer.points
         count = len(points[current]) if current < len(points) else 0
@@ -66,7 +66,7 @@ class ClickedVessels:
             self._ended.add(current)
 
     def undo(self) -> None:
-        """Take the last point away, and continue with its vessel."""
+        """Remove the last point; its vessel becomes the present one."""
         points = self._tracer.points
         last = next((vessel for vessel in reversed(range(len(points))) if len(points[vessel])), None)
         if last is not None:

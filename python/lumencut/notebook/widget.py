@@ -30,7 +30,7 @@ _LINKED = ("straightened", "section")
 
 
 def _front(name: str) -> str:
-    """The text of a file of the page."""
+    """Return the text of a file of the page."""
     return files("lumencut.notebook").joinpath("front", name).read_text("utf-8")
 
 
@@ -42,7 +42,7 @@ class VesselWidget(anywidget.AnyWidget):
     """A view of vessels in a notebook; :func:`lumencut.show` makes it.
 
     Assigning to a trait updates the view, and actions of the user change the traits: both can be
-    observed (``widget.observe(function, "picked")``). An error leaves all as it was.
+    observed (``widget.observe(function, "picked")``). An error changes nothing.
 
     Attributes
     ----------
@@ -60,7 +60,7 @@ class VesselWidget(anywidget.AnyWidget):
         The picture at rest with its labels, a PNG file.
     """
 
-    # A single module: a notebook cannot load a second one.
+    # One module, because a notebook cannot load a second one.
     _esm = "\n".join(_front(f"{name}.js") for name in ("asking", "pane", "pointers", "view"))
     _css = _front("view.css")
 
@@ -158,9 +158,9 @@ class VesselWidget(anywidget.AnyWidget):
 
     @traitlets.observe("camera", "settings", "tree", "picked", "vessel")
     def _assigned(self, change: Any) -> None:
-        """Show an assigned trait; restore its old value if that fails."""
+        """Show the value that the user assigned to a trait; restore the old value if that fails."""
         with self._lock:
-            # Within the lock: another thread that answers the page also updates the traits.
+            # Inside the lock, because a thread that answers the page also updates the traits.
             if self._is_quiet:
                 return
             try:
@@ -172,7 +172,7 @@ class VesselWidget(anywidget.AnyWidget):
 
     @contextmanager
     def _quietly(self) -> Iterator[None]:
-        """Traits that are set here are not assigned by the user."""
+        """Traits set in this context were not assigned by the user."""
         before, self._is_quiet = self._is_quiet, True
         try:
             yield
@@ -191,14 +191,14 @@ class VesselWidget(anywidget.AnyWidget):
             self._update_traits()
 
     def _update_traits(self) -> None:
-        """Update the traits from the view."""
+        """Set the traits to the state of the view."""
         view = self._view
         self.camera, self.settings, self.tree = view.camera, view.settings, view.scene.tree
         self.vessel, self.picked = view.vessel, view.picked
         self._shown = view.state()
 
     def _key(self, view: Shown) -> tuple[Scene, Camera, Settings]:
-        """The state that the picture of the turning view depends on."""
+        """Return the part of the state on which the picture of the turning view depends."""
         return view.seen, view.camera, view.settings
 
     def _picture(self, view: Shown) -> bytes:
@@ -210,7 +210,7 @@ class VesselWidget(anywidget.AnyWidget):
             raise _ClosedError
 
     def _hear(self, _: Any, content: Any, __: Any) -> None:
-        """Handle a request of the page, and always answer it."""
+        """Handle a request of the page; an answer is always sent."""
         with self._lock:
             if self._is_closed:
                 return
@@ -230,7 +230,7 @@ class VesselWidget(anywidget.AnyWidget):
                     self.send(answer, buffers)
 
     def _done(self, content: dict[str, Any], answer: dict[str, Any]) -> list[bytes]:
-        """Take the steps, and return the pictures of a moving view; at rest the traits hold them."""
+        """Apply the steps. Return the pictures of a moving view; at rest the traits hold the pictures."""
         taken = take(self._view, self._before, content["steps"])
         answer["words"], self._before = taken.words, taken.before
         if not content["moving"]:
@@ -244,12 +244,12 @@ class VesselWidget(anywidget.AnyWidget):
         return list(pictures.values())
 
     def _moving_pictures(self, view: Shown) -> dict[str, bytes]:
-        """The pictures that change, by name."""
+        """Return the changed pictures by name."""
         found = {}
         if self._key(view) != self._key(self._view):
             start = time.perf_counter()
             frame = view.moving(self._pace.share, self._go_on)
-            # Names take longer than the picture of a large tree, so only the picture at rest has them.
+            # Only the picture at rest has names, because names take longer than the picture of a large tree.
             found["vessels"] = as_jpeg(frame.annotated())
             self._pace.took((time.perf_counter() - start) * 1000)
         if view.linked is not self._view.linked:

@@ -1,6 +1,6 @@
 """The zip archive of "Save for PACS": objects of the study of the scan, made from the request of the page.
 
-All of it stays in memory: no file is made.
+Everything stays in memory; no file is written.
 """
 
 from __future__ import annotations
@@ -12,20 +12,24 @@ from contextlib import contextmanager
 from typing import BinaryIO
 
 from lumencut.dicom_objects.encapsulated_pdf import write_pdf
+from lumencut.dicom_objects.measured import Measured, measured
 from lumencut.dicom_objects.picture import write_picture
 from lumencut.dicom_objects.structured_report import check_highdicom, write_report
 from lumencut.dicom_objects.study import Origin, Study
 from lumencut.errors import FormatError, MeasuringError
+from lumencut.measured_vessel import MeasuredVessel
 from lumencut.pacs_zip.given import Given, read_json, refused
 from lumencut.pacs_zip.pictures import big_view, key_image, pane_picture, settings_in
 from lumencut.pacs_zip.placing import choice_of, origin_of, study_for
-from lumencut.pacs_zip.told_vessels import ToldVessel, told_vessel
+from lumencut.pacs_zip.vessels import measured_vessel
 from lumencut.profile_plot import check_matplotlib
 from lumencut.report_pdf import report_pdf
 from lumencut.settings import Settings
 from lumencut.volume import Volume
 
 _TITLE = "Lumencut: measured vessels"
+#: The version of requests. A page of another version is told to reload.
+_VERSION = 2
 _MEND = 'choose "Anonymous", or a DICOM file of the study'
 
 _Member = tuple[str, Callable[[BinaryIO], object]]
@@ -37,8 +41,8 @@ def pacs_zip(content: bytes, served: Volume | None) -> bytes:
     Parameters
     ----------
     content : bytes
-        The request as JSON: PNG pictures in base64, numbers of the findings, the report as HTML, and the
-        header of one slice with the UIDs of the others.
+        The request as JSON: PNG pictures in base64, records of the measured vessels, the report as HTML, and
+        the header of one slice with the UIDs of the others.
     served : Volume or None
         The served volume, or None.
 
@@ -56,8 +60,8 @@ def pacs_zip(content: bytes, served: Volume | None) -> bytes:
         For findings without highdicom or matplotlib.
     """
     request = read_json(content)
-    if request.number("version") != 1:
-        raise refused("a request of another version", "version 1")
+    if request.number("version") != _VERSION:
+        raise refused("a request of another version", f"version {_VERSION}")
     if request.items("findings"):
         _check_findings(request)
     origin = origin_of(request, served)
@@ -70,7 +74,7 @@ def pacs_zip(content: bytes, served: Volume | None) -> bytes:
 
 
 def _check_findings(request: Given) -> None:
-    """Reject findings that no report can be made of."""
+    """Reject findings from which no report can be made."""
     check_highdicom()
     check_matplotlib()
     if not request.object("stated").flag("spacing"):
@@ -83,7 +87,7 @@ def _check_findings(request: Given) -> None:
 
 @contextmanager
 def _mended() -> Iterator[None]:
-    """Word the remedy for an unusable study in the terms of the page."""
+    """Write the remedy for an unusable study in the words of the page."""
     try:
         yield
     except FormatError as error:
@@ -110,7 +114,9 @@ def _key_image(finding: Given, number: int, settings: Settings, study: Study) ->
 
 def _numbers(request: Given, study: Study) -> Iterator[_Member]:
     """The structured report and the PDF of the findings, if any."""
-    vessels = _vessels(request)
+    has_names = choice_of(request) != "anonymous"
+    findings = enumerate(request.objects("findings"))
+    vessels = [measured_vessel(one, number, has_name=has_names) for number, one in findings]
     if not vessels:
         return
     try:
@@ -121,33 +127,26 @@ def _numbers(request: Given, study: Study) -> Iterator[_Member]:
     yield "report-pdf.dcm", lambda file: write_pdf(file, pdf, _TITLE, study)
 
 
-def _write_report(file: BinaryIO, vessels: list[ToldVessel], study: Study) -> None:
+def _write_report(file: BinaryIO, vessels: list[MeasuredVessel], study: Study) -> None:
     with _mended():
-        write_report(file, [one.measured for one in vessels], study)
+        write_report(file, [_content(one) for one in vessels], study)
 
 
-def _vessels(request: Given) -> list[ToldVessel]:
-    findings = request.objects("findings")
-    if not findings:
-        return []
-    numbers = read_json(request.text("numbers").encode()).objects("vessels")
-    if len(numbers) != len(findings):
-        raise refused(f"{len(numbers)} vessels for {len(findings)} findings", "as many of both")
-    has_names = choice_of(request) != "anonymous"
-    pairs = zip(numbers, findings, strict=True)
+def _content(one: MeasuredVessel) -> Measured:
+    stenoses = () if one.stenosis is None else (one.stenosis,)
     try:
-        return [told_vessel(*pair, has_name=has_names) for pair in pairs]
+        return measured(one.profile, stenoses, one.vessel, one.marks)
     except MeasuringError as error:
         raise refused(error.found, error.expected) from error
 
 
 def _zipped(members: list[_Member]) -> bytes:
-    """The objects in an archive, one after the other."""
+    """Return an archive of the objects."""
     archive = io.BytesIO()
     with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as into:
         for name, write in members:
             content = io.BytesIO()
             write(content)
-            # File times would reveal the time of the request, and make archives differ.
+            # Without file times: they would reveal the time of the request and make equal archives differ.
             into.writestr(zipfile.ZipInfo(name), content.getvalue(), zipfile.ZIP_DEFLATED, 1)
     return archive.getvalue()

@@ -43,7 +43,7 @@ def read_json(content: bytes) -> Given:
 
 
 class Given:
-    """An object of JSON whose fields are asked for by name and kind.
+    """An object of JSON; each field is read by name and must have the expected kind.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ class Given:
     Raises
     ------
     FormatError
-        For another value than an object; so does each method for a field of another kind.
+        For a value that is not an object; the methods raise it for fields of another kind.
     """
 
     def __init__(self, value: Any, name: str) -> None:
@@ -79,9 +79,13 @@ class Given:
         """Return a finite number."""
         return float(self._checked(name, "a number", is_number))
 
-    def number_or_nan(self, name: str) -> float:
-        """Return a finite number, or NaN for null, as JSON has it."""
-        return math.nan if self._fields.get(name) is None else self.number(name)
+    def number_or_none(self, name: str) -> float | None:
+        """Return a finite number, or None for null."""
+        return None if self._fields.get(name) is None else self.number(name)
+
+    def numbers(self, name: str) -> list[float]:
+        """Return a list of finite numbers."""
+        return [checked(one, f"{self._name}: {name}", "numbers", is_number) for one in self.items(name)]
 
     def items(self, name: str) -> list[Any]:
         """Return a list."""
@@ -108,17 +112,10 @@ class Given:
         return [Given(one, f"{self._name}: {name}") for one in self.items(name)]
 
     def plain(self, name: str) -> dict[str, Any]:
-        """Return an object whose fields are checked elsewhere."""
+        """Return an object whose fields are checked by other code."""
         self.object(name)
         found: dict[str, Any] = self._fields[name]
         return found
-
-    def column(self, name: str) -> npt.NDArray[np.float64]:
-        """Return a list of numbers, shape (n,), NaN for null."""
-        values = [np.nan if one is None else one for one in self.items(name)]
-        if not all(isinstance(one, (int, float)) and not isinstance(one, bool) for one in values):
-            raise refused(f"{name} of {self._name} that are no numbers", "numbers or null")
-        return np.array(values, np.float64)
 
     def points(self, name: str) -> npt.NDArray[np.float64]:
         """Return points (mm, LPS), shape (n, 3)."""
@@ -182,6 +179,6 @@ def picture_of(content: bytes) -> npt.NDArray[np.uint8]:
 
 
 def _kind(value: Any) -> str:
-    """The kind of a value, without its content."""
+    """Return the kind of a value, without its content."""
     names = {dict: "an object", list: "a list", str: "a text", bool: "true or false", type(None): "nothing"}
     return names.get(type(value), "a number")

@@ -1,4 +1,4 @@
-"""The pictures that the page shows, with what their DICOM objects say of them."""
+"""The pictures that the page shows, with the descriptions for their DICOM objects."""
 
 from __future__ import annotations
 
@@ -66,7 +66,7 @@ def big_view(view: Given, stated: Given, origin: Origin) -> Picture:
 
 
 def pane_picture(pane: Given, settings: Settings) -> Picture:
-    """Return the reformation next to the turning view; rulers across it would be wrong."""
+    """Return the reformation next to the turning view, without a pixel spacing: rulers would be wrong."""
     axes = pane.text("axes")
     words = f"A reformation of the viewer, {written_by()} {axes} {changed(settings)}"
     return Picture(pane.picture("picture"), "CPR", words, settings_text(settings) + axes, None, None, axes)
@@ -81,5 +81,5 @@ def key_image(finding: Given, number: int, settings: Settings) -> Picture:
 
 
 def _vector(given: Given, name: str) -> npt.NDArray[np.float64]:
-    """Three numbers of a camera, shape (3,)."""
+    """Return a vector of a camera, shape (3,)."""
     return points_of([given.items(name)], f"{name} of a camera").reshape(3)

@@ -1,4 +1,4 @@
-"""The scan that the page shows, and the study of its objects: its own, none, or that of a chosen file."""
+"""The scan that the page shows, and the study for its objects: that of the scan, none, or a chosen one."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from lumencut.volume_files.dicom.study import study_in
 #: Kinds of studies for the objects: that of the scan, an anonymous one, or that of another file.
 _CHOICES = ("scan", "anonymous", "like")
 _FILE = "the DICOM file"
-#: Facts about a file for the page, and their attributes.
+#: Facts about a file that the page shows, and their attributes.
 _FACTS = {
     "Patient": "PatientName",
     "ID": "PatientID",
@@ -29,7 +29,7 @@ _FACTS = {
 
 
 def choice_of(request: Given) -> str:
-    """Return which study the page asks for: "scan", "anonymous" or "like"."""
+    """Return into which study the page asks to put objects: "scan", "anonymous" or "like"."""
     choice = request.object("study").text("choice")
     return checked(choice, "a study", " or ".join(_CHOICES), _CHOICES.__contains__)
 
@@ -97,7 +97,7 @@ def chosen_file(content: bytes, served: Volume | None) -> bytes:
     Raises
     ------
     FormatError
-        For a file that is no DICOM.
+        For a file that is not DICOM.
     """
     request = read_json(content)
     origin, study = origin_of(request, served), _file(request)

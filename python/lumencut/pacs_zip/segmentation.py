@@ -21,7 +21,7 @@ from lumencut.volume_files.dicom.study import study_in
 from lumencut.volume_files.opened import VolumeFile, refusing
 
 _EXPECTED = "a DICOM segmentation (SEG)"
-#: More voxels than a page can hold of a scan.
+#: Limit for the number of voxels; no page can hold a scan of this size.
 _MOST_VOXELS = 1 << 32
 _HEADER = """NRRD0004
 type: {type}
@@ -38,7 +38,7 @@ encoding: gzip
 
 @dataclass(frozen=True)
 class _Scan:
-    """The grid of the scan that the page shows, and whose it is."""
+    """The grid of the scan that the page shows, its frame of reference and its patient."""
 
     size: tuple[int, int, int]
     world_from_index: npt.NDArray[np.float64]
@@ -97,7 +97,7 @@ def _opened(content: bytes) -> VolumeFile:
 
 
 def _scan(request: Given, served: Volume | None) -> _Scan:
-    """The grid of the scan, with what its DICOM says of frame of reference and patient."""
+    """Return the grid of the scan, with frame of reference and patient from its DICOM header."""
     size = checked(request.items("size"), "a size", "three whole numbers above 0", _is_size)
     rows = checked(request.items("world_from_index")[:3], "a grid", "rows of four numbers", _are_rows)
     affine = np.vstack([np.array(rows, np.float64), [0, 0, 0, 1]])
@@ -120,7 +120,7 @@ def _is_size(size: list[object]) -> bool:
 
 
 def _identity(request: Given, served: Volume | None) -> tuple[str, Patient]:
-    """The frame of reference and the patient of the scan, empty if unknown."""
+    """Return frame of reference and patient of the scan, empty if unknown."""
     if request.flag("is_served"):
         if served is None:
             raise refused("the scan of the server", "a scan that is read to its end")

@@ -1,4 +1,4 @@
-"""The answers of the server: the page, the data of the scene, and objects made from them."""
+"""The answers of the server: the page, the data of the scene, and objects made for the page."""
 
 from __future__ import annotations
 
@@ -34,11 +34,11 @@ _VTP = "application/vnd.vtk.polydata+xml"
 
 
 class _BrokenOffError(Exception):
-    """The rest of a volume is missing: the connection ends before the stated length."""
+    """The rest of a volume is missing: the connection is closed before the stated length is sent."""
 
 
 class Application:
-    """The application (ASGI) for one page and one scene, which may be None."""
+    """The ASGI application for one page and one scene; the scene may be None."""
 
     def __init__(self, page: Page, scene: ArrivingScene | None, place: Place) -> None:
         self._page, self._scene, self._place = page, scene, place
@@ -75,7 +75,7 @@ class Application:
         if has_body(request.headers):
             return refusal(400)
         if path == "":
-            # File names of the page are relative to its folder.
+            # With a slash at the end, because file names in the page are relative to its folder.
             return RedirectResponse(f"/{self._place.token}/", 308)
         return await self._file(path.removeprefix("/"), is_head=request.method == "HEAD")
 
@@ -112,7 +112,7 @@ async def _volume(scene: ArrivingScene, *, is_head: bool) -> Response:
 async def _stream(
     scene: ArrivingScene, header: bytes, read_type: np.dtype[Any]
 ) -> AsyncIterator[bytes | memoryview]:
-    """The header at once, and slices as they are read."""
+    """Send the header at once, and slices as they are read."""
     yield header
     sent = 0
     while sent < scene.slices:
@@ -122,7 +122,7 @@ async def _stream(
             raise _BrokenOffError
         for piece in volume_stream.pieces(voxels[sent:count]):
             yield piece
-            # Yields to other tasks, and notices the end of this connection.
+            # Other tasks run meanwhile, and a closed connection is noticed.
             await asyncio.sleep(0)
         sent = count
 
@@ -136,6 +136,6 @@ async def _centerlines(scene: ArrivingScene) -> Response:
 
 
 async def _until(is_so: Callable[[], bool]) -> None:
-    """Wait for the reading thread."""
+    """Wait until the reading thread has news."""
     while not is_so():
         await asyncio.sleep(_PAUSE)

@@ -1,4 +1,4 @@
-"""A scene that is read while the server already answers, and its progress."""
+"""A scene that is read while the server already answers; the page gets slices as they are read."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ from lumencut.volume_files.opened import VolumeFile
 
 _log = logging.getLogger("lumencut")
 
-#: Time that the closing server waits for the reader, which stops between two slices (s).
+#: How long the closing server waits for the reader, which stops only between two slices (s).
 _PATIENCE = 5.0
 
 
 class _StoppedError(BaseException):
-    """The server ends; not an Exception, so that no reader handles it."""
+    """The server ends; not an Exception, so that no reader catches it."""
 
 
 class ArrivingScene:
-    """A volume that a separate thread reads, and the centerlines that it places.
+    """A volume that a separate thread reads, and the centerlines that it then reads for it.
 
     Only that thread writes; each attribute that others read changes atomically.
 
@@ -106,7 +106,7 @@ class ArrivingScene:
         self.voxels, self.volume = (volume.array, self.slices), volume
         log_oddities(self._file)
         if promised not in (None, volume.dtype):
-            # These voxels do not match the header already sent; the next request gets the right one.
+            # These voxels do not match the header already sent; the next request gets the right header.
             found, expected = f"voxels of type {volume.dtype}", f"{promised} as its headers say"
             self.problem = FormatError(self._file.path.name, found, expected, "load the page again")
         if self._tree_in is not None:
@@ -124,13 +124,13 @@ class ArrivingScene:
             raise _StoppedError
 
     def _fill(self, voxels: npt.NDArray[Any], count: int) -> None:
-        """Publish final slices, in an array that will not be replaced."""
+        """Publish slices that will not change any more, in an array that will not be replaced."""
         self._heed(count, self.slices)
         if voxels.dtype == self.read_type and voxels.shape[0] == self.slices:
             self.voxels = voxels, count
 
     def _told(self, error: Exception) -> LumencutError:
-        """The error for the page, with names of files but not of folders."""
+        """Return the error for the page, with names of files but without folders."""
         if isinstance(error, MemoryError):
             found, expected = "more than the free memory holds", "a scene that fits into it"
             return FormatError(self._file.path.name, found, expected)

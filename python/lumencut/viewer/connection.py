@@ -1,6 +1,6 @@
 """Limits of connections: their number, and the time for a request.
 
-A client that has shown the token is the owner; all others are strangers, who cannot block the owner.
+A client that has sent the token is the owner; all others are strangers, who must not block the owner.
 """
 
 from __future__ import annotations
@@ -15,11 +15,11 @@ from lumencut.viewer.guard import HEADERS, Place
 
 
 class Connection(H11Protocol):
-    """HTTP/1.1 of uvicorn with limits; uvicorn alone waits forever for a request."""
+    """A connection of uvicorn (HTTP/1.1) with limits; without them uvicorn waits forever for a request."""
 
-    #: Connections of the owner; a browser opens six.
+    #: Largest number of connections of the owner; a browser opens six.
     most: ClassVar[int] = 32
-    #: Connections of strangers; beyond this number the oldest one is closed. Larger than `BACKLOG`, so
+    #: Largest number of connections of strangers; then the oldest one is closed. Larger than `BACKLOG`, so
     #: that the owner's request is read before its connection is the oldest one.
     most_strangers: ClassVar[int] = 96
     #: Time limit for the headers of a request (s).
@@ -33,7 +33,7 @@ class Connection(H11Protocol):
         self._limit: asyncio.TimerHandle | None = None
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
-        """Start, and close the oldest stranger if there are too many."""
+        """Register the connection; if there are too many strangers, close the oldest one."""
         super().connection_made(transport)
         self._limit_waiting()
         strangers = self._open_ones(is_owner=False)
@@ -41,7 +41,7 @@ class Connection(H11Protocol):
             min(strangers, key=lambda one: one._since).transport.abort()
 
     def data_received(self, data: bytes) -> None:
-        """Read on, and end one connection too many of the owner."""
+        """Handle data; close the connection if the owner has too many."""
         super().data_received(data)
         if not self._is_owner and self.scope is not None:
             self._is_owner = self._place.inside(self.scope["raw_path"]) is not None
@@ -49,7 +49,7 @@ class Connection(H11Protocol):
                 self.transport.abort()
 
     def _open_ones(self, *, is_owner: bool) -> list[Connection]:
-        """The connections of the owner, or of strangers."""
+        """Return the open connections, either of the owner or of strangers."""
         return [
             one
             for one in self.connections
@@ -57,7 +57,7 @@ class Connection(H11Protocol):
         ]
 
     def connection_lost(self, exc: Exception | None) -> None:
-        """End."""
+        """Remove the connection from the open ones."""
         self._forget_limit()
         super().connection_lost(exc)
 
@@ -67,7 +67,7 @@ class Connection(H11Protocol):
         self._limit_waiting()
 
     def send_400_response(self, msg: str) -> None:
-        """Answer invalid HTTP, with the usual headers."""
+        """Answer invalid HTTP, with the same headers as other answers."""
         if self.conn.our_state not in (h11.IDLE, h11.SEND_RESPONSE) or self._is_answering():
             self.transport.abort()
             return

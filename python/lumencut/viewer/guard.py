@@ -1,4 +1,4 @@
-"""Requests that the server rejects, and headers that restrict the browser.
+"""Which requests the server rejects, and headers that restrict the browser.
 
 A page of another site may be open in the same browser, and other programs run on the same machine. None of
 them may read a scan, so every request must know the token, and must name this server as its host.
@@ -11,7 +11,7 @@ import secrets
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-#: The page loads everything from this server, and no other page may embed it.
+#: The page may load only from this server, and no other page may embed it.
 _CONTENT_SECURITY_POLICY = {
     "default-src": "'none'",
     "script-src": "'self' 'wasm-unsafe-eval'",
@@ -24,7 +24,7 @@ _CONTENT_SECURITY_POLICY = {
     "form-action": "'none'",
     "frame-ancestors": "'none'",
 }
-#: Only known features: browsers warn about others.
+#: Features that browsers know, all forbidden; browsers warn about unknown ones.
 _DENIED_FEATURES = (
     *("accelerometer", "browsing-topics", "camera", "display-capture", "geolocation", "gyroscope", "hid"),
     *("idle-detection", "local-fonts", "magnetometer", "microphone", "midi", "payment", "serial", "usb"),
@@ -35,7 +35,7 @@ HEADERS = {
     "Content-Security-Policy": "; ".join(
         f"{name} {value}" for name, value in _CONTENT_SECURITY_POLICY.items()
     ),
-    # Isolated from other sites, the page may share memory between its workers.
+    # Only an isolated page may share memory between its workers.
     "Cross-Origin-Opener-Policy": "same-origin",
     "Cross-Origin-Embedder-Policy": "require-corp",
     "Cross-Origin-Resource-Policy": "same-origin",
@@ -46,7 +46,7 @@ HEADERS = {
     "Permissions-Policy": ", ".join(f"{feature}=()" for feature in _DENIED_FEATURES),
 }
 
-#: Allowed characters of paths. Without % each path has only one spelling.
+#: Characters allowed in paths. Without % every path can be written in only one way.
 _PLAIN = re.compile(rb"/[\w.~/-]*", re.ASCII)
 _LONGEST = 512
 
@@ -64,7 +64,7 @@ class Place:
         return f"http://127.0.0.1:{self.port}/{self.token}/"
 
     def is_host(self, host: str | None) -> bool:
-        """Return whether a request names this server: another site may also resolve to this machine."""
+        """Return whether a request names this server as host; other names may lead to this machine too."""
         return host in (f"127.0.0.1:{self.port}", f"localhost:{self.port}")
 
     def is_own_page(self, headers: Mapping[str, str]) -> bool:
@@ -74,11 +74,11 @@ class Place:
         return is_own and headers.get("sec-fetch-site", "same-origin") == "same-origin"
 
     def inside(self, raw_path: bytes) -> str | None:
-        """Return the part of a raw path after the token; None for any path not plainly below it."""
+        """Return the part of a raw path after the token; None if the path does not begin with the token."""
         if len(raw_path) > _LONGEST or not _PLAIN.fullmatch(raw_path):
             return None
         _, first, *rest = raw_path.split(b"/")
-        # Constant time: the duration reveals nothing about the token.
+        # Comparison in constant time: its duration reveals nothing about the token.
         is_ours = secrets.compare_digest(first, self.token.encode())
         is_plain = all(part not in (b"", b".", b"..") for part in rest[:-1])
         if not is_ours or not is_plain or rest[-1:] in ([b"."], [b".."]):
@@ -87,5 +87,5 @@ class Place:
 
 
 def has_body(headers: Mapping[str, str]) -> bool:
-    """Return whether a request has a body; requests of the page have none."""
+    """Return whether a request has a body; requests for the page or its data have none."""
     return headers.get("content-length", "0") != "0" or "transfer-encoding" in headers

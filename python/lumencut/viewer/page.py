@@ -1,4 +1,4 @@
-"""The built page, and the files that a request may read."""
+"""The built page, and which of its files a request may read."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from pathlib import Path
 
 from lumencut.errors import FileError, FormatError
 
-#: Folder of the page from `make page` and in wheels.
+#: The folder of the page, written by `make page` and contained in wheels.
 FOLDER = Path(__file__).parent / "page"
 
-#: Media types; browsers are forbidden to guess others.
+#: Media types of files; browsers must not guess them.
 _TYPES = {
     ".css": "text/css; charset=utf-8",
     ".html": "text/html; charset=utf-8",
@@ -42,7 +42,7 @@ class Page:
     def of(cls, folder: Path) -> Page:
         """Find the files of a built page.
 
-        A request can only name one of these files: no path is ever built from a request.
+        A request can only choose among these files: paths are never made from requests.
 
         Raises
         ------

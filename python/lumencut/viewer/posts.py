@@ -16,10 +16,10 @@ from lumencut.viewer.guard import Place
 from lumencut.viewer.refusing import refusal, unreadable
 from lumencut.volume import Volume
 
-#: Paths of "Save for PACS", of the study of a chosen file, and of a DICOM segmentation as a mask.
+#: Paths for "Save for PACS", for the study of a chosen file, and for a DICOM segmentation as a mask.
 OBJECTS, STUDY, MASK = "make/objects", "make/study", "make/mask"
 
-#: Size limits of requests: two pictures of large screens, and reports of many vessels (bytes).
+#: Size limit of a request (bytes): enough for pictures of two large screens, and reports of many vessels.
 _MOST = 128 << 20
 _PATIENCE = 60.0
 _JSON, _ZIP = "application/json", "application/zip"
@@ -44,7 +44,7 @@ class Posts:
         self._is_busy = False
 
     async def answer(self, name: str, request: Request) -> Response:
-        """Make the requested object; unauthorized requests get no details."""
+        """Make the requested object; a rejected request gets no details."""
         if (refused := self._refused(request)) is not None:
             return refused
         if self._is_busy:
@@ -57,7 +57,7 @@ class Posts:
             self._is_busy = False
 
     def _refused(self, request: Request) -> Response | None:
-        """Why the headers of a request are rejected; None if accepted."""
+        """Return why a request is rejected because of its headers; None if it is accepted."""
         headers = request.headers
         if request.method != "POST":
             return refusal(405, {"Allow": "POST"})
@@ -71,7 +71,7 @@ class Posts:
         return None if headers.get("content-type") == _JSON else refusal(415)
 
     async def _content(self, request: Request) -> bytes | None:
-        """The content of a request; None if it is late or incomplete."""
+        """Return the content of a request; None if it is late or incomplete."""
         try:
             return await asyncio.wait_for(request.body(), self.patience)
         except (TimeoutError, ClientDisconnect):
@@ -90,7 +90,7 @@ class Posts:
 
 
 def _made_of(name: str, content: bytes, volume: Volume | None) -> bytes:
-    """The object that a request names."""
+    """Return the object that a request asks for."""
     from lumencut.pacs_zip.archive import pacs_zip
     from lumencut.pacs_zip.placing import chosen_file
     from lumencut.pacs_zip.segmentation import segmentation_mask
@@ -100,7 +100,7 @@ def _made_of(name: str, content: bytes, volume: Volume | None) -> bytes:
 
 
 async def _apart(work: Callable[[], bytes]) -> bytes:
-    """Run work in a separate thread, which the server does not await at its end."""
+    """Run work in a separate thread, for which the server does not wait when it ends."""
     loop = asyncio.get_running_loop()
     ended: asyncio.Future[bytes] = loop.create_future()
 
@@ -118,7 +118,7 @@ async def _apart(work: Callable[[], bytes]) -> bytes:
             made = work()
         except BaseException as raised:  # handled by the waiting task
             error = raised
-        # If the server has ended, no task waits.
+        # If the server has ended, no task waits for the result.
         with contextlib.suppress(RuntimeError):
             loop.call_soon_threadsafe(say, error, made)
 

@@ -1,4 +1,4 @@
-"""Rejections of the server: only a status, or an error for the page."""
+"""Answers to rejected requests: only a status, or an error that the page shows."""
 
 from __future__ import annotations
 
@@ -14,6 +14,6 @@ def refusal(status: int, headers: dict[str, str] | None = None) -> Response:
 
 
 def unreadable(error: LumencutError) -> Response:
-    """Return an error for the page; its mends are options of the serving command."""
+    """Return an error for the page; its remedies are written as options of the command that serves."""
     fields = {"kind": "format", "subject": error.subject, "found": error.found, "expected": error.expected}
     return JSONResponse({**fields, "mend": written(error.mend, as_option)}, 422)

@@ -1,4 +1,4 @@
-"""The running server: its socket, thread, limits and end."""
+"""The running server: socket, thread, limits, and how it ends."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ from lumencut.viewer.guard import HEADERS, Place
 from lumencut.viewer.page import Page
 
 _LOOPBACK = "127.0.0.1"
-#: Backlog of the socket, and number of connections accepted at once.
+#: Largest number of waiting connections of the socket, and of connections accepted at once.
 BACKLOG = 64
 _TOKEN_BYTES = 32
-#: Limit of headers (bytes); browsers also send the cookies of other servers of this machine.
+#: Largest size of headers (bytes); browsers also send cookies of other servers on this machine.
 _MOST_HEADERS = 32 << 10
-#: Time that closing waits for the thread, which checks ten times a second (s).
+#: How long closing waits for the thread, which checks ten times a second (s).
 _PATIENCE = 5.0
 
 
@@ -67,7 +67,7 @@ class ViewerServer:
             headers=list(HEADERS.items()),
         )
         self._server = uvicorn.Server(config)
-        # The main thread receives signals and ends this one; uvicorn must not handle them.
+        # The main thread receives signals and ends this thread; uvicorn must not handle signals.
         self._thread = threading.Thread(
             target=self._server.run, args=([self._socket],), name="lumencut server", daemon=True
         )
@@ -81,7 +81,7 @@ class ViewerServer:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        # force_exit: uvicorn would otherwise wait for connections that still load.
+        # With force_exit, because uvicorn would otherwise wait for connections that still load.
         self._server.should_exit = self._server.force_exit = True
         self._thread.join(_PATIENCE)
         if self._scene is not None:
@@ -91,17 +91,17 @@ class ViewerServer:
     def wait(self) -> None:
         """Wait for a signal, which raises an error here; the server does not end by itself."""
         while self._thread.is_alive():
-            # In short waits: some systems deliver signals only between them.
+            # Only for short times: some systems deliver signals only between waits.
             self._thread.join(0.5)
         raise RuntimeError("the viewer's server ended by itself")
 
 
 def _listening(port: int) -> socket.socket:
-    """A socket that listens on loopback only."""
+    """Return a socket that listens on loopback only."""
     own = socket.socket(socket.AF_INET, socket.SOCK_STREAM)
     try:
         if os.name == "posix":
-            # Allows to reuse a port at once; two servers on one port still fail.
+            # So that a port can be used again at once; two servers on one port are still an error.
             own.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
         own.bind((_LOOPBACK, port))
         own.listen(BACKLOG)

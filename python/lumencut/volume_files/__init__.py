@@ -223,20 +223,20 @@ def inspected_volume(
     resample_slices: bool = False,
     progress: Progress | None = None,
 ) -> tuple[VolumeReport, Volume]:
-    """Return the report of `inspect_volume` and the volume; same parameters and errors."""
+    """Return the report of `inspect_volume` and the volume, with the same parameters and errors."""
     callback(FormatError, "progress", progress)
     counted = progress if progress is not None else _silent
     file = _open(path, _wanted(series, phase, fill_gaps, resample_slices), counted)
     volume = _values(file, counted)
     report = _report(file, volume)
     if volume is None:
-        # No label map shows segments that overlap; the grid is known all the same.
+        # A label map cannot hold overlapping segments, but the grid is known.
         volume = Volume(np.zeros(file.size[::-1], np.uint8), world_from_index=file.world_from_index)
     return report, volume
 
 
 def _values(file: VolumeFile, counted: Progress) -> Volume | None:
-    """The volume; none, and a note, for segments that overlap."""
+    """Return the volume; if segments overlap, None and a note."""
     try:
         return file.volume(counted)
     except OverlapError as error:
@@ -245,7 +245,7 @@ def _values(file: VolumeFile, counted: Progress) -> Volume | None:
 
 
 def _report(file: VolumeFile, volume: Volume | None) -> VolumeReport:
-    """The content of a file; without its volume only that of its headers."""
+    """Return the content of a file; without its volume, only what the headers state."""
     dtype, value_range = file.dtype.newbyteorder("="), None
     if volume is not None:
         dtype, value_range = volume.array.dtype, _finite_range(volume.array, file.notes)
@@ -280,7 +280,7 @@ def list_series(path: str | os.PathLike[str]) -> list[SeriesReport]:
     if is_address(path):
         from lumencut.dicomweb.source import fetched
 
-        # A reference is kept while reading: the folder is removed with the last one.
+        # Keep a reference while reading: the temporary folder is removed together with the last one.
         folder = fetched(path)
         return list_dicom_series(folder.path)
     return list_dicom_series(_existing(path))
@@ -321,7 +321,7 @@ def _wanted(
 
 
 def _numbers_of(segments: Any) -> tuple[int, ...]:
-    """The numbers of segments, checked."""
+    """Return the checked numbers of segments."""
     try:
         listed = list(segments)
     except TypeError as error:
@@ -362,7 +362,7 @@ def _open(given: str | os.PathLike[str], wanted: Wanted, progress: Progress) -> 
 
 
 def _fetched(given: str | os.PathLike[str], wanted: Wanted, progress: Progress) -> VolumeFile:
-    """A volume of a PACS, whose files stay in a temporary folder while it exists."""
+    """Return a volume of a PACS, whose files stay in a temporary folder as long as it exists."""
     from lumencut.dicomweb.source import fetched
 
     with heeding(progress) as counted:

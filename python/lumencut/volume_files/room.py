@@ -38,7 +38,7 @@ def require_memory(subject: object, needed: int) -> None:
     available = available_memory()
     if needed > available:
         found = f"voxels that need {in_words(needed)} of memory"
-        raise FormatError(str(subject), found, f"at most the {in_words(available)} that are available", _MEND)
+        raise FormatError(str(subject), found, f"at most the available {in_words(available)}", _MEND)
 
 
 def in_words(count: int) -> str:

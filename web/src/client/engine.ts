@@ -1,4 +1,4 @@
-/** Typed calls to the worker; their errors are `Failure`s. */
+/** The connection of the page to the worker. Its methods throw `Failure`. */
 import { proxy, type Remote, transfer, wrap } from 'comlink';
 import type { Answer, Asked, Attachments, Message, OnProgress, Question } from '../core/asked';
 import { Failure } from '../core/failure';
@@ -8,7 +8,7 @@ import { Precedence } from '../core/precedence';
 import type { ScanStudy } from '../core/scan-study';
 import type { EngineHost } from '../worker/host';
 
-/** Addresses of the same origin. */
+/** Addresses of the files to load, on the same origin as the page. */
 export interface Addresses {
   readonly volume: string | null;
   readonly centerlines: string | null;
@@ -24,7 +24,7 @@ export interface Opened {
   readonly doubt?: PlaceDoubt | null;
 }
 
-/** Bits of the shared stop byte: a view yields to any answer the user waits for, other work only to `cancel`. */
+/** Bits of a byte shared with the worker: the first stops rendering, the second stops other long work. */
 const STOP_VIEW = 1;
 const STOP_LONG = 2;
 
@@ -39,12 +39,12 @@ export class EngineClient implements Asked {
     this.host = wrap<EngineHost>(this.worker);
   }
 
-  /** Ends the worker and its compute threads; no question works afterwards. */
+  /** Ends the worker and its compute threads; later requests fail. */
   end(): void {
     this.worker.terminate();
   }
 
-  /** Answers a question of the table; answers the user waits for come before the current view. */
+  /** Sends a request to the engine. A request that the user waits for interrupts the rendering of a view. */
   ask<N extends Question>(
     name: N,
     message: Message<N>,
@@ -62,7 +62,7 @@ export class EngineClient implements Asked {
     return started;
   }
 
-  /** Stops the current view; without shared memory it runs to completion. */
+  /** Stops rendering the current view. Without shared memory, rendering cannot be stopped. */
   stop(): void {
     this.say(STOP_VIEW);
   }
@@ -109,7 +109,7 @@ export class EngineClient implements Asked {
     return this.first(this.host.dicomHead(file));
   }
 
-  /** Stops loading, tracing and measuring; running tracing and measuring stop only with shared memory. */
+  /** Stops loading, tracing and measuring. Without shared memory, tracing or measuring that has begun continues. */
   cancel(): Promise<void> {
     this.say(STOP_LONG);
     return typed(this.host.cancel());

@@ -1,4 +1,4 @@
-/** The single engine of the page. */
+/** The only connection to the engine, used by the whole page. */
 import { EngineClient } from './engine';
 
 export const engine = new EngineClient();

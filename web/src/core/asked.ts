@@ -1,4 +1,4 @@
-/** The interface that answers questions: the engine, or a test double. */
+/** The interface for requests to the engine, also implemented by test doubles. */
 import type { Questions } from './generated/questions';
 import type { GivenFile, Progress } from './messages';
 
@@ -11,11 +11,11 @@ export type OnProgress = (progress: Progress) => void;
 export interface Attachments {
   readonly onProgress?: OnProgress;
   readonly bytes?: Uint8Array;
-  /** Files of a mask; the worker reads them before the edit. */
+  /** Files of a vessel mask; the worker reads them before it runs the edit. */
   readonly mask?: readonly GivenFile[];
 }
 
 export interface Asked {
-  /** Answers a question of `generated/questions.ts`. Throws `Failure`. */
+  /** Answers a request listed in `generated/questions.ts`. Throws `Failure`. */
   ask<N extends Question>(name: N, message: Message<N>, attachments?: Attachments): Promise<Answer<N>>;
 }

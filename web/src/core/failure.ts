@@ -1,4 +1,4 @@
-/** Typed errors of the page: what was found, what was expected, and the remedy. */
+/** The errors of the page state what was found, what was expected, and a remedy. */
 import { type Mend, type MendName, mendWords } from './mends';
 import type { Vector } from './messages';
 
@@ -8,26 +8,26 @@ export interface SeriesChoice {
   readonly description: string;
   readonly modality: string;
   readonly images: number;
-  /** Voxels along i, j, k and their sizes (mm); null if the images form no stack. */
+  /** Numbers of voxels along i, j and k, and voxel sizes (mm); null if the images form no stack. */
   readonly size: readonly number[] | null;
   readonly spacing: readonly number[] | null;
-  /** Why the images form no angiography volume; empty if they may. */
+  /** Why the images cannot be an angiography volume; empty if they can. */
   readonly trouble: string;
   readonly thumbnail?: Thumbnail;
 }
 
-/** Grey bytes in rows from the top. */
+/** A small grey picture: one byte per pixel, in rows from the top. */
 export interface Thumbnail {
   readonly width: number;
   readonly height: number;
   readonly grey: readonly number[];
 }
 
-/** Clicked points, counted from 0. */
+/** The clicked point that an error concerns; vessels and points count from 0. */
 export interface About {
   /** Null for a point that belongs to no vessel yet. */
   readonly vessel: number | null;
-  /** Null if all points of the vessel are meant. */
+  /** Null if the error concerns all points of the vessel. */
   readonly point: number | null;
 }
 
@@ -35,15 +35,15 @@ export interface More {
   readonly mends?: readonly Mend[];
   readonly about?: About;
   readonly series?: readonly SeriesChoice[];
-  /** Position in the volume (mm, LPS), and the value there. */
+  /** Position in the volume that the error concerns (mm, LPS), and the value there. */
   readonly place?: Vector;
   readonly value?: number;
 }
 
-/** Kind of a crash of the module; afterwards the module answers nothing. */
+/** The `kind` of a failure after a crash of the WebAssembly module, which then answers no more requests. */
 export const CRASH = 'crash';
 
-/** An error with advice and with remedies, which the page words by their names. */
+/** An error with advice as text, and with named remedies that the page puts into words. */
 export class Failure extends Error {
   readonly mends: readonly Mend[];
   readonly series: readonly SeriesChoice[];
@@ -56,7 +56,7 @@ export class Failure extends Error {
     readonly subject: string,
     readonly found: string,
     readonly expected: string,
-    /** Advice that the page cannot carry out itself. */
+    /** Advice for the user, which has no button. */
     readonly advice = '',
     { mends = [], series = [], about, place, value }: More = {},
   ) {
@@ -70,7 +70,7 @@ export class Failure extends Error {
     this.value = value ?? null;
   }
 
-  /** Converts anything thrown: JSON of the core, an abort, a crash of the module, or another error. */
+  /** Converts anything thrown: an error of the Rust code (JSON), an abort, a crash of the module, or another error. */
   static of(thrown: unknown): Failure {
     if (thrown instanceof Failure) {
       return thrown;
@@ -91,7 +91,7 @@ export class Failure extends Error {
     return new Failure('unexpected', 'the page', text, 'no error', 'reload the page and open the scan again');
   }
 
-  /** Advice and remedies in words; empty if none is known. */
+  /** Advice and remedies as one text; empty if there are none. */
   get mending(): string {
     return mending(this.advice, this.mends);
   }
@@ -111,7 +111,7 @@ export class Failure extends Error {
     };
   }
 
-  /** Text form for messages between worker and page; `of` parses it. */
+  /** The failure as JSON, for messages between worker and page; `of` parses it. */
   get text(): string {
     const { kind, subject, found, expected, advice: mend, more } = this;
     return JSON.stringify({ kind, subject, found, expected, mend, ...more });

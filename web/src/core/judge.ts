@@ -1,6 +1,6 @@
-/** The interface of the judge of DICOM series. */
+/** Interface of the Rust code that checks DICOM series and plans their volume. */
 
-/** Functions of the crate `lumencut-dicom`, with JSON in and out. */
+/** Functions of the crate `lumencut-dicom`; arguments and results are JSON. */
 export interface Judge {
   dicom_attributes(): string;
   judge_dicom(headers: string, wanted: string): string;

@@ -1,6 +1,6 @@
-/** The remedies of failures: names shared by all hosts, and their wording in the page. */
+/** Remedies of failures: their names, which page and Python package share, and their texts in the page. */
 
-/** In the order of the crates. */
+/** All names, in the order in which the Rust crates define them. */
 export const MEND_NAMES = [
   'bridge',
   'every_second',
@@ -31,7 +31,7 @@ export interface Mend {
 
 export const EVERY_SECOND: Mend = { name: 'every_second', values: [] };
 
-/** `LPS in cm` for `lps in cm`. */
+/** Converts the axes to capitals: `LPS in cm` for `lps in cm`. */
 export const readingWords = (reading: string): string =>
   reading.replace(/^\w+/, (space) => space.toUpperCase());
 
@@ -41,11 +41,11 @@ const WORDS: Record<MendName, (mend: Mend) => string> = {
   bridge: () => 'bridge the gap where the vessel is occluded',
   every_second: () => 'load every second voxel along each axis, an eighth of the data',
   cpu: () => 'compute on the CPU: add ?device=cpu to the address of this page',
-  windows: () => 'scale them with the Python package, which also accepts windows for them',
+  windows: () => 'use the Python package, which accepts windows for such values',
   threshold: () => 'convert it to an integer mask, or trace it with `lumencut trace --threshold`',
   fewer_pixels: () => 'make the view smaller',
-  doubtful: () => 'review the doubtful ones',
-  smaller_radius: () => 'search for thinner ones with `lumencut trace --smallest-radius`',
+  doubtful: () => 'review the doubtful vessels',
+  smaller_radius: () => 'search for thinner vessels with `lumencut trace --smallest-radius`',
   coordinates: (mend) => `choose its coordinate system, ${spaces(mend)}`,
   unit: ({ values }) => `choose the unit of its coordinates, ${values.join(' or ')}`,
   place: (mend) => `choose its coordinate system, ${spaces(mend)}, if it belongs to this scan`,

@@ -1,4 +1,4 @@
-/** Messages between page and worker; those of the engine are generated from its table of questions. */
+/** Types of messages between page and worker. Those of the engine are generated (`generated/questions.ts`). */
 import type { DoubtRow, LookRow, Picture, RegionRow, SettingRow } from './generated/questions';
 
 export type * from './generated/questions';
@@ -17,11 +17,11 @@ export interface GivenFile {
   readonly file: File;
 }
 
-/** Choices for opening a study that is ambiguous. */
+/** Choices of the user for opening files that are ambiguous. */
 export interface SeriesWish {
-  /** Number or UID. */
+  /** Series number or series instance UID. */
   readonly series?: string;
-  /** Value of the attribute that distinguishes the phases. */
+  /** Value of the DICOM attribute that distinguishes the phases. */
   readonly phase?: string;
   readonly fill_gaps?: boolean;
   readonly resample_slices?: boolean;
@@ -32,13 +32,13 @@ export interface SeriesWish {
   readonly every_second?: boolean;
 }
 
-/** Result of a view: its pixels, or nothing if the worker drew them on the canvas. */
+/** A rendered view: its pixels, or none if the worker drew them on the canvas. */
 export interface Drawn {
   readonly picture: Picture | null;
   readonly milliseconds: number;
 }
 
-/** Progress of long work; the total may be unknown. */
+/** Progress of long work; `total` is null if unknown. */
 export interface Progress {
   readonly words: string;
   readonly done: number;
@@ -54,6 +54,6 @@ export interface Started {
   readonly looks: readonly LookRow[];
   readonly regions: readonly RegionRow[];
   readonly doubts: readonly DoubtRow[];
-  /** Shared byte by which the page stops the worker. */
+  /** The shared byte through which the page stops the worker; null without shared memory. */
   readonly stop: { readonly buffer: SharedArrayBuffer; readonly address: number } | null;
 }

@@ -1,4 +1,4 @@
-/** Names of the methods in display order; a test compares them with the engine's. */
+/** Names of the visualisation and stenosis methods in menu order; a test compares them with the engine's. */
 import type { Method, StenosisMethod } from './messages';
 
 export const VIEW_METHODS: readonly (readonly [Method, string])[] = [

@@ -4,14 +4,14 @@ import init, { Engine, initSync, run_thread, use_threads } from './pkg/lumencut.
 
 export { Engine };
 
-/** Loads the judge of DICOM series, a separate module, on first use. */
+/** Loads the module for DICOM series on first use. */
 export async function loadJudge(): Promise<Judge> {
   const module = await import('./pkg/dicom/lumencut_dicom.js');
   await module.default({ module_or_path: new URL('./pkg/dicom/lumencut_dicom_bg.wasm', import.meta.url) });
   return module;
 }
 
-/** What a thread needs to join the memory of another worker. */
+/** What a thread needs to compute in the memory of another worker. */
 export interface Shared {
   readonly module: WebAssembly.Module;
   readonly memory: WebAssembly.Memory;
@@ -19,7 +19,7 @@ export interface Shared {
 
 let held: WebAssembly.Memory | null = null;
 
-/** Memory of the module (bytes); it never shrinks. */
+/** Memory of the WebAssembly module (bytes); it never shrinks. */
 export const memorySize = (): number => held?.buffer.byteLength ?? 0;
 
 export async function loadModule(): Promise<Shared> {
@@ -30,7 +30,7 @@ export async function loadModule(): Promise<Shared> {
   return { module, memory };
 }
 
-/** Computes in the memory of another worker, until this worker ends. */
+/** Makes this worker a compute thread in the memory of another worker; returns only when the worker ends. */
 export function joinModule({ module, memory }: Shared): void {
   initSync({ module, memory });
   run_thread();

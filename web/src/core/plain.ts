@@ -1,11 +1,11 @@
-/** Basic types of messages. Points are in world coordinates (LPS, mm). */
+/** Basic types in messages to the engine. Points are in world coordinates (LPS, mm). */
 
 export type Vector = readonly [number, number, number];
 export type Pair = readonly [number, number];
-/** Level and width. */
+/** Level and width of a grey-value window. */
 export type Window = Pair;
 
-/** Number of a line in the engine. Lines are immutable: every edit creates a new one, which undo relies on. */
+/** Number of a centerline in the engine. An edit creates a new line and keeps the old one for undo. */
 export type LineId = number;
 
 export type SettingValue = boolean | number | string | null | readonly (number | string)[];
@@ -13,9 +13,9 @@ export type Settings = Readonly<Record<string, SettingValue>>;
 
 export type Bytes = Uint8ClampedArray<ArrayBuffer>;
 
-/** When a question is answered: before the current view, after it, or immediately. */
+/** When the engine answers a request: before the current view, after it, or immediately. */
 export interface Turn {
   readonly when: 'first' | 'later' | 'at once';
-  /** Label of the progress, for long work that can be cancelled. */
+  /** Label of the progress bar for long work, which can be cancelled; null for short work. */
   readonly words: string | null;
 }

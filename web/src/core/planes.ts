@@ -1,10 +1,11 @@
-/** Slice planes of the patient, and the mapping between their pixels and the world. */
+/** Axial, coronal and sagittal planes, and the mapping between their pixels and world coordinates. */
+import { zoomedSpacing } from './camera';
 import type { Pair, Plane, Vector, VolumeReport } from './messages';
 import { add, cross, dot, middle, scale, subtract } from './vectors';
 
 export type SliceName = 'axial' | 'coronal' | 'sagittal';
 
-/** Right and down axes, radiological: axial from the feet, coronal from the front, sagittal facing left. */
+/** Image axes in radiological convention: axial seen from the feet, coronal from the front, sagittal facing left. */
 export const AXES: Readonly<Record<SliceName, { readonly right: Vector; readonly down: Vector }>> = {
   axial: { right: [1, 0, 0], down: [0, 1, 0] },
   coronal: { right: [1, 0, 0], down: [0, 0, -1] },
@@ -26,7 +27,7 @@ export function fittedLook(volume: VolumeReport, name: SliceName, size: Pair): L
   return { center, spacing: spacing * 1.02 };
 }
 
-/** The look for another pane size; the shorter side keeps its extent. */
+/** The position for another pane size; the shorter side keeps its extent in mm. */
 export function resizedLook(look: Look, from: Pair, to: Pair): Look {
   return { ...look, spacing: (look.spacing * Math.min(...from)) / Math.min(...to) };
 }
@@ -43,7 +44,7 @@ export function pointOn({ center, right, down, size, pixel_spacing }: Plane, [x,
   return add(add(center, across), scale(down, (y - (size[1] - 1) / 2) * pixel_spacing));
 }
 
-/** Column and row of a point, projected along the normal. */
+/** Column and row of a point, projected onto the plane along its normal. */
 export function pixelOn({ center, right, down, size, pixel_spacing }: Plane, point: Vector): Pair {
   const offset = subtract(point, center);
   return [
@@ -59,7 +60,7 @@ export function pannedLook(look: Look, name: SliceName, [x, y]: Pair): Look {
 }
 
 export function zoomedLook(look: Look, plane: Plane, factor: number, at: Pair): Look {
-  const spacing = Math.min(Math.max(look.spacing / factor, 0.005), 20);
+  const spacing = zoomedSpacing(look.spacing, factor);
   const kept = pointOn(plane, at);
   const toward = scale(subtract(plane.center, kept), spacing / look.spacing);
   return { center: add(kept, toward), spacing };
@@ -77,7 +78,7 @@ export function voxelSide(volume: VolumeReport, direction: Vector): number {
   return Math.max(...steps, 1e-3);
 }
 
-/** Step to the next voxel along an index. */
+/** World vector to the next voxel along an index axis. */
 function column(volume: VolumeReport, axis: number): Vector {
   return [0, 1, 2].map((row) => volume.world_from_index[row]?.[axis] ?? 0) as unknown as Vector;
 }

@@ -1,12 +1,12 @@
-/** Answers take precedence over views: they stop the current view, which restarts afterwards. */
+/** Requests that the user waits for take precedence: they stop rendering, which restarts afterwards. */
 
-/** How long an answer waits for a moving view, which usually finishes soon (ms). */
+/** How long a request waits for a view in motion, which usually finishes soon (ms). */
 const PATIENCE = 60;
-/** After this many stopped views in a row the next one runs to completion. */
+/** After this many views in a row were stopped, the next one runs to completion. */
 const MOST_STOPS = 6;
 
 interface UnderWay {
-  /** Whether the view only adds pixels or samples to the picture. */
+  /** Whether the view only refines a picture that is already displayed. */
   readonly isRefining: boolean;
   isStopped: boolean;
 }
@@ -31,13 +31,13 @@ export class Precedence {
     }
   }
 
-  /** Registers an answer that the user waits for; views yield to it. */
+  /** Waits for an answer, and stops the current view meanwhile. */
   async first<T>(answer: Promise<T>): Promise<T> {
     const view = this.underWay;
     if (!view || this.stops >= MOST_STOPS) {
       return answer;
     }
-    // Repeated, because a view ignores a stop before it begins.
+    // Repeated, because a view that has not begun ignores the stop.
     const timer = setInterval(() => this.giveWay(view), PATIENCE);
     if (view.isRefining && !view.isStopped) {
       this.giveWay(view);

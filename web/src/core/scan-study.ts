@@ -1,4 +1,4 @@
-/** The DICOM study of a scan, for objects that are saved with it. */
+/** The DICOM study of a scan, in which derived objects are saved. */
 
 export interface ServedScan {
   readonly isServed: true;

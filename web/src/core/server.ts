@@ -1,15 +1,15 @@
-/** Requests to the Python server of the page; a plain file server offers none. */
+/** Requests to `lumencut view`, the Python server of the page; other web servers do not offer these services. */
 import { Failure } from './failure';
 
 export type Made = 'objects' | 'study' | 'mask';
 
-/** Address of a service. Throws if the page has no such server. */
+/** Address of a service. Throws if the server of the page does not offer it. */
 export function placeOf(made: Made, subject: string): string {
   const address = document.querySelector<HTMLMetaElement>(`meta[name="lumencut-${made}"]`)?.content;
   if (address) {
     return address;
   }
-  const advice = 'open the scan with `lumencut view`, from pip install "lumencut[dicom,plot]"';
+  const advice = 'open the scan with `lumencut view`, installed with pip install "lumencut[dicom,plot]"';
   throw new Failure(
     'file',
     subject,
@@ -19,7 +19,7 @@ export function placeOf(made: Made, subject: string): string {
   );
 }
 
-/** Posts content to a service; errors are `Failure`s. */
+/** Posts content as JSON to a service. Throws `Failure`. */
 export async function made(what: Made, subject: string, content: object): Promise<Response> {
   const response = await fetch(placeOf(what, subject), {
     method: 'POST',

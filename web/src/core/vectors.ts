@@ -1,4 +1,4 @@
-/** Vectors of three numbers. */
+/** Arithmetic of 3D vectors. */
 import type { Vector } from './messages';
 
 export const add = (a: Vector, b: Vector): Vector => [a[0] + b[0], a[1] + b[1], a[2] + b[2]];

@@ -1,4 +1,4 @@
-/** Adding many vessels: of the scan, from a seed, or of a mask. */
+/** Adds many vessels at once: all of a scan, those connected to a seed, or those of a mask. */
 import type { Asked } from '../core/asked';
 import type { DocumentVessel, Edit, Edited, GivenFile, LineFacts, Vector } from '../core/messages';
 import { flyToAnswer } from '../state/flight';
@@ -10,7 +10,7 @@ import { openList } from './list-open';
 import { maskOf, namedBySegment } from './segmentation';
 import { pickOnceShown } from './shown';
 
-/** Doubtful branches wait until the user accepts them. */
+/** Adds all branches connected to a seed. Doubtful ones are only added once the user accepts them. */
 export const addBranches = (engine: Asked, seed: Vector): Promise<boolean> =>
   isDone(commit(engine, { kind: 'add_branches', seed }));
 
@@ -20,7 +20,7 @@ export const accept = (engine: Asked, ids: readonly number[]): Promise<boolean> 
 export const leaveOut = (engine: Asked, ids: readonly number[]): Promise<boolean> =>
   isDone(commit(engine, { kind: 'leave_out', ids }));
 
-/** Adds all vessels of the scan as a tree. Rejected if all are doubtful, unless `doubtful` allows them. */
+/** Adds all vessels of the scan as a tree. Fails if all are doubtful, unless `doubtful` is set. */
 export async function findVessels(engine: Asked, doubtful = false): Promise<boolean> {
   const isFirst = sure().length === 0;
   const isFound = await addMany(engine, { kind: 'find_vessels', doubtful });
@@ -32,7 +32,7 @@ export async function findVessels(engine: Asked, doubtful = false): Promise<bool
 
 const sure = () => document_.value.vessels.filter((vessel) => vessel.doubt === null);
 
-/** Picks the widest vessel and shows most of it. */
+/** Picks the widest vessel, and turns the view so that most of it is visible. */
 async function showMain(engine: Asked): Promise<void> {
   try {
     const main = widest(answered.value?.facts ?? []);

@@ -1,9 +1,9 @@
-/** Clicks of vessels. Each edit retraces the vessel; a rejected click changes nothing. */
+/** Edits the clicked points of a vessel. Each edit retraces the vessel; a rejected click changes nothing. */
 import type { Asked } from '../core/asked';
 import type { AfterEdit, Vector } from '../core/messages';
 import { commit, isDone } from './committing';
 
-/** Begins a vessel with two or more clicks. `begun` receives its id, even after the user bridges a gap. */
+/** Begins a vessel with two or more clicks. `begun` receives its id, also if the user first bridges a gap. */
 export function beginVessel(
   engine: Asked,
   clicks: readonly Vector[],
@@ -16,7 +16,7 @@ export function beginVessel(
 
 export const begunId = (answer: AfterEdit | null): number | null => answer?.edited.added[0] ?? null;
 
-/** Returns null if the click was rejected. */
+/** Extends a vessel to a clicked point. Returns null if the click was rejected. */
 export const addClick = (engine: Asked, id: number, point: Vector): Promise<AfterEdit | null> =>
   commit(engine, { kind: 'add_click', id, point });
 
@@ -26,7 +26,7 @@ export const addClickOnLine = (engine: Asked, id: number, point: Vector): Promis
 export const moveClick = (engine: Asked, id: number, number: number, point: Vector): Promise<boolean> =>
   isDone(commit(engine, { kind: 'move_click', id, number, point }));
 
-/** Removes a click; a vessel with one click left is removed. */
+/** Removes a clicked point; if only one point would remain, removes the whole vessel. */
 export const removeClick = (engine: Asked, id: number, number: number): Promise<boolean> =>
   isDone(commit(engine, { kind: 'remove_click', id, number }));
 

@@ -1,4 +1,4 @@
-/** Runs edits in sequence: each is one undo step, or fails as a whole. A failure drops the edits that wait. */
+/** Runs edits one after another. Each becomes one undo step or changes nothing; a failure drops all waiting edits. */
 import { batch, signal } from '@preact/signals';
 import type { Asked } from '../core/asked';
 import { Failure } from '../core/failure';
@@ -10,7 +10,7 @@ import { change, document_ } from '../state/history';
 import { problem, progress } from '../state/store';
 import { storeSummary } from './traced-summary';
 
-/** A rejected edit; `bridge` retries it with gaps bridged. */
+/** A rejected edit; `bridge` repeats it and bridges gaps. */
 export interface Refusal {
   readonly failure: Failure;
   readonly bridge: (() => void) | null;
@@ -19,23 +19,23 @@ export interface Refusal {
 export const waiting = signal(0);
 export const refusal = signal<Refusal | null>(null);
 
-/** Number of running searches for vessels; clicks meanwhile set no points. */
+/** Number of running searches for vessels. During a search, clicks set no points. */
 export const searches = signal(0);
 const SEARCHES: readonly Edit['kind'][] = ['add_branches', 'find_vessels', 'add_mask'];
 
-/** The last edit of the engine, even if dropped since; it saves a second request for the tree. */
+/** The latest answer to an edit. It contains the tree, so the page need not request it again. */
 export const answered = signal<AfterEdit | null>(null);
 
-/** Progress is shown after this time (ms). */
+/** The progress of an edit is shown only if the edit takes longer than this (ms). */
 const SHOWN_AFTER = 250;
 
-/** A search within a vessel takes less (ms); a longer one probably started in bone, so the page asks. */
+/** A longer search (ms) probably started in bone instead of a vessel, so the page asks the user. */
 const ASKED_AFTER = 20_000;
 
 export const isLong = signal(false);
 
 let last: Promise<unknown> = Promise.resolve();
-/** Invalidates all running edits after a stop, a rejection or a new study. */
+/** Incremented by a stop, a rejection or a new study; results of edits that began earlier are ignored. */
 let generation = 0;
 
 export function dropEdits(): void {
@@ -43,7 +43,7 @@ export function dropEdits(): void {
   refusal.value = null;
 }
 
-/** Runs after all previous edits, and returns the words and the document of one undo step. */
+/** The work of an edit. It returns the description and the new document of one undo step. */
 type Work<T> = (onProgress: (progress: Progress) => void) => Promise<Step<T>> | Step<T>;
 
 interface Step<T> {
@@ -54,7 +54,7 @@ interface Step<T> {
   readonly also?: () => void;
 }
 
-/** Returns the result of the work, or null if it was not done. */
+/** Runs the work after all previous edits. Returns its result, or null if it was not done. */
 function inTurn<T>(work: Work<T>, bridge: (() => void) | null): Promise<T | null> {
   const own = generation;
   waiting.value += 1;
@@ -92,7 +92,7 @@ async function doEdit<T>(work: Work<T>, own: number, bridge: (() => void) | null
   }
 }
 
-/** Records the step; followers receive document and answer together. */
+/** Records the undo step; updates document and answer together. */
 function take({ words, after, answer, also }: Step<unknown>): void {
   batch(() => {
     answered.value = answer ?? answered.value;
@@ -119,7 +119,7 @@ export function showRefusal(failure: Failure, bridge: (() => void) | null = null
 
 export const isGap = (failure: Failure): boolean => failure.isMendedBy('bridge');
 
-/** Clears the error message when the user tries something else. */
+/** Closes the error message of a rejected edit when the user tries something else. */
 export function forgetRefusal(): void {
   if (refusal.value && problem.value === refusal.value.failure) {
     problem.value = null;
@@ -130,7 +130,7 @@ export function forgetRefusal(): void {
 let shownProgress: Progress | null = null;
 const isOurs = (now: Progress | null): boolean => now !== null && now === shownProgress;
 
-/** Shows progress after a delay, even without further reports. */
+/** Shows the progress of an edit after a delay, even if no progress was reported. */
 function progressDisplay(own: number): { onProgress: (progress: Progress) => void; end: () => void } {
   let newest: Progress | null = null;
   let isDue = false;
@@ -149,7 +149,7 @@ function progressDisplay(own: number): { onProgress: (progress: Progress) => voi
     newest = report;
     show();
   };
-  // Reports may arrive late by another channel; ignore them.
+  // Progress reports may arrive after the edit has ended; ignore them.
   const end = () => {
     clearTimeout(timer);
     isDue = false;
@@ -164,12 +164,12 @@ export function commitPlain(words: string, edit: (document: Document) => Documen
 interface EditOptions {
   readonly mask?: readonly GivenFile[];
   readonly renamed?: (vessel: DocumentVessel) => DocumentVessel;
-  /** Called with the result when the document changes, also after a gap was bridged. */
+  /** Called when the edit has changed the document, also if the user first bridged a gap. */
   readonly then?: (edited: Edited) => void;
   readonly bridging?: boolean;
 }
 
-/** Sends an edit of the current document to the engine. Returns null if not done. Concurrent page changes stay. */
+/** Sends an edit to the engine; returns null if it was not done. Changes made in the page meanwhile are kept. */
 export function commit(engine: Asked, edit: Edit, options: EditOptions = {}): Promise<AfterEdit | null> {
   const { mask, then, renamed = (vessel) => vessel, bridging = false } = options;
   const files = mask && { mask };
@@ -181,7 +181,7 @@ export function commit(engine: Asked, edit: Edit, options: EditOptions = {}): Pr
         { onProgress, ...files },
       );
     const answer = await latest(ask);
-    // The engine shows its own names, so renamed vessels must be shown again.
+    // The engine displays the vessel names that it knows, so renamed vessels must be displayed again.
     const edited = withNames(answer.edited, renamed);
     const after = afterEdit(document_.value, edited);
     const also = () => {
@@ -226,7 +226,7 @@ function askedAbout<T>(work: Work<T>): Work<T> {
   };
 }
 
-/** Repeats the request if the document changed meanwhile, as by redo. */
+/** Repeats the request if the document changed meanwhile, for example by redo. */
 async function latest(ask: (document: Document) => Promise<AfterEdit>): Promise<AfterEdit> {
   for (;;) {
     const before = document_.value;

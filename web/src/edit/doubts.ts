@@ -1,4 +1,4 @@
-/** Review of the doubtful branches: shows each one to be accepted or left out. */
+/** Review of the doubtful branches: shows one after another, and the user accepts it or leaves it out. */
 import type { Asked } from '../core/asked';
 import type { Camera, DocumentVessel, LineId } from '../core/messages';
 import { placeCrossHair } from '../link/cross-hair';
@@ -11,7 +11,7 @@ import { accept, leaveOut } from './branches';
 import { contents } from './lines';
 import { chosenDoubt } from './mode';
 
-/** The short reason, if the engine has one. */
+/** Why the vessel is doubtful, in short if the engine has a short form. */
 export function reasonOf({ doubt }: DocumentVessel): string {
   return started.value?.doubts.find(({ words }) => words === doubt)?.short ?? doubt ?? '';
 }
@@ -47,7 +47,7 @@ export async function showDoubt(engine: Asked, vessel: DocumentVessel): Promise<
   }
 }
 
-/** Smallest field of view (mm, shorter side), so that the surroundings identify the branch. */
+/** Smallest field of view (mm, shorter side); the surroundings help to identify the branch. */
 const LEAST_SEEN = 80;
 
 async function viewOf(engine: Asked, from: Camera, line: LineId): Promise<Camera> {
@@ -55,7 +55,7 @@ async function viewOf(engine: Asked, from: Camera, line: LineId): Promise<Camera
   return { ...best, pixel_spacing: Math.max(best.pixel_spacing, LEAST_SEEN / Math.min(...best.size)) };
 }
 
-/** Selects the next or previous doubtful branch, cyclically. */
+/** Shows the next or previous doubtful branch; after the last comes the first. */
 export function stepDoubt(engine: Asked, by: 1 | -1): void {
   const all = doubtful(document_.value);
   const [now] = placeOfDoubt();

@@ -1,4 +1,4 @@
-/** The vessel being drawn: clicks before the first trace, and the live path to the pointer. */
+/** The vessel being drawn: its first clicks, and the preview of the path to the pointer. */
 import { computed, effect, signal } from '@preact/signals';
 import type { Asked } from '../core/asked';
 import { Latest } from '../core/latest';
@@ -9,7 +9,7 @@ import { document_ } from '../state/history';
 import { nextColor } from '../state/palette';
 import { active, tool } from '../state/tool';
 
-/** The first point of a vessel without a second one. */
+/** The first point of a vessel that has no second point yet. */
 export const first = signal<Vector | null>(null);
 /** A point from a projection that the user must confirm in the slices. */
 export const candidate = signal<Vector | null>(null);
@@ -18,7 +18,7 @@ interface Coming {
   readonly point: Vector;
   readonly drawing: number;
 }
-/** Includes points of vessels that have ended meanwhile. */
+/** Clicked points that are still being traced, also those of vessels already ended. */
 export const coming = signal<readonly Coming[]>([]);
 /** Number of the vessel being drawn; late results of earlier ones are ignored. */
 export const drawing = signal(0);
@@ -31,7 +31,7 @@ export interface Dragged {
 export const dragged = signal<Dragged | null>(null);
 export const draggedStopper = signal<Omit<Dragged, 'id'> | null>(null);
 
-/** A path preview; straight if none was found. */
+/** A preview of the traced path; a straight line if none was found. */
 export interface LivePath {
   readonly points: readonly Vector[];
   readonly isFound: boolean;
@@ -52,12 +52,12 @@ export const anchor = computed<Vector | null>(
 
 export const isDrawing = computed(() => anchor.value !== null);
 
-/** The pointer counts as on the point within this distance (mm). */
+/** Within this distance (mm), the pointer counts as being on the point. */
 const SAME_POINT_MM = 0.05;
 
 type Leg = readonly [from: Vector, to: Vector];
 
-/** Path previews: to the pointer, or from both neighbours to a dragged click. */
+/** Previews to compute: one to the pointer, or two from the neighbours of a dragged click. */
 function legs(): readonly Leg[] {
   const moved = dragged.value;
   if (moved) {
@@ -71,14 +71,14 @@ function legs(): readonly Leg[] {
     : [];
 }
 
-/** Retries for a resting pointer: the engine searches for a limited time and continues when asked again. */
+/** Most requests for a resting pointer. Each one searches for a limited time; the next one continues the search. */
 const MOST_TRIES = 40;
 
-/** Shows the latest live path. Returns the function that ends it. */
+/** Keeps the path preview up to date. Returns a function that stops this. */
 export function followPointer(engine: Asked): () => void {
   const latest = new Latest();
   let number = 0;
-  /** Requests before this number belong to a vessel no longer drawn. */
+  /** Requests with a lower number belong to a vessel that is no longer drawn. */
   let ended = 0;
   return effect(() => {
     number += 1;

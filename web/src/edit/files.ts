@@ -1,11 +1,11 @@
-/** Export of the vessels as centerline files, and import of centerlines. */
+/** Writes the vessels as a centerline file, and adds centerlines from files. */
 import type { Asked } from '../core/asked';
 import type { CenterlineKind, NamedLine } from '../core/messages';
 import { nameOf } from '../state/changes';
 import { document_ } from '../state/history';
 import { commit, isDone } from './committing';
 
-/** All vessels except the doubtful ones, including hidden vessels. */
+/** A centerline file of all vessels, also hidden ones, but without doubtful ones. */
 export async function centerlineFile(engine: Asked, kind: CenterlineKind): Promise<Blob> {
   const vessels = document_.value.vessels.filter((vessel) => vessel.doubt === null);
   const lines = vessels.map((vessel) => ({ line: vessel.line, name: nameOf(vessel) }));

@@ -1,4 +1,4 @@
-/** Starts everything that follows the document while the page is open. */
+/** Starts all effects that update the page when the document changes. */
 import type { Asked } from '../core/asked';
 import { followPointer } from './drawing';
 import { followLines } from './lines';

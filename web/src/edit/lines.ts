@@ -1,4 +1,4 @@
-/** Content of the document's lines, drawn over the views. */
+/** Points and radii of the centerlines, to draw them over the views. */
 import { effect, signal } from '@preact/signals';
 import type { Asked } from '../core/asked';
 import { Failure } from '../core/failure';
@@ -8,12 +8,12 @@ import { document_ } from '../state/history';
 import { problem } from '../state/store';
 import { answered } from './committing';
 
-/** By line number; lines are immutable. Cleared with the study. */
+/** Contents by line number; they never change. Emptied when the study closes. */
 export const contents = signal<ReadonlyMap<LineId, LineContent>>(new Map());
 
 const asked = new Set<LineId>();
 
-/** Loads lines as they enter the document. Returns the function that ends it. */
+/** Loads each line that is added to the document. Returns a function that stops this. */
 export function followLines(engine: Asked): () => void {
   return effect(() => {
     const lines = document_.value.vessels.map((vessel) => vessel.line);
@@ -52,7 +52,7 @@ async function load(engine: Asked, lines: readonly LineId[]): Promise<void> {
       ...found.map((content, n) => [lines[n] ?? -1, content] as const),
     ]);
   } catch (error) {
-    // A study closed meanwhile has no lines.
+    // If the study was closed meanwhile, its lines are gone.
     const isAsked = lines.some((line) => asked.has(line));
     for (const line of lines) {
       asked.delete(line);
@@ -66,7 +66,7 @@ export function forgetLines(): void {
   contents.value = new Map();
 }
 
-/** Length of a line (mm); 0 until it is loaded. */
+/** Length of a centerline (mm); 0 until it is loaded. */
 export function lengthOf(line: LineId): number {
   const points = contents.value.get(line)?.points ?? [];
   const step = (n: number) => {

@@ -1,4 +1,4 @@
-/** Lumens under the pointer while tracing: the nearest along the ray, or the one selected by the wheel. */
+/** Lumens behind the pointer while tracing. The nearest is selected; the wheel selects others. */
 import { computed, signal } from '@preact/signals';
 import type { Asked } from '../core/asked';
 import type { Pair, PointedAt, PointedLumen } from '../core/messages';
@@ -16,7 +16,7 @@ export const pointed = signal<UnderPointer | null>(null);
 
 export const meant = computed<PointedLumen | null>(() => pointed.value?.lumens[pointed.value.number] ?? null);
 
-/** Finds the lumens at the pointer; returns the selected one, or null. */
+/** Finds the lumens under the pointer. Returns the selected one, or null. */
 export async function lookForLumens(
   engine: Asked,
   [view, at]: readonly [ViewName, Pair],
@@ -27,13 +27,13 @@ export async function lookForLumens(
   return meant.value;
 }
 
-/** Small pointer moves, or moves along the vessel, keep the selected lumen. */
+/** Whether the selected lumen stays selected: the pointer moved little, or along the vessel. */
 function isStillMeant({ center }: PointedLumen): boolean {
   const before = pointed.value?.number ? meant.value : null;
   return before !== null && length(subtract(center, before.center)) < before.diameter / 2;
 }
 
-/** Steps to deeper lumens or back. Returns whether there are several. */
+/** Selects a deeper lumen or goes back. Returns whether there are several lumens. */
 export function stepLumen(by: number): boolean {
   const now = pointed.value;
   if (!now || now.lumens.length < 2) {

@@ -36,7 +36,7 @@ export function followTool(): () => void {
       } else if (!isOn && before) {
         endVessel();
         forgetRefusal();
-        // Keep what the user chose meanwhile.
+        // Restore only what the user has not changed meanwhile.
         const isOurs = store.layout.peek() === 'four' && peekContext() === 'mip';
         if (isOurs) {
           show(before);

@@ -1,4 +1,4 @@
-/** Carries out keys and buttons: edits here, other actions in `state/actions.ts`. */
+/** Performs the actions of keys and buttons. Edits are in this file, other actions in `state/actions.ts`. */
 import type { EngineClient } from '../client/engine';
 import type { Action } from '../input/bindings';
 import { perform } from '../state/actions';
@@ -72,7 +72,7 @@ function point(engine: EngineClient, action: Action): boolean {
   return true;
 }
 
-/** Pressing twice at one position takes the whole vessel, if it has no other click. */
+/** Enter pressed twice at one position traces the whole vessel, if the vessel has no other point. */
 function pressEnter(engine: EngineClient): void {
   const isAgain = first.value !== null && !candidate.value && isAtCrossHair(first.value);
   if (!(isAgain && takeWhole(engine))) {
@@ -80,7 +80,7 @@ function pressEnter(engine: EngineClient): void {
   }
 }
 
-/** Deletes the picked vessel only while the list shows which one it is, and not while measuring. */
+/** Deletes the picked vessel, but not while measuring or while the vessel list is closed. */
 function removePicked(engine: EngineClient): boolean {
   const id = pickedId();
   if (!isListOpen.value || layout.value === 'measure' || id === null) {
@@ -101,7 +101,7 @@ export function branchesFromHere(engine: EngineClient): void {
   }
 }
 
-/** Undoes the last step; first stops running work or removes a pending point. */
+/** Stops running work; otherwise removes a pending point; otherwise undoes the last step. */
 export function undoLast(engine: EngineClient): void {
   if (waiting.value > 0) {
     stopEdits(engine);
@@ -113,7 +113,7 @@ export function undoLast(engine: EngineClient): void {
   }
 }
 
-/** Escape: stops an edit, then closes messages, then leaves the tool. */
+/** Escape: stops an edit or leaves the tool. Returns false if there is neither, or if a message must close first. */
 function cancelEdit(engine: EngineClient): boolean {
   target.value = null;
   if (waiting.value > 0) {

@@ -68,7 +68,7 @@ async function goOn(engine: Asked, point: Vector): Promise<AfterEdit | null> {
 
 async function begin(engine: Asked, clicks: readonly [Vector, Vector]): Promise<AfterEdit | null> {
   const own = drawing.value;
-  // A vessel that ended during its trace does not continue.
+  // If the user ended the vessel while it was traced, it is not extended further.
   const goesOn = () => own === drawing.value;
   beginning = beginVessel(engine, clicks, (id) => {
     if (goesOn()) {
@@ -81,13 +81,13 @@ async function begin(engine: Asked, clicks: readonly [Vector, Vector]): Promise<
   const begun = await beginning;
   if (goesOn()) {
     beginning = null;
-    // If the first point is at fault it must be set again: no second point would help.
+    // If the first point caused the error, it must be set again.
     first.value = begun === null && !isBlamed(first.value) ? first.value : null;
   }
   return begun;
 }
 
-/** Checks a first point and previews its whole vessel. Removes the point if no vessel can begin there. */
+/** Checks the first point, and previews the whole vessel there. Removes the point if no vessel can begin there. */
 async function checkFirst(engine: Asked, point: Vector): Promise<Pick | null> {
   try {
     const answer = await engine.ask('first_click', { click: point, vessels: document_.value.vessels });
@@ -107,7 +107,7 @@ function isBlamed(point: Vector | null): boolean {
   return Boolean(point && place && length(subtract(place, point)) < SAME_POINT_MM);
 }
 
-/** Confirms the point from a projection. Returns whether there was one. */
+/** Confirms the pending point from a projection. Returns whether there was one. */
 export function acceptCandidate(engine: Asked): boolean {
   const point = candidate.value;
   if (point) {
@@ -116,7 +116,7 @@ export function acceptCandidate(engine: Asked): boolean {
   return point !== null;
 }
 
-/** Enter: confirms the projected point, or sets one at the cross-hair; twice at one position ends the vessel. */
+/** Enter confirms a pending point, or sets one at the cross-hair. Twice at one position, it ends the vessel. */
 export function enter(engine: Asked): void {
   const place = crossHair.value?.point;
   if (acceptCandidate(engine) || !place) {
@@ -145,7 +145,7 @@ export function endVessel(): void {
   });
 }
 
-/** Leaves the projected point, the vessel, then the tool. Returns whether there was anything to leave. */
+/** Drops the pending point; otherwise ends the vessel; otherwise leaves the tool. Returns whether it did something. */
 export function leave(): boolean {
   if (tool.value === 'look') {
     return false;

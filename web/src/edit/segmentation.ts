@@ -1,9 +1,9 @@
-/** A DICOM segmentation (SEG) as a vessel mask; the server resamples it to the grid of the scan. */
+/** Opens a DICOM segmentation (SEG) as a vessel mask. The server resamples it to the grid of the scan. */
 import type { DocumentVessel, GivenFile } from '../core/messages';
 import { inBase64, made } from '../core/server';
 import { report, scanStudy } from '../state/store';
 
-/** SOP classes of segmentations and RT Structure Sets, within the first bytes of a file. */
+/** Finds the SOP class of a segmentation or RT Structure Set in the first bytes of a file. */
 const CLASSES = /1\.2\.840\.10008\.5\.1\.4\.1\.1\.(66\.[47]|481\.3)[^.\d]/;
 const HEAD = 1024;
 
@@ -36,7 +36,7 @@ export async function maskOf({ file }: GivenFile): Promise<NamedMask> {
   return { mask: [{ path, file: new File([bytes], path) }], names, notes };
 }
 
-/** Names a vessel by its segment; the engine names it by its label number if there are several. */
+/** Replaces the label number in a vessel name, which the engine writes for several labels, by the segment name. */
 export function namedBySegment(vessel: DocumentVessel, names: NamedMask['names']): DocumentVessel {
   const [only, ...others] = Object.values(names);
   const byLabel = () => vessel.name.replace(/^label (\d+)/, (words, label: string) => names[label] ?? words);

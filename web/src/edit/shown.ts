@@ -1,4 +1,4 @@
-/** Keeps the displayed tree equal to the document's visible vessels, without doubtful ones. */
+/** Keeps the displayed tree equal to the visible vessels of the document, except doubtful ones. */
 import { batch, effect, signal, untracked } from '@preact/signals';
 import type { Asked } from '../core/asked';
 import { Failure } from '../core/failure';
@@ -11,10 +11,10 @@ import * as store from '../state/store';
 import { active } from '../state/tool';
 import { answered, dropEdits } from './committing';
 
-/** Displayed vessels, in the order of `store.report`. */
+/** The displayed vessels, in the order of `store.report.value.vessels`. */
 export const tree = signal<readonly DocumentVessel[]>([]);
 
-/** Key of all lines that affect measurements, including hidden ones. */
+/** Identifies the set of all lines that affect measurements, including hidden ones. */
 export const listedLines = signal('');
 const linesOf = (vessels: readonly DocumentVessel[]): string =>
   listOf(vessels)
@@ -23,7 +23,7 @@ const linesOf = (vessels: readonly DocumentVessel[]): string =>
 
 export const toPick = signal<number | null>(null);
 
-/** Picks a vessel at half its length, now or as soon as it is displayed. */
+/** Picks a vessel, and its point at half its length, once the vessel is displayed. */
 export function pickOnceShown(id: number): void {
   const vessel = tree.value.findIndex((one) => one.id === id);
   batch(() => {
@@ -45,7 +45,7 @@ const textOf = (vessels: readonly DocumentVessel[]): string => JSON.stringify(li
 
 let shownText = textOf([]);
 
-/** Begins the document of a study; its vessels are already displayed and there is no undo. */
+/** Begins the document of a new study. Its vessels are already displayed, and there is nothing to undo. */
 export function beginStudy(vessels: VesselDocument | null): void {
   dropEdits();
   const document = { ...EMPTY, ...vessels };
@@ -58,7 +58,7 @@ export function beginStudy(vessels: VesselDocument | null): void {
   });
 }
 
-/** Replaces the document of the same study, as by a session; there is no undo. */
+/** Replaces the document of the open study, for example by a session. This cannot be undone. */
 export function beginDocument(document: Document): void {
   dropEdits();
   batch(() => {
@@ -72,7 +72,7 @@ export function showAgain(engine: Asked): Promise<void> {
   return show(engine);
 }
 
-/** Displays the document's tree. Returns the function that ends it. */
+/** Displays the tree whenever the document changes. Returns a function that stops this. */
 export function followDocument(engine: Asked): () => void {
   let lastAnswer: AfterEdit | null = answered.peek();
   return effect(() => {
@@ -110,14 +110,14 @@ function reportError(study: Report['volume'] | undefined, error: unknown): void 
 
 let showing: Promise<void> | null = null;
 
-/** Requests one tree at a time, until the latest document is displayed. */
+/** Requests displayed trees from the engine, one at a time, until the latest document is displayed. */
 function show(engine: Asked): Promise<void> {
   showing ??= showLatest(engine);
   return showing;
 }
 
 async function showLatest(engine: Asked): Promise<void> {
-  // `showing` must be set before this can end.
+  // Wait, so that the caller has set `showing` before this function ends.
   await null;
   let study = store.report.value?.volume;
   try {
@@ -137,12 +137,12 @@ async function showLatest(engine: Asked): Promise<void> {
   } catch (error) {
     reportError(study, error);
   } finally {
-    // Cleared without a pause, so that no change can slip in after the last check.
+    // Cleared without an `await`, so that no change can be missed after the last check.
     showing = null;
   }
 }
 
-/** Stores the new tree and keeps camera, cross-hair and pick. Returns whether the cross-hair lost its vessel. */
+/** Stores the new tree; keeps camera, cross-hair and picked vessel. Returns whether the cross-hair lost its vessel. */
 function take(report: Report, vessels: readonly DocumentVessel[]): boolean {
   const picked = store.pickedVessel.value;
   const lengths = (report.vessels ?? []).map((vessel) => vessel.length);
@@ -161,7 +161,7 @@ function take(report: Report, vessels: readonly DocumentVessel[]): boolean {
     }
     const isSame = picked !== null && now !== null && tree.value[picked]?.id === vessels[now]?.id;
     tree.value = vessels;
-    // Keeps the same volume object, so that views keep their position.
+    // The volume must stay the same object, because views reset their position for a new one.
     followWindow(store.report.value?.windows?.main, report.windows?.main);
     store.report.value = { ...report, volume: store.report.value?.volume ?? report.volume };
     store.pickedVessel.value = now;
@@ -182,7 +182,7 @@ async function goOn(engine: Asked): Promise<void> {
   }
 }
 
-/** Follows the suggested window unless the user chose another. */
+/** Uses the newly suggested window, unless the user has chosen another one. */
 function followWindow(before: Window | undefined, after: Window | undefined): void {
   const isOwn = before === undefined || before.some((value, n) => value !== store.window_.value[n]);
   if (after && !isOwn) {
@@ -190,7 +190,7 @@ function followWindow(before: Window | undefined, after: Window | undefined): vo
   }
 }
 
-/** The vessel to pick: the drawn one, the previous one, its successor, or the last one. */
+/** The vessel to pick: the one being drawn, else the one picked before, else the next one, else the last one. */
 export function successor(
   before: readonly DocumentVessel[],
   picked: number | null,

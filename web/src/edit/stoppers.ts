@@ -3,7 +3,7 @@ import type { Asked } from '../core/asked';
 import type { AfterEdit, Vector } from '../core/messages';
 import { commit, isDone } from './committing';
 
-export const STOPPER = 'Sphere that no centerline may pass: place it where the centerline leaves the vessel';
+export const STOPPER = 'Sphere that no centerline may pass; place it where a centerline leaves its vessel';
 
 export const addStopper = (engine: Asked, center: Vector): Promise<AfterEdit | null> =>
   commit(engine, { kind: 'add_stopper', center });

@@ -1,4 +1,4 @@
-/** Cleaning a tree: removes short or thin vessels, or those not connected to the picked one, in one step. */
+/** Cleans a tree: removes short or thin vessels, or those not connected to the picked vessel, as one undo step. */
 import { computed, effect, signal } from '@preact/signals';
 import type { Asked } from '../core/asked';
 import { Latest } from '../core/latest';
@@ -13,7 +13,7 @@ import { remove } from './vessels';
 
 const facts = signal<ReadonlyMap<LineId, LineFacts>>(new Map());
 
-/** Vessels that can be cleaned up; doubtful ones are excluded. */
+/** The vessels that are not doubtful; only these can be cleaned up. */
 export const sure = computed<readonly DocumentVessel[]>(() =>
   document_.value.vessels.filter((vessel) => vessel.doubt === null),
 );
@@ -22,7 +22,7 @@ export const factsOf = ({ line }: DocumentVessel): LineFacts | undefined => fact
 
 const latest = new Latest();
 
-/** Keeps facts of the lines up to date while the list is open. Returns the function that ends it. */
+/** Keeps lengths and diameters of the vessels up to date while the list is open. Returns a function that stops this. */
 export function followFacts(engine: Asked): () => void {
   return effect(() => {
     const lines = sure.value.map((vessel) => vessel.line);
@@ -40,17 +40,17 @@ async function ask(engine: Asked, lines: readonly LineId[]): Promise<void> {
     const found = lines.length > 0 ? await engine.ask('line_facts', { lines }) : [];
     facts.value = new Map(found.map((one) => [one.line, one]));
   } catch (error) {
-    // A study closed meanwhile has no lines.
+    // If the study was closed meanwhile, its lines are gone.
     if (lines.every((line) => sure.value.some((vessel) => vessel.line === line))) {
       recover(error);
     }
   }
 }
 
-/** Share of the values that a limit slider covers, so that none removes everything. */
+/** A limit slider covers this share of the vessels, so that it cannot remove all of them. */
 const SLIDER_SHARE = 0.95;
 
-/** Range of a limit slider: `SLIDER_SHARE` of the values but at most `usual`, for precision; the median if that is larger. */
+/** Largest value of a limit slider: covers `SLIDER_SHARE` of the values, at most `usual`, but at least the median. */
 export function reachOf(values: readonly number[], usual: number): number {
   const ordered = [...values].sort((a, b) => a - b);
   const below = (part: number) => ordered[Math.round(part * (ordered.length - 1))] ?? 0;

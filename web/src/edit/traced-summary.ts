@@ -1,4 +1,4 @@
-/** The engine's remarks about the vessel traced last. */
+/** The text of the engine about the vessel that was traced last. */
 import { computed, signal } from '@preact/signals';
 import type { Edited, LineId, Told } from '../core/messages';
 import { vesselOf } from '../state/changes';
@@ -6,7 +6,7 @@ import { document_ } from '../state/history';
 
 const last = signal<{ readonly told: Told; readonly line: LineId | undefined } | null>(null);
 
-/** Null if nothing was traced, or the vessel has changed since. */
+/** The summary of the last trace; null if nothing was traced or the vessel has changed since. */
 export const tracedSummary = computed<Told | null>(() => {
   const of = last.value;
   const vessel = vesselOf(document_.value, of?.told.vessel ?? null);

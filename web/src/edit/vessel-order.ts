@@ -9,7 +9,7 @@ export interface ListedVessel {
   readonly depth: number;
 }
 
-/** Whether the list is a tree: by default if some vessels join. */
+/** Whether the list is shown as a tree; by default if some vessels are connected. */
 export const isTreeShown = computed<boolean>(
   () =>
     sure.value.length > 1 &&
@@ -20,7 +20,7 @@ export const listedVessels = computed<readonly ListedVessel[]>(() =>
   isTreeShown.value ? asTree(sure.value, factsOf) : sure.value.map((vessel) => ({ vessel, depth: 0 })),
 );
 
-/** Vessels as a tree; those without known facts come last. */
+/** The vessels in tree order; those of unknown diameter come last. */
 export function asTree(
   vessels: readonly DocumentVessel[],
   facts: (vessel: DocumentVessel) => LineFacts | undefined,

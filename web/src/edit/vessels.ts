@@ -1,4 +1,4 @@
-/** Edits of whole vessels: name, colour, visibility, cutting and joining. */
+/** Edits of a vessel as a whole: name, colour, visibility, cutting and joining. */
 import type { Asked } from '../core/asked';
 import type { DocumentVessel } from '../core/messages';
 import { changed, vesselOf } from '../state/changes';
@@ -11,7 +11,7 @@ export const recolor = (id: number, color: string): Promise<boolean> => set('col
 export const hide = (id: number, isHidden: boolean): Promise<boolean> =>
   set(isHidden ? 'hide a vessel' : 'show a vessel', id, { isHidden });
 
-/** Sets a field at once, even while the engine is busy; an unchanged value makes no step. */
+/** Changes fields of a vessel at once, even while the engine is busy. An unchanged value creates no undo step. */
 function set(words: string, id: number, to: Partial<DocumentVessel>): Promise<boolean> {
   return commitPlain(words, (document) => {
     const vessel = vesselOf(document, id);

@@ -1,4 +1,4 @@
-/** Preview of the whole vessel of a single click. */
+/** Preview of the whole vessel at a single clicked point. */
 import { computed, effect, signal } from '@preact/signals';
 import type { Asked } from '../core/asked';
 import { Latest } from '../core/latest';
@@ -7,7 +7,7 @@ import { document_ } from '../state/history';
 import { tool } from '../state/tool';
 import { candidate, coming, drawn, first } from './drawing';
 
-/** The only click of a vessel, whose whole vessel can be taken. */
+/** The clicked point if the vessel has no other; the whole vessel there can be traced. */
 export const only = computed<Vector | null>(() =>
   tool.value === 'trace' && !drawn.value && coming.value.length === 0
     ? (candidate.value ?? first.value)
@@ -16,10 +16,10 @@ export const only = computed<Vector | null>(() =>
 
 export const whole = signal<WholeVessel | null>(null);
 
-/** A first point whose answer already includes the whole vessel. */
+/** A first point whose check has already returned the whole vessel. */
 export const checked = signal<Vector | null>(null);
 
-/** Updates the preview. Returns the function that ends it. */
+/** Keeps the preview up to date. Returns a function that stops this. */
 export function followWhole(engine: Asked): () => void {
   const latest = new Latest();
   return effect(() => {

@@ -1,4 +1,4 @@
-/** Takes the whole vessel of one click: by Enter, double click or button. */
+/** Traces the whole vessel at one clicked point, after Enter, a double click or a button. */
 import type { Asked } from '../core/asked';
 import type { Edited } from '../core/messages';
 import { tool } from '../state/tool';
@@ -8,7 +8,7 @@ import { endVessel } from './pointing';
 import { toPick } from './shown';
 import { only } from './whole-shown';
 
-/** Returns whether there was a point. The point stays if no vessel is found but a second point could help. */
+/** Returns whether there was a point. If no vessel is found but a second point could help, the point stays. */
 export function takeWhole(engine: Asked): boolean {
   const click = only.value;
   if (click) {

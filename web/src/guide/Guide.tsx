@@ -1,4 +1,4 @@
-/** The guided tour over the views. */
+/** Box over the views with the current step of the guided tour. */
 import { guideStep, leaveGuide, nextStep, STEPS, wordsOf } from './steps';
 
 export function Guide() {

@@ -1,4 +1,4 @@
-/** Steps of the guided tour with a phantom; each ends when the user has done it. */
+/** Steps of the guided tour with a phantom; each step ends when the user has done what it asks. */
 import { effect, signal } from '@preact/signals';
 import { engine } from '../client/shared';
 import type { Vector } from '../core/messages';
@@ -12,12 +12,12 @@ import { openPhantom } from '../study/study';
 
 export interface GuideStep {
   readonly title: string;
-  /** One sentence each. */
+  /** Sentences of the step. */
   readonly words: readonly string[] | (() => readonly string[]);
   readonly isDone: () => boolean;
 }
 
-/** Smallest turn that counts (cosine of 20°). */
+/** The step "Turn it" is done after a turn of 20°; this is the cosine. */
 const COS_MIN_TURN = Math.cos(Math.PI / 9);
 
 /** Current step, counted from 0; null without a tour. */
@@ -27,7 +27,7 @@ let directionAtFirst: Vector | null = null;
 
 const isTraced = (): boolean => document_.value.vessels.some((vessel) => (vessel.clicks?.length ?? 0) >= 2);
 
-/** The slices appear only once the tool is active. */
+/** The text depends on the progress: the slices appear only once the tracing tool is active. */
 function tracingWords(): readonly string[] {
   if (!isTracing()) {
     return ['Press “Trace” or the key t.', 'Three slice views open.'];
@@ -53,7 +53,7 @@ export const STEPS: readonly GuideStep[] = [
     title: 'Turn it',
     words: [
       'Drag in the view “Vessels”.',
-      'The vessel is cut open along its centerline from every direction.',
+      'From every direction, you see the vessel cut open along its centerline.',
     ],
     isDone: () => {
       const camera = store.camera.value;
@@ -74,8 +74,8 @@ export const STEPS: readonly GuideStep[] = [
     title: 'Grade the stenosis',
     words: [
       'The narrowest place and its references are suggested. They are not findings until you confirm them.',
-      'Check them, drag them where they belong, or press “Confirm the suggested places”.',
-      'This phantom has a stenosis of 50 %: compare the percentage and its ± with that.',
+      'Drag each to the right place, or press “Confirm the suggested places”.',
+      'This phantom has a stenosis of 50 %. Compare it with the displayed percentage and its uncertainty (±).',
     ],
     isDone: () => Object.values(document_.value.marks).some((marks) => marks.at !== null),
   },
@@ -83,7 +83,7 @@ export const STEPS: readonly GuideStep[] = [
     title: 'Save it',
     words: [
       'Open “Save” and choose the report: one page with pictures and numbers that opens offline.',
-      'Save the session, a separate file, to continue later.',
+      'To continue later, save the session as a separate file.',
     ],
     isDone: () => false,
   },
@@ -108,7 +108,7 @@ export function nextStep(): void {
   }
 }
 
-/** Continues when the user has completed a step; the tour ends with its study. */
+/** Goes to the next step when the user has completed one. Closing the study ends the tour. */
 export function followGuide(): void {
   effect(() => {
     const step = guideStep.value;
@@ -120,7 +120,7 @@ export function followGuide(): void {
       if (store.report.value === null) {
         leaveGuide();
       } else if (guideStep.peek() === step && STEPS[step]?.isDone()) {
-        // May run again before the next step starts if several signals change at once.
+        // Several signals may change at once, so check the step again before advancing.
         nextStep();
       }
     });

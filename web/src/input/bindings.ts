@@ -1,6 +1,6 @@
-/** Table of all mouse, touch and key bindings; the help is generated from it. */
+/** All mouse, touch and key bindings. The help is generated from this table. */
 
-/** A view, the whole page, any view while tracing, or a focused marker. */
+/** Where a binding applies: in a view, everywhere, in any view while tracing, or on a focused marker. */
 export type Where = 'turning' | 'flat' | 'everywhere' | 'tracing' | 'marks';
 export type Gesture =
   | 'drag'
@@ -13,7 +13,7 @@ export type Gesture =
   | 'key';
 export type Button = 'left' | 'middle' | 'right';
 export type Modifier = '' | 'Shift' | 'Ctrl' | 'Alt';
-/** Edits, carried out by `edit/performing.ts`. */
+/** Edits of the vessels, performed by `edit/performing.ts`. */
 export type EditAction =
   | 'trace'
   | 'branches'
@@ -106,7 +106,7 @@ const withCtrl = (name: string, action: Action, words: string): Binding => ({
   modifier: 'Ctrl',
 });
 
-/** Keys that the focused view handles itself. */
+/** A row of the help for keys that the focused view or marker handles itself. */
 const pane = (where: Where, name: string, words: string): Binding => ({
   where,
   gesture: 'key',
@@ -137,15 +137,15 @@ export const BINDINGS: readonly Binding[] = [
   other('flat', 'touch drag', '', 'scroll', 'scroll'),
   other('tracing', 'click', '', 'set point', 'set a point of the vessel, or a stopper'),
   other('tracing', 'wheel', 'Alt', 'step', 'step to the lumen behind the one under the pointer, or back'),
-  other('tracing', 'double click', '', 'end vessel', 'end the vessel; on a curve add a point there'),
+  other('tracing', 'double click', '', 'end vessel', 'end the vessel; on a curve, add a point there'),
   {
     where: 'tracing',
     gesture: 'click',
     button: 'right',
     action: 'add point',
-    words: 'add a point on a curve; remove a point',
+    words: 'on a curve, add a point; on a point, remove it',
   },
-  pane('tracing', 'Drag a point', 'move it; arrow keys move the one that has the focus'),
+  pane('tracing', 'Drag a point', 'move the point; arrow keys move the focused point'),
   pane('tracing', 'Arrows in a slice', 'move the cross-hair by a voxel, with Shift by ten'),
   pane('tracing', 'Page up and down', 'scroll through the slices, with Shift by ten'),
   key(
@@ -161,7 +161,7 @@ export const BINDINGS: readonly Binding[] = [
   key('Backspace', 'remove point', 'while tracing, remove the last point'),
   other('everywhere', 'two-finger drag', '', 'pan', 'pan'),
   other('everywhere', 'pinch', '', 'zoom', 'zoom'),
-  other('everywhere', 'click', '', 'pick', 'put the cross-hair here'),
+  other('everywhere', 'click', '', 'pick', 'move the cross-hair to the pointer'),
   other('everywhere', 'double click', '', 'maximise', 'show this view alone, or all views again'),
   pane('turning', 'Arrow keys', 'rotate; with Shift pan'),
   pane('turning', '+ and -', 'zoom'),
@@ -169,10 +169,14 @@ export const BINDINGS: readonly Binding[] = [
   pane('flat', 'Up and down', 'scroll'),
   pane('flat', 'Page up and down', 'scroll by ten'),
   pane('flat', '+ and -', 'zoom'),
-  pane('marks', 'Arrow keys', 'move it along the vessel, with Shift ten times as far'),
+  pane('marks', 'Arrow keys', 'move the marker along the vessel, with Shift ten times as far'),
   pane('marks', 'Enter', 'confirm a suggested place'),
-  pane('marks', 'Delete', 'remove it; a right click does so too'),
-  key('Escape', 'cancel', 'cancel the current action, end the vessel and the tool, show all views'),
+  pane('marks', 'Delete', 'remove the marker; a right click does so too'),
+  key(
+    'Escape',
+    'cancel',
+    'cancel the current action; otherwise end the vessel, leave the tool, or show all views',
+  ),
   key('a', 'view anterior', 'view from the front (anterior)'),
   key('p', 'view posterior', 'view from the back (posterior)'),
   key('l', 'view left', "view from the patient's left"),
@@ -181,25 +185,25 @@ export const BINDINGS: readonly Binding[] = [
   key('I', 'view inferior', 'view from below (inferior, Shift+i)'),
   key('r', 'reset', 'reset the views and the window'),
   key('i', 'invert', 'invert black and white'),
-  key('1', 'preset 0', 'window from the data'),
+  key('1', 'preset 0', 'window suggested by the data'),
   key('2', 'preset 1', 'window for CT angiography'),
   key('3', 'preset 2', 'window for soft tissue'),
   key('4', 'preset 3', 'window for bone'),
   key('5', 'preset 4', 'window for lung'),
   key('6', 'preset 5', 'window from the smallest to the largest value'),
   key('7', 'preset 6', 'window for MR angiography'),
-  key('8', 'preset 7', 'window for stent'),
-  key('c', 'context', 'context on and off'),
-  key('s', 'silhouettes', 'silhouettes on and off'),
+  key('8', 'preset 7', 'window for stents'),
+  key('c', 'context', 'show or hide the context, the body around the cut'),
+  key('s', 'silhouettes', 'show or hide silhouette lines'),
   key('m', 'measure', 'measure the picked vessel, or return to the previous layout'),
   key('e', 'report', 'report the findings on all vessels, or return to the previous layout'),
   key('f', 'best view', 'best view of the picked vessel'),
-  key('o', 'turn about place', 'turn the view about the section, or stop'),
-  key(' ', 'turn', 'turn slowly, or stop'),
-  key('t', 'trace', 'trace vessels by clicks, or stop'),
-  key('w', 'whole vessel', 'while tracing, take the whole vessel of the point that was clicked'),
+  key('o', 'turn about place', 'start or stop turning the view about the vessel at the section'),
+  key(' ', 'turn', 'start or stop a slow rotation'),
+  key('t', 'trace', 'start or stop tracing vessels by clicks'),
+  key('w', 'whole vessel', 'while tracing, trace the whole vessel at the clicked point'),
   key('b', 'branches', 'find all branches from the cross-hair'),
-  key('v', 'vessels', 'list of the vessels'),
+  key('v', 'vessels', 'show or hide the list of vessels'),
   key('.', 'next doubt', 'show the next doubtful branch'),
   key(',', 'previous doubt', 'show the previous doubtful branch'),
   key('y', 'accept doubt', 'accept the doubtful branch that is shown'),
@@ -209,10 +213,10 @@ export const BINDINGS: readonly Binding[] = [
   withCtrl('y', 'redo', 'redo'),
   withCtrl('s', 'save session', 'save the session'),
   withCtrl('S', 'save report', 'save the report'),
-  key('?', 'help', 'show these keys'),
+  key('?', 'help', 'show this help'),
 ];
 
-/** Action of a drag, wheel or click in a view; null if unbound. */
+/** Action of a drag, wheel or click in a view; null if there is no binding. */
 export function actionOf(
   where: Where,
   gesture: Gesture,
@@ -227,7 +231,7 @@ export function actionOf(
   return BINDINGS.find(fits)?.action ?? null;
 }
 
-/** Action of a key; an unbound capital acts as its small letter. */
+/** Action of a key; a capital letter without a binding acts like its small letter. */
 export function actionOfKey(name: string, modifier: Modifier = ''): Action | null {
   const rowOf = (key: string) =>
     BINDINGS.find((row) => row.gesture === 'key' && row.key === key && (row.modifier ?? '') === modifier);

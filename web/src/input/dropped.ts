@@ -1,11 +1,11 @@
-/** Files of a drop or a choice, with their paths. */
+/** Dropped or chosen files, with their paths. */
 import type { GivenFile } from '../core/messages';
 
 export function chosen(list: FileList): GivenFile[] {
   return [...list].map((file) => ({ path: file.webkitRelativePath || file.name, file }));
 }
 
-/** Dropped files, including those of folders. Call it while the event is handled. */
+/** Dropped files, including those in dropped folders. Call it within the event handler. */
 export async function dropped(transfer: DataTransfer): Promise<GivenFile[]> {
   const items = [...transfer.items].filter((item) => item.kind === 'file');
   const entries = items.map((item) => item.webkitGetAsEntry());
@@ -34,7 +34,7 @@ async function below(entry: FileSystemEntry): Promise<GivenFile[]> {
   return found;
 }
 
-/** Entries of a folder; browsers return them in batches. */
+/** All entries of a folder, which browsers return in batches. */
 async function entriesOf(folder: FileSystemDirectoryEntry): Promise<FileSystemEntry[]> {
   const reader = folder.createReader();
   const found: FileSystemEntry[] = [];

@@ -1,6 +1,6 @@
-/** Moves the focus to the view that a key opened. */
+/** Moves the keyboard focus to a view that has just been opened by a key. */
 
-/** A view appears after some frames; stop waiting after these. */
+/** How many frames to wait for the view to appear. */
 const MOST_FRAMES = 30;
 
 /** Focuses an element once it exists, unless the user moved the focus. */

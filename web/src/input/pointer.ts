@@ -1,18 +1,7 @@
-/** Gestures of mouse, pen and touch. A press becomes a drag after 4 pixels; otherwise it is a click. */
+/** Gestures of mouse, pen and touch. A press becomes a drag after some pixels; otherwise it is a click. */
+import { GESTURES } from '../core/generated/tables';
 import { type Action, actionOf, type Button, type Modifier, type Where } from './bindings';
-import { alongWheel, Steps } from './wheel';
-
-/** Movement that turns a press into a drag (CSS pixels). */
-const DRAG_FROM = 4;
-/** Zoom per wheel pixel; trackpads send many small steps. */
-const ZOOM_PER_WHEEL = 0.0016;
-const MOST_WHEEL = 120;
-/** Pixels per wheel line, in browsers that report lines. */
-const LINE = 40;
-const SLICES_WITH_SHIFT = 10;
-/** Maximum time (ms) and distance (pixels) of a double click. */
-export const DOUBLE_WITHIN = 350;
-export const DOUBLE_NEAR = 6;
+import { Steps, zoomOfWheel } from './wheel';
 
 /** Handlers of a view; positions are CSS pixels from its top left. */
 export interface Handlers {
@@ -23,13 +12,13 @@ export interface Handlers {
   hover(at: readonly [number, number], shift: boolean): void;
   begin(): void;
   end(): void;
-  /** Bindings that take precedence over those of the view. */
+  /** The table of bindings that takes precedence over the table of the view; null if none. */
   rows?(): Where | null;
-  /** Steps through the objects behind each other under the pointer. */
+  /** Called to step through objects that lie behind each other under the pointer. */
   step?(by: number): void;
-  /** The pointer left the view, or the content under it changed. */
+  /** Called when the pointer left the view, or the content under it changed. */
   leave?(): void;
-  /** Escape during a drag: restores the state at its start. */
+  /** Called on Escape during a drag; restores the state from before the drag. */
   putBack(): void;
 }
 
@@ -138,7 +127,7 @@ class Pointers {
       this.moveTwo(by);
       return;
     }
-    if (!this.isDragging && Math.hypot(at[0] - this.start[0], at[1] - this.start[1]) <= DRAG_FROM) {
+    if (!this.isDragging && Math.hypot(at[0] - this.start[0], at[1] - this.start[1]) <= GESTURES.drag_from) {
       return;
     }
     if (!this.isDragging) {
@@ -167,7 +156,7 @@ class Pointers {
 
   private dragged(by: Pixel, at: Pixel): void {
     if (this.action === 'scroll') {
-      this.scrollBy(this.steps.ofPixels(by[1] * 4));
+      this.scrollBy(this.steps.ofPixels(by[1] * GESTURES.finger_gain));
     } else if (this.action) {
       this.handlers.drag(this.action, by, at);
     }
@@ -191,8 +180,8 @@ class Pointers {
 
   private click(at: Pixel, { timeStamp: time, button }: PointerEvent): void {
     const last = this.lastClick;
-    const isNear = Math.hypot(at[0] - last.at[0], at[1] - last.at[1]) <= DOUBLE_NEAR;
-    if (time - last.time < DOUBLE_WITHIN && isNear && button === 0) {
+    const isNear = Math.hypot(at[0] - last.at[0], at[1] - last.at[1]) <= GESTURES.double_near;
+    if (time - last.time < GESTURES.double_within && isNear && button === 0) {
       this.lastClick = { time: Number.NEGATIVE_INFINITY, at };
       const action = this.clickedWith('double click', null);
       if (action) {
@@ -226,7 +215,7 @@ class Pointers {
 
   wheel(event: WheelEvent): void {
     event.preventDefault();
-    // Browsers report a trackpad pinch as a wheel with Ctrl.
+    // Browsers report a pinch on a trackpad as a wheel event with Ctrl.
     const rows = this.handlers.rows?.() ?? null;
     const modifier = modifierOf(event);
     const action =
@@ -237,11 +226,9 @@ class Pointers {
     }
     this.handlers.leave?.();
     if (action === 'zoom') {
-      const pixels = alongWheel(event) * (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? LINE : 1);
-      const bounded = Math.max(-MOST_WHEEL, Math.min(MOST_WHEEL, pixels));
-      this.handlers.zoom(Math.exp(-bounded * ZOOM_PER_WHEEL), this.placeOf(event));
+      this.handlers.zoom(zoomOfWheel(event), this.placeOf(event));
     } else if (action === 'scroll' || action === 'scroll by ten') {
-      this.scrollBy(this.steps.ofWheel(event) * (action === 'scroll' ? 1 : SLICES_WITH_SHIFT));
+      this.scrollBy(this.steps.ofWheel(event) * (action === 'scroll' ? 1 : GESTURES.far_steps));
     }
   }
 

@@ -1,9 +1,9 @@
-/** Keeps every second voxel along each axis while a volume is read: an eighth of its memory. */
+/** Keeps only every second voxel along each axis while a volume is read, which needs an eighth of the memory. */
 import { Failure } from '../core/failure';
 import type { Study } from './study';
 import type { Size } from './volume-file';
 
-/** A study that can release the previous one. */
+/** A study that can first close the previous study. */
 interface Closable extends Study {
   close(): void;
 }
@@ -50,7 +50,7 @@ export class EverySecond implements Study {
     this.study.begin_volume(JSON.stringify({ ...header, ...halved(header) }));
   }
 
-  /** Keeps voxels with three even indices; voxels arrive in storage order. */
+  /** Keeps the voxels whose indices i, j and k are even. Voxels arrive in storage order. */
   take_voxels(offset: number, bytes: Uint8Array): void {
     const unit = this.Voxels.BYTES_PER_ELEMENT;
     const whole = bytes.byteOffset % unit === 0 ? bytes : bytes.slice();
@@ -71,7 +71,7 @@ export class EverySecond implements Study {
     }
   }
 
-  /** Rows with even j and k between two voxels, with their first i and the i after their last. */
+  /** Rows with even j and k among the voxels from `first` to `end`, each with its range of i. */
   private *rows(first: number, end: number): Generator<[row: number, from: number, to: number]> {
     const [ni, nj] = this.size;
     for (let row = Math.floor(first / ni); row * ni < end; row += 1) {
@@ -88,7 +88,7 @@ export class EverySecond implements Study {
   }
 }
 
-/** Size and grid of every second voxel; the first voxel stays in place. */
+/** Size and grid of the kept voxels; the first voxel keeps its position. */
 function halved({ size, world_from_index }: Header): Pick<Header, 'size' | 'world_from_index'> {
   const doubled = (row: readonly number[]) => row.map((value, column) => (column < 3 ? 2 * value : value));
   const [ni, nj, nk] = size;

@@ -1,4 +1,4 @@
-/** Identifies files by content, or by name if the content is ambiguous. */
+/** Identifies the format of a file by its content, or by its name if the content is ambiguous. */
 import { isDicom } from './dicom/recognising';
 import { firstBytes } from './inflating';
 import { niftiKind } from './nifti-header';

@@ -1,9 +1,9 @@
-/** Segments of a 3D Slicer `.seg.nrrd`, and their conversion to a label map. */
+/** Reads the segments of a `.seg.nrrd` file of 3D Slicer, and converts them to a label map. */
 import { ARRAYS, bytesOf, type Kind, numbersOf, type StoredKind } from './numbers';
 import type { Bytes } from './payload';
 import { formatFailure, printable } from './words';
 
-/** A segment: its label number, name, and the layer and value of its voxels. */
+/** A segment: its label number and name, and the layer and the value that mark its voxels. */
 export interface Segment {
   readonly number: number;
   readonly name: string;
@@ -11,11 +11,11 @@ export interface Segment {
   readonly value: number;
 }
 
-/** Label names of a volume, and how its layers become one label map. */
+/** Names of the labels of a volume, and how its layers are merged into one label map. */
 export interface Labels {
   readonly names: Readonly<Record<number, string>>;
   readonly layers: number;
-  /** Null if the values already are labels. */
+  /** Null if the stored values already are label numbers. */
   readonly map: LabelMap | null;
 }
 
@@ -24,7 +24,7 @@ const LARGEST_NUMBER = 65535;
 
 export const isOfSegment = (line: string): boolean => FIELD.test(line);
 
-/** Segments of a header. They keep their label numbers unless shared; then they count from 1. */
+/** The segments of a header. If two share a label number, all segments are renumbered from 1. */
 export function segmentsOf(lines: readonly string[], layers: number): Segment[] {
   const stated = new Map<number, Map<string, string>>();
   for (const line of lines) {
@@ -102,7 +102,7 @@ export class LabelMap {
     labels[voxel] = number;
   }
 
-  /** Rejects overlapping segments, because a label map holds one number per voxel. */
+  /** Throws if segments overlap, because a label map holds only one number per voxel. */
   refuseOverlaps(): void {
     const [most, ...others] = [...this.overlaps].sort((one, other) => other[1] - one[1]);
     if (!most) {

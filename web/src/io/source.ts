@@ -1,11 +1,11 @@
-/** A readable file: chosen, dropped, fetched, or a member of an archive. */
+/** A file to read: chosen, dropped, fetched, or a member of an archive. */
 import { Failure } from '../core/failure';
 
 export interface Source {
-  /** Its path, which names the file in messages. */
+  /** The path, which messages show as the name of the file. */
   readonly path: string;
   readonly size: number;
-  /** Bytes from `start` to `end`, fewer at the end of the file. */
+  /** Bytes from `start` to `end`; fewer if the file ends earlier. */
   slice(start: number, end: number): Promise<Uint8Array<ArrayBuffer>>;
 }
 
@@ -29,14 +29,14 @@ export class BlobSource implements Source {
   }
 }
 
-/** Finds a file named by another one; null if absent. */
+/** Finds a file that another file refers to; null if it is missing. */
 export type Beside = (path: string) => Promise<Source | null>;
 
 export function fileName(path: string): string {
   return path.slice(path.lastIndexOf('/') + 1);
 }
 
-/** Path of a file in or below the folder of another one. */
+/** Path of a file that another file names relative to its folder. */
 export function besidePath(path: string, name: string): string {
   return path.slice(0, path.lastIndexOf('/') + 1) + name;
 }
@@ -45,7 +45,7 @@ export function among(sources: readonly Source[]): Beside {
   return async (path) => sources.find((source) => source.path === path) ?? null;
 }
 
-/** Sorted by name, as in Python. */
+/** Sorted by path, as the Python package does. */
 export function inOrder(sources: readonly Source[]): Source[] {
   return [...sources].sort((one, other) => (one.path < other.path ? -1 : one.path > other.path ? 1 : 0));
 }

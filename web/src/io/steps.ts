@@ -1,4 +1,4 @@
-/** Splits long work into steps, so that the worker can receive a stop and report progress. */
+/** Splits long work into steps. Between steps the worker reports progress and can receive a stop request. */
 import { Failure } from '../core/failure';
 import type { Progress } from '../core/messages';
 
@@ -14,7 +14,7 @@ export class Steps {
     readonly signal: AbortSignal,
   ) {}
 
-  /** Reports progress at intervals; throws after a stop. */
+  /** Reports progress at intervals; throws if the user has stopped the work. */
   async step(words: string, done: number, total: number | null): Promise<void> {
     if (performance.now() - this.lastReport >= LISTEN_AFTER_MS) {
       this.onProgress({ words, done, total });

@@ -1,4 +1,4 @@
-/** Opens dropped, chosen or fetched files as one volume, its centerlines, or both. */
+/** Opens dropped, chosen or fetched files as a volume, as its centerlines, or both. */
 
 import type { Judge } from '../core/judge';
 import type { States } from '../core/messages';
@@ -13,7 +13,7 @@ import type { Steps } from './steps';
 import { load, type Sink } from './volume-file';
 import { formatFailure } from './words';
 
-/** Receives a study: the engine, or a test double. */
+/** Receives the volume and centerlines of a study; implemented by the engine and by test doubles. */
 export interface Study extends Sink {
   openCenterlines(bytes: Uint8Array, name: string): readonly string[];
   sideNotes?(text: string): readonly string[];
@@ -31,14 +31,14 @@ export interface Opened {
 }
 
 interface Volume {
-  /** The DICOM study; null otherwise. */
+  /** The DICOM study of the volume; null for other formats. */
   readonly study: ScanStudy | null;
   readonly name: string;
   readonly notes: readonly string[];
   readonly states: States;
 }
 
-/** DICOM always states both. */
+/** DICOM files always state voxel spacing and orientation. */
 const STATED: States = { spacing: true, orientation: true };
 const VOLUMES =
   'a DICOM folder, file or zip archive, NIfTI (.nii, .nii.gz, .hdr + .img), NRRD (.nrrd, .nhdr) or MetaImage (.mha, .mhd)';
@@ -52,7 +52,7 @@ interface Sorted {
   readonly others: readonly Known[];
 }
 
-/** Opens files: a volume replaces everything, centerlines are added. */
+/** Opens files. A volume replaces the open study; centerlines are added to it. */
 export async function openFiles(
   sources: readonly Source[],
   beside: Beside,
@@ -67,7 +67,7 @@ export async function openFiles(
   return { volume, notes: [...(volume?.notes ?? []), ...notes] };
 }
 
-/** Adds centerlines. Returns notes. */
+/** Adds the centerlines of a file. Returns notes for the user. */
 export async function openLines(source: Source, { study, steps }: LoadContext): Promise<readonly string[]> {
   const found = await known(source);
   if (['nifti', 'nrrd', 'metaimage', 'dicom', 'zip'].includes(found.kind)) {
@@ -97,7 +97,7 @@ async function sort(sources: readonly Source[], steps: Steps): Promise<Sorted> {
   };
 }
 
-/** Whether a file holds the voxels of a header among the files. */
+/** Whether a file (`.img`) holds the voxels of a header (`.hdr`) among the files. */
 function isVoxelsOf({ source }: Known, every: readonly Known[]): boolean {
   const stem = /^(.*)\.img(\.gz)?$/i.exec(source.path)?.[1];
   return (
@@ -110,8 +110,8 @@ function requireOne({ volumes, dicom, archives, lines, others }: Sorted): void {
   const every = [...volumes.map((one) => one.source), ...archives, ...dicom.slice(0, 1)];
   const [first, second] = every;
   if (first && second) {
-    const found = `${every.length} volumes, ${fileName(first.path)} and ${fileName(second.path)}${every.length > 2 ? ' among them' : ''}`;
-    const mend = 'choose the scan alone; trace a mask with `lumencut trace`';
+    const found = `${every.length} volumes, ${every.length > 2 ? 'including ' : ''}${fileName(first.path)} and ${fileName(second.path)}`;
+    const mend = 'choose only the scan; trace a vessel mask with `lumencut trace`';
     throw formatFailure('files', found, 'one volume and its centerlines', mend);
   }
   if (lines.length > 1) {
@@ -173,7 +173,7 @@ async function openFile({ source, kind }: Known, { beside, study, steps }: Asked
 
 const sideNotes = (study: Study, text = ''): readonly string[] => (text && study.sideNotes?.(text)) || [];
 
-/** Common folder of the files; the name of a single file. */
+/** The folder that all files have in common; for a single file, its path. */
 function commonName(sources: readonly Source[]): string {
   const [first] = sources;
   if (!first || sources.length === 1) {

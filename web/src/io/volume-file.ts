@@ -1,4 +1,4 @@
-/** A volume with a parsed header, and the transfer of its voxels to the engine. */
+/** A volume file with a parsed header, and the transfer of its voxels to the engine. */
 import { Failure } from '../core/failure';
 import type { States } from '../core/messages';
 import { byteCount, numbersOf, type StoredKind } from './numbers';
@@ -9,7 +9,7 @@ import type { Steps } from './steps';
 import { formatFailure } from './words';
 
 export type Size = readonly [number, number, number];
-/** World (LPS, mm) from voxel indices, row by row. */
+/** Matrix from voxel indices to world coordinates (LPS, mm), row by row. */
 export type Affine = readonly (readonly number[])[];
 
 interface Grid {
@@ -19,11 +19,11 @@ interface Grid {
   readonly label_names?: object;
 }
 
-/** Receives voxels: the engine, or a test double. */
+/** Receives voxels; implemented by the engine and by test doubles. */
 export interface Sink {
   begin_volume(header: string): void;
   take_voxels(offset: number, bytes: Uint8Array): void;
-  /** Share of the voxels it keeps; all if absent. */
+  /** Share of the voxels that is kept; all if absent. */
   readonly share?: number;
 }
 
@@ -38,12 +38,12 @@ export interface VolumeFile {
   readonly place: Place;
   readonly notes: readonly string[];
   readonly states: States;
-  /** Description in the file, which may name a patient: only the engine reads it. */
+  /** Description in the file. It may name a patient, so only the engine reads it. */
   readonly content?: string;
   readonly labels?: Labels | null;
 }
 
-/** Allocates a volume; grid errors name the file. */
+/** Allocates a volume in the engine. Errors about its grid name the file. */
 export function begin(sink: Sink, path: string, grid: Grid, dtype: string): void {
   try {
     sink.begin_volume(JSON.stringify({ ...grid, dtype }));
@@ -81,15 +81,15 @@ export async function load(file: VolumeFile, sink: Sink, steps: Steps): Promise<
 const storedBytes = ({ stored, labels }: VolumeFile): number =>
   byteCount(stored.kind) * (labels?.layers ?? 1);
 
-/** JSON has no NaN; it would become 0. */
+/** Throws if the grid contains a number that is not finite, since JSON cannot represent it. */
 function requireNumbers(file: VolumeFile): void {
   if (!file.worldFromIndex.flat().every(Number.isFinite)) {
-    const found = 'world_from_index with numbers that are not finite';
-    throw formatFailure(file.path, found, 'finite numbers', 'state another placement');
+    const found = 'a number in world_from_index that is not finite';
+    throw formatFailure(file.path, found, 'finite numbers', 'correct the position of the volume');
   }
 }
 
-/** Values parsed from text are in native byte order. */
+/** Type and byte order of the voxels in memory; values parsed from text have native byte order. */
 function orderInMemory({ stored, place }: VolumeFile): StoredKind {
   return place.codec === 'text' ? { ...stored, isBig: false } : stored;
 }

@@ -1,4 +1,4 @@
-/** Wording of rejections, identical to the Python package. */
+/** Texts of errors about files, identical to those of the Python package. */
 import { Failure, type More } from '../core/failure';
 
 const LONGEST_VALUE = 60;
@@ -14,7 +14,7 @@ export function formatFailure(
   return new Failure('format', subject, found, expected, advice, more);
 }
 
-/** A damaged file; copying it again may help. */
+/** An error about a damaged file; it advises to copy the file again. */
 export function damaged(subject: string, found: string, expected: string): Failure {
   return formatFailure(subject, found, expected, COPY_AGAIN);
 }
@@ -32,7 +32,7 @@ export function listed(values: readonly (number | bigint)[]): string {
   return `[${values.join(', ')}]`;
 }
 
-/** Shortest form with 6 significant digits. */
+/** A number with at most 6 significant digits, in its shortest form. */
 export function short(value: number): string {
   return Number.isFinite(value) ? String(Number(value.toPrecision(6))) : String(value).toLowerCase();
 }

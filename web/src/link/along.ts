@@ -1,4 +1,4 @@
-/** The section position on the picked vessel, shared by the views. */
+/** Moves the section along the picked vessel, in all views. */
 import { engine } from '../client/shared';
 import { Latest } from '../core/latest';
 import { recover } from '../state/device';

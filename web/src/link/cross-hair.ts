@@ -3,7 +3,7 @@ import { batch } from '@preact/signals';
 import type { Pick } from '../core/messages';
 import { crossHair, pickedPlace, pickedVessel, type ViewName } from '../state/store';
 
-/** Places the cross-hair; a vessel at that point becomes the picked one. */
+/** Places the cross-hair. If a vessel lies at that point, it is picked. */
 export function placeCrossHair(pick: Pick, from: ViewName): void {
   batch(() => {
     crossHair.value = {

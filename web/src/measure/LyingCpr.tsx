@@ -1,4 +1,4 @@
-/** Straightened CPR of the picked vessel, horizontal, first point on the left. */
+/** Straightened CPR of the picked vessel, shown horizontally with its first point on the left. */
 import { useCallback, useState } from 'preact/hooks';
 import { engine } from '../client/shared';
 import type { Cpr, Pair } from '../core/messages';

@@ -1,4 +1,4 @@
-/** Measurements drawn over the turning view and the slices. */
+/** Draws marked places and rulers over the turning view and the slices. */
 
 import { engine } from '../client/shared';
 import { pixelOf } from '../core/camera';
@@ -11,7 +11,7 @@ import { PlaceHandles } from './PlaceHandles';
 import { RulerLayer } from './RulerLayer';
 import { centerAt, seenNearest } from './sections';
 
-/** Points closer to a slice than this count as in it (mm). */
+/** Points within this distance of a slice (mm) count as lying in it. */
 const IN_SLICE = 1;
 
 export function TurningMeasures({ camera }: { readonly camera: Camera }) {
@@ -47,7 +47,7 @@ export function TurningMeasures({ camera }: { readonly camera: Camera }) {
 
 interface SliceMeasuresProps {
   readonly plane: Plane;
-  /** Such as `in the section`. */
+  /** Words for the view in labels, such as `in the section`. */
   readonly where: string;
 }
 

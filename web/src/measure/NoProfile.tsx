@@ -1,4 +1,4 @@
-/** Placeholder for a profile that is missing or cannot be measured. */
+/** Shown in place of a diameter profile that is missing or cannot be measured. */
 import type { Pair } from '../core/messages';
 import { beingMeasured, measureAgain, stopped } from '../state/profiles';
 import * as store from '../state/store';
@@ -25,7 +25,7 @@ function Why() {
     );
   }
   if (!store.hasVolume.value) {
-    return <p>No scan is open to measure in.</p>;
+    return <p>Open a scan first.</p>;
   }
   if (beingMeasured.value !== null) {
     const share = progress?.total ? ` ${((100 * progress.done) / progress.total).toFixed(0)} %` : '';

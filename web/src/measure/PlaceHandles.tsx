@@ -1,4 +1,4 @@
-/** Handles of the marked places, in the profile, the CPR and the turning view. */
+/** Handles to drag the marked places, in the chart, the CPR and the turning view. */
 import type { Pair, ReportPlace } from '../core/messages';
 import { Handle } from '../pane/Handle';
 import { currentPlaces } from './current';
@@ -6,7 +6,7 @@ import { beginMove, confirm, endMove, isCrossed, move, putBack, remove } from '.
 import type { Kind, VesselPlace } from './marks';
 import { mm, placeName } from './words';
 
-/** Colour of a place in a report; the names come from the engine. */
+/** Colour of a place in a report. The engine gives the places their names. */
 export const colorOfPlace = ({ is_reference: isReference, name }: ReportPlace): string =>
   COLORS[isReference ? 'reference' : name === 'noted diameter' ? 'diameter' : 'place'];
 
@@ -18,18 +18,18 @@ export const COLORS: Readonly<Record<Kind, string>> = {
   diameter: '#79c0ff',
 };
 
-/** Movement per arrow key (mm); ten times with Shift. */
+/** Movement per press of an arrow key (mm); with Shift ten times as far. */
 const STEP = 0.5;
 
 interface PlaceHandlesProps {
   readonly view: string;
-  /** Null if the place is not visible. */
+  /** Pixel of a place at an arc length (mm); null if it is not visible. */
   pixelAt(at: number, place: VesselPlace): Pair | null;
-  /** Arc length at a pixel; `before` is the previous one. */
+  /** Arc length at a pixel (mm); `before` is the arc length before the move. */
   atOf(pixel: Pair, before: number): number;
 }
 
-/** Handles in a stable order: a reference dragged past the stenosis keeps its handle, so the drag continues. */
+/** The places in a stable order. A reference dragged past the stenosis keeps its key, so the drag continues. */
 function grips(): { readonly key: string; readonly place: VesselPlace }[] {
   return currentPlaces.value
     .map((place) => {

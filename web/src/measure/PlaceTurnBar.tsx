@@ -1,4 +1,4 @@
-/** Bar shown while the view turns about a place: the angle, and the diameters in the cut. */
+/** Bar shown while the user turns the view about a place: the angle, and the diameters seen in the cut. */
 import { useEffect, useRef } from 'preact/hooks';
 import { focusSoon } from '../input/focus';
 import { diameterAfter, endPlaceTurn, type PlaceTurn, placeTurn, turnTo } from '../state/place-turn';
@@ -12,7 +12,7 @@ export function PlaceTurnBar() {
     if (isOn) {
       focusSoon('[data-testid="place-turn"] input');
     } else if (wasOn.current && document.activeElement === document.body) {
-      // The focused bar is gone; keys go to the view.
+      // The bar that had the focus is gone, so focus the view.
       focusSoon('[data-testid="turning"]');
     }
     wasOn.current = isOn;

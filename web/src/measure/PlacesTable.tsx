@@ -1,4 +1,4 @@
-/** Table of marked and suggested places, with the longest diameter. */
+/** Table of marked and suggested places, and the largest diameter of the vessel. */
 import { engine } from '../client/shared';
 import type { Profile } from '../core/messages';
 import { cut } from '../edit/vessels';
@@ -14,7 +14,7 @@ import { COLORS } from './PlaceHandles';
 import { sectionNumbers } from './sections';
 import { area, doubtWords, mm, NOTHING, placeName, spread, withKnownUnits } from './words';
 
-/** Kinds with a diameter; stretches are listed in their own part. */
+/** Kinds of places listed here; `StretchPart` lists the stretches. */
 const LISTED: readonly Kind[] = ['place', 'reference', 'diameter'];
 
 export function PlacesTable({ profile }: { readonly profile: Profile }) {
@@ -46,7 +46,7 @@ export function PlacesTable({ profile }: { readonly profile: Profile }) {
   );
 }
 
-/** Unmeasured parts of the vessel, with a button that cuts off the rest. */
+/** Parts of the vessel that could not be measured, with a button to cut the vessel there. */
 function NotMeasured({ profile }: { readonly profile: Profile }) {
   const id = document_.value.vessels.find(({ line }) => line === currentVessel.value?.line)?.id;
   return (
@@ -97,7 +97,7 @@ function PlaceRow({ place, profile }: { readonly place: VesselPlace; readonly pr
         class="link"
         style={{ color: COLORS[place.kind] }}
         onClick={() => moveTo(place.at)}
-        title="Shows its section"
+        title="Shows the section at this place"
       >
         {placeName(place)}
       </button>

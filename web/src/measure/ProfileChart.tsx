@@ -1,4 +1,4 @@
-/** Chart of the diameter by arc length. */
+/** Chart of the lumen diameter against arc length. */
 import type { Profile } from '../core/messages';
 import type { ChartLayout } from './chart-layout';
 import { bandPath, counted, DEVIATIONS, isolated, linePath, spreadOf } from './curves';
@@ -24,7 +24,7 @@ export interface ChartMark {
 interface ProfileChartProps {
   readonly profile: Profile;
   readonly layout: ChartLayout;
-  /** Whether the voxel spacing is known. */
+  /** Whether lengths are in mm. */
   readonly hasUnits: boolean;
 }
 
@@ -133,7 +133,7 @@ function Curves({ profile, layout, hasUnits }: ProfileChartProps) {
   );
 }
 
-/** One row per flag that occurs, below the line of diameter 0. */
+/** Bars that mark flagged sections: one row per flag that occurs, below diameter 0. */
 function Flags({ profile, layout }: ProfileChartProps) {
   const { x, y, row, wordRow, bottom } = layout;
   const flags = flagsIn(profile);

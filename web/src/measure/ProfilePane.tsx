@@ -1,4 +1,4 @@
-/** The picked vessel, horizontal, above its diameter chart with the same axis and the marked places. */
+/** The picked vessel, shown horizontally above its diameter chart; both have the same axis and marked places. */
 import { useMemo, useRef, useState } from 'preact/hooks';
 import type { Pair, Profile } from '../core/messages';
 import { usePaneSize } from '../pane/pane-size';
@@ -18,7 +18,7 @@ import { type Axis, pixelAt, valueAt } from './scale';
 import { fittingSide, sectionNumbers, UNKNOWN_SIDE } from './sections';
 
 const VESSEL_HEIGHT_SHARE = 0.4;
-/** Distance of the handles from the edge, clear of the lumen. */
+/** Distance of the handles from the edge; there they do not cover the lumen. */
 const HANDLE_INSET_PX = 9;
 
 export function ProfilePane() {
@@ -107,7 +107,7 @@ function Chart({ profile, size, x, lying }: ChartProps) {
 
 const isStretch = (kind: string): boolean => kind === 'stretch' || kind === 'secondStretch';
 
-/** Places have handles at the upper edge, stretches at the lower. */
+/** Row of a handle (pixels): stretches have handles at the lower edge, other places at the upper edge. */
 const gripOf = (kind: string, height: number): number =>
   isStretch(kind) ? height - HANDLE_INSET_PX : HANDLE_INSET_PX;
 

@@ -1,4 +1,4 @@
-/** Read-out of a profile under the pointer or at the section; a click moves the section. */
+/** Shows the measurements at the pointer, or else at the section. A click moves the section. */
 import type { ComponentChildren, TargetedPointerEvent } from 'preact';
 import type { Profile } from '../core/messages';
 import { moveAlong, moveTo } from '../link/along';
@@ -7,7 +7,7 @@ import { type Axis, valueAt } from './scale';
 import { sectionNumbers, snapped } from './sections';
 import { sectionWords } from './words';
 
-/** Movement per arrow key (mm); ten times with Shift. */
+/** Movement per press of an arrow key (mm); with Shift ten times as far. */
 const STEP = 0.5;
 
 interface ProfileReadingProps {

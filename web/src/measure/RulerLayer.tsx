@@ -1,4 +1,4 @@
-/** Rulers over a picture: those with both ends visible, and the one being drawn. */
+/** Draws the rulers over a picture: those with both ends visible, and the one being drawn. */
 import { useLayoutEffect, useRef } from 'preact/hooks';
 import { Latest } from '../core/latest';
 import type { Pair, Vector } from '../core/messages';
@@ -21,10 +21,10 @@ import { tool } from '../state/tool';
 import { mm } from './words';
 
 const COLOR = '#ffdc00';
-/** Movement beyond this is not a click (CSS pixels). */
+/** Largest movement during a click (CSS pixels). */
 const CLICK_WITHIN = 4;
 
-/** Projection of world points in a picture. */
+/** How a picture maps world points to pixels. */
 export interface Seen {
   readonly where: string;
   pixelOf(point: Vector): Pair;
@@ -37,7 +37,7 @@ export function RulerLayer({ seen }: { readonly seen: Seen }) {
   const current = useRef(seen);
   current.current = seen;
   const isDrawing = tool.value === 'ruler';
-  // A layout effect, so that an immediate click is not missed.
+  // A layout effect runs before the user can click.
   useLayoutEffect(() => {
     const pane = place.current?.closest<HTMLElement>('.pane-body');
     return isDrawing && pane ? listenToClicks(pane, (pixel) => current.current.pointAt(pixel)) : undefined;
@@ -86,7 +86,7 @@ function RulerView({ ruler, number, seen }: RulerViewProps) {
     last.current = { end, pixel };
     latest.current.run(follow);
   };
-  // The end of a drag replaces a pending move.
+  // The end of a drag replaces a move that has not been performed yet.
   const finish = () =>
     latest.current.run(async () => {
       await follow();
@@ -123,7 +123,7 @@ function RulerView({ ruler, number, seen }: RulerViewProps) {
   );
 }
 
-/** Listens to left clicks that do not become drags. */
+/** Handles left clicks, but not drags. Returns a function that stops this. */
 function listenToClicks(pane: HTMLElement, pointAt: (pixel: Pair) => Promise<Vector>): () => void {
   const stop = new AbortController();
   let pressed: Pair | null = null;

@@ -1,4 +1,4 @@
-/** Distances between two points picked in slices or the turning view. */
+/** List of the straight distances that the user has measured. */
 import { document_ } from '../state/history';
 import { firstEnd, removeRuler, rulerLength, toggleRuler } from '../state/rulers';
 import { tool } from '../state/tool';

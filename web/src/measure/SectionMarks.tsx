@@ -1,4 +1,4 @@
-/** Contour, diameters and numbers of a measured section. */
+/** Draws contour, diameters and measurements of a section over its picture. */
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { engine } from '../client/shared';
 import { Latest } from '../core/latest';
@@ -39,7 +39,7 @@ export function SectionMarks({ plane }: { readonly plane: Plane }) {
     return null;
   }
   const numbers = sectionNumbers(profile, at);
-  // The section may have moved before its contour arrived.
+  // The section may have moved while its contour was requested.
   const isShown = found?.line === vessel?.line && found?.section.number === nearestSection(profile, at);
   const section = isShown ? found?.section : null;
   const pixels = (points: readonly Vector[]): Pair[] => points.map((point) => pixelOn(plane, point));

@@ -1,4 +1,4 @@
-/** Buttons at the section line, to mark what is shown there. */
+/** Buttons next to the line of the section, which mark the place there. */
 import { useLayoutEffect, useRef, useState } from 'preact/hooks';
 import { pickedPlace } from '../state/store';
 import { leftOf } from './chart-layout';
@@ -18,7 +18,7 @@ export function SectionTools({ column, width, top }: SectionToolsProps) {
   const marks = currentMarks.value;
   const bar = useRef<HTMLDivElement>(null);
   const [wide, setWide] = useState(0);
-  // The bar widens when a length begins, so it is measured after every render.
+  // The width of the bar changes when a length begins, so read it after every render.
   useLayoutEffect(() => setWide(bar.current?.offsetWidth ?? 0));
   if (!marks) {
     return null;
@@ -43,7 +43,7 @@ export function SectionTools({ column, width, top }: SectionToolsProps) {
       <button
         type="button"
         class="small"
-        title={`Marks a normal place at ${at} as a reference of the stenosis`}
+        title={`Marks the normal lumen at ${at} as a reference for the stenosis`}
         onClick={() => markHere('reference')}
       >
         Reference here
@@ -56,7 +56,7 @@ export function SectionTools({ column, width, top }: SectionToolsProps) {
   );
 }
 
-/** The first press starts a length at the section, the second ends it there. */
+/** Button for a length along the vessel: the first press begins it at the section, the second ends it there. */
 function LengthButton({ hasRoom }: { readonly hasRoom: boolean }) {
   const from = lengthFrom.value;
   if (from === null) {

@@ -1,4 +1,4 @@
-/** Marked stretches of a vessel: length, and C-arm angles without foreshortening. */
+/** Marked stretches of a vessel: their length, and the C-arm angles that show them without foreshortening. */
 
 import { engine } from '../client/shared';
 import type { Pair, Profile, Stretch } from '../core/messages';

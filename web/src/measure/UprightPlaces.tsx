@@ -1,4 +1,4 @@
-/** Place lines with handles over the vertical straightened vessel. */
+/** Lines with handles at the marked places, over the straightened vessel when it is vertical. */
 import type { Pair } from '../core/messages';
 import { currentPlaces, currentVessel } from './current';
 import { COLORS, PlaceHandles } from './PlaceHandles';

@@ -1,4 +1,4 @@
-/** Requests measurements from the engine whenever marks or vessel change. */
+/** Requests measurements from the engine whenever the marks or the picked vessel change. */
 import { untracked, useSignalEffect } from '@preact/signals';
 import { useRef } from 'preact/hooks';
 import { engine } from '../client/shared';
@@ -17,14 +17,14 @@ import { type Answers, answers, currentMarks, currentProfile, currentVessel, NO_
 import { findingSentences, listedFindings, markedVessel, stated } from './findings';
 import { comparedIn, mainPlace, NOTHING_SUGGESTED, placesOf, type Suggested } from './marks';
 
-/** Keeps profile and answers of the picked vessel up to date; used once, by the layout. */
+/** Keeps all measurements of the picked vessel up to date. Only the layout uses this hook. */
 export function useMeasuring(): void {
   const latest = useRef(new Latest());
   const latestFindings = useRef(new Latest());
   const answered = useRef<LineId | null>(null);
   const lines = useRef('');
   useSignalEffect(() => {
-    // A profile depends on all vessels, including hidden ones, because they define the branches.
+    // A profile depends on all vessels, even hidden ones, because it excludes sections at branches.
     const now = listedLines.value;
     if (now !== lines.current) {
       lines.current = now;
@@ -34,7 +34,7 @@ export function useMeasuring(): void {
   useSignalEffect(() => {
     const known = profiles.value;
     const line = wantedLines().find((one) => !known.has(one));
-    // Read here, so that each signal triggers the effect.
+    // Both signals are read in any case, so that a change of either runs this effect again.
     const isFree = beingMeasured.value === null && store.hasVolume.value;
     if (line !== undefined && isFree && stopped.value !== line) {
       void measure(engine, line);
@@ -45,14 +45,14 @@ export function useMeasuring(): void {
   useSignalEffect(() => {
     const [vessel, profile, marks] = [currentVessel.value, currentProfile.value, currentMarks.value];
     if (vessel?.line !== answered.current) {
-      // Never shows numbers next to the name of another vessel.
+      // Numbers of one vessel must not appear next to the name of another.
       answered.current = vessel?.line ?? null;
       answers.value = NO_ANSWERS;
     }
     if (vessel && profile && marks) {
       latest.current.run(async () => {
         const found = await asked(vessel.line, profile, marks).catch(unlessGone);
-        // The picked vessel may have changed meanwhile.
+        // The user may have picked another vessel meanwhile.
         if (found && currentVessel.value?.line === vessel.line) {
           answers.value = found;
         }
@@ -63,7 +63,7 @@ export function useMeasuring(): void {
   });
 }
 
-/** Lines to measure: the picked vessel while measuring, all findings in the report. */
+/** Lines to measure: in the report those of all findings, while measuring that of the picked vessel. */
 function wantedLines(): readonly LineId[] {
   if (store.layout.value === 'report') {
     return listedFindings.value.map(({ line }) => line);
@@ -89,7 +89,7 @@ function askForSentences(latest: Latest): void {
 
 const isMeasured = (line: LineId): boolean => 'profile' in (profiles.value.get(line) ?? {});
 
-/** Shows the narrowest place as soon as it is known after measuring was opened. */
+/** After the user opened measuring, moves the section to the narrowest place once it is known. */
 function arrive(): void {
   const [profile, marks] = [currentProfile.value, currentMarks.value];
   if (isArriving.value && store.layout.value === 'measure' && profile && marks) {
@@ -103,7 +103,7 @@ function arrive(): void {
   }
 }
 
-/** Ignores lines that an edit replaced meanwhile. */
+/** Returns null for an error about a line that an edit replaced meanwhile; throws other errors. */
 function unlessGone(error: unknown): null {
   if (Failure.of(error).kind === 'vessel tree') {
     return null;
@@ -130,7 +130,7 @@ async function offeredBeside(line: LineId, marks: VesselMarks): Promise<Suggeste
   try {
     return await engine.ask('offered_references', { line, marks });
   } catch {
-    // An unmeasured place has no suggestions; grading reports why.
+    // A place that was not measured has no suggestions; grading reports the reason.
     return NOTHING_SUGGESTED;
   }
 }

@@ -1,4 +1,4 @@
-/** Layout of the profile chart (CSS pixels), with the x axis of the vessel above it. */
+/** Layout of the profile chart (CSS pixels); its x axis is that of the vessel shown above it. */
 import type { Pair, Profile } from '../core/messages';
 import { topOf } from './curves';
 import { flagsIn } from './flags';
@@ -8,22 +8,22 @@ import { lengthOf } from './sections';
 /** Margins for the tick labels on the left and the flag labels on the right. */
 export const LEFT = 56;
 export const RIGHT = 104;
-/** Margins for legend and read-out above, and ticks below. */
+/** Margins: legend and read-out above the chart, tick labels below it. */
 const ABOVE = 38;
 const BELOW = 34;
 export const ROW = 12;
-/** Height of a flag label; with lower rows the labels spread upwards. */
+/** Height of a flag label. If the rows are lower than this, the labels extend upwards. */
 const WORD = 11;
-/** Largest share of the height for the flag rows. */
+/** Flag rows take at most this share of the chart height. */
 const MOST_ROWS = 0.45;
 
 export interface ChartLayout {
   readonly size: Pair;
   readonly x: Axis;
   readonly y: Axis;
-  /** Height of a flag row; the first begins at diameter 0. */
+  /** Height of a flag row; the first row begins at diameter 0. */
   readonly row: number;
-  /** Spacing of the flag labels; the last one aligns with the last row. */
+  /** Distance between flag labels; the last label is level with the last row. */
   readonly wordRow: number;
   readonly bottom: number;
 }
@@ -46,7 +46,7 @@ export function chartLayout(profile: Profile, size: Pair): ChartLayout {
   };
 }
 
-/** Distance of the bar from both edges (CSS pixels). */
+/** Smallest distance of a bar from the edges of its pane (CSS pixels). */
 const EDGE = 4;
 
 /** Left edge of a bar centred on a column, within the pane (CSS pixels). */

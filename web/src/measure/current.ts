@@ -1,4 +1,4 @@
-/** The picked vessel with its profile and marks. */
+/** The picked vessel, its diameter profile, its marks and its measurements. */
 import { computed, signal } from '@preact/signals';
 import type { Failure } from '../core/failure';
 import type { LineId, Profile, Stenosis, Stretch } from '../core/messages';
@@ -18,7 +18,7 @@ import { marksOf } from './vessels';
 
 export interface CurrentVessel {
   readonly line: LineId;
-  /** Falls back to its number, counted from 1. */
+  /** Name of the vessel, or its number (from 1) if it has none. */
   readonly name: string;
   readonly length: number;
 }
@@ -55,11 +55,11 @@ export interface Answers {
   readonly suggested: Suggested;
   readonly stenosis: Stenosis | null;
   readonly notGraded: string | null;
-  /** Doubts about the percentage, or about that of the suggested places. */
+  /** Doubts about the stenosis percentage; if nothing is marked, about that of the suggested places. */
   readonly doubts: readonly string[];
   readonly stretch: Stretch | null;
   readonly secondStretch: Stretch | null;
-  /** Between both stretches (radians). */
+  /** Angle between the two stretches (radians). */
   readonly angle: number | null;
 }
 

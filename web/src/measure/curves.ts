@@ -2,16 +2,16 @@
 import type { Profile } from '../core/messages';
 import { type Axis, pixelAt } from './scale';
 
-/** Half width of the uncertainty band in standard deviations. */
+/** Half the height of the uncertainty band, in standard deviations. */
 export const DEVIATIONS = 2;
 const AXIS_HEADROOM = 1.12;
 
-/** Values of valid sections; others become null. */
+/** The values, with null for sections that are left out. */
 export function counted({ counts }: Profile, values: readonly (number | null)[]): (number | null)[] {
   return values.map((value, n) => (counts[n] ? value : null));
 }
 
-/** Runs of sections with a value, as indices. */
+/** Runs of consecutive sections with a value, as indices of the sections. */
 export function stretches(values: readonly (number | null)[]): number[][] {
   const found: number[][] = [];
   values.forEach((value, n) => {

@@ -1,4 +1,4 @@
-/** Edits of marks; a drag is previewed and becomes one undo step. */
+/** Edits of marked places. A drag is previewed and becomes one undo step. */
 import { batch, computed, signal } from '@preact/signals';
 import { moveTo } from '../link/along';
 import { type Document, NO_MARKS, type VesselMarks } from '../state/document';
@@ -30,7 +30,7 @@ interface Drag {
 
 let drag: Drag | null = null;
 
-/** Whether the dragged reference passed the stenosis, which swaps the handles. */
+/** Whether the dragged reference has passed the stenosis; then the keys of the two reference handles are swapped. */
 export const isCrossed = signal(false);
 
 function documentWith(marks: VesselMarks): Document {
@@ -121,7 +121,9 @@ export function endLength(): void {
 
 export function confirm(place: VesselPlace): void {
   if (place.isSuggestion) {
-    changeMarks(`take the ${placeName({ ...place, isSuggestion: false })}`, (marks) => taken(marks, place));
+    changeMarks(`confirm the ${placeName({ ...place, isSuggestion: false })}`, (marks) =>
+      taken(marks, place),
+    );
   }
 }
 
@@ -129,7 +131,7 @@ export function confirmAll(): void {
   const profile = currentProfile.value;
   const compared = comparedPlaces.value;
   if (profile) {
-    changeMarks('take the suggested places', (marks) =>
+    changeMarks('confirm the suggested places', (marks) =>
       allConfirmed(profile, marks, answers.value.suggested),
     );
     if (compared) {

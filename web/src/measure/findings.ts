@@ -1,4 +1,4 @@
-/** Findings: vessels with marks, and the engine's sentences about them. */
+/** Findings: the vessels with marks, and the sentences that the engine writes about them. */
 import { computed, signal } from '@preact/signals';
 import type { Findings, LineId, MeasuredVessel, Stated } from '../core/messages';
 import { nameOf } from '../state/changes';
@@ -41,7 +41,7 @@ export const listedFindings = computed<readonly Finding[]>(() =>
   }),
 );
 
-/** Names of hidden vessels with findings, which have no pictures. */
+/** Names of hidden vessels with findings. They are not in the report, since they have no pictures. */
 export const hiddenFindings = computed<readonly string[]>(() => {
   const { vessels, marks } = document_.value;
   return vessels.filter(({ id, isHidden }) => isHidden && marks[id] && isMarked(marks[id])).map(nameOf);
@@ -54,7 +54,7 @@ export function leaveOut(line: LineId, isOut: boolean): void {
   leftOut.value = new Set(isOut ? [...others, line] : others);
 }
 
-/** Null until the engine has answered. */
+/** The sentences about all findings; null until the engine has answered. */
 export const findingSentences = signal<Findings | null>(null);
 
 export function forgetFindings(): void {
@@ -62,13 +62,13 @@ export function forgetFindings(): void {
   findingSentences.value = null;
 }
 
-/** Whether the scan states spacing and orientation. */
+/** Whether lengths are in mm, and whether the orientation of the patient is known. */
 export const stated = (): Stated => ({
   has_units: hasMillimetres.value,
   has_orientation: store.states.value.orientation,
 });
 
-/** A finding as a message; its id is its number in tables. */
+/** The message that describes a finding to the engine; the id appears in tables. */
 export const markedVessel = ({ vessel, line, name, marks }: Finding): MeasuredVessel => ({
   id: String(vessel),
   name,

@@ -1,4 +1,4 @@
-/** Flags of sections. Order, words, meanings and colours come from the engine. */
+/** Flags of doubtful sections. The engine defines their order, words, meanings and colours. */
 
 import type { FlagLook, Pair, Profile } from '../core/messages';
 
@@ -13,7 +13,7 @@ export function flagsIn({ flags, flag_table }: Profile): readonly FlagLook[] {
   return flag_table.filter(({ word }) => found.has(word));
 }
 
-/** Intervals with a flag (mm), extended by half a step at both ends. */
+/** Intervals of arc length with a flag (mm), extended by half a section distance at both ends. */
 export function runs(profile: Profile, word: string): Pair[] {
   const { arc_length: places, flags } = profile;
   const half = ((places[1] ?? 1) - (places[0] ?? 0)) / 2;

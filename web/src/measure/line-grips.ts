@@ -1,4 +1,4 @@
-/** Drags that begin near a place line move the place; clicks there go to the picture below. */
+/** A drag that begins near the line of a place moves the place. A click there still reaches the picture. */
 import { useRef } from 'preact/hooks';
 import { currentPlaces } from './current';
 import { beginMove, endMove, move, putBack } from './editing';
@@ -16,13 +16,13 @@ export function nearestLine(places: readonly VesselPlace[], x: Axis, column: num
 
 interface Grip {
   readonly place: VesselPlace;
-  /** Column of the pointer at the start, and of the line. */
+  /** Column of the pointer when the drag began, and its distance from the line. */
   readonly from: number;
   readonly beside: number;
   isMoving: boolean;
 }
 
-/** Handlers in the capture phase of the pane; none before the vessel has an axis. */
+/** Event handlers for the capture phase of the pane. `x` is null before the vessel is shown. */
 export function useLineGrips(x: Axis | null) {
   const grip = useRef<Grip | null>(null);
   const columnOf = (event: PointerEvent) =>

@@ -1,28 +1,28 @@
-/** Horizontal layout of the straightened vessel, first point on the left, as in Python's plots. */
+/** Layout of the horizontal straightened vessel: its first point is on the left, as in plots of the Python package. */
 import type { Pair, Picture } from '../core/messages';
 import type { Axis } from './scale';
 
-/** Narrowest and widest strip (mm). */
+/** Smallest and largest width of the shown strip across the vessel (mm). */
 const WIDTHS: Pair = [12, 90];
-/** Smallest shown share of the width that fits the sections. */
+/** The strip shows at least this share of the width in which all sections fit. */
 const MIN_FITTING_SHARE = 0.6;
 const FINEST = 0.05;
 
 export interface Lying {
   readonly width: number;
-  /** Pixel side of the engine's picture (mm). */
+  /** Side of a pixel of the picture from the engine (mm). */
   readonly spacing: number;
   readonly height: number;
-  /** Vertical stretch; 1 is true to scale. */
+  /** Vertical magnification relative to the horizontal one; 1 is true to scale. */
   readonly stretch: number;
 }
 
 export interface Room {
-  /** CSS pixels. */
+  /** Available height (CSS pixels). */
   readonly height: number;
-  /** Engine pixels per CSS pixel. */
+  /** Picture pixels per CSS pixel. */
   readonly density: number;
-  /** Picture side that fits the sections (mm). */
+  /** Width in which all sections fit (mm). */
   readonly fitting: number;
 }
 
@@ -50,7 +50,7 @@ export function lyingPicture({ size: [width, height], bytes }: Picture): Picture
   return { size: [height, width], bytes: new Uint8ClampedArray(to.buffer) };
 }
 
-/** Box of the picture: the centre of column `n` is at arc length `n` × spacing. */
+/** Position and size of the picture (CSS pixels); the centre of column `n` is at arc length `n` × spacing. */
 export function lyingBox(x: Axis, { spacing, height, width }: Lying, [columns, rows]: Pair) {
   const perMm = (x.end - x.start) / (x.high - x.low);
   const pixel = spacing * perMm;

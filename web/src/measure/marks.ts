@@ -3,17 +3,17 @@ import type { Pair, Profile, Spot } from '../core/messages';
 import type { VesselMarks } from '../state/document';
 import { lengthOf } from './sections';
 
-/** `place` is the stenosis; `diameter` is a noted diameter. */
+/** Kinds of marks: `place` is the stenosis, `diameter` a noted diameter. */
 export type Kind = 'place' | 'reference' | 'stretch' | 'secondStretch' | 'diameter';
 
 export interface VesselPlace {
   readonly kind: Kind;
-  /** Slot 0 lies before slot 1; noted diameters are numbered in order of entry. */
+  /** 0 or 1 for the first or second of two places along the vessel; noted diameters are numbered in order of entry. */
   readonly slot: number;
   readonly at: number;
-  /** Suggested by Lumencut, not marked by the user. */
+  /** Whether Lumencut suggested the place, and the user has not marked it. */
   readonly isSuggestion: boolean;
-  /** For references: whether it precedes the stenosis, even if both lie on one side. */
+  /** For a reference: whether it is shown as the one before the stenosis, also if both lie on one side. */
   readonly isBefore?: boolean;
 }
 
@@ -46,7 +46,7 @@ export interface ComparedPlaces {
   readonly references: readonly VesselPlace[];
 }
 
-/** Null without a stenosis. */
+/** The stenosis and its references; null without a stenosis. */
 export function comparedIn(places: readonly VesselPlace[]): ComparedPlaces | null {
   const main = places.find(({ kind }) => kind === 'place');
   return main ? { at: main.at, references: places.filter(({ kind }) => kind === 'reference') } : null;
@@ -75,11 +75,11 @@ function stretchEnds(marks: VesselMarks): VesselPlace[] {
   );
 }
 
-/** Moves a place; a moved suggestion becomes a mark. In a drag, pass marks and place from its start. */
+/** Moves a place; a moved suggestion becomes a mark. During a drag, `marks` and `place` are those before the drag. */
 export function moved(profile: Profile, marks: VesselMarks, place: VesselPlace, to: number): VesselMarks {
   const at = within(to, [0, lengthOf(profile)]);
   if (place.kind === 'place') {
-    // The stenosis may pass its references; the engine then reports why it cannot grade.
+    // The stenosis may be moved past its references; then the engine reports why it cannot grade it.
     return { ...marks, at };
   }
   if (place.kind === 'reference') {
@@ -90,7 +90,7 @@ export function moved(profile: Profile, marks: VesselMarks, place: VesselPlace, 
   }
   const ends = marks[place.kind] ?? [at, at];
   const other = ends[1 - place.slot] ?? at;
-  // The ends keep their order and a minimum distance.
+  // The two ends keep their order and a minimum distance.
   const kept: Pair =
     place.slot === 0
       ? [Math.min(at, other - LEAST_STRETCH), other]
@@ -98,19 +98,19 @@ export function moved(profile: Profile, marks: VesselMarks, place: VesselPlace, 
   return { ...marks, [place.kind]: kept };
 }
 
-/** A reference may pass the stenosis unless the other one is already there. */
+/** Moves a reference. It may pass the stenosis unless the other reference lies on that side. */
 function movedReferences(profile: Profile, marks: VesselMarks, slot: number, at: number): number[] {
   const main = mainPlace(profile, marks)?.at ?? 0;
   const slots = referenceSlots(marks, main);
   const [before, other] = [slots[slot] ?? null, slots[1 - slot] ?? null];
-  // Two references loaded on one side move freely.
+  // If both references of a loaded session lie on one side, they move freely.
   const areOnOneSide = before !== null && (slot === 0 ? before > main : before < main);
   const side: Pair = slot === 0 ? [0, main] : [main, lengthOf(profile)];
   const now = other === null || areOnOneSide ? at : within(at, side);
   return [now, ...(other === null ? [] : [other])].sort((a, b) => a - b);
 }
 
-/** Position of a place after a move, which may be limited or on the other side. */
+/** The place after a move, which may have been limited, or have crossed the stenosis. */
 export function placeAfter(
   profile: Profile,
   marks: VesselMarks,
@@ -134,7 +134,7 @@ export function placeAfter(
   return { ...place, slot: now, at: slots[now] ?? place.at, isSuggestion: false };
 }
 
-/** Removes a place; a stretch goes as a whole, suggestions stay. */
+/** Removes a marked place; for an end of a stretch, the whole stretch. Suggestions cannot be removed. */
 export function removed(marks: VesselMarks, place: VesselPlace): VesselMarks {
   if (place.isSuggestion) {
     return marks;
@@ -153,7 +153,7 @@ export function removed(marks: VesselMarks, place: VesselPlace): VesselMarks {
     : { ...marks, secondStretch: null };
 }
 
-/** Replaces the reference on the same side of the stenosis. */
+/** Adds a reference, which replaces the one on the same side of the stenosis. */
 export function withReference(profile: Profile, marks: VesselMarks, at: number): VesselMarks {
   const main = mainPlace(profile, marks)?.at ?? 0;
   const other = referenceSlots(marks, main)[at < main ? 1 : 0];
@@ -174,7 +174,7 @@ export function withStretch(profile: Profile, marks: VesselMarks, one: number, o
   return marks.stretch ? { ...marks, secondStretch: ends } : { ...marks, stretch: ends };
 }
 
-/** Turns a suggestion into a mark at its exact position. */
+/** Marks a suggested place at its exact position. */
 export function taken(marks: VesselMarks, { kind, at }: VesselPlace): VesselMarks {
   return kind === 'place'
     ? { ...marks, at }
@@ -187,7 +187,7 @@ export function allConfirmed(profile: Profile, marks: VesselMarks, suggested: Su
     .reduce(taken, marks);
 }
 
-/** A quarter of the vessel around a position, within its ends. */
+/** A stretch around a position, a quarter as long as the vessel and within its ends. */
 export function stretchAround(profile: Profile, at: number): Pair {
   const length = lengthOf(profile);
   const from = within(at - length / 8, [0, (3 * length) / 4]);

@@ -1,6 +1,6 @@
-/** Linear axes: mapping between lengths and pixels, and ticks. */
+/** Linear axes: convert lengths to pixels and back, and choose ticks. */
 
-/** `low` lies at pixel `start`, `high` at `end`. */
+/** The value `low` lies at pixel `start`, the value `high` at pixel `end`. */
 export interface Axis {
   readonly low: number;
   readonly high: number;
@@ -18,7 +18,7 @@ export function valueAt({ low, high, start, end }: Axis, pixel: number): number 
   return Math.min(Math.max(value, low), high);
 }
 
-/** Ticks in steps of 1, 2 or 5 times a power of ten, at most `most`. */
+/** At most `most` ticks, in steps of 1, 2 or 5 times a power of ten. */
 export function ticks(low: number, high: number, most: number): number[] {
   const span = high - low;
   if (!(span > 0) || most < 1) {
@@ -28,6 +28,6 @@ export function ticks(low: number, high: number, most: number): number[] {
   const step = [1, 2, 5, 10].map((factor) => factor * power).find((size) => span / size <= most) ?? span;
   const first = Math.ceil(low / step - 1e-9);
   const last = Math.floor(high / step + 1e-9);
-  // Multiples, so that rounding errors do not add up.
+  // Computed as multiples of the step, so that rounding errors do not add up.
   return Array.from({ length: last - first + 1 }, (_, n) => Number(((first + n) * step).toPrecision(12)));
 }

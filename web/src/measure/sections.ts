@@ -1,8 +1,8 @@
-/** Access to the sections of a profile by arc length. */
+/** Finds sections of a profile by arc length or by pixel. */
 
 import type { Pair, Profile, Vector } from '../core/messages';
 
-/** Nearest section; the first of two equally near. */
+/** Number of the section nearest to an arc length; of two equally near, the first. */
 export function nearestSection({ arc_length: places }: Profile, at: number): number {
   let best = 0;
   places.forEach((place, n) => {
@@ -29,11 +29,11 @@ export interface SectionNumbers {
   readonly area: number | null;
   readonly counts: boolean;
   readonly flags: readonly string[];
-  /** The uncertainty due to calcium or metal, in words. */
+  /** Text about the uncertainty due to calcium or metal. */
   readonly bounds: string | null;
 }
 
-/** Picture side as a multiple of the lumen, its limits, and its value for an unmeasured vessel (mm). */
+/** Side of a section picture: this many lumen diameters, within limits (mm); a default if nothing was measured. */
 const SIDE_PER_DIAMETER = 2.5;
 const SIZES: Pair = [12, 120];
 export const UNKNOWN_SIDE = 30;
@@ -79,10 +79,10 @@ export function centerAt({ arc_length: places, center }: Profile, at: number): V
   ) as unknown as Vector;
 }
 
-/** Sections within this distance of the nearest are equally near (pixels). */
+/** Sections count as equally near if their distances from the pointer differ by at most this (pixels). */
 const EQUALLY_NEAR_PX = 6;
 
-/** The section seen nearest to a pixel; where the vessel overlaps itself, the one closest to `before` (mm). */
+/** Arc length (mm) of the section seen nearest to a pixel. Of equally near ones, the one closest to `before`. */
 export function seenNearest(
   profile: Profile,
   seen: (point: Vector) => Pair,
@@ -97,7 +97,7 @@ export function seenNearest(
   let best = before;
   let least = Number.POSITIVE_INFINITY;
   profile.arc_length.forEach((place, n) => {
-    // Among these, distance along the vessel decides.
+    // Among sections that are equally near, the distance along the vessel decides.
     const distance = distances[n] ?? Number.POSITIVE_INFINITY;
     if (distance > limit) {
       return;

@@ -1,4 +1,4 @@
-/** Marks of vessels in the document. */
+/** Reads and writes the marks of a vessel in the document. */
 import type { LineId } from '../core/messages';
 import { type Document, NO_MARKS, type VesselMarks } from '../state/document';
 

@@ -1,4 +1,4 @@
-/** Measurements as text, without units if the voxel spacing is unknown. */
+/** Formats measurements as text, without units if the voxel spacing is unknown. */
 import type { Stenosis } from '../core/messages';
 import { hasMillimetres } from '../state/millimetres';
 import type { VesselPlace } from './marks';
@@ -8,11 +8,11 @@ export const NOTHING = '–';
 
 const unit = (name: string): string => (hasMillimetres.value ? ` ${name}` : '');
 
-/** Why lengths have no unit; empty if they have one. */
+/** A sentence that explains why lengths have no unit; empty if they have one. */
 export const unitless = (): string =>
   hasMillimetres.value ? '' : 'This scan has no voxel spacing: 1 mm is assumed, and lengths have no unit.';
 
-/** Such as `3.02 mm`. */
+/** A length as text, such as `3.02 mm`. */
 export function mm(value: number | null, digits = 2): string {
   return value === null ? NOTHING : `${value.toFixed(digits)}${unit('mm')}`;
 }
@@ -28,14 +28,14 @@ export function area(value: number | null): string {
   return value === null ? NOTHING : `${value.toFixed(1)}${unit('mm²')}`;
 }
 
-/** Text of the engine, without " mm" and " mm²" if the scan has no known length unit. */
+/** A text of the engine, without " mm" and " mm²" if the length unit of the scan is unknown. */
 export function withKnownUnits(words: string): string {
   return hasMillimetres.value ? words : words.replaceAll(' mm²', '').replaceAll(' mm', '');
 }
 
 export const stenosisWords = (stenosis: Stenosis): string => withKnownUnits(stenosis.words);
 
-/** Why there is no percentage; null means that the engine has not answered yet. */
+/** Text shown in place of a missing percentage. A null reason means that the engine has not answered yet. */
 export const notGradedWords = ({ notGraded }: { readonly notGraded: string | null }): string =>
   notGraded === null ? 'Grading…' : `No percentage: ${withKnownUnits(notGraded)}`;
 
@@ -51,7 +51,7 @@ export function placeName({ kind, slot, isSuggestion, isBefore }: VesselPlace): 
   return `${names[kind]}${isSuggestion ? ' (suggestion)' : ''}`;
 }
 
-/** Flags, and the uncertainty due to calcium or metal. */
+/** Words for the doubts about a section: its flags, and the uncertainty due to calcium or metal. */
 export const doubtWords = ({ flags, bounds }: SectionNumbers): readonly string[] =>
   bounds === null ? flags : [...flags, withKnownUnits(bounds)];
 

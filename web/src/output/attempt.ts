@@ -1,4 +1,4 @@
-/** Runs a save and reports its failure. */
+/** Runs a function that saves something, and shows the error if it fails. */
 import { Failure } from '../core/failure';
 import { problem } from '../state/store';
 

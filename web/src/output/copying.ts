@@ -7,7 +7,7 @@ export async function copyWords(words: string): Promise<void> {
   showMessage('The sentence is copied');
 }
 
-/** Copies a picture that may still be pending, as the clipboard API allows. */
+/** Copies a picture. Browsers accept a promise of it, so it may still be being drawn. */
 export async function copyPicture(picture: Promise<Blob>): Promise<void> {
   await copied(() => navigator.clipboard.write([new ClipboardItem({ 'image/png': picture })]));
   showMessage('The picture is copied');
@@ -18,6 +18,6 @@ async function copied(copy: () => Promise<void>): Promise<void> {
     await copy();
   } catch (error) {
     const mend = 'allow the page to use the clipboard, or save the report instead';
-    throw new Failure('picture', 'clipboard', String(error), 'a browser that lets the page copy', mend);
+    throw new Failure('picture', 'clipboard', String(error), 'permission to copy', mend);
   }
 }

@@ -1,25 +1,25 @@
-/** Names of saved files: scan, content, side of the view, and time. */
+/** Names of saved files, made of scan name, content, viewing side and time. */
 import type { Vector } from '../core/messages';
 
 export interface Named {
-  /** Null if the file must not identify the scan. */
+  /** Name of the scan; null if the file name must not identify it. */
   readonly scan: string | null;
   readonly content: string;
   readonly side?: string | null;
   readonly ending: string;
 }
 
-/** Longest scan name; file systems reject long names. */
+/** Longer scan names are shortened, because file systems limit the length of file names. */
 const LONGEST_SCAN = 60;
 const ENDINGS = /\.(nii|nrrd|nhdr|mha|mhd|dcm|zip|gz|npz|raw)$/i;
 
-/** `thorax-picture-anterior-2026-11-25-0915.png`. */
+/** A file name such as `thorax-picture-anterior-2026-11-25-0915.png`. */
 export function fileName({ scan, content, side = null, ending }: Named, now = new Date()): string {
   const parts = [plainScan(scan ?? '') || 'lumencut', content, side, timeWords(now)];
   return `${parts.filter((part) => part !== null && part !== '').join('-')}.${ending}`;
 }
 
-/** Removes format extensions and characters that file systems reject. */
+/** The scan name without format extensions, and without characters that file systems reject. */
 function plainScan(name: string): string {
   const bare = name.replace(ENDINGS, '').replace(ENDINGS, '');
   const plain = bare.replace(/[^\p{L}\p{N}_]+/gu, '-').replace(/^-+|-+$/g, '');
@@ -32,16 +32,16 @@ function timeWords(now: Date): string {
   return `${day}-${two(now.getHours())}${two(now.getMinutes())}`;
 }
 
-/** Per LPS axis: the side at its low end, then at its high end. */
+/** For each LPS axis, the sides of the patient at its low and its high end. */
 const SIDES = [
   ['right', 'left'],
   ['anterior', 'posterior'],
   ['inferior', 'superior'],
 ] as const;
-/** A side is named if the view faces it within 67.5°. */
+/** Smallest component of the view direction for a side to be named; the view then faces it within 67.5°. */
 const NAMED_FROM = Math.sin(Math.PI / 8);
 
-/** Viewing sides, the most facing first: `anterior`, `anterior-left`. */
+/** The sides from which the patient is seen, the main one first, such as `anterior-left`. */
 export function sideOf(direction: Vector): string {
   const length = Math.hypot(...direction);
   return direction

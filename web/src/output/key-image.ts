@@ -1,4 +1,4 @@
-/** Key image of a finding: straightened vessel with marks, above the sections at the marks. */
+/** Draws the key image of a finding: the straightened vessel with its marks, above the sections at these marks. */
 import { engine } from '../client/shared';
 import { Failure } from '../core/failure';
 import type { Pair, Profile, ReportPlace } from '../core/messages';
@@ -12,7 +12,7 @@ import { fittingSize } from './wrapping';
 
 const COLUMNS = 3;
 const WIDTH = COLUMNS * SIDE;
-/** Greatest height of the vessel, and line height of text (pixels). */
+/** Largest height of the vessel picture, and line height of text (pixels). */
 const MAX_VESSEL_HEIGHT = 260;
 const LINE = 36;
 
@@ -56,7 +56,7 @@ function diameterAt(profile: Profile, at: number): string {
   return spread(profile.diameter[number] ?? null, profile.uncertainty[number] ?? null);
 }
 
-/** A line of text, narrowed to fit (pixels). */
+/** Draws a line of text, in a smaller font if it would be too wide. */
 function words(
   context: CanvasRenderingContext2D,
   text: string,

@@ -1,12 +1,11 @@
-/** DICOM objects for a PACS: the server creates them and returns a zip archive. Nothing is sent elsewhere. */
+/** Saves DICOM objects for a PACS. The server of the page makes a zip archive of them; nothing is sent elsewhere. */
 import { signal } from '@preact/signals';
 import { engine } from '../client/shared';
 import type { GivenFile } from '../core/messages';
 import { inBase64, made, placeOf } from '../core/server';
-import { type Finding, markedVessel } from '../measure/findings';
+import type { Finding } from '../measure/findings';
 import { settingOf } from '../state/actions';
 import { showMessage } from '../state/message';
-import { isMillimetreAssumed } from '../state/millimetres';
 import { profileOfLine } from '../state/profiles';
 import { reformationKind } from '../state/reformation';
 import * as store from '../state/store';
@@ -18,12 +17,12 @@ import { reported, reportOf } from './report';
 import { pngOf, straightenedCanvas } from './report-pictures';
 
 const SUBJECT = 'Save for PACS';
-const VERSION = 1;
+const VERSION = 2;
 const UPRIGHT =
   'Straightened CPR. Rows: distance along the vessel, its first point on top. Columns: distance across it.';
 const LYING =
   'Straightened CPR. Columns: distance along the vessel, its first point on the left. Rows: distance across it.';
-/** Width of the straightened vessel without a pane, and the finest pixel (mm). */
+/** Width (mm) and smallest pixel (mm) of the straightened vessel if no pane shows it. */
 const [WIDTH, FINEST] = [50, 0.25];
 const MOST_COLUMNS = 2000;
 
@@ -31,10 +30,10 @@ export type PacsStudy = 'scan' | 'anonymous' | GivenFile;
 
 export interface ChosenFile {
   readonly file: GivenFile;
-  /** Name, ID, date, modality and body part with their labels. */
+  /** Labels and values of patient name, ID, date, modality and body part. */
   readonly facts: ReadonlyArray<readonly [string, string]>;
   readonly doubts: readonly string[];
-  /** Why the file is rejected; null if it is not. */
+  /** Why the file is rejected; null if it is accepted. */
   readonly refusal: string | null;
 }
 
@@ -48,14 +47,14 @@ export async function askAboutFile(file: GivenFile): Promise<void> {
   chosenFile.value = { ...(await response.json()), file };
 }
 
-/** Opens the question; throws if the server cannot create objects. */
+/** Asks for the study of the objects. Throws if the server cannot create DICOM objects. */
 export async function askForPacs(): Promise<void> {
   placeOf('objects', SUBJECT);
   isPacsAsked.value = true;
 }
 
 export async function savePacs(study: PacsStudy): Promise<void> {
-  showMessage('Making the DICOM objects …');
+  showMessage('Creating the DICOM objects …');
   const response = await made('objects', SUBJECT, await requestOf(study));
   const scan = study === 'anonymous' ? null : store.studyName.value;
   saveAs(await response.blob(), fileName({ scan, content: 'pacs', ending: 'zip' }), 'Nothing was sent');
@@ -69,7 +68,6 @@ async function requestOf(study: PacsStudy): Promise<object> {
   for (const finding of findings) {
     parts.push(await partOf(finding));
   }
-  const vessels = findings.map(markedVessel);
   return {
     version: VERSION,
     study: await studyPart(study),
@@ -78,12 +76,11 @@ async function requestOf(study: PacsStudy): Promise<object> {
     view: await viewPart(),
     pane: await panePart(),
     findings: parts,
-    numbers: await engine.ask('profiles_json', { vessels, is_millimetre_assumed: isMillimetreAssumed.value }),
     report: findings.length > 0 ? await (isAnonymous ? reportOf(findings, null) : reportOf(findings)) : '',
   };
 }
 
-/** Identifies a scan without naming a person. */
+/** Text that identifies a scan without any data of the patient. */
 function fingerprint(): string {
   const volume = store.report.value?.volume;
   return JSON.stringify([volume?.size, volume?.world_from_index, store.histogram.value]);
@@ -119,7 +116,7 @@ async function viewPart(): Promise<object> {
   };
 }
 
-/** The displayed reformation, otherwise the picked vessel straightened; null if none is picked. */
+/** The displayed reformation, or else the straightened picked vessel; null if no vessel is picked. */
 async function panePart(): Promise<object | null> {
   const vessel = store.pickedVessel.value;
   const length = store.report.value?.vessels?.[vessel ?? -1]?.length ?? 0;
@@ -141,26 +138,18 @@ const withWords = (shown: HTMLCanvasElement, axes: string): object => ({
   axes,
 });
 
-/** States the pixel size, because viewers' rulers are not valid in such a picture. */
+/** A sentence that states the pixel size, since rulers of DICOM viewers are not valid in such a picture. */
 const pixelWords = (spacing: number): string =>
   store.states.value.spacing ? ` A pixel is ${spacing.toFixed(3)} mm.` : '';
 
 async function partOf(finding: Finding): Promise<object> {
-  const { line, marks } = finding;
+  const { line, name, marks } = finding;
   await profileOfLine(engine, line);
-  const { places } = await engine.ask('report_plan', markedVessel(finding));
-  const marked = places.filter((place) => !place.is_suggestion);
-  const sections = marked.map(({ at }) => engine.ask('measured_section', { line, at }));
-  const { stenosis } = await engine.ask('grade', { line, marks });
   return {
     picture: pngOf(await keyImage(finding)),
+    name,
     points: (await engine.ask('line', { line })).points,
-    contours: (await Promise.all(sections)).map(({ contour }, n) => [marked[n]?.at, contour]),
-    marks: places.map((place) => [
-      place.is_reference ? 'reference' : place.name,
-      place.at,
-      place.is_suggestion,
-    ]),
-    words: stenosis?.words ?? null,
+    profile: await engine.ask('profile_record', { line }),
+    marks,
   };
 }

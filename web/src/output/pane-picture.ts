@@ -1,4 +1,4 @@
-/** Saves the picture of a flat view with a caption. */
+/** Saves the picture of a section or reformation with a caption. */
 import { Failure } from '../core/failure';
 import { isInverted, type ViewName } from '../state/store';
 import { saveAs } from './pictures';
@@ -13,7 +13,7 @@ const LEAST_WIDTH = 320;
 export async function savePane(name: ViewName, content: string, words: string): Promise<void> {
   const shown = document.querySelector<HTMLCanvasElement>(`[data-testid=${name}] canvas.flat`);
   if (!shown || shown.width < 2) {
-    throw new Failure('picture', 'picture', 'none', 'a view that shows one');
+    throw new Failure('picture', 'picture', 'no picture', 'a view with a picture');
   }
   const canvas = drawnPane(shown, words);
   const blob = await new Promise<Blob | null>((resolve) => canvas.toBlob(resolve, 'image/png'));

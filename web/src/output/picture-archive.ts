@@ -1,7 +1,7 @@
-/** Numbered PNGs in a zip archive. */
+/** Collects numbered PNG pictures in a zip archive. */
 import { BlobReader, BlobWriter, configure, ZipWriter } from '@zip.js/zip.js/lib/zip-core-custom.js';
 
-// The content security policy forbids its blob workers.
+// The content security policy forbids the workers that zip.js would create from blobs.
 configure({ useWebWorkers: false });
 
 export class PictureArchive {

@@ -32,7 +32,7 @@ export async function composed(labels: 'labels' | 'plain'): Promise<HTMLCanvasEl
   context.drawImage(shown, 0, 0);
   context.filter = 'none';
   if (labels === 'labels') {
-    // Picture pixels are finer than CSS pixels on dense screens.
+    // On high-resolution screens the picture has several pixels per CSS pixel.
     const density = canvas.height / camera.size[1];
     drawLabels(context, await labelsOf(camera, density), density);
   }
@@ -47,7 +47,7 @@ const labelsOf = (camera: Camera, density: number): Promise<PictureLabels> =>
     pixel_spacing: camera.pixel_spacing / density,
   });
 
-/** Letters and scale bar, if orientation and spacing are known. */
+/** Draws orientation letters and scale bar, if orientation and spacing are known. */
 function drawLabels(
   context: CanvasRenderingContext2D,
   { letters, bar }: PictureLabels,
@@ -98,7 +98,7 @@ export async function savePng(labels: 'labels' | 'plain'): Promise<void> {
   }
 }
 
-/** Viewing side of the patient; null if the orientation is unknown. */
+/** The side from which the view shows the patient; null if the orientation is unknown. */
 export function sideOfView(): string | null {
   const camera = store.camera.value;
   return camera && store.states.value.orientation ? sideOf(camera.direction) : null;

@@ -1,4 +1,4 @@
-/** Pictures of the report and its findings. */
+/** Draws the pictures of the report and of its findings. */
 
 import { engine } from '../client/shared';
 import { pixelOf } from '../core/camera';
@@ -22,7 +22,7 @@ import { centerAt, nearestSection } from '../measure/sections';
 import * as store from '../state/store';
 import { composed } from './pictures';
 
-/** Side of a section picture (pixels). */
+/** Width and height of a section picture (pixels). */
 export const SIDE = 300;
 
 export function canvasOf(width: number, height: number): [HTMLCanvasElement, CanvasRenderingContext2D] {
@@ -90,7 +90,7 @@ export async function straightenedCanvas(
   return canvas;
 }
 
-/** The section with its contour on the left and without it on the right. */
+/** Two pictures of a section side by side: on the left with its contour, on the right without. */
 export async function sectionPair(
   { vessel, line, side }: { readonly vessel: number; readonly line: LineId; readonly side: number },
   profile: Profile,

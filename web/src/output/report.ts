@@ -1,4 +1,4 @@
-/** The report of the findings: the engine writes it, the page adds pictures. */
+/** Makes the report of the findings: the engine writes the text, the page adds the pictures. */
 import { signal } from '@preact/signals';
 import { engine } from '../client/shared';
 import { Failure } from '../core/failure';
@@ -27,7 +27,7 @@ export async function saveReport(): Promise<void> {
   saveAs(new Blob([html], { type: 'text/html' }), name, await remarkOn(findings));
 }
 
-/** Vessels of the report: included findings, plus the picked vessel if it is being measured or nothing is marked. */
+/** Vessels of the report: the included findings, and the picked vessel while measuring or if there are no findings. */
 export function reported(): readonly Finding[] {
   const marked = listedFindings.value.filter(({ line }) => !leftOut.value.has(line));
   const picked = findingOf(store.pickedVessel.value ?? -1);
@@ -51,11 +51,11 @@ async function remarkOn(findings: readonly Finding[]): Promise<string> {
     : `${missing.length} of ${findings.length} vessels have no percentage; the report says why`;
 }
 
-/** Null unless the user wants the name in the report. */
+/** The scan name if the user wants it in the report, otherwise null. */
 const namedScan = (): string | null =>
   isScanNamed.value && store.studyName.value !== '' ? store.studyName.value : null;
 
-/** HTML of the report; `scan` is the name shown. */
+/** The report as HTML; `scan` is the scan name in it, or null. */
 export async function reportOf(findings: readonly Finding[], scan = namedScan()): Promise<string> {
   const vessels: ReportVessel[] = [];
   for (const finding of findings) {

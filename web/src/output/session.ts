@@ -5,7 +5,7 @@ import { document_, markSaved } from '../state/history';
 import { saveAs } from './pictures';
 import { studyFileName } from './study-file-names';
 
-/** A markups file with an extra field, so 3D Slicer opens its vessels. */
+/** The session is a markups file with an additional field, so 3D Slicer can open its vessels. */
 export async function saveSession(): Promise<void> {
   const document = document_.value;
   const name = studyFileName({ content: 'session', ending: 'mrk.json' });

@@ -1,4 +1,4 @@
-/** Saves the numbers of measured vessels. */
+/** Saves the measurements of all measured vessels as CSV or JSON. */
 
 import { engine } from '../client/shared';
 import { Failure } from '../core/failure';
@@ -30,7 +30,7 @@ export async function saveNumbers(kind: 'csv' | 'json'): Promise<void> {
   saveAs(new Blob([text], { type }), studyFileName({ content: 'profile', ending: kind }));
 }
 
-/** Measured vessels in tree order; ids as in `lumencut measure`. */
+/** The measured vessels in the order of the tree, with the ids that `lumencut measure` would give them. */
 function measuredVessels(): MeasuredVessel[] {
   return (store.report.value?.vessels ?? []).flatMap(({ line, name }, number) => {
     const found = profiles.value.get(line);

@@ -1,4 +1,4 @@
-/** A full turn about the patient's long axis as a WebM film, or as PNGs in a zip archive. */
+/** Saves a full turn about the patient's long axis, as a WebM film or as PNGs in a zip archive. */
 import { turnedAbout } from '../core/camera';
 import { Failure } from '../core/failure';
 import type { Camera } from '../core/messages';
@@ -22,7 +22,7 @@ export const savePictures = async (): Promise<void> => {
   return saveTurn(new PictureArchive(), 'zip');
 };
 
-/** Renders a turn, then restores the view. Escape ends it without saving. */
+/** Renders all views of the turn, saves them, and restores the view. Escape cancels without saving. */
 async function saveTurn(album: Album, ending: string): Promise<void> {
   const camera = store.camera.value;
   if (!camera || store.progress.value) {
@@ -50,7 +50,7 @@ async function saveTurn(album: Album, ending: string): Promise<void> {
   }
 }
 
-/** Records a canvas, one frame per picture. */
+/** Records a film from a canvas, with one frame per picture. */
 class Film implements Album {
   private readonly canvas = document.createElement('canvas');
   private recorder: MediaRecorder | null = null;

@@ -1,6 +1,6 @@
-/** Text wrapping for canvases. */
+/** Fits text into a width, for drawing on a canvas. */
 
-/** Breaks between words; a word that is too wide gets its own line. */
+/** Lines of text, broken between words; a word that is too wide gets its own line. */
 export function wrapped(text: string, room: number, width: (text: string) => number): string[] {
   const lines: string[] = [];
   for (const word of text.split(' ').filter((part) => part !== '')) {
@@ -14,6 +14,6 @@ export function wrapped(text: string, room: number, width: (text: string) => num
   return lines;
 }
 
-/** Font size (pixels) that fits a width, with a readable minimum. */
+/** Font size (pixels) at which a text fits a width, but not below a readable minimum. */
 export const fittingSize = (size: number, wide: number, widest: number): number =>
   Math.max(Math.floor((size * widest) / wide), 11);

@@ -1,8 +1,10 @@
 /** A canvas with a picture from the engine: slice, straightened vessel or section. */
 import type { ComponentChildren } from 'preact';
 import { useEffect, useRef, useState } from 'preact/hooks';
+import { GESTURES } from '../core/generated/tables';
 import { Latest } from '../core/latest';
 import type { Pair, Picture } from '../core/messages';
+import { arrowOf, scrollOfKey, zoomOfKey } from '../input/keys';
 import { type Handlers, listen } from '../input/pointer';
 import { recover } from '../state/device';
 import { isInverted, type ViewName } from '../state/store';
@@ -11,15 +13,15 @@ import { usePaneSize } from './pane-size';
 interface FlatPictureProps {
   readonly name: ViewName;
   readonly words: string;
-  /** Renders the picture; its identity changes with the picture. */
+  /** Renders the picture. A new function means that the picture has changed. */
   readonly ask: ((size: Pair) => Promise<Picture>) | null;
   readonly handlers: Handlers;
   readonly empty?: string;
   readonly style?: Record<string, string>;
-  /** Whether the current picture is outdated. */
+  /** Whether the displayed picture is outdated. */
   readonly isLate?: boolean;
   readonly onSize?: (size: Pair) => void;
-  /** Arrow keys instead of scrolling: steps right and down, ten with Shift. */
+  /** Called by arrow keys in place of scrolling, with steps right and down: 1, or 10 with Shift. */
   readonly onArrow?: ((by: Pair) => void) | undefined;
   readonly children?: ComponentChildren;
 }
@@ -46,7 +48,7 @@ export function FlatPicture({
   const size = usePaneSize(pane);
   const [isPending, setPending] = useState(false);
 
-  // A closed view cancels its requests.
+  // When the view is closed, its pending requests are dropped.
   useEffect(
     () => () => {
       asked.current = null;
@@ -76,7 +78,7 @@ export function FlatPicture({
           paint(canvas.current, picture);
         }
       } catch (error) {
-        // Errors of outdated requests are ignored.
+        // Ignore errors of requests that are no longer current.
         if (asked.current === ask) {
           recover(error);
         }
@@ -103,7 +105,7 @@ export function FlatPicture({
       class="pane-body"
       ref={pane}
       data-testid={name}
-      // Not role="img": screen readers would skip the handles inside.
+      // With role="img", screen readers would skip the handles inside.
       role="application"
       aria-label={words}
       tabIndex={0}
@@ -119,28 +121,20 @@ export function FlatPicture({
   );
 }
 
-const ARROWS: Readonly<Record<string, Pair>> = {
-  ArrowLeft: [-1, 0],
-  ArrowRight: [1, 0],
-  ArrowUp: [0, -1],
-  ArrowDown: [0, 1],
-};
-
 /** Arrow keys scroll or move the cross-hair; + and - zoom. Focused children handle their own keys. */
 function pressed(event: KeyboardEvent, handlers: Handlers, onArrow?: (by: Pair) => void): void {
   if (event.target !== event.currentTarget) {
     return;
   }
-  const arrow = ARROWS[event.key];
+  const arrow = arrowOf(event.key);
   if (arrow && onArrow) {
     event.preventDefault();
-    const far = event.shiftKey ? 10 : 1;
+    const far = event.shiftKey ? GESTURES.far_steps : 1;
     onArrow([arrow[0] * far, arrow[1] * far]);
     return;
   }
-  const page = onArrow && !event.shiftKey ? 1 : 10;
-  const steps = { ArrowDown: 1, PageDown: page, ArrowUp: -1, PageUp: -page }[event.key];
-  const factor = { '+': 1.2, '-': 1 / 1.2 }[event.key];
+  const steps = scrollOfKey(event.key, onArrow && !event.shiftKey ? 1 : GESTURES.far_steps);
+  const factor = zoomOfKey(event.key);
   if (steps) {
     event.preventDefault();
     handlers.scroll(steps);

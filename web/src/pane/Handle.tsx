@@ -1,18 +1,18 @@
-/** A draggable handle over a picture, also moved by arrow keys. */
+/** A handle over a picture, moved by dragging or arrow keys. */
 import type { TargetedKeyboardEvent, TargetedPointerEvent } from 'preact';
 import { useRef } from 'preact/hooks';
 import type { Pair } from '../core/messages';
 
 export interface HandleProps {
-  /** CSS pixels from the top left of the overlay. */
+  /** Position in CSS pixels from the top left of the overlay. */
   readonly at: Pair;
   readonly words: string;
   readonly color: string;
   readonly kind: string;
   onBegin?(): void;
-  /** Pointer position (pixels of the overlay). */
+  /** Called with the pointer position during a drag (CSS pixels from the top left of the overlay). */
   onDrag(at: Pair): void;
-  /** Steps right and down: -1, 0 or 1; ten times with Shift. */
+  /** Called by arrow keys with steps right and down: -1, 0 or 1; with Shift ten times as far. */
   onArrow?(by: Pair): void;
   onEnd(): void;
   onPutBack(): void;

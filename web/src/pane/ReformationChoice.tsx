@@ -1,4 +1,4 @@
-/** Selects the reformation of the picked vessel; it replaces the pane title. */
+/** Menu that selects the reformation of the picked vessel; it takes the place of the pane title. */
 import { REFORMATIONS, type ReformationKind, reformationKind } from '../state/reformation';
 
 export function ReformationChoice() {

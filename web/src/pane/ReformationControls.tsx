@@ -3,7 +3,7 @@ import type { MapOf, Reformation } from '../core/messages';
 import { mapOf, uncurled } from '../state/reformation';
 
 const MAPS: readonly (readonly [MapOf, string])[] = [
-  ['wall', 'brightest at the wall'],
+  ['wall', 'brightest value at the wall'],
   ['radius', 'radius'],
   ['thickness', 'thickness of calcium'],
 ];

@@ -1,4 +1,4 @@
-/** Size of a pane in whole CSS pixels; null before layout. A hidden pane keeps its last size. */
+/** Size of a pane, rounded to CSS pixels; null before its first layout. A hidden pane keeps its last size. */
 import type { RefObject } from 'preact';
 import { useEffect, useState } from 'preact/hooks';
 import type { Pair } from '../core/messages';

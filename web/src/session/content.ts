@@ -4,13 +4,15 @@ import type {
   DocumentVessel,
   Pair,
   Report,
+  SavedMarks,
+  SavedScan,
+  SavedView,
   SessionContent,
   Settings,
   StenosisMethod,
   Territory,
   Vector,
 } from '../core/messages';
-import type { SavedMarks, SavedScan, SavedView } from '../core/session-file';
 import type { Document, VesselMarks } from '../state/document';
 
 export interface DisplayState {
@@ -19,7 +21,7 @@ export interface DisplayState {
   readonly settings: Settings;
   readonly layout: string;
   readonly crossHair: Vector | null;
-  /** Picked vessel and arc length (mm). */
+  /** The picked vessel, and the arc length of the section on it (mm). */
   readonly picked: { readonly id: number; readonly at: number } | null;
 }
 
@@ -75,10 +77,10 @@ function viewOf(displayState: DisplayState, vessels: readonly DocumentVessel[]):
   };
 }
 
-/** Digits that survive a change of pane size. */
+/** Digits of numbers in the file; rounding errors from changes of the pane size disappear. */
 const DIGITS = 12;
 
-/** Rounds the size to whole pixels; the shorter side keeps its extent. */
+/** Rounds the view size to integer pixels; the shorter side keeps its extent in mm. */
 function pixelsOf({ size, pixel_spacing }: Camera): Pick<Camera, 'size' | 'pixel_spacing'> {
   const whole: Pair = [Math.round(size[0]), Math.round(size[1])];
   const spacing = (pixel_spacing * Math.min(...size)) / Math.min(...whole);
@@ -101,7 +103,7 @@ function savedMarks(marks: VesselMarks | undefined): SavedMarks | null {
     : null;
 }
 
-/** The document of a session; vessels are numbered from 0. */
+/** Restores the document of a session; the ids of its vessels count from 0. */
 export function documentOf({ lines, doubtful_lines, session }: SessionContent): Document {
   const sure = session.vessels.map((vessel, id): DocumentVessel => {
     const { line, name } = lines[id] ?? { line: -1, name: '' };
@@ -144,7 +146,7 @@ function marksOf(saved: SavedMarks): VesselMarks {
   };
 }
 
-/** Fits a saved camera to another pane size; the shorter side keeps its extent. */
+/** The saved camera for another pane size; the shorter side keeps its extent in mm. */
 export function cameraOf({ camera }: SavedView, size: Pair): Camera {
   const scale = Math.min(...camera.size) / Math.min(...size);
   return { ...camera, size, pixel_spacing: camera.pixel_spacing * scale };

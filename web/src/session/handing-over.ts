@@ -1,9 +1,9 @@
-/** Copies the lines of a document to another engine, as after a crash. */
+/** Copies the centerlines of a document to another engine, for example after a crash. */
 import type { Asked } from '../core/asked';
 import type { LineContent, LineId } from '../core/messages';
 import type { Document } from '../state/document';
 
-/** The document with the lines of the other engine. Vessels without loaded lines are dropped. */
+/** The document with line numbers of the other engine. Vessels whose lines were not loaded are dropped. */
 export async function handedOver(
   other: Asked,
   document: Document,

@@ -1,24 +1,24 @@
-/** Keeps the session over a reload of the tab, if the user allows it: no pixels, and only until the tab closes. */
+/** If the user allows it, keeps the session, without pixels, while the tab is reloaded; closing the tab deletes it. */
 import { effect, signal } from '@preact/signals';
 import { document_, saved } from '../state/history';
 import { showFailure } from '../state/message';
 import { hasVolume } from '../state/store';
 
-/** Storage keys of the session and of the permission. */
+/** Keys in the session storage: the session, and the permission to keep it. */
 const SESSION = 'lumencut-session';
 const ALLOWED = 'lumencut-keeps-session';
 
-/** Delay after a change (ms), so that rapid changes write nothing. */
+/** The session is written this long after the last change (ms). */
 const SAVE_DELAY_MS = 1000;
 
 export const isKeeping = signal(false);
 
-/** A session kept before this load, until the user decides about it. */
+/** The session kept from before the reload, until the user continues with it or discards it. */
 export const kept = signal<string | null>(null);
 
 type Kept = Pick<Storage, 'getItem' | 'setItem' | 'removeItem'>;
 
-/** Stores the session after each change. Returns the function that ends it. */
+/** Stores the session after each change. Returns a function that stops this. */
 export function followKeeping(tab: Kept, write: () => Promise<string>): () => void {
   isKeeping.value = tab.getItem(ALLOWED) !== null;
   kept.value = tab.getItem(SESSION);

@@ -4,8 +4,7 @@ import { EngineClient } from '../client/engine';
 import { engine } from '../client/shared';
 import type { Asked } from '../core/asked';
 import { CRASH, Failure } from '../core/failure';
-import type { Bytes, DocumentVessel, GivenFile, Method } from '../core/messages';
-import type { SavedView } from '../core/session-file';
+import type { Bytes, DocumentVessel, GivenFile, Method, SavedView } from '../core/messages';
 import { contents } from '../edit/lines';
 import { beginDocument, pickedId, tree } from '../edit/shown';
 import { shownVessels } from '../state/changes';
@@ -17,7 +16,7 @@ import * as store from '../state/store';
 import { cameraOf, contentOf, type DisplayState, documentOf } from './content';
 import { handedOver } from './handing-over';
 
-/** Bytes that contain the session field, which precedes the curves. */
+/** Bytes to read from the start of a file to find the session field, which precedes the curves. */
 const HEAD = 4096;
 const FIELD = '"LumencutSession"';
 
@@ -25,7 +24,7 @@ export async function isSession({ file }: GivenFile): Promise<boolean> {
   return /\.json$/i.test(file.name) && (await file.slice(0, HEAD).text()).includes(FIELD);
 }
 
-/** Session as a file. After a crash, another engine writes it from the page's copy. */
+/** The session as a file. After a crash, a new engine writes it from the data that the page holds. */
 export async function savedSession(): Promise<Bytes> {
   const report = store.report.value;
   if (!report?.volume) {
@@ -73,7 +72,7 @@ function displayState(): DisplayState | null {
   );
 }
 
-/** Opens a session for the open scan; the engine rejects sessions of other scans. */
+/** Opens a session of the open scan. The engine rejects sessions of other scans. */
 export async function openSession({ file }: GivenFile): Promise<void> {
   const content = await engine.ask(
     'read_session',
@@ -94,7 +93,7 @@ export async function openSession({ file }: GivenFile): Promise<void> {
   }
 }
 
-/** Runs once the document's tree is displayed, unless it changes before. */
+/** Runs `work` once the vessels of the document are displayed, unless the document changes before. */
 function onceShown(document: Document, work: () => void): void {
   const wanted = shownVessels(document);
   const end = effect(() => {

@@ -1,8 +1,9 @@
-/** User actions; each one only writes the store. */
+/** Actions of the user. They only change the store; the views react to it. */
 import { batch } from '@preact/signals';
 import type { EngineClient } from '../client/engine';
 import type { Asked } from '../core/asked';
-import { panned, resized, trackballed, turnedAbout, zoomed } from '../core/camera';
+import { panned, resized, spun, trackballed, turnedAbout, zoomed } from '../core/camera';
+import { GESTURES } from '../core/generated/tables';
 import type { Camera, Pair, SettingValue, Vector, Window } from '../core/messages';
 import type { Action } from '../input/bindings';
 import { isArriving } from './arriving';
@@ -14,10 +15,6 @@ import { stopMeasuring } from './profiles';
 import { putRulerAway } from './rulers';
 import * as store from './store';
 import { tool } from './tool';
-
-/** Window change per pixel of a drag. */
-const WINDOW_PER_PIXEL = 0.004;
-const NARROWEST = 1e-3;
 
 export function changeCamera(change: (camera: Camera) => Camera): void {
   const camera = store.camera.value;
@@ -41,8 +38,7 @@ export function dragTurning(action: Action, by: Pair, axis: Vector | null): void
       break;
     case 'rotate about vessel': {
       const about = axis ?? store.camera.value?.up ?? [0, 0, 1];
-      const angle = (size: Pair) => (-by[0] * Math.PI) / size[1];
-      changeCamera((camera) => turnedAbout(camera, pivot(camera), about, angle(camera.size)));
+      changeCamera((camera) => spun(camera, pivot(camera), about, by[0]));
       break;
     }
     case 'pan':
@@ -60,12 +56,12 @@ export function zoomTurning(factor: number, at: Pair): void {
   changeCamera((camera) => zoomed(camera, factor, at));
 }
 
-/** The state before a drag, restored by Escape. */
+/** The view before a drag, which Escape restores. */
 let before = kept();
 
 function kept() {
   const [camera, to] = [store.camera.value, destination.value];
-  // A drag ends a flight; cancelling it leaves the view at the destination.
+  // A drag ends a flight of the camera. If the drag is cancelled, the view jumps to the destination of the flight.
   return {
     camera: camera && to ? resized(to, camera.size) : camera,
     window: store.window_.value,
@@ -88,16 +84,16 @@ export function windowBack(): { begin(): void; end(): void; putBack(): void } {
   };
 }
 
-/** Right widens the window, up brightens. */
+/** A drag to the right widens the window; a drag upwards makes the picture brighter. */
 export function dragWindow([x, y]: Pair): void {
   const [level, width] = store.window_.value;
-  const wider = Math.max(width * Math.exp(x * WINDOW_PER_PIXEL), NARROWEST);
-  store.window_.value = [level + y * WINDOW_PER_PIXEL * width, wider];
+  const { window_per_pixel: part, narrowest_window: narrowest } = GESTURES;
+  store.window_.value = [level + y * part * width, Math.max(width * Math.exp(x * part), narrowest)];
 }
 
-/** Changes the window during a drag; `windowChanged` then records one step. */
+/** Changes the window during a drag. Afterwards `windowChanged` records one undo step. */
 export function setWindow(window: Window): void {
-  store.window_.value = [window[0], Math.max(window[1], NARROWEST)];
+  store.window_.value = [window[0], Math.max(window[1], GESTURES.narrowest_window)];
 }
 
 export function choosePreset(number: number): void {
@@ -136,12 +132,12 @@ export async function showBestView(engine: Asked): Promise<void> {
 type ModeLayout = 'measure' | 'report';
 const isOfMode = (layout: store.Layout): layout is ModeLayout => layout === 'measure' || layout === 'report';
 
-/** Layout before measuring or the report. */
+/** The layout before measuring or the report was opened. */
 let layoutBefore: store.Layout = 'strip';
 
 export function toggleLayout(wanted: ModeLayout): void {
   if (tool.value !== 'ruler' || wanted === 'report') {
-    // Clicks must not set points here; this also restores the layout before tracing.
+    // Ends the tracing tool, since clicks must not set points here. This also restores the layout before tracing.
     tool.value = 'look';
   }
   const now = store.layout.value;

@@ -1,5 +1,5 @@
-/** Measuring starts at the narrowest place, once it is known. */
+/** When measuring is opened, the section moves to the narrowest place once it is known. */
 import { signal } from '@preact/signals';
 
-/** Whether measuring has just opened and its first place is not shown yet. */
+/** Whether measuring was opened, and the section has not moved to the narrowest place yet. */
 export const isArriving = signal(false);

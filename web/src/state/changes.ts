@@ -1,4 +1,4 @@
-/** Reading documents, and applying the engine's edits to them. */
+/** Reads documents, and applies edits that the engine has made. */
 import type { DocumentVessel, Edited } from '../core/messages';
 import type { Document } from './document';
 
@@ -14,7 +14,7 @@ export function changed(document: Document, id: number, to: Partial<DocumentVess
     : document;
 }
 
-/** Parts without changes, or the whole document, keep their object identity. */
+/** The document after an edit. Unchanged parts stay the same objects; without any change, so does the document. */
 export function afterEdit(now: Document, { document, without_marks: lost }: Edited): Document {
   const vessels = kept(now.vessels, document.vessels);
   const stoppers = kept(now.stoppers, document.stoppers);

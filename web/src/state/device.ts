@@ -1,17 +1,17 @@
-/** The compute device: selected at start, and again after a GPU loss. */
+/** Selects the compute device at the start of the page, and again if the GPU is lost. */
 import { batch } from '@preact/signals';
 import { engine } from '../client/shared';
 import { Failure } from '../core/failure';
 import * as store from './store';
 
-/** A GPU that fails twice within this time is replaced by the CPU (ms). */
+/** If the GPU fails twice within this time (ms), the CPU replaces it. */
 const GIVE_UP_WITHIN_MS = 20_000;
 let lastLoss = Number.NEGATIVE_INFINITY;
 let isChanging = false;
-/** The requested device, used again after a loss. */
+/** The device that the user requested; also used after a loss. */
 let wanted = 'auto';
 
-/** Starts the engine on `gpu`, `any` GPU, `cpu`, or `auto`. */
+/** Starts the engine on a device: `gpu`, `any` (also a software GPU), `cpu` or `auto`. */
 export async function start(device: string): Promise<void> {
   wanted = device;
   try {
@@ -34,7 +34,7 @@ export function recover(error: unknown): void {
     lastLoss = performance.now();
     void change(isAgain ? 'cpu' : wanted, failure);
   } else if (failure.kind !== 'interrupted' && store.report.value) {
-    // Ignore errors of a study closed meanwhile.
+    // If the study was closed meanwhile, its errors do not matter.
     store.problem.value = failure;
   }
 }

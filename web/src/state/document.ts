@@ -1,4 +1,4 @@
-/** The user's work on a scan: vessels, stoppers and marks. Immutable; `history.ts` keeps earlier versions. */
+/** The document: the user's vessels, stoppers and marks on a scan. It is immutable; `history.ts` keeps old versions. */
 import type { Marks, Vector, VesselDocument } from '../core/messages';
 
 export interface Ruler {
@@ -11,7 +11,7 @@ export type VesselMarks = Marks;
 export interface Document extends VesselDocument {
   readonly marks: Readonly<Record<number, VesselMarks>>;
   readonly rulers: readonly Ruler[];
-  /** The user assumes 1 mm for a scan without voxel spacing. */
+  /** Whether the user assumes voxels of 1 mm for a scan without voxel spacing. */
   readonly isOneMillimetre: boolean;
 }
 

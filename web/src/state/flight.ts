@@ -1,4 +1,4 @@
-/** Animated camera changes to named views, so that the user keeps track of the vessels. */
+/** Flights: animated changes of the camera, so that the user can follow how the view turns. */
 import { signal } from '@preact/signals';
 import type { Asked } from '../core/asked';
 import { resized } from '../core/camera';
@@ -6,13 +6,13 @@ import type { Camera } from '../core/messages';
 import { showFailure } from './message';
 import * as store from './store';
 
-/** Duration (ms). */
+/** Duration of a flight (ms). */
 const FLIGHT = 400;
 
 /** Number of views of a flight: one per frame at 120 Hz. */
 const VIEWS = 49;
 
-/** Destination of the current flight. */
+/** The camera at the end of the current flight; null without a flight. */
 export const destination = signal<Camera | null>(null);
 
 let flights = 0;
@@ -21,7 +21,7 @@ let flights = 0;
 export function flyTo(engine: Asked, to: Camera): void {
   flights += 1;
   const from = store.camera.value;
-  // Jump if the view is turning, or if the user prefers no motion.
+  // Without animation if the view is rotating, or if the user prefers reduced motion.
   if (!from || store.isTurning.value || window.matchMedia('(prefers-reduced-motion: reduce)').matches) {
     destination.value = null;
     store.camera.value = from ? resized(to, from.size) : to;
@@ -69,7 +69,7 @@ function show(number: number, from: Camera, views: readonly Camera[]): void {
   requestAnimationFrame(step);
 }
 
-/** Whether both show the same view, regardless of pane size. */
+/** Whether two cameras show the same view, regardless of the pane size. */
 const looksAlike = (a: Camera, b: Camera): boolean =>
   a.center === b.center && a.direction === b.direction && a.up === b.up;
 

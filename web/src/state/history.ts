@@ -1,15 +1,15 @@
-/** Undo and redo of the document and the window. */
+/** Undo and redo of changes to the document and the grey-value window. */
 import { batch, computed, signal } from '@preact/signals';
 import type { Window } from '../core/messages';
 import { type Document, EMPTY } from './document';
 import { window_ } from './store';
 
 interface Step {
-  /** Description, such as `add a point`. */
+  /** Description of the step, such as `add a point`. */
   readonly words: string;
   readonly before: Document;
   readonly after: Document;
-  /** Set for steps that change the window, which is not part of the document. */
+  /** Present if the step changed the grey-value window, which is not part of the document. */
   readonly window?: { readonly before: Window; readonly after: Window };
 }
 
@@ -18,14 +18,14 @@ const future = signal<readonly Step[]>([]);
 
 export const document_ = signal<Document>(EMPTY);
 
-/** The document as last saved or opened; other changes are lost on closing. */
+/** The document as it was last saved or opened. Later changes would be lost on closing. */
 export const saved = signal<Document>(EMPTY);
 
 export function markSaved(document: Document): void {
   saved.value = document;
 }
 
-/** Descriptions of what undo and redo would do; null if nothing. */
+/** Descriptions of the next steps to undo and to redo; null if there is none. */
 export const undoWords = computed(() => past.value.at(-1)?.words ?? null);
 export const redoWords = computed(() => future.value.at(-1)?.words ?? null);
 
@@ -62,7 +62,7 @@ export function preview(during: Document): void {
   document_.value = during;
 }
 
-/** Ends a drag: all changes since `begun` become one step. */
+/** Ends a drag: all changes since the document `begun` become one undo step. */
 export function endPreview(words: string, begun: Document): void {
   const after = document_.value;
   document_.value = begun;

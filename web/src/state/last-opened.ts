@@ -1,4 +1,4 @@
-/** Reopens the last files with an additional choice, after a rejection. */
+/** Opens rejected files again, with a choice that the user made. */
 import type { SeriesWish } from '../core/messages';
 
 type Open = (wish: SeriesWish) => Promise<void>;

@@ -1,8 +1,8 @@
-/** An unfinished length along a vessel. */
+/** A length along a vessel that the user has begun and not ended yet. */
 import { signal } from '@preact/signals';
 import type { LineId } from '../core/messages';
 
-/** Start (mm) and line. */
+/** The line of the vessel, and the arc length at which the length begins (mm). */
 export const begunLength = signal<{ readonly line: LineId; readonly at: number } | null>(null);
 
 export function dropLength(): void {

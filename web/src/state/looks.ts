@@ -1,4 +1,4 @@
-/** Looks: named groups of settings from the core's table. */
+/** Looks: named groups of view settings, which the engine defines. */
 import { batch, computed } from '@preact/signals';
 import type { LookRow, RegionRow, Settings, SettingValue } from '../core/messages';
 import { choosePreset, settingOf } from './actions';
@@ -6,7 +6,7 @@ import * as store from './store';
 
 export type Lines = 'none' | 'near' | 'all';
 
-/** Whether a setting matches a look; the size of a focus is free. */
+/** Whether a setting is that of a look. For a focus (margin around the vessels), any size matches. */
 function agrees(name: string, chosen: SettingValue, own: SettingValue): boolean {
   if (name === 'focus' && Array.isArray(chosen) && Array.isArray(own)) {
     return Number(chosen[0]) < 0 === Number(own[0]) < 0;
@@ -14,7 +14,7 @@ function agrees(name: string, chosen: SettingValue, own: SettingValue): boolean 
   return JSON.stringify(chosen) === JSON.stringify(own);
 }
 
-/** Whether a look is useful; cuts need vessels. */
+/** Whether a look can be chosen: looks that show the cut need vessels. */
 export function isOffered(look: LookRow): boolean {
   return store.hasTree.value || showsNoCut(look);
 }
@@ -23,14 +23,14 @@ function showsNoCut({ settings: { focus } }: LookRow): boolean {
   return Array.isArray(focus) && Number(focus[0]) < 0;
 }
 
-/** The look that matches all settings; null if none does. */
+/** The look whose settings are all active; null if there is none. */
 export const chosenLook = computed<string | null>(() => {
   const looks = store.started.value?.looks ?? [];
   return looks.find((look) => isOffered(look) && holds(look.settings))?.name ?? null;
 });
 
 function holds(settings: Settings): boolean {
-  // Without vessels, only the context matters.
+  // Without vessels, only the setting `context` is compared.
   const counts = (name: string) => store.hasTree.value || name === 'context';
   return Object.entries(settings).every(([name, own]) => !counts(name) || agrees(name, settingOf(name), own));
 }
@@ -45,7 +45,7 @@ export function chooseLook(look: Pick<LookRow, 'settings'>): void {
 export const STENT_LOOK = 'lumen';
 const STENT_PRESET = 'stent';
 
-/** Whether the scan may contain stents: in Hounsfield units, with values as bright as metal. */
+/** Whether the scan may contain stents: it is in Hounsfield units and has values as bright as metal. */
 export const mayHoldStents = computed<boolean>(
   () => store.hasTree.value && (store.report.value?.windows?.may_hold_stents ?? false),
 );
@@ -63,7 +63,7 @@ export const isStentShown = computed<boolean>(
   () => chosenLook.value === STENT_LOOK && isWindowOf(STENT_PRESET),
 );
 
-/** Shows the cut in the stent window; the window is an undo step. */
+/** Shows the cut in the window for stents. The change of the window is an undo step. */
 export function chooseStent(): void {
   const look = store.started.value?.looks.find(({ name }) => name === STENT_LOOK);
   if (look) {
@@ -75,13 +75,13 @@ export function chooseStent(): void {
 const presetOf = (region: RegionRow): string =>
   store.report.value?.windows?.is_hounsfield ? region.preset : region.preset_of_other_units;
 
-/** The region whose look and window are active; null if none. */
+/** The body region whose look and window are active; null if there is none. */
 export const chosenRegion = computed<string | null>(() => {
   const isShown = (region: RegionRow) => holds(region.settings) && isWindowOf(presetOf(region));
   return store.started.value?.regions.find(isShown)?.name ?? null;
 });
 
-/** Applies the look and window of a region; the window is an undo step. */
+/** Applies the look and the window of a body region. The change of the window is an undo step. */
 export function chooseRegion(name: string): void {
   const region = store.started.value?.regions.find((one) => one.name === name);
   if (region) {
@@ -97,7 +97,7 @@ export const lines = computed<Lines>(() => {
   return settingOf('silhouette_reach') === null ? 'all' : 'near';
 });
 
-/** Selects the edge lines; the reach of those near vessels is the default. */
+/** Selects which edge lines are drawn. Lines near vessels reach as far as the default setting says. */
 export function chooseLines(chosen: Lines): void {
   const row = store.started.value?.table.find(({ name }) => name === 'silhouette_reach');
   store.settings.value = {

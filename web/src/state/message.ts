@@ -1,4 +1,4 @@
-/** Temporary messages. */
+/** Messages that disappear after a while. */
 import { signal } from '@preact/signals';
 import { Failure } from '../core/failure';
 import { problem, report } from './store';
@@ -16,7 +16,7 @@ export function showMessage(words: string): void {
   }, DISPLAY_MS);
 }
 
-/** Reports a failure, except interruptions and errors of a study closed meanwhile. */
+/** Shows a failure, unless the user stopped the work or closed the study meanwhile. */
 export function showFailure(error: unknown): void {
   const failure = Failure.of(error);
   if (failure.kind !== 'interrupted' && report.value) {

@@ -2,6 +2,7 @@
 import { batch, effect, signal, untracked } from '@preact/signals';
 import type { Asked } from '../core/asked';
 import { resized, turnedAbout } from '../core/camera';
+import { GESTURES } from '../core/generated/tables';
 import type { Camera, LineId, Vector } from '../core/messages';
 import { length, subtract, turned } from '../core/vectors';
 import { destination, flyTo } from './flight';
@@ -11,15 +12,15 @@ import { tool } from './tool';
 
 export interface PlaceTurn {
   readonly line: LineId;
-  /** Arc length (mm). */
+  /** Arc length of the place (mm). */
   readonly at: number;
-  /** View at 0°, centred on the place, with the axis upwards. */
+  /** The view at 0°: centred on the place, with the axis of the vessel upwards. */
   readonly first: Camera;
-  /** Diameter in the cut per degree (mm), with period 180°; null without two walls. */
+  /** Diameter seen in the cut at each degree from 0 to 179 (mm); null if it shows fewer than two walls. */
   readonly diameters: readonly (number | null)[];
-  /** Rotation of the viewer: whole degrees from -180 to 179. */
+  /** Rotation of the viewer about the axis, in integer degrees from -180 to 179. */
   readonly angle: number;
-  /** Smallest and largest diameter so far (mm). */
+  /** Smallest and largest diameter seen so far (mm). */
   readonly least: number | null;
   readonly largest: number | null;
 }
@@ -40,7 +41,7 @@ export async function togglePlaceTurn(engine: Asked): Promise<void> {
   const at = store.pickedPlace.value;
   try {
     const { camera: first, diameters } = await engine.ask('turn_about', { vessel, at, size: camera.size });
-    // The vessel may have been retraced, or another picked.
+    // Meanwhile the vessel may have been retraced, or another one picked.
     if (store.pickedLine() === line) {
       begin(engine, { line, at, first, diameters });
     }
@@ -62,13 +63,13 @@ export function endPlaceTurn(): void {
   placeTurn.value = null;
 }
 
-/** Diameter in the cut at an angle (mm). */
+/** Diameter seen in the cut at an angle (mm). */
 export function diameterAfter({ diameters }: Pick<PlaceTurn, 'diameters'>, degrees: number): number | null {
   const count = diameters.length;
   return diameters[((degrees % count) + count) % count] ?? null;
 }
 
-/** Rotates to an angle (degrees) the shorter way, including all cuts on the way. */
+/** Rotates to an angle (degrees) in the shorter direction; the diameters of all cuts on the way count as seen. */
 export function sweptTo(turn: PlaceTurn, angle: number): PlaceTurn {
   const by = withinCircle(Math.round(angle) - turn.angle);
   const cut = Array.from({ length: Math.abs(by) }, (_, n) =>
@@ -89,7 +90,7 @@ export function turnTo(angle: number): void {
   if (!turn || !next || !camera || next.angle === turn.angle) {
     return;
   }
-  // During the initial flight, turning starts from its destination.
+  // During the flight to the first view, turning starts from the end of this flight.
   const seen = resized(destination.value ?? camera, camera.size);
   batch(() => {
     destination.value = null;
@@ -103,14 +104,16 @@ export function turnTo(angle: number): void {
   });
 }
 
-/** Fractions of degrees during a drag. */
+const DEGREES_PER_HEIGHT = (GESTURES.turn_per_height * 180) / Math.PI;
+
+/** Fraction of a degree that remains after a step of a drag. */
 let rest = 0;
 
-/** A drag to the right rotates like a trackball: the view height is half a turn. */
+/** A drag to the right rotates the view like a trackball; a drag as long as the view is high rotates it by 180°. */
 export function dragPlaceTurn(pixels: number, height: number): void {
   const turn = placeTurn.value;
   if (turn) {
-    const wanted = rest - (180 * pixels) / Math.max(height, 1);
+    const wanted = rest - (DEGREES_PER_HEIGHT * pixels) / Math.max(height, 1);
     const whole = Math.trunc(wanted);
     rest = wanted - whole;
     turnTo(turn.angle + whole);
@@ -129,7 +132,7 @@ export function followPlaceTurn(): () => void {
   });
 }
 
-/** Whether a view belongs to the turn, except for pan and zoom. */
+/** Whether a camera has the direction of the turn; pan and zoom do not matter. */
 function isOf({ first, angle }: PlaceTurn, seen: Camera): boolean {
   const direction = turned(first.direction, first.up, radians(angle));
   return near(seen.direction, direction) && near(seen.up, first.up);
@@ -137,7 +140,7 @@ function isOf({ first, angle }: PlaceTurn, seen: Camera): boolean {
 
 const near = (a: Vector, b: Vector): boolean => length(subtract(a, b)) < AXIS_TOLERANCE;
 
-/** Wraps to -180 to 179 degrees. */
+/** The same angle in the range from -180 to 179 degrees. */
 const withinCircle = (degrees: number): number => ((((degrees + 180) % 360) + 360) % 360) - 180;
 
 const radians = (degrees: number): number => (degrees * Math.PI) / 180;

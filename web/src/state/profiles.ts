@@ -1,4 +1,4 @@
-/** Profiles of vessels, measured on demand and cached by line until the study closes. */
+/** Diameter profiles of vessels, measured on demand and cached by line until the study closes. */
 import { batch, signal } from '@preact/signals';
 import type { Asked } from '../core/asked';
 import { Failure } from '../core/failure';
@@ -13,10 +13,10 @@ export const givenFwhm = signal<number | null>(null);
 export const beingMeasured = signal<LineId | null>(null);
 export const stopped = signal<LineId | null>(null);
 
-/** Request counter: answers for an earlier study or FWHM are dropped. */
+/** Number of the latest request. Answers to earlier ones, for another study or FWHM, are dropped. */
 let asked = 0;
 
-/** Measures a line unless cached. */
+/** Measures a line, unless its profile is known or another line is being measured. */
 export async function measure(engine: Asked, line: LineId): Promise<void> {
   if (profiles.value.has(line) || beingMeasured.value !== null || stopped.value === line) {
     return;
@@ -61,10 +61,10 @@ async function profileOf(engine: Asked, line: LineId, question: number): Promise
   }
 }
 
-/** Shows progress; without a total the duration is unknown. */
+/** Shows the progress; a null `total` means that the duration is unknown. */
 function showProgress(question: number, total: number | null): void {
   if (question === asked) {
-    store.progress.value = { words: 'measuring the vessel', done: total ?? 0, total };
+    store.progress.value = { words: 'Measuring the vessel', done: total ?? 0, total };
   }
 }
 
@@ -72,7 +72,7 @@ export function measureAgain(): void {
   stopped.value = null;
 }
 
-/** Sets the FWHM; all vessels are measured again. */
+/** Sets the FWHM that the user entered. All vessels are then measured again. */
 export function giveFwhm(fwhm: number | null): void {
   batch(() => {
     forgetProfiles();
@@ -80,7 +80,7 @@ export function giveFwhm(fwhm: number | null): void {
   });
 }
 
-/** A cancelled measurement does not restart by itself. */
+/** Cancels the current measurement. It does not restart by itself. */
 export function stopMeasuring(): void {
   if (beingMeasured.value !== null) {
     asked += 1;
@@ -92,7 +92,7 @@ export function stopMeasuring(): void {
   }
 }
 
-/** A new study may come from another scanner. */
+/** Forgets the entered FWHM, since a new study may come from another scanner. */
 export const beginMeasuring = (): void => giveFwhm(null);
 
 export function forgetProfiles(): void {

@@ -13,15 +13,15 @@ export const REFORMATIONS: readonly (readonly [ReformationKind, string])[] = [
 ];
 
 export const reformationKind = signal<ReformationKind>('cpr');
-/** Degree of straightening, 0 to 1. */
+/** Degree of straightening of the uncurled CPR, from 0 to 1. */
 export const uncurled = signal(0.5);
 export const mapOf = signal<MapOf>('wall');
 
 export interface Chosen {
   readonly vessel: number | null;
-  /** View direction of the turning view; null before it is shown. */
+  /** Direction of the turning view; null before that view is shown. */
   readonly side: Side | null;
-  /** Rotation about the vessel (radians). */
+  /** Rotation of the reformation about the vessel (radians). */
   readonly angle: number;
   readonly amount: number;
   readonly of: MapOf;

@@ -1,4 +1,4 @@
-/** Straight distances between two picked points. */
+/** Rulers: straight distances between two points that the user has clicked. */
 import { signal } from '@preact/signals';
 import type { Vector } from '../core/messages';
 import { length, subtract } from '../core/vectors';

@@ -1,4 +1,4 @@
-/** The store of signals, read by views and written by actions. */
+/** The state of the page, as signals. Actions change it, and the views show it. */
 import { computed, signal } from '@preact/signals';
 import type { Failure } from '../core/failure';
 import type {
@@ -36,11 +36,11 @@ export interface CrossHair {
   readonly point: Vector;
   readonly value: number | null;
   readonly vessel: number | null;
-  /** Arc length (mm). */
+  /** Arc length of the cross-hair on its vessel (mm). */
   readonly arcLength: number | null;
 }
 
-/** The running engine; `epoch` counts restarts of the device. */
+/** What the engine reported when it started. `epoch` counts the changes of the compute device. */
 export const started = signal<Started | null>(null);
 export const epoch = signal(0);
 
@@ -56,40 +56,40 @@ export const problem = signal<Failure | null>(null);
 export const camera = signal<Camera | null>(null);
 export const method = signal<Method>('csr');
 const FIRST_LOOK = 'focus';
-/** Initial settings; edge lines are white, because yellow signals warnings. */
+/** Initial view settings. Edge lines are white, because yellow signals warnings. */
 export const firstSettings = computed<Settings>(() => ({
   ...started.value?.looks.find(({ name }) => name === FIRST_LOOK)?.settings,
   silhouette_color: [255, 255, 255],
 }));
-/** Non-default settings, without windows. */
+/** View settings that differ from the defaults, except windows. */
 export const settings = signal<Settings>(firstSettings.value);
 export const window_ = signal<Window>([300, 900]);
 export const isInverted = signal(false);
 export const isTurning = signal(false);
 
 export const crossHair = signal<CrossHair | null>(null);
-/** Initial position of the cross-hair, to detect whether the user moved it. */
+/** Initial position of the cross-hair; if it is still there, the user has not placed it. */
 export const firstPlace = signal<Vector | null>(null);
 export const pickedVessel = signal<number | null>(null);
 export const pickedPlace = signal(0);
 export const cprAngle = signal(0);
 export const cprFeature = signal<Feature | null>(null);
-/** Side of the lumen that the CPR follows; null for a constant rotation. */
+/** Which side of the lumen the CPR follows, narrowest or widest; null for a constant rotation. */
 export const cprRoll = signal<Roll | null>(null);
 
 export const layout = signal<Layout>('strip');
 export const maximised = signal<ViewName | null>(null);
-/** Reset counter: flat views then show the whole volume. */
+/** Counts resets of the views; at each one, slices show the whole volume again. */
 export const resets = signal(0);
 export const isHelpOpen = signal(false);
-/** The camera whose complete picture is displayed. */
+/** The camera of the last picture that was displayed in full quality. */
 export const completeCamera = signal<Camera | null>(null);
 export const frameTime = signal<number | null>(null);
 
 export const hasVolume = computed(() => Boolean(report.value?.volume));
 export const hasTree = computed(() => (report.value?.vessels?.length ?? 0) > 0);
 
-/** Line of the picked vessel; it changes when the vessel is retraced. */
+/** Line number of the picked vessel. It changes when the vessel is retraced. */
 export const pickedLine = (): LineId | null =>
   report.value?.vessels?.[pickedVessel.value ?? -1]?.line ?? null;
 
@@ -105,7 +105,7 @@ export const viewSettings = computed<Settings>(() => {
   return chosen;
 });
 
-/** Applies the change of the main window to another window. */
+/** Changes the window `own` in the same way as the main window changed from `from` to `to`. */
 export function moved(own: Window, from: Window, to: Window): Window {
   const factor = to[1] / from[1];
   return [to[0] + (own[0] - from[0]) * factor, own[1] * factor];

@@ -1,4 +1,4 @@
-/** The active tool: what a click does. */
+/** The active tool, which determines what a click does. */
 import { signal } from '@preact/signals';
 
 export type Tool = 'look' | 'trace' | 'stopper' | 'seed' | 'ruler';

@@ -1,9 +1,9 @@
-/** Asks before unsaved work is lost by closing or opening. */
+/** Asks the user before closing or opening a scan would lose unsaved work. */
 import { signal } from '@preact/signals';
 import type { Document } from '../state/document';
 import { document_, saved } from '../state/history';
 
-/** The pending action, and the question about the loss; null if none. */
+/** The action that waits for the user, and the question to the user. */
 export interface Leaving {
   readonly words: string;
   go(): Promise<unknown>;
@@ -11,7 +11,7 @@ export interface Leaving {
 
 export const leaving = signal<Leaving | null>(null);
 
-/** Acts at once if everything is saved, otherwise asks. */
+/** Performs `go` at once if everything is saved, otherwise after the user has agreed. */
 export async function leave(go: () => Promise<unknown>): Promise<void> {
   if (document_.value === saved.value) {
     await go();

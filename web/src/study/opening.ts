@@ -12,7 +12,7 @@ import * as store from '../state/store';
 import { leave } from './leaving';
 import { open } from './study';
 
-/** A volume replaces everything, centerlines are added. */
+/** Opens files. A volume replaces the open study; centerlines are added to it. */
 export function openFiles(
   engine: EngineClient,
   files: readonly GivenFile[],
@@ -27,7 +27,7 @@ export function openFiles(
         store.progress.value = progress;
       });
       const isVolume = opened.name !== undefined;
-      // Lines that are read again replace the previous ones.
+      // Centerlines that are opened again, with another choice, replace those opened before.
       if (isAgain && wasEdited && undoWords.value === 'open centerlines') {
         undo();
       }
@@ -39,13 +39,13 @@ export function openFiles(
   });
 }
 
-/** A volume that may be a new scan or a vessel mask, until the user decides. */
+/** Files of a volume that may be a new scan or a vessel mask, until the user decides. */
 export const question = signal<readonly GivenFile[] | null>(null);
 
 const CENTERLINES = /\.(vtp|vtk|fcsv|pth|swc|tre|csv|json)$/i;
 const VOLUMES = /\.(nii|nii\.gz|nrrd|nhdr|mha|mhd|hdr|img|raw|zraw)$/i;
 
-/** Opens files after asking what is ambiguous or would be lost; a session after its scan. */
+/** Opens files; first asks if their meaning is ambiguous or work would be lost. A session is opened after its scan. */
 export async function takeFiles(engine: EngineClient, files: readonly GivenFile[]): Promise<void> {
   const session = await sessionAmong(files);
   if (session) {
@@ -84,7 +84,7 @@ async function goOn(session: GivenFile): Promise<void> {
   }
 }
 
-/** State of the volume that stays when centerlines are added. */
+/** What is known about the open volume, which stays when centerlines are added. */
 function beside() {
   return { name: store.studyName.value, states: store.states.value };
 }

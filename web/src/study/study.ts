@@ -1,4 +1,4 @@
-/** Opening and closing a study, with its windows and first view. */
+/** Opens and closes a study; sets its windows and its first view. */
 import { batch } from '@preact/signals';
 import type { EngineClient, Opened } from '../client/engine';
 import { Failure } from '../core/failure';
@@ -19,7 +19,7 @@ import { tool } from '../state/tool';
 
 const FIRST_SIZE = [512, 512] as const;
 
-/** What was opened; centerlines may add to existing vessels. */
+/** What was opened. Centerlines may be added to existing vessels. */
 export interface Loaded extends Opened {
   readonly isBeside?: boolean;
 }
@@ -46,17 +46,17 @@ export async function open(engine: EngineClient, load: () => Promise<Loaded>, na
   }
 }
 
-/** Doubt about the coordinate system, with mends; null if none. */
+/** The doubt about the coordinate system of centerlines, with remedies; null if there is none. */
 function misread({ doubt }: Loaded): Failure | null {
   const values = doubt?.readings ?? [];
   const mends = [{ name: 'reading', values }] as const;
-  const expected = 'lines of the size and the place of vessels';
+  const expected = 'lines with the size and position of vessels';
   return doubt && values.length > 0
     ? new Failure('format', 'Centerlines', doubt.found, expected, '', { mends })
     : null;
 }
 
-/** If nothing was replaced, the open study stays. */
+/** After a failure, closes the study in the page if the engine has already closed it. */
 async function forgetWhatIsClosed(engine: EngineClient): Promise<void> {
   const { volume, vessels } = await engine.ask('report', null);
   if (!volume && !vessels) {
@@ -86,14 +86,14 @@ export function openAddresses(
   });
 }
 
-/** Closes the study; the views go first, so that none requests a missing scene. */
+/** Closes the study. The views are removed first, so that none requests data that is gone. */
 export async function close(engine: EngineClient): Promise<void> {
   layDown();
   batch(forget);
   await engine.ask('close', null);
 }
 
-/** Ends tool and measuring, which restores their layout changes. */
+/** Ends tracing and measuring, and restores the layout before them. */
 function layDown(): void {
   tool.value = 'look';
   if (store.layout.value === 'measure') {
@@ -146,7 +146,7 @@ async function showBeside(engine: EngineClient, { report, notes }: Opened): Prom
   }
 }
 
-/** Half way along the longest vessel, or the centre of the volume. */
+/** First position of the cross-hair: half way along the longest vessel, or the centre of the volume. */
 async function firstPlace(engine: EngineClient, report: Report): Promise<store.CrossHair | null> {
   if (report.vessels?.length) {
     const vessel = longest(report);

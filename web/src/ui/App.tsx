@@ -1,4 +1,4 @@
-/** The page. */
+/** The root component of the page. */
 import { Guide } from '../guide/Guide';
 import { report } from '../state/store';
 import { DropZone } from './DropZone';

@@ -1,4 +1,4 @@
-/** Button that shows most of the picked vessel. */
+/** Button that turns the view so that most of the picked vessel is visible. */
 import { engine } from '../client/shared';
 import { showBestView } from '../state/actions';
 

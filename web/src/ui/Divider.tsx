@@ -5,9 +5,9 @@ const MIN_SHARE = 0.12;
 
 interface DividerProps {
   readonly words: string;
-  /** `column` separates panes side by side, `row` stacked ones. */
+  /** `column` separates panes that are side by side, `row` those one above the other. */
   readonly between: 'column' | 'row';
-  /** Position as a share of the layout. */
+  /** Position as a share of the width or height of the layout. */
   readonly place: Signal<number>;
 }
 
@@ -35,7 +35,7 @@ export function Divider({ words, between, place }: DividerProps) {
   };
   const at = `${100 * place.value}%`;
   return (
-    // biome-ignore lint/a11y/useSemanticElements: a rule cannot be moved
+    // biome-ignore lint/a11y/useSemanticElements: an hr element cannot be moved by the user
     <div
       class={`divider ${between}`}
       style={between === 'column' ? { left: at } : { top: at }}

@@ -1,4 +1,4 @@
-/** List of doubtful branches with their reasons, to accept or leave out. */
+/** List of the doubtful branches with their reasons. The user accepts each or leaves it out. */
 import { engine } from '../client/shared';
 import type { DocumentVessel } from '../core/messages';
 import { accept, leaveOut } from '../edit/branches';
@@ -18,7 +18,11 @@ export function DoubtfulPart({ vessels }: { readonly vessels: readonly DocumentV
     <section class="doubtful-rows" aria-label="Doubtful branches">
       <h3>{countedDoubts(vessels)}</h3>
       <div class="buttons">
-        <button type="button" title="Shows each with its reason (.)" onClick={() => stepDoubt(engine, 1)}>
+        <button
+          type="button"
+          title="Shows each doubtful branch with its reason (.)"
+          onClick={() => stepDoubt(engine, 1)}
+        >
           Review each
         </button>
         <button type="button" onClick={() => void accept(engine, ids)}>
@@ -37,7 +41,7 @@ export function DoubtfulPart({ vessels }: { readonly vessels: readonly DocumentV
   );
 }
 
-/** Hovering highlights the branch, a click shows it. */
+/** A row of the list: hovering highlights its branch in the views, a click shows the branch. */
 function DoubtfulRow({ vessel }: { readonly vessel: DocumentVessel }) {
   const name = nameOf(vessel);
   return (
@@ -68,5 +72,5 @@ function DoubtfulRow({ vessel }: { readonly vessel: DocumentVessel }) {
   );
 }
 
-/** Without the unit, which the tooltip states, to leave room for the reason. */
+/** The length without its unit, which the tooltip states; this leaves room for the reason. */
 const lengthText = (vessel: DocumentVessel): string => lengthOf(vessel.line).toFixed(1);

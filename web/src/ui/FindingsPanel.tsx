@@ -1,4 +1,4 @@
-/** Preview of the report: sentences and key image of each finding, to copy and save. */
+/** Preview of the report, with buttons to copy and save: sentences and key image of each finding. */
 import { useEffect, useState } from 'preact/hooks';
 import { engine } from '../client/shared';
 import type { Sentence } from '../core/messages';
@@ -128,7 +128,7 @@ function Words({ sentence: { kind, words } }: { readonly sentence: Sentence }) {
   return <p class={CLASSES[kind]}>{words}</p>;
 }
 
-/** A vessel not measured yet, or that cannot be measured. */
+/** Shown for a vessel that is not measured yet, or cannot be measured. */
 function Pending({ line }: { readonly line: number }) {
   const known = profiles.value.get(line);
   if (known && 'failure' in known) {
@@ -139,7 +139,7 @@ function Pending({ line }: { readonly line: number }) {
   return <p>{stopped.value === line ? 'Not measured: stopped.' : 'Measuring…'}</p>;
 }
 
-/** The key image, redrawn when marks, window or numbers change. */
+/** The key image of a finding; redrawn when marks, window or measurements change. */
 function KeyImage({ finding, name }: { readonly finding: Finding; readonly name: string }) {
   const [address, setAddress] = useState<string | null>(null);
   const window = store.window_.value;

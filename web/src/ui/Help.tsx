@@ -1,4 +1,4 @@
-/** Help on mouse, touch and keys, generated from the bindings. */
+/** Help on mouse, touch and keys, generated from the table of bindings. */
 import { useEffect, useRef } from 'preact/hooks';
 import { BINDINGS, inputName, type Where } from '../input/bindings';
 import { isHelpOpen } from '../state/store';
@@ -7,7 +7,7 @@ const PARTS: readonly (readonly [Where, string])[] = [
   ['turning', 'In the turning view'],
   ['flat', 'In slices, section and straightened vessel'],
   ['tracing', 'While tracing, in all views'],
-  ['marks', 'While a marker has the focus'],
+  ['marks', 'While a marker is focused'],
   ['everywhere', 'Everywhere'],
 ];
 

@@ -1,4 +1,4 @@
-/** Asks whether to continue with a session kept over a reload. */
+/** After a reload of the tab, asks whether to continue with the kept session. */
 import { Failure } from '../core/failure';
 import { openList } from '../edit/list-open';
 import { kept } from '../session/keeping';
@@ -19,7 +19,7 @@ export function KeptQuestion() {
       problem.value = Failure.of(error);
     }
   };
-  const words = 'This tab kept vessels that were not saved.';
+  const words = 'This tab kept unsaved vessels from before the reload.';
   return (
     <div class="file-question" role="alertdialog" aria-label={words}>
       <p>{words}</p>

@@ -1,4 +1,4 @@
-/** Panes of each layout and their views. */
+/** The panes of each layout, and the views in them. */
 import { type Signal, signal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { useMeasuring } from '../measure/asking';
@@ -34,7 +34,7 @@ const TITLES: Readonly<Record<ViewName, string>> = {
   findings: 'Findings',
 };
 
-/** Positions of the dividers, as shares of the layout. */
+/** Positions of the vertical dividers, as shares of the width of the layout. */
 const columns: Readonly<Record<Name, Signal<number>>> = {
   one: signal(1),
   two: signal(0.67),

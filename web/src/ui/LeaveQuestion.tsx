@@ -1,4 +1,4 @@
-/** Asks before unsaved work is lost. */
+/** Asks the user before unsaved work is lost. */
 import { Failure } from '../core/failure';
 import { saveSession } from '../output/session';
 import { problem } from '../state/store';

@@ -26,7 +26,7 @@ const LINES: readonly (readonly [Lines, string])[] = [
 ];
 
 export function LooksBar() {
-  // While tracing, the view is always a projection.
+  // While tracing, the view always shows a projection, to which looks do not apply.
   if (!hasVolume.value || isTracing()) {
     return null;
   }
@@ -46,7 +46,7 @@ export function LooksBar() {
   );
 }
 
-/** The only look that also selects a window. */
+/** Button for stents: selects a look together with its window. */
 function StentButton() {
   return (
     <button
@@ -83,7 +83,7 @@ function LookButton({ look }: { readonly look: LookRow }) {
       type="button"
       aria-pressed={chosenLook.value === look.name && !(look.name === STENT_LOOK && isStentShown.value)}
       disabled={!isOffered(look)}
-      title={isOffered(look) ? `Shows ${look.sentence}` : `Shows ${look.sentence}: there are no vessels yet`}
+      title={isOffered(look) ? `Shows ${look.sentence}` : `Shows ${look.sentence}; needs a vessel`}
       onClick={() => chooseLook(look)}
     >
       {look.words}
@@ -91,7 +91,7 @@ function LookButton({ look }: { readonly look: LookRow }) {
   );
 }
 
-/** Margin around the vessels in which the cut is fully shown. */
+/** Slider for the margin around the vessels in which the cut is fully visible. */
 function Reach() {
   const focus = settingOf('focus');
   const [margin, fade] = Array.isArray(focus) ? focus.map(Number) : [-1, 0];

@@ -1,18 +1,18 @@
-/** Buttons for the remedies of a failure that the page can carry out. */
+/** Buttons for those remedies of a failure that the page can perform. */
 import type { Failure, SeriesChoice } from '../core/failure';
 import { type Mend, type MendName, readingWords } from '../core/mends';
 import type { SeriesWish } from '../core/messages';
 import { openAgain } from '../state/last-opened';
 import { SeriesThumbnail } from './SeriesThumbnail';
 
-/** A label, and the choice for reopening. */
+/** The label of a button, and the choice with which it opens the files again. */
 type Button = readonly [words: string, wish: SeriesWish];
 
 const NONE = (): readonly Button[] => [];
 const spaces = ({ values }: Mend): readonly Button[] =>
   values.map((space) => [`Read as ${space.toUpperCase()}`, { coordinates: space }]);
 
-/** No buttons for series, which are chosen from a list, nor for gaps, which the tool bridges. */
+/** Buttons of each remedy. Series are chosen from a list, and `Messages.tsx` has the button for gaps. */
 const BUTTONS: Record<MendName, (mend: Mend) => readonly Button[]> = {
   bridge: NONE,
   every_second: () => [['Load every second voxel along each axis', { every_second: true }]],

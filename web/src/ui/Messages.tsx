@@ -1,4 +1,4 @@
-/** Failures and progress. */
+/** Messages about failures, and the progress of long work. */
 
 import { engine } from '../client/shared';
 import { CRASH, type Failure } from '../core/failure';
@@ -42,11 +42,11 @@ function Loading() {
   );
 }
 
-/** Asks during a long search, which continues meanwhile. */
+/** Asks the user whether a long search should continue; the search runs on meanwhile. */
 function LongWork() {
   return (
     <>
-      <strong>This takes long. Is the point in a vessel, and not in bone?</strong>
+      <strong>This is taking long. Is the point in a vessel, not in bone?</strong>
       <button
         type="button"
         onClick={() => {
@@ -92,7 +92,7 @@ function Problem() {
   );
 }
 
-/** Options if no lumen was found between two clicks. */
+/** Buttons shown if no lumen was found between two clicks. */
 function Bridging({ failure }: { readonly failure: Failure }) {
   const bridge = refusal.value?.failure === failure ? refusal.value.bridge : null;
   return bridge ? (
@@ -106,17 +106,17 @@ function Bridging({ failure }: { readonly failure: Failure }) {
           problem.value = null;
         }}
       >
-        Click between
+        Add a point between
       </button>
     </>
   ) : null;
 }
 
-/** Offered if all vessels found are doubtful. */
+/** Button shown if all vessels that were found are doubtful. */
 function DoubtfulOnes() {
   return (
     <button type="button" onClick={() => void findAndList(engine, true)}>
-      Show the doubtful ones
+      Show the doubtful vessels
     </button>
   );
 }

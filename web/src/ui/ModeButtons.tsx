@@ -1,4 +1,4 @@
-/** Buttons of the modes: looking, tracing, measuring, reporting. */
+/** Buttons that switch between the modes Look, Trace, Measure and Report. */
 import { isTracing } from '../edit/mode';
 import { toggleLayout } from '../state/actions';
 import { hasVolume, layout } from '../state/store';
@@ -14,7 +14,7 @@ function mode(): Mode {
   return shown === 'measure' || shown === 'report' ? shown : 'look';
 }
 
-/** Switches mode. Pressing twice keeps the mode, because users may double-click; "Look" leaves it. */
+/** Switches the mode. A second press keeps the mode, because users may double-click; "Look" leaves it. */
 function change(to: Mode): void {
   const from = mode();
   if (from === to) {

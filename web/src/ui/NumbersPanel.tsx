@@ -1,4 +1,4 @@
-/** Numbers of the picked vessel. */
+/** Panel with the measurements of the picked vessel. */
 import { moveTo } from '../link/along';
 import { currentProfile, currentVessel } from '../measure/current';
 import { PlacesTable } from '../measure/PlacesTable';
@@ -61,10 +61,10 @@ function pick(vessel: number): void {
   moveTo((store.report.value?.vessels?.[vessel]?.length ?? 0) / 2);
 }
 
-/** FWHM used for measuring, and a field to enter it. */
+/** Shows the FWHM that is used for measuring, with a field to enter a known value. */
 function Blur({ fwhm, source }: { readonly fwhm: number; readonly source: string }) {
   const give = (field: HTMLInputElement) => {
-    // The browser explains invalid input.
+    // If the input is invalid, the browser shows why.
     if (field.reportValidity()) {
       giveFwhm(field.value === '' ? null : Number(field.value));
     }

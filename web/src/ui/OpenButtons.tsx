@@ -27,7 +27,7 @@ function Chooser({ words, isFolder }: ChooserProps) {
   const input = useRef<HTMLInputElement>(null);
   const open = (element: HTMLInputElement) => {
     const files = chosen(element.files ?? new DataTransfer().files);
-    // Allows choosing the same files again.
+    // Otherwise the same files could not be chosen again.
     element.value = '';
     if (files.length > 0) {
       void takeFiles(engine, files);

@@ -1,4 +1,4 @@
-/** Asks for the target study of "Save for PACS". */
+/** Asks in which study the objects of "Save for PACS" belong. */
 import { useRef } from 'preact/hooks';
 import { attempt } from '../output/attempt';
 import {
@@ -41,8 +41,9 @@ export function PacsQuestion() {
       }}
     >
       <p>
-        Saves the displayed pictures, the report and the numbers as DICOM in a zip archive. Nothing is sent.
-        {!isKnown && ' The scan is not DICOM: which study do they belong to?'}
+        Saves the displayed pictures, the report and the measurements as DICOM in a zip archive. Nothing is
+        sent.
+        {!isKnown && ' The scan is not DICOM: which study should the objects belong to?'}
       </p>
       {isKnown && (
         <button type="button" ref={first} onClick={() => save('scan')}>
@@ -51,7 +52,7 @@ export function PacsQuestion() {
       )}
       <button
         type="button"
-        title="Without patient, study and vessel names; not the DICOM Basic Confidentiality Profile"
+        title="Leaves out patient, study and vessel names, but does not follow the DICOM Basic Confidentiality Profile"
         {...(!isKnown && { ref: first })}
         onClick={() => save('anonymous')}
       >

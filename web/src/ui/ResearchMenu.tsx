@@ -1,4 +1,4 @@
-/** Research menu: methods, context, and all settings from Lumencut's table. */
+/** The menu "Research": methods, contexts, and all settings in the engine's table. */
 import type { Method, SettingRow } from '../core/messages';
 import { VIEW_METHODS } from '../core/method-names';
 import { setSetting, settingOf } from '../state/actions';
@@ -15,9 +15,9 @@ const CONTEXTS: readonly (readonly [string, string])[] = [
   ['', 'None'],
 ];
 
-/** Kinds with a control here; windows use the strip. */
+/** Kinds of settings that have a control in this menu. Windows are set in the window strip. */
 const KINDS: readonly string[] = ['flag', 'number', 'count', 'choice', 'transfer'];
-/** Settings with their own control, or decided by the view. */
+/** Settings that have a control elsewhere, or that the view determines. */
 const ELSEWHERE: readonly string[] = ['context', 'samples', 'context_preview'];
 
 export function ResearchMenu() {
@@ -155,7 +155,7 @@ function Control({ row }: { readonly row: SettingRow }) {
   );
 }
 
-/** Clamps to the range; an empty field leaves the setting open. */
+/** Sets a number, limited to its range; an empty field restores the default. */
 function changeNumber(row: SettingRow, text: string): void {
   const number = Number(text);
   if (text.trim() === '') {

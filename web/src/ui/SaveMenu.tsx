@@ -40,15 +40,15 @@ export function SaveMenu() {
         )}
         {isMeasured && (
           <>
-            <Choice words="Numbers of measured vessels (CSV)" save={() => saveNumbers('csv')} />
-            <Choice words="Numbers of measured vessels (JSON)" save={() => saveNumbers('json')} />
+            <Choice words="Measurements of all measured vessels (CSV)" save={() => saveNumbers('csv')} />
+            <Choice words="Measurements of all measured vessels (JSON)" save={() => saveNumbers('json')} />
           </>
         )}
         <Choice words="Picture with labels (PNG)" save={() => savePng('labels')} />
         <Choice words="Picture without labels (PNG)" save={() => savePng('plain')} />
         <Choice words="Turntable (WebM)" save={saveFilm} />
         <Choice words="Turntable (PNGs)" save={savePictures} />
-        {!isMeasured && <small>Report and numbers: measure a vessel first.</small>}
+        {!isMeasured && <small>To save a report or measurements, measure a vessel first.</small>}
       </div>
     </details>
   );

@@ -1,4 +1,4 @@
-/** Checkbox: whether reports name the scan. */
+/** Checkbox that decides whether reports contain the name of the scan. */
 import { isScanNamed } from '../output/report';
 
 export function ScanNamed() {

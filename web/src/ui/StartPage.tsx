@@ -16,11 +16,11 @@ export function StartPage() {
   return (
     <main class="start">
       <h1>Lumencut</h1>
-      <p>See the inside of all vessels of a CT or MR angiography in one view that turns freely.</p>
+      <p>See the inside of all vessels of a CT or MR angiography in one view that you can turn freely.</p>
       <ol class="first-steps">
         <li>
-          <strong>Open</strong> a scan: drop a DICOM folder or zip archive, NIfTI, NRRD or MetaImage here, and
-          its centerlines if there are any.
+          <strong>Open</strong> a scan: drop a DICOM folder or zip archive, NIfTI, NRRD or MetaImage here. You
+          can drop its centerlines with it.
         </li>
         <li>
           <strong>Click twice</strong> along a vessel: its centerline is traced, and the vessel is cut open.
@@ -36,7 +36,7 @@ export function StartPage() {
       <h2>Or try it first</h2>
       <p>
         <button type="button" class="primary" disabled={!isReady} onClick={() => void startGuide()}>
-          Guided tour in two minutes
+          Two-minute guided tour
         </button>
       </p>
       <p>Synthetic phantoms with known centerlines:</p>

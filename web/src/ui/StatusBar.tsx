@@ -1,4 +1,4 @@
-/** Status bar: cross-hair position and value, window, and device. */
+/** Status bar: position and value at the cross-hair, window, and compute device. */
 
 import { tree } from '../edit/shown';
 import { nameOf } from '../state/changes';
@@ -31,7 +31,7 @@ export function StatusBar() {
   );
 }
 
-/** In radiological notation. */
+/** Width and level of the grey-value window, in the notation of radiology. */
 function windowText(): string {
   const [level, width] = store.window_.value;
   return store.hasVolume.value ? `W ${round(width)} L ${round(level)}` : '';

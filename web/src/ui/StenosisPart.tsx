@@ -1,4 +1,4 @@
-/** The marked stenosis: a percentage always with its method, references and mm. */
+/** The marked stenosis. The percentage never appears without its method, its references and diameters in mm. */
 import type { StenosisMethod, Territory } from '../core/messages';
 import { STENOSIS_METHODS } from '../core/method-names';
 import { answers, currentMarks, currentPlaces } from '../measure/current';
@@ -42,7 +42,7 @@ export function StenosisPart() {
             name="Original diameter"
             title="Diameter of the vessel before the stenosis formed, as ECST defines it (mm)"
             value={marks.original}
-            onGive={(original) => set('give the original diameter', { original })}
+            onGive={(original) => set('enter the original diameter', { original })}
           />
         )}
         {marks.method === 'nascet' && (
@@ -50,7 +50,7 @@ export function StenosisPart() {
             name="Contralateral"
             title="Diameter of the same artery on the other side (mm); needed to detect a near-occlusion"
             value={marks.comparison}
-            onGive={(comparison) => set('give the contralateral diameter', { comparison })}
+            onGive={(comparison) => set('enter the contralateral diameter', { comparison })}
           />
         )}
         <label title="Reports the severity group of NASCET (carotid) or CAD-RADS 2.0 (coronary)">
@@ -90,7 +90,7 @@ function Result({ marks }: { readonly marks: VesselMarks }) {
   return <NotGraded marks={marks} />;
 }
 
-/** Doubts about the percentage, or about the suggested places. */
+/** Doubts about the percentage; if nothing is marked, about the suggested places. */
 function Doubts() {
   const { doubts } = answers.value;
   return doubts.length > 0 ? (
@@ -103,8 +103,8 @@ function Doubts() {
 const NOTHING_MARKED =
   'Nothing is marked. Check the suggested places, drag them where they belong, or confirm them.';
 
-/** Not an error, so shown without emphasis. */
-const ONLY_REFERENCES = 'A reference is marked. "Narrowest here" adds a percentage.';
+/** A hint, not an error, and therefore shown without emphasis. */
+const ONLY_REFERENCES = 'Only a reference is marked. Press "Narrowest here" to get a percentage.';
 
 function NoPercentage({ marks }: { readonly marks: VesselMarks }) {
   return marks.at === null ? (

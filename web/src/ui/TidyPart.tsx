@@ -1,11 +1,11 @@
-/** Cleaning up: limits mark short or thin vessels; buttons remove them, or everything unconnected. */
+/** "Clean up": limits mark short or thin vessels. Buttons remove these, or all not connected to the picked vessel. */
 import type { Signal } from '@preact/signals';
 import { engine } from '../client/shared';
 import { factsOf, keepPart, marked, reachOf, removeMarked, sure, unconnected } from '../edit/tidying';
 import { hasMillimetres } from '../state/millimetres';
 import { shorterThan, thinnerThan } from '../state/tidy';
 
-/** Usual slider ranges (mm); the number fields accept more. */
+/** Usual ends of the sliders (mm); the number fields accept more. */
 const USUAL_LENGTH = 60;
 const USUAL_CALIBRE = 10;
 
@@ -31,7 +31,7 @@ export function TidyPart() {
         <button
           type="button"
           disabled={unconnected.value.length === 0}
-          title="Removes all vessels that are not connected to the picked one"
+          title="Removes all vessels that are not connected to the picked vessel"
           onClick={() => void keepPart(engine)}
         >
           {unconnected.value.length > 0
@@ -57,10 +57,10 @@ interface LimitProps {
   readonly step: number;
 }
 
-/** A limit (mm) as slider and number; the number may exceed the slider. */
+/** A slider and a number field for a limit (mm); the number may lie beyond the slider. */
 function Limit({ words, limit, most, step }: LimitProps) {
   const take = (event: { readonly currentTarget: HTMLInputElement }) => {
-    // An emptied field marks nothing.
+    // An empty field means 0, which marks no vessel.
     limit.value = Math.max(Number(event.currentTarget.value), 0);
   };
   const unit = hasMillimetres.value ? ' (mm)' : '';

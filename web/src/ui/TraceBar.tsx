@@ -1,4 +1,4 @@
-/** Bar over the views: the offer to trace, the effect of the next click, and the doubtful branch. */
+/** Bar over the views: offers to trace, tells what the next click does, or shows a doubtful branch. */
 import { useSignal } from '@preact/signals';
 import { engine } from '../client/shared';
 import { findAndList } from '../edit/branches';
@@ -24,7 +24,7 @@ export function TraceBar() {
   if (isTracing()) {
     return <Hint />;
   }
-  // An ended vessel appears once its points are traced.
+  // A vessel that the user has ended appears once all its points are traced.
   if (coming.value.length > 0) {
     return (
       <div class="trace-bar" role="status">
@@ -47,7 +47,7 @@ function Offer() {
   }
   return (
     <div class="trace-bar offer" role="note">
-      <span>No vessels yet: find them, click along one, or open or drop centerlines or a mask.</span>
+      <span>No vessels yet: find all, click along one, or open or drop centerlines or a mask.</span>
       <button
         type="button"
         disabled={waiting.value > 0}
@@ -62,7 +62,7 @@ function Offer() {
       <OpenMore words="I have centerlines" />
       <button
         type="button"
-        aria-label="Close the offer"
+        aria-label="Close these suggestions"
         onClick={() => {
           isClosed.value = true;
         }}
@@ -74,13 +74,13 @@ function Offer() {
 }
 
 const WHOLE =
-  'Takes the vessel from its parent in the list to its end (w). The first use searches the whole scan.';
+  'Traces the clicked vessel to its end, starting where it leaves a vessel of the list (key w). The first use searches the whole scan.';
 
 function Hint() {
   const take = (wanted: Tool) => () => {
     tool.value = wanted;
   };
-  // Not while a point waits or is being traced.
+  // The summary is hidden while a point waits for confirmation or is being traced.
   const isSummaryShown =
     waiting.value === 0 && !candidate.value && (!isDrawing.value || drawn.value !== null);
   return (
@@ -105,7 +105,7 @@ function Hint() {
       {tool.value !== 'seed' && (
         <button
           type="button"
-          title={tool.value === 'trace' ? STOPPER : 'Continue with vessel points'}
+          title={tool.value === 'trace' ? STOPPER : 'Return to placing points on vessels'}
           onClick={take(tool.value === 'trace' ? 'stopper' : 'trace')}
         >
           {tool.value === 'trace' ? 'Stopper' : 'Trace'}
@@ -123,24 +123,24 @@ function hintWords(): string {
     return searches.value > 0 ? 'Searching for vessels …' : 'Tracing …';
   }
   if (candidate.value) {
-    return 'This is the brightest place under the pointer. If the slices show your vessel there, click it again; otherwise click the vessel in a slice.';
+    return 'The marker is at the brightest point under the pointer. If the slices show your vessel there, click here again; otherwise click the vessel in a slice.';
   }
   if (tool.value === 'seed') {
     return 'Click where the tree begins, or press Enter at the cross-hair, to find all branches from there.';
   }
   if (tool.value === 'stopper') {
-    return 'Click, or press Enter at the cross-hair, where no vessel may pass.';
+    return 'Click where no vessel may pass, or press Enter to choose the position of the cross-hair.';
   }
   if (drawn.value) {
-    return `Click, or press Enter at the cross-hair, further along ${nameOf(drawn.value)}; a double click ends it.`;
+    return `Add a point further along ${nameOf(drawn.value)}: click, or press Enter at the cross-hair. A double click ends the vessel.`;
   }
   const taken = whole.value ? `: ${whole.value.words}` : '';
   return isDrawing.value
-    ? `Enter or a double click takes the whole vessel${taken}. Or click, or press Enter at the cross-hair, further along it.`
-    : 'Click, or press Enter at the cross-hair, where a vessel begins.';
+    ? `Press Enter or double-click to trace the whole vessel${taken}. Or add a point further along it.`
+    : 'Click where a vessel begins, or press Enter to choose the position of the cross-hair.';
 }
 
-/** The selected doubtful branch; answering shows the next one. */
+/** Shows a doubtful branch. After the user accepts it or leaves it out, the next one is shown. */
 function Doubt({ words }: { readonly words: string }) {
   const [place, count] = placeOfDoubt();
   return (

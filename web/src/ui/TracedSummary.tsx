@@ -1,4 +1,4 @@
-/** Summary of the vessel traced last: length, connections, and doubts with buttons to show and cut. */
+/** Summary of the vessel traced last: its length, its connections, and its doubts with buttons. */
 import { useSignal } from '@preact/signals';
 import { engine } from '../client/shared';
 import type { Told } from '../core/messages';
@@ -12,7 +12,7 @@ export function TracedSummary() {
   return tracedSummary.value && <Summary key={tracedSummary.value.words} summary={tracedSummary.value} />;
 }
 
-/** Shows one doubt at a time, since the bar has room for two lines. */
+/** Shows one doubt at a time, since the bar has only two lines. */
 function Summary({ summary: { vessel, words, doubts } }: { readonly summary: Told }) {
   const number = useSignal(0);
   const doubt = doubts[number.value];

@@ -1,4 +1,4 @@
-/** The vessel list, with actions on all vessels. */
+/** The vessel list, with buttons for all vessels. */
 
 import { engine } from '../client/shared';
 import { namesToOffer } from '../edit/anatomy';
@@ -65,7 +65,7 @@ export function VesselList() {
 function TreeChoice() {
   return (
     <div class="buttons">
-      <label title="Lists each branch under its parent, the widest first">
+      <label title="Lists each branch under the vessel that it leaves, the widest branch first">
         <input
           type="checkbox"
           checked={isTreeShown.value}

@@ -1,4 +1,4 @@
-/** A row of the vessel list; the picked vessel shows its actions. */
+/** A row of the vessel list. The row of the picked vessel has buttons for it. */
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { engine } from '../client/shared';
 import type { DocumentVessel } from '../core/messages';
@@ -24,7 +24,7 @@ interface RowProps {
   readonly vessel: DocumentVessel;
 }
 
-/** Deepest indent, and its width (CSS pixels), that fit the narrow list. */
+/** Most levels of indentation that fit in the narrow list, and the width of one (CSS pixels). */
 const DEEPEST = 4;
 const INDENT = 7;
 
@@ -34,7 +34,7 @@ export function VesselRow({ vessel, depth }: RowProps & { readonly depth: number
   const isPicked = vessel.id === pickedId();
   const name = nameOf(vessel);
   const row = useRef<HTMLLIElement>(null);
-  // Scrolls to a vessel picked in a view.
+  // Scrolls to this row when its vessel is picked in a view.
   useEffect(() => {
     if (isPicked) {
       row.current?.scrollIntoView({ block: 'nearest' });
@@ -89,7 +89,7 @@ export const lighting = ({ id }: DocumentVessel) => ({
   },
 });
 
-/** The name: a click picks the vessel; a click on the picked one, double click, Enter or F2 starts editing. */
+/** The vessel name. A click picks the vessel; a click if it is picked, a double click, Enter or F2 edits the name. */
 function NameField({ vessel, isPicked }: RowProps & { readonly isPicked: boolean }) {
   const [typed, setTyped] = useState<string | null>(null);
   const begin = (field: HTMLInputElement) => {
@@ -127,7 +127,7 @@ function pickShown(vessel: DocumentVessel): void {
   }
 }
 
-/** Keeps the previous length while the vessel is retraced; `…` if unknown. */
+/** The length; while the vessel is retraced, its previous length, or `…` if that is unknown. */
 function lengthText({ id, line }: DocumentVessel): string {
   const shown = report.value?.vessels ?? [];
   const before = shown[tree.value.findIndex((vessel) => vessel.id === id)];
@@ -136,7 +136,7 @@ function lengthText({ id, line }: DocumentVessel): string {
   return length > 0 ? length.toFixed(1) : '…';
 }
 
-/** Median diameter × length, kept short for the name. */
+/** Median diameter × length, short to leave room for the name. */
 function sizeText(vessel: DocumentVessel): string {
   const { calibre = null, length } = factsOf(vessel) ?? {};
   return calibre === null || length === undefined
@@ -214,7 +214,7 @@ function VesselActions({ vessel }: RowProps) {
   );
 }
 
-/** Shows a vessel in all views at half its length; a hidden one once displayed. */
+/** Picks a vessel, and moves all views to half its length. A hidden vessel is picked once displayed. */
 async function pick({ id }: DocumentVessel): Promise<void> {
   pickOnceShown(id);
   const vessel = tree.value.findIndex((one) => one.id === id);

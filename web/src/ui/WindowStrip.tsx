@@ -1,4 +1,4 @@
-/** The window over the histogram; its ends and middle are dragged or moved by arrow keys. */
+/** The grey-value window over the histogram. Its ends and its middle can be dragged or moved by arrow keys. */
 import { useRef } from 'preact/hooks';
 import type { Histogram, Window } from '../core/messages';
 import { choosePreset, setWindow } from '../state/actions';
@@ -44,7 +44,7 @@ export function WindowStrip() {
         <span class="hidden-words">Window preset</span>
         <select value={chosen} onChange={(event) => choosePreset(Number(event.currentTarget.value))}>
           <option value={-1} disabled>
-            Own window
+            Custom window
           </option>
           {presets.map((preset, number) => (
             <option key={preset.name} value={number}>{`${preset.words} (${number + 1})`}</option>
@@ -55,12 +55,12 @@ export function WindowStrip() {
   );
 }
 
-/** White stays above black. */
+/** The window from black at `low` to white at `high`; white stays above black. */
 function between(low: number, high: number): Window {
   return [(low + high) / 2, Math.max(high - low, 1e-3)];
 }
 
-/** Value axis: cut off above the data window, so that metal does not compress the rest. */
+/** The value axis: at most two window widths on each side of the level, so that metal does not compress the rest. */
 class Scale {
   readonly low: number;
   readonly high: number;
@@ -79,7 +79,7 @@ class Scale {
   }
 }
 
-/** Logarithmic counts, because few values dominate. */
+/** Outline of the histogram; its counts are logarithmic, because a few values dominate. */
 function outline({ low, high, counts }: Histogram, scale: Scale): string {
   const most = Math.log1p(Math.max(...counts, 1));
   const step = (high - low) / counts.length;

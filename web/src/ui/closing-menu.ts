@@ -1,4 +1,4 @@
-/** Menus that close after a choice, by Escape, and by a press elsewhere. */
+/** Closes a menu after a choice, on Escape, and on a press elsewhere. */
 import type { RefObject } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';
 

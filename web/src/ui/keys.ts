@@ -1,4 +1,4 @@
-/** Global keys; text fields keep their own. */
+/** Handles keys for the whole page, except those that a text field needs. */
 import { engine } from '../client/shared';
 import { isTracing } from '../edit/mode';
 import { performAny } from '../edit/performing';
@@ -22,10 +22,10 @@ export function listenToKeys(): void {
   });
 }
 
-/** Keys that no field uses. */
+/** Whether a key acts even in a text field. */
 const isOfAll = (action: Action): boolean => ['cancel', 'save session', 'save report'].includes(action);
 
-/** Focuses the view that the next keys are for. */
+/** Moves the focus to the view that an action opened, so that it receives the next keys. */
 function follow(action: Action): void {
   if (action === 'trace' && isTracing()) {
     focusSoon('[data-testid="coronal"]');
@@ -44,7 +44,7 @@ function isPress(target: EventTarget | null, key: string): boolean {
   return isPressed && (key === ' ' || key === 'Enter');
 }
 
-/** Text input, except checkboxes, radios and read-only names. */
+/** Whether an element takes text: an input, but not a checkbox, radio button or read-only name. */
 function isField(target: EventTarget | null): boolean {
   const isBox = target instanceof HTMLInputElement && ['checkbox', 'radio'].includes(target.type);
   return (

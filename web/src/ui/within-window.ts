@@ -1,4 +1,4 @@
-/** Keeps menus within the window. */
+/** Moves an opened menu so that it lies within the window. */
 import type { TargetedEvent } from 'preact';
 
 const EDGE = 8;

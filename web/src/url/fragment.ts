@@ -1,4 +1,4 @@
-/** The view in the page's address: camera, window, settings, layout, but no patient data. Ignores invalid parts. */
+/** The view in the address of the page: camera, window, settings and layout, but no data of the patient. */
 import { batch, effect } from '@preact/signals';
 import type { Camera, Method, SettingRow, Settings, Vector } from '../core/messages';
 import { VIEW_METHODS } from '../core/method-names';
@@ -26,7 +26,7 @@ export function fragmentOf(state: ViewState): string {
   return `v1=${encodeURIComponent(JSON.stringify(state))}`;
 }
 
-/** Null if nothing valid is found. */
+/** The view in a fragment, without its invalid parts; null if nothing is valid. */
 export function stateOf(fragment: string): ViewState | null {
   const text = new URLSearchParams(fragment.replace(/^#/, '')).get('v1');
   if (text === null) {
@@ -40,9 +40,9 @@ export function stateOf(fragment: string): ViewState | null {
   }
 }
 
-/** Limit of positions (mm) and values that keeps arithmetic exact enough. */
+/** Largest accepted position (mm) or value; beyond it, rounding errors would matter. */
 const LARGEST = 1e6;
-/** Tolerance of dot products of orthonormal axes. */
+/** Tolerance when checking that the axes of a camera are orthonormal. */
 const ROUNDING = 1e-3;
 
 const isNumber = (value: unknown): value is number => typeof value === 'number' && Math.abs(value) <= LARGEST;
@@ -159,7 +159,7 @@ function knownSettings(settings: Settings): Settings {
   return Object.fromEntries(Object.entries(settings).filter(fits));
 }
 
-/** A focus length (mm) within the core's range. */
+/** Whether a value is a length of the focus (mm) that the engine accepts. */
 function isLength(value: unknown): boolean {
   return isNumber(value) && Math.abs(value) <= 1e6;
 }
@@ -193,7 +193,7 @@ function isValueOf(row: SettingRow, value: unknown): boolean {
   }
 }
 
-/** Writes the view to the address with a delay; `data-address` of the page shows whether it is current. */
+/** Writes the view to the address with a delay. The attribute `data-address` tells whether the address is current. */
 export function followView(): void {
   let timer = 0;
   const { dataset } = document.documentElement;
@@ -202,7 +202,7 @@ export function followView(): void {
     const isOpen = store.report.value !== null;
     window.clearTimeout(timer);
     dataset.address = isOpen ? 'pending' : 'none';
-    // Views during a flight are not stored.
+    // While the camera flies, its views are not stored.
     if (isOpen && !destination.value) {
       timer = window.setTimeout(() => {
         history.replaceState(null, '', `#${fragmentOf(state)}`);

@@ -1,4 +1,4 @@
-/** The straightened CPR of the picked vessel. */
+/** View of the picked vessel as straightened CPR. */
 import { useCallback, useState } from 'preact/hooks';
 import { engine } from '../client/shared';
 import type { Cpr, Pair } from '../core/messages';
@@ -67,7 +67,7 @@ export function CprView() {
         words="picked vessel, straightened"
         ask={text ? ask : null}
         handlers={handlers}
-        empty="The straightened vessel is shown here once there is one."
+        empty="The straightened vessel appears here once there is a vessel."
         onSize={setSize}
         style={{ margin: '0 auto' }}
       >

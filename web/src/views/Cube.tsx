@@ -1,4 +1,4 @@
-/** Orientation cube. */
+/** Cube that shows the orientation of the patient in the view. */
 import { rightOf } from '../core/camera';
 import type { Camera, Vector } from '../core/messages';
 import { dot } from '../core/vectors';

@@ -1,4 +1,4 @@
-/** Orientation letters and scale bar. */
+/** Orientation letters at the edges of a view, and its scale bar. */
 import type { Pair, PictureLabels, Vector } from '../core/messages';
 import { hasMillimetres } from '../state/millimetres';
 import { states } from '../state/store';

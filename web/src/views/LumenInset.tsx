@@ -1,4 +1,4 @@
-/** Section of the lumen under the pointer, with its diameter and value: what a click would take. */
+/** Small picture of the lumen that a click would select: its section, its diameter and its value. */
 import { useEffect, useRef } from 'preact/hooks';
 import { engine } from '../client/shared';
 import { Latest } from '../core/latest';
@@ -8,12 +8,12 @@ import { isTracing } from '../edit/mode';
 import { hasMillimetres } from '../state/millimetres';
 import { isInverted, type ViewName, window_ } from '../state/store';
 
-/** Side of the picture, and distance from the pointer (CSS pixels). */
+/** Side of the picture, and its distance from the pointer (CSS pixels). */
 const SIDE = 120;
 const POINTER_GAP_PX = 18;
 const HEIGHT = SIDE + 60;
 
-/** Width in lumen diameters, and its minimum (mm). */
+/** The picture shows this many lumen diameters, but at least a minimum width (mm). */
 const DIAMETERS = 4;
 const MIN_WIDTH_MM = 16;
 

@@ -1,4 +1,4 @@
-/** Markers over a view that are not vessel points: pending points, and the least lumen-like point. */
+/** Markers over a view for pending points, and for the point that caused an error. */
 import type { Failure } from '../core/failure';
 import type { Vector } from '../core/messages';
 import { isGap, refusal } from '../edit/committing';
@@ -9,7 +9,7 @@ import type { Projection } from './projection';
 
 export function Places({ projection }: { readonly projection: Projection }) {
   const refused = refusal.value?.failure;
-  // A closed message is no longer shown.
+  // Only while the message about the error is shown.
   const weakest = refused && refused === problem.value ? refused.place : null;
   return (
     <>

@@ -1,4 +1,4 @@
-/** Another reformation in place of the straightened CPR. */
+/** View of the picked vessel in a reformation other than the straightened CPR. */
 import { useCallback, useEffect, useRef, useState } from 'preact/hooks';
 import { engine } from '../client/shared';
 import { Failure } from '../core/failure';
@@ -14,7 +14,7 @@ import { mapOf, reformationOf, reformationTitle, uncurled } from '../state/refor
 import * as store from '../state/store';
 import { HairLines } from './TurningOverlay';
 
-/** Placeholder for a picture that failed. */
+/** Empty picture, shown if the reformation failed. */
 const NO_PICTURE = (): Picture => ({ size: [1, 1], bytes: new Uint8ClampedArray(4) });
 
 export function ReformedView({ kind }: { readonly kind: Reformation['kind'] }) {
@@ -64,7 +64,7 @@ export function ReformedView({ kind }: { readonly kind: Reformation['kind'] }) {
           words={reformationTitle()}
           ask={text ? ask : null}
           handlers={handlersOf(kind, [left, top])}
-          empty="The vessel is shown here once there is one."
+          empty="The reformation appears here once there is a vessel."
           onSize={setSize}
           style={{ margin: `${top}px 0 0 ${left}px` }}
         >
@@ -102,7 +102,7 @@ const begin = (pane: Pair, picture: Pair): Pair => [
   Math.floor((pane[1] - picture[1]) / 2),
 ];
 
-/** View direction at rest: the reformation does not follow while the view turns. */
+/** Direction of the turning view while it rests; the reformation is not updated while the view turns. */
 function useSide(): Side | null {
   const kept = useRef<Side | null>(null);
   const camera = store.completeCamera.value ?? (kept.current ? null : store.camera.value);
@@ -112,7 +112,7 @@ function useSide(): Side | null {
   return kept.current;
 }
 
-/** Cross-hair in the picture; null if outside. */
+/** Pixel of the cross-hair in the picture; null if it lies outside. */
 function useHair(shown: ReformedPicture | null): Pair | null {
   const point = store.crossHair.value?.point ?? null;
   const [hair, setHair] = useState<Pair | null>(null);
@@ -122,7 +122,7 @@ function useHair(shown: ReformedPicture | null): Pair | null {
       setHair(null);
       return;
     }
-    // The study may have been closed.
+    // The study may have been closed meanwhile.
     const showHair = (place: Pair | null) => isWanted && setHair(place);
     void engine.ask('on_reformed', point).then(showHair, () => showHair(null));
     return () => {

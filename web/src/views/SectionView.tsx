@@ -18,9 +18,9 @@ import { useAsked } from './asked';
 import { EdgeLabels } from './EdgeLabels';
 import { HairLines } from './TurningOverlay';
 
-/** Initial side (mm). */
+/** Width and height shown at first (mm). */
 const FIRST_SIDE = 50;
-/** Wheel step along the vessel (mm). */
+/** Movement along the vessel per step of the wheel (mm). */
 const STEP = 0.5;
 
 interface Frame extends Pick<Plane, 'center' | 'right' | 'down'> {
@@ -49,13 +49,13 @@ export function SectionView() {
     } else {
       const show = ([center, right, down]: Answer<'across'>) => setFrame({ center, right, down, line, at });
       engine.ask('across', { vessel, at }).then(show, (error) => {
-        // Ignore errors of outdated trees.
+        // Ignore the error if the vessel has been retraced or another one picked.
         if (line === pickedLine()) {
           recover(error);
         }
       });
     }
-    // A measured vessel shows the measured plane, which contains the contour.
+    // If the vessel is measured, the plane of the measured section is shown, since it contains the contour.
   }, [vessel, at, line, profile]);
 
   const plane = frame && size ? planeOf(frame, size, side) : null;
@@ -87,7 +87,7 @@ export function SectionView() {
       ask={ask}
       handlers={handlers}
       isLate={frame !== null && (frame.line !== line || frame.at !== at)}
-      empty="The section across a vessel is shown here once there is one."
+      empty="The section across the vessel appears here once there is a vessel."
       onSize={setSize}
     >
       {plane && (

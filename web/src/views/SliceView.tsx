@@ -144,10 +144,10 @@ function sliceHandlers(
   };
 }
 
-/** Slice positions at the start of a drag, restored by Escape. */
+/** Positions of the slice views before a drag, which Escape restores. */
 const atFirst: Partial<Record<SliceName, Look | null>> = {};
 
-/** Wheel down moves towards feet, back and right. */
+/** Scrolls a slice. Turning the wheel down moves towards the feet, the back or the right of the patient. */
 function scrollSlices(name: SliceName, steps: number): void {
   const [volume, hair] = [store.report.value?.volume, store.crossHair.value];
   if (volume && hair) {
@@ -173,7 +173,7 @@ function moveCrossHair(name: SliceName, projection: Projection, by: Pair): void 
   });
 }
 
-/** Moves at once, so that no step is lost; the value follows later. */
+/** Moves the cross-hair at once, so that no step is lost; its value is requested afterwards. */
 function moveTo(name: SliceName, point: Vector): void {
   store.crossHair.value = { point, value: null, vessel: null, arcLength: null };
   moving.run(async () => {

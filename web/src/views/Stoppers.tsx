@@ -1,4 +1,4 @@
-/** Stoppers over a view as draggable circles. */
+/** Draws the stoppers over a view, as circles that can be dragged. */
 
 import { engine } from '../client/shared';
 import type { Stopper, Vector } from '../core/messages';

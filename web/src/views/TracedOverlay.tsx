@@ -1,4 +1,4 @@
-/** Everything that tracing draws over a view. */
+/** Everything that is drawn over a view for tracing. */
 import { Places } from './Places';
 import type { Projection } from './projection';
 import { Stoppers } from './Stoppers';

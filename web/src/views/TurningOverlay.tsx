@@ -40,13 +40,13 @@ export function TurningOverlay() {
   );
 }
 
-/** Replaces the scale bar if the voxel spacing is unknown. */
+/** Button shown in place of the scale bar if the voxel spacing is unknown. */
 function NoMillimetres() {
   return (
     <button
       type="button"
       class="no-millimetres"
-      title="This scan has no voxel spacing. Lengths assume 1 mm; saved files are marked accordingly. Undo reverts this."
+      title="This scan has no voxel spacing. This button assumes voxels of 1 mm; saved files then state the assumption. Undo reverts it."
       onClick={assumeOneMillimetre}
     >
       Assume 1 mm
@@ -54,7 +54,7 @@ function NoMillimetres() {
   );
 }
 
-/** Four short lines around the position, which stays visible. */
+/** The cross-hair: four short lines around a position, which stays visible itself. */
 export function HairLines({ at }: { readonly at: readonly [number, number] }) {
   return (
     <svg

@@ -1,4 +1,4 @@
-/** The main view: the vessels cut open, freely rotatable. */
+/** The main view, which shows the vessels cut open and can be turned freely. */
 import { useSignalEffect } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
 import { engine } from '../client/shared';
@@ -8,6 +8,7 @@ import { cross } from '../core/vectors';
 import { stepLumen } from '../edit/lumens';
 import { isTracing } from '../edit/mode';
 import type { Action } from '../input/bindings';
+import { dragOfKey, zoomOfKey } from '../input/keys';
 import { listen } from '../input/pointer';
 import { placeCrossHair } from '../link/cross-hair';
 import { usePaneSize } from '../pane/pane-size';
@@ -19,7 +20,7 @@ import { ofCamera } from './projection';
 import { TurningOverlay } from './TurningOverlay';
 import { clickWithTool, followPointerAt, forgetPointer, type Pointed, toolRows } from './tool-clicks';
 
-/** Slow rotation (radians per second). */
+/** Speed of the slow rotation (radians per second). */
 const TURN_PER_SECOND = 0.5;
 
 export function TurningView() {
@@ -41,7 +42,7 @@ export function TurningView() {
       handedOver.add(element);
       const handed = engine.drawOn(element.transferControlToOffscreen());
       void handed.then(() => loop.current?.again(), recover);
-      // The canvas is black now; the next frame fails and starts the recovery.
+      // After the loss the canvas is black. Rendering the next frame fails, which starts the recovery.
       void engine.loss().then(() => loop.current?.again(), recover);
     } else {
       loop.current?.again();
@@ -95,7 +96,7 @@ function wantedView(): View | null {
     return null;
   }
   const settings = store.viewSettings.value;
-  // While tracing, a projection with its own window, since a cut would hide untraced vessels.
+  // While tracing, a projection is shown, since a cut would hide vessels that are not traced yet.
   return isTracing()
     ? {
         camera,
@@ -111,11 +112,11 @@ const PROJECTED: Settings = { slab: [1000, 'max'], silhouettes: false };
 const handedOver = new WeakSet<HTMLCanvasElement>();
 
 function showFrame(canvas: HTMLCanvasElement | null, { drawn, stage, view, wanted, isLast }: Shown): void {
-  // The frame predates the transfer of the canvas to the GPU; draw it there again.
+  // The frame was rendered before the canvas was handed over to the worker, so it must be rendered again.
   if (canvas && drawn.picture && handedOver.has(canvas)) {
     return;
   }
-  // The supersampled picture does not reflect the frame rate.
+  // The time of a supersampled picture says nothing about the frame rate.
   if (stage !== 'samples') {
     store.frameTime.value = drawn.milliseconds;
   }
@@ -151,26 +152,22 @@ function turnOn(): () => void {
   return () => cancelAnimationFrame(frame);
 }
 
-/** Pixels per arrow key, for rotation or, with Shift, pan. */
-const KEY_STEP = 24;
-
 /** Arrow keys rotate, with Shift they pan; + and - zoom. */
 function pressed(event: KeyboardEvent): void {
   if (event.target !== event.currentTarget) {
     return;
   }
-  const step = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] }[event.key];
-  const factor = { '+': 1.2, '-': 1 / 1.2 }[event.key];
-  if (step) {
+  const by = dragOfKey(event.key);
+  const factor = zoomOfKey(event.key);
+  if (by) {
     event.preventDefault();
-    const by = [KEY_STEP * (step[0] ?? 0), KEY_STEP * (step[1] ?? 0)] as const;
     actions.dragTurning(event.shiftKey ? 'pan' : 'rotate', by, null);
   } else if (factor) {
     actions.changeCamera((camera) => zoomed(camera, factor));
   }
 }
 
-/** Axis of the picked vessel at the cross-hair; null for the axis of the view. */
+/** Direction of the picked vessel at the cross-hair, for rotation about it; null without a vessel. */
 let vesselAxis: Vector | null = null;
 
 const dragged = actions.windowBack();
@@ -210,7 +207,7 @@ const handlers = {
   },
 };
 
-/** Points are set at the brightest voxel on the ray. */
+/** How the tracing tools find points in this view: at the brightest voxel on the ray. */
 function pointed(): Pointed | null {
   const [view, volume] = [wantedView(), store.report.value?.volume];
   return view && volume

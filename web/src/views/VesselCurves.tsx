@@ -1,4 +1,4 @@
-/** Vessels as curves over a view, and the live path. */
+/** Draws the vessels as curves over a view, and the preview of the traced path. */
 
 import type { DocumentVessel, Vector } from '../core/messages';
 import { drawnColor, livePaths } from '../edit/drawing';
@@ -22,7 +22,7 @@ interface OverProps {
 export function VesselCurves({ projection }: OverProps) {
   const isOn = isTracing();
   const picked = tree.value[pickedVessel.value ?? -1]?.id;
-  // In the cut, curves would hide the vessels.
+  // Over the cut, curves would hide the vessels.
   const isSeen = (vessel: DocumentVessel) =>
     vessel.id === highlighted.value ||
     (!vessel.isHidden &&

@@ -1,4 +1,4 @@
-/** Pane of the picked vessel: straightened CPR or another reformation. */
+/** Pane that shows the picked vessel as straightened CPR or in another reformation. */
 import { ReformationChoice } from '../pane/ReformationChoice';
 import { reformationKind } from '../state/reformation';
 import { CprView } from './CprView';

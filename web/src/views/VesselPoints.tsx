@@ -1,4 +1,4 @@
-/** Vessel points over a view, which can be dragged, moved by keys and removed. */
+/** Draws the clicked points of vessels over a view. They can be dragged, moved by keys and removed. */
 
 import { engine } from '../client/shared';
 import type { DocumentVessel, Vector } from '../core/messages';
@@ -35,7 +35,7 @@ export function VesselPoints({ projection }: OverProps) {
   );
 }
 
-/** Points off the slice are faint, and shown only for the active vessel. */
+/** Points of a vessel. Those outside the slice are faint, and shown only for the picked or drawn vessel. */
 function Clicks({ vessel, projection }: OverProps & { readonly vessel: DocumentVessel }) {
   const isAtHand = vessel.id === active.value || vessel.id === pickedId();
   return (

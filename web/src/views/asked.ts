@@ -1,9 +1,9 @@
-/** Requests of flat views. */
+/** Requests for the pictures of slices and sections. */
 import { useCallback } from 'preact/hooks';
 import { engine } from '../client/shared';
 import type { Picture, Plane, Window } from '../core/messages';
 
-/** Stable callback that changes only with the picture; null without a plane. */
+/** A function that requests the picture. It stays the same while the picture does; null without a plane. */
 export function useAsked(plane: Plane | null, window: Window): (() => Promise<Picture>) | null {
   const text = plane && JSON.stringify(plane);
   const ask = useCallback(

@@ -1,18 +1,18 @@
-/** Curves over a view: their paths, and hit testing. */
+/** Curves over a view: their SVG paths, and which curve lies under the pointer. */
 
 import type { DocumentVessel, Pair, Vector } from '../core/messages';
 import { contents } from '../edit/lines';
 import { document_ } from '../state/history';
 import type { Projection } from './projection';
 
-/** Points this close to a slice are drawn as in it (mm). */
+/** Points within this distance of a slice (mm) are drawn as lying in it. */
 export const NEAR = 2;
 const HIT_DISTANCE_PX = 7;
 
 export const isNear = (projection: Projection, point: Vector): boolean =>
   projection.isThrough || Math.abs(projection.depth(point)) <= NEAR;
 
-/** Parts of a line in the slice (`near`), or in front of and behind it (`far`). */
+/** SVG path of the parts of a line that lie in the slice (`near`), or outside it (`far`). */
 export function pathData(points: readonly Vector[], projection: Projection, which: 'near' | 'far'): string {
   const areNear = points.map((point) => isNear(projection, point));
   const pixels = points.map((point) =>
@@ -44,7 +44,7 @@ export function isAt(projection: Projection, point: Vector, [x, y]: Pair): boole
   return Math.hypot(column - x, row - y) <= HIT_DISTANCE_PX;
 }
 
-/** The nearest curve at a pixel; in a slice only where it lies in it. */
+/** The curve nearest to a pixel; in a slice, only parts of curves that lie in it count. */
 export function curveAt(projection: Projection, [x, y]: Pair): Hit | null {
   let best: Hit | null = null;
   let nearest = HIT_DISTANCE_PX;

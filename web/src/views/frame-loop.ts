@@ -1,21 +1,21 @@
-/** Frame loop of the turning view: low resolution while moving, full at rest, then supersampled; latest view first. */
+/** Renders the turning view: in low resolution while it moves, in full resolution at rest, then supersampled. */
 
 import type { EngineClient } from '../client/engine';
 import { sampled } from '../core/camera';
 import { Failure } from '../core/failure';
 import type { Drawn, View } from '../core/messages';
 
-/** Frame time while moving (ms): 25 per second leave room for other work. */
+/** Wanted time of a frame while the view moves (ms); 25 frames per second leave time for other work. */
 const MOVING_TIME = 40;
-/** Time without change until rest (ms). */
+/** The view counts as at rest after this time without change (ms). */
 const REST_AFTER = 80;
-/** Longest pause, in multiples of the shortest, before retrying a view that yielded; it doubles each time. */
+/** The pause before an interrupted view is rendered again doubles each time, up to this multiple of the first. */
 const MOST_PAUSES = 16;
-/** Lowest resolution while moving, as a share of full. */
+/** Lowest resolution while moving, as a share of the full resolution. */
 const COARSEST = 0.2;
-/** Most picture pixels per CSS pixel on dense screens. */
+/** Most picture pixels per CSS pixel, on high-resolution screens. */
 const MOST_DENSE = 2;
-/** Samples per pixel side at rest, and the time limit of a plain picture for them (ms). */
+/** Supersampling uses 2 × 2 samples per pixel, if a plain picture takes less than this time (ms). */
 const SAMPLES = 2;
 const SAMPLED_WITHIN = 700;
 
@@ -27,7 +27,7 @@ export interface Shown {
   readonly view: View;
   readonly drawn: Drawn;
   readonly stage: Stage;
-  /** Whether this picture completes a view that is still current. */
+  /** Whether no better picture of the current view will follow. */
   readonly isLast: boolean;
 }
 
@@ -37,9 +37,9 @@ export class FrameLoop {
   private stage: Stage = 'done';
   private isBusy = false;
   private isStopped = false;
-  /** Whether the device changed during a frame, whose result and failure are then ignored. */
+  /** Whether the device changed while a frame was rendered; then its result or failure is ignored. */
   private isOutdated = false;
-  /** Whether the next frame at rest is the first of a device, which includes shader compilation. */
+  /** Whether the next frame at rest is the first on its device; its time includes shader compilation. */
   private isFirst = false;
   private factor = 1;
   private gaveWay = 0;
@@ -66,7 +66,7 @@ export class FrameLoop {
     if (this.isBusy) {
       this.isOutdated = true;
     } else if (this.wanted) {
-      // Restart at low resolution, since the first frames include shader compilation.
+      // Start again at low resolution, since the first frames are slowed down by shader compilation.
       this.isFirst = true;
       this.want(this.wanted);
     }
@@ -115,7 +115,7 @@ export class FrameLoop {
     }
   }
 
-  /** Redraws if the device changed; returns whether it did. */
+  /** If the device has changed, renders again. Returns whether it has. */
   private beginsAnew(): boolean {
     const isOutdated = this.isOutdated;
     this.isOutdated = false;
@@ -136,7 +136,7 @@ export class FrameLoop {
       : { ...view, camera };
   }
 
-  /** Adapts the moving resolution to the frame time, at most by half. Frames at rest take longer and do not count. */
+  /** Adapts the resolution of moving frames to the time they take, by at most half. Frames at rest do not count. */
   private adapt(asked: View, view: View, milliseconds: number, stage: Stage): void {
     if (stage !== 'moving') {
       return;
@@ -152,7 +152,7 @@ export class FrameLoop {
       return 'moving';
     }
     if (stage === 'moving' || (stage === 'full' && isSlow && this.isFirst)) {
-      // Only the next frame of a device shows whether there is time for supersampling.
+      // The first frame of a device is slow; only the next one shows whether there is time for supersampling.
       return 'full';
     }
     return stage === 'full' && !isSlow ? 'samples' : 'done';
@@ -168,7 +168,7 @@ export class FrameLoop {
     }
   }
 
-  /** Called after a view was stopped by a newer one, or for an answer. */
+  /** Renders again after a view was stopped, by a newer view or by a request that the user waits for. */
   private tryAgain(stage: Stage): void {
     if (stage === 'moving') {
       this.factor = Math.max(COARSEST, this.factor / 2);

@@ -1,4 +1,4 @@
-/** Outline of a projected vessel: discs at its points, and quads between them. */
+/** Outline of a projected vessel: the union of discs at its points and quadrilaterals between them. */
 import type { Pair } from '../core/messages';
 
 export interface Disc {
@@ -6,10 +6,10 @@ export interface Disc {
   readonly radius: number;
 }
 
-/** Closer points are indistinguishable in the picture (CSS pixels). */
+/** Discs closer together than this (CSS pixels) look alike, so all but one are left out. */
 const STEP = 2;
 
-/** Discs at visible distances, always with the last. */
+/** The discs that are at least `STEP` apart, and always the last one. */
 export function thinned(discs: readonly Disc[]): readonly Disc[] {
   const kept: Disc[] = [];
   discs.forEach((disc, n) => {
@@ -22,7 +22,7 @@ export function thinned(discs: readonly Disc[]): readonly Disc[] {
   return kept;
 }
 
-/** Path of the union of discs enlarged by `wider` CSS pixels; all parts have one orientation, so none cuts holes. */
+/** SVG path of the union, enlarged by `wider` CSS pixels. All parts turn the same way, so none cuts a hole. */
 export function hullPath(discs: readonly Disc[], wider: number): string {
   const larger = discs.map(({ at, radius }) => ({ at, radius: radius + wider }));
   const between = larger.slice(1).map((disc, n) => quad(larger[n] ?? disc, disc));

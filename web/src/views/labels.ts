@@ -1,10 +1,10 @@
-/** Letters and scale bar, as decided by the engine. */
+/** Requests orientation letters and scale bar of a picture from the engine. */
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { engine } from '../client/shared';
 import { Latest } from '../core/latest';
 import type { LaidPicture, PictureLabels } from '../core/messages';
 
-/** Labels of a picture; the previous ones until they arrive. */
+/** Labels of a picture; until they arrive, those of the previous picture. */
 export function useLabels(picture: LaidPicture): PictureLabels | null {
   const [labels, setLabels] = useState<PictureLabels | null>(null);
   const latest = useRef(new Latest());
@@ -18,7 +18,7 @@ export function useLabels(picture: LaidPicture): PictureLabels | null {
   );
   useEffect(() => {
     latest.current.run(async () => {
-      // No labels rather than those of another view.
+      // After an error, show no labels rather than those of another view.
       const found = await engine.ask('labels', JSON.parse(text) as LaidPicture).catch(() => null);
       if (isThere.current) {
         setLabels(found);

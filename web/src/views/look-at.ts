@@ -1,4 +1,4 @@
-/** Moves the cross-hair of all views. */
+/** Moves the cross-hair in all views. */
 
 import { engine } from '../client/shared';
 import type { Vector } from '../core/messages';

@@ -1,4 +1,4 @@
-/** Patient positions as text. */
+/** Formats positions in the patient as text. */
 import type { Vector } from '../core/messages';
 
 const NAMES = [
@@ -7,7 +7,7 @@ const NAMES = [
   ['S', 'I'],
 ] as const;
 
-/** Such as `R 17.6 P 35.3 S 12.1` (mm); by axes if the orientation is unknown. */
+/** A position such as `R 17.6 P 35.3 S 12.1` (mm); with x, y and z if the orientation is unknown. */
 export function positionText(point: Vector, isOriented = true): string {
   if (!isOriented) {
     return point.map((part, axis) => `${'xyz'[axis]} ${part.toFixed(1)}`).join(' ');

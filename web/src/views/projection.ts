@@ -1,4 +1,4 @@
-/** Mapping between world points and pixels, common to slices and the turning view. */
+/** Mapping between world points and pixels, for slices and for the turning view. */
 import { pixelOf, rightOf } from '../core/camera';
 import type { Camera, Pair, Plane, Vector, VolumeReport } from '../core/messages';
 import { pixelOn, pointOn, voxelSide } from '../core/planes';
@@ -6,18 +6,18 @@ import { add, cross, dot, negate, scale, subtract } from '../core/vectors';
 
 export interface Projection {
   readonly size: Pair;
-  /** mm per CSS pixel. */
+  /** Size of a CSS pixel (mm). */
   readonly spacing: number;
-  /** Whether the view shows all depths. */
+  /** Whether the view shows all depths, not only a slice. */
   readonly isThrough: boolean;
-  /** Ray direction of a view of all depths; null in a slice. */
+  /** Direction of the rays of the view; null in a slice. */
   readonly along: Vector | null;
   pixel(point: Vector): Pair;
   /** Signed distance of a point from the view plane (mm). */
   depth(point: Vector): number;
-  /** Point at a pixel, at the depth of another point. */
+  /** The point at a pixel that has the same depth as the point `like`. */
   at(pixel: Pair, like: Vector): Vector;
-  /** Vector of a number of voxels right and down. */
+  /** World vector of a number of voxels to the right and downwards. */
   step(by: Pair): Vector;
 }
 

@@ -1,4 +1,4 @@
-/** Clicks and pointer moves of the tracing tools in a view. */
+/** Handles clicks and pointer moves in a view while a tracing tool is active. */
 
 import { engine } from '../client/shared';
 import { Latest } from '../core/latest';
@@ -22,7 +22,7 @@ export const toolRows = (): Where | null => (isTracing() ? 'tracing' : null);
 export interface Pointed {
   readonly name: ViewName;
   readonly projection: Projection;
-  /** The point at a pixel of a slice; in a projection, the brightest on the ray. */
+  /** The point at a pixel: in a slice the point itself, in a projection the brightest one on the ray. */
   place(at: Pair): Promise<Pick> | Vector;
 }
 
@@ -50,7 +50,7 @@ async function setAt(view: Pointed, at: Pair): Promise<void> {
     acceptCandidate(engine);
     return;
   }
-  // A vessel does not extend onto its own curve: a double click adds a point there.
+  // A click on its own curve does not extend a vessel, since a double click adds a point there.
   const hit = curveAt(projection, at);
   if (hit && hit.vessel.id === drawn.value?.id) {
     return;
@@ -59,7 +59,7 @@ async function setAt(view: Pointed, at: Pair): Promise<void> {
     if (projection.isThrough) {
       await setThrough(view, at);
     } else {
-      // The point is set before any answer, because Enter may follow at once.
+      // The point is set before the engine answers, because the user may press Enter at once.
       await setHere(view, view.place(at) as Vector);
     }
   } catch (error) {
@@ -72,7 +72,7 @@ async function setHere(view: Pointed, point: Vector): Promise<void> {
   showValue(view, point, (await setPoint(engine, point)) ?? (await engine.ask('at', point)));
 }
 
-/** In a projection a click takes the displayed lumen, or proposes the brightest point. */
+/** A click in a projection sets a point in the displayed lumen, or proposes the brightest point. */
 async function setThrough(view: Pointed, at: Pair): Promise<void> {
   const isUnderPointer = lastPointer?.view === view.name && isSame(lastPointer.at, at);
   await (isUnderPointer ? lastPointer?.done : null);
@@ -83,7 +83,7 @@ async function setThrough(view: Pointed, at: Pair): Promise<void> {
   }
   const pick = (await view.place(at)) as Pick;
   placeCrossHair(pick, view.name);
-  // The user must confirm it in the slices, unless the tool is no longer active.
+  // The user must confirm the point in the slices. If the tool has been left meanwhile, nothing is proposed.
   if (isTracing()) {
     candidate.value = pick.point;
   }
@@ -95,7 +95,7 @@ function showValue(view: Pointed, point: Vector, pick: Pick): void {
   }
 }
 
-/** Double click: ends the vessel, takes the whole vessel of a single point, or adds a point on a curve. */
+/** A double click ends the vessel, traces the whole vessel at its only point, or adds a point on a curve. */
 function endAt(view: Pointed, at: Pair): void {
   if (acceptCandidate(engine)) {
     return;
@@ -127,12 +127,12 @@ function chooseDoubtful({ projection }: Pointed, at: Pair): boolean {
 
 const following = new Latest();
 
-/** Last pointer position, and its pending lookup. */
+/** Last position of the pointer, and the request about it that may still be running. */
 let lastPointer: { readonly view: ViewName; readonly at: Pair; readonly done: Promise<void> } | null = null;
 
 const isSame = (a: Pair, b: Pair): boolean => Math.hypot(a[0] - b[0], a[1] - b[1]) < 1;
 
-/** Updates lumen inset and live path; one position at a time. */
+/** Updates the picture of the lumen and the path preview, for one pointer position at a time. */
 export function followPointerAt(view: Pointed, at: Pair): void {
   if (tool.value !== 'trace') {
     pointed.value = null;
@@ -153,7 +153,7 @@ async function lookUnder(view: Pointed, at: Pair): Promise<void> {
   const point = projection.at(at, crossHair.value?.point ?? [0, 0, 0]);
   const lumen = await lookForLumens(engine, [name, at], { point, along: through });
   if (through && anchor.value !== null) {
-    // There is no path outside of the scan.
+    // Outside the scan there is no path.
     const brightest = () => Promise.resolve(view.place(at)).then(placeOf, () => null);
     target.value = lumen?.point ?? (await brightest());
   }
@@ -161,7 +161,7 @@ async function lookUnder(view: Pointed, at: Pair): Promise<void> {
 
 const placeOf = (place: Pick | Vector): Vector => ('point' in place ? place.point : place);
 
-/** Called when the pointer left, or the content under it moved. */
+/** Called when the pointer has left the view, or the content under it has moved. */
 export function forgetPointer(): void {
   pointed.value = null;
   lastPointer = null;

@@ -1,4 +1,4 @@
-/** Questions from the worker to the engine: JSON both ways, with separate bytes. */
+/** Sends requests from the worker to the engine. Requests and answers are JSON; bytes are passed separately. */
 import { transfer } from 'comlink';
 import type { Answer, Attachments, Message, OnProgress, Question } from '../core/asked';
 import { Failure } from '../core/failure';
@@ -23,7 +23,7 @@ export function ask<N extends Question>(
   );
 }
 
-/** Labels of slow edits; all others trace. */
+/** Progress labels of slow edits; the label of all other edits is "Tracing". */
 const EDITS: Partial<Record<Edit['kind'], string>> = {
   add_branches: 'Finding branches',
   add_mask: 'Tracing the mask',
@@ -42,14 +42,14 @@ export function askAtOnce<N extends Question>(name: N, message: Message<N>): Ans
 
 export const isAtOnce = (name: Question): boolean => TURNS[name].when === 'at once';
 
-/** Rejects long work cancelled before it began. */
+/** Throws if long work was cancelled before it began. */
 export function refuseStopped(name: Question, signal: AbortSignal): void {
   if (TURNS[name].words !== null && signal.aborted) {
     throw new Failure('interrupted', 'tracing', 'a stop', 'a complete run');
   }
 }
 
-/** Transfers the bytes of an answer instead of copying them. */
+/** Lets the bytes of an answer be transferred to the page instead of copied. */
 export function moved<T>(given: T): T {
   const { bytes } = (given ?? {}) as { bytes?: Bytes };
   return bytes ? transfer(given, [bytes.buffer]) : given;

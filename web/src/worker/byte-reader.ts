@@ -1,4 +1,4 @@
-/** Reads a stream of bytes in pieces of a wanted length. */
+/** Reads a stream of bytes in pieces of any requested length. */
 export class ByteReader {
   private readonly reader: ReadableStreamDefaultReader<Uint8Array>;
   private held = new Uint8Array();
@@ -8,13 +8,13 @@ export class ByteReader {
     this.reader = stream.getReader();
   }
 
-  /** The next `length` bytes; fewer at the end. */
+  /** The next `length` bytes; fewer if the stream ends earlier. */
   async take(length: number): Promise<Uint8Array> {
     while (this.held.length < length && (await this.more())) {}
     return this.cut(Math.min(length, this.held.length));
   }
 
-  /** Available bytes in multiples of `unit`, at least one; none at the end. */
+  /** All bytes that have arrived, in a multiple of `unit`. Waits for at least one unit; empty at the end. */
   async takeWhole(unit: number): Promise<Uint8Array> {
     while (this.held.length < unit && (await this.more())) {}
     return this.cut(this.held.length - (this.held.length % unit));

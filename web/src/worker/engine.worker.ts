@@ -1,4 +1,4 @@
-/** Workers: one holds the study and renders; those named `thread` compute in its memory. */
+/** Entry of all workers. One holds the study and renders; those named `thread` compute in its memory. */
 import { expose } from 'comlink';
 import { joinModule, type Shared } from '../core/module';
 import { EngineHost } from './host';

@@ -1,4 +1,4 @@
-/** Loads a study of the same origin: a voxel stream of `lumencut view` or a file, and centerlines. */
+/** Loads a study from the server of the page: a voxel stream of `lumencut view` or a file, and centerlines. */
 import { Failure } from '../core/failure';
 import type { Progress, States } from '../core/messages';
 import type { ScanStudy } from '../core/scan-study';
@@ -37,7 +37,7 @@ export interface Fetched {
   readonly study: ScanStudy | null;
 }
 
-/** Loads volume, then centerlines; returns notes and the volume's name. */
+/** Loads the volume, then the centerlines. Returns notes, and the name of the volume. */
 export async function fetchStudy(
   context: LoadContext,
   addresses: Addresses,
@@ -106,7 +106,7 @@ interface Begun {
   readonly onProgress: OnProgress;
 }
 
-/** Reads a response as a file that could also be dropped. */
+/** Reads a response like a file that a user drops. */
 async function fetchFormat(
   context: LoadContext,
   response: Response,
@@ -132,12 +132,12 @@ async function fetchFormat(
     context,
   );
   if (!volume) {
-    throw new Failure('format', name, 'centerlines', 'a volume', 'name them as centerlines');
+    throw new Failure('format', name, 'centerlines', 'a volume', 'load the file as centerlines');
   }
   return { ...volume, notes };
 }
 
-/** Files next to an address, of the same origin. */
+/** Finds files in the folder of an address, on the same origin. */
 function besideOf(address: string, signal: AbortSignal): Beside {
   return async (path) => {
     const response = await fetch(new URL(encodeURI(path), address), { signal, cache: 'no-store' });
@@ -205,7 +205,7 @@ async function readVoxels(
   }
 }
 
-/** Throws the error of a stream that ended early, with the server's explanation. */
+/** Throws an error about a stream that ended too early, with the explanation of the server if there is one. */
 async function refuseShort(
   address: string,
   signal: AbortSignal,
@@ -217,6 +217,6 @@ async function refuseShort(
   );
   const words = problem?.ok ? await problem.text() : '';
   throw words
-    ? new Failure('file', 'volume', words, 'a whole volume')
-    : new Failure('file', 'volume', `${found} bytes`, `${total}`, 'open it again');
+    ? new Failure('file', 'volume', words, 'a complete volume')
+    : new Failure('file', 'volume', `${found} bytes`, `${total} bytes`, 'open it again');
 }

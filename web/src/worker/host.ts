@@ -1,4 +1,4 @@
-/** The worker's interface for the page. Errors cross as the text of `Failure`. */
+/** The interface of the worker for the page. Errors are passed as the text of `Failure`. */
 import { transfer } from 'comlink';
 import type { Attachments, Message, OnProgress, Question } from '../core/asked';
 import { CRASH, Failure } from '../core/failure';
@@ -27,10 +27,10 @@ export class EngineHost {
   private readonly queue = new Queue();
   private engine: Engine | null = null;
   private cancelled = new AbortController();
-  /** Why the module crashed; its memory may be corrupt, so nothing more is asked. */
+  /** The crash of the module. Afterwards all requests fail, because its memory may be corrupt. */
   private crash: Error | null = null;
 
-  /** Answers a question; those that need no study bypass the queue. */
+  /** Answers a request. Requests that need no study are answered at once, ahead of the queue. */
   ask(name: Question, message: unknown, files: Attachments, onProgress: OnProgress | null): unknown {
     const asked = message as Message<Question>;
     if (isAtOnce(name)) {
@@ -71,7 +71,7 @@ export class EngineHost {
     return { device, isGpu: device !== 'cpu' };
   }
 
-  /** Switches the device, or restores the same one after a loss. */
+  /** Switches the compute device, or starts the same one again after a loss. */
   changeDevice(device: string): Promise<{ device: string; isGpu: boolean }> {
     return this.run(async () => {
       await this.ready().change_device(device);
@@ -79,7 +79,7 @@ export class EngineHost {
     });
   }
 
-  /** Resolves when the current GPU is lost; other work continues. */
+  /** Resolves when the current GPU is lost. Waiting for this does not block other work. */
   async loss(): Promise<void> {
     const { lost } = await this.run(() => ({ lost: this.ready().loss() }));
     await lost;
@@ -109,7 +109,7 @@ export class EngineHost {
     return this.load(onProgress, (context) => fetchStudy(context, { volume, centerlines }, onProgress), wish);
   }
 
-  /** Opens files; the open study stays if they are rejected before it is replaced. */
+  /** Opens files. If they are rejected early enough, the open study stays open. */
   openFiles(
     files: readonly GivenFile[],
     wish: SeriesWish,
@@ -137,7 +137,7 @@ export class EngineHost {
     });
   }
 
-  /** Loads in steps until `cancel`; on failure nothing stays open if the old study is already gone. */
+  /** Loads in steps, which `cancel` ends. If loading fails after the old study was closed, no study is open. */
   private load<T extends { readonly notes: readonly string[] }>(
     onProgress: OnProgress,
     work: (context: LoadContext) => Promise<T>,
@@ -173,7 +173,7 @@ export class EngineHost {
     }
   }
 
-  /** Renders a view to the GPU canvas, or into the answer. */
+  /** Renders a view on the canvas by the GPU, or returns its pixels. */
   render(view: View): Promise<Drawn> {
     return this.run(async () => {
       const start = performance.now();
@@ -194,7 +194,7 @@ export class EngineHost {
       throw this.crash;
     }
     if (!this.engine) {
-      throw new Failure('unexpected', 'the engine', 'nothing', 'one that is started');
+      throw new Failure('unexpected', 'the engine', 'not started', 'a started engine');
     }
     return this.engine;
   }
@@ -215,7 +215,7 @@ function sent(picture: Picture, milliseconds: number): Drawn {
   return transfer({ picture, milliseconds }, [picture.bytes.buffer]);
 }
 
-/** Pixels that the engine has already copied. */
+/** The pixels as a plain array. They need no copy, since the engine has copied them. */
 function plain(bytes: Uint8ClampedArray): Uint8ClampedArray<ArrayBuffer> {
   return bytes as Uint8ClampedArray<ArrayBuffer>;
 }

@@ -1,4 +1,4 @@
-/** Reads a vessel mask for the open scan, and traces it. */
+/** Reads a vessel mask of the open scan, and traces its vessels. */
 import type { Answer, Attachments, Message, Question } from '../core/asked';
 import { Failure } from '../core/failure';
 import type { AfterEdit, GivenFile } from '../core/messages';
@@ -14,7 +14,7 @@ interface Asking {
   readonly signal: AbortSignal;
 }
 
-/** Answers a question after reading its mask; adds the notes on its files. */
+/** Answers a request after reading its mask, if it has one. Adds notes about the files to the answer. */
 export async function askWithFiles<N extends Question>(
   engine: Engine,
   name: N,
@@ -60,6 +60,6 @@ class MaskStudy implements Study {
   }
 
   openCenterlines(_bytes: Uint8Array, name: string): readonly string[] {
-    throw new Failure('format', name, 'centerlines', 'a mask of vessels', 'open centerlines as such');
+    throw new Failure('format', name, 'centerlines', 'a vessel mask', 'open the file as centerlines');
   }
 }

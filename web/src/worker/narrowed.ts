@@ -1,16 +1,16 @@
-/** Conversion of voxel types to those of the module. */
+/** Converts voxels to types that the engine supports. */
 import { Failure } from '../core/failure';
 
 interface Narrowed {
   readonly dtype: string;
   readonly bytesPerVoxel: number;
-  /** Converts bytes of whole voxels to `dtype`. */
+  /** Converts the bytes of complete voxels to the type `dtype`. */
   readonly narrow: (bytes: Uint8Array) => Uint8Array;
 }
 
 const AS_THEY_ARE: Readonly<Record<string, number>> = { uint8: 1, int16: 2, uint16: 2, float32: 4 };
 
-/** Bytes exactly, wider types to 24 bits. */
+/** Types that are converted: those of one byte exactly, wider ones to the 24 bits of a float32. */
 const OTHERS = {
   int8: { From: Int8Array, To: Int16Array, dtype: 'int16' },
   int32: { From: Int32Array, To: Float32Array, dtype: 'float32' },

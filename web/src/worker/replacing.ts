@@ -1,4 +1,4 @@
-/** Study interface for readers; records whether they began to replace the open study. */
+/** Receives a study from the file readers; records whether they have begun to replace the open study. */
 import type { PlaceDoubt } from '../core/generated/questions';
 import type { SeriesWish } from '../core/messages';
 import type { Engine } from '../core/module';

@@ -1,7 +1,7 @@
-/** Starts compute threads if workers may share memory. */
+/** Starts compute threads, if the browser allows workers to share memory. */
 import { type Shared, useThreads } from '../core/module';
 
-/** More threads do not help, because memory bandwidth limits rendering. */
+/** Most threads; more would not help, because memory bandwidth limits rendering. */
 const MAX_THREADS = 16;
 
 export const THREAD = 'thread';
@@ -18,7 +18,7 @@ export async function startThreads(shared: Shared): Promise<number> {
 }
 
 function startThread(shared: Shared): Promise<void> {
-  // The same file, so that it is loaded and compiled once.
+  // Threads use the same file as this worker, so that it is loaded and compiled only once.
   const worker = new Worker(self.location.href, { type: 'module', name: THREAD });
   return new Promise((resolve, reject) => {
     worker.onmessage = () => resolve();

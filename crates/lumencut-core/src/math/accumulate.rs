@@ -6,7 +6,7 @@ use super::lanes::{FAN, larger, smaller, smallest};
 use super::thickness::of_thickness;
 use super::transfer::Colors;
 
-/// Behind this opacity, only samples brighter than all before change a pixel by half a grey value or more.
+/// Once a ray is this opaque, only a sample brighter than all before can change its pixel by half a grey value.
 pub const OPAQUE: f32 = 1.0 - 1.0 / 1024.0;
 
 /// Premultiplied colours and opacity of sixteen pixels, channel by channel, 0 to 1.
@@ -23,7 +23,7 @@ pub(crate) struct Samples<'a> {
 
 /// Light on sixteen samples; evaluated only if one of them is visible.
 pub(crate) trait Light {
-    /// The factor of the light on each colour, and the light added to it.
+    /// The factor by which the light multiplies each colour, and the light that is added.
     fn shade(&self) -> [[f32; FAN]; 2];
 }
 

@@ -20,7 +20,7 @@ pub struct LinePlace {
     pub share: f64,
 }
 
-/// The segment at arc length `at`: exactly at a point the next one, beyond the ends the first or last one.
+/// The segment at arc length `at`. A point belongs to the segment after it; beyond the ends, the outermost counts.
 pub(crate) fn segment_at(lengths: &[f64], at: f64) -> usize {
     let last = lengths.len() - 1;
     lengths.partition_point(|length| *length <= at).clamp(1, last.max(1)) - 1

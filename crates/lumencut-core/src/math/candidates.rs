@@ -1,4 +1,4 @@
-//! Excludes pieces of a bundle that cannot win in a part of a tile.
+//! Excludes pieces of a bundle that no pixel in a part of a tile can show.
 
 use super::cost::Rule;
 use super::lanes::{ABSENT, FAN, PARTS, larger, smaller};
@@ -12,7 +12,7 @@ pub(crate) struct Candidates {
     pub wedges: u32,
 }
 
-/// The pieces of `bundle` whose smallest key is within the limit of some part; no others can win there.
+/// The pieces of `bundle` whose smallest key is within the limit of some part; no pixel there can show another.
 #[inline(always)]
 pub(crate) fn candidates<const LUMEN_FIRST: bool>(
     tile: &Tile,
@@ -35,7 +35,7 @@ pub(crate) struct Cover {
     pub in_wedge: bool,
     /// (q − p)·e for the middle q of the area; p and e are a slot's point and edge, as in pieces.rs.
     start: f32,
-    /// The largest difference from `start` within the area.
+    /// The most by which (q − p)·e differs from `start` for other points q of the area.
     along: f32,
     /// Half the sides of the area, plus a bound on the rounding of all products.
     sides: [f32; 2],
@@ -82,7 +82,7 @@ fn smallest_keys<const LUMEN_FIRST: bool>(
         let stripe_key = rule.bound::<LUMEN_FIRST>(near, across, widest, bundle.tiers[s]);
         stripe[s] = if in_stripe { stripe_key } else { ABSENT };
 
-        // The point is at least as far away as the line along its edge, and as the area.
+        // `away` is a lower bound on the distance of all pixels of the area from the slot's point.
         let (gx, gy) = (larger(ux.abs() - hx, 0.0), larger(uy.abs() - hy, 0.0));
         let away = larger(across, (gx * gx + gy * gy).sqrt());
         let wedge_key = rule.bound::<LUMEN_FIRST>(bundle.wedge_z[s], away, r0, bundle.tiers[s]);

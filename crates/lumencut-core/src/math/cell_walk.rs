@@ -7,7 +7,7 @@ use super::ray::RaySpan;
 use super::sampling::{Grid, Offset};
 use crate::volume::{Real, Voxel};
 
-/// Position at which a ray meets a plane that it never reaches: a share of the stretch far beyond its end.
+/// Stands for the place of a plane that a ray never reaches, as a share of the ray's segment: far beyond its end.
 pub const NO_MEETING: f32 = 1e9;
 /// A ray that moves by less than this along an axis (voxels) counts as parallel to that axis's planes.
 pub const ALONG_PLANE: f32 = 1e-9;
@@ -23,7 +23,7 @@ pub(crate) trait Fold<R> {
 pub(crate) struct Largest<'a> {
     /// The largest value of each ray so far; HUGE for rays that need no value.
     pub best: &'a mut [f32; FAN],
-    /// Larger values make no difference.
+    /// Values above this count as equal to it.
     pub limit: f32,
 }
 
@@ -115,9 +115,9 @@ impl<T: Voxel, F: Fold<T::Real>> Kernel for CellWalk<'_, T, F> {
 }
 
 struct Walkers {
-    /// Each ray's cell, axis by axis: −1 or the last in the half voxel outside the outermost centres.
+    /// Each ray's cell, axis by axis: −1 before the first voxel centre, the last index beyond the last centre.
     cell: [[i32; FAN]; 3],
-    /// The next plane, and the share of the stretch per voxel across planes; 0 for a ray parallel to them.
+    /// The next plane, and the share of the ray's segment per voxel across planes; 0 for a ray parallel to them.
     plane: [[f32; FAN]; 3],
     per_voxel: [[f32; FAN]; 3],
     gone: [f32; FAN],
@@ -158,7 +158,7 @@ impl Walkers {
     }
 }
 
-/// Each ray finds this number of cells before it reads the voxels of the first.
+/// Number of cells that each ray finds before it reads the voxels of the first of them.
 const CELLS_AHEAD: usize = 2;
 
 #[derive(Clone, Copy)]

@@ -8,7 +8,7 @@ const ALONG_PLANE: f32 = 1e-9;
 struct Found {
     // The largest value, or the negated smallest one.
     best: f32,
-    // Σ value · share of the stretch, and Σ share.
+    // Σ value · share of the ray's segment, and Σ share.
     sum: f32,
     share: f32,
 }

@@ -40,7 +40,7 @@ fn smooth(vessel: &Vessel, radii: f64, ends: &PositionMap<()>, layers: &[Layer])
         let stretch = FixedRun::new(&points[start..=end]);
         for i in start + 1..end {
             let sigma = radii * radius[i];
-            // If σ is smaller, the point does not move.
+            // With σ below `VESSEL_END`, the point does not move.
             if sigma >= VESSEL_END {
                 smoothed[i] = stretch.mean(i - start, sigma, layers);
             }

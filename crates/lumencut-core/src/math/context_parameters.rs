@@ -67,7 +67,7 @@ pub struct RiseParameters {
 #[repr(C)]
 pub struct BlockLayout {
     pub level_count: u32,
-    /// log₂ of the side of the smallest blocks in the buffer, in sides of the volume's smallest blocks.
+    /// log₂ of the side of the smallest blocks in the buffer; the unit is the side of the volume's smallest blocks.
     pub finest: u32,
     /// For each size: the number of blocks along each axis, and the index of the first block's range.
     pub levels: [[u32; 4]; MAX_BLOCK_LEVELS],

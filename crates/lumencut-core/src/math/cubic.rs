@@ -4,7 +4,7 @@
 use super::lanes::larger;
 use crate::volume::Real;
 
-/// Smaller divisors count as 0.
+/// Divisors below this count as 0.
 pub const TINY: f32 = 1e-30;
 
 /// The values at the corners of the cells of N rays, i fastest, then j, then k.

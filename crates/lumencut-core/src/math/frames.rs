@@ -12,7 +12,7 @@ use super::centerline_path::CenterlinePath;
 /// The largest length before and after a point over which its corner is rounded (mm).
 pub(crate) const MAX_CORNER_MM: f64 = 5.0;
 
-/// Two directions count as equal if the sine of their angle is smaller.
+/// Two directions count as equal if the sine of their angle is below this.
 const SAME_DIRECTION: f64 = 1e-12;
 
 /// A right-handed set of unit vectors: `across` × `tangent` = `ahead`.

@@ -15,7 +15,7 @@ pub(crate) const PART_SIDE: usize = 8;
 pub(crate) const PART_PIXELS: usize = PART_SIDE * PART_SIDE;
 pub const PARTS: usize = PIXELS / PART_PIXELS;
 
-/// A key that no piece reaches: the pixel has no winner yet. Finite, so that no kernel ever meets inf or NaN.
+/// A key above that of every piece: no piece was found yet. Finite, so that no kernel ever meets inf or NaN.
 pub const UNSET: f32 = 1e30;
 /// The depth of a missing piece; it stays above [`UNSET`] after any addition.
 pub const ABSENT: f32 = 3e30;
@@ -176,7 +176,7 @@ pub fn dispatch<K: Kernel>(isa: Isa, kernel: K) -> K::Output {
     }
 }
 
-/// A separate function: inlined, the kernel would be optimised in each caller, a third of the compile time.
+/// Not inlined: optimising the kernel in each caller would take a third of the compile time.
 #[cfg_attr(target_arch = "x86_64", inline(never))]
 fn baseline<K: Kernel>(kernel: K) -> K::Output {
     kernel.run()

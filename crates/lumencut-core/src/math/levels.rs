@@ -31,7 +31,7 @@ pub struct CutSurfaceParameters {
     pub lift: f32,
     pub distance_slack: f32,
     pub depth_slack: f32,
-    /// N / σ: the square of the wanted level per mm of the distance that selects levels.
+    /// N / σ: at the distance D (mm) from the vessels, a pixel blends the levels around √(D · N / σ).
     pub selection: f32,
     pub coarsest: u32,
     /// Factor on radii: 1 if radii count, else 0.

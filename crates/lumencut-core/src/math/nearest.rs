@@ -47,7 +47,7 @@ impl NearestPoint {
         let squared = squared_distances_to_segments(bundle, cx, cy);
         let least = smallest(&squared);
         let s = tile.bits.within(&squared, least).trailing_zeros() as usize % FAN;
-        // Computed from the segment: an offset from a distant tile would round the foot off the segment.
+        // Computed from the segment's start, because rounding at a distant tile would move the point off the segment.
         let t = foot(bundle, s, cx - bundle.x[s], cy - bundle.y[s]);
         let (x, y) = (bundle.x[s] + t * bundle.edge_x[s], bundle.y[s] + t * bundle.edge_y[s]);
         let distance = least.sqrt() * 1.000_01 + slack(tile, x, y);

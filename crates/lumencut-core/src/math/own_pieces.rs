@@ -1,4 +1,5 @@
-//! The pieces of the winner's vessel at coarser levels that are nearest to the winner in arc length.
+//! Finds pieces of coarser levels near the winner (the piece that a pixel shows at the finest level) in arc
+//! length.
 
 use super::candidates::Cover;
 use super::cost::Rule;
@@ -27,7 +28,7 @@ pub(crate) struct NearestPieces {
 }
 
 impl NearestPieces {
-    /// Pixels that give this level no weight search nothing.
+    /// Nothing is searched for pixels whose weight for this level is 0.
     #[inline(always)]
     pub(crate) fn new(weight: &[f32; PART_PIXELS]) -> Self {
         let zero = [0.0; PART_PIXELS];
@@ -55,7 +56,7 @@ impl NearestPieces {
         }
     }
 
-    /// The arc lengths (mm, widened for rounding) between which a piece can still be nearer to some member.
+    /// The arc lengths (mm, widened for rounding) between which a piece can still be nearer to a member of the group.
     #[inline(always)]
     fn reach(&self, part: &Part, is_member: &[bool; PART_PIXELS]) -> [f32; 2] {
         let (mut low, mut high) = ([EXCLUDED; PART_PIXELS], [EXCLUDED; PART_PIXELS]);

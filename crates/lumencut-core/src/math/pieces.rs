@@ -1,11 +1,10 @@
 //! The pieces of a local surface (stripe, wedge, end half-plane, full plane) and their evaluation over a
 //! tile.
 //!
-//! Every piece belongs to a *slot*, one per point of a level: the stripe from this point to the next, and the
-//! Every piece belongs to a *slot*. Each point of a level has one: the stripe from this point to the next,
-//! and the wedge at the point. Half-planes and full planes are wedges with missing edges. With edges f before
-//! and e after the point p, a wedge covers the pixel q if (q − p)·f ≥ 0 and (q − p)·e ≤ 0; a missing edge is
-//! zero. Neighbouring pieces compare the same numbers, so no pixel falls between them by rounding.
+//! Every piece belongs to a *slot*. Each point of a level has one slot, with the stripe from this point to the
+//! next, and the wedge at the point. Half-planes and full planes are wedges with missing edges. With edges f
+//! before and e after the point p, a wedge covers the pixel q if (q − p)·f ≥ 0 and (q − p)·e ≤ 0; a missing
+//! edge is zero. Neighbouring pieces compare the same numbers, so no pixel falls between them by rounding.
 
 use super::cost::Rule;
 use super::lanes::{ABSENT, EXCLUDED, FAN, FAR, PART_PIXELS, PIXELS, UNSET, smaller};
@@ -98,7 +97,7 @@ impl Envelope {
     }
 }
 
-/// Some pixels of a tile (view x and y, mm) and their winners so far.
+/// Some pixels of a tile (view x and y, mm), and the piece with the smallest key so far at each (its winner).
 pub(crate) struct Pixels<'a, const N: usize> {
     x: &'a [f32; N],
     y: &'a [f32; N],

@@ -20,7 +20,8 @@ struct Slot {
     tiers: f32,
 }
 
-// The winner of each pixel so far: key, depth (mm), and twice its slot, plus 1 for the stripe.
+// The piece with the smallest key at each pixel so far (its winner): key, depth (mm), and twice its slot, plus 1 for
+// the stripe.
 var<private> winner_key: array<vec4f, MAX_QUADS>;
 var<private> winner_z: array<vec4f, MAX_QUADS>;
 var<private> winner_piece: array<vec4u, MAX_QUADS>;

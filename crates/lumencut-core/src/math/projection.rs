@@ -11,8 +11,8 @@ use crate::camera::Camera;
 use crate::settings::Settings;
 use crate::vessel_tree::VesselTree;
 
-/// A segment with a shorter projection (mm) is collinear with the view and has no stripe: far below any
-/// voxel, well above the rounding of `f32`.
+/// A segment whose projection is shorter than this (mm) is collinear with the view and has no stripe: far
+/// below any voxel, well above the rounding of `f32`.
 pub const COLLINEAR_LENGTH: f32 = 1e-3;
 
 /// Number of tiers by which lumen and wall of a chosen vessel both precede lumen and wall of others.
@@ -196,8 +196,8 @@ impl ProjectedLevel {
     }
 }
 
-/// Decides for one vessel which segments are collinear and which piece lies at each point: a wedge at inner
-/// points, half-planes at the ends and before a collinear run, a full plane at an end that a run reaches.
+/// Decides for one vessel which segments are collinear and which piece lies at each point: a wedge at inner points; a
+/// half-plane at an end, or before a run (consecutive collinear segments); a full plane at an end in a run.
 fn stand(vessel: &mut [Projected]) {
     let last = vessel.len() - 1;
     for i in 0..=last {
@@ -220,8 +220,7 @@ fn stand(vessel: &mut [Projected]) {
     // The first point has no edge before it: it has a half-plane, or a full plane if a run begins there.
     vessel[0].stands = true;
     for i in first_stripe + 1..=last_stripe {
-        // After a stripe there is a wedge, or a half-plane if a collinear run begins; other points have
-        // nothing.
+        // After a stripe there is a wedge, or a half-plane if a run begins; other points have nothing.
         vessel[i].stands = vessel[i - 1].has_stripe();
         vessel[i].before = vessel[i - 1].edge;
     }

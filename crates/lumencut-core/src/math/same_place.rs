@@ -13,5 +13,5 @@ pub const VESSEL_END: f64 = 1e-3;
 /// Positions in a reformation this near count as equal: rounding differs, and no pixel is as small.
 pub(crate) const ON_PICTURE: f64 = 1e-6;
 
-/// Arc lengths that differ by less count as equal: sums over thousands of segments are rounded.
+/// Arc lengths that differ by less than this count as equal: sums over thousands of segments are rounded.
 pub const ALONG_LINE: f64 = 1e-6;

@@ -31,7 +31,7 @@ struct GridParameters {
     z_rest: vec4f,
     // Depth per voxel (mm); 0 along axes perpendicular to the view.
     per_voxel: vec4f,
-    // Index per mm to the right and upwards.
+    // Change of the index per mm to the right, and upwards.
     right: vec4f,
     up: vec4f,
 }

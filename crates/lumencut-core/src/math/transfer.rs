@@ -30,7 +30,7 @@ impl Rise {
         }
     }
 
-    /// The intensity above which the rise is complete; for a step, the one at which it has not yet begun.
+    /// The intensity from which on the rise is complete; for a step, the number just above its start.
     fn end(&self) -> f32 {
         larger(self.start.next_up(), self.start + 1.0 / self.per_intensity)
     }

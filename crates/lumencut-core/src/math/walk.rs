@@ -61,7 +61,7 @@ impl Stack {
     }
 }
 
-/// Bundles that held winners of the previous tile; most winners of this tile are in them too.
+/// Bundles with the lowest keys of the previous tile; most of the lowest keys of this tile are in them too.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Seeds {
     bundles: [u32; 4],

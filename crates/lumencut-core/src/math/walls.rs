@@ -13,9 +13,9 @@ use super::walk::Stack;
 /// The range of distances that must be exact.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct WallRange {
-    /// Smaller distances (mm) count as this.
+    /// Distances below this (mm) count as this.
     pub near: f32,
-    /// Larger distances (mm) count as this.
+    /// Distances above this (mm) count as this.
     pub far: f32,
     /// A bound on the rounding error of a projected distance (mm).
     pub slack: f32,
@@ -26,8 +26,8 @@ pub const MAX_LEAN: f32 = 1e6;
 
 /// Lowers the distances of pixels from the wall (mm, negative within) to that from the segment of slot `s`.
 ///
-/// The outline of a tapering segment nearest to a pixel belongs to the disc whose centre lies off the pixel's
-/// foot by the lean times the pixel's distance from the line.
+/// The nearest outline of a tapering segment belongs to a disc on the segment. Its centre is shifted from the
+/// point nearest to the pixel, by the lean times the pixel's distance from the line.
 #[inline(always)]
 fn lower_beyond(tile: &Tile, beyond: &mut [f32; PIXELS], bundle: &Bundle, s: usize) {
     let (x, y) = (bundle.x[s], bundle.y[s]);
@@ -45,7 +45,7 @@ fn lower_beyond(tile: &Tile, beyond: &mut [f32; PIXELS], bundle: &Bundle, s: usi
     }
 }
 
-/// Offset of the nearest disc from a pixel's foot per mm from the line, for a `taper` in mm per mm.
+/// Shift of the nearest disc along the segment per mm of distance from its line; `taper` is in mm of radius per mm.
 #[inline(always)]
 fn lean(taper: f32) -> f32 {
     let rest = larger(1.0 - taper * taper, 1.0 / (MAX_LEAN * MAX_LEAN));

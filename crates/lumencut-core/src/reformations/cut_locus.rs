@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::segments::Segments;
 use crate::math::centerline_path::CenterlinePath;
 
-/// Smallest relative excess of a distance that counts: corners and changing depth distort images a little.
+/// Another part counts as nearer only by this fraction of the distance, because images are slightly distorted.
 pub(super) const MIN_DISTANCE_EXCESS: f64 = 0.05;
 
 pub(super) struct CutLocus<'a> {

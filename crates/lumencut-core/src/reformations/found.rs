@@ -19,7 +19,7 @@ pub(super) struct PixelContent {
     pub vessel: i32,
     /// Slopes and radius, as the stage `leap` reads them.
     pub sheet: Sheet,
-    /// Whether the pixel could as well show other points of the vessel.
+    /// Whether other points of the vessel share the pixel.
     pub is_folded: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Reformations: other methods to find the position of each pixel; [`crate::pipeline`] shows what is there.
+//! Reformations: other methods to find the position of each pixel; [`crate::pipeline`] shows the volume there.
 
 mod connections;
 pub mod cpr;

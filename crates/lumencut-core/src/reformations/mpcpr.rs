@@ -174,7 +174,7 @@ impl Run {
     fn nearest_crossing(&self, x: f64) -> Crossing {
         let dx = self.b.x - self.a.x;
         let t = if dx == 0.0 {
-            // A run along the view has a single x; its end nearer to the viewer counts.
+            // A segment along the view has a single x; its end nearer to the viewer counts.
             f64::from(u8::from(self.b.z < self.a.z))
         } else {
             ((x - self.a.x) / dx).clamp(0.0, 1.0)

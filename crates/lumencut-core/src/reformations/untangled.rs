@@ -58,8 +58,8 @@ pub struct UntangledParameters {
     pub pixel_spacing: f64,
     /// The radius of points whose radius is unknown (mm).
     pub unknown_radius: f64,
-    /// The part with the vessel end nearest to this point grows from that end (mm, LPS). Other parts grow
-    /// from the free end with the largest mean radius over 10 mm.
+    /// The layout of a connected part of the tree starts at the vessel end nearest to this point (mm, LPS).
+    /// Other parts start at the free end with the largest mean radius over 10 mm.
     pub root: Option<DVec3>,
 }
 
@@ -100,7 +100,7 @@ pub struct LaidOut {
     pub pixels: Vec<DVec2>,
     /// The turn of this part and of all parts that follow it (radians, counter-clockwise in the image).
     pub turn: f64,
-    /// Whether the part grows from its last point to its first.
+    /// Whether the layout proceeds from the last point of the part to its first.
     pub is_reversed: bool,
 }
 
@@ -243,7 +243,7 @@ impl Untangled {
         &self.overlaps
     }
 
-    /// Where cycles are cut open: pairs of image positions that show the same point of the body.
+    /// Pairs of image positions that show the same point of the body, because a cycle is cut open there.
     pub fn closures(&self) -> &[[DVec2; 2]] {
         &self.closures
     }

@@ -48,7 +48,7 @@ impl Wall {
         low + (high - low) * along
     }
 
-    /// Whether the wall is open there, by the nearest table entry, or the later one of two equally near.
+    /// Whether the wall is open at a place, by the nearest table entry, or the later one of two equally near.
     pub fn is_open(&self, at: f64, around: f64) -> bool {
         let (rows, along) = self.rows(at);
         let row = rows[usize::from(along >= 0.5)];

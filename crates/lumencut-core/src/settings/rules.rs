@@ -5,7 +5,7 @@ use crate::named::Named;
 /// The rule that decides to which vessel a pixel's levels of detail belong.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LevelChoice {
-    /// The vessel that wins the pixel at the finest level: one decision for each pixel.
+    /// The vessel that the pixel shows at the finest level, so one decision for each pixel.
     Own,
     /// At each level the vessel with the smallest cost, which may change (paper section 3.1.4).
     Nearest,

@@ -25,7 +25,7 @@ impl Named for SlabMode {
 /// A thick cut surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Slab {
-    /// Distance from its near to its far side along the view (mm); the cut surface lies in the middle.
+    /// Distance from the slab's near to its far side along the view (mm); the cut surface lies in the middle.
     pub thickness: f64,
     /// Which of the values in the slab is shown.
     pub mode: SlabMode,

@@ -30,7 +30,7 @@ pub struct CutSurface<'a> {
     rule: Rule,
     lumen_first: bool,
     level_choice: LevelChoice,
-    /// N / σ: the square of the wanted level per mm of the distance that selects levels.
+    /// N / σ: at the distance D (mm) from the vessels, a pixel blends the levels around √(D · N / σ).
     selection: f32,
 }
 
@@ -95,7 +95,7 @@ pub(crate) trait Search {
     fn own<const SHEET: bool>(&mut self, pieces: OwnPieces, part: &Part, nearest: &mut NearestPieces);
 }
 
-/// Searches the hierarchy, first where the previous tile had winners, and then along the vessels.
+/// Finds lowest keys in the hierarchy, first in the bundles that had those of the previous tile.
 struct LowestKeySearch<'a> {
     surface: &'a CutSurface<'a>,
     seeds: [Seeds; MAX_LEVELS + 1],

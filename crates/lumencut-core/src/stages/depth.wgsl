@@ -20,7 +20,7 @@ var<private> coarse_weight: array<vec4f, MAX_QUADS>;
 var<private> blended: array<vec4f, MAX_QUADS>;
 var<private> ruling_weight: array<vec4f, MAX_QUADS>;
 var<private> ruling_slot: array<vec4u, MAX_QUADS>;
-// The sheet so far; of the finer level also the vessel, counted from 1 (0: none yet), and the arc length.
+// The sheet so far, and the finer level's vessel (counted from 1; 0: none yet) and arc length.
 var<private> sheets: array<array<vec4f, QUAD>, MAX_QUADS>;
 var<private> finer_vessel: array<vec4u, MAX_QUADS>;
 var<private> finer_arc_length: array<vec4f, MAX_QUADS>;
@@ -61,7 +61,7 @@ fn begin(k: f32) {
     }
 }
 
-// Adds the depths of a level's winners, by their weights. The finest level comes first and wins ties.
+// Adds the depths of the pieces found at a level, by its weights. The finest level comes first and wins ties.
 fn blend(level: u32) {
     let first_slot = parameters.levels[level].first_slot;
     for (var q = 0u; q < ACROSS * ROWS; q++) {

@@ -160,12 +160,11 @@ impl Kernel for ZoneRows<'_> {
 const OFFSETS: [usize; SPAN] = [0, 1, 2, 3, 4, 5, 6];
 
 /// Filters a row of pixels along one axis, within zones. Entry n of `z` and `zone` is the row shifted by n −
-/// `HALF_WIDTH` along that axis.
-/// | A pair of neighbours counts if both, and all nearer pairs, are in the zone of the middle pixel, and if
-/// the depth does not jump. Each pair adds its deviation from a straight line through the middle. On a plane
-/// this is 0 up to the rounding of depths; if no pair counts, the middle is unchanged. Neighbours are
-/// subtracted from the middle one by one: close numbers have an exact difference, while a sum loses a digit.
-/// The middle always counts, so the sum of weights is never 0.
+/// `HALF_WIDTH` along that axis. A pair of neighbours counts if both, and all nearer pairs, are in the zone
+/// of the middle pixel, and if the depth does not jump. Each pair adds its deviation from a straight line
+/// through the middle. On a plane this is 0 up to the rounding of depths; if no pair counts, the middle is
+/// unchanged. Each neighbour is subtracted from the middle separately: close numbers have an exact
+/// difference, while a sum loses a digit. The middle always counts, so the sum of weights is never 0.
 #[inline(always)]
 fn filter_within_zones(
     parameters: &DepthFilterParameters,

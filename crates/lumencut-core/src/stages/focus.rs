@@ -27,9 +27,9 @@ pub struct FocusParameters {
     pub margin: [f32; 2],
     /// 1 / fade of cut surface and silhouettes (per mm); 0 if they are shown everywhere.
     pub per_fade: [f32; 2],
-    /// Smaller distances from the wall (mm) count as this.
+    /// Distances from the wall below this (mm) count as this.
     pub near: f32,
-    /// Larger distances from the wall (mm) count as this.
+    /// Distances from the wall above this (mm) count as this.
     pub far: f32,
     /// The share that the other vessels keep if some are chosen, 0 to 1.
     pub others: f32,

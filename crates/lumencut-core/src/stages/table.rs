@@ -250,7 +250,7 @@ impl Stage {
         matches!(self, Self::Distance | Self::Depth | Self::Leap | Self::DepthFilter | Self::Focus)
     }
 
-    /// Whether the stage `depth` of such a view writes the sheet: if `leap` needs it, or if it is wanted.
+    /// Whether the stage `depth` writes the sheet: if `leap` needs it, or if it is wanted.
     pub fn has_sheet(settings: &Settings, wanted: ImageSet) -> bool {
         wanted.has(Image::Sheet) || Self::of_cut_surface(settings, wanted).contains(&Self::Leap)
     }

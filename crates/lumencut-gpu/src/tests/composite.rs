@@ -181,7 +181,7 @@ fn the_layer_is_that_of_the_cpu() {
 #[test]
 fn halves_become_the_even_byte() {
     let Some(device) = device() else { return };
-    // The context is opaque, so 255 times the colour ends in exactly .5 wherever a float holds it.
+    // Opaque colours of n / 510 are n / 2 in bytes, so some lie exactly midway between two bytes.
     let context: Vec<[f32; 4]> = (0..=510).map(|n| [n as f32 / 510.0, 0.0, 0.0, 1.0]).collect();
     let camera = front([511, 1], 1.0);
     let mut expected = vec![[0; 4]; 511];

@@ -278,7 +278,7 @@ fn other_types_of_voxels_give_the_same() {
 
 #[test]
 fn voxels_without_a_number() {
-    // With even sizes no sample lies on a voxel. There, rounding would decide whether its neighbours count.
+    // With even sizes no sample lies on a voxel, where rounding would decide whether neighbouring voxels count.
     const EVEN: [usize; 3] = [40, 36, 28];
     let mut floats: Vec<f32> = ball_and_rod(EVEN).into_iter().map(f32::from).collect();
     for n in (0..floats.len()).step_by(977) {

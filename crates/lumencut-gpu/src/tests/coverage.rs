@@ -17,10 +17,10 @@ use super::every_device;
 use crate::device::Device;
 use crate::renderer::GpuRenderer;
 
-/// Depth of the trees (mm). An uncovered pixel gets depth 0 at a level; even with a small weight, this takes
-/// its depth out of the tree's range.
+/// Depth of the trees (mm). An uncovered pixel gets depth 0 at a level; even with a small weight, this moves
+/// the pixel's depth out of the tree's range.
 const TREE_DEPTH: f64 = 2e4;
-/// A bound on the rounding of depths of this size (mm).
+/// A bound on the rounding of depths as large as `TREE_DEPTH` (mm).
 const ROUNDING: f64 = 0.05;
 
 const DIRECTIONS: [[f64; 3]; 2] = [[0.0, 1.0, 0.0], [0.31, 0.83, -0.47]];
@@ -57,7 +57,7 @@ fn seen_along(direction: [f64; 3], points: &[[f64; 3]]) -> VesselTree {
     tree(vec![Vessel::new(points.iter().map(place).collect(), Some(radii)).unwrap()])
 }
 
-/// Vessels with runs along the view at their beginning, inside, or end, and one that is a single run.
+/// Vessels that run along the view at their beginning, inside, at their end, or everywhere.
 fn runs() -> Vec<Vec<[f64; 3]>> {
     let within =
         [[-20.0, 0.0, 0.0], [-10.0, 0.0, 0.0], [-10.0, 0.0, 5.0], [-10.0, 0.0, 9.0], [0.0, 8.0, 9.0]];
@@ -81,7 +81,7 @@ fn tiny() -> Vec<Vec<[f64; 3]>> {
     vec![line(2, 1e-4, 0.0), line(40, 4e-4, 3.0), line(3, 1.01e-3, -3.0), line(50, 0.999e-3, 5.0)]
 }
 
-/// Vessels whose pieces have borders through pixel centres: along rows, columns and diagonals, and back.
+/// Vessels whose pieces have borders through pixel centres: along rows, columns and diagonals, in both directions.
 fn through_pixels() -> Vec<Vec<[f64; 3]>> {
     let steps = [[0.5, 0.5, 0.0], [4.5, 0.5, 1.0], [4.5, 4.5, 2.0], [8.5, 8.5, 0.0], [0.5, 0.5, 3.0]];
     let back = [[-9.5, 0.5, 1.0], [-3.5, 0.5, 2.0], [-9.5, 0.5, 3.0], [-3.5, -5.5, 4.0], [-3.5, 6.5, 5.0]];
@@ -165,7 +165,7 @@ fn no_pixel_is_left_uncovered_on_any_gpu() {
 
 #[test]
 fn a_pixel_without_a_winner_at_one_level_is_seen() {
-    // A level with 3 % of the weight has no winner.
+    // At a level with 3 % of the weight, no piece covers the pixel.
     let depths = [2e4f32, 2e4 * 0.97, 0.0, 2e4, f32::NAN];
     let vessels = [0, 0, 0, 2, 1];
     assert_eq!(uncovered(&depths, &vessels, [2e4 - 400.0, 2e4 + 400.0], 2), [1, 2, 3, 4]);

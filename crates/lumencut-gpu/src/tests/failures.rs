@@ -55,7 +55,7 @@ fn a_lost_gpu_is_an_error_before_and_after_the_first_view() {
         device.lose();
         for _ in 0..2 {
             check(&render(&mut renderer, &scene, &|| false).unwrap_err());
-            // The driver reports the loss when polled; then it stays lost.
+            // The driver reports the loss when polled; from then on the device stays lost.
             let _ = device.device.poll(wgpu::PollType::Poll);
             check(&device.check().unwrap_err());
             assert!(device.is_lost());

@@ -21,8 +21,8 @@ use crate::renderer::GpuRenderer;
 use crate::stages::on_either;
 
 const SIZE: [usize; 2] = [96, 80];
-/// At single pixels two pieces of the knot are equally near, and the depth filter spreads each over nine
-/// pixels. Only in a picture of this size is that less than a thousandth.
+/// At single pixels two pieces of the trefoil knot are equally near, and the depth filter spreads each
+/// difference over nine pixels. In smaller pictures these would exceed a thousandth.
 const KNOT_SIZE: [usize; 2] = [130, 108];
 
 fn with(change: impl Fn(&mut Settings)) -> Settings {

@@ -1,4 +1,4 @@
-//! Each stage compared with the CPU's, and checks that both sides stay consistent.
+//! Each stage compared with the CPU's, and checks that the code for GPU and CPU stays consistent.
 #![allow(clippy::unwrap_used)]
 
 mod both_sides;

@@ -1,5 +1,5 @@
-//! Ties around joints. If vessels end in one point, their keys are equal around it, so rounding decides to
-//! which a pixel belongs. Either vessel is accepted, in few pixels and only there.
+//! Ties around joints. If vessels end in one point, their keys are equal around it, so rounding decides which
+//! vessel a pixel shows. Either vessel is accepted, in few pixels and only there.
 
 use std::collections::BTreeSet;
 
@@ -48,7 +48,7 @@ fn around(p: usize, [width, height]: [usize; 2]) -> impl Iterator<Item = usize> 
 }
 
 /// Replaces the GPU's vessels by the CPU's where vessels tie. Around ties it also replaces depths, if the
-/// filter within zones used other neighbours and they differ by less than a leap.
+/// filter within zones used other neighbours and the depths differ by less than a leap.
 ///
 /// # Panics
 /// For more pixels than [`TIED`] allows.

@@ -10,7 +10,7 @@ use lumencut_io::{Error, Line, junctions, read, write_mrk_json, write_vtp};
 
 pub use packed::vtp as packed_vtp;
 
-/// Reading a file may use at most this many times the size of the file in memory.
+/// Maximum memory for reading a file, as a multiple of the file's size.
 const MOST_TIMES: usize = 10;
 /// Files smaller than this (bytes) may use as much memory as a file of this size.
 const SMALL: usize = 1 << 20;

@@ -1,4 +1,4 @@
-//! Gives a line that runs along another line, without sharing its points, the points of that line.
+//! If a line runs along another one without sharing its points, it takes over the points of the other line.
 
 use std::cell::Cell;
 
@@ -21,7 +21,7 @@ const SHORTEST_STRETCH: f64 = 10.0;
 const MOST_COMPARISONS: usize = 1 << 26;
 
 pub(super) struct Followed {
-    /// Number of ends of paths that follow another path.
+    /// Number of ends at which a path follows another one.
     pub ends: usize,
     /// Whether all comparisons were made within the limit.
     pub whole: bool,
@@ -153,7 +153,8 @@ impl Walk<'_> {
             (at, last, length, before) = (segment, i, length + step, point);
         }
         let shortest = SHORTEST_STRETCH * self.tolerance(0, false);
-        // A path that follows to its end takes the nearest end point; others leave after the segment.
+        // A path that follows the other one to its own last point takes the nearer end of the last segment; a path that
+        // leaves earlier takes that segment's start.
         let whole = last + 1 == self.path.nodes.len();
         let nearer_end = whole && at + 1 < self.other.nodes.len() && {
             before.distance(self.other_point(at + 1)) < before.distance(self.other_point(at))

@@ -16,7 +16,7 @@ enum Partner {
 struct Edge {
     /// Ids of both ends; the smaller one is first.
     nodes: [Id; 2],
-    /// The first path through this edge that has a radius, and the number of the path's step.
+    /// The first path with radii through this edge, and the number of its step that is this edge.
     radius: Option<[Id; 2]>,
     partners: [Partner; 2],
     /// Whether all paths through this edge have a group.
@@ -119,7 +119,7 @@ impl Graph {
         }
     }
 
-    /// Joins two grouped edges that end at a point. Elsewhere all edges end unless each has one partner.
+    /// Joins two grouped edges that end at a point. At other points, all edges end unless each has one partner.
     fn join_groups(&mut self, places: usize) {
         let incidence = Incidence::new(places, self.edges.len(), |edge| self.edges[edge].nodes);
         for place in 0..places {

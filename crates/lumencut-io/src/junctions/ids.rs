@@ -1,4 +1,4 @@
-//! Ids and tables that need little memory, because the points of large files need most of it.
+//! Ids and tables that need little memory, because the points of large files already need much.
 
 use std::hash::{BuildHasher, Hash, RandomState};
 

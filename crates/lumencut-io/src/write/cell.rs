@@ -5,8 +5,8 @@ use std::borrow::Cow;
 /// Characters with which a formula starts.
 const FORMULA: [char; 6] = ['=', '+', '-', '@', '\t', '\r'];
 
-/// The text of a cell. If it looks like a formula but is not a number, an apostrophe is put in front. So is
-/// one more before text that already has such apostrophes, so that reading restores each text.
+/// The text of a cell. If it looks like a formula but is not a number, an apostrophe is put in front. If text
+/// begins with apostrophes before a formula, it gets one more, so that reading can restore it.
 pub fn marked_cell(text: &str) -> Cow<'_, str> {
     if text.trim_start_matches('\'').starts_with(FORMULA) && !is_number(text) {
         return Cow::Owned(format!("'{text}"));

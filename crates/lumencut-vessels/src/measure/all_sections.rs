@@ -19,7 +19,7 @@ pub(crate) struct AllSections {
 
 impl AllSections {
     /// Prior knowledge of section `n`, and the second solution of its fit ([`Fit::other`]). Only every `every`-th
-    /// section was fitted; between these the lumen is interpolated. Without any fit, `estimate` gives it.
+    /// section was fitted; between these the lumen is interpolated, or is `estimate` if a fit is missing.
     pub(crate) fn known(
         &self,
         n: usize,

@@ -75,7 +75,7 @@ fn without_spikes(walls: &[f64], own: impl Fn(usize) -> f64) -> Vec<f64> {
         .collect()
 }
 
-/// Wall distances found only from where the rays end, for a blur of `width` mm; None if too few rays end.
+/// Wall distances where the rays end (at edges or bright material); None if too few end. `width` is the blur (mm).
 pub(crate) fn wall_by_rays(rays: &[Ray], width: f64) -> Option<Vec<f64>> {
     let end = |ray: &Ray| ray.edge.or_else(|| ray.bright_at.map(|_| within_rim(ray.rim, width)));
     let mut ends: Vec<f64> = rays.iter().filter_map(end).collect();

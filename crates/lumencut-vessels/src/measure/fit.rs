@@ -21,7 +21,7 @@ const TUKEY: f64 = 5.0;
 /// Maximum number of steps before, and after, the samples are reweighted.
 const STEPS: [usize; 2] = [12, 8];
 
-/// Factor of the fitted variances: weights that fall linearly reduce the variance of a mean more than they imply.
+/// Σw² / Σw for weights w that fall linearly to 0: a fit gives the variance σ² / Σw, but a mean has σ² Σw² / (Σw)².
 const EVENLY_FALLING: f64 = 2.0 / 3.0;
 
 /// Prior knowledge for a fit: means and standard deviations. Levels are fractions of the contrast.
@@ -150,7 +150,7 @@ fn plain<const N: usize>(expected: &Expected) -> Vec<Term<N>> {
     vec![Term::one(LUMEN, expected.lumen), Term::one(BACKGROUND, expected.background)]
 }
 
-/// Priors for the model with a wall, whose surroundings may differ from side to side.
+/// Priors for the model with a wall, and with surroundings that differ from side to side.
 fn walled(expected: &Expected, known: &KnownWall, start: &Ellipse) -> Vec<Term<WALLED>> {
     let mut terms = plain(expected);
     terms.push(Term::one(WALL, known.level));

@@ -24,11 +24,12 @@ const STRETCH: (f64, f64) = (0.4, 0.06);
 /// Minimum fraction of directions in which nothing obstructs the wall.
 const LEAST_FREE: f64 = 0.35;
 
-/// The lumen level is read within this fraction of the radius if the blurred peak reaches `LEAST_PEAK`.
+/// The lumen level is read within this fraction of the radius, if blur leaves at least `LEAST_PEAK` of the peak.
 const MIDDLE: f64 = 1.0 / 3.0;
 const LEAST_PEAK: f64 = 0.95;
 
-/// Two parts of the standard deviation of that level: a fraction of the contrast, and a multiple of the voxel noise.
+/// Two parts of the standard deviation of the lumen level: a fraction of the contrast, and a multiple of the voxel
+/// noise.
 const SEEN: (f64, f64) = (0.02, 0.33);
 
 /// Voxels of a section, without those affected by obstacles such as calcium.

@@ -21,12 +21,12 @@ const UNSURE_SHARE: f64 = 1.0 / 3.0;
 /// the sections is added, so a vessel at 45° to its centerline has no jumps.
 const JUMP: f64 = 0.5;
 
-/// Half of that movement suffices if also the diameter changes by this factor, or the level by this fraction.
+/// Half of the movement `JUMP` suffices if the diameter also changes by this factor, or the level by this fraction.
 const OTHER: (f64, f64) = (1.4, 0.25);
 
 impl Profile {
-    /// Reasons not to suggest each section, as bits. Changes of lumen and flaps also mark the sections within
-    /// one diameter.
+    /// For each section, the reasons not to suggest it, as bits. Changes of lumen and flaps also mark the
+    /// sections within one diameter.
     pub fn hindrances(&self) -> Vec<u32> {
         let mut found: Vec<u32> = (0..self.len()).map(|n| self.flags[n] & FLAGGED | self.unsure(n)).collect();
         let measured: Vec<usize> = (0..self.len()).filter(|n| self.area[*n].is_finite()).collect();

@@ -40,7 +40,7 @@ pub(crate) fn minimum<const N: usize>(
     steps: usize,
     mut evaluate: impl FnMut(&[f64; N]) -> Option<Normal<N>>,
 ) -> Option<Minimum<N>> {
-    /// The iteration stops if the relative decrease of the cost is smaller.
+    /// The iteration stops if the relative decrease of the cost is below this.
     const ENOUGH: f64 = 1e-4;
     let mut best = Minimum { at: start, normal: evaluate(&start)? };
     let mut damping = 1e-3;

@@ -20,8 +20,8 @@ pub(crate) struct MeasuredPart {
 }
 
 impl MeasuredPart {
-    /// Finds the measurable part; `radius` is the approximate radius (mm), if known. If the entire vessel
-    /// shows no wall, the part is the longest run of 10 mm pieces that do.
+    /// Finds the measurable part; `radius` is the approximate radius (mm), if known. If no wall is found for
+    /// the vessel as a whole, the part is the longest run of 10 mm pieces that show one.
     pub(crate) fn of(voxels: &Voxels, places: &[SectionPlane], radius: Option<f64>) -> Result<Self> {
         let whole = Scale::of(voxels, places, radius);
         match whole {

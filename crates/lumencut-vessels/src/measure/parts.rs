@@ -5,7 +5,7 @@
 pub struct Parts {
     /// Effect of image noise.
     pub noise: f64,
-    /// Effect of an error in the width of the point spread; its sign is that of the effect of a wider one.
+    /// Effect of an error in the width of the point spread; positive if a wider one would increase the diameter.
     pub point_spread: f64,
     /// Effect of errors in the level and thickness of the wall.
     pub wall: f64,

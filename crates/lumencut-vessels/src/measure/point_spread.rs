@@ -24,7 +24,7 @@ const FREE: f64 = 0.95;
 const LEAST_MISSED: f64 = 1.5;
 const ROUND: f64 = 1.35;
 
-/// Range of the search in smallest and largest voxel sides; the width is at most `SHARE` of a section's diameter.
+/// The width is searched from 0.3 smallest voxel sides to 3 largest ones, and up to `SHARE` of a section's diameter.
 const SEARCH_RANGE: [f64; 2] = [0.3, 3.0];
 const SHARE: f64 = 0.5;
 

@@ -24,7 +24,7 @@ pub(crate) fn pooled(at: &[f64], levels: &[Option<Level>]) -> Vec<Level> {
     at.iter().map(|at| level(*at, &levels)).collect()
 }
 
-/// Weighted median of the sorted levels; its standard deviation is the scatter of nearby levels beyond their own.
+/// Weighted median of the sorted levels; its deviation is their scatter beyond their own standard deviations.
 fn level(at: f64, levels: &[(f64, Level)]) -> Level {
     let weights: Vec<f64> = levels
         .iter()

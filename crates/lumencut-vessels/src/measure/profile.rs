@@ -8,11 +8,15 @@ use super::ellipse::Ellipse;
 use super::fit::Fit;
 use super::flags::{CALCIUM, LEFT_OUT, METAL};
 use super::parts::Parts;
+use super::rays::RAYS;
 use super::scale::Scale;
 use super::section_plane::SectionPlane;
 use super::sections::{Section, center};
 use super::wall::Wall;
 use super::wall_level::WallSource;
+
+/// Number of points of a contour; a section without a lumen has none.
+pub const CONTOUR_POINTS: usize = RAYS;
 
 /// Where the width of the point spread comes from.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -21,13 +21,13 @@ const SAMPLE: f64 = 0.4;
 pub(crate) struct Ray {
     /// Edge of the lumen; None if the ray does not reach it.
     pub edge: Option<f64>,
-    /// Where anything but plain surroundings starts (neighbour, calcium, metal); infinite if nothing does.
+    /// Distance at which a neighbour, calcium or metal starts; infinite if there is none.
     pub limit: f64,
-    /// Where material too bright for lumen starts, if any.
+    /// Distance at which material too bright for lumen starts, if any.
     pub(crate) bright_at: Option<f64>,
     /// Largest value in the millimetre after `bright_at` (fraction of the contrast); 0 if nothing is too bright.
     pub brightest: f64,
-    /// Where the values rise above, and fall below, the mean of lumen level and `brightest`.
+    /// Distances at which the values rise above, and fall below, the mean of lumen level and `brightest`.
     pub rim: [f64; 2],
     /// Distance at which the ray leaves the volume, if it does.
     pub(crate) outside_at: Option<f64>,

@@ -21,7 +21,7 @@ const STEEP: f64 = 0.4;
 /// The surroundings are searched up to this distance beyond the wall (mm).
 const BEYOND: f64 = 1.5;
 
-/// Maximum width of a bright rim (mm); minimum fall of the values behind it, as a fraction of its excess over lumen.
+/// Maximum width of a bright rim (mm); minimum fall behind it, as a fraction of the rim's excess over lumen.
 const MAX_RIM_MM: f64 = 4.0;
 const RIM_SHARE: f64 = 0.1;
 

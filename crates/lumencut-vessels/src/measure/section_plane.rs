@@ -12,7 +12,8 @@ use lumencut_core::vessel_tree::Vessel;
 /// Directions are smoothed by a Gaussian. Its width is half of the radius, clamped to this range (mm).
 const SMOOTHING: [f64; 2] = [1.0, 8.0];
 
-const MOST_SECTIONS: u32 = 20_000;
+/// Maximum number of sections of a vessel.
+pub const MOST_SECTIONS: u32 = 20_000;
 
 /// A vessel counts as parallel to an axis if the cosine of their angle exceeds this.
 const ALONG: f64 = 0.9;
@@ -24,8 +25,8 @@ pub struct SectionPlane {
     pub at: f64,
     /// Point of the vessel (mm, LPS).
     pub origin: DVec3,
-    /// Unit vectors within the plane that point right and down in its image. The view follows a vessel that starts
-    /// towards the head and opposes any other, so the patient's left is on the right in axial sections.
+    /// Unit vectors within the plane that point right and down in its image. The image is seen along a vessel that
+    /// starts towards the head, and against any other vessel. So axial sections show the patient's left on the right.
     pub axes: [DVec3; 2],
     /// Unit vector along the vessel.
     pub normal: DVec3,

@@ -36,7 +36,7 @@ const RAY_BEYOND: (f64, f64) = (2.0, 1.5);
 /// Diameters below this multiple of the point spread get the flag [`AT_LIMIT`].
 pub(crate) const LIMIT: f64 = 1.5;
 
-/// A contour is irregular if the root mean square of its relative differences from the ellipse is larger.
+/// A contour is irregular if the root mean square of its relative differences from the ellipse exceeds this.
 const ROUGH_WALL: f64 = 0.12;
 
 /// Minimum contrast of a lumen, in multiples of the noise.

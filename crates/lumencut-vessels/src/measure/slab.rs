@@ -108,7 +108,7 @@ pub(crate) fn thickness(voxels: &Voxels, place: &SectionPlane) -> f64 {
     [sides.x_axis, sides.y_axis, sides.z_axis].iter().map(|side| side.dot(place.normal).abs()).sum()
 }
 
-/// Range of voxels of a row within `thickness` of the plane; the first is at distance `z`, which grows by `dz`.
+/// Range of voxels of a row within `thickness` of the plane; the first is `z` mm away, each next one `dz` mm more.
 fn within(z: f64, dz: f64, thickness: f64, count: i32) -> Option<(i32, i32)> {
     let last = f64::from(count - 1);
     if dz.abs() < 1e-9 {

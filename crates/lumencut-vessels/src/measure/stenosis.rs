@@ -19,7 +19,7 @@ use lumencut_core::named::Named;
 /// The reference diameter is the median of the sections within this distance (mm).
 pub(crate) const REFERENCE_REACH: f64 = 1.5;
 
-/// A distal vessel is itself narrowed if it is below this fraction of the vessel on the other side of the stenosis.
+/// A distal vessel is itself narrowed below this fraction of the diameter on the other side of the stenosis.
 pub(crate) const NARROWED: f64 = 0.5;
 
 /// The same limit relative to a comparison vessel, such as the contralateral one (Bartlett et al. 2006, AJNR 27:632).

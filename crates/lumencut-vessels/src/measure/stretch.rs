@@ -107,8 +107,8 @@ pub fn towards_detector(CArm { lao, cranial }: CArm) -> DVec3 {
     DVec3::new(lao.sin() * cranial.cos(), -lao.cos() * cranial.cos(), cranial.sin())
 }
 
-/// The direction that is up in the C-arm image (LPS), towards the head. Exactly from above or below it is the
-/// limit of neighbouring views: towards the back from above, towards the front from below.
+/// The direction that is up in the C-arm image (LPS), towards the head. In a view exactly from above or
+/// below, it is the limit of neighbouring views: towards the back from above, towards the front from below.
 pub fn up_at_detector(CArm { lao, cranial }: CArm) -> DVec3 {
     DVec3::new(-lao.sin() * cranial.sin(), lao.cos() * cranial.sin(), cranial.cos())
 }

@@ -24,12 +24,12 @@ const CALIBRE_STEP: f64 = 1.25;
 const MIN_DISTANCE_MM: f64 = 1.0;
 
 /// Maximum ratio of the axes of a section, to exclude outliers of the fit: on its own, and with similar neighbours.
-/// `NEIGHBOURS` is their maximum distance (mm), minimum number, and by what fraction they may be shorter.
+/// `NEIGHBOURS`: maximum distance (mm), minimum number, and fraction by which their longest diameter may be shorter.
 const ROUND: [f64; 2] = [1.3, 2.0];
 const NEIGHBOURS: (f64, usize, f64) = (2.5, 4, 0.1);
 
-/// A narrowest place is a tapering end if the vessel is at least the first factor wider on one side, and
-/// nowhere the second factor wider on the other.
+/// The narrowest place is a tapering end if the vessel is at least 1.25 times as wide on one side, but
+/// nowhere 1.1 times as wide on the other side.
 const THIN_END: [f64; 2] = [1.25, 1.1];
 
 /// Number of sections on each side that enter a median width, because single sections may be outliers.
@@ -193,7 +193,7 @@ impl Profile {
         offered.min_by(|a, b| away(a.at).total_cmp(&away(b.at))).copied()
     }
 
-    /// Median diameter around a section; None if its walls are not parallel or `but` lies inside the window.
+    /// Median diameter around a section; None if its walls are not parallel or the place `but` lies near.
     fn parallel(&self, n: usize, but: f64) -> Option<f64> {
         let here = self.arc_length[n];
         let (reach, share) = PARALLEL;

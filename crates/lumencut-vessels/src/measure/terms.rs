@@ -22,7 +22,7 @@ impl<const N: usize> Term<N> {
         Self { parameter, by: unit(parameter), level, start: level[0] }
     }
 
-    /// Makes the prior depend on another parameter: `share` times the other's difference from `mean` is subtracted.
+    /// Applies the prior to the parameter minus `share` times the difference of the parameter `other` from `mean`.
     #[must_use]
     pub(crate) fn less(mut self, other: usize, share: f64, mean: f64) -> Self {
         self.by[other] = -share;

@@ -27,7 +27,7 @@ pub(crate) struct Wall {
     pub level: Level,
     /// Logarithm of the thickness (mm), and its standard deviation.
     pub(crate) log_thickness: Level,
-    /// Change of the log thickness per change of the level: a thin, bright wall looks like a thick one.
+    /// Change of the log thickness per change of the level: a thin, bright wall looks like a thick, dark one.
     pub slope: f64,
     /// Harmonics of the surroundings, as fractions of the contrast; see [`super::model::ThreeLevels`].
     pub sectors: [f64; HARMONICS],

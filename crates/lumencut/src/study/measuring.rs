@@ -1,7 +1,8 @@
 //! Measures the shown lines in the same way as Python's `lumencut.measure(volume, vessel, 0.5, fwhm, tree=tree)`.
 
+use crate::profile_json::{Asked, vessels_json};
 use crate::profile_marks::{Grade, Measured};
-use crate::profile_record::{Asked, vessels_json};
+use crate::profile_record::ProfileRecord;
 use crate::profile_table::vessels_csv;
 use lumencut_core::stop::Stop;
 use lumencut_vessels::measure::measuring::STEP;
@@ -28,6 +29,16 @@ impl Study {
     /// The profile of a shown line, with the point-spread width that was last requested for it.
     pub fn measured(&mut self, line: usize, stop: Stop) -> Result<&Profile> {
         self.profile(line, self.profiles.width(line), stop)
+    }
+
+    /// The record of a line's profile as text.
+    pub(crate) fn profile_record(&mut self, line: usize, stop: Stop) -> Result<String> {
+        let number = self.profiles.of(
+            &self.content,
+            line,
+            &ProfileParameters { fwhm: self.profiles.width(line), stop },
+        )?;
+        Ok(ProfileRecord::of(self.profiles.kept(number), self.content.scan()).text())
     }
 
     pub(crate) fn forget_profiles(&mut self) {

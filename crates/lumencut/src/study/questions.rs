@@ -189,6 +189,9 @@ of_the_study {
     [Turn::First] profiles_json { vessels: Vec<VesselMessage>, is_millimetre_assumed: bool } -> String =
         study.profiles_json(&vessels, is_millimetre_assumed, asking.watch.stop)?;
 
+    /// The record of a line's profile, for the width that was last requested. Python reads it as a `Profile`.
+    [Turn::First] profile_record { line: usize } -> String = study.profile_record(line, asking.watch.stop)?;
+
     /// The findings on vessels and the straight distances (mm), in the sentences of the report.
     [Turn::First] findings { vessels: Vec<VesselMessage>, distances: Vec<f64>, stated: Stated } -> Findings =
         study.findings(&vessels, &distances, (stated, asking.watch.stop))?;

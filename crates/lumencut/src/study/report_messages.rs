@@ -4,7 +4,7 @@ use lumencut_core::stop::Stop;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value as Json};
 
-use crate::profile_record::Asked;
+use crate::profile_json::Asked;
 use crate::report::{
     Lengths, Plan, ReportMark, Sentence, Shown, Stated, Strip, VesselPage, View, distances, html, plan,
     sentences,

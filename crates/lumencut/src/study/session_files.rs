@@ -22,7 +22,7 @@ const GRID_TOLERANCE_MM: f64 = 1e-3;
 pub(crate) struct SessionContent {
     lines: Vec<NamedLine>,
     doubtful_lines: Vec<NamedLine>,
-    #[cfg_attr(test, ts(type = "SavedSession"))]
+    #[cfg_attr(test, ts(as = "Session"))]
     session: Value,
 }
 

@@ -3,8 +3,8 @@ use lumencut_vessels::measure::stenosis::{Compared, Method};
 
 use super::*;
 use crate::measure_words::MILLIMETRE_ASSUMED;
+use crate::profile_json::vessels_json;
 use crate::profile_marks::{Grade, Marked};
-use crate::profile_record::vessels_json;
 use crate::profile_table::vessels_csv;
 use crate::scan_details::ScanDetails;
 use crate::tube::tube;

@@ -48,14 +48,11 @@ class Pane {
     this.svg.setAttribute('viewBox', `-0.5 -0.5 ${this.size[0]} ${this.size[1]}`);
   }
 
-  /** Column and row of a place on the screen; (0, 0) is the middle of the first pixel. */
-  pixelOf(event) {
+  /** Column and row of a place on the screen, from the top left; (0, 0) is the middle of the first pixel. */
+  pixelOf([x, y]) {
     const box = this.element.getBoundingClientRect();
     const [width, height] = this.size;
-    return [
-      ((event.clientX - box.left) / box.width) * width - 0.5,
-      ((event.clientY - box.top) / box.height) * height - 0.5,
-    ];
+    return [(x / box.width) * width - 0.5, (y / box.height) * height - 0.5];
   }
 
   /** How many pixels of the picture one of the screen is. */

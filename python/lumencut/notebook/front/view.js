@@ -67,14 +67,14 @@ function render({ model, el }) {
     model.on(name, act);
   }
   const stop = new AbortController();
-  const pointers = Object.values(panes).map((pane) => new Pointers(pane, asker));
+  const pointers = Object.values(panes).map((pane) => new gestures.Pointers(pane, asker));
   for (const one of pointers) {
     one.listen(stop.signal);
   }
   // JupyterLab, which hears keys before the view does, leaves those to it that have this: no other ones.
   const claim = (event) => {
     const heard = pointers.find(({ pane }) => pane.element === event.target);
-    root.toggleAttribute('data-lm-suppress-shortcuts', Boolean(heard?.stepsOf(event)));
+    root.toggleAttribute('data-lm-suppress-shortcuts', Boolean(heard?.stepOf(event)));
   };
   window.addEventListener('keydown', claim, { capture: true, signal: stop.signal });
   tell(model.get('_shown').words, false);

@@ -1,4 +1,4 @@
-"""Compares the values of slices at one place; the judge sees only headers."""
+"""Compares the values of slices at the same position, because the core sees only headers."""
 
 from __future__ import annotations
 
@@ -36,13 +36,13 @@ def same_values(pairs: Sequence[tuple[Slice, Slice]], notes: list[str]) -> Itera
 
 
 def _are_copies(one: Image, other: Image) -> bool:
-    """Whether two files have one identifier; frames of one file are no copies."""
+    """Return whether two files have the same UID; two frames of one file are not copies."""
     first, second = (image.header.get("SOPInstanceUID") for image in (one, other))
     return one is not other and bool(first) and first == second
 
 
 def _same_bytes(one: Image, other: Image) -> bool:
-    """Whether two files are the same to the byte."""
+    """Return whether two files have the same bytes."""
     if one.source.size != other.source.size:
         return False
     with one.source.open() as first, other.source.open() as second:

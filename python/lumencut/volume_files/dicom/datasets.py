@@ -21,7 +21,7 @@ _PIXELS = ("PixelData", "FloatPixelData", "DoubleFloatPixelData")
 
 @dataclass(frozen=True, eq=False)
 class _Held(Source):
-    """The pixels of a dataset instead of a file; they begin at its first byte."""
+    """The pixels of a dataset in memory, used like a file whose first byte is the first of the pixels."""
 
     number: int = 0
     pixels: bytes = b""
@@ -29,7 +29,7 @@ class _Held(Source):
 
     @property
     def name(self) -> str:
-        """Its place in the list, from 0."""
+        """Return the number of the dataset in the list, from 0."""
         return f"dataset {self.number}"
 
     def __str__(self) -> str:
@@ -85,16 +85,16 @@ def _image(number: int, dataset: Any) -> Image:
     element = dataset[keyword] if keyword else None
     pixels = (element.value if element else None) or b""
     if not isinstance(pixels, bytes):
-        # pydicom 3 takes buffers too, which it reads when the dataset is written.
+        # pydicom 3 also accepts buffers, which it reads only when the dataset is written.
         raise FormatError(f"{_SUBJECT}: dataset {number}", type(pixels).__name__, "pixels as bytes")
-    # Before a dataset is written, the type of its pixels may be open.
+    # Until a dataset is written, the type of its pixels may be undecided.
     vr = element.VR if element and len(element.VR) == 2 else "OW"
     source = _Held(_SUBJECT, len(pixels), number=number, pixels=pixels, dataset=dataset)
     return Image(source, _header(dataset), 0, keyword, vr)
 
 
 def _chosen(dataset: Any, tags: Sequence[int]) -> Header:
-    """Some attributes of a dataset, those that it has."""
+    """Return those of some attributes that a dataset has."""
     from pydicom.dataset import Dataset
 
     header = Dataset()
@@ -105,7 +105,7 @@ def _chosen(dataset: Any, tags: Sequence[int]) -> Header:
 
 
 def _header(dataset: Any) -> Header:
-    """The attributes that are read from files; a dataset that was never in a file has fewer."""
+    """Return the attributes that are read from files; a dataset made in memory may have fewer."""
     from pydicom.dataset import FileMetaDataset
 
     header = _chosen(dataset, header_tags())

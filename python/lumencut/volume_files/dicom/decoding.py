@@ -28,7 +28,7 @@ PLUGINS = {
 def decode_native(
     syntax: str, stream: BinaryIO | bytes, frame: int, options: dict[str, Any]
 ) -> npt.NDArray[Any]:
-    """Read one frame of uncompressed pixels from a stream at the first frame."""
+    """Read one frame of uncompressed pixels from a stream whose position is at the frame."""
     from pydicom.pixels.decoders.base import get_decoder
 
     return np.asarray(get_decoder(syntax).as_array(stream, index=frame, **options)[0])
@@ -62,7 +62,7 @@ def _decoded(syntax: str, frame: bytes, options: dict[str, Any]) -> npt.NDArray[
 
 
 def _jpeg_of_12_bits(frame: bytes, options: dict[str, Any]) -> npt.NDArray[Any]:
-    """Decode JPEG Extended beyond 8 bits, which GDCM can decode, but not through pydicom."""
+    """Decode JPEG Extended with more than 8 bits; GDCM can decode it, but not when called by pydicom."""
     import gdcm
 
     fragment = gdcm.Fragment()
@@ -81,14 +81,14 @@ def _jpeg_of_12_bits(frame: bytes, options: dict[str, Any]) -> npt.NDArray[Any]:
     image.SetTransferSyntax(gdcm.TransferSyntax(gdcm.TransferSyntax.GetTSType(_JPEG_EXTENDED)))
     stored, signed = options["bits_stored"], options["pixel_representation"]
     image.SetPixelFormat(gdcm.PixelFormat(1, options["bits_allocated"], stored, stored - 1, signed))
-    # GDCM gives its bytes as a text.
+    # GDCM returns bytes as a text.
     data = image.GetBuffer().encode("utf-8", "surrogateescape")
     kind = np.dtype(("i" if signed else "u") + str(options["bits_allocated"] // 8)).newbyteorder("<")
     return np.frombuffer(data, kind).reshape(options["rows"], options["columns"])
 
 
 def _require_codestream(subject: str, frame: bytes, options: dict[str, Any]) -> None:
-    """Reject a codestream of another size than the header's before its decoder allocates memory."""
+    """Reject a codestream whose size differs from the header, before a decoder allocates memory for it."""
     start = frame.find(_SIZ_MARKER)
     fields = frame[start + 8 : start + 42]
     if start < 0 or len(fields) < 34:

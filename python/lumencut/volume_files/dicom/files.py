@@ -1,4 +1,4 @@
-"""DICOM files of a folder, an archive or alone, each with its header, raw and for the judge."""
+"""DICOM files of a folder, an archive or a single file, with their headers."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from lumencut.volume_files.opened import Progress, refusing
 
 @dataclass(frozen=True, eq=False)
 class File:
-    """A file that was looked into: its header if it is DICOM, and the record that it is judged by."""
+    """A file that was examined: its header if it is DICOM, and the record of the header for the core."""
 
     source: Source
     image: Image | None
@@ -36,7 +36,7 @@ def read_files(path: Path, notes: list[str], progress: Progress | None = None) -
 
 
 def recorded(source: Source, image: Image | None) -> File:
-    """Add the record to a file; this reads every value of its header."""
+    """Add the record of the header to a file; this reads every value."""
     if image is None:
         return File(source, None, {"name": source.name, "kind": not_dicom(source)})
     return File(source, image, {"name": source.name, "header": header_record(image)})

@@ -1,4 +1,4 @@
-"""The header of one DICOM file: the attributes that series are judged by and that pixels are read with."""
+"""The header of one DICOM file: the attributes needed to choose series and to read pixels."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def transfer_syntax(header: Header) -> Any:
 
 
 def read_header(source: Source) -> Image | None:
-    """Read the attributes of one file, None if it is no DICOM."""
+    """Read the attributes of one file; None if it is not DICOM."""
     head = source.head(_HEAD)
     if not is_dicom(head):
         return None
@@ -88,7 +88,7 @@ def _deflated(source: Source) -> Image:
 
 
 def _within(source: Source, head: bytes) -> Image | None:
-    """The header if it ends within these bytes, where the element of pixels must begin."""
+    """Return the header if it ends within these bytes, where the pixels must begin."""
     stream = io.BytesIO(head)
     try:
         header = _parsed(stream)
@@ -113,7 +113,7 @@ def _parsed(stream: Any) -> Header:
 
 @cache
 def header_tags() -> list[int]:
-    """The tags of the attributes that are asked for."""
+    """Return the tags of the attributes to read."""
     from pydicom.datadict import tag_for_keyword
 
     keywords = (*_OWN_KEYWORDS, *DICOM_ATTRIBUTES)
@@ -121,7 +121,7 @@ def header_tags() -> list[int]:
 
 
 def _with_pixels(source: Source, header: Header, element: bytes, start: int) -> Image:
-    """Look at the element (at byte `start`) before which the parser stopped."""
+    """Read the element (at byte `start`) before which the parser stopped."""
     implicit, little = header.original_encoding
     tag = struct.unpack("<HH" if little else ">HH", element[:4].ljust(4, b"\0"))
     keyword = _PIXELS.get(tag, "")

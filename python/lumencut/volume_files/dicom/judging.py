@@ -1,6 +1,6 @@
-"""The judgement of headers by the core: one series as a stack of slices, or the reason against it.
+"""Lets the core decide about headers: a series is a stack of slices, or there is a reason why not.
 
-The judgements are those of the crate ``lumencut-dicom``, which every host shares; here its answers become
+The crate ``lumencut-dicom``, which every host uses, decides; here its answers become
 objects and errors of Python.
 """
 
@@ -28,7 +28,7 @@ from lumencut.volume_files.dicom.stack import Fill, Slice, Stack
 
 @dataclass(frozen=True)
 class Wanted:
-    """The choice of series, phase, segments and mends for a DICOM folder."""
+    """The requested series, phase, segments and remedies for a DICOM folder."""
 
     series: str | None = None
     phase: str | None = None
@@ -68,7 +68,7 @@ def _plan(path: Path, files: Sequence[File], wanted: Wanted, unlike: Sequence[Re
 
 
 def _unlike(plan: Record, files: Sequence[File], notes: list[str]) -> list[Record]:
-    """The pairs of a plan that count as one slice although their values differ."""
+    """Return the pairs of a plan that count as one slice although their values differ."""
     pairs = plan["compared"]
     slices = [(_slice(files, pair["kept"]), _slice(files, pair["other"])) for pair in pairs]
     return [pair for pair, is_same in zip(pairs, same_values(slices, notes), strict=True) if not is_same]
@@ -99,12 +99,12 @@ def headers_document(files: Sequence[File], unlike: Sequence[Record] = ()) -> by
 
 def wanted_document(wanted: Wanted) -> bytes:
     """Return the choice in the form of the core."""
-    # The core checks only series, which have no segments.
+    # The core chooses only series, not segments.
     return _document({name: value for name, value in asdict(wanted).items() if name != "segments"})
 
 
 def _document(record: Record) -> bytes:
-    # Values for the judge contain no letters outside UTF-8.
+    # Values for the core must be valid UTF-8.
     return json.dumps(record, ensure_ascii=False, allow_nan=False).encode("utf-8", "replace")
 
 

@@ -1,7 +1,7 @@
 """The stored pixels of the slices of a stack, in their order.
 
-Uncompressed pixels are read here. Compressed ones are decoded by separate processes, or here where they
-are few and their decoder takes damage as an ordinary error.
+Uncompressed pixels are read here. Compressed ones are decoded in separate processes, or here if there are
+few and their decoder reports damage by an ordinary error.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ class PixelReader:
         self._slices, self._notes = iter(slices), notes
         self._last: _OpenImage | None = None
         self._workers: Workers | None = None
-        # Sending unpacked frames of RLE between processes takes longer than unpacking them.
+        # Sending unpacked RLE frames between processes takes longer than unpacking them here.
         packed = [one for one in slices if PLUGINS.get(one.image.transfer_syntax) in ("gdcm", "pylibjpeg")]
         if len(packed) > _FEW or any(PLUGINS[one.image.transfer_syntax] == "gdcm" for one in packed):
             self._workers = Workers(map(self._request, packed), len(packed) // 8 + 1)
@@ -77,7 +77,7 @@ class PixelReader:
             return Request(subject, str(image.transfer_syntax), frame, _options(image), 4 * claimed)
 
     def _opened(self, image: Image) -> _OpenImage:
-        """The file of an image, kept open while slices of it are read."""
+        """Return the open file of an image; it stays open while its slices are read."""
         if self._last is None or self._last.image is not image:
             if self._last is not None:
                 self._last.stream.close()
@@ -107,7 +107,7 @@ def check_pixels(images: Iterable[Image]) -> bool:
 
 
 class _OpenImage:
-    """The open file of an image, at the first of its pixels."""
+    """The open file of an image, positioned at the first pixel."""
 
     def __init__(self, image: Image) -> None:
         if not image.pixel_keyword:
@@ -127,7 +127,7 @@ class _OpenImage:
             if held < length * image.frame_count:
                 raise _too_short(image, held)
             return decode_native(syntax, self.stream, frame, options)
-        # Frames in order are read one by one; those in another order, or of odd lengths, are all kept in
+        # Frames in their order are read one by one; otherwise, or with odd lengths, all frames are kept in
         # memory.
         if self._held is None and frame == self._next and length % 2 == 0:
             self._next += 1
@@ -139,7 +139,7 @@ class _OpenImage:
 
     def _read(self, needed: int, frames: int) -> bytes:
         """The bytes of some frames of a packed file; after the last one the checksum is verified."""
-        # An odd number of bytes is padded by one.
+        # An odd number of bytes is followed by a padding byte.
         pixels = self.stream.read(needed + needed % 2)
         if len(pixels) < needed:
             raise _too_short(self.image, len(pixels))
@@ -173,7 +173,7 @@ class _OpenImage:
 
 
 def _options(image: Image) -> dict[str, Any]:
-    """The parameters of the decoder, in JSON types."""
+    """Return the parameters of the decoder in types of JSON."""
     header = image.header
     options = {
         "rows": int(header.Rows),

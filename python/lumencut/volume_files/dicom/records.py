@@ -1,4 +1,4 @@
-"""Headers as plain records, in the form of the crate ``lumencut-dicom``, which judges series by them."""
+"""Headers as plain records, in the form that the crate ``lumencut-dicom`` reads."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def header_record(image: Image) -> Record:
     for tag in tuple(header.keys()):
         value = header[tag].value
         if (keyword := keywords.get(tag)) is not None:
-            # Names are compared, and no message shows them.
+            # Names are only compared; no message shows them.
             attributes[keyword] = str(value) if keyword == "PatientName" else plain(value)
     shared = header.get("SharedFunctionalGroupsSequence") or ()
     frames = header.get("PerFrameFunctionalGroupsSequence") or ()
@@ -71,13 +71,13 @@ def _as_text() -> tuple[type, ...]:
 
 @cache
 def _keywords() -> Mapping[int, str]:
-    """The attributes that series are judged by, by their tags."""
+    """Return the attributes that the core needs, by their tags."""
     return {_tag(keyword): keyword for keyword in DICOM_ATTRIBUTES}
 
 
 @cache
 def _groups() -> tuple[tuple[int, dict[int, str]], ...]:
-    """The functional groups, and the attributes that are looked for in each."""
+    """Return the functional groups, and the attributes to read from each."""
     groups: dict[int, dict[int, str]] = {}
     for keyword, sequences in DICOM_ATTRIBUTES.items():
         for sequence in sequences:
@@ -95,7 +95,7 @@ def _tag(keyword: str) -> int:
 
 
 def _of_groups(groups: Header) -> Record:
-    """The attributes of functional groups side by side."""
+    """Return the attributes of all functional groups as one record."""
     found: Record = {}
     for sequence, keywords in _groups():
         items: Any = groups[sequence].value if sequence in groups else None
@@ -106,7 +106,7 @@ def _of_groups(groups: Header) -> Record:
 
 
 def _of_group(group: Header, tag: int) -> Any:
-    """A value of a functional group, true if damaged; the judge reports it if needed."""
+    """Return a value of a functional group, or true if it is damaged; the core reports that if it matters."""
     try:
         return plain(group[tag].value)
     except Exception:  # pydicom raises almost any exception for damaged values

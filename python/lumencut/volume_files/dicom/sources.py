@@ -117,11 +117,14 @@ def _members(path: Path) -> list[Source]:
         archive = zipfile.ZipFile(path)
     infos = sorted((info for info in archive.infolist() if not info.is_dir()), key=lambda one: one.filename)
     if any(info.flag_bits & 1 for info in infos):
-        raise FormatError(str(path), "an encrypted archive", "one without a password", "unpack it first")
+        raise FormatError(
+            str(path), "an encrypted archive", "an archive without a password", "unpack it first"
+        )
     claimed = sum(info.file_size for info in infos)
     if claimed > max(_ALWAYS_ALLOWED, _ARCHIVE_RATIO * path.stat().st_size):
-        found = f"{path.stat().st_size} bytes that claim to unpack to {claimed}"
-        raise FormatError(str(path), found, f"at most {_ARCHIVE_RATIO} times the archive", "unpack it first")
+        found = f"an archive of {path.stat().st_size} bytes that claims to unpack to {claimed} bytes"
+        expected = f"at most {_ARCHIVE_RATIO} times the size of the archive"
+        raise FormatError(str(path), found, expected, "unpack it first")
     return [Source(path, info.file_size, info.filename, archive) for info in infos]
 
 

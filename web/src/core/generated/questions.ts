@@ -1,6 +1,5 @@
 /** What the engine is asked and answers, written of `crates/lumencut/src/study/questions.rs` by `make types`; a test says where it is stale. */
 import type { Bytes, Pair, Settings, SettingValue, Turn, Vector } from '../plain';
-import type { SavedSession } from '../session-file';
 
 export type Method = 'csr' | 'csr-paper' | 'cr' | 'mpcpr';
 export type StenosisMethod = 'nascet' | 'ecst' | 'area';
@@ -601,6 +600,132 @@ export type ReportView = {
 
 export type Roll = "narrowest" | "widest";
 
+/** A doubtful branch that was found from a seed. */
+export type SavedBranch = {
+  /** Colour as `#rrggbb`. */
+  readonly color: string;
+  /** Reason for the doubt. */
+  readonly doubt: string;
+};
+
+/** An orthographic camera; its axes are unit vectors. */
+export type SavedCamera = {
+  /** Centre of the image. */
+  readonly center: Vector;
+  /** Direction from the viewer into the scene. */
+  readonly direction: Vector;
+  /** Direction that is up in the image. */
+  readonly up: Vector;
+  /** Number of columns and rows. */
+  readonly size: Pair;
+  /** Side of a pixel (mm). */
+  readonly pixel_spacing: number;
+};
+
+/** Marks that the reader set on a vessel; arc lengths and diameters are in mm. */
+export type SavedMarks = {
+  /** Arc length of a stenosis. */
+  readonly at_mm: number | null;
+  /** Arc lengths of the references. */
+  readonly references_mm: ReadonlyArray<number>;
+  /** Grading method: `nascet`, `ecst` or `area`. */
+  readonly method: string;
+  /** Assumed original diameter at the stenosis, for ECST. */
+  readonly original_mm: number | null;
+  /** Diameter of a comparable normal vessel, for NASCET. */
+  readonly comparison_mm: number | null;
+  /** Territory for grades: `carotid` or `coronary`. */
+  readonly group: string | null;
+  /** Arc lengths of the ends of a segment. */
+  readonly stretch_mm: Pair | null;
+  /** Arc lengths of the ends of a second segment. */
+  readonly second_stretch_mm: Pair | null;
+  /** Arc lengths of noted diameters; exist since version 2. */
+  readonly diameters_mm?: ReadonlyArray<number>;
+};
+
+/** A place on a vessel. */
+export type SavedPlace = {
+  /** Number of the vessel, from 0. */
+  readonly vessel: number;
+  /** Arc length (mm). */
+  readonly at_mm: number;
+};
+
+/** A straight distance between two points. */
+export type SavedRuler = {
+  /** Position of one end. */
+  readonly from: Vector;
+  /** Position of the other end. */
+  readonly to: Vector;
+};
+
+/** The grid of a scan. */
+export type SavedScan = {
+  /** Number of voxels along (i, j, k). */
+  readonly size: Vector;
+  /** World position (LPS, mm) of a continuous index, row by row. */
+  readonly world_from_index: ReadonlyArray<ReadonlyArray<number>>;
+};
+
+/** Everything in a session file except the lines. */
+export type SavedSession = {
+  /** Grid of the scan, by which the scan is recognised; None if there was no scan. */
+  readonly scan: SavedScan | null;
+  /** State of each vessel. */
+  readonly vessels: ReadonlyArray<SavedVessel>;
+  /** Branches found from a seed that the reader has not accepted yet. */
+  readonly doubtful: ReadonlyArray<SavedBranch>;
+  /** Balls that no vessel may pass. */
+  readonly stoppers: ReadonlyArray<SavedStopper>;
+  /** Whether tracing may cross stretches without lumen by straight bridges. */
+  readonly bridge: boolean;
+  /** Straight distances that the reader measured. */
+  readonly rulers: ReadonlyArray<SavedRuler>;
+  /** FWHM of the point spread that the reader stated (mm); None if it is estimated. */
+  readonly fwhm_mm: number | null;
+  /** The view of the scan, if saved. */
+  readonly view: SavedView | null;
+  /** Whether a voxel spacing of 1 mm was assumed; exists since version 2. */
+  readonly one_millimetre_assumed?: boolean;
+};
+
+/** A ball that no vessel may pass. */
+export type SavedStopper = {
+  /** Centre. */
+  readonly center: Vector;
+  /** Radius (mm). */
+  readonly radius_mm: number;
+};
+
+/** The state of a vessel, except its line. */
+export type SavedVessel = {
+  /** Colour as `#rrggbb`. */
+  readonly color: string;
+  /** Whether views leave out the vessel. */
+  readonly hidden: boolean;
+  /** Clicks in order; None if the vessel was not traced from clicks. */
+  readonly clicks: ReadonlyArray<Vector> | null;
+  /** Marks that the reader set, if any. */
+  readonly marks: SavedMarks | null;
+};
+
+/** The view of a scan. */
+export type SavedView = {
+  /** Camera of the 3D view. */
+  readonly camera: SavedCamera;
+  /** Reformation: `csr`, `csr-paper`, `mpcpr` or `cr`. */
+  readonly method: string;
+  /** Values of settings that differ from the default, by name; a window is level and width. */
+  readonly settings: Settings;
+  /** Layout of the page. */
+  readonly layout: string;
+  /** Position of the cross-hair, if it is shown. */
+  readonly cross_hair: Vector | null;
+  /** Vessel of the straightened CPR, and the place of its section. */
+  readonly picked: SavedPlace | null;
+};
+
 /** A scale bar of round length. */
 export type ScaleBar = {
   /** Length (mm). */
@@ -1068,6 +1193,13 @@ export type Questions = {
     };
     readonly answer: string;
   };
+  /** The record of a line's profile, for the width that was last requested. Python reads it as a `Profile`. */
+  readonly profile_record: {
+    readonly message: {
+      readonly line: number;
+    };
+    readonly answer: string;
+  };
   /** The findings on vessels and the straight distances (mm), in the sentences of the report. */
   readonly findings: {
     readonly message: {
@@ -1183,6 +1315,7 @@ export const TURNS = {
   angle_between: { when: 'first', words: null },
   profiles_csv: { when: 'first', words: null },
   profiles_json: { when: 'first', words: null },
+  profile_record: { when: 'first', words: null },
   findings: { when: 'first', words: null },
   report_plan: { when: 'first', words: null },
   measured_report: { when: 'first', words: null },

@@ -82,3 +82,45 @@ export const PALETTE = [
   ["#9aa8b6","grey"],
   ["#ffffff","white"],
 ] as const;
+
+/** Constants of drags, the wheel and keys. */
+export const GESTURES = {
+  /** Movement above which a press becomes a drag (px). */
+  drag_from: 4,
+  /** Time below which two clicks are a double click (ms). */
+  double_within: 350,
+  /** Largest distance of the two clicks of a double click (px). */
+  double_near: 6,
+  /** Logarithm of the zoom per pixel of the wheel (1/px). */
+  zoom_per_wheel: 0.0016,
+  /** Most pixels of one wheel event that zoom (px). */
+  most_wheel: 120,
+  /** Pixels of a line of the wheel, in browsers that report lines (px). */
+  wheel_line: 40,
+  /** Wheel movement from which an event is a notch of a mouse; trackpads report less (px). */
+  notch_from: 60,
+  /** Wheel movement of a notch (px). */
+  notch: 110,
+  /** Lines of a notch, in browsers that report lines (1). */
+  notch_lines: 3,
+  /** Movement of a trackpad that scrolls one step (px). */
+  scroll_step: 40,
+  /** Movement of a trackpad to which the same movement of a finger is equal (1). */
+  finger_gain: 4,
+  /** Steps for each one, with Shift or a page key (1). */
+  far_steps: 10,
+  /** Drag to which an arrow key is equal (px). */
+  key_step: 24,
+  /** Zoom of the keys + and - (1). */
+  key_zoom: 1.2,
+  /** Rotation of a drag as long as the view is high (rad). */
+  turn_per_height: 3.141592653589793,
+  /** Smallest pixel spacing that zooming reaches (mm). */
+  finest_spacing: 0.005,
+  /** Largest pixel spacing that zooming reaches (mm). */
+  coarsest_spacing: 20,
+  /** Part of the window's width by which a drag changes it (1/px). */
+  window_per_pixel: 0.004,
+  /** Smallest width of a window, in values of the volume (value). */
+  narrowest_window: 0.001,
+} as const;

@@ -1,26 +1,36 @@
-/** Members of a zip archive, unpacked into memory one at a time and never beyond the size they claim. */
+/** Members of a zip archive. Each is unpacked into memory on demand, and rejected if larger than the archive states. */
 import { configure, type FileEntry, Reader, ZipReader } from '@zip.js/zip.js/lib/zip-core-custom.js';
 import { Failure } from '../../core/failure';
 import type { Bytes } from '../payload';
 import type { Source } from '../source';
 import { damaged, formatFailure, printable } from '../words';
 
-/** Unpacked bytes always allowed; larger archives of real slices stay far below the ratio. */
+/** Unpacked size that is always allowed (bytes). Above it the ratio applies, which real slices never reach. */
 const ALWAYS_ALLOWED = 2 ** 30;
 const RATIO = 200;
 
-// The content security policy forbids blob workers, and this already is a worker.
+// The content security policy forbids workers from blobs; this code already runs in a worker.
 configure({ useWebWorkers: false });
 
 export async function membersOf(archive: Source): Promise<Source[]> {
   const entries = (await entriesOf(archive)).filter((entry): entry is FileEntry => !entry.directory);
   if (entries.some((entry) => entry.encrypted)) {
-    throw formatFailure(archive.path, 'an encrypted archive', 'one without a password', 'unpack it first');
+    throw formatFailure(
+      archive.path,
+      'an encrypted archive',
+      'an archive without a password',
+      'unpack it first',
+    );
   }
   const claimed = entries.reduce((sum, entry) => sum + entry.uncompressedSize, 0);
   if (claimed > Math.max(ALWAYS_ALLOWED, RATIO * archive.size)) {
-    const found = `${archive.size} bytes that claim to unpack to ${claimed}`;
-    throw formatFailure(archive.path, found, `at most ${RATIO} times the archive`, 'unpack it first');
+    const found = `an archive of ${archive.size} bytes that claims to unpack to ${claimed} bytes`;
+    throw formatFailure(
+      archive.path,
+      found,
+      `at most ${RATIO} times the size of the archive`,
+      'unpack it first',
+    );
   }
   const members = entries.map((entry) => new Member(archive.path, entry));
   return members.sort((one, other) => (one.path < other.path ? -1 : 1));

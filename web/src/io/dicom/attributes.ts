@@ -1,4 +1,4 @@
-/** Tags and value representations (PS3.6) of the attributes that the judge can ask for. */
+/** Tags and value representations (PS3.6) of the attributes that `lumencut-dicom` can ask for. */
 
 export type Vr =
   | 'CS'
@@ -19,7 +19,7 @@ export type Vr =
   | 'US or SS';
 
 interface Attribute {
-  /** Group and element in the notation of dicom-parser. */
+  /** Group and element as eight hexadecimal digits, for dicom-parser. */
   readonly tag: string;
   readonly vr: Vr;
 }

@@ -1,4 +1,4 @@
-/** Decoders of compressed frames, each loaded with the first frame that needs it. */
+/** Decoders for compressed frames. Each is loaded when the first frame needs it. */
 import type { Bytes } from '../payload';
 import type { Decoded } from './decoded';
 import { decodeLossless } from './jpeg-lossless';
@@ -73,7 +73,7 @@ export function decoderOf(name: CodecName): Promise<Decode> {
   return known;
 }
 
-/** Drops the decoder, since a failure leaves it in an unknown state; the next frame loads it again. */
+/** Drops a decoder after a failure, which may have corrupted its state. The next frame loads it again. */
 export function forgetDecoder(name: CodecName): void {
   loaded.delete(name);
 }
@@ -91,7 +91,7 @@ function decodedBy(decoder: Decoder, frame: Bytes): Decoded {
     decoder.getEncodedBuffer(frame.length).set(frame);
     decoder.decode();
     const { width, height, bitsPerSample, componentCount } = decoder.getFrameInfo();
-    // The decoder reuses its memory for the next frame.
+    // Copied, because the decoder reuses its memory for the next frame.
     const bytes = decoder.getDecodedBuffer().slice();
     return {
       columns: width,

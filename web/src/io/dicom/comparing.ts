@@ -1,11 +1,11 @@
-/** Compares the values of slices that a plan treats as copies; the judge sees headers only. */
+/** Compares the values of slices that have equal headers; `lumencut-dicom`, which makes the plan, sees only headers. */
 import type { Numbers } from '../numbers';
 import type { ExaminedFile, Image } from './headers';
 import type { Compared, Plan, PlannedSlice } from './judging';
 import { PixelReader } from './pixels';
 import { inUnit } from './stack';
 
-/** Pairs with different values; byte-identical copies are not decoded. */
+/** The pairs of slices with different values. Files with identical bytes are not decoded. */
 export async function unlikePairs(plan: Plan, files: readonly ExaminedFile[]): Promise<Compared[]> {
   const [kept, others] = [new Values(files), new Values(files)];
   const equal = new Map<string, boolean>();
@@ -30,7 +30,7 @@ class Values {
   image({ file }: PlannedSlice): Image {
     const image = this.files[file]?.image;
     if (!image) {
-      throw new Error('a plan names files with a header');
+      throw new Error('the plan of the volume names a file without a header');
     }
     return image;
   }
@@ -40,7 +40,7 @@ class Values {
   }
 }
 
-/** Two files with one identifier; frames of one file are not copies. */
+/** Whether two files have the same SOP instance UID. Frames of one file are never copies. */
 function areCopies(one: Image, other: Image): boolean {
   const uid = one.header.attributes.SOPInstanceUID;
   return one !== other && Boolean(uid) && uid === other.header.attributes.SOPInstanceUID;

@@ -1,11 +1,11 @@
-/** The result of a decoder. */
+/** A decoded frame. */
 import type { Bytes } from '../payload';
 
 export interface Decoded {
   readonly columns: number;
   readonly rows: number;
   readonly components: number;
-  /** One or two bytes each, native byte order. */
+  /** Samples of one or two bytes, in native byte order. */
   readonly bytes: Bytes;
   readonly unit: number;
 }

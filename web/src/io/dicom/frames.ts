@@ -1,4 +1,4 @@
-/** Bytes of the frames of an image. */
+/** The stored bytes of each frame of a DICOM image. */
 
 import type { Failure } from '../../core/failure';
 import type { Bytes } from '../payload';
@@ -7,13 +7,13 @@ import { damaged, formatFailure } from '../words';
 import type { Image } from './headers';
 import { parsed, SYNTAXES } from './parsing';
 
-/** Transfer syntaxes with uncompressed pixels, or with the whole file deflated. */
+/** Transfer syntaxes with uncompressed pixels, including the one that deflates the whole dataset. */
 export const NATIVE: readonly string[] = Object.values(SYNTAXES);
 
 const ITEM = 0xe000;
 const GROUP = 0xfffe;
 const END = 0xe0dd;
-/** Size of the first read; it doubles while items follow. */
+/** Bytes of the first read; the size doubles until all items are read. */
 const FIRST_WINDOW = 1 << 20;
 
 export interface Shape {
@@ -25,7 +25,7 @@ export interface Shape {
   readonly frameCount: number;
 }
 
-/** Shape stated by the header, which the judge has checked. */
+/** Size and sample type stated by the header, which `lumencut-dicom` has checked. */
 export function shapeOf({ header }: Image): Shape {
   const number = (keyword: string, otherwise: number) => {
     const value = header.attributes[keyword];
@@ -125,7 +125,7 @@ export class Frames {
 }
 
 interface Item {
-  /** Relative to the first item after the table. */
+  /** Bytes from the first item after the offset table. */
   readonly offset: number;
   readonly bytes: Bytes;
 }
@@ -140,7 +140,7 @@ async function itemBytes(source: Source, start: number): Promise<Bytes> {
   }
 }
 
-/** Position after the items and their delimiter; null if more bytes are needed. */
+/** Position after the last item and its delimiter; null if the bytes end earlier. */
 function endOfItems(bytes: Bytes): number | null {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   let at = 0;
@@ -154,7 +154,7 @@ function endOfItems(bytes: Bytes): number | null {
   return null;
 }
 
-/** Items of encapsulated pixels: the basic offset table, then fragments. */
+/** Splits encapsulated pixel data into the basic offset table and the fragments. */
 function itemsIn(path: string, bytes: Bytes): { table: number[]; items: Item[]; start: number } {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   let [at, start, table] = [0, -1, [] as number[]];
@@ -166,7 +166,7 @@ function itemsIn(path: string, bytes: Bytes): { table: number[]; items: Item[]; 
   ) {
     const length = view.getUint32(at + 4, true);
     if (view.getUint16(at + 2, true) !== ITEM || at + 8 + length > bytes.length) {
-      throw damaged(path, 'truncated compressed pixels', 'complete ones');
+      throw damaged(path, 'truncated compressed pixels', 'complete pixels');
     }
     const content = bytes.subarray(at + 8, at + 8 + length);
     if (start < 0) {

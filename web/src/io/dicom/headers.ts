@@ -1,4 +1,4 @@
-/** Header of one DICOM file: the record for the judge, and what is needed to read its pixels. */
+/** Reads the header of a DICOM file: the record for `lumencut-dicom`, and where and how the pixels are stored. */
 import { Failure } from '../../core/failure';
 import type { Source } from '../source';
 import { fileName } from '../source';
@@ -9,7 +9,7 @@ import { isDicom } from './recognising';
 import type { HeaderRecord, Recorder } from './records';
 import { bytesIn, textsOf } from './values';
 
-/** Bytes that hold nearly all single-frame headers, then most multi-frame ones, before reading the whole file. */
+/** Bytes to read for the header: enough for most single-frame files, then for most multi-frame files. */
 const HEADS = [1 << 17, 1 << 23];
 
 /** A DICOM file whose pixels are not read yet. */
@@ -20,7 +20,7 @@ export interface Image {
   readonly pixels: PixelElement | null;
   readonly isBig: boolean;
   readonly isDeflated: boolean;
-  /** Extended offset table: start and length of each frame. */
+  /** Start and length of each frame, from the extended offset table. */
   readonly extended: readonly (readonly [number, number])[] | null;
 }
 
@@ -40,12 +40,12 @@ export async function examine(source: Source, recorder: Recorder): Promise<Exami
   return { source, image, record: { name, kind: '', header: image.header } };
 }
 
-/** Position of the pixels, and whether the file is deflated. */
+/** Position of the pixel data in a file, and whether the file is deflated. */
 export async function pixelsOf(source: Source): Promise<Pick<Parsed, 'pixels' | 'isDeflated'>> {
   return header(source, await source.slice(0, HEADS[0] ?? 0));
 }
 
-/** Parses the header; pixels must follow unless the whole file was read. */
+/** Parses the header. Reads more of the file until the pixel data is found, or the file ends. */
 async function header(source: Source, head: Uint8Array<ArrayBuffer>): Promise<Parsed> {
   for (const length of [...HEADS, source.size]) {
     const isWhole = length >= source.size;
@@ -102,7 +102,7 @@ function extendedTable(file: Parsed): Image['extended'] {
   return offsets?.length ? offsets.map((offset, i) => [offset, lengths?.[i] ?? 0] as const) : null;
 }
 
-/** Why the file is not readable as DICOM. */
+/** Describes a file that is not DICOM. */
 function otherKind(head: Uint8Array): string {
   const isZip = head[0] === 0x50 && head[1] === 0x4b && (head[2] === 3 || head[2] === 5);
   const packed = isZip ? 'zip archive' : head[0] === 0x1f && head[1] === 0x8b ? 'gzipped' : '';

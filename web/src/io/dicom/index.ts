@@ -1,4 +1,4 @@
-/** DICOM: one greyscale series from a folder, a zip archive or single files becomes one volume. */
+/** Opens DICOM: one greyscale series from a folder, a zip archive or single files becomes one volume. */
 
 import type { Judge } from '../../core/judge';
 import type { ReadScan } from '../../core/scan-study';
@@ -34,7 +34,7 @@ export async function openDicom(series: Series, judge: Judge, sink: Sink, steps:
   return { notes: plan.notes, study: await studyOf(plan, files) };
 }
 
-/** The plan of the volume; a failure that asks for a series includes thumbnails. */
+/** The plan of the volume. If the user must choose a series, the failure contains thumbnails. */
 async function planned(series: Series, judge: Judge, files: readonly ExaminedFile[]): Promise<Plan> {
   try {
     const question = { ...series, files };

@@ -1,7 +1,7 @@
-/** Bit reader and Huffman codes of a JPEG scan. */
+/** Reads bits and Huffman codes of compressed JPEG data. */
 import type { Bytes } from '../payload';
 
-/** Bits that a decoder may peek beyond the end of a scan. */
+/** How many bits a decoder may read beyond the end of the data. */
 const LOOK_AHEAD = 32;
 const CODE_BITS = 16;
 
@@ -17,7 +17,7 @@ export class Bits {
     public at: number,
   ) {}
 
-  /** The next 16 bits, without consuming them. */
+  /** The next 16 bits; the position does not change. */
   peek(): number {
     this.fill(CODE_BITS);
     return (this.held >>> (this.count - CODE_BITS)) & 0xffff;
@@ -53,7 +53,7 @@ export class Bits {
     }
   }
 
-  /** The next byte; zeros after the end, which counts as damage if too many are used. */
+  /** The next byte, or zero after the end. Using too many of these zeros counts as damage. */
   private nextByte(): number {
     const byte = this.bytes[this.at];
     if (byte === undefined || (byte === 0xff && this.bytes[this.at + 1] !== 0)) {
@@ -65,7 +65,7 @@ export class Bits {
   }
 }
 
-/** Huffman table: for every 16 bits, length and value of the leading code. */
+/** Huffman table: length and value of the first code in any 16 bits. */
 export class Codes {
   private readonly table = new Uint16Array(1 << CODE_BITS);
 

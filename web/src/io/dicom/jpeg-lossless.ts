@@ -1,4 +1,4 @@
-/** Lossless JPEG (ITU T.81, process 14) of one component, which the decoder packages lack. */
+/** Decodes lossless JPEG (ITU T.81, process 14) with one component, which the decoder packages do not support. */
 import type { Bytes } from '../payload';
 import type { Decoded } from './decoded';
 import { Bits, Codes, DamagedScan } from './jpeg-bits';
@@ -10,7 +10,7 @@ interface Scan {
   readonly codes: Codes;
   readonly predictor: number;
   readonly shift: number;
-  /** Samples between restarts, 0 for none. */
+  /** Samples between restart markers; 0 without markers. */
   readonly interval: number;
   readonly start: number;
 }
@@ -82,7 +82,7 @@ function samples(scan: Scan, bits: Bits): Uint16Array<ArrayBuffer> {
   return shift > 0 ? values.map((value) => value << shift) : values;
 }
 
-/** Predictor of a sample; the first line after a restart has no line above. */
+/** Predicts a sample from its neighbours; the first line after a restart marker has no line above. */
 function predicted(
   { columns, precision, shift, predictor }: Scan,
   values: Uint16Array,

@@ -1,4 +1,4 @@
-/** Calls the judge: a plan of the volume, or a failure. */
+/** Asks `lumencut-dicom` for the plan of a volume, or the reason why there is none. */
 import { Failure, type SeriesChoice } from '../../core/failure';
 import type { Judge } from '../../core/judge';
 import type { Mend } from '../../core/mends';
@@ -12,10 +12,10 @@ export interface Plan {
   readonly world_from_index: readonly (readonly number[])[];
   readonly slices: readonly PlannedSlice[];
   readonly fills: readonly Fill[];
-  /** Slices that count as one if their values are equal. */
+  /** Pairs of slices that are copies of each other if their values are equal. */
   readonly compared: readonly Compared[];
   readonly notes: readonly string[];
-  /** Acquisition data in the engine's form. */
+  /** Acquisition parameters, in the form that the engine expects. */
   readonly scan: object;
 }
 
@@ -27,13 +27,13 @@ export interface PlannedSlice {
   readonly intercept: number;
 }
 
-/** The slice that is kept, and its presumed copy. */
+/** A slice that is kept, and another that may be its copy. */
 export interface Compared {
   readonly kept: PlannedSlice;
   readonly other: PlannedSlice;
 }
 
-/** An interpolated slice: (1 - part) × before + part × after. */
+/** Slice `k` is interpolated: (1 - part) × slice `before` + part × slice `after`. */
 export interface Fill {
   readonly k: number;
   readonly before: number;

@@ -1,4 +1,4 @@
-/** Parses a DICOM file up to its pixels with dicom-parser. */
+/** Parses a DICOM file up to its pixel data, with the package dicom-parser. */
 import dicomParser, { type ByteStream, type Element } from 'dicom-parser';
 import { Part } from '../inflating';
 import type { Bytes } from '../payload';
@@ -16,7 +16,7 @@ export const SYNTAXES = {
 export interface PixelElement {
   readonly keyword: 'PixelData' | 'FloatPixelData' | 'DoubleFloatPixelData';
   readonly vr: string;
-  /** Start of the value, in the file or its inflated bytes. */
+  /** Offset of the pixel value in the file, or in the inflated bytes of a deflated file. */
   readonly at: number;
 }
 
@@ -24,7 +24,7 @@ export interface Parsed {
   readonly syntax: string;
   readonly bytes: Bytes;
   readonly isBig: boolean;
-  /** Whether `bytes` were inflated. */
+  /** Whether the file is deflated; then `bytes` are inflated. */
   readonly isDeflated: boolean;
   readonly elements: Elements;
   readonly meta: Elements;
@@ -42,7 +42,7 @@ const DEFLATE_FLOOR = 64 << 20;
 const DEFLATE_RATIO = 20;
 const PIECE = 1 << 20;
 
-/** Parses the whole file or its beginning; throws if cut off before the pixels. */
+/** Parses a file or its beginning; throws if the bytes end before the pixel data. */
 export function parsed(path: string, given: Bytes): Parsed {
   const { meta, start, syntax } = metaOf(given);
   const isDeflated = syntax === SYNTAXES.deflated;
@@ -54,7 +54,7 @@ export function parsed(path: string, given: Bytes): Parsed {
   return { syntax, bytes, isBig, isDeflated, meta, elements, pixels };
 }
 
-/** File meta information; for a dataset without it, the first element shows the encoding. */
+/** File meta information. If a file has none, the encoding is derived from its first element. */
 function metaOf(given: Bytes): { meta: Elements; start: number; syntax: string } {
   const hasPreamble = lettersAt(given, 128, 4) === 'DICM';
   const order = dicomParser.littleEndianByteArrayParser;
@@ -105,13 +105,13 @@ function elementsOf(stream: ByteStream, isImplicit: boolean): Found {
 interface Head {
   readonly tag: string;
   readonly vr: string;
-  /** Start of the value, for elements with a four-byte length. */
+  /** Offset of the value, assuming a four-byte length field. */
   readonly at: number;
   readonly length: number;
   readonly isUnknownToTheParser: boolean;
 }
 
-/** Peeks at the next element; dicom-parser lacks the 64-bit integer types. */
+/** Reads the head of the next element without moving; dicom-parser does not know the 64-bit integer types. */
 function nextElement(stream: ByteStream, isImplicit: boolean): Head {
   const start = stream.position;
   const number = (at: number, count: 2 | 4) => {
@@ -129,7 +129,7 @@ function nextElement(stream: ByteStream, isImplicit: boolean): Head {
   return { tag, vr, at: start + 12, length: number(start + 8, 4), isUnknownToTheParser };
 }
 
-/** Inflates a dataset, up to a size that real scans reach. */
+/** Inflates a deflated dataset; throws beyond a size that real scans do not reach. */
 function inflatedFrom(path: string, bytes: Bytes, start: number): Bytes {
   const limit = Math.max(DEFLATE_FLOOR, DEFLATE_RATIO * bytes.length);
   const part = new Part('bare', path);

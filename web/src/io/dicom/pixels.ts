@@ -1,4 +1,4 @@
-/** Stored values of a slice. */
+/** Reads the stored values of slices, before rescaling. */
 import { type Kind, type Numbers, numbersOf } from '../numbers';
 import type { Bytes } from '../payload';
 import { damaged, formatFailure } from '../words';
@@ -12,12 +12,12 @@ import { codestreamSize, jpegSize } from './stream-size';
 export const RLE = '1.2.840.10008.1.2.5';
 export const TRANSFER_SYNTAXES: readonly string[] = [...NATIVE, RLE, ...Object.keys(CODECS)];
 
-/** Bytes always allowed per frame: an empty 2048 × 2048 frame compresses to a hundred bytes. */
+/** Decoded size of a frame that is always allowed (bytes); an empty frame may compress to a hundred bytes. */
 const ALWAYS_ALLOWED = 16 << 20;
-/** No codec compresses real slices by this factor; a header that claims more is wrong. */
+/** Largest compression factor that is accepted; no codec reaches it on real slices. */
 const COMPRESSION_LIMIT = 10_000;
 
-/** Reads slices in sequence, and caches the last file. */
+/** Reads slices one at a time, and caches the file read last. */
 export class PixelReader {
   private frames: Frames | null = null;
 
@@ -53,14 +53,14 @@ export function kindOf(image: Image, shape: Shape): Kind {
 function nativeNumbers(image: Image, shape: Shape, bytes: Bytes): Numbers {
   const kind = kindOf(image, shape);
   if (image.isBig && shape.bitsAllocated === 8 && image.pixels?.vr === 'OW') {
-    // The high byte of each 16-bit word comes first.
+    // Swaps the two bytes of each 16-bit word, since the high byte comes first.
     const swapped = numbersOf({ kind: 'uint16', isBig: true }, bytes);
     return used(numbersOf({ kind, isBig: false }, new Uint8Array(swapped.buffer as ArrayBuffer)), shape);
   }
   return used(numbersOf({ kind, isBig: image.isBig }, bytes), shape);
 }
 
-/** Drops unused bits; the highest used bit is the sign. */
+/** Clears the bits above `bitsStored`; for signed samples the highest stored bit is the sign. */
 function used(numbers: Numbers, { bitsAllocated, bitsStored }: Shape): Numbers {
   const unused = bitsAllocated - bitsStored;
   if (unused <= 0 || unused >= bitsAllocated || !(numbers instanceof Int8Array || isSmall(numbers))) {
@@ -68,7 +68,7 @@ function used(numbers: Numbers, { bitsAllocated, bitsStored }: Shape): Numbers {
   }
   const result = numbers as Int16Array<ArrayBuffer>;
   for (let i = 0; i < result.length; i += 1) {
-    // The typed array truncates and extends the sign.
+    // Storing in the typed array truncates the value; shifting back extends the sign.
     result[i] = (result[i] ?? 0) << unused;
     result[i] = (result[i] ?? 0) >> unused;
   }
@@ -91,7 +91,7 @@ function unpackedRle(path: string, shape: Shape, frame: Bytes): Numbers {
 async function decoded(path: string, syntax: string, shape: Shape, frame: Bytes): Promise<Numbers> {
   const name = CODECS[syntax];
   if (!name) {
-    throw formatFailure(path, `pixels of the transfer syntax ${syntax}`, 'a supported one');
+    throw formatFailure(path, `pixels of the transfer syntax ${syntax}`, 'a supported transfer syntax');
   }
   requireSize(path, name, shape, frame);
   const decode = await decoderOf(name);
@@ -133,7 +133,7 @@ function requireSize(path: string, name: CodecName, shape: Shape, frame: Bytes):
     throw formatFailure(
       path,
       `JPEG Extended of ${size.bits} bits`,
-      'one of 8 bits, or another compression',
+      'JPEG Extended of 8 bits, or another compression',
       mend,
     );
   }

@@ -1,8 +1,8 @@
-/** Recognises DICOM by its first bytes, without a parser. */
+/** Recognises a DICOM file by its first bytes, without the parser. */
 
 export const PREAMBLE = 132;
 
-/** Whether bytes begin a DICOM file: with a preamble, or with a bare identifying group. */
+/** Whether a file that starts with these bytes is DICOM, with a preamble or without. */
 export function isDicom(head: Uint8Array): boolean {
   const isBare = (head[0] === 8 || head[0] === 2) && head[1] === 0 && head[3] === 0;
   return lettersAt(head, 128, 4) === 'DICM' || isBare;

@@ -1,4 +1,4 @@
-/** Headers as plain records for the crate `lumencut-dicom`. */
+/** Converts headers to plain records for the crate `lumencut-dicom`. */
 import type { Element } from 'dicom-parser';
 import { attribute, TAGS } from './attributes';
 import type { Parsed } from './parsing';
@@ -15,7 +15,7 @@ export interface HeaderRecord {
   readonly frames: readonly Attributes[];
 }
 
-/** Attributes the judge needs, with the functional groups that may contain them. */
+/** Attributes that `lumencut-dicom` needs, each with the functional groups that may contain it. */
 export type Asked = Readonly<Record<string, readonly string[]>>;
 
 type Elements = Readonly<Record<string, Element>>;
@@ -57,7 +57,7 @@ export class Recorder {
     return found;
   }
 
-  /** Flattens functional groups; the first group with an attribute counts. */
+  /** Merges functional groups; the first group that contains an attribute decides. */
   private ofGroups(reader: Reader, groups: Elements): Attributes {
     let found: Record<string, Value> = {};
     for (const [sequence, keywords] of this.groups) {
@@ -95,7 +95,7 @@ class Reader {
     return valueIn(this.file, element, stated === 'US or SS' ? this.signed() : stated, this.decoder);
   }
 
-  /** Signedness by Pixel Representation. */
+  /** The signed or unsigned type, according to Pixel Representation. */
   private signed(): string {
     return this.value(this.file.elements, 'PixelRepresentation') === 1 ? 'SS' : 'US';
   }

@@ -1,9 +1,9 @@
-/** DICOM RLE (PS3.5 G): run-length coded byte planes. */
+/** Decodes DICOM RLE (PS3.5 annex G): run-length coding of each byte plane. */
 import type { Bytes } from '../payload';
 
 const HEADER = 64;
 
-/** Decodes values of `unit` bytes into native byte order; null if damaged. */
+/** Decodes `count` values of `unit` bytes into native byte order; null if the frame is damaged. */
 export function unpackRle(frame: Bytes, count: number, unit: number): Bytes | null {
   if (frame.length < HEADER) {
     return null;
@@ -27,7 +27,7 @@ export function unpackRle(frame: Bytes, count: number, unit: number): Bytes | nu
   return pixels;
 }
 
-/** Writes runs to every `step`th byte from `first` on; returns their number. */
+/** Decodes one segment into every `step`th byte from `first` on; returns how many bytes were written. */
 function unpackSegment(packed: Bytes, pixels: Bytes, first: number, step: number): number {
   const count = pixels.length / step;
   let [at, found] = [0, 0];

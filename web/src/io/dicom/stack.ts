@@ -1,4 +1,4 @@
-/** Assembles the planned slices into one volume and interpolates gaps. */
+/** Assembles the slices of a plan into one volume, and interpolates missing slices. */
 import {
   ARRAYS,
   byteCount,
@@ -19,13 +19,13 @@ import { PixelReader } from './pixels';
 
 type Range = readonly [number, number];
 
-/** Type of a volume, and whether its values are whole numbers even if stored as floats. */
+/** Type of the voxels, and whether all values are integers, even if stored as floats. */
 interface Type {
   readonly kind: Kind;
   readonly isWhole: boolean;
 }
 
-/** Reads the slices in the narrowest type that holds all values. */
+/** Reads the slices into the narrowest voxel type that can hold all values. */
 export async function loadStack(
   subject: string,
   plan: Plan,
@@ -49,7 +49,7 @@ function isFloat({ file }: PlannedSlice, files: readonly ExaminedFile[]): boolea
   return files[file]?.image?.pixels?.keyword !== 'PixelData';
 }
 
-/** Fills a volume of one type until a value does not fit. */
+/** Fills a volume of one voxel type; stops if a value does not fit. */
 class Filler {
   private readonly reader = new PixelReader();
   private range: Range = [Number.POSITIVE_INFINITY, Number.NEGATIVE_INFINITY];
@@ -67,7 +67,7 @@ class Filler {
     return this.type.kind;
   }
 
-  /** Reads all slices; returns a wider type if this one is too narrow. */
+  /** Reads all slices. Returns a wider type if a value does not fit, otherwise null. */
   async fill(steps: Steps): Promise<Kind | null> {
     for (const [number, slice] of this.plan.slices.entries()) {
       const values = await this.values(slice);
@@ -90,12 +90,12 @@ class Filler {
   private async values(slice: PlannedSlice): Promise<Numbers> {
     const image = this.files[slice.file]?.image;
     if (!image) {
-      throw new Error('a plan names files with a header');
+      throw new Error('the plan of the volume names a file without a header');
     }
     return inUnit(await this.reader.read(image, slice.frame), slice);
   }
 
-  /** The type needed now; null if this one suffices. */
+  /** The type that these values need; null if the current type can hold them. */
   private widened(values: Numbers): Kind | null {
     if (this.kind === 'float32') {
       return null;
@@ -126,7 +126,7 @@ class Filler {
   }
 }
 
-/** slope · stored + intercept; whole numbers if exact. */
+/** Computes slope · stored + intercept; the result is an integer array if values, slope and intercept are integers. */
 export function inUnit(stored: Numbers, scaling: Scaling): Numbers {
   if (!isScaled(scaling)) {
     return stored;
@@ -161,7 +161,7 @@ function mixed(before: Numbers, after: Numbers, part: number, { kind, isWhole }:
   return result;
 }
 
-/** Rounds half to even. */
+/** Rounds to the nearest integer; a tie goes to the even one. */
 function toEven(value: number): number {
   const low = Math.floor(value);
   const above = value - low;

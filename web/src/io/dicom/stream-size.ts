@@ -1,4 +1,4 @@
-/** The image size stated inside a compressed frame, checked before a decoder allocates memory. */
+/** Reads the image size from a compressed frame, to check it before a decoder allocates memory. */
 import type { Bytes } from '../payload';
 
 export interface StreamSize {
@@ -45,7 +45,7 @@ export function jpegSize(frame: Bytes): StreamSize | null {
   return null;
 }
 
-/** SOF markers, including JPEG-LS, but not table markers. */
+/** Whether a marker starts a frame header (SOF), including JPEG-LS; table markers lie in the same range. */
 function isFrameHeader(marker: number): boolean {
   const isOfJpeg = marker >= 0xc0 && marker <= 0xcf && ![0xc4, 0xc8, 0xcc].includes(marker);
   return isOfJpeg || marker === 0xf7;

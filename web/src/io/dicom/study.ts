@@ -1,4 +1,4 @@
-/** The study of a series: the header of one image, and its image UIDs. */
+/** The study of a series: the header of one of its images, and the UIDs of all its images. */
 import type { ReadScan } from '../../core/scan-study';
 import type { Bytes } from '../payload';
 import type { Source } from '../source';
@@ -7,10 +7,10 @@ import { type ExaminedFile, pixelsOf } from './headers';
 import type { Plan } from './judging';
 import { isDicom } from './recognising';
 
-/** The part before the pixels; the whole file if it has none or is deflated. */
+/** The bytes before the pixel data; the whole file if it has no pixels or is deflated. */
 export async function headOf(source: Source): Promise<Bytes> {
   if (!isDicom(await source.slice(0, Math.min(source.size, 256)))) {
-    const advice = "choose a file of the scan's own folder of DICOM";
+    const advice = 'choose a file from the DICOM folder of the scan';
     throw formatFailure(source.path, 'no DICOM', 'a DICOM file of the study', advice);
   }
   const { pixels, isDeflated } = await pixelsOf(source);

@@ -1,4 +1,4 @@
-/** Thumbnails of series to choose from: the middle slice, 64 pixels at its longer side. */
+/** Thumbnails for the choice of a series: its middle slice, with 64 pixels on the longer side. */
 import { Failure, type SeriesChoice, type Thumbnail } from '../../core/failure';
 import type { Numbers } from '../numbers';
 import { shapeOf } from './frames';
@@ -25,7 +25,7 @@ function imagesOf({ uid }: SeriesChoice, files: readonly ExaminedFile[]): readon
   return files.flatMap(({ image }) => (image?.header.attributes.SeriesInstanceUID === uid ? [image] : []));
 }
 
-/** The middle slice of a series, by position; null without pixels. */
+/** Thumbnail of the middle slice by position; null if the slice has no pixels. */
 async function thumbnailOf(images: readonly Image[]): Promise<Thumbnail | null> {
   const inOrder = images.filter(({ pixels }) => pixels).toSorted((a, b) => placeOf(a) - placeOf(b));
   const middle = inOrder[Math.floor(inOrder.length / 2)];
@@ -37,7 +37,7 @@ async function thumbnailOf(images: readonly Image[]): Promise<Thumbnail | null> 
   return pictureOf(values, [columns, rows]);
 }
 
-/** Position along the slice normal (mm), or the instance number. */
+/** Position of an image along the slice normal (mm), or its instance number if the position is unknown. */
 function placeOf({ header: { attributes } }: Image): number {
   const numbers = (keyword: string) => [attributes[keyword] ?? []].flat().map(Number);
   const [at, axes] = [numbers('ImagePositionPatient'), numbers('ImageOrientationPatient')];

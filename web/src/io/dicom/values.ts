@@ -1,4 +1,4 @@
-/** Elements as plain values for the judge. */
+/** Converts DICOM elements to plain values for `lumencut-dicom`. */
 import type { Element } from 'dicom-parser';
 import type { Parsed } from './parsing';
 
@@ -14,7 +14,7 @@ const NUMBERS = {
   FD: [8, 'getFloat64'],
 } as const;
 
-/** Names of DICOM character sets in browsers; others are read as UTF-8. */
+/** The names that browsers use for DICOM character sets. Other sets are read as UTF-8. */
 const CHARACTER_SETS: Readonly<Record<string, string>> = {
   'ISO_IR 100': 'latin1',
   'ISO_IR 101': 'iso-8859-2',
@@ -40,13 +40,13 @@ export function bytesIn(file: Parsed, element: Element): Uint8Array {
   return file.bytes.subarray(element.dataOffset, element.dataOffset + element.length);
 }
 
-/** Decoder for the character sets of a file: the last known one counts. */
+/** Text decoder of a file with these character sets; the last one that is known is used. */
 export function decoderOf(sets: readonly string[]): TextDecoder {
   const known = sets.map((name) => CHARACTER_SETS[name]).filter((label) => label !== undefined);
   return new TextDecoder(known.at(-1) ?? 'utf-8');
 }
 
-/** Values separated by backslashes. */
+/** The texts of an element with several values, which backslashes separate. */
 export function textsOf(file: Parsed, element: Element, decoder = new TextDecoder()): string[] {
   const text = decoder.decode(bytesIn(file, element));
   return text.split('\\').map((one) => one.replace(/[\0 ]+$/, ''));
@@ -78,7 +78,7 @@ function numbers(file: Parsed, element: Element, vr: keyof typeof NUMBERS): Valu
   return one(found.map((value) => (Number.isFinite(value) ? value : notFinite(value))));
 }
 
-/** JSON has no such numbers. */
+/** The text for a number that JSON cannot represent. */
 function notFinite(value: number): string {
   return Number.isNaN(value) ? 'nan' : value > 0 ? 'inf' : '-inf';
 }

@@ -1,8 +1,8 @@
-/** What to read from DICOM files. */
+/** Choices of the user when DICOM files are read. */
 
 export interface Wanted {
   readonly series: string | null;
-  /** Value of the attribute that distinguishes the phases. */
+  /** Value of the DICOM attribute that distinguishes the phases; null if not chosen. */
   readonly phase: string | null;
   readonly fill_gaps: boolean;
   readonly resample_slices: boolean;

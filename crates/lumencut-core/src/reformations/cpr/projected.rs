@@ -57,7 +57,7 @@ impl Projected {
             } else {
                 Run::at(self.anchor(segment, (height - from) / (to - from)))
             };
-            // A row through a vessel point meets both segments that share the point; only one run is kept.
+            // A row through a vessel point meets both segments that share the point; only one of the two is kept.
             let end = runs.last().map_or(f64::NEG_INFINITY, |last| last.to.arc_length);
             if run.to.arc_length > end + ON_PICTURE {
                 if runs.last().is_some_and(|last| {

@@ -119,8 +119,8 @@ impl Sections {
         self.section(station, at, point)
     }
 
-    /// Whether a line certainly meets no section of interval `n`, in the picture from `angle` or from any.
-    /// Within an interval, sections differ from those at its ends by at most the margin.
+    /// Whether a line certainly meets no section of interval `n` (between two marks), in the picture from
+    /// `angle` or any. Within an interval, sections differ from those at its ends by at most the margin.
     pub(super) fn is_apart(&self, n: usize, line: [DVec3; 2], angle: Option<[f64; 2]>) -> bool {
         let ends = [self.marks[n], self.marks[n + 1]];
         let length = ends[1].at - ends[0].at;
@@ -175,7 +175,7 @@ impl Mark {
         Section { at: self.at + along, offset: here.offset - self.frame.tangent * along, ..here }
     }
 
-    /// The side of a plane through the centre on which a line lies by `margin`: 1, −1, or 0 for neither.
+    /// On which side of a plane through the centre a line lies, by more than `margin`: 1, −1, or 0 for neither.
     fn side(&self, line: [DVec3; 2], normal: DVec3, margin: f64) -> i8 {
         let [one, other] = line.map(|end| (end - self.point).dot(normal));
         if one.min(other) > margin { 1 } else { -i8::from(one.max(other) < -margin) }

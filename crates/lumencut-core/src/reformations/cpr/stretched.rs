@@ -84,7 +84,7 @@ impl Stretched {
 
 #[derive(Clone, Copy, Debug)]
 struct Candidate {
-    /// Distance of the point from the surface there (mm).
+    /// Distance of the point from the surface at this candidate (mm).
     distance: f64,
     /// Distance of the point from the vessel (mm).
     aside: f64,

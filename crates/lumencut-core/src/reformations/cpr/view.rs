@@ -24,7 +24,7 @@ pub(super) struct Axes {
     pub ahead: DVec3,
 }
 
-/// Vectors at an angle with a smaller tangent count as parallel.
+/// Vectors count as parallel if the tangent of their angle is below this.
 pub(super) const PARALLEL: f64 = 0.05;
 
 impl View {

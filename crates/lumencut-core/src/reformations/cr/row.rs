@@ -39,7 +39,7 @@ impl Kernel for CrRow<'_> {
     }
 }
 
-/// The nearest piece in the image; if it is not in the foremost piece's stretch, the nearest in that.
+/// The nearest piece in the image; if it is not in the foremost piece's stretch, the nearest piece of that stretch.
 #[inline(always)]
 fn shown(view: &CrView, search: &mut StretchSearch, tile: &Tile, pieces: [u32; 2], l: usize) -> Seen {
     let ([nearest, foremost], [x, y]) = (pieces, [tile.x[l], tile.y[l]]);

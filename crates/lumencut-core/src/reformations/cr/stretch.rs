@@ -1,4 +1,4 @@
-//! The search for the nearest piece of one stretch of the tree, for the pixels of a tile.
+//! Finds the nearest piece of one stretch (points of the tree within the arc threshold), for the pixels of a tile.
 
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap};
@@ -10,8 +10,8 @@ use crate::math::tile::{Area, Tile};
 
 const MAX_CACHED_CHAINS: usize = 256;
 
-/// Finds the piece nearest to a pixel within a stretch. Caches the pieces around a chain, because they are
-/// nearly the same for all points of the chain and for the pixels of a tile.
+/// Finds the piece nearest to a pixel within a stretch. Caches the pieces around a chain (sixteen consecutive
+/// segments), because they are nearly the same for all points of the chain and for the pixels of a tile.
 pub(super) struct StretchSearch<'a> {
     view: &'a CrView<'a>,
     /// For a chain, the ranges of chains within the threshold of a point on it.

@@ -59,7 +59,7 @@ impl<'a> CrView<'a> {
     #[inline(always)]
     pub(super) fn foremost(&self, tile: &Tile, seeds: &mut Seeds) -> [u32; PIXELS] {
         let mut foremost = Envelope::new(&[1.0; PIXELS]);
-        // The key of a piece whose disc does not contain the pixel is larger.
+        // Pieces whose discs do not contain the pixel have larger keys than this.
         foremost.key = [-1.5 * self.disc_rule.lift; PIXELS];
         lowest_keys::<true>(&self.discs, tile, &self.disc_rule, seeds, &mut foremost);
         *seeds = Seeds::collect(&foremost, &self.level.bundle_of_slot);

@@ -53,7 +53,7 @@ fn an_ellipse_has_its_polar_radius() {
         let around = TAU * ((n % 50) as f64 + 0.5) / 50.0 - PI + 0.7;
         assert!((radius - polar(around)).abs() < 1e-3, "{n}: {radius}");
     }
-    // The wall is met at right angles only at both axes.
+    // The light meets the wall at right angles only on the axes of the ellipse.
     let shades = map.shades(NEVER).unwrap();
     assert!(shades.iter().all(|shade| *shade <= 1.0) && shades.iter().any(|shade| *shade < 0.98));
 }

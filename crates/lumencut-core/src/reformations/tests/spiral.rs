@@ -67,7 +67,7 @@ fn neighbours_are_a_pixel_apart() {
 #[test]
 fn windings_are_a_pitch_apart() {
     let spiral = straight(SpiralParameters { pixel_spacing: 0.05, ..FINE });
-    // Along any ray, one winding of either spiral passes per pitch.
+    // Along any ray from the middle, windings are one pitch apart.
     let mut passes: Vec<f64> = spiral
         .columns
         .windows(2)

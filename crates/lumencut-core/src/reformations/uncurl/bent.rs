@@ -6,7 +6,7 @@ use crate::camera::Camera;
 use crate::math::centerline_path::CenterlinePath;
 use crate::math::frames::{Frames, MovingFrame};
 
-/// A vessel begins along the view if the angle between them has a smaller tangent.
+/// A vessel begins along the view if the tangent of the angle between them is below this.
 const ALONG_VIEW: f64 = 0.05;
 
 const PARALLEL: f64 = 1e-12;
@@ -34,9 +34,9 @@ pub(super) struct Bent {
 impl Bent {
     /// The vessel bent by `amount`, from 0 (as it is) to 1 (straight).
     ///
-    /// It bends about its middle. The line from its first to its last point turns to downwards in the image,
-    /// and its middle moves to that of the image. At 1 the vessel is seen as the straightened CPR whose
-    /// viewer at the first point is as near as possible to the camera.
+    /// The vessel bends about its middle. The line from its first to its last point turns to downwards in the
+    /// image, and its middle moves to that of the image. At 1 the vessel is seen as the straightened CPR
+    /// whose viewer at the first point is as near as possible to the camera.
     pub(super) fn new(path: &CenterlinePath, camera: &Camera, amount: f64) -> Self {
         let first = path.direction()[0];
         let frames = Frames::new(path, MovingFrame::looking(first, ahead_at(first, camera)));
@@ -121,8 +121,8 @@ fn shorter(rotation: DQuat) -> DQuat {
     if rotation.w < 0.0 { -rotation } else { rotation }
 }
 
-/// The rotation that places a bent vessel. By `amount`, its chord turns downwards, and the vessel turns about
-/// the chord to face the camera as the straight vessel does; `frame` is that in its middle.
+/// The rotation that places a bent vessel: the share `amount` of the turn of its chord to downwards, and of
+/// the turn about the chord to face the camera. `frame` is that in the vessel's middle.
 fn placed([own, bent]: [&[DVec3]; 2], frame: &MovingFrame, camera: &Camera, amount: f64) -> DQuat {
     let chord =
         |points: &[DVec3]| (points[points.len() - 1] - points[0]).try_normalize().unwrap_or(frame.tangent);

@@ -1,4 +1,4 @@
-//! The growth of vessel pieces from a root: their order, the cycles that they close, and connected parts.
+//! The order in which vessel pieces are laid out (grow) from the root of each connected part, and the cycles.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;

@@ -65,7 +65,7 @@ pub(super) fn beyond(discs: &[Disc], distance: f64) -> Vec<Disc> {
     kept
 }
 
-/// Where the line between two positions crosses a distance from the origin, as a share of the line.
+/// The share of the line from one position to another at which it has this distance from the origin.
 fn crossing(from: DVec2, to: DVec2, distance: f64) -> f64 {
     let step = to - from;
     let [a, b, c] = [step.length_squared(), from.dot(step), from.length_squared() - distance * distance];
@@ -80,7 +80,7 @@ type Circle = (DVec2, f64);
 #[derive(Clone, Debug, Default)]
 pub(super) struct Hull {
     discs: Vec<Disc>,
-    /// A circle around each run of discs, and one around each run of circles.
+    /// A circle around each sixteen discs (`runs`), and one around each sixteen of those circles (`groups`).
     runs: Vec<Circle>,
     groups: Vec<Circle>,
 }
@@ -167,7 +167,7 @@ fn circle_around(circles: &[Circle]) -> Circle {
     (center, circles.iter().map(reach).fold(0.0, f64::max))
 }
 
-/// The indices of what circle `n` encloses, of `count` in all.
+/// The indices of the discs or circles that circle `n` encloses, of `count` in all.
 fn members(n: usize, count: usize) -> std::ops::Range<usize> {
     n * DISCS_PER_CIRCLE..count.min((n + 1) * DISCS_PER_CIRCLE)
 }

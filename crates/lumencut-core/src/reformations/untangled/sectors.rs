@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::hull::Disc;
 
-/// A smaller lack of room counts as rounding (radians).
+/// A lack of room below this (radians) counts as rounding.
 const ROUNDING: f64 = 1e-9;
 
 /// The angles of a branch, seen from where it begins (radians, counter-clockwise from the forward direction).

@@ -149,7 +149,7 @@ impl Sheet {
         let right = DVec2::new(along.y, -along.x);
         let from = seen - a.place;
         let aside = from.dot(right);
-        // The lines across both ends of the segment meet the parallel to it through the point here.
+        // The parallel to the segment through the point meets the lines across the segment's ends at these lengths.
         let start = aside * a.normal.dot(along);
         let end = length + aside * b.normal.dot(along);
         let share = if end > start { (from.dot(along) - start) / (end - start) } else { 0.5 };
@@ -239,7 +239,7 @@ impl Sheet {
     fn sections(&self, segment: usize, point: DVec3) -> Vec<SheetPosition> {
         let [a, b] = self.ends(segment);
         let along = b.point - a.point;
-        // Distance of the point beyond the section at a share of the segment, and to the right there.
+        // `ahead`: the point's distance beyond the section at a share of the segment (scaled); `aside`: to the right.
         let ahead = |share: f64| {
             let across = a.across.lerp(b.across, share);
             let normal = along * across.length_squared() - across * along.dot(across);
@@ -261,7 +261,7 @@ impl Sheet {
             }
             found.push(place(f64::midpoint(low, high)));
         }
-        // No section may contain a point off the sheet, or by rounding a point on it.
+        // There may be no section that contains the point, if it lies off the sheet, or by rounding.
         let beyond = |share: f64, towards: DVec3| {
             share + (point - a.point.lerp(b.point, share)).dot(towards) / along.length_squared()
         };

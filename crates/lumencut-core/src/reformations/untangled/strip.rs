@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 use super::pieces::Piece;
 use crate::camera::Camera;
 
-/// If the sine of its angle to the view is smaller, a vessel's direction does not define the line across it.
+/// Minimum sine of the angle to the view at which a vessel's direction defines the line across it.
 const MIN_VIEW_SINE: f64 = 0.1;
 
 const SMOOTHING_ACROSS_MM: f64 = 2.0;
@@ -17,7 +17,7 @@ const CUT_OFF_SIGMAS: f64 = 4.0;
 /// Largest factor by which a line across a sharp corner is lengthened, to end where its neighbours end.
 pub(super) const LONGEST_MITRE: f64 = 3.0;
 
-/// A shorter vector has no direction.
+/// A vector shorter than this has no direction.
 const MIN_DIRECTION_LENGTH: f64 = 1e-9;
 
 #[derive(Clone, Debug)]

@@ -90,7 +90,7 @@ fn attempt(tree: Tree, near: f64, stiffness: f64, stop: Stop) -> Result<Turning>
         without_room: 0,
         overlaps: Vec::new(),
     };
-    // The discs of each piece and all that follow it, from its start; the followers are turned already.
+    // The discs of each piece and of all pieces that follow it, which are turned already.
     let mut units: Vec<Vec<Disc>> = vec![Vec::new(); pieces.len()];
     for part in &growth.parts {
         for &piece in part.order.iter().rev() {
@@ -126,7 +126,8 @@ fn forward_of(places: &[DVec2], is_reversed: bool) -> DVec2 {
     step.normalize_or(DVec2::NEG_Y)
 }
 
-/// Turns the units that begin at one point apart from each other and from `parent`; returns their discs.
+/// Turns units (pieces with followers) that begin at one point away from each other and `parent`; returns their
+/// discs.
 fn turn_apart(
     turning: &mut Turning,
     units: &mut [Vec<Disc>],
@@ -152,7 +153,7 @@ fn turn_apart(
 struct Node {
     /// The hulls of the branches beyond the radius within which all may overlap.
     branches: Vec<Hull>,
-    /// The hull of the piece that ends there; empty if there is none.
+    /// The hull of the piece that ends at the node; empty if there is none.
     parent: Hull,
     forward: DVec2,
 }

@@ -5,8 +5,8 @@ use crate::math::ray::{NONE, WHOLE};
 /// Stands for a start in front of the volume: larger than starts at cut surfaces, smaller than `NONE`.
 pub const IN_FRONT: f32 = NONE / 2.0;
 
-/// The start of the ray of each square of four pixels: the nearest start behind a cut surface, if any. Only
-/// otherwise it is in front of the volume, which would show what lies before the surface.
+/// The start of the ray of each square of four pixels: the nearest start behind a cut surface. Only if there
+/// is none, it is in front of the volume; else the ray would show what lies before the surface.
 pub(super) fn coarse_starts(start: &[f32], [width, height]: [usize; 2]) -> Vec<f32> {
     let (columns, rows) = (width.div_ceil(2), height.div_ceil(2));
     let mut coarse = vec![NONE; columns * rows];

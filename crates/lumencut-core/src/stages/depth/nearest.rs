@@ -37,7 +37,7 @@ impl CutSurface<'_> {
                 slot[l] = if rules { envelope.piece[l] / 2 } else { slot[l] };
             }
             if with_sheet {
-                // Pixels without a winner at this level do not use it, so any slot will do.
+                // Pixels where no piece was found do not use this level, so any slot will do.
                 envelope.piece = envelope.piece.map(|piece| if piece == u32::MAX { 0 } else { piece });
                 let own = self.own_pieces(level);
                 let found = Decision::of::<LUMEN_FIRST>(&envelope, own.projected, tile, &self.rule);

@@ -1,4 +1,4 @@
-//! One decision per pixel: the winner on the finest level decides the vessel; only its levels are blended.
+//! The level choice `own`: the piece shown on the finest level decides the vessel; only its levels are blended.
 
 use super::blend::LevelBlend;
 use super::{CHOSEN_GAP, CutSurface, Search, TileSurface};
@@ -49,7 +49,7 @@ impl CutSurface<'_> {
 struct Sum {
     depth: [f32; PIXELS],
     slope: [[f32; PIXELS]; 2],
-    /// Arc length of the blended point at the finer and at the coarser level, minus the winner's (mm).
+    /// Arc length of the blended point at the finer and at the coarser level, minus that of the piece shown (mm).
     finer: [f32; PIXELS],
     coarser: [f32; PIXELS],
     has_any: [bool; PIXELS],

@@ -51,7 +51,7 @@ fn the_largest_ball_touches_the_nearest_wall_of_its_neighbours() {
     };
     let at: Vec<f64> = (0..9).map(f64::from).collect();
     let centers: Vec<DVec3> = at.iter().map(|at| DVec3::new(0.0, 0.0, *at)).collect();
-    // A tube with a radius of 3 mm: 1 mm at arc length 4 mm, and no wall at 8 mm.
+    // A tube with a radius of 3 mm, but of 1 mm at arc length 4 mm; the wall is missing at 8 mm.
     let contours: Vec<Vec<DVec3>> = at
         .iter()
         .map(|at| match *at {

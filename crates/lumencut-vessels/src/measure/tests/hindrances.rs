@@ -71,7 +71,7 @@ fn half_of_a_jump_is_a_change_where_level_or_width_step_too() {
     assert!(!aside(&|_| {}));
     assert!(aside(&|made| made.levels[40..].fill([400.0, 50.0])));
     assert!(aside(&|made| made.area[40..].fill(PI * 36.0)));
-    // Where contrast medium mixes, the level changes by less than the limit.
+    // If only contrast medium mixes, the level changes by less than the limit.
     assert!(!aside(&|made| made.levels[40..].fill([350.0, 50.0])));
 }
 

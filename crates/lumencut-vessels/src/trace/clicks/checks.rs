@@ -17,7 +17,8 @@ pub struct Clicks {
     pub stoppers: Vec<Stopper>,
     /// Whether tracing may cross parts without lumen, of any length, by straight bridges.
     pub bridge: bool,
-    /// Existing vessels, which stay unchanged: new ones that meet them end at their points. Confidence is ignored.
+    /// Existing vessels, which stay unchanged: a new vessel that meets one ends at one of its points. Confidence is
+    /// ignored.
     pub beside: Vec<Centerline>,
 }
 

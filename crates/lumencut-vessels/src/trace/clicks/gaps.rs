@@ -17,7 +17,7 @@ const LONGEST_TURN: f64 = 1.2;
 /// Maximum length of a gap (mm) that may be the wall between two vessels.
 const LONGEST_WALL: f64 = 5.0;
 
-/// Directions are taken between these distances (mm) from a gap; a cosine below `least` is a turn.
+/// Directions are taken `beside` mm (from, to) away from a gap; a cosine below `least` between them is a turn.
 struct Turn {
     beside: [f64; 2],
     least: f64,

@@ -10,7 +10,7 @@ use crate::trace::lumen::within::holds;
 use lumencut_core::error::{Clicked, Error, ErrorKind, Result};
 use lumencut_core::math::arc_length::arc_lengths;
 
-/// A line continues an earlier vessel if it starts within this distance of its end: radii, or mm if that is larger.
+/// A line continues an earlier vessel if it starts within this distance of that vessel's end: radii, or mm if larger.
 const END_TO_END: f64 = 0.7;
 const NEAREST_END: f64 = 1.0;
 
@@ -20,7 +20,7 @@ const LEAVING: f64 = 4.0;
 /// A line leaves a vessel at once if it runs inside it for less than this many radii.
 const AT_ONCE: f64 = 2.5;
 
-/// Where a line joins an earlier vessel: point and radius of that vessel, and the first point of the line to keep.
+/// Junction of a line with an earlier vessel: point and radius of that vessel, and first point of the line to keep.
 struct Junction {
     place: DVec3,
     radius: f64,

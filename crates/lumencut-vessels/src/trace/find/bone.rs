@@ -1,4 +1,4 @@
-//! Separates vessels from bone, marrow and organs by the raw voxels.
+//! Separates vessels from bone, marrow and organs by the raw voxels along tracks (centerlines of tubes).
 //!
 //! Tracked bone is mostly a plate: its cross-section is elongated, and so are those of the tracks around it. Round
 //! bone contains uneven marrow. Both make a track doubtful, and so does being wide and paler than vessels.
@@ -22,8 +22,8 @@ use lumencut_core::stop::{Stop, go_on};
 /// A track's elongation is this quantile of its sections: junctions and touching veins lengthen single ones.
 const ELONGATION_SHARE: f64 = 0.3;
 
-/// Weights in a neighbourhood: a track counts by its length up to `LONGEST` (mm), and the track itself by the
-/// factor `ITSELF`. Tracks with less confidence than `LEAST_COUNTED` are ignored.
+/// Weights of a track and its neighbours in their mean elongation: the length, at most `LONGEST` mm, and for
+/// the track itself `ITSELF` times as much. Tracks with less confidence than `LEAST_COUNTED` are ignored.
 const LONGEST: f64 = 40.0;
 const ITSELF: f64 = 2.0;
 const LEAST_COUNTED: f64 = 0.3;
@@ -31,8 +31,8 @@ const LEAST_COUNTED: f64 = 0.3;
 /// Neighbours raise an elongation e to at most 1.5 + 2 (e - 1), so that round arteries next to bone are kept.
 const NEIGHBOURS: [f64; 2] = [1.5, 2.0];
 
-/// For `ELONGATED` and `UNEVEN`: value at which doubt starts, and increase that adds 1 to it. Each doubt is
-/// limited to `MOST_DOUBT`.
+/// For `ELONGATED` and `UNEVEN`: value at which the doubt starts, and increase of the value that adds 1 to
+/// the doubt. Each doubt is limited to `MOST_DOUBT`.
 const ELONGATED: [f64; 2] = [1.2, 0.7];
 const UNEVEN: [f64; 2] = [0.14, 0.10];
 const MOST_DOUBT: f64 = 3.0;
@@ -62,8 +62,8 @@ const FLAT_LUMEN: f64 = 0.85;
 const FLAT_LUMEN_LENGTH: f64 = 40.0;
 const FLAT_LUMEN_RADIUS: f64 = 3.0;
 
-/// Bone is hardly ever both even and as bright as vessels, so such tracks are excused. Ranges of spread and
-/// level difference (fractions of the contrast) for this, and of the radius (voxels) that allows the test.
+/// Tracks that are even and as bright as vessels are excused, because bone is hardly ever both. The excuse starts at
+/// the first value and is full at the second: spread, level difference (fractions of the contrast), radius (voxels).
 const EVEN: [f64; 2] = [0.10, 0.06];
 const ALIKE: [f64; 2] = [0.18, 0.10];
 const SEEN: [f64; 2] = [2.0, 4.0];
@@ -77,10 +77,10 @@ const LUMEN_CONFIDENCE: f64 = 0.85;
 const LUMEN_ELONGATION: f64 = 1.25;
 const LUMEN_SPREAD: f64 = 0.1;
 
-/// Fraction of its doubts (except shortness) from which an even track as bright as vessels is excused.
+/// Fraction of the doubts (except shortness) that are ignored for an even track as bright as vessels.
 const EXCUSED: f64 = 0.5;
 
-/// Tracks with less confidence are dropped.
+/// Tracks with less confidence than this are dropped.
 const MIN_CONFIDENCE: f64 = 0.05;
 
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -19,7 +19,7 @@ const TILE: [usize; 3] = [64, 24, 24];
 const NOISES: f64 = 3.5;
 const OF_CONTRAST: f64 = 0.15;
 
-/// Minimum contrast of a candidate's section, in the same units.
+/// Minimum contrast of a candidate's section: a multiple of the noise, and a fraction of the vessel contrast.
 const SECTION_NOISES: f64 = 3.0;
 const SECTION_OF_CONTRAST: f64 = 0.2;
 
@@ -29,7 +29,7 @@ const LEAST_CLOSURE: f64 = 0.65;
 const LEAST_CONTRAST_SHARE: f64 = 0.6;
 const RADIUS_RATIO: [f64; 2] = [0.5, 1.9];
 
-/// Maximum shift from a candidate to the centre of its section (radii), also for tubes wider than two voxels.
+/// Maximum shift from a candidate to its section's centre (radii); the second for tubes wider than two voxels.
 const MOST_SHIFT: f64 = 1.0;
 const MOST_WIDE_SHIFT: f64 = 1.5;
 const WIDE_RADIUS: f64 = 2.0;

@@ -20,7 +20,7 @@ struct Near {
 }
 
 /// Finds the vessels of the connected part that contains a seed (mm, LPS); they do not depend on the seed. If
-/// it lies outside all of them, fainter ones around it are found too. Errors: those of [`trees`];
+/// the seed lies outside all vessels, fainter ones around it are found too. Errors: those of [`trees`];
 /// `ErrorKind::Tracing` for a seed outside the volume, in no vessel, or in a part without a sure vessel.
 pub fn find_from(volume: &Volume, seed: DVec3, request: &FindRequest) -> Result<Trees> {
     let voxels = Voxels::new(volume);

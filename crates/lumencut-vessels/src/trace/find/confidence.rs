@@ -39,7 +39,8 @@ const WIDE_VOXELS: [f64; 2] = [2.5, 5.5];
 const BONE_REACH: [f64; 2] = [1.5, 1.5];
 const BONE: f64 = 0.4;
 const BRIGHT_INSIDE: f64 = 0.5;
-/// A wide tube may have bright walls, like a stent, if its level differs by less than this (times the contrast).
+/// A wide tube may have bright walls (stent) if its level differs from vessels by less than the second value
+/// (times the contrast), and more so towards the first.
 const STENT_INSIDE: [f64; 2] = [0.25, 0.55];
 
 struct Around {

@@ -21,7 +21,7 @@ const BLUR: f64 = 0.6;
 const TILE_BORDER: usize = 3;
 pub(crate) const HALO: usize = 2 + TILE_BORDER + 2;
 
-/// In a tube, the trace is at least this multiple of the weaker inflow. Testing this first saves most eigenvalues.
+/// In a tube, the trace (sum of inflows) is at least this many responses. Testing it first saves most eigenvalues.
 const LEAST_TRACE: f32 = 1.2;
 
 #[derive(Clone, Copy, Debug)]

@@ -6,7 +6,7 @@ use crate::trace::lines::centerline::Centerline;
 /// All vessels found in a scan.
 #[derive(Clone, Debug)]
 pub struct Trees {
-    /// Vessels ordered by part, the most important part first. Each part begins with its root.
+    /// Vessels ordered by part, the most important part first. Each part begins with its root vessel.
     pub vessels: Vec<FoundVessel>,
     /// Intensity that vessels usually have, in the unit of the volume.
     pub level: f64,

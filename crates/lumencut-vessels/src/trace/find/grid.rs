@@ -24,7 +24,7 @@ pub(crate) struct Grid {
 }
 
 impl Grid {
-    /// Its voxels have the mean side of the volume's voxels, or a larger one if the smallest radius (mm) allows it.
+    /// A grid with the mean side of the volume's voxels, or a larger one if the smallest radius (mm) allows it.
     pub(crate) fn over(voxels: &Voxels, smallest_radius: f64) -> Self {
         let matrix = voxels.world_from_index.matrix3;
         let axes = square(matrix);

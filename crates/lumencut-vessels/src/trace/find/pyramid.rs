@@ -29,7 +29,7 @@ pub(crate) struct Level {
     pub side: f64,
     /// Values scaled to 0 to 65535 over the value range; the first axis varies fastest.
     pub voxels: Vec<u16>,
-    /// The value that 0 stands for, and that of a step by 1, in the unit of the volume.
+    /// The value that the number 0 stands for, and the value of a step of 1, in the unit of the volume.
     pub lowest: f32,
     pub unit: f32,
 }

@@ -12,7 +12,8 @@ use lumencut_core::math::arc_length::arc_lengths;
 const LEAST_LENGTH: f64 = 100.0;
 const OF_DIAGONAL: f64 = 0.3;
 
-/// Minimum length of any part, in the same units. Shorter parts are as often specks of calcium as vessels.
+/// Minimum length of any part: mm, or a fraction of the diagonal if less. Shorter parts are as often specks of
+/// calcium as vessels.
 const LEAST_PART: f64 = 15.0;
 const PART_OF_DIAGONAL: f64 = 0.15;
 

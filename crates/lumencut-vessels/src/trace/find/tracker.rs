@@ -40,7 +40,7 @@ const OF_RADIUS: f64 = 0.3;
 /// Length of the chord that gives the direction: a multiple of the radius plus some voxels.
 const CHORD: [f64; 2] = [1.2, 1.0];
 
-/// Maximum length of a gap: radii, or voxels if larger. Steps darker than this fraction of the contrast count twice.
+/// Maximum length of a gap: radii, or voxels if larger. Steps darker than `DARK` (of the contrast) count twice.
 const GAP_RADII: f64 = 2.2;
 const GAP_VOXELS: f64 = 3.0;
 const DARK: f64 = 0.6;
@@ -169,7 +169,8 @@ impl Tracker<'_> {
         }
     }
 
-    /// The centred section and its kind. If it is no tube, it is tried again as that of a small artery next to bone.
+    /// The centred section and its kind. If it is not that of a tube, it is examined again as that of an artery next
+    /// to bone.
     fn best(&self, ahead: DVec3, running: &Running) -> (DVec3, Section, Seen) {
         let good = |look: Look, seen: Seen| {
             let (place, section) = self.centered(ahead, running, look);

@@ -3,7 +3,7 @@
 use crate::trace::find::track::{TrackPoint, length, usual};
 
 /// Limits of a tube: radius (finest-level voxels), closure, contrast (times the noise), length (radii). If no
-/// tube meets them, others are used.
+/// tube meets all limits, only the limit of the closure applies.
 const LEAST_RADIUS: f64 = 2.0;
 const LEAST_CLOSURE: f64 = 0.85;
 const NOISES: f64 = 6.0;

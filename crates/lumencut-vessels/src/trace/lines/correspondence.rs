@@ -46,7 +46,7 @@ impl Steps {
     }
 }
 
-/// Finds the steps with the smallest sum; of equal sums, the first line advances.
+/// Finds the steps with the smallest sum; if two sums are equal, the first line advances.
 fn cheapest_steps(first: &[DVec3], second: &[DVec3], stop: Stop) -> Result<Steps> {
     let columns = second.len();
     let mut steps = Steps { bits: vec![0; (first.len() * columns).div_ceil(64)], columns };

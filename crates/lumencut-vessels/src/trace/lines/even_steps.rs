@@ -22,7 +22,7 @@ pub fn in_even_steps(points: &[DVec3], step: f64) -> Vec<DVec3> {
 
 /// A smooth curve through `points` in even steps of at most `step` mm; both ends are kept.
 ///
-/// It is a Catmull-Rom curve by arc length: its slopes are nearly those of circles through three neighbours.
+/// The curve is a Catmull-Rom spline by arc length: its slopes are nearly those of circles through three neighbours.
 pub fn curve_in_even_steps(points: &[DVec3], step: f64) -> Vec<DVec3> {
     let mut fine = vec![points[0]];
     for n in 1..points.len() {

@@ -5,13 +5,13 @@ use lumencut_core::math::arc_length::arc_lengths;
 use crate::trace::lines::centerline::Centerline;
 
 /// A line wanders if the chord from one radius before a point to one radius after it is shorter than this fraction of
-/// its arc length. In a bend as tight as the vessel is wide, the fraction is 0.84; 0.6 is a circle of 0.6 radii.
+/// its arc length. In a bend with the vessel's radius the fraction is 0.84; with 0.6 of that radius, 0.6.
 const LEAST_STRAIGHT: f64 = 0.6;
 
 /// Minimum half-length of the chord (mm), because lines of thin vessels are no smoother than the voxels.
 const LEAST_REACH: f64 = 2.0;
 
-/// Marks points at which the line turns more tightly than its vessel is wide. The criterion is our own: a
+/// Marks points at which the line bends too tightly for the width of its vessel. The criterion is our own: a
 /// tube of radius r bends with a radius of at least r, otherwise it would intersect itself.
 pub fn wandering(line: &Centerline) -> Vec<bool> {
     let (points, lengths) = (&line.points, arc_lengths(&line.points));

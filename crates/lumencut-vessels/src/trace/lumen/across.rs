@@ -6,8 +6,8 @@ use crate::trace::lumen::directions::half_sphere;
 use crate::trace::lumen::own_axis::{DIRECTIONS, OwnLumen};
 use crate::voxels::Voxels;
 
-/// A path runs across a lumen if the lumen's extent along it is at most this many widths of the lumen, and
-/// less than this fraction of its length.
+/// A path runs across a lumen if the lumen's extent along it is at most this multiple of the smallest extent,
+/// and less than this fraction of the largest.
 const MOST_WIDTHS: f64 = 1.3;
 const LEAST_SHARE: f64 = 0.6;
 

@@ -17,7 +17,8 @@ const APART_RADII: f64 = 0.5;
 const LEAST_CHANGE: f64 = 0.25;
 const LEAST_NOISES: f64 = 3.0;
 
-/// Values that differ more from the median (multiples of the noise) are ignored, such as stent struts and calcium.
+/// Values that differ from the median by more than this multiple of the noise are ignored, such as stent struts and
+/// calcium.
 const OUTLIER: f64 = 3.0;
 
 /// Steps of at least this fraction of the largest step count as equally large.

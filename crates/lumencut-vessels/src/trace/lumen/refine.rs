@@ -101,7 +101,7 @@ fn moved(probe: &Probe, line: &Centerline, round: usize) -> Centerline {
     Centerline { points: moved, radius, confidence: trust }
 }
 
-/// Rejects sections whose centres do not advance along the line: it would fold back there, as at a branch.
+/// Rejects sections whose centres do not advance along the line, because the line would fold back, as at a branch.
 fn unfolded(points: &[DVec3], sections: &[Option<LumenSection>], trust: &[f64], lengths: &[f64]) -> Vec<f64> {
     let mut left = trust.to_vec();
     for i in 0..points.len() {

@@ -12,7 +12,7 @@ use lumencut_core::volume::Volume;
 const DIRECTIONS: u32 = 60;
 const RAYS: usize = 32;
 
-/// Chords count up to this multiple of the narrowest one, which suffices to distinguish along from across.
+/// Longer chords count as this multiple of the narrowest one, which suffices to tell along the lumen from across it.
 const LENGTHWISE: f64 = 3.0;
 
 /// Number of rounds, each of which searches from the new centre.

@@ -204,7 +204,7 @@ impl Surroundings {
                 format!("lumen of about {usual:.0}, as at another point"),
             ));
         }
-        // Also false for NaN.
+        // False if the value is NaN.
         let is_bright = hit.lumen > least;
         (!is_bright)
             .then(|| ("tissue, or blood without contrast medium", format!("lumen, brighter than {least:.0}")))

@@ -13,7 +13,7 @@ use lumencut_core::stop::Stop;
 const WIDTHS: [f64; 3] = [0.5, 1.0, 2.0];
 
 /// Returns the line unchanged if it never wanders, otherwise the smoothed and recentred version that wanders least.
-/// Sections of a line oblique in a wide lumen intersect, so their centres move the line back and forth.
+/// If a line runs obliquely in a wide lumen, its sections intersect, so their centres move the line back and forth.
 pub fn without_wander(
     voxels: &Voxels,
     model: &LumenModel,

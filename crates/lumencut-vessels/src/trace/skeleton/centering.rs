@@ -90,8 +90,8 @@ fn way_inwards(radius: impl Fn(f64) -> f64, step: f64, limit: f64) -> f64 {
     way.min(limit)
 }
 
-/// Extends the start of the line straight to the wall, from one radius inside; replaces at most `most` mm of
-/// the line.
+/// Replaces the start of the line by a straight piece that ends at the wall. The piece begins where the line is one
+/// radius away from its start; at most `most` mm are replaced.
 pub(crate) fn lead_to_cap(points: &mut Vec<DVec3>, lumen: &Lumen, most: f64) {
     let ways = arc_lengths(points);
     let whole = ways[ways.len() - 1];
@@ -116,7 +116,7 @@ pub(crate) fn lead_to_cap(points: &mut Vec<DVec3>, lumen: &Lumen, most: f64) {
     let mut led: Vec<DVec3> =
         (0..=count).rev().map(|n| from + way * (n as f64 / count as f64) * direction).collect();
     let tail = points.split_off(removed);
-    // Also drops a point that coincides with `from`.
+    // Points near `from` are dropped, even if they coincide with it.
     let tail: Vec<DVec3> =
         tail.into_iter().skip_while(|point| point.distance(from) < lumen.side() / 2.0 - ALONG_LINE).collect();
     led.extend(tail.iter().copied());

@@ -149,7 +149,7 @@ impl<T: Copy> Rows<'_, T> {
         self.voxels[place..end].iter().step_by(stride).copied()
     }
 
-    /// Tests whether all values are zero, which most rows are; the code has no branches, for speed.
+    /// Tests whether all values are zero, as in most rows; the code has no branches, for speed.
     fn is_empty(&self, along: usize, place: usize) -> bool
     where
         T: Default + PartialEq,

@@ -164,7 +164,7 @@ fn edges(foreground: &Foreground, cells: &[u32]) -> Vec<[usize; 2]> {
     edges.into_iter().map(|(_, edge)| edge).collect()
 }
 
-/// One closing edge per hole, taken from the edges whose cycle is not a sum of triangles.
+/// One edge of `closing` per hole: the edges whose cycles are not sums of triangles.
 fn around_holes(edges: &[[usize; 2]], closing: &[[usize; 2]], places: usize) -> Vec<[usize; 2]> {
     let number_of: HashMap<[usize; 2], usize> =
         closing.iter().enumerate().map(|(n, &edge)| (edge, n)).collect();

@@ -13,8 +13,8 @@ const RIDGE: f64 = 0.6;
 /// Minimum membership for a ridge to be visible.
 const FAINT: f64 = 0.05;
 
-/// Second derivative of the membership in a clear wall. In a throat, the next eigenvalue is below -`THROAT`
-/// times the first.
+/// Second derivative of the membership in a clear wall. In the throat of a stenosis, the next eigenvalue is
+/// below -`THROAT` times the first.
 const DIP: f64 = 0.1;
 const THROAT: f64 = 0.3;
 

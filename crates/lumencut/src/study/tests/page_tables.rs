@@ -1,6 +1,7 @@
 //! Generates `web/src/core/generated/tables.ts`, the tables of the facade that the page reads before the engine has started.
 
 use super::generated::require_current;
+use crate::drags::GESTURES;
 use crate::study::palette::PALETTE;
 use crate::vessel_names::{NamedVessel, VESSEL_NAMES};
 
@@ -14,12 +15,23 @@ fn table<T: serde::Serialize>(about: &str, name: &str, rows: &[T]) -> String {
     format!("\n/** {about} */\nexport const {name} = [\n{rows}] as const;\n")
 }
 
+fn constants() -> String {
+    let rows: String = GESTURES
+        .iter()
+        .map(|row| format!("  /** {} ({}). */\n  {}: {},\n", row.about, row.unit, row.name, row.value))
+        .collect();
+    format!(
+        "\n/** Constants of drags, the wheel and keys. */\nexport const GESTURES = {{\n{rows}}} as const;\n"
+    )
+}
+
 #[test]
 fn the_tables_of_the_page_are_those_of_the_facade() {
     let names: Vec<String> = VESSEL_NAMES.iter().flat_map(NamedVessel::offered).collect();
     let tables = [
         table("Names of vessels that have a code in reports.", "VESSEL_NAMES", &names),
         table("Colours of vessels with their names, in the order of their use.", "PALETTE", &PALETTE),
+        constants(),
     ];
     require_current("tables.ts", &(HEAD.to_owned() + &tables.concat()));
 }

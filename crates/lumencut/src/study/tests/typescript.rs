@@ -102,7 +102,6 @@ fn written() -> String {
 const HEAD: &str = "\
 /** What the engine is asked and answers, written of `crates/lumencut/src/study/questions.rs` by `make types`; a test says where it is stale. */
 import type { Bytes, Pair, Settings, SettingValue, Turn, Vector } from '../plain';
-import type { SavedSession } from '../session-file';
 ";
 
 #[test]

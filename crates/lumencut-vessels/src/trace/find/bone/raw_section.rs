@@ -28,7 +28,7 @@ const TISSUE_SHARE: f64 = 0.3;
 /// Maximum length of a ray: the smaller of two sums, each of a multiple of the radius and some mm.
 const RAY_LENGTHS: [[f64; 2]; 2] = [[3.0, 4.0], [6.0, 1.5]];
 
-/// Lumen differs from the vessel level by less than `ALIKE`; bone exceeds that level by `BONE`.
+/// Lumen differs from the vessel level by less than `ALIKE`, bone exceeds it by `BONE` (fractions of the contrast).
 const ALIKE: f64 = 0.15;
 const BONE: f64 = 0.4;
 
@@ -46,8 +46,9 @@ const QUARTILES: f64 = 1.35;
 const CORTEX: [f64; 2] = [0.8, 2.5];
 const CORTEX_BEYOND: f64 = 2.0;
 
-/// In marrow, this fraction of the rays meets values above the inside by a fraction of the contrast, or a
-/// multiple of the noise. The inside is dark and uneven, or very dark. The radius has a minimum (voxels).
+/// Marrow: on `CORTEX_SHARE` of the rays, values exceed the inside by `CORTEX_ABOVE` of the contrast, or
+/// `CORTEX_NOISE` times the noise if larger. The inside is dark and uneven, or very dark; the radius has a minimum
+/// (voxels).
 const CORTEX_SHARE: f64 = 0.7;
 const CORTEX_ABOVE: f64 = 0.15;
 const CORTEX_NOISE: f64 = 3.0;

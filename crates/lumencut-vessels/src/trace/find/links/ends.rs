@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::trace::find::quantiles::median;
 use crate::trace::find::track::{Track, TrackPoint};
 
-/// Tracks with less confidence are not linked, because bone must not join trees.
+/// Tracks with less confidence than this are not linked, because bone must not join trees.
 const LEAST_CONFIDENCE: f64 = 0.3;
 
 /// Length of the part that gives the direction of an end (radii).

@@ -26,7 +26,7 @@ const LEVEL: f64 = 0.45;
 /// Weight of turn and level difference in the cost of a link, relative to the link's length.
 const TURN: f64 = 0.5;
 
-/// Ends with a smaller radius (voxels) are narrow.
+/// Ends with a radius below this (voxels) are narrow.
 const NARROW_VOXELS: f64 = 2.5;
 
 /// Maximum number of points tried per track.
@@ -39,7 +39,7 @@ pub(crate) struct Limits {
     pub turn: f64,
     /// Maximum difference of levels (fraction of the contrast).
     pub unlike: f64,
-    /// Factor of that difference for a narrow end at a brighter track: narrow ends look darker than their lumen.
+    /// Factor of the level difference for a narrow end at a brighter track: narrow ends look darker than their lumen.
     pub narrow: f64,
 }
 

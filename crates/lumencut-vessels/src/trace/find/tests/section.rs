@@ -77,7 +77,7 @@ fn where_bone_touches_a_tube_its_walls_are_seen_once_bone_ends_rays() {
     assert!(plain.shift.x > 0.4 && plain.closure < 0.9, "{plain:?}");
     assert!(seen.shift.length() < 0.3 && (seen.radius - 3.0).abs() < 0.15, "{seen:?}");
     assert!(seen.closure > 0.95 && seen.contrast_share > plain.contrast_share, "{seen:?} {plain:?}");
-    // If there is no bone, nothing changes.
+    // Without bone, both methods give the same section.
     let tube = |place: DVec3| blurred(depth(place, 3.0));
     assert_eq!(looked(Section::beside_bone, tube, MIDDLE, 3.0), look(tube, MIDDLE, 3.0));
 }

@@ -1,4 +1,4 @@
-//! Attaches the ends of runs to bit-identical points of other runs.
+//! Attaches the ends of runs (lines of vessels) to bit-identical points of other runs.
 
 use glam::DVec3;
 
@@ -60,7 +60,7 @@ pub(crate) fn attached(
     Ok(made)
 }
 
-/// The point of this line at `knot`, where another line meets it: the line's end, or its point nearest to the node.
+/// The point where another line meets this one: an end if `knot` is 0 or `last`, otherwise the point nearest to `place`.
 fn joint(points: &[LinePoint], knot: usize, last: usize, place: DVec3) -> LinePoint {
     let away = |point: &&LinePoint| point.place.distance_squared(place);
     let nearest = points.iter().min_by(|a, b| away(a).total_cmp(&away(b)));

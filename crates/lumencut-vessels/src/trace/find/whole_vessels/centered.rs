@@ -1,4 +1,4 @@
-//! Centres the part of each run that lies outside the lumens at its ends.
+//! Centres the part of each run (line of a vessel) that lies outside the lumens of the runs that it meets.
 
 use std::ops::RangeInclusive;
 
@@ -15,7 +15,7 @@ use crate::trace::lumen::refine::{STEP, refined_near};
 use lumencut_core::error::Result;
 use lumencut_core::stop::Stop;
 
-/// Number of points of the other run, on each side of the node, whose lumen is checked.
+/// Number of points of a run that is met, on each side of the meeting point, whose lumens are checked.
 const NEAR_POINTS: usize = 200;
 
 /// Minimum length of a part that is centred (mm).
@@ -41,7 +41,7 @@ pub(crate) struct LinePoint {
 #[derive(Clone, Debug)]
 pub(crate) struct Centered {
     pub points: Vec<LinePoint>,
-    /// Whether a part lies outside the other lumens. If not, the points are those of the tracks.
+    /// Whether part of the run lies outside the lumens that it meets. If not, the points are those of the tracks.
     pub is_outside: bool,
 }
 
@@ -73,7 +73,7 @@ pub(crate) fn met(runs: &Runs, number: usize, end: usize) -> Option<(usize, usiz
     (owner != number).then_some((owner, knot.1))
 }
 
-/// The points outside the lumens at both ends; None if there are fewer than two.
+/// The points of a run outside the lumens of the runs that its ends meet; None if there are fewer than two.
 fn outside(runs: &Runs, number: usize) -> Option<RangeInclusive<usize>> {
     let points = &runs.runs[number].points;
     let is_within = |n: usize, end: usize| {

@@ -1,4 +1,4 @@
-//! Closes rings: a run that returns to its start is made to end on its first point.
+//! Closes rings: a run (line of a vessel) that returns to its start is made to end on its first point.
 
 use crate::trace::find::links::groups::SMALL_LOOP;
 use crate::trace::find::whole_vessels::attached::Attached;

@@ -26,13 +26,13 @@ pub(crate) fn outlook(graph: &Graph, edge: usize, node: usize, radius: f64) -> O
         for point in graph.points_from(edge, node) {
             radii.push(point.radius);
             seen = point.place;
-            // A narrow edge needs less distance, but must first leave the lumen.
+            // The larger radius decides, so that the direction of a narrow edge is not taken inside a wide lumen.
             if radii.len() > 2 && seen.distance(place) >= SAMPLE_RADII * radius.max(point.radius) {
                 return outlook_of(place, seen, radii);
             }
         }
         node = graph.far(edge, node);
-        // Behind a junction, the continuation is not known.
+        // Beyond a junction, it is not known which edge continues this one.
         let Some(next) = only_other(graph, node, edge) else { break };
         edge = next;
     }

@@ -1,4 +1,4 @@
-//! Finds the root of each part, and ranks the parts.
+//! Finds the root of each part (connected tracks), and ranks the parts.
 
 use crate::trace::find::scan::Scan;
 use crate::trace::find::track::{Track, usual};
@@ -73,7 +73,7 @@ fn is_free(graph: &Graph, node: usize) -> bool {
     graph.incident[node].len() == 1
 }
 
-/// The wider free end of the run with the largest track. If it has none, the widest free end, or any end of a ring.
+/// The wider free end of the run with the largest track; else the part's widest free end, or any end of a ring.
 fn root(graph: &Graph, part: &Part) -> [usize; 2] {
     let [first, after] = graph.of_track[part.largest.0];
     let ways = [

@@ -11,7 +11,8 @@ use crate::trace::find::whole_vessels::outlook::{Outlook, outlook};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// A run that is met from the side continues if its two edges are this straight (cosine) and this much wider.
+/// Limits for a node that a run meets from the side: there, two other edges form one vessel that passes through, and the
+/// run ends, if the cosine between them is below `STRAIGHT` and both are `WIDER` times as wide as the run.
 const STRAIGHT: f64 = -0.8;
 const WIDER: f64 = 1.5;
 
@@ -30,7 +31,7 @@ pub(crate) struct Run {
 }
 
 pub(crate) struct Runs {
-    /// Runs. Each comes after the run that it leaves, except runs that were met from the side.
+    /// Each run comes after the run on which it starts, except runs that another one met from the side.
     pub runs: Vec<Run>,
     /// Index of the run that passes each node.
     pub(crate) owners: Vec<usize>,

@@ -1,4 +1,4 @@
-//! Splits a run into sure and doubtful vessels if these parts are long enough.
+//! Splits a run (line of a vessel) into sure and doubtful vessels if these parts are long enough.
 
 use crate::trace::find::found::{FoundVessel, SURE};
 use crate::trace::find::track::{Track, TrackDoubt};

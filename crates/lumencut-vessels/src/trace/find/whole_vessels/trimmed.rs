@@ -1,4 +1,4 @@
-//! Trims runs where they are too narrow, and removes runs that are only bumps in the walls of other runs.
+//! Trims runs (lines of vessels) where too narrow, and removes runs that are only bumps in the walls of others.
 
 use crate::trace::find::quantiles::median;
 use crate::trace::find::whole_vessels::attached::Attached;

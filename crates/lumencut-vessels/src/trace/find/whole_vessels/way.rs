@@ -1,4 +1,4 @@
-//! The path of a run along tracks and links. The centred line of the run must not stray from it.
+//! The path of a run (line of a vessel) along tracks and links. The centred line of the run must stay near it.
 
 use glam::DVec3;
 

@@ -1,46 +1,27 @@
-//! Converts profiles and stenoses to plain values, from which Python's pickle restores them.
+//! Records of profiles, and stenoses as plain values for pickles.
 
 use std::sync::Arc;
 
 use lumencut::measure::stenosis::{self, Doubts, Method};
 use lumencut::named::Named;
-use lumencut::stored_profile::StoredProfile;
-use numpy::{PyArray1, PyReadonlyArray1};
+use lumencut::profile_record::ProfileRecord;
 use pyo3::prelude::*;
 
 use crate::errors::to_python;
 use crate::measuring::{Profile, Stenosis};
-use crate::scan_details::ScanArgument;
 
-type Stored<'py> = (
-    Vec<(String, Bound<'py, PyArray1<f64>>)>,
-    Bound<'py, PyArray1<u32>>,
-    (String, String),
-    (String, Vec<f64>),
-);
-
-type Given<'py> = (
-    Vec<(String, PyReadonlyArray1<'py, f64>)>,
-    PyReadonlyArray1<'py, u32>,
-    (String, String),
-    (String, Vec<f64>),
-);
-
+/// Everything of a profile as text.
 #[pyfunction]
-pub(crate) fn stored_profile<'py>(py: Python<'py>, profile: &Profile) -> Stored<'py> {
-    let StoredProfile { columns, flags, fwhm_source, wall_source } = StoredProfile::of(&profile.0);
-    let columns = columns.into_iter().map(|(name, numbers)| (name, PyArray1::from_vec(py, numbers)));
-    (columns.collect(), PyArray1::from_vec(py, flags), fwhm_source, wall_source)
+pub(crate) fn profile_record(py: Python<'_>, profile: &Profile) -> String {
+    py.detach(|| ProfileRecord::of(&profile.0, &profile.1).text())
 }
 
+/// The profile that a record holds, bit-identical.
 #[pyfunction]
-#[allow(clippy::needless_pass_by_value)]
-pub(crate) fn restored_profile(stored: Given<'_>, scan: ScanArgument) -> PyResult<Profile> {
-    let (columns, flags, fwhm_source, wall_source) = stored;
-    let columns = columns.into_iter().map(|(name, numbers)| (name, numbers.as_array().to_vec()));
-    let flags = flags.as_array().to_vec();
-    let stored = StoredProfile { columns: columns.collect(), flags, fwhm_source, wall_source };
-    Ok(Profile(Arc::new(stored.profile().map_err(to_python)?), scan.details()))
+pub(crate) fn profile_from_record(py: Python<'_>, text: &str) -> PyResult<Profile> {
+    let restored = py.detach(|| ProfileRecord::read(text).and_then(ProfileRecord::profile));
+    let (profile, scan) = restored.map_err(to_python)?;
+    Ok(Profile(Arc::new(profile), scan))
 }
 
 /// Percentage and its uncertainty, place, diameter and its uncertainty, reference (mm); references; method; doubts.

@@ -1,62 +1,12 @@
-//! Converts a profile to plain columns, from which it can be restored exactly.
+//! The columns of a profile as plain numbers.
 
 use glam::DVec3;
-use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_vessels::measure::parts::Parts;
 use lumencut_vessels::measure::profile::{Profile, Source};
-use lumencut_vessels::measure::tree_walls::PooledWall;
 use lumencut_vessels::measure::wall_level::WallSource;
 
-/// The columns, flags and sources of a profile.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StoredProfile {
-    /// Columns with their names, in mm, LPS or the volume's unit. x, y and z of each point follow each other.
-    pub columns: Vec<(String, Vec<f64>)>,
-    /// The flags of each section.
-    pub flags: Vec<u32>,
-    /// The source of the point-spread width: kind and words.
-    pub fwhm_source: (String, String),
-    /// The source of the wall level: kind and numbers.
-    pub wall_source: (String, Vec<f64>),
-}
-
-impl StoredProfile {
-    /// The columns of a profile.
-    pub fn of(profile: &Profile) -> Self {
-        let mut profile = profile.clone();
-        let columns = columns(&mut profile).map(|(name, column)| (name.to_owned(), column.stored()));
-        Self {
-            columns: columns.into(),
-            flags: profile.flags,
-            fwhm_source: stored_source(&profile.fwhm_source),
-            wall_source: stored_wall(&profile.wall_source),
-        }
-    }
-
-    /// Restores the profile from its columns; it is bit-identical.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Measuring`] for missing or inconsistent columns.
-    pub fn profile(&self) -> Result<Profile> {
-        let mut profile = empty();
-        for (name, column) in columns(&mut profile) {
-            let stored = self.columns.iter().find(|(other, _)| other == name);
-            let (_, numbers) = stored.ok_or_else(|| damaged(format!("no column {name}")))?;
-            column.filled(numbers).ok_or_else(|| damaged(format!("{} numbers as {name}", numbers.len())))?;
-        }
-        profile.flags.clone_from(&self.flags);
-        profile.fwhm_source = restored_source(&self.fwhm_source)?;
-        profile.wall_source = restored_wall(&self.wall_source)?;
-        let sections = profile.arc_length.len();
-        let lengths = lengths(&profile);
-        if sections == 0 || lengths.iter().any(|length| *length != sections) {
-            return Err(damaged(format!("columns of {sections} and other numbers of sections")));
-        }
-        Ok(profile)
-    }
-}
-
-enum Column<'a> {
+/// A column of a profile.
+pub(crate) enum Column<'a> {
     Number(&'a mut f64),
     Numbers(&'a mut Vec<f64>),
     Pairs(&'a mut Vec<[f64; 2]>),
@@ -66,7 +16,8 @@ enum Column<'a> {
     Contours(&'a mut Vec<Vec<DVec3>>),
 }
 
-fn columns(profile: &mut Profile) -> [(&'static str, Column<'_>); 21] {
+/// The columns of a profile by name, except its flags.
+pub(crate) fn columns(profile: &mut Profile) -> [(&'static str, Column<'_>); 21] {
     [
         ("arc_length", Column::Numbers(&mut profile.arc_length)),
         ("diameter_min", Column::Numbers(&mut profile.diameter_min)),
@@ -93,7 +44,7 @@ fn columns(profile: &mut Profile) -> [(&'static str, Column<'_>); 21] {
 }
 
 impl Column<'_> {
-    fn stored(self) -> Vec<f64> {
+    pub(crate) fn stored(self) -> Vec<f64> {
         match self {
             Self::Number(number) => vec![*number],
             Self::Numbers(numbers) => numbers.clone(),
@@ -108,7 +59,7 @@ impl Column<'_> {
     }
 
     /// Replaces the content of the column; None if the number of values is wrong.
-    fn filled(self, numbers: &[f64]) -> Option<()> {
+    pub(crate) fn filled(self, numbers: &[f64]) -> Option<()> {
         match self {
             Self::Number(number) => {
                 let [one] = numbers else { return None };
@@ -133,7 +84,7 @@ fn five(parts: &Parts) -> [f64; 5] {
     [parts.noise, parts.point_spread, parts.wall, parts.lumen, parts.surroundings]
 }
 
-fn parts_of(numbers: &[f64; 5]) -> Parts {
+pub(crate) fn parts_of(numbers: &[f64; 5]) -> Parts {
     let [noise, point_spread, wall, lumen, surroundings] = *numbers;
     Parts { noise, point_spread, wall, lumen, surroundings }
 }
@@ -158,66 +109,13 @@ fn lists_of(mut numbers: &[f64]) -> Option<Vec<Vec<DVec3>>> {
     Some(lists)
 }
 
-fn whole(number: f64) -> Option<usize> {
+/// A number as a count; None if it is fractional or too large.
+pub(crate) fn whole(number: f64) -> Option<usize> {
     ((0.0..1e9).contains(&number) && number.fract() == 0.0).then_some(number as usize)
 }
 
-fn stored_source(source: &Source) -> (String, String) {
-    let (name, words) = match source {
-        Source::Given => ("given", ""),
-        Source::Estimated { on } => ("estimated", on.as_str()),
-        Source::Assumed { from } => ("assumed", from.as_str()),
-    };
-    (name.to_owned(), words.to_owned())
-}
-
-fn restored_source((name, words): &(String, String)) -> Result<Source> {
-    match name.as_str() {
-        "given" => Ok(Source::Given),
-        "estimated" => Ok(Source::Estimated { on: words.clone() }),
-        "assumed" => Ok(Source::Assumed { from: words.clone() }),
-        _ => Err(damaged(format!("a point spread from '{name}'"))),
-    }
-}
-
-fn stored_wall(source: &WallSource) -> (String, Vec<f64>) {
-    let (name, numbers) = match source {
-        WallSource::Hounsfield => ("hounsfield", vec![]),
-        WallSource::Given(level) => ("given", level.to_vec()),
-        WallSource::Pooled { given, by_others } => {
-            let by_others = [by_others.level[0], by_others.level[1], by_others.vessels as f64];
-            ("pooled", given.iter().flatten().copied().chain(by_others).collect())
-        }
-        WallSource::NotAsked => ("not asked", vec![]),
-        WallSource::DarkLumen => ("dark lumen", vec![]),
-        WallSource::OtherUnit => ("other unit", vec![]),
-        WallSource::AsBright => ("as bright", vec![]),
-    };
-    (name.to_owned(), numbers)
-}
-
-fn restored_wall((name, numbers): &(String, Vec<f64>)) -> Result<WallSource> {
-    let pooled = |given, level, vessels: f64| {
-        let by_others = PooledWall { level, vessels: whole(vessels)? };
-        Some(WallSource::Pooled { given, by_others })
-    };
-    let found = match (name.as_str(), numbers.as_slice()) {
-        ("hounsfield", []) => Some(WallSource::Hounsfield),
-        ("given", [level, deviation]) => Some(WallSource::Given([*level, *deviation])),
-        ("pooled", [a, b, vessels]) => pooled(None, [*a, *b], *vessels),
-        ("pooled", [given, deviation, a, b, vessels]) => {
-            pooled(Some([*given, *deviation]), [*a, *b], *vessels)
-        }
-        ("not asked", []) => Some(WallSource::NotAsked),
-        ("dark lumen", []) => Some(WallSource::DarkLumen),
-        ("other unit", []) => Some(WallSource::OtherUnit),
-        ("as bright", []) => Some(WallSource::AsBright),
-        _ => None,
-    };
-    found.ok_or_else(|| damaged(format!("a wall from '{name}' with {} numbers", numbers.len())))
-}
-
-fn empty() -> Profile {
+/// A profile without sections, to fill.
+pub(crate) fn empty() -> Profile {
     Profile {
         arc_length: Vec::new(),
         diameter_min: Vec::new(),
@@ -246,7 +144,8 @@ fn empty() -> Profile {
     }
 }
 
-fn lengths(profile: &Profile) -> [usize; 18] {
+/// The numbers of sections of all columns, which are equal in a profile.
+pub(crate) fn lengths(profile: &Profile) -> [usize; 18] {
     [
         profile.arc_length.len(),
         profile.diameter_min.len(),
@@ -268,11 +167,3 @@ fn lengths(profile: &Profile) -> [usize; 18] {
         profile.on_vessel.len(),
     ]
 }
-
-fn damaged(found: String) -> Error {
-    Error::new(ErrorKind::Measuring, "stored profile", found, "the columns of one profile")
-}
-
-#[cfg(test)]
-#[path = "tests/stored_profile.rs"]
-mod tests;
