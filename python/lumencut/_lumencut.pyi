@@ -1,4 +1,7 @@
-"""The compiled part of the package."""
+"""The compiled part of the package, kept by hand; `mypy.stubtest` compares names, parameters and defaults.
+
+The stubs that PyO3 0.30 makes know no NumPy arrays, callbacks, constants and typed dictionaries.
+"""
 
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal, Protocol, TypedDict, final
@@ -40,8 +43,8 @@ class _Marked(Protocol):
     def group(self) -> str | None: ...
 
 __all__ = [
-    "CHART_FRAME",
     "CENTERLINE_FILES",
+    "CHART_FRAME",
     "DEFAULTS",
     "DICOM_ATTRIBUTES",
     "FILE_HEAD",

@@ -6,7 +6,6 @@ import math
 from dataclasses import replace
 from typing import Any, TypeAlias
 
-from lumencut import _lumencut
 from lumencut._checked_settings import checked
 from lumencut._checks import number
 from lumencut.errors import CameraError, SettingsError, VesselTreeError
@@ -15,7 +14,6 @@ from lumencut.settings import Settings
 from lumencut.slab import Slab
 from lumencut.vessel import Vessel
 from lumencut.vessel_tree import VesselTree
-from lumencut.volume import Volume
 
 #: A slab in the forms that users pass: a Slab, a thickness (mm) with a mode, or a thickness (mm).
 SlabArgument: TypeAlias = "Slab | tuple[float, str] | float | None"
@@ -31,12 +29,6 @@ def check_vessel(vessel: Any) -> None:
         )
         raise VesselTreeError("vessel of the CPR", type(vessel).__name__, "a Vessel", mend)
     check_lines_once([vessel], "vessel of the CPR")
-
-
-def pixel_side(volume: Volume, given: float | None, method: str) -> float:
-    """Return the pixel side (mm) that was given, otherwise the default of every reformation of a volume."""
-    side = _lumencut.pixel_side(float(volume.spacing.min())) if given is None else given
-    return number(CameraError, f"pixel_spacing of the {method}", side)
 
 
 def flat_settings(settings: Any, slab: SlabArgument = None) -> Settings:

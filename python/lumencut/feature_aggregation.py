@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
@@ -12,12 +12,13 @@ import numpy.typing as npt
 
 from lumencut import _lumencut
 from lumencut._checked_settings import checked
-from lumencut._checks import choice, number
+from lumencut._checks import choice
 from lumencut._reformation_checks import check_vessel
 from lumencut.errors import CameraError, SettingsError
-from lumencut.planar_reformation import PlanarReformation, cpr_of
+from lumencut.planar_reformation import CprRequest, PlanarReformation
 from lumencut.reformation import Reformation
 from lumencut.reformation_recipe import ReformationRecipe
+from lumencut.reformation_request import HEAD, ReformationRequest
 from lumencut.renderer import Renderer
 from lumencut.settings import Settings
 from lumencut.vessel import Vessel
@@ -71,7 +72,7 @@ class FeatureAggregation(Reformation):
         kept = ("pixel_spacing", "up", "smoothing")
         parameters = {name: surface.recipe.parameters[name] for name in kept}
         parameters |= {"radius": radius, "feature": feature, "level": level}
-        recipe = ReformationRecipe(f"CFA, {feature}", axes, parameters, "cfa")
+        recipe = ReformationRecipe(f"CFA, {feature}", axes, parameters, CfaRequest.kind)
         super().__init__(surface._renderer, surface._core, surface._given, recipe, measurable=True)
         self.angles: int
         self._aggregated, self.angles = self._renderer._core.aggregate(
@@ -112,7 +113,7 @@ def cfa(
     radius: float = 10.0,
     feature: Feature = "max",
     pixel_spacing: float | None = None,
-    up: npt.ArrayLike = (0.0, 0.0, 1.0),
+    up: npt.ArrayLike = HEAD,
     smoothing: float = 0.0,
     settings: Settings | None = None,
     device: Literal["auto", "cpu", "gpu"] = "auto",
@@ -146,47 +147,36 @@ def cfa(
         another feature, for a share without a level, and for a level without a share.
     """
     check_vessel(vessel)
-    renderer = Renderer(volume, VesselTree([vessel]), device)
-    return cfa_of(
-        renderer,
-        vessel,
-        radius,
-        feature,
-        level=level,
-        pixel_spacing=pixel_spacing,
-        up=up,
-        smoothing=smoothing,
-        settings=settings,
-    )
+    asked = CfaRequest(radius, feature, pixel_spacing, up, smoothing, settings, level)
+    return asked.of(Renderer(volume, VesselTree([vessel]), device), vessel)
 
 
-def cfa_of(
-    renderer: Renderer,
-    vessel: Vessel,
-    radius: float = 10.0,
-    feature: Feature = "max",
-    *,
-    level: float | None = None,
-    pixel_spacing: float | None = None,
-    up: npt.ArrayLike = (0.0, 0.0, 1.0),
-    smoothing: float = 0.0,
-    settings: Settings | None = None,
-) -> FeatureAggregation:
-    """Return the CFA of a vessel in the scene and window of a renderer; parameters as for :func:`cfa`."""
-    choice(SettingsError, "feature of the CFA", feature, FEATURES)
-    above = None if level is None else number(SettingsError, "level of the CFA", level)
-    _lumencut.feature_window(feature, above, [0.0, 1.0])
-    largest = number(CameraError, "radius of the CFA", radius)
-    if not (math.isfinite(largest) and largest > 0):
-        raise CameraError("radius of the CFA", f"{largest:g} mm", "a radius above 0 mm")
-    surface = cpr_of(
-        renderer,
-        vessel,
-        "straightened",
-        width=2 * largest,
-        pixel_spacing=pixel_spacing,
-        up=up,
-        smoothing=smoothing,
-        settings=settings,
-    )
-    return FeatureAggregation(surface, feature, above, largest)
+@dataclass(frozen=True)
+class CfaRequest(ReformationRequest):
+    """The parameters of :func:`cfa`."""
+
+    kind, subject = "cfa", "CFA"
+    told = ("level", "radius")
+
+    radius: float = 10.0
+    feature: Feature = "max"
+    pixel_spacing: float | None = None
+    up: npt.ArrayLike = HEAD
+    smoothing: float = 0.0
+    settings: Settings | None = None
+    level: float | None = None
+
+    def of(self, renderer: Renderer, vessel: Vessel) -> FeatureAggregation:
+        """Return the CFA of a vessel in the scene and window of a renderer."""
+        choice(SettingsError, "feature of the CFA", self.feature, FEATURES)
+        level, radius = self.checked().values()
+        _lumencut.feature_window(self.feature, level, [0.0, 1.0])
+        if not (math.isfinite(radius) and radius > 0):
+            raise CameraError("radius of the CFA", f"{radius:g} mm", "a radius above 0 mm")
+        surface = self.surface(2 * radius).of(renderer, vessel)
+        return FeatureAggregation(surface, self.feature, level, radius)
+
+    def surface(self, width: float) -> CprRequest:
+        """Return the straightened CPR of this width (mm) whose pixels stand for the half circles."""
+        kept = {name: getattr(self, name) for name in ("pixel_spacing", "up", "smoothing", "settings")}
+        return CprRequest("straightened", width, **kept)

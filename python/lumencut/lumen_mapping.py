@@ -2,24 +2,24 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy.typing as npt
 
 from lumencut import _lumencut
-from lumencut._checks import choice, number, numbers
-from lumencut._reformation_checks import check_vessel, flat_settings, pixel_side
-from lumencut.errors import CameraError, MeasuringError, SettingsError, VesselTreeError, VolumeError
+from lumencut._checks import choice
+from lumencut._reformation_checks import check_vessel, flat_settings
+from lumencut.errors import MeasuringError, SettingsError, VesselTreeError
 from lumencut.planar_reformation import one_angle
 from lumencut.profile import Profile
+from lumencut.reformation_request import HEAD, ReformationRequest, default_side
 from lumencut.renderer import Renderer
 from lumencut.settings import Settings
 from lumencut.slab import Slab
 from lumencut.unrolled_wall import MODES, LumenMap, MappedVessel, Mode
 from lumencut.vessel import Vessel
 from lumencut.vessel_tree import VesselTree
-
-_HEAD = (0.0, 0.0, 1.0)
 
 
 def lumen_map(
@@ -35,7 +35,7 @@ def lumen_map(
     calcium_level: float | None = None,
     profile: Profile | None = None,
     tree: VesselTree | None = None,
-    up: npt.ArrayLike = _HEAD,
+    up: npt.ArrayLike = HEAD,
     smoothing: float = 0.0,
     settings: Settings | None = None,
     degrees: float | None = None,
@@ -110,75 +110,49 @@ def lumen_map(
         if angle is not None or degrees is not None
         else None
     )
-    return lumen_map_of(
-        Renderer(volume, VesselTree([vessel]), device),
-        vessel,
-        mode,
-        pixel_spacing=pixel_spacing,
-        angle=turned,
-        overlap=overlap,
-        band=band,
-        show=show,
-        calcium_level=calcium_level,
-        profile=profile,
-        tree=tree,
-        up=up,
-        smoothing=smoothing,
-        settings=settings,
-    )
+    shown = (mode, pixel_spacing, turned, overlap, band, show, calcium_level)
+    asked = LumenMapRequest(*shown, profile, tree, up, smoothing, settings)
+    return asked.of(Renderer(volume, VesselTree([vessel]), device), vessel)
 
 
-def lumen_map_of(
-    renderer: Renderer,
-    vessel: Vessel,
-    mode: Mode = "wall",
-    *,
-    pixel_spacing: float | None = None,
-    angle: float | None = None,
-    overlap: float = 0.0,
-    band: tuple[float, float] = (-1.0, 3.0),
-    show: Literal["max", "mean", "min"] = "max",
-    calcium_level: float | None = None,
-    profile: Profile | None = None,
-    tree: VesselTree | None = None,
-    up: npt.ArrayLike = _HEAD,
-    smoothing: float = 0.0,
-    settings: Settings | None = None,
-) -> LumenMap:
-    """Return the map of a vessel in the window of a renderer; parameters as for :func:`lumen_map`."""
-    check_vessel(vessel)
-    choice(SettingsError, "mode of the lumen map", mode, MODES)
-    if not isinstance(profile, (Profile, type(None))):
-        raise MeasuringError("profile of the lumen map", type(profile).__name__, "a Profile or None")
-    if not isinstance(tree, (VesselTree, type(None))):
-        raise VesselTreeError("tree of the lumen map", type(tree).__name__, "a VesselTree or None")
-    low, high = numbers(SettingsError, "band of the lumen map", band, (2,)).tolist()
-    if not -1e3 <= low < high <= 1e3:
-        found = f"from {low:g} to {high:g} mm"
-        raise SettingsError("band of the lumen map", found, "two distances that rise, within 1000 mm")
-    grid = renderer.volume
-    if grid is None:
-        raise VolumeError("volume of the lumen map", "None", "a volume to show")
-    smooth = number(SettingsError, "smoothing of the centerline", smoothing)
-    upwards = numbers(CameraError, "up of the lumen map", up, (3,)).tolist()
-    wanted = {
-        "pixel_spacing": pixel_side(grid, pixel_spacing, "lumen map"),
-        "angle": None if angle is None else number(CameraError, "angle of the lumen map", angle),
-        "overlap": number(CameraError, "overlap of the lumen map", overlap),
-        "band": [low, high],
-        "show": show,
-        "calcium_level": None
-        if calcium_level is None
-        else number(SettingsError, "calcium_level", calcium_level),
-        "up": upwards,
-        "smoothing": smooth,
-    }
-    known = profile or _measured(grid, vessel, tree)
-    wall = _lumencut.LumenWall(
-        grid, (vessel.points, vessel.radius), smooth, upwards, None if known is None else known._core
-    )
-    given = flat_settings(settings, Slab(high - low, show))
-    return LumenMap(MappedVessel(renderer, wall, known, tree), given, mode, wanted)
+@dataclass(frozen=True)
+class LumenMapRequest(ReformationRequest):
+    """The parameters of :func:`lumen_map`."""
+
+    kind, subject = "map", "lumen map"
+    told = ("pixel_spacing", "angle", "overlap", "band", "show", "calcium_level", "up", "smoothing")
+
+    mode: Mode = "wall"
+    pixel_spacing: float | None = None
+    angle: float | None = None
+    overlap: float = 0.0
+    band: tuple[float, float] = (-1.0, 3.0)
+    show: Literal["max", "mean", "min"] = "max"
+    calcium_level: float | None = None
+    profile: Profile | None = None
+    tree: VesselTree | None = None
+    up: npt.ArrayLike = HEAD
+    smoothing: float = 0.0
+    settings: Settings | None = None
+
+    def of(self, renderer: Renderer, vessel: Vessel) -> LumenMap:
+        """Return the map of a vessel in the window of a renderer."""
+        grid, profile = self._volume(renderer, vessel), self.profile
+        choice(SettingsError, "mode of the lumen map", self.mode, MODES)
+        if not isinstance(profile, (Profile, type(None))):
+            raise MeasuringError("profile of the lumen map", type(profile).__name__, "a Profile or None")
+        if not isinstance(self.tree, (VesselTree, type(None))):
+            raise VesselTreeError("tree of the lumen map", type(self.tree).__name__, "a VesselTree or None")
+        asked = self.checked(pixel_spacing=default_side(grid))
+        low, high = asked["band"]
+        if not -1e3 <= low < high <= 1e3:
+            found = f"from {low:g} to {high:g} mm"
+            raise SettingsError("band of the lumen map", found, "two distances that rise, within 1000 mm")
+        known = profile or _measured(grid, vessel, self.tree)
+        core, smooth = None if known is None else known._core, asked["smoothing"]
+        wall = _lumencut.LumenWall(grid, (vessel.points, vessel.radius), smooth, asked["up"], core)
+        given = flat_settings(self.settings, Slab(high - low, self.show))
+        return LumenMap(MappedVessel(renderer, wall, known, self.tree), given, self.mode, asked)
 
 
 def _measured(volume: Any, vessel: Vessel, tree: VesselTree | None) -> Profile | None:

@@ -11,7 +11,7 @@ import numpy as np
 from lumencut import _lumencut
 from lumencut.frame import picture_as_png
 from lumencut.measured_vessel import MeasuredVessel
-from lumencut.planar_reformation import cpr_of
+from lumencut.planar_reformation import CprRequest
 from lumencut.profile_sections import nearest
 from lumencut.renderer import Renderer
 from lumencut.section_pictures import SectionView
@@ -71,7 +71,7 @@ def _strip(
     width, spacing = wished
     # A wider CPR would reach out of the volume.
     width = min(width, float(np.linalg.norm(np.ptp(view.volume.corners, axis=0))) / 2)
-    made = cpr_of(renderer, one.vessel, "straightened", width=width, pixel_spacing=spacing)
+    made = CprRequest("straightened", width, spacing).of(renderer, one.vessel)
     picture = np.rot90(made.image)
     return _encoded(picture), (picture.shape[1], picture.shape[0]), spacing
 

@@ -3,29 +3,24 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import Any, Final, Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
-from lumencut._checks import choice, number, numbers
-from lumencut._reformation_checks import (
-    SlabArgument,
-    check_vessel,
-    flat_settings,
-    pixel_side,
-    radians,
-    rotation,
-)
+from lumencut._checks import choice
+from lumencut._reformation_checks import SlabArgument, check_vessel, flat_settings, radians, rotation
 from lumencut.camera import Camera
-from lumencut.errors import CameraError, SettingsError, VolumeError
+from lumencut.errors import CameraError, SettingsError
 from lumencut.profile import Profile
 from lumencut.reformation import Reformation
 from lumencut.reformation_recipe import ReformationRecipe
+from lumencut.reformation_request import HEAD, ReformationRequest, default_side
 from lumencut.renderer import Renderer
 from lumencut.settings import Settings
-from lumencut.tangential import TangentialReformation, tangential_of
+from lumencut.tangential import TangentialReformation, TangentialRequest
 from lumencut.vessel import Vessel
 from lumencut.vessel_tree import VesselTree
 from lumencut.volume import Volume
@@ -46,9 +41,6 @@ _STRIP = 32
 _Rolled: TypeAlias = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64]]
 
 ROLLS = ("narrowest", "widest")
-
-_HEAD = (0.0, 0.0, 1.0)
-
 
 _AXES = {
     "projected": "Down: height as it is seen. Across: through the vessel; distances are not true.",
@@ -94,7 +86,7 @@ class PlanarReformation(Reformation):
     ) -> None:
         self.mode: Mode = parameters["mode"]
         self.angle: float = parameters["angle"]
-        recipe = ReformationRecipe(f"{self.mode} CPR", _AXES[self.mode], parameters, "cpr")
+        recipe = ReformationRecipe(f"{self.mode} CPR", _AXES[self.mode], parameters, CprRequest.kind)
         super().__init__(renderer, core, given, recipe, measurable=self.mode != "projected")
         self.is_projection: bool = self.mode == "projected"
         self.roll: npt.NDArray[np.float64] | None = (
@@ -169,7 +161,7 @@ def cpr(
     width: float | None = None,
     pixel_spacing: float | None = None,
     angle: float = 0.0,
-    up: npt.ArrayLike = _HEAD,
+    up: npt.ArrayLike = HEAD,
     slab: SlabArgument = None,
     smoothing: float = 0.0,
     settings: Settings | None = None,
@@ -258,78 +250,56 @@ def cpr(
     renderer = Renderer(volume, VesselTree([vessel]), device)
     if mode == TANGENTIAL:
         placed = (width, pixel_spacing, angle, tuple(np.ravel(up).tolist()), degrees, normal, roll)
-        if placed != (None, None, 0.0, _HEAD, None, None, None):
+        if placed != (None, None, 0.0, HEAD, None, None, None):
             found = "a width, pixel spacing, angle, up, normal or roll with the mode 'tangential'"
             raise CameraError("view of the CPR", found, "camera= alone, which sets all of them")
-        return tangential_of(renderer, vessel, camera, slab=slab, smoothing=smoothing, settings=settings)
+        return TangentialRequest(camera, slab, smoothing, settings).of(renderer, vessel)
     if camera is not None:
         found = f"a camera with the mode {mode!r}"
         raise CameraError("camera of the CPR", found, "the mode 'tangential'", "leave out the camera")
-    return cpr_of(
-        renderer,
-        vessel,
-        mode,
-        width=width,
-        pixel_spacing=pixel_spacing,
-        angle=one_angle(angle, degrees),
-        up=up,
-        slab=slab,
-        smoothing=smoothing,
-        settings=settings,
-        normal=normal,
-        roll=roll,
-        profile=profile,
+    turned = one_angle(angle, degrees)
+    asked = CprRequest(
+        mode, width, pixel_spacing, turned, up, slab, smoothing, settings, normal, roll, profile
     )
+    return asked.of(renderer, vessel)
 
 
-def cpr_of(
-    renderer: Renderer,
-    vessel: Vessel,
-    mode: Mode = "projected",
-    *,
-    width: float | None = None,
-    pixel_spacing: float | None = None,
-    angle: float = 0.0,
-    up: npt.ArrayLike = _HEAD,
-    slab: SlabArgument = None,
-    smoothing: float = 0.0,
-    settings: Settings | None = None,
-    normal: npt.ArrayLike | None = None,
-    roll: Literal["narrowest", "widest"] | None = None,
-    profile: Profile | None = None,
-) -> PlanarReformation:
-    """Return the CPR of a vessel in the scene and window of a renderer; parameters as for :func:`cpr`."""
-    check_vessel(vessel)
-    choice(SettingsError, "mode of the CPR", mode, MODES)
-    volume = renderer.volume
-    if volume is None:
-        raise VolumeError("volume of the CPR", "None", "a volume to show")
-    spacing = pixel_side(volume, pixel_spacing, "CPR")
-    if normal is not None and mode != "straightened":
-        raise CameraError("normal of the CPR", f"a normal with the mode {mode!r}", "the mode 'straightened'")
-    given = flat_settings(settings, slab)
-    towards = None if normal is None else numbers(CameraError, "normal of the CPR", normal, (3,))
-    upwards, turned = (
-        numbers(CameraError, "up of the CPR", up, (3,)),
-        number(CameraError, "angle of the CPR", angle),
-    )
-    smooth = number(SettingsError, "smoothing of the centerline", smoothing)
-    view, pixels = (upwards, turned, towards), (_width(width, volume), spacing)
-    core = _lumencut.Cpr(vessel.points, smooth, mode, view, pixels)
-    parameters = {
-        "mode": mode,
-        "width": pixels[0],
-        "pixel_spacing": spacing,
-        "angle": turned,
-        "up": upwards.tolist(),
-        "smoothing": smooth,
-        "normal": None if towards is None else towards.tolist(),
-        "roll": roll,
-    }
-    if roll is None:
-        return PlanarReformation(renderer, core, given, parameters)
-    rolled = _rolled(volume, vessel, parameters, profile)
-    return PlanarReformation(renderer, core.rolled(*rolled), given, parameters, rolled)
+@dataclass(frozen=True)
+class CprRequest(ReformationRequest):
+    """The parameters of :func:`cpr` in the modes that have rows."""
+
+    kind, subject = "cpr", "CPR"
+    told = ("mode", "width", "pixel_spacing", "angle", "up", "smoothing", "normal", "roll")
+
+    mode: Mode = "projected"
+    width: float | None = None
+    pixel_spacing: float | None = None
+    angle: float = 0.0
+    up: npt.ArrayLike = HEAD
+    slab: SlabArgument = None
+    smoothing: float = 0.0
+    settings: Settings | None = None
+    normal: npt.ArrayLike | None = None
+    roll: Literal["narrowest", "widest"] | None = None
+    profile: Profile | None = None
+
+    def of(self, renderer: Renderer, vessel: Vessel) -> PlanarReformation:
+        """Return the CPR of a vessel in the scene and window of a renderer."""
+        volume = self._volume(renderer, vessel)
+        choice(SettingsError, "mode of the CPR", self.mode, MODES)
+        if self.normal is not None and self.mode != "straightened":
+            found = f"a normal with the mode {self.mode!r}"
+            raise CameraError("normal of the CPR", found, "the mode 'straightened'")
+        given = flat_settings(self.settings, self.slab)
+        asked = self.checked(pixel_spacing=default_side(volume))
+        _check_width(asked["width"], volume)
+        view = (asked["up"], asked["angle"], asked["normal"])
+        pixels = (asked["width"], asked["pixel_spacing"])
+        core = _lumencut.Cpr(vessel.points, asked["smoothing"], self.mode, view, pixels)
+        if self.roll is None:
+            return PlanarReformation(renderer, core, given, asked)
+        rolled = _rolled(volume, vessel, asked, self.profile)
+        return PlanarReformation(renderer, core.rolled(*rolled), given, asked, rolled)
 
 
 def _rolled(volume: Volume, vessel: Vessel, parameters: dict[str, Any], profile: Profile | None) -> _Rolled:
@@ -355,14 +325,10 @@ def one_angle(angle: float, degrees: float | None) -> float:
     return radians("angle of the CPR", angle, degrees)
 
 
-def _width(width: float | None, volume: Volume) -> float | None:
-    """Return the width; raise an error if it exceeds the diagonal of the volume."""
-    if width is None:
-        return None
-    checked = number(CameraError, "width of the CPR", width)
+def _check_width(width: float | None, volume: Volume) -> None:
+    """Reject a width beyond the diagonal of the volume."""
     corners = volume.corners
     diagonal = float(np.linalg.norm(corners[:, None] - corners, axis=2).max())
-    if checked > diagonal:
+    if width is not None and width > diagonal:
         expected = f"at most {diagonal:.4g} mm, the diagonal of the volume"
-        raise CameraError("width of the CPR", f"{checked:g} mm", expected)
-    return checked
+        raise CameraError("width of the CPR", f"{width:g} mm", expected)

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
-from lumencut._checks import choice, number, numbers
-from lumencut._reformation_checks import SlabArgument, check_vessel, flat_settings, pixel_side
-from lumencut.errors import CameraError, SettingsError, VesselTreeError, VolumeError
+from lumencut._checks import choice, number
+from lumencut._reformation_checks import SlabArgument, check_vessel, flat_settings
+from lumencut.errors import SettingsError, VesselTreeError
 from lumencut.planar_reformation import one_angle
 from lumencut.reformation import Reformation
 from lumencut.reformation_recipe import ReformationRecipe
+from lumencut.reformation_request import HEAD, ReformationRequest, default_side
 from lumencut.renderer import Renderer
 from lumencut.settings import Settings
 from lumencut.vessel import Vessel
@@ -54,7 +56,7 @@ class SpiralReformation(Reformation):
         self.radius: float = parameters["radius"]
         self.sampling: str = parameters["sampling"]
         axes = _lumencut.axes_words(f"spiral by {self.sampling}", self.pitch)
-        recipe = ReformationRecipe("spiral CPR", axes, parameters, "spiral")
+        recipe = ReformationRecipe("spiral CPR", axes, parameters, SpiralRequest.kind)
         super().__init__(renderer, core, given, recipe, measurable=False)
 
     def area(self, columns: int) -> float:
@@ -100,7 +102,7 @@ def spiral(
     pixel_spacing: float | None = None,
     angle: float = 0.0,
     *,
-    up: npt.ArrayLike = (0.0, 0.0, 1.0),
+    up: npt.ArrayLike = HEAD,
     slab: SlabArgument = None,
     smoothing: float = 0.0,
     settings: Settings | None = None,
@@ -157,58 +159,42 @@ def spiral(
         For an image that is not a volume.
     """
     check_vessel(vessel)
-    return spiral_of(
-        Renderer(volume, VesselTree([vessel]), device),
-        vessel,
-        pitch=pitch,
-        radius=radius,
-        sampling=sampling,
-        pixel_spacing=pixel_spacing,
-        angle=one_angle(angle, degrees),
-        up=up,
-        slab=slab,
-        smoothing=smoothing,
-        settings=settings,
-    )
+    turned = one_angle(angle, degrees)
+    asked = SpiralRequest(pitch, radius, sampling, pixel_spacing, turned, up, slab, smoothing, settings)
+    return asked.of(Renderer(volume, VesselTree([vessel]), device), vessel)
 
 
-def spiral_of(
-    renderer: Renderer,
-    vessel: Vessel,
-    *,
-    pitch: float | None = None,
-    radius: float | None = None,
-    sampling: Literal["arc", "angle"] = "arc",
-    pixel_spacing: float | None = None,
-    angle: float = 0.0,
-    up: npt.ArrayLike = (0.0, 0.0, 1.0),
-    slab: SlabArgument = None,
-    smoothing: float = 0.0,
-    settings: Settings | None = None,
-) -> SpiralReformation:
-    """Return the spiral CPR in the scene and window of a renderer; parameters as for :func:`spiral`."""
-    check_vessel(vessel)
-    choice(SettingsError, "sampling of the spiral CPR", sampling, SAMPLINGS)
-    volume = renderer.volume
-    if volume is None:
-        raise VolumeError("volume of the spiral CPR", "None", "a volume to show")
-    reach = _reach(vessel) if radius is None else radius
-    parameters: dict[str, Any] = {
-        "pixel_spacing": pixel_side(volume, pixel_spacing, "spiral CPR"),
-        "radius": number(CameraError, "radius of the spiral CPR", reach),
-        "sampling": sampling,
-        "angle": number(CameraError, "angle of the spiral CPR", angle),
-        "up": numbers(CameraError, "up of the spiral CPR", up, (3,)).tolist(),
-        "smoothing": number(SettingsError, "smoothing of the centerline", smoothing),
-    }
-    fine = _fine_pitch(vessel, float(volume.spacing.min()), parameters) if pitch is None else pitch
-    parameters["pitch"] = number(CameraError, "pitch of the spiral CPR", fine)
-    given = flat_settings(settings, slab)
-    lengths = [parameters[name] for name in ("pitch", "radius", "pixel_spacing")]
-    core = _lumencut.Spiral(
-        vessel.points, parameters["smoothing"], parameters["up"], lengths, sampling, parameters["angle"]
-    )
-    return SpiralReformation(renderer, core, given, parameters)
+@dataclass(frozen=True)
+class SpiralRequest(ReformationRequest):
+    """The parameters of :func:`spiral`."""
+
+    kind, subject = "spiral", "spiral CPR"
+    told = ("pixel_spacing", "radius", "sampling", "angle", "up", "smoothing", "pitch")
+
+    pitch: float | None = None
+    radius: float | None = None
+    sampling: Literal["arc", "angle"] = "arc"
+    pixel_spacing: float | None = None
+    angle: float = 0.0
+    up: npt.ArrayLike = HEAD
+    slab: SlabArgument = None
+    smoothing: float = 0.0
+    settings: Settings | None = None
+
+    def of(self, renderer: Renderer, vessel: Vessel) -> SpiralReformation:
+        """Return the spiral CPR of a vessel in the scene and window of a renderer."""
+        volume = self._volume(renderer, vessel)
+        choice(SettingsError, "sampling of the spiral CPR", self.sampling, SAMPLINGS)
+        reach = _reach(vessel) if self.radius is None else None
+        asked = self.checked(pixel_spacing=default_side(volume), radius=reach)
+        if self.pitch is None:
+            asked["pitch"] = _fine_pitch(vessel, float(volume.spacing.min()), asked)
+        given = flat_settings(self.settings, self.slab)
+        lengths = [asked[name] for name in ("pitch", "radius", "pixel_spacing")]
+        core = _lumencut.Spiral(
+            vessel.points, asked["smoothing"], asked["up"], lengths, self.sampling, asked["angle"]
+        )
+        return SpiralReformation(renderer, core, given, asked)
 
 
 def _radii(vessel: Vessel, missing: str) -> npt.NDArray[np.float64]:

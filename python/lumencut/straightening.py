@@ -16,7 +16,7 @@ from lumencut._reformation_checks import check_vessel
 from lumencut.errors import CameraError
 from lumencut.frame import check_dicom_alone
 from lumencut.mends import advised
-from lumencut.planar_reformation import PlanarReformation, cpr_of, one_angle
+from lumencut.planar_reformation import CprRequest, PlanarReformation, one_angle
 from lumencut.renderer import Renderer
 from lumencut.vessel import Vessel
 from lumencut.vessel_tree import VesselTree
@@ -170,17 +170,9 @@ def straightened_volume(
 
     source = as_volume(volume)
     renderer = Renderer(source, VesselTree([vessel]), "cpu")
-    surface = cpr_of(
-        renderer,
-        vessel,
-        "straightened",
-        width=number(CameraError, "width of the CPR", width),
-        pixel_spacing=pixel_spacing,
-        angle=one_angle(angle, degrees),
-        up=up,
-        smoothing=smoothing,
-        normal=normal,
-    )
+    wide, turned = number(CameraError, "width of the CPR", width), one_angle(angle, degrees)
+    asked = CprRequest("straightened", wide, pixel_spacing, turned, up, smoothing=smoothing, normal=normal)
+    surface = asked.of(renderer, vessel)
     columns, sections = surface.size
     if columns * columns * sections > _MOST_VOXELS:
         found = f"{columns} × {columns} × {sections} voxels"

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 
 from lumencut import _lumencut
-from lumencut._checks import number
-from lumencut._reformation_checks import SlabArgument, check_vessel, flat_settings, rotation
+from lumencut._reformation_checks import SlabArgument, flat_settings, rotation
 from lumencut.camera import Camera
-from lumencut.errors import CameraError, SettingsError, VolumeError
 from lumencut.reformation import Reformation
 from lumencut.reformation_recipe import ReformationRecipe, camera_parameters
+from lumencut.reformation_request import ReformationRequest
 from lumencut.renderer import Renderer
 from lumencut.settings import Settings
 from lumencut.vessel import Vessel
@@ -47,7 +46,7 @@ class TangentialReformation(Reformation):
         self._vessel, self._smoothing = vessel, smoothing
         core = _lumencut.tangential_layout(vessel.points, smoothing, camera)
         parameters = {"mode": self.mode, "camera": camera_parameters(camera), "smoothing": smoothing}
-        recipe = ReformationRecipe("tangential CPR", _AXES, parameters, "cpr")
+        recipe = ReformationRecipe("tangential CPR", _AXES, parameters, TangentialRequest.kind)
         super().__init__(renderer, core, given, recipe, measurable=False)
 
     def rotated(self, angle: float | None = None, *, degrees: float | None = None) -> TangentialReformation:
@@ -73,21 +72,22 @@ class TangentialReformation(Reformation):
         return dict(_lumencut.edge_letters(np.array(self.camera.right_axis), -np.array(self.camera.up)))
 
 
-def tangential_of(
-    renderer: Renderer,
-    vessel: Vessel,
-    camera: Camera | None = None,
-    *,
-    slab: SlabArgument = None,
-    smoothing: float = 0.0,
-    settings: Any = None,
-) -> TangentialReformation:
-    """Return the tangential CPR of a vessel by a renderer; parameters are those of :func:`lumencut.cpr`."""
-    check_vessel(vessel)
-    if not isinstance(camera, (Camera, type(None))):
-        raise CameraError("camera of the CPR", type(camera).__name__, "a Camera or None")
-    if renderer.volume is None:
-        raise VolumeError("volume of the CPR", "None", "a volume to show")
-    view = camera or Camera.anterior(VesselTree([vessel]))
-    smooth = number(SettingsError, "smoothing of the centerline", smoothing)
-    return TangentialReformation(renderer, vessel, view, smooth, flat_settings(settings, slab))
+@dataclass(frozen=True)
+class TangentialRequest(ReformationRequest):
+    """The parameters of :func:`lumencut.cpr` in the mode ``"tangential"``."""
+
+    kind, subject = "cpr", "CPR"
+    told = ("smoothing",)
+
+    camera: Camera | None = None
+    slab: SlabArgument = None
+    smoothing: float = 0.0
+    settings: Settings | None = None
+
+    def of(self, renderer: Renderer, vessel: Vessel) -> TangentialReformation:
+        """Return the tangential CPR of a vessel in the scene and window of a renderer."""
+        self._check_camera(self.camera)
+        self._volume(renderer, vessel)
+        view = self.camera or Camera.anterior(VesselTree([vessel]))
+        smooth = self.checked()["smoothing"]
+        return TangentialReformation(renderer, vessel, view, smooth, flat_settings(self.settings, self.slab))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 import numpy as np
@@ -13,9 +13,10 @@ from lumencut import _lumencut
 from lumencut._checks import integers, number
 from lumencut._reformation_checks import SlabArgument, check_vessel, flat_settings
 from lumencut.camera import Camera
-from lumencut.errors import CameraError, SettingsError, VolumeError
+from lumencut.errors import CameraError, SettingsError
 from lumencut.reformation import Reformation
 from lumencut.reformation_recipe import ReformationRecipe, camera_parameters
+from lumencut.reformation_request import ReformationRequest
 from lumencut.renderer import Renderer
 from lumencut.settings import Settings
 from lumencut.vessel import Vessel
@@ -66,7 +67,7 @@ class Uncurled(Reformation):
             "smoothing": smoothing,
         }
         axes = _lumencut.axes_words("uncurled", amount)
-        recipe = ReformationRecipe(f"uncurled {100 * amount:.0f} %", axes, parameters, "uncurl")
+        recipe = ReformationRecipe(f"uncurled {100 * amount:.0f} %", axes, parameters, UncurlRequest.kind)
         super().__init__(renderer, core, given, recipe, measurable=False)
 
     def changed(self, amount: float) -> Uncurled:
@@ -137,44 +138,35 @@ def uncurl(
         For an image that is not a volume.
     """
     check_vessel(vessel)
-    return uncurl_of(
-        Renderer(volume, VesselTree([vessel]), device),
-        vessel,
-        camera,
-        amount,
-        width=width,
-        pixel_spacing=pixel_spacing,
-        smoothing=smoothing,
-        slab=slab,
-        settings=settings,
-    )
+    asked = UncurlRequest(camera, amount, width, pixel_spacing, smoothing, slab, settings)
+    return asked.of(Renderer(volume, VesselTree([vessel]), device), vessel)
 
 
-def uncurl_of(
-    renderer: Renderer,
-    vessel: Vessel,
-    camera: Camera | None = None,
-    amount: float = 0.5,
-    *,
-    width: float | None = None,
-    pixel_spacing: float | None = None,
-    smoothing: float = 0.0,
-    slab: SlabArgument = None,
-    settings: Settings | None = None,
-) -> Uncurled:
-    """Return an uncurled vessel in the scene and window of a renderer; parameters as for :func:`uncurl`."""
-    check_vessel(vessel)
-    if not isinstance(camera, (Camera, type(None))):
-        raise CameraError("camera of the uncurling", type(camera).__name__, "a Camera or None")
-    if renderer.volume is None:
-        raise VolumeError("volume of the uncurling", "None", "a volume to show")
-    share = number(SettingsError, "amount of the uncurling", amount)
-    smooth = number(SettingsError, "smoothing of the centerline", smoothing)
-    wide = None if width is None else number(CameraError, "width of the uncurling", width)
-    view = camera or fitted_uncurling(Camera.anterior(VesselTree([vessel])), vessel, smooth)
-    if pixel_spacing is not None:
-        view = _with_pixels(view, number(CameraError, "pixel_spacing of the uncurling", pixel_spacing))
-    return Uncurled(renderer, vessel, view, share, (wide, smooth), flat_settings(settings, slab))
+@dataclass(frozen=True)
+class UncurlRequest(ReformationRequest):
+    """The parameters of :func:`uncurl`."""
+
+    kind, subject = "uncurl", "uncurling"
+    told = ("amount", "smoothing", "width", "pixel_spacing")
+
+    camera: Camera | None = None
+    amount: float = 0.5
+    width: float | None = None
+    pixel_spacing: float | None = None
+    smoothing: float = 0.0
+    slab: SlabArgument = None
+    settings: Settings | None = None
+
+    def of(self, renderer: Renderer, vessel: Vessel) -> Uncurled:
+        """Return an uncurled vessel in the scene and window of a renderer."""
+        self._check_camera(self.camera)
+        self._volume(renderer, vessel)
+        amount, smoothing, width, side = self.checked().values()
+        view = self.camera or fitted_uncurling(Camera.anterior(VesselTree([vessel])), vessel, smoothing)
+        if side is not None:
+            view = _with_pixels(view, side)
+        given = flat_settings(self.settings, self.slab)
+        return Uncurled(renderer, vessel, view, amount, (width, smoothing), given)
 
 
 def fitted_uncurling(camera: Camera, vessel: Vessel, smoothing: float = 0.0) -> Camera:

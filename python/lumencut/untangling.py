@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from dataclasses import dataclass
+from typing import Any, ClassVar, Literal
 
 import numpy.typing as npt
 
 from lumencut import _lumencut
-from lumencut._checks import number, numbers
-from lumencut._reformation_checks import SlabArgument, flat_settings, pixel_side
+from lumencut._reformation_checks import SlabArgument, flat_settings
 from lumencut.camera import Camera
-from lumencut.errors import CameraError, SettingsError, VesselTreeError, VolumeError
+from lumencut.errors import CameraError, VesselTreeError, VolumeError
+from lumencut.reformation_request import ReformationRequest, default_side
 from lumencut.renderer import Renderer
 from lumencut.settings import Settings
 from lumencut.untangled_tree import UntangledTree
@@ -86,54 +87,41 @@ def untangled(
     """
     if not isinstance(tree, VesselTree):
         raise VesselTreeError("tree", type(tree).__name__, "a VesselTree, such as read_centerlines returns")
-    return untangled_of(
-        Renderer(volume, tree, device),
-        camera,
-        width=width,
-        hull_margin=hull_margin,
-        smoothing=smoothing,
-        pixel_spacing=pixel_spacing,
-        root=root,
-        slab=slab,
-        settings=settings,
-    )
+    asked = UntangledRequest(camera, width, hull_margin, smoothing, pixel_spacing, root, slab, settings)
+    return asked.of(Renderer(volume, tree, device))
 
 
-def untangled_of(
-    renderer: Renderer,
-    camera: Camera | None = None,
-    *,
-    width: float = 25.0,
-    hull_margin: float = 2.0,
-    smoothing: float = 4.0,
-    pixel_spacing: float | None = None,
-    root: npt.ArrayLike | None = None,
-    slab: SlabArgument = None,
-    settings: Settings | None = None,
-) -> UntangledTree:
-    """Return the untangled tree of a renderer, in its window; parameters as for :func:`untangled`."""
-    volume, tree = renderer.volume, renderer.tree
-    if volume is None or tree is None:
-        missing = "a volume" if volume is None else "a tree"
-        raise VolumeError("renderer of the untangled CPR", f"none with {missing}", "a volume and a tree")
-    if not isinstance(settings, (Settings, type(None))):
-        raise SettingsError("settings", type(settings).__name__, "Settings or None")
-    if not isinstance(camera, (Camera, type(None))):
-        raise CameraError("camera", type(camera).__name__, "a Camera or None")
-    view = Camera.anterior(tree) if camera is None else camera
-    spacing = pixel_side(volume, pixel_spacing, "untangled CPR")
-    named = {
-        "width": width,
-        "hull_margin": hull_margin,
-        "smoothing": smoothing,
-        "pixel_spacing": spacing,
-    }
-    lengths = {
-        name: number(CameraError, f"{name} of the untangled CPR", value) for name, value in named.items()
-    }
-    begin = None if root is None else numbers(CameraError, "root of the untangled CPR", root, (3,)).tolist()
-    given = flat_settings(settings, slab)
-    arrays = [(vessel.points, vessel.radius) for vessel in tree]
-    core = _lumencut.Untangled(arrays, view, (*lengths.values(), given.unknown_radius), begin)
-    parameters = {"view": list(view.direction), "up": list(view.up), **lengths, "root": begin}
-    return UntangledTree(renderer, core, tree, given, parameters)
+@dataclass(frozen=True)
+class UntangledRequest(ReformationRequest):
+    """The parameters of :func:`untangled`."""
+
+    kind, subject = "untangled", "untangled CPR"
+    told = ("width", "hull_margin", "smoothing", "pixel_spacing", "root")
+
+    of_settings: ClassVar[dict[str, str]] = {}
+
+    camera: Camera | None = None
+    width: float = 25.0
+    hull_margin: float = 2.0
+    smoothing: float = 4.0
+    pixel_spacing: float | None = None
+    root: npt.ArrayLike | None = None
+    slab: SlabArgument = None
+    settings: Settings | None = None
+
+    def of(self, renderer: Renderer) -> UntangledTree:
+        """Return the untangled tree of a renderer, in its window."""
+        volume, tree = renderer.volume, renderer.tree
+        if volume is None or tree is None:
+            missing = "a volume" if volume is None else "a tree"
+            raise VolumeError("renderer of the untangled CPR", f"none with {missing}", "a volume and a tree")
+        if not isinstance(self.camera, (Camera, type(None))):
+            raise CameraError("camera", type(self.camera).__name__, "a Camera or None")
+        view = Camera.anterior(tree) if self.camera is None else self.camera
+        given = flat_settings(self.settings, self.slab)
+        asked = self.checked(pixel_spacing=default_side(volume))
+        *lengths, begin = asked.values()
+        arrays = [(vessel.points, vessel.radius) for vessel in tree]
+        core = _lumencut.Untangled(arrays, view, (*lengths, given.unknown_radius), begin)
+        placed = {"view": list(view.direction), "up": list(view.up)}
+        return UntangledTree(renderer, core, tree, given, {**placed, **asked})

@@ -11,26 +11,21 @@ import click
 
 from lumencut.cli.batch import batch
 from lumencut.cli.bids import bids
-from lumencut.cli.cfa import cfa
 from lumencut.cli.compare_methods import compare_methods
-from lumencut.cli.cpr import cpr
 from lumencut.cli.demo import demo
 from lumencut.cli.doctor import doctor
 from lumencut.cli.evaluate import evaluate
 from lumencut.cli.first_words import first_words
 from lumencut.cli.info import info
-from lumencut.cli.lumen_map import lumen_map
 from lumencut.cli.measure import measure
 from lumencut.cli.pull import pull
 from lumencut.cli.push import push
+from lumencut.cli.reformation_table import COMMANDS
 from lumencut.cli.render import render
 from lumencut.cli.report import reported, say, verbose_option
-from lumencut.cli.spiral import spiral
 from lumencut.cli.summarize import summarize
 from lumencut.cli.trace import trace
 from lumencut.cli.turntable import turntable
-from lumencut.cli.uncurl import uncurl
-from lumencut.cli.untangled import untangled
 from lumencut.cli.view import view
 from lumencut.cli.write_settings import settings
 
@@ -76,12 +71,7 @@ for _command in (
     render,
     turntable,
     compare_methods,
-    cpr,
-    cfa,
-    uncurl,
-    lumen_map,
-    spiral,
-    untangled,
+    *COMMANDS,
     evaluate,
     info,
     trace,

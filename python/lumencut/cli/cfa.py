@@ -1,76 +1,40 @@
-"""``lumencut cfa``: straightened vessels that show their surroundings on all sides in one picture."""
+"""``lumencut cfa``: its checks, and its pictures beside the straightened CPR."""
 
 from __future__ import annotations
 
+from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from lumencut.cli import options, reformations
+from lumencut.cli.report import busy, say
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
     from lumencut.reformation import Reformation
-    from lumencut.renderer import Renderer
-    from lumencut.settings import Settings
     from lumencut.vessel import Vessel
 
 #: The names of ``lumencut.feature_aggregation.FEATURES``; copied so that ``--help`` does not import numpy.
 FEATURES = ("max", "mean", "min", "range", "share")
 
 
-@click.command(short_help="Show all around vessels, straightened (CFA).")
-@reformations.file_options
-@reformations.output_option
-@click.option(
-    "--feature",
-    type=click.Choice(FEATURES),
-    default="max",
-    show_default=True,
-    help="What to show of a half circle. max: calcium and metal; min: whether the lumen is open; mean; "
-    "range: how uneven the surroundings are; share: the part above --level.",
-)
-@click.option(
-    "--radius", type=float, default=10.0, show_default=True, metavar="MM", help="The largest circle (mm)."
-)
-@click.option("--level", type=float, metavar="VALUE", help="--feature share counts values above this level.")
-@click.option(
-    "--beside",
-    type=click.Choice(("cpr",)),
-    help="Show the straightened CPR, CFA max and CFA min of each vessel side by side.",
-)
-@reformations.vessel_options
-@reformations.up_option
-@reformations.pixel_spacing_option
-@reformations.smoothing_option
-@reformations.picture_options
-def cfa(beside: str | None, **given: Any) -> None:
-    """Show what surrounds the vessels of CENTERLINES, straightened: curvicircular feature aggregation.
-
-    Each pixel next to a vessel stands for the half circle around it on that side, so one picture shows all
-    around the vessel. All vessels are shown side by side, each below its id and name, unless --vessel,
-    --exclude or --path choose among them.
-
-    \b
-    lumencut cfa ct.nii.gz centerlines.vtp -o LAD.png --vessel LAD --radius 8
-    lumencut cfa ct.nii.gz centerlines.vtp -o sheet.png --path 0,1,4 --beside cpr
-    lumencut cfa ct.nii.gz centerlines.vtp -o calcium.png --feature share --level 500
-    """  # noqa: D301 - click needs the control character itself
+def show_cfa(beside: str | None, **given: Any) -> None:
+    """Write one feature of vessels, or two of them beside the straightened CPR."""
     options.check_picture(given["output"])
     chosen, settings = reformations.like(given, "cfa")
     _check(chosen, beside)
-    renderer, _, vessels = reformations.read_vessels(chosen, settings, "cfa")
+    renderer, tree, vessels = reformations.read_vessels(chosen, settings, "cfa")
+    asked = reformations.asked("cfa", chosen, settings, renderer, tree)
     if beside is None:
-        feature = chosen["feature"]
-        reformations.write_each(
-            chosen, vessels, lambda vessel: _made(renderer, vessel, feature, chosen, settings)
-        )
+        reformations.write_each(chosen, vessels, partial(asked.of, renderer))
         return
-    reformations.write_beside(
-        chosen,
-        vessels,
-        lambda vessel, shown: _made(renderer, vessel, shown, chosen, settings),
-        ("cpr", "max", "min"),
-    )
+    shown = {"cpr": asked.surface(2 * chosen["radius"])}
+    shown |= {feature: replace(asked, feature=feature) for feature in ("max", "min")}
+    makers = {name: partial(one.of, renderer) for name, one in shown.items()}
+    _write_beside(chosen, vessels, makers)
 
 
 def _check(chosen: dict[str, Any], beside: str | None) -> None:
@@ -84,15 +48,23 @@ def _check(chosen: dict[str, Any], beside: str | None) -> None:
         raise click.UsageError(f"{chosen['output']} holds one picture; --beside makes three per vessel")
 
 
-def _made(
-    renderer: Renderer, vessel: Vessel, shown: str, chosen: dict[str, Any], settings: Settings
-) -> Reformation:
-    """Return the straightened CPR of a vessel, or a picture of one of its features."""
-    from lumencut.feature_aggregation import cfa_of
-    from lumencut.planar_reformation import cpr_of
+def _write_beside(
+    chosen: dict[str, Any],
+    vessels: list[tuple[str, Vessel]],
+    makers: Mapping[str, Callable[[Vessel], Reformation]],
+) -> None:
+    """Make the images of each vessel by all `makers`, and write a sheet with one row per vessel."""
+    from lumencut.contact_sheet import contact_sheet
 
-    how: dict[str, Any] = {name: chosen[name] for name in ("pixel_spacing", "up", "smoothing")}
-    how["settings"] = settings
-    if shown == "cpr":
-        return cpr_of(renderer, vessel, "straightened", width=2 * chosen["radius"], **how)
-    return cfa_of(renderer, vessel, chosen["radius"], shown, level=chosen["level"], **how)  # type: ignore[arg-type]
+    pictures, titles, all_made = [], [], []
+    for title, vessel in vessels:
+        for name, make in makers.items():
+            made = reformations.made_of(f"{title} ({name})", vessel, make)
+            pictures.append(made.annotated() if chosen["annotate"] else made.image)
+            titles.append(f"{title}, {made.recipe.name}")
+            all_made.append(made)
+    with busy(f"writing {chosen['output'].name}"):
+        starts = range(0, len(pictures), len(makers))
+        reformations.write_sheet(contact_sheet(pictures, titles, starts), chosen, all_made)
+    count = "1 vessel" if len(vessels) == 1 else f"{len(vessels)} vessels"
+    say(f"{chosen['output']}: {', '.join(makers)} of {count}")

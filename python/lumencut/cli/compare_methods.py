@@ -105,14 +105,14 @@ def compare_methods(
     warn_of_vessels(chosen, recipe, renderer)
 
     from lumencut.comparison import panels, side_by_side
-    from lumencut.untangling import untangled_of
+    from lumencut.untangling import UntangledRequest
 
     for picture, (_, view) in zip(planned, views, strict=True):
         camera = camera_of(view, scene, chosen, recipe)
         name = "" if len(planned) == 1 else f" {name_of(picture.view)}"
         with busy(f"rendering{name}"):
             found = panels(renderer, camera, settings, radius_offset, arc_threshold)
-            tree = untangled_of(renderer, camera, settings=settings) if untangled else None
+            tree = UntangledRequest(camera, settings=settings).of(renderer) if untangled else None
         if is_empty(found[-1].frame):
             warn_of_emptiness(f"no pixel of the view{name}", camera, renderer)
         for path in picture.paths:

@@ -1,8 +1,9 @@
-"""``lumencut cpr``: vessels straightened or unrolled into images."""
+"""``lumencut cpr``: its checks, the view of its mode tangential, and its volume."""
 
 from __future__ import annotations
 
 import math
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -11,102 +12,55 @@ import click
 from lumencut._lumencut import DEFAULTS
 from lumencut.cli import options, reformations
 from lumencut.cli.dicom import study_of
-from lumencut.cli.parameters import SIZE
+from lumencut.cli.like import typed
 from lumencut.cli.report import busy, detail, say, warn
-from lumencut.cli.tangential import MODE as TANGENTIAL
-from lumencut.cli.tangential import check_view, tangential
 
 if TYPE_CHECKING:
-    from lumencut.planar_reformation import PlanarReformation
+    from collections.abc import Callable
+
+    from lumencut.reformation import Reformation
     from lumencut.renderer import Renderer
     from lumencut.settings import Settings
+    from lumencut.tangential import TangentialReformation
     from lumencut.vessel import Vessel
     from lumencut.volume import Volume
 
 #: The modes of ``lumencut.cpr``; copied so that ``--help`` does not import numpy.
 MODES = ("projected", "stretched", "straightened", "tangential")
 
+_TANGENTIAL = "tangential"
 
-@click.command(short_help="Lay vessels out as images (CPR).")
-@reformations.file_options
-@reformations.output_option
-@click.option(
-    "--mode",
-    type=click.Choice(MODES),
-    default="straightened",
-    show_default=True,
-    help="projected: as the viewer sees the vessel; stretched: the surface through it unrolled; "
-    "straightened: along its length; tangential: in the picture of a view, with the tissue at the same "
-    "depth. Distances are true in stretched and straightened images.",
-)
-@click.option(
-    "--view",
-    type=options.VIEW,
-    metavar="NAME|X,Y,Z",
-    help=f"The view of --mode tangential, default anterior: {', '.join(options.VIEW_NAMES)}, or "
-    "the direction from the viewer into the scene (LPS).",
-)
-@click.option(
-    "--size",
-    type=SIZE,
-    metavar=SIZE.name,
-    help="Size of the picture of --mode tangential (pixels); default: 768x768.",
-)
-@reformations.vessel_options
-@click.option(
-    "--angle",
-    type=float,
-    default=0.0,
-    metavar="DEGREES",
-    help="Move the viewer to the right from the front: around the up axis, or around the vessel where it is "
-    "straightened.",
-)
-@click.option(
-    "--roll",
-    type=click.Choice(("narrowest", "widest")),
-    help="See each section of the straightened vessel from the angle at which its lumen is narrowest or "
-    "widest, so that an eccentric stenosis stays visible; a strip next to the picture shows the angle.",
-)
-@reformations.up_option
-@click.option(
-    "--width",
-    type=float,
-    metavar="MM",
-    help="Width of the image (mm); default: 25 mm on each side of the vessel.",
-)
-@reformations.pixel_spacing_option
-@reformations.smoothing_option
-@click.option(
-    "--volume-out",
-    type=options.FILE,
-    help="Write the sections across one vessel as a volume too (.nrrd, .nii or .nii.gz, or a name without an "
-    "ending: a new folder for a DICOM series).",
-)
-@reformations.picture_options
-def cpr(volume_out: Path | None, **given: Any) -> None:
-    """Lay out the vessels of CENTERLINES with their surroundings in VOLUME: Curved Planar Reformation.
+#: Options of the tangential mode only, and options of the other modes only.
+_OWN, _OTHERS = ("view", "size"), ("width", "angle", "roll")
 
-    All vessels are shown side by side, each below its id and name, unless --vessel, --exclude or --path
-    choose among them.
+_SIZE = (768, 768)
 
-    \b
-    lumencut cpr ct.nii.gz centerlines.vtp -o vessels.png
-    lumencut cpr ct.nii.gz centerlines.vtp -o LAD.png --vessel LAD --angle 45 --slab 2mm:mean
-    lumencut cpr ct.nii.gz centerlines.vtp -o LAD.png --vessel LAD --mode tangential --view left
-    lumencut cpr ct.nii.gz lines.vtp -o leg.png --path 0,1,4 --mode stretched --volume-out leg.nrrd
-    """  # noqa: D301 - click needs the control character itself
-    check_view(given)
+
+def show_cpr(volume_out: Path | None, **given: Any) -> None:
+    """Write the pictures of vessels laid out, and the volume of one."""
+    _check_view(given)
     _check_outputs(given["output"], volume_out)
     chosen, settings = reformations.like({**given, "camera": None}, "cpr")
     has_series = volume_out is not None and not volume_out.suffix
-    renderer, _, vessels = reformations.read_vessels(chosen, settings, "cpr", has_series=has_series)
+    renderer, tree, vessels = reformations.read_vessels(chosen, settings, "cpr", has_series=has_series)
     if volume_out is not None:
         reformations.check_single(vessels, volume_out)
-    lay_out = tangential if chosen["mode"] == TANGENTIAL else _plane
-    reformations.write_each(chosen, vessels, lambda vessel: lay_out(renderer, vessel, chosen, settings))
+    make: Callable[[Vessel], Reformation] = partial(_tangential, renderer, chosen, settings)
+    if chosen["mode"] != _TANGENTIAL:
+        make = partial(reformations.asked("cpr", chosen, settings, renderer, tree).of, renderer)
+    reformations.write_each(chosen, vessels, make)
     if volume_out is not None and renderer.volume is not None:
         _write_volume(volume_out, renderer.volume, vessels[0][1], chosen)
     detail(f"device: {renderer.device}")
+
+
+def _check_view(chosen: dict[str, Any]) -> None:
+    """Reject options that have no effect in the chosen mode."""
+    is_own = chosen["mode"] == _TANGENTIAL
+    idle = [name for name in (_OTHERS if is_own else _OWN) if name in typed(chosen)]
+    if idle:
+        mend = f"leave out --{idle[0]}, or choose {'another mode' if is_own else f'--mode {_TANGENTIAL}'}"
+        raise click.UsageError(f"--{idle[0]} does nothing with --mode {chosen['mode']}; {mend}")
 
 
 def _check_outputs(output: Path, volume_out: Path | None) -> None:
@@ -120,15 +74,23 @@ def _check_outputs(output: Path, volume_out: Path | None) -> None:
     options.check_folder(volume_out)
 
 
-def _plane(
-    renderer: Renderer, vessel: Vessel, chosen: dict[str, Any], settings: Settings
-) -> PlanarReformation:
-    """Return the image of one vessel, for all modes except the tangential one."""
-    from lumencut.planar_reformation import cpr_of
+def _tangential(
+    renderer: Renderer, chosen: dict[str, Any], settings: Settings, vessel: Vessel
+) -> TangentialReformation:
+    """Return the tangential CPR in the view of --like, or in that of the options, fitted to the vessel."""
+    from lumencut.reformation_recipe import recipe_camera
+    from lumencut.tangential import TangentialRequest
+    from lumencut.vessel_tree import VesselTree
 
-    named = {name: chosen[name] for name in ("width", "pixel_spacing", "up", "smoothing", "roll")}
-    angle = math.radians(chosen["angle"])
-    return cpr_of(renderer, vessel, chosen["mode"], angle=angle, settings=settings, **named)
+    if chosen["camera"] is not None and not {*_OWN, "up", "pixel_spacing"} & typed(chosen).keys():
+        camera = recipe_camera(chosen["camera"])
+    else:
+        view = {"view": chosen["view"] or "anterior", "size": chosen["size"] or _SIZE}
+        view["up"] = chosen["up"] if "up" in typed(chosen) else None
+        placed = {**chosen, **view, "rotate": 0.0, "tilt": 0.0, "zoom": 1.0, "center": None}
+        camera = options.placed(options.view_from(placed), VesselTree([vessel]), placed)
+    asked = TangentialRequest(camera, smoothing=chosen["smoothing"], settings=settings)
+    return asked.of(renderer, vessel)
 
 
 def _write_volume(path: Path, voxels: Volume, vessel: Vessel, chosen: dict[str, Any]) -> None:

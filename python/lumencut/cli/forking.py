@@ -1,7 +1,8 @@
 """A process with all modules loaded that forks itself for each study, so that a study starts at once.
 
 Loading takes most of a second, a fork a few milliseconds. The process computes nothing and starts no threads,
-so it is safe to fork. It ends with the batch, together with its children.
+so it is safe to fork. It ends with the batch, together with its children. The forkserver of multiprocessing
+would run the caller's script again in each child, and modules of the current folder, which may be untrusted.
 """
 
 from __future__ import annotations

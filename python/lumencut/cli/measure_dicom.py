@@ -90,12 +90,12 @@ def _write_pictures(folder: Path, shown: list[MeasuredVessel], study: Study, ren
     """Write the view from the front, and each vessel straightened; return the number of pictures."""
     from lumencut.camera import Camera
     from lumencut.dicom_objects.picture import write_picture
-    from lumencut.planar_reformation import cpr_of
+    from lumencut.planar_reformation import CprRequest
 
     frame = renderer.render(Camera.anterior(renderer.scene, (768, 768)))
     write_picture(folder / "anterior.dcm", frame._as_object(annotate=True, vessel_names=False), study)
     for number, one in enumerate(shown, 1):
-        made = cpr_of(renderer, one.vessel, "straightened")
+        made = CprRequest("straightened").of(renderer, one.vessel)
         picture = made._as_object(annotate=True, vessel_names=False)
         write_picture(folder / f"vessel-{number}.dcm", picture, study, number=number)
     return 1 + len(shown)

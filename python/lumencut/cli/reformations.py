@@ -3,22 +3,21 @@
 from __future__ import annotations
 
 import math
+from dataclasses import fields
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from lumencut._lumencut import PIXEL_SIDE
 from lumencut.cli import options
-from lumencut.cli.dicom import check_objects, dicom_options, object_options, save_sheet
+from lumencut.cli.dicom import check_objects, object_options, save_sheet
 from lumencut.cli.like import typed
 from lumencut.cli.mistakes import check_files, check_reading
-from lumencut.cli.parameters import VECTOR
-from lumencut.cli.report import busy, detail, say, timings, verbose_option, warn
+from lumencut.cli.report import busy, detail, say, timings, warn
 from lumencut.cli.scene import read_files, scene_from, warn_of_window
-from lumencut.cli.settings import look_options, settings_from
-from lumencut.cli.vessels import path_option, titled_vessels
+from lumencut.cli.settings import settings_from
+from lumencut.cli.vessels import titled_vessels
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -31,67 +30,6 @@ if TYPE_CHECKING:
 
 #: Parameters that a recipe holds in radians and the command line in degrees.
 _ANGLES = ("angle", "overlap")
-
-output_option = click.option(
-    "-o",
-    "--output",
-    type=options.FILE,
-    required=True,
-    help="Picture (.png, .tif, .webp, …); .dcm (DICOM); .npz for the arrays of one vessel.",
-)
-
-smoothing_option = click.option(
-    "--smoothing",
-    type=float,
-    default=0.0,
-    show_default=True,
-    metavar="MM",
-    help="Smooth the centerlines by a Gaussian with this standard deviation (mm).",
-)
-
-pixel_spacing_option = click.option(
-    "--pixel-spacing", type=float, metavar="MM", help=f"Side of a pixel (mm); default: {PIXEL_SIDE}."
-)
-
-up_option = click.option(
-    "--up", type=VECTOR, default="0,0,1", show_default=True, help="The direction that points up (LPS)."
-)
-
-annotate_option = click.option(
-    "--annotate/--no-annotate",
-    default=True,
-    show_default=True,
-    help="Label the pictures with method, window, axes, names and scales.",
-)
-
-like_option = click.option(
-    "--like",
-    type=options.FILE,
-    metavar="PICTURE.png",
-    help="Take the options and settings of a .png that this command wrote. Other options change them "
-    "further.",
-)
-
-
-def file_options(command: options.Command) -> options.Command:
-    """Add the scan and the centerlines."""
-    volume = click.argument("volume", type=options.FILE)
-    centerlines = click.argument("centerlines", type=options.FILE, nargs=-1, required=True)
-    return options.added((volume, centerlines), command)
-
-
-def vessel_options(command: options.Command) -> options.Command:
-    """Add the options that choose vessels, each shown in its own image."""
-    return options.added((options.shown_vessel_options, path_option), command)
-
-
-def picture_options(command: options.Command) -> options.Command:
-    """Add the options for labels, for reading files, and for how values are shown."""
-    parts = (
-        *(annotate_option, like_option, dicom_options),
-        *(options.reading_options, look_options, verbose_option),
-    )
-    return options.added(parts, command)
 
 
 def like(chosen: dict[str, Any], command: str) -> tuple[dict[str, Any], Settings]:
@@ -138,6 +76,26 @@ def read_vessels(
     return renderer, tree, vessels
 
 
+def asked(
+    command: str, chosen: dict[str, Any], settings: Settings, renderer: Renderer, tree: VesselTree
+) -> Any:
+    """Return what the options ask of the reformation of a command."""
+    from lumencut.reformation_kinds import KINDS
+
+    given = {**chosen, "settings": settings, "slab": None, "tree": tree}
+    own = {field.name: given[field.name] for field in fields(KINDS[command]) if field.name in given}
+    own |= {name: math.radians(own[name]) for name in _ANGLES if own.get(name) is not None}
+    return KINDS[command](**own)
+
+
+def show_each(command: str, **given: Any) -> None:
+    """Write the pictures of vessels that a command makes, each by itself."""
+    options.check_picture(given["output"])
+    chosen, settings = like(given, command)
+    renderer, tree, vessels = read_vessels(chosen, settings, command)
+    write_each(chosen, vessels, partial(asked(command, chosen, settings, renderer, tree).of, renderer))
+
+
 def check_single(vessels: list[tuple[str, Vessel]], path: Path) -> None:
     """Reject an output that can hold only one vessel if several are chosen."""
     if len(vessels) > 1:
@@ -149,7 +107,7 @@ def write_each(
     chosen: dict[str, Any], vessels: list[tuple[str, Vessel]], make: Callable[[Vessel], Reformation]
 ) -> None:
     """Make the image of each vessel and write it, several as a contact sheet; report the files."""
-    made = [_made(title, vessel, make) for title, vessel in vessels]
+    made = [made_of(title, vessel, make) for title, vessel in vessels]
     output, annotate = chosen["output"], chosen["annotate"]
     with busy(f"writing {output.name}"):
         _write(chosen, made, [title for title, _ in vessels], annotate=annotate)
@@ -160,30 +118,7 @@ def write_each(
     detail(made[0].recipe.axes)
 
 
-def write_beside(
-    chosen: dict[str, Any],
-    vessels: list[tuple[str, Vessel]],
-    make: Callable[..., Reformation],
-    shown: tuple[str, ...],
-) -> None:
-    """Make the images `shown` of each vessel by calling `make`, and write a sheet with one row per vessel."""
-    from lumencut.contact_sheet import contact_sheet
-
-    pictures, titles, all_made = [], [], []
-    for title, vessel in vessels:
-        for name in shown:
-            made = _made(f"{title} ({name})", vessel, partial(make, shown=name))
-            pictures.append(made.annotated() if chosen["annotate"] else made.image)
-            titles.append(f"{title}, {made.recipe.name}")
-            all_made.append(made)
-    with busy(f"writing {chosen['output'].name}"):
-        starts = range(0, len(pictures), len(shown))
-        _save_sheet(contact_sheet(pictures, titles, starts), chosen, all_made)
-    count = "1 vessel" if len(vessels) == 1 else f"{len(vessels)} vessels"
-    say(f"{chosen['output']}: {', '.join(shown)} of {count}")
-
-
-def _made(title: str, vessel: Vessel, make: Callable[[Vessel], Reformation]) -> Reformation:
+def made_of(title: str, vessel: Vessel, make: Callable[[Vessel], Reformation]) -> Reformation:
     """Return the image of one vessel, and warn if it shows nothing."""
     import numpy as np
 
@@ -204,10 +139,10 @@ def _write(chosen: dict[str, Any], made: list[Reformation], titles: list[str], *
         made[0].save(output, annotate=annotate, **object_options(output, chosen))
         return
     pictures = [one.annotated() if annotate else one.image for one in made]
-    _save_sheet(contact_sheet(pictures, titles), chosen, made)
+    write_sheet(contact_sheet(pictures, titles), chosen, made)
 
 
-def _save_sheet(sheet: Any, chosen: dict[str, Any], made: list[Reformation]) -> None:
+def write_sheet(sheet: Any, chosen: dict[str, Any], made: list[Reformation]) -> None:
     """Write the pictures of several vessels, or several pictures of one vessel, on one sheet."""
     recipes = {one.recipe.name: one.recipe.axes for one in made}
     words = " ".join(f"{name}: {axes}" for name, axes in recipes.items())

@@ -1,4 +1,4 @@
-"""``lumencut uncurl``: the gradual straightening of a vessel, as a film or as one picture."""
+"""``lumencut uncurl``: its view, its film and its picture."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from lumencut.cli import options, reformations
-from lumencut.cli.dicom import grey_option, study_of
+from lumencut.cli.dicom import study_of
 from lumencut.cli.like import typed
 from lumencut.cli.report import bar, say, timings
 from lumencut.errors import FormatError, SettingsError
@@ -29,49 +29,8 @@ if TYPE_CHECKING:
     from lumencut.vessel import Vessel
 
 
-@click.command(short_help="Show a vessel being straightened (film).")
-@reformations.file_options
-@click.option(
-    "-o",
-    "--output",
-    type=options.FILE,
-    required=True,
-    help="Film (.webp, .apng, .mp4, .dcm, frame-%03d.png or a folder), or with --amount a picture (.png, "
-    ".dcm, .npz, …).",
-)
-@click.option(
-    "--amount",
-    type=click.FloatRange(0, 1),
-    metavar="0..1",
-    help="One picture at this amount: 0 as in the body, 1 straight.",
-)
-@click.option(
-    "--frames", type=click.IntRange(2, 10000), default=48, show_default=True, help="Number of frames."
-)
-@click.option(
-    "--fps", type=click.FloatRange(0.1, 100), default=24, show_default=True, help="Frames per second."
-)
-@reformations.vessel_options
-@click.option(
-    "--width",
-    type=float,
-    metavar="MM",
-    help="Show the tissue within half of this on each side of the vessel; default: all of the picture.",
-)
-@options.view_options
-@reformations.smoothing_option
-@reformations.picture_options
-@grey_option
-def uncurl(**given: Any) -> None:
-    """Show a vessel of CENTERLINES with its surroundings as it is straightened: from the body to its CPR.
-
-    Its lengths stay true throughout. Of several vessels the longest is shown, unless --vessel or --path name
-    one.
-
-    \b
-    lumencut uncurl ct.nii.gz centerlines.vtp -o film.webp --path 0,1,4
-    lumencut uncurl ct.nii.gz centerlines.vtp -o half.png --vessel LAD --amount 0.5 --view left
-    """  # noqa: D301 - click needs the control character itself
+def show_uncurled(**given: Any) -> None:
+    """Write the film of the longest vessel, or one picture of it."""
     output, fps = given["output"], given["fps"]
     chosen, settings = reformations.like({**given, "camera": None}, "uncurl")
     dicom = {**study_of(chosen), "compress": chosen["compress"], "grey": chosen["grey"]}
@@ -122,11 +81,11 @@ def _made(
     renderer: Renderer, vessel: Vessel, camera: Camera, chosen: dict[str, Any], settings: Settings
 ) -> Uncurled:
     """Return the vessel, straightened by the requested amount, in the window of all frames."""
-    from lumencut.uncurling import uncurl_of
+    from lumencut.uncurling import UncurlRequest
 
-    named = {name: chosen[name] for name in ("width", "smoothing")}
-    shown = renderer.windowed(settings)
-    return uncurl_of(renderer, vessel, camera, chosen["amount"] or 0.0, settings=shown, **named)
+    amount, shown = chosen["amount"] or 0.0, renderer.windowed(settings)
+    asked = UncurlRequest(camera, amount, chosen["width"], smoothing=chosen["smoothing"], settings=shown)
+    return asked.of(renderer, vessel)
 
 
 @dataclass(frozen=True)

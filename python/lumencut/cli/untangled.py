@@ -1,4 +1,4 @@
-"""``lumencut untangled``: every vessel of a tree cut open in one picture without overlap."""
+"""``lumencut untangled``: its picture, and the words about it."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ import click
 from lumencut.cli import options, reformations
 from lumencut.cli.dicom import check_objects, object_options
 from lumencut.cli.mistakes import check_files, check_reading
-from lumencut.cli.parameters import VECTOR
 from lumencut.cli.report import busy, detail, say, timings, warn
 from lumencut.cli.scene import read_files, scene_from, warn_of_window
 from lumencut.cli.vessels import shown_ids
@@ -23,76 +22,18 @@ if TYPE_CHECKING:
 _UNUSED = {"size": (64, 64), "zoom": 1.0}
 
 
-@click.command("untangled", short_help="Show a vessel tree without overlap (untangled CPR).")
-@reformations.file_options
-@click.option(
-    "-o",
-    "--output",
-    type=options.FILE,
-    required=True,
-    help="Picture (.png, .tif, .webp, …), or .npz for the arrays.",
-)
-@options.shown_vessel_options
-@options.direction_options
-@click.option(
-    "--width",
-    type=float,
-    default=25.0,
-    show_default=True,
-    metavar="MM",
-    help="How far from each vessel its surroundings are shown (mm), on each side.",
-)
-@click.option(
-    "--hull-margin",
-    type=float,
-    default=2.0,
-    show_default=True,
-    metavar="MM",
-    help="Margin around the lumen that no other vessel may enter (mm).",
-)
-@click.option(
-    "--smoothing",
-    type=float,
-    default=4.0,
-    show_default=True,
-    metavar="MM",
-    help="Smooth the directions of vessels in the view by a Gaussian with this standard deviation (mm).",
-)
-@reformations.pixel_spacing_option
-@click.option(
-    "--root",
-    type=VECTOR,
-    help="Point (mm, LPS) near the end of the vessel from which the tree grows; default: the free end with "
-    "the largest radius.",
-)
-@click.option(
-    "--unknown-radius",
-    type=float,
-    metavar="MM",
-    help="Radius of vessels that have none (mm); default: 1.",
-)
-@reformations.picture_options
-def untangled(**given: Any) -> None:
-    """Cut every vessel of CENTERLINES open in one picture without overlap: untangled CPR.
-
-    Each vessel keeps its direction in the view and its true length. Branches that would overlap are turned at
-    their origin by the smallest angle that separates them; arcs show turns of more than 5°. With more than
-    about 15 vessels, choose among them by --vessel or --exclude.
-
-    \b
-    lumencut untangled ct.nii.gz centerlines.vtp -o tree.png
-    lumencut untangled ct.nii.gz centerlines.vtp -o legs.png --view left --exclude SMA --slab 4mm:mean
-    """  # noqa: D301 - click needs the control character itself
+def show_untangled(**given: Any) -> None:
+    """Write the picture of a tree."""
     options.check_picture(given["output"])
     chosen, settings = reformations.like(given, "untangled")
     view = options.view_from({**chosen, **_UNUSED, "pixel_spacing": None})
     renderer = _renderer(chosen, settings)
 
-    from lumencut.untangling import untangled_of
+    from lumencut.untangling import UntangledRequest
 
-    names = ("width", "hull_margin", "smoothing", "pixel_spacing", "root")
+    own = {name: chosen[name] for name in UntangledRequest.told}
     with busy("laying out the tree"):
-        made = untangled_of(renderer, view, **{name: chosen[name] for name in names}, settings=settings)
+        made = UntangledRequest(view, settings=settings, **own).of(renderer)
         _ = made.image
     timings("tree", made.timings)
     output = chosen["output"]

@@ -21,7 +21,7 @@ from lumencut.frame import save_picture
 from lumencut.measure_report import report
 from lumencut.measured_vessel import Marked, MeasuredVessel
 from lumencut.measuring import measure
-from lumencut.planar_reformation import cpr_of
+from lumencut.planar_reformation import CprRequest
 from lumencut.renderer import Renderer
 from lumencut.settings import Settings
 from lumencut.vessel_tree import VesselTree
@@ -98,7 +98,7 @@ def _pictures(renderer: Renderer, how: Pictures, begin: Path) -> None:
             frame.save(Path(f"{begin}_view-{view}_desc-{look}.png"), annotate=how.annotate)
             thumbnail = frame.image if thumbnail is None else thumbnail
     for mode in how.reformations:
-        made = [cpr_of(renderer, vessel, mode) for vessel in tree]
+        made = [CprRequest(mode).of(renderer, vessel) for vessel in tree]
         titles = [str(n) if vessel.name is None else f"{n} {vessel.name}" for n, vessel in enumerate(tree)]
         sheet = contact_sheet([one.annotated() if how.annotate else one.image for one in made], titles)
         save_picture(sheet, Path(f"{begin}_desc-{mode}.png"))

@@ -9,7 +9,7 @@ import numpy as np
 from lumencut.evaluation.amounts import Amounts, counted
 from lumencut.evaluation.shown import Shown
 from lumencut.evaluation.truth import EXACT, Truth
-from lumencut.untangling import untangled_of
+from lumencut.untangling import UntangledRequest
 
 if TYPE_CHECKING:
     from lumencut.camera import Camera
@@ -22,7 +22,7 @@ COUNTED = ("tissue", "centerline")
 
 def untangled_picture(renderer: Renderer, camera: Camera, settings: Settings) -> Reformation:
     """Return the untangled CPR of a view with the same pixel spacing."""
-    return untangled_of(renderer, camera, pixel_spacing=camera.pixel_spacing, settings=settings)
+    return UntangledRequest(camera, pixel_spacing=camera.pixel_spacing, settings=settings).of(renderer)
 
 
 def own_amounts(picture: Reformation, truth: Truth) -> dict[str, Amounts]:
