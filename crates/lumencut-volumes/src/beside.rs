@@ -31,7 +31,7 @@ fn outside(header: &str, name: &str, field: &str) -> Error {
 /// Refuses a file that is a link out of the folder; one that is missing is told of when it is read.
 pub(crate) fn require_inside(known: &Known, header: &str, name: &str, field: &str) -> Opening<()> {
     match known.found(name)? {
-        Found::Outside => Err(outside(header, name, field).into()),
+        Found::Outside(_) => Err(outside(header, name, field).into()),
         Found::Missing | Found::Size(_) => Ok(()),
     }
 }

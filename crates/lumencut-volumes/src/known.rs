@@ -32,8 +32,8 @@ pub enum Found {
     Size(u64),
     /// It is not there.
     Missing,
-    /// It is a link that leads out of the folder.
-    Outside,
+    /// It is a link that leads out of the folder, with so many bytes.
+    Outside(u64),
 }
 
 /// What is known of files, by their names.
@@ -82,7 +82,10 @@ impl Known {
     }
 
     fn size(&self, name: &str) -> Opening<u64> {
-        Ok(if let Found::Size(size) = self.found(name)? { size } else { 0 })
+        Ok(match self.found(name)? {
+            Found::Size(size) | Found::Outside(size) => size,
+            Found::Missing => 0,
+        })
     }
 
     /// The first bytes of a file, `count` or all.

@@ -63,6 +63,7 @@ mod write;
 pub use error::{Error, ErrorKind, Stop};
 pub use fill::{Fill, Step, Window};
 pub use known::{Found, Known, Need};
+pub use nifti::{StatedUnits, stated_units};
 pub use numbers::{Kind, Scaling};
 pub use open::{HEAD, format_of, open};
 pub use plan::{Affine, Format, Grid, Place, Plan, Stored};

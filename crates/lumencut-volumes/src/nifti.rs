@@ -59,10 +59,33 @@ pub(crate) fn open(path: &str, known: &Known) -> Opening<Plan> {
     })
 }
 
+/// What the header of an image in memory states.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StatedUnits {
+    /// Millimetres per unit of length; 1 where none is stated.
+    pub millimetres: f64,
+    /// Whether lengths in mm are known.
+    pub spacing: bool,
+    /// Whether the sides of the patient are known.
+    pub orientation: bool,
+}
+
+/// What the bytes of a NIfTI header state; None where they are no such header.
+#[must_use]
+pub fn stated_units(header: &[u8]) -> Option<StatedUnits> {
+    let header = Header::read("", header).ok()?;
+    let millimetres = header.millimetres(&mut Vec::new());
+    Some(StatedUnits {
+        millimetres,
+        spacing: header.states_spacing(),
+        orientation: header.states_orientation(),
+    })
+}
+
 /// A missing file counts as plain: it is told of when it is read.
 fn codec_of(known: &Known, data: &str) -> Opening<Codec> {
     Ok(match known.found(data)? {
-        Found::Size(_) if is_gzip(known.first(data, 2)?) => Codec::Zlib,
+        Found::Size(_) | Found::Outside(_) if is_gzip(known.first(data, 2)?) => Codec::Zlib,
         _ => Codec::Raw,
     })
 }

@@ -1,4 +1,5 @@
 //! Reads files of every format: closed forms, damaged files, streams of several parts, files that claim too much.
+#![allow(clippy::unwrap_used)]
 
 mod host;
 

@@ -92,7 +92,7 @@ impl Header {
         }
     }
 
-    fn millimetres(&self, notes: &mut Vec<String>) -> f64 {
+    pub(crate) fn millimetres(&self, notes: &mut Vec<String>) -> f64 {
         match self.unit() {
             None => notes.push("the unit of length is not stated: mm assumed".into()),
             Some(("mm", _)) => {}
