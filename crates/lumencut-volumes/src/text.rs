@@ -68,7 +68,10 @@ pub(crate) fn listed<T: ToString>(values: &[T]) -> String {
 
 /// A number with as many digits as tell it from its neighbours.
 pub(crate) fn exact(value: f64) -> String {
-    let text = laid_out(value, &format!("{:e}", value.abs()), 16);
+    let written = |digits: usize| format!("{:.*e}", digits - 1, value.abs());
+    let is_exact = |text: &String| text.parse() == Ok(value.abs());
+    let text = (1..17).map(written).find(is_exact).unwrap_or_else(|| written(17));
+    let text = laid_out(value, &text, 16);
     let is_whole = value.is_finite() && !text.contains(['.', 'e']);
     if is_whole { text + ".0" } else { text }
 }
@@ -82,7 +85,7 @@ pub(crate) fn short(value: f64, digits: usize) -> String {
 fn laid_out(value: f64, scientific: &str, most: usize) -> String {
     let sign = if value.is_sign_negative() && !value.is_nan() { "-" } else { "" };
     let Some((mantissa, exponent)) = scientific.split_once('e') else {
-        return format!("{sign}{}", scientific.to_lowercase());
+        return format!("{sign}{}", scientific.to_ascii_lowercase());
     };
     let exponent: i32 = exponent.parse().unwrap_or(0);
     let digits: String = mantissa.chars().filter(|&letter| letter != '.').collect();

@@ -19,7 +19,7 @@ impl Header {
         path: &str,
         size: [u64; 3],
         notes: &mut Vec<String>,
-    ) -> Result<Affine, Error> {
+    ) -> Result<Affine, Box<Error>> {
         let ras = self.best_affine(path)?;
         let millimetres = self.millimetres(notes);
         self.note_forms(size, notes);
@@ -28,7 +28,7 @@ impl Header {
         Ok(without_negative_zeros(lps))
     }
 
-    fn best_affine(&self, path: &str) -> Result<Affine, Error> {
+    fn best_affine(&self, path: &str) -> Result<Affine, Box<Error>> {
         if self.sform_code != 0 {
             return Ok(self.rows);
         }
