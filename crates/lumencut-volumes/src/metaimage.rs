@@ -6,7 +6,7 @@ use crate::known::Known;
 use crate::numbers::{Kind, Scaling};
 use crate::plan::{Affine, Format, Grid, Place, Plan, Stored, detached};
 use crate::stream::Codec;
-use crate::text::{decoded, exact, listed, number, shown};
+use crate::text::{decoded, listed, number, short, shown};
 
 const LONGEST_HEADER: u64 = 1 << 16;
 const MOST_DIMS: f64 = 10.0;
@@ -172,7 +172,7 @@ impl<'a> Header<'a> {
         let identity = (0..dims * dims).map(|at| f64::from(u8::from(at % (dims + 1) == 0))).collect();
         let matrix = self.numbers_or(&DIRECTION, identity)?;
         if spacing[..3].iter().any(|&step| step <= 0.0) {
-            let steps: Vec<String> = spacing.iter().map(|&step| exact(step)).collect();
+            let steps: Vec<String> = spacing.iter().map(|&step| short(step, 6)).collect();
             let found = format!("ElementSpacing = {}", listed(&steps));
             return Err(Error::new(self.path, found, "positive distances in mm"));
         }

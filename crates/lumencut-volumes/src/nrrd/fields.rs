@@ -211,7 +211,8 @@ impl<'a> Header<'a> {
 
 fn full_name(name: &str) -> Option<&'static str> {
     let name = name.to_ascii_lowercase().split_whitespace().collect::<Vec<_>>().join(" ");
-    FIELDS.into_iter().find(|field| *field == name || field.replace(' ', "") == name)
+    let is_same = |field: &str| field.bytes().filter(|&byte| byte != b' ').eq(name.bytes());
+    FIELDS.into_iter().find(|field| *field == name || is_same(field))
 }
 
 /// The lines of a header, up to an empty line or the end of the file, and the byte behind them.
