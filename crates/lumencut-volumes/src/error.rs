@@ -3,7 +3,6 @@
 use std::fmt;
 
 use crate::known::Need;
-use crate::text::shown;
 
 /// A volume file that cannot be read. No text of a patient stands in it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -63,16 +62,9 @@ impl Error {
         Self::new(subject, found, expected).mend("copy the file again")
     }
 
-    /// One file of a pair, of which the other is not there.
-    pub(crate) fn half_a_pair(one: &str, other: &str) -> Box<Self> {
-        let expected = format!("both files of the pair, {one} and {other}");
-        Self::new(one, "one file of a pair", expected).mend("bring both files together").of(ErrorKind::File)
-    }
-
-    /// A header without the file of its voxels.
-    pub(crate) fn header_alone(header: &str, voxels: &str) -> Box<Self> {
-        let expected = format!("the header and its voxels, {}", shown(voxels));
-        Self::new(header, "a header alone", expected).mend("bring both files together").of(ErrorKind::File)
+    /// A file that is not there.
+    pub(crate) fn missing(name: &str, expected: &str) -> Box<Self> {
+        Self::new(name, "no such file", expected).mend("bring both files together").of(ErrorKind::File)
     }
 
     /// A file with fewer bytes of voxels than its header says; `limit` is empty or "at most ".

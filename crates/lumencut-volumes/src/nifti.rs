@@ -3,6 +3,7 @@
 mod header;
 mod labels;
 mod placement;
+mod wide;
 
 use crate::error::{Error, Opening};
 use crate::known::{Found, Known};
@@ -23,7 +24,7 @@ const COLOUR: (&str, &str) = ("colour voxels", "write one channel");
 pub(crate) fn open(path: &str, known: &Known) -> Opening<Plan> {
     let home = partner(path, known, [".img", ".hdr"])?;
     if known.found(&home)? == Found::Missing {
-        return Err(Error::half_a_pair(path, &home).into());
+        return Err(Error::missing(&home, &format!("the header of {path}")).into());
     }
     let head = head(&home, known, HEADER_BYTES)?;
     let mut header = Header::read(&home, &head)?;

@@ -116,10 +116,7 @@ impl Plan {
     /// The error for a file of voxels that is not there.
     #[must_use]
     pub fn missing(&self) -> Box<Error> {
-        match self.format {
-            Format::Nifti1 | Format::Nifti2 => Error::half_a_pair(&self.name, &self.place.name),
-            Format::Nrrd | Format::MetaImage => Error::header_alone(&self.name, &self.place.name),
-        }
+        Error::missing(&self.place.name, &format!("the voxels of {}", self.name))
     }
 
     /// Number of voxels.

@@ -1,5 +1,7 @@
 //! Texts of headers: as one printable line, as words, as numbers; and numbers as Python writes them.
 
+use std::borrow::Cow;
+
 const SHOWN: usize = 60;
 
 /// A text without line breaks and control characters, which become replacement characters.
@@ -57,7 +59,18 @@ pub(crate) fn latin1(bytes: &[u8]) -> String {
 
 /// The number that a word stands for.
 pub(crate) fn number(word: &str) -> Option<f64> {
-    word.trim().parse().ok()
+    ungrouped(word.trim()).parse().ok()
+}
+
+/// A number without the underscores between its digits, which Python takes.
+pub(crate) fn ungrouped(word: &str) -> Cow<'_, str> {
+    let is_digit =
+        |at: Option<usize>| at.and_then(|at| word.as_bytes().get(at)).is_some_and(u8::is_ascii_digit);
+    let is_between = |(at, _): (usize, &str)| is_digit(at.checked_sub(1)) && is_digit(Some(at + 1));
+    if word.contains('_') && word.match_indices('_').all(is_between) {
+        return word.chars().filter(|&letter| letter != '_').collect::<String>().into();
+    }
+    word.into()
 }
 
 /// Numbers between brackets.

@@ -3,7 +3,7 @@
 use crate::convert::write_number;
 use crate::error::Error;
 use crate::numbers::Kind;
-use crate::text::latin1;
+use crate::text::{latin1, ungrouped};
 
 const LONGEST: usize = 400;
 
@@ -59,7 +59,7 @@ impl Words {
         if self.found > self.wanted {
             return Ok(0);
         }
-        let (whole, real) = self.number(&word)?;
+        let (whole, real) = self.number(&ungrouped(&word))?;
         let unit = self.kind.bytes();
         write_number(self.kind, whole, real, &mut to[..unit]);
         Ok(unit)
