@@ -34,6 +34,7 @@ ALLOWED = {
     "Unicode-3.0",
     "Unlicense",
     "Zlib",
+    "bzip2-1.0.6",
 }
 #: Packages that only some calls need; none of them may be imported before such a call.
 HEAVY = {
