@@ -69,7 +69,7 @@ types: toolchain ## Write the files that repeat tables of the facade: types and 
 	LUMENCUT_WRITE_TYPES=1 cargo test --quiet --profile checks --package lumencut --lib of_the_page
 	@test ! -d web/node_modules || npm run notebook --silent --prefix web
 
-fuzz: toolchain ## Fuzz the readers of centerlines; RUNS=1000000 sets the number of inputs.
+fuzz: toolchain ## Fuzz the readers of centerlines and volumes; RUNS=1000000 sets the number of inputs.
 	@$(PYTHON) scripts/fuzz.py $(if $(RUNS),--runs $(RUNS))
 
 bench: develop tools ## Measure this machine and VTK; prints tables, keeps nothing.

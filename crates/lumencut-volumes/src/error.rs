@@ -1,0 +1,124 @@
+//! Errors that state the file, what was found, what was expected, and advice.
+
+use std::fmt;
+
+/// A volume file that cannot be read. No text of a patient stands in it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Error {
+    /// The kind of the error.
+    pub kind: ErrorKind,
+    /// Name of the file, as `open` was given it or as a header names it.
+    pub subject: String,
+    /// What was found.
+    pub found: String,
+    /// What was expected.
+    pub expected: String,
+    /// Advice in words; may be empty.
+    pub mend: String,
+}
+
+/// What kind of error it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ErrorKind {
+    /// The content is damaged or no volume.
+    Format,
+    /// A file is missing.
+    File,
+    /// Segments that share voxels; their header is sound.
+    Overlap,
+}
+
+impl Error {
+    pub(crate) fn new(subject: &str, found: impl Into<String>, expected: impl Into<String>) -> Box<Self> {
+        Self::made(subject, found.into(), expected.into())
+    }
+
+    #[inline(never)]
+    fn made(subject: &str, found: String, expected: String) -> Box<Self> {
+        Box::new(Self {
+            kind: ErrorKind::Format,
+            subject: subject.into(),
+            found,
+            expected,
+            mend: String::new(),
+        })
+    }
+
+    #[inline(never)]
+    pub(crate) fn mend(mut self: Box<Self>, mend: &str) -> Box<Self> {
+        self.mend = mend.into();
+        self
+    }
+
+    pub(crate) fn of(mut self: Box<Self>, kind: ErrorKind) -> Box<Self> {
+        self.kind = kind;
+        self
+    }
+
+    /// A damaged file; another copy may be whole.
+    pub(crate) fn damaged(subject: &str, found: impl Into<String>, expected: impl Into<String>) -> Box<Self> {
+        Self::new(subject, found, expected).mend("copy the file again")
+    }
+
+    /// A file that is not there.
+    pub(crate) fn missing(name: &str, expected: &str) -> Box<Self> {
+        Self::new(name, "no such file", expected).mend("bring both files together").of(ErrorKind::File)
+    }
+
+    /// A file with fewer bytes of voxels than its header says; `limit` is empty or "at most ".
+    pub(crate) fn too_short(subject: &str, limit: &str, found: u128, needed: u128) -> Box<Self> {
+        let found = format!("{limit}{found} bytes of voxels");
+        Self::damaged(subject, found, format!("{needed} bytes as the header says"))
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: found {}; expected {}", self.subject, self.found, self.expected)?;
+        if self.mend.is_empty() { Ok(()) } else { write!(f, "; {}", self.mend) }
+    }
+}
+
+impl std::error::Error for Error {}
+
+/// What `open` needs of files. Names are relative to the folder of the opened file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Need {
+    /// The sizes of these files, or that they are not there.
+    Sizes(Vec<String>),
+    /// The bytes of a file from `start` to `end`, fewer at its end.
+    Bytes {
+        /// The name of the file.
+        name: String,
+        /// The first byte.
+        start: u64,
+        /// The byte behind the last one.
+        end: u64,
+    },
+}
+
+/// Why `open` gives no plan yet.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Stop {
+    /// The host fetches this, and asks again.
+    Need(Need),
+    /// The file is no NIfTI, NRRD or MetaImage file: another reader may know it.
+    Unknown,
+    /// The file cannot be read.
+    Refused(Box<Error>),
+}
+
+impl From<Box<Error>> for Stop {
+    fn from(error: Box<Error>) -> Self {
+        Self::Refused(error)
+    }
+}
+
+impl From<Need> for Stop {
+    fn from(need: Need) -> Self {
+        Self::Need(need)
+    }
+}
+
+/// Result of a step of `open`.
+pub(crate) type Opening<T> = Result<T, Stop>;
