@@ -1,0 +1,279 @@
+//! Volume files for `lumencut.volume_files.grids`, which reads and writes the bytes.
+
+use std::path::{Path, PathBuf};
+
+use lumencut_volumes::{
+    Affine, Error, ErrorKind, Fill, Found, Kind, Known, Need, Packer, Plan, Step, Stop, Window, Written,
+    open, stated_units,
+};
+use numpy::{PyArray1, PyArrayMethods};
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+
+use crate::errors::{advised, exception};
+
+/// Bytes of voxels that one call writes at most, so that signals are heard.
+const PIECE: usize = 16 << 20;
+
+/// The error as an exception that names the file next to `path`.
+fn raised(error: &Error, path: &Path) -> PyErr {
+    let is_own = path.file_name().is_some_and(|name| name == error.subject.as_str());
+    let subject: PathBuf = if is_own { path.into() } else { path.with_file_name(&error.subject) };
+    let subject = subject.to_string_lossy();
+    match error.kind {
+        ErrorKind::Format => exception("FormatError", &subject, &error.found, &error.expected, &error.mend),
+        ErrorKind::File => exception("FileError", &subject, &error.found, &error.expected, &error.mend),
+        ErrorKind::Overlap => Python::attach(|py| overlap(py, error, &subject).unwrap_or_else(|error| error)),
+    }
+}
+
+fn overlap(py: Python<'_>, error: &Error, subject: &str) -> PyResult<PyErr> {
+    let class = py.import("lumencut.volume_files.overlaps")?.getattr("OverlapError")?;
+    let mend = advised(py, &error.mend, None)?;
+    Ok(PyErr::from_value(class.call1((subject, &error.found, &error.expected, mend))?))
+}
+
+/// A file whose header is being read: `next` says what is needed.
+#[pyclass(module = "lumencut._lumencut")]
+pub(crate) struct VolumeOpening {
+    path: PathBuf,
+    name: String,
+    chosen: Option<Vec<u32>>,
+    known: Known,
+}
+
+#[pymethods]
+impl VolumeOpening {
+    #[new]
+    #[pyo3(signature = (path, name, chosen, /))]
+    fn new(path: PathBuf, name: String, chosen: Option<Vec<u32>>) -> Self {
+        Self { path, name, chosen, known: Known::new() }
+    }
+
+    /// Adds the size of a file, None if it is missing; whether it lies outside the folder.
+    #[pyo3(signature = (name, size, is_outside, /))]
+    fn add_size(&mut self, name: &str, size: Option<u64>, is_outside: bool) {
+        let there = if is_outside { Found::Outside } else { Found::Size };
+        self.known.add_size(name, size.map_or(Found::Missing, there));
+    }
+
+    /// Adds the needed bytes of a file, which begin at `start`.
+    #[pyo3(signature = (name, start, bytes, /))]
+    fn add_bytes(&mut self, name: &str, start: u64, bytes: &[u8]) {
+        self.known.add_bytes(name, start, bytes);
+    }
+
+    /// The plan; the needed names of which sizes are needed, or name, start and end of needed bytes; None for an
+    /// unknown format.
+    fn next<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        match open(&self.name, &self.known, self.chosen.as_deref()) {
+            Ok(plan) => Ok(Bound::new(py, VolumePlan { path: self.path.clone(), plan })?.into_any()),
+            Err(Stop::Need(Need::Sizes(names))) => Ok(names.into_pyobject(py)?.into_any()),
+            Err(Stop::Need(Need::Bytes { name, start, end })) => {
+                Ok((name, start, end).into_pyobject(py)?.into_any())
+            }
+            Err(Stop::Unknown) => Ok(py.None().into_bound(py)),
+            Err(Stop::Refused(error)) => Err(raised(&error, &self.path)),
+        }
+    }
+}
+
+/// A volume whose header is read.
+#[pyclass(module = "lumencut._lumencut", frozen)]
+pub(crate) struct VolumePlan {
+    path: PathBuf,
+    plan: Plan,
+}
+
+#[pymethods]
+impl VolumePlan {
+    #[getter]
+    fn format(&self) -> &'static str {
+        self.plan.format.name()
+    }
+
+    #[getter]
+    fn size(&self) -> [u64; 3] {
+        self.plan.grid.size
+    }
+
+    /// The upper three rows of the affine matrix.
+    #[getter]
+    fn world_from_index(&self) -> Affine {
+        self.plan.grid.world_from_index
+    }
+
+    #[getter]
+    fn states_spacing(&self) -> bool {
+        self.plan.grid.states_spacing
+    }
+
+    #[getter]
+    fn states_orientation(&self) -> bool {
+        self.plan.grid.states_orientation
+    }
+
+    #[getter]
+    fn space(&self) -> &str {
+        &self.plan.grid.space
+    }
+
+    /// The name in NumPy of the stored type, and whether the most significant byte comes first.
+    #[getter]
+    fn stored(&self) -> (&'static str, bool) {
+        (self.plan.stored.kind.name(), self.plan.stored.is_big)
+    }
+
+    /// The name in NumPy of the type of the voxels once read; None if the voxels decide it.
+    #[getter]
+    fn settled(&self) -> Option<&'static str> {
+        self.plan.settled(false).map(Kind::name)
+    }
+
+    /// The name of the file that holds the voxels.
+    #[getter]
+    fn voxels(&self) -> &str {
+        &self.plan.place.name
+    }
+
+    #[getter]
+    fn notes(&self) -> Vec<String> {
+        self.plan.notes.clone()
+    }
+
+    #[getter]
+    fn remarks(&self) -> Vec<String> {
+        self.plan.remarks.clone()
+    }
+
+    #[getter]
+    fn description(&self) -> &str {
+        &self.plan.description
+    }
+
+    #[getter]
+    fn label_names(&self) -> Vec<(i64, String)> {
+        self.plan.label_names.clone()
+    }
+
+    /// Layers and segments in words; None for a file that is no segmentation.
+    #[getter]
+    fn segmentation(&self) -> Option<[String; 2]> {
+        self.plan.segmentation.as_ref().map(lumencut_volumes::Segmentation::details)
+    }
+
+    /// The exception for a file of voxels that is not there.
+    fn missing(&self, py: Python<'_>) -> Py<PyAny> {
+        raised(&self.plan.missing(), &self.path).into_value(py).into_any()
+    }
+
+    /// What fills the voxels from a file of this size.
+    #[pyo3(signature = (size, /))]
+    fn fill(&self, size: u64) -> VolumeFill {
+        let fill = Fill::new(self.plan.clone(), size, false);
+        VolumeFill { path: self.path.clone(), fill }
+    }
+}
+
+/// Makes voxels of bytes.
+#[pyclass(module = "lumencut._lumencut")]
+pub(crate) struct VolumeFill {
+    path: PathBuf,
+    fill: Fill,
+}
+
+#[pymethods]
+impl VolumeFill {
+    /// Reads bytes of the file, which begin at `start`, and writes voxels to `output`; tells how many bytes it wrote
+    /// and what comes next: ("read", start, end), ("sound", proven, least bytes), ("room", type, bytes), ("done",)
+    /// or ("filled",).
+    #[pyo3(signature = (start, bytes, output, /))]
+    fn step<'py>(
+        &mut self,
+        py: Python<'py>,
+        start: u64,
+        bytes: &[u8],
+        output: &Bound<'py, PyArray1<u8>>,
+    ) -> PyResult<(usize, Bound<'py, PyAny>)> {
+        let mut output = output.try_readwrite().map_err(|error| PyValueError::new_err(error.to_string()))?;
+        let output = output.as_slice_mut()?;
+        let fill = &mut self.fill;
+        let (written, step) = py
+            .detach(|| steps(fill, Window { start, bytes }, output))
+            .map_err(|error| raised(&error, &self.path))?;
+        let told = match step {
+            Step::Read { start, end } => ("read", start, end).into_pyobject(py)?.into_any(),
+            Step::Sound { is_proven, least } => ("sound", is_proven, least).into_pyobject(py)?.into_any(),
+            Step::Room { kind, bytes } => ("room", kind.name(), bytes).into_pyobject(py)?.into_any(),
+            Step::Checked(_) | Step::Filled(_) => ("filled",).into_pyobject(py)?.into_any(),
+            Step::Done => ("done",).into_pyobject(py)?.into_any(),
+        };
+        Ok((written, told))
+    }
+}
+
+/// Steps until another part of the file is needed, or much is written.
+fn steps(fill: &mut Fill, window: Window<'_>, output: &mut [u8]) -> Result<(usize, Step), Error> {
+    let mut written = 0;
+    loop {
+        match fill.step(window, &mut output[written..])? {
+            Step::Checked(_) => {}
+            Step::Filled(count) if count > 0 && written < PIECE => written += count,
+            Step::Filled(count) => return Ok((written + count, Step::Filled(0))),
+            step => return Ok((written, step)),
+        }
+    }
+}
+
+/// Millimetres per unit, and whether lengths and sides are known, of the bytes of a NIfTI header.
+#[pyfunction]
+#[pyo3(signature = (header, /))]
+pub(crate) fn nifti_units(header: &[u8]) -> Option<(f64, bool, bool)> {
+    stated_units(header).map(|stated| (stated.millimetres, stated.spacing, stated.orientation))
+}
+
+/// The header of a volume in the format `"nifti"`, `"nrrd"` or `"nrrd.gz"`, up to its first voxel.
+#[pyfunction]
+#[pyo3(signature = (format, size, world_from_index, kind, mark, /))]
+pub(crate) fn volume_header<'py>(
+    py: Python<'py>,
+    format: &str,
+    size: [u64; 3],
+    world_from_index: Affine,
+    kind: &str,
+    mark: &str,
+) -> PyResult<Bound<'py, PyBytes>> {
+    let kind = Kind::of_name(kind).ok_or_else(|| PyValueError::new_err("a type of numbers"))?;
+    let written = Written { size, world_from_index, kind, mark };
+    let header = match format {
+        "nifti" => written.nifti(),
+        _ => written.nrrd(format.ends_with(".gz")).into_bytes(),
+    };
+    Ok(PyBytes::new(py, &header))
+}
+
+/// Packs bytes as a gzip stream.
+#[pyclass(module = "lumencut._lumencut")]
+#[derive(Default)]
+pub(crate) struct GzipPacker(Packer);
+
+#[pymethods]
+impl GzipPacker {
+    #[new]
+    fn new() -> Self {
+        Self::default()
+    }
+
+    /// Takes bytes and gives those that are packed so far.
+    #[pyo3(signature = (bytes, /))]
+    fn pack<'py>(&mut self, py: Python<'py>, bytes: &[u8]) -> Bound<'py, PyBytes> {
+        let packer = &mut self.0;
+        PyBytes::new(py, &py.detach(|| packer.pack(bytes)))
+    }
+
+    /// Gives the last bytes.
+    fn end<'py>(&mut self, py: Python<'py>) -> Bound<'py, PyBytes> {
+        PyBytes::new(py, &std::mem::take(&mut self.0).end())
+    }
+}

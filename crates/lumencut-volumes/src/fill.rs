@@ -1,0 +1,362 @@
+//! Makes voxels of the bytes of a file, in pieces of bounded size. No memory is asked for that the file does not fill.
+
+mod pass;
+
+use crate::convert::{Conversion, widened};
+use crate::error::Error;
+use crate::label_map::LabelMap;
+use crate::numbers::Kind;
+use crate::plan::{Plan, Stored};
+use crate::stream::Codec;
+use pass::{Pass, Piece};
+
+/// Bytes of a file that are asked for at once.
+const READ: u64 = 1 << 20;
+/// Stored bytes that are converted at once.
+const PIECE: usize = 1 << 18;
+/// No byte of a deflate stream becomes more bytes than this.
+const DEFLATE_LIMIT: u128 = 1032;
+/// Sizes up to this many times the compressed file need no proof before memory is asked for.
+const TRUSTED: u128 = 8;
+
+/// Bytes of the file of voxels that begin at `start`.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Window<'a> {
+    /// The first byte.
+    pub start: u64,
+    /// As many as the host has.
+    pub bytes: &'a [u8],
+}
+
+/// What a step of [`Fill`] did, or needs.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// The next step needs the bytes from `start` to `end` of the file; it also takes more, and fewer at its end.
+    Read {
+        /// The first byte.
+        start: u64,
+        /// The byte behind the last one.
+        end: u64,
+    },
+    /// The length of the file is sound. The voxels will take at least so many bytes of memory.
+    Sound {
+        /// Whether it proves that the file holds all voxels.
+        is_proven: bool,
+        /// Bytes of the voxels in the smallest type that they may have.
+        least: u64,
+    },
+    /// So many stored bytes were looked at, before voxels are made.
+    Checked(usize),
+    /// The next steps write voxels of this type, so many bytes in all.
+    Room {
+        /// The type.
+        kind: Kind,
+        /// Bytes of all voxels.
+        bytes: u64,
+    },
+    /// So many bytes of voxels were written to the beginning of the output: whole numbers unless output was short.
+    Filled(usize),
+    /// All voxels are written, and check sums are right.
+    Done,
+}
+
+enum Phase {
+    Lines { left: u64 },
+    Lengths,
+    Proof(Pass),
+    Range(Pass, (i128, i128)),
+    Room(Kind),
+    Copy(Pass),
+    Convert(Pass, Conversion),
+    Map(Pass, Box<LabelMap>),
+    Done,
+}
+
+/// Fills a volume: a machine that the host drives by [`Fill::step`].
+pub struct Fill {
+    plan: Plan,
+    in_engine: bool,
+    size: u64,
+    at: u64,
+    /// What was read last begins here.
+    asked: Option<u64>,
+    phase: Phase,
+    /// Stored numbers that are not yet converted.
+    buffer: Vec<u8>,
+    held: usize,
+}
+
+impl Fill {
+    /// Begins to fill a volume.
+    ///
+    /// # Parameters
+    ///
+    /// * `plan`: what `open` gave.
+    /// * `size`: the bytes of the file of voxels.
+    /// * `in_engine`: whether voxels get a type of the engine (uint8, int16, uint16 or float32), else the one that
+    ///   holds them exactly. All are in this machine's byte order, i fastest.
+    #[must_use]
+    pub fn new(plan: Plan, size: u64, in_engine: bool) -> Self {
+        let phase = Phase::Lines { left: plan.place.lines };
+        let at = plan.place.start.unwrap_or(0);
+        Self { plan, in_engine, size, at, asked: None, phase, buffer: Vec::new(), held: 0 }
+    }
+
+    /// Takes one step.
+    ///
+    /// # Parameters
+    ///
+    /// * `window`: the bytes of the last [`Step::Read`], or the whole file; empty at first.
+    /// * `output`: where voxels are written; at least 8 bytes after [`Step::Room`], else empty.
+    ///
+    /// # Errors
+    ///
+    /// For a file that is too short or damaged, and for segments that overlap.
+    pub fn step(&mut self, window: Window<'_>, output: &mut [u8]) -> Result<Step, Error> {
+        loop {
+            let skipped = usize::try_from(self.at.saturating_sub(window.start)).unwrap_or(usize::MAX);
+            let is_before = self.at < window.start;
+            let input = if is_before { &[] } else { window.bytes.get(skipped..).unwrap_or_default() };
+            match self.turn(input, output)? {
+                Turn::Again => {}
+                Turn::Hungry if self.asked == Some(self.at) => {
+                    // The file has become shorter since.
+                    self.size = self.at + input.len() as u64;
+                }
+                Turn::Hungry => {
+                    let end = self.at.saturating_add(READ).min(self.size);
+                    self.asked = Some(self.at);
+                    return Ok(Step::Read { start: self.at, end });
+                }
+                Turn::Step(step) => return Ok(step),
+            }
+        }
+    }
+
+    fn turn(&mut self, input: &[u8], output: &mut [u8]) -> Result<Turn, Error> {
+        match &mut self.phase {
+            Phase::Lines { left } => {
+                let is_over = self.at >= self.size;
+                if *left == 0 || is_over {
+                    self.phase = Phase::Lengths;
+                } else if input.is_empty() {
+                    return Ok(Turn::Hungry);
+                } else {
+                    let (lines, bytes) = lines_in(input, *left);
+                    *left -= lines;
+                    self.at += bytes as u64;
+                }
+                Ok(Turn::Again)
+            }
+            Phase::Lengths => self.check_lengths(),
+            Phase::Proof(_) | Phase::Range(..) => self.look(input),
+            Phase::Room(kind) => {
+                let kind = *kind;
+                self.phase = self.filling(kind)?;
+                let bytes = saturated(self.plan.voxels().saturating_mul(kind.bytes() as u128));
+                Ok(Turn::Step(Step::Room { kind, bytes }))
+            }
+            Phase::Copy(pass) => {
+                let piece = pass.take(&mut self.at, self.size, input, output)?;
+                Ok(self.after(piece, Step::Filled))
+            }
+            Phase::Convert(..) => self.convert(input, output),
+            Phase::Map(..) => self.map(input, output),
+            Phase::Done => Ok(Turn::Step(Step::Done)),
+        }
+    }
+
+    fn after(&mut self, piece: Piece, step: fn(usize) -> Step) -> Turn {
+        match piece {
+            Piece::Bytes(0) => Turn::Again,
+            Piece::Bytes(count) => Turn::Step(step(count)),
+            Piece::Hungry => Turn::Hungry,
+            Piece::Full => Turn::Step(step(0)),
+            Piece::End => {
+                self.phase = Phase::Done;
+                Turn::Again
+            }
+        }
+    }
+
+    /// Refuses a size that the file cannot fill.
+    fn check_lengths(&mut self) -> Result<Turn, Error> {
+        let (place, needed) = (&self.plan.place, self.plan.stored_bytes());
+        let (name, skip) = (place.name.as_str(), u128::from(place.skip));
+        let held = u128::from(self.size.saturating_sub(self.at));
+        match (place.codec, place.start) {
+            (Codec::Raw, None) => {
+                if held < needed {
+                    return Err(Error::too_short(name, "", held, needed));
+                }
+                self.at = self.size - saturated(needed);
+            }
+            (Codec::Raw, _) if held < skip.saturating_add(needed) => {
+                return Err(Error::too_short(name, "", held.saturating_sub(skip), needed));
+            }
+            (Codec::Raw, _) => self.at += place.skip,
+            (Codec::Text, _) => {
+                self.at = self.at.saturating_add(place.skip);
+                let (held, least) = (held.saturating_sub(skip), self.numbers().saturating_mul(2) - 1);
+                if held < least {
+                    return Err(Error::too_short(name, "", held, least));
+                }
+            }
+            (Codec::Zlib, _) if skip.saturating_add(needed) > held * DEFLATE_LIMIT => {
+                return Err(Error::too_short(name, "at most ", held * DEFLATE_LIMIT, needed));
+            }
+            (Codec::Zlib | Codec::Bzip2, _) => {}
+        }
+        self.phase = self.first_pass(held);
+        let kind = self.plan.settled(self.in_engine);
+        let smallest = if self.in_engine { 1 } else { self.plan.stored.kind.bytes() };
+        let least = self.plan.voxels().saturating_mul(kind.map_or(smallest, Kind::bytes) as u128);
+        let is_proven = self.plan.place.codec == Codec::Raw;
+        Ok(Turn::Step(Step::Sound { is_proven, least: saturated(least) }))
+    }
+
+    /// Numbers that the file holds.
+    fn numbers(&self) -> u128 {
+        self.plan.stored_bytes() / self.plan.stored.kind.bytes() as u128
+    }
+
+    /// A pass over all voxels before they are made: for their range, or for a proof that a stream holds them.
+    fn first_pass(&self, held: u128) -> Phase {
+        let needed = self.plan.stored_bytes().saturating_add(self.plan.place.skip.into());
+        let is_packed = matches!(self.plan.place.codec, Codec::Zlib | Codec::Bzip2);
+        match self.plan.settled(self.in_engine) {
+            None => Phase::Range(self.pass(), (i128::MAX, i128::MIN)),
+            Some(_) if is_packed && needed > TRUSTED * held => Phase::Proof(self.pass()),
+            Some(kind) => Phase::Room(kind),
+        }
+    }
+
+    fn pass(&self) -> Pass {
+        Pass::new(&self.plan, self.at, self.plan.stored_bytes(), self.numbers())
+    }
+
+    /// Stored numbers as they are while they are read: text has become numbers of this machine.
+    fn stored(&self) -> Stored {
+        let is_text = self.plan.place.codec == Codec::Text;
+        let is_big = if is_text { cfg!(target_endian = "big") } else { self.plan.stored.is_big };
+        Stored { is_big, ..self.plan.stored }
+    }
+
+    /// Looks at stored bytes without making voxels of them.
+    fn look(&mut self, input: &[u8]) -> Result<Turn, Error> {
+        self.buffer.resize(PIECE, 0);
+        let stored = self.stored();
+        let (Phase::Proof(pass) | Phase::Range(pass, _)) = &mut self.phase else { return Ok(Turn::Again) };
+        let start = pass.start;
+        let piece = pass.take(&mut self.at, self.size, input, &mut self.buffer[self.held..])?;
+        let Piece::Bytes(count) = piece else {
+            if piece == Piece::Hungry {
+                return Ok(Turn::Hungry);
+            }
+            let kind = match &self.phase {
+                Phase::Range(_, range) => {
+                    let kind = stored.scaling.kind_of(stored.kind, *range);
+                    if self.in_engine { kind.in_the_engine() } else { kind }
+                }
+                _ => self.plan.settled(self.in_engine).unwrap_or(stored.kind),
+            };
+            (self.at, self.held) = (start, 0);
+            self.phase = Phase::Room(kind);
+            return Ok(Turn::Again);
+        };
+        if let Phase::Range(_, range) = &mut self.phase {
+            let bytes = self.held + count;
+            let whole = bytes - bytes % stored.kind.bytes();
+            *range = widened(stored, &self.buffer[..whole], *range);
+            self.buffer.copy_within(whole..bytes, 0);
+            self.held = bytes - whole;
+        }
+        Ok(if count == 0 { Turn::Again } else { Turn::Step(Step::Checked(count)) })
+    }
+
+    fn filling(&mut self, kind: Kind) -> Result<Phase, Error> {
+        let pass = self.pass();
+        let conversion = Conversion::new(self.stored(), kind);
+        Ok(match &self.plan.segmentation {
+            Some(segmentation) if !segmentation.is_as_stored => {
+                let stored = self.stored();
+                let map = LabelMap::new(segmentation, self.plan.grid.size, stored).ok_or_else(|| {
+                    Error::new(&self.plan.name, "more voxels than memory holds", "a volume that fits into it")
+                })?;
+                Phase::Map(pass, Box::new(map))
+            }
+            _ if conversion.is_copy() => Phase::Copy(pass),
+            _ => Phase::Convert(pass, conversion),
+        })
+    }
+
+    fn convert(&mut self, input: &[u8], output: &mut [u8]) -> Result<Turn, Error> {
+        self.buffer.resize(PIECE, 0);
+        let Phase::Convert(pass, conversion) = &mut self.phase else { return Ok(Turn::Again) };
+        let (unit, size) = (self.plan.stored.kind.bytes(), conversion.kind().bytes());
+        if self.held < unit {
+            let piece = pass.take(&mut self.at, self.size, input, &mut self.buffer[self.held..])?;
+            let Piece::Bytes(count) = piece else { return Ok(self.after(piece, Step::Filled)) };
+            self.held += count;
+        }
+        let numbers = (self.held / unit).min(output.len() / size);
+        if numbers == 0 && self.held >= unit {
+            return Ok(Turn::Step(Step::Filled(0)));
+        }
+        let bytes = numbers * unit;
+        conversion.convert(&self.buffer[..bytes], &mut output[..numbers * size]);
+        self.buffer.copy_within(bytes..self.held, 0);
+        self.held -= bytes;
+        Ok(self.after(Piece::Bytes(numbers * size), Step::Filled))
+    }
+
+    fn map(&mut self, input: &[u8], output: &mut [u8]) -> Result<Turn, Error> {
+        self.buffer.resize(PIECE, 0);
+        let unit = self.plan.stored.kind.bytes();
+        let Phase::Map(pass, map) = &mut self.phase else { return Ok(Turn::Again) };
+        if map.has_labels() {
+            return Ok(Turn::Step(Step::Filled(map.give(output))));
+        }
+        let taken = map.take(&self.buffer[..self.held - self.held % unit]);
+        self.buffer.copy_within(taken..self.held, 0);
+        self.held -= taken;
+        if taken > 0 {
+            return Ok(Turn::Again);
+        }
+        let piece = pass.take(&mut self.at, self.size, input, &mut self.buffer[self.held..])?;
+        match piece {
+            Piece::Bytes(count) => self.held += count,
+            Piece::Hungry => return Ok(Turn::Hungry),
+            Piece::Full => return Ok(Turn::Step(Step::Filled(0))),
+            Piece::End => {
+                map.refuse_overlaps(&self.plan.name)?;
+                self.phase = Phase::Done;
+            }
+        }
+        Ok(Turn::Again)
+    }
+}
+
+enum Turn {
+    Again,
+    Hungry,
+    Step(Step),
+}
+
+fn saturated(count: u128) -> u64 {
+    u64::try_from(count).unwrap_or(u64::MAX)
+}
+
+/// How many lines end in these bytes, at most `most`, and the bytes up to the end of the last one, or all.
+fn lines_in(input: &[u8], most: u64) -> (u64, usize) {
+    let mut lines = 0;
+    for (at, &byte) in input.iter().enumerate() {
+        if byte == b'\n' {
+            lines += 1;
+            if lines == most {
+                return (lines, at + 1);
+            }
+        }
+    }
+    (lines, input.len())
+}

@@ -1,0 +1,136 @@
+//! What a host has fetched of files so far, and what is still needed.
+
+use std::collections::BTreeMap;
+
+use crate::error::Opening;
+use crate::stream::{Codec, Taken, Unpacker, is_gzip};
+
+/// The first bytes of a gzipped file that are fetched; then four times as many, and so on.
+const FIRST: u64 = 1 << 16;
+const PIECE: usize = 1 << 16;
+
+/// What `open` needs of files. Names are relative to the folder of the opened file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Need {
+    /// The sizes of these files, or that they are not there.
+    Sizes(Vec<String>),
+    /// The bytes of a file from `start` to `end`, fewer at its end.
+    Bytes {
+        /// The name of the file.
+        name: String,
+        /// The first byte.
+        start: u64,
+        /// The byte behind the last one.
+        end: u64,
+    },
+}
+
+/// What is known of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Found {
+    /// It is there, with so many bytes.
+    Size(u64),
+    /// It is not there.
+    Missing,
+    /// It is a link that leads out of the folder, with so many bytes.
+    Outside(u64),
+}
+
+/// What is known of files, by their names.
+#[derive(Clone, Debug, Default)]
+pub struct Known {
+    sizes: BTreeMap<String, Found>,
+    /// The first bytes of each file.
+    heads: BTreeMap<String, Vec<u8>>,
+}
+
+impl Known {
+    /// Nothing.
+    #[must_use]
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds whether a file is there.
+    pub fn add_size(&mut self, name: &str, found: Found) {
+        self.sizes.insert(name.into(), found);
+    }
+
+    /// Adds the bytes that were needed; they begin at `start`. None mean that the file ends there.
+    pub fn add_bytes(&mut self, name: &str, start: u64, bytes: &[u8]) {
+        let head = self.heads.entry(name.into()).or_default();
+        let start = usize::try_from(start).unwrap_or(usize::MAX).min(head.len());
+        head.truncate(start);
+        head.extend_from_slice(bytes);
+        if bytes.is_empty() {
+            self.sizes.insert(name.into(), Found::Size(head.len() as u64));
+        }
+    }
+
+    pub(crate) fn found(&self, name: &str) -> Opening<Found> {
+        self.sizes.get(name).copied().ok_or_else(|| Need::Sizes(vec![name.into()]).into())
+    }
+
+    /// The first of several files that is there.
+    pub(crate) fn first_found(&self, names: &[String]) -> Opening<Option<String>> {
+        let unknown: Vec<String> =
+            names.iter().filter(|name| !self.sizes.contains_key(*name)).cloned().collect();
+        if !unknown.is_empty() {
+            return Err(Need::Sizes(unknown).into());
+        }
+        Ok(names.iter().find(|&name| self.sizes[name] != Found::Missing).cloned())
+    }
+
+    fn size(&self, name: &str) -> Opening<u64> {
+        Ok(match self.found(name)? {
+            Found::Size(size) | Found::Outside(size) => size,
+            Found::Missing => 0,
+        })
+    }
+
+    /// The first bytes of a file, `count` or all.
+    pub(crate) fn first(&self, name: &str, count: u64) -> Opening<&[u8]> {
+        let count = count.min(self.size(name)?);
+        let head = self.heads.get(name).map_or(&[][..], Vec::as_slice);
+        let wanted = usize::try_from(count).unwrap_or(usize::MAX);
+        if head.len() < wanted {
+            let start = head.len() as u64;
+            return Err(Need::Bytes { name: name.into(), start, end: count }.into());
+        }
+        Ok(&head[..wanted])
+    }
+
+    /// The first bytes of a file, unpacked if it is gzipped. The file may break off after them.
+    pub(crate) fn unpacked(&self, name: &str, count: usize) -> Opening<Vec<u8>> {
+        let start = self.first(name, count as u64)?;
+        if !is_gzip(start) {
+            return Ok(start.to_vec());
+        }
+        let size = self.size(name)?;
+        let mut packed = FIRST;
+        loop {
+            let head = self.first(name, packed)?;
+            let (bytes, is_all) = first_unpacked(head, packed >= size, count);
+            if bytes.len() >= count || is_all {
+                return Ok(bytes);
+            }
+            packed *= 4;
+        }
+    }
+}
+
+/// The first bytes of a stream, and whether no more of it is to be had than these.
+fn first_unpacked(packed: &[u8], is_whole: bool, count: usize) -> (Vec<u8>, bool) {
+    let mut unpacker = Unpacker::new(Codec::Zlib, count as u128);
+    let (mut bytes, mut piece, mut at) = (Vec::new(), vec![0; PIECE.min(count)], 0);
+    loop {
+        match unpacker.take(&packed[at..], is_whole, &mut piece) {
+            Ok(Taken::Some { read, written }) => {
+                at += read;
+                bytes.extend_from_slice(&piece[..written]);
+            }
+            Ok(Taken::Hungry) => return (bytes, is_whole),
+            Ok(Taken::End) | Err(_) => return (bytes, true),
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! Recognises a file by its first bytes, or by its name where they leave it open, and reads its header.
+
+use crate::error::{Error, Opening, Stop};
+use crate::known::Known;
+use crate::plan::{Format, Plan};
+use crate::text::latin1;
+use crate::{metaimage, nifti, nrrd};
+
+/// Bytes, unpacked, that tell what a file is.
+pub const HEAD: usize = 4096;
+const PACKED: [(&[u8], &str); 4] =
+    [(b"BZh", "bzip2"), (b"\xfd7zXZ\0", "xz"), (b"\x28\xb5\x2f\xfd", "zstd"), (b"PK\x03\x04", "zip")];
+
+/// Reads the header of a volume file.
+///
+/// # Parameters
+///
+/// * `name`: the name of the file, without its folder.
+/// * `known`: what the host has fetched so far.
+/// * `chosen`: numbers of the segments that are read of a segmentation; None for all.
+///
+/// # Errors
+///
+/// [`Stop::Need`] where `known` lacks something: the host adds it and calls again. [`Stop::Unknown`] for a file of
+/// another format, [`Stop::Refused`] for a file that cannot be read.
+pub fn open(name: &str, known: &Known, chosen: Option<&[u32]>) -> Result<Plan, Stop> {
+    let head = head(name, known, HEAD)?;
+    match format_of(name, &head) {
+        Some(Format::Nrrd) => nrrd::open(name, known, chosen),
+        Some(Format::MetaImage) => metaimage::open(name, known),
+        Some(Format::Nifti1 | Format::Nifti2) => nifti::open(name, known),
+        None => Err(Stop::Unknown),
+    }
+}
+
+/// The format that the first bytes of a file, unpacked, and its name tell. A file whose name alone is that of
+/// NIfTI counts as NIfTI-1, so that its reader says what is wrong.
+#[must_use]
+pub fn format_of(name: &str, head: &[u8]) -> Option<Format> {
+    let name = name.to_lowercase();
+    if head.starts_with(b"NRRD") {
+        return Some(Format::Nrrd);
+    }
+    if name.ends_with(".mha") || name.ends_with(".mhd") || states_image(head) {
+        return Some(Format::MetaImage);
+    }
+    let plain = name.strip_suffix(".gz").unwrap_or(&name);
+    let has_name = [".nii", ".hdr", ".img"].iter().any(|ending| plain.ends_with(ending));
+    nifti::format_of(head).or(has_name.then_some(Format::Nifti1))
+}
+
+/// Whether a text says that it is the header of a MetaImage.
+fn states_image(head: &[u8]) -> bool {
+    latin1(head).lines().any(|line| {
+        let (name, value) = line.split_once('=').unwrap_or_default();
+        name.trim_end().ends_with("ObjectType") && value.trim_start().starts_with("Image")
+    })
+}
+
+/// The first bytes of a file, unpacked if it is gzipped; other packed files are refused.
+pub(crate) fn head(name: &str, known: &Known, count: usize) -> Opening<Vec<u8>> {
+    let start = known.first(name, 8)?;
+    if let Some((_, codec)) = PACKED.iter().find(|(magic, _)| start.starts_with(magic)) {
+        let found = format!("a file compressed with {codec}");
+        return Err(Error::new(name, found, "a plain or gzipped file").mend("decompress it first").into());
+    }
+    known.unpacked(name, count)
+}

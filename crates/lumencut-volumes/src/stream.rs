@@ -1,0 +1,152 @@
+//! Decompresses streams of several parts in pieces of bounded size, with their check sums.
+
+use flate2::{Decompress as Inflate, FlushDecompress, Status};
+
+/// How the voxels are stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Codec {
+    /// As they are.
+    Raw,
+    /// A zlib or a gzip stream.
+    Zlib,
+    /// A bzip2 stream.
+    Bzip2,
+    /// Numbers in words.
+    Text,
+}
+
+/// Parts that hold nothing: real files have one at most, for a good end.
+const MOST_EMPTY: u32 = 1000;
+/// Bytes that tell whether another part begins.
+const MAGIC: usize = 3;
+
+/// What is wrong with a stream.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Fault {
+    Damaged,
+    BreaksOff,
+}
+
+impl Fault {
+    pub(crate) fn words(self) -> &'static str {
+        match self {
+            Self::Damaged => "a compressed stream that is damaged",
+            Self::BreaksOff => "a compressed stream that breaks off",
+        }
+    }
+}
+
+/// What came of some input.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Taken {
+    /// So many bytes were read, and so many written; either may be none.
+    Some { read: usize, written: usize },
+    /// More input is needed.
+    Hungry,
+    /// The stream gives no more bytes, or all wanted bytes were given and check sums are right.
+    End,
+}
+
+/// Decompresses up to so many bytes. What follows the last part is not looked at, nor what follows these bytes;
+/// a part that ends with them has its check sum looked at.
+pub(crate) struct Unpacker {
+    codec: Codec,
+    part: Part,
+    wanted: u128,
+    empty: u32,
+}
+
+enum Part {
+    /// Another part may begin.
+    Between {
+        is_first: bool,
+    },
+    Zlib(Box<Inflate>),
+    Bzip2(Box<bzip2::Decompress>),
+    Over,
+}
+
+pub(crate) fn is_gzip(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"\x1f\x8b")
+}
+
+impl Unpacker {
+    pub(crate) fn new(codec: Codec, wanted: u128) -> Self {
+        Self { codec, part: Part::Between { is_first: true }, wanted, empty: 0 }
+    }
+
+    /// Reads input, of which no more follows if `is_last`, and writes output.
+    pub(crate) fn take(&mut self, input: &[u8], is_last: bool, output: &mut [u8]) -> Result<Taken, Fault> {
+        if let Part::Between { is_first } = self.part {
+            if input.len() < MAGIC && !is_last {
+                return Ok(Taken::Hungry);
+            }
+            self.part = self.begun(input, is_first);
+        }
+        // One byte more than is wanted: it leads a part that ends there to its check sum.
+        let mut beyond = [0];
+        let is_beyond = self.wanted == 0;
+        let most = usize::try_from(self.wanted).unwrap_or(usize::MAX).min(output.len());
+        let room = if is_beyond { &mut beyond[..] } else { &mut output[..most] };
+        let (read, written, has_ended) = match &mut self.part {
+            Part::Zlib(part) => inflated(part, input, room)?,
+            Part::Bzip2(part) => unpacked(part, input, room)?,
+            Part::Between { .. } | Part::Over => return Ok(Taken::End),
+        };
+        if is_beyond && written > 0 {
+            self.part = Part::Over;
+            return Ok(Taken::End);
+        }
+        self.wanted -= written as u128;
+        if written > 0 {
+            self.empty = 0;
+        }
+        if has_ended {
+            self.empty += 1;
+            let is_over = self.wanted == 0 || self.empty > MOST_EMPTY;
+            self.part = if is_over { Part::Over } else { Part::Between { is_first: false } };
+        } else if read == 0 && written == 0 {
+            return if is_last { self.broken_off() } else { Ok(Taken::Hungry) };
+        }
+        Ok(Taken::Some { read, written })
+    }
+
+    fn broken_off(&mut self) -> Result<Taken, Fault> {
+        self.part = Part::Over;
+        if self.wanted == 0 { Err(Fault::BreaksOff) } else { Ok(Taken::End) }
+    }
+
+    fn begun(&self, input: &[u8], is_first: bool) -> Part {
+        match self.codec {
+            Codec::Zlib if is_gzip(input) => Part::Zlib(Box::new(Inflate::new_gzip(15))),
+            Codec::Zlib if is_first => Part::Zlib(Box::new(Inflate::new(true))),
+            Codec::Bzip2 if is_first || input.starts_with(b"BZh") => {
+                Part::Bzip2(Box::new(bzip2::Decompress::new(false)))
+            }
+            _ => Part::Over,
+        }
+    }
+}
+
+/// How many bytes were read and written, and whether the part has ended.
+type Moved = (usize, usize, bool);
+
+fn inflated(part: &mut Inflate, input: &[u8], output: &mut [u8]) -> Result<Moved, Fault> {
+    let (read, written) = (part.total_in(), part.total_out());
+    let status = part.decompress(input, output, FlushDecompress::None);
+    let moved = |now: u64, before: u64| usize::try_from(now - before).unwrap_or(0);
+    let (read, written) = (moved(part.total_in(), read), moved(part.total_out(), written));
+    match status {
+        // Bytes before the damage are given: they may tell what the file is. The next call fails again.
+        Err(_) if written == 0 => Err(Fault::Damaged),
+        status => Ok((read, written, status.ok() == Some(Status::StreamEnd))),
+    }
+}
+
+fn unpacked(part: &mut bzip2::Decompress, input: &[u8], output: &mut [u8]) -> Result<Moved, Fault> {
+    let (read, written) = (part.total_in(), part.total_out());
+    let status = part.decompress(input, output).map_err(|_| Fault::Damaged)?;
+    let moved = |now: u64, before: u64| usize::try_from(now - before).unwrap_or(0);
+    let has_ended = status == bzip2::Status::StreamEnd;
+    Ok((moved(part.total_in(), read), moved(part.total_out(), written), has_ended))
+}
