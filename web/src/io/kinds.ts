@@ -1,7 +1,6 @@
 /** Identifies the format of a file by its content, or by its name if the content is ambiguous. */
 import { isDicom } from './dicom/recognising';
 import { firstBytes } from './inflating';
-import { niftiKind } from './nifti-header';
 import { fileName, type Source } from './source';
 
 export type Kind = 'nifti' | 'nrrd' | 'metaimage' | 'dicom' | 'zip' | 'centerlines' | 'empty' | 'other';
@@ -52,7 +51,14 @@ function ofBytes(head: Uint8Array, name: string): Kind | null {
   if (/\.(mha|mhd)$/.test(name) || /^ObjectType\s*=\s*Image/m.test(letters)) {
     return 'metaimage';
   }
-  return niftiKind(head) !== null ? 'nifti' : null;
+  return isNifti(head) ? 'nifti' : null;
+}
+
+/** Whether the first number is the length of a NIfTI header, in either byte order. */
+function isNifti(head: Uint8Array): boolean {
+  const view = new DataView(head.buffer, head.byteOffset, head.byteLength);
+  const lengths = head.length < 4 ? [] : [view.getInt32(0, true), view.getInt32(0, false)];
+  return lengths.includes(348) || lengths.includes(540);
 }
 
 type FileKind = Omit<Known, 'source'>;

@@ -2,7 +2,7 @@
 import type { Answer, Attachments, Message, Question } from '../core/asked';
 import { Failure } from '../core/failure';
 import type { AfterEdit, GivenFile } from '../core/messages';
-import { type Engine, loadJudge } from '../core/module';
+import { type Engine, loadJudge, loadVolumes } from '../core/module';
 import { ALL_OF_IT } from '../io/dicom/wanted';
 import { among, BlobSource } from '../io/source';
 import { Steps } from '../io/steps';
@@ -44,7 +44,12 @@ async function readMask(
   const study = new MaskStudy(engine);
   const sources = files.map(({ path, file }) => new BlobSource(path, file));
   const { openFiles } = await import('../io/study');
-  const { notes } = await openFiles(sources, among(sources), ALL_OF_IT, { study, loadJudge, steps });
+  const { notes } = await openFiles(sources, among(sources), ALL_OF_IT, {
+    study,
+    loadJudge,
+    loadVolumes,
+    steps,
+  });
   return notes;
 }
 
