@@ -68,7 +68,7 @@ results: ## Write docs/results/speed.md and accuracy.md from the JSON files in b
 types: toolchain ## Write the files that repeat tables of the facade for the page: types and tables.
 	LUMENCUT_WRITE_TYPES=1 cargo test --quiet --profile checks --package lumencut --lib of_the_page
 
-fuzz: toolchain ## Fuzz the readers of centerlines; RUNS=1000000 sets the number of inputs.
+fuzz: toolchain ## Fuzz the readers of centerlines and volumes; RUNS=1000000 sets the number of inputs.
 	@$(PYTHON) scripts/fuzz.py $(if $(RUNS),--runs $(RUNS))
 
 bench: develop tools ## Measure this machine and VTK; prints tables, keeps nothing.

@@ -1,6 +1,6 @@
-"""Fuzzes the readers of centerlines.
+"""Fuzzes the readers of centerlines and volumes.
 
-Builds the targets of crates/lumencut-io/fuzz with the stable compiler: the coverage of libFuzzer is an LLVM
+Builds the targets of the folders `fuzz` of two crates with the stable compiler: the coverage of libFuzzer is an LLVM
 pass that needs no sanitizer. `cargo fuzz` runs the same targets. The corpus is kept in the target folder for
 the next run.
 """
@@ -18,9 +18,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-CRATE = ROOT / "crates/lumencut-io/fuzz"
+CRATES = tuple(ROOT / f"crates/{name}/fuzz" for name in ("lumencut-io", "lumencut-volumes"))
 TARGET = Path(os.environ.get("CARGO_TARGET_DIR") or ROOT / "target").resolve() / "fuzz"
-NAMES = sorted(path.stem for path in (CRATE / "fuzz_targets").glob("*.rs"))
+#: The crate of each target.
+OWNERS = {path.stem: crate for crate in CRATES for path in sorted((crate / "fuzz_targets").glob("*.rs"))}
+NAMES = sorted(OWNERS)
 #: Default number of inputs per target.
 RUNS = 20_000
 #: Counters at every edge, calls at every comparison.
@@ -76,7 +78,8 @@ def build() -> Path:
     # With a named target, build scripts and macros are compiled without the flags.
     command = ("cargo", "build", "--quiet", "--locked", "--release", "--bins", "--target", host)
     environment = os.environ | {"RUSTFLAGS": " ".join(COVERAGE), "CARGO_TARGET_DIR": str(TARGET)}
-    subprocess.run(command, cwd=CRATE, check=True, env=environment)
+    for crate in CRATES:
+        subprocess.run(command, cwd=crate, check=True, env=environment)
     return TARGET / host / "release"
 
 
@@ -85,12 +88,13 @@ def fuzz(program: Path, runs: int) -> Outcome:
     corpus, found = TARGET / "corpus" / program.name, TARGET / "found"
     for folder in (corpus, found):
         folder.mkdir(parents=True, exist_ok=True)
-    words = CRATE / "dictionaries" / f"{program.name}.dict"
+    crate = OWNERS[program.name]
+    words = crate / "dictionaries" / f"{program.name}.dict"
     options = [f"-runs={runs}", *LIMITS, f"-artifact_prefix={found}/{program.name}-", "-print_final_stats=1"]
     options += [f"-dict={words}"] if words.exists() else []
     start = time.monotonic()
     done = subprocess.run(
-        (program, *options, corpus, CRATE / "seeds" / program.name),
+        (program, *options, corpus, crate / "seeds" / program.name),
         cwd=TARGET,
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,

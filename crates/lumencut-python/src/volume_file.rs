@@ -214,7 +214,7 @@ impl VolumeFill {
 }
 
 /// Steps until another part of the file is needed, or much is written.
-fn steps(fill: &mut Fill, window: Window<'_>, output: &mut [u8]) -> Result<(usize, Step), Error> {
+fn steps(fill: &mut Fill, window: Window<'_>, output: &mut [u8]) -> Result<(usize, Step), Box<Error>> {
     let mut written = 0;
     loop {
         match fill.step(window, &mut output[written..])? {

@@ -5,7 +5,7 @@ use crate::known::{Found, Known};
 use crate::text::{is_all_printable, shown};
 
 /// The name of a file in the header's folder or a folder below it; Windows separators are accepted.
-pub(crate) fn inside(header: &str, name: &str, field: &str) -> Result<String, Error> {
+pub(crate) fn inside(header: &str, name: &str, field: &str) -> Result<String, Box<Error>> {
     let parts: Vec<&str> = name.split(['/', '\\']).filter(|part| !part.is_empty() && *part != ".").collect();
     if parts.is_empty() || !is_all_printable(name) {
         let expected = "the name of a file next to the header";
@@ -19,10 +19,10 @@ pub(crate) fn inside(header: &str, name: &str, field: &str) -> Result<String, Er
 
 fn has_drive(name: &str) -> bool {
     let mut letters = name.chars();
-    letters.next().is_some_and(char::is_alphabetic) && letters.next() == Some(':')
+    letters.next().is_some_and(|letter| letter.is_ascii_alphabetic()) && letters.next() == Some(':')
 }
 
-fn outside(header: &str, name: &str, field: &str) -> Error {
+fn outside(header: &str, name: &str, field: &str) -> Box<Error> {
     let found = format!("{field}: a path that leaves the folder ({})", shown(name));
     Error::new(header, found, "a file in the folder of the header or below")
         .mend("copy it there and name it without a path")

@@ -3,7 +3,6 @@
 use std::fmt;
 
 use crate::known::Need;
-use crate::text::shown;
 
 /// A volume file that cannot be read. No text of a patient stands in it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -32,42 +31,44 @@ pub enum ErrorKind {
 }
 
 impl Error {
-    pub(crate) fn new(subject: &str, found: impl Into<String>, expected: impl Into<String>) -> Self {
-        Self {
-            kind: ErrorKind::Format,
-            subject: subject.into(),
-            found: found.into(),
-            expected: expected.into(),
-            mend: String::new(),
-        }
+    pub(crate) fn new(subject: &str, found: impl Into<String>, expected: impl Into<String>) -> Box<Self> {
+        Self::made(subject, found.into(), expected.into())
     }
 
-    pub(crate) fn mend(mut self, mend: impl Into<String>) -> Self {
+    #[inline(never)]
+    fn made(subject: &str, found: String, expected: String) -> Box<Self> {
+        Box::new(Self {
+            kind: ErrorKind::Format,
+            subject: subject.into(),
+            found,
+            expected,
+            mend: String::new(),
+        })
+    }
+
+    #[inline(never)]
+    pub(crate) fn mend(mut self: Box<Self>, mend: &str) -> Box<Self> {
         self.mend = mend.into();
         self
     }
 
+    pub(crate) fn of(mut self: Box<Self>, kind: ErrorKind) -> Box<Self> {
+        self.kind = kind;
+        self
+    }
+
     /// A damaged file; another copy may be whole.
-    pub(crate) fn damaged(subject: &str, found: impl Into<String>, expected: impl Into<String>) -> Self {
+    pub(crate) fn damaged(subject: &str, found: impl Into<String>, expected: impl Into<String>) -> Box<Self> {
         Self::new(subject, found, expected).mend("copy the file again")
     }
 
-    /// One file of a pair, of which the other is not there.
-    pub(crate) fn half_a_pair(one: &str, other: &str) -> Self {
-        let expected = format!("both files of the pair, {one} and {other}");
-        Self { kind: ErrorKind::File, ..Self::new(one, "one file of a pair", expected) }
-            .mend("bring both files together")
-    }
-
-    /// A header without the file of its voxels.
-    pub(crate) fn header_alone(header: &str, voxels: &str) -> Self {
-        let expected = format!("the header and its voxels, {}", shown(voxels));
-        Self { kind: ErrorKind::File, ..Self::new(header, "a header alone", expected) }
-            .mend("bring both files together")
+    /// A file that is not there.
+    pub(crate) fn missing(name: &str, expected: &str) -> Box<Self> {
+        Self::new(name, "no such file", expected).mend("bring both files together").of(ErrorKind::File)
     }
 
     /// A file with fewer bytes of voxels than its header says; `limit` is empty or "at most ".
-    pub(crate) fn too_short(subject: &str, limit: &str, found: u128, needed: u128) -> Self {
+    pub(crate) fn too_short(subject: &str, limit: &str, found: u128, needed: u128) -> Box<Self> {
         let found = format!("{limit}{found} bytes of voxels");
         Self::damaged(subject, found, format!("{needed} bytes as the header says"))
     }
@@ -90,11 +91,11 @@ pub enum Stop {
     /// The file is no NIfTI, NRRD or MetaImage file: another reader may know it.
     Unknown,
     /// The file cannot be read.
-    Refused(Error),
+    Refused(Box<Error>),
 }
 
-impl From<Error> for Stop {
-    fn from(error: Error) -> Self {
+impl From<Box<Error>> for Stop {
+    fn from(error: Box<Error>) -> Self {
         Self::Refused(error)
     }
 }

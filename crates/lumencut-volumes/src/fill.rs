@@ -112,7 +112,7 @@ impl Fill {
     /// # Errors
     ///
     /// For a file that is too short or damaged, and for segments that overlap.
-    pub fn step(&mut self, window: Window<'_>, output: &mut [u8]) -> Result<Step, Error> {
+    pub fn step(&mut self, window: Window<'_>, output: &mut [u8]) -> Result<Step, Box<Error>> {
         loop {
             let skipped = usize::try_from(self.at.saturating_sub(window.start)).unwrap_or(usize::MAX);
             let is_before = self.at < window.start;
@@ -133,7 +133,7 @@ impl Fill {
         }
     }
 
-    fn turn(&mut self, input: &[u8], output: &mut [u8]) -> Result<Turn, Error> {
+    fn turn(&mut self, input: &[u8], output: &mut [u8]) -> Result<Turn, Box<Error>> {
         match &mut self.phase {
             Phase::Lines { left } => {
                 let is_over = self.at >= self.size;
@@ -180,7 +180,7 @@ impl Fill {
     }
 
     /// Refuses a size that the file cannot fill.
-    fn check_lengths(&mut self) -> Result<Turn, Error> {
+    fn check_lengths(&mut self) -> Result<Turn, Box<Error>> {
         let (place, needed) = (&self.plan.place, self.plan.stored_bytes());
         let (name, skip) = (place.name.as_str(), u128::from(place.skip));
         let held = u128::from(self.size.saturating_sub(self.at));
@@ -243,7 +243,7 @@ impl Fill {
     }
 
     /// Looks at stored bytes without making voxels of them.
-    fn look(&mut self, input: &[u8]) -> Result<Turn, Error> {
+    fn look(&mut self, input: &[u8]) -> Result<Turn, Box<Error>> {
         self.buffer.resize(PIECE, 0);
         let stored = self.stored();
         let (Phase::Proof(pass) | Phase::Range(pass, _)) = &mut self.phase else { return Ok(Turn::Again) };
@@ -274,7 +274,7 @@ impl Fill {
         Ok(if count == 0 { Turn::Again } else { Turn::Step(Step::Checked(count)) })
     }
 
-    fn filling(&mut self, kind: Kind) -> Result<Phase, Error> {
+    fn filling(&mut self, kind: Kind) -> Result<Phase, Box<Error>> {
         let pass = self.pass();
         let conversion = Conversion::new(self.stored(), kind);
         Ok(match &self.plan.segmentation {
@@ -290,7 +290,7 @@ impl Fill {
         })
     }
 
-    fn convert(&mut self, input: &[u8], output: &mut [u8]) -> Result<Turn, Error> {
+    fn convert(&mut self, input: &[u8], output: &mut [u8]) -> Result<Turn, Box<Error>> {
         self.buffer.resize(PIECE, 0);
         let Phase::Convert(pass, conversion) = &mut self.phase else { return Ok(Turn::Again) };
         let (unit, size) = (self.plan.stored.kind.bytes(), conversion.kind().bytes());
@@ -310,7 +310,7 @@ impl Fill {
         Ok(self.after(Piece::Bytes(numbers * size), Step::Filled))
     }
 
-    fn map(&mut self, input: &[u8], output: &mut [u8]) -> Result<Turn, Error> {
+    fn map(&mut self, input: &[u8], output: &mut [u8]) -> Result<Turn, Box<Error>> {
         self.buffer.resize(PIECE, 0);
         let unit = self.plan.stored.kind.bytes();
         let Phase::Map(pass, map) = &mut self.phase else { return Ok(Turn::Again) };

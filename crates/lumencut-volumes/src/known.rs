@@ -1,7 +1,5 @@
 //! What a host has fetched of files so far, and what is still needed.
 
-use std::collections::BTreeMap;
-
 use crate::error::Opening;
 use crate::stream::{Codec, Taken, Unpacker, is_gzip};
 
@@ -38,10 +36,14 @@ pub enum Found {
 
 /// What is known of files, by their names.
 #[derive(Clone, Debug, Default)]
-pub struct Known {
-    sizes: BTreeMap<String, Found>,
-    /// The first bytes of each file.
-    heads: BTreeMap<String, Vec<u8>>,
+pub struct Known(Vec<File>);
+
+#[derive(Clone, Debug)]
+struct File {
+    name: String,
+    found: Found,
+    /// Its first bytes.
+    head: Vec<u8>,
 }
 
 impl Known {
@@ -53,32 +55,39 @@ impl Known {
 
     /// Adds whether a file is there.
     pub fn add_size(&mut self, name: &str, found: Found) {
-        self.sizes.insert(name.into(), found);
+        match self.0.iter_mut().find(|file| file.name == name) {
+            Some(file) => file.found = found,
+            None => self.0.push(File { name: name.into(), found, head: Vec::new() }),
+        }
     }
 
     /// Adds the bytes that were needed; they begin at `start`. None mean that the file ends there.
     pub fn add_bytes(&mut self, name: &str, start: u64, bytes: &[u8]) {
-        let head = self.heads.entry(name.into()).or_default();
-        let start = usize::try_from(start).unwrap_or(usize::MAX).min(head.len());
-        head.truncate(start);
-        head.extend_from_slice(bytes);
+        let Some(file) = self.0.iter_mut().find(|file| file.name == name) else { return };
+        file.head.truncate(usize::try_from(start).unwrap_or(usize::MAX));
+        file.head.extend_from_slice(bytes);
         if bytes.is_empty() {
-            self.sizes.insert(name.into(), Found::Size(head.len() as u64));
+            file.found = Found::Size(file.head.len() as u64);
         }
     }
 
+    fn file(&self, name: &str) -> Option<&File> {
+        self.0.iter().find(|file| file.name == name)
+    }
+
     pub(crate) fn found(&self, name: &str) -> Opening<Found> {
-        self.sizes.get(name).copied().ok_or_else(|| Need::Sizes(vec![name.into()]).into())
+        let unknown = || Need::Sizes(vec![name.into()]).into();
+        self.file(name).map(|file| file.found).ok_or_else(unknown)
     }
 
     /// The first of several files that is there.
     pub(crate) fn first_found(&self, names: &[String]) -> Opening<Option<String>> {
-        let unknown: Vec<String> =
-            names.iter().filter(|name| !self.sizes.contains_key(*name)).cloned().collect();
+        let unknown: Vec<String> = names.iter().filter(|name| self.file(name).is_none()).cloned().collect();
         if !unknown.is_empty() {
             return Err(Need::Sizes(unknown).into());
         }
-        Ok(names.iter().find(|&name| self.sizes[name] != Found::Missing).cloned())
+        let is_there = |name: &&String| self.file(name).is_some_and(|file| file.found != Found::Missing);
+        Ok(names.iter().find(is_there).cloned())
     }
 
     fn size(&self, name: &str) -> Opening<u64> {
@@ -91,7 +100,7 @@ impl Known {
     /// The first bytes of a file, `count` or all.
     pub(crate) fn first(&self, name: &str, count: u64) -> Opening<&[u8]> {
         let count = count.min(self.size(name)?);
-        let head = self.heads.get(name).map_or(&[][..], Vec::as_slice);
+        let head = self.file(name).map_or(&[][..], |file| &file.head);
         let wanted = usize::try_from(count).unwrap_or(usize::MAX);
         if head.len() < wanted {
             let start = head.len() as u64;

@@ -38,10 +38,8 @@ impl LabelMap {
         let mut of_layer = vec![Vec::new(); usize::try_from(segmentation.layers).ok()?];
         for segment in segmentation.read_ones() {
             let place = segmentation.segments.iter().position(|one| one == segment)?;
-            of_layer[usize::try_from(segment.layer).ok()?].push((segment.value, place));
-        }
-        for values in &mut of_layer {
-            values.sort_unstable();
+            let values: &mut Vec<(u32, usize)> = &mut of_layer[usize::try_from(segment.layer).ok()?];
+            values.insert(values.partition_point(|(one, _)| *one <= segment.value), (segment.value, place));
         }
         let product = |sides: &[u64]| sides.iter().try_fold(1_u64, |all, &side| all.checked_mul(side));
         let inner = usize::try_from(product(&size[..segmentation.after])?).ok()?;
@@ -124,7 +122,7 @@ impl LabelMap {
     }
 
     /// Rejects overlapping segments, because a label map holds one number per voxel.
-    pub(crate) fn refuse_overlaps(&self, subject: &str) -> Result<(), Error> {
+    pub(crate) fn refuse_overlaps(&self, subject: &str) -> Result<(), Box<Error>> {
         let mut found: Option<&([usize; 2], u64)> = None;
         for one in &self.overlaps {
             found = Some(found.filter(|most| most.1 >= one.1).unwrap_or(one));
@@ -140,7 +138,7 @@ impl LabelMap {
         let found = format!("segments that overlap: {first} and {second} in {count} voxels{more}");
         let mend =
             "choose segments that do not, by segments=(1,) of read_volume or --label of lumencut trace";
-        let error = Error::new(subject, found, "at most one segment in each voxel").mend(mend);
-        Err(Error { kind: ErrorKind::Overlap, ..error })
+        let error = Error::new(subject, found, "at most one segment in each voxel");
+        Err(error.mend(mend).of(ErrorKind::Overlap))
     }
 }

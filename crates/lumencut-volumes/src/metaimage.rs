@@ -1,14 +1,12 @@
 //! MetaImage (.mha, .mhd): always LPS; the rows of `TransformMatrix` are the directions of i, j, k (as ITK has it).
 
-use std::collections::BTreeMap;
-
 use crate::beside::require_inside;
 use crate::error::{Error, Opening};
 use crate::known::Known;
 use crate::numbers::{Kind, Scaling};
 use crate::plan::{Affine, Format, Grid, Place, Plan, Stored, detached};
 use crate::stream::Codec;
-use crate::text::{decoded, exact, listed, number, shown};
+use crate::text::{decoded, listed, number, short, shown};
 
 const LONGEST_HEADER: u64 = 1 << 16;
 const MOST_DIMS: f64 = 10.0;
@@ -36,7 +34,8 @@ const KINDS: [(&str, Kind); 12] = [
 /// The fields of a header, and the byte behind it.
 struct Header<'a> {
     path: &'a str,
-    fields: BTreeMap<String, String>,
+    /// Of a name that is there several times, the last one counts.
+    fields: Vec<(String, String)>,
     end: u64,
 }
 
@@ -44,7 +43,9 @@ pub(crate) fn open(path: &str, known: &Known) -> Opening<Plan> {
     let header = Header::read(path, known.first(path, LONGEST_HEADER)?)?;
     let dims = header.whole("NDims", 1)?[0];
     if !(3.0..=MOST_DIMS).contains(&dims) {
-        return Err(Error::new(path, format!("NDims = {dims}"), "3 axes, or more of length 1").into());
+        return Err(
+            Error::new(path, format!("NDims = {}", dims as i64), "3 axes, or more of length 1").into()
+        );
     }
     let dims = dims as usize;
     let size = header.size(dims)?;
@@ -83,14 +84,14 @@ pub(crate) fn open(path: &str, known: &Known) -> Opening<Plan> {
 }
 
 impl<'a> Header<'a> {
-    fn read(path: &'a str, head: &[u8]) -> Result<Self, Error> {
-        let (mut fields, mut end) = (BTreeMap::new(), 0);
+    fn read(path: &'a str, head: &[u8]) -> Result<Self, Box<Error>> {
+        let (mut fields, mut end) = (Vec::new(), 0);
         for line in head.split_inclusive(|&byte| byte == b'\n') {
             end += line.len() as u64;
             let line = decoded(line);
             let Some((name, value)) = line.split_once(['=', ':']) else { break };
             let name = name.trim();
-            fields.insert(name.into(), value.trim().into());
+            fields.push((name.into(), value.trim().into()));
             if name == "ElementDataFile" {
                 return Ok(Self { path, fields, end });
             }
@@ -99,7 +100,7 @@ impl<'a> Header<'a> {
     }
 
     fn get(&self, name: &str) -> Option<&str> {
-        self.fields.get(name).map(String::as_str)
+        self.fields.iter().rev().find(|(one, _)| one == name).map(|(_, value)| value.as_str())
     }
 
     /// The text of the first of several synonymous fields that is there.
@@ -107,7 +108,7 @@ impl<'a> Header<'a> {
         names.iter().find_map(|name| self.get(name))
     }
 
-    fn numbers(&self, names: &[&str], count: usize) -> Result<Vec<f64>, Error> {
+    fn numbers(&self, names: &[&str], count: usize) -> Result<Vec<f64>, Box<Error>> {
         let text = self.first(names);
         let values: Option<Vec<f64>> = text.unwrap_or("").split_whitespace().map(number).collect();
         let values = values.unwrap_or_default();
@@ -118,11 +119,11 @@ impl<'a> Header<'a> {
         Err(Error::new(self.path, found, format!("{count} finite numbers")))
     }
 
-    fn numbers_or(&self, names: &[&str], otherwise: Vec<f64>) -> Result<Vec<f64>, Error> {
+    fn numbers_or(&self, names: &[&str], otherwise: Vec<f64>) -> Result<Vec<f64>, Box<Error>> {
         if self.first(names).is_some() { self.numbers(names, otherwise.len()) } else { Ok(otherwise) }
     }
 
-    fn whole(&self, name: &str, count: usize) -> Result<Vec<f64>, Error> {
+    fn whole(&self, name: &str, count: usize) -> Result<Vec<f64>, Box<Error>> {
         let values = self.numbers(&[name], count)?;
         if values.iter().any(|value| value.fract() != 0.0 || value.abs() > LARGEST) {
             let found = format!("{name} = {}", shown(self.get(name).unwrap_or("")));
@@ -136,17 +137,20 @@ impl<'a> Header<'a> {
         self.get(name).map_or(otherwise, |text| text.starts_with(['T', 't', '1']))
     }
 
-    fn size(&self, dims: usize) -> Result<[u64; 3], Error> {
+    fn size(&self, dims: usize) -> Result<[u64; 3], Box<Error>> {
         let sizes = self.whole("DimSize", dims)?;
         if sizes[3..].iter().any(|&side| side != 1.0) || sizes.iter().any(|&side| side < 1.0) {
-            let found = format!("DimSize {}", shown(&listed(&sizes)));
+            let found = format!(
+                "DimSize {}",
+                shown(&listed(&sizes.iter().map(|&side| side as i64).collect::<Vec<_>>()))
+            );
             let expected = "3 axes, or more of length 1";
             return Err(Error::new(self.path, found, expected).mend("write one time point"));
         }
         Ok([sizes[0] as u64, sizes[1] as u64, sizes[2] as u64])
     }
 
-    fn stored(&self) -> Result<Stored, Error> {
+    fn stored(&self) -> Result<Stored, Box<Error>> {
         let name = self.get("ElementType").unwrap_or("");
         let Some(&(_, kind)) = KINDS.iter().find(|(known, _)| *known == name) else {
             let name = shown(name);
@@ -159,7 +163,7 @@ impl<'a> Header<'a> {
         Ok(Stored { kind, is_big, scaling: Scaling::NONE })
     }
 
-    fn affine(&self, dims: usize, notes: &mut Vec<String>) -> Result<Affine, Error> {
+    fn affine(&self, dims: usize, notes: &mut Vec<String>) -> Result<Affine, Box<Error>> {
         if self.first(&SPACING).is_none() {
             notes.push("no ElementSpacing: 1 mm assumed".into());
         }
@@ -168,7 +172,7 @@ impl<'a> Header<'a> {
         let identity = (0..dims * dims).map(|at| f64::from(u8::from(at % (dims + 1) == 0))).collect();
         let matrix = self.numbers_or(&DIRECTION, identity)?;
         if spacing[..3].iter().any(|&step| step <= 0.0) {
-            let steps: Vec<String> = spacing.iter().map(|&step| exact(step)).collect();
+            let steps: Vec<String> = spacing.iter().map(|&step| short(step, 6)).collect();
             let found = format!("ElementSpacing = {}", listed(&steps));
             return Err(Error::new(self.path, found, "positive distances in mm"));
         }
@@ -210,7 +214,7 @@ impl<'a> Header<'a> {
         if before < if is_plain { -1.0 } else { 0.0 } || is_odd {
             // ITK counts from the start of the file even there, where nobody else would.
             let expected = "0 or more bytes before the voxels of another file, or -1 with plain voxels";
-            let error = Error::new(self.path, format!("HeaderSize = {before}"), expected);
+            let error = Error::new(self.path, format!("HeaderSize = {}", before as i64), expected);
             return Err(error.mend("write a single .mha").into());
         }
         let start = if before < 0.0 { None } else { Some(if is_local { self.end } else { before as u64 }) };

@@ -3,6 +3,7 @@
 mod header;
 mod labels;
 mod placement;
+mod wide;
 
 use crate::error::{Error, Opening};
 use crate::known::{Found, Known};
@@ -23,7 +24,7 @@ const COLOUR: (&str, &str) = ("colour voxels", "write one channel");
 pub(crate) fn open(path: &str, known: &Known) -> Opening<Plan> {
     let home = partner(path, known, [".img", ".hdr"])?;
     if known.found(&home)? == Found::Missing {
-        return Err(Error::half_a_pair(path, &home).into());
+        return Err(Error::missing(&home, &format!("the header of {path}")).into());
     }
     let head = head(&home, known, HEADER_BYTES)?;
     let mut header = Header::read(&home, &head)?;
@@ -97,7 +98,8 @@ fn partner(path: &str, known: &Known, [mine, other]: [&str; 2]) -> Opening<Strin
     if !stem.to_ascii_lowercase().ends_with(mine) {
         return Ok(path.into());
     }
-    let ending = if stem.ends_with(&mine.to_uppercase()) { other.to_uppercase() } else { other.into() };
+    let ending =
+        if stem.ends_with(&mine.to_ascii_uppercase()) { other.to_ascii_uppercase() } else { other.into() };
     let stem = &stem[..stem.len() - mine.len()];
     let tails = [if is_zipped { ".gz" } else { "" }, "", ".gz"];
     let names = tails.map(|tail| format!("{stem}{ending}{tail}"));
@@ -105,7 +107,7 @@ fn partner(path: &str, known: &Known, [mine, other]: [&str; 2]) -> Opening<Strin
 }
 
 /// Refuses by name the types that are no single number.
-fn kind_of(path: &str, code: i16) -> Result<Kind, Error> {
+fn kind_of(path: &str, code: i16) -> Result<Kind, Box<Error>> {
     let (found, mend) = match code {
         2 => return Ok(Kind::Uint8),
         4 => return Ok(Kind::Int16),
@@ -127,7 +129,7 @@ fn kind_of(path: &str, code: i16) -> Result<Kind, Error> {
     Err(Error::new(path, found, "one integer or float of up to 64 bits per voxel").mend(mend))
 }
 
-fn scaling_of(path: &str, header: &Header) -> Result<Scaling, Error> {
+fn scaling_of(path: &str, header: &Header) -> Result<Scaling, Box<Error>> {
     let (slope, intercept) = (header.slope, header.intercept);
     if !slope.is_finite() || slope == 0.0 {
         return Ok(Scaling::NONE);

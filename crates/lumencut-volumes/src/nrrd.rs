@@ -74,16 +74,16 @@ pub(crate) fn open(path: &str, known: &Known, chosen: Option<&[u32]>) -> Opening
     })
 }
 
-fn kind_of(header: &Header) -> Result<Kind, Error> {
-    let name = header.required("type")?.to_lowercase();
+fn kind_of(header: &Header) -> Result<Kind, Box<Error>> {
+    let name = header.required("type")?.to_ascii_lowercase();
     let found = NAMES.iter().find(|(_, names)| names.contains(&name.as_str()));
     let refused = || Error::new(header.path, format!("type: {}", shown(&name)), "an integer or float type");
     Ok(found.ok_or_else(refused)?.0)
 }
 
-fn is_big(header: &Header, kind: Kind) -> Result<bool, Error> {
-    let endian = header.text("endian").to_lowercase();
-    if kind.bytes() == 1 || codec_of(&header.text("encoding").to_lowercase()) == Some(Codec::Text) {
+fn is_big(header: &Header, kind: Kind) -> Result<bool, Box<Error>> {
+    let endian = header.text("endian").to_ascii_lowercase();
+    if kind.bytes() == 1 || codec_of(&header.text("encoding").to_ascii_lowercase()) == Some(Codec::Text) {
         return Ok(false);
     }
     match endian.as_str() {
@@ -110,7 +110,7 @@ fn codec_of(encoding: &str) -> Option<Codec> {
 fn place_of(header: &Header, known: &Known) -> Opening<Place> {
     const FIELD: &str = "data file";
     let path = header.path;
-    let encoding = header.required("encoding")?.to_lowercase();
+    let encoding = header.required("encoding")?.to_ascii_lowercase();
     let Some(codec) = codec_of(&encoding) else {
         let error = Error::new(path, format!("encoding: {}", shown(&encoding)), "raw, ascii, gzip or bzip2");
         return Err(error.mend("write it with encoding gzip or raw").into());
@@ -141,7 +141,7 @@ fn segmentation_of(
     header: &Header,
     layers: Layers,
     chosen: Option<&[u32]>,
-) -> Result<Option<Segmentation>, Error> {
+) -> Result<Option<Segmentation>, Box<Error>> {
     if !segments::has_segments(&header.lines) {
         return Ok(None);
     }

@@ -37,7 +37,7 @@ pub fn open(name: &str, known: &Known, chosen: Option<&[u32]>) -> Result<Plan, S
 /// NIfTI counts as NIfTI-1, so that its reader says what is wrong.
 #[must_use]
 pub fn format_of(name: &str, head: &[u8]) -> Option<Format> {
-    let name = name.to_lowercase();
+    let name = name.to_ascii_lowercase();
     if head.starts_with(b"NRRD") {
         return Some(Format::Nrrd);
     }

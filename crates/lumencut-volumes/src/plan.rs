@@ -115,11 +115,8 @@ impl Plan {
 
     /// The error for a file of voxels that is not there.
     #[must_use]
-    pub fn missing(&self) -> Error {
-        match self.format {
-            Format::Nifti1 | Format::Nifti2 => Error::half_a_pair(&self.name, &self.place.name),
-            Format::Nrrd | Format::MetaImage => Error::header_alone(&self.name, &self.place.name),
-        }
+    pub fn missing(&self) -> Box<Error> {
+        Error::missing(&self.place.name, &format!("the voxels of {}", self.name))
     }
 
     /// Number of voxels.
@@ -150,10 +147,10 @@ pub(crate) fn detached(
     field: &str,
     found: impl FnOnce(&str) -> String,
     single: &str,
-) -> Result<String, Error> {
+) -> Result<String, Box<Error>> {
     if name.split_whitespace().next() == Some("LIST") || name.contains('%') {
         let mend = format!("write a single {single}");
-        return Err(Error::new(header, found(name), "voxels in one file").mend(mend));
+        return Err(Error::new(header, found(name), "voxels in one file").mend(&mend));
     }
     crate::beside::inside(header, name, field)
 }

@@ -1,14 +1,12 @@
 //! The segments that 3D Slicer describes in the header of a `.seg.nrrd`.
 
-use std::collections::BTreeMap;
-
 use crate::error::Error;
 use crate::numbers::Kind;
 use crate::text::printable;
 
 const MOST_LAYERS: u64 = 1000;
 const LARGEST_NUMBER: u32 = 65535;
-const FIELDS: [&str; 4] = ["ID", "Name", "LabelValue", "Layer"];
+const FIELDS: [&str; 4] = ["Name", "LabelValue", "Layer", "ID"];
 
 /// A segment.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -59,7 +57,7 @@ impl Segmentation {
         lines: &[String],
         layers: Layers,
         chosen: Option<&[u32]>,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, Box<Error>> {
         let segments = segments_of(lines, layers.count);
         let has_labels = segments.iter().all(|one| one.number == one.value);
         let read = Self {
@@ -101,7 +99,7 @@ impl Segmentation {
         [layers, self.segments.iter().map(Segment::words).collect::<Vec<_>>().join("; ")]
     }
 
-    fn check(&self, path: &str) -> Result<(), Error> {
+    fn check(&self, path: &str) -> Result<(), Box<Error>> {
         for number in self.chosen.iter().flatten() {
             if !self.segments.iter().any(|one| one.number == *number) {
                 let known = self.segments.iter().map(Segment::words).collect::<Vec<_>>().join(", ");
@@ -132,33 +130,38 @@ pub(crate) fn has_segments(lines: &[String]) -> bool {
     lines.iter().any(|line| field_of(line).is_some())
 }
 
-/// The number of a segment, the name of a field and its value.
-fn field_of(line: &str) -> Option<(u32, &str, &str)> {
+/// The number of a segment, the place of a field in the list of fields, and its value.
+fn field_of(line: &str) -> Option<(u32, usize, &str)> {
     let (name, value) = line.trim().strip_prefix("Segment")?.split_once(":=")?;
     let (number, field) = name.split_once('_')?;
     let is_number = (1..=6).contains(&number.len()) && number.bytes().all(|digit| digit.is_ascii_digit());
-    (is_number && FIELDS.contains(&field)).then(|| Some((number.parse().ok()?, field, value.trim())))?
+    let field = FIELDS.iter().position(|one| *one == field)?;
+    is_number.then(|| Some((number.parse().ok()?, field, value.trim())))?
 }
 
 /// Segments have the numbers of their labels unless several share one: then they count from 1. Files of before 2020
 /// state neither layers nor labels: their segments have a layer each.
 fn segments_of(lines: &[String], layers: u64) -> Vec<Segment> {
-    let mut stated: BTreeMap<u32, BTreeMap<&str, &str>> = BTreeMap::new();
+    let mut stated: Vec<(u32, [&str; 4])> = Vec::new();
     for (number, field, value) in lines.iter().filter_map(|line| field_of(line)) {
-        stated.entry(number).or_default().insert(field, value);
+        let place = stated.partition_point(|(one, _)| *one < number);
+        if stated.get(place).is_none_or(|(one, _)| *one != number) {
+            stated.insert(place, (number, [""; 4]));
+        }
+        stated[place].1[field] = value;
     }
     let mut segments: Vec<Segment> = Vec::new();
-    for (place, fields) in stated.values().enumerate() {
+    let mut numbers: Vec<u32> = Vec::new();
+    for (place, (_, [name, value, layer, _])) in stated.into_iter().enumerate() {
         let first = if layers > 1 { place as u64 } else { 0 };
-        let layer = whole(fields.get("Layer")).map_or(first, u64::from);
-        let value = whole(fields.get("LabelValue")).unwrap_or(1);
-        let name = printable(fields.get("Name").copied().unwrap_or(""));
-        let name = if name.is_empty() { format!("segment {}", place + 1) } else { name };
+        let layer = whole(layer).map_or(first, u64::from);
+        let value = whole(value).unwrap_or(1);
+        let name = if name.is_empty() { format!("segment {}", place + 1) } else { printable(name) };
         segments.push(Segment { number: value, name, layer, value });
+        if let Err(place) = numbers.binary_search(&value) {
+            numbers.insert(place, value);
+        }
     }
-    let mut numbers: Vec<u32> = segments.iter().map(|one| one.number).collect();
-    numbers.sort_unstable();
-    numbers.dedup();
     if numbers.len() < segments.len() {
         for (number, segment) in (1..).zip(&mut segments) {
             segment.number = number;
@@ -167,8 +170,7 @@ fn segments_of(lines: &[String], layers: u64) -> Vec<Segment> {
     segments
 }
 
-fn whole(text: Option<&&str>) -> Option<u32> {
-    let text = text?;
+fn whole(text: &str) -> Option<u32> {
     let is_number = (1..=9).contains(&text.len()) && text.bytes().all(|digit| digit.is_ascii_digit());
     is_number.then(|| text.parse().ok())?
 }

@@ -89,7 +89,7 @@ impl Unpacker {
         let most = usize::try_from(self.wanted).unwrap_or(usize::MAX).min(output.len());
         let room = if is_beyond { &mut beyond[..] } else { &mut output[..most] };
         let (read, written, has_ended) = match &mut self.part {
-            Part::Zlib(part) => inflated(part, input, room)?,
+            Part::Zlib(part) => inflated(part, input, room, is_beyond)?,
             Part::Bzip2(part) => unpacked(part, input, room)?,
             Part::Between { .. } | Part::Over => return Ok(Taken::End),
         };
@@ -131,14 +131,14 @@ impl Unpacker {
 /// How many bytes were read and written, and whether the part has ended.
 type Moved = (usize, usize, bool);
 
-fn inflated(part: &mut Inflate, input: &[u8], output: &mut [u8]) -> Result<Moved, Fault> {
+fn inflated(part: &mut Inflate, input: &[u8], output: &mut [u8], is_beyond: bool) -> Result<Moved, Fault> {
     let (read, written) = (part.total_in(), part.total_out());
     let status = part.decompress(input, output, FlushDecompress::None);
     let moved = |now: u64, before: u64| usize::try_from(now - before).unwrap_or(0);
     let (read, written) = (moved(part.total_in(), read), moved(part.total_out(), written));
     match status {
         // Bytes before the damage are given: they may tell what the file is. The next call fails again.
-        Err(_) if written == 0 => Err(Fault::Damaged),
+        Err(_) if written == 0 || is_beyond => Err(Fault::Damaged),
         status => Ok((read, written, status.ok() == Some(Status::StreamEnd))),
     }
 }

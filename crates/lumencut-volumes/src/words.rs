@@ -3,7 +3,7 @@
 use crate::convert::write_number;
 use crate::error::Error;
 use crate::numbers::Kind;
-use crate::text::latin1;
+use crate::text::{latin1, ungrouped};
 
 const LONGEST: usize = 400;
 
@@ -22,7 +22,7 @@ impl Words {
     }
 
     /// Reads words and writes their numbers in this machine's order; tells how many bytes it read and wrote.
-    pub(crate) fn take(&mut self, from: &[u8], to: &mut [u8]) -> Result<(usize, usize), Error> {
+    pub(crate) fn take(&mut self, from: &[u8], to: &mut [u8]) -> Result<(usize, usize), Box<Error>> {
         let unit = self.kind.bytes();
         let mut written = 0;
         for (at, &byte) in from.iter().enumerate() {
@@ -43,7 +43,7 @@ impl Words {
     }
 
     /// Ends the last word of the text, and checks how many there were.
-    pub(crate) fn end(&mut self, to: &mut [u8]) -> Result<usize, Error> {
+    pub(crate) fn end(&mut self, to: &mut [u8]) -> Result<usize, Box<Error>> {
         let written = if self.begun.is_empty() { 0 } else { self.end_word(to)? };
         if self.found != self.wanted {
             let found = format!("{} numbers", self.found);
@@ -53,19 +53,19 @@ impl Words {
         Ok(written)
     }
 
-    fn end_word(&mut self, to: &mut [u8]) -> Result<usize, Error> {
+    fn end_word(&mut self, to: &mut [u8]) -> Result<usize, Box<Error>> {
         self.found += 1;
         let word = latin1(&std::mem::take(&mut self.begun));
         if self.found > self.wanted {
             return Ok(0);
         }
-        let (whole, real) = self.number(&word)?;
+        let (whole, real) = self.number(&ungrouped(&word))?;
         let unit = self.kind.bytes();
         write_number(self.kind, whole, real, &mut to[..unit]);
         Ok(unit)
     }
 
-    fn number(&self, word: &str) -> Result<(i128, f64), Error> {
+    fn number(&self, word: &str) -> Result<(i128, f64), Box<Error>> {
         let kind = self.kind.name();
         if !self.kind.is_integer() {
             if let Ok(real) = word.parse() {

@@ -7,7 +7,6 @@ use flate2::write::GzEncoder;
 
 use crate::numbers::Kind;
 use crate::plan::Affine;
-use crate::text::exact;
 
 const DESCRIPTION: usize = 79;
 /// The code of a placement in the space of another scan.
@@ -121,7 +120,8 @@ impl Written<'_> {
     /// The header of an NRRD file, up to its first voxel or gzip stream.
     #[must_use]
     pub fn nrrd(&self, is_packed: bool) -> String {
-        let vector = |numbers: [f64; 3]| format!("({})", numbers.map(exact).join(","));
+        let vector =
+            |numbers: [f64; 3]| format!("({})", numbers.map(|number| format!("{number:?}")).join(","));
         let column = |axis: usize| vector([0, 1, 2].map(|row| self.world_from_index[row][axis]));
         let kind = match self.kind {
             Kind::Float32 => "float",

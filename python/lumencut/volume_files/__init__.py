@@ -28,18 +28,16 @@ from lumencut.volume_files.dicom import (
     opened,
 )
 from lumencut.volume_files.dicom.files import read_files
+from lumencut.volume_files.grids import open_grid
 from lumencut.volume_files.memory import as_volume
-from lumencut.volume_files.metaimage import open_metaimage
-from lumencut.volume_files.nifti import head_bytes, nifti_kind, open_nifti
-from lumencut.volume_files.nrrd import open_nrrd
 from lumencut.volume_files.opened import Progress, VolumeFile, heeding, refusing
 from lumencut.volume_files.overlaps import OverlapError
 from lumencut.volume_files.rescale import slabs
-from lumencut.volume_files.slicer_segments import no_segmentation
 
 __all__ = ["SeriesReport", "VolumeReport", "as_volume", "inspect_volume", "list_series", "read_volume"]
 
 _log = logging.getLogger("lumencut")
+_HEAD = 352
 _KNOWN = (
     "a DICOM folder, file or zip archive, NIfTI (.nii, .nii.gz, .hdr + .img), "
     "NRRD (.nrrd, .nhdr) or MetaImage (.mha, .mhd)"
@@ -342,21 +340,18 @@ def _open(given: str | os.PathLike[str], wanted: Wanted, progress: Progress) -> 
     with heeding(progress) as counted, refusing(path, "volume", notes):
         if path.is_dir() or _is_archive(path):
             return open_dicom(path, wanted, counted).checked()
-        head = head_bytes(path, 352)
+        with path.open("rb") as opened_file:
+            head = opened_file.read(_HEAD)
         if not head:
             raise FormatError(str(path), "an empty file", _KNOWN, "copy or export it again")
-        if head.startswith(b"NRRD"):
-            file = open_nrrd(path, wanted.segments)
-        elif is_dicom(head):
+        if is_dicom(head) and not head.startswith(b"NRRD"):
             file = open_dicom(path, wanted, counted)
-        elif _is_metaimage(path, head):
-            file = open_metaimage(path)
-        elif nifti_kind(head) is not None or _has_nifti_name(path):
-            file = open_nifti(path)
+        elif (grid := open_grid(path, wanted.segments)) is not None:
+            file = grid
         else:
             raise _unknown(path)
         if wanted.segments is not None and not file.is_segmentation:
-            raise no_segmentation(path)
+            raise _no_segmentation(path)
     file.notes.extend(note for note in notes if note not in file.notes)
     return file.checked()
 
@@ -380,15 +375,11 @@ def _unknown(path: Path) -> FormatError:
     return FormatError(str(path), kind.name, _KNOWN, mend)
 
 
+def _no_segmentation(path: Path) -> FormatError:
+    expected = "a segmentation (DICOM SEG, or .seg.nrrd of 3D Slicer), to choose segments"
+    return FormatError(str(path), "no segmentation", expected, "leave out segments")
+
+
 def _is_archive(path: Path) -> bool:
     with path.open("rb") as file:
         return is_zip(file.read(4))
-
-
-def _is_metaimage(path: Path, head: bytes) -> bool:
-    return path.suffix.lower() in (".mha", ".mhd") or b"ObjectType = Image" in head
-
-
-def _has_nifti_name(path: Path) -> bool:
-    name = path.name.lower().removesuffix(".gz")
-    return name.endswith((".nii", ".hdr", ".img"))

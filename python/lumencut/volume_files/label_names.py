@@ -8,8 +8,7 @@ from collections.abc import Iterable, Mapping
 from lumencut._files import checked_path
 from lumencut.errors import FileError, SettingsError
 from lumencut.file_kinds import kind_of
-from lumencut.volume_files.nifti import open_nifti
-from lumencut.volume_files.nrrd import open_nrrd
+from lumencut.volume_files.grids import open_grid
 
 
 def read_label_names(path: str | os.PathLike[str]) -> dict[int, str]:
@@ -38,9 +37,9 @@ def read_label_names(path: str | os.PathLike[str]) -> dict[int, str]:
         kind = kind_of(place)
     except OSError as error:
         raise FileError(str(place), error.strerror or str(error), "a file that can be read") from error
-    known = {"an NRRD volume": open_nrrd, "a NIfTI volume": open_nifti}
-    opened = None if kind is None else known.get(kind.name)
-    return {} if opened is None else opened(place).label_names
+    has_names = kind is not None and kind.name in ("an NRRD volume", "a NIfTI volume")
+    opened = open_grid(place) if has_names else None
+    return {} if opened is None else opened.label_names
 
 
 def chosen_labels(words: Iterable[str], known: Mapping[int, str]) -> dict[int, str]:

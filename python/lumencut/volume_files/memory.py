@@ -145,28 +145,23 @@ def _from_itk(image: Any) -> Volume:
 
 
 def _from_nibabel(image: Any) -> Volume:
-    from lumencut.volume_files.nifti import (
-        LPS_FROM_RAS,
-        millimetres,
-        states_orientation,
-        states_spacing,
-    )
-
     shape = tuple(image.shape)
     _require("nibabel image", 3 if all(length == 1 for length in shape[3:]) else len(shape), 1)
     _require("nibabel image", min(len(shape), 3), 1)
     if image.affine is None:
         raise VolumeError("nibabel image", "no affine", "an affine", "give Volume(array, world_from_index=…)")
     voxels = np.asanyarray(image.dataobj).reshape(shape[:3], order="A")
-    affine = LPS_FROM_RAS @ np.asarray(image.affine, dtype=np.float64)
-    affine[:3] *= millimetres(image.header, [])
     # Other headers than those of NIfTI always place the voxels.
     is_nifti = hasattr(image.header, "get_sform")
+    stated = _lumencut.nifti_units(image.header.binaryblock) if is_nifti else None
+    millimetres, spacing, orientation = stated or (1.0, True, True)
+    affine = np.diag([-1.0, -1.0, 1.0, 1.0]) @ np.asarray(image.affine, dtype=np.float64)
+    affine[:3] *= millimetres
     return Volume(
         np.asarray(voxels).T,
         world_from_index=affine,
-        states_spacing=not is_nifti or states_spacing(image.header),
-        states_orientation=not is_nifti or states_orientation(image.header),
+        states_spacing=spacing,
+        states_orientation=orientation,
     )
 
 

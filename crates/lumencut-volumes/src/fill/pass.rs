@@ -62,7 +62,7 @@ impl Pass {
         size: u64,
         input: &[u8],
         output: &mut [u8],
-    ) -> Result<Piece, Error> {
+    ) -> Result<Piece, Box<Error>> {
         if output.len() < self.unit && self.given < self.needed {
             return Ok(Piece::Full);
         }
@@ -88,7 +88,12 @@ impl Pass {
         Ok(piece)
     }
 
-    fn plain(&mut self, input: &[u8], is_last: bool, output: &mut [u8]) -> Result<(usize, Piece), Error> {
+    fn plain(
+        &mut self,
+        input: &[u8],
+        is_last: bool,
+        output: &mut [u8],
+    ) -> Result<(usize, Piece), Box<Error>> {
         let left = usize::try_from(self.needed - self.given).unwrap_or(usize::MAX);
         let count = left.min(input.len()).min(output.len());
         output[..count].copy_from_slice(&input[..count]);
@@ -101,7 +106,12 @@ impl Pass {
         if is_last { Err(self.too_short()) } else { Ok((0, Piece::Hungry)) }
     }
 
-    fn unpacked(&mut self, input: &[u8], is_last: bool, output: &mut [u8]) -> Result<(usize, Piece), Error> {
+    fn unpacked(
+        &mut self,
+        input: &[u8],
+        is_last: bool,
+        output: &mut [u8],
+    ) -> Result<(usize, Piece), Box<Error>> {
         let Source::Packed(unpacker) = &mut self.source else { return Ok((0, Piece::End)) };
         match unpacker.take(input, is_last, output) {
             Ok(Taken::Some { read, written }) => Ok((read, Piece::Bytes(written))),
@@ -115,7 +125,12 @@ impl Pass {
         }
     }
 
-    fn words(&mut self, input: &[u8], is_last: bool, output: &mut [u8]) -> Result<(usize, Piece), Error> {
+    fn words(
+        &mut self,
+        input: &[u8],
+        is_last: bool,
+        output: &mut [u8],
+    ) -> Result<(usize, Piece), Box<Error>> {
         let Source::Text(words) = &mut self.source else { return Ok((0, Piece::End)) };
         let (read, mut written) = words.take(input, output)?;
         if read < input.len() || written > 0 {
@@ -129,11 +144,11 @@ impl Pass {
         Ok((read, Piece::Bytes(written)))
     }
 
-    fn too_short(&self) -> Error {
+    fn too_short(&self) -> Box<Error> {
         Error::too_short(&self.subject, "", self.given, self.needed)
     }
 
-    fn faulty(&self, fault: Fault) -> Error {
+    fn faulty(&self, fault: Fault) -> Box<Error> {
         Error::damaged(&self.subject, fault.words(), "a whole one")
     }
 }

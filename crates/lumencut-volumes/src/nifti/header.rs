@@ -92,7 +92,7 @@ fn several<T, const N: usize>(place: usize, step: usize, read: impl Fn(usize) ->
 }
 
 impl Header {
-    pub(crate) fn read(path: &str, head: &[u8]) -> Result<Self, Error> {
+    pub(crate) fn read(path: &str, head: &[u8]) -> Result<Self, Box<Error>> {
         let format = format_of(head);
         let start = if format == Some(Format::Nifti1) { 344 } else { 4 };
         let magic = head.get(start..start + 4).unwrap_or_default();
@@ -177,7 +177,7 @@ impl Header {
         path: &str,
         is_single: bool,
         notes: &mut Vec<String>,
-    ) -> Result<u64, Error> {
+    ) -> Result<u64, Box<Error>> {
         let behind: u64 = if self.format == Format::Nifti1 { 352 } else { 544 };
         if is_single && self.offset == 0.0 {
             notes.push(format!("vox_offset is 0: {behind} assumed, where the header ends"));
@@ -192,7 +192,7 @@ impl Header {
         Ok(self.offset as u64)
     }
 
-    pub(crate) fn size(&self, path: &str) -> Result<[u64; 3], Error> {
+    pub(crate) fn size(&self, path: &str) -> Result<[u64; 3], Box<Error>> {
         let shape = self.shape();
         let written: Vec<String> = shape.iter().map(ToString::to_string).collect();
         let comma = if shape.len() == 1 { "," } else { "" };
@@ -235,7 +235,7 @@ impl Header {
     }
 
     /// Mends what nibabel mends and notes it in its words; refuses what it refuses.
-    pub(crate) fn mend(&mut self, path: &str, notes: &mut Vec<String>) -> Result<(), Error> {
+    pub(crate) fn mend(&mut self, path: &str, notes: &mut Vec<String>) -> Result<(), Box<Error>> {
         let length = self.length();
         if usize::try_from(self.stated_length) != Ok(length) {
             notes.push(format!("sizeof_hdr should be {length}; set sizeof_hdr to {length}"));

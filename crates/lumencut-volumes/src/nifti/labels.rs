@@ -39,12 +39,12 @@ fn add_labels(text: &str, names: &mut Vec<(i64, String)>) {
 
 /// The value and the name of an element of which the first letters are read.
 fn label_in(rest: &str) -> Option<(i64, String)> {
-    if rest.starts_with(|letter: char| letter.is_alphanumeric() || letter == '_') {
+    if rest.starts_with(|letter: char| letter.is_ascii_alphanumeric() || letter == '_') {
         return None;
     }
     let (inside, text) = rest.split_once('>')?;
     let value = inside.match_indices("Key=\"").find_map(|(at, key)| {
-        let is_word = inside[..at].ends_with(|letter: char| letter.is_alphanumeric() || letter == '_');
+        let is_word = inside[..at].ends_with(|letter: char| letter.is_ascii_alphanumeric() || letter == '_');
         let (digits, _) = inside[at + key.len()..].split_once('"')?;
         let plain = digits.strip_prefix('-').unwrap_or(digits);
         let is_number = (1..=MOST_DIGITS).contains(&plain.len()) && plain.bytes().all(|d| d.is_ascii_digit());

@@ -1,6 +1,7 @@
 //! Where a NIfTI header places its grid: the sform, shear and all, else the qform, else centred at the origin.
 
 use super::header::Header;
+use super::wide::Wide;
 use crate::error::Error;
 use crate::plan::{Affine, Format, without_negative_zeros};
 use crate::text::short;
@@ -19,7 +20,7 @@ impl Header {
         path: &str,
         size: [u64; 3],
         notes: &mut Vec<String>,
-    ) -> Result<Affine, Error> {
+    ) -> Result<Affine, Box<Error>> {
         let ras = self.best_affine(path)?;
         let millimetres = self.millimetres(notes);
         self.note_forms(size, notes);
@@ -28,7 +29,7 @@ impl Header {
         Ok(without_negative_zeros(lps))
     }
 
-    fn best_affine(&self, path: &str) -> Result<Affine, Error> {
+    fn best_affine(&self, path: &str) -> Result<Affine, Box<Error>> {
         if self.sform_code != 0 {
             return Ok(self.rows);
         }
@@ -52,28 +53,29 @@ impl Header {
 
     /// The placement by the quaternion, None where it is no rotation.
     fn qform(&self) -> Option<Affine> {
-        let [x, y, z] = self.quaternion;
+        let [x, y, z] = self.quaternion.map(Wide::from);
+        let [one, two] = [1.0, 2.0].map(Wide::from);
         // How far from 1 its square may be, by the precision in which it is stored.
         let precision = if self.format == Format::Nifti1 { f64::from(f32::EPSILON) } else { f64::EPSILON };
-        let square = 1.0 - (x * x + y * y + z * z);
-        let is_nothing = square.abs() < 3.0 * precision;
-        if !is_nothing && square < 0.0 {
+        let square = one - (x * x + y * y + z * z);
+        let is_nothing = square.narrow().abs() < 3.0 * precision;
+        if !is_nothing && square.narrow() < 0.0 {
             return None;
         }
-        let w = if is_nothing { 0.0 } else { square.sqrt() };
-        let double = 2.0 / (w * w + x * x + y * y + z * z);
+        let w = if is_nothing { Wide::ZERO } else { square.sqrt() };
+        let double = two / (w * w + x * x + y * y + z * z);
         let (dx, dy, dz) = (x * double, y * double, z * double);
         let (wx, wy, wz) = (w * dx, w * dy, w * dz);
         let (xx, xy, xz) = (x * dx, x * dy, x * dz);
         let (yy, yz, zz) = (y * dy, y * dz, z * dz);
         let rotation = [
-            [1.0 - (yy + zz), xy - wz, xz + wy],
-            [xy + wz, 1.0 - (xx + zz), yz - wx],
-            [xz - wy, yz + wx, 1.0 - (xx + yy)],
+            [one - (yy + zz), xy - wz, xz + wy],
+            [xy + wz, one - (xx + zz), yz - wx],
+            [xz - wy, yz + wx, one - (xx + yy)],
         ];
-        let sides = [self.pixdim[1], self.pixdim[2], self.pixdim[3] * self.pixdim[0]];
+        let sides = [self.pixdim[1], self.pixdim[2], self.pixdim[3] * self.pixdim[0]].map(Wide::from);
         Some(std::array::from_fn(|row| {
-            let [i, j, k] = std::array::from_fn(|column| rotation[row][column] * sides[column]);
+            let [i, j, k] = std::array::from_fn(|column| (rotation[row][column] * sides[column]).narrow());
             [i, j, k, self.shift[row]]
         }))
     }

@@ -18,7 +18,7 @@ pub(crate) struct Axes {
 }
 
 impl Header<'_> {
-    pub(crate) fn axes(&self) -> Result<Axes, Error> {
+    pub(crate) fn axes(&self) -> Result<Axes, Box<Error>> {
         self.required("sizes")?;
         let stated = self.sizes()?;
         self.required("dimension")?;
@@ -49,7 +49,7 @@ impl Header<'_> {
         Ok(Axes { sizes, of_grid, layers, after })
     }
 
-    fn with_direction(&self, sizes: &[u64]) -> Result<Vec<usize>, Error> {
+    fn with_direction(&self, sizes: &[u64]) -> Result<Vec<usize>, Box<Error>> {
         let count = sizes.len();
         Ok(match self.directions()? {
             Some(directions) if directions.len() == count => {
@@ -62,8 +62,8 @@ impl Header<'_> {
         })
     }
 
-    fn require_grid_axes(&self, axes: [usize; 3], kinds: &[&str]) -> Result<(), Error> {
-        let is_odd = |kind: &&&str| !GRID_KINDS.contains(&kind.to_lowercase().as_str());
+    fn require_grid_axes(&self, axes: [usize; 3], kinds: &[&str]) -> Result<(), Box<Error>> {
+        let is_odd = |kind: &&&str| !GRID_KINDS.contains(&kind.to_ascii_lowercase().as_str());
         match axes.iter().filter_map(|&axis| kinds.get(axis)).find(is_odd) {
             None => Ok(()),
             Some(kind) => {

@@ -42,7 +42,7 @@ pub(crate) struct Header<'a> {
 }
 
 impl<'a> Header<'a> {
-    pub(crate) fn read(path: &'a str, head: &[u8]) -> Result<Self, Error> {
+    pub(crate) fn read(path: &'a str, head: &[u8]) -> Result<Self, Box<Error>> {
         if !head.starts_with(b"NRRD") {
             let error = Error::new(path, "a compressed NRRD file", "a plain one");
             return Err(error.mend("decompress it first"));
@@ -59,7 +59,7 @@ impl<'a> Header<'a> {
         Ok(header)
     }
 
-    fn stated(&self) -> Result<Vec<(&'static str, String)>, Error> {
+    fn stated(&self) -> Result<Vec<(&'static str, String)>, Box<Error>> {
         let mut fields: Vec<(&'static str, String)> = Vec::new();
         for line in &self.lines {
             let Some((name, value)) = line.split_once(':') else { continue };
@@ -88,7 +88,7 @@ impl<'a> Header<'a> {
     }
 
     /// Every field that is stated can be read.
-    fn check(&self) -> Result<(), Error> {
+    fn check(&self) -> Result<(), Box<Error>> {
         for name in ["dimension", "line skip", "byte skip", "space dimension"] {
             self.whole(name)?;
         }
@@ -110,7 +110,7 @@ impl<'a> Header<'a> {
         self.fields.iter().find(|(known, _)| *known == name).map_or("", |(_, value)| value)
     }
 
-    pub(crate) fn required(&self, name: &str) -> Result<&str, Error> {
+    pub(crate) fn required(&self, name: &str) -> Result<&str, Box<Error>> {
         if self.has(name) {
             return Ok(self.text(name));
         }
@@ -119,25 +119,25 @@ impl<'a> Header<'a> {
     }
 
     /// The whole number of a field, 0 where it is not stated.
-    pub(crate) fn whole(&self, name: &str) -> Result<i64, Error> {
+    pub(crate) fn whole(&self, name: &str) -> Result<i64, Box<Error>> {
         if self.has(name) { self.text(name).parse().map_err(|_| self.unreadable()) } else { Ok(0) }
     }
 
     /// The numbers of a field, none where it is not stated.
-    pub(crate) fn numbers(&self, name: &str) -> Result<Vec<f64>, Error> {
+    pub(crate) fn numbers(&self, name: &str) -> Result<Vec<f64>, Box<Error>> {
         let words = self.text(name).split_whitespace();
         words.map(|word| number(word).ok_or_else(|| self.unreadable())).collect()
     }
 
     /// The sizes without fractions; what is no 64-bit number is the smallest one.
-    pub(crate) fn sizes(&self) -> Result<Vec<i64>, Error> {
+    pub(crate) fn sizes(&self) -> Result<Vec<i64>, Box<Error>> {
         const LIMIT: f64 = (1_u64 << 63) as f64;
         let whole = |value: f64| if value.abs() < LIMIT { value as i64 } else { i64::MIN };
         Ok(self.numbers("sizes")?.into_iter().map(whole).collect())
     }
 
     /// The vectors of the axes, None where the field is not stated. Axes without a direction are `none`, or all NaN.
-    pub(crate) fn directions(&self) -> Result<Option<Vec<Direction>>, Error> {
+    pub(crate) fn directions(&self) -> Result<Option<Vec<Direction>>, Box<Error>> {
         const FIELD: &str = "space directions";
         if !self.has(FIELD) {
             return Ok(None);
@@ -164,19 +164,19 @@ impl<'a> Header<'a> {
         Ok(Some(vectors.into_iter().map(|vector| vector.filter(has_numbers)).collect()))
     }
 
-    pub(crate) fn origin(&self) -> Result<Option<Vec<f64>>, Error> {
+    pub(crate) fn origin(&self) -> Result<Option<Vec<f64>>, Box<Error>> {
         const FIELD: &str = "space origin";
         if self.has(FIELD) { self.vector(self.text(FIELD)).map(Some) } else { Ok(None) }
     }
 
-    fn vector(&self, word: &str) -> Result<Vec<f64>, Error> {
+    fn vector(&self, word: &str) -> Result<Vec<f64>, Box<Error>> {
         let inside = word.strip_prefix('(').and_then(|rest| rest.strip_suffix(')'));
         let inside = inside.ok_or_else(|| self.unreadable())?;
         inside.split(',').map(|word| number(word).ok_or_else(|| self.unreadable())).collect()
     }
 
     /// The words of a field as a shell parts them: quotation marks of both kinds, and backslashes.
-    pub(crate) fn words(&self, name: &str) -> Result<Vec<String>, Error> {
+    pub(crate) fn words(&self, name: &str) -> Result<Vec<String>, Box<Error>> {
         let mut words = Vec::new();
         let mut word: Option<String> = None;
         let mut mark = None;
@@ -203,19 +203,20 @@ impl<'a> Header<'a> {
         Ok(words)
     }
 
-    fn unreadable(&self) -> Error {
+    fn unreadable(&self) -> Box<Error> {
         let found = "a field of the header that cannot be read";
         Error::new(self.path, found, "numbers as NRRD writes them")
     }
 }
 
 fn full_name(name: &str) -> Option<&'static str> {
-    let name = name.to_lowercase().split_whitespace().collect::<Vec<_>>().join(" ");
-    FIELDS.into_iter().find(|field| *field == name || field.replace(' ', "") == name)
+    let name = name.to_ascii_lowercase().split_whitespace().collect::<Vec<_>>().join(" ");
+    let is_same = |field: &str| field.bytes().filter(|&byte| byte != b' ').eq(name.bytes());
+    FIELDS.into_iter().find(|field| *field == name || is_same(field))
 }
 
 /// The lines of a header, up to an empty line or the end of the file, and the byte behind them.
-fn lines_of(path: &str, head: &[u8]) -> Result<(Vec<String>, u64), Error> {
+fn lines_of(path: &str, head: &[u8]) -> Result<(Vec<String>, u64), Box<Error>> {
     let (mut lines, mut end) = (Vec::new(), 0);
     for line in head.split_inclusive(|&byte| byte == b'\n') {
         if !line.ends_with(b"\n") && head.len() as u64 == LONGEST_HEADER {

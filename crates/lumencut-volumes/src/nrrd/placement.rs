@@ -26,7 +26,7 @@ fn millimetres(unit: &str) -> Option<f64> {
 
 impl Header<'_> {
     /// World (LPS, mm) from index.
-    pub(crate) fn affine(&self, axes: &[usize; 3], notes: &mut Vec<String>) -> Result<Affine, Error> {
+    pub(crate) fn affine(&self, axes: &[usize; 3], notes: &mut Vec<String>) -> Result<Affine, Box<Error>> {
         let columns = self.columns(axes, notes)?;
         let origin = self.origin_or_zero(notes)?;
         let unit = self.unit_noted(notes)?;
@@ -38,7 +38,7 @@ impl Header<'_> {
         Ok(without_negative_zeros([row(0), row(1), row(2)]))
     }
 
-    fn columns(&self, axes: &[usize; 3], notes: &mut Vec<String>) -> Result<[[f64; 3]; 3], Error> {
+    fn columns(&self, axes: &[usize; 3], notes: &mut Vec<String>) -> Result<[[f64; 3]; 3], Box<Error>> {
         let Some(directions) = self.directions()? else {
             return self.along_axes(axes, notes);
         };
@@ -54,7 +54,7 @@ impl Header<'_> {
     }
 
     /// The directions of a header that states distances alone.
-    fn along_axes(&self, axes: &[usize; 3], notes: &mut Vec<String>) -> Result<[[f64; 3]; 3], Error> {
+    fn along_axes(&self, axes: &[usize; 3], notes: &mut Vec<String>) -> Result<[[f64; 3]; 3], Box<Error>> {
         let steps = self.spacings(axes)?;
         if !steps.iter().all(|step| step.is_finite()) {
             notes.push("no spacing stated: 1 mm assumed".into());
@@ -66,12 +66,12 @@ impl Header<'_> {
     }
 
     /// The spacing of each axis of the grid, NaN where none is stated.
-    fn spacings(&self, axes: &[usize; 3]) -> Result<[f64; 3], Error> {
+    fn spacings(&self, axes: &[usize; 3]) -> Result<[f64; 3], Box<Error>> {
         let stated = self.numbers("spacings")?;
         Ok(axes.map(|axis| stated.get(axis).copied().unwrap_or(f64::NAN)))
     }
 
-    fn origin_or_zero(&self, notes: &mut Vec<String>) -> Result<[f64; 3], Error> {
+    fn origin_or_zero(&self, notes: &mut Vec<String>) -> Result<[f64; 3], Box<Error>> {
         let Some(origin) = self.origin()? else {
             let unused = if self.has("axis mins") { ", axis mins are not used" } else { "" };
             notes.push(format!("no space origin stated{unused}: (0, 0, 0) assumed"));
@@ -82,7 +82,7 @@ impl Header<'_> {
     }
 
     /// Whether lengths in mm are known: stated, and not in a unit that nobody knows.
-    pub(crate) fn states_spacing(&self, axes: &[usize; 3]) -> Result<bool, Error> {
+    pub(crate) fn states_spacing(&self, axes: &[usize; 3]) -> Result<bool, Box<Error>> {
         let has_spacings = self.spacings(axes)?.iter().all(|step| step.is_finite());
         let unit = self.unit()?;
         Ok((self.has("space directions") || has_spacings)
@@ -91,7 +91,7 @@ impl Header<'_> {
 
     /// The name of the space in lower case.
     fn patient_space(&self) -> String {
-        let space = self.text("space").to_lowercase();
+        let space = self.text("space").to_ascii_lowercase();
         space.strip_suffix("-time").unwrap_or(&space).to_owned()
     }
 
@@ -118,7 +118,7 @@ impl Header<'_> {
     }
 
     /// Millimetres per unit of the file.
-    fn unit_noted(&self, notes: &mut Vec<String>) -> Result<f64, Error> {
+    fn unit_noted(&self, notes: &mut Vec<String>) -> Result<f64, Box<Error>> {
         let unit = self.unit()?;
         if unit.is_empty() {
             return Ok(1.0);
@@ -133,9 +133,9 @@ impl Header<'_> {
     }
 
     /// The unit of the first axis of the space, in the singular where that is known; empty for none.
-    fn unit(&self) -> Result<String, Error> {
+    fn unit(&self) -> Result<String, Box<Error>> {
         let words = self.words("space units")?;
-        let stated = words.first().map_or("", |word| word.trim_matches(['"', ' '])).to_lowercase();
+        let stated = words.first().map_or("", |word| word.trim_matches(['"', ' '])).to_ascii_lowercase();
         if stated == "???" {
             return Ok(String::new());
         }

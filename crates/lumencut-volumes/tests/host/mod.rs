@@ -29,7 +29,7 @@ pub fn opened(files: &Files, name: &str, chosen: Option<&[u32]>) -> Result<Plan,
 }
 
 /// The voxels of a file; the host reads at most `most` bytes at once and gives room for as many.
-pub fn filled(plan: Plan, bytes: &[u8], in_engine: bool, most: usize) -> Result<(Kind, Vec<u8>), Error> {
+pub fn filled(plan: Plan, bytes: &[u8], in_engine: bool, most: usize) -> Result<(Kind, Vec<u8>), Box<Error>> {
     let mut fill = Fill::new(plan, bytes.len() as u64, in_engine);
     let (mut kind, mut voxels, mut at) = (Kind::Uint8, Vec::new(), 0);
     let mut window = Window::default();
@@ -57,7 +57,7 @@ pub fn filled(plan: Plan, bytes: &[u8], in_engine: bool, most: usize) -> Result<
 }
 
 /// Header and voxels, however much the host reads at once.
-pub fn read(files: &Files, name: &str, in_engine: bool) -> Result<(Plan, Kind, Vec<u8>), Error> {
+pub fn read(files: &Files, name: &str, in_engine: bool) -> Result<(Plan, Kind, Vec<u8>), Box<Error>> {
     let plan = opened(files, name, None).map_err(refused)?;
     let Some(bytes) = files.get(plan.place.name.as_str()) else { return Err(plan.missing()) };
     let (kind, voxels) = filled(plan.clone(), bytes, in_engine, usize::MAX >> 1)?;
@@ -65,7 +65,7 @@ pub fn read(files: &Files, name: &str, in_engine: bool) -> Result<(Plan, Kind, V
 }
 
 /// The error of a file that is refused.
-pub fn refused(stop: Stop) -> Error {
+pub fn refused(stop: Stop) -> Box<Error> {
     match stop {
         Stop::Refused(error) => error,
         other => panic!("{other:?}"),

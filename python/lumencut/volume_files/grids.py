@@ -1,0 +1,124 @@
+"""NIfTI, NRRD and MetaImage: the compiled part reads headers and makes voxels, here files are opened and read."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Collection
+from pathlib import Path
+from typing import Any, BinaryIO
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut import _lumencut
+from lumencut._files import checked_path
+from lumencut.volume_files.opened import Filled, Progress, VolumeFile
+from lumencut.volume_files.room import require_memory
+from lumencut.volume_files.straightened_notes import note_sides
+
+_HEADER = "a file with a header"
+_VOXELS = "a file of voxels"
+_NOTHING = np.empty(0, np.uint8)
+
+
+def open_grid(path: Path, chosen: Collection[int] | None = None) -> VolumeFile | None:
+    """Read the header of a volume file; None if its format is none of the three.
+
+    `chosen` are the numbers of the segments that are read of a segmentation of 3D Slicer.
+    """
+    plan = _plan(path, chosen)
+    if plan is None:
+        return None
+    notes: list[str] = []
+    remarks: list[str] = []
+    note_sides(plan.description, notes, remarks)
+    labels, details = dict(plan.label_names), {}
+    if plan.segmentation is not None:
+        details = dict(zip(("segmentation", "segments"), plan.segmentation, strict=True))
+    elif labels:
+        details = {"labels": "; ".join(f"{value} {name}" for value, name in labels.items())}
+    kind, is_big = plan.stored
+    ni, nj, nk = plan.size
+    affine = np.eye(4)
+    affine[:3] = plan.world_from_index
+    return VolumeFile(
+        path, plan.format, (ni, nj, nk), np.dtype(kind).newbyteorder(">" if is_big else "<"), plan.space, affine,
+        lambda progress, filled: _load(path, plan, filled), [*notes, *plan.notes],
+        remarks=[*remarks, *plan.remarks], details=details, label_names=labels,
+        states_spacing=plan.states_spacing, states_orientation=plan.states_orientation,
+        settled_type=None if plan.settled is None else np.dtype(plan.settled),
+        is_segmentation=plan.segmentation is not None, check_length=lambda: _check_length(path, plan),
+    )  # fmt: skip
+
+
+def _plan(path: Path, chosen: Collection[int] | None) -> _lumencut.VolumePlan | None:
+    opening = _lumencut.VolumeOpening(path, path.name, None if chosen is None else list(chosen))
+    home = path.parent.resolve()
+    while not isinstance(need := opening.next(), (_lumencut.VolumePlan, type(None))):
+        if isinstance(need, list):
+            for name in need:
+                place = path if name == path.name else path.parent / name
+                is_outside = name != path.name and not place.resolve().is_relative_to(home)
+                size = checked_path(place, _HEADER).stat().st_size if place.exists() else None
+                opening.add_size(name, size, is_outside)
+        else:
+            name, start, end = need
+            with checked_path(path.parent / name, _HEADER).open("rb") as file:
+                file.seek(start)
+                opening.add_bytes(name, start, file.read(end - start))
+    return need
+
+
+def _voxels_of(path: Path, plan: _lumencut.VolumePlan) -> Path:
+    place = checked_path(path.parent / plan.voxels, _VOXELS)
+    if not place.exists():
+        raise plan.missing()
+    return place
+
+
+def _check_length(path: Path, plan: _lumencut.VolumePlan) -> bool:
+    """Tell whether the length of a file proves that it holds all voxels."""
+    place = _voxels_of(path, plan)
+    with place.open("rb") as file:
+        fill = _Fill(plan, file)
+        while (told := fill.step(_NOTHING))[0] != "sound":
+            pass
+    return bool(told[1])
+
+
+def _load(path: Path, plan: _lumencut.VolumePlan, filled: Filled) -> npt.NDArray[Any]:
+    """Read the voxels [k, j, i]; `filled` hears of slices that are whole."""
+    place = _voxels_of(path, plan)
+    data, voxels, known = _NOTHING, np.empty((0, 0, 0)), 0
+    with place.open("rb") as file:
+        fill = _Fill(plan, file)
+        while (told := fill.step(data))[0] != "done":
+            if told[0] == "sound":
+                require_memory(place, told[2])
+            elif told[0] == "room":
+                require_memory(place, told[2])
+                data = np.empty(told[2], np.uint8)
+                voxels = data.view(told[1]).reshape(plan.size[::-1])
+            elif len(data) and (whole := fill.written // (len(data) // len(voxels))) > known:
+                known = whole
+                filled(voxels, known)
+    return voxels
+
+
+class _Fill:
+    """Makes voxels, and reads the parts of the file that are needed."""
+
+    def __init__(self, plan: _lumencut.VolumePlan, file: BinaryIO) -> None:
+        self._fill = plan.fill(os.fstat(file.fileno()).st_size)
+        self._file, self._start, self._bytes = file, 0, b""
+        self.written = 0
+
+    def step(self, data: npt.NDArray[np.uint8]) -> tuple[Any, ...]:
+        """Take a step of `VolumeFill`, and tell of it; a part of the file is read."""
+        written, told = self._fill.step(self._start, self._bytes, data[self.written :])
+        self.written += written
+        if told[0] == "read":
+            self._start, end = told[1], told[2]
+            self._file.seek(self._start)
+            self._bytes = self._file.read(end - self._start)
+        return told
