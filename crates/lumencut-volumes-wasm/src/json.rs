@@ -14,11 +14,6 @@ pub(crate) fn text(text: &str) -> String {
     out
 }
 
-/// A number, null if it is not finite.
-pub(crate) fn number(number: f64) -> String {
-    if number.is_finite() { number.to_string() } else { "null".into() }
-}
-
 /// A list of values in JSON.
 pub(crate) fn list(values: impl IntoIterator<Item: ToString>) -> String {
     let values: Vec<String> = values.into_iter().map(|value| value.to_string()).collect();

@@ -61,6 +61,12 @@ impl VolumeFile {
         }
     }
 
+    /// World (LPS, mm) from index: the upper three rows of the matrix, of the plan.
+    #[must_use]
+    pub fn world_from_index(&self) -> Vec<f64> {
+        self.plan.iter().flat_map(|plan| plan.grid.world_from_index).flatten().collect()
+    }
+
     /// Begins to fill the volume from the file that the plan names, of this size (bytes); undefined if there is none.
     ///
     /// # Errors
@@ -135,11 +141,9 @@ fn need_text(need: &Need) -> String {
 
 fn plan_text(plan: &Plan) -> String {
     let names = plan.label_names.iter().map(|(value, name)| (value.to_string(), json::text(name)));
-    let Grid { size, world_from_index, states_spacing, states_orientation, .. } = &plan.grid;
-    let rows = world_from_index.iter().chain([&[0.0, 0.0, 0.0, 1.0]]);
+    let Grid { size, states_spacing, states_orientation, .. } = &plan.grid;
     json::object(&[
         ("size", json::list(size)),
-        ("world_from_index", json::list(rows.map(|row| json::list(row.iter().copied().map(json::number))))),
         ("spacing", states_spacing.to_string()),
         ("orientation", states_orientation.to_string()),
         ("voxels", json::text(&plan.place.name)),

@@ -54,6 +54,7 @@ mod nrrd;
 mod numbers;
 mod open;
 mod plan;
+mod real;
 mod segments;
 mod stream;
 mod text;

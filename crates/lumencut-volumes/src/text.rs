@@ -2,6 +2,8 @@
 
 use std::borrow::Cow;
 
+use crate::real::real;
+
 const SHOWN: usize = 60;
 
 /// A text without line breaks and control characters, which become replacement characters.
@@ -59,7 +61,7 @@ pub(crate) fn latin1(bytes: &[u8]) -> String {
 
 /// The number that a word stands for.
 pub(crate) fn number(word: &str) -> Option<f64> {
-    ungrouped(word.trim()).parse().ok()
+    real(&ungrouped(word.trim()))
 }
 
 /// A number without the underscores between its digits, which Python takes.

@@ -23,8 +23,6 @@ interface BytesNeeded {
 
 export interface Plan {
   readonly size: readonly [number, number, number];
-  /** Four rows, LPS (mm); null stands for a number that is not finite. */
-  readonly world_from_index: readonly (readonly (number | null)[])[];
   /** Whether the file states lengths in mm, and the sides of the patient. */
   readonly spacing: boolean;
   readonly orientation: boolean;

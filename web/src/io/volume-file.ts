@@ -9,7 +9,7 @@ import { formatFailure } from './words';
 
 export type Size = readonly [number, number, number];
 /** Matrix from voxel indices to world coordinates (LPS, mm), row by row. */
-export type Affine = readonly (readonly (number | null)[])[];
+export type Affine = readonly (readonly number[])[];
 
 interface Grid {
   readonly size: Size;
@@ -78,11 +78,12 @@ class Reading {
 
   async read(): Promise<Plan> {
     const plan = await this.plan();
-    if (plan.world_from_index.flat().includes(null)) {
+    const rows = this.file.world_from_index();
+    if (!rows.every(Number.isFinite)) {
       const found = 'a number in world_from_index that is not finite';
       throw formatFailure(this.path, found, 'finite numbers', 'correct the position of the volume');
     }
-    await this.fill(plan);
+    await this.fill(plan, gridOf(plan, [...rows]));
     return plan;
   }
 
@@ -110,7 +111,7 @@ class Reading {
     return this.sources.get(name) ?? null;
   }
 
-  private async fill(plan: Plan): Promise<void> {
+  private async fill(plan: Plan, grid: Grid): Promise<void> {
     const { file, means } = this;
     const source = await this.source(plan.voxels);
     this.asked(() => file.begin(source?.size));
@@ -129,7 +130,7 @@ class Reading {
       this.refuseLarge(source?.path ?? this.path, step.least ?? 0);
       if (step.room) {
         all = step.room.bytes;
-        begin(means.sink, this.path, gridOf(plan), step.room.dtype);
+        begin(means.sink, this.path, grid, step.room.dtype);
       }
       if (step.read) {
         const [start] = step.read;
@@ -159,7 +160,8 @@ class Reading {
   }
 }
 
-function gridOf({ size, world_from_index, label_names }: Plan): Grid {
-  const grid = { size, world_from_index };
+function gridOf({ size, label_names }: Plan, numbers: readonly number[]): Grid {
+  const rows = [numbers.slice(0, 4), numbers.slice(4, 8), numbers.slice(8), [0, 0, 0, 1]];
+  const grid = { size, world_from_index: rows };
   return Object.keys(label_names).length > 0 ? { ...grid, label_names } : grid;
 }
