@@ -43,6 +43,7 @@
 //! ```
 
 mod beside;
+mod built_in;
 mod convert;
 mod error;
 mod fill;
@@ -54,7 +55,6 @@ mod nrrd;
 mod numbers;
 mod open;
 mod plan;
-mod real;
 mod segments;
 mod stream;
 mod text;

@@ -1,9 +1,9 @@
 //! Voxels written as text.
 
+use crate::built_in::real;
 use crate::convert::write_number;
 use crate::error::Error;
 use crate::numbers::Kind;
-use crate::real::real;
 use crate::text::{latin1, ungrouped};
 
 const LONGEST: usize = 400;
