@@ -17,13 +17,39 @@ import pytest
 from lumencut.errors import FileError, FormatError, LumencutError
 from lumencut.volume_files import inspect_volume, read_volume
 from lumencut.volume_files.opened import impersonal, refusing
-from lumencut.volume_files.payload import read_numbers, read_voxels
 from test_volume_files import save_meta, save_nifti
 from test_volume_variants import RAW, save_by_hand
 from volume_samples import assert_maps, coded, oblique
 
 NAME = "Erika-Mustermann"
 TO_FLOAT = "could not convert string to float"
+
+
+ENCODINGS = {"raw": "raw", "zlib": "gzip", "bzip2": "bzip2"}
+NAMES = {"u1": "uint8", "i8": "int64"}
+
+
+def read_voxels(path, shape, dtype, *, codec="raw", skip=0, encoding=None):
+    """The voxels of a file, by the header of an NRRD beside it."""
+    sizes = [*reversed(shape), 1, 1][:3] if len(shape) < 3 else shape[::-1]
+    lines = [
+        "NRRD0004",
+        f"type: {NAMES[dtype.str[1:]]}",
+        f"dimension: {len(sizes)}",
+        "sizes: " + " ".join(map(str, sizes)),
+        "endian: little",
+        f"encoding: {encoding or ENCODINGS[codec]}",
+        f"byte skip: {skip}",
+        f"data file: {path.name}",
+    ]
+    header = path.with_name("header.nhdr")
+    header.write_text("\n".join(lines) + "\n")
+    return read_volume(header).array.reshape(shape)
+
+
+def read_numbers(path, shape, dtype):
+    """The voxels of a text."""
+    return read_voxels(path, shape, dtype, encoding="ascii")
 
 
 def detached(folder, kind, name):

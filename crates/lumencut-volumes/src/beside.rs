@@ -7,11 +7,12 @@ use crate::text::{is_all_printable, shown};
 /// The name of a file in the header's folder or a folder below it; Windows separators are accepted.
 pub(crate) fn inside(header: &str, name: &str, field: &str) -> Result<String, Box<Error>> {
     let parts: Vec<&str> = name.split(['/', '\\']).filter(|part| !part.is_empty() && *part != ".").collect();
-    if parts.is_empty() || !is_all_printable(name) {
+    let is_absolute = name.starts_with(['/', '\\', '~']) || has_drive(name);
+    if parts.is_empty() && !is_absolute || !is_all_printable(name) {
         let expected = "the name of a file next to the header";
         return Err(Error::new(header, format!("no file name in {field}"), expected));
     }
-    if name.starts_with(['/', '\\', '~']) || has_drive(name) || parts.contains(&"..") {
+    if is_absolute || parts.contains(&"..") {
         return Err(outside(header, name, field));
     }
     Ok(parts.join("/"))
