@@ -1,8 +1,8 @@
 """Fuzzes the readers of centerlines and volumes.
 
-Builds the targets of the folders `fuzz` of two crates with the stable compiler: the coverage of libFuzzer is an LLVM
-pass that needs no sanitizer. `cargo fuzz` runs the same targets. The corpus is kept in the target folder for
-the next run.
+Builds the targets in the folder `fuzz` of two crates with the stable compiler: the coverage of libFuzzer is
+an LLVM pass that needs no sanitizer. `cargo fuzz` runs the same targets. The corpus is kept in the target
+folder for the next run.
 """
 
 from __future__ import annotations

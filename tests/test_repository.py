@@ -34,6 +34,7 @@ ALLOWED = {
     "Unicode-3.0",
     "Unlicense",
     "Zlib",
+    "bzip2-1.0.6",
 }
 #: Packages that only some calls need; they must not be imported before such a call.
 HEAVY = {

@@ -196,7 +196,7 @@ TOO_LARGE = {
     "text nrrd": lambda folder: save_nrrd(folder / "x.nrrd", LARGE.astype("u1"), np.eye(4), encoding="ascii"),
     "mha": lambda folder: save_meta(folder / "x.mha", LARGE, np.eye(4)),
     "big-endian mha": lambda folder: save_meta(
-        folder / "x.mha", LARGE[:8].astype(">i2"), np.eye(4), BinaryDataByteOrderMSB=True
+        folder / "x.mha", LARGE.astype(">i2"), np.eye(4), BinaryDataByteOrderMSB=True
     ),
     "DICOM folder": lambda folder: folder_of(folder / "x", _large_slices()),
     "DICOM zip": lambda folder: archive_of(folder / "x.zip", _large_slices(), 0),

@@ -346,8 +346,9 @@ class GzipPacker:
 
 def nifti_units(header: bytes, /) -> tuple[float, bool, bool] | None: ...
 def volume_header(
-    format: str, size: Sequence[int], world_from_index: Sequence[Sequence[float]], kind: str, mark: str, /
+    kind: str, size: Sequence[int], world_from_index: Sequence[Sequence[float]], dtype: str, mark: str, /
 ) -> bytes: ...
+
 @final
 class LumenWall:
     def __new__(

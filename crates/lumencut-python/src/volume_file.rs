@@ -11,7 +11,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
-use crate::errors::{advised, exception};
+use crate::errors::exception;
 
 /// Bytes of voxels that one call writes at most, so that signals are heard.
 const PIECE: usize = 16 << 20;
@@ -21,17 +21,12 @@ fn raised(error: &Error, path: &Path) -> PyErr {
     let is_own = path.file_name().is_some_and(|name| name == error.subject.as_str());
     let subject: PathBuf = if is_own { path.into() } else { path.with_file_name(&error.subject) };
     let subject = subject.to_string_lossy();
-    match error.kind {
-        ErrorKind::Format => exception("FormatError", &subject, &error.found, &error.expected, &error.mend),
-        ErrorKind::File => exception("FileError", &subject, &error.found, &error.expected, &error.mend),
-        ErrorKind::Overlap => Python::attach(|py| overlap(py, error, &subject).unwrap_or_else(|error| error)),
-    }
-}
-
-fn overlap(py: Python<'_>, error: &Error, subject: &str) -> PyResult<PyErr> {
-    let class = py.import("lumencut.volume_files.overlaps")?.getattr("OverlapError")?;
-    let mend = advised(py, &error.mend, None)?;
-    Ok(PyErr::from_value(class.call1((subject, &error.found, &error.expected, mend))?))
+    let class = match error.kind {
+        ErrorKind::Format => "FormatError",
+        ErrorKind::File => "FileError",
+        ErrorKind::Overlap => "OverlapError",
+    };
+    exception(class, &subject, &error.found, &error.expected, &error.mend)
 }
 
 /// A file whose header is being read: `next` says what is needed.

@@ -2,8 +2,6 @@
 
 use std::fmt;
 
-use crate::known::Need;
-
 /// A volume file that cannot be read. No text of a patient stands in it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Error {
@@ -82,6 +80,22 @@ impl fmt::Display for Error {
 }
 
 impl std::error::Error for Error {}
+
+/// What `open` needs of files. Names are relative to the folder of the opened file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Need {
+    /// The sizes of these files, or that they are not there.
+    Sizes(Vec<String>),
+    /// The bytes of a file from `start` to `end`, fewer at its end.
+    Bytes {
+        /// The name of the file.
+        name: String,
+        /// The first byte.
+        start: u64,
+        /// The byte behind the last one.
+        end: u64,
+    },
+}
 
 /// Why `open` gives no plan yet.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -1,27 +1,14 @@
 //! What a host has fetched of files so far, and what is still needed.
 
-use crate::error::Opening;
+use crate::error::{Error, Need, Opening};
 use crate::stream::{Codec, Taken, Unpacker, is_gzip};
 
 /// The first bytes of a gzipped file that are fetched; then four times as many, and so on.
 const FIRST: u64 = 1 << 16;
 const PIECE: usize = 1 << 16;
 
-/// What `open` needs of files. Names are relative to the folder of the opened file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Need {
-    /// The sizes of these files, or that they are not there.
-    Sizes(Vec<String>),
-    /// The bytes of a file from `start` to `end`, fewer at its end.
-    Bytes {
-        /// The name of the file.
-        name: String,
-        /// The first byte.
-        start: u64,
-        /// The byte behind the last one.
-        end: u64,
-    },
-}
+const PACKED: [(&[u8], &str); 4] =
+    [(b"BZh", "bzip2"), (b"\xfd7zXZ\0", "xz"), (b"\x28\xb5\x2f\xfd", "zstd"), (b"PK\x03\x04", "zip")];
 
 /// What is known of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -107,6 +94,17 @@ impl Known {
             return Err(Need::Bytes { name: name.into(), start, end: count }.into());
         }
         Ok(&head[..wanted])
+    }
+
+    /// The same as `unpacked`; files that are packed otherwise are refused.
+    pub(crate) fn head(&self, name: &str, count: usize) -> Opening<Vec<u8>> {
+        let start = self.first(name, 8)?;
+        if let Some((_, codec)) = PACKED.iter().find(|(magic, _)| start.starts_with(magic)) {
+            let error =
+                Error::new(name, format!("a file compressed with {codec}"), "a plain or gzipped file");
+            return Err(error.mend("decompress it first").into());
+        }
+        self.unpacked(name, count)
     }
 
     /// The first bytes of a file, unpacked if it is gzipped. The file may break off after them.

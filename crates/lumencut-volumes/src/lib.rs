@@ -61,9 +61,9 @@ mod text;
 mod words;
 mod write;
 
-pub use error::{Error, ErrorKind, Stop};
+pub use error::{Error, ErrorKind, Need, Stop};
 pub use fill::{Fill, Step, Window};
-pub use known::{Found, Known, Need};
+pub use known::{Found, Known};
 pub use nifti::{StatedUnits, stated_units};
 pub use numbers::{Kind, Scaling};
 pub use open::{HEAD, format_of, open};

@@ -8,7 +8,6 @@ mod wide;
 use crate::error::{Error, Opening};
 use crate::known::{Found, Known};
 use crate::numbers::{Kind, Scaling};
-use crate::open::head;
 use crate::plan::{Grid, Place, Plan, Stored};
 use crate::stream::{Codec, is_gzip};
 use crate::text::{latin1, short};
@@ -26,7 +25,7 @@ pub(crate) fn open(path: &str, known: &Known) -> Opening<Plan> {
     if known.found(&home)? == Found::Missing {
         return Err(Error::missing(&home, &format!("the header of {path}")).into());
     }
-    let head = head(&home, known, HEADER_BYTES)?;
+    let head = known.head(&home, HEADER_BYTES)?;
     let mut header = Header::read(&home, &head)?;
     let kind = kind_of(&home, header.datatype)?;
     let data = if header.is_pair { partner(&home, known, [".hdr", ".img"])? } else { home.clone() };

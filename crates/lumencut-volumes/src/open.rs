@@ -1,6 +1,6 @@
 //! Recognises a file by its first bytes, or by its name where they leave it open, and reads its header.
 
-use crate::error::{Error, Opening, Stop};
+use crate::error::Stop;
 use crate::known::Known;
 use crate::plan::{Format, Plan};
 use crate::text::latin1;
@@ -8,8 +8,6 @@ use crate::{metaimage, nifti, nrrd};
 
 /// Bytes, unpacked, that tell what a file is.
 pub const HEAD: usize = 4096;
-const PACKED: [(&[u8], &str); 4] =
-    [(b"BZh", "bzip2"), (b"\xfd7zXZ\0", "xz"), (b"\x28\xb5\x2f\xfd", "zstd"), (b"PK\x03\x04", "zip")];
 
 /// Reads the header of a volume file.
 ///
@@ -24,7 +22,7 @@ const PACKED: [(&[u8], &str); 4] =
 /// [`Stop::Need`] where `known` lacks something: the host adds it and calls again. [`Stop::Unknown`] for a file of
 /// another format, [`Stop::Refused`] for a file that cannot be read.
 pub fn open(name: &str, known: &Known, chosen: Option<&[u32]>) -> Result<Plan, Stop> {
-    let head = head(name, known, HEAD)?;
+    let head = known.head(name, HEAD)?;
     match format_of(name, &head) {
         Some(Format::Nrrd) => nrrd::open(name, known, chosen),
         Some(Format::MetaImage) => metaimage::open(name, known),
@@ -55,14 +53,4 @@ fn states_image(head: &[u8]) -> bool {
         let (name, value) = line.split_once('=').unwrap_or_default();
         name.trim_end().ends_with("ObjectType") && value.trim_start().starts_with("Image")
     })
-}
-
-/// The first bytes of a file, unpacked if it is gzipped; other packed files are refused.
-pub(crate) fn head(name: &str, known: &Known, count: usize) -> Opening<Vec<u8>> {
-    let start = known.first(name, 8)?;
-    if let Some((_, codec)) = PACKED.iter().find(|(magic, _)| start.starts_with(magic)) {
-        let found = format!("a file compressed with {codec}");
-        return Err(Error::new(name, found, "a plain or gzipped file").mend("decompress it first").into());
-    }
-    known.unpacked(name, count)
 }

@@ -15,7 +15,7 @@ import numpy.typing as npt
 from lumencut._checks import callback, integers
 from lumencut._files import checked_path
 from lumencut.dicomweb.address import is_address
-from lumencut.errors import FileError, FormatError
+from lumencut.errors import FileError, FormatError, OverlapError
 from lumencut.file_kinds import kind_of
 from lumencut.series_report import SeriesReport
 from lumencut.volume import Volume
@@ -31,7 +31,6 @@ from lumencut.volume_files.dicom.files import read_files
 from lumencut.volume_files.grids import open_grid
 from lumencut.volume_files.memory import as_volume
 from lumencut.volume_files.opened import Progress, VolumeFile, heeding, refusing
-from lumencut.volume_files.overlaps import OverlapError
 from lumencut.volume_files.rescale import slabs
 
 __all__ = ["SeriesReport", "VolumeReport", "as_volume", "inspect_volume", "list_series", "read_volume"]

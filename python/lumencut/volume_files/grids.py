@@ -1,4 +1,4 @@
-"""NIfTI, NRRD and MetaImage: the compiled part reads headers and makes voxels, here files are opened and read."""
+"""NIfTI, NRRD and MetaImage: the compiled part reads headers and makes voxels; files are opened here."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from lumencut import _lumencut
 from lumencut._files import checked_path
-from lumencut.volume_files.opened import Filled, Progress, VolumeFile
+from lumencut.volume_files.opened import Filled, VolumeFile
 from lumencut.volume_files.room import require_memory
 from lumencut.volume_files.straightened_notes import note_sides
 
@@ -38,11 +38,12 @@ def open_grid(path: Path, chosen: Collection[int] | None = None) -> VolumeFile |
     elif labels:
         details = {"labels": "; ".join(f"{value} {name}" for value, name in labels.items())}
     kind, is_big = plan.stored
+    dtype = np.dtype(kind).newbyteorder(">" if is_big else "<")
     ni, nj, nk = plan.size
     affine = np.eye(4)
     affine[:3] = plan.world_from_index
     return VolumeFile(
-        path, plan.format, (ni, nj, nk), np.dtype(kind).newbyteorder(">" if is_big else "<"), plan.space, affine,
+        path, plan.format, (ni, nj, nk), dtype, plan.space, affine,
         lambda progress, filled: _load(path, plan, filled), [*notes, *plan.notes],
         remarks=[*remarks, *plan.remarks], details=details, label_names=labels,
         states_spacing=plan.states_spacing, states_orientation=plan.states_orientation,

@@ -8,14 +8,10 @@ from collections.abc import Mapping
 import numpy as np
 import numpy.typing as npt
 
-from lumencut.errors import FormatError
+from lumencut.errors import OverlapError
 
 Overlaps = Counter[tuple[int, int]]
 """The number of shared voxels for two segments, by their numbers."""
-
-
-class OverlapError(FormatError):
-    """Segments that cannot be one label map; their headers are sound."""
 
 
 def put(

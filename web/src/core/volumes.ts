@@ -1,10 +1,27 @@
 /** Interface of the Rust code that reads volume files. */
-import type { VolumeFile } from './pkg/volumes/lumencut_volumes';
 
-/** The module of the crate `lumencut-volumes`. */
+/** The module of the crate `lumencut-volumes-wasm`. */
 export interface Volumes {
-  readonly VolumeFile: typeof VolumeFile;
+  readonly VolumeFile: new (name: string) => VolumeFile;
   readonly memory: WebAssembly.Memory;
+}
+
+/** A volume file that is being opened and read. Names are relative to its folder; answers are JSON. */
+export interface VolumeFile {
+  /** Adds the size of a file (bytes), undefined for a missing one. */
+  add_size(name: string, size?: number): void;
+  add_bytes(name: string, start: number, bytes: Uint8Array): void;
+  open(): string;
+  /** Three rows of four numbers, LPS (mm). */
+  world_from_index(): Float64Array;
+  /** Begins to fill the volume from a file of this size. */
+  begin(size?: number): void;
+  /** Replaces the bytes that the next step can read. */
+  read(start: number, bytes: Uint8Array): void;
+  step(): string;
+  /** Address of voxels in the memory of the module. */
+  output(): number;
+  free(): void;
 }
 
 /** Answer of `VolumeFile.open`: what it still needs of files, or the plan. */

@@ -1,7 +1,7 @@
 /** Reads volume files with the crate `lumencut-volumes`, and transfers their voxels to the engine. */
 import { Failure } from '../core/failure';
 import { EVERY_SECOND } from '../core/mends';
-import type { Opening, Plan, Step, Volumes } from '../core/volumes';
+import type { Opening, Plan, Step, VolumeFile, Volumes } from '../core/volumes';
 import { Ahead } from './ahead';
 import { type Beside, besidePath, fileName, type Source } from './source';
 import type { Steps } from './steps';
@@ -33,8 +33,6 @@ interface Means {
   readonly sink: Sink;
   readonly steps: Steps;
 }
-
-type File = InstanceType<Volumes['VolumeFile']>;
 
 /** WebAssembly has no more memory than this. */
 const MEMORY = 2 ** 32;
@@ -69,7 +67,7 @@ class Reading {
 
   constructor(
     source: Source,
-    private readonly file: File,
+    private readonly file: VolumeFile,
     private readonly means: Means,
   ) {
     this.path = source.path;
