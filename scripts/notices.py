@@ -17,7 +17,7 @@ ROOT = Path(__file__).resolve().parent.parent
 WEB = ROOT / "web"
 #: The build of the page copies it.
 NOTICES = WEB / "public/THIRD-PARTY-NOTICES.txt"
-CRATE = "lumencut-wasm"
+CRATES = ("lumencut-wasm", "lumencut-dicom-wasm", "lumencut-volumes-wasm")
 TARGET = "wasm32-unknown-unknown"
 #: Packages without a licence text; they get the standard text.
 WITHOUT_TEXT: frozenset[str] = frozenset({"@cornerstonejs/codec-openjpeg"})
@@ -70,7 +70,8 @@ def package_of(folder: Path, package: dict[str, Any]) -> Crate:
 
 def crates() -> list[Crate]:
     """The crates that the WebAssembly links."""
-    return linked_crates((TARGET,), CRATE)
+    found = {(crate.name, crate.version): crate for root in CRATES for crate in linked_crates((TARGET,), root)}
+    return sorted(found.values(), key=lambda crate: (crate.name, crate.version))
 
 
 def write() -> None:

@@ -1,4 +1,5 @@
-// Compiles the crates of the page to src/core/pkg: the engine, and in `dicom/` the module for DICOM, loaded on demand.
+// Compiles the crates of the page to src/core/pkg: the engine, and in `dicom/` and `volumes/` modules that are loaded on
+// demand.
 // Workers share the engine's memory, so Rust's standard library is recompiled (RUSTC_BOOTSTRAP, `build-std`).
 // Without `panic=immediate-abort`, which ends the module at a panic, the modules would be 5 % larger.
 import { spawnSync } from 'node:child_process';
@@ -12,7 +13,7 @@ const target = 'wasm32-unknown-unknown';
 /** Release modules take minutes to link; `LUMENCUT_WASM_PROFILE=checks` compiles quickly. */
 const profile = process.env.LUMENCUT_WASM_PROFILE ?? 'wasm';
 const pkg = join(web, 'src/core/pkg');
-/** The same flags for both modules, so that the standard library is compiled once. */
+/** The same flags for all modules, so that the standard library is compiled once. */
 const flags = [
   '-Zunstable-options',
   '-Cpanic=immediate-abort',
@@ -21,6 +22,7 @@ const flags = [
 const modules = [
   { crate: 'lumencut-wasm', folder: pkg, name: 'lumencut' },
   { crate: 'lumencut-dicom-wasm', folder: join(pkg, 'dicom'), name: 'lumencut_dicom' },
+  { crate: 'lumencut-volumes-wasm', folder: join(pkg, 'volumes'), name: 'lumencut_volumes' },
 ];
 
 function run(command, commandArguments, environment = {}) {
@@ -35,7 +37,7 @@ function run(command, commandArguments, environment = {}) {
   }
 }
 
-/** Compiles both crates at once, so that shared parts compile once. */
+/** Compiles all crates at once, so that shared parts compile once. */
 function compile() {
   const packages = modules.flatMap(({ crate }) => ['--package', crate]);
   run(

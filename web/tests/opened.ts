@@ -7,6 +7,7 @@ import { Failure } from '../src/core/failure';
 import type { States } from '../src/core/messages';
 import { dicom_attributes, initSync, judge_dicom } from '../src/core/pkg/dicom/lumencut_dicom.js';
 import { initSync as startEngine } from '../src/core/pkg/lumencut.js';
+import { initSync as startVolumes, VolumeFile } from '../src/core/pkg/volumes/lumencut_volumes.js';
 import { ALL_OF_IT, type Wanted } from '../src/io/dicom/wanted';
 import type { Kind } from '../src/io/numbers';
 import { ARRAYS, byteCount } from '../src/io/numbers';
@@ -67,6 +68,9 @@ vi.stubGlobal('fetch', async (address: string) => {
 
 startEngine({ module: readFileSync(new URL('../src/core/pkg/lumencut_bg.wasm', import.meta.url)) });
 initSync({ module: readFileSync(new URL('../src/core/pkg/dicom/lumencut_dicom_bg.wasm', import.meta.url)) });
+const { memory: ofVolumes } = startVolumes({
+  module: readFileSync(new URL('../src/core/pkg/volumes/lumencut_volumes_bg.wasm', import.meta.url)),
+});
 
 export function sourceOf(path: string, name: string): Source {
   return new BlobSource(name, new Blob([readFileSync(path)]));
@@ -88,6 +92,7 @@ export async function openSources(
     study: memory,
     loadJudge: async () => ({ dicom_attributes, judge_dicom }),
     kindOf,
+    loadVolumes: async () => ({ VolumeFile, memory: ofVolumes }),
     steps: new Steps(() => {}, signal),
   };
   try {

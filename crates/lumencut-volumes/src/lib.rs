@@ -43,6 +43,7 @@
 //! ```
 
 mod beside;
+mod built_in;
 mod convert;
 mod error;
 mod fill;

@@ -2,6 +2,8 @@
 
 use std::borrow::Cow;
 
+use crate::built_in;
+
 const SHOWN: usize = 60;
 
 /// A text without line breaks and control characters, which become replacement characters.
@@ -39,13 +41,7 @@ pub(crate) fn is_all_printable(text: &str) -> bool {
 
 /// Whether a character may be shown; false for control, unassigned and unusual blank characters.
 fn is_printable(letter: char) -> bool {
-    if letter.is_ascii() {
-        return !letter.is_ascii_control();
-    }
-    // Rust escapes exactly these characters, and combining marks, but the latter only at the start of a text.
-    let mut bytes = [b'a'; 5];
-    let length = 1 + letter.encode_utf8(&mut bytes[1..]).len();
-    std::str::from_utf8(&bytes[..length]).is_ok_and(|pair| pair.escape_debug().count() == 2)
+    if letter.is_ascii() { !letter.is_ascii_control() } else { built_in::is_printable(letter) }
 }
 
 /// A line of a header as UTF-8, or as Latin-1 if it is invalid, since file names may use either.
@@ -59,7 +55,7 @@ pub(crate) fn latin1(bytes: &[u8]) -> String {
 
 /// The number that a word stands for.
 pub(crate) fn number(word: &str) -> Option<f64> {
-    ungrouped(word.trim()).parse().ok()
+    built_in::real(&ungrouped(word.trim()))
 }
 
 /// A number without the underscores between its digits, which Python takes.

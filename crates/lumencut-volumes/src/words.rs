@@ -1,5 +1,6 @@
 //! Voxels written as text.
 
+use crate::built_in::real;
 use crate::convert::write_number;
 use crate::error::Error;
 use crate::numbers::Kind;
@@ -68,8 +69,8 @@ impl Words {
     fn number(&self, word: &str) -> Result<(i128, f64), Box<Error>> {
         let kind = self.kind.name();
         if !self.kind.is_integer() {
-            if let Ok(real) = word.parse() {
-                return Ok((0, real));
+            if let Some(value) = real(word) {
+                return Ok((0, value));
             }
         } else if is_whole(word) {
             let (least, most) = self.kind.limits();

@@ -1,6 +1,7 @@
 /** Access to the WebAssembly module; no other file imports it. */
 import type { Judge } from './judge';
 import init, { Engine, initSync, run_thread, use_threads } from './pkg/lumencut.js';
+import type { Volumes } from './volumes';
 
 export { Engine };
 
@@ -9,6 +10,14 @@ export async function loadJudge(): Promise<Judge> {
   const module = await import('./pkg/dicom/lumencut_dicom.js');
   await module.default({ module_or_path: new URL('./pkg/dicom/lumencut_dicom_bg.wasm', import.meta.url) });
   return module;
+}
+
+/** Loads the module for volume files on first use. */
+export async function loadVolumes(): Promise<Volumes> {
+  const { default: start, VolumeFile } = await import('./pkg/volumes/lumencut_volumes.js');
+  const address = new URL('./pkg/volumes/lumencut_volumes_bg.wasm', import.meta.url);
+  const { memory } = await start({ module_or_path: address });
+  return { VolumeFile, memory };
 }
 
 /** What a thread needs to compute in the memory of another worker. */

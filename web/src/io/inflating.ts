@@ -1,6 +1,6 @@
-/** Decompresses gzip, zlib and raw deflate in pieces of bounded size. */
+/** Decompresses the beginnings of gzipped files, and deflate streams in pieces of bounded size. */
 import { Z_BUF_ERROR, Z_NO_FLUSH, Z_OK, Z_STREAM_END, ZStream, zlibInflate, zlibInflateInit2 } from 'pako';
-import type { Source } from './source';
+import type { Bytes, Source } from './source';
 import { damaged } from './words';
 
 /** `wrapped` is gzip or zlib, detected by content; `bare` is deflate without a header. */
@@ -8,10 +8,8 @@ export type Wrapping = 'wrapped' | 'bare';
 
 const WINDOW_BITS: Readonly<Record<Wrapping, number>> = { wrapped: 47, bare: -15 };
 const CHUNK = 1 << 18;
-const PIECE = 1 << 20;
-/** Limit of empty parts: real files have at most one, at the end. */
-const MOST_EMPTY = 1000;
-const MAGIC = 2;
+/** Bytes of a file that are looked at for the first ones of its content. */
+const MOST = 1 << 20;
 
 export class Part {
   private readonly stream = new ZStream();
@@ -53,80 +51,30 @@ export class Part {
   }
 }
 
-/** Unpacks up to `wanted` bytes of all parts from byte `start`; checks the checksum of a part that ends with them. */
-export async function* inflated(
-  source: Source,
-  start: number,
-  wanted: number,
-): AsyncGenerator<Uint8Array<ArrayBuffer>> {
-  let [part, at, left, empty] = [new Part('wrapped', source.path), start, wanted, 0];
-  for (;;) {
-    const isAtEnd = part.isHungry && at >= source.size;
-    if (part.isHungry && !isAtEnd) {
-      const chunk = await source.slice(at, at + CHUNK);
-      at += chunk.length;
-      part.give(chunk);
-    }
-    // One byte more, so that a part ending there verifies its checksum.
-    const piece = part.take(Math.min(left + 1, PIECE));
-    if (piece.length > 0 && left > 0) {
-      yield piece.subarray(0, left);
-    }
-    if (piece.length > left) {
-      return;
-    }
-    left -= piece.length;
-    empty = piece.length > 0 ? 0 : empty;
-    if (part.hasEnded) {
-      const rest = await withMore(part.rest, source, at);
-      at = Math.max(at, rest.at);
-      empty += 1;
-      if (left === 0 || !begins(rest.bytes) || empty > MOST_EMPTY) {
-        return;
-      }
-      part = new Part('wrapped', source.path);
-      part.give(rest.bytes);
-    } else if (isAtEnd && piece.length === 0) {
-      break;
-    }
-  }
-  if (left === 0) {
-    throw damaged(source.path, 'a compressed stream that breaks off', 'a whole one');
-  }
-}
-
-/** Adds bytes of the file until they show whether another part begins. */
-async function withMore(
-  rest: Uint8Array,
-  source: Source,
-  at: number,
-): Promise<{ bytes: Uint8Array; at: number }> {
-  if (rest.length >= MAGIC) {
-    return { bytes: rest, at };
-  }
-  const more = await source.slice(at, at + CHUNK);
-  const bytes = new Uint8Array(rest.length + more.length);
-  bytes.set(rest);
-  bytes.set(more, rest.length);
-  return { bytes, at: at + more.length };
-}
-
-function begins(bytes: Uint8Array): boolean {
-  return bytes[0] === 0x1f && bytes[1] === 0x8b;
-}
-
-export const isGzip = begins;
-
-/** First bytes of a file, unpacked if gzipped; the file may be truncated after them. */
-export async function firstBytes(source: Source, count: number): Promise<Uint8Array<ArrayBuffer>> {
+/** First bytes of a file, unpacked if gzipped; the file may be damaged behind them. */
+export async function firstBytes(source: Source, count: number): Promise<Bytes> {
   const head = await source.slice(0, count);
-  if (!begins(head)) {
+  if (!isGzip(head)) {
     return head;
   }
   const found = new Uint8Array(count);
-  let length = 0;
+  let [part, at, length] = [new Part('wrapped', source.path), 0, 0];
   try {
-    for await (const piece of inflated(source, 0, count)) {
+    while (length < count && at < MOST) {
+      if (part.hasEnded) {
+        const { rest } = part;
+        part = new Part('wrapped', source.path);
+        part.give(rest);
+      }
+      if (part.isHungry) {
+        const chunk = await source.slice(at, at + CHUNK);
+        if (chunk.length === 0) {
+          break;
+        }
+        at += chunk.length;
+        part.give(chunk);
+      }
+      const piece = part.take(count - length);
       found.set(piece, length);
       length += piece.length;
     }
@@ -134,4 +82,8 @@ export async function firstBytes(source: Source, count: number): Promise<Uint8Ar
     // The bytes before the damage identify the file; reading on fails again.
   }
   return found.subarray(0, length);
+}
+
+function isGzip(bytes: Uint8Array): boolean {
+  return bytes[0] === 0x1f && bytes[1] === 0x8b;
 }

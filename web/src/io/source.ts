@@ -1,12 +1,14 @@
 /** A file to read: chosen, dropped, fetched, or a member of an archive. */
 import { Failure } from '../core/failure';
 
+export type Bytes = Uint8Array<ArrayBuffer>;
+
 export interface Source {
   /** The path, which messages show as the name of the file. */
   readonly path: string;
   readonly size: number;
   /** Bytes from `start` to `end`; fewer if the file ends earlier. */
-  slice(start: number, end: number): Promise<Uint8Array<ArrayBuffer>>;
+  slice(start: number, end: number): Promise<Bytes>;
 }
 
 export class BlobSource implements Source {
@@ -19,7 +21,7 @@ export class BlobSource implements Source {
     return this.blob.size;
   }
 
-  async slice(start: number, end: number): Promise<Uint8Array<ArrayBuffer>> {
+  async slice(start: number, end: number): Promise<Bytes> {
     try {
       return new Uint8Array(await this.blob.slice(start, end).arrayBuffer());
     } catch {

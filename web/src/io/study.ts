@@ -4,14 +4,12 @@ import { FILES } from '../core/generated/tables';
 import type { Judge } from '../core/judge';
 import type { States } from '../core/messages';
 import type { ScanStudy } from '../core/scan-study';
+import type { Volumes } from '../core/volumes';
 import type { Wanted } from './dicom/wanted';
 import { type KindOf, type Known, known } from './kinds';
-import { openMetaImage } from './metaimage';
-import { openNifti } from './nifti';
-import { openNrrd } from './nrrd';
 import { type Beside, fileName, type Source } from './source';
 import type { Steps } from './steps';
-import { load, type Sink } from './volume-file';
+import { readVolume, type Sink } from './volume-file';
 import { formatFailure } from './words';
 
 /** Receives the volume and centerlines of a study; implemented by the engine and by test doubles. */
@@ -24,6 +22,7 @@ export interface LoadContext {
   readonly study: Study;
   readonly loadJudge: () => Promise<Judge>;
   readonly kindOf: KindOf;
+  readonly loadVolumes: () => Promise<Volumes>;
   readonly steps: Steps;
 }
 
@@ -145,7 +144,7 @@ interface Asked extends LoadContext {
 async function openVolume(sorted: Sorted, every: readonly Source[], asked: Asked): Promise<Volume | null> {
   const [volume] = sorted.volumes;
   if (volume) {
-    return openFile(volume, asked);
+    return openFile(volume.source, asked);
   }
   const [archive] = sorted.archives;
   if (!archive && sorted.dicom.length === 0) {
@@ -167,12 +166,16 @@ async function membersOf(archive: Source): Promise<Source[]> {
   return zip.membersOf(archive);
 }
 
-async function openFile({ source, kind }: Known, { beside, study, steps }: Asked): Promise<Volume> {
-  const open = kind === 'nrrd' ? openNrrd : kind === 'metaimage' ? openMetaImage : openNifti;
-  const file = await open(source, beside);
-  await load(file, study, steps);
-  const notes = [...file.notes, ...sideNotes(study, file.content)];
-  return { study: null, name: fileName(source.path), notes, states: file.states };
+async function openFile(source: Source, { beside, study, steps, loadVolumes }: Asked): Promise<Volume> {
+  const volumes = await loadVolumes();
+  const {
+    notes: stated,
+    description,
+    spacing,
+    orientation,
+  } = await readVolume(source, { beside, volumes, sink: study, steps });
+  const notes = [...stated, ...sideNotes(study, description)];
+  return { study: null, name: fileName(source.path), notes, states: { spacing, orientation } };
 }
 
 const sideNotes = (study: Study, text = ''): readonly string[] => (text && study.sideNotes?.(text)) || [];

@@ -1,10 +1,9 @@
-/** A volume file with a parsed header, and the transfer of its voxels to the engine. */
+/** Reads volume files with the crate `lumencut-volumes`, and transfers their voxels to the engine. */
 import { Failure } from '../core/failure';
-import type { States } from '../core/messages';
-import { byteCount, numbersOf, type StoredKind } from './numbers';
-import { type Bytes, type Place, requireRoom, voxelBytes } from './payload';
-import { conversion, needsRange, type Scaling } from './rescale';
-import type { Labels } from './segments';
+import { EVERY_SECOND } from '../core/mends';
+import type { Opening, Plan, Step, VolumeFile, Volumes } from '../core/volumes';
+import { Ahead } from './ahead';
+import { type Beside, besidePath, fileName, type Source } from './source';
 import type { Steps } from './steps';
 import { formatFailure } from './words';
 
@@ -22,26 +21,21 @@ interface Grid {
 /** Receives voxels; implemented by the engine and by test doubles. */
 export interface Sink {
   begin_volume(header: string): void;
+  /** Copies the bytes before it returns. */
   take_voxels(offset: number, bytes: Uint8Array): void;
   /** Share of the voxels that is kept; all if absent. */
   readonly share?: number;
 }
 
-/** A volume with a checked header and unread voxels. */
-export interface VolumeFile {
-  readonly path: string;
-  readonly format: string;
-  readonly size: Size;
-  readonly worldFromIndex: Affine;
-  readonly stored: StoredKind;
-  readonly scaling: Scaling;
-  readonly place: Place;
-  readonly notes: readonly string[];
-  readonly states: States;
-  /** Description in the file. It may name a patient, so only the engine reads it. */
-  readonly content?: string;
-  readonly labels?: Labels | null;
+interface Means {
+  readonly beside: Beside;
+  readonly volumes: Volumes;
+  readonly sink: Sink;
+  readonly steps: Steps;
 }
+
+/** WebAssembly has no more memory than this. */
+const MEMORY = 2 ** 32;
 
 /** Allocates a volume in the engine. Errors about its grid name the file. */
 export function begin(sink: Sink, path: string, grid: Grid, dtype: string): void {
@@ -56,73 +50,116 @@ export function begin(sink: Sink, path: string, grid: Grid, dtype: string): void
   }
 }
 
-export async function load(file: VolumeFile, sink: Sink, steps: Steps): Promise<void> {
-  requireNumbers(file);
-  const needed = file.size.reduce((count, side) => count * side, storedBytes(file));
-  await requireRoom({ ...file.place, share: sink.share ?? 1 }, needed, file.stored.kind, steps);
-  const isWanted = needsRange(file.stored.kind, file.scaling);
-  const range = isWanted ? await rangeOf(file, needed, steps) : null;
-  const map = file.labels?.map;
-  const { kind, convert } = map
-    ? { kind: map.kind, convert: (bytes: Bytes) => map.convert(bytes) }
-    : conversion(orderInMemory(file), file.scaling, range);
-  const names = file.labels && { label_names: file.labels.names };
-  begin(sink, file.path, { size: file.size, world_from_index: file.worldFromIndex, ...names }, kind);
-  let offset = 0;
-  for await (const bytes of wholeVoxels(file, needed)) {
-    const voxels = convert(bytes);
-    sink.take_voxels(offset, voxels);
-    offset += voxels.length;
-    await steps.step('Volume', (offset / byteCount(kind)) * storedBytes(file), needed);
-  }
-  map?.refuseOverlaps();
-}
-
-const storedBytes = ({ stored, labels }: VolumeFile): number =>
-  byteCount(stored.kind) * (labels?.layers ?? 1);
-
-/** Throws if the grid contains a number that is not finite, since JSON cannot represent it. */
-function requireNumbers(file: VolumeFile): void {
-  if (!file.worldFromIndex.flat().every(Number.isFinite)) {
-    const found = 'a number in world_from_index that is not finite';
-    throw formatFailure(file.path, found, 'finite numbers', 'correct the position of the volume');
+/** Reads a volume file, or either file of a pair. */
+export async function readVolume(source: Source, means: Means): Promise<Plan> {
+  const file = new means.volumes.VolumeFile(fileName(source.path));
+  try {
+    return await new Reading(source, file, means).read();
+  } finally {
+    file.free();
   }
 }
 
-/** Type and byte order of the voxels in memory; values parsed from text have native byte order. */
-function orderInMemory({ stored, place }: VolumeFile): StoredKind {
-  return place.codec === 'text' ? { ...stored, isBig: false } : stored;
-}
+class Reading {
+  private readonly path: string;
+  /** Files by their names relative to the folder. */
+  private readonly sources = new Map<string, Source | null>();
 
-async function rangeOf(file: VolumeFile, needed: number, steps: Steps): Promise<readonly [number, number]> {
-  let [low, high, done] = [Number.POSITIVE_INFINITY, Number.NEGATIVE_INFINITY, 0];
-  for await (const bytes of wholeVoxels(file, needed)) {
-    done += bytes.length;
-    for (const value of numbersOf(orderInMemory(file), bytes)) {
-      low = Math.min(low, Number(value));
-      high = Math.max(high, Number(value));
+  constructor(
+    source: Source,
+    private readonly file: VolumeFile,
+    private readonly means: Means,
+  ) {
+    this.path = source.path;
+    this.sources.set(fileName(source.path), source);
+  }
+
+  async read(): Promise<Plan> {
+    const plan = await this.plan();
+    const rows = this.file.world_from_index();
+    if (!rows.every(Number.isFinite)) {
+      const found = 'a number in world_from_index that is not finite';
+      throw formatFailure(this.path, found, 'finite numbers', 'correct the position of the volume');
     }
-    await steps.step('Checking the volume', done, needed);
+    await this.fill(plan, gridOf(plan, [...rows]));
+    return plan;
   }
-  return [low, high];
-}
 
-async function* wholeVoxels(file: VolumeFile, needed: number): AsyncGenerator<Bytes> {
-  const unit = storedBytes(file);
-  let begun: Bytes = new Uint8Array();
-  for await (const piece of voxelBytes(file.place, needed, file.stored.kind)) {
-    const bytes = begun.length === 0 ? piece : joined(begun, piece);
-    const whole = bytes.length - (bytes.length % unit);
-    begun = bytes.slice(whole);
-    if (whole > 0) {
-      yield bytes.subarray(0, whole);
+  private async plan(): Promise<Plan> {
+    for (;;) {
+      const answer: Opening = JSON.parse(this.asked(() => this.file.open()));
+      if ('sizes' in answer) {
+        for (const name of answer.sizes) {
+          this.file.add_size(name, (await this.source(name))?.size);
+        }
+      } else if ('bytes' in answer) {
+        const [start, end] = answer.range;
+        const source = await this.source(answer.bytes);
+        this.file.add_bytes(answer.bytes, start, (await source?.slice(start, end)) ?? new Uint8Array());
+      } else {
+        return answer;
+      }
     }
   }
+
+  private async source(name: string): Promise<Source | null> {
+    if (!this.sources.has(name)) {
+      this.sources.set(name, await this.means.beside(besidePath(this.path, name)));
+    }
+    return this.sources.get(name) ?? null;
+  }
+
+  private async fill(plan: Plan, grid: Grid): Promise<void> {
+    const { file, means } = this;
+    const source = await this.source(plan.voxels);
+    this.asked(() => file.begin(source?.size));
+    const ahead = new Ahead(source);
+    let [offset, all] = [0, 0];
+    for (;;) {
+      const step: Step = JSON.parse(this.asked(() => file.step()));
+      if (step.filled > 0) {
+        const { buffer } = means.volumes.memory;
+        means.sink.take_voxels(offset, new Uint8Array(buffer, file.output(), step.filled));
+        offset += step.filled;
+      }
+      if (step.isDone) {
+        return;
+      }
+      this.refuseLarge(source?.path ?? this.path, step.least ?? 0);
+      if (step.room) {
+        all = step.room.bytes;
+        begin(means.sink, this.path, grid, step.room.dtype);
+      }
+      if (step.read) {
+        const [start] = step.read;
+        file.read(start, await ahead.from(start));
+      }
+      const isChecking = all === 0;
+      await means.steps.step(isChecking ? 'Checking the volume' : 'Volume', offset, isChecking ? null : all);
+    }
+  }
+
+  private refuseLarge(path: string, least: number): void {
+    if (least * (this.means.sink.share ?? 1) > MEMORY) {
+      const found = `${least} bytes of voxels as the header says`;
+      const expected = `at most the ${MEMORY} bytes that a page can hold`;
+      throw formatFailure(path, found, expected, '', { mends: [EVERY_SECOND] });
+    }
+  }
+
+  /** What the module answers. Its errors name files without their folder. */
+  private asked<T>(question: () => T): T {
+    try {
+      return question();
+    } catch (error) {
+      const { kind, subject, found, expected, advice } = Failure.of(error);
+      throw new Failure(kind, besidePath(this.path, subject), found, expected, advice);
+    }
+  }
 }
 
-export function joined(first: Uint8Array, second: Uint8Array): Bytes {
-  const both = new Uint8Array(first.length + second.length);
-  both.set(first);
-  both.set(second, first.length);
-  return both;
+function gridOf({ size, label_names }: Plan, numbers: readonly number[]): Grid {
+  const rows = [numbers.slice(0, 4), numbers.slice(4, 8), numbers.slice(8), [0, 0, 0, 1]];
+  const grid = { size, world_from_index: rows };
+  return Object.keys(label_names).length > 0 ? { ...grid, label_names } : grid;
 }

@@ -2,7 +2,7 @@
 import type { Answer, Attachments, Message, Question } from '../core/asked';
 import { Failure } from '../core/failure';
 import type { AfterEdit, GivenFile } from '../core/messages';
-import { type Engine, loadJudge } from '../core/module';
+import { type Engine, loadJudge, loadVolumes } from '../core/module';
 import { ALL_OF_IT } from '../io/dicom/wanted';
 import { among, BlobSource } from '../io/source';
 import { Steps } from '../io/steps';
@@ -48,6 +48,7 @@ async function readMask(
     study,
     loadJudge,
     kindOf,
+    loadVolumes,
     steps,
   });
   return notes;

@@ -1,8 +1,7 @@
 /** Members of a zip archive. Each is unpacked into memory on demand, and rejected if larger than the archive states. */
 import { configure, type FileEntry, Reader, ZipReader } from '@zip.js/zip.js/lib/zip-core-custom.js';
 import { Failure } from '../../core/failure';
-import type { Bytes } from '../payload';
-import type { Source } from '../source';
+import type { Bytes, Source } from '../source';
 import { damaged, formatFailure, printable } from '../words';
 
 /** Unpacked size that is always allowed (bytes). Above it the ratio applies, which real slices never reach. */

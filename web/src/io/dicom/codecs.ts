@@ -1,5 +1,5 @@
 /** Decoders for compressed frames. Each is loaded when the first frame needs it. */
-import type { Bytes } from '../payload';
+import type { Bytes } from '../source';
 import type { Decoded } from './decoded';
 import { decodeLossless } from './jpeg-lossless';
 

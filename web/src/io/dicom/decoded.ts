@@ -1,5 +1,5 @@
 /** A decoded frame. */
-import type { Bytes } from '../payload';
+import type { Bytes } from '../source';
 
 export interface Decoded {
   readonly columns: number;

@@ -1,8 +1,7 @@
 /** The stored bytes of each frame of a DICOM image. */
 
 import type { Failure } from '../../core/failure';
-import type { Bytes } from '../payload';
-import type { Source } from '../source';
+import type { Bytes, Source } from '../source';
 import { damaged, formatFailure } from '../words';
 import type { Image } from './headers';
 import { parsed, SYNTAXES } from './parsing';

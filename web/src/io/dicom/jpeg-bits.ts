@@ -1,5 +1,5 @@
 /** Reads bits and Huffman codes of compressed JPEG data. */
-import type { Bytes } from '../payload';
+import type { Bytes } from '../source';
 
 /** How many bits a decoder may read beyond the end of the data. */
 const LOOK_AHEAD = 32;

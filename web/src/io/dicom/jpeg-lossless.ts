@@ -1,5 +1,5 @@
 /** Decodes lossless JPEG (ITU T.81, process 14) with one component, which the decoder packages do not support. */
-import type { Bytes } from '../payload';
+import type { Bytes } from '../source';
 import type { Decoded } from './decoded';
 import { Bits, Codes, DamagedScan } from './jpeg-bits';
 

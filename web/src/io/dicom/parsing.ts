@@ -1,7 +1,7 @@
 /** Parses a DICOM file up to its pixel data, with the package dicom-parser. */
 import dicomParser, { type ByteStream, type Element } from 'dicom-parser';
 import { Part } from '../inflating';
-import type { Bytes } from '../payload';
+import type { Bytes } from '../source';
 import { formatFailure } from '../words';
 import { TAGS } from './attributes';
 import { lettersAt, PREAMBLE } from './recognising';

@@ -1,6 +1,6 @@
 /** Reads the stored values of slices, before rescaling. */
 import { type Kind, type Numbers, numbersOf } from '../numbers';
-import type { Bytes } from '../payload';
+import type { Bytes } from '../source';
 import { damaged, formatFailure } from '../words';
 import { CODECS, type CodecName, decoderOf, forgetDecoder } from './codecs';
 import type { Decoded } from './decoded';

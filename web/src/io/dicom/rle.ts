@@ -1,5 +1,5 @@
 /** Decodes DICOM RLE (PS3.5 annex G): run-length coding of each byte plane. */
-import type { Bytes } from '../payload';
+import type { Bytes } from '../source';
 
 const HEADER = 64;
 

@@ -10,12 +10,12 @@ import {
   kindName,
   type Numbers,
 } from '../numbers';
-import { isIntegral, isScaled, type Scaling, scaled } from '../rescale';
 import type { Steps } from '../steps';
 import { begin, type Sink } from '../volume-file';
 import type { ExaminedFile } from './headers';
 import type { Plan, PlannedSlice } from './judging';
 import { PixelReader } from './pixels';
+import { isIntegral, isScaled, type Scaling, scaled } from './rescale';
 
 type Range = readonly [number, number];
 

@@ -1,5 +1,5 @@
 /** Reads the image size from a compressed frame, to check it before a decoder allocates memory. */
-import type { Bytes } from '../payload';
+import type { Bytes } from '../source';
 
 export interface StreamSize {
   readonly columns: number;

@@ -1,7 +1,6 @@
 /** The study of a series: the header of one of its images, and the UIDs of all its images. */
 import type { ReadScan } from '../../core/scan-study';
-import type { Bytes } from '../payload';
-import type { Source } from '../source';
+import type { Bytes, Source } from '../source';
 import { formatFailure } from '../words';
 import { type ExaminedFile, pixelsOf } from './headers';
 import type { Plan } from './judging';
