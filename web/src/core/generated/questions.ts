@@ -756,15 +756,15 @@ export type SavedSession = {
   readonly scan: SavedScan | null;
   /** State of each vessel. */
   readonly vessels: ReadonlyArray<SavedVessel>;
-  /** Branches found from a seed that the reader has not accepted yet. */
+  /** Branches that were found from a seed, and that the reader has not accepted yet. */
   readonly doubtful: ReadonlyArray<SavedBranch>;
-  /** Balls that no vessel may pass. */
+  /** Spheres that traced vessels must not enter. */
   readonly stoppers: ReadonlyArray<SavedStopper>;
   /** Whether tracing may cross stretches without lumen by straight bridges. */
   readonly bridge: boolean;
   /** Straight distances that the reader measured. */
   readonly rulers: ReadonlyArray<SavedRuler>;
-  /** FWHM of the point spread that the reader stated (mm); None if it is estimated. */
+  /** FWHM of the point-spread function (mm) that the reader stated; None if it is estimated. */
   readonly fwhm_mm: number | null;
   /** The view of the scan, if saved. */
   readonly view: SavedView | null;
@@ -772,7 +772,7 @@ export type SavedSession = {
   readonly one_millimetre_assumed?: boolean;
 };
 
-/** A ball that no vessel may pass. */
+/** A sphere that traced vessels must not enter. */
 export type SavedStopper = {
   /** Centre. */
   readonly center: Vector;
@@ -784,7 +784,7 @@ export type SavedStopper = {
 export type SavedVessel = {
   /** Colour as `#rrggbb`. */
   readonly color: string;
-  /** Whether views leave out the vessel. */
+  /** Whether the vessel is hidden in all views. */
   readonly hidden: boolean;
   /** Clicks in order; None if the vessel was not traced from clicks. */
   readonly clicks: ReadonlyArray<Vector> | null;
@@ -804,7 +804,7 @@ export type SavedView = {
   readonly layout: string;
   /** Position of the cross-hair, if it is shown. */
   readonly cross_hair: Vector | null;
-  /** Vessel of the straightened CPR, and the place of its section. */
+  /** The vessel that is shown straightened, and the place whose cross-section is shown. */
   readonly picked: SavedPlace | null;
 };
 

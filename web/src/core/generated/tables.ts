@@ -161,3 +161,9 @@ export const GESTURES = {
   /** Smallest width of a window, in values of the volume (value). */
   narrowest_window: 0.001,
 } as const;
+
+/** Side of a section picture in a report (pixels). */
+export const SECTION_PIXELS = 300;
+
+/** Half width of the uncertainty band, in standard deviations. */
+export const DEVIATIONS = 2;
