@@ -1,14 +1,16 @@
-"""Generate the class `Settings` and ``docs/settings.md`` from the table of settings.
+"""Generate the class `Settings`, ``docs/settings.md`` and the defaults in ``docs/python.md`` from the tables.
 
-The table is `crates/lumencut-core/src/settings/table.rs`, read from the built package.
+The tables, `settings/table.rs` and `defaults.rs`, are read from the built package.
 """
 
 from __future__ import annotations
 
+import math
+import re
 import textwrap
 from pathlib import Path
 
-from lumencut._lumencut import SETTINGS, Setting
+from lumencut._lumencut import QUANTITIES, SETTINGS, Setting
 from lumencut.window import WINDOW_NAMES
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -217,9 +219,36 @@ def page_default(setting: Setting) -> str:
     return str(setting.default)
 
 
+def with_defaults(text: str) -> str:
+    """A page with the table of defaults between its marks."""
+    rows = "\n".join(
+        f"| `{name}` | {default_of(default)} | {limits(*span)} | {unit} | {about} |"
+        for name, _, unit, span, default, about in QUANTITIES
+    )
+    table = f"| parameter | default | range | unit | what it is |\n|---|---|---|---|---|\n{rows}\n"
+    return re.sub(r"(<!-- defaults -->\n).*(<!-- end -->)", rf"\1{table}\2", text, flags=re.DOTALL)
+
+
+def default_of(number: float) -> str:
+    """A default as pages state it."""
+    return plain(number).replace("-", "−")
+
+
+def limits(low: float, high: float) -> str:
+    """A range as pages state it."""
+    if math.isinf(high):
+        return "above 0" if low > 0 else f"from {plain(low)}"
+    return f"{plain(low)} to {plain(high)}".replace("-", "−")
+
+
 def files() -> dict[Path, str]:
-    """Each file that repeats the table, and what it has to hold."""
-    return {ROOT / "python/lumencut/settings.py": class_file(), ROOT / "docs/settings.md": page()}
+    """Each file that repeats a table, and what it has to hold."""
+    python = ROOT / "docs/python.md"
+    return {
+        ROOT / "python/lumencut/settings.py": class_file(),
+        ROOT / "docs/settings.md": page(),
+        python: with_defaults(python.read_text("utf-8")),
+    }
 
 
 if __name__ == "__main__":

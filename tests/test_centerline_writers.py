@@ -136,7 +136,7 @@ def test_markups_are_those_of_3d_slicer(tmp_path):
 
 @pytest.mark.parametrize("name", ["tree.npy", "tree.json", "tree", "vtp"])
 def test_other_endings_are_refused(tmp_path, name):
-    with pytest.raises(FormatError, match=r"expected '\.vtp', '\.mrk\.json', '\.vtk', '\.csv' or '\.swc'"):
+    with pytest.raises(FormatError, match=r"expected '\.vtp', '\.vtk', '\.mrk\.json', '\.swc' or '\.csv'"):
         write_centerlines(small_tree(), tmp_path / name)
     assert os.listdir(tmp_path) == []
 

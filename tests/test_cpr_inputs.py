@@ -130,7 +130,7 @@ def test_repeated_points_change_nothing(volume):
 
 def test_defaults(volume):
     made = cpr(volume, STRAIGHT)
-    assert (made.mode, made.angle, made.pixel_spacing) == ("projected", 0.0, volume.spacing.min())
+    assert (made.mode, made.angle, made.pixel_spacing) == ("projected", 0.0, 0.25)
     assert made.size[0] == 2 * int(25 / made.pixel_spacing) + 1
     assert made.timings == {}
     assert made.image.shape == (*made.size[::-1], 4)

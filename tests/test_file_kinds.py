@@ -4,18 +4,20 @@ from __future__ import annotations
 
 import gzip
 import os
+from pathlib import Path
 
 import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from lumencut import read_centerlines, read_volume
+from lumencut import _lumencut, read_centerlines, read_volume
 from lumencut.cli import main
 from lumencut.errors import FileError, FormatError
 from lumencut.file_kinds import kind_of
 from scene_files import bent_line, write_lines, write_volume
 from volume_samples import coded, save, slice_of, write_stack
 
+ROOT = Path(__file__).resolve().parent.parent
 IMAGE_XML = b'<?xml version="1.0"?>\n<VTKFile type="ImageData"><ImageData/></VTKFile>'
 IMAGE_JSON = b'{"vtkClass": "vtkImageData", "spacing": [1, 1, 1], "extent": [0, 1, 0, 1, 0, 1]}'
 IMAGE_LEGACY = b"# vtk DataFile Version 3.0\nt\nASCII\nDATASET STRUCTURED_POINTS\nDIMENSIONS 2 2 2\n"
@@ -61,6 +63,20 @@ def test_kinds_of_volumes_and_of_nothing(tmp_path):
     if hasattr(os, "mkfifo"):
         os.mkfifo(tmp_path / "pipe.vtp")
         assert kind_of(tmp_path / "pipe.vtp") is None
+
+
+def test_every_row_of_the_table_is_named_and_documented(tmp_path):
+    page = (ROOT / "docs/files.md").read_text("utf-8")
+    for name, role, title, extensions, written in _lumencut.FILE_KINDS:
+        assert set(written) <= set(extensions)
+        assert all(f"`{extension}`" in page for extension in extensions)
+        words = _lumencut.VOLUME_FILES if role == "volume" else _lumencut.CENTERLINE_FILES
+        if title and name not in ("text table", "numpy"):
+            assert all(extension in words for extension in extensions)
+            path = tmp_path / f"a{extensions[0]}"
+            path.write_text("content that states nothing")
+            known = kind_of(path)
+            assert (known.role, known.mend) == (role, "") if known else name == "nrrd"
 
 
 def test_centerlines_and_foreign_images_as_a_volume(tmp_path):

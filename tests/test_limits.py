@@ -14,6 +14,7 @@ from dicom_phantom import instance
 from dicom_phantom import save as save_instance
 from lumencut.cli import main
 from lumencut.errors import FormatError
+from lumencut.file_kinds import extensions
 from volume_samples import coded, oblique, write_stack
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -192,8 +193,8 @@ def mask_takes_segmentations():
 
 
 def centerlines_of_others():
-    kinds = source("python/lumencut/file_kinds.py")
-    return all(ending in kinds for ending in (".vtp", ".mrk.json", ".fcsv", ".pth"))
+    known = extensions("centerlines")
+    return all(ending in known for ending in (".vtp", ".mrk.json", ".fcsv", ".pth"))
 
 
 #: Features that the pages claim, by some of their words, and how to check each.

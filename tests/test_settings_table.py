@@ -30,7 +30,7 @@ def written_files():
     return module.files()
 
 
-@pytest.mark.parametrize("path", ["python/lumencut/settings.py", "docs/settings.md"])
+@pytest.mark.parametrize("path", ["python/lumencut/settings.py", "docs/settings.md", "docs/python.md"])
 def test_what_repeats_the_table_is_what_the_script_writes(path):
     assert (ROOT / path).read_text("utf-8") == written_files()[ROOT / path], "run: make settings"
 

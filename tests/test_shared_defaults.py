@@ -1,33 +1,165 @@
 """Defaults and names of methods are defined only once, below Python."""
 
+import importlib
 import inspect
 
+import numpy as np
 import pytest
+from click.testing import CliRunner
 
 import lumencut
-from lumencut import VesselTree, _lumencut
-from lumencut.cli.measure import measure as measure_command
-from lumencut.measured_vessel import GROUPS
-from lumencut.stenosis import METHODS
-
-
-@pytest.mark.parametrize(
-    ("function", "parameter", "name"),
-    [
-        (lumencut.measure, "step", "measuring_step"),
-        (VesselTree.measured, "step", "measuring_step"),
-        (lumencut.find_vessels, "smallest_radius", "smallest_radius"),
-        (lumencut.trace_from, "smallest_radius", "smallest_radius"),
-        (lumencut.trace_mask, "shortest_branch", "shortest_branch"),
-    ],
+from lumencut import (
+    Vessel,
+    VesselTree,
+    Volume,
+    _lumencut,
+    cfa,
+    cpr,
+    lumen_map,
+    spiral,
+    straightened_volume,
+    untangled,
 )
-def test_defaults_of_functions_are_those_of_the_core(function, parameter, name):
-    assert inspect.signature(function).parameters[parameter].default == _lumencut.DEFAULTS[name]
+from lumencut.cli import main
+from lumencut.cohort.recipe import Measure, Pictures
+from lumencut.cohort.study import _pictures
+from lumencut.measured_vessel import GROUPS
+from lumencut.renderer import Renderer
+from lumencut.stenosis import METHODS
+from scene_files import write_lines, write_volume_of
+
+#: Modules of functions that the package does not export.
+HOMES = {"uncurling": "lumencut.uncurling"}
+
+#: Commands, by function; their options have the names of its parameters.
+COMMANDS = {
+    "cfa": "cfa",
+    "cr": "compare",
+    "measure": "measure",
+    "trace": "trace",
+    "trace_mask": "trace",
+    "turntable": "turntable",
+    "uncurling": "uncurl",
+    "untangled": "untangled",
+    "cpr": "cpr",
+    "lumen_map": "map",
+    "spiral": "spiral",
+}
 
 
-def test_the_default_of_the_command_is_that_of_the_core():
-    (step,) = [option for option in measure_command.params if option.name == "step"]
-    assert step.default == _lumencut.DEFAULTS["measuring_step"]
+def parameters():
+    for name, also, _, _, default, _ in _lumencut.QUANTITIES:
+        function, _, parameter = name.rpartition(".")
+        for one in (function, *also):
+            yield pytest.param(one, parameter, default, id=f"{one}.{parameter}")
+
+
+def function_of(name):
+    found = importlib.import_module(HOMES.get(name.split(".")[0], "lumencut"))
+    for part in name.split("."):
+        found = getattr(found, part)
+    return found
+
+
+@pytest.mark.parametrize(("function", "parameter", "default"), list(parameters()))
+def test_defaults_of_functions_and_commands_are_those_of_the_table(function, parameter, default):
+    name, _, part = parameter.partition("[")
+    stated = inspect.signature(function_of(function)).parameters[name].default
+    if part:
+        stated = stated[int(part[0])]
+    # `cpr` has no number here: its other modes are wider than the vessel by the same margin.
+    assert stated == default or (function, parameter, stated) == ("cpr", "width", None)
+    options = main.commands[COMMANDS[function]].params if function in COMMANDS else []
+    chosen = [option.default for option in options if option.name == parameter]
+    # The command dims what lies beyond the edges, the function repeats nothing.
+    expected = 15 if (function, parameter) == ("lumen_map", "overlap") else default
+    assert all(number == expected for number in chosen if isinstance(number, (int, float)))
+
+
+def test_the_step_of_cohorts_is_that_of_the_table():
+    assert Measure().step == _lumencut.DEFAULTS["measure.step"]
+
+
+def test_the_default_width_is_that_of_the_table():
+    line = Vessel([[10, 10, 2], [10, 10, 18]])
+    volume = Volume(np.zeros((101, 101, 101), np.float32), (1.0,) * 3)
+    own = cpr(volume, line, "straightened").size
+    assert own == cpr(volume, line, "straightened", _lumencut.DEFAULTS["cpr.width"]).size
+
+
+SIDES = {
+    "coarse": ((0.8, 0.8, 1.0), 0.25),
+    "usual": ((0.2, 0.3, 0.5), 0.2),
+    "fine": ((0.02, 0.02, 0.03), 0.05),
+}
+
+
+@pytest.fixture(params=SIDES)
+def scan(request):
+    """A volume of some voxels with a vessel through its middle, and the pixel side of its reformations."""
+    spacing, side = SIDES[request.param]
+    grid = np.indices((24, 20, 20))
+    away = np.hypot(grid[1] - 10, grid[2] - 10)
+    volume = Volume(np.where(away < 5, 300.0, 0.0).astype(np.float32), spacing)
+    points = np.array([[10, 10, k] for k in range(3, 21)]) * spacing
+    return volume, Vessel(points, 4.5 * spacing[0], "aorta"), side
+
+
+def test_every_reformation_has_the_same_default_pixel_side(scan):
+    volume, vessel, side = scan
+    tree = VesselTree([vessel])
+    width = 4 * spacing_of(volume)
+    made = {
+        "straightened": cpr(volume, vessel, "straightened", width),
+        "stretched": cpr(volume, vessel, "stretched", width),
+        "projected": cpr(volume, vessel, "projected", width),
+        "cfa": cfa(volume, vessel, width),
+        "untangled": untangled(volume, tree, width=width),
+        "spiral": spiral(volume, vessel, radius=width, pitch=width / 8),
+        "map": lumen_map(volume, vessel, "radius", angle=0.0),
+    }
+    assert {name: one.pixel_spacing for name, one in made.items()} == dict.fromkeys(made, pytest.approx(side))
+    assert straightened_volume(volume, vessel, width).volume.spacing == pytest.approx([side] * 3)
+
+
+def spacing_of(volume):
+    return float(volume.spacing.min())
+
+
+@pytest.mark.parametrize("command", ["cpr", "cfa", "map", "spiral", "untangled"])
+def test_the_shell_has_this_side_too(scan, tmp_path, command):
+    volume, vessel, side = scan
+    files = [
+        write_volume_of(volume, tmp_path / "ct.nii"),
+        write_lines(tmp_path / "lines.vtk", vessel.points, float(vessel.radius[0])),
+    ]
+    words = [command, *map(str, files), "-o", str(tmp_path / "made.png"), "--coordinates", "lps"]
+    words += ["--radius", str(vessel.radius[0])] if command == "cfa" else []
+    result = CliRunner().invoke(main, words)
+    assert f"pixels of {side:g} mm" in result.output
+
+
+def test_cohorts_have_this_side_too(scan, tmp_path, monkeypatch):
+    volume, vessel, side = scan
+    made = []
+    from lumencut.cohort import study
+
+    def kept(*arguments, **named):
+        made.append(lumencut.planar_reformation.cpr_of(*arguments, **named))
+        return made[-1]
+
+    monkeypatch.setattr(study, "cpr_of", kept)
+    pictures = Pictures(views=(), looks=(), reformations=("straightened",))
+    _pictures(Renderer(volume, VesselTree([vessel]), "cpu"), pictures, tmp_path / "one")
+    assert [one.pixel_spacing for one in made] == [pytest.approx(side)]
+
+
+def test_every_host_states_the_rule():
+    words = _lumencut.PIXEL_SIDE
+    for command in ("cpr", "cfa", "map", "spiral", "untangled"):
+        assert words in " ".join(CliRunner().invoke(main, [command, "--help"]).output.split())
+    for function in (cpr, spiral, untangled, lumen_map):
+        assert words in " ".join(inspect.getdoc(function).split())
 
 
 def test_names_of_methods_are_those_of_the_core():

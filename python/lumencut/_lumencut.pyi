@@ -43,8 +43,11 @@ class _Marked(Protocol):
     def group(self) -> str | None: ...
 
 __all__ = [
+    "CENTERLINE_FILES",
     "DEFAULTS",
     "DICOM_ATTRIBUTES",
+    "FILE_HEAD",
+    "FILE_KINDS",
     "LARGEST_EXTENT",
     "LOOKS",
     "LOOK_SENTENCES",
@@ -53,6 +56,9 @@ __all__ = [
     "MENDS",
     "MILLIMETRES",
     "PAPER",
+    "PIXEL_SIDE",
+    "POINT_DISTANCE",
+    "QUANTITIES",
     "REORDERED",
     "SETTINGS",
     "SIGNS",
@@ -62,6 +68,7 @@ __all__ = [
     "VESSEL_NAMES",
     "VIEWS",
     "VIEW_METHODS",
+    "VOLUME_FILES",
     "WINDOW_PRESETS",
     "CenterlineFile",
     "Cpr",
@@ -107,6 +114,7 @@ __all__ = [
     "doubted_size",
     "edge_letters",
     "feature_window",
+    "file_kind",
     "find_vessels",
     "find_window",
     "fits_nowhere",
@@ -135,6 +143,7 @@ __all__ = [
     "parts",
     "path",
     "picture",
+    "pixel_side",
     "place_mask",
     "placement",
     "positions",
@@ -228,7 +237,17 @@ MEASURING_NOTICE: str
 STENOSIS_METHODS: list[tuple[str, str]]
 STENOSIS_TERRITORIES: list[str]
 VIEW_METHODS: list[tuple[str, str]]
+#: By function and parameter, such as ``untangled.width``.
 DEFAULTS: dict[str, float]
+#: Name, other functions with the parameter, unit, range, default and sentence.
+QUANTITIES: list[tuple[str, list[str], str, tuple[float, float], float, str]]
+POINT_DISTANCE: float
+PIXEL_SIDE: str
+#: Identifier, role, format, extensions, and those that are written.
+FILE_KINDS: list[tuple[str, str, str, list[str], list[str]]]
+FILE_HEAD: int
+VOLUME_FILES: str
+CENTERLINE_FILES: str
 SMALLEST_EXTENT: float
 LARGEST_EXTENT: float
 #: How the note ends that says of a line that its points were moved.
@@ -369,6 +388,8 @@ def coloured(
 ) -> npt.NDArray[np.uint8]: ...
 def fitted_uncurling(camera: Any, points: npt.NDArray[np.float64], smoothing: float) -> dict[str, Any]: ...
 def scale_end(value: npt.NDArray[np.float32]) -> float: ...
+def pixel_side(smallest_side: float) -> float: ...
+def file_kind(head: bytes | None, name: str = "") -> tuple[str, str, str, str]: ...
 def spiral_pitch(
     usual: float, smallest_side: float, radius: float, pixel_spacing: float, columns: float
 ) -> float: ...

@@ -7,9 +7,8 @@ import os
 from lumencut import _lumencut
 from lumencut._files import WRITABLE, checked_path, replace_whole
 from lumencut.errors import FormatError, VesselTreeError
+from lumencut.file_kinds import extensions
 from lumencut.vessel_tree import VesselTree
-
-_FORMATS = ("vtp", "mrk.json", "vtk", "csv", "swc")
 
 
 def write_centerlines(tree: VesselTree, path: str | os.PathLike[str]) -> None:
@@ -52,12 +51,12 @@ def write_centerlines(tree: VesselTree, path: str | os.PathLike[str]) -> None:
     if not isinstance(tree, VesselTree):
         raise VesselTreeError("vessel tree", type(tree).__name__, "a VesselTree")
     place = checked_path(path, WRITABLE)
-    kind = next((kind for kind in _FORMATS if place.name.lower().endswith(f".{kind}")), None)
+    known = extensions("centerlines", written=True)
+    kind = next((one for one in known if place.name.lower().endswith(one)), None)
     if kind is None:
-        raise FormatError(
-            str(place), f"the extension {place.suffix!r}", "'.vtp', '.mrk.json', '.vtk', '.csv' or '.swc'"
-        )
-    content = centerline_content(tree, kind)
+        *first, last = map(repr, known)
+        raise FormatError(str(place), f"the extension {place.suffix!r}", f"{', '.join(first)} or {last}")
+    content = centerline_content(tree, kind.removeprefix("."))
     replace_whole(place, lambda temporary: temporary.write_bytes(content))
 
 

@@ -5,20 +5,12 @@ Readers of files are chosen in another module; here a file may remain unknown.
 
 from __future__ import annotations
 
-import re
 import zlib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import Literal, cast
 
-_HEAD = 4096
-_CONVERT = "convert it to NIfTI, NRRD or MetaImage"
-_LINES = (".vtp", ".fcsv", ".pth", ".swc", ".tre", ".csv", ".mrk.json")
-#: For each length of the header: position and possible values of the magic bytes.
-_NIFTI: dict[int, tuple[int, tuple[bytes, ...]]] = {
-    348: (344, (b"n+1\0", b"ni1\0")),
-    540: (4, (b"n+2\0", b"ni2\0")),
-}
+from lumencut import _lumencut
 
 
 @dataclass(frozen=True)
@@ -47,75 +39,33 @@ def kind_of(path: Path) -> Kind | None:
     """Return the kind of a file or folder; None if it is missing, not a plain file, or unknown."""
     try:
         if path.is_dir():
-            return Kind("volume", "a folder", is_dicom=True)
-        head = _head(path) if path.is_file() else b""
+            head = None
+        elif path.is_file():
+            head = _head(path)
+        else:
+            return None
     except OSError:
         return None
-    name = path.name.lower()
-    if head:
-        return _of_bytes(head, name) or _of_text(head) or _of_name(name)
-    return None
+    kind, role, words, mend = _lumencut.file_kind(head, path.name)
+    if role == "other":
+        return None
+    of_role = cast('Literal["volume", "centerlines"]', role)
+    return Kind(of_role, words, mend, is_dicom=kind in ("dicom", "zip", "folder"))
+
+
+def extensions(role: str, *, written: bool = False) -> tuple[str, ...]:
+    """Return the file name extensions of a role, such as ``.vtp``, that are read or written."""
+    kinds = [(read, saved) for _, of_role, _, read, saved in _lumencut.FILE_KINDS if of_role == role]
+    return tuple(one for read, saved in kinds for one in (saved if written else read))
 
 
 def _head(path: Path) -> bytes:
     """Return the first bytes of a file, decompressed if it is gzipped."""
     with path.open("rb") as file:
-        head = file.read(_HEAD)
+        head = file.read(_lumencut.FILE_HEAD)
     if not head.startswith(b"\x1f\x8b"):
         return head
     try:
-        return zlib.decompressobj(zlib.MAX_WBITS | 16).decompress(head, _HEAD)
+        return zlib.decompressobj(zlib.MAX_WBITS | 16).decompress(head, _lumencut.FILE_HEAD)
     except zlib.error:
         return b""
-
-
-def _of_bytes(head: bytes, name: str) -> Kind | None:
-    if head[128:132] == b"DICM":
-        return Kind("volume", "a DICOM image", is_dicom=True)
-    if head.startswith(b"PK\3\4") and not name.endswith(".npz"):
-        return Kind("volume", "a zip archive", is_dicom=True)
-    if head.startswith(b"NRRD"):
-        return Kind("volume", "an NRRD volume")
-    for length in (int.from_bytes(head[:4], "little"), int.from_bytes(head[:4], "big")):
-        offset, magics = _NIFTI.get(length, (0, ()))
-        if head[offset : offset + 4] in magics:
-            return Kind("volume", "a NIfTI volume")
-    if re.search(rb"^ObjectType\s*=\s*Image", head, re.MULTILINE):
-        return Kind("volume", "a MetaImage volume")
-    return None
-
-
-def _of_text(head: bytes) -> Kind | None:
-    text = head.removeprefix(b"\xef\xbb\xbf").lstrip()
-    if text.startswith(b"{"):
-        return _of_json(text)
-    if text.startswith(b"<"):
-        found = re.search(rb"<VTKFile[^>]*\stype\s*=\s*[\"'](\w+)", text)
-        return _of_vtk(found[1] if found else b"")
-    if text.startswith(b"# vtk DataFile"):
-        found = re.search(rb"^\s*DATASET\s+(\w+)", text, re.MULTILINE | re.IGNORECASE)
-        return _of_vtk(found[1].upper() if found else b"")
-    return None
-
-
-def _of_vtk(kind: bytes) -> Kind | None:
-    if kind in (b"ImageData", b"STRUCTURED_POINTS"):
-        return Kind("volume", "a VTK image, which is not read", _CONVERT)
-    if kind in (b"PolyData", b"POLYDATA"):
-        return Kind("centerlines", "VTK PolyData")
-    return None
-
-
-def _of_json(text: bytes) -> Kind | None:
-    kind = re.search(rb"\"vtkClass\"\s*:\s*\"(\w+)\"", text)
-    if kind and kind[1] == b"vtkImageData":
-        return Kind("volume", "an image in the JSON of vtk.js, which is not read", _CONVERT)
-    if kind and kind[1] == b"vtkPolyData":
-        mend = "write it as XML, as the vtkXMLPolyDataWriter of VTK does"
-        return Kind("centerlines", "PolyData in the JSON of vtk.js, which is not read", mend)
-    return Kind("centerlines", "3D Slicer markups") if b'"markups"' in text else None
-
-
-def _of_name(name: str) -> Kind | None:
-    ending = next((ending for ending in _LINES if name.endswith(ending)), None)
-    return None if ending is None else Kind("centerlines", f"a {ending} file")

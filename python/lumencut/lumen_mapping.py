@@ -13,16 +13,13 @@ from lumencut._reformation_checks import check_vessel, flat_settings
 from lumencut.errors import MeasuringError, SettingsError, VesselTreeError
 from lumencut.planar_reformation import one_angle
 from lumencut.profile import Profile
-from lumencut.reformation_request import HEAD, ReformationRequest, finest_side
+from lumencut.reformation_request import HEAD, ReformationRequest, pixel_side
 from lumencut.renderer import Renderer
 from lumencut.settings import Settings
 from lumencut.slab import Slab
 from lumencut.unrolled_wall import MODES, LumenMap, MappedVessel, Mode
 from lumencut.vessel import Vessel
 from lumencut.vessel_tree import VesselTree
-
-#: Largest default pixel side (mm).
-_COARSEST = 0.25
 
 
 def lumen_map(
@@ -63,8 +60,8 @@ def lumen_map(
         wall is from the centerline, in colour. ``"thickness"`` shows how thick calcium or metal lies at the
         wall, in colour. ``"shaded"`` shows the wall as a surface, lit from inside.
     pixel_spacing : float, optional
-        Side of a pixel (mm), along the vessel and around it at the mean radius; half of the smallest side of
-        a voxel by default, at most 0.25 mm.
+        Side of a pixel (mm), along the vessel and around it at the mean radius; default: the smallest voxel
+        side, at least 0.05 and at most 0.25 mm.
     angle : float, optional
         The direction of the middle column around the vessel (radians); 0 is to the right of the straightened
         CPR at angle 0. By default, the side with most calcium is in the middle, so that the cut does not
@@ -146,7 +143,7 @@ class LumenMapRequest(ReformationRequest):
             raise MeasuringError("profile of the lumen map", type(profile).__name__, "a Profile or None")
         if not isinstance(self.tree, (VesselTree, type(None))):
             raise VesselTreeError("tree of the lumen map", type(self.tree).__name__, "a VesselTree or None")
-        asked = self.checked(pixel_spacing=min(_COARSEST, finest_side(grid) / 2))
+        asked = self.checked(pixel_spacing=pixel_side(grid))
         low, high = asked["band"]
         if not -1e3 <= low < high <= 1e3:
             found = f"from {low:g} to {high:g} mm"

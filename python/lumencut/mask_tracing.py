@@ -18,7 +18,7 @@ from lumencut.vessel_tree import VesselTree
 from lumencut.volume_files.memory import as_volume
 
 #: Largest distance between neighbouring points of the result (mm).
-_STEP = _lumencut.DEFAULTS["point_distance"]
+_STEP = _lumencut.POINT_DISTANCE
 
 _LARGEST_LABEL = 2**53
 

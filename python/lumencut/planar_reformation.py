@@ -17,7 +17,7 @@ from lumencut.errors import CameraError, SettingsError
 from lumencut.profile import Profile
 from lumencut.reformation import Reformation
 from lumencut.reformation_recipe import ReformationRecipe
-from lumencut.reformation_request import HEAD, ReformationRequest, finest_side
+from lumencut.reformation_request import HEAD, ReformationRequest, pixel_side
 from lumencut.renderer import Renderer
 from lumencut.settings import Settings
 from lumencut.tangential import TangentialReformation, TangentialRequest
@@ -194,7 +194,7 @@ def cpr(
         Distance of the outermost columns (mm), at most; an odd number of pixels is taken. By default,
         the image shows 25 mm on each side of the vessel: 50 mm where it is straightened.
     pixel_spacing : float, optional
-        Side of a pixel (mm); the smallest side of a voxel by default.
+        Side of a pixel (mm); default: the smallest voxel side, at least 0.05 and at most 0.25 mm.
     angle : float, default 0
         By how much the viewer moves to the right (radians), from the front of the patient where ``up`` is the
         head: around ``up``, or around the vessel where it is straightened.
@@ -291,7 +291,7 @@ class CprRequest(ReformationRequest):
             found = f"a normal with the mode {self.mode!r}"
             raise CameraError("normal of the CPR", found, "the mode 'straightened'")
         given = flat_settings(self.settings, self.slab)
-        asked = self.checked(pixel_spacing=finest_side(volume))
+        asked = self.checked(pixel_spacing=pixel_side(volume))
         _check_width(asked["width"], volume)
         view = (asked["up"], asked["angle"], asked["normal"])
         pixels = (asked["width"], asked["pixel_spacing"])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from lumencut import _lumencut
 from lumencut._checks import number, numbers
 from lumencut._reformation_checks import check_vessel
 from lumencut.camera import Camera
@@ -74,6 +75,6 @@ class ReformationRequest:
             raise CameraError(f"camera of the {self.subject}", type(camera).__name__, "a Camera or None")
 
 
-def finest_side(volume: Volume, coarsest: float = float("inf")) -> float:
-    """Return the default side of a pixel (mm): the smallest side of a voxel, at most `coarsest`."""
-    return min(coarsest, float(volume.spacing.min()))
+def pixel_side(volume: Volume) -> float:
+    """Return the default pixel side (mm) of every reformation of a volume."""
+    return _lumencut.pixel_side(float(volume.spacing.min()))

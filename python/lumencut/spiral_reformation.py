@@ -15,7 +15,7 @@ from lumencut.errors import SettingsError, VesselTreeError
 from lumencut.planar_reformation import one_angle
 from lumencut.reformation import Reformation
 from lumencut.reformation_recipe import ReformationRecipe
-from lumencut.reformation_request import HEAD, ReformationRequest, finest_side
+from lumencut.reformation_request import HEAD, ReformationRequest, pixel_side
 from lumencut.renderer import Renderer
 from lumencut.settings import Settings
 from lumencut.vessel import Vessel
@@ -29,9 +29,6 @@ _AREAS, _WIDEST = (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000), 0.4
 
 #: Largest number of columns with a default pitch.
 _MOST_COLUMNS = 16_000
-
-#: Largest default pixel side (mm).
-_COARSEST = 0.5
 
 
 class SpiralReformation(Reformation):
@@ -134,7 +131,7 @@ def spiral(
         ``"arc"``: samples are a pixel apart along the spirals. ``"angle"``: they are an even angle apart, so
         that every winding has the same width.
     pixel_spacing : float, optional
-        Side of a pixel (mm); the smallest side of a voxel by default, at most 0.5 mm.
+        Side of a pixel (mm); default: the smallest voxel side, at least 0.05 and at most 0.25 mm.
     angle : float, default 0
         The angle by which sections are turned (radians): 0 begins to the right of the straightened CPR.
     up : array_like, shape (3,), default (0, 0, 1)
@@ -189,9 +186,9 @@ class SpiralRequest(ReformationRequest):
         volume = self._volume(renderer, vessel)
         choice(SettingsError, "sampling of the spiral CPR", self.sampling, SAMPLINGS)
         reach = _reach(vessel) if self.radius is None else None
-        asked = self.checked(pixel_spacing=finest_side(volume, _COARSEST), radius=reach)
+        asked = self.checked(pixel_spacing=pixel_side(volume), radius=reach)
         if self.pitch is None:
-            asked["pitch"] = _fine_pitch(vessel, finest_side(volume), asked)
+            asked["pitch"] = _fine_pitch(vessel, float(volume.spacing.min()), asked)
         given = flat_settings(self.settings, self.slab)
         lengths = [asked[name] for name in ("pitch", "radius", "pixel_spacing")]
         core = _lumencut.Spiral(
@@ -213,8 +210,8 @@ def _reach(vessel: Vessel) -> float:
     return _lumencut.spiral_reach(float(_radii(vessel, "radius").max()))
 
 
-def _fine_pitch(vessel: Vessel, finest: float, parameters: dict[str, Any]) -> float:
+def _fine_pitch(vessel: Vessel, voxel: float, parameters: dict[str, Any]) -> float:
     """Return a quarter of the median radius, or more if voxels or the widest picture require that."""
     usual = float(np.median(_radii(vessel, "pitch")))
     radius, spacing = parameters["radius"], parameters["pixel_spacing"]
-    return _lumencut.spiral_pitch(usual, finest, radius, spacing, _MOST_COLUMNS)
+    return _lumencut.spiral_pitch(usual, voxel, radius, spacing, _MOST_COLUMNS)

@@ -11,7 +11,7 @@ from lumencut import _lumencut
 from lumencut._reformation_checks import SlabArgument, flat_settings
 from lumencut.camera import Camera
 from lumencut.errors import CameraError, VesselTreeError, VolumeError
-from lumencut.reformation_request import ReformationRequest, finest_side
+from lumencut.reformation_request import ReformationRequest, pixel_side
 from lumencut.renderer import Renderer
 from lumencut.settings import Settings
 from lumencut.untangled_tree import UntangledTree
@@ -56,7 +56,7 @@ def untangled(
         Standard deviation of the Gaussian that smooths the directions in which vessels are seen, along them
         (mm, 0 to 1000). Positions are not smoothed.
     pixel_spacing : float, optional
-        Side of a pixel (mm); the smallest side of a voxel by default.
+        Side of a pixel (mm); default: the smallest voxel side, at least 0.05 and at most 0.25 mm.
     root : array_like, shape (3,), optional
         A point (mm, LPS) near the end of the vessel from which the tree grows. By default, and for parts
         without it, the free end with the largest mean radius over 10 mm; on equal ones that of the smallest
@@ -119,7 +119,7 @@ class UntangledRequest(ReformationRequest):
             raise CameraError("camera", type(self.camera).__name__, "a Camera or None")
         view = Camera.anterior(tree) if self.camera is None else self.camera
         given = flat_settings(self.settings, self.slab)
-        asked = self.checked(pixel_spacing=finest_side(volume))
+        asked = self.checked(pixel_spacing=pixel_side(volume))
         *lengths, begin = asked.values()
         arrays = [(vessel.points, vessel.radius) for vessel in tree]
         core = _lumencut.Untangled(arrays, view, (*lengths, given.unknown_radius), begin)

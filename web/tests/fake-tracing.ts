@@ -179,6 +179,7 @@ export function reportOf(lines: readonly NamedLine[]): Report {
     world_from_index: [],
     corners: [],
     smallest_side: 1,
+    pixel_side: 0.25,
     scan: '',
     doubt: null,
   } as const;

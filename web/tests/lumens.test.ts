@@ -64,6 +64,7 @@ test('the ray of a pixel runs along the view direction through every point seen 
     world_from_index: [],
     corners: [],
     smallest_side: 1,
+    pixel_side: 0.25,
     scan: '',
     doubt: null,
   } as const;

@@ -13,7 +13,7 @@ import { ARRAYS, byteCount } from '../src/io/numbers';
 import { among, BlobSource, type Source } from '../src/io/source';
 import { Steps } from '../src/io/steps';
 import { openFiles } from '../src/io/study';
-import { askAtOnce } from '../src/worker/answers';
+import { askAtOnce, kindOf } from '../src/worker/answers';
 
 export interface Header {
   readonly size: [number, number, number];
@@ -87,6 +87,7 @@ export async function openSources(
   const means = {
     study: memory,
     loadJudge: async () => ({ dicom_attributes, judge_dicom }),
+    kindOf,
     steps: new Steps(() => {}, signal),
   };
   try {

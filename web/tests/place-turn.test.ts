@@ -35,7 +35,15 @@ const TURN: PlaceTurn = {
 };
 
 const shown = (line: number): Report => ({
-  volume: { size: [1, 1, 1], world_from_index: [], corners: [], smallest_side: 1, scan: '', doubt: null },
+  volume: {
+    size: [1, 1, 1],
+    world_from_index: [],
+    corners: [],
+    smallest_side: 1,
+    pixel_side: 0.25,
+    scan: '',
+    doubt: null,
+  },
   vessels: [{ line, name: '', length: 50, has_radius: true }],
   windows: null,
 });

@@ -29,6 +29,7 @@ const VOLUME: VolumeReport = {
     [-30, 30].flatMap((y) => [-20, 20].map((z) => [x, y, z] as unknown as Vector)),
   ),
   smallest_side: 1,
+  pixel_side: 0.25,
   scan: '',
   doubt: null,
 };

@@ -16,6 +16,7 @@ const REPORT: Report = {
     world_from_index: GRID,
     corners: [],
     smallest_side: 0.5,
+    pixel_side: 0.25,
     scan: '',
     doubt: null,
   },

@@ -20,11 +20,8 @@ use lumencut::named::Named;
 use lumencut::scan_details::ScanDetails;
 use lumencut::stop::Stop;
 use lumencut::study::view;
-use lumencut::trace::lumen::refine;
-use lumencut::trace::{find, skeleton};
 use numpy::{PyArray1, PyArray2, PyArray3, PyArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::IntoPyDict;
 
 use crate::errors::to_python;
 use crate::pool;
@@ -34,25 +31,14 @@ use crate::volume::VolumeArgument;
 use crate::wall_request::wall_request;
 use crate::watching::reporting;
 
-/// Adds to the module: flags (name, bit, word, meaning, colours on paper and screen), methods with labels, and defaults.
+/// Adds to the module: flags (name, bit, word, meaning, colours on paper and screen) and methods with labels.
 pub(crate) fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let row = |flag: &FlagLook| (flag.name, flag.bit, flag.word, flag.meaning, flag.paper, flag.screen);
     module.add("MEASURING_FLAGS", FLAGS.iter().map(row).collect::<Vec<_>>())?;
     let word = |(name, method): &(&'static str, Method)| (*name, measure_words::of_method(*method));
     module.add("STENOSIS_METHODS", Method::NAMES.iter().map(word).collect::<Vec<_>>())?;
     module.add("STENOSIS_TERRITORIES", Territory::names())?;
-    module.add("VIEW_METHODS", view::METHODS.map(|[name, word]| (name, word)).to_vec())?;
-    module.add("DEFAULTS", defaults().into_py_dict(module.py())?)
-}
-
-/// Default lengths by name, in mm; the shortest branch in radii of its parent.
-fn defaults() -> [(&'static str, f64); 4] {
-    [
-        ("measuring_step", measuring::STEP),
-        ("point_distance", refine::STEP),
-        ("shortest_branch", skeleton::PARENT_RADII),
-        ("smallest_radius", find::SMALLEST_RADIUS),
-    ]
+    module.add("VIEW_METHODS", view::METHODS.map(|[name, word]| (name, word)).to_vec())
 }
 
 /// The lumen of a vessel by arc length, and how the scan was made.

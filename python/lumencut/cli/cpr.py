@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from lumencut._lumencut import DEFAULTS
 from lumencut.cli import options, reformations
 from lumencut.cli.dicom import study_of
 from lumencut.cli.like import typed
@@ -46,7 +47,7 @@ def show_cpr(volume_out: Path | None, **given: Any) -> None:
         reformations.check_single(vessels, volume_out)
     make: Callable[[Vessel], Reformation] = partial(_tangential, renderer, chosen, settings)
     if chosen["mode"] != _TANGENTIAL:
-        make = partial(reformations.asked("cpr", chosen, settings, renderer, tree).of, renderer)
+        make = partial(reformations.asked("cpr", chosen, settings, tree).of, renderer)
     reformations.write_each(chosen, vessels, make)
     if volume_out is not None and renderer.volume is not None:
         _write_volume(volume_out, renderer.volume, vessels[0][1], chosen)
@@ -100,7 +101,7 @@ def _write_volume(path: Path, voxels: Volume, vessel: Vessel, chosen: dict[str, 
         made = straightened_volume(
             voxels,
             vessel,
-            chosen["width"] or 50.0,
+            chosen["width"] or DEFAULTS["cpr.width"],
             chosen["pixel_spacing"],
             math.radians(chosen["angle"]),
             chosen["up"],

@@ -23,7 +23,6 @@ from lumencut.cli.report import FAILED, complain, say, verbose_option
 from lumencut.errors import LumencutError, SeriesError
 
 FILE = click.Path(path_type=Path)
-_CENTERLINE_ENDINGS = (".vtp", ".vtk", ".json", ".fcsv", ".pth", ".swc", ".tre", ".csv", ".txt", ".npy")
 _ONLY_IN_JSON = {"file", "name", "volume", "centerlines", "notes", "decisions", "world_from_index"}
 _ONLY_IN_JSON |= {"kind", "error"}
 
@@ -100,10 +99,12 @@ def _check(chosen: dict[str, Any], files: tuple[Path, ...]) -> None:
 
 
 def _holds_centerlines(path: Path) -> bool:
-    from lumencut.file_kinds import kind_of
+    from lumencut.file_kinds import extensions, kind_of
 
     kind = kind_of(path)
-    return path.name.lower().endswith(_CENTERLINE_ENDINGS) if kind is None else kind.role == "centerlines"
+    if kind is not None:
+        return kind.role == "centerlines"
+    return path.name.lower().endswith((*extensions("centerlines"), ".json"))
 
 
 def _as_json(gpus: dict[str, Any] | None, found: list[dict[str, Any]], compared: list[dict[str, Any]]) -> str:

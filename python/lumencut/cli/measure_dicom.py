@@ -18,9 +18,6 @@ if TYPE_CHECKING:
     from lumencut.vessel_tree import VesselTree
     from lumencut.volume import Volume
 
-#: Width of the picture of a straightened vessel, and its largest pixel side (mm).
-_WIDTH, _COARSEST = 50.0, 0.25
-
 
 def check_dicom(chosen: dict[str, Any]) -> None:
     """Reject options that DICOM output cannot use before any file is read."""
@@ -97,11 +94,8 @@ def _write_pictures(folder: Path, shown: list[MeasuredVessel], study: Study, ren
 
     frame = renderer.render(Camera.anterior(renderer.scene, (768, 768)))
     write_picture(folder / "anterior.dcm", frame._as_object(annotate=True, vessel_names=False), study)
-    volume = renderer.volume
-    assert volume is not None, "vessels are measured in a volume"
-    spacing = min(_COARSEST, float(volume.spacing.min()))
     for number, one in enumerate(shown, 1):
-        made = CprRequest("straightened", _WIDTH, spacing).of(renderer, one.vessel)
+        made = CprRequest("straightened").of(renderer, one.vessel)
         picture = made._as_object(annotate=True, vessel_names=False)
         write_picture(folder / f"vessel-{number}.dcm", picture, study, number=number)
     return 1 + len(shown)

@@ -6,6 +6,7 @@ from typing import Any
 
 import click
 
+from lumencut._lumencut import PIXEL_SIDE
 from lumencut.cli import options
 from lumencut.cli.dicom import dicom_options
 from lumencut.cli.parameters import VECTOR
@@ -43,8 +44,7 @@ SMOOTHING = option(
     "--smoothing", "MM", "Smooth the centerlines by a Gaussian with this standard deviation (mm).", 0.0
 )
 UP = option("--up", VECTOR, "The direction that points up (LPS).", "0,0,1")
-SIDE = "Side of a pixel (mm); default: "
-FINE = option("--pixel-spacing", "MM", f"{SIDE}the smallest side of a voxel, at most 0.25 mm.")
+SIDE = option("--pixel-spacing", "MM", f"Side of a pixel (mm); default: {PIXEL_SIDE}.")
 
 #: The options that select vessels, each shown separately.
 VESSELS = (options.shown_vessel_options, path_option)

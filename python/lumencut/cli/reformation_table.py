@@ -13,7 +13,7 @@ from lumencut.cli.cfa import FEATURES, show_cfa
 from lumencut.cli.cpr import MODES, show_cpr
 from lumencut.cli.dicom import grey_option
 from lumencut.cli.parameters import SIZE, VECTOR, Parts
-from lumencut.cli.reformation_options import SIDE, option
+from lumencut.cli.reformation_options import option
 from lumencut.cli.reformations import show_each
 from lumencut.cli.uncurl import show_uncurled
 from lumencut.cli.untangled import show_untangled
@@ -86,7 +86,7 @@ _CPR = _command(
         ),
         shared.UP,
         option("--width", "MM", "Width of the image (mm); default: 25 mm on each side of the vessel."),
-        shared.FINE,
+        shared.SIDE,
         shared.SMOOTHING,
         option(
             "--volume-out",
@@ -128,7 +128,7 @@ _CFA = _command(
             ("cpr",),
             "Show the straightened CPR, CFA max and CFA min of each vessel side by side.",
         ),
-        *(*shared.VESSELS, shared.UP, shared.FINE, shared.SMOOTHING),
+        *(*shared.VESSELS, shared.UP, shared.SIDE, shared.SMOOTHING),
     ),
 )
 
@@ -167,7 +167,7 @@ _SPIRAL = _command(
         ),
         option("--angle", "DEGREES", "Turn the sections.", 0.0),
         shared.UP,
-        option("--pixel-spacing", "MM", f"{SIDE}the smallest side of a voxel, at most 0.5 mm."),
+        shared.SIDE,
         shared.SMOOTHING,
     ),
 )
@@ -259,7 +259,7 @@ _MAP = _command(
             "of its contrast, at least 130.",
         ),
         shared.UP,
-        option("--pixel-spacing", "MM", f"{SIDE}half of the smallest side of a voxel, at most 0.25 mm."),
+        shared.SIDE,
         shared.SMOOTHING,
     ),
 )
@@ -291,7 +291,7 @@ _UNTANGLED = _command(
             "Smooth the directions of vessels in the view by a Gaussian with this standard deviation (mm).",
             4.0,
         ),
-        option("--pixel-spacing", "MM", f"{SIDE}the smallest side of a voxel."),
+        shared.SIDE,
         option(
             "--root",
             VECTOR,

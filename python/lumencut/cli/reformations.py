@@ -31,9 +31,6 @@ if TYPE_CHECKING:
 #: Parameters that a recipe holds in radians and the command line in degrees.
 _ANGLES = ("angle", "overlap")
 
-#: Largest default pixel side of CPR and CFA (mm): it leaves room for labels on pictures of most vessels.
-_COARSEST = 0.25
-
 
 def like(chosen: dict[str, Any], command: str) -> tuple[dict[str, Any], Settings]:
     """Return the options, with missing ones taken from ``--like``, and the settings."""
@@ -79,18 +76,13 @@ def read_vessels(
     return renderer, tree, vessels
 
 
-def asked(
-    command: str, chosen: dict[str, Any], settings: Settings, renderer: Renderer, tree: VesselTree
-) -> Any:
+def asked(command: str, chosen: dict[str, Any], settings: Settings, tree: VesselTree) -> Any:
     """Return what the options ask of the reformation of a command."""
     from lumencut.reformation_kinds import KINDS
-    from lumencut.reformation_request import finest_side
 
     given = {**chosen, "settings": settings, "slab": None, "tree": tree}
     own = {field.name: given[field.name] for field in fields(KINDS[command]) if field.name in given}
     own |= {name: math.radians(own[name]) for name in _ANGLES if own.get(name) is not None}
-    if command in ("cpr", "cfa") and own["pixel_spacing"] is None and renderer.volume is not None:
-        own["pixel_spacing"] = finest_side(renderer.volume, _COARSEST)
     return KINDS[command](**own)
 
 
@@ -99,7 +91,7 @@ def show_each(command: str, **given: Any) -> None:
     options.check_picture(given["output"])
     chosen, settings = like(given, command)
     renderer, tree, vessels = read_vessels(chosen, settings, command)
-    write_each(chosen, vessels, partial(asked(command, chosen, settings, renderer, tree).of, renderer))
+    write_each(chosen, vessels, partial(asked(command, chosen, settings, tree).of, renderer))
 
 
 def check_single(vessels: list[tuple[str, Vessel]], path: Path) -> None:

@@ -30,8 +30,6 @@ from lumencut.volume import Volume
 Device = Literal["auto", "cpu", "gpu"]
 
 _THUMBNAIL = 144
-#: Largest pixel side of reformations (mm), as for ``lumencut cpr``.
-_COARSEST = 0.25
 
 
 def do_study(
@@ -70,7 +68,7 @@ def do_study(
     if recipe.outputs.centerlines:
         write_centerlines(tree, Path(f"{begin}_desc-centerlines.vtp"))
     renderer = Renderer(volume, tree, device)
-    _pictures(renderer, volume, recipe.pictures, begin)
+    _pictures(renderer, recipe.pictures, begin)
     vessels = _measured(study, volume, tree, recipe.measure)
     measured = [one.measured for one in vessels if one.measured is not None]
     if recipe.outputs.report and measured:
@@ -89,10 +87,9 @@ def do_study(
 _NOTHING_MARKED = dict.fromkeys(("at", "reference", "method", "original", "comparison", "group"))
 
 
-def _pictures(renderer: Renderer, volume: Volume, how: Pictures, begin: Path) -> None:
+def _pictures(renderer: Renderer, how: Pictures, begin: Path) -> None:
     """Render each view with each look, the reformations, and a thumbnail of the first picture."""
     tree, thumbnail = renderer.tree or (), None
-    spacing = min(_COARSEST, float(volume.spacing.min()))
     for view in how.views:
         direction, up = (np.array(vector) for vector in VIEWS[view])
         camera = Camera.fitted(renderer.scene, direction, up, how.size)
@@ -101,7 +98,7 @@ def _pictures(renderer: Renderer, volume: Volume, how: Pictures, begin: Path) ->
             frame.save(Path(f"{begin}_view-{view}_desc-{look}.png"), annotate=how.annotate)
             thumbnail = frame.image if thumbnail is None else thumbnail
     for mode in how.reformations:
-        made = [CprRequest(mode, pixel_spacing=spacing).of(renderer, vessel) for vessel in tree]
+        made = [CprRequest(mode).of(renderer, vessel) for vessel in tree]
         titles = [str(n) if vessel.name is None else f"{n} {vessel.name}" for n, vessel in enumerate(tree)]
         sheet = contact_sheet([one.annotated() if how.annotate else one.image for one in made], titles)
         save_picture(sheet, Path(f"{begin}_desc-{mode}.png"))

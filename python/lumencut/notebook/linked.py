@@ -12,6 +12,7 @@ from lumencut import _lumencut
 from lumencut.measuring import CrossSection, cross_section
 from lumencut.notebook.scene import Place, Scene
 from lumencut.planar_reformation import PlanarReformation, cpr
+from lumencut.reformation_request import pixel_side
 from lumencut.section_pictures import grey_picture
 from lumencut.settings import Settings
 
@@ -26,8 +27,6 @@ STEP = 0.5
 _RADII, _SIDES = 4.0, (12.0, 120.0)
 #: Number of pixels of a section's side, and largest number of rows of a straightened vessel.
 _SECTION_PIXELS, _MOST_ROWS = 160, 512
-#: Largest magnification of short straightened vessels (pixels per voxel side).
-_FINER = 3
 
 
 class Linked:
@@ -66,9 +65,9 @@ class Linked:
         return other
 
     def _straightened(self) -> PlanarReformation:
-        finest = float(self.scene.volume.spacing.min()) / _FINER
-        spacing = max(finest, self.vessel.length / _MOST_ROWS)
-        laid_out = cpr(self.scene.volume, self.vessel, "straightened", pixel_spacing=spacing, device="cpu")
+        volume = self.scene.volume
+        spacing = max(pixel_side(volume), self.vessel.length / _MOST_ROWS)
+        laid_out = cpr(volume, self.vessel, "straightened", pixel_spacing=spacing, device="cpu")
         assert isinstance(laid_out, PlanarReformation)
         return laid_out
 

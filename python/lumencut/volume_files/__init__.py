@@ -14,6 +14,7 @@ import numpy.typing as npt
 
 from lumencut._checks import callback, integers
 from lumencut._files import checked_path
+from lumencut._lumencut import VOLUME_FILES as _KNOWN
 from lumencut.dicomweb.address import is_address
 from lumencut.errors import FileError, FormatError
 from lumencut.file_kinds import kind_of
@@ -40,10 +41,6 @@ from lumencut.volume_files.slicer_segments import no_segmentation
 __all__ = ["SeriesReport", "VolumeReport", "as_volume", "inspect_volume", "list_series", "read_volume"]
 
 _log = logging.getLogger("lumencut")
-_KNOWN = (
-    "a DICOM folder, file or zip archive, NIfTI (.nii, .nii.gz, .hdr + .img), "
-    "NRRD (.nrrd, .nhdr) or MetaImage (.mha, .mhd)"
-)
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,10 +1,11 @@
 /** Opens dropped, chosen or fetched files as a volume, as its centerlines, or both. */
 
+import { FILES } from '../core/generated/tables';
 import type { Judge } from '../core/judge';
 import type { States } from '../core/messages';
 import type { ScanStudy } from '../core/scan-study';
 import type { Wanted } from './dicom/wanted';
-import { type Known, known } from './kinds';
+import { type KindOf, type Known, known } from './kinds';
 import { openMetaImage } from './metaimage';
 import { openNifti } from './nifti';
 import { openNrrd } from './nrrd';
@@ -22,6 +23,7 @@ export interface Study extends Sink {
 export interface LoadContext {
   readonly study: Study;
   readonly loadJudge: () => Promise<Judge>;
+  readonly kindOf: KindOf;
   readonly steps: Steps;
 }
 
@@ -40,9 +42,6 @@ interface Volume {
 
 /** DICOM files always state voxel spacing and orientation. */
 const STATED: States = { spacing: true, orientation: true };
-const VOLUMES =
-  'a DICOM folder, file or zip archive, NIfTI (.nii, .nii.gz, .hdr + .img), NRRD (.nrrd, .nhdr) or MetaImage (.mha, .mhd)';
-const LINES = 'centerlines (.vtp, .vtk, .mrk.json, .fcsv, .swc, .csv, .pth)';
 
 interface Sorted {
   readonly volumes: readonly Known[];
@@ -59,7 +58,7 @@ export async function openFiles(
   wanted: Wanted,
   context: LoadContext,
 ): Promise<Opened> {
-  const sorted = await sort(sources, context.steps);
+  const sorted = await sort(sources, context);
   requireOne(sorted);
   const volume = await openVolume(sorted, sources, { beside, wanted, ...context });
   const [lines] = sorted.lines;
@@ -67,37 +66,42 @@ export async function openFiles(
   return { volume, notes: [...(volume?.notes ?? []), ...notes] };
 }
 
-/** Adds the centerlines of a file. Returns notes for the user. */
-export async function openLines(source: Source, { study, steps }: LoadContext): Promise<readonly string[]> {
-  const found = await known(source);
-  if (['nifti', 'nrrd', 'metaimage', 'dicom', 'zip'].includes(found.kind)) {
-    const mend = 'trace a mask with `lumencut trace` and open the result';
-    throw formatFailure(source.path, found.words, LINES, mend);
-  }
-  if (found.kind === 'empty') {
-    throw formatFailure(source.path, found.words, LINES, 'copy or export it again');
+/** Adds centerlines. Returns notes. */
+export async function openLines(
+  source: Source,
+  { study, kindOf, steps }: LoadContext,
+): Promise<readonly string[]> {
+  const found = await known(source, kindOf);
+  if (found.role === 'volume' || found.mend) {
+    const mend = found.mend || 'trace a mask with `lumencut trace` and open the result';
+    throw formatFailure(source.path, found.words, FILES.centerlines, mend);
   }
   await steps.step('Centerlines', 0, null);
   return study.openCenterlines(await source.slice(0, source.size), fileName(source.path));
 }
 
-async function sort(sources: readonly Source[], steps: Steps): Promise<Sorted> {
+async function sort(sources: readonly Source[], { kindOf, steps }: LoadContext): Promise<Sorted> {
   const every: Known[] = [];
   for (const source of sources) {
-    every.push(await known(source));
+    every.push(await known(source, kindOf));
     await steps.step('Looking into files', every.length, sources.length);
   }
-  const of = (...kinds: readonly string[]) => every.filter((one) => kinds.includes(one.kind));
+  const read = every.filter((one) => one.mend === '');
+  const of = (kind: string) => read.filter((one) => one.kind === kind).map((one) => one.source);
   return {
-    volumes: of('nifti', 'nrrd', 'metaimage').filter((one) => !isVoxelsOf(one, every)),
-    dicom: of('dicom').map((one) => one.source),
-    archives: of('zip').map((one) => one.source),
-    lines: of('centerlines'),
-    others: of('other', 'empty'),
+    volumes: read.filter((one) => isVolumeFile(one) && !isVoxelsOf(one, every)),
+    dicom: of('dicom'),
+    archives: of('zip'),
+    lines: read.filter((one) => one.role === 'centerlines'),
+    others: every.filter((one) => one.mend !== '' || one.role === 'other'),
   };
 }
 
-/** Whether a file (`.img`) holds the voxels of a header (`.hdr`) among the files. */
+/** Whether a file is a volume of its own, unlike DICOM files and archives. */
+const isVolumeFile = ({ role, kind }: Known): boolean =>
+  role === 'volume' && kind !== 'dicom' && kind !== 'zip';
+
+/** Whether a file holds the voxels of a header among the files. */
 function isVoxelsOf({ source }: Known, every: readonly Known[]): boolean {
   const stem = /^(.*)\.img(\.gz)?$/i.exec(source.path)?.[1];
   return (
@@ -126,11 +130,11 @@ function requireOne({ volumes, dicom, archives, lines, others }: Sorted): void {
 function unknown(others: readonly Known[]): Error {
   const [first] = others;
   if (!first) {
-    return formatFailure('files', 'none', VOLUMES, 'choose at least one file');
+    return formatFailure('files', 'none', FILES.volumes, 'choose at least one file');
   }
-  const mend = first.kind === 'empty' ? 'copy or export it again' : first.mend;
   const hasMore = others.length > 1 ? ` (and ${others.length - 1} more)` : '';
-  return formatFailure(first.source.path, `${first.words}${hasMore}`, `${VOLUMES}, or ${LINES}`, mend);
+  const expected = `${FILES.volumes}, or ${FILES.centerlines}`;
+  return formatFailure(first.source.path, `${first.words}${hasMore}`, expected, first.mend);
 }
 
 interface Asked extends LoadContext {

@@ -1,6 +1,7 @@
 /** Saves DICOM objects for a PACS. The server of the page makes a zip archive of them; nothing is sent elsewhere. */
 import { signal } from '@preact/signals';
 import { engine } from '../client/shared';
+import { DEFAULTS } from '../core/generated/tables';
 import type { GivenFile } from '../core/messages';
 import { inBase64, made, placeOf } from '../core/server';
 import type { Finding } from '../measure/findings';
@@ -22,8 +23,6 @@ const UPRIGHT =
   'Straightened CPR. Rows: distance along the vessel, its first point on top. Columns: distance across it.';
 const LYING =
   'Straightened CPR. Columns: distance along the vessel, its first point on the left. Rows: distance across it.';
-/** Width (mm) and smallest pixel (mm) of the straightened vessel if no pane shows it. */
-const [WIDTH, FINEST] = [50, 0.25];
 const MOST_COLUMNS = 2000;
 
 export type PacsStudy = 'scan' | 'anonymous' | GivenFile;
@@ -129,8 +128,10 @@ async function panePart(): Promise<object | null> {
   if (vessel === null || length === 0) {
     return null;
   }
-  const spacing = Math.max(FINEST, length / MOST_COLUMNS);
-  return withWords(await straightenedCanvas(vessel, { width: WIDTH, spacing }), LYING + pixelWords(spacing));
+  const side = store.report.value?.volume?.pixel_side ?? 0;
+  const spacing = Math.max(side, length / MOST_COLUMNS);
+  const picture = await straightenedCanvas(vessel, { width: DEFAULTS['cpr.width'], spacing });
+  return withWords(picture, LYING + pixelWords(spacing));
 }
 
 const withWords = (shown: HTMLCanvasElement, axes: string): object => ({

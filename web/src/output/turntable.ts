@@ -1,12 +1,13 @@
 /** Saves a full turn about the patient's long axis, as a WebM film or as PNGs in a zip archive. */
 import { turnedAbout } from '../core/camera';
 import { Failure } from '../core/failure';
+import { DEFAULTS } from '../core/generated/tables';
 import type { Camera } from '../core/messages';
 import * as store from '../state/store';
 import { composed, saveAs } from './pictures';
 import { studyFileName } from './study-file-names';
 
-const FRAMES = 72;
+const FRAMES = DEFAULTS['turntable.frames'];
 const PER_SECOND = 18;
 
 interface Album {

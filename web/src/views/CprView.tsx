@@ -1,6 +1,7 @@
 /** View of the picked vessel as straightened CPR. */
 import { useCallback, useState } from 'preact/hooks';
 import { engine } from '../client/shared';
+import { DEFAULTS, PIXEL_SIDES } from '../core/generated/tables';
 import type { Cpr, Pair } from '../core/messages';
 import { placeCrossHair } from '../link/cross-hair';
 import { UprightPlaces } from '../measure/UprightPlaces';
@@ -8,8 +9,6 @@ import { CprControls, TURN_STEP } from '../pane/CprControls';
 import { FlatPicture } from '../pane/FlatPicture';
 import { dragWindow, windowBack } from '../state/actions';
 import * as store from '../state/store';
-
-const WIDTH = 50;
 
 export function CprView() {
   const vessel = store.pickedVessel.value;
@@ -19,10 +18,17 @@ export function CprView() {
   const window = store.window_.value;
   const [size, setSize] = useState<Pair | null>(null);
   const length = vessel === null ? 0 : (store.report.value?.vessels?.[vessel]?.length ?? 0);
-  const spacing = size && length > 0 ? Math.max(length / size[1], 0.05) : null;
+  const spacing = size && length > 0 ? Math.max(length / size[1], PIXEL_SIDES[0]) : null;
   const cpr: Cpr | null =
     vessel !== null && spacing && size
-      ? { vessel, angle, width: Math.min(WIDTH, size[0] * spacing), pixel_spacing: spacing, feature, roll }
+      ? {
+          vessel,
+          angle,
+          width: Math.min(DEFAULTS['cpr.width'], size[0] * spacing),
+          pixel_spacing: spacing,
+          feature,
+          roll,
+        }
       : null;
   const text = cpr && JSON.stringify(cpr);
   const [shown, setShown] = useState<Pair | null>(null);

@@ -5,6 +5,7 @@ import { Failure } from '../core/failure';
 import { TURNS } from '../core/generated/questions';
 import type { Bytes, Edit } from '../core/messages';
 import { Engine } from '../core/module';
+import type { KindOf } from '../io/kinds';
 
 const NO_FILE = new Uint8Array();
 
@@ -39,6 +40,9 @@ function wordsOf<N extends Question>(name: N, message: Message<N>): string | nul
 export function askAtOnce<N extends Question>(name: N, message: Message<N>): Answer<N> {
   return answer(Engine.ask_at_once(name, JSON.stringify(message)));
 }
+
+/** Names the kind of a file. */
+export const kindOf: KindOf = (head, name) => askAtOnce('kind_of_file', { head, name });
 
 export const isAtOnce = (name: Question): boolean => TURNS[name].when === 'at once';
 

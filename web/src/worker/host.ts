@@ -9,7 +9,7 @@ import { ALL_OF_IT } from '../io/dicom/wanted';
 import { EverySecond } from '../io/every-second';
 import { among, BlobSource } from '../io/source';
 import { Steps } from '../io/steps';
-import { ask, askAtOnce, isAtOnce, moved, refuseStopped } from './answers';
+import { ask, askAtOnce, isAtOnce, kindOf, moved, refuseStopped } from './answers';
 import { type Fetched, fetchStudy } from './fetching';
 import { askWithFiles } from './masks';
 import { Queue } from './queue';
@@ -150,7 +150,7 @@ export class EngineHost {
       const replacing = new Replacing(this.ready(), wish);
       const study = wish.every_second ? new EverySecond(replacing) : replacing;
       try {
-        const loaded = await work({ study, loadJudge, steps: new Steps(onProgress, signal) });
+        const loaded = await work({ study, loadJudge, kindOf, steps: new Steps(onProgress, signal) });
         const report = this.report();
         const ofVolume = replacing.hasBegun ? report.volume?.doubt : null;
         const every = [...loaded.notes, ofVolume, wish.every_second ? COARSER : null];

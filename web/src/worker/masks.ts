@@ -7,7 +7,7 @@ import { ALL_OF_IT } from '../io/dicom/wanted';
 import { among, BlobSource } from '../io/source';
 import { Steps } from '../io/steps';
 import type { Study } from '../io/study';
-import { ask, refuseStopped } from './answers';
+import { ask, kindOf, refuseStopped } from './answers';
 
 interface Asking {
   readonly attachments: Attachments;
@@ -44,7 +44,12 @@ async function readMask(
   const study = new MaskStudy(engine);
   const sources = files.map(({ path, file }) => new BlobSource(path, file));
   const { openFiles } = await import('../io/study');
-  const { notes } = await openFiles(sources, among(sources), ALL_OF_IT, { study, loadJudge, steps });
+  const { notes } = await openFiles(sources, among(sources), ALL_OF_IT, {
+    study,
+    loadJudge,
+    kindOf,
+    steps,
+  });
   return notes;
 }
 

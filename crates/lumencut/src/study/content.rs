@@ -11,6 +11,7 @@ use lumencut_core::settings::{ContextName, Window};
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
 use serde::Serialize;
 
+use crate::defaults::pixel_side;
 use crate::doubted_scan::doubted_size;
 use crate::scan_details::ScanDetails;
 use crate::study::failure::Result;
@@ -90,6 +91,8 @@ pub(crate) struct VolumeReport {
     pub(crate) corners: [[f64; 3]; 8],
     /// Smallest voxel side (mm).
     pub(crate) smallest_side: f64,
+    /// Pixel side of reformations if none is chosen (mm).
+    pub(crate) pixel_side: f64,
     /// How the scan was made, in words.
     pub scan: String,
     pub(crate) doubt: Option<String>,
@@ -235,6 +238,7 @@ impl VolumeReport {
             world_from_index: DMat4::from(held.world_from_index).transpose().to_cols_array_2d(),
             corners: volume.corners().map(|corner| corner.to_array()),
             smallest_side: volume.smallest_side(),
+            pixel_side: pixel_side(volume.smallest_side()),
             scan: held.scan.words(),
             doubt: doubted_size(held.size, held.world_from_index),
         })

@@ -1,13 +1,11 @@
 //! A document while an edit changes it, with the added vessels, the lost marks and the new clicks.
 
+use crate::defaults::STOPPER_RADIUS;
 use crate::study::document::{Document, DocumentVessel, WorldPoint};
 use crate::study::edits::Edit;
 use crate::study::failure::Failure;
 use crate::study::names::{fresh_name, part_name};
 use crate::study::tracing::StopperMessage;
-
-/// Radius of a stopper (mm); equals that in Python.
-const STOPPER_RADIUS_MM: f64 = 3.0;
 
 const MIN_CLICKS: usize = 2;
 
@@ -121,7 +119,7 @@ impl Draft {
         let stoppers = &mut self.document.stoppers;
         match edit {
             Edit::AddStopper { center } => {
-                stoppers.push(StopperMessage { center: *center, radius: STOPPER_RADIUS_MM });
+                stoppers.push(StopperMessage { center: *center, radius: STOPPER_RADIUS.default });
             }
             Edit::MoveStopper { number, center } => {
                 if let Some(stopper) = stoppers.get_mut(*number) {

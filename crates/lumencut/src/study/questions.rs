@@ -2,6 +2,7 @@
 
 use lumencut_vessels::measure::profile::Profile;
 
+use crate::file_kinds::{KnownFile, kind_of};
 use crate::report::Stated;
 use crate::straightened_sides::StraightenedSides;
 use crate::study::after_edit::{AfterEdit, FirstClick};
@@ -218,6 +219,12 @@ at_once {
     /// Warnings about the sides of a straightened volume, from the text that marks its file.
     straightened_notes { text: String } -> Vec<String> =
         StraightenedSides::read(&text).map_or_else(Vec::new, |sides| sides.notes());
+
+    /// The kind of a file, from its first bytes as characters 0 to 255, and its name.
+    kind_of_file { head: String, name: String } -> KnownFile = {
+        let bytes: Vec<u8> = head.chars().map(|letter| u8::try_from(u32::from(letter)).unwrap_or(b'?')).collect();
+        kind_of(&bytes, &name)
+    };
 
     /// The views of a flight between two cameras, at equal time steps, including both cameras.
     flight { from: CameraMessage, to: CameraMessage, views: usize } -> Vec<CameraMessage> =

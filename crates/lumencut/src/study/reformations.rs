@@ -19,17 +19,15 @@ use lumencut_vessels::measure::section_plane::known_radius;
 use serde::Deserialize;
 
 use crate::axes_words::Axes;
+use crate::defaults::{BAND_END, BAND_START, PIXEL_SIDES};
 use crate::lumen_map::{MapRequest, lumen_map};
 use crate::lumen_wall::FoundWall;
 use crate::spiral_lengths::{Room, spiral_pitch, spiral_reach};
 use crate::study::failure::{Failure, Result};
 use crate::uncurling::fitted_uncurling;
 
-/// The smallest pixel side that is used to fill a pane (mm).
-const MIN_PIXEL_MM: f64 = 0.05;
-
 /// The range of distances beyond the wall that a map samples (mm).
-pub(crate) const BAND: [f64; 2] = [-1.0, 3.0];
+pub(crate) const BAND: [f64; 2] = [BAND_START.default, BAND_END.default];
 
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 #[cfg_attr(test, derive(ts_rs::TS))]
@@ -198,5 +196,5 @@ pub(crate) fn head_up() -> View {
 /// The pixel side (mm) at which an extent (mm) just fits a pane.
 fn filling(extent: DVec2, size: [usize; 2]) -> f64 {
     let [width, height] = size.map(|side| side.saturating_sub(2).max(1) as f64);
-    (extent.x / width).max(extent.y / height).max(MIN_PIXEL_MM)
+    (extent.x / width).max(extent.y / height).max(PIXEL_SIDES[0])
 }

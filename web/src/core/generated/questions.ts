@@ -232,6 +232,18 @@ export type Histogram = {
   readonly counts: ReadonlyArray<number>;
 };
 
+/** The kind of a file in the words of messages. */
+export type KnownFile = {
+  /** The identifier of the kind. */
+  readonly kind: string;
+  /** What it can be opened as. */
+  readonly role: Role;
+  /** What it is called, such as `a NIfTI volume`. */
+  readonly words: string;
+  /** How to make it readable; empty if it is read. */
+  readonly mend: string;
+};
+
 /** How a picture lies in space: unit vectors right and down (LPS), width in pixels, pixel side (mm). */
 export type LaidPicture = {
   readonly right: Vector;
@@ -598,6 +610,9 @@ export type ReportView = {
   readonly method: Method;
 };
 
+/** What a file can be opened as. */
+export type Role = "volume" | "centerlines" | "other";
+
 export type Roll = "narrowest" | "widest";
 
 /** A doubtful branch that was found from a seed. */
@@ -886,6 +901,8 @@ export type VolumeReport = {
   readonly corners: ReadonlyArray<Vector>;
   /** Smallest voxel side (mm). */
   readonly smallest_side: number;
+  /** Pixel side of reformations if none is chosen (mm). */
+  readonly pixel_side: number;
   /** How the scan was made, in words. */
   readonly scan: string;
   readonly doubt: string | null;
@@ -1243,6 +1260,14 @@ export type Questions = {
     };
     readonly answer: ReadonlyArray<string>;
   };
+  /** The kind of a file, from its first bytes as characters 0 to 255, and its name. */
+  readonly kind_of_file: {
+    readonly message: {
+      readonly head: string;
+      readonly name: string;
+    };
+    readonly answer: KnownFile;
+  };
   /** The views of a flight between two cameras, at equal time steps, including both cameras. */
   readonly flight: {
     readonly message: {
@@ -1323,6 +1348,7 @@ export const TURNS = {
   read_session: { when: 'first', words: null },
   labels: { when: 'at once', words: null },
   straightened_notes: { when: 'at once', words: null },
+  kind_of_file: { when: 'at once', words: null },
   flight: { when: 'at once', words: null },
   settings_table: { when: 'at once', words: null },
   looks: { when: 'at once', words: null },

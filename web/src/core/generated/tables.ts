@@ -83,6 +83,43 @@ export const PALETTE = [
   ["#ffffff","white"],
 ] as const;
 
+/** What is taken unless the user chooses, by function and parameter. */
+export const DEFAULTS = {
+  'cpr.width': 50.0,
+  'cpr.smoothing': 0.0,
+  'cfa.radius': 10.0,
+  'lumen_map.overlap': 0.0,
+  'lumen_map.band[0]': -1.0,
+  'lumen_map.band[1]': 3.0,
+  'uncurl.amount': 0.5,
+  'uncurling.frames': 48.0,
+  'untangled.width': 25.0,
+  'untangled.hull_margin': 2.0,
+  'untangled.smoothing': 4.0,
+  'cr.radius_offset': 50.0,
+  'cr.arc_threshold': 150.0,
+  'Focus.margin': 2.0,
+  'Focus.fade': 6.0,
+  'turntable.frames': 72.0,
+  'flight.frames': 36.0,
+  'measure.step': 0.5,
+  'trace.stopper_radius': 3.0,
+  'trace_from.smallest_radius': 1.0,
+  'trace_mask.shortest_branch': 2.0,
+} as const;
+
+/** Smallest and largest pixel side of reformations by default (mm). */
+export const PIXEL_SIDES = [
+  0.05,
+  0.25,
+] as const;
+
+/** Files that can be opened, in the words of messages. */
+export const FILES = {
+  'volumes': "a DICOM folder, file or zip archive, NIfTI (.nii, .nii.gz, .hdr + .img), NRRD (.nrrd, .nhdr) or MetaImage (.mha, .mhd)",
+  'centerlines': "centerlines (.vtp, .vtk, .mrk.json, .fcsv, .pth, .swc, .tre, .csv)",
+} as const;
+
 /** Constants of drags, the wheel and keys. */
 export const GESTURES = {
   /** Movement above which a press becomes a drag (px). */

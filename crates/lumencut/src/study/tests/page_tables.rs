@@ -1,7 +1,9 @@
 //! Generates `web/src/core/generated/tables.ts`, the tables of the facade that the page reads before the engine has started.
 
 use super::generated::require_current;
+use crate::defaults::{PIXEL_SIDES, QUANTITIES};
 use crate::drags::GESTURES;
+use crate::file_kinds::{centerline_files, volume_files};
 use crate::study::palette::PALETTE;
 use crate::vessel_names::{NamedVessel, VESSEL_NAMES};
 
@@ -13,6 +15,16 @@ fn table<T: serde::Serialize>(about: &str, name: &str, rows: &[T]) -> String {
         .map(|row| format!("  {},\n", serde_json::to_string(row).expect("a row without maps")))
         .collect();
     format!("\n/** {about} */\nexport const {name} = [\n{rows}] as const;\n")
+}
+
+fn record<T: serde::Serialize>(about: &str, name: &str, rows: &[(&str, T)]) -> String {
+    let rows: String = rows
+        .iter()
+        .map(|(key, value)| {
+            format!("  '{key}': {},\n", serde_json::to_string(value).expect("a value without maps"))
+        })
+        .collect();
+    format!("\n/** {about} */\nexport const {name} = {{\n{rows}}} as const;\n")
 }
 
 fn constants() -> String {
@@ -28,9 +40,18 @@ fn constants() -> String {
 #[test]
 fn the_tables_of_the_page_are_those_of_the_facade() {
     let names: Vec<String> = VESSEL_NAMES.iter().flat_map(NamedVessel::offered).collect();
+    let defaults: Vec<_> = QUANTITIES.iter().map(|row| (row.name, row.default)).collect();
+    let files = [("volumes", volume_files()), ("centerlines", centerline_files())];
     let tables = [
         table("Names of vessels that have a code in reports.", "VESSEL_NAMES", &names),
         table("Colours of vessels with their names, in the order of their use.", "PALETTE", &PALETTE),
+        record("What is taken unless the user chooses, by function and parameter.", "DEFAULTS", &defaults),
+        table(
+            "Smallest and largest pixel side of reformations by default (mm).",
+            "PIXEL_SIDES",
+            &PIXEL_SIDES,
+        ),
+        record("Files that can be opened, in the words of messages.", "FILES", &files),
         constants(),
     ];
     require_current("tables.ts", &(HEAD.to_owned() + &tables.concat()));
