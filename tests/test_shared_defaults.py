@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-import lumencut
 from lumencut import (
     Vessel,
     VesselTree,
@@ -24,6 +23,7 @@ from lumencut.cli import main
 from lumencut.cohort.recipe import Measure, Pictures
 from lumencut.cohort.study import _pictures
 from lumencut.measured_vessel import GROUPS
+from lumencut.planar_reformation import CprRequest
 from lumencut.renderer import Renderer
 from lumencut.stenosis import METHODS
 from scene_files import write_lines, write_volume_of
@@ -141,14 +141,8 @@ def test_the_shell_has_this_side_too(scan, tmp_path, command):
 
 def test_cohorts_have_this_side_too(scan, tmp_path, monkeypatch):
     volume, vessel, side = scan
-    made = []
-    from lumencut.cohort import study
-
-    def kept(*arguments, **named):
-        made.append(lumencut.planar_reformation.cpr_of(*arguments, **named))
-        return made[-1]
-
-    monkeypatch.setattr(study, "cpr_of", kept)
+    made, make = [], CprRequest.of
+    monkeypatch.setattr(CprRequest, "of", lambda *given: made.append(make(*given)) or made[-1])
     pictures = Pictures(views=(), looks=(), reformations=("straightened",))
     _pictures(Renderer(volume, VesselTree([vessel]), "cpu"), pictures, tmp_path / "one")
     assert [one.pixel_spacing for one in made] == [pytest.approx(side)]

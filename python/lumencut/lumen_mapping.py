@@ -13,7 +13,7 @@ from lumencut._reformation_checks import check_vessel, flat_settings
 from lumencut.errors import MeasuringError, SettingsError, VesselTreeError
 from lumencut.planar_reformation import one_angle
 from lumencut.profile import Profile
-from lumencut.reformation_request import HEAD, ReformationRequest, default_side
+from lumencut.reformation_request import HEAD, ReformationRequest, pixel_side
 from lumencut.renderer import Renderer
 from lumencut.settings import Settings
 from lumencut.slab import Slab
@@ -143,7 +143,7 @@ class LumenMapRequest(ReformationRequest):
             raise MeasuringError("profile of the lumen map", type(profile).__name__, "a Profile or None")
         if not isinstance(self.tree, (VesselTree, type(None))):
             raise VesselTreeError("tree of the lumen map", type(self.tree).__name__, "a VesselTree or None")
-        asked = self.checked(pixel_spacing=default_side(grid))
+        asked = self.checked(pixel_spacing=pixel_side(grid))
         low, high = asked["band"]
         if not -1e3 <= low < high <= 1e3:
             found = f"from {low:g} to {high:g} mm"

@@ -17,7 +17,7 @@ from lumencut.errors import CameraError, SettingsError
 from lumencut.profile import Profile
 from lumencut.reformation import Reformation
 from lumencut.reformation_recipe import ReformationRecipe
-from lumencut.reformation_request import HEAD, ReformationRequest, default_side
+from lumencut.reformation_request import HEAD, ReformationRequest, pixel_side
 from lumencut.renderer import Renderer
 from lumencut.settings import Settings
 from lumencut.tangential import TangentialReformation, TangentialRequest
@@ -291,7 +291,7 @@ class CprRequest(ReformationRequest):
             found = f"a normal with the mode {self.mode!r}"
             raise CameraError("normal of the CPR", found, "the mode 'straightened'")
         given = flat_settings(self.settings, self.slab)
-        asked = self.checked(pixel_spacing=default_side(volume))
+        asked = self.checked(pixel_spacing=pixel_side(volume))
         _check_width(asked["width"], volume)
         view = (asked["up"], asked["angle"], asked["normal"])
         pixels = (asked["width"], asked["pixel_spacing"])

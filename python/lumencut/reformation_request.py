@@ -75,6 +75,6 @@ class ReformationRequest:
             raise CameraError(f"camera of the {self.subject}", type(camera).__name__, "a Camera or None")
 
 
-def default_side(volume: Volume) -> float:
+def pixel_side(volume: Volume) -> float:
     """Return the default pixel side (mm) of every reformation of a volume."""
     return _lumencut.pixel_side(float(volume.spacing.min()))

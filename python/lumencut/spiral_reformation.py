@@ -15,7 +15,7 @@ from lumencut.errors import SettingsError, VesselTreeError
 from lumencut.planar_reformation import one_angle
 from lumencut.reformation import Reformation
 from lumencut.reformation_recipe import ReformationRecipe
-from lumencut.reformation_request import HEAD, ReformationRequest, default_side
+from lumencut.reformation_request import HEAD, ReformationRequest, pixel_side
 from lumencut.renderer import Renderer
 from lumencut.settings import Settings
 from lumencut.vessel import Vessel
@@ -186,7 +186,7 @@ class SpiralRequest(ReformationRequest):
         volume = self._volume(renderer, vessel)
         choice(SettingsError, "sampling of the spiral CPR", self.sampling, SAMPLINGS)
         reach = _reach(vessel) if self.radius is None else None
-        asked = self.checked(pixel_spacing=default_side(volume), radius=reach)
+        asked = self.checked(pixel_spacing=pixel_side(volume), radius=reach)
         if self.pitch is None:
             asked["pitch"] = _fine_pitch(vessel, float(volume.spacing.min()), asked)
         given = flat_settings(self.settings, self.slab)

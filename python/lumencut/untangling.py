@@ -11,7 +11,7 @@ from lumencut import _lumencut
 from lumencut._reformation_checks import SlabArgument, flat_settings
 from lumencut.camera import Camera
 from lumencut.errors import CameraError, VesselTreeError, VolumeError
-from lumencut.reformation_request import ReformationRequest, default_side
+from lumencut.reformation_request import ReformationRequest, pixel_side
 from lumencut.renderer import Renderer
 from lumencut.settings import Settings
 from lumencut.untangled_tree import UntangledTree
@@ -119,7 +119,7 @@ class UntangledRequest(ReformationRequest):
             raise CameraError("camera", type(self.camera).__name__, "a Camera or None")
         view = Camera.anterior(tree) if self.camera is None else self.camera
         given = flat_settings(self.settings, self.slab)
-        asked = self.checked(pixel_spacing=default_side(volume))
+        asked = self.checked(pixel_spacing=pixel_side(volume))
         *lengths, begin = asked.values()
         arrays = [(vessel.points, vessel.radius) for vessel in tree]
         core = _lumencut.Untangled(arrays, view, (*lengths, given.unknown_radius), begin)

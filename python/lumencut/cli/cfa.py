@@ -27,7 +27,7 @@ def show_cfa(beside: str | None, **given: Any) -> None:
     chosen, settings = reformations.like(given, "cfa")
     _check(chosen, beside)
     renderer, tree, vessels = reformations.read_vessels(chosen, settings, "cfa")
-    asked = reformations.asked("cfa", chosen, settings, renderer, tree)
+    asked = reformations.asked("cfa", chosen, settings, tree)
     if beside is None:
         reformations.write_each(chosen, vessels, partial(asked.of, renderer))
         return

@@ -47,7 +47,7 @@ def show_cpr(volume_out: Path | None, **given: Any) -> None:
         reformations.check_single(vessels, volume_out)
     make: Callable[[Vessel], Reformation] = partial(_tangential, renderer, chosen, settings)
     if chosen["mode"] != _TANGENTIAL:
-        make = partial(reformations.asked("cpr", chosen, settings, renderer, tree).of, renderer)
+        make = partial(reformations.asked("cpr", chosen, settings, tree).of, renderer)
     reformations.write_each(chosen, vessels, make)
     if volume_out is not None and renderer.volume is not None:
         _write_volume(volume_out, renderer.volume, vessels[0][1], chosen)

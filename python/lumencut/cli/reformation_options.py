@@ -44,7 +44,7 @@ SMOOTHING = option(
     "--smoothing", "MM", "Smooth the centerlines by a Gaussian with this standard deviation (mm).", 0.0
 )
 UP = option("--up", VECTOR, "The direction that points up (LPS).", "0,0,1")
-SPACING = option("--pixel-spacing", "MM", f"Side of a pixel (mm); default: {PIXEL_SIDE}.")
+SIDE = option("--pixel-spacing", "MM", f"Side of a pixel (mm); default: {PIXEL_SIDE}.")
 
 #: The options that select vessels, each shown separately.
 VESSELS = (options.shown_vessel_options, path_option)

@@ -86,7 +86,7 @@ _CPR = _command(
         ),
         shared.UP,
         option("--width", "MM", "Width of the image (mm); default: 25 mm on each side of the vessel."),
-        shared.SPACING,
+        shared.SIDE,
         shared.SMOOTHING,
         option(
             "--volume-out",
@@ -128,7 +128,7 @@ _CFA = _command(
             ("cpr",),
             "Show the straightened CPR, CFA max and CFA min of each vessel side by side.",
         ),
-        *(*shared.VESSELS, shared.UP, shared.SPACING, shared.SMOOTHING),
+        *(*shared.VESSELS, shared.UP, shared.SIDE, shared.SMOOTHING),
     ),
 )
 
@@ -167,7 +167,7 @@ _SPIRAL = _command(
         ),
         option("--angle", "DEGREES", "Turn the sections.", 0.0),
         shared.UP,
-        shared.SPACING,
+        shared.SIDE,
         shared.SMOOTHING,
     ),
 )
@@ -259,7 +259,7 @@ _MAP = _command(
             "of its contrast, at least 130.",
         ),
         shared.UP,
-        shared.SPACING,
+        shared.SIDE,
         shared.SMOOTHING,
     ),
 )
@@ -291,7 +291,7 @@ _UNTANGLED = _command(
             "Smooth the directions of vessels in the view by a Gaussian with this standard deviation (mm).",
             4.0,
         ),
-        shared.SPACING,
+        shared.SIDE,
         option(
             "--root",
             VECTOR,

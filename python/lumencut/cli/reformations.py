@@ -76,9 +76,7 @@ def read_vessels(
     return renderer, tree, vessels
 
 
-def asked(
-    command: str, chosen: dict[str, Any], settings: Settings, renderer: Renderer, tree: VesselTree
-) -> Any:
+def asked(command: str, chosen: dict[str, Any], settings: Settings, tree: VesselTree) -> Any:
     """Return what the options ask of the reformation of a command."""
     from lumencut.reformation_kinds import KINDS
 
@@ -93,7 +91,7 @@ def show_each(command: str, **given: Any) -> None:
     options.check_picture(given["output"])
     chosen, settings = like(given, command)
     renderer, tree, vessels = read_vessels(chosen, settings, command)
-    write_each(chosen, vessels, partial(asked(command, chosen, settings, renderer, tree).of, renderer))
+    write_each(chosen, vessels, partial(asked(command, chosen, settings, tree).of, renderer))
 
 
 def check_single(vessels: list[tuple[str, Vessel]], path: Path) -> None:

@@ -12,7 +12,7 @@ from lumencut import _lumencut
 from lumencut.measuring import CrossSection, cross_section
 from lumencut.notebook.scene import Place, Scene
 from lumencut.planar_reformation import PlanarReformation, cpr
-from lumencut.reformation_request import default_side
+from lumencut.reformation_request import pixel_side
 from lumencut.section_pictures import grey_picture
 from lumencut.settings import Settings
 
@@ -66,7 +66,7 @@ class Linked:
 
     def _straightened(self) -> PlanarReformation:
         volume = self.scene.volume
-        spacing = max(default_side(volume), self.vessel.length / _MOST_ROWS)
+        spacing = max(pixel_side(volume), self.vessel.length / _MOST_ROWS)
         laid_out = cpr(volume, self.vessel, "straightened", pixel_spacing=spacing, device="cpu")
         assert isinstance(laid_out, PlanarReformation)
         return laid_out
