@@ -70,7 +70,9 @@ def package_of(folder: Path, package: dict[str, Any]) -> Crate:
 
 def crates() -> list[Crate]:
     """The crates that the WebAssembly links."""
-    found = {(crate.name, crate.version): crate for root in CRATES for crate in linked_crates((TARGET,), root)}
+    found = {
+        (crate.name, crate.version): crate for root in CRATES for crate in linked_crates((TARGET,), root)
+    }
     return sorted(found.values(), key=lambda crate: (crate.name, crate.version))
 
 
