@@ -22,8 +22,7 @@ pub(crate) fn list(values: impl IntoIterator<Item: ToString>) -> String {
 
 /// An object of keys without special letters, and values in JSON.
 pub(crate) fn map(fields: impl IntoIterator<Item = (String, String)>) -> String {
-    let fields: Vec<String> =
-        fields.into_iter().map(|(key, value)| format!("\"{key}\":{value}")).collect();
+    let fields: Vec<String> = fields.into_iter().map(|(key, value)| format!("\"{key}\":{value}")).collect();
     format!("{{{}}}", fields.join(","))
 }
 

@@ -132,7 +132,9 @@ fn turn(step: Step) -> (&'static str, String) {
 
 fn need_text(need: &Need) -> String {
     match need {
-        Need::Sizes(names) => json::object(&[("sizes", json::list(names.iter().map(|name| json::text(name))))]),
+        Need::Sizes(names) => {
+            json::object(&[("sizes", json::list(names.iter().map(|name| json::text(name))))])
+        }
         Need::Bytes { name, start, end } => {
             json::object(&[("bytes", json::text(name)), ("range", json::list([start, end]))])
         }
