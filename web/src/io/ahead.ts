@@ -1,7 +1,7 @@
 /** Reads a file from begin to end, one piece ahead. */
 import type { Bytes, Source } from './source';
 
-const PIECE = 4 << 20;
+const PIECE = 1 << 20;
 
 export class Ahead {
   private next: { readonly start: number; readonly bytes: Promise<Bytes> } | null = null;
