@@ -28,6 +28,9 @@ TARGETS = (
     "x86_64-pc-windows-gnu",
     "aarch64-apple-darwin",
 )
+#: Crates of features that only tests switch on.
+FOR_TESTS = frozenset({"ts-rs"})
+
 #: Crates without a licence text; they get the standard text.
 WITHOUT_TEXT = frozenset(
     {
@@ -116,7 +119,7 @@ def linked(metadata: dict[str, Any], root: str) -> list[dict[str, Any]]:
     while wanted:
         key = wanted.pop()
         is_macro = any("proc-macro" in target["kind"] for target in packages[key]["targets"])
-        if key in found or is_macro:
+        if key in found or is_macro or packages[key]["name"] in FOR_TESTS:
             continue
         found[key] = packages[key]
         kinds = ((need["pkg"], [kind["kind"] for kind in need["dep_kinds"]]) for need in needs[key])

@@ -86,10 +86,6 @@ class FormatError(LumencutError, ValueError):
     """A file whose content does not match its format, or an unsupported format."""
 
 
-class OverlapError(FormatError):
-    """Segments that cannot be one label map; their headers are sound."""
-
-
 class SeriesError(FormatError):
     """A folder of several DICOM series without a choice; `series` describes them."""
 

@@ -1,7 +1,8 @@
 //! The content and the layout of diameter charts, which matplotlib draws, and the room of section pictures.
 
+use lumencut::report::chart::DEVIATIONS;
 use lumencut::report::chart::{Chart, FlagRow};
-use lumencut::report::frame::{DEVIATIONS, MARGINS, TICK_DISTANCES, row_height};
+use lumencut::report::frame::{MARGINS, TICK_DISTANCES, row_height};
 use lumencut::report::scale::Axis;
 use lumencut::report::section_room::{self, REPORT_PIXELS, SHEET_PIXELS};
 use pyo3::prelude::*;

@@ -28,6 +28,15 @@ pub(crate) fn exception(class: &str, subject: &str, found: &str, expected: &str,
     mended(class, [subject, found, expected, advice], None)
 }
 
+/// The error of segments that overlap, which a caller of a report notes.
+pub(crate) fn overlap([subject, found, expected, advice]: [&str; 4]) -> PyErr {
+    let made = |py: Python<'_>| {
+        let class = py.import("lumencut.volume_files.overlaps")?.getattr("OverlapError")?;
+        class.call1((subject, found, expected, advice)).map(PyErr::from_value)
+    };
+    Python::attach(|py| made(py).unwrap_or_else(|error| error))
+}
+
 /// An exception of `class` from the texts subject, finding, expectation and advice, with a remedy for programs.
 pub(crate) fn mended(class: &str, texts: [&str; 4], mended_by: Option<&Mend>) -> PyErr {
     Python::attach(|py| made(py, class, texts, mended_by).map_or_else(|error| error, PyErr::from_value))

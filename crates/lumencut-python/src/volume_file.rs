@@ -11,7 +11,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
-use crate::errors::exception;
+use crate::errors::{exception, overlap};
 
 /// Bytes of voxels that one call writes at most, so that signals are heard.
 const PIECE: usize = 16 << 20;
@@ -24,7 +24,9 @@ fn raised(error: &Error, path: &Path) -> PyErr {
     let class = match error.kind {
         ErrorKind::Format => "FormatError",
         ErrorKind::File => "FileError",
-        ErrorKind::Overlap => "OverlapError",
+        ErrorKind::Overlap => {
+            return overlap([&subject, &error.found, &error.expected, &error.mend]);
+        }
     };
     exception(class, &subject, &error.found, &error.expected, &error.mend)
 }

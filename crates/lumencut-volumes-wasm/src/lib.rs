@@ -4,6 +4,7 @@
 
 mod json;
 
+use crate::json::{list, map, object, text};
 use lumencut_volumes::{Error, ErrorKind, Fill, Found, Grid, Known, Need, Plan, Step, Stop, Window, open};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
@@ -104,7 +105,7 @@ impl VolumeFile {
             if let Step::Room { .. } = step {
                 self.output.resize(PIECE, 0);
             }
-            return Ok(json::object(&[("filled", filled.to_string()), turn(step)]));
+            return Ok(object(&[("filled", filled.to_string()), turn(step)]));
         }
     }
 
@@ -118,12 +119,12 @@ impl VolumeFile {
 /// What a step leads to.
 fn turn(step: Step) -> (&'static str, String) {
     match step {
-        Step::Read { start, end } => ("read", json::list([start, end])),
+        Step::Read { start, end } => ("read", list([start, end])),
         Step::Sound { least, .. } => ("least", least.to_string()),
         Step::Checked(count) => ("checked", count.to_string()),
         Step::Room { kind, bytes } => {
-            let kind = ("dtype", json::text(kind.name()));
-            ("room", json::object(&[kind, ("bytes", bytes.to_string())]))
+            let kind = ("dtype", text(kind.name()));
+            ("room", object(&[kind, ("bytes", bytes.to_string())]))
         }
         Step::Filled(_) => ("isDone", "false".into()),
         Step::Done => ("isDone", "true".into()),
@@ -132,36 +133,32 @@ fn turn(step: Step) -> (&'static str, String) {
 
 fn need_text(need: &Need) -> String {
     match need {
-        Need::Sizes(names) => {
-            json::object(&[("sizes", json::list(names.iter().map(|name| json::text(name))))])
-        }
-        Need::Bytes { name, start, end } => {
-            json::object(&[("bytes", json::text(name)), ("range", json::list([start, end]))])
-        }
+        Need::Sizes(names) => object(&[("sizes", list(names.iter().map(|name| text(name))))]),
+        Need::Bytes { name, start, end } => object(&[("bytes", text(name)), ("range", list([start, end]))]),
     }
 }
 
 fn plan_text(plan: &Plan) -> String {
-    let names = plan.label_names.iter().map(|(value, name)| (value.to_string(), json::text(name)));
+    let names = plan.label_names.iter().map(|(value, name)| (value.to_string(), text(name)));
     let Grid { size, states_spacing, states_orientation, .. } = &plan.grid;
-    json::object(&[
-        ("size", json::list(size)),
+    object(&[
+        ("size", list(size)),
         ("spacing", states_spacing.to_string()),
         ("orientation", states_orientation.to_string()),
-        ("voxels", json::text(&plan.place.name)),
-        ("notes", json::list(plan.notes.iter().map(|note| json::text(note)))),
-        ("label_names", json::map(names)),
-        ("description", json::text(&plan.description)),
+        ("voxels", text(&plan.place.name)),
+        ("notes", list(plan.notes.iter().map(|note| text(note)))),
+        ("label_names", map(names)),
+        ("description", text(&plan.description)),
     ])
 }
 
 fn thrown(error: &Error) -> JsValue {
     let kind = if error.kind == ErrorKind::File { "file" } else { "format" };
-    JsValue::from_str(&json::object(&[
-        ("kind", json::text(kind)),
-        ("subject", json::text(&error.subject)),
-        ("found", json::text(&error.found)),
-        ("expected", json::text(&error.expected)),
-        ("mend", json::text(&error.mend)),
+    JsValue::from_str(&object(&[
+        ("kind", text(kind)),
+        ("subject", text(&error.subject)),
+        ("found", text(&error.found)),
+        ("expected", text(&error.expected)),
+        ("mend", text(&error.mend)),
     ]))
 }

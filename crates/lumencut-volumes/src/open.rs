@@ -1,6 +1,6 @@
 //! Recognises a file by its first bytes, or by its name where they leave it open, and reads its header.
 
-use crate::error::Stop;
+use crate::error::{Error, Stop};
 use crate::known::Known;
 use crate::plan::{Format, Plan};
 use crate::text::latin1;
@@ -23,6 +23,10 @@ pub const HEAD: usize = 4096;
 /// another format, [`Stop::Refused`] for a file that cannot be read.
 pub fn open(name: &str, known: &Known, chosen: Option<&[u32]>) -> Result<Plan, Stop> {
     let head = known.head(name, HEAD)?;
+    if head.is_empty() {
+        let expected = "a NIfTI, NRRD or MetaImage volume";
+        return Err(Error::new(name, "an empty file", expected).mend("copy or export it again").into());
+    }
     match format_of(name, &head) {
         Some(Format::Nrrd) => nrrd::open(name, known, chosen),
         Some(Format::MetaImage) => metaimage::open(name, known),

@@ -16,7 +16,7 @@ from lumencut._checks import callback, integers
 from lumencut._files import checked_path
 from lumencut._lumencut import VOLUME_FILES as _KNOWN
 from lumencut.dicomweb.address import is_address
-from lumencut.errors import FileError, FormatError, OverlapError
+from lumencut.errors import FileError, FormatError
 from lumencut.file_kinds import kind_of
 from lumencut.series_report import SeriesReport
 from lumencut.volume import Volume
@@ -32,6 +32,7 @@ from lumencut.volume_files.dicom.files import read_files
 from lumencut.volume_files.grids import open_grid
 from lumencut.volume_files.memory import as_volume
 from lumencut.volume_files.opened import Progress, VolumeFile, heeding, refusing
+from lumencut.volume_files.overlaps import OverlapError
 from lumencut.volume_files.rescale import slabs
 
 __all__ = ["SeriesReport", "VolumeReport", "as_volume", "inspect_volume", "list_series", "read_volume"]

@@ -8,7 +8,12 @@ from collections.abc import Mapping
 import numpy as np
 import numpy.typing as npt
 
-from lumencut.errors import OverlapError
+from lumencut.errors import FormatError
+
+
+class OverlapError(FormatError):
+    """Segments that cannot be one label map; their headers are valid."""
+
 
 Overlaps = Counter[tuple[int, int]]
 """The number of shared voxels for two segments, by their numbers."""

@@ -3,9 +3,17 @@
 use lumencut_vessels::measure::profile::Profile;
 
 use super::curves::{isolated, runs};
-use super::frame::{DEVIATIONS, HEADROOM, RESOLUTION_LIMIT_FWHM};
 use crate::flag_table::{FLAGS, FlagLook};
 use crate::text::fixed;
+
+/// Upper end of the diameter axis, as a multiple of the largest diameter.
+const HEADROOM: f64 = 1.12;
+
+/// Half the width of the uncertainty band, in standard deviations.
+pub const DEVIATIONS: f64 = 2.0;
+
+/// Diameters smaller than this many times the FWHM are near the resolution limit.
+pub const RESOLUTION_LIMIT_FWHM: f64 = 1.5;
 
 /// The chart of a vessel. Values of sections that are left out are NaN.
 #[derive(Clone, Debug)]

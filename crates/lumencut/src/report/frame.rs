@@ -35,15 +35,6 @@ const WORD_HEIGHT: f64 = 11.0;
 /// Smallest distances of the ticks along both axes (plot pixels).
 pub const TICK_DISTANCES: [f64; 2] = [60.0, 18.0];
 
-/// Upper end of the diameter axis, as a multiple of the largest diameter.
-pub(super) const HEADROOM: f64 = 1.12;
-
-/// Half the width of the uncertainty band, in standard deviations.
-pub const DEVIATIONS: f64 = 2.0;
-
-/// Diameters smaller than this many times the FWHM are near the resolution limit.
-pub const RESOLUTION_LIMIT_FWHM: f64 = 1.5;
-
 /// Widths of the strip with the straightened vessel (mm), and the smallest fraction of a section picture that it shows.
 const STRIP_WIDTHS_MM: [f64; 2] = [12.0, 90.0];
 const MIN_STRIP_RATIO: f64 = 0.6;

@@ -7,9 +7,10 @@ use lumencut_core::error::Result;
 use lumencut_vessels::measure::profile::Profile;
 
 use super::Strip;
+use super::chart::DEVIATIONS;
 use super::chart::{Chart, FlagRow};
 use super::curves::{Axes, band, line};
-use super::frame::{DEVIATIONS, Layout, MARGINS, TICK_DISTANCES};
+use super::frame::{Layout, MARGINS, TICK_DISTANCES};
 use super::markup::png_address;
 use super::places::ReportPlace;
 use super::scale::Axis;

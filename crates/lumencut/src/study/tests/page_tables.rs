@@ -4,7 +4,7 @@ use super::generated::require_current;
 use crate::defaults::{PIXEL_SIDES, QUANTITIES};
 use crate::drags::GESTURES;
 use crate::file_kinds::{centerline_files, volume_files};
-use crate::report::frame::DEVIATIONS;
+use crate::report::chart::DEVIATIONS;
 use crate::report::section_room::PAGE_PIXELS;
 use crate::study::palette::PALETTE;
 use crate::vessel_names::{NamedVessel, VESSEL_NAMES};
