@@ -101,6 +101,6 @@ test('files that are not masks are rejected, and the scan stays open', async () 
   const table = new File(['x,y,z\n0,0,0\n1,0,0\n'], 'line.csv');
   const request = { document: EMPTY, edit: { kind: 'add_mask' }, bridging: false } as const;
   const failure = await refusal(engine.ask('edit', request, { mask: [{ path: 'line.csv', file: table }] }));
-  expect([failure.found, failure.expected]).toEqual(['centerlines', 'a mask of vessels']);
+  expect([failure.found, failure.expected]).toEqual(['centerlines', 'a vessel mask']);
   expect(report()).toEqual(before);
 });
