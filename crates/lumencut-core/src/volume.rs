@@ -38,7 +38,6 @@ pub trait Real:
     fn square_root(self) -> Self;
     /// A weight in [0, 1], narrowed to this type.
     fn from_weight(weight: f64) -> Self;
-    /// A number in this type.
     fn from_f32(number: f32) -> Self;
     /// The value as stored in a frame.
     fn to_f32(self) -> f32;

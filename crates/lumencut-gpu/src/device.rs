@@ -124,7 +124,6 @@ fn broken(name: &str, words: &str) -> Error {
         .mended_by(Mend::Cpu)
 }
 
-/// Rejects a GPU below the limits of the stages.
 fn check_limits(name: &str, limits: &Limits) -> Result<()> {
     let mut short = Ok(());
     NEEDED.check_limits_with_fail_fn(limits, true, |limit, needed, found| {

@@ -15,7 +15,6 @@ const NOISE: f32 = 14.0;
 pub struct Workload {
     name: &'static str,
     size: [usize; 3],
-    /// Voxel spacing (mm).
     spacing: DVec3,
     /// Lowest corner of the first voxel (mm, LPS).
     corner: DVec3,

@@ -26,7 +26,6 @@ pub(crate) fn map(fields: impl IntoIterator<Item = (String, String)>) -> String 
     format!("{{{}}}", fields.join(","))
 }
 
-/// The same, of fields that are listed.
 pub(crate) fn object(fields: &[(&str, String)]) -> String {
     map(fields.iter().map(|(key, value)| ((*key).to_owned(), value.clone())))
 }

@@ -115,7 +115,6 @@ impl VolumeFile {
     }
 }
 
-/// What a step leads to.
 fn turn(step: Step) -> (&'static str, String) {
     match step {
         Step::Read { start, end } => ("read", json::list([start, end])),

@@ -24,7 +24,6 @@ macro_rules! of_kind {
     };
 }
 
-/// A type of stored numbers.
 trait Number: Copy + PartialOrd {
     const BYTES: usize;
     fn read(bytes: &[u8], is_big: bool) -> Self;
@@ -92,7 +91,6 @@ impl Conversion {
         self.kind
     }
 
-    /// Whether bytes stay as they are.
     pub(crate) fn is_copy(&self) -> bool {
         let is_native = self.stored.kind.bytes() == 1 || self.stored.is_big == cfg!(target_endian = "big");
         self.is_same_kind() && is_native

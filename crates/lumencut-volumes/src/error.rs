@@ -55,12 +55,10 @@ impl Error {
         self
     }
 
-    /// A damaged file; another copy may be whole.
     pub(crate) fn damaged(subject: &str, found: impl Into<String>, expected: impl Into<String>) -> Box<Self> {
         Self::new(subject, found, expected).mend("copy the file again")
     }
 
-    /// A file that is not there.
     pub(crate) fn missing(name: &str, expected: &str) -> Box<Self> {
         Self::new(name, "no such file", expected).mend("bring both files together").of(ErrorKind::File)
     }
@@ -120,5 +118,4 @@ impl From<Need> for Stop {
     }
 }
 
-/// Result of a step of `open`.
 pub(crate) type Opening<T> = Result<T, Stop>;

@@ -215,7 +215,6 @@ impl Fill {
         Ok(Turn::Step(Step::Sound { is_proven, least: saturated(least) }))
     }
 
-    /// Numbers that the file holds.
     fn numbers(&self) -> u128 {
         self.plan.stored_bytes() / self.plan.stored.kind.bytes() as u128
     }

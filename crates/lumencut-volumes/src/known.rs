@@ -29,7 +29,6 @@ pub struct Known(Vec<File>);
 struct File {
     name: String,
     found: Found,
-    /// Its first bytes.
     head: Vec<u8>,
 }
 
@@ -84,7 +83,6 @@ impl Known {
         })
     }
 
-    /// The first bytes of a file, `count` or all.
     pub(crate) fn first(&self, name: &str, count: u64) -> Opening<&[u8]> {
         let count = count.min(self.size(name)?);
         let head = self.file(name).map_or(&[][..], |file| &file.head);

@@ -25,9 +25,7 @@ pub(crate) struct LabelMap {
     block: Vec<u32>,
     /// Voxels that are not yet given, those of the block included.
     left: u64,
-    /// Values of the block that are read.
     at: usize,
-    /// Labels of the block that are given.
     given: usize,
     overlaps: Vec<([usize; 2], u64)>,
 }
@@ -101,7 +99,6 @@ impl LabelMap {
         *label = u32::try_from(place + 1).unwrap_or(u32::MAX);
     }
 
-    /// Writes labels of a complete block; tells how many bytes.
     pub(crate) fn give(&mut self, to: &mut [u8]) -> usize {
         let unit = self.kind.bytes();
         let labels = &mut self.block[self.given..];

@@ -105,7 +105,6 @@ fn partner(path: &str, known: &Known, [mine, other]: [&str; 2]) -> Opening<Strin
     Ok(known.first_found(&names)?.unwrap_or_else(|| names[0].clone()))
 }
 
-/// Refuses by name the types that are no single number.
 fn kind_of(path: &str, code: i16) -> Result<Kind, Box<Error>> {
     let (found, mend) = match code {
         2 => return Ok(Kind::Uint8),
@@ -150,7 +149,6 @@ fn scaling_remark(kind: Kind, scaling: Scaling) -> String {
     format!("values are scaled by {slope} and shifted by {intercept}: {result}")
 }
 
-/// The names of labels in the extensions of a header, which end before the voxels or with the file.
 fn label_names(known: &Known, home: &str, header: &Header, end: usize) -> Opening<Vec<(i64, String)>> {
     let length = header.length();
     let start = known.unpacked(home, length + 4)?;

@@ -116,7 +116,6 @@ impl Scaling {
         self == Self::NONE
     }
 
-    /// Whether integers stay integers.
     pub(crate) fn is_integral(self) -> bool {
         let is_whole = |value: f64| value.is_finite() && value.fract() == 0.0;
         is_whole(self.slope) && is_whole(self.intercept)

@@ -47,7 +47,6 @@ pub fn format_of(name: &str, head: &[u8]) -> Option<Format> {
     nifti::format_of(head).or(has_name.then_some(Format::Nifti1))
 }
 
-/// Whether a text says that it is the header of a MetaImage.
 fn states_image(head: &[u8]) -> bool {
     latin1(head).lines().any(|line| {
         let (name, value) = line.split_once('=').unwrap_or_default();

@@ -119,12 +119,10 @@ impl Plan {
         Error::missing(&self.place.name, &format!("the voxels of {}", self.name))
     }
 
-    /// Number of voxels.
     pub(crate) fn voxels(&self) -> u128 {
         product(&self.grid.size)
     }
 
-    /// Bytes of all stored numbers.
     pub(crate) fn stored_bytes(&self) -> u128 {
         let layers = self.segmentation.as_ref().map_or(1, |segmentation| segmentation.layers);
         product(&[layers, self.stored.kind.bytes() as u64]).saturating_mul(self.voxels())

@@ -71,7 +71,6 @@ impl Segmentation {
         Ok(read)
     }
 
-    /// Whether segments are counted, since several share a label.
     pub(crate) fn is_renumbered(&self) -> bool {
         self.segments.iter().any(|one| one.number != one.value)
     }
@@ -86,7 +85,6 @@ impl Segmentation {
         self.segments.iter().map(|one| (one.number.into(), one.name.clone())).collect()
     }
 
-    /// The segments that are read.
     pub(crate) fn read_ones(&self) -> impl Iterator<Item = &Segment> {
         let is_read = |one: &&Segment| self.chosen.as_ref().is_none_or(|chosen| chosen.contains(&one.number));
         self.segments.iter().filter(is_read)
@@ -125,12 +123,10 @@ impl Segmentation {
     }
 }
 
-/// Whether lines of a header describe segments.
 pub(crate) fn has_segments(lines: &[String]) -> bool {
     lines.iter().any(|line| field_of(line).is_some())
 }
 
-/// The number of a segment, the place of a field in the list of fields, and its value.
 fn field_of(line: &str) -> Option<(u32, usize, &str)> {
     let (name, value) = line.trim().strip_prefix("Segment")?.split_once(":=")?;
     let (number, field) = name.split_once('_')?;

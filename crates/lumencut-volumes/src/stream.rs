@@ -20,7 +20,6 @@ const MOST_EMPTY: u32 = 1000;
 /// Bytes that tell whether another part begins.
 const MAGIC: usize = 3;
 
-/// What is wrong with a stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Fault {
     Damaged,
@@ -36,7 +35,6 @@ impl Fault {
     }
 }
 
-/// What came of some input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Taken {
     /// So many bytes were read, and so many written; either may be none.
@@ -128,7 +126,6 @@ impl Unpacker {
     }
 }
 
-/// How many bytes were read and written, and whether the part has ended.
 type Moved = (usize, usize, bool);
 
 fn inflated(part: &mut Inflate, input: &[u8], output: &mut [u8], is_beyond: bool) -> Result<Moved, Fault> {

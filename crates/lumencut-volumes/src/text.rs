@@ -21,7 +21,6 @@ pub(crate) fn shown(value: &str) -> String {
     text.chars().take(SHOWN - 1).chain(['…']).collect()
 }
 
-/// A text in quotation marks.
 pub(crate) fn quoted(text: &str) -> String {
     let mark = if text.contains('\'') && !text.contains('"') { '"' } else { '\'' };
     let mut out = String::from(mark);
@@ -53,7 +52,6 @@ pub(crate) fn latin1(bytes: &[u8]) -> String {
     bytes.iter().map(|&byte| char::from(byte)).collect()
 }
 
-/// The number that a word stands for.
 pub(crate) fn number(word: &str) -> Option<f64> {
     built_in::real(&ungrouped(word.trim()))
 }
@@ -69,7 +67,6 @@ pub(crate) fn ungrouped(word: &str) -> Cow<'_, str> {
     word.into()
 }
 
-/// Numbers between brackets.
 pub(crate) fn listed<T: ToString>(values: &[T]) -> String {
     let words: Vec<String> = values.iter().map(T::to_string).collect();
     format!("[{}]", words.join(", "))

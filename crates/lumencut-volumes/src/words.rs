@@ -8,7 +8,6 @@ use crate::text::{latin1, ungrouped};
 
 const LONGEST: usize = 400;
 
-/// Makes numbers of words, in pieces.
 pub(crate) struct Words {
     subject: String,
     kind: Kind,

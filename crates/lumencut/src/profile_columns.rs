@@ -5,7 +5,6 @@ use lumencut_vessels::measure::parts::Parts;
 use lumencut_vessels::measure::profile::{Profile, Source};
 use lumencut_vessels::measure::wall_level::WallSource;
 
-/// A column of a profile.
 pub(crate) enum Column<'a> {
     Number(&'a mut f64),
     Numbers(&'a mut Vec<f64>),
@@ -114,7 +113,6 @@ pub(crate) fn whole(number: f64) -> Option<usize> {
     ((0.0..1e9).contains(&number) && number.fract() == 0.0).then_some(number as usize)
 }
 
-/// A profile without sections, to fill.
 pub(crate) fn empty() -> Profile {
     Profile {
         arc_length: Vec::new(),

@@ -17,27 +17,22 @@ use crate::scan_details::ScanDetails;
 
 const SUBJECT: &str = "record of a profile";
 
-/// The version of records.
 const FORMAT: u32 = 1;
 
 /// A measured profile as JSON. Numbers keep all bits; null means NaN, since JSON has no NaN.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ProfileRecord {
-    /// Version of the record.
     format: u32,
     /// Bits of the flags by name, for other programs. Our reader uses only the bits in `flags`.
     flag_names: BTreeMap<String, u32>,
-    /// The flags of each section.
     flags: Vec<u32>,
-    /// Columns by name, in mm, LPS or the volume's unit. The coordinates of points follow each other. Each contour begins
-    /// with its number of points.
+    /// Columns by name, in mm, LPS or the volume's unit. Coordinates follow each other. A contour begins with its number of points.
     columns: BTreeMap<String, Numbers>,
-    /// Where the point spread comes from: kind and words.
+    /// The source of the point spread: kind and words.
     fwhm_source: (String, String),
-    /// Where the wall level comes from: kind and numbers.
+    /// The source of the wall level: kind and numbers.
     wall_source: (String, Numbers),
-    /// How the scan was made.
     scan: ScanDetails,
 }
 
@@ -108,7 +103,7 @@ impl ProfileRecord {
     }
 }
 
-/// Rejects a profile that no measurement makes.
+/// Rejects values that no measurement yields.
 fn check(profile: &Profile) -> Result<()> {
     let sections = profile.arc_length.len();
     if sections == 0 || lengths(profile).iter().any(|length| *length != sections) {

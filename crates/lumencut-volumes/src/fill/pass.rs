@@ -7,14 +7,12 @@ use crate::words::Words;
 
 const SKIPPED: usize = 1 << 14;
 
-/// What a pass gives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Piece {
     /// So many bytes; none while it is on its way to the next ones.
     Bytes(usize),
     /// More of the file is needed.
     Hungry,
-    /// There is no room for output.
     Full,
     /// All bytes were given, and check sums are right.
     End,

@@ -4,11 +4,9 @@ use crate::error::Error;
 use crate::plan::Format;
 use crate::text::{short, shown};
 
-/// Bytes that hold either header.
 pub(crate) const HEADER_BYTES: usize = 540;
 const MOST_CODE: i32 = 5;
 
-/// What a header states; numbers are those of the file.
 pub(crate) struct Header {
     pub(crate) format: Format,
     /// Whether the voxels are in a file of their own.
@@ -22,7 +20,6 @@ pub(crate) struct Header {
     pub(crate) dim: [i64; 8],
     glmin: i32,
     pub(crate) datatype: i16,
-    /// The handedness, then the lengths of voxels.
     pub(crate) pixdim: [f64; 8],
     offset: f64,
     pub(crate) slope: f64,
@@ -33,7 +30,6 @@ pub(crate) struct Header {
     pub(crate) quaternion: [f64; 3],
     pub(crate) shift: [f64; 3],
     pub(crate) rows: [[f64; 4]; 3],
-    /// What the file says that it holds.
     pub(crate) description: [u8; 80],
 }
 

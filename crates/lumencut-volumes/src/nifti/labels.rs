@@ -37,7 +37,6 @@ fn add_labels(text: &str, names: &mut Vec<(i64, String)>) {
     }
 }
 
-/// The value and the name of an element of which the first letters are read.
 fn label_in(rest: &str) -> Option<(i64, String)> {
     if rest.starts_with(|letter: char| letter.is_ascii_alphanumeric() || letter == '_') {
         return None;

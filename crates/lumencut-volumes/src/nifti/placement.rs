@@ -51,7 +51,6 @@ impl Header {
         })
     }
 
-    /// The placement by the quaternion, None where it is no rotation.
     fn qform(&self) -> Option<Affine> {
         let [x, y, z] = self.quaternion.map(Wide::from);
         let [one, two] = [1.0, 2.0].map(Wide::from);

@@ -6,7 +6,6 @@ use std::ops::{Add, Div, Mul, Sub};
 #[derive(Clone, Copy)]
 pub(crate) struct Wide(f64, f64);
 
-/// Parts of a number with half of its digits.
 const SPLIT: f64 = 134_217_729.0;
 
 impl Wide {
@@ -74,14 +73,12 @@ impl Div for Wide {
     }
 }
 
-/// The exact sum.
 fn sum(one: f64, other: f64) -> Wide {
     let total = one + other;
     let back = total - one;
     Wide(total, (one - (total - back)) + (other - back))
 }
 
-/// The exact product.
 fn product(one: f64, other: f64) -> Wide {
     let halves = |value: f64| {
         let shifted = SPLIT * value;

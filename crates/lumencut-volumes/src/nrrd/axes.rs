@@ -7,7 +7,6 @@ use crate::text::{listed, shown};
 
 const GRID_KINDS: [&str; 5] = ["domain", "space", "none", "???", ""];
 
-/// The axes of a file, the fastest first.
 pub(crate) struct Axes {
     pub(crate) sizes: Vec<u64>,
     pub(crate) of_grid: [usize; 3],

@@ -27,7 +27,6 @@ const FIELDS: [&str; 16] = [
     "axis mins",
 ];
 
-/// A vector of numbers, None for an axis that has none.
 pub(crate) type Direction = Option<Vec<f64>>;
 
 pub(crate) struct Header<'a> {
@@ -37,7 +36,6 @@ pub(crate) struct Header<'a> {
     pub(crate) lines: Vec<String>,
     /// The byte behind the header.
     pub(crate) end: u64,
-    /// What the file says that it holds.
     pub(crate) content: String,
 }
 
@@ -123,7 +121,6 @@ impl<'a> Header<'a> {
         if self.has(name) { self.text(name).parse().map_err(|_| self.unreadable()) } else { Ok(0) }
     }
 
-    /// The numbers of a field, none where it is not stated.
     pub(crate) fn numbers(&self, name: &str) -> Result<Vec<f64>, Box<Error>> {
         let words = self.text(name).split_whitespace();
         words.map(|word| number(word).ok_or_else(|| self.unreadable())).collect()

@@ -53,7 +53,6 @@ impl Header<'_> {
         Ok(columns)
     }
 
-    /// The directions of a header that states distances alone.
     fn along_axes(&self, axes: &[usize; 3], notes: &mut Vec<String>) -> Result<[[f64; 3]; 3], Box<Error>> {
         let steps = self.spacings(axes)?;
         if !steps.iter().all(|step| step.is_finite()) {
@@ -65,7 +64,6 @@ impl Header<'_> {
         }))
     }
 
-    /// The spacing of each axis of the grid, NaN where none is stated.
     fn spacings(&self, axes: &[usize; 3]) -> Result<[f64; 3], Box<Error>> {
         let stated = self.numbers("spacings")?;
         Ok(axes.map(|axis| stated.get(axis).copied().unwrap_or(f64::NAN)))
@@ -89,7 +87,6 @@ impl Header<'_> {
             && (unit.is_empty() || millimetres(&unit).is_some()))
     }
 
-    /// The name of the space in lower case.
     fn patient_space(&self) -> String {
         let space = self.text("space").to_ascii_lowercase();
         space.strip_suffix("-time").unwrap_or(&space).to_owned()
@@ -117,7 +114,6 @@ impl Header<'_> {
         })
     }
 
-    /// Millimetres per unit of the file.
     fn unit_noted(&self, notes: &mut Vec<String>) -> Result<f64, Box<Error>> {
         let unit = self.unit()?;
         if unit.is_empty() {

@@ -62,7 +62,6 @@ pub fn row_height(count: usize, height: f64) -> f64 {
     ROW_HEIGHT.min(MAX_ROWS_SHARE * height / count.max(1) as f64)
 }
 
-/// The layout of a chart.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Layout {
     pub axes: Axes,
@@ -75,7 +74,6 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
-    /// The layout of a chart with this width and height (plot pixels).
     pub(crate) fn of(chart: &Chart, [width, height]: [f64; 2]) -> Self {
         let bottom = (height - MARGINS.below).max(MARGINS.above + MIN_AXES);
         let row = row_height(chart.flags.len(), bottom - MARGINS.above);

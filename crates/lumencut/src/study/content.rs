@@ -101,7 +101,6 @@ pub(crate) struct VolumeReport {
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct VesselReport {
-    /// Number of the vessel's line.
     pub line: usize,
     /// Name; may be empty.
     pub name: String,

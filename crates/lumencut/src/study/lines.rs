@@ -41,7 +41,6 @@ pub(crate) struct LineContent {
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct NamedLine {
-    /// Number of the line.
     pub line: usize,
     /// Name; may be empty.
     pub name: String,
@@ -51,7 +50,6 @@ pub(crate) struct NamedLine {
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct ListedLine {
-    /// Number of the line.
     pub line: usize,
     /// Name; may be empty.
     pub name: String,

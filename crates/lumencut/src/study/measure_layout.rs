@@ -17,7 +17,6 @@ use crate::text::rounded;
 /// Largest fraction of the pane for the straightened vessel.
 const MAX_STRIP_SHARE: f64 = 0.4;
 
-/// A line to lay out in a pane.
 #[derive(Clone, Debug, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "MeasurePane"))]
 pub(crate) struct MeasurePaneMessage {
@@ -32,7 +31,6 @@ pub(crate) struct MeasurePaneMessage {
     density: f64,
 }
 
-/// The layout of a measuring pane.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct MeasureLayout {
@@ -79,7 +77,6 @@ struct Tick {
     words: String,
 }
 
-/// A row of a flag.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 struct FlagBars {
