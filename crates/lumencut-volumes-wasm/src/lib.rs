@@ -44,10 +44,7 @@ impl VolumeFile {
         self.known.add_bytes(name, start as u64, bytes);
     }
 
-    /// Reads the header: the plan as JSON, or what is still needed for it.
-    ///
-    /// # Errors
-    /// For a file that cannot be read.
+    /// Reads the header: the plan as JSON, or what is still needed for it. Fails for a file that cannot be read.
     pub fn open(&mut self) -> Thrown<String> {
         match open(&self.name, &self.known, None) {
             Ok(plan) => {
@@ -68,9 +65,7 @@ impl VolumeFile {
     }
 
     /// Begins to fill the volume from the file that the plan names, of this size (bytes); undefined if there is none.
-    ///
-    /// # Errors
-    /// For a missing file.
+    /// Fails for a missing file.
     pub fn begin(&mut self, size: Option<f64>) -> Thrown<()> {
         let plan = self.plan.take().ok_or("no plan")?;
         let size = size.ok_or_else(|| thrown(&plan.missing()))?;
@@ -85,10 +80,8 @@ impl VolumeFile {
         self.input.extend_from_slice(bytes);
     }
 
-    /// Continues until there are voxels to take from `output`, or bytes to read, or something to tell, as JSON.
-    ///
-    /// # Errors
-    /// For a file that is too short or damaged, and for overlapping segments.
+    /// Continues until there are voxels to take from `output`, or bytes to read, or something to tell, as JSON. Fails
+    /// for a file that is too short or damaged, and for overlapping segments.
     pub fn step(&mut self) -> Thrown<String> {
         let fill = self.fill.as_mut().ok_or("no plan")?;
         let window = Window { start: self.start, bytes: &self.input };

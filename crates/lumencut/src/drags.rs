@@ -68,9 +68,7 @@ const fn row(name: &'static str, value: f64, unit: &'static str, about: &'static
     Gesture { name, value, unit, about }
 }
 
-/// The camera rotated about an axis (LPS) through a point (mm, LPS), by an angle (radians).
-///
-/// # Errors
+/// The camera rotated about an axis (LPS) through a point (mm, LPS), by an angle (radians). Fails with
 /// [`ErrorKind::Camera`] for a non-finite angle or point, an invalid axis, or a center out of range.
 pub fn turned_about(camera: &Camera, pivot: DVec3, axis: DVec3, angle: f64) -> Result<Camera> {
     let turn = rotation(axis, angle)?;
@@ -79,10 +77,7 @@ pub fn turned_about(camera: &Camera, pivot: DVec3, axis: DVec3, angle: f64) -> R
     Camera::new(pivot + away, direction, up, camera.size(), camera.pixel_spacing())
 }
 
-/// The camera after a drag over a ball that fills the view.
-///
-/// # Errors
-/// As [`turned_about`].
+/// The camera after a drag over a ball that fills the view. Fails as [`turned_about`] does.
 pub fn trackballed(camera: &Camera, pivot: DVec3, [right, down]: [f64; 2]) -> Result<Camera> {
     // Not hypot, whose last bit differs between hosts.
     let pixels = (right * right + down * down).sqrt();
@@ -93,10 +88,7 @@ pub fn trackballed(camera: &Camera, pivot: DVec3, [right, down]: [f64; 2]) -> Re
     turned_about(camera, pivot, axis, angle_of(camera, pixels))
 }
 
-/// The camera after a drag to the right about an axis (LPS).
-///
-/// # Errors
-/// As [`turned_about`].
+/// The camera after a drag to the right about an axis (LPS). Fails as [`turned_about`] does.
 pub fn spun(camera: &Camera, pivot: DVec3, axis: DVec3, right: f64) -> Result<Camera> {
     turned_about(camera, pivot, axis, -angle_of(camera, right))
 }
@@ -105,19 +97,15 @@ fn angle_of(camera: &Camera, pixels: f64) -> f64 {
     pixels * (TURN_PER_HEIGHT / camera.size()[1] as f64)
 }
 
-/// The camera after a drag that moves the scene with the pointer.
-///
-/// # Errors
-/// [`ErrorKind::Camera`] for non-finite or too large distances.
+/// The camera after a drag that moves the scene with the pointer. Fails with [`ErrorKind::Camera`] for non-finite or
+/// too large distances.
 pub fn dragged(camera: &Camera, [right, down]: [f64; 2]) -> Result<Camera> {
     let side = camera.pixel_spacing();
     panned(camera, -right * side, down * side)
 }
 
 /// The camera magnified by a factor, within the limits of the pixel spacing; the place at the pixel stays there.
-///
-/// # Errors
-/// [`ErrorKind::Camera`] for a factor that is not positive and finite, or a non-finite pixel.
+/// Fails with [`ErrorKind::Camera`] for a factor that is not positive and finite, or a non-finite pixel.
 pub fn zoomed_at(camera: &Camera, factor: f64, [column, row]: [f64; 2]) -> Result<Camera> {
     if !(factor.is_finite() && factor > 0.0) {
         let expected = "a number above 0";
@@ -130,10 +118,8 @@ pub fn zoomed_at(camera: &Camera, factor: f64, [column, row]: [f64; 2]) -> Resul
     Camera::new(moved.center(), moved.direction(), moved.up(), moved.size(), spacing)
 }
 
-/// The same view with a share of its pixels along each side, at least one.
-///
-/// # Errors
-/// [`ErrorKind::Camera`] for a size or spacing out of range.
+/// The same view with a share of its pixels along each side, at least one. Fails with [`ErrorKind::Camera`] for a
+/// size or spacing out of range.
 pub fn sampled(camera: &Camera, share: f64) -> Result<Camera> {
     let size = camera.size().map(|count| (count as f64 * share).round().max(1.0) as usize);
     let spacing = camera.pixel_spacing() * camera.size()[1] as f64 / size[1] as f64;

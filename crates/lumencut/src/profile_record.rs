@@ -62,10 +62,8 @@ impl ProfileRecord {
         text.unwrap_or_default()
     }
 
-    /// Reads the text of a record.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Measuring`] for another text, or a record of another version.
+    /// Reads the text of a record. Fails with [`ErrorKind::Measuring`] for another text, or a record of another
+    /// version.
     pub fn read(text: &str) -> Result<Self> {
         #[derive(Deserialize)]
         struct Version {
@@ -81,10 +79,8 @@ impl ProfileRecord {
         serde_json::from_str(text).map_err(no_record)
     }
 
-    /// Restores the profile, which is bit-identical, and how the scan was made.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Measuring`] for columns that do not make up a profile, and for unknown flags.
+    /// Restores the profile, which is bit-identical, and how the scan was made. Fails with [`ErrorKind::Measuring`]
+    /// for columns that do not make up a profile, and for unknown flags.
     pub fn profile(self) -> Result<(Profile, ScanDetails)> {
         let mut stored = self.columns;
         let mut profile = empty();

@@ -130,10 +130,8 @@ struct NamedWindow {
 }
 
 impl Content {
-    /// The open volume and vessels as the scene that renderers need.
-    ///
-    /// # Errors
-    /// `volume` for an invalid grid.
+    /// The open volume and vessels as the scene that renderers need. Fails with an error of kind `volume` for an
+    /// invalid grid.
     pub fn scene(&self) -> Result<Scene<'_>> {
         let volume = self.held.as_ref().map(HeldVolume::shared).transpose()?;
         Ok(Scene { volume, tree: self.tree().cloned() })

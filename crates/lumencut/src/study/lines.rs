@@ -57,10 +57,8 @@ pub(crate) struct ListedLine {
 }
 
 impl Line {
-    /// The vessel for the core; it states unknown radii as 0 if others are known.
-    ///
-    /// # Errors
-    /// `vessel tree` for invalid points or radii.
+    /// The vessel for the core; it states unknown radii as 0 if others are known. Fails with an error of kind `vessel
+    /// tree` for invalid points or radii.
     pub fn vessel(&self) -> Result<Vessel> {
         Ok(Vessel::new(self.points.clone(), self.known_radius())?)
     }
