@@ -36,7 +36,7 @@ pub(crate) fn zoomed_at(camera: MadeCamera, factor: f64, pixel: [f64; 2]) -> PyR
     placed(drags::zoomed_at(&camera.camera()?, factor, pixel))
 }
 
-/// Size (pixels) and pixel spacing (mm) of the view with a share of its pixels along each side.
+/// Size (pixels) and pixel spacing (mm) of the same view with fewer pixels; `share` is the fraction along each side.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn sampled(camera: MadeCamera, share: f64) -> PyResult<((usize, usize), f64)> {

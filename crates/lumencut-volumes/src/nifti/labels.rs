@@ -4,7 +4,7 @@ use crate::text::printable;
 
 const MOST_DIGITS: usize = 9;
 
-/// Whether extensions follow a header of this length; four bytes behind it say so.
+/// Whether extensions follow a header of this length; the four bytes after it state this.
 pub(crate) fn has_extensions(head: &[u8], length: usize) -> bool {
     head.len() >= length + 4 && head[length] != 0
 }
