@@ -31,9 +31,8 @@ pub const PIXEL_SIDES: [f64; 2] = [0.05, 0.25];
 /// The rule of [`pixel_side`] in words, for help texts and documentation.
 pub const PIXEL_SIDE_WORDS: &str = "the smallest voxel side, at least 0.05 and at most 0.25 mm";
 
-/// The pixel side (mm) that every reformation along vessels has by default, in a scan with this smallest voxel side (mm).
-///
-/// The largest side leaves room for labels, the smallest one bounds the size of pictures of very fine scans.
+/// The pixel side (mm) that every reformation along vessels has by default, in a scan with this smallest voxel side
+/// (mm). The largest side leaves room for labels, the smallest one bounds the size of pictures of very fine scans.
 pub fn pixel_side(smallest_side: f64) -> f64 {
     smallest_side.clamp(PIXEL_SIDES[0], PIXEL_SIDES[1])
 }

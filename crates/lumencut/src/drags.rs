@@ -1,6 +1,6 @@
 //! How drags, the wheel and keys change a camera and a window; the page and the notebook read the same constants.
-//!
-//! Drags are in pixels of the picture, to the right and down. Pixels are (column, row) from the middle of the first one.
+//! Drags are in pixels of the picture, to the right and down. Pixels are (column, row) from the middle of the first
+//! one.
 
 use std::f64::consts::PI;
 

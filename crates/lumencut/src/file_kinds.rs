@@ -1,6 +1,5 @@
-//! The kinds of files that hosts open, with their file name extensions, and how the first bytes of a file state its kind.
-//!
-//! The readers check their formats themselves; here a file may remain unknown.
+//! The kinds of files that hosts open, with their file name extensions, and how the first bytes of a file state its
+//! kind. The readers check their formats themselves; here a file may remain unknown.
 
 use serde::Serialize;
 

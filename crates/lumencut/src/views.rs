@@ -1,6 +1,5 @@
-//! The six standard views; fits, rotates, zooms and pans views.
-//!
-//! Every function returns a new camera. Points are in world space (LPS, mm).
+//! The six standard views; fits, rotates, zooms and pans views. Every function returns a new camera. Points are in
+//! world space (LPS, mm).
 
 use glam::{DMat3, DVec3};
 use lumencut_core::camera::Camera;

@@ -1,7 +1,6 @@
-//! Which part of a chosen vessel takes precedence over all other vessels.
-//!
-//! The centerline of a branch begins in the middle of its parent, with the parent's radius. With precedence,
-//! its first disc would cover the parent, so points (slots) inside the parent get none.
+//! Which part of a chosen vessel takes precedence over all other vessels. The centerline of a branch begins in the
+//! middle of its parent, with the parent's radius. With precedence, its first disc would cover the parent, so points
+//! (slots) inside the parent get none.
 
 use std::ops::Range;
 

@@ -1,6 +1,5 @@
-//! Estimates the lumen level along a vessel from the sections that show it well.
-//!
-//! Contrast medium mixes along the vessel, so nearby sections count most.
+//! Estimates the lumen level along a vessel from the sections that show it well. Contrast medium mixes along the
+//! vessel, so nearby sections count most.
 
 /// Distance (mm) over which the weight of a section falls to 1/e.
 const DISTANCE: f64 = 25.0;
