@@ -1,4 +1,4 @@
-"""Ticks of matplotlib at the values of reports. It is imported only where matplotlib is there."""
+"""Ticks for matplotlib at the same values as in reports; imported only if matplotlib is installed."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from lumencut.plot_pixels import plot_pixels
 
 
 class ChartTicks(Locator):
-    """Ticks that follow the zoom; there are none below 0.
+    """Ticks that adapt to the zoom; there are none below 0.
 
     Parameters
     ----------
@@ -21,7 +21,7 @@ class ChartTicks(Locator):
         self._is_along = is_along
 
     def __call__(self) -> list[float]:
-        """Return the ticks of the part that is shown."""
+        """Return the ticks of the visible range."""
         return self.tick_values(*sorted(self.axis.get_view_interval()))
 
     def tick_values(self, vmin: float, vmax: float) -> list[float]:

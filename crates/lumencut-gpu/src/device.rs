@@ -86,7 +86,6 @@ impl Device {
         }
     }
 
-    /// The error for work that the GPU did not finish.
     pub(crate) fn unfinished(&self) -> Error {
         self.check().err().unwrap_or_else(|| broken(&self.description.name, "no result"))
     }

@@ -13,7 +13,6 @@ use crate::vessel_tree::{MAX_COORDINATE, Vessel, VesselTree};
 /// Number of box layers that approximate the Gaussian.
 const LAYERS: usize = 16;
 
-/// Distance at which the Gaussian is cut off (σ).
 const CUT_OFF_SIGMAS: f64 = 4.0;
 
 /// `tree` with centerlines smoothed by a Gaussian whose σ at each point is `radii` times the radius there. Ends,

@@ -10,7 +10,6 @@ const DEVIATION: [f64; 2] = [0.01, 0.08];
 /// Larger differences between levels are clamped to this fraction of the contrast.
 const MAX_DEVIATION: f64 = 0.3;
 
-/// Maximum number of sections that are pooled.
 const MAX_SECTIONS: usize = 500;
 
 pub(crate) type Level = [f64; 2];

@@ -48,7 +48,6 @@ pub const RESOLUTION_LIMIT_FWHM: f64 = 1.5;
 const STRIP_WIDTHS_MM: [f64; 2] = [12.0, 90.0];
 const MIN_STRIP_RATIO: f64 = 0.6;
 
-/// The smallest pixel side of the strip (mm).
 const MIN_PIXEL_MM: f64 = 0.05;
 
 /// The axis along a vessel of this length (mm), in a chart of this width.

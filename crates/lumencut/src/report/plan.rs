@@ -8,7 +8,6 @@ use super::places::{ReportMark, ReportPlace, places};
 use super::plot::{STRIP, WIDTH};
 use super::section_room::{section_side, section_spacing};
 
-/// Pixels of the strip per plot pixel.
 const PIXELS_PER_PLOT_PIXEL: f64 = 1.6;
 
 /// The pictures of a vessel.
