@@ -63,7 +63,7 @@ class ReformationRequest:
         return number(error, subject, value)
 
     def _volume(self, renderer: Renderer, vessel: Any) -> Volume:
-        """Return the volume of the renderer; reject a renderer without a volume, and anything except a vessel."""
+        """Return the volume of the renderer; reject renderers without one, and anything except a vessel."""
         check_vessel(vessel)
         if renderer.volume is None:
             raise VolumeError(f"volume of the {self.subject}", "None", "a volume to show")

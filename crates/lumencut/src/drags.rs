@@ -15,13 +15,13 @@ use crate::views::{panned, rotation};
 /// A constant of the gestures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gesture {
-    /// Its name in all hosts.
+    /// Its name in Rust, Python and the page.
     pub name: &'static str,
     /// Its value, in the unit.
     pub value: f64,
     /// `px` are pixels of the screen; `1` is a number without a unit.
     pub unit: &'static str,
-    /// What it is, in one sentence.
+    /// Its meaning, in one sentence.
     pub about: &'static str,
 }
 
@@ -79,7 +79,7 @@ pub fn turned_about(camera: &Camera, pivot: DVec3, axis: DVec3, angle: f64) -> R
 
 /// The camera after a drag over a ball that fills the view. Fails as [`turned_about`] does.
 pub fn trackballed(camera: &Camera, pivot: DVec3, [right, down]: [f64; 2]) -> Result<Camera> {
-    // Not hypot, whose last bit differs between hosts.
+    // Not `hypot`: its last bit differs between platforms.
     let pixels = (right * right + down * down).sqrt();
     if pixels == 0.0 {
         return Ok(*camera);
@@ -104,7 +104,7 @@ pub fn dragged(camera: &Camera, [right, down]: [f64; 2]) -> Result<Camera> {
     panned(camera, -right * side, down * side)
 }
 
-/// The camera magnified by a factor, within the limits of the pixel spacing; the place at the pixel stays there.
+/// The camera magnified by a factor, within the limits of the pixel spacing; the point under the pixel stays there.
 /// Fails with [`ErrorKind::Camera`] for a factor that is not positive and finite, or a non-finite pixel.
 pub fn zoomed_at(camera: &Camera, factor: f64, [column, row]: [f64; 2]) -> Result<Camera> {
     if !(factor.is_finite() && factor > 0.0) {
@@ -118,7 +118,7 @@ pub fn zoomed_at(camera: &Camera, factor: f64, [column, row]: [f64; 2]) -> Resul
     Camera::new(moved.center(), moved.direction(), moved.up(), moved.size(), spacing)
 }
 
-/// The same view with a share of its pixels along each side, at least one. Fails with [`ErrorKind::Camera`] for a
+/// The same view with fewer pixels: `share` is the fraction along each side; at least one pixel stays. Fails with [`ErrorKind::Camera`] for a
 /// size or spacing out of range.
 pub fn sampled(camera: &Camera, share: f64) -> Result<Camera> {
     let size = camera.size().map(|count| (count as f64 * share).round().max(1.0) as usize);

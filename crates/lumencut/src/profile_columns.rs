@@ -1,4 +1,4 @@
-//! The columns of a profile as plain numbers.
+//! Converts the columns of a profile to and from plain numbers.
 
 use glam::DVec3;
 use lumencut_vessels::measure::parts::Parts;
@@ -100,7 +100,6 @@ fn points_of(numbers: &[f64]) -> Option<Vec<DVec3>> {
 fn lists_of(mut numbers: &[f64]) -> Option<Vec<Vec<DVec3>>> {
     let mut lists = Vec::new();
     while let Some((count, after)) = numbers.split_first() {
-        // A count that is fractional or too large is invalid.
         let length = 3 * whole(*count)?;
         lists.push(points_of(after.get(..length)?)?);
         numbers = &after[length..];
@@ -108,7 +107,7 @@ fn lists_of(mut numbers: &[f64]) -> Option<Vec<Vec<DVec3>>> {
     Some(lists)
 }
 
-/// A number as a count; None if it is fractional or too large.
+/// The number as a count; None if it is fractional, negative or too large.
 pub(crate) fn whole(number: f64) -> Option<usize> {
     ((0.0..1e9).contains(&number) && number.fract() == 0.0).then_some(number as usize)
 }

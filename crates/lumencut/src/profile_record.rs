@@ -1,4 +1,4 @@
-//! The record of a profile: all of it as text, from which any host restores it exactly.
+//! The record of a profile: text from which Rust, Python or the page restores the profile exactly.
 
 use std::collections::BTreeMap;
 
@@ -24,10 +24,10 @@ const FORMAT: u32 = 1;
 #[serde(deny_unknown_fields)]
 pub struct ProfileRecord {
     format: u32,
-    /// Bits of the flags by name, for other programs. Our reader uses only the bits in `flags`.
+    /// The bit of each flag name, for other programs. Our reader uses only the bits in `flags`.
     flag_names: BTreeMap<String, u32>,
     flags: Vec<u32>,
-    /// Columns by name, in mm, LPS or the volume's unit. Coordinates follow each other. A contour begins with its number of points.
+    /// The columns, in mm, LPS or the volume's unit. A contour is its number of points, then their coordinates.
     columns: BTreeMap<String, Numbers>,
     /// The source of the point spread: kind and words.
     fwhm_source: (String, String),

@@ -114,7 +114,8 @@ class _Studies:
             outcome: Outcome | None = future.result(_ANSWER)
         except (Exception, asyncio.CancelledError) as error:
             if isinstance(error, OSError) and future.status not in ("error", "cancelled"):
-                # The worker was lost with the result, or the scheduler was lost: dask or our check reports it.
+                # The worker was lost with the result, or the scheduler was lost: dask or our check reports
+                # it.
                 return None
             outcome = self._after(self._asked[future], error)
         del self._asked[future]

@@ -14,7 +14,7 @@ const PIXELS_PER_PLOT_PIXEL: f64 = 1.6;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "ReportPlan"))]
 pub struct Plan {
-    /// The width of the straightened vessel (mm). It is shown narrower if the volume is narrower.
+    /// The width of the straightened vessel (mm); the picture is narrower if the volume is.
     pub width: f64,
     /// Pixel side of the straightened vessel (mm).
     pub spacing: f64,

@@ -127,7 +127,8 @@ class _OpenImage:
             if held < length * image.frame_count:
                 raise _too_short(image, held)
             return decode_native(syntax, self.stream, frame, options)
-        # Frames in their order are read one by one; otherwise, or with odd lengths, all frames are kept in memory.
+        # Frames in their order are read one by one; otherwise, or with odd lengths, all frames are kept in
+        # memory.
         if self._held is None and frame == self._next and length % 2 == 0:
             self._next += 1
             return decode_native(syntax, self._read(length, 1), 0, options | {"number_of_frames": 1})

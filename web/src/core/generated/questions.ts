@@ -67,7 +67,7 @@ export type ChartLayout = {
   readonly width: string;
   /** Diameters of sections without neighbours. */
   readonly isolated: ReadonlyArray<Pair>;
-  /** Diameters of sections that are left out. */
+  /** Diameters of omitted sections. */
   readonly left_out: ReadonlyArray<Pair>;
   /** The limit of resolution. */
   readonly limit: Tick | null;
@@ -364,7 +364,7 @@ export type Marks = {
 };
 
 export type MeasureLayout = {
-  /** The axis of the arc length, which vessel and chart share. */
+  /** The axis of the arc length, common to vessel and chart. */
   readonly x: Axis;
   readonly strip: StripLayout;
   readonly chart: ChartLayout | null;
@@ -376,9 +376,9 @@ export type MeasurePane = {
   readonly is_measured: boolean;
   /** Width and height of the pane (plot pixels). */
   readonly size: Pair;
-  /** Height between vessel and chart that the viewer uses for other things (plot pixels). */
+  /** Height between vessel and chart that the viewer uses for other elements (plot pixels). */
   readonly between: number;
-  /** Pixels of the straightened vessel per plot pixel. */
+  /** Number of pixels of the straightened vessel per plot pixel. */
   readonly density: number;
 };
 
@@ -608,7 +608,7 @@ export type ReportPlace = {
 
 /** The pictures of a vessel. */
 export type ReportPlan = {
-  /** The width of the straightened vessel (mm). It is shown narrower if the volume is narrower. */
+  /** The width of the straightened vessel (mm); the picture is narrower if the volume is. */
   readonly width: number;
   /** Pixel side of the straightened vessel (mm). */
   readonly spacing: number;
@@ -913,7 +913,7 @@ export type StripLayout = {
   readonly stretch: number;
 };
 
-/** A pixel of an axis, and the words beside it, without unit. */
+/** A tick: its pixel on the axis, and its words without unit. */
 export type Tick = {
   readonly at: number;
   readonly words: string;
