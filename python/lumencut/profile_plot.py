@@ -143,7 +143,7 @@ def _draw_marks(axes: Axes, marks: Sequence[Mark]) -> None:
 
 
 def _draw_flags(axes: Axes, flags: Sequence[tuple[str, str, Sequence[Sequence[float]]]], row: float) -> float:
-    """Draw a row for each flag that is set somewhere, and return the fraction of the height that they take."""
+    """Draw a row for each flag that is set somewhere; return the fraction of the height that rows take."""
     for number, (word, color, runs) in enumerate(reversed(flags)):
         height = row * (number + 0.5)
         for ends in runs:

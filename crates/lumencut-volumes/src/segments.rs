@@ -24,6 +24,7 @@ pub struct Segment {
 /// The layers of a segmentation; each holds one value per voxel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Layers {
+    /// Number of layers.
     pub count: u64,
     /// Number of grid axes that vary faster than the axis of the layers.
     pub after: usize,
