@@ -169,7 +169,7 @@ impl Fill {
         }
     }
 
-    /// Refuses a size that the file cannot fill.
+    /// Rejects a volume for which the file is too short.
     fn check_lengths(&mut self) -> Result<Turn, Box<Error>> {
         let (place, needed) = (&self.plan.place, self.plan.stored_bytes());
         let (name, skip) = (place.name.as_str(), u128::from(place.skip));

@@ -26,7 +26,7 @@ pub fn opened(files: &Files, name: &str, chosen: Option<&[u32]>) -> Result<Plan,
     }
 }
 
-/// The voxels of a file; the host reads at most `most` bytes at once and gives room for as many.
+/// The voxels of a file; the host reads at most `most` bytes at once, and its output has the same size.
 pub fn filled(plan: Plan, bytes: &[u8], in_engine: bool, most: usize) -> Result<(Kind, Vec<u8>), Box<Error>> {
     let mut fill = Fill::new(plan, bytes.len() as u64, in_engine);
     let (mut kind, mut voxels, mut at) = (Kind::Uint8, Vec::new(), 0);
@@ -36,7 +36,7 @@ pub fn filled(plan: Plan, bytes: &[u8], in_engine: bool, most: usize) -> Result<
         match fill.step(window, &mut voxels[at..end])? {
             Step::Read { start, end } => {
                 let start = start as usize;
-                // At least as many as tell whether another part of a stream begins.
+                // At least three bytes, which show whether another part of a stream begins.
                 let end = (end as usize).min(bytes.len()).min(start + most.max(3));
                 window = Window { start: start as u64, bytes: &bytes[start.min(end)..end] };
                 assert!(most > 1 << 20 || !window.bytes.is_empty() || start == bytes.len());
