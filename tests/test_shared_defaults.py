@@ -28,10 +28,10 @@ from lumencut.renderer import Renderer
 from lumencut.stenosis import METHODS
 from scene_files import write_lines, write_volume_of
 
-#: Modules of functions that the package does not export.
+#: Modules with functions that the package does not export.
 HOMES = {"uncurling": "lumencut.uncurling"}
 
-#: Commands, by function; their options have the names of its parameters.
+#: The command of each function; its options have the names of the parameters.
 COMMANDS = {
     "cfa": "cfa",
     "cr": "compare",
@@ -67,11 +67,11 @@ def test_defaults_of_functions_and_commands_are_those_of_the_table(function, par
     stated = inspect.signature(function_of(function)).parameters[name].default
     if part:
         stated = stated[int(part[0])]
-    # `cpr` has no number here: its other modes are wider than the vessel by the same margin.
+    # `cpr` has no constant default: its other modes exceed the width of the vessel by the same margin.
     assert stated == default or (function, parameter, stated) == ("cpr", "width", None)
     options = main.commands[COMMANDS[function]].params if function in COMMANDS else []
     chosen = [option.default for option in options if option.name == parameter]
-    # The command dims what lies beyond the edges, the function repeats nothing.
+    # By default the command repeats columns at the edges, dimmed; the function repeats none.
     expected = 15 if (function, parameter) == ("lumen_map", "overlap") else default
     assert all(number == expected for number in chosen if isinstance(number, (int, float)))
 
@@ -96,7 +96,7 @@ SIDES = {
 
 @pytest.fixture(params=SIDES)
 def scan(request):
-    """A volume of some voxels with a vessel through its middle, and the pixel side of its reformations."""
+    """Return a small volume, a vessel through its middle, and the pixel side of its reformations."""
     spacing, side = SIDES[request.param]
     grid = np.indices((24, 20, 20))
     away = np.hypot(grid[1] - 10, grid[2] - 10)

@@ -61,7 +61,8 @@ def test_where_only_the_values_tell_the_type_the_header_waits(page):
 
 @pytest.mark.parametrize("name", ["ct.nii", "ct.nii.gz", "dicom"])
 def test_readers_tell_of_slices_that_are_final(tmp_path, name):
-    array = np.random.default_rng(1).integers(0, 1000, (30, 64, 64), np.int16)
+    side = 64 if name == "dicom" else 256
+    array = np.random.default_rng(1).integers(0, 1000, (30, side, side), np.int16)
     path = tmp_path / name
     if name == "dicom":
         path.mkdir()
@@ -77,7 +78,7 @@ def test_readers_tell_of_slices_that_are_final(tmp_path, name):
     open_volume(path).volume(lambda done, total: None, filled)
     assert told[-1] == 30
     assert told == sorted(set(told))
-    assert len(told) > 1 or name == "ct.nii"
+    assert len(told) > 1
 
 
 @pytest.mark.parametrize(
@@ -220,5 +221,5 @@ def test_a_damaged_file_is_told_by_its_name_alone(page, tmp_path):
     with serving(page, ArrivingScene(file)) as client:
         client.ask("data/volume")
         words = client.ask("data/problem").body.decode()
-    assert words.startswith("ct.nii: found 465 bytes of voxels; expected 472 bytes")
+    assert words.startswith("ct.nii: found 113 bytes of voxels; expected 120 bytes")
     assert str(tmp_path) not in words

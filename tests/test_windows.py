@@ -330,8 +330,8 @@ def test_python_command_line_and_page_have_the_same_windows_by_name():
         assert fixed is None or (Window.named(name).level, Window.named(name).width) == fixed
     # The page shows the list of keys from the facade; its bindings with their help are in this file.
     bindings = (ROOT / "web/src/input/bindings.ts").read_text()
-    keys = re.findall(r"key\('(\d)', 'preset (\d)', 'window (?:for|from) ([^']+)'\)", bindings)
-    said = {"auto": "the data", "full": "the smallest to the largest value"}
+    keys = re.findall(r"key\('(\d)', 'preset (\d)', 'window (?:for|from|suggested by) ([^']+)'\)", bindings)
+    said = {"auto": "the data", "full": "the smallest to the largest value", "stent": "stents"}
     for number, (name, words, _) in enumerate(_lumencut.WINDOW_PRESETS):
         key, preset, told = keys[number]
         assert (int(key), int(preset)) == (number + 1, number)

@@ -1,4 +1,4 @@
-"""Plot pixels, the unit of the frame of charts, in figures of matplotlib."""
+"""Converts plot pixels, in which the frame of charts is given, for figures of matplotlib."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-#: Plot pixels of an inch.
+#: Number of plot pixels per inch.
 PER_INCH = 100
 
 

@@ -1,4 +1,4 @@
-"""Ticks of matplotlib at the values of reports. It is imported only where matplotlib is there."""
+"""Ticks for matplotlib at the same values as in reports; imported only if matplotlib is installed."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from lumencut.plot_pixels import plot_pixels
 
 
 class ChartTicks(Locator):
-    """Ticks that follow the zoom; there are none below 0.
+    """Ticks that adapt to the zoom; there are none below 0.
 
     Parameters
     ----------

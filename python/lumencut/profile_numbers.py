@@ -14,7 +14,7 @@ from lumencut.dicom_objects.study import Origin
 from lumencut.errors import MeasuringError
 from lumencut.vessel import Vessel
 
-#: The version of the pickle of a profile, and the one that held columns instead of a record.
+#: The present version of pickled profiles, and the older version with columns instead of a record.
 _VERSION, _OF_COLUMNS = 2, 1
 #: The fields of a scan in that pickle, in their order.
 _SCAN = ("series_number", "series_description", "phase", "slice_thickness_mm", "kernel")
@@ -194,7 +194,7 @@ def _locked(values: _Floats) -> _Floats:
 
 
 def _record_of_columns(state: dict[str, Any]) -> str:
-    """The record of a profile that was pickled as columns."""
+    """Return the record of a profile that was pickled as columns."""
     columns, flags, fwhm_source, wall_source = state["stored"]
     record = {
         "format": 1,
@@ -209,7 +209,7 @@ def _record_of_columns(state: dict[str, Any]) -> str:
 
 
 def _plain(value: float) -> float | str | None:
-    """A number as records have it: null where it is NaN, a text where it is infinite."""
+    """Return a number as stored in records: None if NaN, a text if infinite."""
     if math.isnan(value):
         return None
     return value if math.isfinite(value) else f"{value}inity"

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 #: Resolution of pictures (pixels per inch).
 _DPI = 150
 
-#: Size of a plot, and the width of its legend beside the frame (plot pixels).
+#: Size of a plot, and the width of its legend next to the frame (plot pixels).
 _WIDTH, _HEIGHT, _LEGEND = 1000.0, 380.0, 246.0
 
 #: Letters of 11 plot pixels, which fit the margins of the frame (points).
@@ -106,7 +106,7 @@ def figure_of(profiles: Sequence[tuple[str, ProfileNumbers, Sequence[Mark]]]) ->
 
 
 def _framed(figure: Figure, below: int, count: int) -> Axes:
-    """Axes with the margins of the frame, above so many of several plots."""
+    """Return axes with the margins of the frame, for one of several plots below each other."""
     wide = _WIDTH - _LEGEND - _FRAME["left"] - _FRAME["right"]
     tall = _HEIGHT - _FRAME["above"] - _FRAME["below"]
     left, bottom, height = _FRAME["left"], below * _HEIGHT + _FRAME["below"], count * _HEIGHT
@@ -143,7 +143,7 @@ def _draw_marks(axes: Axes, marks: Sequence[Mark]) -> None:
 
 
 def _draw_flags(axes: Axes, flags: Sequence[tuple[str, str, Sequence[Sequence[float]]]], row: float) -> float:
-    """Draw a row for each flag that is set somewhere, and return the share of the height that rows take."""
+    """Draw a row for each flag that is set somewhere; return the fraction of the height that rows take."""
     for number, (word, color, runs) in enumerate(reversed(flags)):
         height = row * (number + 0.5)
         for ends in runs:

@@ -1,4 +1,4 @@
-"""The reformations of vessels, by the name of the command that makes them."""
+"""The reformations of vessels, by the names of their commands."""
 
 from __future__ import annotations
 
@@ -7,5 +7,5 @@ from lumencut.lumen_mapping import LumenMapRequest
 from lumencut.planar_reformation import CprRequest
 from lumencut.spiral_reformation import SpiralRequest
 
-#: Those that show one vessel in rows of their own.
+#: Reformations that show each vessel in separate rows.
 KINDS = {asked.kind: asked for asked in (CprRequest, CfaRequest, SpiralRequest, LumenMapRequest)}

@@ -1,4 +1,4 @@
-"""What a caller asks of a reformation: one description for its function, its command and its recipe."""
+"""Requests for reformations, described once for the function, the command and the recipe."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ if TYPE_CHECKING:
     from lumencut.renderer import Renderer
     from lumencut.volume import Volume
 
-#: Upwards by default (LPS): to the head.
+#: The default direction upwards in the picture (LPS): to the head.
 HEAD = (0.0, 0.0, 1.0)
 
-#: Parameters that are one of some names.
+#: Parameters that must be one of these names.
 _NAMES = ("mode", "roll", "sampling", "show")
 
-#: The shape of parameters that are several numbers.
+#: The shapes of parameters with several numbers.
 _SHAPES = {"up": (3,), "normal": (3,), "root": (3,), "band": (2,)}
 
 
@@ -30,12 +30,12 @@ class ReformationRequest:
     A kind is a frozen dataclass; its `of` makes the image in the scene and window of a renderer.
     """
 
-    #: The command that makes it, and its name in messages.
+    #: The command for the reformation, and the name of the reformation in messages.
     kind: ClassVar[str]
     subject: ClassVar[str]
-    #: The parameters that its recipe holds, in this order.
+    #: The parameters that the recipe stores, in this order.
     told: ClassVar[tuple[str, ...]]
-    #: Parameters that are settings, with their names in messages; the others place pixels.
+    #: Parameters that are settings, with their names in messages. All other parameters position the pixels.
     of_settings: ClassVar[dict[str, str]] = {
         "smoothing": "smoothing of the centerline",
         "amount": "amount of the uncurling",
@@ -45,7 +45,7 @@ class ReformationRequest:
     }
 
     def checked(self, **defaults: Any) -> dict[str, Any]:
-        """Return the parameters as a recipe holds them: numbers, lists of numbers, names, or None.
+        """Return the parameters as stored in a recipe: numbers, lists of numbers, names, or None.
 
         `defaults` are the values of parameters that are None.
         """
@@ -63,14 +63,14 @@ class ReformationRequest:
         return number(error, subject, value)
 
     def _volume(self, renderer: Renderer, vessel: Any) -> Volume:
-        """The volume of the renderer; reject anything but a vessel in a volume."""
+        """Return the volume of the renderer; reject renderers without one, and anything except a vessel."""
         check_vessel(vessel)
         if renderer.volume is None:
             raise VolumeError(f"volume of the {self.subject}", "None", "a volume to show")
         return renderer.volume
 
     def _check_camera(self, camera: Any) -> None:
-        """Reject anything but a camera or None."""
+        """Reject anything except a camera or None."""
         if not isinstance(camera, (Camera, type(None))):
             raise CameraError(f"camera of the {self.subject}", type(camera).__name__, "a Camera or None")
 

@@ -17,7 +17,6 @@ use lumencut_scenes::views::{fitted, on_cpu};
 use lumencut_scenes::volumes::volume;
 use lumencut_scenes::workloads::WORKLOADS;
 
-/// Side of the sampler's volume in voxels.
 const SIDE: usize = 256;
 const PACKETS: usize = 2048;
 const SAMPLES: usize = 128;

@@ -13,7 +13,6 @@ const RUNS: usize = 11;
 
 const PIXELS: f64 = 512.0 * 1024.0;
 
-/// The direction with number `n` on a spiral around the sphere.
 fn direction(n: usize) -> DVec3 {
     let z = 1.0 - 2.0 * ((n as f64 * 0.754_877_666).fract());
     let around = n as f64 * 2.399_963_229;

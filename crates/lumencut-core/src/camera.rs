@@ -25,10 +25,9 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// A camera that looks along `direction` with `up` upwards, `size` = (width, height) pixels of
-    /// `pixel_spacing` mm. `up` need not be perpendicular to `direction`. Fails with [`ErrorKind::Camera`]
-    /// for vectors that are not finite, zero or parallel, an empty or oversized image, or a pixel spacing
-    /// that is not positive and finite.
+    /// A camera that looks along `direction` with `up` upwards, `size` = (width, height) pixels of `pixel_spacing`
+    /// mm. `up` need not be perpendicular to `direction`. Fails with [`ErrorKind::Camera`] for vectors that are not
+    /// finite, zero or parallel, an empty or oversized image, or a pixel spacing that is not positive and finite.
     pub fn new(
         center: DVec3,
         direction: DVec3,

@@ -67,10 +67,9 @@ pub struct Curved {
 }
 
 impl Curved {
-    /// `position` holds the world point of every pixel (mm, LPS), row by row from the top. The thickness of a
-    /// slab is measured along the pixel's unit vector `slab_direction`. A point that is not finite shows
-    /// nothing. Fails with [`ErrorKind::Camera`] if `size` has no pixels or does not match the number of
-    /// points or directions.
+    /// `position` holds the world point of every pixel (mm, LPS), row by row from the top. The thickness of a slab is
+    /// measured along the pixel's unit vector `slab_direction`. A point that is not finite shows nothing. Fails with
+    /// [`ErrorKind::Camera`] if `size` has no pixels or does not match the number of points or directions.
     pub fn new(size: [usize; 2], position: Vec<DVec3>, slab_direction: Vec<Vec3>) -> Result<Self> {
         let pixels = size[0] * size[1];
         if pixels == 0 || position.len() != pixels || slab_direction.len() != pixels {

@@ -1,7 +1,6 @@
-//! The method from end to end: the stages in the order of the paper's Fig. 4.
-//!
-//! `cut_surface` finds the position of every pixel, `look` shows the volume there. A reformation finds the
-//! positions in another way and then also uses `look`.
+//! The method from end to end: the stages in the order of the paper's Fig. 4. `cut_surface` finds the position of
+//! every pixel, `look` shows the volume there. A reformation finds the positions in another way and then also uses
+//! `look`.
 
 mod clock;
 mod details;

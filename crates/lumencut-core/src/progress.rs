@@ -84,8 +84,7 @@ mod tests {
                 shares.push(progress.share());
                 progress.begin_pixels(25);
                 shares.push(progress.share());
-                // More pixels are counted than the view has, as tiles may exceed it; this must not raise the
-                // share.
+                // More pixels are counted than the view has, as tiles may exceed it; this must not raise the share.
                 progress.begin_pixels(30);
             }
             progress.end_view();

@@ -11,7 +11,6 @@ use lumencut_scenes::random_tree::random_tree;
 use lumencut_scenes::trees::{tree, trefoil, vessel};
 use lumencut_scenes::views::{on_cpu, view};
 
-/// The FNV-1a hash of an image's bytes.
 fn hash(bytes: impl IntoIterator<Item = u8>) -> u64 {
     bytes.into_iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)

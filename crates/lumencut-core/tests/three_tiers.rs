@@ -71,8 +71,7 @@ fn tube(height: f64, depth: f64, radius: f64) -> Tube {
 
 #[test]
 fn lumen_beats_wall_and_wall_beats_surroundings_whatever_the_depth() {
-    // Heights: far tube, lumen to 2, wall to 2.75; nearer tube, wall from 2.75, lumen from 3.5; nearest tube
-    // above.
+    // Heights: far tube, lumen to 2, wall to 2.75; nearer tube, wall from 2.75, lumen from 3.5; nearest tube above.
     let tubes = [tube(0.0, 1000.0, 2.0), tube(5.0, 500.0, 1.5), tube(12.0, -900.0, 0.5)];
     let thin_wall = Settings { lumen_margin: 0.75, ..unfiltered() };
     assert_eq!(
@@ -146,7 +145,6 @@ fn lumen_that_is_not_preserved_counts_as_without_radius() {
     }
 }
 
-/// Random settings for [`random_tubes`].
 fn tiers(random: &mut Random) -> Settings {
     Settings {
         lumen_margin: if random.once_in(3) { 0.0 } else { random.number() * 4.0 },

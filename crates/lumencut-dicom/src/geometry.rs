@@ -1,7 +1,6 @@
-//! The geometry of a series: one affine for the stack, including shear, or an error with the reason.
-//!
-//! Tolerances: 1e-3 per cosine, and 0.1 % of the spacing. A slice may be 0.01 mm or 1 % of the slice distance
-//! (the larger) away from an evenly spaced line, unless the caller allows resampling.
+//! The geometry of a series: one affine for the stack, including shear, or an error with the reason. Tolerances: 1e-3
+//! per cosine, and 0.1 % of the spacing. A slice may be 0.01 mm or 1 % of the slice distance (the larger) away from
+//! an evenly spaced line, unless the caller allows resampling.
 
 use glam::DVec3;
 

@@ -1,7 +1,6 @@
-//! The functions of this crate with JSON as input and output, for programs in other languages.
-//!
-//! The input is [`Headers`] and [`Wanted`]. The output is `{"plan": …}` with a [`Plan`], `{"series": […]}`
-//! with [`Report`]s, or `{"error": …}` with an [`Error`].
+//! The functions of this crate with JSON as input and output, for programs in other languages. The input is
+//! [`Headers`] and [`Wanted`]. The output is `{"plan": …}` with a [`Plan`], `{"series": […]}` with [`Report`]s, or
+//! `{"error": …}` with an [`Error`].
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;

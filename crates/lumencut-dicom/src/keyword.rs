@@ -59,7 +59,6 @@ keywords! {
     /// Centre of the first pixel (mm, LPS).
     ImagePositionPatient,
     ImageOrientationPatient,
-    /// Slice thickness (mm).
     SliceThickness,
     /// Slice distance (mm) as stated.
     SpacingBetweenSlices,

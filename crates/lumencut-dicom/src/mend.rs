@@ -1,7 +1,6 @@
 //! Remedies that programs apply, or state in their own words.
 
-/// A remedy for an [`Error`](crate::Error). Users see it as a Python argument, a command-line option or a
-/// button.
+/// A remedy for an [`Error`](crate::Error). Users see it as a Python argument, a command-line option or a button.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Mend {
     /// Name the series to read. The error describes all series.

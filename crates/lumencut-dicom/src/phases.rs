@@ -31,7 +31,6 @@ const PHASE_KEYWORDS: [Keyword; 17] = [
     Keyword::FrameAcquisitionDateTime,
     Keyword::ContentTime,
 ];
-/// Maximum number of phases that are offered for choice.
 const MOST_PHASES: usize = 40;
 
 /// Attributes with a single value in each phase. The acquisition number is not among them, because 2D MR may

@@ -1,7 +1,6 @@
-//! Handles several slices at one position: phases, overlapping parts of a scan, or repeated images.
-//!
-//! At shared positions, overlapping parts have equal values, and phases have different ones. So the caller
-//! compares the values of the returned pairs.
+//! Handles several slices at one position: phases, overlapping parts of a scan, or repeated images. At shared
+//! positions, overlapping parts have equal values, and phases have different ones. So the caller compares the values
+//! of the returned pairs.
 
 use std::cmp::Ordering;
 use std::collections::BTreeSet;

@@ -9,7 +9,6 @@ const OF_STEP: f64 = 0.01;
 pub(crate) const ONE_PLACE: f64 = 0.01;
 /// If this many successive distances are equally wide, they are assumed to be intended.
 const INTENDED_RUN: usize = 3;
-/// Maximum number of distances that a text lists individually.
 const MAX_LISTED: usize = 4;
 
 pub(crate) fn tolerance(step: f64) -> f64 {

@@ -1,8 +1,7 @@
-//! Handles uneven slice distances by an error, or on request by resampling to a regular grid.
-//!
-//! The slice distance of the grid is the largest length of which all distances are multiples, if the grid
-//! then has at most four times as many slices. In that case each slice keeps its position. Otherwise it is
-//! the smallest distance, within the same limit.
+//! Handles uneven slice distances by an error, or on request by resampling to a regular grid. The slice distance of
+//! the grid is the largest length of which all distances are multiples, if the grid then has at most four times as
+//! many slices. In that case each slice keeps its position. Otherwise it is the smallest distance, within the same
+//! limit.
 
 use crate::error::{Error, Result};
 use crate::mend::Mend;

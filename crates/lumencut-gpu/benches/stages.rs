@@ -1,7 +1,5 @@
-//! Table 2 of the paper on the GPU, stage by stage, next to the paper's figures and the CPU in the same run.
-//!
-//! `cargo bench -p lumencut-gpu --bench stages`; `-- --quick` renders fewer and smaller pictures, for slow
-//! adapters.
+//! Table 2 of the paper on the GPU, stage by stage, next to the paper's figures and the CPU in the same run. `cargo
+//! bench -p lumencut-gpu --bench stages`; `-- --quick` renders fewer and smaller pictures, for slow adapters.
 
 use std::error::Error;
 use std::sync::Arc;

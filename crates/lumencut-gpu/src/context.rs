@@ -51,8 +51,7 @@ impl Permutation {
 
 #[derive(Debug)]
 pub(crate) struct ContextStage {
-    /// Stages that write starts of rays: without a focus; with rays from the front; with rays from the
-    /// surface.
+    /// Stages that write starts of rays: without a focus; with rays from the front; with rays from the surface.
     starts: [OnceLock<Stage>; 3],
     stages: Vec<(Permutation, Stage)>,
     parameters: Buffer,
@@ -83,7 +82,6 @@ impl ContextStage {
         }
     }
 
-    /// Writes the parameters of the context, if they changed.
     pub(crate) fn write(
         &mut self,
         device: &Device,

@@ -86,7 +86,6 @@ impl Device {
         }
     }
 
-    /// The error for work that the GPU did not finish.
     pub(crate) fn unfinished(&self) -> Error {
         self.check().err().unwrap_or_else(|| broken(&self.description.name, "no result"))
     }
@@ -124,7 +123,6 @@ fn broken(name: &str, words: &str) -> Error {
         .mended_by(Mend::Cpu)
 }
 
-/// Rejects a GPU below the limits of the stages.
 fn check_limits(name: &str, limits: &Limits) -> Result<()> {
     let mut short = Ok(());
     NEEDED.check_limits_with_fail_fn(limits, true, |limit, needed, found| {

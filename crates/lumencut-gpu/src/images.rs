@@ -30,7 +30,6 @@ pub(crate) struct Images {
 const MAX_PIXEL_BYTES: usize = size_of::<[f32; 4]>();
 
 impl Images {
-    /// Images for views of this size.
     pub(crate) fn new(device: &Device, size: [usize; 2]) -> Result<Self> {
         let pixels = size[0] * size[1];
         let most = device.limits.max_storage_buffer_binding_size as usize / MAX_PIXEL_BYTES;

@@ -41,7 +41,6 @@ impl Screen {
         Ok(Self { surface, drawn: None })
     }
 
-    /// Resizes the canvas to the picture.
     pub(crate) fn fit(&mut self, device: &Device, size: [usize; 2]) -> Result<()> {
         if self.drawn.as_ref().is_some_and(|drawing| drawing.size == size) {
             return Ok(());

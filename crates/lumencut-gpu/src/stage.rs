@@ -10,7 +10,6 @@ use crate::shader::assemble;
 pub(crate) struct Stage {
     pub name: &'static str,
     pub pipeline: ComputePipeline,
-    /// The first binding that the shader uses.
     first_binding: u32,
 }
 

@@ -16,12 +16,10 @@ use crate::surface::Surface;
 use crate::view::ViewParameters;
 use crate::volume::{DeviceVolume, GridParameters};
 
-/// The stages in the order of the pipeline. Those whose shaders depend on the settings are compiled when
-/// needed.
+/// The stages in the order of the pipeline. Those whose shaders depend on the settings are compiled when needed.
 #[derive(Debug)]
 pub(crate) struct Stages {
     pub view: Buffer,
-    /// The grid of the volume in the view.
     pub grid: Buffer,
     pub cut_surface: CutSurfaceStages,
     pub leap: Leap,

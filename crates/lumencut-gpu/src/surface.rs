@@ -75,8 +75,7 @@ impl Surface {
         }
     }
 
-    /// Writes the volume's value at each pixel, HUGE outside the volume. `on_device` is `volume`, placed in
-    /// the view.
+    /// Writes the volume's value at each pixel, HUGE outside the volume. `on_device` is `volume`, placed in the view.
     pub(crate) fn record(
         &mut self,
         recording: &mut Recording,

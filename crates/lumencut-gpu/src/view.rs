@@ -75,7 +75,6 @@ impl Device {
         self.buffer(label, (pixels * bytes) as u64, usage)
     }
 
-    /// A uniform buffer for a `T`.
     pub(crate) fn uniform<T: Pod>(&self, label: &str) -> Buffer {
         self.buffer(label, size_of::<T>() as u64, BufferUsages::UNIFORM | BufferUsages::COPY_DST)
     }

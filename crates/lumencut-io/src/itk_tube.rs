@@ -12,7 +12,6 @@ use crate::space::Space;
 use crate::unit::Unit;
 use crate::vtk_cursor::Cursor;
 
-/// Maximum nesting depth of objects.
 const MOST_PARENTS: usize = 64;
 
 /// One line per tube, in LPS and mm, as the format defines. Points are multiplied by `ElementSpacing`, radii

@@ -48,7 +48,6 @@ struct Walk {
     /// Names of the elements that enclose the current one.
     open: Vec<String>,
     paths: Vec<Path>,
-    /// Number of time steps in the current root element.
     time_steps: usize,
     later_time_steps: usize,
 }

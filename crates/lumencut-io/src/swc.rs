@@ -42,12 +42,10 @@ pub(crate) fn is_node(line: &str) -> bool {
 }
 
 struct Node {
-    /// Number of the text line.
     line: usize,
     id: i64,
     point: DVec3,
     radius: f64,
-    /// Id of the parent; None for a root.
     parent: Option<i64>,
 }
 

@@ -8,7 +8,6 @@ use crate::error::{Error, Result, excerpt};
 
 type Numbered<'t> = (usize, Cow<'t, str>);
 
-/// Maximum number of fields in a table row.
 const MOST_FIELDS: usize = 1024;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -81,7 +81,6 @@ impl Curve {
         Self::of(points, self.radius)
     }
 
-    /// Length (mm).
     pub(crate) fn length(&self) -> f64 {
         self.arc[self.arc.len() - 1]
     }

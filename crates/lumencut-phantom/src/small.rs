@@ -74,11 +74,8 @@ pub fn collinear_run() -> Result<Phantom> {
     phantom("collinear_run", vec![bend, end_on])
 }
 
-/// A tube of radius 4 mm from z = −30 to 30, 120 segments, narrowed by `percent` over 16 mm around z = 0 (see [`Stenosis`]) by
-/// soft plaque.
-///
-/// # Errors
-/// [`ErrorKind::Settings`] for a percentage outside [0, 100).
+/// A tube of radius 4 mm from z = −30 to 30, 120 segments, narrowed by `percent` over 16 mm around z = 0 (see
+/// [`Stenosis`]) by soft plaque. Fails with [`ErrorKind::Settings`] for a percentage outside [0, 100).
 pub fn stenosis(percent: f64) -> Result<Phantom> {
     if !(0.0..100.0).contains(&percent) {
         let found = format!("{percent}");

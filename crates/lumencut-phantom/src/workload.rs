@@ -15,7 +15,6 @@ const NOISE: f32 = 14.0;
 pub struct Workload {
     name: &'static str,
     size: [usize; 3],
-    /// Voxel spacing (mm).
     spacing: DVec3,
     /// Lowest corner of the first voxel (mm, LPS).
     corner: DVec3,
@@ -23,11 +22,9 @@ pub struct Workload {
     anatomy: fn(u64, usize) -> Anatomy,
 }
 
-/// Abdominal aorta with coeliac, mesenteric, renal and iliac arteries: 512×512×256 voxels of 0.75×0.75×1 mm, about 800 segments.
-/// `seed` varies bends, calcifications and noise; `scale` multiplies the voxels along each axis in the same field of view.
-///
-/// # Errors
-/// [`ErrorKind::Settings`] for a scale outside [0.02, 2].
+/// Abdominal aorta with coeliac, mesenteric, renal and iliac arteries: 512×512×256 voxels of 0.75×0.75×1 mm, about
+/// 800 segments. `seed` varies bends, calcifications and noise; `scale` multiplies the voxels along each axis in the
+/// same field of view. Fails with [`ErrorKind::Settings`] for a scale outside [0.02, 2].
 pub fn aorta(seed: u64, scale: f64) -> Result<Phantom> {
     AORTA.make(seed, scale, &|| false)
 }

@@ -1,4 +1,4 @@
-//! The content and the layout of diameter charts, which matplotlib draws, and the room of section pictures.
+//! The content and layout of diameter charts for matplotlib, and the size of section pictures.
 
 use lumencut::report::chart::DEVIATIONS;
 use lumencut::report::chart::{Chart, FlagRow};
@@ -10,7 +10,8 @@ use pyo3::types::IntoPyDict;
 
 use crate::measuring::Profile;
 
-/// Adds to the module: the frame of charts (plot pixels, standard deviations), and the sides of section pictures (pixels).
+/// Adds to the module the frame of charts (plot pixels, standard deviations) and the sides of section pictures
+/// (pixels).
 pub(crate) fn add_layouts(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let frame = [
         ("left", MARGINS.left),
@@ -24,22 +25,23 @@ pub(crate) fn add_layouts(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("SECTION_PIXELS", sides.into_py_dict(module.py())?)
 }
 
-/// A chart; sections that are left out are NaN.
+/// A chart; omitted sections are NaN.
 #[derive(IntoPyObject)]
 pub(crate) struct ChartParts {
-    /// Diameters, shortest, longest, and both ends of the uncertainty band (mm).
+    /// Diameter of the circle of the same area (mm); then the shortest and longest diameter and both ends of the
+    /// uncertainty band.
     width: Vec<f64>,
     range: [Vec<f64>; 2],
     spread: [Vec<f64>; 2],
     /// Indices of the sections that are drawn as dots.
     isolated: Vec<usize>,
-    /// Arc lengths and diameters (mm).
+    /// Arc length and diameter (mm) of each omitted section.
     left_out: Vec<[f64; 2]>,
     /// Upper end of the diameter axis (mm).
     top: f64,
-    /// Limit of resolution (mm) and its words without unit.
+    /// Limit of resolution (mm), as a number and in words without unit.
     limit: Option<(f64, String)>,
-    /// Words, paper colour and runs (mm) of each flag.
+    /// Words and paper colour of each flag, and the stretches (mm) on which it is set.
     flags: Vec<(&'static str, &'static str, Vec<[f64; 2]>)>,
     /// Height of a row of flags, as a fraction of the axes.
     row: f64,

@@ -1,4 +1,4 @@
-//! Changes a camera and a window by drags and the wheel, for the notebook.
+//! Changes a camera or a window after drags and turns of the wheel, for the notebook.
 
 use glam::DVec3;
 use lumencut::drags;
@@ -29,14 +29,14 @@ pub(crate) fn dragged(camera: MadeCamera, drag: [f64; 2]) -> PyResult<DerivedVie
     placed(drags::dragged(&camera.camera()?, drag))
 }
 
-/// A camera magnified by a factor; the place at the pixel (column, row) stays there.
+/// A camera magnified by a factor; the point under the pixel (column, row) stays there.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn zoomed_at(camera: MadeCamera, factor: f64, pixel: [f64; 2]) -> PyResult<DerivedView> {
     placed(drags::zoomed_at(&camera.camera()?, factor, pixel))
 }
 
-/// Size (pixels) and pixel spacing (mm) of the view with a share of its pixels along each side.
+/// Size (pixels) and pixel spacing (mm) of the same view with fewer pixels; `share` is the fraction along each side.
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn sampled(camera: MadeCamera, share: f64) -> PyResult<((usize, usize), f64)> {

@@ -1,11 +1,11 @@
-//! Kinds of files by content and name.
+//! Recognises kinds of files by content and name.
 
 use lumencut::file_kinds::{
     FILE_KINDS, HEAD, KnownFile, Role, centerline_files, folder, kind_of, volume_files,
 };
 use pyo3::prelude::*;
 
-/// Identifier, role, words and mend of the kind of a file.
+/// Identifier, role, words and remedy of the kind of a file.
 type Known = (&'static str, &'static str, String, &'static str);
 
 fn known(KnownFile { kind, role, words, mend }: KnownFile) -> Known {
@@ -20,15 +20,15 @@ fn word(role: Role) -> &'static str {
     }
 }
 
-/// The kind of a file by its first bytes and its name; of a folder without bytes.
+/// The kind of a file by its first bytes and its name; without bytes, the kind of a folder.
 #[pyfunction]
 #[pyo3(signature = (head, name=""))]
 pub(crate) fn file_kind(head: Option<&[u8]>, name: &str) -> Known {
     known(head.map_or_else(folder, |head| kind_of(head, name)))
 }
 
-/// Adds to the module: the table (identifier, role, format, extensions, those that are written), the number of bytes that decide,
-/// and the files that are read in words.
+/// Adds to the module: the table (identifier, role, format, extensions to read, extensions to write), the number of
+/// bytes that decide, and the words for the files that can be read.
 pub(crate) fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let rows = FILE_KINDS.iter().map(|kind| {
         (kind.name, word(kind.role), kind.title, kind.extensions.to_vec(), kind.written.to_vec())

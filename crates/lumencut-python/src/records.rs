@@ -1,4 +1,4 @@
-//! Records of profiles, and stenoses as plain values for pickles.
+//! Records of profiles, and stenoses as plain values that Python can pickle.
 
 use std::sync::Arc;
 
@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 use crate::errors::to_python;
 use crate::measuring::{Profile, Stenosis};
 
-/// Everything of a profile as text.
+/// All data of a profile as text.
 #[pyfunction]
 pub(crate) fn profile_record(py: Python<'_>, profile: &Profile) -> String {
     py.detach(|| ProfileRecord::of(&profile.0, &profile.1).text())

@@ -1,4 +1,4 @@
-//! Volume files for `lumencut.volume_files.grids`, which reads and writes the bytes.
+//! Volume files for `lumencut.volume_files.grids`, which reads and writes the bytes of files.
 
 use std::path::{Path, PathBuf};
 
@@ -13,10 +13,10 @@ use pyo3::types::PyBytes;
 
 use crate::errors::{exception, overlap};
 
-/// Bytes of voxels that one call writes at most, so that signals are heard.
+/// Most bytes of voxels that one call writes, so that Ctrl-C is noticed in time.
 const PIECE: usize = 16 << 20;
 
-/// The error as an exception that names the file next to `path`.
+/// The error as an exception; its file is in the folder of `path`.
 fn raised(error: &Error, path: &Path) -> PyErr {
     let is_own = path.file_name().is_some_and(|name| name == error.subject.as_str());
     let subject: PathBuf = if is_own { path.into() } else { path.with_file_name(&error.subject) };
@@ -31,7 +31,7 @@ fn raised(error: &Error, path: &Path) -> PyErr {
     exception(class, &subject, &error.found, &error.expected, &error.mend)
 }
 
-/// A file whose header is being read: `next` says what is needed.
+/// A file whose header is being read; `next` states what is needed.
 #[pyclass(module = "lumencut._lumencut")]
 pub(crate) struct VolumeOpening {
     path: PathBuf,
@@ -48,20 +48,20 @@ impl VolumeOpening {
         Self { path, name, chosen, known: Known::new() }
     }
 
-    /// Adds the size of a file, None if it is missing; whether it lies outside the folder.
+    /// Adds the size of a file (None if it is missing), and whether it lies outside the folder.
     #[pyo3(signature = (name, size, is_outside, /))]
     fn add_size(&mut self, name: &str, size: Option<u64>, is_outside: bool) {
         let there = if is_outside { Found::Outside } else { Found::Size };
         self.known.add_size(name, size.map_or(Found::Missing, there));
     }
 
-    /// Adds the needed bytes of a file, which begin at `start`.
+    /// Adds requested bytes of a file, which begin at `start`.
     #[pyo3(signature = (name, start, bytes, /))]
     fn add_bytes(&mut self, name: &str, start: u64, bytes: &[u8]) {
         self.known.add_bytes(name, start, bytes);
     }
 
-    /// The plan; the needed names of which sizes are needed, or name, start and end of needed bytes; None for an
+    /// The plan; or the names of files whose sizes are needed; or name, start and end of needed bytes; None for an
     /// unknown format.
     fn next<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         match open(&self.name, &self.known, self.chosen.as_deref()) {
@@ -76,7 +76,7 @@ impl VolumeOpening {
     }
 }
 
-/// A volume whose header is read.
+/// A volume whose header was read.
 #[pyclass(module = "lumencut._lumencut", frozen)]
 pub(crate) struct VolumePlan {
     path: PathBuf,
@@ -116,13 +116,13 @@ impl VolumePlan {
         &self.plan.grid.space
     }
 
-    /// The name in NumPy of the stored type, and whether the most significant byte comes first.
+    /// NumPy's name of the stored type, and whether numbers are big-endian.
     #[getter]
     fn stored(&self) -> (&'static str, bool) {
         (self.plan.stored.kind.name(), self.plan.stored.is_big)
     }
 
-    /// The name in NumPy of the type of the voxels once read; None if the voxels decide it.
+    /// NumPy's name of the voxels' type once they are read; None if the voxels decide it.
     #[getter]
     fn settled(&self) -> Option<&'static str> {
         self.plan.settled(false).map(Kind::name)
@@ -154,18 +154,18 @@ impl VolumePlan {
         self.plan.label_names.clone()
     }
 
-    /// Layers and segments in words; None for a file that is no segmentation.
+    /// Layers and segments in words; None if the file is not a segmentation.
     #[getter]
     fn segmentation(&self) -> Option<[String; 2]> {
         self.plan.segmentation.as_ref().map(lumencut_volumes::Segmentation::details)
     }
 
-    /// The exception for a file of voxels that is not there.
+    /// The exception for a missing file of voxels.
     fn missing(&self, py: Python<'_>) -> Py<PyAny> {
         raised(&self.plan.missing(), &self.path).into_value(py).into_any()
     }
 
-    /// What fills the voxels from a file of this size.
+    /// Begins to read voxels from a file of this size (bytes).
     #[pyo3(signature = (size, /))]
     fn fill(&self, size: u64) -> VolumeFill {
         let fill = Fill::new(self.plan.clone(), size, false);
@@ -173,7 +173,7 @@ impl VolumePlan {
     }
 }
 
-/// Makes voxels of bytes.
+/// Converts bytes of a file to voxels.
 #[pyclass(module = "lumencut._lumencut")]
 pub(crate) struct VolumeFill {
     path: PathBuf,
@@ -182,9 +182,9 @@ pub(crate) struct VolumeFill {
 
 #[pymethods]
 impl VolumeFill {
-    /// Reads bytes of the file, which begin at `start`, and writes voxels to `output`; tells how many bytes it wrote
-    /// and what comes next: ("read", start, end), ("sound", proven, least bytes), ("room", type, bytes), ("done",)
-    /// or ("filled",).
+    /// Reads bytes of the file, which begin at `start`, and writes voxels to `output`. Returns the number of bytes
+    /// written and the next step: ("read", start, end), ("sound", proven, least bytes), ("room", type, bytes),
+    /// ("done",) or ("filled",).
     #[pyo3(signature = (start, bytes, output, /))]
     fn step<'py>(
         &mut self,
@@ -210,7 +210,7 @@ impl VolumeFill {
     }
 }
 
-/// Steps until another part of the file is needed, or much is written.
+/// Continues until another part of the file is needed, or [`PIECE`] bytes are written.
 fn steps(fill: &mut Fill, window: Window<'_>, output: &mut [u8]) -> Result<(usize, Step), Box<Error>> {
     let mut written = 0;
     loop {
@@ -223,7 +223,8 @@ fn steps(fill: &mut Fill, window: Window<'_>, output: &mut [u8]) -> Result<(usiz
     }
 }
 
-/// Millimetres per unit, and whether lengths and sides are known, of the bytes of a NIfTI header.
+/// From the bytes of a NIfTI header: millimetres per unit, and whether lengths in mm and the sides of the patient are
+/// known.
 #[pyfunction]
 #[pyo3(signature = (header, /))]
 pub(crate) fn nifti_units(header: &[u8]) -> Option<(f64, bool, bool)> {
@@ -250,7 +251,7 @@ pub(crate) fn volume_header<'py>(
     Ok(PyBytes::new(py, &header))
 }
 
-/// Packs bytes as a gzip stream.
+/// Compresses bytes into a gzip stream.
 #[pyclass(module = "lumencut._lumencut")]
 #[derive(Default)]
 pub(crate) struct GzipPacker(Packer);
@@ -262,14 +263,14 @@ impl GzipPacker {
         Self::default()
     }
 
-    /// Takes bytes and gives those that are packed so far.
+    /// Compresses bytes; returns the part of the stream that is ready.
     #[pyo3(signature = (bytes, /))]
     fn pack<'py>(&mut self, py: Python<'py>, bytes: &[u8]) -> Bound<'py, PyBytes> {
         let packer = &mut self.0;
         PyBytes::new(py, &py.detach(|| packer.pack(bytes)))
     }
 
-    /// Gives the last bytes.
+    /// Returns the last bytes of the stream.
     fn end<'py>(&mut self, py: Python<'py>) -> Bound<'py, PyBytes> {
         PyBytes::new(py, &std::mem::take(&mut self.0).end())
     }

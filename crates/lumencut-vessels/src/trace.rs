@@ -1,7 +1,6 @@
-//! Traces centerlines in a volume or a mask, as described in `docs/method/tracing.md`.
-//!
-//! Each module uses only the modules listed before it: [`lines`], [`lumen`], [`ways`], [`skeleton`]. The
-//! entry points [`clicks`], [`find`] and [`mask`] use all of them.
+//! Traces centerlines in a volume or a mask, as described in `docs/method/tracing.md`. Each module uses only the
+//! modules listed before it: [`lines`], [`lumen`], [`ways`], [`skeleton`]. The entry points [`clicks`], [`find`] and
+//! [`mask`] use all of them.
 
 pub mod clicks;
 pub mod find;

@@ -1,6 +1,6 @@
-//! Writes JSON. A library for it would take a third of the module.
+//! Writes JSON; a library for this would be a third of the module.
 
-/// A string.
+/// A JSON string.
 pub(crate) fn text(text: &str) -> String {
     let mut out = String::from('"');
     for letter in text.chars() {
@@ -14,19 +14,18 @@ pub(crate) fn text(text: &str) -> String {
     out
 }
 
-/// A list of values in JSON.
+/// A JSON array of values that are JSON.
 pub(crate) fn list(values: impl IntoIterator<Item: ToString>) -> String {
     let values: Vec<String> = values.into_iter().map(|value| value.to_string()).collect();
     format!("[{}]", values.join(","))
 }
 
-/// An object of keys without special letters, and values in JSON.
+/// A JSON object of keys that need no escapes, and values that are JSON.
 pub(crate) fn map(fields: impl IntoIterator<Item = (String, String)>) -> String {
     let fields: Vec<String> = fields.into_iter().map(|(key, value)| format!("\"{key}\":{value}")).collect();
     format!("{{{}}}", fields.join(","))
 }
 
-/// The same, of fields that are listed.
 pub(crate) fn object(fields: &[(&str, String)]) -> String {
     map(fields.iter().map(|(key, value)| ((*key).to_owned(), value.clone())))
 }

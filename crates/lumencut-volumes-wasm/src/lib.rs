@@ -1,5 +1,4 @@
-//! Reads volume files in a browser: passes JSON and bytes to `lumencut_volumes`. It is a separate module, so that
-//! pages without such files do not load it.
+//! Reads volume files in a browser through `lumencut_volumes`. Only pages that open such files load this module.
 #![cfg(target_arch = "wasm32")]
 
 mod json;
@@ -8,12 +7,12 @@ use crate::json::{list, map, object, text};
 use lumencut_volumes::{Error, ErrorKind, Fill, Found, Grid, Known, Need, Plan, Step, Stop, Window, open};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
-/// Bytes of voxels that are given at once.
+/// Size of the buffer for voxels (bytes).
 const PIECE: usize = 1 << 20;
 
 type Thrown<T> = Result<T, JsValue>;
 
-/// A volume file that is being opened and read. Names are relative to its folder.
+/// A volume file that is opened and read. File names are relative to its folder.
 #[wasm_bindgen]
 pub struct VolumeFile {
     name: String,
@@ -27,7 +26,7 @@ pub struct VolumeFile {
 
 #[wasm_bindgen]
 impl VolumeFile {
-    /// Begins to open the file of this name.
+    /// Begins to open the file with this name.
     #[wasm_bindgen(constructor)]
     #[must_use]
     pub fn new(name: &str) -> Self {
@@ -35,20 +34,17 @@ impl VolumeFile {
         Self { name, known, plan: None, fill: None, start: 0, input: Vec::new(), output: Vec::new() }
     }
 
-    /// Adds the size of a file (bytes), or undefined if there is none.
+    /// Adds the size of a file (bytes); undefined if the file is missing.
     pub fn add_size(&mut self, name: &str, size: Option<f64>) {
         self.known.add_size(name, size.map_or(Found::Missing, |size| Found::Size(size as u64)));
     }
 
-    /// Adds bytes of a file, from `start` on.
+    /// Adds bytes of a file, which begin at `start`.
     pub fn add_bytes(&mut self, name: &str, start: f64, bytes: &[u8]) {
         self.known.add_bytes(name, start as u64, bytes);
     }
 
-    /// Reads the header: the plan as JSON, or what is still needed for it.
-    ///
-    /// # Errors
-    /// For a file that cannot be read.
+    /// Reads the header; returns the plan, or what is still needed, as JSON. Fails for a file that cannot be read.
     pub fn open(&mut self) -> Thrown<String> {
         match open(&self.name, &self.known, None) {
             Ok(plan) => {
@@ -62,16 +58,14 @@ impl VolumeFile {
         }
     }
 
-    /// World (LPS, mm) from index: the upper three rows of the matrix, of the plan.
+    /// World (LPS, mm) from index: the upper three rows of the plan's matrix.
     #[must_use]
     pub fn world_from_index(&self) -> Vec<f64> {
         self.plan.iter().flat_map(|plan| plan.grid.world_from_index).flatten().collect()
     }
 
-    /// Begins to fill the volume from the file that the plan names, of this size (bytes); undefined if there is none.
-    ///
-    /// # Errors
-    /// For a missing file.
+    /// Begins to read voxels from the file that the plan names; `size` in bytes. Fails if `size` is undefined: the
+    /// file is missing.
     pub fn begin(&mut self, size: Option<f64>) -> Thrown<()> {
         let plan = self.plan.take().ok_or("no plan")?;
         let size = size.ok_or_else(|| thrown(&plan.missing()))?;
@@ -79,17 +73,15 @@ impl VolumeFile {
         Ok(())
     }
 
-    /// Replaces the bytes of the file of voxels that are at hand; they begin at `start`.
+    /// Replaces the bytes from which voxels are read; they begin at `start` in the file.
     pub fn read(&mut self, start: f64, bytes: &[u8]) {
         self.start = start as u64;
         self.input.clear();
         self.input.extend_from_slice(bytes);
     }
 
-    /// Continues until there are voxels to take from `output`, or bytes to read, or something to tell, as JSON.
-    ///
-    /// # Errors
-    /// For a file that is too short or damaged, and for overlapping segments.
+    /// Continues until `output` holds voxels, bytes are needed, or there is news; returns this as JSON. Fails for a
+    /// file that is too short or damaged, and for overlapping segments.
     pub fn step(&mut self) -> Thrown<String> {
         let fill = self.fill.as_mut().ok_or("no plan")?;
         let window = Window { start: self.start, bytes: &self.input };
@@ -109,14 +101,13 @@ impl VolumeFile {
         }
     }
 
-    /// The address of the voxels of the last step, in the memory of this module.
+    /// The address, in the memory of this module, of the voxels of the last step.
     #[must_use]
     pub fn output(&self) -> f64 {
         self.output.as_ptr().addr() as f64
     }
 }
 
-/// What a step leads to.
 fn turn(step: Step) -> (&'static str, String) {
     match step {
         Step::Read { start, end } => ("read", list([start, end])),

@@ -1,4 +1,4 @@
-//! Files that a header names: they lie in its folder or below, since a sender must not choose what is read.
+//! Files that a header names. They must be in its folder or below, since a sender must not choose what is read.
 
 use crate::error::{Error, Opening};
 use crate::known::{Found, Known};
@@ -29,7 +29,7 @@ fn outside(header: &str, name: &str, field: &str) -> Box<Error> {
         .mend("copy it there and name it without a path")
 }
 
-/// Refuses a file that is a link out of the folder; one that is missing is told of when it is read.
+/// Rejects a link to a file outside the folder. A missing file is reported when it is read.
 pub(crate) fn require_inside(known: &Known, header: &str, name: &str, field: &str) -> Opening<()> {
     match known.found(name)? {
         Found::Outside(_) => Err(outside(header, name, field).into()),

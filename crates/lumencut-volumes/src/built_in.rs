@@ -1,10 +1,10 @@
-//! Numbers in words, and printable characters. Rust's tables for them would take a fifth of the page's small module,
-//! so a browser uses its own.
+//! Parses numbers and recognises printable characters. Rust's tables for this would be a fifth of the page's small
+//! module, so in browsers JavaScript does it.
 
 #[cfg(target_arch = "wasm32")]
 pub(crate) use browser::{is_printable, real};
 
-/// The number that a word stands for, rounded to the nearest.
+/// The number that a word states, rounded to the nearest float.
 #[cfg(not(target_arch = "wasm32"))]
 pub(crate) fn real(word: &str) -> Option<f64> {
     word.parse().ok()
@@ -25,7 +25,7 @@ mod browser {
 
     #[wasm_bindgen]
     extern "C" {
-        /// NaN for words that are no numbers.
+        /// NaN if the text is not a number.
         #[wasm_bindgen(js_name = Number)]
         fn number(text: &str) -> f64;
 

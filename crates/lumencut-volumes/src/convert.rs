@@ -1,12 +1,12 @@
-//! Makes values of stored numbers: byte order, type and scaling; and finds the range of integers.
+//! Converts the byte order, type and scale of stored numbers, and finds the range of integers.
 
 use crate::numbers::{Kind, Scaling};
 use crate::plan::Stored;
 
-/// Numbers that are converted at once.
+/// Number of values that are converted at once.
 const BATCH: usize = 1024;
 
-/// Calls `$generic::<T>($arguments)` with the type of a kind.
+/// Calls `$function::<T>($argument, …)` with the Rust type of a kind.
 macro_rules! of_kind {
     ($kind:expr, $function:ident($($argument:expr),*)) => {
         match $kind {
@@ -24,7 +24,6 @@ macro_rules! of_kind {
     };
 }
 
-/// A type of stored numbers.
 trait Number: Copy + PartialOrd {
     const BYTES: usize;
     fn read(bytes: &[u8], is_big: bool) -> Self;
@@ -77,7 +76,7 @@ macro_rules! numbers {
 
 numbers!(i8, u8, i16, u16, i32, u32, i64, u64, f32, f64);
 
-/// Makes values of one type from stored numbers.
+/// Converts stored numbers to values of one type.
 pub(crate) struct Conversion {
     stored: Stored,
     kind: Kind,
@@ -92,7 +91,6 @@ impl Conversion {
         self.kind
     }
 
-    /// Whether bytes stay as they are.
     pub(crate) fn is_copy(&self) -> bool {
         let is_native = self.stored.kind.bytes() == 1 || self.stored.is_big == cfg!(target_endian = "big");
         self.is_same_kind() && is_native
@@ -102,7 +100,7 @@ impl Conversion {
         self.stored.scaling.is_none() && self.stored.kind == self.kind
     }
 
-    /// Converts whole numbers; `to` has room for as many.
+    /// Converts complete numbers; `to` must have space for all of them.
     pub(crate) fn convert(&self, from: &[u8], to: &mut [u8]) {
         if self.is_same_kind() {
             to.copy_from_slice(from);
@@ -147,17 +145,17 @@ impl Conversion {
     }
 }
 
-/// Stored numbers as 64-bit floats, unscaled.
+/// Stored numbers as 64-bit floats, without scaling.
 pub(crate) fn reals(stored: Stored, from: &[u8], to: &mut [f64]) {
     of_kind!(stored.kind, read_real(from, stored.is_big, to));
 }
 
-/// A range of integers that also covers these stored ones.
+/// The range, extended to these stored integers.
 pub(crate) fn widened(stored: Stored, from: &[u8], range: (i128, i128)) -> (i128, i128) {
     of_kind!(stored.kind, widened_by(from, stored.is_big, range))
 }
 
-/// Writes a number in this machine's order, whole or not.
+/// Writes a number in this machine's byte order: `whole` for integer types, else `real`.
 pub(crate) fn write_number(kind: Kind, whole: i128, real: f64, to: &mut [u8]) {
     match kind {
         Kind::Uint64 => (whole as u64).write(to),

@@ -2,12 +2,12 @@
 
 use std::fmt;
 
-/// A volume file that cannot be read. No text of a patient stands in it.
+/// Why a volume file cannot be read. It contains no text about the patient.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Error {
     /// The kind of the error.
     pub kind: ErrorKind,
-    /// Name of the file, as `open` was given it or as a header names it.
+    /// Name of the file, as given to `open` or as a header states it.
     pub subject: String,
     /// What was found.
     pub found: String,
@@ -17,14 +17,14 @@ pub struct Error {
     pub mend: String,
 }
 
-/// What kind of error it is.
+/// The kinds of errors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ErrorKind {
-    /// The content is damaged or no volume.
+    /// The content is damaged, or is not a volume.
     Format,
     /// A file is missing.
     File,
-    /// Segments that share voxels; their header is sound.
+    /// Segments share voxels; the header is valid.
     Overlap,
 }
 
@@ -55,17 +55,15 @@ impl Error {
         self
     }
 
-    /// A damaged file; another copy may be whole.
     pub(crate) fn damaged(subject: &str, found: impl Into<String>, expected: impl Into<String>) -> Box<Self> {
         Self::new(subject, found, expected).mend("copy the file again")
     }
 
-    /// A file that is not there.
     pub(crate) fn missing(name: &str, expected: &str) -> Box<Self> {
         Self::new(name, "no such file", expected).mend("bring both files together").of(ErrorKind::File)
     }
 
-    /// A file with fewer bytes of voxels than its header says; `limit` is empty or "at most ".
+    /// A file with fewer bytes of voxels than its header states; `limit` is empty or "at most ".
     pub(crate) fn too_short(subject: &str, limit: &str, found: u128, needed: u128) -> Box<Self> {
         let found = format!("{limit}{found} bytes of voxels");
         Self::damaged(subject, found, format!("{needed} bytes as the header says"))
@@ -81,28 +79,28 @@ impl fmt::Display for Error {
 
 impl std::error::Error for Error {}
 
-/// What `open` needs of files. Names are relative to the folder of the opened file.
+/// What `open` still needs. File names are relative to the folder of the opened file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Need {
-    /// The sizes of these files, or that they are not there.
+    /// The sizes of these files, or that they are missing.
     Sizes(Vec<String>),
-    /// The bytes of a file from `start` to `end`, fewer at its end.
+    /// The bytes of a file from `start` to `end`; fewer if the file is shorter.
     Bytes {
         /// The name of the file.
         name: String,
         /// The first byte.
         start: u64,
-        /// The byte behind the last one.
+        /// The byte after the last one.
         end: u64,
     },
 }
 
-/// Why `open` gives no plan yet.
+/// Why `open` returned no plan.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Stop {
-    /// The host fetches this, and asks again.
+    /// The host must fetch this and call `open` again.
     Need(Need),
-    /// The file is no NIfTI, NRRD or MetaImage file: another reader may know it.
+    /// The file is not NIfTI, NRRD or MetaImage; another reader may read it.
     Unknown,
     /// The file cannot be read.
     Refused(Box<Error>),
@@ -120,5 +118,4 @@ impl From<Need> for Stop {
     }
 }
 
-/// Result of a step of `open`.
 pub(crate) type Opening<T> = Result<T, Stop>;

@@ -1,4 +1,5 @@
-//! Makes voxels of the bytes of a file, in pieces of bounded size. No memory is asked for that the file does not fill.
+//! Converts the bytes of a file to voxels, in pieces of bounded size. A small file cannot make it request much
+//! memory.
 
 mod pass;
 
@@ -10,53 +11,54 @@ use crate::plan::{Plan, Stored};
 use crate::stream::Codec;
 use pass::{Pass, Piece};
 
-/// Bytes of a file that are asked for at once.
+/// Bytes of a file that one step requests.
 const READ: u64 = 1 << 20;
 /// Stored bytes that are converted at once.
 const PIECE: usize = 1 << 18;
-/// No byte of a deflate stream becomes more bytes than this.
+/// A byte of a deflate stream unpacks to at most this many bytes.
 const DEFLATE_LIMIT: u128 = 1032;
-/// Sizes up to this many times the compressed file need no proof before memory is asked for.
+/// Up to this multiple of the compressed size, memory is requested before the stream has proved its length.
 const TRUSTED: u128 = 8;
 
-/// Bytes of the file of voxels that begin at `start`.
+/// A part of the file that holds the voxels.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Window<'a> {
     /// The first byte.
     pub start: u64,
-    /// As many as the host has.
+    /// The bytes from `start` on, as many as the host has.
     pub bytes: &'a [u8],
 }
 
-/// What a step of [`Fill`] did, or needs.
+/// What a step of [`Fill`] did or needs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Step {
-    /// The next step needs the bytes from `start` to `end` of the file; it also takes more, and fewer at its end.
+    /// The next step needs the bytes of the file from `start` to `end`. It accepts more, and fewer at the end of the
+    /// file.
     Read {
         /// The first byte.
         start: u64,
-        /// The byte behind the last one.
+        /// The byte after the last one.
         end: u64,
     },
-    /// The length of the file is sound. The voxels will take at least so many bytes of memory.
+    /// The length of the file is plausible.
     Sound {
-        /// Whether it proves that the file holds all voxels.
+        /// Whether the length proves that the file holds all voxels.
         is_proven: bool,
         /// Bytes of the voxels in the smallest type that they may have.
         least: u64,
     },
-    /// So many stored bytes were looked at, before voxels are made.
+    /// This many stored bytes were examined before any voxel is written.
     Checked(usize),
-    /// The next steps write voxels of this type, so many bytes in all.
+    /// The next steps write the voxels; the host provides memory.
     Room {
-        /// The type.
+        /// The type of the voxels.
         kind: Kind,
         /// Bytes of all voxels.
         bytes: u64,
     },
-    /// So many bytes of voxels were written to the beginning of the output: whole numbers unless output was short.
+    /// This many bytes were written to the start of the output: complete numbers, unless the output was too short.
     Filled(usize),
-    /// All voxels are written, and check sums are right.
+    /// All voxels are written, and checksums match.
     Done,
 }
 
@@ -72,13 +74,13 @@ enum Phase {
     Done,
 }
 
-/// Fills a volume: a machine that the host drives by [`Fill::step`].
+/// Reads the voxels of a volume step by step; the host calls [`Fill::step`] and provides what it needs.
 pub struct Fill {
     plan: Plan,
     in_engine: bool,
     size: u64,
     at: u64,
-    /// What was read last begins here.
+    /// Start of the bytes that were requested last.
     asked: Option<u64>,
     phase: Phase,
     /// Stored numbers that are not yet converted.
@@ -87,14 +89,9 @@ pub struct Fill {
 }
 
 impl Fill {
-    /// Begins to fill a volume.
-    ///
-    /// # Parameters
-    ///
-    /// * `plan`: what `open` gave.
-    /// * `size`: the bytes of the file of voxels.
-    /// * `in_engine`: whether voxels get a type of the engine (uint8, int16, uint16 or float32), else the one that
-    ///   holds them exactly. All are in this machine's byte order, i fastest.
+    /// Begins to read the voxels of a `plan` from [`crate::open`]; `size` is that of the file of voxels (bytes). With
+    /// `in_engine` voxels get a type of the engine (uint8, int16, uint16 or float32), else one that holds them exactly.
+    /// They are in this machine's byte order, i fastest.
     #[must_use]
     pub fn new(plan: Plan, size: u64, in_engine: bool) -> Self {
         let phase = Phase::Lines { left: plan.place.lines };
@@ -102,16 +99,9 @@ impl Fill {
         Self { plan, in_engine, size, at, asked: None, phase, buffer: Vec::new(), held: 0 }
     }
 
-    /// Takes one step.
-    ///
-    /// # Parameters
-    ///
-    /// * `window`: the bytes of the last [`Step::Read`], or the whole file; empty at first.
-    /// * `output`: where voxels are written; at least 8 bytes after [`Step::Room`], else empty.
-    ///
-    /// # Errors
-    ///
-    /// For a file that is too short or damaged, and for segments that overlap.
+    /// Takes one step. `window` holds the bytes of the last [`Step::Read`], or the entire file; it is empty at first.
+    /// Voxels are written to `output`: at least 8 bytes after [`Step::Room`], else empty. Fails for a file that is too
+    /// short or damaged, and for segments that overlap.
     pub fn step(&mut self, window: Window<'_>, output: &mut [u8]) -> Result<Step, Box<Error>> {
         loop {
             let skipped = usize::try_from(self.at.saturating_sub(window.start)).unwrap_or(usize::MAX);
@@ -120,7 +110,7 @@ impl Fill {
             match self.turn(input, output)? {
                 Turn::Again => {}
                 Turn::Hungry if self.asked == Some(self.at) => {
-                    // The file has become shorter since.
+                    // The file has become shorter since its size was read.
                     self.size = self.at + input.len() as u64;
                 }
                 Turn::Hungry => {
@@ -179,7 +169,7 @@ impl Fill {
         }
     }
 
-    /// Refuses a size that the file cannot fill.
+    /// Rejects a volume for which the file is too short.
     fn check_lengths(&mut self) -> Result<Turn, Box<Error>> {
         let (place, needed) = (&self.plan.place, self.plan.stored_bytes());
         let (name, skip) = (place.name.as_str(), u128::from(place.skip));
@@ -215,12 +205,12 @@ impl Fill {
         Ok(Turn::Step(Step::Sound { is_proven, least: saturated(least) }))
     }
 
-    /// Numbers that the file holds.
     fn numbers(&self) -> u128 {
         self.plan.stored_bytes() / self.plan.stored.kind.bytes() as u128
     }
 
-    /// A pass over all voxels before they are made: for their range, or for a proof that a stream holds them.
+    /// A pass over all stored numbers before voxels are written: to find their range, or to prove that a stream holds
+    /// them.
     fn first_pass(&self, held: u128) -> Phase {
         let needed = self.plan.stored_bytes().saturating_add(self.plan.place.skip.into());
         let is_packed = matches!(self.plan.place.codec, Codec::Zlib | Codec::Bzip2);
@@ -235,14 +225,14 @@ impl Fill {
         Pass::new(&self.plan, self.at, self.plan.stored_bytes(), self.numbers())
     }
 
-    /// Stored numbers as they are while they are read: text has become numbers of this machine.
+    /// How numbers are stored when a pass returns them: those of a text are in this machine's byte order.
     fn stored(&self) -> Stored {
         let is_text = self.plan.place.codec == Codec::Text;
         let is_big = if is_text { cfg!(target_endian = "big") } else { self.plan.stored.is_big };
         Stored { is_big, ..self.plan.stored }
     }
 
-    /// Looks at stored bytes without making voxels of them.
+    /// Examines stored bytes without writing voxels.
     fn look(&mut self, input: &[u8]) -> Result<Turn, Box<Error>> {
         self.buffer.resize(PIECE, 0);
         let stored = self.stored();
@@ -347,7 +337,7 @@ fn saturated(count: u128) -> u64 {
     u64::try_from(count).unwrap_or(u64::MAX)
 }
 
-/// How many lines end in these bytes, at most `most`, and the bytes up to the end of the last one, or all.
+/// The number of lines that end in these bytes, at most `most`, and the bytes up to the end of line `most`, else all.
 fn lines_in(input: &[u8], most: u64) -> (u64, usize) {
     let mut lines = 0;
     for (at, &byte) in input.iter().enumerate() {

@@ -1,27 +1,27 @@
-//! What a host has fetched of files so far, and what is still needed.
+//! The sizes and bytes of files that a host has fetched so far.
 
 use crate::error::{Error, Need, Opening};
 use crate::stream::{Codec, Taken, Unpacker, is_gzip};
 
-/// The first bytes of a gzipped file that are fetched; then four times as many, and so on.
+/// Bytes of a gzipped file that are requested first; each further request is four times as large.
 const FIRST: u64 = 1 << 16;
 const PIECE: usize = 1 << 16;
 
 const PACKED: [(&[u8], &str); 4] =
     [(b"BZh", "bzip2"), (b"\xfd7zXZ\0", "xz"), (b"\x28\xb5\x2f\xfd", "zstd"), (b"PK\x03\x04", "zip")];
 
-/// What is known of a file.
+/// Whether a file exists, and its size (bytes).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Found {
-    /// It is there, with so many bytes.
+    /// It exists.
     Size(u64),
-    /// It is not there.
+    /// It does not exist.
     Missing,
-    /// It is a link that leads out of the folder, with so many bytes.
+    /// It is a link to a file outside the folder.
     Outside(u64),
 }
 
-/// What is known of files, by their names.
+/// What is known about files, by their names.
 #[derive(Clone, Debug, Default)]
 pub struct Known(Vec<File>);
 
@@ -29,18 +29,17 @@ pub struct Known(Vec<File>);
 struct File {
     name: String,
     found: Found,
-    /// Its first bytes.
     head: Vec<u8>,
 }
 
 impl Known {
-    /// Nothing.
+    /// No file is known yet.
     #[must_use]
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Adds whether a file is there.
+    /// Adds whether a file exists.
     pub fn add_size(&mut self, name: &str, found: Found) {
         match self.0.iter_mut().find(|file| file.name == name) {
             Some(file) => file.found = found,
@@ -48,7 +47,7 @@ impl Known {
         }
     }
 
-    /// Adds the bytes that were needed; they begin at `start`. None mean that the file ends there.
+    /// Adds requested bytes, which begin at `start`; no bytes mean that the file ends there.
     pub fn add_bytes(&mut self, name: &str, start: u64, bytes: &[u8]) {
         let Some(file) = self.0.iter_mut().find(|file| file.name == name) else { return };
         file.head.truncate(usize::try_from(start).unwrap_or(usize::MAX));
@@ -67,7 +66,7 @@ impl Known {
         self.file(name).map(|file| file.found).ok_or_else(unknown)
     }
 
-    /// The first of several files that is there.
+    /// The first of these files that exists.
     pub(crate) fn first_found(&self, names: &[String]) -> Opening<Option<String>> {
         let unknown: Vec<String> = names.iter().filter(|name| self.file(name).is_none()).cloned().collect();
         if !unknown.is_empty() {
@@ -84,7 +83,6 @@ impl Known {
         })
     }
 
-    /// The first bytes of a file, `count` or all.
     pub(crate) fn first(&self, name: &str, count: u64) -> Opening<&[u8]> {
         let count = count.min(self.size(name)?);
         let head = self.file(name).map_or(&[][..], |file| &file.head);
@@ -96,7 +94,7 @@ impl Known {
         Ok(&head[..wanted])
     }
 
-    /// The same as `unpacked`; files that are packed otherwise are refused.
+    /// As [`Self::unpacked`], but rejects other compressions.
     pub(crate) fn head(&self, name: &str, count: usize) -> Opening<Vec<u8>> {
         let start = self.first(name, 8)?;
         if let Some((_, codec)) = PACKED.iter().find(|(magic, _)| start.starts_with(magic)) {
@@ -107,7 +105,7 @@ impl Known {
         self.unpacked(name, count)
     }
 
-    /// The first bytes of a file, unpacked if it is gzipped. The file may break off after them.
+    /// The first bytes of a file, unpacked if it is gzipped; fewer if the stream ends earlier.
     pub(crate) fn unpacked(&self, name: &str, count: usize) -> Opening<Vec<u8>> {
         let start = self.first(name, count as u64)?;
         if !is_gzip(start) {
@@ -126,7 +124,7 @@ impl Known {
     }
 }
 
-/// The first bytes of a stream, and whether no more of it is to be had than these.
+/// The first bytes of a stream, and whether it yields no further bytes.
 fn first_unpacked(packed: &[u8], is_whole: bool, count: usize) -> (Vec<u8>, bool) {
     let mut unpacker = Unpacker::new(Codec::Zlib, count as u128);
     let (mut bytes, mut piece, mut at) = (Vec::new(), vec![0; PIECE.min(count)], 0);

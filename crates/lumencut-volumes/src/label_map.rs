@@ -1,4 +1,4 @@
-//! Makes a label map of the layers of a segmentation.
+//! Merges the layers of a segmentation into one label map.
 
 use std::ops::Range;
 
@@ -8,32 +8,30 @@ use crate::numbers::Kind;
 use crate::plan::Stored;
 use crate::segments::{Segment, Segmentation};
 
-/// Values that are held at once, unless a voxel's layers lie further apart.
+/// Number of values in memory; more if the layers of a voxel are farther apart in the file.
 const HELD: usize = 1 << 16;
 
-/// Takes the values of all layers in the order of the file, and gives labels. It holds the voxels whose layers are
-/// not all read: some where layers are the fastest axis, all where they are the slowest.
+/// Receives the values of all layers in the order of the file, and returns labels. It keeps voxels until all their
+/// layers are read: few voxels if layers are the fastest axis, all if they are the slowest.
 pub(crate) struct LabelMap {
     stored: Stored,
     kind: Kind,
     segmentation: Segmentation,
-    /// By layer, the value of each segment and its place, sorted.
+    /// For each layer: the values of its segments in rising order, with the indices of these segments.
     of_layer: Vec<Vec<(u32, usize)>>,
-    /// Voxels that lie between two layers of a voxel.
+    /// Number of values between two layers of one voxel.
     inner: usize,
-    /// The places of segments plus one, of the voxels of a block.
+    /// For each voxel of the block: the index of its segment plus 1, or 0.
     block: Vec<u32>,
-    /// Voxels that are not yet given, those of the block included.
+    /// Number of voxels without returned labels, including those of the block.
     left: u64,
-    /// Values of the block that are read.
     at: usize,
-    /// Labels of the block that are given.
     given: usize,
     overlaps: Vec<([usize; 2], u64)>,
 }
 
 impl LabelMap {
-    /// None for more voxels than memory can hold.
+    /// None if memory cannot hold so large a volume.
     pub(crate) fn new(segmentation: &Segmentation, size: [u64; 3], stored: Stored) -> Option<Self> {
         let mut of_layer = vec![Vec::new(); usize::try_from(segmentation.layers).ok()?];
         for segment in segmentation.read_ones() {
@@ -55,12 +53,12 @@ impl LabelMap {
         self.block.len() * self.of_layer.len()
     }
 
-    /// Whether all values of a block are read, so that it gives labels next.
+    /// Whether all values of the block are read, so that its labels can be returned.
     pub(crate) fn has_labels(&self) -> bool {
         self.at == self.values() && self.left > 0
     }
 
-    /// Reads whole values up to the end of a block; tells how many bytes it read.
+    /// Reads complete values up to the end of the block; returns the number of bytes read.
     pub(crate) fn take(&mut self, from: &[u8]) -> usize {
         let unit = self.stored.kind.bytes();
         let count = (from.len() / unit).min(self.values() - self.at);
@@ -101,7 +99,6 @@ impl LabelMap {
         *label = u32::try_from(place + 1).unwrap_or(u32::MAX);
     }
 
-    /// Writes labels of a complete block; tells how many bytes.
     pub(crate) fn give(&mut self, to: &mut [u8]) -> usize {
         let unit = self.kind.bytes();
         let labels = &mut self.block[self.given..];

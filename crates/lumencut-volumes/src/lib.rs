@@ -1,8 +1,8 @@
 //! Volume files without a file system: NIfTI, NRRD and MetaImage.
 //!
-//! [`open`] reads a header from the bytes that a host has fetched and says what it still needs; [`Fill`] makes voxels
-//! of the bytes of a file, in pieces; [`Written`] and [`Packer`] make files. A host with files and one with
-//! asynchronous reads use the same functions:
+//! [`open`] reads a header from the bytes that a host has fetched, or states which bytes it still needs. [`Fill`]
+//! converts the bytes of a file to voxels, in pieces. [`Written`] and [`Packer`] write files. Hosts with files and
+//! hosts with asynchronous reads use the same functions:
 //!
 //! ```
 //! use lumencut_volumes::{Fill, Found, Known, Need, Step, Stop, Window, Written, open};

@@ -1,4 +1,4 @@
-//! MetaImage (.mha, .mhd): always LPS; the rows of `TransformMatrix` are the directions of i, j, k (as ITK has it).
+//! MetaImage (.mha, .mhd): always LPS; the rows of `TransformMatrix` are the directions of i, j, k, as in ITK.
 
 use crate::beside::require_inside;
 use crate::error::{Error, Opening};
@@ -31,10 +31,10 @@ const KINDS: [(&str, Kind); 12] = [
     ("MET_DOUBLE", Kind::Float64),
 ];
 
-/// The fields of a header, and the byte behind it.
+/// The fields of a header, and the byte after it.
 struct Header<'a> {
     path: &'a str,
-    /// Of a name that is there several times, the last one counts.
+    /// If a name occurs several times, its last value counts.
     fields: Vec<(String, String)>,
     end: u64,
 }
@@ -65,7 +65,7 @@ pub(crate) fn open(path: &str, known: &Known) -> Opening<Plan> {
         size,
         world_from_index,
         states_spacing: header.first(&SPACING).is_some(),
-        // A matrix that a label contradicts states two orientations, and none that can be relied on.
+        // If the label contradicts the matrix, neither orientation is reliable.
         states_orientation: agrees && (label.is_some() || header.first(&DIRECTION).is_some()),
         space: "LPS (as every MetaImage)".into(),
     };
@@ -103,7 +103,7 @@ impl<'a> Header<'a> {
         self.fields.iter().rev().find(|(one, _)| one == name).map(|(_, value)| value.as_str())
     }
 
-    /// The text of the first of several synonymous fields that is there.
+    /// The text of the first of these synonymous fields that exists.
     fn first(&self, names: &[&str]) -> Option<&str> {
         names.iter().find_map(|name| self.get(name))
     }
@@ -132,7 +132,7 @@ impl<'a> Header<'a> {
         Ok(values)
     }
 
-    /// Told as MetaIO does, by the first letter.
+    /// As in MetaIO, only the first letter of the text counts.
     fn is_true(&self, name: &str, otherwise: bool) -> bool {
         self.get(name).map_or(otherwise, |text| text.starts_with(['T', 't', '1']))
     }
@@ -181,7 +181,7 @@ impl<'a> Header<'a> {
         Ok([row(0), row(1), row(2)])
     }
 
-    /// Notes a scaling of the values, which ITK does not apply either.
+    /// Notes a scaling of the values; as in ITK, it is not applied.
     fn note_intensity(&self, notes: &mut Vec<String>) {
         for (name, neutral) in INTENSITY {
             if self.get(name).is_some_and(|text| number(text) != Some(neutral)) {
@@ -212,7 +212,8 @@ impl<'a> Header<'a> {
         let before = if self.get("HeaderSize").is_some() { self.whole("HeaderSize", 1)?[0] } else { 0.0 };
         let is_odd = is_local && ![-1.0, 0.0, self.end as f64].contains(&before);
         if before < if is_plain { -1.0 } else { 0.0 } || is_odd {
-            // ITK counts from the start of the file even there, where nobody else would.
+            // For voxels in the same file, ITK counts from the start of the file; others would count from the end of
+            // the header.
             let expected = "0 or more bytes before the voxels of another file, or -1 with plain voxels";
             let error = Error::new(self.path, format!("HeaderSize = {}", before as i64), expected);
             return Err(error.mend("write a single .mha").into());
@@ -222,7 +223,7 @@ impl<'a> Header<'a> {
     }
 }
 
-/// Whether a label (the side on which each axis begins, as ITK writes it) goes with the matrix.
+/// Whether the label agrees with the matrix. Its letters, as written by ITK, are the sides on which the axes begin.
 fn label_agrees(label: &str, affine: &Affine, notes: &mut Vec<String>) -> bool {
     if label.len() != 3 || !label.chars().all(|letter| "RLAPIS".contains(letter)) {
         return true;

@@ -1,4 +1,4 @@
-//! NIfTI-1 and -2, single files and pairs, gzipped or not: the RAS+ affine becomes LPS, voxels stay.
+//! NIfTI-1 and -2, single files and pairs, gzipped or not. The RAS+ affine is converted to LPS; voxels stay in order.
 
 mod header;
 mod labels;
@@ -15,7 +15,7 @@ use crate::text::{latin1, short};
 pub(crate) use header::format_of;
 use header::{HEADER_BYTES, Header};
 
-/// Bytes of extensions that are read.
+/// Number of bytes of a file in which extensions are searched.
 const LONGEST: usize = 1 << 20;
 const COMPLEX: (&str, &str) = ("complex voxels", "write their magnitude");
 const COLOUR: (&str, &str) = ("colour voxels", "write one channel");
@@ -59,10 +59,10 @@ pub(crate) fn open(path: &str, known: &Known) -> Opening<Plan> {
     })
 }
 
-/// What the header of an image in memory states.
+/// What the NIfTI header of an image in memory states.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StatedUnits {
-    /// Millimetres per unit of length; 1 where none is stated.
+    /// Millimetres per unit of length; 1 if no unit is stated.
     pub millimetres: f64,
     /// Whether lengths in mm are known.
     pub spacing: bool,
@@ -70,7 +70,7 @@ pub struct StatedUnits {
     pub orientation: bool,
 }
 
-/// What the bytes of a NIfTI header state; None where they are no such header.
+/// What the bytes of a NIfTI header state; None if they are not a NIfTI header.
 #[must_use]
 pub fn stated_units(header: &[u8]) -> Option<StatedUnits> {
     let header = Header::read("", header).ok()?;
@@ -82,7 +82,7 @@ pub fn stated_units(header: &[u8]) -> Option<StatedUnits> {
     })
 }
 
-/// A missing file counts as plain: it is told of when it is read.
+/// A missing file counts as uncompressed; it is reported when it is read.
 fn codec_of(known: &Known, data: &str) -> Opening<Codec> {
     Ok(match known.found(data)? {
         Found::Size(_) | Found::Outside(_) if is_gzip(known.first(data, 2)?) => Codec::Zlib,
@@ -90,7 +90,8 @@ fn codec_of(known: &Known, data: &str) -> Opening<Codec> {
     })
 }
 
-/// The other file of a pair where this one's name ends as `mine` (`x.img.gz` belongs to `x.hdr.gz` or `x.hdr`).
+/// The other file of a pair if the name ends with `mine` (`x.hdr.gz` or `x.hdr` for `x.img.gz`), else the file
+/// itself.
 fn partner(path: &str, known: &Known, [mine, other]: [&str; 2]) -> Opening<String> {
     let is_zipped = path.to_ascii_lowercase().ends_with(".gz");
     let stem = if is_zipped { &path[..path.len() - 3] } else { path };
@@ -105,7 +106,6 @@ fn partner(path: &str, known: &Known, [mine, other]: [&str; 2]) -> Opening<Strin
     Ok(known.first_found(&names)?.unwrap_or_else(|| names[0].clone()))
 }
 
-/// Refuses by name the types that are no single number.
 fn kind_of(path: &str, code: i16) -> Result<Kind, Box<Error>> {
     let (found, mend) = match code {
         2 => return Ok(Kind::Uint8),
@@ -150,7 +150,6 @@ fn scaling_remark(kind: Kind, scaling: Scaling) -> String {
     format!("values are scaled by {slope} and shifted by {intercept}: {result}")
 }
 
-/// The names of labels in the extensions of a header, which end before the voxels or with the file.
 fn label_names(known: &Known, home: &str, header: &Header, end: usize) -> Opening<Vec<(i64, String)>> {
     let length = header.length();
     let start = known.unpacked(home, length + 4)?;

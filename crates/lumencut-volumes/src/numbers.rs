@@ -31,7 +31,7 @@ impl Kind {
         Self::Float64,
     ];
 
-    /// The name in NumPy.
+    /// The type's name in NumPy.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -48,7 +48,7 @@ impl Kind {
         }
     }
 
-    /// The type of a name in NumPy.
+    /// The type with this name in NumPy.
     #[must_use]
     pub fn of_name(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|kind| kind.name() == name)
@@ -65,13 +65,13 @@ impl Kind {
         }
     }
 
-    /// Whether it is no floating-point type.
+    /// Whether the numbers are integers.
     #[must_use]
     pub const fn is_integer(self) -> bool {
         !matches!(self, Self::Float32 | Self::Float64)
     }
 
-    /// The smallest and the largest integer; those of 64 bits for floating-point types.
+    /// The smallest and the largest integer; for floating-point types, those of signed integers of the same size.
     pub(crate) const fn limits(self) -> (i128, i128) {
         let bits = 8 * self.bytes();
         match self {
@@ -80,7 +80,7 @@ impl Kind {
         }
     }
 
-    /// The first of this and five wider integer types that holds all from `low` to `high`.
+    /// The first type, of this one and five others, that holds all integers from `low` to `high`.
     pub(crate) fn holding(self, low: i128, high: i128) -> Option<Self> {
         [self, Self::Int16, Self::Uint16, Self::Int32, Self::Uint32, Self::Int64].into_iter().find(|kind| {
             let (least, most) = kind.limits();
@@ -88,7 +88,7 @@ impl Kind {
         })
     }
 
-    /// The type in which the engine holds numbers: exact for small integers, else float32.
+    /// The type in which the engine stores the numbers: an integer type if it is exact, else float32.
     #[must_use]
     pub const fn in_the_engine(self) -> Self {
         match self {
@@ -99,30 +99,29 @@ impl Kind {
     }
 }
 
-/// `slope · stored + intercept` are the values.
+/// A value is `slope · stored + intercept`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scaling {
     /// The factor.
     pub slope: f64,
-    /// What is added.
+    /// The number added.
     pub intercept: f64,
 }
 
 impl Scaling {
-    /// Values as they are stored.
+    /// No scaling.
     pub const NONE: Self = Self { slope: 1.0, intercept: 0.0 };
 
     pub(crate) fn is_none(self) -> bool {
         self == Self::NONE
     }
 
-    /// Whether integers stay integers.
     pub(crate) fn is_integral(self) -> bool {
         let is_whole = |value: f64| value.is_finite() && value.fract() == 0.0;
         is_whole(self.slope) && is_whole(self.intercept)
     }
 
-    /// The type of all values from the smallest to the largest stored one.
+    /// The type that holds all values, given the smallest and the largest stored number.
     pub(crate) fn kind_of(self, stored: Kind, (low, high): (i128, i128)) -> Kind {
         const WIDEST: i128 = 1 << 62;
         let (slope, intercept) = (self.slope as i128, self.intercept as i128);
@@ -133,7 +132,7 @@ impl Scaling {
     }
 }
 
-/// The type of values as far as the header decides it.
+/// The type of the values, if the header decides it.
 pub(crate) fn settled(stored: Kind, scaling: Scaling) -> Option<Kind> {
     match stored {
         _ if scaling.is_none() => Some(stored),

@@ -1,4 +1,4 @@
-//! Recognises a file by its first bytes, or by its name where they leave it open, and reads its header.
+//! Recognises a file by its first bytes, else by its name, and reads its header.
 
 use crate::error::{Error, Stop};
 use crate::known::Known;
@@ -6,21 +6,13 @@ use crate::plan::{Format, Plan};
 use crate::text::latin1;
 use crate::{metaimage, nifti, nrrd};
 
-/// Bytes, unpacked, that tell what a file is.
+/// Number of unpacked bytes from which the format of a file is recognised.
 pub const HEAD: usize = 4096;
 
-/// Reads the header of a volume file.
-///
-/// # Parameters
-///
-/// * `name`: the name of the file, without its folder.
-/// * `known`: what the host has fetched so far.
-/// * `chosen`: numbers of the segments that are read of a segmentation; None for all.
-///
-/// # Errors
-///
-/// [`Stop::Need`] where `known` lacks something: the host adds it and calls again. [`Stop::Unknown`] for a file of
-/// another format, [`Stop::Refused`] for a file that cannot be read.
+/// Reads the header of the file `name` (without its folder) from `known`, which the host has fetched so far. `chosen`
+/// are the numbers of the segments to read of a segmentation; None reads all. Fails with [`Stop::Need`] if `known`
+/// lacks something: the host adds it and calls again. Fails with [`Stop::Unknown`] for a file of another format, and
+/// with [`Stop::Refused`] for a file that cannot be read.
 pub fn open(name: &str, known: &Known, chosen: Option<&[u32]>) -> Result<Plan, Stop> {
     let head = known.head(name, HEAD)?;
     if head.is_empty() {
@@ -35,8 +27,8 @@ pub fn open(name: &str, known: &Known, chosen: Option<&[u32]>) -> Result<Plan, S
     }
 }
 
-/// The format that the first bytes of a file, unpacked, and its name tell. A file whose name alone is that of
-/// NIfTI counts as NIfTI-1, so that its reader says what is wrong.
+/// The format that the first bytes of a file (unpacked) and its name state. If only the name is that of NIfTI, the
+/// file counts as NIfTI-1, so that the reader of NIfTI states what is wrong.
 #[must_use]
 pub fn format_of(name: &str, head: &[u8]) -> Option<Format> {
     let name = name.to_ascii_lowercase();
@@ -51,7 +43,6 @@ pub fn format_of(name: &str, head: &[u8]) -> Option<Format> {
     nifti::format_of(head).or(has_name.then_some(Format::Nifti1))
 }
 
-/// Whether a text says that it is the header of a MetaImage.
 fn states_image(head: &[u8]) -> bool {
     latin1(head).lines().any(|line| {
         let (name, value) = line.split_once('=').unwrap_or_default();

@@ -1,4 +1,4 @@
-//! What a header says: the grid, and where and how its voxels are stored.
+//! What a header states: the grid, and where and how the voxels are stored.
 
 use crate::error::Error;
 use crate::numbers::{Kind, Scaling, settled};
@@ -19,7 +19,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// Its name.
+    /// The name of the format.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -34,12 +34,12 @@ impl Format {
 /// World (LPS, mm) from index (i, j, k): the upper three rows of an affine matrix.
 pub type Affine = [[f64; 4]; 3];
 
-/// Where the voxels lie in the patient.
+/// The positions of the voxels in the patient.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Grid {
-    /// Voxels along i, j, k.
+    /// Number of voxels along i, j, k.
     pub size: [u64; 3],
-    /// World (LPS, mm) from index. Its numbers may be no finite ones.
+    /// World (LPS, mm) from index; numbers may not be finite.
     pub world_from_index: Affine,
     /// Whether lengths in mm are known.
     pub states_spacing: bool,
@@ -49,17 +49,17 @@ pub struct Grid {
     pub space: String,
 }
 
-/// The file and the bytes in it that hold the voxels.
+/// The file that holds the voxels, and their position in it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Place {
-    /// Name of the file, relative to the folder of the opened one. It may be missing.
+    /// Name relative to the folder of the opened file. This file may be missing.
     pub name: String,
-    /// The byte at which the lines to leave out begin, else the voxels or the compressed stream; None: the voxels
-    /// are the last bytes.
+    /// The byte at which lines to skip begin, else the voxels or the compressed stream. None if the voxels are the
+    /// last bytes.
     pub start: Option<u64>,
-    /// Lines to leave out at `start`.
+    /// Number of lines to skip at `start`.
     pub lines: u64,
-    /// Bytes to leave out behind these lines, of the unpacked stream.
+    /// Number of bytes to skip after these lines, in the unpacked stream.
     pub skip: u64,
     /// How the voxels are stored.
     pub codec: Codec,
@@ -68,11 +68,11 @@ pub struct Place {
 /// How the numbers of voxels are stored.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stored {
-    /// Their type.
+    /// The type of the numbers.
     pub kind: Kind,
     /// Whether the most significant byte comes first.
     pub is_big: bool,
-    /// What makes values of them.
+    /// The scaling that turns the numbers into values.
     pub scaling: Scaling,
 }
 
@@ -83,26 +83,27 @@ pub struct Plan {
     pub name: String,
     /// The format.
     pub format: Format,
-    /// Where the voxels lie.
+    /// The grid of the voxels.
     pub grid: Grid,
-    /// How their numbers are stored.
+    /// How the numbers are stored.
     pub stored: Stored,
-    /// Where they are stored.
+    /// Where the numbers are stored.
     pub place: Place,
-    /// What every reader must know: assumptions and mended faults.
+    /// What every user must know: assumptions and repaired faults.
     pub notes: Vec<String>,
-    /// What a report on the file tells.
+    /// Further statements for a report on the file.
     pub remarks: Vec<String>,
     /// Names of labels, by value.
     pub label_names: Vec<(i64, String)>,
     /// The segments of a segmentation.
     pub segmentation: Option<Segmentation>,
-    /// What the file says that it holds. It may name a patient: only the mark of a straightened vessel is read.
+    /// The file's description of its content. It may name a patient: use only the mark of a straightened vessel in
+    /// it.
     pub description: String,
 }
 
 impl Plan {
-    /// The type of the voxels once they are read, as far as the header decides it; `in_engine` as `Fill::new` has it.
+    /// The type of the voxels once read, if the header decides it; `in_engine` as in [`crate::Fill::new`].
     #[must_use]
     pub fn settled(&self, in_engine: bool) -> Option<Kind> {
         let stored = self.stored;
@@ -113,18 +114,16 @@ impl Plan {
         if in_engine { kind.map(Kind::in_the_engine) } else { kind }
     }
 
-    /// The error for a file of voxels that is not there.
+    /// The error for a missing file of voxels.
     #[must_use]
     pub fn missing(&self) -> Box<Error> {
         Error::missing(&self.place.name, &format!("the voxels of {}", self.name))
     }
 
-    /// Number of voxels.
     pub(crate) fn voxels(&self) -> u128 {
         product(&self.grid.size)
     }
 
-    /// Bytes of all stored numbers.
     pub(crate) fn stored_bytes(&self) -> u128 {
         let layers = self.segmentation.as_ref().map_or(1, |segmentation| segmentation.layers);
         product(&[layers, self.stored.kind.bytes() as u64]).saturating_mul(self.voxels())
@@ -135,12 +134,11 @@ fn product(numbers: &[u64]) -> u128 {
     numbers.iter().fold(1, |all: u128, &number| all.saturating_mul(number.into()))
 }
 
-/// Rows without the minus signs of zeros.
 pub(crate) fn without_negative_zeros(rows: Affine) -> Affine {
     rows.map(|row| row.map(|value| value + 0.0))
 }
 
-/// Where the voxels of a file beside the header are: `name` is the text of the header's field `field`.
+/// The file next to the header that holds the voxels; `name` is the text of the header's field `field`.
 pub(crate) fn detached(
     header: &str,
     name: &str,

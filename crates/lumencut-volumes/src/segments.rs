@@ -11,35 +11,35 @@ const FIELDS: [&str; 4] = ["Name", "LabelValue", "Layer", "ID"];
 /// A segment.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Segment {
-    /// Its number in the label map.
+    /// The number in the label map.
     pub number: u32,
-    /// Its name.
+    /// The name.
     pub name: String,
-    /// The layer that holds its voxels.
+    /// The layer that holds the voxels.
     pub layer: u64,
-    /// The value of its voxels in that layer.
+    /// The value of the voxels in that layer.
     pub value: u32,
 }
 
-/// The layers of a segmentation: several values of each voxel.
+/// The layers of a segmentation; each holds one value per voxel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Layers {
-    /// How many.
+    /// Number of layers.
     pub count: u64,
-    /// How many axes of the grid are faster than that of the layers.
+    /// Number of grid axes that vary faster than the axis of the layers.
     pub after: usize,
 }
 
-/// The segments of a file, and how they become one label map.
+/// The segments of a file, with the data to merge them into one label map.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Segmentation {
     /// All segments of the file.
     pub segments: Vec<Segment>,
-    /// Numbers of those that are read; None for all.
+    /// Numbers of the segments to read; None for all.
     pub chosen: Option<Vec<u32>>,
-    /// How many values each voxel has.
+    /// Number of values per voxel.
     pub layers: u64,
-    /// How many axes of the grid are faster than that of the layers.
+    /// Number of grid axes that vary faster than the axis of the layers.
     pub after: usize,
     /// Whether the stored values are the label map.
     pub is_as_stored: bool,
@@ -71,12 +71,11 @@ impl Segmentation {
         Ok(read)
     }
 
-    /// Whether segments are counted, since several share a label.
     pub(crate) fn is_renumbered(&self) -> bool {
         self.segments.iter().any(|one| one.number != one.value)
     }
 
-    /// The type of the label map unless it is as stored.
+    /// The type of the label map if the stored values are not the label map.
     pub(crate) fn kind(&self) -> Kind {
         let most = self.segments.iter().map(|one| one.number).max().unwrap_or(0);
         if most <= u32::from(u8::MAX) { Kind::Uint8 } else { Kind::Uint16 }
@@ -86,13 +85,12 @@ impl Segmentation {
         self.segments.iter().map(|one| (one.number.into(), one.name.clone())).collect()
     }
 
-    /// The segments that are read.
     pub(crate) fn read_ones(&self) -> impl Iterator<Item = &Segment> {
         let is_read = |one: &&Segment| self.chosen.as_ref().is_none_or(|chosen| chosen.contains(&one.number));
         self.segments.iter().filter(is_read)
     }
 
-    /// What a report says: the number of layers, and all segments.
+    /// The number of layers and all segments, in the words of a report.
     #[must_use]
     pub fn details(&self) -> [String; 2] {
         let layers = if self.layers == 1 { "1 layer".into() } else { format!("{} layers", self.layers) };
@@ -125,12 +123,10 @@ impl Segmentation {
     }
 }
 
-/// Whether lines of a header describe segments.
 pub(crate) fn has_segments(lines: &[String]) -> bool {
     lines.iter().any(|line| field_of(line).is_some())
 }
 
-/// The number of a segment, the place of a field in the list of fields, and its value.
 fn field_of(line: &str) -> Option<(u32, usize, &str)> {
     let (name, value) = line.trim().strip_prefix("Segment")?.split_once(":=")?;
     let (number, field) = name.split_once('_')?;
@@ -139,8 +135,8 @@ fn field_of(line: &str) -> Option<(u32, usize, &str)> {
     is_number.then(|| Some((number.parse().ok()?, field, value.trim())))?
 }
 
-/// Segments have the numbers of their labels unless several share one: then they count from 1. Files of before 2020
-/// state neither layers nor labels: their segments have a layer each.
+/// Segments have the numbers of their labels; if several share a label, all are numbered from 1. Files from before
+/// 2020 state neither layers nor labels: each of their segments has its own layer.
 fn segments_of(lines: &[String], layers: u64) -> Vec<Segment> {
     let mut stated: Vec<(u32, [&str; 4])> = Vec::new();
     for (number, field, value) in lines.iter().filter_map(|line| field_of(line)) {

@@ -1,26 +1,25 @@
-//! Decompresses streams of several parts in pieces of bounded size, with their check sums.
+//! Decompresses streams of several parts in pieces of bounded size, and verifies checksums.
 
 use flate2::{Decompress as Inflate, FlushDecompress, Status};
 
 /// How the voxels are stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Codec {
-    /// As they are.
+    /// Uncompressed.
     Raw,
     /// A zlib or a gzip stream.
     Zlib,
     /// A bzip2 stream.
     Bzip2,
-    /// Numbers in words.
+    /// Numbers written as text.
     Text,
 }
 
-/// Parts that hold nothing: real files have one at most, for a good end.
+/// Maximum number of consecutive empty parts; real files have at most one, which marks the end.
 const MOST_EMPTY: u32 = 1000;
-/// Bytes that tell whether another part begins.
+/// Number of bytes that show whether another part begins.
 const MAGIC: usize = 3;
 
-/// What is wrong with a stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Fault {
     Damaged,
@@ -36,19 +35,18 @@ impl Fault {
     }
 }
 
-/// What came of some input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Taken {
-    /// So many bytes were read, and so many written; either may be none.
+    /// The numbers of bytes read and written; one of them may be 0.
     Some { read: usize, written: usize },
     /// More input is needed.
     Hungry,
-    /// The stream gives no more bytes, or all wanted bytes were given and check sums are right.
+    /// All wanted bytes were written and checksums match, or the stream has no more bytes.
     End,
 }
 
-/// Decompresses up to so many bytes. What follows the last part is not looked at, nor what follows these bytes;
-/// a part that ends with them has its check sum looked at.
+/// Decompresses at most `wanted` bytes, and ignores all that follows. If a part ends with these bytes, its checksum
+/// is verified.
 pub(crate) struct Unpacker {
     codec: Codec,
     part: Part,
@@ -75,7 +73,7 @@ impl Unpacker {
         Self { codec, part: Part::Between { is_first: true }, wanted, empty: 0 }
     }
 
-    /// Reads input, of which no more follows if `is_last`, and writes output.
+    /// Reads `input` and writes `output`; `is_last` states that no more input follows.
     pub(crate) fn take(&mut self, input: &[u8], is_last: bool, output: &mut [u8]) -> Result<Taken, Fault> {
         if let Part::Between { is_first } = self.part {
             if input.len() < MAGIC && !is_last {
@@ -83,7 +81,7 @@ impl Unpacker {
             }
             self.part = self.begun(input, is_first);
         }
-        // One byte more than is wanted: it leads a part that ends there to its check sum.
+        // Reading one more byte makes a part that ends here verify its checksum.
         let mut beyond = [0];
         let is_beyond = self.wanted == 0;
         let most = usize::try_from(self.wanted).unwrap_or(usize::MAX).min(output.len());
@@ -128,7 +126,6 @@ impl Unpacker {
     }
 }
 
-/// How many bytes were read and written, and whether the part has ended.
 type Moved = (usize, usize, bool);
 
 fn inflated(part: &mut Inflate, input: &[u8], output: &mut [u8], is_beyond: bool) -> Result<Moved, Fault> {
@@ -137,7 +134,7 @@ fn inflated(part: &mut Inflate, input: &[u8], output: &mut [u8], is_beyond: bool
     let moved = |now: u64, before: u64| usize::try_from(now - before).unwrap_or(0);
     let (read, written) = (moved(part.total_in(), read), moved(part.total_out(), written));
     match status {
-        // Bytes before the damage are given: they may tell what the file is. The next call fails again.
+        // Bytes before the damage are returned, since they may identify the file. The next call fails again.
         Err(_) if written == 0 || is_beyond => Err(Fault::Damaged),
         status => Ok((read, written, status.ok() == Some(Status::StreamEnd))),
     }

@@ -1,4 +1,4 @@
-//! Texts of headers: as one printable line, as words, as numbers; and numbers as Python writes them.
+//! Converts header texts to printable lines and numbers, and writes numbers as Python does.
 
 use std::borrow::Cow;
 
@@ -6,7 +6,7 @@ use crate::built_in;
 
 const SHOWN: usize = 60;
 
-/// A text without line breaks and control characters, which become replacement characters.
+/// A text in which replacement characters stand for line breaks and control characters.
 #[must_use]
 pub fn printable(text: &str) -> String {
     text.chars().map(|letter| if is_printable(letter) { letter } else { '\u{fffd}' }).collect()
@@ -21,7 +21,6 @@ pub(crate) fn shown(value: &str) -> String {
     text.chars().take(SHOWN - 1).chain(['…']).collect()
 }
 
-/// A text in quotation marks.
 pub(crate) fn quoted(text: &str) -> String {
     let mark = if text.contains('\'') && !text.contains('"') { '"' } else { '\'' };
     let mut out = String::from(mark);
@@ -44,7 +43,7 @@ fn is_printable(letter: char) -> bool {
     if letter.is_ascii() { !letter.is_ascii_control() } else { built_in::is_printable(letter) }
 }
 
-/// A line of a header as UTF-8, or as Latin-1 if it is invalid, since file names may use either.
+/// A line of a header as UTF-8, or as Latin-1 if it is not valid UTF-8, since file names may use either.
 pub(crate) fn decoded(line: &[u8]) -> String {
     std::str::from_utf8(line).map_or_else(|_| latin1(line), ToOwned::to_owned)
 }
@@ -53,12 +52,11 @@ pub(crate) fn latin1(bytes: &[u8]) -> String {
     bytes.iter().map(|&byte| char::from(byte)).collect()
 }
 
-/// The number that a word stands for.
 pub(crate) fn number(word: &str) -> Option<f64> {
     built_in::real(&ungrouped(word.trim()))
 }
 
-/// A number without the underscores between its digits, which Python takes.
+/// A number without the underscores that Python allows between digits.
 pub(crate) fn ungrouped(word: &str) -> Cow<'_, str> {
     let is_digit =
         |at: Option<usize>| at.and_then(|at| word.as_bytes().get(at)).is_some_and(u8::is_ascii_digit);
@@ -69,13 +67,12 @@ pub(crate) fn ungrouped(word: &str) -> Cow<'_, str> {
     word.into()
 }
 
-/// Numbers between brackets.
 pub(crate) fn listed<T: ToString>(values: &[T]) -> String {
     let words: Vec<String> = values.iter().map(T::to_string).collect();
     format!("[{}]", words.join(", "))
 }
 
-/// A number with some significant digits, at most 17, without zeros at its end. The last digit may be one off.
+/// A number with this many significant digits (at most 17), without trailing zeros. The last digit may be off by one.
 pub(crate) fn short(value: f64, digits: u32) -> String {
     if !value.is_finite() || value == 0.0 {
         let text = if value.is_nan() { "nan" } else { "inf" };
@@ -111,8 +108,7 @@ fn sign(value: f64) -> &'static str {
     if value.is_sign_negative() && !value.is_nan() { "-" } else { "" }
 }
 
-/// The digits of a number, of which the first stands before the point, with an exponent if that is below −4 or at
-/// least `most`.
+/// A number with these digits, the first of which precedes the point; in exponent form below 10⁻⁴ or from 10^`most`.
 pub(crate) fn laid_out(value: f64, digits: &str, exponent: i32, most: i32) -> String {
     let sign = sign(value);
     let digits = digits.trim_end_matches('0');

@@ -1,4 +1,4 @@
-//! Voxels written as text.
+//! Reads voxels that are written as text.
 
 use crate::built_in::real;
 use crate::convert::write_number;
@@ -8,7 +8,6 @@ use crate::text::{latin1, ungrouped};
 
 const LONGEST: usize = 400;
 
-/// Makes numbers of words, in pieces.
 pub(crate) struct Words {
     subject: String,
     kind: Kind,
@@ -22,7 +21,8 @@ impl Words {
         Self { subject: subject.into(), kind, begun: Vec::new(), found: 0, wanted }
     }
 
-    /// Reads words and writes their numbers in this machine's order; tells how many bytes it read and wrote.
+    /// Reads words and writes their numbers in this machine's byte order; returns the numbers of bytes read and
+    /// written.
     pub(crate) fn take(&mut self, from: &[u8], to: &mut [u8]) -> Result<(usize, usize), Box<Error>> {
         let unit = self.kind.bytes();
         let mut written = 0;
@@ -43,7 +43,7 @@ impl Words {
         Ok((from.len(), written))
     }
 
-    /// Ends the last word of the text, and checks how many there were.
+    /// Ends the last word of the text, and checks the number of words.
     pub(crate) fn end(&mut self, to: &mut [u8]) -> Result<usize, Box<Error>> {
         let written = if self.begun.is_empty() { 0 } else { self.end_word(to)? };
         if self.found != self.wanted {

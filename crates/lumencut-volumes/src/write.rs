@@ -9,26 +9,26 @@ use crate::numbers::Kind;
 use crate::plan::Affine;
 
 const DESCRIPTION: usize = 79;
-/// The code of a placement in the space of another scan.
+/// NIfTI's code for a placement in the space of another scan.
 const ALIGNED: i16 = 2;
 const MILLIMETRES: u8 = 2;
 const LONGEST_AXIS: u64 = i16::MAX as u64;
 
-/// A volume to be written.
+/// A volume to write.
 #[derive(Clone, Debug)]
 pub struct Written<'a> {
-    /// Voxels along i, j, k.
+    /// Number of voxels along i, j, k.
     pub size: [u64; 3],
     /// World (LPS, mm) from index.
     pub world_from_index: Affine,
     /// The type of the voxels, in this machine's byte order.
     pub kind: Kind,
-    /// At most 79 letters of ASCII on what the file holds.
+    /// A description of the content, at most 79 ASCII characters.
     pub mark: &'a str,
 }
 
 impl Written<'_> {
-    /// The header of a NIfTI file, up to its first voxel: of NIfTI-1, or of NIfTI-2 where an axis is too long for it.
+    /// The header of a NIfTI file, up to its first voxel: NIfTI-1, or NIfTI-2 if an axis is too long for NIfTI-1.
     #[must_use]
     pub fn nifti(&self) -> Vec<u8> {
         let is_long = self.size.iter().any(|&side| side > LONGEST_AXIS);
@@ -87,7 +87,7 @@ impl Written<'_> {
         [1.0, side(0), side(1), side(2), 1.0, 1.0, 1.0, 1.0]
     }
 
-    /// Axes of NIfTI run to the right and the front, those of volumes to the left and the back.
+    /// NIfTI's axes point to the right and the front, those of volumes to the left and the back.
     fn ras(&self) -> Affine {
         let [x, y, z] = self.world_from_index;
         [x.map(|value| 0.0 - value), y.map(|value| 0.0 - value), z]
@@ -144,8 +144,8 @@ impl Written<'_> {
     }
 }
 
-/// Packs bytes as a gzip stream, in pieces. The fastest level: the highest one takes six times as long and saves
-/// 0.5 % of a noisy scan.
+/// Compresses pieces of bytes into a gzip stream, at the fastest level. The highest level takes six times as long and
+/// makes a noisy scan 0.5 % smaller.
 pub struct Packer(GzEncoder<Vec<u8>>);
 
 impl Default for Packer {
@@ -155,14 +155,14 @@ impl Default for Packer {
 }
 
 impl Packer {
-    /// Takes bytes and gives those that are packed so far.
+    /// Compresses bytes; returns the part of the stream that is ready.
     pub fn pack(&mut self, bytes: &[u8]) -> Vec<u8> {
         // Writing into memory cannot fail.
         let _ = self.0.write_all(bytes);
         std::mem::take(self.0.get_mut())
     }
 
-    /// Gives the last bytes.
+    /// Returns the last bytes of the stream.
     #[must_use]
     pub fn end(self) -> Vec<u8> {
         self.0.finish().unwrap_or_default()

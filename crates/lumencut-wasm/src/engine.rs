@@ -55,10 +55,8 @@ async fn backend(device: &str) -> Thrown<Backend> {
 
 #[wasm_bindgen]
 impl Engine {
-    /// An engine without a study on `device`: `gpu`, `cpu`, `auto` (a hardware GPU if available) or `any` (also a software GPU).
-    ///
-    /// # Errors
-    /// `device` if a required GPU cannot be used.
+    /// An engine without a study on `device`: `gpu`, `cpu`, `auto` (a hardware GPU if available) or `any` (also a
+    /// software GPU). Fails with an error of kind `device` if a required GPU cannot be used.
     pub async fn open(device: &str) -> Thrown<Engine> {
         Ok(Self { backend: backend(device).await?, screen: None, study: Study::default() })
     }
@@ -120,18 +118,14 @@ impl Engine {
         sent(ask_at_once(name, message))
     }
 
-    /// Allocates memory for a volume with this JSON header.
-    ///
-    /// # Errors
-    /// `volume` if there is not enough memory.
+    /// Allocates memory for a volume with this JSON header. Fails with an error of kind `volume` if there is not
+    /// enough memory.
     pub fn begin_volume(&mut self, header: &str) -> Thrown<()> {
         answer(self.study.begin_volume(header))
     }
 
-    /// Writes bytes of voxels from `offset` on.
-    ///
-    /// # Errors
-    /// `volume` if the bytes extend beyond the end of the volume.
+    /// Writes bytes of voxels from `offset` on. Fails with an error of kind `volume` if the bytes extend beyond the
+    /// end of the volume.
     pub fn take_voxels(&mut self, offset: f64, bytes: &Uint8Array) -> Thrown<()> {
         let room = self.study.voxel_bytes(offset as usize, bytes.length() as usize);
         bytes.copy_to(answer(room)?);
@@ -143,10 +137,8 @@ impl Engine {
         self.study.voxels_changed();
     }
 
-    /// Allocates memory for a mask with this JSON header.
-    ///
-    /// # Errors
-    /// `volume` if no scan is open, or if there is not enough memory.
+    /// Allocates memory for a mask with this JSON header. Fails with an error of kind `volume` if no scan is open, or
+    /// if there is not enough memory.
     pub fn begin_mask(&mut self, header: &str) -> Thrown<()> {
         answer(self.study.begin_mask(header))
     }

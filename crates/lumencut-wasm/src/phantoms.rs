@@ -17,10 +17,8 @@ pub fn open(study: &mut Study, name: &str, scale: f64) -> Result<()> {
     study.open(held, tree, vessel_names)
 }
 
-/// The phantom `name`. Benchmark phantoms have `scale` times as many voxels along each axis.
-///
-/// # Errors
-/// `settings` for an unknown name; `volume` if there is not enough memory.
+/// The phantom `name`. Benchmark phantoms have `scale` times as many voxels along each axis. Fails with an error of
+/// kind `settings` for an unknown name; of kind `volume` if there is not enough memory.
 pub fn phantom(name: &str, scale: f64) -> Result<Phantom> {
     let made = match name {
         "aorta" => lumencut_phantom::aorta(0, scale),

@@ -44,9 +44,7 @@ enum Computer {
 pub(crate) type Rendered = (Frame, Option<Error>);
 
 impl Backend {
-    /// Opens the requested device. If an optional GPU does not open, its error is returned too.
-    ///
-    /// # Errors
+    /// Opens the requested device. If an optional GPU does not open, its error is returned too. Fails with
     /// [`ErrorKind::Device`] if a required GPU cannot be used.
     pub async fn new(wanted: Wanted) -> Result<(Self, Option<Error>)> {
         let (computer, given_up) = Computer::new(wanted).await?;
@@ -61,11 +59,9 @@ impl Backend {
         }
     }
 
-    /// Renders a view. With several samples per pixel (`Settings::samples`) the picture is the mean over positions within the
-    /// pixel; all other images show the view itself.
-    ///
-    /// # Errors
-    /// Those of scene and settings; [`ErrorKind::Interrupted`]; [`ErrorKind::Device`] if a required GPU fails.
+    /// Renders a view. With several samples per pixel (`Settings::samples`) the picture is the mean over positions
+    /// within the pixel; all other images show the view itself. Fails with the errors of scene and settings, with
+    /// [`ErrorKind::Interrupted`], or with [`ErrorKind::Device`] if a required GPU fails.
     pub async fn render(&mut self, scene: &Scene<'_>, request: &Request<'_>) -> Result<Rendered> {
         self.render_by(Method::CutSurface, scene, request).await
     }
@@ -103,10 +99,9 @@ impl Backend {
         Ok((frame, self.unreported.take()))
     }
 
-    /// Draws a view on the canvas if a GPU computes it, else returns it. With one sample, a cut surface never leaves the GPU.
-    ///
-    /// # Errors
-    /// As [`Backend::render_by`]; [`ErrorKind::Device`] even if the GPU is optional, so that the caller can choose the device.
+    /// Draws a view on the canvas if a GPU computes it, else returns it. With one sample, a cut surface never leaves
+    /// the GPU. Fails as [`Backend::render_by`] does, and with [`ErrorKind::Device`] even if the GPU is optional, so
+    /// that the caller can choose the device.
     #[cfg(target_arch = "wasm32")]
     pub async fn draw(
         &mut self,

@@ -1,22 +1,22 @@
-//! The table of quantities that have a default in several hosts, and the rule for the pixel side of reformations.
+//! Defaults that the command line, Python and the page share, and the rule for the pixel side of reformations.
 
 use lumencut_vessels::measure::measuring;
 use lumencut_vessels::trace::{find, skeleton};
 
-/// A number that hosts take unless the user gives another.
+/// A parameter with its default.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quantity {
     /// Function and parameter of the Python package, such as `untangled.width`.
     pub name: &'static str,
     /// Other functions with the same parameter and default.
     pub also: &'static [&'static str],
-    /// `mm`, `rad`, `pixels`, `radii`, or empty for counts and shares.
+    /// `mm`, `rad`, `pixels`, `radii`, or empty for counts and fractions.
     pub unit: &'static str,
-    /// The smallest and largest accepted number; [`ABOVE_0`] and infinity where there is no other limit.
+    /// The smallest and largest accepted number; [`ABOVE_0`] and infinity if there is no other limit.
     pub range: [f64; 2],
-    /// The number if none is given.
+    /// The number if the user gives none.
     pub default: f64,
-    /// What it is, as one sentence.
+    /// The meaning of the parameter, in one sentence.
     pub about: &'static str,
 }
 
@@ -31,9 +31,8 @@ pub const PIXEL_SIDES: [f64; 2] = [0.05, 0.25];
 /// The rule of [`pixel_side`] in words, for help texts and documentation.
 pub const PIXEL_SIDE_WORDS: &str = "the smallest voxel side, at least 0.05 and at most 0.25 mm";
 
-/// The pixel side (mm) that every reformation along vessels has by default, in a scan with this smallest voxel side (mm).
-///
-/// The largest side leaves room for labels, the smallest one bounds the size of pictures of very fine scans.
+/// The pixel side (mm) that every reformation along vessels has by default, in a scan with this smallest voxel side
+/// (mm). The largest side leaves room for labels, the smallest one bounds the size of pictures of very fine scans.
 pub fn pixel_side(smallest_side: f64) -> f64 {
     smallest_side.clamp(PIXEL_SIDES[0], PIXEL_SIDES[1])
 }

@@ -29,17 +29,13 @@ pub enum Wanted {
 }
 
 impl Wanted {
-    /// The device named `auto`, `cpu` or `gpu`; the environment variable `AUTO` defines what `auto` means.
-    ///
-    /// # Errors
+    /// The device named `auto`, `cpu` or `gpu`; the environment variable `AUTO` defines what `auto` means. Fails with
     /// [`ErrorKind::Settings`] for an unknown name or another value of the environment variable.
     pub fn named(name: &str) -> Result<Self> {
         Self::with_auto(name, std::env::var(AUTO).ok().as_deref())
     }
 
-    /// The device for `name`; `auto` is the value of the environment variable `AUTO`.
-    ///
-    /// # Errors
+    /// The device for `name`; `auto` is the value of the environment variable `AUTO`. Fails with
     /// [`ErrorKind::Settings`] for an unknown name.
     pub fn with_auto(name: &str, auto: Option<&str>) -> Result<Self> {
         match name {
@@ -74,10 +70,8 @@ impl Opened {
     }
 }
 
-/// The GPU of this process; it is opened if necessary.
-///
-/// # Errors
-/// [`ErrorKind::Device`] if there is no GPU of the chosen kind, or it cannot be used.
+/// The GPU of this process; it is opened if necessary. Fails with [`ErrorKind::Device`] if there is no GPU of the
+/// chosen kind, or it cannot be used.
 pub async fn open(choice: Choice) -> Result<Arc<Device>> {
     let (shared, is_forked) = with_shared(|shared| {
         let device =

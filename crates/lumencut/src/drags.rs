@@ -1,6 +1,6 @@
 //! How drags, the wheel and keys change a camera and a window; the page and the notebook read the same constants.
-//!
-//! Drags are in pixels of the picture, to the right and down. Pixels are (column, row) from the middle of the first one.
+//! Drags are in pixels of the picture, to the right and down. Pixels are (column, row) from the middle of the first
+//! one.
 
 use std::f64::consts::PI;
 
@@ -15,13 +15,13 @@ use crate::views::{panned, rotation};
 /// A constant of the gestures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gesture {
-    /// Its name in all hosts.
+    /// Its name in Rust, Python and the page.
     pub name: &'static str,
     /// Its value, in the unit.
     pub value: f64,
     /// `px` are pixels of the screen; `1` is a number without a unit.
     pub unit: &'static str,
-    /// What it is, in one sentence.
+    /// Its meaning, in one sentence.
     pub about: &'static str,
 }
 
@@ -68,9 +68,7 @@ const fn row(name: &'static str, value: f64, unit: &'static str, about: &'static
     Gesture { name, value, unit, about }
 }
 
-/// The camera rotated about an axis (LPS) through a point (mm, LPS), by an angle (radians).
-///
-/// # Errors
+/// The camera rotated about an axis (LPS) through a point (mm, LPS), by an angle (radians). Fails with
 /// [`ErrorKind::Camera`] for a non-finite angle or point, an invalid axis, or a center out of range.
 pub fn turned_about(camera: &Camera, pivot: DVec3, axis: DVec3, angle: f64) -> Result<Camera> {
     let turn = rotation(axis, angle)?;
@@ -79,12 +77,9 @@ pub fn turned_about(camera: &Camera, pivot: DVec3, axis: DVec3, angle: f64) -> R
     Camera::new(pivot + away, direction, up, camera.size(), camera.pixel_spacing())
 }
 
-/// The camera after a drag over a ball that fills the view.
-///
-/// # Errors
-/// As [`turned_about`].
+/// The camera after a drag over a ball that fills the view. Fails as [`turned_about`] does.
 pub fn trackballed(camera: &Camera, pivot: DVec3, [right, down]: [f64; 2]) -> Result<Camera> {
-    // Not hypot, whose last bit differs between hosts.
+    // Not `hypot`: its last bit differs between platforms.
     let pixels = (right * right + down * down).sqrt();
     if pixels == 0.0 {
         return Ok(*camera);
@@ -93,10 +88,7 @@ pub fn trackballed(camera: &Camera, pivot: DVec3, [right, down]: [f64; 2]) -> Re
     turned_about(camera, pivot, axis, angle_of(camera, pixels))
 }
 
-/// The camera after a drag to the right about an axis (LPS).
-///
-/// # Errors
-/// As [`turned_about`].
+/// The camera after a drag to the right about an axis (LPS). Fails as [`turned_about`] does.
 pub fn spun(camera: &Camera, pivot: DVec3, axis: DVec3, right: f64) -> Result<Camera> {
     turned_about(camera, pivot, axis, -angle_of(camera, right))
 }
@@ -105,19 +97,15 @@ fn angle_of(camera: &Camera, pixels: f64) -> f64 {
     pixels * (TURN_PER_HEIGHT / camera.size()[1] as f64)
 }
 
-/// The camera after a drag that moves the scene with the pointer.
-///
-/// # Errors
-/// [`ErrorKind::Camera`] for non-finite or too large distances.
+/// The camera after a drag that moves the scene with the pointer. Fails with [`ErrorKind::Camera`] for non-finite or
+/// too large distances.
 pub fn dragged(camera: &Camera, [right, down]: [f64; 2]) -> Result<Camera> {
     let side = camera.pixel_spacing();
     panned(camera, -right * side, down * side)
 }
 
-/// The camera magnified by a factor, within the limits of the pixel spacing; the place at the pixel stays there.
-///
-/// # Errors
-/// [`ErrorKind::Camera`] for a factor that is not positive and finite, or a non-finite pixel.
+/// The camera magnified by a factor, within the limits of the pixel spacing; the point under the pixel stays there.
+/// Fails with [`ErrorKind::Camera`] for a factor that is not positive and finite, or a non-finite pixel.
 pub fn zoomed_at(camera: &Camera, factor: f64, [column, row]: [f64; 2]) -> Result<Camera> {
     if !(factor.is_finite() && factor > 0.0) {
         let expected = "a number above 0";
@@ -130,10 +118,8 @@ pub fn zoomed_at(camera: &Camera, factor: f64, [column, row]: [f64; 2]) -> Resul
     Camera::new(moved.center(), moved.direction(), moved.up(), moved.size(), spacing)
 }
 
-/// The same view with a share of its pixels along each side, at least one.
-///
-/// # Errors
-/// [`ErrorKind::Camera`] for a size or spacing out of range.
+/// The same view with fewer pixels: `share` is the fraction along each side; at least one pixel stays. Fails with [`ErrorKind::Camera`] for a
+/// size or spacing out of range.
 pub fn sampled(camera: &Camera, share: f64) -> Result<Camera> {
     let size = camera.size().map(|count| (count as f64 * share).round().max(1.0) as usize);
     let spacing = camera.pixel_spacing() * camera.size()[1] as f64 / size[1] as f64;

@@ -24,9 +24,7 @@ pub enum Feature {
 }
 
 impl Feature {
-    /// The feature named `max`, `mean`, `min`, `range` or `share`; only `share` has a level.
-    ///
-    /// # Errors
+    /// The feature named `max`, `mean`, `min`, `range` or `share`; only `share` has a level. Fails with
     /// [`ErrorKind::Settings`] for an unknown name, a share without a finite level, or a level for another feature.
     pub fn named(name: &str, level: Option<f64>) -> Result<Self> {
         let wrong = |subject: &str, found: String, expected: &str| {

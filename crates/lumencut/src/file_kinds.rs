@@ -1,6 +1,5 @@
-//! The kinds of files that hosts open, with their file name extensions, and how the first bytes of a file state its kind.
-//!
-//! The readers check their formats themselves; here a file may remain unknown.
+//! The kinds of files that hosts open, with their file name extensions, and how the first bytes of a file state its
+//! kind. The readers check their formats themselves; here a file may remain unknown.
 
 use serde::Serialize;
 
@@ -22,7 +21,7 @@ pub enum Role {
 pub struct FileKind {
     /// The identifier of the kind, such as `nifti`.
     pub name: &'static str,
-    /// What it can be opened as.
+    /// What a file of this kind can be opened as.
     pub role: Role,
     /// What a file of this kind is called in messages, such as `a NIfTI volume`. Empty: `a .swc file`, after its extension.
     pub words: &'static str,
@@ -30,7 +29,7 @@ pub struct FileKind {
     pub title: &'static str,
     /// Its file name extensions, in lower case.
     pub extensions: &'static [&'static str],
-    /// The extensions that state the kind where the content does not.
+    /// The extensions that decide the kind if the content does not.
     pub decisive: &'static [&'static str],
     /// The extensions that are written.
     pub written: &'static [&'static str],
@@ -120,7 +119,7 @@ const EMPTY: FileKind =
     FileKind { role: Role::Other, mend: "copy or export it again", ..volume("empty", "an empty file", "") };
 const UNKNOWN: FileKind = FileKind { role: Role::Other, ..volume("unknown", "a file of unknown format", "") };
 
-/// A kind of centerlines that only the name states.
+/// A kind of centerlines that is recognised only by the file name.
 const fn named(
     name: &'static str,
     title: &'static str,
@@ -148,7 +147,7 @@ pub const FILE_KINDS: &[FileKind] = &[
     named("swc", "SWC", &[".swc"], &[".swc"]),
     named("itk tubes", "ITK tubes", &[".tre"], &[]),
     named("table", "tables", &[".csv"], &[".csv"]),
-    // These names are common for other content, so only who asks for centerlines reads them.
+    // `.txt` files often have other content, so they are read only if the caller expects centerlines.
     FileKind { extensions: &[".txt"], ..lines("text table", "", "tables") },
     FileKind { extensions: &[".npy"], ..lines("numpy", "", "NumPy") },
     EMPTY,
@@ -170,7 +169,7 @@ pub fn kind_of(head: &[u8], file_name: &str) -> KnownFile {
     named.map_or_else(|| known(&UNKNOWN, ""), |(kind, ending)| known(kind, ending))
 }
 
-/// A folder, as which DICOM series are opened.
+/// The kind of a folder, which is opened as a DICOM series.
 pub fn folder() -> KnownFile {
     known(&FOLDER, "")
 }
@@ -260,7 +259,7 @@ fn after<'a>(text: &'a [u8], words: &[u8]) -> Option<&'a [u8]> {
     text.windows(words.len()).position(|window| window == words).map(|at| &text[at + words.len()..])
 }
 
-/// What follows a separator at the beginning, without spaces around it.
+/// The text after a separator at the beginning, without spaces around the separator.
 fn separated(text: &[u8], separator: u8) -> Option<&[u8]> {
     text.trim_ascii_start().strip_prefix(&[separator]).map(<[u8]>::trim_ascii_start)
 }
@@ -276,7 +275,7 @@ fn quoted(text: &[u8]) -> Option<&[u8]> {
     length.map(|length| &rest[..length]).filter(|word| !word.is_empty())
 }
 
-/// The volumes that are read, as messages name them.
+/// The volume files that can be read, in the words of messages.
 pub fn volume_files() -> String {
     let formats: Vec<String> = read(Role::Volume)
         .map(|kind| {
@@ -286,7 +285,7 @@ pub fn volume_files() -> String {
     format!("a DICOM folder, file or zip archive, {}", listed(&formats))
 }
 
-/// The centerlines that are read whatever they are asked for, as messages name them.
+/// The centerline files that are recognised by their file name extensions, in the words of messages.
 pub fn centerline_files() -> String {
     let recognised = read(Role::Centerlines).filter(|kind| !kind.decisive.is_empty());
     let extensions: Vec<&str> = recognised.flat_map(|kind| kind.extensions).copied().collect();

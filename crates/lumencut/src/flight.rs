@@ -8,12 +8,11 @@ pub(crate) const MOST_FRAMES: usize = 1_000_000;
 
 /// The views of a flight between two cameras; the first and last view are exactly these cameras.
 ///
-/// The flight starts and ends slowly: the progress is 3t² − 2t³ for the time t in 0 to 1. The view turns by the shortest rotation,
-/// in proportion to the progress; the pixel spacing changes geometrically. The centre of the closer view moves in a straight line
-/// on screen, at a constant speed in pixels, so a flight back retraces the path.
-///
-/// # Errors
-/// [`ErrorKind::Camera`] for fewer than two or more than `MOST_FRAMES` frames, or cameras of different sizes.
+/// The flight starts and ends slowly: the progress is 3t² − 2t³ for the time t in 0 to 1. The view turns by the
+/// shortest rotation, in proportion to the progress; the pixel spacing changes geometrically. The centre of the
+/// closer view moves in a straight line on screen, at a constant speed in pixels, so a flight back retraces the path.
+/// Fails with [`ErrorKind::Camera`] for fewer than two or more than `MOST_FRAMES` frames, or cameras of different
+/// sizes.
 pub fn flight(from: &Camera, to: &Camera, frames: usize) -> Result<Vec<Camera>> {
     if !(2..=MOST_FRAMES).contains(&frames) {
         let expected = format!("2 to {MOST_FRAMES} frames");

@@ -36,17 +36,13 @@ pub struct FoundTree {
     pub doubts: Vec<String>,
 }
 
-/// Finds all vessels of a scan. At least one of them must be confident.
-///
-/// # Errors
-/// Those of [`find::find_vessels`]; [`lumencut_core::error::ErrorKind::Tracing`] if no vessel is confident.
+/// Finds all vessels of a scan. At least one of them must be confident. Fails as [`find::find_vessels`] does, and
+/// with [`lumencut_core::error::ErrorKind::Tracing`] if no vessel is confident.
 pub fn find_vessels(volume: &Volume, request: &FindRequest) -> Result<FoundTree> {
     confident_tree(&find::find_vessels(volume, request)?, request.smallest_radius)
 }
 
-/// Describes the vessels found; at least one of them must be confident.
-///
-/// # Errors
+/// Describes the vessels found; at least one of them must be confident. Fails with
 /// [`lumencut_core::error::ErrorKind::Tracing`] if no vessel is confident; the error states `smallest_radius` (mm).
 pub fn confident_tree(trees: &Trees, smallest_radius: f64) -> Result<FoundTree> {
     if trees.vessels.iter().any(|vessel| vessel.doubt.is_none()) {

@@ -1,6 +1,6 @@
-//! Detects doubtful centerlines: wrong point order, stray points, missing parts, and two lines in one vessel.
-//!
-//! An ordered line raises no doubt, however tortuous, if its points are nearer to their neighbours than to other stretches.
+//! Detects doubtful centerlines: wrong point order, stray points, missing parts, and two lines in one vessel. An
+//! ordered line raises no doubt, however tortuous, if its points are nearer to their neighbours than to other
+//! stretches.
 
 use glam::DVec3;
 

@@ -44,10 +44,9 @@ pub struct MapRequest {
 /// Pixel side (mm) of the coarse map that finds the side with most calcium.
 const COARSE_PIXEL_MM: f64 = 1.0;
 
-/// The map of a vessel whose wall is known. The pixels lie in the middle of the band.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Camera`] for an invalid layout; [`lumencut_core::error::ErrorKind::Interrupted`].
+/// The map of a vessel whose wall is known. The pixels lie in the middle of the band. Fails with
+/// [`lumencut_core::error::ErrorKind::Camera`] for an invalid layout;
+/// [`lumencut_core::error::ErrorKind::Interrupted`].
 pub fn lumen_map(
     volume: &Volume,
     path: &Arc<CenterlinePath>,

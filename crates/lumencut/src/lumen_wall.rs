@@ -49,9 +49,7 @@ pub struct FoundWall {
     pub mean_radius: f64,
 }
 
-/// The wall of a vessel from its profile; without a profile, from the centerline's radius.
-///
-/// # Errors
+/// The wall of a vessel from its profile; without a profile, from the centerline's radius. Fails with
 /// [`ErrorKind::VesselTree`] if neither profile nor vessel has a radius.
 pub fn lumen_wall(
     volume: &Volume,

@@ -61,10 +61,8 @@ impl Grid {
     }
 }
 
-/// The position of a mask on its volume's grid; None if the grids are equal. The mask's axes may be permuted or flipped.
-///
-/// # Errors
-/// [`ErrorKind::Volume`] if the mask's voxels are not voxels of the volume.
+/// The position of a mask on its volume's grid; None if the grids are equal. The mask's axes may be permuted or
+/// flipped. Fails with [`ErrorKind::Volume`] if the mask's voxels are not voxels of the volume.
 pub fn place_of(mask: &Grid, volume: &Grid) -> Result<Option<MaskPlace>> {
     let sorted = |grid: &Grid| {
         let mut size = grid.size;

@@ -9,9 +9,7 @@ use lumencut_core::scene::Scene;
 use lumencut_core::settings::Settings;
 use lumencut_gpu::renderer::GpuRenderer;
 
-/// Rejects settings with a focus or selected vessels, which only the cut surface supports.
-///
-/// # Errors
+/// Rejects settings with a focus or selected vessels, which only the cut surface supports. Fails with
 /// [`ErrorKind::Settings`] if the settings contain one of them.
 pub fn refuse_focus(settings: &Settings) -> Result<()> {
     let Some((setting, what)) = settings.focused() else { return Ok(()) };

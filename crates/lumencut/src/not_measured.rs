@@ -7,9 +7,7 @@ use serde::Serialize;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub struct NotMeasured {
-    /// Start of the stretch (arc length, mm).
     pub(crate) from_mm: f64,
-    /// End of the stretch (arc length, mm).
     pub(crate) to_mm: f64,
     /// Where to cut the vessel to remove the unmeasured stretch (arc length, mm).
     pub(crate) cut_mm: f64,

@@ -86,10 +86,9 @@ pub struct Placement {
     pub doubt: Option<Doubt>,
 }
 
-/// Decides how to read the points of a file. Without a volume, unstated space and unit are the usual ones.
-///
-/// # Errors
-/// [`lumencut_io::Error`], still without file name, if the volume cannot decide: several combinations fit equally, or none fits.
+/// Decides how to read the points of a file. Without a volume, unstated space and unit are the usual ones. Fails with
+/// [`lumencut_io::Error`], still without file name, if the volume cannot decide: several combinations fit equally, or
+/// none fits.
 pub fn placement(known: &Known, points: &[DVec3], volume: Option<&Judge>) -> Result<Placement> {
     let usual = known.usual();
     let space_from = Origin::of(known.asked_space, known.stated_space);

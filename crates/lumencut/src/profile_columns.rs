@@ -1,11 +1,10 @@
-//! The columns of a profile as plain numbers.
+//! Converts the columns of a profile to and from plain numbers.
 
 use glam::DVec3;
 use lumencut_vessels::measure::parts::Parts;
 use lumencut_vessels::measure::profile::{Profile, Source};
 use lumencut_vessels::measure::wall_level::WallSource;
 
-/// A column of a profile.
 pub(crate) enum Column<'a> {
     Number(&'a mut f64),
     Numbers(&'a mut Vec<f64>),
@@ -101,7 +100,6 @@ fn points_of(numbers: &[f64]) -> Option<Vec<DVec3>> {
 fn lists_of(mut numbers: &[f64]) -> Option<Vec<Vec<DVec3>>> {
     let mut lists = Vec::new();
     while let Some((count, after)) = numbers.split_first() {
-        // A count that is fractional or too large is invalid.
         let length = 3 * whole(*count)?;
         lists.push(points_of(after.get(..length)?)?);
         numbers = &after[length..];
@@ -109,12 +107,11 @@ fn lists_of(mut numbers: &[f64]) -> Option<Vec<Vec<DVec3>>> {
     Some(lists)
 }
 
-/// A number as a count; None if it is fractional or too large.
+/// The number as a count; None if it is fractional, negative or too large.
 pub(crate) fn whole(number: f64) -> Option<usize> {
     ((0.0..1e9).contains(&number) && number.fract() == 0.0).then_some(number as usize)
 }
 
-/// A profile without sections, to fill.
 pub(crate) fn empty() -> Profile {
     Profile {
         arc_length: Vec::new(),

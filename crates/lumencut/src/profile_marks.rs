@@ -182,10 +182,9 @@ pub struct Mark {
     pub is_suggestion: bool,
 }
 
-/// The places to review: marks, and suggestions for what is not marked. They ascend along the vessel, but a stenosis comes first.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Measuring`] for a place beyond the vessel or without a measurement.
+/// The places to review: marks, and suggestions for what is not marked. They ascend along the vessel, but a stenosis
+/// comes first. Fails with [`lumencut_core::error::ErrorKind::Measuring`] for a place beyond the vessel or without a
+/// measurement.
 pub fn marks(profile: &Profile, at: Option<f64>, references: &[f64]) -> Result<Vec<Mark>> {
     // The diameter at the place itself; a percentage uses medians around its references.
     let mark = |name, at, is_suggestion| {

@@ -1,4 +1,4 @@
-//! The record of a profile: all of it as text, from which any host restores it exactly.
+//! The record of a profile: text from which Rust, Python or the page restores the profile exactly.
 
 use std::collections::BTreeMap;
 
@@ -17,27 +17,22 @@ use crate::scan_details::ScanDetails;
 
 const SUBJECT: &str = "record of a profile";
 
-/// The version of records.
 const FORMAT: u32 = 1;
 
 /// A measured profile as JSON. Numbers keep all bits; null means NaN, since JSON has no NaN.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ProfileRecord {
-    /// Version of the record.
     format: u32,
-    /// Bits of the flags by name, for other programs. Our reader uses only the bits in `flags`.
+    /// The bit of each flag name, for other programs. Our reader uses only the bits in `flags`.
     flag_names: BTreeMap<String, u32>,
-    /// The flags of each section.
     flags: Vec<u32>,
-    /// Columns by name, in mm, LPS or the volume's unit. The coordinates of points follow each other. Each contour begins
-    /// with its number of points.
+    /// The columns, in mm, LPS or the volume's unit. A contour is its number of points, then their coordinates.
     columns: BTreeMap<String, Numbers>,
-    /// Where the point spread comes from: kind and words.
+    /// The source of the point spread: kind and words.
     fwhm_source: (String, String),
-    /// Where the wall level comes from: kind and numbers.
+    /// The source of the wall level: kind and numbers.
     wall_source: (String, Numbers),
-    /// How the scan was made.
     scan: ScanDetails,
 }
 
@@ -67,10 +62,8 @@ impl ProfileRecord {
         text.unwrap_or_default()
     }
 
-    /// Reads the text of a record.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Measuring`] for another text, or a record of another version.
+    /// Reads the text of a record. Fails with [`ErrorKind::Measuring`] for another text, or a record of another
+    /// version.
     pub fn read(text: &str) -> Result<Self> {
         #[derive(Deserialize)]
         struct Version {
@@ -86,10 +79,8 @@ impl ProfileRecord {
         serde_json::from_str(text).map_err(no_record)
     }
 
-    /// Restores the profile, which is bit-identical, and how the scan was made.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Measuring`] for columns that do not make up a profile, and for unknown flags.
+    /// Restores the profile, which is bit-identical, and how the scan was made. Fails with [`ErrorKind::Measuring`]
+    /// for columns that do not make up a profile, and for unknown flags.
     pub fn profile(self) -> Result<(Profile, ScanDetails)> {
         let mut stored = self.columns;
         let mut profile = empty();
@@ -108,7 +99,7 @@ impl ProfileRecord {
     }
 }
 
-/// Rejects a profile that no measurement makes.
+/// Rejects values that no measurement yields.
 fn check(profile: &Profile) -> Result<()> {
     let sections = profile.arc_length.len();
     if sections == 0 || lengths(profile).iter().any(|length| *length != sections) {

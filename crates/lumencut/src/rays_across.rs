@@ -38,7 +38,6 @@ impl Fall {
 pub(crate) struct RaysAcross<'a, 'v> {
     pub voxels: &'a Voxels<'v>,
     pub straightened: &'a Straightened,
-    /// Number of directions.
     pub directions: usize,
 }
 

@@ -1,4 +1,4 @@
-//! Numbers of records, which JSON keeps to the bit.
+//! Numbers of records, stored as JSON without loss.
 
 use std::fmt;
 

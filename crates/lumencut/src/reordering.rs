@@ -9,12 +9,9 @@ use crate::mends::OfCenterlines;
 /// How the note about a reordered line ends.
 pub const REORDERED: &str = "points were reordered";
 
-/// Sorts the points of each line along the vessel, with their radii. Lines keep their direction; a note counts the moved points.
-///
-/// A list that was split into lines at long steps becomes one line again if its points form one.
-///
-/// # Errors
-/// If the order is doubtful and no unambiguous one exists; the error does not yet name the file.
+/// Sorts the points of each line along the vessel, with their radii. Lines keep their direction; a note counts the
+/// moved points. A list that was split into lines at long steps becomes one line again if its points form one. Fails
+/// if the order is doubtful and no unambiguous one exists; the error does not yet name the file.
 pub fn in_order(mut lines: Centerlines) -> Result<Centerlines> {
     let given = std::mem::take(&mut lines.lines);
     for (number, line) in rejoined(&given).into_iter().enumerate() {

@@ -99,10 +99,7 @@ pub struct Strip {
     pub spacing: f64,
 }
 
-/// The report as HTML.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::Settings`] if a picture is not base64.
+/// The report as HTML. Fails with [`lumencut_core::error::ErrorKind::Settings`] if a picture is not base64.
 pub fn html(shown: &Shown, vessels: &[VesselPage]) -> Result<String> {
     let title = match vessels {
         [one] => format!("lumen of {}", name_of(&one.measured)),

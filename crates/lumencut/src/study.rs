@@ -1,7 +1,6 @@
-//! The study that is open in a viewer: volume, vessel lines and their edits, tracing, picking, measurements, marks and sessions.
-//! Viewers exchange plain values and JSON with it, so that all of them work alike.
-//!
-//! Points are in world space (LPS, mm) unless stated otherwise.
+//! The study that is open in a viewer: volume, vessel lines and their edits, tracing, picking, measurements, marks
+//! and sessions. Viewers exchange plain values and JSON with it, so that all of them work alike. Points are in world
+//! space (LPS, mm) unless stated otherwise.
 
 mod after_edit;
 pub mod asking;

@@ -10,9 +10,7 @@ use crate::views::{Axis, MARGIN, centered, in_plane, rotated, spacing_for};
 /// Number of sampled views. Between them, the extent grows by at most a fraction of the margin.
 const VIEWS_OF_A_TURN: usize = 72;
 
-/// The angle of each frame of a turntable (radians). A full turn stops one step before its end.
-///
-/// # Errors
+/// The angle of each frame of a turntable (radians). A full turn stops one step before its end. Fails with
 /// [`ErrorKind::Camera`] for a non-finite angle.
 pub fn frame_angles(frames: usize, degrees: f64) -> Result<Vec<f64>> {
     if !degrees.is_finite() {
@@ -31,10 +29,8 @@ pub fn frame_angles(frames: usize, degrees: f64) -> Result<Vec<f64>> {
     Ok(angles)
 }
 
-/// The camera at the centre of the points that shows all of them in every frame of a turn. Direction, up and size stay.
-///
-/// # Errors
-/// [`ErrorKind::Camera`] without points, for a non-finite angle or an invalid axis.
+/// The camera at the centre of the points that shows all of them in every frame of a turn. Direction, up and size
+/// stay. Fails with [`ErrorKind::Camera`] without points, for a non-finite angle or an invalid axis.
 pub fn fitted_turn(camera: &Camera, points: &[DVec3], degrees: f64, axis: Axis) -> Result<Camera> {
     let first = centered(camera, points)?;
     let mut reach = [0.0f64; 2];

@@ -17,10 +17,8 @@ const FILLED_FRACTION: f64 = 0.9;
 const SAMPLED_AMOUNTS: usize = 17;
 
 /// The camera centred on a vessel that shows all of it at every amount of uncurling. Direction, up and size stay.
-///
-/// # Errors
-/// [`lumencut_core::error::ErrorKind::VesselTree`] for a vessel without length, [`lumencut_core::error::ErrorKind::Settings`] for
-/// an invalid smoothing (mm).
+/// Fails with [`lumencut_core::error::ErrorKind::VesselTree`] for a vessel without length,
+/// [`lumencut_core::error::ErrorKind::Settings`] for an invalid smoothing (mm).
 pub fn fitted_uncurling(camera: &Camera, vessel: &Vessel, smoothing: f64) -> Result<Camera> {
     let path = Arc::new(CenterlinePath::new(vessel, smoothing)?);
     let middle = fitted(camera, vessel.points())?;

@@ -16,9 +16,7 @@ const METAL_RATIO: f64 = 3.0;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct ValueUnit {
-    /// Whether the values look like Hounsfield units.
     pub(crate) is_hounsfield: bool,
-    /// Whether some values are as bright as metal.
     pub(crate) has_metal: bool,
 }
 

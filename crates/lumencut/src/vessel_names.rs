@@ -1,4 +1,4 @@
-//! Names of vessels that hosts offer, with their codes. Any other name is allowed and has no code.
+//! Names of vessels that programs offer to users, with codes. Other names are allowed and have no code.
 
 /// The side of a paired vessel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,9 +37,9 @@ pub struct NamedVessel {
     pub name: &'static str,
     /// Other complete names, in lower case.
     pub synonyms: &'static [&'static str],
-    /// Whether the body has one on each side.
+    /// Whether the vessel exists on both sides of the body.
     pub is_paired: bool,
-    /// Whether hosts offer the name; the others are only recognised.
+    /// Whether the name is offered to users; other names are only recognised.
     pub is_offered: bool,
     /// The part of the body: head, neck, heart, chest, abdomen, pelvis, arm or leg.
     pub region: &'static str,
@@ -52,7 +52,7 @@ pub struct NamedVessel {
 }
 
 impl NamedVessel {
-    /// The names that hosts offer, with a capital letter; one per side for paired vessels.
+    /// The names offered to users, with a capital letter; one per side for paired vessels.
     pub fn offered(&self) -> Vec<String> {
         match (self.is_offered, self.is_paired) {
             (false, _) => Vec::new(),
@@ -87,7 +87,7 @@ pub fn vessel_named(name: &str) -> Option<(&'static NamedVessel, Option<Side>)> 
     })
 }
 
-/// Words in lower case, without a number at the end, which counts the parts of a vessel.
+/// Words in lower case, without a final number: that number counts the parts of a vessel.
 fn words_of(name: &str) -> Vec<String> {
     let is_between = |letter: char| letter.is_whitespace() || "_-.,()".contains(letter);
     let name = name.to_lowercase();

@@ -25,12 +25,10 @@ const MARGIN_RADII: f64 = 2.0;
 /// The cost of turning the view by half a turn, as a fraction of the vessel's length.
 const TURN_COST: f64 = 0.2;
 
-/// The view about a place `at` mm along a vessel, which runs upwards through the middle. The view extends eight radii to each side.
-/// Angle 0 is the view nearest to anterior; from there the viewer moves by `angle` (radians), as [`rotated`] about `up`.
-///
-/// # Errors
-/// [`ErrorKind::Camera`] for a place off the vessel, a non-finite angle or an invalid size; [`ErrorKind::VesselTree`] for a vessel
-/// without length.
+/// The view about a place `at` mm along a vessel, which runs upwards through the middle. The view extends eight radii
+/// to each side. Angle 0 is the view nearest to anterior; from there the viewer moves by `angle` (radians), as
+/// [`rotated`] about `up`. Fails with [`ErrorKind::Camera`] for a place off the vessel, a non-finite angle or an
+/// invalid size; [`ErrorKind::VesselTree`] for a vessel without length.
 pub fn about(vessel: &Vessel, at: f64, angle: f64, size: [usize; 2]) -> Result<Camera> {
     let first = about_lumen(vessel, Lumen { at, radius: radius_at(vessel, at) }, size)?;
     rotated(&first, angle, Axis::Up)
@@ -83,13 +81,11 @@ pub(crate) fn known_radius_at(vessel: &Vessel, at: f64) -> Option<f64> {
     Some(from + (to - from) * t).filter(|radius| *radius > 0.0)
 }
 
-/// The view that shows most of a vessel, fitted to it with a margin of two radii. Of 256 directions it is the one with the largest
-/// ∫ visible·sin∠(T, v) ds − 0.2·L·turn/π. T is the vessel's direction, v the view's direction, L the length, and turn the angle
-/// from `camera`. A place is visible if no other stretch lies in front of it. The head, else the front, is up; the size is that of
-/// `camera`.
-///
-/// # Errors
-/// [`ErrorKind::VesselTree`] for a vessel without length.
+/// The view that shows most of a vessel, fitted to it with a margin of two radii. Of 256 directions it is the one
+/// with the largest ∫ visible·sin∠(T, v) ds − 0.2·L·turn/π. T is the vessel's direction, v the view's direction, L
+/// the length, and turn the angle from `camera`. A place is visible if no other stretch lies in front of it. The
+/// head, else the front, is up; the size is that of `camera`. Fails with [`ErrorKind::VesselTree`] for a vessel
+/// without length.
 pub fn refocused(camera: &Camera, vessel: &Vessel) -> Result<Camera> {
     let path = CenterlinePath::new(vessel, 0.0)?;
     let steps = Steps::along(&path, vessel);

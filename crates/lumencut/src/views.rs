@@ -1,6 +1,5 @@
-//! The six standard views; fits, rotates, zooms and pans views.
-//!
-//! Every function returns a new camera. Points are in world space (LPS, mm).
+//! The six standard views; fits, rotates, zooms and pans views. Every function returns a new camera. Points are in
+//! world space (LPS, mm).
 
 use glam::{DMat3, DVec3};
 use lumencut_core::camera::Camera;
@@ -36,10 +35,7 @@ pub const VIEWS: [NamedView; 6] = [
     NamedView { name: "inferior", direction: DVec3::Z, up: DVec3::NEG_Y },
 ];
 
-/// The standard view of this name.
-///
-/// # Errors
-/// [`ErrorKind::Camera`] for an unknown name.
+/// The standard view of this name. Fails with [`ErrorKind::Camera`] for an unknown name.
 pub fn named(name: &str) -> Result<NamedView> {
     VIEWS.into_iter().find(|view| view.name == name).ok_or_else(|| {
         let expected = format!("one of {}", VIEWS.map(|view| view.name).join(", "));
@@ -63,10 +59,8 @@ pub enum Axis {
 }
 
 impl Axis {
-    /// The axis with this name: `superior`, `up`, `right` or `direction`.
-    ///
-    /// # Errors
-    /// [`ErrorKind::Camera`] for an unknown name.
+    /// The axis with this name: `superior`, `up`, `right` or `direction`. Fails with [`ErrorKind::Camera`] for an
+    /// unknown name.
     pub fn named(name: &str) -> Result<Self> {
         match name {
             "superior" => Ok(Self::Superior),
@@ -91,9 +85,7 @@ impl Axis {
     }
 }
 
-/// The camera moved and zoomed so that all points just fit. Direction, up and size stay.
-///
-/// # Errors
+/// The camera moved and zoomed so that all points just fit. Direction, up and size stay. Fails with
 /// [`ErrorKind::Camera`] without points, or for an invalid view.
 pub fn fitted(camera: &Camera, points: &[DVec3]) -> Result<Camera> {
     let camera = centered(camera, points)?.with_axes(camera.direction(), camera.right(), camera.up())?;
@@ -134,9 +126,7 @@ pub(crate) fn spacing_for(camera: &Camera, lengths: [f64; 2], part: f64) -> f64 
 }
 
 /// The camera rotated about its center by an angle (radians), counterclockwise if the axis points at the observer.
-///
-/// # Errors
-/// [`ErrorKind::Camera`] for a non-finite angle, or an invalid axis.
+/// Fails with [`ErrorKind::Camera`] for a non-finite angle, or an invalid axis.
 pub fn rotated(camera: &Camera, angle: f64, axis: Axis) -> Result<Camera> {
     let turn = rotation(axis.of(camera), angle)?;
     let [direction, up] = [camera.direction(), camera.up()].map(|vector| fused::product(&turn, vector));
@@ -166,10 +156,8 @@ pub(crate) fn rotation(axis: DVec3, angle: f64) -> Result<DMat3> {
     Ok((DMat3::IDENTITY + cross * angle.sin()) + squared)
 }
 
-/// The camera magnified about its center by a positive factor.
-///
-/// # Errors
-/// [`ErrorKind::Camera`] for another factor, or a spacing out of range.
+/// The camera magnified about its center by a positive factor. Fails with [`ErrorKind::Camera`] for another factor,
+/// or a spacing out of range.
 pub fn zoomed(camera: &Camera, factor: f64) -> Result<Camera> {
     if !(factor.is_finite() && factor > 0.0) {
         let expected = "a number above 0";
@@ -179,10 +167,8 @@ pub fn zoomed(camera: &Camera, factor: f64) -> Result<Camera> {
     Camera::new(camera.center(), camera.direction(), camera.up(), camera.size(), spacing)
 }
 
-/// The camera moved right and up in its plane (mm).
-///
-/// # Errors
-/// [`ErrorKind::Camera`] for non-finite or too large distances.
+/// The camera moved right and up in its plane (mm). Fails with [`ErrorKind::Camera`] for non-finite or too large
+/// distances.
 pub fn panned(camera: &Camera, right: f64, up: f64) -> Result<Camera> {
     if !(right.is_finite() && up.is_finite()) {
         let found = format!("[{}, {}]", shortest(right), shortest(up));

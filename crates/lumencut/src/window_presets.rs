@@ -34,9 +34,7 @@ impl Named for DataWindow {
 }
 
 impl DataWindow {
-    /// Computes the window; only [`DataWindow::Auto`] uses the vessels.
-    ///
-    /// # Errors
+    /// Computes the window; only [`DataWindow::Auto`] uses the vessels. Fails with
     /// [`ErrorKind::Volume`](lumencut_core::error::ErrorKind::Volume) for values out of range.
     pub fn find(self, volume: &Volume, tree: Option<&VesselTree>) -> Result<Window> {
         match (self, tree) {

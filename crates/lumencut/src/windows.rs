@@ -67,14 +67,12 @@ pub fn sample(volume: &Volume, points: &[DVec3]) -> Vec<f32> {
 
 /// A window that shows lumen light grey, tissue dark, and calcium and stents white.
 ///
-/// The lumen is the median along the centerlines, and the tissue is the median 10 mm beyond the walls. If most of that is padding
-/// or outside the volume, the tissue is the vessels' edges, or the rest if darker. Black lies 1.5 times the difference between
-/// lumen and tissue below the lumen. It lies lower, up to 2.2 times, if the lumen is noisy or the darkest tissue (fat) would be
-/// black, but not below the volume's minimum. White is at the brightest voxels, as long as the lumen stays at 60 to 72 % of the
-/// range. For a dark lumen everything is mirrored: it lies at 28 to 40 %, or darker if no voxel is as dark as black.
-///
-/// # Errors
-/// [`ErrorKind::Volume`] for values out of range.
+/// The lumen is the median along the centerlines, and the tissue is the median 10 mm beyond the walls. If most of
+/// that is padding or outside the volume, the tissue is the vessels' edges, or the rest if darker. Black lies 1.5
+/// times the difference between lumen and tissue below the lumen. It lies lower, up to 2.2 times, if the lumen is
+/// noisy or the darkest tissue (fat) would be black, but not below the volume's minimum. White is at the brightest
+/// voxels, as long as the lumen stays at 60 to 72 % of the range. For a dark lumen everything is mirrored: it lies at
+/// 28 to 40 %, or darker if no voxel is as dark as black. Fails with [`ErrorKind::Volume`] for values out of range.
 pub fn along(volume: &Volume, tree: &VesselTree) -> Result<Window> {
     let points: Vec<DVec3> = tree.vessels().iter().flat_map(|vessel| vessel.points()).copied().collect();
     let mut lumen = finite(&sample(volume, &points));
@@ -229,10 +227,8 @@ fn alone(volume: &Volume, wider: impl Fn(&Populations, [f64; 2]) -> f64) -> Resu
     within(black + width / 2.0, width, || from_to(found.darkest, found.brightest))
 }
 
-/// A window from the 1st percentile to the 99th, without padding: from air to lumen.
-///
-/// # Errors
-/// [`ErrorKind::Volume`] for values out of range.
+/// A window from the 1st percentile to the 99th, without padding: from air to lumen. Fails with [`ErrorKind::Volume`]
+/// for values out of range.
 pub fn whole(volume: &Volume) -> Result<Window> {
     without_unit(volume, BRIGHT_QUANTILE)
 }
@@ -242,10 +238,7 @@ pub(crate) fn mra(volume: &Volume) -> Result<Window> {
     without_unit(volume, BRIGHTEST_QUANTILE)
 }
 
-/// A window from the smallest to the largest voxel.
-///
-/// # Errors
-/// [`ErrorKind::Volume`] for values out of range.
+/// A window from the smallest to the largest voxel. Fails with [`ErrorKind::Volume`] for values out of range.
 pub fn full(volume: &Volume) -> Result<Window> {
     let [black, white] = range(volume);
     if black > white {

@@ -1,4 +1,4 @@
-"""The options that commands of reformations share, and how an option is declared."""
+"""Options that several commands of reformations have, and the function that declares an option."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ SIDE = option("--pixel-spacing", "MM", f"Side of a pixel (mm); default: {PIXEL_S
 #: The options that select vessels, each shown separately.
 VESSELS = (options.shown_vessel_options, path_option)
 
-#: The options of every command, after its own.
+#: The options of every command, listed after its own.
 LAST = (
     click.option(
         "--annotate/--no-annotate",

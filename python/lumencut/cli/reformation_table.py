@@ -1,4 +1,4 @@
-"""The commands of reformations as one table: their words and their options."""
+"""A table of the commands of reformations, with their help texts and options."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ MAP_MODES = ("wall", "radius", "thickness", "shaded")
 def _command(
     name: str, run: Any, summary: str, words: str, own: tuple[Any, ...], more: tuple[Any, ...] = ()
 ) -> click.Command:
-    """A command: what runs it, its words in the list and alone, and its own options, before and last."""
+    """A command: its function, its short and long help texts, and its options in the order of the help."""
     parts = (*shared.SCENE, *own, *shared.LAST, *more)
     return click.command(name, short_help=summary, help=words)(options.added(parts, run))
 

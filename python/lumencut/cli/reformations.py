@@ -77,7 +77,7 @@ def read_vessels(
 
 
 def asked(command: str, chosen: dict[str, Any], settings: Settings, tree: VesselTree) -> Any:
-    """Return what the options ask of the reformation of a command."""
+    """Return the request for the reformation of a command, from its options."""
     from lumencut.reformation_kinds import KINDS
 
     given = {**chosen, "settings": settings, "slab": None, "tree": tree}

@@ -1,4 +1,4 @@
-"""The vessels that the page measured, as Python has them."""
+"""Converts vessels that the page measured to Python objects."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""NIfTI, NRRD and MetaImage: the compiled part reads headers and makes voxels; files are opened here."""
+"""NIfTI, NRRD and MetaImage files: opened here; compiled code reads the headers and converts the voxels."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _NOTHING = np.empty(0, np.uint8)
 
 
 def open_grid(path: Path, chosen: Collection[int] | None = None) -> VolumeFile | None:
-    """Read the header of a volume file; None if its format is none of the three.
+    """Return the header of a volume file; None for any other format.
 
     `chosen` are the numbers of the segments that are read of a segmentation of 3D Slicer.
     """
@@ -78,7 +78,7 @@ def _voxels_of(path: Path, plan: _lumencut.VolumePlan) -> Path:
 
 
 def _check_length(path: Path, plan: _lumencut.VolumePlan) -> bool:
-    """Tell whether the length of a file proves that it holds all voxels."""
+    """Return whether the length of a file proves that it holds all voxels."""
     place = _voxels_of(path, plan)
     with place.open("rb") as file:
         fill = _Fill(plan, file)
@@ -88,26 +88,27 @@ def _check_length(path: Path, plan: _lumencut.VolumePlan) -> bool:
 
 
 def _load(path: Path, plan: _lumencut.VolumePlan, filled: Filled) -> npt.NDArray[Any]:
-    """Read the voxels [k, j, i]; `filled` hears of slices that are whole."""
+    """Return the voxels [k, j, i]; `filled` receives them and the number of complete slices."""
     place = _voxels_of(path, plan)
     data, voxels, known = _NOTHING, np.empty((0, 0, 0)), 0
     with place.open("rb") as file:
-        fill = _Fill(plan, file)
-        while (told := fill.step(data))[0] != "done":
-            if told[0] == "sound":
-                require_memory(place, told[2])
-            elif told[0] == "room":
-                require_memory(place, told[2])
-                data = np.empty(told[2], np.uint8)
-                voxels = data.view(told[1]).reshape(plan.size[::-1])
-            elif len(data) and (whole := fill.written // (len(data) // len(voxels))) > known:
-                known = whole
+        fill, step = _Fill(plan, file), ""
+        while step != "done":
+            step, *details = fill.step(data)
+            if step == "sound":
+                require_memory(place, details[1])
+            elif step == "room":
+                require_memory(place, details[1])
+                data = np.empty(details[1], np.uint8)
+                voxels = data.view(details[0]).reshape(plan.size[::-1])
+            elif len(data) and (complete := fill.written // (len(data) // len(voxels))) > known:
+                known = complete
                 filled(voxels, known)
     return voxels
 
 
 class _Fill:
-    """Makes voxels, and reads the parts of the file that are needed."""
+    """Reads the necessary parts of the file, and converts them to voxels."""
 
     def __init__(self, plan: _lumencut.VolumePlan, file: BinaryIO) -> None:
         self._fill = plan.fill(os.fstat(file.fileno()).st_size)
@@ -115,7 +116,7 @@ class _Fill:
         self.written = 0
 
     def step(self, data: npt.NDArray[np.uint8]) -> tuple[Any, ...]:
-        """Take a step of `VolumeFill`, and tell of it; a part of the file is read."""
+        """Perform and return a step of `VolumeFill`; if the step requests a part of the file, read it."""
         written, told = self._fill.step(self._start, self._bytes, data[self.written :])
         self.written += written
         if told[0] == "read":

@@ -1,39 +1,36 @@
-/** Interface of the Rust code that reads volume files. */
+/** Interface of the WebAssembly module that reads volume files. */
 
-/** The module of the crate `lumencut-volumes-wasm`. */
 export interface Volumes {
   readonly VolumeFile: new (name: string) => VolumeFile;
   readonly memory: WebAssembly.Memory;
 }
 
-/** A volume file that is being opened and read. Names are relative to its folder; answers are JSON. */
+/** A volume file that is opened and read. File names are relative to its folder; `open` and `step` return JSON. */
 export interface VolumeFile {
-  /** Adds the size of a file (bytes), undefined for a missing one. */
+  /** Adds the size of a file (bytes); undefined if it is missing. */
   add_size(name: string, size?: number): void;
   add_bytes(name: string, start: number, bytes: Uint8Array): void;
   open(): string;
-  /** Three rows of four numbers, LPS (mm). */
+  /** Matrix from index to world (LPS, mm): three rows of four numbers. */
   world_from_index(): Float64Array;
-  /** Begins to fill the volume from a file of this size. */
+  /** Begins to read voxels from a file of this size (bytes). */
   begin(size?: number): void;
   /** Replaces the bytes that the next step can read. */
   read(start: number, bytes: Uint8Array): void;
   step(): string;
-  /** Address of voxels in the memory of the module. */
+  /** Address of the voxels in the memory of the module. */
   output(): number;
   free(): void;
 }
 
-/** Answer of `VolumeFile.open`: what it still needs of files, or the plan. */
+/** Result of `VolumeFile.open`: the sizes or bytes that it still needs, or the plan. */
 export type Opening = SizesNeeded | BytesNeeded | Plan;
 
 interface SizesNeeded {
-  /** Names of files. */
   readonly sizes: readonly string[];
 }
 
 interface BytesNeeded {
-  /** Name of a file. */
   readonly bytes: string;
   readonly range: Range;
 }
@@ -43,7 +40,7 @@ export interface Plan {
   /** Whether the file states lengths in mm, and the sides of the patient. */
   readonly spacing: boolean;
   readonly orientation: boolean;
-  /** Name of the file of the voxels. */
+  /** Name of the file that holds the voxels. */
   readonly voxels: string;
   readonly notes: readonly string[];
   readonly label_names: Readonly<Record<string, string>>;
@@ -51,19 +48,19 @@ export interface Plan {
   readonly description: string;
 }
 
-/** First byte, and the byte behind the last one. */
+/** The first byte, and the byte after the last one. */
 type Range = readonly [start: number, end: number];
 
-/** Answer of `VolumeFile.step`. */
+/** Result of `VolumeFile.step`. */
 export interface Step {
-  /** Bytes of voxels in `VolumeFile.output`. */
+  /** Number of bytes of voxels in `VolumeFile.output`. */
   readonly filled: number;
   /** Bytes that the next step needs. */
   readonly read?: Range;
-  /** Bytes of memory that the voxels need at least. */
+  /** Least memory that the voxels need (bytes). */
   readonly least?: number;
   readonly checked?: number;
-  /** The type of the voxels, and bytes of all of them. */
+  /** The type of the voxels, and the size of all of them (bytes). */
   readonly room?: { readonly dtype: string; readonly bytes: number };
   readonly isDone?: boolean;
 }

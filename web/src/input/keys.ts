@@ -9,22 +9,22 @@ const ARROWS: Readonly<Record<string, Pair>> = {
   ArrowDown: [0, 1],
 };
 
-/** Direction of an arrow key: right and down. */
+/** Direction of an arrow key (right, down). */
 export const arrowOf = (key: string): Pair | null => ARROWS[key] ?? null;
 
-/** Drag to which an arrow key is equal (pixels). */
+/** The drag that an arrow key performs (pixels). */
 export function dragOfKey(key: string): Pair | null {
   const arrow = arrowOf(key);
   return arrow && [arrow[0] * GESTURES.key_step, arrow[1] * GESTURES.key_step];
 }
 
-/** Zoom of the keys + and -. */
+/** Zoom factor of the keys + and -. */
 export function zoomOfKey(key: string): number | null {
   const { key_zoom: factor } = GESTURES;
   return { '+': factor, '-': 1 / factor }[key] ?? null;
 }
 
-/** Steps of the arrow and page keys; `page` is how many a page key takes. */
+/** Number of steps that an arrow or page key scrolls; a page key scrolls `page` steps. */
 export function scrollOfKey(key: string, page: number = GESTURES.far_steps): number | null {
   return { ArrowDown: 1, PageDown: page, ArrowUp: -1, PageUp: -page }[key] ?? null;
 }

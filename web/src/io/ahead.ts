@@ -1,4 +1,4 @@
-/** Reads a file from begin to end, one piece ahead. */
+/** Reads a file in pieces; while one piece is used, the next is already being read. */
 import type { Bytes, Source } from './source';
 
 const PIECE = 1 << 20;
@@ -8,7 +8,7 @@ export class Ahead {
 
   constructor(private readonly source: Source | null) {}
 
-  /** The bytes from `start` on; none at the end of the file. */
+  /** The next piece, from byte `start` on; empty at the end of the file. */
   async from(start: number): Promise<Bytes> {
     const asked = this.next?.start === start ? this.next.bytes : this.piece(start);
     this.next = null;
@@ -16,7 +16,7 @@ export class Ahead {
     const end = start + bytes.length;
     if (bytes.length > 0 && end < (this.source?.size ?? 0)) {
       const following = this.piece(end);
-      // Whoever asks for these bytes is told of an error.
+      // An error is reported when these bytes are requested.
       following.catch(() => undefined);
       this.next = { start: end, bytes: following };
     }

@@ -96,7 +96,7 @@ async function sort(sources: readonly Source[], { kindOf, steps }: LoadContext):
   };
 }
 
-/** Whether a file is a volume of its own, unlike DICOM files and archives. */
+/** Whether a file is a complete volume, unlike DICOM files and archives. */
 const isVolumeFile = ({ role, kind }: Known): boolean =>
   role === 'volume' && kind !== 'dicom' && kind !== 'zip';
 

@@ -34,7 +34,7 @@ interface Means {
   readonly steps: Steps;
 }
 
-/** WebAssembly has no more memory than this. */
+/** Largest memory of WebAssembly (bytes). */
 const MEMORY = 2 ** 32;
 
 /** Allocates a volume in the engine. Errors about its grid name the file. */
@@ -147,7 +147,7 @@ class Reading {
     }
   }
 
-  /** What the module answers. Its errors name files without their folder. */
+  /** Calls the module; its errors name files without their folder, which is added here. */
   private asked<T>(question: () => T): T {
     try {
       return question();

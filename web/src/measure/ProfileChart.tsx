@@ -19,7 +19,7 @@ export interface ChartMark {
 }
 
 interface ProfileChartProps {
-  /** Arc length. */
+  /** The axis of the arc length. */
   readonly x: Axis;
   readonly layout: ChartLayout;
   /** Whether lengths are in mm. */

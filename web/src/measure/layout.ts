@@ -1,4 +1,4 @@
-/** Layout of the measuring pane, which the engine decides (CSS pixels). */
+/** Layout of the measuring pane, which the engine computes (CSS pixels). */
 import { useEffect, useRef, useState } from 'preact/hooks';
 import { engine } from '../client/shared';
 import { Latest } from '../core/latest';
@@ -13,7 +13,7 @@ interface Laid {
   readonly layout: MeasureLayout;
 }
 
-/** The layout of the picked vessel; while a new one is computed, the previous one of this vessel. */
+/** The layout for the picked vessel; until a new layout is computed, the previous one of this vessel. */
 export function useMeasureLayout(size: Pair | null): MeasureLayout | null {
   const line = currentVessel.value?.line ?? null;
   const profile = currentProfile.value;

@@ -1,13 +1,13 @@
-/** Gestures on a picture of the notebook, as steps for the kernel; `npm run notebook` bundles it for the Python package. */
+/** Converts gestures on a notebook's picture to steps for the kernel; `npm run notebook` bundles this for Python. */
 import type { Pair } from '../core/messages';
 import { type Action, actionOfKey } from '../input/bindings';
 import { dragOfKey, scrollOfKey, zoomOfKey } from '../input/keys';
 import { type Handlers, listen } from '../input/pointer';
 
-/** A name, then numbers; the kernel takes it in `steps.py`. */
+/** A name, then numbers; `steps.py` in the kernel performs it. */
 export type Step = readonly [string, ...(string | number)[]];
 
-/** A picture with its size (pixels); places on the screen are from its top left. */
+/** A picture with its size (pixels); screen positions are measured from its top left corner. */
 export interface Pane {
   readonly element: HTMLElement;
   readonly name: string;
@@ -35,7 +35,7 @@ const KEYS: Partial<Record<Action, string>> = {
   enter: 'end',
 };
 
-/** Presses, drags and clicks of mouse, pen and touch, and keys, on a pane. */
+/** Handles keys, and gestures of mouse, pen and touch, on a pane. */
 export class Pointers {
   constructor(
     readonly pane: Pane,
@@ -48,7 +48,7 @@ export class Pointers {
 
   listen(signal: AbortSignal): void {
     const { element } = this.pane;
-    // The notebook around the picture has gestures of its own.
+    // Otherwise the notebook around the picture would handle them too.
     for (const name of ['pointerdown', 'wheel', 'contextmenu']) {
       element.addEventListener(name, (event) => event.stopPropagation(), { signal });
     }
@@ -80,7 +80,7 @@ export class Pointers {
     };
   }
 
-  /** The kernel neither pans nor zooms the pictures next to the view. */
+  /** Other pictures than the view only change their window; the kernel neither pans nor zooms them. */
   private drag(action: Action, by: Pair): void {
     const step = this.isTurning || action === 'window' ? DRAGS[action] : undefined;
     if (step) {
@@ -97,7 +97,7 @@ export class Pointers {
     }
   }
 
-  /** The step of a key; null for a key that the notebook keeps. */
+  /** The step of a key; null for a key that the notebook handles. */
   stepOf(event: KeyboardEvent): Step | null {
     if (event.ctrlKey || event.metaKey || event.altKey) {
       return null;

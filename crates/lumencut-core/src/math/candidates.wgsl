@@ -1,5 +1,8 @@
-// Finds which of the two pieces of a slot can be shown in a tile. import math/lanes import math/tile import
-// math/cost import math/pieces
+// Finds which of the two pieces of a slot can be shown in a tile.
+// import math/lanes
+// import math/tile
+// import math/cost
+// import math/pieces
 
 fn smallest_keys(tile: Tile, slot: Slot) -> vec2f {
     let u = tile.center - slot.start;

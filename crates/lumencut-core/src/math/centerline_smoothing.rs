@@ -1,9 +1,7 @@
-//! Smoothed centerlines: each vessel is averaged along its arc length by a Gaussian whose σ is a multiple of
-//! its radius.
-//!
-//! The average is over the polyline, not its points, so their spacing does not matter. Beyond the ends of a
-//! run between two fixed points the curve continues by point reflection, p(−s) = 2·p(0) − p(s). So these ends
-//! stay fixed and straight runs stay straight.
+//! Smoothed centerlines: each vessel is averaged along its arc length by a Gaussian whose σ is a multiple of its
+//! radius. The average is over the polyline, not its points, so their spacing does not matter. Beyond the ends of a
+//! run between two fixed points the curve continues by point reflection, p(−s) = 2·p(0) − p(s). So these ends stay
+//! fixed and straight runs stay straight.
 
 use glam::DVec3;
 use rayon::prelude::*;
@@ -15,13 +13,11 @@ use crate::vessel_tree::{MAX_COORDINATE, Vessel, VesselTree};
 /// Number of box layers that approximate the Gaussian.
 const LAYERS: usize = 16;
 
-/// Distance at which the Gaussian is cut off (σ).
 const CUT_OFF_SIGMAS: f64 = 4.0;
 
-/// `tree` with centerlines smoothed by a Gaussian whose σ at each point is `radii` times the radius there.
-///
-/// Ends, points where another vessel ends, and points of unknown or zero radius stay bit-identical. Radii and
-/// the number and order of points do not change.
+/// `tree` with centerlines smoothed by a Gaussian whose σ at each point is `radii` times the radius there. Ends,
+/// points where another vessel ends, and points of unknown or zero radius stay bit-identical. Radii and the number
+/// and order of points do not change.
 pub fn smooth_centerlines(tree: &VesselTree, radii: f64) -> VesselTree {
     if radii <= 0.0 {
         return tree.clone();

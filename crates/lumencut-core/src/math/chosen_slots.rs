@@ -1,7 +1,6 @@
-//! Which part of a chosen vessel takes precedence over all other vessels.
-//!
-//! The centerline of a branch begins in the middle of its parent, with the parent's radius. With precedence,
-//! its first disc would cover the parent, so points (slots) inside the parent get none.
+//! Which part of a chosen vessel takes precedence over all other vessels. The centerline of a branch begins in the
+//! middle of its parent, with the parent's radius. With precedence, its first disc would cover the parent, so points
+//! (slots) inside the parent get none.
 
 use std::ops::Range;
 
@@ -28,8 +27,7 @@ pub fn chosen_slots(level: &Level, vessels: &[usize]) -> Vec<Range<u32>> {
             return all.start..all.start;
         }
         let [first, last] = [all.clone().find(is_outside), all.clone().rev().find(is_outside)];
-        // If the last slot takes precedence, so does its half-plane. Else precedence ends at the last slot
-        // outside.
+        // If the last slot takes precedence, so does its half-plane. Else precedence ends at the last slot outside.
         let end = last.map_or(all.end, |last| if last + 1 == all.end { all.end } else { last });
         let first = first.unwrap_or(all.start);
         if first < end { first..end } else { all }

@@ -1,8 +1,6 @@
-//! The hierarchy over the slots of one level: bundles of sixteen slots that lie close together in space,
-//! boxes around sixteen bundles, and so on to one root.
-//!
-//! Bundles are chosen once per tree in world space. A view only projects the slots ([`super::projection`])
-//! and recomputes the boxes.
+//! The hierarchy over the slots of one level: bundles of sixteen slots that lie close together in space, boxes around
+//! sixteen bundles, and so on to one root. Bundles are chosen once per tree in world space. A view only projects the
+//! slots ([`super::projection`]) and recomputes the boxes.
 
 use glam::DVec3;
 

@@ -1,8 +1,6 @@
-//! Lanes and instruction sets: kernels are written once over small arrays, compiled once per instruction set,
-//! and chosen at run time.
-//!
-//! The compiler never fuses a multiplication with an addition here and every square root is correctly
-//! rounded, so all instruction sets give the same bits.
+//! Lanes and instruction sets: kernels are written once over small arrays, compiled once per instruction set, and
+//! chosen at run time. The compiler never fuses a multiplication with an addition here and every square root is
+//! correctly rounded, so all instruction sets give the same bits.
 
 /// The width of a tile (pixels).
 pub const COLUMNS: usize = 16;

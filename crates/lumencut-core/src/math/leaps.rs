@@ -1,5 +1,4 @@
-//! Bits that mark depth jumps (leaps) between neighbouring pixels, and the side on which a jump's line is
-//! drawn.
+//! Bits that mark depth jumps (leaps) between neighbouring pixels, and the side on which a jump's line is drawn.
 
 pub const TO_THE_RIGHT: u32 = 1;
 pub const DOWNWARDS: u32 = 2;

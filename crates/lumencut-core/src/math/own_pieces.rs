@@ -1,5 +1,4 @@
-//! Finds pieces of coarser levels near the winner (the piece that a pixel shows at the finest level) in arc
-//! length.
+//! Finds pieces of coarser levels near the winner (the piece that a pixel shows at the finest level) in arc length.
 
 use super::candidates::Cover;
 use super::cost::Rule;

@@ -1,6 +1,8 @@
 // The piece of the winner's vessel at a coarser level that is nearest to the winner (the piece shown at the
-// finest level) in arc length. Each pixel searches on its own. import math/lanes import math/levels import
-// math/cost
+// finest level) in arc length. Each pixel searches on its own.
+// import math/lanes
+// import math/levels
+// import math/cost
 
 @group(0) @binding(8) var<storage, read> projected: array<Projected>;
 @group(0) @binding(9) var<storage, read> spans: array<Span>;

@@ -1,5 +1,4 @@
-//! The pieces of a local surface (stripe, wedge, end half-plane, full plane) and their evaluation over a
-//! tile.
+//! The pieces of a local surface (stripe, wedge, end half-plane, full plane) and their evaluation over a tile.
 //!
 //! Every piece belongs to a *slot*. Each point of a level has one slot, with the stripe from this point to the
 //! next, and the wedge at the point. Half-planes and full planes are wedges with missing edges. With edges f

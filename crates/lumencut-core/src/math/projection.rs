@@ -35,8 +35,7 @@ pub struct Level {
 }
 
 impl Level {
-    /// A point nearer than [`COLLINEAR_LENGTH`] to the previous one gets no slot: its segment has no
-    /// direction.
+    /// A point nearer than [`COLLINEAR_LENGTH`] to the previous one gets no slot: its segment has no direction.
     pub fn new(tree: &VesselTree) -> Self {
         let slots = tree.segment_count() + tree.vessels().len();
         let (mut points, mut radii) = (Vec::with_capacity(slots), Vec::with_capacity(slots));

@@ -15,8 +15,7 @@ pub const STEPS: usize = 8;
 /// The largest number of samples along a ray and across a slab.
 pub const MAX_SAMPLES: f64 = 65_536.0;
 
-/// A chord that exceeds n steps by less than this share of a step still has n parts, so that rounding adds
-/// none.
+/// A chord that exceeds n steps by less than this share of a step still has n parts, so that rounding adds none.
 pub const SPARE: f64 = 1e-3;
 
 /// The data that all rays of a view share.
@@ -112,8 +111,7 @@ impl Packet {
         }
     }
 
-    /// The segment from part `first` on, with samples in the middle of its parts, and with bounds of all
-    /// rays.
+    /// The segment from part `first` on, with samples in the middle of its parts, and with bounds of all rays.
     #[inline(always)]
     pub(crate) fn segment(&self, grid: &Grid, blocks: Option<&Blocks>, first: i32) -> Segment {
         let [first_part, end_part] = [f64::from(first) + 0.5, f64::from(first + STEPS as i32) - 0.5];

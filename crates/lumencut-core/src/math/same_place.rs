@@ -1,7 +1,5 @@
-//! Distances below which two positions count as the same, with the reason.
-//!
-//! Distances are in mm. Each is far above the rounding of a coordinate of a few hundred mm (1e-13 mm), and
-//! far below the smallest voxel (about 0.05 mm).
+//! Distances below which two positions count as the same, with the reason. Distances are in mm. Each is far above the
+//! rounding of a coordinate of a few hundred mm (1e-13 mm), and far below the smallest voxel (about 0.05 mm).
 
 /// A point this near repeats the previous one: rounding would decide the direction between them.
 pub const REPEATED_POINT: f64 = 1e-9;

@@ -18,8 +18,7 @@ pub struct Grid {
     wide: bool,
 }
 
-/// Sixteen continuous indices, axis by axis, relative to a voxel nearby: `f32` resolves a millionth of a
-/// voxel.
+/// Sixteen continuous indices, axis by axis, relative to a voxel nearby: `f32` resolves a millionth of a voxel.
 pub type Places = [[f32; FAN]; 3];
 
 /// Positions to sample: sixteen per step.

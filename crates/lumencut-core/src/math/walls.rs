@@ -1,7 +1,6 @@
-//! The distance of pixels to the nearest wall of any vessel, in the view plane.
-//!
-//! In projection a vessel is the union of the discs around the points of its centerline. The distance to its
-//! outline therefore never jumps and has a slope of at most 1, however the radius changes along the vessel.
+//! The distance of pixels to the nearest wall of any vessel, in the view plane. In projection a vessel is the union
+//! of the discs around the points of its centerline. The distance to its outline therefore never jumps and has a
+//! slope of at most 1, however the radius changes along the vessel.
 
 use super::hierarchy::{Boxes, Hierarchy};
 use super::lanes::{ABSENT, FAN, FAR, PIXELS, larger, largest, places, smaller};
@@ -24,10 +23,9 @@ pub(crate) struct WallRange {
 /// The largest `lean`; at a larger one, the same end of the segment is nearest for every pixel.
 pub const MAX_LEAN: f32 = 1e6;
 
-/// Lowers the distances of pixels from the wall (mm, negative within) to that from the segment of slot `s`.
-///
-/// The nearest outline of a tapering segment belongs to a disc on the segment. Its centre is shifted from the
-/// point nearest to the pixel, by the lean times the pixel's distance from the line.
+/// Lowers the distances of pixels from the wall (mm, negative within) to that from the segment of slot `s`. The
+/// nearest outline of a tapering segment belongs to a disc on the segment. Its centre is shifted from the point
+/// nearest to the pixel, by the lean times the pixel's distance from the line.
 #[inline(always)]
 fn lower_beyond(tile: &Tile, beyond: &mut [f32; PIXELS], bundle: &Bundle, s: usize) {
     let (x, y) = (bundle.x[s], bundle.y[s]);

@@ -104,8 +104,7 @@ pub struct LookPass<'a> {
 }
 
 impl LookPass<'_> {
-    /// Runs a stage that shows the volume. Fails with `Settings` for a slab or step that does not fit the
-    /// volume.
+    /// Runs a stage that shows the volume. Fails with `Settings` for a slab or step that does not fit the volume.
     pub fn run(&self, stage: Stage, images: &mut Images) -> Result<()> {
         match stage {
             Stage::Surface => self.surface(images),

@@ -14,7 +14,6 @@ use crate::math::same_place::VESSEL_END;
 #[derive(Clone, Copy, Debug)]
 struct Meeting {
     vessel: u32,
-    /// Arc length along the vessel (mm).
     arc_length: f64,
     junction: u32,
 }

@@ -8,10 +8,8 @@ use crate::error::{Error, ErrorKind, Mend, Result};
 use crate::geometry::Curved;
 use crate::stop::{Stop, filled, go_on};
 
-/// An image with one world position per pixel.
-///
-/// Image positions are column and row, with fractions; the centre of the first pixel is (0, 0). World points
-/// are LPS, in mm.
+/// An image with one world position per pixel. Image positions are column and row, with fractions; the centre of the
+/// first pixel is (0, 0). World points are LPS, in mm.
 pub trait Layout: Send + Sync {
     /// Width and height in pixels.
     fn size(&self) -> [usize; 2];

@@ -1,9 +1,7 @@
-//! Lumen map: the wall of a vessel cut open along it and unrolled, so that calcium, stent struts and the
-//! openings of branches all around it show in one image.
-//!
-//! After the radial ray casting of "Curve-centric Volume Reformation for Comparative Visualization" (Lampe,
-//! Correa, Ma, Hauser, IEEE TVCG 15(6), 2009, doi:10.1109/TVCG.2009.136), of which only the abstract and the
-//! introduction were available; the formulas are ours.
+//! Lumen map: the wall of a vessel cut open along it and unrolled, so that calcium, stent struts and the openings of
+//! branches all around it show in one image. After the radial ray casting of "Curve-centric Volume Reformation for
+//! Comparative Visualization" (Lampe, Correa, Ma, Hauser, IEEE TVCG 15(6), 2009, doi:10.1109/TVCG.2009.136), of which
+//! only the abstract and the introduction were available; the formulas are ours.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;

@@ -1,8 +1,6 @@
-//! Spiral CPR: every section across a vessel is wound up into one row. So a still picture shows the vessel
-//! from all sides, and widths in it represent areas.
-//!
-//! After the helical CPR of Kanitsar (dissertation, TU Wien 2004): sections as in the straightened CPR, with
-//! two spirals of constant pitch from the middle of each. The formulas are ours.
+//! Spiral CPR: every section across a vessel is wound up into one row. So a still picture shows the vessel from all
+//! sides, and widths in it represent areas. After the helical CPR of Kanitsar (dissertation, TU Wien 2004): sections
+//! as in the straightened CPR, with two spirals of constant pitch from the middle of each. The formulas are ours.
 
 use std::f64::consts::PI;
 use std::sync::Arc;

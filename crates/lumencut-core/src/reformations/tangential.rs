@@ -1,7 +1,6 @@
-//! Tangential CPR: one vessel as a camera sees it; its surroundings have the depth of its nearest point.
-//!
-//! Tangential CPR is CR of one vessel without a threshold: each pixel takes the depth of the vessel's nearest
-//! point in the image. The paper of CSR mentions it; as we did not find a description, the definition is ours
+//! Tangential CPR: one vessel as a camera sees it; its surroundings have the depth of its nearest point. Tangential
+//! CPR is CR of one vessel without a threshold: each pixel takes the depth of the vessel's nearest point in the
+//! image. The paper of CSR mentions it; as we did not find a description, the definition is ours
 //! (docs/method/reformations.md).
 
 use std::sync::Arc;

@@ -1,8 +1,7 @@
-//! Untangled CPR: every vessel of a tree cut open in one image, without overlaps, with true lengths.
-//!
-//! Kanitsar, Wegenkittl, Fleischmann and Gröller, "Advanced Curved Planar Reformation: Flattening of Vascular
-//! Structures", IEEE Visualization 2003, doi:10.1109/VISUAL.2003.1250353, show an entire tree by minimal
-//! rotations at branching points. Only the abstract of that method was available: layout and search are ours.
+//! Untangled CPR: every vessel of a tree cut open in one image, without overlaps, with true lengths. Kanitsar,
+//! Wegenkittl, Fleischmann and Gröller, "Advanced Curved Planar Reformation: Flattening of Vascular Structures", IEEE
+//! Visualization 2003, doi:10.1109/VISUAL.2003.1250353, show an entire tree by minimal rotations at branching points.
+//! Only the abstract of that method was available: layout and search are ours.
 
 mod growth;
 mod hull;

@@ -68,7 +68,6 @@ pub fn along_rays(work: &Work, along: &AlongRays, source: &dyn RaySource, values
 /// Number of parts of a ray that are followed or skipped together.
 const PARTS_TOGETHER: i32 = 8;
 
-/// Number of columns between two checks for stop.
 const COLUMNS_PER_CHECK: usize = 32;
 
 struct Square<'a> {

@@ -121,10 +121,9 @@ impl Search for LowestKeySearch<'_> {
     }
 }
 
-/// Per pixel: the change of depth to the right and upwards (mm per mm), the vessel's radius (mm, negative
-/// outside the lumen), and the gap. This is the distance along the vessel between the two blended points
-/// (mm), [`crate::math::lanes::FAR`] between different vessels, or [`CHOSEN_GAP`] if a chosen vessel takes
-/// precedence.
+/// Per pixel: the change of depth to the right and upwards (mm per mm), the vessel's radius (mm, negative outside the
+/// lumen), and the gap. This is the distance along the vessel between the two blended points (mm),
+/// [`crate::math::lanes::FAR`] between different vessels, or [`CHOSEN_GAP`] if a chosen vessel takes precedence.
 pub type Sheet = [f32; 4];
 
 /// The gap in a sheet if a chosen vessel takes precedence at the pixel.

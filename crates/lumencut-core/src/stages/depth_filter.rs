@@ -9,7 +9,6 @@ use crate::error::Result;
 use crate::math::lanes::{Kernel, ROWS, dispatch};
 use crate::settings::Settings;
 
-/// The half-width of the Gaussian in pixels.
 const HALF_WIDTH: usize = 3;
 const SPAN: usize = 2 * HALF_WIDTH + 1;
 /// The zone of pixels beyond the image, different from that of any vessel.

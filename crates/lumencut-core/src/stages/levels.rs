@@ -1,9 +1,7 @@
-//! Levels of detail: increasingly smooth copies of the tree, whose surfaces are smooth far from the vessels
-//! (paper sections 3.1.4 and 3.2.2).
-//!
-//! Level k + 1 is the clamped cubic B-spline with uniform knots over the points of level k, evaluated at half
-//! as many parameters. The ends stay exactly where they are, so branches stay connected. Radii and arc
-//! lengths are filtered alike.
+//! Levels of detail: increasingly smooth copies of the tree, whose surfaces are smooth far from the vessels (paper
+//! sections 3.1.4 and 3.2.2). Level k + 1 is the clamped cubic B-spline with uniform knots over the points of level
+//! k, evaluated at half as many parameters. The ends stay exactly where they are, so branches stay connected. Radii
+//! and arc lengths are filtered alike.
 
 use glam::DVec4;
 

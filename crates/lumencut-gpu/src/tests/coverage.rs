@@ -1,5 +1,4 @@
-//! Every pixel is covered: at every level that a pixel uses, some piece covers it, on every GPU of this
-//! machine.
+//! Every pixel is covered: at every level that a pixel uses, some piece covers it, on every GPU of this machine.
 
 use std::sync::Arc;
 

@@ -160,8 +160,7 @@ fn axes_of_one_voxel_and_any_strides() {
 
 #[test]
 fn a_long_volume_keeps_its_places() {
-    // Each value is the index relative to the middle, so it shows errors of positions: at most a 10,000th of
-    // a voxel.
+    // Each value is the index relative to the middle, so it shows errors of positions: at most a 10,000th of a voxel.
     const SIZE: [usize; 3] = [64, 48, 1300];
     let voxels: Vec<i16> = (0..SIZE.iter().product()).map(|n: usize| (n / (64 * 48)) as i16 - 650).collect();
     let middle = DAffine3::from_translation(-DVec3::from(SIZE.map(|n| (n - 1) as f64)) / 2.0);

@@ -5,7 +5,6 @@ use std::hash::{BuildHasher, Hash, RandomState};
 /// Number of a point or an edge. It can count to more than twice [`MOST_POINTS`].
 pub(super) type Id = u32;
 
-/// Maximum number of points of all lines.
 pub(super) const MOST_POINTS: usize = 1 << 30;
 
 const NONE: Id = Id::MAX;

@@ -45,9 +45,8 @@ impl Path {
     }
 }
 
-/// Vessels that the lines (mm) form, with bit-identical end points where they meet, and a note of each
-/// change. Lines that the file marks as vessels stay unchanged. A vessel has the name of its first line, so
-/// names may repeat.
+/// Vessels that the lines (mm) form, with bit-identical end points where they meet, and a note of each change. Lines
+/// that the file marks as vessels stay unchanged. A vessel has the name of its first line, so names may repeat.
 #[must_use]
 pub fn vessels(centerlines: Centerlines) -> Centerlines {
     if centerlines.joined {

@@ -7,10 +7,9 @@ use glam::DVec3;
 use super::Path;
 use super::ids::{Id, Incidence, id};
 
-/// If most paths are single segments, joins segments at each point at which exactly two meet.
-///
-/// Chains keep the direction of their segments if all agree. Otherwise they run away from the open end that
-/// has the largest radius, or is highest.
+/// If most paths are single segments, joins segments at each point at which exactly two meet. Chains keep the
+/// direction of their segments if all agree. Otherwise they run away from the open end that has the largest radius,
+/// or is highest.
 pub(super) fn join(points: &[DVec3], mut paths: Vec<Path>, notes: &mut Vec<String>) -> Vec<Path> {
     let is_segment = |path: &Path| path.nodes.len() == 2;
     let count = paths.iter().filter(|path| is_segment(path)).count();

@@ -23,7 +23,6 @@ pub fn line(i: usize) -> Vec<DVec3> {
     POINTS[range].iter().map(|p| DVec3::from(*p)).collect()
 }
 
-/// How a `.vtp` is encoded.
 #[derive(Clone, Copy, Debug)]
 pub struct Style {
     /// `ascii`, `binary` (inline base64), `base64` or `raw` (both appended).
@@ -252,7 +251,6 @@ pub fn mrk_json(space: &str, unit: &str, per_mm: f64) -> Vec<u8> {
     format!("{{\"markups\": [{}, {}]}}", curve(0, ENDS[0]), curve(ENDS[0], ENDS[1])).into_bytes()
 }
 
-/// A `.pth` file with two root elements and one path per line.
 pub fn pth() -> Vec<u8> {
     let mut out = "<?xml version=\"1.0\" encoding=\"UTF-8\" ?>\n<format version=\"1.0\"/>\n".to_owned();
     for i in 0..2 {
@@ -279,7 +277,6 @@ fn rows(i: usize) -> Vec<[f64; 4]> {
     line(i).iter().zip(&RADIUS[begin..]).map(|(p, r)| [p.x, p.y, p.z, *r]).collect()
 }
 
-/// These rows as the bytes of a NumPy file.
 pub fn npy(rows: &[[f64; 4]], columns: usize, kind: &str, fortran: bool, version: u8) -> Vec<u8> {
     let order = if kind.starts_with('>') { ByteOrder::Big } else { ByteOrder::Little };
     let header = format!(

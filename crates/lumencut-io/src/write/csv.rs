@@ -4,12 +4,10 @@ use super::{check_all, confidences, marked_cell};
 use crate::centerlines::Line;
 use crate::error::{Error, Result};
 
-/// Writes a `.csv` of vessels (mm, LPS) with the columns `line` (from 0), `name`, `l (mm)`, `p (mm)`, `s
-/// (mm)`, `radius (mm)` and `confidence`. Name, radius and confidence exist only if any vessel has them.
-///
-/// Names that look like formulas get an apostrophe. Missing radii are 0. Coordinates and radii are read back
-/// bit-identically; names are not read, and lines that meet are joined again. Fails if no vessel is valid, or
-/// if a name has a line break.
+/// Writes a `.csv` of vessels (mm, LPS) with the columns `line` (from 0), `name`, `l (mm)`, `p (mm)`, `s (mm)`,
+/// `radius (mm)` and `confidence`. Name, radius and confidence exist only if any vessel has them. Names that look
+/// like formulas get an apostrophe. Missing radii are 0. Coordinates and radii are read back bit-identically; names
+/// are not read, and lines that meet are joined again. Fails if no vessel is valid, or if a name has a line break.
 pub fn write_csv(vessels: &[Line]) -> Result<Vec<u8>> {
     check_all(vessels)?;
     let is_long = |vessel: &Line| vessel.name.as_ref().is_some_and(|name| name.contains(char::is_control));

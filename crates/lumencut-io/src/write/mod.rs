@@ -1,8 +1,7 @@
-//! Writers of vessels. `.vtp` and `.mrk.json` are read back bit-identically; `.vtk` keeps everything except
-//! names, `.csv` and `.swc` keep what their format can hold.
-//!
-//! Numbers are written as the shortest decimals that restore them. The first three formats carry the mark
-//! `LumencutVessels`, so that this crate does not join their lines again. Groups are not written.
+//! Writers of vessels. `.vtp` and `.mrk.json` are read back bit-identically; `.vtk` keeps everything except names,
+//! `.csv` and `.swc` keep what their format can hold. Numbers are written as the shortest decimals that restore them.
+//! The first three formats carry the mark `LumencutVessels`, so that this crate does not join their lines again.
+//! Groups are not written.
 
 mod cell;
 mod csv;

@@ -9,8 +9,7 @@ use crate::error::Result;
 /// Address of the schema, as 3D Slicer states it.
 const SCHEMA: &str = "https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loadable/Markups/Resources/Schema/markups-schema-v1.0.3.json#";
 
-/// Writes a `.mrk.json` of vessels (mm, LPS); the measurement `Radius` holds radii. Fails if no vessel is
-/// valid.
+/// Writes a `.mrk.json` of vessels (mm, LPS); the measurement `Radius` holds radii. Fails if no vessel is valid.
 pub fn write_mrk_json(vessels: &[Line]) -> Result<Vec<u8>> {
     check_all(vessels)?;
     Ok(markups(vessels, "").into_bytes())

@@ -10,11 +10,10 @@ use crate::error::Result;
 
 type Place = [u64; 3];
 
-/// Writes a `.swc` of vessels. Coordinates are in mm and LPS, which the format cannot state.
-///
-/// A vessel that starts on another one continues from its node there, with the radius of that node. A vessel
-/// that ends on another one gets a separate node there, because a node has only one parent. Names and the
-/// ends of vessels are lost, and unknown radii are 0. Fails if no vessel is valid.
+/// Writes a `.swc` of vessels. Coordinates are in mm and LPS, which the format cannot state. A vessel that starts on
+/// another one continues from its node there, with the radius of that node. A vessel that ends on another one gets a
+/// separate node there, because a node has only one parent. Names and the ends of vessels are lost, and unknown radii
+/// are 0. Fails if no vessel is valid.
 pub fn write_swc(vessels: &[Line]) -> Result<Vec<u8>> {
     check_all(vessels)?;
     let mut out = String::from("# vessels in mm, LPS\n# id type x y z radius parent\n");

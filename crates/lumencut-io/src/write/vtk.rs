@@ -5,11 +5,10 @@ use crate::centerlines::{JOINED_MARK, Line};
 use crate::error::Result;
 use crate::poly_data::{HAS_RADIUS, NAMES, RADIUS_NAMES};
 
-/// Writes a `.vtk` of vessels (mm, LPS). An end point of several vessels is repeated in each of them.
-///
-/// The point array `MaximumInscribedSphereRadius` holds radii. If only some vessels have radii, those of
-/// others are 0, and the cell array `HasRadius` marks them. The cell array `Name` holds names, which VTK
-/// reads and this crate does not. Everything else is read back bit-identically. Fails if no vessel is valid.
+/// Writes a `.vtk` of vessels (mm, LPS). An end point of several vessels is repeated in each of them. The point array
+/// `MaximumInscribedSphereRadius` holds radii. If only some vessels have radii, those of others are 0, and the cell
+/// array `HasRadius` marks them. The cell array `Name` holds names, which VTK reads and this crate does not.
+/// Everything else is read back bit-identically. Fails if no vessel is valid.
 pub fn write_vtk(vessels: &[Line]) -> Result<Vec<u8>> {
     check_all(vessels)?;
     let points: usize = vessels.iter().map(|vessel| vessel.points.len()).sum();

@@ -5,11 +5,10 @@ use crate::centerlines::{JOINED_MARK, Line};
 use crate::error::{Error, Result};
 use crate::poly_data::{HAS_NAME, HAS_RADIUS, NAMES, RADIUS_NAMES};
 
-/// Writes a `.vtp` of vessels (mm, LPS). An end point of several vessels is repeated in each of them.
-///
-/// The point arrays `MaximumInscribedSphereRadius` and `Confidence` hold radii and confidences; the cell
-/// array `Name` holds names. If only some vessels have radii or names, `HasRadius` and `HasName` mark those.
-/// Fails if no vessel is valid, or if a name has a null character, which ends text in VTK.
+/// Writes a `.vtp` of vessels (mm, LPS). An end point of several vessels is repeated in each of them. The point
+/// arrays `MaximumInscribedSphereRadius` and `Confidence` hold radii and confidences; the cell array `Name` holds
+/// names. If only some vessels have radii or names, `HasRadius` and `HasName` mark those. Fails if no vessel is
+/// valid, or if a name has a null character, which ends text in VTK.
 pub fn write_vtp(vessels: &[Line]) -> Result<Vec<u8>> {
     check_all(vessels)?;
     let with_null = |vessel: &Line| vessel.name.as_ref().is_some_and(|name| name.contains('\0'));

@@ -4,7 +4,6 @@ use super::{ellipsoid, plate, profile, rod};
 use crate::shape::Shape;
 use crate::tissue::{Solid, Tissue};
 
-/// Position and size of a vertebra (mm).
 #[derive(Clone, Copy)]
 pub(super) struct Vertebra {
     /// Centre of the body (x is 0).

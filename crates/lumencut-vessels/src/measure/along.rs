@@ -1,7 +1,6 @@
-//! Corrects areas for the blur along the vessel.
-//!
-//! If the width of a vessel changes, blur mixes a section with its neighbours. To first order, the measured
-//! area is the true area plus half of the blur variance times the second derivative of the area.
+//! Corrects areas for the blur along the vessel. If the width of a vessel changes, blur mixes a section with its
+//! neighbours. To first order, the measured area is the true area plus half of the blur variance times the second
+//! derivative of the area.
 
 use super::sections::Section;
 use lumencut_core::math::same_place::REPEATED_POINT;

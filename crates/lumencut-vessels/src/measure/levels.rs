@@ -1,7 +1,6 @@
-//! Finds the intensity level of the lumen along a vessel.
-//!
-//! A lumen narrower than two blur widths peaks below its true level, so a single section cannot separate
-//! level and width. Wider sections nearby give the level; if there are none, all sections share one level.
+//! Finds the intensity level of the lumen along a vessel. A lumen narrower than two blur widths peaks below its true
+//! level, so a single section cannot separate level and width. Wider sections nearby give the level; if there are
+//! none, all sections share one level.
 
 use rayon::prelude::*;
 

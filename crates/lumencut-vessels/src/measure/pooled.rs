@@ -1,6 +1,5 @@
-//! Estimates the lumen level along a vessel from the sections that show it well.
-//!
-//! Contrast medium mixes along the vessel, so nearby sections count most.
+//! Estimates the lumen level along a vessel from the sections that show it well. Contrast medium mixes along the
+//! vessel, so nearby sections count most.
 
 /// Distance (mm) over which the weight of a section falls to 1/e.
 const DISTANCE: f64 = 25.0;
@@ -11,7 +10,6 @@ const DEVIATION: [f64; 2] = [0.01, 0.08];
 /// Larger differences between levels are clamped to this fraction of the contrast.
 const MAX_DEVIATION: f64 = 0.3;
 
-/// Maximum number of sections that are pooled.
 const MAX_SECTIONS: usize = 500;
 
 pub(crate) type Level = [f64; 2];

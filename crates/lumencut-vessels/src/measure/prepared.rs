@@ -52,7 +52,6 @@ const FIT_SPACING: f64 = 0.7;
 /// Minimum radius (mm) around the centerline in which the lumen is searched.
 const MIN_SEARCH_MM: f64 = 3.0;
 
-/// Maximum radius of a lumen (mm).
 const MAX_RADIUS_MM: f64 = 45.0;
 
 /// Separate fits for one point spread; `hidden` is the possible wall if none is visible.

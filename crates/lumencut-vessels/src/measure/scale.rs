@@ -7,7 +7,6 @@ use crate::voxels::Voxels;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::math::statistics::median;
 
-/// Number of directions that are sampled at each section.
 const DIRECTIONS: usize = 16;
 
 const MOST_PLACES: usize = 150;

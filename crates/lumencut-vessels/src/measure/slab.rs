@@ -1,7 +1,6 @@
-//! The voxels near the plane of a section, projected onto that plane.
-//!
-//! A straight vessel looks the same everywhere along its axis, so each voxel shows the blurred section at its
-//! own position. Values are not interpolated, so the noise of the voxels stays independent.
+//! The voxels near the plane of a section, projected onto that plane. A straight vessel looks the same everywhere
+//! along its axis, so each voxel shows the blurred section at its own position. Values are not interpolated, so the
+//! noise of the voxels stays independent.
 
 use glam::DVec2;
 

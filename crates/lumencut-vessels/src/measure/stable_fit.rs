@@ -13,7 +13,6 @@ use super::sections::{Bench, Known};
 /// A fit has converged if no parameter moves by more than this (blur widths).
 const MAX_MOVEMENT: f64 = 0.05;
 
-/// Maximum number of restarts.
 const MAX_RESTARTS: usize = 3;
 
 /// Two fits show the same lumen if the ratio of their sizes and the distance of their centres (radii) are at

@@ -1,6 +1,5 @@
-//! Estimates the spatial correlation of image noise.
-//!
-//! Reconstruction kernels of CT correlate neighbouring voxels, so a mean is less certain than with independent noise.
+//! Estimates the spatial correlation of image noise. Reconstruction kernels of CT correlate neighbouring voxels, so a
+//! mean is less certain than with independent noise.
 
 use glam::{DMat3, DVec3};
 

@@ -1,7 +1,6 @@
-//! Combines the wall levels of the vessels of a tree.
-//!
-//! The level of a vessel is that of the tree plus an individual difference. The spread of these differences
-//! is unknown, so several standard deviations are tried, each weighted by its likelihood.
+//! Combines the wall levels of the vessels of a tree. The level of a vessel is that of the tree plus an individual
+//! difference. The spread of these differences is unknown, so several standard deviations are tried, each weighted by
+//! its likelihood.
 
 use super::branches::shares_line;
 use super::pooled::Level;

@@ -1,7 +1,6 @@
-//! The prior of the vessel wall, and the result of its fit.
-//!
-//! The wall of an artery is mostly surrounded by fat. The value midway between lumen and fat lies in the wall, so
-//! without a wall model a lumen of 3 mm is measured as 3.5 mm. In CT, walls have about the level of soft tissue.
+//! The prior of the vessel wall, and the result of its fit. The wall of an artery is mostly surrounded by fat. The
+//! value midway between lumen and fat lies in the wall, so without a wall model a lumen of 3 mm is measured as 3.5
+//! mm. In CT, walls have about the level of soft tissue.
 
 use glam::DVec2;
 

@@ -5,14 +5,14 @@ mod memory;
 
 use lumencut_volumes::{Fill, Found, Known, Need, Step, Stop, Window, open};
 
-/// Maximum memory for reading a file, in sizes of that file, without its voxels.
+/// Maximum memory for reading a file without its voxels, as a multiple of the file's size.
 const MOST_TIMES: usize = 10;
-/// Files smaller than this (bytes) may use as much memory as one of this size.
+/// Files smaller than this (bytes) may use as much memory as a file of this size.
 const SMALL: usize = 2 << 20;
-/// Voxels of larger volumes are not read (bytes).
+/// Voxels of larger volumes (bytes) are not read.
 const MOST_VOXELS: u64 = 1 << 26;
 
-/// Reads `data` under this name, in the types of both hosts. Panics if a step never comes to an end, voxels are
+/// Reads `data` as a file with this name, for Python and for the page. Panics if reading does not end, voxels are
 /// missing, or memory exceeds its limit.
 pub fn check(data: &[u8], name: &str) {
     for in_engine in [false, true] {

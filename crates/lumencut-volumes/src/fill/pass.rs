@@ -1,4 +1,4 @@
-//! One pass over the stored bytes of all voxels: plain, unpacked or from text.
+//! One pass over the stored bytes of all voxels: raw, unpacked or from text.
 
 use crate::error::Error;
 use crate::plan::Plan;
@@ -7,26 +7,23 @@ use crate::words::Words;
 
 const SKIPPED: usize = 1 << 14;
 
-/// What a pass gives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Piece {
-    /// So many bytes; none while it is on its way to the next ones.
+    /// The number of bytes written; 0 while bytes are skipped.
     Bytes(usize),
     /// More of the file is needed.
     Hungry,
-    /// There is no room for output.
     Full,
-    /// All bytes were given, and check sums are right.
+    /// All bytes were written, and checksums match.
     End,
 }
 
 pub(crate) struct Pass {
     subject: String,
-    /// Bytes that it writes at least.
+    /// The smallest output (bytes) to which it can write.
     unit: usize,
-    /// Where it begins.
     pub(crate) start: u64,
-    /// Unpacked bytes to leave out.
+    /// Unpacked bytes to skip.
     skip: u64,
     needed: u128,
     given: u128,
@@ -41,7 +38,7 @@ enum Source {
 }
 
 impl Pass {
-    /// A pass over `needed` bytes of `numbers` stored numbers, from byte `start` of the file.
+    /// A pass over `needed` bytes, which are `numbers` stored numbers, from byte `start` of the file on.
     pub(crate) fn new(plan: &Plan, start: u64, needed: u128, numbers: u128) -> Self {
         let place = &plan.place;
         let is_packed = matches!(place.codec, Codec::Zlib | Codec::Bzip2);
@@ -55,7 +52,7 @@ impl Pass {
         Self { subject: place.name.clone(), unit, start, skip, needed, given: 0, source }
     }
 
-    /// Reads from `input`, the bytes of the file from `at` on, and writes stored bytes.
+    /// Reads `input`, which holds the bytes of the file from `at` on, and writes stored bytes.
     pub(crate) fn take(
         &mut self,
         at: &mut u64,

@@ -1,28 +1,25 @@
-//! The fields of NIfTI-1 and -2 headers, and the faults in them that are mended.
+//! Reads the fields of NIfTI-1 and -2 headers, and repairs faults in them.
 
 use crate::error::Error;
 use crate::plan::Format;
 use crate::text::{short, shown};
 
-/// Bytes that hold either header.
 pub(crate) const HEADER_BYTES: usize = 540;
 const MOST_CODE: i32 = 5;
 
-/// What a header states; numbers are those of the file.
 pub(crate) struct Header {
     pub(crate) format: Format,
-    /// Whether the voxels are in a file of their own.
+    /// Whether the voxels are in a separate file.
     pub(crate) is_pair: bool,
     pub(crate) is_big: bool,
     magic: [u8; 4],
-    /// What the conversion of line ends would change; only in NIfTI-2.
+    /// Bytes that a conversion of line ends would change; only in NIfTI-2.
     line_ends: Option<[u8; 4]>,
     stated_length: i32,
-    /// How many axes, and their lengths.
+    /// The number of axes, then their lengths.
     pub(crate) dim: [i64; 8],
     glmin: i32,
     pub(crate) datatype: i16,
-    /// The handedness, then the lengths of voxels.
     pub(crate) pixdim: [f64; 8],
     offset: f64,
     pub(crate) slope: f64,
@@ -33,11 +30,10 @@ pub(crate) struct Header {
     pub(crate) quaternion: [f64; 3],
     pub(crate) shift: [f64; 3],
     pub(crate) rows: [[f64; 4]; 3],
-    /// What the file says that it holds.
     pub(crate) description: [u8; 80],
 }
 
-/// The format that the first bytes of a file announce.
+/// The format that the first bytes of a file state.
 pub(crate) fn format_of(head: &[u8]) -> Option<Format> {
     let length: [u8; 4] = head.get(..4)?.try_into().ok()?;
     let lengths = [u32::from_le_bytes(length), u32::from_be_bytes(length)];
@@ -47,7 +43,7 @@ pub(crate) fn format_of(head: &[u8]) -> Option<Format> {
     lengths.contains(&540).then_some(Format::Nifti2)
 }
 
-/// Reads numbers at places of a header that is long enough.
+/// Reads numbers of a header; the flag states whether they are big-endian.
 struct Bytes<'a>(&'a [u8], bool);
 
 impl Bytes<'_> {
@@ -171,7 +167,7 @@ impl Header {
         }
     }
 
-    /// The first byte of the voxels, which in a single file lie behind the header.
+    /// The first byte of the voxels; in a single file it follows the header.
     pub(crate) fn voxel_offset(
         &self,
         path: &str,
@@ -211,9 +207,9 @@ impl Header {
         Ok([shape[0], shape[1], shape[2]].map(i64::cast_unsigned))
     }
 
-    /// The lengths of the axes; FreeSurfer writes some that a header cannot hold otherwise.
+    /// The lengths of the axes, including those that FreeSurfer encodes because they do not fit in the header.
     fn shape(&self) -> Vec<i64> {
-        // A negative count leaves out axes from the end, as in nibabel.
+        // A negative count drops axes from the end, as in nibabel.
         let count = match self.dim[0] {
             0 => return vec![0],
             -1 => 0,
@@ -234,7 +230,7 @@ impl Header {
         shape
     }
 
-    /// Mends what nibabel mends and notes it in its words; refuses what it refuses.
+    /// Repairs what nibabel repairs, noted in nibabel's words; rejects what nibabel rejects.
     pub(crate) fn mend(&mut self, path: &str, notes: &mut Vec<String>) -> Result<(), Box<Error>> {
         let length = self.length();
         if usize::try_from(self.stated_length) != Ok(length) {
@@ -287,7 +283,7 @@ fn mended_code(name: &str, stated: i32, notes: &mut Vec<String>) -> i32 {
     0
 }
 
-/// The number of axes, which is from 1 to 7, tells the order of bytes, else the length of the header.
+/// The byte order is that in which the number of axes is from 1 to 7; if it is 0, the header's length decides.
 fn is_big_endian(little_count: i64, head: &[u8], length: u32) -> bool {
     if little_count == 0 { head[..4] == length.to_be_bytes() } else { !(1..=7).contains(&little_count) }
 }

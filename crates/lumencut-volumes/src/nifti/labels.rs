@@ -4,7 +4,7 @@ use crate::text::printable;
 
 const MOST_DIGITS: usize = 9;
 
-/// Whether extensions follow a header of this length; four bytes behind it say so.
+/// Whether extensions follow a header of this length; the four bytes after it state this.
 pub(crate) fn has_extensions(head: &[u8], length: usize) -> bool {
     head.len() >= length + 4 && head[length] != 0
 }
@@ -37,7 +37,6 @@ fn add_labels(text: &str, names: &mut Vec<(i64, String)>) {
     }
 }
 
-/// The value and the name of an element of which the first letters are read.
 fn label_in(rest: &str) -> Option<(i64, String)> {
     if rest.starts_with(|letter: char| letter.is_ascii_alphanumeric() || letter == '_') {
         return None;

@@ -1,4 +1,5 @@
-//! Where a NIfTI header places its grid: the sform, shear and all, else the qform, else centred at the origin.
+//! Where a NIfTI header places its grid: by the sform (including shear), else by the qform, else centred at the
+//! origin.
 
 use super::header::Header;
 use super::wide::Wide;
@@ -6,15 +7,15 @@ use crate::error::Error;
 use crate::plan::{Affine, Format, without_negative_zeros};
 use crate::text::short;
 
-/// Codes of the unit of time, which stand in the same field.
+/// Codes of units of time, which are in the same field as the unit of length.
 const TIMES: [i32; 7] = [0, 8, 16, 24, 32, 40, 48];
-/// Placements that lie further apart are told of (mm).
+/// A larger difference between two placements (mm) is noted.
 const APART: f64 = 0.01;
-/// Axes up to this angle apart count as the same (degrees).
+/// Axes with at most this angle between them count as equal (degrees).
 const SAME_AXIS: f64 = 25.0;
 
 impl Header {
-    /// World (LPS, mm) from index, of a header that is mended.
+    /// World (LPS, mm) from index, of a repaired header.
     pub(crate) fn placement(
         &self,
         path: &str,
@@ -41,7 +42,7 @@ impl Header {
         self.qform().ok_or_else(refused)
     }
 
-    /// The grid centred at the origin, i to the left.
+    /// The grid centred at the origin; i points to the left.
     fn centred(&self) -> Affine {
         let sides = [-self.pixdim[1], self.pixdim[2], self.pixdim[3]];
         std::array::from_fn(|axis| {
@@ -51,11 +52,10 @@ impl Header {
         })
     }
 
-    /// The placement by the quaternion, None where it is no rotation.
     fn qform(&self) -> Option<Affine> {
         let [x, y, z] = self.quaternion.map(Wide::from);
         let [one, two] = [1.0, 2.0].map(Wide::from);
-        // How far from 1 its square may be, by the precision in which it is stored.
+        // The stored precision decides by how much the squared length may exceed 1.
         let precision = if self.format == Format::Nifti1 { f64::from(f32::EPSILON) } else { f64::EPSILON };
         let square = one - (x * x + y * y + z * z);
         let is_nothing = square.narrow().abs() < 3.0 * precision;
@@ -80,7 +80,7 @@ impl Header {
         }))
     }
 
-    /// The unit of length that the header states and its millimetres, None where it states none that is known.
+    /// The unit of length and its millimetres; None if the header states no known unit.
     fn unit(&self) -> Option<(&'static str, f64)> {
         let code = self.units.rem_euclid(8);
         if !TIMES.contains(&(self.units - code)) {
@@ -115,12 +115,12 @@ impl Header {
         }
     }
 
-    /// Whether lengths in mm are known. Those of a placement are mm by convention.
+    /// Whether lengths in mm are known; a placement is in mm by convention.
     pub(crate) fn states_spacing(&self) -> bool {
         self.is_placed() || self.unit().is_some()
     }
 
-    /// Whether the axes are placed in the patient, and no second time more than 25 degrees apart.
+    /// Whether the axes are placed in the patient, without a second placement that differs by more than 25 degrees.
     pub(crate) fn states_orientation(&self) -> bool {
         if !(self.sform_code > 0 && self.qform_code > 0) {
             return self.is_placed();
@@ -134,7 +134,7 @@ impl Header {
         })
     }
 
-    /// Notes a missing placement, or two that contradict each other.
+    /// Notes a missing placement, or two placements that contradict each other.
     fn note_forms(&self, size: [u64; 3], notes: &mut Vec<String>) {
         if !self.is_placed() {
             let assumed = "centred at the origin, i to the left, like nibabel";
@@ -154,7 +154,7 @@ impl Header {
     }
 }
 
-/// How far apart two placements put a corner of the grid, along one axis; NaN where that is unknown.
+/// The largest difference between two placements at a corner of the grid, along one axis; NaN if unknown.
 fn farthest(one: &Affine, other: &Affine, size: [u64; 3]) -> f64 {
     let mut apart: f64 = 0.0;
     for corner in 0..8 {

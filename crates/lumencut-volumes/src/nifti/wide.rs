@@ -1,18 +1,17 @@
-//! Numbers with 64 significant bits, in which nibabel turns quaternions into directions.
+//! Numbers with 64 significant bits, with which nibabel converts quaternions to directions.
 
 use std::ops::{Add, Div, Mul, Sub};
 
-/// The sum of two numbers, of which the second is at most half a last digit of the first.
+/// The sum of two numbers; the second is at most half of the first one's last binary digit.
 #[derive(Clone, Copy)]
 pub(crate) struct Wide(f64, f64);
 
-/// Parts of a number with half of its digits.
 const SPLIT: f64 = 134_217_729.0;
 
 impl Wide {
     pub(crate) const ZERO: Self = Self(0.0, 0.0);
 
-    /// The nearest number of 53 bits.
+    /// The nearest number with 53 significant bits.
     pub(crate) fn narrow(self) -> f64 {
         self.0
     }
@@ -74,14 +73,12 @@ impl Div for Wide {
     }
 }
 
-/// The exact sum.
 fn sum(one: f64, other: f64) -> Wide {
     let total = one + other;
     let back = total - one;
     Wide(total, (one - (total - back)) + (other - back))
 }
 
-/// The exact product.
 fn product(one: f64, other: f64) -> Wide {
     let halves = |value: f64| {
         let shifted = SPLIT * value;
@@ -92,13 +89,13 @@ fn product(one: f64, other: f64) -> Wide {
     Wide(total, ((a * c - total) + a * d + b * c) + b * d)
 }
 
-/// A sum with its digits behind the 64th bit rounded to even.
+/// A sum, rounded to 64 significant bits (ties to even).
 fn rounded(high: f64, low: f64) -> Wide {
     let Wide(high, low) = sum(high, low);
     if high == 0.0 || !high.is_finite() || !low.is_finite() {
         return Wide(high, 0.0);
     }
-    // The last of 64 bits is 2⁻⁶³ of the first one; the sum with 1.5 · 2⁵² of it has no digits behind it.
+    // The last of 64 bits is 2⁻⁶³ of the first one; the sum with 1.5 · 2⁵² of it has no digits after it.
     let first = f64::from_bits(high.to_bits() & (0x7ff << 52));
     let shift = 1.5 * first / 2048.0;
     sum(high, (low + shift) - shift)

@@ -1,4 +1,4 @@
-//! Which axes of an NRRD file are those of the grid.
+//! Finds the axes of an NRRD file that are those of the grid.
 
 use super::fields::Header;
 use crate::error::Error;
@@ -7,13 +7,12 @@ use crate::text::{listed, shown};
 
 const GRID_KINDS: [&str; 5] = ["domain", "space", "none", "???", ""];
 
-/// The axes of a file, the fastest first.
 pub(crate) struct Axes {
     pub(crate) sizes: Vec<u64>,
     pub(crate) of_grid: [usize; 3],
-    /// The length of another axis: 1 but for a segmentation in layers.
+    /// Length of the fourth axis: 1, except for a segmentation in layers.
     pub(crate) layers: u64,
-    /// How many axes of the grid are faster than that of the layers.
+    /// Number of grid axes that vary faster than the axis of the layers.
     pub(crate) after: usize,
 }
 

@@ -3,9 +3,9 @@
 use crate::error::Error;
 use crate::text::{decoded, number};
 
-/// Bytes of a header that are read.
+/// Number of bytes in which the end of the header is searched.
 pub(crate) const LONGEST_HEADER: u64 = 1 << 20;
-/// Letters of a field that are believed.
+/// Maximum length of a field (characters).
 const LONGEST_VALUE: usize = 4096;
 const NEWEST: i64 = 5;
 const FIELDS: [&str; 16] = [
@@ -27,17 +27,15 @@ const FIELDS: [&str; 16] = [
     "axis mins",
 ];
 
-/// A vector of numbers, None for an axis that has none.
 pub(crate) type Direction = Option<Vec<f64>>;
 
 pub(crate) struct Header<'a> {
     pub(crate) path: &'a str,
     fields: Vec<(&'static str, String)>,
-    /// All lines but the first.
+    /// All lines except the first.
     pub(crate) lines: Vec<String>,
-    /// The byte behind the header.
+    /// The byte after the header.
     pub(crate) end: u64,
-    /// What the file says that it holds.
     pub(crate) content: String,
 }
 
@@ -87,7 +85,7 @@ impl<'a> Header<'a> {
         content.map(|(_, value)| value.trim().to_owned()).unwrap_or_default()
     }
 
-    /// Every field that is stated can be read.
+    /// Checks that every stated field can be read.
     fn check(&self) -> Result<(), Box<Error>> {
         for name in ["dimension", "line skip", "byte skip", "space dimension"] {
             self.whole(name)?;
@@ -105,7 +103,7 @@ impl<'a> Header<'a> {
         self.fields.iter().any(|(known, _)| *known == name)
     }
 
-    /// The text of a field, empty where it is not stated.
+    /// The text of a field; empty if it is not stated.
     pub(crate) fn text(&self, name: &str) -> &str {
         self.fields.iter().find(|(known, _)| *known == name).map_or("", |(_, value)| value)
     }
@@ -118,25 +116,24 @@ impl<'a> Header<'a> {
         Err(Error::new(self.path, format!("no field '{name}'"), expected))
     }
 
-    /// The whole number of a field, 0 where it is not stated.
+    /// The integer in a field; 0 if it is not stated.
     pub(crate) fn whole(&self, name: &str) -> Result<i64, Box<Error>> {
         if self.has(name) { self.text(name).parse().map_err(|_| self.unreadable()) } else { Ok(0) }
     }
 
-    /// The numbers of a field, none where it is not stated.
     pub(crate) fn numbers(&self, name: &str) -> Result<Vec<f64>, Box<Error>> {
         let words = self.text(name).split_whitespace();
         words.map(|word| number(word).ok_or_else(|| self.unreadable())).collect()
     }
 
-    /// The sizes without fractions; what is no 64-bit number is the smallest one.
+    /// The sizes, truncated to integers; those outside the 64-bit range become the smallest integer.
     pub(crate) fn sizes(&self) -> Result<Vec<i64>, Box<Error>> {
         const LIMIT: f64 = (1_u64 << 63) as f64;
         let whole = |value: f64| if value.abs() < LIMIT { value as i64 } else { i64::MIN };
         Ok(self.numbers("sizes")?.into_iter().map(whole).collect())
     }
 
-    /// The vectors of the axes, None where the field is not stated. Axes without a direction are `none`, or all NaN.
+    /// The vectors of the axes; None if the field is not stated. Axes without a direction are `none` or all NaN.
     pub(crate) fn directions(&self) -> Result<Option<Vec<Direction>>, Box<Error>> {
         const FIELD: &str = "space directions";
         if !self.has(FIELD) {
@@ -175,7 +172,7 @@ impl<'a> Header<'a> {
         inside.split(',').map(|word| number(word).ok_or_else(|| self.unreadable())).collect()
     }
 
-    /// The words of a field as a shell parts them: quotation marks of both kinds, and backslashes.
+    /// The words of a field, split as a shell does, with both kinds of quotation marks and backslashes.
     pub(crate) fn words(&self, name: &str) -> Result<Vec<String>, Box<Error>> {
         let mut words = Vec::new();
         let mut word: Option<String> = None;
@@ -215,7 +212,7 @@ fn full_name(name: &str) -> Option<&'static str> {
     FIELDS.into_iter().find(|field| *field == name || is_same(field))
 }
 
-/// The lines of a header, up to an empty line or the end of the file, and the byte behind them.
+/// The lines of a header, up to an empty line or the end of the file, and the byte after them.
 fn lines_of(path: &str, head: &[u8]) -> Result<(Vec<String>, u64), Box<Error>> {
     let (mut lines, mut end) = (Vec::new(), 0);
     for line in head.split_inclusive(|&byte| byte == b'\n') {

@@ -53,7 +53,6 @@ impl Header<'_> {
         Ok(columns)
     }
 
-    /// The directions of a header that states distances alone.
     fn along_axes(&self, axes: &[usize; 3], notes: &mut Vec<String>) -> Result<[[f64; 3]; 3], Box<Error>> {
         let steps = self.spacings(axes)?;
         if !steps.iter().all(|step| step.is_finite()) {
@@ -65,7 +64,6 @@ impl Header<'_> {
         }))
     }
 
-    /// The spacing of each axis of the grid, NaN where none is stated.
     fn spacings(&self, axes: &[usize; 3]) -> Result<[f64; 3], Box<Error>> {
         let stated = self.numbers("spacings")?;
         Ok(axes.map(|axis| stated.get(axis).copied().unwrap_or(f64::NAN)))
@@ -81,7 +79,7 @@ impl Header<'_> {
         origin.as_slice().try_into().map_err(|_| Error::new(self.path, found(), "3 numbers"))
     }
 
-    /// Whether lengths in mm are known: stated, and not in a unit that nobody knows.
+    /// Whether lengths in mm are known: they are stated, and not in an unknown unit.
     pub(crate) fn states_spacing(&self, axes: &[usize; 3]) -> Result<bool, Box<Error>> {
         let has_spacings = self.spacings(axes)?.iter().all(|step| step.is_finite());
         let unit = self.unit()?;
@@ -89,7 +87,6 @@ impl Header<'_> {
             && (unit.is_empty() || millimetres(&unit).is_some()))
     }
 
-    /// The name of the space in lower case.
     fn patient_space(&self) -> String {
         let space = self.text("space").to_ascii_lowercase();
         space.strip_suffix("-time").unwrap_or(&space).to_owned()
@@ -104,7 +101,7 @@ impl Header<'_> {
         self.to_lps().is_some()
     }
 
-    /// What turns the file's space into LPS.
+    /// The signs that convert the file's space to LPS.
     fn signs(&self, notes: &mut Vec<String>) -> [f64; 3] {
         self.to_lps().unwrap_or_else(|| {
             let stated = self.patient_space();
@@ -117,7 +114,6 @@ impl Header<'_> {
         })
     }
 
-    /// Millimetres per unit of the file.
     fn unit_noted(&self, notes: &mut Vec<String>) -> Result<f64, Box<Error>> {
         let unit = self.unit()?;
         if unit.is_empty() {
@@ -132,7 +128,7 @@ impl Header<'_> {
         Ok(factor.unwrap_or(1.0))
     }
 
-    /// The unit of the first axis of the space, in the singular where that is known; empty for none.
+    /// The unit of the first axis of the space, in the singular if it is known; empty if none is stated.
     fn unit(&self) -> Result<String, Box<Error>> {
         let words = self.words("space units")?;
         let stated = words.first().map_or("", |word| word.trim_matches(['"', ' '])).to_ascii_lowercase();

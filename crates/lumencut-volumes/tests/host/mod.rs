@@ -4,10 +4,8 @@ use std::collections::BTreeMap;
 
 use lumencut_volumes::{Error, Fill, Found, Kind, Known, Need, Plan, Step, Stop, Window, open};
 
-/// The bytes of files, by name.
 pub type Files<'a> = BTreeMap<&'a str, Vec<u8>>;
 
-/// The header of the first file.
 pub fn opened(files: &Files, name: &str, chosen: Option<&[u32]>) -> Result<Plan, Stop> {
     let mut known = Known::new();
     loop {
@@ -28,7 +26,7 @@ pub fn opened(files: &Files, name: &str, chosen: Option<&[u32]>) -> Result<Plan,
     }
 }
 
-/// The voxels of a file; the host reads at most `most` bytes at once and gives room for as many.
+/// The voxels of a file; the host reads at most `most` bytes at once, and its output has the same size.
 pub fn filled(plan: Plan, bytes: &[u8], in_engine: bool, most: usize) -> Result<(Kind, Vec<u8>), Box<Error>> {
     let mut fill = Fill::new(plan, bytes.len() as u64, in_engine);
     let (mut kind, mut voxels, mut at) = (Kind::Uint8, Vec::new(), 0);
@@ -38,7 +36,7 @@ pub fn filled(plan: Plan, bytes: &[u8], in_engine: bool, most: usize) -> Result<
         match fill.step(window, &mut voxels[at..end])? {
             Step::Read { start, end } => {
                 let start = start as usize;
-                // At least as many as tell whether another part of a stream begins.
+                // At least three bytes, which show whether another part of a stream begins.
                 let end = (end as usize).min(bytes.len()).min(start + most.max(3));
                 window = Window { start: start as u64, bytes: &bytes[start.min(end)..end] };
                 assert!(most > 1 << 20 || !window.bytes.is_empty() || start == bytes.len());
@@ -56,7 +54,6 @@ pub fn filled(plan: Plan, bytes: &[u8], in_engine: bool, most: usize) -> Result<
     }
 }
 
-/// Header and voxels, however much the host reads at once.
 pub fn read(files: &Files, name: &str, in_engine: bool) -> Result<(Plan, Kind, Vec<u8>), Box<Error>> {
     let plan = opened(files, name, None).map_err(refused)?;
     let Some(bytes) = files.get(plan.place.name.as_str()) else { return Err(plan.missing()) };
@@ -64,7 +61,6 @@ pub fn read(files: &Files, name: &str, in_engine: bool) -> Result<(Plan, Kind, V
     Ok((plan, kind, voxels))
 }
 
-/// The error of a file that is refused.
 pub fn refused(stop: Stop) -> Box<Error> {
     match stop {
         Stop::Refused(error) => error,

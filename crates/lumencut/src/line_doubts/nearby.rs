@@ -2,7 +2,6 @@
 
 use glam::DVec3;
 
-/// A box with at most this many points is not divided.
 const MAX_LEAF_POINTS: usize = 8;
 
 struct Node {

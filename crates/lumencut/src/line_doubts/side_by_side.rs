@@ -12,7 +12,6 @@ use super::nearby::Nearby;
 const NEAR_MM: f64 = 0.5;
 /// Lines nearer to each other than this fraction of the smaller radius are taken for one vessel.
 const NEAR_RADII: f64 = 0.5;
-/// Sampling step along lines (mm).
 const STEP_MM: f64 = 1.0;
 const CHORD_SAMPLES: usize = 5;
 const MAX_SAMPLES: f64 = 30_000.0;

@@ -1,4 +1,4 @@
-//! The content of a diameter chart: curves, flags and range of the diameter axis, in mm. All hosts draw this.
+//! The content of a diameter chart: curves, flags and range of the diameter axis, in mm. The report, Python and the page draw it.
 
 use lumencut_vessels::measure::profile::Profile;
 
@@ -26,9 +26,9 @@ pub struct Chart {
     pub range: [Vec<f64>; 2],
     /// Both ends of the uncertainty band (mm).
     pub spread: [Vec<f64>; 2],
-    /// Indices of sections between two that are left out; they are drawn as dots.
+    /// Indices of sections between two omitted sections; they are drawn as dots.
     pub isolated: Vec<usize>,
-    /// Arc length and diameter of the sections that are left out and fit the chart (mm).
+    /// Arc length and diameter (mm) of omitted sections, if they fit in the chart.
     pub left_out: Vec<[f64; 2]>,
     /// Upper end of the diameter axis (mm).
     pub top: f64,
@@ -43,7 +43,7 @@ pub struct Chart {
 pub struct FlagRow {
     /// The flag.
     pub look: &'static FlagLook,
-    /// Arc lengths (mm), half a step beyond the sections.
+    /// Start and end of each stretch (arc lengths, mm), half a step beyond its sections.
     pub runs: Vec<[f64; 2]>,
 }
 
@@ -99,7 +99,7 @@ pub(super) fn flag_rows(profile: &Profile) -> Vec<FlagRow> {
     FLAGS.iter().map(row).filter(|row| !row.runs.is_empty()).collect()
 }
 
-/// Above the largest diameter of reliable sections, else of all sections.
+/// The upper end of the diameter axis: above the largest diameter of reliable sections, else of all sections.
 fn top(profile: &Profile) -> f64 {
     let most = longest_diameters(profile).into_iter().fold(0.0, f64::max);
     if most > 0.0 { HEADROOM * most } else { 1.0 }

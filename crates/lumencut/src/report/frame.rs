@@ -1,4 +1,4 @@
-//! The layout of a diameter chart and of the straightened vessel above it, in plot pixels. All hosts use this.
+//! The layout of a diameter chart and of the straightened vessel above it, in plot pixels, for reports, Python and the page.
 
 use serde::Serialize;
 
@@ -19,7 +19,7 @@ pub struct Margins {
     pub below: f64,
 }
 
-/// The margins in all hosts.
+/// The margins of every chart.
 pub const MARGINS: Margins = Margins { left: 56.0, right: 104.0, above: 38.0, below: 34.0 };
 
 /// Smallest width and height of the axes (plot pixels).
@@ -29,7 +29,7 @@ const MIN_AXES: f64 = 20.0;
 const ROW_HEIGHT: f64 = 12.0;
 const MAX_ROWS_SHARE: f64 = 0.45;
 
-/// Distance between the words of flags (plot pixels); words of lower rows spread upwards.
+/// Smallest distance between the words of flags (plot pixels); the words of narrower rows extend upwards.
 const WORD_HEIGHT: f64 = 11.0;
 
 /// Smallest distances of the ticks along both axes (plot pixels).
@@ -39,10 +39,9 @@ pub const TICK_DISTANCES: [f64; 2] = [60.0, 18.0];
 const STRIP_WIDTHS_MM: [f64; 2] = [12.0, 90.0];
 const MIN_STRIP_RATIO: f64 = 0.6;
 
-/// The smallest pixel side of the strip (mm).
 const MIN_PIXEL_MM: f64 = 0.05;
 
-/// The axis along a vessel of this length (mm), in a chart of this width.
+/// The axis along a vessel of this length (mm), in a chart of this width (plot pixels).
 pub fn axis_along(length: f64, width: f64) -> Axis {
     let start = MARGINS.left;
     Axis { low: 0.0, high: length, start, end: (width - MARGINS.right).max(start + MIN_AXES) }
@@ -53,20 +52,15 @@ pub fn row_height(count: usize, height: f64) -> f64 {
     ROW_HEIGHT.min(MAX_ROWS_SHARE * height / count.max(1) as f64)
 }
 
-/// The layout of a chart.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Layout {
     pub axes: Axes,
-    /// Height of a row of flags; the first row begins below diameter 0.
     pub row: f64,
-    /// Distance between the words of flags; the last word aligns with the last row.
     pub word_row: f64,
-    /// The end of the last row.
     pub bottom: f64,
 }
 
 impl Layout {
-    /// The layout of a chart with this width and height (plot pixels).
     pub(crate) fn of(chart: &Chart, [width, height]: [f64; 2]) -> Self {
         let bottom = (height - MARGINS.below).max(MARGINS.above + MIN_AXES);
         let row = row_height(chart.flags.len(), bottom - MARGINS.above);
@@ -92,8 +86,8 @@ pub struct StripLayout {
 }
 
 impl StripLayout {
-    /// The strip along an axis, of at most this height, with this many pixels per plot pixel. A short vessel gets a narrower
-    /// strip than the side of its section pictures (mm).
+    /// The layout along an axis, at most `height` plot pixels high, with `density` pixels per plot pixel. For a short
+    /// vessel the width is less than `section_side`, the side of its section pictures (mm).
     pub fn along(x: &Axis, height: f64, density: f64, section_side: f64) -> Self {
         let pixel = (x.high - x.low) / (x.end - x.start);
         let wished = (height * pixel).min(section_side).max(MIN_STRIP_RATIO * section_side);

@@ -43,7 +43,6 @@ pub struct ReportPlace {
     pub at: f64,
     /// Whether the place is suggested, and was not marked by a reader.
     pub is_suggestion: bool,
-    /// Whether it is a reference of the stenosis.
     pub(crate) is_reference: bool,
 }
 

@@ -8,14 +8,13 @@ use super::places::{ReportMark, ReportPlace, places};
 use super::plot::{STRIP, WIDTH};
 use super::section_room::{section_side, section_spacing};
 
-/// Pixels of the strip per plot pixel.
 const PIXELS_PER_PLOT_PIXEL: f64 = 1.6;
 
 /// The pictures of a vessel.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "ReportPlan"))]
 pub struct Plan {
-    /// The width of the straightened vessel (mm). It is shown narrower if the volume is narrower.
+    /// The width of the straightened vessel (mm); the picture is narrower if the volume is.
     pub width: f64,
     /// Pixel side of the straightened vessel (mm).
     pub spacing: f64,

@@ -30,7 +30,6 @@ pub(super) struct Plot<'a> {
     pub profile: &'a Profile,
     pub places: &'a [ReportPlace],
     pub strip: Option<&'a Strip>,
-    /// Whether the unit of lengths is known.
     pub has_units: bool,
 }
 

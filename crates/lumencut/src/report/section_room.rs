@@ -1,26 +1,26 @@
-//! The room of section pictures.
+//! The size of section pictures.
 
 use lumencut_core::math::statistics::quantile;
 use lumencut_vessels::measure::profile::Profile;
 
 use super::chart::longest_diameters;
 
-/// Side of a section picture: this many lumen diameters, within these bounds (mm); the default if no diameter was measured.
+/// The side of a section picture: a multiple of the lumen diameter, within bounds (mm), or a default without diameters.
 const SECTION_DIAMETERS: f64 = 2.5;
 const SECTION_SIDES_MM: [f64; 2] = [12.0, 120.0];
 pub(crate) const DEFAULT_SIDE_MM: f64 = 30.0;
 
-/// At least this fraction of the sections fits into the section pictures.
+/// At least this fraction of the sections fits in pictures of the chosen size.
 const FITTING_QUANTILE: f64 = 0.9;
 
-/// Sides of section pictures (pixels): in reports of the command line, on its sheets, and in reports of the page.
+/// Side of section pictures in reports of the command line (pixels).
 pub const REPORT_PIXELS: usize = 200;
-/// See [`REPORT_PIXELS`].
+/// Side of section pictures on sheets of the command line (pixels).
 pub const SHEET_PIXELS: usize = 260;
-/// See [`REPORT_PIXELS`].
+/// Side of section pictures in reports of the page (pixels).
 pub const PAGE_PIXELS: usize = 300;
 
-/// The side of pictures (mm) in which nearly all reliable sections fit.
+/// The side of section pictures (mm) in which nearly all reliable sections fit.
 pub fn section_side(profile: &Profile) -> f64 {
     let mut diameters = longest_diameters(profile);
     let fitting = quantile(&mut diameters, FITTING_QUANTILE).map(|wide| (SECTION_DIAMETERS * wide).ceil());

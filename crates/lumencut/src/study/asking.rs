@@ -106,10 +106,8 @@ macro_rules! questions {
         $( questions!(@row_at_once $now $now_message $now_answer = $now_body); )+
 
         impl Study {
-            /// Answers the question `name`.
-            ///
-            /// # Errors
-            /// Those of the question; `settings` for an unknown name or an invalid message.
+            /// Answers the question `name`. Fails as the question does, and with kind `settings` for an unknown name
+            /// or an invalid message.
             pub fn ask(&mut self, name: &str, asking: &Asking) -> Result<Answer> {
                 match name {
                     $( stringify!($name) => $name::answer(self, read(name, asking.message)?, asking), )+
@@ -118,10 +116,8 @@ macro_rules! questions {
             }
         }
 
-        /// Answers a question that needs no study.
-        ///
-        /// # Errors
-        /// Those of the question; `settings` for an unknown name or an invalid message.
+        /// Answers a question that needs no study. Fails as the question does, and with kind `settings` for an
+        /// unknown name or an invalid message.
         pub fn ask_at_once(name: &str, message: &str) -> Result<Answer> {
             match name {
                 $( stringify!($now) => $now::answer(read(name, message)?), )+

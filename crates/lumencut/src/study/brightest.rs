@@ -19,10 +19,8 @@ const STEP_VOXELS: f64 = 0.5;
 /// Depths (mm) of an unlimited ray.
 const ALL_DEPTHS: [f64; 2] = [f64::MIN, f64::MAX];
 
-/// The brightest place on the ray of a pixel (column, row) between two depths (mm, away from the viewer); the nearest of several.
-///
-/// # Errors
-/// [`ErrorKind::Tracing`] if the ray misses the volume or has no voxel between the depths.
+/// The brightest place on the ray of a pixel (column, row) between two depths (mm, away from the viewer); the nearest
+/// of several. Fails with [`ErrorKind::Tracing`] if the ray misses the volume or has no voxel between the depths.
 pub fn brightest_on_ray(
     volume: &Volume,
     camera: &Camera,

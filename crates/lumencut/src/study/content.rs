@@ -101,7 +101,6 @@ pub(crate) struct VolumeReport {
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct VesselReport {
-    /// Number of the vessel's line.
     pub line: usize,
     /// Name; may be empty.
     pub name: String,
@@ -131,10 +130,8 @@ struct NamedWindow {
 }
 
 impl Content {
-    /// The open volume and vessels as the scene that renderers need.
-    ///
-    /// # Errors
-    /// `volume` for an invalid grid.
+    /// The open volume and vessels as the scene that renderers need. Fails with an error of kind `volume` for an
+    /// invalid grid.
     pub fn scene(&self) -> Result<Scene<'_>> {
         let volume = self.held.as_ref().map(HeldVolume::shared).transpose()?;
         Ok(Scene { volume, tree: self.tree().cloned() })

@@ -14,7 +14,6 @@ pub(crate) type WorldPoint = [f64; 3];
 pub(crate) struct DocumentVessel {
     /// Identifies the vessel: it is constant through edits and unique in a study.
     pub(crate) id: u32,
-    /// Number of the vessel's line.
     pub line: usize,
     /// Name; may be empty.
     pub name: String,

@@ -1,7 +1,6 @@
-//! The edits of vessels that a viewer offers, and their results.
-//!
-//! Name, colour and visibility are not edits: the viewer sets these fields immediately, since nothing follows from them. The viewer
-//! also undoes edits: it keeps earlier documents with their marks and rulers, which must not wait for tracing.
+//! The edits of vessels that a viewer offers, and their results. Name, colour and visibility are not edits: the
+//! viewer sets these fields immediately, since nothing follows from them. The viewer also undoes edits: it keeps
+//! earlier documents with their marks and rulers, which must not wait for tracing.
 
 use serde::{Deserialize, Serialize};
 

@@ -66,10 +66,8 @@ pub struct HeldVolume {
 }
 
 impl HeldVolume {
-    /// `count` writable bytes of the voxels, from `offset` on.
-    ///
-    /// # Errors
-    /// `volume` if the bytes lie beyond the end of the voxels, or if there is no volume.
+    /// `count` writable bytes of the voxels, from `offset` on. Fails with an error of kind `volume` if the bytes lie
+    /// beyond the end of the voxels, or if there is no volume.
     pub fn bytes(held: Option<&mut Self>, offset: usize, count: usize) -> Result<&mut [u8]> {
         let bytes = held.map_or(&mut [][..], |held| held.stored.bytes_mut());
         let expected = format!("at most the {} that the header states", bytes.len());
@@ -80,10 +78,8 @@ impl HeldVolume {
         })
     }
 
-    /// The volume as the type of the core, which borrows the voxels.
-    ///
-    /// # Errors
-    /// `volume` for an invalid grid.
+    /// The volume as the type of the core, which borrows the voxels. Fails with an error of kind `volume` for an
+    /// invalid grid.
     pub fn volume(&self) -> Result<Volume<'_>> {
         let [ni, nj, _] = self.size;
         Ok(Volume::new(self.stored.voxels(), self.size, [1, ni, ni * nj], self.world_from_index)?)

@@ -38,10 +38,8 @@ impl Knot {
     }
 }
 
-/// The two parts of a line cut at an arc length (mm); both contain the cut point.
-///
-/// # Errors
-/// `vessel tree` for a place that is not between the ends.
+/// The two parts of a line cut at an arc length (mm); both contain the cut point. Fails with an error of kind `vessel
+/// tree` for a place that is not between the ends.
 pub fn cut(line: &Line, at: f64) -> Result<[Line; 2]> {
     let lengths = arc_lengths(&line.points);
     let whole = lengths[lengths.len() - 1];
@@ -61,11 +59,9 @@ pub fn cut(line: &Line, at: f64) -> Result<[Line; 2]> {
     Ok(parts.map(|part| with_knots(&part, line)))
 }
 
-/// Joins two lines at their nearest ends; the result has the direction of the first line. A gap is closed by a straight stretch
-/// that is marked as bridged.
-///
-/// # Errors
-/// `vessel tree` if the ends are too far apart.
+/// Joins two lines at their nearest ends; the result has the direction of the first line. A gap is closed by a
+/// straight stretch that is marked as bridged. Fails with an error of kind `vessel tree` if the ends are too far
+/// apart.
 pub fn join(first: &Line, second: &Line) -> Result<Line> {
     let (mut one, mut other) = (knots(first), knots(second));
     let end = |knots: &[Knot], is_last: bool| knots[if is_last { knots.len() - 1 } else { 0 }];

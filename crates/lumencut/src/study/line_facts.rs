@@ -12,7 +12,6 @@ use crate::study::open_study::Study;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct LineFacts {
-    /// The line number.
     pub line: usize,
     pub length: f64,
     /// Median diameter (mm); null if no radius is known.

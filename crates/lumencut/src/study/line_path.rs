@@ -13,12 +13,10 @@ struct Meeting {
     apart: f64,
 }
 
-/// A path through lines in order, whichever way each line runs. If a line is met between its ends, the path follows it from or to
-/// that point. The path starts at the first line's first point. If it enters the last line between its ends, it ends at that line's
-/// first point. Errors name the lines by `words`.
-///
-/// # Errors
-/// `vessel tree` if neighbours are farther apart than `MEETING`.
+/// A path through lines in order, whichever way each line runs. If a line is met between its ends, the path follows
+/// it from or to that point. The path starts at the first line's first point. If it enters the last line between its
+/// ends, it ends at that line's first point. Errors name the lines by `words`. Fails with an error of kind `vessel
+/// tree` if neighbours are farther apart than `MEETING`.
 pub fn path(lines: &[Line], words: &[String]) -> Result<Line> {
     let all: Vec<Vec<Knot>> = lines.iter().map(knots).collect();
     let mut joined: Vec<Knot> = Vec::new();

@@ -41,7 +41,6 @@ pub(crate) struct LineContent {
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct NamedLine {
-    /// Number of the line.
     pub line: usize,
     /// Name; may be empty.
     pub name: String,
@@ -51,7 +50,6 @@ pub(crate) struct NamedLine {
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct ListedLine {
-    /// Number of the line.
     pub line: usize,
     /// Name; may be empty.
     pub name: String,
@@ -59,10 +57,8 @@ pub(crate) struct ListedLine {
 }
 
 impl Line {
-    /// The vessel for the core; it states unknown radii as 0 if others are known.
-    ///
-    /// # Errors
-    /// `vessel tree` for invalid points or radii.
+    /// The vessel for the core; it states unknown radii as 0 if others are known. Fails with an error of kind `vessel
+    /// tree` for invalid points or radii.
     pub fn vessel(&self) -> Result<Vessel> {
         Ok(Vessel::new(self.points.clone(), self.known_radius())?)
     }

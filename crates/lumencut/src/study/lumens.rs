@@ -24,7 +24,6 @@ pub(crate) struct PointedMessage {
 pub(crate) struct PointedLumen {
     /// The pointed place in the lumen; on a ray, the place nearest to the lumen's centre.
     pub point: WorldPoint,
-    /// Centre of the lumen.
     pub center: WorldPoint,
     /// Diameter of the lumen (mm).
     pub diameter: f64,

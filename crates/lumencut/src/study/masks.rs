@@ -34,10 +34,8 @@ pub(crate) struct MaskLines {
 }
 
 impl Study {
-    /// Allocates memory for a mask, whose voxels then follow as bytes.
-    ///
-    /// # Errors
-    /// `volume` if no scan is open, memory is insufficient, or the grid is invalid.
+    /// Allocates memory for a mask, whose voxels then follow as bytes. Fails with an error of kind `volume` if no
+    /// scan is open, memory is insufficient, or the grid is invalid.
     pub fn begin_mask(&mut self, header: &str) -> Result<()> {
         self.mask = None;
         self.content.held.as_ref().ok_or_else(no_volume)?;
@@ -46,10 +44,8 @@ impl Study {
         Ok(())
     }
 
-    /// `count` writable bytes of the mask's voxels from `offset` on.
-    ///
-    /// # Errors
-    /// `volume` if the bytes lie beyond the end of the mask.
+    /// `count` writable bytes of the mask's voxels from `offset` on. Fails with an error of kind `volume` if the
+    /// bytes lie beyond the end of the mask.
     pub fn mask_bytes(&mut self, offset: usize, count: usize) -> Result<&mut [u8]> {
         HeldVolume::bytes(self.mask.as_mut().map(|mask| &mut mask.held), offset, count)
     }

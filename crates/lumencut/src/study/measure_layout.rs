@@ -17,7 +17,6 @@ use crate::text::rounded;
 /// Largest fraction of the pane for the straightened vessel.
 const MAX_STRIP_SHARE: f64 = 0.4;
 
-/// A line to lay out in a pane.
 #[derive(Clone, Debug, Deserialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "MeasurePane"))]
 pub(crate) struct MeasurePaneMessage {
@@ -26,17 +25,16 @@ pub(crate) struct MeasurePaneMessage {
     is_measured: bool,
     /// Width and height of the pane (plot pixels).
     size: [f64; 2],
-    /// Height between vessel and chart that the viewer uses for other things (plot pixels).
+    /// Height between vessel and chart that the viewer uses for other elements (plot pixels).
     between: f64,
-    /// Pixels of the straightened vessel per plot pixel.
+    /// Number of pixels of the straightened vessel per plot pixel.
     density: f64,
 }
 
-/// The layout of a measuring pane.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct MeasureLayout {
-    /// The axis of the arc length, which vessel and chart share.
+    /// The axis of the arc length, common to vessel and chart.
     x: Axis,
     strip: StripLayout,
     chart: Option<ChartLayout>,
@@ -64,14 +62,14 @@ struct ChartLayout {
     width: String,
     /// Diameters of sections without neighbours.
     isolated: Vec<[f64; 2]>,
-    /// Diameters of sections that are left out.
+    /// Diameters of omitted sections.
     left_out: Vec<[f64; 2]>,
     /// The limit of resolution.
     limit: Option<Tick>,
     flags: Vec<FlagBars>,
 }
 
-/// A pixel of an axis, and the words beside it, without unit.
+/// A tick: its pixel on the axis, and its words without unit.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 struct Tick {
@@ -79,7 +77,6 @@ struct Tick {
     words: String,
 }
 
-/// A row of a flag.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 struct FlagBars {

@@ -19,13 +19,11 @@ use crate::study::failure::Result;
 
 type Vector = [f64; 3];
 
-/// A place on a vessel and its diameter (mm).
+/// A place on a vessel (arc length, mm) and its diameter (mm).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Spot"))]
 pub(crate) struct SpotMessage {
-    /// Arc length on the vessel (mm).
     at: f64,
-    /// The diameter (mm).
     diameter: f64,
 }
 
@@ -35,7 +33,7 @@ impl From<Spot> for SpotMessage {
     }
 }
 
-/// The lumen of a vessel by arc length; NaN (null in JSON) if not measured.
+/// The lumen of a vessel by arc length, in mm and mm²; NaN (null in JSON) if not measured.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Profile"))]
 pub(crate) struct ProfileMessage {
@@ -43,13 +41,10 @@ pub(crate) struct ProfileMessage {
     /// Diameter of the circle of the same area (mm).
     #[cfg_attr(test, ts(type = "Array<number | null>"))]
     diameter: Vec<f64>,
-    /// The shortest diameter of the lumen (mm).
     #[cfg_attr(test, ts(type = "Array<number | null>"))]
     diameter_min: Vec<f64>,
-    /// The longest diameter of the lumen (mm).
     #[cfg_attr(test, ts(type = "Array<number | null>"))]
     diameter_max: Vec<f64>,
-    /// The area of the lumen (mm²).
     #[cfg_attr(test, ts(type = "Array<number | null>"))]
     area: Vec<f64>,
     /// The standard deviation of `diameter` (mm).

@@ -57,10 +57,8 @@ pub struct Study {
 }
 
 impl Study {
-    /// The open volume and vessels as the scene that renderers need.
-    ///
-    /// # Errors
-    /// `volume` for an invalid grid.
+    /// The open volume and vessels as the scene that renderers need. Fails with an error of kind `volume` for an
+    /// invalid grid.
     pub fn scene(&self) -> Result<Scene<'_>> {
         self.content.scene()
     }

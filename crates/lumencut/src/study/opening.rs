@@ -8,10 +8,9 @@ use crate::study::held_volume::{HeldVolume, VolumeHeader};
 use crate::study::open_study::Study;
 
 impl Study {
-    /// Closes the current study and allocates memory for a volume, whose voxels then follow as bytes.
-    ///
-    /// # Errors
-    /// `settings` for an invalid header; `volume` if memory is insufficient or the grid is invalid.
+    /// Closes the current study and allocates memory for a volume, whose voxels then follow as bytes. Fails with an
+    /// error of kind `settings` for an invalid header; of kind `volume` if memory is insufficient or the grid is
+    /// invalid.
     pub fn begin_volume(&mut self, header: &str) -> Result<()> {
         let header = VolumeHeader::read(header)?;
         self.close();
@@ -19,10 +18,8 @@ impl Study {
         Ok(())
     }
 
-    /// `count` writable bytes of voxels from `offset` on.
-    ///
-    /// # Errors
-    /// `volume` if the bytes lie beyond the end of the volume.
+    /// `count` writable bytes of voxels from `offset` on. Fails with an error of kind `volume` if the bytes lie
+    /// beyond the end of the volume.
     pub fn voxel_bytes(&mut self, offset: usize, count: usize) -> Result<&mut [u8]> {
         HeldVolume::bytes(self.content.held.as_mut(), offset, count)
     }
@@ -38,10 +35,8 @@ impl Study {
         }
     }
 
-    /// Closes the current study and opens a volume with named vessels.
-    ///
-    /// # Errors
-    /// `vessel tree` for an invalid tree.
+    /// Closes the current study and opens a volume with named vessels. Fails with an error of kind `vessel tree` for
+    /// an invalid tree.
     pub fn open(&mut self, held: HeldVolume, tree: VesselTree, names: Vec<String>) -> Result<()> {
         self.close();
         self.content.held = Some(held);

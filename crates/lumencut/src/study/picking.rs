@@ -13,7 +13,6 @@ use crate::study::view::View;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct Pick {
-    /// The world point.
     pub point: [f64; 3],
     /// The volume's value; none outside.
     pub value: Option<f32>,

@@ -13,9 +13,7 @@ pub(crate) struct Plane {
     pub center: [f64; 3],
     pub right: [f64; 3],
     pub(crate) down: [f64; 3],
-    /// Columns and rows.
     pub size: [usize; 2],
-    /// Pixel side (mm).
     pub pixel_spacing: f64,
 }
 

@@ -5,7 +5,6 @@ use std::collections::BTreeSet;
 use glam::DVec3;
 use lumencut_core::math::arc_length::arc_lengths;
 
-/// Spacing of generated clicks (mm).
 const CLICK_SPACING_MM: f64 = 20.0;
 /// Generated clicks are more than this distance away from the ends and from the dragged point (mm).
 const MIN_DISTANCE_MM: f64 = 5.0;

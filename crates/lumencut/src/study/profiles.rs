@@ -1,7 +1,6 @@
-//! Caches the profiles of vessels by the number of the line.
-//!
-//! Point spread and branches are determined from all listed vessels, hidden ones included, so hiding a vessel changes no number.
-//! Profiles are valid only for one list of vessels in one order, and are discarded with the volume. Names of vessels do not matter.
+//! Caches the profiles of vessels by the number of the line. Point spread and branches are determined from all listed
+//! vessels, hidden ones included, so hiding a vessel changes no number. Profiles are valid only for one list of
+//! vessels in one order, and are discarded with the volume. Names of vessels do not matter.
 
 use std::collections::HashMap;
 

@@ -23,7 +23,6 @@ pub(crate) struct ReformedPicture {
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct Mark {
     pub words: String,
-    /// Column and row.
     pub pixel: [f64; 2],
 }
 

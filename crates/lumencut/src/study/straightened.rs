@@ -13,7 +13,6 @@ use crate::study::failure::Result;
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq)]
 #[cfg_attr(test, derive(ts_rs::TS), ts(rename = "Cpr"))]
 pub(crate) struct CprMessage {
-    /// Index of the vessel.
     pub vessel: usize,
     /// Rotation about the axis of the vessel (radians).
     pub angle: f64,
@@ -67,7 +66,6 @@ impl From<Aggregated> for Feature {
 
 #[derive(Clone)]
 pub(crate) struct Laid {
-    /// The request for the CPR.
     pub message: CprMessage,
     pub(crate) cpr: Cpr,
 }

@@ -20,11 +20,9 @@ use crate::study::straightened::{CprMessage, Laid};
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct StraightenedPick {
-    /// The world point.
     pub point: [f64; 3],
     /// The volume's value; none outside.
     pub value: Option<f32>,
-    /// The vessel.
     pub vessel: usize,
     /// The arc length (mm).
     pub arc_length: f64,

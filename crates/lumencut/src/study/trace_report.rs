@@ -20,11 +20,9 @@ const SAME_POINT_MM: f64 = 1e-6;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct Told {
-    /// The vessel.
     pub vessel: u32,
     /// A sentence with name, length and joined vessels.
     pub words: String,
-    /// The doubtful places of the vessel.
     pub doubts: Vec<DoubtfulPlace>,
 }
 

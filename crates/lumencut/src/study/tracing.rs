@@ -60,7 +60,6 @@ pub(crate) struct PathMessage {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct HeldLine {
-    /// Number of the line.
     pub line: usize,
     /// Why the line is doubtful; None if it is not.
     pub(crate) doubt: Option<&'static str>,

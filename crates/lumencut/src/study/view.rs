@@ -86,10 +86,7 @@ pub struct View {
 }
 
 impl ViewMessage {
-    /// Parses a view.
-    ///
-    /// # Errors
-    /// `settings` for an invalid text.
+    /// Parses a view. Fails with an error of kind `settings` for an invalid text.
     pub fn read(text: &str) -> Result<Self> {
         serde_json::from_str(text).map_err(|error| Failure::of_message("view", &error, "a view as JSON"))
     }

@@ -4,7 +4,6 @@ use std::f64::consts::TAU;
 
 use super::*;
 
-/// Pseudo-random numbers from 0 to 1.
 fn numbers(seed: u64) -> impl FnMut() -> f64 {
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
     move || {

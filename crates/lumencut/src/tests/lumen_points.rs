@@ -27,7 +27,6 @@ fn is_lumen(p: DVec3) -> bool {
     (p.x - 15.0).hypot(p.y + 9.0) < 4.0
 }
 
-/// Uncorrelated numbers from 0 to 1.
 fn noise(p: DVec3) -> f32 {
     let [x, y, z] = p.as_i64vec3().to_array();
     let mixed = ((x * 73_856_093) ^ (y * 19_349_663) ^ (z * 83_492_791)).wrapping_mul(2_654_435_761) as u64;

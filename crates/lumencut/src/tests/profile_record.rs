@@ -36,7 +36,6 @@ fn text_of(profile: &Profile) -> String {
     ProfileRecord::of(profile, &ScanDetails::NOTHING).text()
 }
 
-/// The record of a profile, as JSON to change.
 fn record() -> Value {
     static RECORD: LazyLock<Value> =
         LazyLock::new(|| serde_json::from_str(&text_of(&profile(WallRequest::Off))).expect("JSON"));

@@ -67,7 +67,7 @@ export type ChartLayout = {
   readonly width: string;
   /** Diameters of sections without neighbours. */
   readonly isolated: ReadonlyArray<Pair>;
-  /** Diameters of sections that are left out. */
+  /** Diameters of omitted sections. */
   readonly left_out: ReadonlyArray<Pair>;
   /** The limit of resolution. */
   readonly limit: Tick | null;
@@ -82,7 +82,6 @@ export type Compared = {
 };
 
 export type Cpr = {
-  /** Index of the vessel. */
   readonly vessel: number;
   /** Rotation about the axis of the vessel (radians). */
   readonly angle: number;
@@ -106,7 +105,6 @@ export type Diameter = {
 export type DocumentVessel = {
   /** Identifies the vessel: it is constant through edits and unique in a study. */
   readonly id: number;
-  /** Number of the vessel's line. */
   readonly line: number;
   /** Name; may be empty. */
   readonly name: string;
@@ -249,7 +247,6 @@ export type FirstClick = {
   readonly whole: WholeVessel | null;
 };
 
-/** A row of a flag. */
 export type FlagBars = {
   readonly look: FlagLook;
   /** First and last column of each bar. */
@@ -310,7 +307,6 @@ export type LineContent = {
 };
 
 export type LineFacts = {
-  /** The line number. */
   readonly line: number;
   readonly length: number;
   /** Median diameter (mm); null if no radius is known. */
@@ -323,7 +319,6 @@ export type LineFacts = {
 
 /** A line in a viewer's list. A hidden line is not drawn but is measured together with the others, so hiding changes no number. */
 export type ListedLine = {
-  /** Number of the line. */
   readonly line: number;
   /** Name; may be empty. */
   readonly name: string;
@@ -348,7 +343,6 @@ export type MapOf = "wall" | "radius" | "thickness";
 
 export type Mark = {
   readonly words: string;
-  /** Column and row. */
   readonly pixel: Pair;
 };
 
@@ -369,24 +363,22 @@ export type Marks = {
   readonly diameters: ReadonlyArray<number>;
 };
 
-/** The layout of a measuring pane. */
 export type MeasureLayout = {
-  /** The axis of the arc length, which vessel and chart share. */
+  /** The axis of the arc length, common to vessel and chart. */
   readonly x: Axis;
   readonly strip: StripLayout;
   readonly chart: ChartLayout | null;
 };
 
-/** A line to lay out in a pane. */
 export type MeasurePane = {
   readonly line: number;
   /** Whether the line was measured; otherwise it gets no chart. */
   readonly is_measured: boolean;
   /** Width and height of the pane (plot pixels). */
   readonly size: Pair;
-  /** Height between vessel and chart that the viewer uses for other things (plot pixels). */
+  /** Height between vessel and chart that the viewer uses for other elements (plot pixels). */
   readonly between: number;
-  /** Pixels of the straightened vessel per plot pixel. */
+  /** Number of pixels of the straightened vessel per plot pixel. */
   readonly density: number;
 };
 
@@ -408,7 +400,6 @@ export type MeasuredVessel = {
 };
 
 export type NamedLine = {
-  /** Number of the line. */
   readonly line: number;
   /** Name; may be empty. */
   readonly name: string;
@@ -422,9 +413,7 @@ export type NamedWindow = {
 
 /** A stretch of a vessel where nothing was measured. */
 export type NotMeasured = {
-  /** Start of the stretch (arc length, mm). */
   readonly from_mm: number;
-  /** End of the stretch (arc length, mm). */
   readonly to_mm: number;
   /** Where to cut the vessel to remove the unmeasured stretch (arc length, mm). */
   readonly cut_mm: number;
@@ -452,7 +441,6 @@ export type PathRequest = {
 };
 
 export type Pick = {
-  /** The world point. */
   readonly point: Vector;
   /** The volume's value; none outside. */
   readonly value: number | null;
@@ -495,9 +483,7 @@ export type Plane = {
   readonly center: Vector;
   readonly right: Vector;
   readonly down: Vector;
-  /** Columns and rows. */
   readonly size: Pair;
-  /** Pixel side (mm). */
   readonly pixel_spacing: number;
 };
 
@@ -511,7 +497,6 @@ export type PointedAt = {
 export type PointedLumen = {
   /** The pointed place in the lumen; on a ray, the place nearest to the lumen's centre. */
   readonly point: Vector;
-  /** Centre of the lumen. */
   readonly center: Vector;
   /** Diameter of the lumen (mm). */
   readonly diameter: number;
@@ -522,16 +507,13 @@ export type PointedLumen = {
   readonly down: Vector;
 };
 
-/** The lumen of a vessel by arc length; NaN (null in JSON) if not measured. */
+/** The lumen of a vessel by arc length, in mm and mm²; NaN (null in JSON) if not measured. */
 export type Profile = {
   readonly arc_length: ReadonlyArray<number>;
   /** Diameter of the circle of the same area (mm). */
   readonly diameter: ReadonlyArray<number | null>;
-  /** The shortest diameter of the lumen (mm). */
   readonly diameter_min: ReadonlyArray<number | null>;
-  /** The longest diameter of the lumen (mm). */
   readonly diameter_max: ReadonlyArray<number | null>;
-  /** The area of the lumen (mm²). */
   readonly area: ReadonlyArray<number | null>;
   /** The standard deviation of `diameter` (mm). */
   readonly uncertainty: ReadonlyArray<number | null>;
@@ -621,13 +603,12 @@ export type ReportPlace = {
   readonly at: number;
   /** Whether the place is suggested, and was not marked by a reader. */
   readonly is_suggestion: boolean;
-  /** Whether it is a reference of the stenosis. */
   readonly is_reference: boolean;
 };
 
 /** The pictures of a vessel. */
 export type ReportPlan = {
-  /** The width of the straightened vessel (mm). It is shown narrower if the volume is narrower. */
+  /** The width of the straightened vessel (mm); the picture is narrower if the volume is. */
   readonly width: number;
   /** Pixel side of the straightened vessel (mm). */
   readonly spacing: number;
@@ -852,11 +833,9 @@ export type Side = {
   readonly up: Vector;
 };
 
-/** A place on a vessel and its diameter (mm). */
+/** A place on a vessel (arc length, mm) and its diameter (mm). */
 export type Spot = {
-  /** Arc length on the vessel (mm). */
   readonly at: number;
-  /** The diameter (mm). */
   readonly diameter: number;
 };
 
@@ -897,11 +876,9 @@ export type Stopper = {
 };
 
 export type StraightenedPick = {
-  /** The world point. */
   readonly point: Vector;
   /** The volume's value; none outside. */
   readonly value: number | null;
-  /** The vessel. */
   readonly vessel: number;
   /** The arc length (mm). */
   readonly arc_length: number;
@@ -936,18 +913,16 @@ export type StripLayout = {
   readonly stretch: number;
 };
 
-/** A pixel of an axis, and the words beside it, without unit. */
+/** A tick: its pixel on the axis, and its words without unit. */
 export type Tick = {
   readonly at: number;
   readonly words: string;
 };
 
 export type Told = {
-  /** The vessel. */
   readonly vessel: number;
   /** A sentence with name, length and joined vessels. */
   readonly words: string;
-  /** The doubtful places of the vessel. */
   readonly doubts: ReadonlyArray<DoubtfulPlace>;
 };
 
@@ -960,7 +935,6 @@ export type VesselDocument = {
 };
 
 export type VesselReport = {
-  /** Number of the vessel's line. */
   readonly line: number;
   /** Name; may be empty. */
   readonly name: string;

@@ -15,7 +15,7 @@ export function isIntegral({ slope, intercept }: Scaling): boolean {
   return Number.isInteger(slope) && Number.isInteger(intercept);
 }
 
-/** Scales numbers, each as a 64-bit float, to those of another type. */
+/** Scales numbers with 64-bit precision, and converts them to another type. */
 export function scaled(numbers: Numbers, { slope, intercept }: Scaling, kind: Kind): Numbers {
   const result = new ARRAYS[kind as 'float64'](numbers.length);
   for (let i = 0; i < numbers.length; i += 1) {

@@ -1,5 +1,4 @@
-//! Projected CPR: the vessel as the viewer sees it. A pixel's depth is that of the nearest vessel point in
-//! its row.
+//! Projected CPR: the vessel as the viewer sees it. A pixel's depth is that of the nearest vessel point in its row.
 
 use std::sync::Arc;
 

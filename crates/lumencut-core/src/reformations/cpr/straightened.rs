@@ -135,8 +135,7 @@ impl Surface for Straightened {
     fn image_from_world(&self, point: DVec3) -> DVec2 {
         let places: Vec<_> = self.sections.through(point).iter().map(|section| self.place(section)).collect();
         let within = -ON_PICTURE..=self.length() + ON_PICTURE;
-        // A point in the picture's plane is shown at its place there, even if another part of the vessel is
-        // nearer.
+        // A point in the picture's plane is shown at its place there, even if another part of the vessel is nearer.
         let shown = places.iter().filter(|place| place.y.abs() <= ON_PICTURE && within.contains(&place.z));
         let first = shown.reduce(|best, place| {
             let [one, other] = [place, best].map(|place| [place.x.abs(), place.z]);

@@ -19,10 +19,8 @@ struct Turning {
     from_bent: DQuat,
 }
 
-/// A bent vessel.
-///
-/// In its rotation-minimising frame the true vessel turns at a rate equal to its curvature; the bent vessel
-/// turns at that rate times 1 − `amount`. So the rotation from the bent frame to the true one contains
+/// A bent vessel. In its rotation-minimising frame the true vessel turns at a rate equal to its curvature; the bent
+/// vessel turns at that rate times 1 − `amount`. So the rotation from the bent frame to the true one contains
 /// `amount` of each true turn.
 #[derive(Clone, Debug)]
 pub(super) struct Bent {
@@ -32,11 +30,10 @@ pub(super) struct Bent {
 }
 
 impl Bent {
-    /// The vessel bent by `amount`, from 0 (as it is) to 1 (straight).
-    ///
-    /// The vessel bends about its middle. The line from its first to its last point turns to downwards in the
-    /// image, and its middle moves to that of the image. At 1 the vessel is seen as the straightened CPR
-    /// whose viewer at the first point is as near as possible to the camera.
+    /// The vessel bent by `amount`, from 0 (as it is) to 1 (straight). The vessel bends about its middle. The line
+    /// from its first to its last point turns to downwards in the image, and its middle moves to that of the image.
+    /// At 1 the vessel is seen as the straightened CPR whose viewer at the first point is as near as possible to the
+    /// camera.
     pub(super) fn new(path: &CenterlinePath, camera: &Camera, amount: f64) -> Self {
         let first = path.direction()[0];
         let frames = Frames::new(path, MovingFrame::looking(first, ahead_at(first, camera)));

@@ -25,7 +25,6 @@ pub(super) struct Piece {
     pub points: Vec<DVec3>,
     /// Arc length of each station (mm).
     pub at: Vec<f64>,
-    /// Radius at each station (mm).
     pub radius: Vec<f64>,
 }
 

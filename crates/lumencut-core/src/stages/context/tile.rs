@@ -13,7 +13,6 @@ use crate::math::trace::{Passage, RayPacket, trace};
 use crate::stages::Work;
 use crate::with_voxels;
 
-/// The size of a tile of rays (pixels).
 const TILE: [usize; 2] = [32, ROWS];
 const ACROSS: usize = TILE[0] / PACKET[0];
 

@@ -1,7 +1,6 @@
-//! Separates vessels from bone, marrow and organs by the raw voxels along tracks (centerlines of tubes).
-//!
-//! Tracked bone is mostly a plate: its cross-section is elongated, and so are those of the tracks around it. Round
-//! bone contains uneven marrow. Both make a track doubtful, and so does being wide and paler than vessels.
+//! Separates vessels from bone, marrow and organs by the raw voxels along tracks (centerlines of tubes). Tracked bone
+//! is mostly a plate: its cross-section is elongated, and so are those of the tracks around it. Round bone contains
+//! uneven marrow. Both make a track doubtful, and so does being wide and paler than vessels.
 
 pub(crate) mod neighbourhood;
 pub(crate) mod raw_section;

@@ -29,7 +29,6 @@ const RAYS: usize = 16;
 const LEAST_LEFT: usize = 6;
 const SAMPLES: usize = 4;
 
-/// Maximum number of sections that are sampled per track.
 const MOST_SECTIONS: usize = 60;
 
 /// A tube becomes wide over this range of radii (voxels).

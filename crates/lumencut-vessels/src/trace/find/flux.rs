@@ -1,8 +1,7 @@
-//! Optimally oriented flux: the flow of the gradient into balls of several radii.
-//!
-//! Law and Chung, "Three dimensional curvilinear structure detection using optimally oriented flux", ECCV
-//! 2008, doi:10.1007/978-3-540-88693-8_27. The flux into a ball is the integral of the second derivatives
-//! within it. So the volume is averaged over the ball, and then differentiated.
+//! Optimally oriented flux: the flow of the gradient into balls of several radii. Law and Chung, "Three dimensional
+//! curvilinear structure detection using optimally oriented flux", ECCV 2008, doi:10.1007/978-3-540-88693-8_27. The
+//! flux into a ball is the integral of the second derivatives within it. So the volume is averaged over the ball, and
+//! then differentiated.
 
 use std::sync::OnceLock;
 

@@ -1,7 +1,6 @@
-//! Links open ends of tracks to other tracks, so that tracks form trees.
-//!
-//! Each end is first linked to the cheapest point ahead of it. Then ends and sides are linked, but only to other
-//! trees and with stricter limits. If two trees come from one short trunk, their nearest ends belong together.
+//! Links open ends of tracks to other tracks, so that tracks form trees. Each end is first linked to the cheapest
+//! point ahead of it. Then ends and sides are linked, but only to other trees and with stricter limits. If two trees
+//! come from one short trunk, their nearest ends belong together.
 
 pub(crate) mod bridges;
 pub(crate) mod ends;

@@ -1,6 +1,5 @@
-//! Medians and quantiles that are always one of the values.
-//!
-//! The interpolating versions in lumencut-core would split the dissection of one test patient differently.
+//! Medians and quantiles that are always one of the values. The interpolating versions in lumencut-core would split
+//! the dissection of one test patient differently.
 
 /// Quantile by nearest rank; None if there are no values.
 pub(crate) fn quantile(values: &mut [f64], share: f64) -> Option<f64> {

@@ -50,7 +50,6 @@ const MAX_EXAMINED: usize = 128;
 
 pub(crate) struct Tracking<'a> {
     pub(crate) pyramid: &'a Pyramid,
-    /// The range of pyramid levels that are examined.
     pub levels_examined: Range<usize>,
     pub(crate) floors: Floors,
     pub stop: Stop<'a>,

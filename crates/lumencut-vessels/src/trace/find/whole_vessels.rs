@@ -1,7 +1,6 @@
-//! Turns linked tracks into complete vessels, from the root outwards, in ranked parts.
-//!
-//! Tracks and links form a graph. From each root, lines called runs follow the straightest and widest edges.
-//! The runs are then centred, and start and end on points of the runs that they meet.
+//! Turns linked tracks into complete vessels, from the root outwards, in ranked parts. Tracks and links form a graph.
+//! From each root, lines called runs follow the straightest and widest edges. The runs are then centred, and start
+//! and end on points of the runs that they meet.
 
 pub(crate) mod attached;
 pub(crate) mod centered;

@@ -1,9 +1,7 @@
-//! Finds corresponding points of two centerlines.
-//!
-//! Schaap et al., "Standardized evaluation methodology and reference database for evaluating coronary artery
-//! centerline extraction algorithms", Medical Image Analysis 13(5), 2009, doi:10.1016/j.media.2009.06.003. A
-//! connection joins one point of each line; the connections lead from both starts to both ends. Each step
-//! advances one line by one point. Dynamic programming finds the smallest sum of lengths.
+//! Finds corresponding points of two centerlines. Schaap et al., "Standardized evaluation methodology and reference
+//! database for evaluating coronary artery centerline extraction algorithms", Medical Image Analysis 13(5), 2009,
+//! doi:10.1016/j.media.2009.06.003. A connection joins one point of each line; the connections lead from both starts
+//! to both ends. Each step advances one line by one point. Dynamic programming finds the smallest sum of lengths.
 
 use glam::DVec3;
 

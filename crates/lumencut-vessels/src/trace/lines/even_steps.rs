@@ -20,9 +20,8 @@ pub fn in_even_steps(points: &[DVec3], step: f64) -> Vec<DVec3> {
     even_places(points, step).into_iter().map(|place| place.point(points)).collect()
 }
 
-/// A smooth curve through `points` in even steps of at most `step` mm; both ends are kept.
-///
-/// The curve is a Catmull-Rom spline by arc length: its slopes are nearly those of circles through three neighbours.
+/// A smooth curve through `points` in even steps of at most `step` mm; both ends are kept. The curve is a Catmull-Rom
+/// spline by arc length: its slopes are nearly those of circles through three neighbours.
 pub fn curve_in_even_steps(points: &[DVec3], step: f64) -> Vec<DVec3> {
     let mut fine = vec![points[0]];
     for n in 1..points.len() {

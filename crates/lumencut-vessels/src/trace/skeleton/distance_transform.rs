@@ -1,6 +1,5 @@
-//! Exact distance from lumen voxels to the nearest background voxel, also for voxels with unequal sides.
-//!
-//! Felzenszwalb and Huttenlocher, "Distance Transforms of Sampled Functions", Theory of Computing 8, 2012,
+//! Exact distance from lumen voxels to the nearest background voxel, also for voxels with unequal sides. Felzenszwalb
+//! and Huttenlocher, "Distance Transforms of Sampled Functions", Theory of Computing 8, 2012,
 //! doi:10.4086/toc.2012.v008a019: one pass per axis computes a lower envelope of parabolas. Runs of lumen are
 //! independent, so background is never visited.
 

@@ -1,8 +1,7 @@
-//! The skeleton as a graph of branches that has as many cycles as the mask.
-//!
-//! Touching voxels are joined by edges. Three voxels that touch each other enclose no hole. So the graph
-//! keeps a spanning forest, plus one edge for each cycle that such triangles do not fill. Voxel cubes have
-//! the same topology as these triangles, because cubes that touch in pairs share a point.
+//! The skeleton as a graph of branches that has as many cycles as the mask. Touching voxels are joined by edges.
+//! Three voxels that touch each other enclose no hole. So the graph keeps a spanning forest, plus one edge for each
+//! cycle that such triangles do not fill. Voxel cubes have the same topology as these triangles, because cubes that
+//! touch in pairs share a point.
 
 use std::collections::HashMap;
 

@@ -1,9 +1,7 @@
-//! Simple points: voxels of the lumen that can be removed without changing the topology.
-//!
-//! Lumen is 26-connected, background is 6-connected. Bertrand and Malandain, "A new characterization of
-//! three-dimensional simple points", Pattern Recognition Letters 15(2), 1994,
-//! doi:10.1016/0167-8655(94)90046-9. A point is simple if the lumen around it is one component, and the
-//! background that touches it by a face is one component within the 18 neighbours.
+//! Simple points: voxels of the lumen that can be removed without changing the topology. Lumen is 26-connected,
+//! background is 6-connected. Bertrand and Malandain, "A new characterization of three-dimensional simple points",
+//! Pattern Recognition Letters 15(2), 1994, doi:10.1016/0167-8655(94)90046-9. A point is simple if the lumen around
+//! it is one component, and the background that touches it by a face is one component within the 18 neighbours.
 
 /// Index of the middle of a 3 × 3 × 3 cube, whose positions are numbered i + 3 j + 9 k.
 const CENTER: usize = 13;

@@ -1,8 +1,7 @@
-//! Thins a mask by removing simple points, from the wall inwards.
-//!
-//! Pudney, "Distance-Ordered Homotopic Thinning", Computer Vision and Image Understanding 72(3), 1998,
-//! doi:10.1006/cviu.1998.0680. Voxels at about the same distance are removed from the six sides in turn, so
-//! that a vessel two voxels wide is thinned before it is shortened. A voxel with only one neighbour stays.
+//! Thins a mask by removing simple points, from the wall inwards. Pudney, "Distance-Ordered Homotopic Thinning",
+//! Computer Vision and Image Understanding 72(3), 1998, doi:10.1006/cviu.1998.0680. Voxels at about the same distance
+//! are removed from the six sides in turn, so that a vessel two voxels wide is thinned before it is shortened. A
+//! voxel with only one neighbour stays.
 
 use crate::trace::skeleton::foreground::{BACKGROUND, Foreground, LUMEN};
 use crate::trace::skeleton::simple_point::Neighbourhood;

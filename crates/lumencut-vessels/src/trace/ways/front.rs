@@ -1,7 +1,6 @@
-//! A front of voxels that grows by Dijkstra's algorithm with buckets. The straight distance to the target is
-//! the lower bound (A*).
-//!
-//! Each voxel has 26 neighbours. Their distances are taken in world space, so any affine grid works.
+//! A front of voxels that grows by Dijkstra's algorithm with buckets. The straight distance to the target is the
+//! lower bound (A*). Each voxel has 26 neighbours. Their distances are taken in world space, so any affine grid
+//! works.
 
 use glam::DVec3;
 

@@ -19,7 +19,6 @@ fn tube(lumen: impl Fn(f64) -> f64) -> Study {
     tube_of(96, lumen)
 }
 
-/// The same tube, `length` mm long.
 fn tube_of(length: usize, lumen: impl Fn(f64) -> f64) -> Study {
     let size = [40, 40, length];
     let mut seed = 3u32;

@@ -11,7 +11,6 @@ use crate::study::edits::EditMessage;
 use crate::study::open_study::Study;
 use crate::study::tracing::{PathMessage, TraceRequest, Watch};
 
-/// The header of a grid of 16-bit voxels.
 fn header(size: [usize; 3], world_from_index: DAffine3) -> String {
     let rows = DMat4::from(world_from_index).transpose().to_cols_array_2d();
     json!({"size": size, "dtype": "int16", "world_from_index": rows}).to_string()

@@ -8,10 +8,8 @@ use crate::trace::find::track::Track;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
-/// Maximum distance of neighbours (mm).
 const NEIGHBOR_MM: f64 = 12.0;
 
-/// Maximum ratio of the radii of neighbours.
 const MAX_RADIUS_RATIO: f64 = 2.2;
 
 /// Distance between sampled points of a track (mm).

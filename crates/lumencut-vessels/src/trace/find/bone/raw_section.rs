@@ -1,6 +1,5 @@
-//! Cross-section of a track in the raw voxels: its elongation, its evenness, and whether it is marrow.
-//!
-//! Tracking uses clipped values, so a plate of bone may look like a tube; raw voxels show the difference.
+//! Cross-section of a track in the raw voxels: its elongation, its evenness, and whether it is marrow. Tracking uses
+//! clipped values, so a plate of bone may look like a tube; raw voxels show the difference.
 
 use std::f64::consts::TAU;
 

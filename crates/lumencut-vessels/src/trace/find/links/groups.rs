@@ -14,11 +14,9 @@ const SMALL_LOOP_LENGTH: f64 = 10.0;
 pub(crate) struct Groups<'a> {
     tracks: &'a [Track],
     pub links: Vec<Link>,
-    /// Indices of the links at each track.
     at_track: Vec<Vec<usize>>,
     /// Arc lengths of the points of each track (mm).
     lengths: Vec<Vec<f64>>,
-    /// Parents of the union-find structure.
     parents: Vec<usize>,
 }
 

@@ -41,7 +41,6 @@ fn track(
     })
 }
 
-/// White noise with a standard deviation of 1.
 fn white(place: DVec3) -> f64 {
     let mixed = |n: u64| {
         let bits = place.to_array().iter().fold(n, |bits, side| {
