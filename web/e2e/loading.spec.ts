@@ -126,7 +126,7 @@ test.describe('streams', () => {
     [
       'is cut off',
       short,
-      new RegExp(`Found ${short.length} bytes; expected ${WHOLE.length}\\.Open it again`),
+      new RegExp(`Found ${short.length} bytes; expected ${WHOLE.length} bytes\\.Open it again`),
     ],
     [
       'is another file',

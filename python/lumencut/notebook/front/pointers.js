@@ -184,14 +184,14 @@ var gestures = (function(exports) {
 		ArrowUp: [0, -1],
 		ArrowDown: [0, 1]
 	};
-	/** Direction of an arrow key: right and down. */
+	/** Direction of an arrow key (right, down). */
 	var arrowOf = (key) => ARROWS[key] ?? null;
-	/** Drag to which an arrow key is equal (pixels). */
+	/** The drag that an arrow key performs (pixels). */
 	function dragOfKey(key) {
 		const arrow = arrowOf(key);
 		return arrow && [arrow[0] * GESTURES.key_step, arrow[1] * GESTURES.key_step];
 	}
-	/** Zoom of the keys + and -. */
+	/** Zoom factor of the keys + and -. */
 	function zoomOfKey(key) {
 		const { key_zoom: factor } = GESTURES;
 		return {
@@ -199,7 +199,7 @@ var gestures = (function(exports) {
 			"-": 1 / factor
 		}[key] ?? null;
 	}
-	/** Steps of the arrow and page keys; `page` is how many a page key takes. */
+	/** Number of steps that an arrow or page key scrolls; a page key scrolls `page` steps. */
 	function scrollOfKey(key, page = GESTURES.far_steps) {
 		return {
 			ArrowDown: 1,
@@ -434,7 +434,7 @@ var gestures = (function(exports) {
 		remove: "undo",
 		enter: "end"
 	};
-	/** Presses, drags and clicks of mouse, pen and touch, and keys, on a pane. */
+	/** Handles keys, and gestures of mouse, pen and touch, on a pane. */
 	var Pointers = class {
 		pane;
 		asker;
@@ -487,7 +487,7 @@ var gestures = (function(exports) {
 				putBack: () => asker.ask(["back"])
 			};
 		}
-		/** The kernel neither pans nor zooms the pictures next to the view. */
+		/** Other pictures than the view only change their window; the kernel neither pans nor zooms them. */
 		drag(action, by) {
 			const step = this.isTurning || action === "window" ? DRAGS[action] : void 0;
 			if (step) this.asker.ask([
@@ -504,7 +504,7 @@ var gestures = (function(exports) {
 				this.asker.ask(step);
 			}
 		}
-		/** The step of a key; null for a key that the notebook keeps. */
+		/** The step of a key; null for a key that the notebook handles. */
 		stepOf(event) {
 			if (event.ctrlKey || event.metaKey || event.altKey) return null;
 			return (this.isTurning ? this.turningStep(event) : this.flatStep(event)) ?? commonStep(event.key);
