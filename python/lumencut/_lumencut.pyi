@@ -76,6 +76,7 @@ __all__ = [
     "CenterlineFile",
     "Cpr",
     "Grade",
+    "GzipPacker",
     "KeptProfiles",
     "Layout",
     "LumenMap",
@@ -90,6 +91,9 @@ __all__ = [
     "TreeFindings",
     "Uncurl",
     "Untangled",
+    "VolumeFill",
+    "VolumeOpening",
+    "VolumePlan",
     "__version__",
     "about",
     "axes_words",
@@ -117,6 +121,8 @@ __all__ = [
     "diameter_chart",
     "dicom_directions",
     "doubted_size",
+    "dragged",
+    "dragged_window",
     "edge_letters",
     "feature_window",
     "file_kind",
@@ -141,6 +147,7 @@ __all__ = [
     "meant_place",
     "measure",
     "measured_radii",
+    "nifti_units",
     "not_measured_stretches",
     "not_suggested_places",
     "panned",
@@ -165,6 +172,7 @@ __all__ = [
     "restored_stenosis",
     "rotated",
     "sample",
+    "sampled",
     "scale_bar",
     "scale_end",
     "scan_of",
@@ -176,18 +184,22 @@ __all__ = [
     "smoothed",
     "spiral_pitch",
     "spiral_reach",
+    "spun",
     "stored_stenosis",
     "straightened_mark",
     "tangential_layout",
     "threads",
     "trace_from",
     "trace_mask",
+    "trackballed",
     "tree_findings",
     "vessel_code",
     "vessels_csv",
     "vessels_json",
+    "volume_header",
     "write_centerlines",
     "zoomed",
+    "zoomed_at",
 ]
 
 __version__: str
@@ -323,7 +335,7 @@ class Spiral(Layout):
 class VolumeOpening:
     def __new__(cls, path: os.PathLike[str], name: str, chosen: list[int] | None, /) -> VolumeOpening: ...
     def add_size(self, name: str, size: int | None, is_outside: bool, /) -> None: ...
-    def add_bytes(self, name: str, start: int, content: bytes, /) -> None: ...
+    def add_bytes(self, name: str, start: int, bytes: bytes, /) -> None: ...
     def next(self) -> VolumePlan | list[str] | tuple[str, int, int] | None: ...
 
 @final
@@ -362,18 +374,18 @@ class VolumePlan:
 @final
 class VolumeFill:
     def step(
-        self, start: int, content: bytes, output: npt.NDArray[np.uint8], /
+        self, start: int, bytes: bytes, output: npt.NDArray[np.uint8], /
     ) -> tuple[int, tuple[Any, ...]]: ...
 
 @final
 class GzipPacker:
     def __new__(cls) -> GzipPacker: ...
-    def pack(self, content: bytes, /) -> bytes: ...
+    def pack(self, bytes: bytes, /) -> bytes: ...
     def end(self) -> bytes: ...
 
 def nifti_units(header: bytes, /) -> tuple[float, bool, bool] | None: ...
 def volume_header(
-    kind: str, size: Sequence[int], world_from_index: Sequence[Sequence[float]], dtype: str, mark: str, /
+    format: str, size: Sequence[int], world_from_index: Sequence[Sequence[float]], kind: str, mark: str, /
 ) -> bytes: ...
 
 @final
