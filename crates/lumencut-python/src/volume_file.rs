@@ -56,9 +56,9 @@ impl VolumeOpening {
     }
 
     /// Adds requested bytes of a file, which begin at `start`.
-    #[pyo3(signature = (name, start, bytes, /))]
-    fn add_bytes(&mut self, name: &str, start: u64, bytes: &[u8]) {
-        self.known.add_bytes(name, start, bytes);
+    #[pyo3(signature = (name, start, content, /))]
+    fn add_bytes(&mut self, name: &str, start: u64, content: &[u8]) {
+        self.known.add_bytes(name, start, content);
     }
 
     /// The plan; or the names of files whose sizes are needed; or name, start and end of needed bytes; None for an
@@ -185,19 +185,19 @@ impl VolumeFill {
     /// Reads bytes of the file, which begin at `start`, and writes voxels to `output`. Returns the number of bytes
     /// written and the next step: ("read", start, end), ("sound", proven, least bytes), ("room", type, bytes),
     /// ("done",) or ("filled",).
-    #[pyo3(signature = (start, bytes, output, /))]
+    #[pyo3(signature = (start, content, output, /))]
     fn step<'py>(
         &mut self,
         py: Python<'py>,
         start: u64,
-        bytes: &[u8],
+        content: &[u8],
         output: &Bound<'py, PyArray1<u8>>,
     ) -> PyResult<(usize, Bound<'py, PyAny>)> {
         let mut output = output.try_readwrite().map_err(|error| PyValueError::new_err(error.to_string()))?;
         let output = output.as_slice_mut()?;
         let fill = &mut self.fill;
         let (written, step) = py
-            .detach(|| steps(fill, Window { start, bytes }, output))
+            .detach(|| steps(fill, Window { start, bytes: content }, output))
             .map_err(|error| raised(&error, &self.path))?;
         let told = match step {
             Step::Read { start, end } => ("read", start, end).into_pyobject(py)?.into_any(),
@@ -233,10 +233,10 @@ pub(crate) fn nifti_units(header: &[u8]) -> Option<(f64, bool, bool)> {
 
 /// The header of a volume in the format `"nifti"`, `"nrrd"` or `"nrrd.gz"`, up to its first voxel.
 #[pyfunction]
-#[pyo3(signature = (format, size, world_from_index, kind, mark, /))]
+#[pyo3(signature = (file_format, size, world_from_index, kind, mark, /))]
 pub(crate) fn volume_header<'py>(
     py: Python<'py>,
-    format: &str,
+    file_format: &str,
     size: [u64; 3],
     world_from_index: Affine,
     kind: &str,
@@ -244,9 +244,9 @@ pub(crate) fn volume_header<'py>(
 ) -> PyResult<Bound<'py, PyBytes>> {
     let kind = Kind::of_name(kind).ok_or_else(|| PyValueError::new_err("a type of numbers"))?;
     let written = Written { size, world_from_index, kind, mark };
-    let header = match format {
+    let header = match file_format {
         "nifti" => written.nifti(),
-        _ => written.nrrd(format.ends_with(".gz")).into_bytes(),
+        _ => written.nrrd(file_format.ends_with(".gz")).into_bytes(),
     };
     Ok(PyBytes::new(py, &header))
 }
@@ -264,10 +264,10 @@ impl GzipPacker {
     }
 
     /// Compresses bytes; returns the part of the stream that is ready.
-    #[pyo3(signature = (bytes, /))]
-    fn pack<'py>(&mut self, py: Python<'py>, bytes: &[u8]) -> Bound<'py, PyBytes> {
+    #[pyo3(signature = (content, /))]
+    fn pack<'py>(&mut self, py: Python<'py>, content: &[u8]) -> Bound<'py, PyBytes> {
         let packer = &mut self.0;
-        PyBytes::new(py, &py.detach(|| packer.pack(bytes)))
+        PyBytes::new(py, &py.detach(|| packer.pack(content)))
     }
 
     /// Returns the last bytes of the stream.
