@@ -120,7 +120,7 @@ test('if no lumen is under the pointer, a click in the projection must be confir
 }) => {
   const viewer = await untraced(browser, 'y_junction', { hasTouch: true });
   await startTool(viewer);
-  // A finger cannot hover, so the brightest point is proposed. Two quick taps are a double click.
+  // A finger cannot hover, so a tap only proposes the brightest point, as a candidate in all four views.
   await viewer.tap([0.5, 0.75]);
   await expect(viewer.page.locator('[data-place=candidate]')).toHaveCount(4);
   await expect(viewer.page.locator('[data-place=first]')).toHaveCount(0);
@@ -129,6 +129,7 @@ test('if no lumen is under the pointer, a click in the projection must be confir
   await viewer.tap([0.5, 0.7]);
   await button(viewer, 'Set the point here').click();
   await expect(viewer.page.locator('[data-place=first]')).toHaveCount(4);
+  // Two quick taps are a double click, which ends the vessel.
   await viewer.tap([0.5, 0.5]);
   await viewer.tap([0.5, 0.5]);
   await expect(rows(viewer)).toHaveCount(1);

@@ -140,7 +140,7 @@ fn largest(numbers: &[f64]) -> usize {
     largest
 }
 
-/// Indices on the grid; the first and the last slice are its ends.
+/// The index of each slice on an even grid from the first slice to the last; it may be fractional.
 fn places_on_grid(heights: &[f64], smallest: f64) -> Vec<f64> {
     let (total, most) = (heights[heights.len() - 1], (MAX_GRID_RATIO * heights.len() - 1) as f64);
     let mut parts = 1.0;

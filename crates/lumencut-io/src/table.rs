@@ -181,7 +181,7 @@ struct Rows {
     separator: Separator,
     out: Centerlines,
     line: Line,
-    /// Value of the current line in the column that separates lines.
+    /// Value of the current centerline in the column that states which centerline a row belongs to.
     key: Option<String>,
     known_keys: HashSet<String>,
     /// Number of points without a position.

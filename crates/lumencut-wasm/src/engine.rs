@@ -89,7 +89,7 @@ impl Engine {
         Ok(())
     }
 
-    /// Address of the stop byte in the module's memory: bit 1 stops views, bit 2 tracing and measuring.
+    /// Address of the stop byte in the module's memory: the flag 1 stops views, 2 stops tracing and measuring.
     pub fn stop_address() -> usize {
         stopping::address()
     }

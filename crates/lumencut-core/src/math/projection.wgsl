@@ -11,7 +11,7 @@ struct Point {
     coarse: vec3f,
     radius: f32,
     fine: vec3f,
-    // The entry of this point's slot among the entries of all bundles.
+    // Index in the list of all bundles at which the slot of this point is stored.
     place: u32,
 }
 

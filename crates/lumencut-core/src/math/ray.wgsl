@@ -8,7 +8,7 @@ const NONE: f32 = 1e9;
 const NEVER: f32 = 2e9;
 const SPARE: f32 = 1e-3;
 
-// The index at which a ray meets the reference depth, split into an exact part and the rest.
+// The voxel index (continuous) at which a ray crosses the plane at the grid's reference depth: the sum of both parts.
 struct Foot {
     index: vec3f,
     rest: vec3f,

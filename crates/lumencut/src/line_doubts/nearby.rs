@@ -112,7 +112,7 @@ impl<'a> Nearby<'a> {
                     // No point can be nearer. Stopping here avoids quadratic time among coincident points.
                     return Some((distance, other));
                 }
-                // Of equally near points the first wins, so that the tree has no cycle.
+                // Of equally near points, the lower index wins, so that the spanning tree made of these pairs has no cycle.
                 if distance < best || (distance == best && found.is_none_or(|(_, before)| other < before)) {
                     (best, found) = (distance, Some((distance, other)));
                 }

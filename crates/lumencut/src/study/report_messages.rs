@@ -92,7 +92,7 @@ fn words_of(value: &Json) -> String {
 }
 
 impl Study {
-    /// The findings on vessels and the straight distances (mm), in the sentences of the report.
+    /// The sentences of the report for vessels, and for straight distances (mm).
     pub(crate) fn findings(
         &mut self,
         vessels: &[VesselMessage],

@@ -134,7 +134,7 @@ fn the_record_of_a_line_is_graded_as_the_page_shows_it() {
     }
 }
 
-/// Changes to a record, each with a part of what is found.
+/// Damaged values of a record (path, value), each with words that the error's `found` must contain.
 fn damages() -> Vec<(&'static str, Value, &'static str)> {
     vec![
         ("/columns/area", json!([1.0]), "other numbers of sections"),

@@ -82,7 +82,7 @@ class Member implements Source {
           stop.abort();
         }
         if (count > this.size) {
-          throw new Error('more than the archive claims');
+          throw new Error('a file longer than the archive states');
         }
       },
     });

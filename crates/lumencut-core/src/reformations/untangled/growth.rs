@@ -24,12 +24,12 @@ pub(super) struct Part {
 
 #[derive(Clone, Debug)]
 pub(super) struct Growth {
-    /// The parts, in the order of their smallest piece.
+    /// The parts, ordered by the lowest index of their pieces.
     pub parts: Vec<Part>,
     /// Whether each piece grows from its last station to its first.
     pub is_reversed: Vec<bool>,
     pub children: Vec<Vec<usize>>,
-    /// The pieces that close a cycle, each with the piece and its end (0 or 1) where the cycle closes.
+    /// Each piece that closes a cycle, the piece that reached the closing junction first, and that one's end there (0 or 1).
     pub closures: Vec<(usize, usize, usize)>,
 }
 
