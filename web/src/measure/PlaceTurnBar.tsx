@@ -40,7 +40,10 @@ function Bar({ turn }: { readonly turn: PlaceTurn }) {
       <button type="button" onClick={endPlaceTurn} title="Keeps the view as it is (Escape)">
         Done
       </button>
-      <p role="status" title="Diameter where values are halfway between lumen and surroundings. A rough guide, not a measurement.">
+      <p
+        role="status"
+        title="Diameter where values are halfway between lumen and surroundings. A rough guide, not a measurement."
+      >
         <b>{`this cut: ${diameterText(cut)}`}</b>
         {turn.least !== null &&
           ` · smallest so far ${diameterText(turn.least)} · largest so far ${diameterText(turn.largest)}`}
