@@ -82,9 +82,9 @@ def _check_length(path: Path, plan: _lumencut.VolumePlan) -> bool:
     place = _voxels_of(path, plan)
     with place.open("rb") as file:
         fill = _Fill(plan, file)
-        while (told := fill.step(_NOTHING))[0] != "sound":
+        while (state := fill.step(_NOTHING))[0] != "sound":
             pass
-    return bool(told[1])
+    return bool(state[1])
 
 
 def _load(path: Path, plan: _lumencut.VolumePlan, filled: Filled) -> npt.NDArray[Any]:
@@ -117,10 +117,10 @@ class _Fill:
 
     def step(self, data: npt.NDArray[np.uint8]) -> tuple[Any, ...]:
         """Perform and return a step of `VolumeFill`; if the step requests a part of the file, read it."""
-        written, told = self._fill.step(self._start, self._bytes, data[self.written :])
+        written, state = self._fill.step(self._start, self._bytes, data[self.written :])
         self.written += written
-        if told[0] == "read":
-            self._start, end = told[1], told[2]
+        if state[0] == "read":
+            self._start, end = state[1], state[2]
             self._file.seek(self._start)
             self._bytes = self._file.read(end - self._start)
-        return told
+        return state

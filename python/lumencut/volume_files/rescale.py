@@ -13,12 +13,12 @@ _SLAB = 1 << 18
 
 
 def is_integral(slope: float, intercept: float) -> bool:
-    """Tell whether integers stay integers under slope and intercept."""
+    """Return whether integers stay integers under slope and intercept."""
     return float(slope).is_integer() and float(intercept).is_integer()
 
 
 def holding(low: int, high: int, first: np.dtype[Any] | None = None) -> np.dtype[Any] | None:
-    """Give the first integer type that holds every value from low to high, None if there is none."""
+    """Return the first integer type that holds every value from low to high; None if none does."""
     for candidate in (*((first,) if first is not None else ()), *_INTEGERS):
         limits = np.iinfo(candidate)
         if limits.min <= low and high <= limits.max:
@@ -33,7 +33,7 @@ def rescaled(
     intercept: float,
     allow: Callable[[int], None] = lambda count: None,
 ) -> npt.NDArray[Any]:
-    """Give slope · stored + intercept; `allow` may refuse the bytes that the result takes.
+    """Return slope · stored + intercept; `allow` may reject the bytes that the result takes.
 
     Integers under an integral slope and intercept stay integers (their own type if it holds the result);
     64-bit floats stay so; everything else becomes float32.
@@ -52,7 +52,7 @@ def rescaled(
 
 
 def slabs(array: npt.NDArray[Any]) -> Iterator[npt.NDArray[Any]]:
-    """Views on slices of the first axis, some at a time: there may be a million slices of one voxel."""
+    """Yield views on several slices of the first axis: there may be a million slices of one voxel."""
     step = max(_SLAB // max(array[:1].size, 1), 1)
     for start in range(0, len(array), step):
         yield array[start : start + step]
@@ -61,7 +61,7 @@ def slabs(array: npt.NDArray[Any]) -> Iterator[npt.NDArray[Any]]:
 def _slab_wise(
     stored: npt.NDArray[Any], between: np.dtype[Any], slope: float, intercept: float, result: np.dtype[Any]
 ) -> npt.NDArray[Any]:
-    """Rescale one slab after the other: the wide type never exists for the whole volume."""
+    """Rescale slab by slab, so that the wide type never exists for the complete volume."""
     values = np.empty(stored.shape, result)
     with np.errstate(over="ignore", invalid="ignore"):
         for slab, target in zip(slabs(stored), slabs(values), strict=True):
