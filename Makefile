@@ -47,7 +47,7 @@ test: ## Run every check; the last line is `N passed, N failed`.
 	@$(PYTHON) scripts/check.py
 
 test-long: develop tools page $(VENV)/.docs ## Run the tests that take minutes: uncertainties in 288 scenes, containers, cohorts, the documentation site, notebooks, the viewer, a million damaged files.
-	$(BIN)/python -m pytest --quiet --numprocesses=2 tests/long_calibration.py tests/long_cohort.py tests/long_containers.py tests/long_docs.py tests/long_notebook.py
+	$(BIN)/python -m pytest --quiet --numprocesses=2 tests/long_*.py
 	npm run check-long --silent --prefix web
 	@$(PYTHON) scripts/fuzz.py --runs $(or $(RUNS),1000000)
 

@@ -7,11 +7,15 @@ import os
 import subprocess
 import sys
 import time
+from dataclasses import dataclass
 from pathlib import Path
+from unittest import mock
 
 import nibabel as nib
 import numpy as np
+from click.testing import CliRunner
 
+from lumencut.cli import main
 from scene_files import write_lines, write_volume
 
 #: Code that each child process runs first: files with certain names make it crash or hang.
@@ -100,8 +104,29 @@ def environment(manifest: Path) -> dict[str, str]:
     return {**os.environ, "PYTHONPATH": path}
 
 
-def run(manifest: Path, out: Path, *words: str) -> subprocess.CompletedProcess[str]:
-    """Run a batch to its end."""
+@dataclass(frozen=True)
+class Ended:
+    """How a command ended in this process."""
+
+    returncode: int
+    stdout: str
+    stderr: str
+
+
+def run_here(*words: str) -> Ended:
+    """Run a command to its end in this process."""
+    ended = CliRunner().invoke(main, words, catch_exceptions=False)
+    return Ended(ended.exit_code, ended.stdout, ended.stderr)
+
+
+def run(manifest: Path, out: Path, *words: str) -> Ended:
+    """Run a batch to its end in this process; its studies have their own."""
+    with mock.patch.dict(os.environ, environment(manifest)):
+        return run_here(*command(manifest, out, *words)[3:])
+
+
+def run_apart(manifest: Path, out: Path, *words: str) -> subprocess.CompletedProcess[str]:
+    """Run a batch to its end in a process of its own."""
     return subprocess.run(
         command(manifest, out, *words),
         env=environment(manifest),

@@ -13,7 +13,7 @@ from distributed import LocalCluster
 def main() -> None:
     """Start the workers and wait."""
     with LocalCluster(
-        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, host="127.0.0.1"
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=":0", host="127.0.0.1"
     ) as cluster:
         print(cluster.scheduler_address, flush=True)
         print(*(nanny.pid for nanny in cluster.workers.values()), flush=True)

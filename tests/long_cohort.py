@@ -12,9 +12,9 @@ import time
 import pytest
 
 from cohort_scenes import command, environment, run, table, wait_for, write_cohort
+from long_cluster import CONNECTED, lose_scheduler, workers
 from slurm_node import is_there, slurm
 from test_cohort import started
-from test_cohort_cluster import CONNECTED, lose_scheduler, workers
 
 TABLES = ("vessels.csv", "sections.csv")
 

@@ -6,12 +6,11 @@ import json
 import os
 import signal
 import subprocess
-import sys
 
 import pytest
 
 import lumencut
-from cohort_scenes import BAD, command, environment, run, table, wait_for, write_cohort
+from cohort_scenes import BAD, command, environment, run, run_apart, table, wait_for, write_cohort
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="processes are ended as POSIX does")
 
@@ -20,25 +19,25 @@ LIMITS = ("--memory", "2GB", "--time-limit", "10s", "--jobs", "2", "--threads", 
 
 @pytest.fixture(scope="module")
 def done(tmp_path_factory):
-    """A cohort of twelve studies, five of which must fail, and the result of its batch."""
-    manifest = write_cohort(tmp_path_factory.mktemp("cohort"))
+    """A cohort of ten studies, five of which must fail, and the result of its batch."""
+    manifest = write_cohort(tmp_path_factory.mktemp("cohort"), good=5)
     out = manifest.with_name("out")
     return manifest, out, run(manifest, out, *LIMITS)
 
 
-def test_five_bad_studies_of_twelve_take_nobody_with_them(done):
+def test_five_bad_studies_of_ten_take_nobody_with_them(done):
     _, out, ended = done
     rows = {row["id"]: row for row in table(out / "studies.csv")}
-    assert len(rows) == 12
+    assert len(rows) == 10
     failed = {name: row["reason"] for name, row in rows.items() if row["state"] == "failed"}
     assert set(failed) == set(BAD), ended.stderr
     for name, words in BAD.items():
         assert words in failed[name], failed
     good = [row for row in rows.values() if row["state"] == "done"]
-    assert len(good) == 7
+    assert len(good) == 5
     assert all(row["reason"] == "" and float(row["seconds"]) > 0 for row in good)
     assert ended.returncode == 3
-    assert "7 done, 5 failed" in ended.stdout
+    assert "5 done, 5 failed" in ended.stdout
 
 
 def test_tables_hold_the_good_studies_in_the_order_of_the_manifest(done):
@@ -82,35 +81,25 @@ def test_the_second_run_does_nothing(done):
     assert {path: path.stat().st_mtime_ns for path in out.glob("sub-*/*")} == before
 
 
-def test_only_the_failed_ones_are_done_again_where_that_is_asked_for(done):
-    manifest, out, _ = done
-    words = (*LIMITS, "--retry", "failed", "--time-limit", "4s")
-    again = run(manifest, out, *words)
-    assert "5 of them now" in again.stdout, again.stderr
-
-
-def test_a_study_whose_files_changed_is_done_again(tmp_path):
+def test_only_what_failed_or_changed_is_done_again(tmp_path):
     manifest = write_cohort(tmp_path, good=2, bad=False)
+    kept = (tmp_path / "good-0.nii.gz").rename(tmp_path / "kept")
     out = tmp_path / "out"
-    assert run(manifest, out).returncode == 0
+    assert run(manifest, out).returncode == 3
+    again = run(manifest, out, "--retry", "failed")
+    assert "1 of them now" in again.stdout
+    assert again.returncode == 3
+    kept.rename(tmp_path / "good-0.nii.gz")
+    assert "1 of them now" in run(manifest, out).stdout
+    assert not list((out / ".lumencut/failed").iterdir())
     os.utime(tmp_path / "good-1.nii.gz", (1, 1))
     again = run(manifest, out)
     assert "1 of them now" in again.stdout
     assert again.returncode == 0
 
 
-def test_a_missing_file_that_appears_is_no_longer_a_failure(tmp_path):
-    manifest = write_cohort(tmp_path, good=2, bad=False)
-    kept = (tmp_path / "good-1.nii.gz").rename(tmp_path / "kept")
-    out = tmp_path / "out"
-    assert run(manifest, out).returncode == 3
-    kept.rename(tmp_path / "good-1.nii.gz")
-    assert run(manifest, out).returncode == 0
-    assert not list((out / ".lumencut/failed").iterdir())
-
-
-def test_results_of_another_recipe_are_not_mixed(tmp_path):
-    manifest = write_cohort(tmp_path, good=2, bad=False)
+def test_results_of_another_recipe_or_a_newer_version_are_not_mixed(tmp_path):
+    manifest = write_cohort(tmp_path, good=1, bad=False)
     out = tmp_path / "out"
     assert run(manifest, out).returncode == 0
     (tmp_path / "recipe.toml").write_text("[pictures]\nviews = []\n[measure]\nstep = 1.0\n", "utf-8")
@@ -122,12 +111,6 @@ def test_results_of_another_recipe_are_not_mixed(tmp_path):
     assert run(manifest, out, "--retry", "all").returncode == 0
     assert len(table(out / "sections.csv")) > 1.5 * before
     assert "0 of them now" in run(manifest, out).stdout
-
-
-def test_a_record_of_a_newer_version_is_refused(tmp_path):
-    manifest = write_cohort(tmp_path, good=1, bad=False)
-    out = tmp_path / "out"
-    assert run(manifest, out).returncode == 0
     (record,) = out.glob("sub-*/*_record.json")
     record.write_text(json.dumps({**json.loads(record.read_text("utf-8")), "format": 2}), "utf-8")
     refused = run(manifest, out)
@@ -135,28 +118,11 @@ def test_a_record_of_a_newer_version_is_refused(tmp_path):
     assert "of a newer version of Lumencut" in refused.stderr
 
 
-def test_a_second_batch_into_one_folder_is_refused(tmp_path):
-    manifest = write_cohort(tmp_path, good=1)
-    out = tmp_path / "out"
-    (tmp_path / "studies.csv").write_text("id,volume\nhanging,hanging.nii.gz\n", "utf-8")
-    (tmp_path / "hanging.nii.gz").write_bytes((tmp_path / "tube.nii.gz").read_bytes())
-    with started(manifest, out) as first:
-        wait_for(lambda: list(out.glob(".lumencut/unfinished/*")), first)
-        refused = run(manifest, out)
-        assert refused.returncode == 1
-        assert f"process {first.pid}" in refused.stderr
-        assert "another batch" in refused.stderr
-        # The lock of a dead process is taken over; here the study is too slow for the second batch as well.
-        first.send_signal(signal.SIGKILL)
-        first.wait()
-        assert list(out.glob(".lumencut/lock-*"))
-        taken = run(manifest, out, "--time-limit", "3s")
-    assert "0 done, 1 failed; 1 of them now" in taken.stdout
-    assert not list(out.glob(".lumencut/lock-*"))
+def test_children_end_with_their_parent(tmp_path):
+    children_end_with_their_parent(tmp_path, signal.SIGTERM)
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL], ids=lambda one: one.name)
-def test_children_end_with_their_parent(tmp_path, number):
+def children_end_with_their_parent(tmp_path, number):
     manifest = write_cohort(tmp_path, good=1)
     (tmp_path / "studies.csv").write_text("id,volume\nhanging,hanging.nii.gz\n", "utf-8")
     (tmp_path / "hanging.nii.gz").write_bytes((tmp_path / "tube.nii.gz").read_bytes())
@@ -173,18 +139,6 @@ def test_children_end_with_their_parent(tmp_path, number):
     if number != signal.SIGKILL:
         assert not list(out.glob(".lumencut/lock-*"))
         assert [row["state"] for row in table(out / "studies.csv")] == ["skipped"]
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="studies are forked on Linux alone")
-def test_studies_are_begun_again_where_the_process_that_forks_them_is_lost(tmp_path):
-    manifest = write_cohort(tmp_path, good=3, bad=False)
-    out = tmp_path / "out"
-    with started(manifest, out, "--jobs", "2") as batch:
-        wait_for(lambda: len(list(out.glob(".lumencut/unfinished/*"))) == 2, batch)
-        (nursery,) = children_of(batch.pid)
-        os.kill(nursery, signal.SIGKILL)
-        assert batch.wait(60) == 0
-    assert [row["state"] for row in table(out / "studies.csv")] == ["done"] * 3
 
 
 def test_a_full_disk_ends_the_batch_and_blames_no_study(tmp_path):
@@ -206,7 +160,7 @@ def test_a_full_disk_ends_the_batch_and_blames_no_study(tmp_path):
 def test_a_study_alone_is_done_in_this_process(tmp_path):
     manifest = write_cohort(tmp_path, good=2, bad=False)
     out = tmp_path / "out"
-    ended = run(manifest, out, "--one", "good-1")
+    ended = run_apart(manifest, out, "--one", "good-1")
     assert (ended.returncode, ended.stdout) == (0, "good-1: done\n")
     assert [path.name for path in out.glob("sub-*")] == ["sub-good1"]
     refused = run(manifest, out, "--one", "nobody")

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
-
 import pytest
 
-from cohort_scenes import RECIPE, table
+from cohort_scenes import RECIPE, run_here, table
 from lumencut.cohort.bids import read_bids
 from lumencut.cohort.distributions import states_of
 from lumencut.errors import FileError, FormatError
@@ -32,9 +29,7 @@ def data(tmp_path_factory):
 
 
 def run(data, *words):
-    command = [sys.executable, "-m", "lumencut", "bids", str(data), str(data / "out"), *words]
-    recipe = ["--recipe", str(data / "recipe.toml")]
-    return subprocess.run([*command, *recipe], capture_output=True, text=True)
+    return run_here("bids", str(data), str(data / "out"), *words, "--recipe", str(data / "recipe.toml"))
 
 
 def test_each_session_is_a_study(data):

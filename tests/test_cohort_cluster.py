@@ -1,18 +1,12 @@
-"""Cohorts on dask.distributed: studies end with their batch; mistakes are reported before any starts."""
+"""Cohorts on dask.distributed: mistakes are reported before any study starts; kills are in the long tests."""
 
 from __future__ import annotations
 
-import json
 import os
-import signal
-import subprocess
-import sys
-from contextlib import contextmanager
-from pathlib import Path
 
 import pytest
 
-from cohort_scenes import command, environment, run, table, wait_for, write_cohort
+from cohort_scenes import run, wait_for, write_cohort
 from lumencut.cohort import scheduler as scheduler_room
 from lumencut.cohort.cluster import slurm_options
 from lumencut.errors import SettingsError
@@ -20,112 +14,11 @@ from lumencut.errors import SettingsError
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="processes are ended as POSIX does")
 
 
-@contextmanager
-def workers(manifest):
-    """Two workers: the address of their scheduler, and their processes."""
-    script = Path(__file__).with_name("dask_workers.py")
-    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
-    with subprocess.Popen(
-        [sys.executable, str(script)], env=environment(manifest), text=True, **pipes
-    ) as process:
-        try:
-            address = process.stdout.readline().strip()
-            yield address, [int(word) for word in process.stdout.readline().split()]
-        finally:
-            process.stdin.close()
-            process.wait(60)
-
-
-@contextmanager
-def scheduler(manifest, folder):
-    """A scheduler in its own process, with one worker: its process and its address."""
-    place = folder / "scheduler.json"
-    place.unlink(missing_ok=True)
-    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "env": environment(manifest)}
-    words = [sys.executable, "-m", "distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0"]
-    words += ["--no-dashboard", "--scheduler-file", str(place)]
-    with subprocess.Popen(words, **quiet) as process:
-        wait_for(lambda: place.is_file() and place.read_text("utf-8").endswith("}"), process)
-        words = [sys.executable, "-m", "distributed.cli.dask_worker", "--scheduler-file", str(place)]
-        words += ["--nthreads", "1", "--no-nanny", "--no-dashboard", "--local-directory", str(folder)]
-        with subprocess.Popen(words, **quiet) as worker:
-            try:
-                yield process, json.loads(place.read_text("utf-8"))["address"]
-            finally:
-                # A worker that is asked to end would wait for its scheduler.
-                worker.kill()
-                process.kill()
-
-
-def lose_scheduler(manifest, out, moment, number=signal.SIGKILL):
-    """Kill the scheduler of a batch at a certain moment; return the output of the batch."""
-    folder = manifest.parent
-    with scheduler(manifest, folder) as (process, address):
-        pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
-        words = command(manifest, out, "--dask", address)
-        with subprocess.Popen(words, env=environment(manifest), **pipes) as batch:
-            try:
-                moment(batch)
-                process.send_signal(number)
-                _, told = batch.communicate(timeout=30)
-            finally:
-                batch.kill()
-        assert (batch.returncode, "Traceback" in told) == (1, False), told
-        assert address in told
-    return told
-
-
-#: Files that exist once the batch has connected, a study works, or a study is done.
-CONNECTED, WORKING, DONE = ".lumencut/lock-*", ".lumencut/unfinished/*", "sub-*/*_record.json"
-
-
-@pytest.fixture(scope="module")
-def cohort(tmp_path_factory):
-    """A cohort, and its results computed on this machine."""
-    manifest = write_cohort(tmp_path_factory.mktemp("cohort"), good=3, bad=False)
-    whole = manifest.with_name("whole")
-    assert run(manifest, whole).returncode == 0
-    return manifest, whole
-
-
-@pytest.mark.parametrize(
-    ("sign", "number"),
-    [
-        (CONNECTED, signal.SIGKILL),
-        (WORKING, signal.SIGKILL),
-        (DONE, signal.SIGKILL),
-        (WORKING, signal.SIGSTOP),
-    ],
-    ids=["gone before a study", "gone while one works", "gone after one", "hangs"],
-)
-def test_a_batch_ends_without_its_scheduler_and_goes_on_when_run_again(cohort, tmp_path, sign, number):
-    manifest, whole = cohort
-    out = tmp_path / "out"
-    told = lose_scheduler(manifest, out, lambda batch: wait_for(lambda: list(out.glob(sign)), batch), number)
-    assert "expected a scheduler that answers; start it, and run the command again: it continues" in told
-    wait_for(lambda: not processes_of(out))
-    done = [row["state"] for row in table(out / "studies.csv")].count("done")
-    assert done == len(list(out.glob(DONE)))
-    again = run(manifest, out)
-    assert f"3 done, 0 failed; {3 - done} of them now" in again.stdout
-    for name in ("vessels.csv", "sections.csv"):
-        assert (out / name).read_bytes() == (whole / name).read_bytes()
-
-
-def test_a_scheduler_that_hangs_from_the_start_is_refused(tmp_path):
-    manifest = write_cohort(tmp_path, good=1, bad=False)
-    with scheduler(manifest, tmp_path) as (process, address):
-        process.send_signal(signal.SIGSTOP)
-        ended = run(manifest, tmp_path / "out", "--dask", address)
-    assert ended.returncode == 1
-    assert "expected the address of a scheduler that answers" in ended.stderr
-
-
 def test_a_batch_says_that_no_worker_is_there(monkeypatch, caplog):
     distributed = pytest.importorskip("distributed")
     monkeypatch.setattr(scheduler_room, "_IDLE", 0.1)
     monkeypatch.setattr(scheduler_room, "_EVERY", 0.1)
-    alone = {"n_workers": 0, "processes": False, "dashboard_address": None}
+    alone = {"n_workers": 0, "processes": False, "dashboard_address": ":0"}
     with (
         distributed.LocalCluster(**alone) as cluster,
         distributed.Client(cluster, set_as_default=False) as client,
@@ -133,30 +26,6 @@ def test_a_batch_says_that_no_worker_is_there(monkeypatch, caplog):
     ):
         wait_for(lambda: "it has no workers; the batch waits until some come" in caplog.text)
         watch.check(0, 1)
-
-
-def test_studies_end_when_their_batch_is_interrupted(tmp_path):
-    manifest = write_cohort(tmp_path, good=1)
-    manifest.write_text("id,volume\nhanging,hanging.nii.gz\n", "utf-8")
-    (tmp_path / "hanging.nii.gz").write_bytes((tmp_path / "tube.nii.gz").read_bytes())
-    out = tmp_path / "out"
-    with workers(manifest) as (address, _):
-        pipes = {"stdout": subprocess.DEVNULL, "stderr": subprocess.PIPE, "text": True}
-        told = {"preexec_fn": lambda: signal.signal(signal.SIGINT, signal.default_int_handler)}
-        words = command(manifest, out, "--dask", address)
-        with subprocess.Popen(words, env=environment(manifest), **pipes, **told) as batch:
-            wait_for(lambda: list(out.glob(".lumencut/unfinished/*")), batch)
-            batch.send_signal(signal.SIGINT)
-            batch.communicate(timeout=60)
-        assert batch.returncode == 130
-        wait_for(lambda: not processes_of(out))
-    assert [row["state"] for row in table(out / "studies.csv")] == ["skipped"]
-
-
-def processes_of(out):
-    """Return the processes of the studies of a cohort."""
-    told = subprocess.run(["ps", "-eo", "args="], capture_output=True, text=True).stdout
-    return [line for line in told.splitlines() if f"--output={out}" in line and "--one=" in line]
 
 
 def test_an_address_without_a_scheduler_is_refused(tmp_path):

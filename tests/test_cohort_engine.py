@@ -51,6 +51,27 @@ def test_ends_are_told_by_code_and_last_words(tmp_path):
     assert found["job-2"].reason.startswith("none.nii: found no such file")
 
 
+class _Lost(Nursery):
+    """A forking process that is lost once, after its first study has begun."""
+
+    lives = 1
+
+    def start(self, job):
+        forked = super().start(job)
+        if _Lost.lives:
+            _Lost.lives -= 1
+            self._process.kill()
+        return forked
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="studies are forked on Linux alone")
+def test_studies_are_begun_again_where_the_process_that_forks_them_is_lost(tmp_path, monkeypatch):
+    monkeypatch.setattr(engine, "Nursery", _Lost)
+    found = outcomes(jobs_of(tmp_path, *[("--version",)] * 3))
+    assert [one.state for one in found.values()] == ["done"] * 3
+    assert _Lost.lives == 0
+
+
 @pytest.mark.usefixtures("way")
 def test_no_more_work_at_once_than_is_asked_for(tmp_path):
     begun = outcomes(jobs_of(tmp_path, *[("--version",)] * 5), count=1)

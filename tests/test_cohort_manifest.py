@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import subprocess
-import sys
-
 import numpy as np
 import pytest
 
 import lumencut
-from cohort_scenes import RECIPE, run, table, write_cohort, write_greedy
+from cohort_scenes import RECIPE, run, run_here, table, write_cohort, write_greedy
 from lumencut.cohort.checking import trouble_of, verdict_of
 from lumencut.cohort.manifest import Study, read_manifest
 from lumencut.cohort.recipe import CohortRecipe, Reading, read_cohort_recipe
@@ -187,14 +184,14 @@ def test_two_thousand_rows_are_checked(tmp_path):
 
 def test_the_command_checks_and_does_nothing(tmp_path):
     manifest = write_cohort(tmp_path, good=7)
-    words = [sys.executable, "-m", "lumencut", "batch", str(manifest), "--check"]
-    ended = subprocess.run(words, capture_output=True, text=True)
+    words = ("batch", str(manifest), "--check")
+    ended = run_here(*words)
     assert ended.returncode == 3
     assert ended.stdout.splitlines()[-1].startswith("12 studies, 1 will fail, of ")
     assert "missing: " in ended.stdout
     assert not (tmp_path / "out").exists()
     manifest.write_text("id,volume\na,1.nii\na,2.nii\n", "utf-8")
-    refused = subprocess.run(words, capture_output=True, text=True)
+    refused = run_here(*words)
     assert refused.returncode == 2
     assert "which line 2 has" in refused.stderr
 

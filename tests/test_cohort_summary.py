@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import csv
-import subprocess
-import sys
 
 import numpy as np
 import pytest
 
+from cohort_scenes import run_here
 from lumencut.cohort.agreement import agreements
 from lumencut.cohort.distributions import distributions, states_of
 from lumencut.cohort.result_tables import ResultTable
@@ -124,8 +123,7 @@ def test_what_is_no_result_is_named(tmp_path):
 
 
 def summarize(*words):
-    command = [sys.executable, "-m", "lumencut", "summarize", *map(str, words)]
-    return subprocess.run(command, capture_output=True, text=True)
+    return run_here("summarize", *map(str, words))
 
 
 def test_the_command_tells_and_writes_them(tmp_path):
