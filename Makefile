@@ -48,6 +48,7 @@ test: ## Run every check; the last line is `N passed, N failed`.
 
 test-long: develop tools page $(VENV)/.docs ## Run the tests that take minutes: uncertainties in 288 scenes, containers, cohorts, the documentation site, notebooks, the viewer, a million damaged files.
 	$(BIN)/python -m pytest --quiet --numprocesses=2 tests/long_*.py
+	$(BIN)/python -m pytest --quiet --numprocesses=2 --wide -m each_value
 	npm run check-long --silent --prefix web
 	@$(PYTHON) scripts/fuzz.py --runs $(or $(RUNS),1000000)
 

@@ -23,6 +23,39 @@ needs_shared_data = pytest.mark.skipif(
 odd_lines = pytest.mark.filterwarnings("ignore::lumencut.errors.LineWarning")
 
 
+#: In ``make test``, each value of each parameter is tried once; ``make test-long`` tries all combinations.
+each_value = pytest.mark.each_value
+
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    parser.addoption(
+        "--wide", action="store_true", help="try all combinations of the tests marked each_value"
+    )
+
+
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Of a test marked `each_value`, keep few combinations of its parameters, in which each value occurs."""
+    cases: dict[str, list[pytest.Item]] = {}
+    for item in items:
+        if item.get_closest_marker("each_value") and not config.getoption("wide"):
+            cases.setdefault(item.nodeid.partition("[")[0], []).append(item)
+    left_out = [item for group in cases.values() for item in without_news(group)]
+    config.hook.pytest_deselected(items=left_out)
+    gone = set(map(id, left_out))
+    items[:] = [item for item in items if id(item) not in gone]
+
+
+def without_news(cases: list[pytest.Item]) -> list[pytest.Item]:
+    """Return the cases all of whose values occur in another case too: those with most new values are kept."""
+    values = {id(case): {(name, id(one)) for name, one in case.callspec.params.items()} for case in cases}
+    unseen, left = set().union(*values.values()), list(cases)
+    while unseen:
+        best = max(left, key=lambda case: len(values[id(case)] & unseen))
+        left.remove(best)
+        unseen -= values[id(best)]
+    return left
+
+
 @pytest.fixture
 def shared_data() -> Path:
     """The folder of real volumes and centerlines; for tests marked `needs_shared_data`."""

@@ -7,7 +7,7 @@ import contextlib
 import numpy as np
 import pytest
 
-from conftest import odd_lines
+from conftest import each_value, odd_lines
 from cpr_scenes import GRIDS, helix, index_volumes, noise, trilinear, vessel, wave
 from lumencut import CameraError, Settings, Slab, Volume, cpr, straightened_volume
 from scenes import lattice, nearly_along_y, of_few_points
@@ -279,6 +279,7 @@ def test_right_angles_inflections_and_straight_runs():
     assert not made.folded[:, made.size[0] // 2].any()
 
 
+@each_value
 @each_mode
 @pytest.mark.parametrize("make", [lattice, nearly_along_y, of_few_points])
 @pytest.mark.parametrize("seed", [1, 2, 3])
@@ -304,6 +305,7 @@ def test_any_vessel_has_a_layout_or_lies_in_one_row(mode, make, seed):
     assert shown > 3
 
 
+@each_value
 @each_mode
 @pytest.mark.parametrize("kept", ["max", "mean", "min"])
 def test_a_slab_is_that_of_many_samples(mode, kept):

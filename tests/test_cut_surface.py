@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 import reference
 import reference_images
 import reference_surface
-from conftest import needs_shared_data, odd_lines
+from conftest import each_value, needs_shared_data, odd_lines
 from lumencut import Camera, Renderer, Settings, Vessel, VesselTree, Volume, phantom, read_centerlines
 from lumencut._checked_settings import checked
 from scenes import lattice, nearly_along_y, of_few_points, wandering
@@ -67,6 +67,7 @@ def assert_same(tree, camera, rule, most_unsure=0.005, most_different=0.001):
     return frame, expected
 
 
+@each_value
 @pytest.mark.parametrize("rule", RULES)
 @pytest.mark.parametrize("direction", DIRECTIONS)
 @pytest.mark.parametrize("seed", range(2))
@@ -75,6 +76,7 @@ def test_wandering_vessels(seed, direction, rule):
     assert_same(tree, fitted(tree, direction), RULES[rule])
 
 
+@each_value
 @pytest.mark.parametrize("rule", RULES)
 @pytest.mark.parametrize("direction", DIRECTIONS)
 @pytest.mark.parametrize("name", ["trefoil", "collinear_run", "y_junction", "helix"])
@@ -83,6 +85,7 @@ def test_phantoms(name, direction, rule):
     assert_same(tree, fitted(tree, direction), RULES[rule])
 
 
+@each_value
 @pytest.mark.parametrize("rule", RULES)
 @pytest.mark.parametrize("levels", [0, 6])
 @pytest.mark.parametrize("direction", [(0, 1, 0), (1, 0, 0)])
@@ -94,6 +97,7 @@ def test_runs_of_collinear_segments(seed, direction, levels, rule):
     assert_same(lattice(seed), camera, replace(RULES[rule], levels=levels), most_unsure=0.02)
 
 
+@each_value
 @pytest.mark.parametrize("rule", ["default", "paper"])
 @pytest.mark.parametrize("levels", [0, 6])
 @pytest.mark.parametrize("seed", range(3))
@@ -103,6 +107,7 @@ def test_segments_around_the_collinear_bound(seed, levels, rule):
     assert_same(tree, camera, replace(RULES[rule], levels=levels))
 
 
+@each_value
 @pytest.mark.parametrize("rule", ["default", "paper"])
 @pytest.mark.parametrize("seed", range(3))
 def test_vessels_of_few_points(seed, rule):
@@ -110,6 +115,7 @@ def test_vessels_of_few_points(seed, rule):
     assert_same(of_few_points(seed), camera, RULES[rule])
 
 
+@each_value
 @pytest.mark.parametrize("unknown_radius", [0.0, 1.0, 4.0])
 @pytest.mark.parametrize("known", ["none", "every second", "not at some points"])
 def test_vessels_without_radius_count_as_lumen(known, unknown_radius):
@@ -127,6 +133,7 @@ def known_radius(radius, known):
     return radius if known == "every second" else None
 
 
+@each_value
 @pytest.mark.parametrize(
     "changes",
     [
@@ -161,6 +168,7 @@ def test_far_from_the_origin_of_world_space():
     assert_same(tree, camera, PLAIN)
 
 
+@each_value
 @needs_shared_data
 @pytest.mark.parametrize("rule", RULES)
 @pytest.mark.parametrize("direction", DIRECTIONS)
@@ -178,6 +186,7 @@ def test_real_trees(file, direction, rule, shared_data):
     assert_same(tree, fitted(tree, direction), RULES[rule], most_unsure=0.02, most_different=0.003)
 
 
+@each_value
 @pytest.mark.parametrize(
     "changes",
     [
@@ -305,6 +314,7 @@ def test_depth_filter(size):
     np.testing.assert_array_equal(smooth.distance, raw.distance)
 
 
+@each_value
 @pytest.mark.parametrize("leap", [0.0, 0.05, 1.0, 1e6])
 @pytest.mark.parametrize("size", [(53, 37), (3, 2), (1, 9), (1, 1)])
 @pytest.mark.parametrize("rule", [PLAIN, PAPER], ids=["default", "paper"])
@@ -325,6 +335,7 @@ def test_the_filter_within_zones(rule, size, leap):
         np.testing.assert_array_equal(smooth.depth, raw.depth)
 
 
+@each_value
 @pytest.mark.parametrize("spacing", [0.5, 2.0])
 @pytest.mark.parametrize("direction", DIRECTIONS)
 @pytest.mark.parametrize("seed", range(2))
@@ -351,6 +362,7 @@ def oblique_affine():
     return affine
 
 
+@each_value
 @pytest.mark.parametrize("dtype", ["uint8", "int16", "uint16", "float32", "float64"])
 @pytest.mark.parametrize("direction", DIRECTIONS)
 def test_value_and_position(direction, dtype):
