@@ -50,7 +50,7 @@ SCRIPTS = tuple(
 )
 TOOLS = ("python", "rust", "targets", "vulkan", "page", "browser", "dicom")
 FUZZED = "crates/lumencut-io/fuzz/Cargo.toml"
-FUZZ_RUNS = 110_000
+FUZZ_RUNS = 28_000
 """Inputs of libFuzzer over all formats."""
 MAIN, PAGE, PYTHON, FUZZ = "main", "page", "python", "fuzzing"
 """The lanes. Page and Rust use separate build folders."""

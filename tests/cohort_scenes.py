@@ -139,7 +139,7 @@ def run_apart(manifest: Path, out: Path, *words: str) -> subprocess.CompletedPro
 
 def wait_for(is_so, process=None):
     """Wait until a condition holds, while a process works."""
-    end = time.monotonic() + 30
+    end = time.monotonic() + 120
     while not is_so():
         assert time.monotonic() < end, "it did not come"
         assert process is None or process.poll() is None

@@ -84,6 +84,17 @@ def test_no_source_file_is_long():
     assert {path: length for path, length in lengths.items() if length > LONGEST_FILE} == {}
 
 
+def test_every_rust_file_of_tests_is_part_of_a_program():
+    """A file that neither `main.rs` nor `Cargo.toml` names would never run."""
+    programs = sorted((ROOT / "crates").glob("*/tests/main.rs"))
+    assert len(programs) == 3
+    for program in programs:
+        named = re.findall(r"^mod (\w+);$", program.read_text("utf-8"), re.MULTILINE)
+        crate = (program.parent.parent / "Cargo.toml").read_text("utf-8")
+        named += re.findall(r'^\[\[test\]\]\nname = "(\w+)"$', crate, re.MULTILINE)
+        assert {path.stem for path in program.parent.glob("*.rs")} <= set(named), program
+
+
 def test_no_document_has_a_gap_left_to_fill():
     folders = ("docs", "python", "crates", "tests")
     documents = [*ROOT.glob("*.md"), *(path for folder in folders for path in (ROOT / folder).rglob("*.md"))]

@@ -223,14 +223,14 @@ on_posix = pytest.mark.skipif(os.name != "posix", reason="these signals are thos
 @on_posix
 def test_a_signal_ends_it_while_nobody_asks(built, files):
     with viewing(built, *files) as (process, address):
-        with urlopen(address.strip(), timeout=10) as answer:
+        with urlopen(address.strip(), timeout=60) as answer:
             assert b"lumencut-centerlines" in answer.read()
         assert_ends(process, signal.SIGTERM, 143, "ended by SIGTERM")
 
 
 def assert_ends(process, number, code, said):
     process.send_signal(number)
-    _, told = process.communicate(timeout=10)
+    _, told = process.communicate(timeout=60)
     assert process.returncode == code
     assert told.splitlines()[-1] == f"lumencut: {said}"
     assert "Traceback" not in told
@@ -242,7 +242,7 @@ def test_a_signal_ends_it_while_a_volume_is_sent(built, tmp_path):
     write_any(Volume(np.zeros((64, 512, 512), np.int16)), path)
     with (
         viewing(built, str(path)) as (process, address),
-        urlopen(f"{address.strip()}data/volume", timeout=10) as answer,
+        urlopen(f"{address.strip()}data/volume", timeout=60) as answer,
     ):
         # The rest fills the system's buffers, since nobody reads it.
         answer.read(1000)

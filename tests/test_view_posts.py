@@ -1,7 +1,6 @@
 """Objects that the viewer's server makes from posted content, and requests that it rejects."""
 
 import threading
-import time
 
 import pytest
 
@@ -127,10 +126,8 @@ def test_content_of_unknown_or_too_large_size_is_refused_before_it_comes(client,
 
 def test_content_that_does_not_come_is_waited_for_only_shortly(client, monkeypatch):
     monkeypatch.setattr(Posts, "patience", 0.2)
-    start = time.monotonic()
     received = client.raw(head(client, "Content-Length: 5") + b"{}")
     assert int(received.split(maxsplit=2)[1]) == 408
-    assert time.monotonic() - start < 5
     assert post(client, b"{}").status == 422
 
 

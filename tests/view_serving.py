@@ -77,7 +77,7 @@ class Client:
 
     def raw(self, sent: bytes) -> bytes:
         """Return the answer to these bytes, until the server closes the connection."""
-        with socket.create_connection(("127.0.0.1", self.place.port), timeout=10) as connection:
+        with socket.create_connection(("127.0.0.1", self.place.port), timeout=60) as connection:
             connection.sendall(sent)
             return rest_of(connection)
 

@@ -22,23 +22,3 @@ mod settings;
 mod stages;
 mod table;
 mod three_tiers;
-
-/// A test file missing here would never run.
-#[test]
-fn every_file_of_tests_is_named_here() {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests");
-    let files = std::fs::read_dir(&folder).expect("the folder of the tests");
-    let stems = files.filter_map(|file| {
-        let path = file.ok()?.path();
-        (path.extension()? == "rs").then(|| path.file_stem()?.to_str().map(str::to_owned))?
-    });
-    let named: Vec<_> =
-        include_str!("main.rs").lines().filter_map(|line| line.strip_prefix("mod ")).collect();
-    let forgotten: Vec<_> = stems
-        .filter(|stem| {
-            !["main", "memory"].contains(&stem.as_str()) && !named.contains(&format!("{stem};").as_str())
-        })
-        .collect();
-    assert!(named.len() > 15);
-    assert_eq!(forgotten, [] as [&str; 0]);
-}

@@ -1,11 +1,9 @@
 //! Tests of order, affine, tilt, gaps, duplicates, phases and uneven distances.
 
-mod made;
-
 use std::time::Instant;
 
+use crate::made::{as_they_are, even, judged, plan, refused, stack, with};
 use lumencut_dicom::Mend;
-use made::{as_they_are, even, judged, plan, refused, stack, with};
 use serde_json::{Value, json};
 
 /// Positions of slices if the gantry is tilted by `degrees` and the table moves along z.
@@ -220,10 +218,11 @@ fn a_single_slice_is_as_thick_as_it_says() {
 
 #[test]
 fn long_series_take_no_time() {
-    let files = stack(&even(2000), as_they_are);
-    let headers = made::headers(&files);
+    let files = stack(&even(5000), as_they_are);
+    let headers = crate::made::headers(&files);
     let start = Instant::now();
     let plan = lumencut_dicom::judge(&headers, &lumencut_dicom::Wanted::default()).expect("a volume");
-    assert_eq!(plan.size[2], 2000);
-    assert!(start.elapsed().as_millis() < 500, "{:?}", start.elapsed());
+    assert_eq!(plan.size[2], 5000);
+    // Comparing all pairs of slices would take minutes; a busy processor does not.
+    assert!(start.elapsed().as_secs() < 20, "{:?}", start.elapsed());
 }

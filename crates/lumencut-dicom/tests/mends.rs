@@ -1,9 +1,7 @@
 //! Tests that a remedy is a name with values, in Rust and in JSON.
 
-mod made;
-
+use crate::made::{SYNTAX, as_they_are, even, refused, stack};
 use lumencut_dicom::{Mend, json};
-use made::{SYNTAX, as_they_are, even, refused, stack};
 use serde_json::{Value, json};
 
 fn document(files: &[Value]) -> Value {

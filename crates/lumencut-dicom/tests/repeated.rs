@@ -1,9 +1,7 @@
 //! Tests of repeated positions, images, series and patients.
 
-mod made;
-
+use crate::made::{SYNTAX, as_they_are, even, judged, plan, refused, stack};
 use lumencut_dicom::{Error, Mend, Plan, json};
-use made::{SYNTAX, as_they_are, even, judged, plan, refused, stack};
 use serde_json::{Value, json};
 
 fn acquired(parts: &[std::ops::Range<usize>]) -> Vec<Value> {

@@ -1,8 +1,6 @@
 //! Tests of the scan parameters, which contain no patient data.
 
-mod made;
-
-use made::{as_they_are, even, file, plan, stack, with};
+use crate::made::{as_they_are, even, file, plan, stack, with};
 use serde_json::{Value, json};
 
 fn told(change: impl Fn(usize, &mut Value)) -> Value {
@@ -58,13 +56,13 @@ fn a_phase_that_is_chosen_is_the_one_that_is_told() {
             attributes["NominalPercentageOfCardiacPhase"] = phase.into();
         })
     });
-    let plan = made::judged(&both.concat(), json!({"phase": "70"})).expect("one phase");
+    let plan = crate::made::judged(&both.concat(), json!({"phase": "70"})).expect("one phase");
     assert_eq!(plan.scan.phase.as_deref(), Some("70 % of the cardiac cycle"));
 }
 
 #[test]
 fn enhanced_images_state_it_in_functional_groups() {
-    let mut attributes = made::axial(0.0);
+    let mut attributes = crate::made::axial(0.0);
     attributes["NumberOfFrames"] = json!("3");
     let mut one = file("IM0", &attributes);
     let frame = |k: i32| json!({"ImagePositionPatient": ["0", "0", format!("{}", 2 * k)]});

@@ -1,9 +1,7 @@
 //! Tests which files are images, which series is read, and which images are rejected.
 
-mod made;
-
+use crate::made::{SYNTAX, as_they_are, even, headers, judged, plan, refused, stack, with};
 use lumencut_dicom::{ErrorKind, describe, json};
-use made::{SYNTAX, as_they_are, even, headers, judged, plan, refused, stack, with};
 use serde_json::{Value, json};
 
 fn series(number: &str, description: &str, change: impl Fn(usize, &mut Value)) -> Vec<Value> {
@@ -89,7 +87,7 @@ fn localisers_within_a_series_are_left_out() {
 fn what_is_no_image_is_left_out() {
     let mut files = stack(&even(3), as_they_are);
     files.insert(0, foreign("READ\x1bME", "no DICOM"));
-    let mut report = made::file("DOSE", &json!({}));
+    let mut report = crate::made::file("DOSE", &json!({}));
     report["header"]["sop_class"] = "1.2.3".into();
     files.push(report);
     let plan = plan(&files);
@@ -98,7 +96,7 @@ fn what_is_no_image_is_left_out() {
     assert_eq!(refused(&[]).found, "nothing in it");
     let error = refused(&[foreign("DICOMDIR", "Media Storage Directory Storage")]);
     assert_eq!(error.advice, "give the folder that it is in");
-    files.push(made::file("cut", &json!({"Rows": 3})));
+    files.push(crate::made::file("cut", &json!({"Rows": 3})));
     let error = refused(&files);
     assert_eq!((error.found.as_str(), error.file), ("an image without rows and columns", Some(5)));
 }
@@ -169,9 +167,9 @@ fn odd_values_are_noted() {
 
 /// A file with functional groups: frames at these heights (mm); all other attributes are shared.
 fn enhanced(heights: &[f64]) -> Value {
-    let mut attributes = made::axial(0.0);
+    let mut attributes = crate::made::axial(0.0);
     attributes["NumberOfFrames"] = heights.len().to_string().into();
-    let mut one = made::file("all", &attributes);
+    let mut one = crate::made::file("all", &attributes);
     let frame = |height: &f64| json!({"ImagePositionPatient": [0, 0, height]});
     one["header"]["frames"] = heights.iter().map(frame).collect();
     one["header"]["shared"] = json!({"PixelSpacing": ["0.6", "0.6"], "RescaleSlope": "2"});

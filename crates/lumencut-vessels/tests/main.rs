@@ -1,0 +1,11 @@
+//! All tests of tracing and measuring from outside, in one program.
+
+mod errors;
+mod find_choose;
+mod find_one_vessel;
+mod find_stops;
+mod lumens_on_ray;
+mod measure;
+mod trace_clicks;
+mod trace_mask;
+mod trace_rooms;
