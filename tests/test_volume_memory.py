@@ -20,7 +20,7 @@ from lumencut.volume_writers import write_volume
 from test_volume_files import save_meta, save_nifti, save_nrrd
 
 #: Zeros after the pixels (bytes); each MB is compressed to a kilobyte.
-TRAILING = 300 << 20
+TRAILING = 100 << 20
 SIZE = (20, 24, 10)
 
 #: Prints the sum of a volume or the error, and by how many MB reading increased the peak memory.
@@ -164,8 +164,8 @@ def test_what_follows_the_pixels_takes_no_memory(tmp_path, make):
     assert grown < 60, f"{grown} MB for a volume of 10 kB"
 
 
-#: Voxels of 40 MB, more than is available below.
-LARGE = np.zeros((20, 1024, 1024), np.int16)
+#: Voxels of 2.6 MB, more than is available below.
+LARGE = np.zeros((20, 256, 256), np.int16)
 
 
 def _large_slices():
@@ -206,31 +206,32 @@ TOO_LARGE = {
 @pytest.mark.parametrize("make", TOO_LARGE.values(), ids=TOO_LARGE)
 def test_more_than_the_available_memory_is_refused_before_it_is_taken(tmp_path, make, monkeypatch):
     path = make(tmp_path)
-    monkeypatch.setattr(room, "available_memory", lambda: 20_000_000)
-    words = r"voxels that need [\d.]+ MB of memory; expected at most the available 20 MB; crop"
+    monkeypatch.setattr(room, "_SMALL", 500_000)
+    monkeypatch.setattr(room, "available_memory", lambda: 1_000_000)
+    words = r"voxels that need [\d.]+ MB of memory; expected at most the available 1 MB; crop"
     with pytest.raises(FormatError, match=words) as caught:
         read_volume(path)
     assert caught.value.subject.startswith(str(path.with_suffix("")))
     monkeypatch.undo()
-    assert read_volume(path).array.size >= 8 << 20
+    assert read_volume(path).array.size >= 1 << 19
 
 
 def test_a_limit_of_the_process_counts(tmp_path):
     path = write_large(tmp_path / "x.nii.gz")
     words, grown = probed(path, limit=150 << 20)
-    assert "voxels that need 419.4 MB of memory; expected at most the available 1" in words
+    assert "voxels that need 209.7 MB of memory; expected at most the available 1" in words
     assert grown < 60
 
 
 def write_large(path):
-    write_volume(Volume(np.zeros((200, 1024, 1024), np.int16)), path)
+    write_volume(Volume(np.zeros((100, 1024, 1024), np.int16)), path)
     return path
 
 
 def test_an_element_before_the_pixels_that_nobody_asks_for_takes_no_memory(tmp_path):
     first = next(slices())
     data = pydicom.dcmread(io.BytesIO(first))
-    data.add_new(0x00091001, "OB", bytes(120 << 20))
+    data.add_new(0x00091001, "OB", bytes(100 << 20))
     target = io.BytesIO()
     save(data, target)
     (tmp_path / "x.dcm").write_bytes(deflated(target.getvalue()))
