@@ -47,8 +47,8 @@ test: ## Run every check; the last line is `N passed, N failed`.
 	@$(PYTHON) scripts/check.py
 
 test-long: develop tools page $(VENV)/.docs ## Run the tests that take minutes: uncertainties in 288 scenes, containers, cohorts, the documentation site, notebooks, the viewer, a million damaged files.
-	$(BIN)/python -m pytest --quiet --numprocesses=2 tests/long_*.py
-	$(BIN)/python -m pytest --quiet --numprocesses=2 --wide -m each_value
+	$(BIN)/python -m pytest --quiet --numprocesses=2 --dist=worksteal tests/long_*.py
+	$(BIN)/python -m pytest --quiet --numprocesses=2 --dist=worksteal --wide -m each_value
 	npm run check-long --silent --prefix web
 	@$(PYTHON) scripts/fuzz.py --runs $(or $(RUNS),1000000)
 

@@ -52,6 +52,8 @@ TOOLS = ("python", "rust", "targets", "vulkan", "page", "browser", "dicom")
 FUZZED = "crates/lumencut-io/fuzz/Cargo.toml"
 FUZZ_RUNS = 28_000
 """Inputs of libFuzzer over all formats."""
+PARALLEL = ("--numprocesses=2", "--dist=worksteal")
+"""Both cores; a worker that has no tests left takes some of the other one."""
 MAIN, PAGE, PYTHON, FUZZ = "main", "page", "python", "fuzzing"
 """The lanes. Page and Rust use separate build folders."""
 
@@ -198,10 +200,10 @@ def test_checks(report: str) -> list[Check]:
             environment,
             count=count_rust,
         ),
-        # `--dist loadfile` was not faster in total: a long file at the end leaves one worker idle.
+        # With `worksteal`, most tests of a file run in one worker, which makes their shared scenes once.
         Check(
             "tests of Python",
-            (f"{BIN}/python", "-m", "pytest", "--quiet", "--numprocesses=2", f"--junitxml={report}"),
+            (f"{BIN}/python", "-m", "pytest", "--quiet", *PARALLEL, f"--junitxml={report}"),
             environment,
             count=count_python,
             report=report,

@@ -46,14 +46,16 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 
 def without_news(cases: list[pytest.Item]) -> list[pytest.Item]:
-    """Return the cases all of whose values occur in another case too: those with most new values are kept."""
+    """Return the cases whose values occur in other cases too, and those beyond the most that are asked for."""
     values = {id(case): {(name, id(one)) for name, one in case.callspec.params.items()} for case in cases}
     unseen, left = set().union(*values.values()), list(cases)
     while unseen:
         best = max(left, key=lambda case: len(values[id(case)] & unseen))
         left.remove(best)
         unseen -= values[id(best)]
-    return left
+    kept = [case for case in cases if not any(case is other for other in left)]
+    most = cases[0].get_closest_marker("each_value").kwargs.get("most", len(kept))
+    return left + kept[most:]
 
 
 @pytest.fixture

@@ -65,6 +65,14 @@ def offline(monkeypatch):
     monkeypatch.setattr(demo.subprocess, "run", refused)
 
 
+@pytest.fixture
+def small(monkeypatch):
+    """Pictures and turntable of the demo, small and few."""
+    monkeypatch.setattr("lumencut.cli.demo._SIZE", (192, 192))
+    monkeypatch.setattr("lumencut.cli.demo._TURN_SIZE", (48, 48))
+    monkeypatch.setattr("lumencut.cli.demo._TURN_FRAMES", 2)
+
+
 def run_demo(tmp_path, *more, folder="shown"):
     return CliRunner().invoke(
         main, ["demo", str(tmp_path / folder), "--cache", str(tmp_path / "cache"), *more]
@@ -153,7 +161,7 @@ def test_the_demo_makes_six_pictures_and_a_turntable(index, tmp_path):
         assert (picture.n_frames, picture.size) == (24, (384, 384))
 
 
-def test_pictures_without_labels_are_those_that_were_rendered(index, tmp_path):
+def test_pictures_without_labels_are_those_that_were_rendered(index, small, tmp_path):
     run_demo(tmp_path)
     result = run_demo(tmp_path, "--no-annotate", folder="bare")
     assert (result.exit_code, result.stderr) == (0, "")
@@ -169,9 +177,9 @@ def test_pictures_without_labels_are_those_that_were_rendered(index, tmp_path):
         np.testing.assert_array_equal(np.asarray(picture.convert("RGBA")), expected)
 
 
-def test_offline_a_phantom_is_shown_and_said(offline, tmp_path, monkeypatch):
-    small = phantom.helix()
-    monkeypatch.setitem(sys.modules, "lumencut.phantom", SimpleNamespace(aorta=lambda scale: small))
+def test_offline_a_phantom_is_shown_and_said(offline, small, tmp_path, monkeypatch):
+    helix = phantom.helix()
+    monkeypatch.setitem(sys.modules, "lumencut.phantom", SimpleNamespace(aorta=lambda scale: helix))
     result = run_demo(tmp_path)
     assert result.exit_code == 0, result.output
     assert result.stderr.count("\n") == 1

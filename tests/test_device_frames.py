@@ -7,7 +7,7 @@ import functools
 import numpy as np
 import pytest
 
-from conftest import needs_shared_data
+from conftest import each_value, needs_shared_data
 from device_scenes import CONTEXTS, SETTINGS, oblique, pair, scene
 from frame_comparison import LIMITS, assert_alike, excess
 from lumencut import (
@@ -32,6 +32,7 @@ def test_frames_of_a_phantom(name):
     assert frames[0].has("context") == (SETTINGS[name].context is not None)
 
 
+@each_value
 @needs_shared_data
 @pytest.mark.parametrize("name", ["default", "dvr shaded", "mida", "mip", "no context"])
 @pytest.mark.parametrize("data", ["stent", "dissection"])

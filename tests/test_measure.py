@@ -86,9 +86,7 @@ def test_a_narrow_part_takes_its_level_from_the_wide_one():
 @pytest.mark.parametrize(
     ("spacing", "direction", "shear"),
     [
-        (EVEN, (0.0, 0.0, 1.0), 0.0),
         (EVEN, (1.0, -0.7, 0.9), 0.0),
-        ((0.4, 0.4, 1.0), (0.0, 0.0, 1.0), 0.0),
         ((0.4, 0.4, 1.0), (1.0, 0.1, 0.3), 0.0),
         ((0.4, 0.4, 0.8), (0.2, 0.1, 1.0), 0.35),
     ],

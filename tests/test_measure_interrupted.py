@@ -41,10 +41,10 @@ def test_ctrl_c_ends_a_process_that_measures(way):
 
 def test_measurements_tell_how_far_they_are():
     made, told = phantom.stenosis(), []
-    kept = lumencut.Measurements(made.volume, made.tree, 0.03, 1.0)
+    kept = lumencut.Measurements(made.volume, made.tree, 0.1, 1.0)
     profile = kept.profile(0, progress=lambda done, total: told.append((done, total)))
     done = [part for part, _ in told]
     assert done == sorted(done)
     assert told[-1] == (1000, 1000)
     assert any(0 < part < 1000 for part in done)
-    assert (profile.area == lumencut.Measurements(made.volume, made.tree, 0.03, 1.0).profile(0).area).all()
+    assert (profile.area == lumencut.Measurements(made.volume, made.tree, 0.1, 1.0).profile(0).area).all()

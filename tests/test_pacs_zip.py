@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import json
 import sys
+from functools import cache
 
 import numpy as np
 import pydicom
@@ -38,8 +39,14 @@ from test_dicom_reports import child, code, groups
 ALL = {"view.dcm", "vessel.dcm", "finding-1.dcm", "report.dcm", "report-pdf.dcm"}
 
 
+@cache
+def archive(content, served):
+    """The archive of a request; many tests look at the same one."""
+    return pacs_zip(content, scan() if served else None)
+
+
 def made(asked, folder, served=True):
-    return members(pacs_zip(sent(asked), scan() if served else None), folder)
+    return members(archive(sent(asked), served), folder)
 
 
 def own_report(path, anonymous=False, marked=None):
@@ -109,7 +116,7 @@ def test_the_same_request_gives_the_same_objects(tmp_path):
     uids = []
     for name in ("one", "other"):
         (tmp_path / name).mkdir()
-        found = made(request(), tmp_path / name)
+        found = members(pacs_zip(sent(request()), scan()), tmp_path / name)
         uids.append([pydicom.dcmread(path).SOPInstanceUID for path in found.values()])
     assert uids[0] == uids[1]
 

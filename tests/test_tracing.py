@@ -3,6 +3,8 @@
 import numpy as np
 import pytest
 
+from conftest import each_value
+
 import lumencut
 from lumencut import Tracer, Vessel, VesselTree, Volume, phantom, read_centerlines, trace, write_centerlines
 from trace_scenes import (
@@ -70,6 +72,7 @@ def test_a_tube_with_a_stenosis_is_traced_within_a_twentieth_of_a_millimetre(tub
     assert not vessel.bridged.any()
 
 
+@pytest.mark.each_value(most=2)
 @pytest.mark.parametrize("seed", range(4))
 def test_clicks_off_the_middle_move_the_line_by_less_than_a_tenth_of_a_millimetre(tube, seed):
     line, radius, volume = tube
@@ -97,6 +100,7 @@ def stent(line):
     return lambda scene: scene.shell(line[100:220], 2.6, 0.8, STENT, 3.0)
 
 
+@each_value
 @pytest.mark.parametrize("clicks", [2, 3])
 @pytest.mark.parametrize("what", ["stenosis", "bone", "vein", "stent", "fading"])
 def test_what_lies_in_and_beside_vessels_does_not_lead_the_line_astray(what, clicks):
@@ -118,6 +122,7 @@ def test_what_lies_in_and_beside_vessels_does_not_lead_the_line_astray(what, cli
     assert off.max() < 0.25
 
 
+@pytest.mark.each_value(most=2)
 @pytest.mark.parametrize("seed", [1, 5, 9, 12, 21])
 def test_seeded_scenes_have_no_leak(seed):
     case = random_case(seed)
