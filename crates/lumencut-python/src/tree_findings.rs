@@ -1,7 +1,7 @@
 //! Computes the tree-wide estimates of a measurement once.
 
-use lumencut::measure::measuring;
-use lumencut::measure::request::MeasureRequest;
+use lumencut::measure::profile::measuring;
+use lumencut::measure::profile::request::MeasureRequest;
 use pyo3::prelude::*;
 
 use crate::errors::to_python;
@@ -12,7 +12,7 @@ use crate::wall_request::wall_request;
 use crate::watching::interruptible;
 
 #[pyclass(frozen, module = "lumencut._lumencut")]
-pub(crate) struct TreeFindings(pub lumencut::measure::tree_findings::TreeFindings);
+pub(crate) struct TreeFindings(pub lumencut::measure::profile::tree_findings::TreeFindings);
 
 #[pyfunction]
 #[pyo3(signature = (volume, tree, step, fwhm=None, wall=None))]

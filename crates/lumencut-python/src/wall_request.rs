@@ -1,6 +1,6 @@
 //! Converts the wall level that Python requests.
 
-use lumencut::measure::wall_level::WallRequest;
+use lumencut::measure::wall::WallRequest;
 
 /// Converts a wall level and its standard deviation; a standard deviation of 0 means that no walls are separated.
 pub(crate) fn wall_request(wall: Option<[f64; 2]>) -> WallRequest {

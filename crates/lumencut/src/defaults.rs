@@ -1,6 +1,6 @@
 //! Defaults that the command line, Python and the page share, and the rule for the pixel side of reformations.
 
-use lumencut_vessels::measure::measuring;
+use lumencut_vessels::measure::profile::measuring;
 use lumencut_vessels::trace::{find, skeleton};
 
 /// A parameter with its default.

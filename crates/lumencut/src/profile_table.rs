@@ -1,8 +1,8 @@
 //! Profiles as CSV, one line per section.
 
 use lumencut_io::marked_cell;
-use lumencut_vessels::measure::parts::Part;
 use lumencut_vessels::measure::profile::Profile;
+use lumencut_vessels::measure::uncertainty::Part;
 
 use crate::measure_words::{of_doubts, of_flags, of_source, of_stenosis, of_wall};
 use crate::profile_marks::{Grade, Measured};

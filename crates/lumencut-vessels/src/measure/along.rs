@@ -2,7 +2,12 @@
 //! neighbours. To first order, the measured area is the true area plus half of the blur variance times the second
 //! derivative of the area.
 
-use super::sections::Section;
+pub(crate) mod all_sections;
+pub(crate) mod levels;
+pub(crate) mod point_spread;
+pub(crate) mod sharp_turns;
+
+use crate::measure::fit::sections::Section;
 use lumencut_core::math::same_place::REPEATED_POINT;
 
 /// Half-length (mm) of the window in which a parabola is fitted to the areas, and its minimum number of sections.
