@@ -4,7 +4,7 @@ use std::slice;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use lumencut::kept_profiles::{KeptProfiles as Core, MeasureParameters, Scan};
-use lumencut::measure::profile::with_progress::with_progress as counted;
+use lumencut::measure::profile::request::with_progress as counted;
 use lumencut::vessel_tree::Vessel;
 use pyo3::prelude::*;
 

@@ -10,7 +10,7 @@ use lumencut::measure::profile::cross_section::{CrossSection, section_place};
 use lumencut::measure::profile::measuring;
 use lumencut::measure::profile::radii;
 use lumencut::measure::profile::request::MeasureRequest;
-use lumencut::measure::profile::with_progress::with_progress as counted;
+use lumencut::measure::profile::request::with_progress as counted;
 use lumencut::measure::stenosis::groups::Territory;
 use lumencut::measure::stenosis::suggestions::Spot;
 use lumencut::measure::stenosis::{self, Compared, Method};

@@ -12,7 +12,7 @@ use crate::wall_request::wall_request;
 use crate::watching::interruptible;
 
 #[pyclass(frozen, module = "lumencut._lumencut")]
-pub(crate) struct TreeFindings(pub lumencut::measure::profile::tree_findings::TreeFindings);
+pub(crate) struct TreeFindings(pub lumencut::measure::profile::TreeFindings);
 
 #[pyfunction]
 #[pyo3(signature = (volume, tree, step, fwhm=None, wall=None))]

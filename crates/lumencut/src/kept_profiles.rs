@@ -7,9 +7,9 @@ use lumencut_core::stop::Stop;
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::Volume;
 use lumencut_vessels::measure::profile::Profile;
+use lumencut_vessels::measure::profile::TreeFindings;
 use lumencut_vessels::measure::profile::measuring::{measure_with, tree_findings};
 use lumencut_vessels::measure::profile::request::MeasureRequest;
-use lumencut_vessels::measure::profile::tree_findings::TreeFindings;
 use lumencut_vessels::measure::wall::WallRequest;
 
 /// A volume and its tree. A cache is valid for only one such pair.

@@ -1,10 +1,10 @@
-//! The priors on the parameters of a fit.
+//! Estimates: means with standard deviations, and their use as priors on the parameters of a fit.
 
 pub(crate) mod golden;
 pub(crate) mod least_squares;
-pub(crate) mod pooled;
 
-use self::pooled::Level;
+/// Mean and standard deviation.
+pub(crate) type Level = [f64; 2];
 
 pub(crate) fn unit<const N: usize>(n: usize) -> [f64; N] {
     std::array::from_fn(|m| f64::from(u8::from(m == n)))

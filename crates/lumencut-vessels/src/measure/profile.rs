@@ -6,8 +6,6 @@ pub(crate) mod prepared;
 pub mod radii;
 pub mod request;
 pub mod stretch;
-pub mod tree_findings;
-pub mod with_progress;
 
 use glam::{DVec2, DVec3};
 
@@ -23,6 +21,7 @@ use crate::measure::section::rays::RAYS;
 use crate::measure::section::scale::Scale;
 use crate::measure::uncertainty::Parts;
 use crate::measure::wall::WallSource;
+use crate::measure::wall::tree::VesselWall;
 
 /// Number of points of a contour; a section without a lumen has none.
 pub const CONTOUR_POINTS: usize = RAYS;
@@ -242,4 +241,13 @@ fn outer((section, flags): (&Section, &u32)) -> [f64; 2] {
 fn half_axes(place: &SectionPlane, fit: Option<&Fit>) -> [DVec3; 2] {
     let in_world = |axis: DVec2| place.axes[0] * axis.x + place.axes[1] * axis.y;
     fit.map_or([DVec3::NAN; 2], |fit| fit.ellipse.half_axes().map(in_world))
+}
+
+/// Values estimated on a tree that apply to all its vessels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TreeFindings {
+    /// Point spread of the scan.
+    pub spread: PointSpread,
+    /// Wall levels of the vessels whose walls are visible.
+    pub(crate) walls: Vec<VesselWall>,
 }

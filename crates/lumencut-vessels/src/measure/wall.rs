@@ -4,7 +4,7 @@ pub(crate) mod pool;
 pub mod tree;
 
 use self::tree::PooledWall;
-use crate::measure::estimation::pooled::Level;
+use crate::measure::estimation::Level;
 use crate::measure::model::wall::KnownWall;
 use crate::measure::section::scale::Scale;
 use crate::voxels::Voxels;

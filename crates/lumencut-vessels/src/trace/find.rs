@@ -6,7 +6,6 @@ pub mod choose;
 pub(crate) mod confidence;
 pub(crate) mod flux;
 pub mod found;
-pub(crate) mod from_seed;
 pub(crate) mod grid;
 pub(crate) mod hidden;
 pub(crate) mod links;

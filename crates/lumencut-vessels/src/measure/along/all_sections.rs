@@ -1,6 +1,6 @@
 //! Prior knowledge for all sections of a vessel, pooled from sections that were fitted one by one.
 
-use crate::measure::estimation::pooled::Level;
+use crate::measure::estimation::Level;
 use crate::measure::fit::Fit;
 use crate::measure::fit::sections::Known;
 use crate::measure::model::ellipse::Ellipse;

@@ -3,8 +3,8 @@
 use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
+use crate::measure::estimation::Level;
 use crate::measure::estimation::golden::least;
-use crate::measure::estimation::pooled::Level;
 use crate::measure::fit::Fit;
 use crate::measure::fit::sections::{Bench, Known, noise};
 use crate::measure::section::SectionPlane;

@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::sections::{Bench, Known};
 use super::{Expected, Fit, Unsure};
 use crate::measure::beside::Obstacles;
-use crate::measure::estimation::pooled::Level;
+use crate::measure::estimation::Level;
 use crate::measure::model::ellipse::{Boundary, Ellipse, Whitening};
 use crate::measure::model::wall::KnownWall;
 use crate::measure::section::SectionPlane;

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::Fit;
 use crate::measure::beside::blooming;
 use crate::measure::beside::flags_of;
-use crate::measure::estimation::pooled::Level;
+use crate::measure::estimation::Level;
 use crate::measure::model::ThreeLevels;
 use crate::measure::model::contour::{ellipse_within, irregularity, points, wall, wall_by_rays};
 use crate::measure::model::ellipse::{Boundary, Ellipse, Whitening};

@@ -6,8 +6,8 @@ use glam::DVec2;
 
 use super::ellipse::Ellipse;
 use super::parameters::{HARMONICS, SECTORS, THICKNESS as LOG_THICKNESS, WALL, WALLED};
+use crate::measure::estimation::Level;
 use crate::measure::estimation::least_squares::{Minimum, solved};
-use crate::measure::estimation::pooled::Level;
 use crate::measure::estimation::unit;
 use crate::measure::section::scale::Scale;
 

@@ -8,8 +8,7 @@ use rayon::prelude::*;
 
 use super::prepared::{DEFAULT_FWHM, PreparedVessel, assumed};
 use super::request::MeasureRequest;
-use super::tree_findings::TreeFindings;
-use super::{PointSpread, Profile, Source};
+use super::{PointSpread, Profile, Source, TreeFindings};
 use crate::measure::along::point_spread::{SharpEdges, SpreadEstimate, TOO_NARROW};
 use crate::measure::section::known_radius;
 use crate::measure::wall::WallRequest;

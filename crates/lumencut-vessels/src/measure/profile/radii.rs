@@ -6,8 +6,7 @@ use rayon::prelude::*;
 
 use super::Profile;
 use super::measuring::TreeMeasuring;
-use super::request::MeasureRequest;
-use super::with_progress::with_progress;
+use super::request::{MeasureRequest, with_progress};
 use crate::measure::section::flags::LEFT_OUT;
 use lumencut_core::error::{ErrorKind, Result};
 use lumencut_core::math::same_place::REPEATED_POINT;

@@ -1,6 +1,6 @@
 //! Pools the wall of a vessel over its sections, which share one level and a slowly varying thickness.
 
-use crate::measure::estimation::pooled::Level;
+use crate::measure::estimation::Level;
 use crate::measure::fit::Fit;
 use crate::measure::model::ellipse::Ellipse;
 use crate::measure::model::wall::{KnownWall, Wall, beforehand};

@@ -3,7 +3,7 @@
 //! its likelihood.
 
 use crate::measure::beside::branches::shares_line;
-use crate::measure::estimation::pooled::Level;
+use crate::measure::estimation::Level;
 use lumencut_core::vessel_tree::Vessel;
 
 /// Standard deviations of the differences that are tried, as fractions of the prior standard deviation.

@@ -9,7 +9,7 @@ use crate::trace::find::scan::Scan;
 use crate::trace::find::whole_vessels::graph::WayPoint;
 use crate::trace::find::whole_vessels::runs::{Run, Runs};
 use crate::trace::find::whole_vessels::way::Way;
-use crate::trace::lines::nearest_point::nearest_point;
+use crate::trace::lines::nearest_point;
 use crate::trace::lumen::lumen_model::LumenModel;
 use crate::trace::lumen::refine::{STEP, refined_near};
 use lumencut_core::error::Result;

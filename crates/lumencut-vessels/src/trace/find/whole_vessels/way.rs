@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use crate::trace::find::whole_vessels::graph::WayPoint;
 use crate::trace::lines::centerline::Centerline;
-use crate::trace::lines::nearest_point::nearest_point;
+use crate::trace::lines::nearest_point;
 use crate::trace::lines::smoothing::smoothed_by_gaussian;
 use lumencut_core::math::arc_length::arc_lengths;
 
