@@ -12,8 +12,8 @@ use crate::errors::to_python;
 use crate::measuring::Profile;
 use crate::pool;
 use crate::tree::{VesselArrays, vessel as vessel_of};
+use crate::tree_findings::wall_request;
 use crate::volume::VolumeArgument;
-use crate::wall_request::wall_request;
 use crate::watching::reporting;
 
 /// A cache of the profiles of one volume and its vessel tree.

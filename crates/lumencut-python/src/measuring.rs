@@ -27,8 +27,8 @@ use crate::errors::to_python;
 use crate::pool;
 use crate::tree::{VesselArrays, vessel as vessel_of};
 use crate::tree_findings::TreeFindings;
+use crate::tree_findings::wall_request;
 use crate::volume::VolumeArgument;
-use crate::wall_request::wall_request;
 use crate::watching::reporting;
 
 /// Adds to the module: flags (name, bit, word, meaning, colours on paper and screen) and methods with labels.

@@ -2,8 +2,8 @@
 
 use glam::DVec3;
 
-use crate::trace::find::choose::vessel_at;
 use crate::trace::find::found::{NoVessel, Trees};
+use crate::trace::find::from_seed::vessel_at;
 use crate::trace::lines::centerline::Centerline;
 use crate::trace::lines::nearest_point;
 use crate::trace::lumen::within::holds;

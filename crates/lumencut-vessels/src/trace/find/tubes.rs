@@ -4,18 +4,18 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::trace::find::FindRequest;
+use crate::trace::find::all_tracks::Tracking;
 use crate::trace::find::bone::{self, Shape};
 use crate::trace::find::candidates::{Floors, candidates_near, noise};
-use crate::trace::find::choose::SELECT_RADII;
 use crate::trace::find::confidence::{UsualVessels, confidence};
+use crate::trace::find::from_seed::SELECT_RADII;
 use crate::trace::find::grid::Grid;
-use crate::trace::find::hidden::hidden;
+use crate::trace::find::inside_wide::hidden;
+use crate::trace::find::progress::{Stage, Stages};
 use crate::trace::find::pyramid::Pyramid;
 use crate::trace::find::scan::Scan;
 use crate::trace::find::side_by_side::side_by_side;
-use crate::trace::find::stages::{Stage, Stages};
 use crate::trace::find::track::{Track, TrackPoint};
-use crate::trace::find::tracking::Tracking;
 use crate::trace::find::vessel_level::vessel_level;
 use crate::voxels::Voxels;
 use lumencut_core::error::Result;
@@ -178,5 +178,5 @@ fn holds(track: &Track, place: DVec3) -> bool {
 mod tests;
 
 #[cfg(test)]
-#[path = "tests/from_seed.rs"]
+#[path = "tests/tubes_at_seed.rs"]
 mod from_seed_tests;

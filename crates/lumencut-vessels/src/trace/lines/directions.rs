@@ -1,4 +1,4 @@
-//! Computes the directions of a line at its points.
+//! Computes the directions along and across a line at its points.
 
 use glam::DVec3;
 

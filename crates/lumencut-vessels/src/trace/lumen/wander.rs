@@ -1,4 +1,5 @@
-//! Smooths lines that wander within a wide lumen, and centres them again.
+//! Finds lines that wander within a wide lumen (their turns are too tight for its width), smooths them, and centres
+//! them again.
 
 use crate::trace::lines::centerline::Centerline;
 use crate::trace::lines::smoothing::smoothed_by_gaussian;

@@ -246,5 +246,5 @@ fn has_returned(way: &[DVec3], running: &Running, step: f64) -> bool {
 }
 
 #[cfg(test)]
-#[path = "tests/tracker.rs"]
+#[path = "tests/one_track.rs"]
 mod tests;

@@ -1,7 +1,7 @@
 use super::*;
 use crate::trace::find::FindRequest;
 use crate::trace::find::made::{TISSUE, away, blurred, with_scan};
-use crate::trace::find::stages::Stages;
+use crate::trace::find::progress::Stages;
 use crate::trace::find::tubes::tubes;
 
 const SIZE: [usize; 3] = [70, 60, 50];

@@ -7,11 +7,11 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::trace::find::candidates::{Candidate, Floors, candidates};
+use crate::trace::find::one_track::{DARKER, MOST_STEPS, Tracker};
 use crate::trace::find::paint::{Paint, Painted};
+use crate::trace::find::progress::{Stage, Stages};
 use crate::trace::find::pyramid::Pyramid;
-use crate::trace::find::stages::{Stage, Stages};
 use crate::trace::find::track::{Track, TrackPoint, length, usual};
-use crate::trace::find::tracker::{DARKER, MOST_STEPS, Tracker};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 

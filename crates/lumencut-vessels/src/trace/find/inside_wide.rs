@@ -2,11 +2,11 @@
 
 use glam::DVec3;
 
+use crate::trace::find::all_tracks::Tracking;
 use crate::trace::find::candidates::Candidate;
 use crate::trace::find::paint::Painted;
-use crate::trace::find::stages::Stages;
+use crate::trace::find::progress::Stages;
 use crate::trace::find::track::{Track, TrackPoint};
-use crate::trace::find::tracking::Tracking;
 use lumencut_core::error::Result;
 
 /// Tracks with at least this confidence may be vessels, so no tubes are searched inside them.
@@ -52,5 +52,5 @@ pub(crate) fn hidden(
 }
 
 #[cfg(test)]
-#[path = "tests/hidden.rs"]
+#[path = "tests/inside_wide.rs"]
 mod tests;

@@ -6,8 +6,8 @@ use lumencut_core::error::ErrorKind;
 use lumencut_core::volume::{Volume, Voxels};
 use lumencut_phantom::y_junction;
 use lumencut_vessels::trace::find::FindRequest;
-use lumencut_vessels::trace::find::choose::{find_from, part_at};
 use lumencut_vessels::trace::find::found::{FoundVessel, Trees};
+use lumencut_vessels::trace::find::from_seed::{find_from, part_at};
 use lumencut_vessels::trace::find::track::TrackDoubt;
 use lumencut_vessels::trace::lines::centerline::Centerline;
 
