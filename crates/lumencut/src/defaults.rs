@@ -21,12 +21,12 @@ pub struct Quantity {
 }
 
 /// The lower end of a range of numbers that must be above 0.
-pub const ABOVE_0: f64 = f64::MIN_POSITIVE;
+pub(crate) const ABOVE_0: f64 = f64::MIN_POSITIVE;
 
 const OPEN: f64 = f64::INFINITY;
 
 /// Smallest and largest pixel side that a reformation has by default (mm).
-pub const PIXEL_SIDES: [f64; 2] = [0.05, 0.25];
+pub(crate) const PIXEL_SIDES: [f64; 2] = [0.05, 0.25];
 
 /// The rule of [`pixel_side`] in words, for help texts and documentation.
 pub const PIXEL_SIDE_WORDS: &str = "the smallest voxel side, at least 0.05 and at most 0.25 mm";

@@ -44,7 +44,7 @@ pub fn find_vessels(volume: &Volume, request: &FindRequest) -> Result<FoundTree>
 
 /// Describes the vessels found; at least one of them must be confident. Fails with
 /// [`lumencut_core::error::ErrorKind::Tracing`] if no vessel is confident; the error states `smallest_radius` (mm).
-pub fn confident_tree(trees: &Trees, smallest_radius: f64) -> Result<FoundTree> {
+pub(crate) fn confident_tree(trees: &Trees, smallest_radius: f64) -> Result<FoundTree> {
     if trees.vessels.iter().any(|vessel| vessel.doubt.is_none()) {
         return Ok(found(trees.clone()));
     }

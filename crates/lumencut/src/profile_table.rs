@@ -21,7 +21,7 @@ struct Block<'a> {
 }
 
 /// The numbers of all sections, as columns with names that include the unit.
-pub fn columns(profile: &Profile) -> Vec<(&'static str, Vec<f64>)> {
+pub(crate) fn columns(profile: &Profile) -> Vec<(&'static str, Vec<f64>)> {
     let centers = |axis: usize| profile.center.iter().map(|point| point[axis]).collect();
     let normals = |axis: usize| profile.normal.iter().map(|normal| normal[axis]).collect();
     let levels = |which: usize| profile.levels.iter().map(|levels| levels[which]).collect();

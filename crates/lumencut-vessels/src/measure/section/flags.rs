@@ -22,4 +22,4 @@ pub const IRREGULAR: u32 = 1 << 8;
 pub const RESTLESS_LINE: u32 = 1 << 9;
 
 /// Sections with any of these flags are ignored when the narrowest, widest or suggested sections are chosen.
-pub const LEFT_OUT: u32 = BRANCH | OUTSIDE | NO_EDGE | RECENTERED | RESTLESS_LINE;
+pub(crate) const LEFT_OUT: u32 = BRANCH | OUTSIDE | NO_EDGE | RECENTERED | RESTLESS_LINE;

@@ -9,7 +9,7 @@ use lumencut_core::error::Result;
 use lumencut_core::volume::Volume;
 
 /// A seed selects a vessel within this many radii, or within one voxel if that is larger.
-pub const SELECT_RADII: f64 = 1.5;
+pub(crate) const SELECT_RADII: f64 = 1.5;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Near {
@@ -50,7 +50,7 @@ pub fn part_at(trees: &Trees, seed: DVec3, voxel: f64) -> std::result::Result<us
 
 /// The vessel nearest to a position in radii, preferably one that `comes_first` accepts. The search radius is
 /// at least `voxel` mm. Errors: if no vessel is in reach, the nearest vessel point and its distance (mm).
-pub fn vessel_at(
+pub(crate) fn vessel_at(
     trees: &Trees,
     place: DVec3,
     voxel: f64,

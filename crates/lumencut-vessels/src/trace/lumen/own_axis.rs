@@ -10,7 +10,7 @@ use crate::trace::lumen::surroundings::Surroundings;
 use crate::voxels::Voxels;
 
 /// Number of directions that cover half a sphere.
-pub const DIRECTIONS: u32 = 200;
+pub(crate) const DIRECTIONS: u32 = 200;
 
 /// Maximum distance to which a lumen is followed (mm).
 const SEARCH_MM: f64 = 60.0;
