@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from lumencut.camera import Camera
 from lumencut.evaluation.methods import Method
 from lumencut.evaluation.shown import Shown
-from lumencut.renderer import Renderer
-from lumencut.settings import Settings
+from lumencut.pictures.renderer import Renderer
+from lumencut.scene.camera import Camera
+from lumencut.scene.settings import Settings
 
 
 def shown_by(method: Method, renderer: Renderer, camera: Camera, settings: Settings) -> Shown:
