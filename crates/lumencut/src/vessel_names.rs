@@ -47,8 +47,7 @@ pub struct NamedVessel {
     pub snomed: &'static str,
     /// Meaning of the SNOMED CT code.
     pub meaning: &'static str,
-    /// Number in the Foundational Model of Anatomy, from the tables of UBERON, BodyParts3D and HRA-VCCF. 323778 is
-    /// `fma0323778`.
+    /// Number in the Foundational Model of Anatomy (323778 is `fma0323778`), from UBERON, BodyParts3D and HRA-VCCF.
     pub fma: Option<u32>,
 }
 
