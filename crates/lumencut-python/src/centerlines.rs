@@ -1,4 +1,4 @@
-//! Reads centerline files for `lumencut.centerlines`, and session files.
+//! Reads centerline files for `lumencut.files.centerlines`, and session files for `lumencut.viewer.session_file`.
 
 use pyo3::prelude::*;
 
