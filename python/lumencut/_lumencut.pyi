@@ -11,8 +11,8 @@ import numpy as np
 import numpy.typing as npt
 from typing_extensions import disjoint_base
 
-from lumencut.mends import MendName, Told
-from lumencut.placement import Coordinates, Unit
+from lumencut.base.mends import MendName, Told
+from lumencut.scene.placement import Coordinates, Unit
 
 _Axis = str | npt.NDArray[np.float64]
 _Arrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None]
@@ -73,6 +73,8 @@ __all__ = [
     "VIEW_METHODS",
     "VOLUME_FILES",
     "WINDOW_PRESETS",
+    "WRITTEN_CENTERLINES",
+    "WRITTEN_VOLUMES",
     "CenterlineFile",
     "Cpr",
     "Grade",
@@ -268,6 +270,8 @@ FILE_KINDS: list[tuple[str, str, str, list[str], list[str]]]
 FILE_HEAD: int
 VOLUME_FILES: str
 CENTERLINE_FILES: str
+WRITTEN_CENTERLINES: str
+WRITTEN_VOLUMES: str
 SMALLEST_EXTENT: float
 LARGEST_EXTENT: float
 #: How the note ends that says of a line that its points were moved.

@@ -67,7 +67,7 @@ impl Kind {
 
     /// Whether the numbers are integers.
     #[must_use]
-    pub const fn is_integer(self) -> bool {
+    pub(crate) const fn is_integer(self) -> bool {
         !matches!(self, Self::Float32 | Self::Float64)
     }
 
@@ -90,7 +90,7 @@ impl Kind {
 
     /// The type in which the engine stores the numbers: an integer type if it is exact, else float32.
     #[must_use]
-    pub const fn in_the_engine(self) -> Self {
+    pub(crate) const fn in_the_engine(self) -> Self {
         match self {
             Self::Uint8 | Self::Int16 | Self::Uint16 => self,
             Self::Int8 => Self::Int16,
