@@ -46,7 +46,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
 
 
 def without_news(cases: list[pytest.Item]) -> list[pytest.Item]:
-    """Return the cases whose values occur in other cases too, and those beyond the most that are asked for."""
+    """Return the cases whose values occur in other cases too, and those beyond the most asked for."""
     values = {id(case): {(name, id(one)) for name, one in case.callspec.params.items()} for case in cases}
     unseen, left = set().union(*values.values()), list(cases)
     while unseen:

@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from conftest import each_value
-
 import lumencut
+from conftest import each_value
 from lumencut import Tracer, Vessel, VesselTree, Volume, phantom, read_centerlines, trace, write_centerlines
 from trace_scenes import (
     BONE,
