@@ -1,7 +1,7 @@
 //! All tests of tracing and measuring from outside, in one program.
 
 mod errors;
-mod find_choose;
+mod find_from_seed;
 mod find_one_vessel;
 mod find_stops;
 mod lumens_on_ray;
