@@ -1,9 +1,9 @@
 """Checks that thinner tests still notice wrong code: breaks single operators in a sample of places.
 
 Each mutant replaces one comparison by its opposite, one sign, or one whole number by the next one. The tests
-of this tree run first; if they pass, those of an older tree run, to see whether a removed test noticed it.
+of this tree run first; if they pass, the removed tests of an older tree run, to see whether one notices it.
 
-    python benches/mutants.py --count 20 --old ../before --output benches/results/mutants.json \
+    python benches/mutants.py --old ../before --removed tests/test_cohort.py --output found.json \
         python/lumencut/cohort/lock.py -- tests/test_cohort_lock.py
 
 For Rust, `--build` names the command that builds the extension module again; it takes a minute per mutant.
@@ -50,11 +50,6 @@ class Mutant:
         return "".join(lines)
 
 
-def replaced(token: str) -> str:
-    """Return the wrong token, or nothing."""
-    return str(int(token) + 1) if token.isdigit() else OPPOSITES.get(token, "")
-
-
 def mutants_of(path: Path) -> list[Mutant]:
     """Return all mutants of a file, without its Rust tests."""
     if path.suffix == ".py":
@@ -64,7 +59,8 @@ def mutants_of(path: Path) -> list[Mutant]:
         code = (ROOT / path).read_text("utf-8").partition("#[cfg(test)]")[0].splitlines()
         lines = [(n, line.partition("//")[0]) for n, line in enumerate(code, 1)]
         found = [(n, m.start(), m.group()) for n, line in lines for m in RUST.finditer(line)]
-    return [Mutant(path, n, at, old, new) for n, at, old in found if (new := replaced(old))]
+    wrong = [(one, str(int(one[2]) + 1) if one[2].isdigit() else OPPOSITES.get(one[2], "")) for one in found]
+    return [Mutant(path, *one, new) for one, new in wrong if new]
 
 
 def overlay(folder: Path, mutant: Mutant) -> Path:
@@ -83,9 +79,7 @@ def overlay(folder: Path, mutant: Mutant) -> Path:
 
 def passes(root: Path, tests: list[str], imported: Path | None) -> bool:
     """Run tests of a tree up to the first failure."""
-    # An older tree may lack a file of tests.
-    kept = [one for one in tests if one.startswith("-") or (root / one.partition("::")[0]).exists()]
-    words = [sys.executable, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", *kept]
+    words = [sys.executable, "-m", "pytest", "-q", "-x", "-p", "no:cacheprovider", *tests]
     environment = dict(os.environ) | ({"PYTHONPATH": str(imported)} if imported else {})
     try:
         return not subprocess.run(
@@ -108,7 +102,7 @@ def outcome(mutant: Mutant, arguments: argparse.Namespace) -> str:
                     return "not built"
             if not passes(ROOT, arguments.tests, imported):
                 return "killed"
-            return "survived" if passes(arguments.old, arguments.tests, imported) else "lost"
+            return "survived" if passes(arguments.old, arguments.removed, imported) else "lost"
         finally:
             if imported is None:
                 path.write_bytes(kept)
@@ -120,6 +114,7 @@ def main() -> int:
     parser.add_argument("files", nargs="+", type=Path)
     parser.add_argument("tests", nargs="*", help="arguments of pytest, after --")
     parser.add_argument("--old", type=Path, required=True, help="a tree with the tests as they were")
+    parser.add_argument("--removed", action="append", required=True, help="a removed test of that tree")
     parser.add_argument("--count", type=int, default=300)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--minutes", type=float, default=60.0, help="no mutant begins later")
@@ -138,7 +133,14 @@ def main() -> int:
         found = outcome(mutant, arguments)
         rows.append({**vars(mutant), "path": str(mutant.path), "outcome": found})
         print(*rows[-1].values(), flush=True)
-        report = {"seed": arguments.seed, "possible": len(every), "tests": arguments.tests, "mutants": rows}
+        report = {
+            "seed": arguments.seed,
+            "possible": len(every),
+            "tests": arguments.tests,
+            "removed": arguments.removed,
+        }
+        report["mutants"] = rows
+        arguments.output.parent.mkdir(parents=True, exist_ok=True)
         arguments.output.write_text(json.dumps(report, indent=1) + "\n", "utf-8")
     return int(any(row["outcome"] == "lost" for row in rows))
 

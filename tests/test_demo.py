@@ -1,6 +1,7 @@
 """The demo: its CT is downloaded once, always verified, and replaced by a phantom if unavailable."""
 
 import hashlib
+import importlib
 import sys
 import zipfile
 from io import BytesIO
@@ -68,9 +69,11 @@ def offline(monkeypatch):
 @pytest.fixture
 def small(monkeypatch):
     """Pictures and turntable of the demo, small and few."""
-    monkeypatch.setattr("lumencut.cli.demo._SIZE", (192, 192))
-    monkeypatch.setattr("lumencut.cli.demo._TURN_SIZE", (48, 48))
-    monkeypatch.setattr("lumencut.cli.demo._TURN_FRAMES", 2)
+    # The package `cli` has a command of the same name as the module.
+    module = importlib.import_module("lumencut.cli.demo")
+    monkeypatch.setattr(module, "_SIZE", (192, 192))
+    monkeypatch.setattr(module, "_TURN_SIZE", (48, 48))
+    monkeypatch.setattr(module, "_TURN_FRAMES", 2)
 
 
 def run_demo(tmp_path, *more, folder="shown"):
