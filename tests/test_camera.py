@@ -25,7 +25,7 @@ small = st.floats(-100, 100)
 clouds = hnp.arrays(np.float64, st.tuples(st.integers(2, 9), st.just(3)), elements=small)
 angles = st.floats(-7, 7)
 VIEW = Camera((3, -4, 5), (0.3, 0.9, -0.2), (0.1, 0, 1), (60, 40), 0.7)
-thorough = settings(max_examples=200, deadline=None)
+thorough = settings(max_examples=100, deadline=None)
 
 
 def pixels(camera, points):

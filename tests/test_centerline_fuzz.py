@@ -78,7 +78,7 @@ def test_the_small_files_are_read_whole_and_fail_when_cut_short(name, vessels):
         read_soundly(content[:length], name)
 
 
-@settings(deadline=None, max_examples=300)
+@settings(deadline=None, max_examples=100)
 @given(
     name=st.sampled_from(sorted(SMALL)),
     edits=st.lists(st.tuples(st.integers(0, 10_000), st.integers(0, 8), st.binary(max_size=8)), max_size=4),
@@ -91,7 +91,7 @@ def test_edited_files_are_read_soundly_or_refused(name, edits):
     read_soundly(bytes(content), name)
 
 
-@settings(deadline=None, max_examples=200)
+@settings(deadline=None, max_examples=100)
 @given(
     name=st.sampled_from(sorted(SMALL)),
     start=st.sampled_from([b"", b"# vtk\n", b"<VTKFile", b"{"]),

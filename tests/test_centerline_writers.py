@@ -55,7 +55,7 @@ def small_tree() -> VesselTree:
 
 
 @pytest.mark.parametrize("ending", ENDINGS)
-@settings(deadline=None, max_examples=150)
+@settings(deadline=None, max_examples=60)
 @given(tree=trees())
 def test_trees_come_back_to_the_bit(tmp_path_factory, ending, tree):
     path = tmp_path_factory.getbasetemp() / f"tree{ending}"
@@ -223,7 +223,7 @@ def test_rows_and_nodes(tmp_path):
 
 
 @pytest.mark.parametrize("ending", OTHER_ENDINGS)
-@settings(deadline=None, max_examples=100)
+@settings(deadline=None, max_examples=50)
 @given(tree=trees())
 def test_the_points_of_any_tree_come_back_from_the_other_formats(tmp_path_factory, ending, tree):
     path = tmp_path_factory.getbasetemp() / f"tree{ending}"

@@ -256,15 +256,7 @@ def test_on_a_tie_the_earlier_piece_wins(deep_first, link):
     np.testing.assert_array_equal(frame.vessel[[1, 2, 3], 0], [deep, 0, 0 if link else 1 - deep])
 
 
-@pytest.mark.parametrize(
-    "apart",
-    [
-        0.0,
-        1e-9,
-        5e-4,
-        2e-3,
-    ],
-)
+@pytest.mark.parametrize("apart", [0.0, 1e-9, 5e-4, 2e-3])
 def test_a_point_nearly_repeated_changes_little(apart):
     line = np.array([[-20.0, 0, 0], [0, 10, 0], [0, 60, 20], [-20, 70, 20]])
     rule = replace(PLAIN, levels=0)
@@ -284,7 +276,7 @@ tangles = st.lists(
 
 
 @odd_lines
-@settings(max_examples=300, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(tangles, st.sampled_from([(0, 1, 0), (1, 0, 0), (1, 1, 1)]), st.booleans())
 def test_tangles_of_points_with_whole_coordinates(lines, direction, lumen_first):
     tree = VesselTree([Vessel(line, 0.25 * number) for number, line in enumerate(lines)])

@@ -87,7 +87,7 @@ odd = st.sampled_from(
 anything = odd | st.floats() | st.integers() | st.text(max_size=3) | st.lists(st.floats(), max_size=4)
 small = st.floats(-100, 100).filter(lambda x: x == 0 or abs(x) > 1e-100)
 vectors = hnp.arrays(np.float64, 3, elements=small)
-thorough = settings(max_examples=300, deadline=None)
+thorough = settings(max_examples=100, deadline=None)
 
 
 def attempt(make, kind=LumencutError):

@@ -148,7 +148,7 @@ affines = hnp.arrays(np.float64, (4, 4), elements=floats) | hnp.arrays(
 ).map(lambda rows: np.vstack([rows, [0, 0, 0, 1]]))
 
 
-@settings(max_examples=200, deadline=None)
+@settings(max_examples=100, deadline=None)
 @given(array=anything, affine=affines)
 def test_any_array_and_affine(array, affine):
     try:
