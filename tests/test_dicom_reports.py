@@ -9,7 +9,6 @@ from functools import cache
 import numpy as np
 import pydicom
 import pytest
-from pydicom.sr._concepts_dict import concepts
 
 import lumencut
 from dicom_judges import faults
@@ -76,6 +75,9 @@ def save(tmp_path, **how):
 
 
 def test_every_code_is_in_the_dictionary_of_the_standard():
+    # Imported here: a large dictionary, which no other test needs.
+    from pydicom.sr._concepts_dict import concepts
+
     known = {
         (value, scheme, meaning)
         for scheme in ("DCM", "SCT")

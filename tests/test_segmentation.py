@@ -1,12 +1,10 @@
 """DICOM segmentations as masks: placed by frame positions, named by segments, rejected with reasons."""
 
-import highdicom
 import numpy as np
 import pydicom
 import pytest
 from click.testing import CliRunner
 from pydicom.sequence import Sequence as Items
-from pydicom.sr.codedict import codes
 
 import lumencut
 from dicom_phantom import ROOT, Image, instance, oblique, save, single, tilted
@@ -144,6 +142,9 @@ def test_other_forms_hold_the_same(tmp_path, form):
 
 @pytest.mark.parametrize("kind", ["BINARY", "FRACTIONAL", "LABELMAP"])
 def test_what_highdicom_writes_is_read_as_it_was(tmp_path, scan, kind):
+    import highdicom
+    from pydicom.sr.codedict import codes
+
     labels = masks()[1].array + 2 * masks()[7].array
     described = [
         highdicom.seg.SegmentDescription(
