@@ -17,7 +17,8 @@ const READ: u64 = 1 << 20;
 const PIECE: usize = 1 << 18;
 /// A byte of a deflate stream unpacks to at most this many bytes.
 const DEFLATE_LIMIT: u128 = 1032;
-/// Up to this multiple of the compressed size, memory is requested before the stream has proved its length.
+/// Up to this multiple of the compressed size, memory is requested before the stream has proved its length. As many
+/// bytes may follow the voxels.
 const TRUSTED: u128 = 8;
 
 /// A part of the file that holds the voxels.
@@ -47,7 +48,7 @@ pub enum Step {
         /// Bytes of the voxels in the smallest type that they may have.
         least: u64,
     },
-    /// This many stored bytes were examined before any voxel is written.
+    /// This many stored bytes were examined, before any voxel is written or after the last one.
     Checked(usize),
     /// The next steps write the voxels; the host provides memory.
     Room {
@@ -158,8 +159,9 @@ impl Fill {
 
     fn after(&mut self, piece: Piece, step: fn(usize) -> Step) -> Turn {
         match piece {
-            Piece::Bytes(0) => Turn::Again,
+            Piece::Bytes(0) | Piece::Beyond(0) => Turn::Again,
             Piece::Bytes(count) => Turn::Step(step(count)),
+            Piece::Beyond(count) => Turn::Step(Step::Checked(count)),
             Piece::Hungry => Turn::Hungry,
             Piece::Full => Turn::Step(step(0)),
             Piece::End => {
@@ -222,7 +224,10 @@ impl Fill {
     }
 
     fn pass(&self) -> Pass {
-        Pass::new(&self.plan, self.at, self.plan.stored_bytes(), self.numbers())
+        let needed = self.plan.stored_bytes();
+        let trusted = TRUSTED * u128::from(self.size.saturating_sub(self.at));
+        let beyond = saturated(needed.max(trusted)).max(READ);
+        Pass::new(&self.plan, self.at, needed, self.numbers(), beyond)
     }
 
     /// How numbers are stored when a pass returns them: those of a text are in this machine's byte order.
@@ -240,8 +245,8 @@ impl Fill {
         let start = pass.start;
         let piece = pass.take(&mut self.at, self.size, input, &mut self.buffer[self.held..])?;
         let Piece::Bytes(count) = piece else {
-            if piece == Piece::Hungry {
-                return Ok(Turn::Hungry);
+            if matches!(piece, Piece::Hungry | Piece::Beyond(_)) {
+                return Ok(self.after(piece, Step::Checked));
             }
             let kind = match &self.phase {
                 Phase::Range(_, range) => {
@@ -316,7 +321,7 @@ impl Fill {
         let piece = pass.take(&mut self.at, self.size, input, &mut self.buffer[self.held..])?;
         match piece {
             Piece::Bytes(count) => self.held += count,
-            Piece::Hungry => return Ok(Turn::Hungry),
+            Piece::Hungry | Piece::Beyond(_) => return Ok(self.after(piece, Step::Filled)),
             Piece::Full => return Ok(Turn::Step(Step::Filled(0))),
             Piece::End => {
                 map.refuse_overlaps(&self.plan.name)?;

@@ -124,18 +124,19 @@ impl Known {
     }
 }
 
-/// The first bytes of a stream, and whether it yields no further bytes.
+/// The first `count` bytes of a stream; if they are fewer, also whether it yields no further bytes.
 fn first_unpacked(packed: &[u8], is_whole: bool, count: usize) -> (Vec<u8>, bool) {
-    let mut unpacker = Unpacker::new(Codec::Zlib, count as u128);
+    let mut unpacker = Unpacker::new(Codec::Zlib, count as u128, 0);
     let (mut bytes, mut piece, mut at) = (Vec::new(), vec![0; PIECE.min(count)], 0);
-    loop {
+    while bytes.len() < count {
         match unpacker.take(&packed[at..], is_whole, &mut piece) {
             Ok(Taken::Some { read, written }) => {
                 at += read;
                 bytes.extend_from_slice(&piece[..written]);
             }
             Ok(Taken::Hungry) => return (bytes, is_whole),
-            Ok(Taken::End) | Err(_) => return (bytes, true),
+            Ok(Taken::Beyond { .. } | Taken::End) | Err(_) => return (bytes, true),
         }
     }
+    (bytes, is_whole)
 }

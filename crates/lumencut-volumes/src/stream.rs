@@ -1,5 +1,6 @@
 //! Decompresses streams of several parts in pieces of bounded size, and verifies checksums.
 
+use crate::error::Error;
 use flate2::{Decompress as Inflate, FlushDecompress, Status};
 
 /// How the voxels are stored.
@@ -19,19 +20,28 @@ pub enum Codec {
 const MOST_EMPTY: u32 = 1000;
 /// Number of bytes that show whether another part begins.
 const MAGIC: usize = 3;
+/// Bytes after the wanted ones that are unpacked at once.
+const BEYOND: usize = 1 << 14;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Fault {
     Damaged,
     BreaksOff,
+    /// Far more bytes than voxels.
+    GoesOn(u64),
 }
 
 impl Fault {
-    pub(crate) fn words(self) -> &'static str {
-        match self {
+    pub(crate) fn of(self, subject: &str) -> Box<Error> {
+        let found = match self {
             Self::Damaged => "a compressed stream that is damaged",
             Self::BreaksOff => "a compressed stream that breaks off",
-        }
+            Self::GoesOn(most) => {
+                let found = format!("a compressed stream with over {most} bytes after the voxels");
+                return Error::new(subject, found, "a stream of voxels").mend("write the volume again");
+            }
+        };
+        Error::damaged(subject, found, "a whole one")
     }
 }
 
@@ -39,18 +49,23 @@ impl Fault {
 pub(crate) enum Taken {
     /// The numbers of bytes read and written; one of them may be 0.
     Some { read: usize, written: usize },
+    /// The numbers of bytes read, and of bytes unpacked that follow the wanted ones.
+    Beyond { read: usize, count: usize },
     /// More input is needed.
     Hungry,
     /// All wanted bytes were written and checksums match, or the stream has no more bytes.
     End,
 }
 
-/// Decompresses at most `wanted` bytes, and ignores all that follows. If a part ends with these bytes, its checksum
-/// is verified.
+/// Decompresses at most `wanted` bytes, and verifies the checksum of the part in which they end. Ignores what follows
+/// this part.
 pub(crate) struct Unpacker {
     codec: Codec,
     part: Part,
     wanted: u128,
+    /// Number of bytes that this part may have after the wanted ones, and how many are left of them.
+    most: u64,
+    beyond: u64,
     empty: u32,
 }
 
@@ -69,8 +84,8 @@ pub(crate) fn is_gzip(bytes: &[u8]) -> bool {
 }
 
 impl Unpacker {
-    pub(crate) fn new(codec: Codec, wanted: u128) -> Self {
-        Self { codec, part: Part::Between { is_first: true }, wanted, empty: 0 }
+    pub(crate) fn new(codec: Codec, wanted: u128, most: u64) -> Self {
+        Self { codec, part: Part::Between { is_first: true }, wanted, most, beyond: most, empty: 0 }
     }
 
     /// Reads `input` and writes `output`; `is_last` states that no more input follows.
@@ -81,21 +96,25 @@ impl Unpacker {
             }
             self.part = self.begun(input, is_first);
         }
-        // Reading one more byte makes a part that ends here verify its checksum.
-        let mut beyond = [0];
         let is_beyond = self.wanted == 0;
         let most = usize::try_from(self.wanted).unwrap_or(usize::MAX).min(output.len());
-        let room = if is_beyond { &mut beyond[..] } else { &mut output[..most] };
+        let mut beyond;
+        let room = if is_beyond {
+            beyond = [0; BEYOND];
+            &mut beyond[..]
+        } else {
+            &mut output[..most]
+        };
         let (read, written, has_ended) = match &mut self.part {
             Part::Zlib(part) => inflated(part, input, room, is_beyond)?,
             Part::Bzip2(part) => unpacked(part, input, room)?,
             Part::Between { .. } | Part::Over => return Ok(Taken::End),
         };
-        if is_beyond && written > 0 {
-            self.part = Part::Over;
-            return Ok(Taken::End);
+        if is_beyond {
+            self.beyond = self.beyond.checked_sub(written as u64).ok_or(Fault::GoesOn(self.most))?;
+        } else {
+            self.wanted -= written as u128;
         }
-        self.wanted -= written as u128;
         if written > 0 {
             self.empty = 0;
         }
@@ -106,7 +125,7 @@ impl Unpacker {
         } else if read == 0 && written == 0 {
             return if is_last { self.broken_off() } else { Ok(Taken::Hungry) };
         }
-        Ok(Taken::Some { read, written })
+        Ok(if is_beyond { Taken::Beyond { read, count: written } } else { Taken::Some { read, written } })
     }
 
     fn broken_off(&mut self) -> Result<Taken, Fault> {
