@@ -17,9 +17,10 @@ const READ: u64 = 1 << 20;
 const PIECE: usize = 1 << 18;
 /// A byte of a deflate stream unpacks to at most this many bytes.
 const DEFLATE_LIMIT: u128 = 1032;
-/// Up to this multiple of the compressed size, memory is requested before the stream has proved its length. As many
-/// bytes may follow the voxels.
+/// Up to this multiple of the compressed size, memory is requested before the stream has proved its length.
 const TRUSTED: u128 = 8;
+/// Unpacked bytes that may follow the voxels: this many, the voxels' own, or what a trusted stream has.
+const BEYOND: u64 = 1 << 30;
 
 /// A part of the file that holds the voxels.
 #[derive(Clone, Copy, Debug, Default)]
@@ -226,7 +227,7 @@ impl Fill {
     fn pass(&self) -> Pass {
         let needed = self.plan.stored_bytes();
         let trusted = TRUSTED * u128::from(self.size.saturating_sub(self.at));
-        let beyond = saturated(needed.max(trusted)).max(READ);
+        let beyond = saturated(needed.max(trusted)).max(BEYOND);
         Pass::new(&self.plan, self.at, needed, self.numbers(), beyond)
     }
 

@@ -47,6 +47,7 @@ mod built_in;
 mod convert;
 mod error;
 mod fill;
+mod grid;
 mod known;
 mod label_map;
 mod metaimage;
@@ -63,6 +64,7 @@ mod write;
 
 pub use error::{Error, ErrorKind, Need, Stop};
 pub use fill::{Fill, Step, Window};
+pub use grid::grid_fault;
 pub use known::{Found, Known};
 pub use nifti::{StatedUnits, stated_units};
 pub use numbers::{Kind, Scaling};

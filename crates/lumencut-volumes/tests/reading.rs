@@ -137,6 +137,10 @@ fn damaged_streams_are_refused() {
     let mut length = whole.clone();
     *length.last_mut().unwrap() ^= 1;
     let long = gzipped(&[nifti(), vec![7; 9]].concat());
+    let mut packer = Packer::default();
+    let mut bomb = packer.pack(&nifti());
+    (0..1025).for_each(|_| bomb.extend(packer.pack(&[0; 1 << 20])));
+    bomb.extend(packer.end());
     let cases = [
         ("wrong length", length, "a compressed stream that is damaged"),
         ("short", whole[..whole.len() - 9].to_vec(), "a compressed stream that breaks off"),
@@ -144,7 +148,7 @@ fn damaged_streams_are_refused() {
         ("wrong check sum", wrong, "a compressed stream that is damaged"),
         ("few voxels", gzipped(&nifti()[..390]), "38 bytes of voxels"),
         ("short after the voxels", long[..long.len() - 1].to_vec(), "a compressed stream that breaks off"),
-        ("bomb after the voxels", gzipped(&[nifti(), vec![0; 4 << 20]].concat()), "over 1048576 bytes after"),
+        ("bomb after the voxels", bomb, "over 1073741824 bytes after the voxels"),
         ("empty parts", [gzipped(&nifti()[..390]), gzipped(&[]).repeat(1002)].concat(), "38 bytes of voxels"),
     ];
     for (case, bytes, words) in cases {
@@ -235,6 +239,25 @@ fn files_outside_the_folder_are_refused() {
         let file = format!("{header}data file: {name}\n");
         let error = refused(opened(&Files::from([("a.nhdr", file.into())]), "a.nhdr", None).unwrap_err());
         assert!(error.found.contains("data file"), "{error}");
+    }
+}
+
+#[test]
+fn a_grid_that_no_volume_can_have_is_refused() {
+    let mut far = nifti();
+    far[280..284].copy_from_slice(&1e9_f32.to_le_bytes());
+    let flat = nrrd("raw", &ramp());
+    let flat = String::from_utf8_lossy(&flat).replace("(0.0,0.0,-2.0)", "(0.5,0.75,0)").into_bytes();
+    let mhd = MHD.replace("ElementSpacing", "Offset = 0 -2e9 0\nElementSpacing");
+    let files = Files::from([("a.nii", far), ("b.nrrd", flat), ("c.mhd", mhd.into())]);
+    for (name, found, expected) in [
+        ("a.nii", "[[-1e+09, 0.125, 0, -10], [0, 0.75, 0, 20], [0, 0, -2, 30]]", "a grid within 1e+09 mm"),
+        ("b.nrrd", "[[0.5, 0.125, 0.5, -10], [0, 0.75, 0.75, 20], [0, 0, 0, 30]]", "an invertible affine"),
+        ("c.mhd", "[[0.5, 0, 0, 0], [0, 0.75, 0, -2e+09], [0, 0, 2, 0]]", "a grid within 1e+09 mm"),
+    ] {
+        let error = refused(opened(&files, name, None).unwrap_err());
+        assert_eq!(error.found, format!("world_from_index of the volume {found}"));
+        assert!(error.expected.starts_with(expected), "{error}");
     }
 }
 

@@ -76,12 +76,7 @@ class Reading {
 
   async read(): Promise<Plan> {
     const plan = await this.plan();
-    const rows = this.file.world_from_index();
-    if (!rows.every(Number.isFinite)) {
-      const found = 'a number in world_from_index that is not finite';
-      throw formatFailure(this.path, found, 'finite numbers', 'correct the position of the volume');
-    }
-    await this.fill(plan, gridOf(plan, [...rows]));
+    await this.fill(plan, gridOf(plan, [...this.file.world_from_index()]));
     return plan;
   }
 
