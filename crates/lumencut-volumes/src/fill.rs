@@ -200,6 +200,7 @@ impl Fill {
             }
             (Codec::Zlib | Codec::Bzip2, _) => {}
         }
+        self.plan.grid.check(&self.plan.name, self.plan.grid.size)?;
         self.phase = self.first_pass(held);
         let kind = self.plan.settled(self.in_engine);
         let smallest = if self.in_engine { 1 } else { self.plan.stored.kind.bytes() };

@@ -42,9 +42,9 @@ fn spans_a_volume(rows: &Affine) -> bool {
 }
 
 impl Grid {
-    /// Rejects a grid that no volume can have.
-    pub(crate) fn check(&self, path: &str) -> Result<(), Box<Error>> {
-        let Some((found, expected)) = grid_fault(self.size, &self.world_from_index) else { return Ok(()) };
+    /// Rejects a grid that no volume of this size can have.
+    pub(crate) fn check(&self, path: &str, size: [u64; 3]) -> Result<(), Box<Error>> {
+        let Some((found, expected)) = grid_fault(size, &self.world_from_index) else { return Ok(()) };
         let error = Error::new(path, format!("world_from_index of the volume {found}"), expected);
         Err(error.mend("correct the position of the volume"))
     }

@@ -25,7 +25,8 @@ pub fn open(name: &str, known: &Known, chosen: Option<&[u32]>) -> Result<Plan, S
         Some(Format::Nifti1 | Format::Nifti2) => nifti::open(name, known)?,
         None => return Err(Stop::Unknown),
     };
-    plan.grid.check(name)?;
+    // `Fill` checks it for the stated size, after it has refused a size that the file does not fill.
+    plan.grid.check(name, [1; 3])?;
     Ok(plan)
 }
 

@@ -1,7 +1,7 @@
 //! Decompresses streams of several parts in pieces of bounded size, and verifies checksums.
 
+use crate::decoder::{Decoder, Moved};
 use crate::error::Error;
-use flate2::{Decompress as Inflate, FlushDecompress, Status};
 
 /// How the voxels are stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,8 +74,7 @@ enum Part {
     Between {
         is_first: bool,
     },
-    Zlib(Box<Inflate>),
-    Bzip2(Box<bzip2::Decompress>),
+    Begun(Decoder),
     Over,
 }
 
@@ -105,11 +104,9 @@ impl Unpacker {
         } else {
             &mut output[..most]
         };
-        let (read, written, has_ended) = match &mut self.part {
-            Part::Zlib(part) => inflated(part, input, room, is_beyond)?,
-            Part::Bzip2(part) => unpacked(part, input, room)?,
-            Part::Between { .. } | Part::Over => return Ok(Taken::End),
-        };
+        let Part::Begun(decoder) = &mut self.part else { return Ok(Taken::End) };
+        let Moved { read, written, has_ended } =
+            decoder.take(input, room, is_beyond).ok_or(Fault::Damaged)?;
         if is_beyond {
             self.beyond = self.beyond.checked_sub(written as u64).ok_or(Fault::GoesOn(self.most))?;
         } else {
@@ -135,34 +132,10 @@ impl Unpacker {
 
     fn begun(&self, input: &[u8], is_first: bool) -> Part {
         match self.codec {
-            Codec::Zlib if is_gzip(input) => Part::Zlib(Box::new(Inflate::new_gzip(15))),
-            Codec::Zlib if is_first => Part::Zlib(Box::new(Inflate::new(true))),
-            Codec::Bzip2 if is_first || input.starts_with(b"BZh") => {
-                Part::Bzip2(Box::new(bzip2::Decompress::new(false)))
-            }
+            Codec::Zlib if is_gzip(input) => Part::Begun(Decoder::gzip()),
+            Codec::Zlib if is_first => Part::Begun(Decoder::zlib()),
+            Codec::Bzip2 if is_first || input.starts_with(b"BZh") => Part::Begun(Decoder::bzip2()),
             _ => Part::Over,
         }
     }
-}
-
-type Moved = (usize, usize, bool);
-
-fn inflated(part: &mut Inflate, input: &[u8], output: &mut [u8], is_beyond: bool) -> Result<Moved, Fault> {
-    let (read, written) = (part.total_in(), part.total_out());
-    let status = part.decompress(input, output, FlushDecompress::None);
-    let moved = |now: u64, before: u64| usize::try_from(now - before).unwrap_or(0);
-    let (read, written) = (moved(part.total_in(), read), moved(part.total_out(), written));
-    match status {
-        // Bytes before the damage are returned, since they may identify the file. The next call fails again.
-        Err(_) if written == 0 || is_beyond => Err(Fault::Damaged),
-        status => Ok((read, written, status.ok() == Some(Status::StreamEnd))),
-    }
-}
-
-fn unpacked(part: &mut bzip2::Decompress, input: &[u8], output: &mut [u8]) -> Result<Moved, Fault> {
-    let (read, written) = (part.total_in(), part.total_out());
-    let status = part.decompress(input, output).map_err(|_| Fault::Damaged)?;
-    let moved = |now: u64, before: u64| usize::try_from(now - before).unwrap_or(0);
-    let has_ended = status == bzip2::Status::StreamEnd;
-    Ok((moved(part.total_in(), read), moved(part.total_out(), written), has_ended))
 }

@@ -249,13 +249,21 @@ fn a_grid_that_no_volume_can_have_is_refused() {
     let flat = nrrd("raw", &ramp());
     let flat = String::from_utf8_lossy(&flat).replace("(0.0,0.0,-2.0)", "(0.5,0.75,0)").into_bytes();
     let mhd = MHD.replace("ElementSpacing", "Offset = 0 -2e9 0\nElementSpacing");
-    let files = Files::from([("a.nii", far), ("b.nrrd", flat), ("c.mhd", mhd.into())]);
+    let long = MHD.replace("2\nElementType", "6e8\nElementType");
+    let files = Files::from([
+        ("a.nii", far),
+        ("b.nrrd", flat),
+        ("c.mhd", mhd.into()),
+        ("d.mhd", long.into()),
+        ("a.zraw", zlibbed(&ramp())),
+    ]);
     for (name, found, expected) in [
         ("a.nii", "[[-1e+09, 0.125, 0, -10], [0, 0.75, 0, 20], [0, 0, -2, 30]]", "a grid within 1e+09 mm"),
         ("b.nrrd", "[[0.5, 0.125, 0.5, -10], [0, 0.75, 0.75, 20], [0, 0, 0, 30]]", "an invertible affine"),
         ("c.mhd", "[[0.5, 0, 0, 0], [0, 0.75, 0, -2e+09], [0, 0, 2, 0]]", "a grid within 1e+09 mm"),
+        ("d.mhd", "[[0.5, 0, 0, 0], [0, 0.75, 0, 0], [0, 0, 6e+08, 0]]", "a grid within 1e+09 mm"),
     ] {
-        let error = refused(opened(&files, name, None).unwrap_err());
+        let error = read(&files, name, false).unwrap_err();
         assert_eq!(error.found, format!("world_from_index of the volume {found}"));
         assert!(error.expected.starts_with(expected), "{error}");
     }
