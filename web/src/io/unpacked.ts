@@ -3,7 +3,7 @@ import { Ahead } from './ahead';
 import { type Bytes, free, type Source } from './source';
 
 /** Compressed bytes that are unpacked at once; they become at most a thousand times as many. */
-const PACKED = 1 << 15;
+const PACKED = 1 << 17;
 /** Streams that grow more are left to the module, which proves that they hold the voxels before there is room. */
 const TRUSTED = 8;
 const NONE: Bytes = new Uint8Array();
