@@ -9,7 +9,6 @@ import { openSources } from './opened';
 const RAMP = Array.from({ length: 105 }, (_, i) => i);
 const long = Buffer.concat([nifti(), Buffer.from('what follows the voxels')]);
 
-/** The content and its unpacked source; null if the module must unpack it. */
 const unpacked = (bytes: Uint8Array, first = 0) =>
   Unpacked.of(new BlobSource('a', new Blob([new Uint8Array(bytes)])), first);
 

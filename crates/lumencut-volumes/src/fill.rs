@@ -11,9 +11,7 @@ use crate::plan::{Plan, Stored};
 use crate::stream::Codec;
 use pass::{Pass, Piece};
 
-/// Bytes of a file that one step requests.
 const READ: u64 = 1 << 20;
-/// Stored bytes that are converted at once.
 const PIECE: usize = 1 << 18;
 /// A byte of a deflate stream unpacks to at most this many bytes.
 const DEFLATE_LIMIT: u128 = 1032;
@@ -82,10 +80,8 @@ pub struct Fill {
     in_engine: bool,
     size: u64,
     at: u64,
-    /// Start of the bytes that were requested last.
     asked: Option<u64>,
     phase: Phase,
-    /// Stored numbers that are not yet converted.
     buffer: Vec<u8>,
     held: usize,
 }
@@ -172,7 +168,6 @@ impl Fill {
         }
     }
 
-    /// Rejects a volume for which the file is too short.
     fn check_lengths(&mut self) -> Result<Turn, Box<Error>> {
         let (place, needed) = (&self.plan.place, self.plan.stored_bytes());
         let (name, skip) = (place.name.as_str(), u128::from(place.skip));
@@ -239,7 +234,6 @@ impl Fill {
         Stored { is_big, ..self.plan.stored }
     }
 
-    /// Examines stored bytes without writing voxels.
     fn look(&mut self, input: &[u8]) -> Result<Turn, Box<Error>> {
         self.buffer.resize(PIECE, 0);
         let stored = self.stored();

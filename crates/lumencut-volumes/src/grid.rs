@@ -4,7 +4,7 @@ use crate::error::Error;
 use crate::plan::{Affine, Grid};
 use crate::text::short;
 
-/// Largest coordinate of a volume (mm), and the largest number of voxels per mm.
+/// Largest coordinate (mm), and the most voxels per mm.
 const FARTHEST: f64 = 1e9;
 /// Smallest volume of a voxel as a share of the box that has the same sides.
 const FLATTEST: f64 = 1e-9;

@@ -66,7 +66,6 @@ impl Known {
         self.file(name).map(|file| file.found).ok_or_else(unknown)
     }
 
-    /// The first of these files that exists.
     pub(crate) fn first_found(&self, names: &[String]) -> Opening<Option<String>> {
         let unknown: Vec<String> = names.iter().filter(|name| self.file(name).is_none()).cloned().collect();
         if !unknown.is_empty() {
@@ -94,7 +93,6 @@ impl Known {
         Ok(&head[..wanted])
     }
 
-    /// As [`Self::unpacked`], but rejects other compressions.
     pub(crate) fn head(&self, name: &str, count: usize) -> Opening<Vec<u8>> {
         let start = self.first(name, 8)?;
         if let Some((_, codec)) = PACKED.iter().find(|(magic, _)| start.starts_with(magic)) {

@@ -13,7 +13,6 @@ use lumencut_volumes::{Codec, ErrorKind, Format, Kind, Packer, Scaling, Stop, Wr
 const SIZE: [u64; 3] = [4, 3, 2];
 const AFFINE: [[f64; 4]; 3] = [[0.5, 0.125, 0.0, -10.0], [0.0, 0.75, 0.0, 20.0], [0.0, 0.0, -2.0, 30.0]];
 
-/// The header of a MetaImage file whose voxels are in `a.zraw`.
 const MHD: &str = "ObjectType = Image\nNDims = 3\nDimSize = 4 3 2\nElementSpacing = 0.5 0.75 2\n\
                    ElementType = MET_SHORT\nCompressedData = True\nElementDataFile = a.zraw\n";
 

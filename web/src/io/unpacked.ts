@@ -1,4 +1,4 @@
-/** Gzipped files that the browser unpacks, which is faster than a module and needs no decoder in it. */
+/** Gzipped files that the browser unpacks, so that the module of volume files needs no decoder. */
 import { Ahead } from './ahead';
 import { type Bytes, free, type Source } from './source';
 
@@ -7,19 +7,14 @@ const PACKED = 1 << 17;
 /** Streams that grow more are left to the module, which proves that they hold the voxels before there is room. */
 const TRUSTED = 8;
 const NONE: Bytes = new Uint8Array();
-/** Least size of a gzip stream (bytes). */
 const LEAST = 18;
 
 /** A stream that the browser cannot verify; the module with decoders reads it and states what is wrong. */
 export class Unverified extends Error {}
 
-/**
- * The content of a single gzip stream, up to the end of its file. It is read forwards; going back begins anew. Its
- * content is verified only when `finish` returns.
- */
+/** The content of the only gzip stream in the rest of a file. It is verified only when `finish` returns. */
 export class Unpacked implements Source {
   private reader: ReadableStreamDefaultReader<Bytes> | null = null;
-  /** Content that is unpacked and not yet given, and where it begins. */
   private held: Bytes = NONE;
   private at = 0;
 
@@ -52,7 +47,6 @@ export class Unpacked implements Source {
     return this.reader !== null;
   }
 
-  /** The next piece, from byte `start` on; empty at the end. */
   async from(start: number): Promise<Bytes> {
     if (start < this.at) {
       await this.close();
@@ -105,7 +99,6 @@ export class Unpacked implements Source {
     this.at += skipped;
   }
 
-  /** Whether bytes are held, or the stream has yielded more. */
   private async more(): Promise<boolean> {
     this.reader ??= this.content().getReader();
     while (this.held.length === 0) {

@@ -30,7 +30,6 @@ export interface Sink {
 
 interface Means {
   readonly beside: Beside;
-  /** Loads the module without decoders, and the one with them. */
   readonly loadVolumes: () => Promise<Volumes>;
   readonly loadPackedVolumes: () => Promise<Volumes>;
   readonly sink: Sink;
@@ -53,10 +52,7 @@ export function begin(sink: Sink, path: string, grid: Grid, dtype: string): void
   }
 }
 
-/**
- * Reads a volume file, or either file of a pair. The browser unpacks gzip. If this fails, the module with decoders reads
- * the file again: it reads more kinds of streams, and states what is wrong.
- */
+/** Reads a volume file, or either file of a pair. After a failure the module with decoders states what is wrong. */
 export async function readVolume(source: Source, means: Means): Promise<Plan> {
   try {
     return await read(source, means, await means.loadVolumes(), true);
@@ -144,7 +140,6 @@ class Reading {
     this.unpacked.clear();
   }
 
-  /** The content of a file, unpacked if it is gzipped and the browser unpacks it. */
   private async content(name: string): Promise<Source | null> {
     const source = await this.source(name);
     if (this.unpacks && source && !this.unpacked.has(name)) {
@@ -162,7 +157,6 @@ class Reading {
     return content;
   }
 
-  /** The bytes from which voxels are read: a file, or what the browser unpacks. */
   private async voxels(plan: Plan): Promise<Source | null> {
     const source = await this.source(plan.voxels);
     if (!this.unpacks || !source) {

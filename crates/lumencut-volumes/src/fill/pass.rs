@@ -25,7 +25,6 @@ pub(crate) struct Pass {
     /// The smallest output (bytes) to which it can write.
     unit: usize,
     pub(crate) start: u64,
-    /// Unpacked bytes to skip.
     skip: u64,
     needed: u128,
     given: u128,
