@@ -7,7 +7,7 @@ export interface Source {
   /** The path, which messages show as the name of the file. */
   readonly path: string;
   readonly size: number;
-  /** Bytes from `start` to `end`; fewer if the file ends earlier. They belong to the caller. */
+  /** Bytes from `start` to `end`; fewer if the file ends earlier. */
   slice(start: number, end: number): Promise<Bytes>;
 }
 
@@ -29,11 +29,6 @@ export class BlobSource implements Source {
       throw new Failure('file', this.path, 'a file that the browser cannot read', 'a readable file', mend);
     }
   }
-}
-
-/** Frees the memory of bytes; browsers wait until some hundred megabytes of such memory are unused. */
-export function free(bytes: Bytes): void {
-  structuredClone(null, { transfer: [bytes.buffer] });
 }
 
 /** Finds a file that another file refers to; null if it is missing. */

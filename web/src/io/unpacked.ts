@@ -1,6 +1,6 @@
 /** Gzipped files that the browser unpacks, so that the module of volume files needs no decoder. */
 import { Ahead } from './ahead';
-import { type Bytes, free, type Source } from './source';
+import type { Bytes, Source } from './source';
 
 /** Compressed bytes that are unpacked at once; they become at most a thousand times as many. */
 const PACKED = 1 << 17;
@@ -115,18 +115,13 @@ export class Unpacked implements Source {
 
   private content(): ReadableStream<Bytes> {
     const ahead = new Ahead(this.packed);
-    let [at, piece, last, used]: [number, Bytes, Bytes, Bytes] = [this.first, NONE, NONE, NONE];
+    let [at, piece]: [number, Bytes] = [this.first, NONE];
     const packed = new ReadableStream<Bytes>(
       {
         pull: async (stream) => {
           if (piece.length === 0) {
             piece = await ahead.from(at);
             at += piece.length;
-            // The browser may still read the last piece.
-            if (used.length > 0) {
-              free(used);
-            }
-            [used, last] = [last, piece];
           }
           if (piece.length === 0) {
             stream.close();

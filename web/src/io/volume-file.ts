@@ -3,7 +3,7 @@ import { Failure } from '../core/failure';
 import { EVERY_SECOND } from '../core/mends';
 import type { Opening, Plan, Step, VolumeFile, Volumes } from '../core/volumes';
 import { Ahead } from './ahead';
-import { type Beside, besidePath, fileName, free, type Source } from './source';
+import { type Beside, besidePath, fileName, type Source } from './source';
 import type { Steps } from './steps';
 import { Unpacked, Unverified } from './unpacked';
 import { formatFailure } from './words';
@@ -193,11 +193,7 @@ class Reading {
       }
       if (step.read) {
         const [start] = step.read;
-        const bytes = await pieces.from(start);
-        file.read(start, bytes);
-        if (bytes.length > 0) {
-          free(bytes);
-        }
+        file.read(start, await pieces.from(start));
       }
       const isChecking = all === 0;
       await means.steps.step(isChecking ? 'Checking the volume' : 'Volume', offset, isChecking ? null : all);
