@@ -71,6 +71,7 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<volume_file::VolumeFill>()?;
     module.add_class::<volume_file::GzipPacker>()?;
     module.add_function(wrap_pyfunction!(volume_file::nifti_units, module)?)?;
+    module.add_function(wrap_pyfunction!(volume_file::fault_of_grid, module)?)?;
     module.add_function(wrap_pyfunction!(volume_file::volume_header, module)?)?;
     module.add_class::<lumen_map::LumenMap>()?;
     module.add_class::<lumen_map::LumenWall>()?;

@@ -132,7 +132,6 @@ impl Scaling {
     }
 }
 
-/// The type of the values, if the header decides it.
 pub(crate) fn settled(stored: Kind, scaling: Scaling) -> Option<Kind> {
     match stored {
         _ if scaling.is_none() => Some(stored),
