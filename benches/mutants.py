@@ -27,7 +27,6 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 OPPOSITES = {"<": ">=", ">": "<=", "<=": ">", ">=": "<", "==": "!=", "!=": "==", "+": "-", "-": "+"}
-#: Operators of Rust have spaces around them; generics and arrows do not.
 RUST = re.compile(r"(?<= )(<=|>=|==|!=|<|>|\+|-)(?= )|(?<![\w.])\d+(?![\w.])")
 PATIENCE = 900.0
 

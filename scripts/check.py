@@ -53,7 +53,7 @@ FUZZED = "crates/lumencut-io/fuzz/Cargo.toml"
 FUZZ_RUNS = 28_000
 """Inputs of libFuzzer over all formats."""
 PARALLEL = ("--numprocesses=2", "--dist=worksteal")
-"""Both cores; a worker that has no tests left takes some of the other one."""
+"""Most tests of a file run in one worker, which makes their scenes once; an idle worker takes tests over."""
 MAIN, PAGE, PYTHON, FUZZ = "main", "page", "python", "fuzzing"
 """The lanes. Page and Rust use separate build folders."""
 
@@ -200,7 +200,6 @@ def test_checks(report: str) -> list[Check]:
             environment,
             count=count_rust,
         ),
-        # With `worksteal`, most tests of a file run in one worker, which makes their shared scenes once.
         Check(
             "tests of Python",
             (f"{BIN}/python", "-m", "pytest", "--quiet", *PARALLEL, f"--junitxml={report}"),

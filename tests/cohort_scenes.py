@@ -106,8 +106,6 @@ def environment(manifest: Path) -> dict[str, str]:
 
 @dataclass(frozen=True)
 class Ended:
-    """How a command ended in this process."""
-
     returncode: int
     stdout: str
     stderr: str

@@ -79,7 +79,6 @@ CONNECTED, WORKING, DONE = ".lumencut/lock-*", ".lumencut/unfinished/*", "sub-*/
 
 @pytest.fixture(scope="module")
 def cohort(tmp_path_factory):
-    """A cohort, and its results computed on this machine."""
     manifest = write_cohort(tmp_path_factory.mktemp("cohort"), good=3, bad=False)
     whole = manifest.with_name("whole")
     assert run(manifest, whole).returncode == 0
@@ -138,7 +137,6 @@ def test_studies_end_when_their_batch_is_interrupted(tmp_path):
 
 
 def processes_of(out):
-    """Return the processes of the studies of a cohort."""
     told = subprocess.run(["ps", "-eo", "args="], capture_output=True, text=True).stdout
     return [line for line in told.splitlines() if f"--output={out}" in line and "--one=" in line]
 

@@ -52,8 +52,6 @@ def test_ends_are_told_by_code_and_last_words(tmp_path):
 
 
 class _Lost(Nursery):
-    """A forking process that is lost once, after its first study has begun."""
-
     lives = 1
 
     def start(self, job):

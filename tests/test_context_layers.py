@@ -152,7 +152,6 @@ def test_slabs_are_measured_in_millimetres(grid, thickness, kind):
 
 
 def test_a_slab_may_hold_any_number_of_voxels():
-    # More voxels than 16 bits count.
     voxels = noise(16, (3, 70_000, 3))
     volume = Volume(voxels, spacing=(1.0, 0.005, 1.0))
     tree = VesselTree([Vessel([[0.2, 175.0, 0.3], [1.7, 175.0, 1.6]], 0.5)])

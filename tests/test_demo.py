@@ -68,8 +68,6 @@ def offline(monkeypatch):
 
 @pytest.fixture
 def small(monkeypatch):
-    """Pictures and turntable of the demo, small and few."""
-    # The package `cli` has a command of the same name as the module.
     module = importlib.import_module("lumencut.cli.demo")
     monkeypatch.setattr(module, "_SIZE", (384, 384))
     monkeypatch.setattr(module, "_TURN_SIZE", (48, 48))

@@ -75,7 +75,6 @@ def save(tmp_path, **how):
 
 
 def test_every_code_is_in_the_dictionary_of_the_standard():
-    # Imported here: a large dictionary, which no other test needs.
     from pydicom.sr._concepts_dict import concepts
 
     known = {

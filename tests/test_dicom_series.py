@@ -17,7 +17,6 @@ from lumencut.files.volumes import as_volume
 
 @pytest.mark.parametrize("case", [*CASES, *REPEATED], ids=lambda case: case.name)
 def test_series(tmp_path, caplog, case):
-    """A folder gives the volume that was written or its error, and datasets in memory the same."""
     if case.needs:
         pytest.importorskip(case.needs)
     made = case.write(tmp_path)

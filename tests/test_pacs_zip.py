@@ -41,7 +41,6 @@ ALL = {"view.dcm", "vessel.dcm", "finding-1.dcm", "report.dcm", "report-pdf.dcm"
 
 @cache
 def archive(content, served):
-    """The archive of a request; many tests look at the same one."""
     return pacs_zip(content, scan() if served else None)
 
 

@@ -91,7 +91,6 @@ def test_one_connection_too_many_of_the_owner_is_refused(page):
 
 
 def status_once_served(client):
-    """Ask again as long as the server has not noticed that others are gone."""
     while True:
         with suppress(OSError, http.client.HTTPException):
             return client.ask().status

@@ -61,7 +61,6 @@ fn lines(tree: &[Vec<Row>]) -> Vec<Line> {
 #[test]
 fn no_large_file_takes_more_than_ten_times_its_size() {
     let mut wrong = Vec::new();
-    // A little more than 2¹⁷ points: where lists grow by doubling, that takes most.
     let tree = branches(140_000);
     let files = [
         ("ascii", "a.vtp", vtp(&tree, "ascii")),
