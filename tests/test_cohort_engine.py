@@ -78,6 +78,13 @@ def test_no_more_work_at_once_than_is_asked_for(tmp_path):
     assert list(begun) == [f"job-{n}" for n in range(5)]
 
 
+@pytest.mark.parametrize(("tick", "has_turns"), [(0.0, True), (1e9, False)])
+def test_the_caller_has_a_turn_now_and_then(tmp_path, monkeypatch, tick, has_turns):
+    monkeypatch.setattr(engine, "_TICK", tick)
+    found = list(side_by_side(jobs_of(tmp_path, ("--version",)), 1))
+    assert (None in found) == has_turns
+
+
 def test_without_a_terminal_a_line_now_and_then_tells_how_far_it_is(monkeypatch, capsys):
     moments = iter([0.0, 30.0, 90.0, 100.0, 180.0])
     monkeypatch.setattr(batch_progress.time, "monotonic", lambda: next(moments))

@@ -12,6 +12,7 @@ import pytest
 
 import lumencut
 from lumencut.cli.batch import _TIMES, _UNITS, _Quantity
+from lumencut.cohort import lock
 from lumencut.cohort.batch import checked_shard
 from lumencut.cohort.layout import Layout
 from lumencut.cohort.lock import Shard, held
@@ -51,6 +52,20 @@ def test_shards_of_one_division_work_beside_each_other(layout):
             pass
     studies = [[place for place in range(7) if Shard(number, 3).has(place)] for number in (1, 2, 3)]
     assert studies == [[0, 3, 6], [1, 4], [2, 5]]
+    assert (Shard(), Shard().is_all, Shard(1, 2).is_all) == (Shard(1, 1), True, False)
+
+
+def test_a_lock_is_renewed_now_and_then(layout, monkeypatch):
+    now = [1000.0]
+    monkeypatch.setattr(lock.time, "monotonic", lambda: now[0])
+    path = layout.own / "lock"
+    path.touch()
+    os.utime(path, (1, 1))
+    held_lock = lock.Lock(path)
+    for later, is_renewed in ((0.9, False), (0.2, True)):
+        now[0] += later * lock._ALIVE_EVERY
+        held_lock.renew()
+        assert (path.stat().st_mtime > 1) == is_renewed
 
 
 def test_locks_of_the_dead_are_taken_over(layout):
