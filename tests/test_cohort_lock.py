@@ -68,6 +68,14 @@ def test_a_lock_is_renewed_now_and_then(layout, monkeypatch):
         assert (path.stat().st_mtime > 1) == is_renewed
 
 
+def test_a_living_process_is_looked_for_and_gets_no_signal(layout, monkeypatch):
+    sent = []
+    monkeypatch.setattr(lock.os, "kill", lambda *order: sent.append(order))
+    with held(layout, Shard()), pytest.raises(FileError), held(layout, Shard()):
+        pass
+    assert set(sent) == {(os.getpid(), 0)}
+
+
 def test_locks_of_the_dead_are_taken_over(layout):
     # The process started at another time than the one that wrote the lock: its process id was reused.
     write_lock(layout)
