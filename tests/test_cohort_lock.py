@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import socket
+import sys
 import time
 
 import click
@@ -74,6 +75,12 @@ def test_a_living_process_is_looked_for_and_gets_no_signal(layout, monkeypatch):
     with held(layout, Shard()), pytest.raises(FileError), held(layout, Shard()):
         pass
     assert set(sent) == {(os.getpid(), 0)}
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="other systems do not tell when a process began")
+def test_the_start_of_a_process_tells_it_from_a_later_one_of_the_same_id():
+    assert lock._started(os.getpid()).isdigit()
+    assert lock._started(os.getpid()) != lock._started(1)
 
 
 def test_locks_of_the_dead_are_taken_over(layout):
