@@ -1,23 +1,23 @@
 /** Starts the page: the engine, the keys, and the files that the address of the page names. */
 import { render } from 'preact';
-import { engine } from './client/shared';
 import { followEdits } from './edit/following';
-import { followGuide } from './guide/steps';
-import { followKeeping } from './session/keeping';
-import { savedSession } from './session/saving';
 import { start } from './state/device';
 import { followPlaceTurn } from './state/place-turn';
 import { report } from './state/store';
+import { followKeeping } from './study/keeping';
 import { guardLeaving } from './study/leaving';
+import { savedSession } from './study/saving';
 import { openAddresses, openPhantom } from './study/study';
+import { followGuide } from './ui/guide-steps';
 import { listenToKeys } from './ui/keys';
+import { engine } from './worker/shared';
 import './style/page.css';
 import './style/views.css';
 import './style/panels.css';
 import './style/editing.css';
 import './style/measure.css';
+import { followView, restore, stateOf } from './state/address';
 import { App } from './ui/App';
-import { followView, restore, stateOf } from './url/fragment';
 
 const asked = new URLSearchParams(window.location.search);
 

@@ -1,8 +1,8 @@
 import { afterEach, beforeEach, describe, expect, test, vi } from 'vitest';
-import type { EngineClient } from '../src/client/engine';
 import { Failure } from '../src/core/failure';
 import type { Drawn, View } from '../src/core/messages';
 import { FrameLoop, type Shown } from '../src/views/frame-loop';
+import type { EngineClient } from '../src/worker/client';
 import { CAMERA } from './helpers';
 
 const VIEW: View = { camera: CAMERA, method: 'csr', settings: { levels: 3 } };

@@ -1,6 +1,5 @@
 /** Tests of the search for vessels: its seeds, clicks during the search, and the first view of the result. */
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
-import type { EngineClient } from '../src/client/engine';
 import type { Camera, DocumentVessel, Vector } from '../src/core/messages';
 import { findVessels } from '../src/edit/branches';
 import { dropEdits, searches } from '../src/edit/committing';
@@ -13,10 +12,11 @@ import { begin, document_ } from '../src/state/history';
 import { message } from '../src/state/message';
 import * as store from '../src/state/store';
 import { tool } from '../src/state/tool';
+import type { EngineClient } from '../src/worker/client';
 import { FakeTracing, withLines } from './fake-tracing';
 
 // The real engine needs a worker, which these tests do not have.
-vi.mock('../src/client/shared', () => ({ engine: {} }));
+vi.mock('../src/worker/shared', () => ({ engine: {} }));
 
 const OPENED: Vector = [0, 0, 0];
 const CHOSEN: Vector = [3, 4, 5];

@@ -4,7 +4,7 @@ import { leftOf } from '../src/measure/SectionTools';
 import { fittingSize } from '../src/output/wrapping';
 
 // The page's engine needs a worker, which tests lack.
-vi.mock('../src/client/shared', () => ({ engine: {} }));
+vi.mock('../src/worker/shared', () => ({ engine: {} }));
 
 test('the bar stands over its column and never runs off an edge', () => {
   expect(leftOf(500, 400, 1000)).toBe(300);

@@ -15,7 +15,7 @@ import { pickedVessel, started } from '../src/state/store';
 import { markNone, shorterThan, thinnerThan, treeChosen } from '../src/state/tidy';
 
 // The real engine needs a worker, which these tests do not have.
-vi.mock('../src/client/shared', () => ({ engine: {} }));
+vi.mock('../src/worker/shared', () => ({ engine: {} }));
 
 const vessel = (id: number, doubt: string | null = null): DocumentVessel => ({
   id,

@@ -17,7 +17,7 @@ import { tool } from '../src/state/tool';
 import { documentOf, FakeTracing, reportOf } from './fake-tracing';
 
 // The real engine needs a worker, which these tests do not have.
-vi.mock('../src/client/shared', () => ({ engine: {} }));
+vi.mock('../src/worker/shared', () => ({ engine: {} }));
 
 const [A, B, C]: Vector[] = [
   [0, 0, 0],

@@ -1,8 +1,8 @@
 /** Review of the doubtful branches: shows one after another, and the user accepts it or leaves it out. */
 import type { Asked } from '../core/asked';
 import type { Camera, DocumentVessel, LineId } from '../core/messages';
-import { placeCrossHair } from '../link/cross-hair';
 import { doubtful, vesselOf } from '../state/changes';
+import { placeCrossHair } from '../state/cross-hair';
 import { flyToAnswer } from '../state/flight';
 import { document_ } from '../state/history';
 import { showFailure } from '../state/message';

@@ -1,8 +1,8 @@
 /** While tracing, the page shows three slices and a maximum intensity projection. */
 import { batch, effect, signal, untracked } from '@preact/signals';
 import type { SettingValue } from '../core/messages';
-import { moveTo } from '../link/along';
 import { setSetting, settingOf } from '../state/actions';
+import { moveTo } from '../state/along';
 import * as store from '../state/store';
 import { type Tool, tool } from '../state/tool';
 import { forgetRefusal } from './committing';

@@ -1,10 +1,11 @@
 /** Performs the actions of keys and buttons. Edits are in this file, other actions in `state/actions.ts`. */
-import type { EngineClient } from '../client/engine';
+
 import type { Action } from '../input/bindings';
 import { perform } from '../state/actions';
 import { redo, undo } from '../state/history';
 import { crossHair, firstPlace, hasVolume, isHelpOpen, layout, problem, progress } from '../state/store';
 import { tool } from '../state/tool';
+import type { EngineClient } from '../worker/client';
 import { addBranches } from './branches';
 import { dropEdits, waiting } from './committing';
 import { answerDoubt, stepDoubt } from './doubts';

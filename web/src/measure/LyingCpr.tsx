@@ -1,12 +1,12 @@
 /** Straightened CPR of the picked vessel, shown horizontally with its first point on the left. */
 import { useCallback, useState } from 'preact/hooks';
-import { engine } from '../client/shared';
 import type { Axis, Cpr, Pair, StripLayout } from '../core/messages';
-import { moveTo } from '../link/along';
 import { CprControls, TURN_STEP } from '../pane/CprControls';
 import { FlatPicture } from '../pane/FlatPicture';
 import { dragWindow, windowBack } from '../state/actions';
+import { moveTo } from '../state/along';
 import * as store from '../state/store';
+import { engine } from '../worker/shared';
 import { lyingBox, lyingPicture } from './lying';
 import { valueAt } from './scale';
 

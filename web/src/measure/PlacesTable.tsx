@@ -1,11 +1,12 @@
 /** Table of marked and suggested places, and the largest diameter of the vessel. */
-import { engine } from '../client/shared';
+
 import type { Profile } from '../core/messages';
 import { cut } from '../edit/vessels';
-import { moveTo } from '../link/along';
+import { moveTo } from '../state/along';
 import { document_ } from '../state/history';
 import { placeTurn, togglePlaceTurn } from '../state/place-turn';
 import * as store from '../state/store';
+import { engine } from '../worker/shared';
 import { currentMarks, currentPlaces, currentVessel } from './current';
 import { confirm, remove } from './editing';
 import { meanings } from './flags';

@@ -1,7 +1,7 @@
 /** Shows the measurements at the pointer, or else at the section. A click moves the section. */
 import type { ComponentChildren, TargetedPointerEvent } from 'preact';
 import type { Axis, Profile } from '../core/messages';
-import { moveAlong, moveTo } from '../link/along';
+import { moveAlong, moveTo } from '../state/along';
 import * as store from '../state/store';
 import { valueAt } from './scale';
 import { sectionNumbers, snapped } from './sections';

@@ -1,10 +1,10 @@
 /** Draws contour, diameters and measurements of a section over its picture. */
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { engine } from '../client/shared';
 import { Latest } from '../core/latest';
 import type { LineId, MeasuredSection, Pair, Plane, Vector } from '../core/messages';
 import { pixelOn } from '../core/planes';
 import { pickedPlace } from '../state/store';
+import { engine } from '../worker/shared';
 import { currentProfile, currentVessel } from './current';
 import { meanings } from './flags';
 import { nearestSection, sectionNumbers } from './sections';

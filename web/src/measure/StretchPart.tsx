@@ -1,11 +1,11 @@
 /** Marked stretches of a vessel: their length, and the C-arm angles that show them without foreshortening. */
 
-import { engine } from '../client/shared';
 import type { Pair, Profile, Stretch } from '../core/messages';
 import { middle } from '../core/vectors';
 import type { VesselMarks } from '../state/document';
 import { flyTo } from '../state/flight';
 import * as store from '../state/store';
+import { engine } from '../worker/shared';
 import { answers, currentMarks } from './current';
 import { changeMarks } from './editing';
 import { stretchAround } from './marks';

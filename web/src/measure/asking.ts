@@ -1,18 +1,18 @@
 /** Requests measurements from the engine whenever the marks or the picked vessel change. */
 import { untracked, useSignalEffect } from '@preact/signals';
 import { useRef } from 'preact/hooks';
-import { engine } from '../client/shared';
 import { Failure } from '../core/failure';
 import { Latest } from '../core/latest';
 import type { LineId, Profile } from '../core/messages';
 import { listedLines } from '../edit/shown';
-import { moveTo } from '../link/along';
+import { moveTo } from '../state/along';
 import { isArriving } from '../state/arriving';
 import type { VesselMarks } from '../state/document';
 import { document_ } from '../state/history';
 import { beingMeasured, forgetProfiles, measure, profiles, stopped } from '../state/profiles';
 import { rulerLength } from '../state/rulers';
 import * as store from '../state/store';
+import { engine } from '../worker/shared';
 import { type Answers, answers, currentMarks, currentProfile, currentVessel, NO_ANSWERS } from './current';
 import { findingSentences, listedFindings, markedVessel, stated } from './findings';
 import { comparedIn, mainPlace, NOTHING_SUGGESTED, placesOf, type Suggested } from './marks';

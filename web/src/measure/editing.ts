@@ -1,6 +1,6 @@
 /** Edits of marked places. A drag is previewed and becomes one undo step. */
 import { batch, computed, signal } from '@preact/signals';
-import { moveTo } from '../link/along';
+import { moveTo } from '../state/along';
 import { type Document, NO_MARKS, type VesselMarks } from '../state/document';
 import { change, document_, endPreview, preview } from '../state/history';
 import { begunLength, dropLength } from '../state/length';

@@ -1,9 +1,9 @@
 /** Layout of the measuring pane, which the engine computes (CSS pixels). */
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { engine } from '../client/shared';
 import { Latest } from '../core/latest';
 import type { LineId, MeasureLayout, Pair } from '../core/messages';
 import { recover } from '../state/device';
+import { engine } from '../worker/shared';
 import { unlessGone } from './asking';
 import { currentProfile, currentVessel } from './current';
 import { TOOLS } from './SectionTools';

@@ -1,8 +1,9 @@
 /** Saves the vessels as a centerline file. */
-import { engine } from '../client/shared';
+
 import type { CenterlineKind } from '../core/messages';
 import { centerlineFile } from '../edit/files';
 import { document_, markSaved } from '../state/history';
+import { engine } from '../worker/shared';
 import { saveAs } from './pictures';
 import { studyFileName } from './study-file-names';
 

@@ -1,5 +1,5 @@
 /** Draws the key image of a finding: the straightened vessel with its marks, above the sections at these marks. */
-import { engine } from '../client/shared';
+
 import { Failure } from '../core/failure';
 import { SECTION_PIXELS as SIDE } from '../core/generated/tables';
 import type { Pair, Profile, ReportPlace } from '../core/messages';
@@ -8,6 +8,7 @@ import { colorOfPlace } from '../measure/PlaceHandles';
 import { nearestSection } from '../measure/sections';
 import { spread } from '../measure/words';
 import { profileOfLine } from '../state/profiles';
+import { engine } from '../worker/shared';
 import { canvasOf, sectionPair, straightenedCanvas } from './report-pictures';
 import { fittingSize } from './wrapping';
 

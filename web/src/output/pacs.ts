@@ -1,6 +1,5 @@
 /** Saves DICOM objects for a PACS. The server of the page makes a zip archive of them; nothing is sent elsewhere. */
 import { signal } from '@preact/signals';
-import { engine } from '../client/shared';
 import { DEFAULTS } from '../core/generated/tables';
 import type { GivenFile } from '../core/messages';
 import { inBase64, made, placeOf } from '../core/server';
@@ -10,6 +9,7 @@ import { showMessage } from '../state/message';
 import { profileOfLine } from '../state/profiles';
 import { reformationKind } from '../state/reformation';
 import * as store from '../state/store';
+import { engine } from '../worker/shared';
 import { fileName } from './file-names';
 import { keyImage } from './key-image';
 import { drawnPane } from './pane-picture';

@@ -1,12 +1,12 @@
 /** Saves pictures of the turning view, with or without labels. */
 
-import { engine } from '../client/shared';
 import { rightOf } from '../core/camera';
 import { Failure } from '../core/failure';
 import type { Camera, PictureLabels } from '../core/messages';
 import { negate } from '../core/vectors';
 import { showMessage } from '../state/message';
 import * as store from '../state/store';
+import { engine } from '../worker/shared';
 import { sideOf } from './file-names';
 import { studyFileName } from './study-file-names';
 

@@ -1,6 +1,5 @@
 /** Makes the report of the findings: the engine writes the text, the page adds the pictures. */
 import { signal } from '@preact/signals';
-import { engine } from '../client/shared';
 import { Failure } from '../core/failure';
 import type { Profile, ReportVessel } from '../core/messages';
 import { type Finding, findingOf, leftOut, listedFindings, markedVessel, stated } from '../measure/findings';
@@ -10,6 +9,7 @@ import { isMillimetreAssumed } from '../state/millimetres';
 import { profileOfLine, profiles } from '../state/profiles';
 import { rulerLength } from '../state/rulers';
 import * as store from '../state/store';
+import { engine } from '../worker/shared';
 import { fileName } from './file-names';
 import { saveAs } from './pictures';
 import { pngOf, sectionPair, straightened, viewPicture } from './report-pictures';

@@ -1,7 +1,7 @@
 /** Saves the session. */
 
-import { savedSession } from '../session/saving';
 import { document_, markSaved } from '../state/history';
+import { savedSession } from '../study/saving';
 import { saveAs } from './pictures';
 import { studyFileName } from './study-file-names';
 

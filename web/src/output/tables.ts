@@ -1,6 +1,5 @@
 /** Saves the measurements of all measured vessels as CSV or JSON. */
 
-import { engine } from '../client/shared';
 import { Failure } from '../core/failure';
 import type { MeasuredVessel } from '../core/messages';
 import { marksOf } from '../measure/vessels';
@@ -8,6 +7,7 @@ import { document_ } from '../state/history';
 import { isMillimetreAssumed } from '../state/millimetres';
 import { profiles } from '../state/profiles';
 import * as store from '../state/store';
+import { engine } from '../worker/shared';
 import { saveAs } from './pictures';
 import { studyFileName } from './study-file-names';
 

@@ -1,11 +1,11 @@
 /** Actions of the user. They only change the store; the views react to it. */
 import { batch } from '@preact/signals';
-import type { EngineClient } from '../client/engine';
 import type { Asked } from '../core/asked';
 import { panned, resized, spun, trackballed, turnedAbout, zoomed } from '../core/camera';
 import { GESTURES } from '../core/generated/tables';
 import type { Camera, Pair, SettingValue, Vector, Window } from '../core/messages';
 import type { Action } from '../input/bindings';
+import type { EngineClient } from '../worker/client';
 import { isArriving } from './arriving';
 import { destination, flyToAnswer } from './flight';
 import { windowChanged } from './history';

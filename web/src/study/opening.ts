@@ -1,15 +1,15 @@
 /** Opens dropped or chosen files. */
 import { signal } from '@preact/signals';
-import type { EngineClient } from '../client/engine';
 import { Failure } from '../core/failure';
 import type { GivenFile, SeriesWish } from '../core/messages';
 import { addSegmentation } from '../edit/branches';
 import { isSegmentation } from '../edit/segmentation';
-import { isSession, openSession } from '../session/saving';
 import { document_, hasEdits, undo, undoWords } from '../state/history';
 import { openWith } from '../state/last-opened';
 import * as store from '../state/store';
+import type { EngineClient } from '../worker/client';
 import { leave } from './leaving';
+import { isSession, openSession } from './saving';
 import { open } from './study';
 
 /** Opens files. A volume replaces the open study; centerlines are added to it. */

@@ -1,14 +1,13 @@
 /** Opens and closes a study; sets its windows and its first view. */
 import { batch } from '@preact/signals';
-import type { EngineClient, Opened } from '../client/engine';
 import { Failure } from '../core/failure';
 import type { Report } from '../core/messages';
 import { middle } from '../core/vectors';
 import { addLoaded } from '../edit/files';
 import { forgetLines } from '../edit/lines';
 import { beginStudy, showAgain } from '../edit/shown';
-import { placeCrossHair } from '../link/cross-hair';
 import { forgetFindings } from '../measure/findings';
+import { placeCrossHair } from '../state/cross-hair';
 import { document_, hasEdits } from '../state/history';
 import { openWith } from '../state/last-opened';
 import { dropLength } from '../state/length';
@@ -16,6 +15,7 @@ import { beginMeasuring } from '../state/profiles';
 import { putRulerAway } from '../state/rulers';
 import * as store from '../state/store';
 import { tool } from '../state/tool';
+import type { EngineClient, Opened } from '../worker/client';
 
 const FIRST_SIZE = [512, 512] as const;
 

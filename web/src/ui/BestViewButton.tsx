@@ -1,6 +1,7 @@
 /** Button that turns the view so that most of the picked vessel is visible. */
-import { engine } from '../client/shared';
+
 import { showBestView } from '../state/actions';
+import { engine } from '../worker/shared';
 
 export function BestViewButton() {
   return (

@@ -1,5 +1,5 @@
 /** List of the doubtful branches with their reasons. The user accepts each or leaves it out. */
-import { engine } from '../client/shared';
+
 import type { DocumentVessel } from '../core/messages';
 import { accept, leaveOut } from '../edit/branches';
 import { countedDoubts, reasonOf, showDoubt, stepDoubt } from '../edit/doubts';
@@ -7,6 +7,7 @@ import { lengthOf } from '../edit/lines';
 import { chosenDoubt } from '../edit/mode';
 import { nameOf } from '../state/changes';
 import { hasMillimetres } from '../state/millimetres';
+import { engine } from '../worker/shared';
 import { lighting } from './VesselRow';
 
 export function DoubtfulPart({ vessels }: { readonly vessels: readonly DocumentVessel[] }) {

@@ -1,9 +1,9 @@
 /** Accepts files dropped anywhere on the page. */
 import { useSignal, useSignalEffect } from '@preact/signals';
-import { engine } from '../client/shared';
 import { dropped } from '../input/dropped';
 import { hasVolume, started } from '../state/store';
 import { takeFiles } from '../study/opening';
+import { engine } from '../worker/shared';
 
 export function DropZone() {
   const isOver = useSignal(false);

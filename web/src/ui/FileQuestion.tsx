@@ -1,8 +1,9 @@
 /** Asks how to use a volume that arrives while a scan is open. */
-import { engine } from '../client/shared';
+
 import { addMask } from '../edit/branches';
 import { leave } from '../study/leaving';
 import { openFiles, question } from '../study/opening';
+import { engine } from '../worker/shared';
 
 export function FileQuestion() {
   const files = question.value;

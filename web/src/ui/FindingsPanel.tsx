@@ -1,8 +1,6 @@
 /** Preview of the report, with buttons to copy and save: sentences and key image of each finding. */
 import { useEffect, useState } from 'preact/hooks';
-import { engine } from '../client/shared';
 import type { Sentence } from '../core/messages';
-import { moveTo } from '../link/along';
 import {
   type Finding,
   findingSentences,
@@ -18,8 +16,10 @@ import { keyImage, keyPicture } from '../output/key-image';
 import { askForPacs } from '../output/pacs';
 import { saveReport } from '../output/report';
 import { showBestView, toggleLayout } from '../state/actions';
+import { moveTo } from '../state/along';
 import { profiles, stopped } from '../state/profiles';
 import * as store from '../state/store';
+import { engine } from '../worker/shared';
 import { ScanNamed } from './ScanNamed';
 
 export function FindingsPanel() {

@@ -1,9 +1,9 @@
 /** After a reload of the tab, asks whether to continue with the kept session. */
 import { Failure } from '../core/failure';
 import { openList } from '../edit/list-open';
-import { kept } from '../session/keeping';
-import { openSession } from '../session/saving';
 import { hasVolume, problem } from '../state/store';
+import { kept } from '../study/keeping';
+import { openSession } from '../study/saving';
 
 export function KeptQuestion() {
   const text = kept.value;

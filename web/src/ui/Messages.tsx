@@ -1,6 +1,5 @@
 /** Messages about failures, and the progress of long work. */
 
-import { engine } from '../client/shared';
 import { CRASH, type Failure } from '../core/failure';
 import { findAndList } from '../edit/branches';
 import { isLong, refusal } from '../edit/committing';
@@ -8,6 +7,7 @@ import { performAny } from '../edit/performing';
 import { saveSession } from '../output/session';
 import { message, showFailure } from '../state/message';
 import { problem, progress } from '../state/store';
+import { engine } from '../worker/shared';
 import { Mends } from './Mends';
 
 export function Messages() {

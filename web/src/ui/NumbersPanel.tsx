@@ -1,10 +1,11 @@
 /** Panel with the measurements of the picked vessel. */
-import { moveTo } from '../link/along';
+
 import { currentProfile, currentVessel } from '../measure/current';
 import { PlacesTable } from '../measure/PlacesTable';
 import { RulersPart } from '../measure/RulersPart';
 import { StretchPart } from '../measure/StretchPart';
 import { mm, unitless } from '../measure/words';
+import { moveTo } from '../state/along';
 import { giveFwhm } from '../state/profiles';
 import * as store from '../state/store';
 import { BestViewButton } from './BestViewButton';

@@ -1,9 +1,9 @@
 /** Buttons that open files, or a DICOM folder. */
 import { useRef } from 'preact/hooks';
-import { engine } from '../client/shared';
 import { chosen } from '../input/dropped';
 import { started } from '../state/store';
 import { takeFiles } from '../study/opening';
+import { engine } from '../worker/shared';
 
 export function OpenButtons() {
   return (

@@ -9,7 +9,7 @@ import { saveReport } from '../output/report';
 import { saveSession } from '../output/session';
 import { saveNumbers } from '../output/tables';
 import { saveFilm, savePictures } from '../output/turntable';
-import { isKeeping } from '../session/keeping';
+import { isKeeping } from '../study/keeping';
 import { useClosing } from './closing-menu';
 import { ScanNamed } from './ScanNamed';
 import { keepWithin } from './within-window';

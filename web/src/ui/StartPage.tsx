@@ -1,8 +1,9 @@
 /** Start page: instructions and phantoms. */
-import { engine } from '../client/shared';
-import { startGuide } from '../guide/steps';
+
 import { started } from '../state/store';
 import { openPhantom } from '../study/study';
+import { engine } from '../worker/shared';
+import { startGuide } from './guide-steps';
 import { OpenButtons } from './OpenButtons';
 
 const PHANTOMS: readonly (readonly [string, string])[] = [

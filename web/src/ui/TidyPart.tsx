@@ -1,9 +1,9 @@
 /** "Clean up": limits mark short or thin vessels. Buttons remove these, or all not connected to the picked vessel. */
 import type { Signal } from '@preact/signals';
-import { engine } from '../client/shared';
 import { factsOf, keepPart, marked, reachOf, removeMarked, sure, unconnected } from '../edit/tidying';
 import { hasMillimetres } from '../state/millimetres';
 import { shorterThan, thinnerThan } from '../state/tidy';
+import { engine } from '../worker/shared';
 
 /** Usual ends of the sliders (mm); the number fields accept more. */
 const USUAL_LENGTH = 60;

@@ -1,11 +1,12 @@
 /** Top bar: modes, vessel list, saving, window, layout and research. */
-import { engine } from '../client/shared';
+
 import { isListOpen } from '../edit/list-open';
 import { performAny } from '../edit/performing';
 import { perform, showLayout } from '../state/actions';
 import * as store from '../state/store';
 import { leave } from '../study/leaving';
 import { close } from '../study/study';
+import { engine } from '../worker/shared';
 import { ModeButtons } from './ModeButtons';
 import { OpenMore } from './OpenButtons';
 import { ResearchMenu } from './ResearchMenu';

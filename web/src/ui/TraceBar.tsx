@@ -1,6 +1,5 @@
 /** Bar over the views: offers to trace, tells what the next click does, or shows a doubtful branch. */
 import { useSignal } from '@preact/signals';
-import { engine } from '../client/shared';
 import { findAndList } from '../edit/branches';
 import { searches, waiting } from '../edit/committing';
 import { answerDoubt, placeOfDoubt, stepDoubt } from '../edit/doubts';
@@ -16,6 +15,7 @@ import { nameOf, vesselOf } from '../state/changes';
 import { document_ } from '../state/history';
 import { hasVolume, report } from '../state/store';
 import { type Tool, tool } from '../state/tool';
+import { engine } from '../worker/shared';
 import { OpenMore } from './OpenButtons';
 import { TracedSummary } from './TracedSummary';
 

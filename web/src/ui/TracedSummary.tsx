@@ -1,12 +1,12 @@
 /** Summary of the vessel traced last: its length, its connections, and its doubts with buttons. */
 import { useSignal } from '@preact/signals';
-import { engine } from '../client/shared';
 import type { Told } from '../core/messages';
 import { tree } from '../edit/shown';
 import { tracedSummary } from '../edit/traced-summary';
 import { cut } from '../edit/vessels';
-import { moveTo } from '../link/along';
+import { moveTo } from '../state/along';
 import { pickedVessel } from '../state/store';
+import { engine } from '../worker/shared';
 
 export function TracedSummary() {
   return tracedSummary.value && <Summary key={tracedSummary.value.words} summary={tracedSummary.value} />;

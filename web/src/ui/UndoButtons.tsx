@@ -1,8 +1,9 @@
 /** Buttons for undo and redo. */
-import { engine } from '../client/shared';
+
 import { performAny } from '../edit/performing';
 import { redoWords, undoWords } from '../state/history';
 import { hasVolume } from '../state/store';
+import { engine } from '../worker/shared';
 
 export function UndoButtons() {
   if (!hasVolume.value) {

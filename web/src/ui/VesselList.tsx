@@ -1,6 +1,5 @@
 /** The vessel list, with buttons for all vessels. */
 
-import { engine } from '../client/shared';
 import { namesToOffer } from '../edit/anatomy';
 import { findVessels } from '../edit/branches';
 import { setBridge } from '../edit/clicks';
@@ -14,6 +13,7 @@ import { doubtful } from '../state/changes';
 import { document_ } from '../state/history';
 import { hasMillimetres } from '../state/millimetres';
 import { treeChosen } from '../state/tidy';
+import { engine } from '../worker/shared';
 import { CenterlineFiles } from './CenterlineFiles';
 import { DoubtfulPart } from './DoubtfulPart';
 import { TidyPart } from './TidyPart';

@@ -1,14 +1,13 @@
 /** A row of the vessel list. The row of the picked vessel has buttons for it. */
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { engine } from '../client/shared';
 import type { DocumentVessel } from '../core/messages';
 import { lengthOf } from '../edit/lines';
 import { pickedId, pickOnceShown, tree } from '../edit/shown';
 import { factsOf, marked, sure } from '../edit/tidying';
 import { isTreeShown } from '../edit/vessel-order';
 import { cut, hide, join, recolor, remove, rename } from '../edit/vessels';
-import { placeCrossHair } from '../link/cross-hair';
 import { nameOf } from '../state/changes';
+import { placeCrossHair } from '../state/cross-hair';
 import { recover } from '../state/device';
 import { document_ } from '../state/history';
 import { hasMillimetres } from '../state/millimetres';
@@ -16,6 +15,7 @@ import { PALETTE } from '../state/palette';
 import { pickedPlace, report } from '../state/store';
 import { highlighted } from '../state/tidy';
 import { active, tool } from '../state/tool';
+import { engine } from '../worker/shared';
 import { BestViewButton } from './BestViewButton';
 
 export const NAMES_TO_OFFER = 'names-to-offer';

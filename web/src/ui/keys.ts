@@ -1,11 +1,12 @@
 /** Handles keys for the whole page, except those that a text field needs. */
-import { engine } from '../client/shared';
+
 import { isTracing } from '../edit/mode';
 import { performAny } from '../edit/performing';
 import { type Action, actionOfKey } from '../input/bindings';
 import { focusSoon } from '../input/focus';
 import { saveByKey } from '../output/by-key';
 import { layout } from '../state/store';
+import { engine } from '../worker/shared';
 
 export function listenToKeys(): void {
   window.addEventListener('keydown', (event) => {

@@ -1,14 +1,14 @@
 /** View of the picked vessel as straightened CPR. */
 import { useCallback, useState } from 'preact/hooks';
-import { engine } from '../client/shared';
 import { DEFAULTS, PIXEL_SIDES } from '../core/generated/tables';
 import type { Cpr, Pair } from '../core/messages';
-import { placeCrossHair } from '../link/cross-hair';
 import { UprightPlaces } from '../measure/UprightPlaces';
 import { CprControls, TURN_STEP } from '../pane/CprControls';
 import { FlatPicture } from '../pane/FlatPicture';
 import { dragWindow, windowBack } from '../state/actions';
+import { placeCrossHair } from '../state/cross-hair';
 import * as store from '../state/store';
+import { engine } from '../worker/shared';
 
 export function CprView() {
   const vessel = store.pickedVessel.value;

@@ -1,17 +1,17 @@
 /** View of the picked vessel in a reformation other than the straightened CPR. */
 import { useCallback, useEffect, useRef, useState } from 'preact/hooks';
-import { engine } from '../client/shared';
 import { Failure } from '../core/failure';
 import type { Pair, Picture, Reformation, ReformedPicture, Side } from '../core/messages';
-import { placeCrossHair } from '../link/cross-hair';
 import { attempt } from '../output/attempt';
 import { savePane } from '../output/pane-picture';
 import { TURN_STEP } from '../pane/CprControls';
 import { FlatPicture } from '../pane/FlatPicture';
 import { ReformationControls } from '../pane/ReformationControls';
 import { dragWindow, windowBack } from '../state/actions';
+import { placeCrossHair } from '../state/cross-hair';
 import { mapOf, reformationOf, reformationTitle, uncurled } from '../state/reformation';
 import * as store from '../state/store';
+import { engine } from '../worker/shared';
 import { HairLines } from './TurningOverlay';
 
 /** Empty picture, shown if the reformation failed. */

@@ -1,19 +1,19 @@
 /** Cross-section of the picked vessel. */
 import { useEffect, useState } from 'preact/hooks';
-import { engine } from '../client/shared';
 import type { Answer } from '../core/asked';
 import type { LineId, Pair, Plane } from '../core/messages';
 import { pixelOn, pointOn } from '../core/planes';
-import { moveAlong } from '../link/along';
-import { placeCrossHair } from '../link/cross-hair';
 import { currentProfile } from '../measure/current';
 import { SliceMeasures } from '../measure/MeasureOverlay';
 import { SectionMarks } from '../measure/SectionMarks';
 import { FlatPicture } from '../pane/FlatPicture';
 import { dragWindow, windowBack } from '../state/actions';
+import { moveAlong } from '../state/along';
+import { placeCrossHair } from '../state/cross-hair';
 import { recover } from '../state/device';
 import * as store from '../state/store';
 import { pickedLine } from '../state/store';
+import { engine } from '../worker/shared';
 import { useAsked } from './asked';
 import { EdgeLabels } from './EdgeLabels';
 import { HairLines } from './TurningOverlay';

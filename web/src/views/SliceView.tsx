@@ -1,7 +1,6 @@
 /** An axial, coronal or sagittal slice through the cross-hair. */
 import { batch } from '@preact/signals';
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { engine } from '../client/shared';
 import { Latest } from '../core/latest';
 import type { Pair, Plane, Vector } from '../core/messages';
 import {
@@ -22,11 +21,12 @@ import { target } from '../edit/drawing';
 import { stepLumen } from '../edit/lumens';
 import { isTracing } from '../edit/mode';
 import type { Handlers } from '../input/pointer';
-import { placeCrossHair } from '../link/cross-hair';
 import { SliceMeasures } from '../measure/MeasureOverlay';
 import { FlatPicture } from '../pane/FlatPicture';
 import { dragWindow, windowBack } from '../state/actions';
+import { placeCrossHair } from '../state/cross-hair';
 import * as store from '../state/store';
+import { engine } from '../worker/shared';
 import { useAsked } from './asked';
 import { EdgeLabels } from './EdgeLabels';
 import { LumenInset } from './LumenInset';

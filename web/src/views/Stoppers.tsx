@@ -1,6 +1,5 @@
 /** Draws the stoppers over a view, as circles that can be dragged. */
 
-import { engine } from '../client/shared';
 import type { Stopper, Vector } from '../core/messages';
 import { add } from '../core/vectors';
 import { draggedStopper } from '../edit/drawing';
@@ -8,6 +7,7 @@ import { isTracing } from '../edit/mode';
 import { moveStopper, removeStopper } from '../edit/stoppers';
 import { Handle } from '../pane/Handle';
 import { document_ } from '../state/history';
+import { engine } from '../worker/shared';
 import { lookAt } from './look-at';
 import type { Projection } from './projection';
 

@@ -1,7 +1,6 @@
 /** The main view, which shows the vessels cut open and can be turned freely. */
 import { useSignalEffect } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
-import { engine } from '../client/shared';
 import { resized, zoomed } from '../core/camera';
 import type { Pair, Picture, Settings, Vector, View } from '../core/messages';
 import { cross } from '../core/vectors';
@@ -10,11 +9,12 @@ import { isTracing } from '../edit/mode';
 import type { Action } from '../input/bindings';
 import { dragOfKey, zoomOfKey } from '../input/keys';
 import { listen } from '../input/pointer';
-import { placeCrossHair } from '../link/cross-hair';
 import { usePaneSize } from '../pane/pane-size';
 import * as actions from '../state/actions';
+import { placeCrossHair } from '../state/cross-hair';
 import { recover } from '../state/device';
 import * as store from '../state/store';
+import { engine } from '../worker/shared';
 import { FrameLoop, type Shown } from './frame-loop';
 import { ofCamera } from './projection';
 import { TurningOverlay } from './TurningOverlay';

@@ -1,6 +1,5 @@
 /** Draws the clicked points of vessels over a view. They can be dragged, moved by keys and removed. */
 
-import { engine } from '../client/shared';
 import type { DocumentVessel, Vector } from '../core/messages';
 import { add } from '../core/vectors';
 import { moveClick, removeClick } from '../edit/clicks';
@@ -12,6 +11,7 @@ import { Handle } from '../pane/Handle';
 import { nameOf } from '../state/changes';
 import { document_ } from '../state/history';
 import { active, tool } from '../state/tool';
+import { engine } from '../worker/shared';
 import { isNear } from './curves';
 import { lookAt } from './look-at';
 import type { Projection } from './projection';

@@ -1,9 +1,9 @@
 /** Renders the turning view: in low resolution while it moves, in full resolution at rest, then supersampled. */
 
-import type { EngineClient } from '../client/engine';
 import { sampled } from '../core/camera';
 import { Failure } from '../core/failure';
 import type { Drawn, View } from '../core/messages';
+import type { EngineClient } from '../worker/client';
 
 /** Wanted time of a frame while the view moves (ms); 25 frames per second leave time for other work. */
 const MOVING_TIME = 40;

@@ -1,9 +1,9 @@
 /** Moves the cross-hair in all views. */
 
-import { engine } from '../client/shared';
 import type { Vector } from '../core/messages';
-import { placeCrossHair } from '../link/cross-hair';
+import { placeCrossHair } from '../state/cross-hair';
 import { recover } from '../state/device';
+import { engine } from '../worker/shared';
 
 export async function lookAt(point: Vector): Promise<void> {
   try {

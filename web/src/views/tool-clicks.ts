@@ -1,6 +1,5 @@
 /** Handles clicks and pointer moves in a view while a tracing tool is active. */
 
-import { engine } from '../client/shared';
 import { Latest } from '../core/latest';
 import type { Pair, Pick, Vector } from '../core/messages';
 import { addClickOnLine } from '../edit/clicks';
@@ -10,10 +9,11 @@ import { chosenDoubt, isTracing } from '../edit/mode';
 import { acceptCandidate, endVessel, setPoint } from '../edit/pointing';
 import { takeWhole } from '../edit/whole';
 import type { Action, Where } from '../input/bindings';
-import { placeCrossHair } from '../link/cross-hair';
+import { placeCrossHair } from '../state/cross-hair';
 import { recover } from '../state/device';
 import { crossHair, type ViewName } from '../state/store';
 import { tool } from '../state/tool';
+import { engine } from '../worker/shared';
 import { curveAt, isAt } from './curves';
 import type { Projection } from './projection';
 

@@ -1,7 +1,5 @@
 /** Saves and opens sessions. */
 import { batch, effect, untracked } from '@preact/signals';
-import { EngineClient } from '../client/engine';
-import { engine } from '../client/shared';
 import type { Asked } from '../core/asked';
 import { CRASH, Failure } from '../core/failure';
 import type { Bytes, DocumentVessel, GivenFile, Method, SavedView } from '../core/messages';
@@ -13,8 +11,10 @@ import type { Document } from '../state/document';
 import { document_ } from '../state/history';
 import { giveFwhm, givenFwhm } from '../state/profiles';
 import * as store from '../state/store';
-import { cameraOf, contentOf, type DisplayState, documentOf } from './content';
+import { EngineClient } from '../worker/client';
+import { engine } from '../worker/shared';
 import { handedOver } from './handing-over';
+import { cameraOf, contentOf, type DisplayState, documentOf } from './session-content';
 
 /** Bytes to read from the start of a file to find the session field, which precedes the curves. */
 const HEAD = 4096;

@@ -1,9 +1,10 @@
 /** Moves the section along the picked vessel, in all views. */
-import { engine } from '../client/shared';
+
 import { Latest } from '../core/latest';
-import { recover } from '../state/device';
-import { pickedPlace, pickedVessel, report } from '../state/store';
+import { engine } from '../worker/shared';
 import { placeCrossHair } from './cross-hair';
+import { recover } from './device';
+import { pickedPlace, pickedVessel, report } from './store';
 
 const latest = new Latest();
 

@@ -1,7 +1,7 @@
 /** The cross-hair, shared by all views. */
 import { batch } from '@preact/signals';
 import type { Pick } from '../core/messages';
-import { crossHair, pickedPlace, pickedVessel, type ViewName } from '../state/store';
+import { crossHair, pickedPlace, pickedVessel, type ViewName } from './store';
 
 /** Places the cross-hair. If a vessel lies at that point, it is picked. */
 export function placeCrossHair(pick: Pick, from: ViewName): void {

@@ -3,8 +3,8 @@ import { batch, effect } from '@preact/signals';
 import type { Camera, Method, SettingRow, Settings, Vector } from '../core/messages';
 import { VIEW_METHODS } from '../core/method-names';
 import { dot, length } from '../core/vectors';
-import { destination } from '../state/flight';
-import * as store from '../state/store';
+import { destination } from './flight';
+import * as store from './store';
 
 const WRITE_DELAY_MS = 250;
 const METHODS: readonly Method[] = VIEW_METHODS.map(([name]) => name);

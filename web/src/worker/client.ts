@@ -6,7 +6,7 @@ import { type PlaceDoubt, TURNS } from '../core/generated/questions';
 import type { Drawn, GivenFile, Report, SeriesWish, Started, States, View } from '../core/messages';
 import { Precedence } from '../core/precedence';
 import type { ScanStudy } from '../core/scan-study';
-import type { EngineHost } from '../worker/host';
+import type { EngineHost } from './host';
 
 /** Addresses of the files to load, on the same origin as the page. */
 export interface Addresses {
@@ -35,7 +35,7 @@ export class EngineClient implements Asked {
   private readonly precedence = new Precedence(() => this.stop());
 
   constructor() {
-    this.worker = new Worker(new URL('../worker/engine.worker.ts', import.meta.url), { type: 'module' });
+    this.worker = new Worker(new URL('./engine.worker.ts', import.meta.url), { type: 'module' });
     this.host = wrap<EngineHost>(this.worker);
   }
 

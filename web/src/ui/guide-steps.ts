@@ -1,6 +1,5 @@
 /** Steps of the guided tour with a phantom; each step ends when the user has done what it asks. */
 import { effect, signal } from '@preact/signals';
-import { engine } from '../client/shared';
 import type { Vector } from '../core/messages';
 import { dot } from '../core/vectors';
 import { isTracing } from '../edit/mode';
@@ -9,6 +8,7 @@ import { EMPTY } from '../state/document';
 import { document_ } from '../state/history';
 import * as store from '../state/store';
 import { openPhantom } from '../study/study';
+import { engine } from '../worker/shared';
 
 export interface GuideStep {
   readonly title: string;
