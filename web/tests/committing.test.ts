@@ -4,6 +4,7 @@ import type { Edit, Progress } from '../src/core/messages';
 import { commit, dropEdits, isLong } from '../src/edit/committing';
 import { EMPTY } from '../src/state/document';
 import { progress } from '../src/state/store';
+import { connect } from '../src/worker/engine';
 
 const FINDING: Progress = { words: 'Finding vessels', done: 0, total: null };
 
@@ -35,7 +36,8 @@ async function begun(
   edit: Edit = { kind: 'find_vessels', doubtful: false },
 ): Promise<{ slow: Slow; done: Promise<unknown> }> {
   const slow = new Slow();
-  const done = commit(slow.asked, edit);
+  connect(slow.asked);
+  const done = commit(edit);
   await vi.advanceTimersByTimeAsync(0);
   return { slow, done };
 }

@@ -74,6 +74,13 @@ describe('the files of the page', () => {
     expect(circle(graph)).toEqual(['a', 'b', 'c', 'a']);
   });
 
+  test('import the engine of the page instead of taking it as a parameter', () => {
+    const isTaken = /\bengine\??: (Engine|EngineClient|Asked)\b[^;]*?[,)]/;
+    const above = files.filter((name) => !/^(core|io|worker)\b/.test(name));
+    expect(above.filter((name) => isTaken.test(readFileSync(join(SRC, name), 'utf8')))).toEqual([]);
+    expect(isTaken.test('show(engine: Asked)')).toBe(true);
+  });
+
   test('import WebAssembly in only one file', () => {
     const touching = files.filter((name) => readFileSync(join(SRC, name), 'utf8').includes('/pkg/'));
     expect(touching).toEqual(['core/module.ts']);

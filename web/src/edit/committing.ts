@@ -1,6 +1,6 @@
 /** Runs edits one after another. Each becomes one undo step or changes nothing; a failure drops all waiting edits. */
+
 import { batch, signal } from '@preact/signals';
-import type { Asked } from '../core/asked';
 import { Failure } from '../core/failure';
 import type { AfterEdit, DocumentVessel, Edit, Edited, GivenFile, Progress } from '../core/messages';
 import { afterEdit } from '../state/changes';
@@ -8,6 +8,7 @@ import { placeCrossHair } from '../state/cross-hair';
 import type { Document } from '../state/document';
 import { change, document_ } from '../state/history';
 import { problem, progress } from '../state/store';
+import { engine } from '../worker/engine';
 import { storeSummary } from './traced-summary';
 
 /** A rejected edit; `bridge` repeats it and bridges gaps. */
@@ -170,7 +171,7 @@ interface EditOptions {
 }
 
 /** Sends an edit to the engine; returns null if it was not done. Changes made in the page meanwhile are kept. */
-export function commit(engine: Asked, edit: Edit, options: EditOptions = {}): Promise<AfterEdit | null> {
+export function commit(edit: Edit, options: EditOptions = {}): Promise<AfterEdit | null> {
   const { mask, then, renamed = (vessel) => vessel, bridging = false } = options;
   const files = mask && { mask };
   const work: Work<AfterEdit> = async (onProgress) => {
@@ -190,7 +191,7 @@ export function commit(engine: Asked, edit: Edit, options: EditOptions = {}): Pr
     };
     return { words: edited.words, after, result: answer, answer, also };
   };
-  const again = () => void commit(engine, edit, { ...options, bridging: true });
+  const again = () => void commit(edit, { ...options, bridging: true });
   const found = SEARCHES.includes(edit.kind) ? counted(work) : work;
   return inTurn(edit.kind === 'add_branches' ? askedAbout(found) : found, again);
 }

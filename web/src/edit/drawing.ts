@@ -1,6 +1,6 @@
 /** The vessel being drawn: its first clicks, and the preview of the path to the pointer. */
+
 import { computed, effect, signal } from '@preact/signals';
-import type { Asked } from '../core/asked';
 import { Latest } from '../core/latest';
 import type { PathRequest, Vector } from '../core/messages';
 import { length, subtract } from '../core/vectors';
@@ -8,6 +8,7 @@ import { vesselOf } from '../state/changes';
 import { document_ } from '../state/history';
 import { nextColor } from '../state/palette';
 import { active, tool } from '../state/tool';
+import { engine } from '../worker/engine';
 
 /** The first point of a vessel that has no second point yet. */
 export const first = signal<Vector | null>(null);
@@ -75,7 +76,7 @@ function legs(): readonly Leg[] {
 const MOST_TRIES = 40;
 
 /** Keeps the path preview up to date. Returns a function that stops this. */
-export function followPointer(engine: Asked): () => void {
+export function followPointer(): () => void {
   const latest = new Latest();
   let number = 0;
   /** Requests with a lower number belong to a vessel that is no longer drawn. */
@@ -86,7 +87,7 @@ export function followPointer(engine: Asked): () => void {
     const wanted = legs();
     const { stoppers, bridge } = document_.value;
     const look = async (tries: number) => {
-      const paths = await Promise.all(wanted.map((leg) => pathOf(engine, leg, { stoppers, bridge })));
+      const paths = await Promise.all(wanted.map((leg) => pathOf(leg, { stoppers, bridge })));
       if (own >= ended) {
         livePaths.value = paths;
       }
@@ -102,11 +103,7 @@ export function followPointer(engine: Asked): () => void {
   });
 }
 
-async function pathOf(
-  engine: Asked,
-  [from, to]: Leg,
-  rules: Pick<PathRequest, 'stoppers' | 'bridge'>,
-): Promise<LivePath> {
+async function pathOf([from, to]: Leg, rules: Pick<PathRequest, 'stoppers' | 'bridge'>): Promise<LivePath> {
   const points = await engine.ask('path', { from, to, ...rules }).catch(() => null);
   return points ? { points, isFound: true } : { points: [from, to], isFound: false };
 }

@@ -1,11 +1,12 @@
 /** Points and radii of the centerlines, to draw them over the views. */
+
 import { effect, signal } from '@preact/signals';
-import type { Asked } from '../core/asked';
 import { Failure } from '../core/failure';
 import type { LineContent, LineId, NumberedLine } from '../core/messages';
 import { length, subtract } from '../core/vectors';
 import { document_ } from '../state/history';
 import { problem } from '../state/store';
+import { engine } from '../worker/engine';
 import { answered } from './committing';
 
 /** Contents by line number; they never change. Emptied when the study closes. */
@@ -14,7 +15,7 @@ export const contents = signal<ReadonlyMap<LineId, LineContent>>(new Map());
 const asked = new Set<LineId>();
 
 /** Loads each line that is added to the document. Returns a function that stops this. */
-export function followLines(engine: Asked): () => void {
+export function followLines(): () => void {
   return effect(() => {
     const lines = document_.value.vessels.map((vessel) => vessel.line);
     if (lines.length === 0) {
@@ -23,7 +24,7 @@ export function followLines(engine: Asked): () => void {
     take(answered.value?.lines ?? [], lines);
     const missing = lines.filter((line) => !asked.has(line));
     if (missing.length > 0) {
-      void load(engine, missing);
+      void load(missing);
     }
   });
 }
@@ -41,7 +42,7 @@ function take(given: readonly NumberedLine[], wanted: readonly LineId[]): void {
   }
 }
 
-async function load(engine: Asked, lines: readonly LineId[]): Promise<void> {
+async function load(lines: readonly LineId[]): Promise<void> {
   for (const line of lines) {
     asked.add(line);
   }

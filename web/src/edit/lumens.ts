@@ -1,9 +1,10 @@
 /** Lumens behind the pointer while tracing. The nearest is selected; the wheel selects others. */
+
 import { computed, signal } from '@preact/signals';
-import type { Asked } from '../core/asked';
 import type { Pair, PointedAt, PointedLumen } from '../core/messages';
 import { length, subtract } from '../core/vectors';
 import type { ViewName } from '../state/store';
+import { engine } from '../worker/engine';
 
 interface UnderPointer {
   readonly view: ViewName;
@@ -18,7 +19,6 @@ export const meant = computed<PointedLumen | null>(() => pointed.value?.lumens[p
 
 /** Finds the lumens under the pointer. Returns the selected one, or null. */
 export async function lookForLumens(
-  engine: Asked,
   [view, at]: readonly [ViewName, Pair],
   asked: PointedAt,
 ): Promise<PointedLumen | null> {

@@ -5,7 +5,7 @@ import { perform } from '../state/actions';
 import { redo, undo } from '../state/history';
 import { crossHair, firstPlace, hasVolume, isHelpOpen, layout, problem, progress } from '../state/store';
 import { tool } from '../state/tool';
-import type { EngineClient } from '../worker/client';
+import { engine } from '../worker/engine';
 import { addBranches } from './branches';
 import { dropEdits, waiting } from './committing';
 import { answerDoubt, stepDoubt } from './doubts';
@@ -17,14 +17,14 @@ import { pickedId } from './shown';
 import { remove } from './vessels';
 import { takeWhole } from './whole';
 
-export function performAny(engine: EngineClient, action: Action): void {
-  const edits = hasVolume.value ? edit(engine, action) : false;
+export function performAny(action: Action): void {
+  const edits = hasVolume.value ? edit(action) : false;
   if (!edits) {
-    perform(engine, action);
+    perform(action);
   }
 }
 
-function edit(engine: EngineClient, action: Action): boolean {
+function edit(action: Action): boolean {
   switch (action) {
     case 'trace':
       toggleTool('trace');
@@ -33,40 +33,40 @@ function edit(engine: EngineClient, action: Action): boolean {
       isListOpen.value = !isListOpen.value;
       return true;
     case 'branches':
-      branchesFromHere(engine);
+      branchesFromHere();
       return true;
     case 'next doubt':
-      stepDoubt(engine, 1);
+      stepDoubt(1);
       return true;
     case 'previous doubt':
-      stepDoubt(engine, -1);
+      stepDoubt(-1);
       return true;
     case 'accept doubt':
-      void answerDoubt(engine, 'accept');
+      void answerDoubt('accept');
       return true;
     case 'leave doubt out':
-      void answerDoubt(engine, 'leave out');
+      void answerDoubt('leave out');
       return true;
     case 'undo':
-      undoLast(engine);
+      undoLast();
       return true;
     case 'redo':
       redo();
       return true;
     case 'cancel':
-      return cancelEdit(engine);
+      return cancelEdit();
     default:
-      return isTracing() ? point(engine, action) : action === 'remove' && removePicked(engine);
+      return isTracing() ? point(action) : action === 'remove' && removePicked();
   }
 }
 
-function point(engine: EngineClient, action: Action): boolean {
+function point(action: Action): boolean {
   if (action === 'whole vessel') {
-    takeWhole(engine);
+    takeWhole();
   } else if (action === 'enter') {
-    pressEnter(engine);
+    pressEnter();
   } else if ((action === 'remove point' || action === 'remove') && tool.value === 'trace') {
-    removeLast(engine);
+    removeLast();
   } else {
     return false;
   }
@@ -74,38 +74,38 @@ function point(engine: EngineClient, action: Action): boolean {
 }
 
 /** Enter pressed twice at one position traces the whole vessel, if the vessel has no other point. */
-function pressEnter(engine: EngineClient): void {
+function pressEnter(): void {
   const isAgain = first.value !== null && !candidate.value && isAtCrossHair(first.value);
-  if (!(isAgain && takeWhole(engine))) {
-    enter(engine);
+  if (!(isAgain && takeWhole())) {
+    enter();
   }
 }
 
 /** Deletes the picked vessel, but not while measuring or while the vessel list is closed. */
-function removePicked(engine: EngineClient): boolean {
+function removePicked(): boolean {
   const id = pickedId();
   if (!isListOpen.value || layout.value === 'measure' || id === null) {
     return false;
   }
-  void remove(engine, [id]);
+  void remove([id]);
   return true;
 }
 
 /** Finds all branches from the cross-hair; if the user did not place it, the next click is the seed. */
-export function branchesFromHere(engine: EngineClient): void {
+export function branchesFromHere(): void {
   const seed = crossHair.value?.point;
   if (tool.value === 'seed' || !seed || seed === firstPlace.value) {
     toggleTool('seed');
   } else {
     endVessel();
-    void addBranches(engine, seed);
+    void addBranches(seed);
   }
 }
 
 /** Stops running work; otherwise removes a pending point; otherwise undoes the last step. */
-export function undoLast(engine: EngineClient): void {
+export function undoLast(): void {
   if (waiting.value > 0) {
-    stopEdits(engine);
+    stopEdits();
   } else if (candidate.value || first.value) {
     candidate.value = null;
     first.value = null;
@@ -115,10 +115,10 @@ export function undoLast(engine: EngineClient): void {
 }
 
 /** Escape: stops an edit or leaves the tool. Returns false if there is neither, or if a message must close first. */
-function cancelEdit(engine: EngineClient): boolean {
+function cancelEdit(): boolean {
   target.value = null;
   if (waiting.value > 0) {
-    stopEdits(engine);
+    stopEdits();
     return true;
   }
   if (problem.value || isHelpOpen.value || progress.value) {
@@ -131,7 +131,7 @@ function cancelEdit(engine: EngineClient): boolean {
   return leave();
 }
 
-function stopEdits(engine: EngineClient): void {
+function stopEdits(): void {
   dropEdits();
   progress.value = null;
   void engine.cancel();

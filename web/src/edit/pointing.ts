@@ -1,6 +1,6 @@
 /** Clicks, Enter and Escape in the tracing tools. */
+
 import { batch } from '@preact/signals';
-import type { Asked } from '../core/asked';
 import { Failure } from '../core/failure';
 import type { AfterEdit, Pick, Vector } from '../core/messages';
 import { length, subtract } from '../core/vectors';
@@ -8,6 +8,7 @@ import { document_ } from '../state/history';
 import { showMessage } from '../state/message';
 import { crossHair } from '../state/store';
 import { active, tool } from '../state/tool';
+import { engine } from '../worker/engine';
 import { addBranches } from './branches';
 import { addClick, beginVessel, begunId, removeClick } from './clicks';
 import { forgetRefusal, refusal, searches, showRefusal } from './committing';
@@ -20,17 +21,17 @@ const SAME_POINT_MM = 0.05;
 let beginning: Promise<AfterEdit | null> | null = null;
 
 /** Sets a point, a stopper or a seed. Returns the value at the point, or null. */
-export async function setPoint(engine: Asked, point: Vector): Promise<Pick | null> {
+export async function setPoint(point: Vector): Promise<Pick | null> {
   candidate.value = null;
   if (searches.value > 0) {
     showMessage('No point was set: the search for vessels is still running. Press Escape to stop it.');
     return null;
   }
   if (tool.value === 'stopper') {
-    return (await addStopper(engine, point))?.pick ?? null;
+    return (await addStopper(point))?.pick ?? null;
   }
   if (tool.value === 'seed') {
-    await beginTree(engine, point);
+    await beginTree(point);
     return null;
   }
   if (anchor.value === null) {
@@ -39,38 +40,38 @@ export async function setPoint(engine: Asked, point: Vector): Promise<Pick | nul
       checked.value = point;
       first.value = point;
     });
-    return checkFirst(engine, point);
+    return checkFirst(point);
   }
   const own = { point, drawing: drawing.value };
   coming.value = [...coming.value, own];
-  const answer = await goOn(engine, point);
+  const answer = await goOn(point);
   coming.value = coming.value.filter((one) => one !== own);
   return answer?.pick ?? null;
 }
 
 /** Searches branches from a seed; if none are found, the user can click again. */
-async function beginTree(engine: Asked, point: Vector): Promise<void> {
-  if ((await addBranches(engine, point)) && tool.value === 'seed') {
+async function beginTree(point: Vector): Promise<void> {
+  if ((await addBranches(point)) && tool.value === 'seed') {
     tool.value = 'look';
   }
 }
 
-async function goOn(engine: Asked, point: Vector): Promise<AfterEdit | null> {
+async function goOn(point: Vector): Promise<AfterEdit | null> {
   if (drawn.value) {
-    return addClick(engine, drawn.value.id, point);
+    return addClick(drawn.value.id, point);
   }
   if (beginning) {
     const id = begunId(await beginning);
-    return id === null ? null : addClick(engine, id, point);
+    return id === null ? null : addClick(id, point);
   }
-  return first.value && begin(engine, [first.value, point]);
+  return first.value && begin([first.value, point]);
 }
 
-async function begin(engine: Asked, clicks: readonly [Vector, Vector]): Promise<AfterEdit | null> {
+async function begin(clicks: readonly [Vector, Vector]): Promise<AfterEdit | null> {
   const own = drawing.value;
   // If the user ended the vessel while it was traced, it is not extended further.
   const goesOn = () => own === drawing.value;
-  beginning = beginVessel(engine, clicks, (id) => {
+  beginning = beginVessel(clicks, (id) => {
     if (goesOn()) {
       batch(() => {
         active.value = id;
@@ -88,7 +89,7 @@ async function begin(engine: Asked, clicks: readonly [Vector, Vector]): Promise<
 }
 
 /** Checks the first point, and previews the whole vessel there. Removes the point if no vessel can begin there. */
-async function checkFirst(engine: Asked, point: Vector): Promise<Pick | null> {
+async function checkFirst(point: Vector): Promise<Pick | null> {
   try {
     const answer = await engine.ask('first_click', { click: point, vessels: document_.value.vessels });
     whole.value = first.value === point && only.value === point ? answer.whole : whole.value;
@@ -108,25 +109,25 @@ function isBlamed(point: Vector | null): boolean {
 }
 
 /** Confirms the pending point from a projection. Returns whether there was one. */
-export function acceptCandidate(engine: Asked): boolean {
+export function acceptCandidate(): boolean {
   const point = candidate.value;
   if (point) {
-    void setPoint(engine, point);
+    void setPoint(point);
   }
   return point !== null;
 }
 
 /** Enter confirms a pending point, or sets one at the cross-hair. Twice at one position, it ends the vessel. */
-export function enter(engine: Asked): void {
+export function enter(): void {
   const place = crossHair.value?.point;
-  if (acceptCandidate(engine) || !place) {
+  if (acceptCandidate() || !place) {
     return;
   }
   const last = anchor.value;
   if (tool.value === 'trace' && last && isAtCrossHair(last)) {
     endVessel();
   } else {
-    void setPoint(engine, place);
+    void setPoint(place);
   }
 }
 
@@ -160,13 +161,13 @@ export function leave(): boolean {
   return true;
 }
 
-export function removeLast(engine: Asked): void {
+export function removeLast(): void {
   const clicks = drawn.value?.clicks;
   if (candidate.value) {
     candidate.value = null;
   } else if (drawn.value && clicks) {
     const kept = clicks.length === 2 ? (clicks[0] ?? null) : null;
-    void removeClick(engine, drawn.value.id, clicks.length - 1).then(() => {
+    void removeClick(drawn.value.id, clicks.length - 1).then(() => {
       first.value = kept;
     });
   } else {

@@ -1,6 +1,6 @@
 /** Keeps the displayed tree equal to the visible vessels of the document, except doubtful ones. */
+
 import { batch, effect, signal, untracked } from '@preact/signals';
-import type { Asked } from '../core/asked';
 import { Failure } from '../core/failure';
 import type { AfterEdit, DocumentVessel, ListedLine, Report, VesselDocument } from '../core/messages';
 import type { Window } from '../core/plain';
@@ -9,6 +9,7 @@ import { type Document, EMPTY } from '../state/document';
 import { begin, document_ } from '../state/history';
 import * as store from '../state/store';
 import { active } from '../state/tool';
+import { engine } from '../worker/engine';
 import { answered, dropEdits } from './committing';
 
 /** The displayed vessels, in the order of `store.report.value.vessels`. */
@@ -67,13 +68,13 @@ export function beginDocument(document: Document): void {
   });
 }
 
-export function showAgain(engine: Asked): Promise<void> {
+export function showAgain(): Promise<void> {
   shownText = '';
-  return show(engine);
+  return show();
 }
 
 /** Displays the tree whenever the document changes. Returns a function that stops this. */
-export function followDocument(engine: Asked): () => void {
+export function followDocument(): () => void {
   let lastAnswer: AfterEdit | null = answered.peek();
   return effect(() => {
     const [document, answer] = [document_.value, answered.value];
@@ -81,24 +82,24 @@ export function followDocument(engine: Asked): () => void {
       shownText = textOf(answer.edited.document.vessels);
     }
     if (textOf(document.vessels) !== shownText) {
-      void show(engine);
+      void show();
     } else if (answer && answer !== lastAnswer) {
       untracked(() => {
         const study = store.report.value?.volume;
-        takeUp(engine, answer.report, document).catch((error) => reportError(study, error));
+        takeUp(answer.report, document).catch((error) => reportError(study, error));
       });
     }
     lastAnswer = answer;
   });
 }
 
-async function takeUp(engine: Asked, report: Report, document: Document): Promise<void> {
+async function takeUp(report: Report, document: Document): Promise<void> {
   const isLeft = batch(() => {
     listedLines.value = linesOf(document.vessels);
     return take(report, shownVessels(document));
   });
   if (isLeft) {
-    await goOn(engine);
+    await goOn();
   }
 }
 
@@ -111,12 +112,12 @@ function reportError(study: Report['volume'] | undefined, error: unknown): void 
 let showing: Promise<void> | null = null;
 
 /** Requests displayed trees from the engine, one at a time, until the latest document is displayed. */
-function show(engine: Asked): Promise<void> {
-  showing ??= showLatest(engine);
+function show(): Promise<void> {
+  showing ??= showLatest();
   return showing;
 }
 
-async function showLatest(engine: Asked): Promise<void> {
+async function showLatest(): Promise<void> {
   // Wait, so that the caller has set `showing` before this function ends.
   await null;
   let study = store.report.value?.volume;
@@ -130,7 +131,7 @@ async function showLatest(engine: Asked): Promise<void> {
       const report = await engine.ask('show', listOf(document.vessels));
       if (study === store.report.value?.volume) {
         shownText = text;
-        await takeUp(engine, report, document);
+        await takeUp(report, document);
       }
       study = store.report.value?.volume;
     }
@@ -173,7 +174,7 @@ function take(report: Report, vessels: readonly DocumentVessel[]): boolean {
 }
 
 /** Moves the cross-hair to the section of the newly picked vessel. */
-async function goOn(engine: Asked): Promise<void> {
+async function goOn(): Promise<void> {
   const [vessel, at] = [store.pickedVessel.value, store.pickedPlace.value];
   if (vessel !== null) {
     const [point] = await engine.ask('across', { vessel, at });

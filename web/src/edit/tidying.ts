@@ -1,11 +1,12 @@
 /** Cleans a tree: removes short or thin vessels, or those not connected to the picked vessel, as one undo step. */
+
 import { computed, effect, signal } from '@preact/signals';
-import type { Asked } from '../core/asked';
 import { Latest } from '../core/latest';
 import type { DocumentVessel, LineFacts, LineId } from '../core/messages';
 import { recover } from '../state/device';
 import { document_ } from '../state/history';
 import { markNone, shorterThan, thinnerThan } from '../state/tidy';
+import { engine } from '../worker/engine';
 import { answered } from './committing';
 import { isListOpen } from './list-open';
 import { pickedId } from './shown';
@@ -23,19 +24,19 @@ export const factsOf = ({ line }: DocumentVessel): LineFacts | undefined => fact
 const latest = new Latest();
 
 /** Keeps lengths and diameters of the vessels up to date while the list is open. Returns a function that stops this. */
-export function followFacts(engine: Asked): () => void {
+export function followFacts(): () => void {
   return effect(() => {
     const lines = sure.value.map((vessel) => vessel.line);
     const given = answered.value?.facts ?? [];
     if (lines.length > 0 && given.map(({ line }) => line).join() === lines.join()) {
       facts.value = new Map(given.map((one) => [one.line, one]));
     } else if (isListOpen.value) {
-      latest.run(() => ask(engine, lines));
+      latest.run(() => ask(lines));
     }
   });
 }
 
-async function ask(engine: Asked, lines: readonly LineId[]): Promise<void> {
+async function ask(lines: readonly LineId[]): Promise<void> {
   try {
     const found = lines.length > 0 ? await engine.ask('line_facts', { lines }) : [];
     facts.value = new Map(found.map((one) => [one.line, one]));
@@ -74,12 +75,12 @@ export const unconnected = computed<readonly number[]>(() => {
     : sure.value.filter((vessel) => (factsOf(vessel)?.part ?? part) !== part).map((vessel) => vessel.id);
 });
 
-export async function removeMarked(engine: Asked): Promise<boolean> {
-  const isDone = await remove(engine, [...marked.value]);
+export async function removeMarked(): Promise<boolean> {
+  const isDone = await remove([...marked.value]);
   if (isDone) {
     markNone();
   }
   return isDone;
 }
 
-export const keepPart = (engine: Asked): Promise<boolean> => remove(engine, unconnected.value);
+export const keepPart = (): Promise<boolean> => remove(unconnected.value);

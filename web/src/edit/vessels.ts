@@ -1,5 +1,4 @@
 /** Edits of a vessel as a whole: name, colour, visibility, cutting and joining. */
-import type { Asked } from '../core/asked';
 import type { DocumentVessel } from '../core/messages';
 import { changed, vesselOf } from '../state/changes';
 import { commit, commitPlain, isDone } from './committing';
@@ -20,11 +19,9 @@ function set(words: string, id: number, to: Partial<DocumentVessel>): Promise<bo
   });
 }
 
-export const remove = (engine: Asked, ids: readonly number[]): Promise<boolean> =>
-  isDone(commit(engine, { kind: 'remove', ids }));
+export const remove = (ids: readonly number[]): Promise<boolean> => isDone(commit({ kind: 'remove', ids }));
 
-export const cut = (engine: Asked, id: number, at: number): Promise<boolean> =>
-  isDone(commit(engine, { kind: 'cut', id, at }));
+export const cut = (id: number, at: number): Promise<boolean> => isDone(commit({ kind: 'cut', id, at }));
 
-export const join = (engine: Asked, id: number, other: number): Promise<boolean> =>
-  isDone(commit(engine, { kind: 'join', id, other }));
+export const join = (id: number, other: number): Promise<boolean> =>
+  isDone(commit({ kind: 'join', id, other }));

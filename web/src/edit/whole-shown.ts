@@ -1,10 +1,11 @@
 /** Preview of the whole vessel at a single clicked point. */
+
 import { computed, effect, signal } from '@preact/signals';
-import type { Asked } from '../core/asked';
 import { Latest } from '../core/latest';
 import type { Vector, WholeVessel } from '../core/messages';
 import { document_ } from '../state/history';
 import { tool } from '../state/tool';
+import { engine } from '../worker/engine';
 import { candidate, coming, drawn, first } from './drawing';
 
 /** The clicked point if the vessel has no other; the whole vessel there can be traced. */
@@ -20,7 +21,7 @@ export const whole = signal<WholeVessel | null>(null);
 export const checked = signal<Vector | null>(null);
 
 /** Keeps the preview up to date. Returns a function that stops this. */
-export function followWhole(engine: Asked): () => void {
+export function followWhole(): () => void {
   const latest = new Latest();
   return effect(() => {
     const click = only.value;

@@ -1,5 +1,4 @@
 /** Traces the whole vessel at one clicked point, after Enter, a double click or a button. */
-import type { Asked } from '../core/asked';
 import type { Edited } from '../core/messages';
 import { tool } from '../state/tool';
 import { commit, refusal } from './committing';
@@ -9,14 +8,14 @@ import { toPick } from './shown';
 import { only } from './whole-shown';
 
 /** Returns whether there was a point. If no vessel is found but a second point could help, the point stays. */
-export function takeWhole(engine: Asked): boolean {
+export function takeWhole(): boolean {
   const click = only.value;
   if (click) {
     endVessel();
     const then = ({ added: [id] }: Edited) => {
       toPick.value = id ?? toPick.value;
     };
-    void commit(engine, { kind: 'add_whole_vessel', click }, { then }).then((answer) => {
+    void commit({ kind: 'add_whole_vessel', click }, { then }).then((answer) => {
       const isLeft = answer === null && refusal.value?.failure.advice !== '';
       first.value = isLeft && !isDrawing.value && tool.value === 'trace' ? click : first.value;
     });

@@ -6,7 +6,7 @@ import { FlatPicture } from '../pane/FlatPicture';
 import { dragWindow, windowBack } from '../state/actions';
 import { moveTo } from '../state/along';
 import * as store from '../state/store';
-import { engine } from '../worker/shared';
+import { engine } from '../worker/engine';
 import { lyingBox, lyingPicture } from './lying';
 import { valueAt } from './scale';
 

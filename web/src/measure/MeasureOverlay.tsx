@@ -5,7 +5,7 @@ import type { Camera, Pair, Plane, Vector } from '../core/messages';
 import { pixelOn, pointOn } from '../core/planes';
 import { cross, dot, subtract } from '../core/vectors';
 import * as store from '../state/store';
-import { engine } from '../worker/shared';
+import { engine } from '../worker/engine';
 import { currentProfile } from './current';
 import { PlaceHandles } from './PlaceHandles';
 import { RulerLayer } from './RulerLayer';

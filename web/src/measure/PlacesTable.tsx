@@ -6,7 +6,6 @@ import { moveTo } from '../state/along';
 import { document_ } from '../state/history';
 import { placeTurn, togglePlaceTurn } from '../state/place-turn';
 import * as store from '../state/store';
-import { engine } from '../worker/shared';
 import { currentMarks, currentPlaces, currentVessel } from './current';
 import { confirm, remove } from './editing';
 import { meanings } from './flags';
@@ -56,7 +55,7 @@ function NotMeasured({ profile }: { readonly profile: Profile }) {
         <p key={at} class="refused" data-testid="not-measured">
           {withKnownUnits(words)}{' '}
           {id !== undefined && (
-            <button type="button" class="small" onClick={() => void cut(engine, id, at)}>
+            <button type="button" class="small" onClick={() => void cut(id, at)}>
               Cut here
             </button>
           )}
@@ -80,7 +79,7 @@ function TurnButton() {
       class="small"
       aria-pressed={turn !== null}
       title="Rotates the cut around this place, to show every diameter of the lumen (o)"
-      onClick={() => void togglePlaceTurn(engine)}
+      onClick={() => void togglePlaceTurn()}
     >
       {`Turn about ${mm(turn?.at ?? store.pickedPlace.value, 1)}`}
     </button>

@@ -4,7 +4,7 @@ import { Latest } from '../core/latest';
 import type { LineId, MeasuredSection, Pair, Plane, Vector } from '../core/messages';
 import { pixelOn } from '../core/planes';
 import { pickedPlace } from '../state/store';
-import { engine } from '../worker/shared';
+import { engine } from '../worker/engine';
 import { currentProfile, currentVessel } from './current';
 import { meanings } from './flags';
 import { nearestSection, sectionNumbers } from './sections';

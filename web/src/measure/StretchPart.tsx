@@ -5,7 +5,6 @@ import { middle } from '../core/vectors';
 import type { VesselMarks } from '../state/document';
 import { flyTo } from '../state/flight';
 import * as store from '../state/store';
-import { engine } from '../worker/shared';
 import { answers, currentMarks } from './current';
 import { changeMarks } from './editing';
 import { stretchAround } from './marks';
@@ -92,7 +91,7 @@ function turnThere({ view }: Stretch, ends: Pair, profile: Profile): void {
   const camera = store.camera.value;
   const points = ends.map((at) => centerAt(profile, at)).filter((point) => point !== null);
   if (camera) {
-    flyTo(engine, {
+    flyTo({
       ...camera,
       direction: view.direction,
       up: view.up,

@@ -1,4 +1,5 @@
 /** Requests measurements from the engine whenever the marks or the picked vessel change. */
+
 import { untracked, useSignalEffect } from '@preact/signals';
 import { useRef } from 'preact/hooks';
 import { Failure } from '../core/failure';
@@ -12,7 +13,7 @@ import { document_ } from '../state/history';
 import { beingMeasured, forgetProfiles, measure, profiles, stopped } from '../state/profiles';
 import { rulerLength } from '../state/rulers';
 import * as store from '../state/store';
-import { engine } from '../worker/shared';
+import { engine } from '../worker/engine';
 import { type Answers, answers, currentMarks, currentProfile, currentVessel, NO_ANSWERS } from './current';
 import { findingSentences, listedFindings, markedVessel, stated } from './findings';
 import { comparedIn, mainPlace, NOTHING_SUGGESTED, placesOf, type Suggested } from './marks';
@@ -37,7 +38,7 @@ export function useMeasuring(): void {
     // Both signals are read in any case, so that a change of either runs this effect again.
     const isFree = beingMeasured.value === null && store.hasVolume.value;
     if (line !== undefined && isFree && stopped.value !== line) {
-      void measure(engine, line);
+      void measure(line);
     }
   });
   useSignalEffect(arrive);

@@ -3,7 +3,7 @@ import { useEffect, useRef, useState } from 'preact/hooks';
 import { Latest } from '../core/latest';
 import type { LineId, MeasureLayout, Pair } from '../core/messages';
 import { recover } from '../state/device';
-import { engine } from '../worker/shared';
+import { engine } from '../worker/engine';
 import { unlessGone } from './asking';
 import { currentProfile, currentVessel } from './current';
 import { TOOLS } from './SectionTools';

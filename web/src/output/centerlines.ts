@@ -3,13 +3,12 @@
 import type { CenterlineKind } from '../core/messages';
 import { centerlineFile } from '../edit/files';
 import { document_, markSaved } from '../state/history';
-import { engine } from '../worker/shared';
 import { saveAs } from './pictures';
 import { studyFileName } from './study-file-names';
 
 export async function saveCenterlines(kind: CenterlineKind): Promise<void> {
   const document = document_.value;
-  saveAs(await centerlineFile(engine, kind), studyFileName({ content: 'centerlines', ending: kind }));
+  saveAs(await centerlineFile(kind), studyFileName({ content: 'centerlines', ending: kind }));
   markSaved(document);
 }
 

@@ -8,7 +8,7 @@ import { colorOfPlace } from '../measure/PlaceHandles';
 import { nearestSection } from '../measure/sections';
 import { spread } from '../measure/words';
 import { profileOfLine } from '../state/profiles';
-import { engine } from '../worker/shared';
+import { engine } from '../worker/engine';
 import { canvasOf, sectionPair, straightenedCanvas } from './report-pictures';
 import { fittingSize } from './wrapping';
 
@@ -19,7 +19,7 @@ const MAX_VESSEL_HEIGHT = 260;
 const LINE = 36;
 
 export async function keyImage(finding: Finding): Promise<HTMLCanvasElement> {
-  const profile = await profileOfLine(engine, finding.line);
+  const profile = await profileOfLine(finding.line);
   const plan = await engine.ask('report_plan', markedVessel(finding));
   const places = plan.places.filter((place) => !place.is_suggestion);
   const strip = await straightenedCanvas(finding.vessel, plan);

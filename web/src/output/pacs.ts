@@ -1,4 +1,5 @@
 /** Saves DICOM objects for a PACS. The server of the page makes a zip archive of them; nothing is sent elsewhere. */
+
 import { signal } from '@preact/signals';
 import { DEFAULTS } from '../core/generated/tables';
 import type { GivenFile } from '../core/messages';
@@ -9,7 +10,7 @@ import { showMessage } from '../state/message';
 import { profileOfLine } from '../state/profiles';
 import { reformationKind } from '../state/reformation';
 import * as store from '../state/store';
-import { engine } from '../worker/shared';
+import { engine } from '../worker/engine';
 import { fileName } from './file-names';
 import { keyImage } from './key-image';
 import { drawnPane } from './pane-picture';
@@ -145,7 +146,7 @@ const pixelWords = (spacing: number): string =>
 
 async function partOf(finding: Finding): Promise<object> {
   const { line, name, marks } = finding;
-  await profileOfLine(engine, line);
+  await profileOfLine(line);
   return {
     picture: pngOf(await keyImage(finding)),
     name,

@@ -6,7 +6,7 @@ import type { Camera, PictureLabels } from '../core/messages';
 import { negate } from '../core/vectors';
 import { showMessage } from '../state/message';
 import * as store from '../state/store';
-import { engine } from '../worker/shared';
+import { engine } from '../worker/engine';
 import { sideOf } from './file-names';
 import { studyFileName } from './study-file-names';
 

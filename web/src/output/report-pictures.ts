@@ -20,7 +20,7 @@ import { colorOfPlace } from '../measure/PlaceHandles';
 import { CONTOUR } from '../measure/SectionMarks';
 import { centerAt, nearestSection } from '../measure/sections';
 import * as store from '../state/store';
-import { engine } from '../worker/shared';
+import { engine } from '../worker/engine';
 import { composed } from './pictures';
 
 export function canvasOf(width: number, height: number): [HTMLCanvasElement, CanvasRenderingContext2D] {

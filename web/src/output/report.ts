@@ -9,7 +9,7 @@ import { isMillimetreAssumed } from '../state/millimetres';
 import { profileOfLine, profiles } from '../state/profiles';
 import { rulerLength } from '../state/rulers';
 import * as store from '../state/store';
-import { engine } from '../worker/shared';
+import { engine } from '../worker/engine';
 import { fileName } from './file-names';
 import { saveAs } from './pictures';
 import { pngOf, sectionPair, straightened, viewPicture } from './report-pictures';
@@ -59,7 +59,7 @@ const namedScan = (): string | null =>
 export async function reportOf(findings: readonly Finding[], scan = namedScan()): Promise<string> {
   const vessels: ReportVessel[] = [];
   for (const finding of findings) {
-    vessels.push(await pageOf(finding, await profileOfLine(engine, finding.line)));
+    vessels.push(await pageOf(finding, await profileOfLine(finding.line)));
   }
   return engine.ask('measured_report', {
     vessels,

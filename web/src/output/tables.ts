@@ -7,7 +7,7 @@ import { document_ } from '../state/history';
 import { isMillimetreAssumed } from '../state/millimetres';
 import { profiles } from '../state/profiles';
 import * as store from '../state/store';
-import { engine } from '../worker/shared';
+import { engine } from '../worker/engine';
 import { saveAs } from './pictures';
 import { studyFileName } from './study-file-names';
 

@@ -1,7 +1,7 @@
 /** Moves the section along the picked vessel, in all views. */
 
 import { Latest } from '../core/latest';
-import { engine } from '../worker/shared';
+import { engine } from '../worker/engine';
 import { placeCrossHair } from './cross-hair';
 import { recover } from './device';
 import { pickedPlace, pickedVessel, report } from './store';

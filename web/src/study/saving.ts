@@ -11,8 +11,7 @@ import type { Document } from '../state/document';
 import { document_ } from '../state/history';
 import { giveFwhm, givenFwhm } from '../state/profiles';
 import * as store from '../state/store';
-import { EngineClient } from '../worker/client';
-import { engine } from '../worker/shared';
+import { EngineClient, engine } from '../worker/engine';
 import { handedOver } from './handing-over';
 import { cameraOf, contentOf, type DisplayState, documentOf } from './session-content';
 

@@ -1,4 +1,5 @@
 /** Opens and closes a study; sets its windows and its first view. */
+
 import { batch } from '@preact/signals';
 import { Failure } from '../core/failure';
 import type { Report } from '../core/messages';
@@ -15,7 +16,8 @@ import { beginMeasuring } from '../state/profiles';
 import { putRulerAway } from '../state/rulers';
 import * as store from '../state/store';
 import { tool } from '../state/tool';
-import type { EngineClient, Opened } from '../worker/client';
+import type { Opened } from '../worker/engine';
+import { engine } from '../worker/engine';
 
 const FIRST_SIZE = [512, 512] as const;
 
@@ -24,7 +26,7 @@ export interface Loaded extends Opened {
   readonly isBeside?: boolean;
 }
 
-export async function open(engine: EngineClient, load: () => Promise<Loaded>, name: string): Promise<void> {
+export async function open(load: () => Promise<Loaded>, name: string): Promise<void> {
   batch(() => {
     store.problem.value = null;
     store.progress.value = { words: 'Opening', done: 0, total: null };
@@ -33,14 +35,14 @@ export async function open(engine: EngineClient, load: () => Promise<Loaded>, na
     const opened = await load();
     const isEdited = document_.value.vessels.length > 0 || hasEdits.value;
     const comesToEdits = opened.isBeside && store.hasVolume.value && isEdited;
-    await (comesToEdits ? showBeside(engine, opened) : showStudy(engine, opened, opened.name ?? name));
+    await (comesToEdits ? showBeside(opened) : showStudy(opened, opened.name ?? name));
     store.problem.value = misread(opened);
   } catch (error) {
     const failure = Failure.of(error);
     if (failure.kind !== 'interrupted') {
       store.problem.value = failure;
     }
-    await forgetWhatIsClosed(engine);
+    await forgetWhatIsClosed();
   } finally {
     store.progress.value = null;
   }
@@ -57,7 +59,7 @@ function misread({ doubt }: Loaded): Failure | null {
 }
 
 /** After a failure, closes the study in the page if the engine has already closed it. */
-async function forgetWhatIsClosed(engine: EngineClient): Promise<void> {
+async function forgetWhatIsClosed(): Promise<void> {
   const { volume, vessels } = await engine.ask('report', null);
   if (!volume && !vessels) {
     layDown();
@@ -65,29 +67,25 @@ async function forgetWhatIsClosed(engine: EngineClient): Promise<void> {
   }
 }
 
-export function openPhantom(engine: EngineClient, name: string): Promise<void> {
+export function openPhantom(name: string): Promise<void> {
   return openWith({}, (wish) => {
     const load = async () => ({ report: await engine.openPhantom(name, wish), notes: [] });
-    return open(engine, load, `phantom ${name}`);
+    return open(load, `phantom ${name}`);
   });
 }
 
-export function openAddresses(
-  engine: EngineClient,
-  volume: string | null,
-  centerlines: string | null,
-): Promise<void> {
+export function openAddresses(volume: string | null, centerlines: string | null): Promise<void> {
   return openWith({}, (wish) => {
     const load = () =>
       engine.openAddresses({ volume, centerlines }, wish, (progress) => {
         store.progress.value = progress;
       });
-    return open(engine, load, '');
+    return open(load, '');
   });
 }
 
 /** Closes the study. The views are removed first, so that none requests data that is gone. */
-export async function close(engine: EngineClient): Promise<void> {
+export async function close(): Promise<void> {
   layDown();
   batch(forget);
   await engine.ask('close', null);
@@ -101,15 +99,11 @@ function layDown(): void {
   }
 }
 
-async function showStudy(
-  engine: EngineClient,
-  { report, notes, states, study = null }: Opened,
-  name: string,
-): Promise<void> {
+async function showStudy({ report, notes, states, study = null }: Opened, name: string): Promise<void> {
   const size = store.camera.value?.size ?? FIRST_SIZE;
   const camera = await engine.ask('fitted', { view: 'anterior', size: size });
   const histogram = report.volume ? await engine.ask('histogram', { bins: 128 }) : null;
-  const hair = await firstPlace(engine, report);
+  const hair = await firstPlace(report);
   const vessels = await engine.ask('begin_document', null);
   layDown();
   batch(() => {
@@ -130,10 +124,10 @@ async function showStudy(
   });
 }
 
-async function showBeside(engine: EngineClient, { report, notes }: Opened): Promise<void> {
+async function showBeside({ report, notes }: Opened): Promise<void> {
   const loaded = report.vessels ?? [];
-  await addLoaded(engine, loaded);
-  await showAgain(engine);
+  await addLoaded(loaded);
+  await showAgain();
   store.notes.value = notes;
   const line = loaded[longest(report)]?.line;
   const shown = store.report.value?.vessels ?? [];
@@ -147,7 +141,7 @@ async function showBeside(engine: EngineClient, { report, notes }: Opened): Prom
 }
 
 /** First position of the cross-hair: half way along the longest vessel, or the centre of the volume. */
-async function firstPlace(engine: EngineClient, report: Report): Promise<store.CrossHair | null> {
+async function firstPlace(report: Report): Promise<store.CrossHair | null> {
   if (report.vessels?.length) {
     const vessel = longest(report);
     const arcLength = (report.vessels[vessel]?.length ?? 0) / 2;

@@ -3,7 +3,6 @@ import { useSignal, useSignalEffect } from '@preact/signals';
 import { dropped } from '../input/dropped';
 import { hasVolume, started } from '../state/store';
 import { takeFiles } from '../study/opening';
-import { engine } from '../worker/shared';
 
 export function DropZone() {
   const isOver = useSignal(false);
@@ -52,6 +51,6 @@ function listen(signal: AbortSignal, show: (isOver: boolean) => void): void {
 async function open(transfer: DataTransfer): Promise<void> {
   const files = await dropped(transfer);
   if (files.length > 0 && started.value) {
-    await takeFiles(engine, files);
+    await takeFiles(files);
   }
 }

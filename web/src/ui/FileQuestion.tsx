@@ -3,7 +3,6 @@
 import { addMask } from '../edit/branches';
 import { leave } from '../study/leaving';
 import { openFiles, question } from '../study/opening';
-import { engine } from '../worker/shared';
 
 export function FileQuestion() {
   const files = question.value;
@@ -17,14 +16,10 @@ export function FileQuestion() {
   return (
     <div class="file-question" role="alertdialog" aria-label="What is this file?">
       <p>{`What is ${files.map(({ file }) => file.name).join(', ')}?`}</p>
-      <button type="button" onClick={() => answer(() => leave(() => openFiles(engine, files)))}>
+      <button type="button" onClick={() => answer(() => leave(() => openFiles(files)))}>
         Open as a new scan
       </button>
-      <button
-        type="button"
-        ref={(button) => button?.focus()}
-        onClick={() => answer(() => addMask(engine, files))}
-      >
+      <button type="button" ref={(button) => button?.focus()} onClick={() => answer(() => addMask(files))}>
         Use as a mask of vessels
       </button>
       <button type="button" onClick={() => answer(async () => undefined)}>

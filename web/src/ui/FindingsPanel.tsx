@@ -19,7 +19,6 @@ import { showBestView, toggleLayout } from '../state/actions';
 import { moveTo } from '../state/along';
 import { profiles, stopped } from '../state/profiles';
 import * as store from '../state/store';
-import { engine } from '../worker/shared';
 import { ScanNamed } from './ScanNamed';
 
 export function FindingsPanel() {
@@ -161,5 +160,5 @@ function KeyImage({ finding, name }: { readonly finding: Finding; readonly name:
 function show({ vessel, marks, length }: Finding): void {
   store.pickedVessel.value = vessel;
   moveTo(marks.at ?? marks.references[0] ?? marks.stretch?.[0] ?? length / 2);
-  void showBestView(engine);
+  void showBestView();
 }

@@ -7,7 +7,6 @@ import { performAny } from '../edit/performing';
 import { saveSession } from '../output/session';
 import { message, showFailure } from '../state/message';
 import { problem, progress } from '../state/store';
-import { engine } from '../worker/shared';
 import { Mends } from './Mends';
 
 export function Messages() {
@@ -35,7 +34,7 @@ function Loading() {
       <span>{share === null ? `${shown.words} …` : `${shown.words}: ${(100 * share).toFixed(0)} %`}</span>
       <progress aria-label={shown.words} {...(share === null ? {} : { value: share })} />
       {isLong.value && <LongWork />}
-      <button type="button" onClick={() => performAny(engine, 'cancel')}>
+      <button type="button" onClick={() => performAny('cancel')}>
         {isLong.value ? 'Stop' : 'Cancel'}
       </button>
     </div>
@@ -115,7 +114,7 @@ function Bridging({ failure }: { readonly failure: Failure }) {
 /** Button shown if all vessels that were found are doubtful. */
 function DoubtfulOnes() {
   return (
-    <button type="button" onClick={() => void findAndList(engine, true)}>
+    <button type="button" onClick={() => void findAndList(true)}>
       Show the doubtful vessels
     </button>
   );

@@ -3,7 +3,6 @@ import { useRef } from 'preact/hooks';
 import { chosen } from '../input/dropped';
 import { started } from '../state/store';
 import { takeFiles } from '../study/opening';
-import { engine } from '../worker/shared';
 
 export function OpenButtons() {
   return (
@@ -30,7 +29,7 @@ function Chooser({ words, isFolder }: ChooserProps) {
     // Otherwise the same files could not be chosen again.
     element.value = '';
     if (files.length > 0) {
-      void takeFiles(engine, files);
+      void takeFiles(files);
     }
   };
   return (

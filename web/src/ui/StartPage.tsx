@@ -2,7 +2,6 @@
 
 import { started } from '../state/store';
 import { openPhantom } from '../study/study';
-import { engine } from '../worker/shared';
 import { startGuide } from './guide-steps';
 import { OpenButtons } from './OpenButtons';
 
@@ -44,7 +43,7 @@ export function StartPage() {
       <ul class="phantoms">
         {PHANTOMS.map(([name, words]) => (
           <li key={name}>
-            <button type="button" disabled={!isReady} onClick={() => void openPhantom(engine, name)}>
+            <button type="button" disabled={!isReady} onClick={() => void openPhantom(name)}>
               {words}
             </button>
           </li>

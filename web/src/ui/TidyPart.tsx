@@ -3,7 +3,6 @@ import type { Signal } from '@preact/signals';
 import { factsOf, keepPart, marked, reachOf, removeMarked, sure, unconnected } from '../edit/tidying';
 import { hasMillimetres } from '../state/millimetres';
 import { shorterThan, thinnerThan } from '../state/tidy';
-import { engine } from '../worker/shared';
 
 /** Usual ends of the sliders (mm); the number fields accept more. */
 const USUAL_LENGTH = 60;
@@ -25,14 +24,14 @@ export function TidyPart() {
         <Limit words="Thinner than" limit={thinnerThan} most={reachOf(calibres, USUAL_CALIBRE)} step={0.1} />
       )}
       <div class="buttons">
-        <button type="button" disabled={count === 0} onClick={() => void removeMarked(engine)}>
+        <button type="button" disabled={count === 0} onClick={() => void removeMarked()}>
           {removeWords(count)}
         </button>
         <button
           type="button"
           disabled={unconnected.value.length === 0}
           title="Removes all vessels that are not connected to the picked vessel"
-          onClick={() => void keepPart(engine)}
+          onClick={() => void keepPart()}
         >
           {unconnected.value.length > 0
             ? `Keep only this tree (removes ${unconnected.value.length})`

@@ -6,7 +6,6 @@ import { perform, showLayout } from '../state/actions';
 import * as store from '../state/store';
 import { leave } from '../study/leaving';
 import { close } from '../study/study';
-import { engine } from '../worker/shared';
 import { ModeButtons } from './ModeButtons';
 import { OpenMore } from './OpenButtons';
 import { ResearchMenu } from './ResearchMenu';
@@ -36,10 +35,10 @@ export function Toolbar() {
       <ResearchMenu />
       <span class="spring" />
       <OpenMore />
-      <button type="button" onClick={() => perform(engine, 'help')} aria-label="Keys and mouse">
+      <button type="button" onClick={() => perform('help')} aria-label="Keys and mouse">
         ?
       </button>
-      <button type="button" onClick={() => void leave(() => close(engine))} aria-label="Close the scan">
+      <button type="button" onClick={() => void leave(() => close())} aria-label="Close the scan">
         Close
       </button>
     </header>
@@ -70,7 +69,7 @@ function ListButton() {
       type="button"
       class="tool"
       aria-pressed={isListOpen.value}
-      onClick={() => performAny(engine, 'vessels')}
+      onClick={() => performAny('vessels')}
       title="List of the vessels (v)"
     >
       Vessels

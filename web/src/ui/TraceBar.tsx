@@ -15,7 +15,6 @@ import { nameOf, vesselOf } from '../state/changes';
 import { document_ } from '../state/history';
 import { hasVolume, report } from '../state/store';
 import { type Tool, tool } from '../state/tool';
-import { engine } from '../worker/shared';
 import { OpenMore } from './OpenButtons';
 import { TracedSummary } from './TracedSummary';
 
@@ -52,11 +51,11 @@ function Offer() {
         type="button"
         disabled={waiting.value > 0}
         title="Finds all vessels that are brighter than the surrounding tissue"
-        onClick={() => void findAndList(engine)}
+        onClick={() => void findAndList()}
       >
         Find all vessels
       </button>
-      <button type="button" onClick={() => performAny(engine, 'trace')}>
+      <button type="button" onClick={() => performAny('trace')}>
         Trace one vessel
       </button>
       <OpenMore words="I have centerlines" />
@@ -88,12 +87,12 @@ function Hint() {
       {isSummaryShown && <TracedSummary />}
       {!(isSummaryShown && tracedSummary.value?.doubts.length) && <span>{hintWords()}</span>}
       {candidate.value && (
-        <button type="button" onClick={() => acceptCandidate(engine)}>
+        <button type="button" onClick={() => acceptCandidate()}>
           Set the point here
         </button>
       )}
       {only.value && (
-        <button type="button" title={WHOLE} onClick={() => takeWhole(engine)}>
+        <button type="button" title={WHOLE} onClick={() => takeWhole()}>
           Whole vessel
         </button>
       )}
@@ -146,19 +145,19 @@ function Doubt({ words }: { readonly words: string }) {
   return (
     <div class="trace-bar over" role="status">
       <span>{words}</span>
-      <button type="button" title="Accept (y)" onClick={() => void answerDoubt(engine, 'accept')}>
+      <button type="button" title="Accept (y)" onClick={() => void answerDoubt('accept')}>
         Accept
       </button>
-      <button type="button" title="Leave out (n)" onClick={() => void answerDoubt(engine, 'leave out')}>
+      <button type="button" title="Leave out (n)" onClick={() => void answerDoubt('leave out')}>
         Leave out
       </button>
       {count > 1 && (
         <>
-          <button type="button" aria-label="Previous (,)" onClick={() => stepDoubt(engine, -1)}>
+          <button type="button" aria-label="Previous (,)" onClick={() => stepDoubt(-1)}>
             ‹
           </button>
           <span>{`${place + 1} of ${count}`}</span>
-          <button type="button" aria-label="Next (.)" onClick={() => stepDoubt(engine, 1)}>
+          <button type="button" aria-label="Next (.)" onClick={() => stepDoubt(1)}>
             ›
           </button>
         </>

@@ -6,7 +6,6 @@ import { tracedSummary } from '../edit/traced-summary';
 import { cut } from '../edit/vessels';
 import { moveTo } from '../state/along';
 import { pickedVessel } from '../state/store';
-import { engine } from '../worker/shared';
 
 export function TracedSummary() {
   return tracedSummary.value && <Summary key={tracedSummary.value.words} summary={tracedSummary.value} />;
@@ -25,7 +24,7 @@ function Summary({ summary: { vessel, words, doubts } }: { readonly summary: Tol
           <button type="button" onClick={() => goTo(vessel, at)}>
             Go there
           </button>
-          <button type="button" onClick={() => void cut(engine, vessel, at)}>
+          <button type="button" onClick={() => void cut(vessel, at)}>
             Cut there
           </button>
         </>

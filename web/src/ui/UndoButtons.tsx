@@ -3,7 +3,6 @@
 import { performAny } from '../edit/performing';
 import { redoWords, undoWords } from '../state/history';
 import { hasVolume } from '../state/store';
-import { engine } from '../worker/shared';
 
 export function UndoButtons() {
   if (!hasVolume.value) {
@@ -17,7 +16,7 @@ export function UndoButtons() {
         aria-label="Undo"
         disabled={back === null}
         title={back ? `Undo: ${back} (Ctrl+z)` : 'Nothing to undo'}
-        onClick={() => performAny(engine, 'undo')}
+        onClick={() => performAny('undo')}
       >
         ↶
       </button>
@@ -26,7 +25,7 @@ export function UndoButtons() {
         aria-label="Redo"
         disabled={forth === null}
         title={forth ? `Redo: ${forth} (Ctrl+Shift+z)` : 'Nothing to redo'}
-        onClick={() => performAny(engine, 'redo')}
+        onClick={() => performAny('redo')}
       >
         ↷
       </button>

@@ -13,7 +13,6 @@ import { doubtful } from '../state/changes';
 import { document_ } from '../state/history';
 import { hasMillimetres } from '../state/millimetres';
 import { treeChosen } from '../state/tidy';
-import { engine } from '../worker/shared';
 import { CenterlineFiles } from './CenterlineFiles';
 import { DoubtfulPart } from './DoubtfulPart';
 import { TidyPart } from './TidyPart';
@@ -44,15 +43,7 @@ export function VesselList() {
       </datalist>
       {vessels.length > 1 && (
         <div class="buttons">
-          <button
-            type="button"
-            onClick={() =>
-              void remove(
-                engine,
-                vessels.map((vessel) => vessel.id),
-              )
-            }
-          >
+          <button type="button" onClick={() => void remove(vessels.map((vessel) => vessel.id))}>
             Delete all
           </button>
         </div>
@@ -102,14 +93,14 @@ function AddButtons() {
       <button
         type="button"
         title="Finds all vessels that are brighter than the surrounding tissue"
-        onClick={() => void findVessels(engine)}
+        onClick={() => void findVessels()}
       >
         Find all vessels
       </button>
       <button
         type="button"
         title="Searches from the cross-hair if you placed it, otherwise from your next click (b)"
-        onClick={() => performAny(engine, 'branches')}
+        onClick={() => performAny('branches')}
       >
         All branches from here
       </button>
@@ -122,7 +113,7 @@ function AddButtons() {
         <input
           type="checkbox"
           checked={document_.value.bridge}
-          onChange={(event) => void setBridge(engine, event.currentTarget.checked)}
+          onChange={(event) => void setBridge(event.currentTarget.checked)}
         />
         Bridge gaps without lumen
       </label>

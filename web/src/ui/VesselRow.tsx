@@ -1,4 +1,5 @@
 /** A row of the vessel list. The row of the picked vessel has buttons for it. */
+
 import { useEffect, useRef, useState } from 'preact/hooks';
 import type { DocumentVessel } from '../core/messages';
 import { lengthOf } from '../edit/lines';
@@ -15,7 +16,7 @@ import { PALETTE } from '../state/palette';
 import { pickedPlace, report } from '../state/store';
 import { highlighted } from '../state/tidy';
 import { active, tool } from '../state/tool';
-import { engine } from '../worker/shared';
+import { engine } from '../worker/engine';
 import { BestViewButton } from './BestViewButton';
 
 export const NAMES_TO_OFFER = 'names-to-offer';
@@ -189,7 +190,7 @@ function VesselActions({ vessel }: RowProps) {
       <button
         type="button"
         title="Cuts the vessel at the section"
-        onClick={() => void cut(engine, id, pickedPlace.value)}
+        onClick={() => void cut(id, pickedPlace.value)}
       >
         Cut here
       </button>
@@ -197,7 +198,7 @@ function VesselActions({ vessel }: RowProps) {
         <select
           value=""
           aria-label={`Join ${nameOf(vessel)} with`}
-          onChange={(event) => void join(engine, id, Number(event.currentTarget.value))}
+          onChange={(event) => void join(id, Number(event.currentTarget.value))}
         >
           <option value="">Join with …</option>
           {others.map((other) => (
@@ -207,7 +208,7 @@ function VesselActions({ vessel }: RowProps) {
           ))}
         </select>
       )}
-      <button type="button" onClick={() => void remove(engine, [id])}>
+      <button type="button" onClick={() => void remove([id])}>
         Delete
       </button>
     </div>

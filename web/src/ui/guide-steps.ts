@@ -8,7 +8,6 @@ import { EMPTY } from '../state/document';
 import { document_ } from '../state/history';
 import * as store from '../state/store';
 import { openPhantom } from '../study/study';
-import { engine } from '../worker/shared';
 
 export interface GuideStep {
   readonly title: string;
@@ -90,7 +89,7 @@ export const STEPS: readonly GuideStep[] = [
 ];
 
 export async function startGuide(): Promise<void> {
-  await openPhantom(engine, 'stenosis');
+  await openPhantom('stenosis');
   if (store.report.value) {
     beginDocument(EMPTY);
     guideStep.value = 0;

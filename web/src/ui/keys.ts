@@ -6,7 +6,6 @@ import { type Action, actionOfKey } from '../input/bindings';
 import { focusSoon } from '../input/focus';
 import { saveByKey } from '../output/by-key';
 import { layout } from '../state/store';
-import { engine } from '../worker/shared';
 
 export function listenToKeys(): void {
   window.addEventListener('keydown', (event) => {
@@ -17,7 +16,7 @@ export function listenToKeys(): void {
     }
     event.preventDefault();
     if (!saveByKey(action)) {
-      performAny(engine, action);
+      performAny(action);
       follow(action);
     }
   });

@@ -8,7 +8,7 @@ import { FlatPicture } from '../pane/FlatPicture';
 import { dragWindow, windowBack } from '../state/actions';
 import { placeCrossHair } from '../state/cross-hair';
 import * as store from '../state/store';
-import { engine } from '../worker/shared';
+import { engine } from '../worker/engine';
 
 export function CprView() {
   const vessel = store.pickedVessel.value;

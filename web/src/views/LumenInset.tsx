@@ -6,7 +6,7 @@ import { pointed } from '../edit/lumens';
 import { isTracing } from '../edit/mode';
 import { hasMillimetres } from '../state/millimetres';
 import { isInverted, type ViewName, window_ } from '../state/store';
-import { engine } from '../worker/shared';
+import { engine } from '../worker/engine';
 
 /** Side of the picture, and its distance from the pointer (CSS pixels). */
 const SIDE = 120;

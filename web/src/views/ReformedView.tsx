@@ -11,7 +11,7 @@ import { dragWindow, windowBack } from '../state/actions';
 import { placeCrossHair } from '../state/cross-hair';
 import { mapOf, reformationOf, reformationTitle, uncurled } from '../state/reformation';
 import * as store from '../state/store';
-import { engine } from '../worker/shared';
+import { engine } from '../worker/engine';
 import { HairLines } from './TurningOverlay';
 
 /** Empty picture, shown if the reformation failed. */

@@ -13,7 +13,7 @@ import { placeCrossHair } from '../state/cross-hair';
 import { recover } from '../state/device';
 import * as store from '../state/store';
 import { pickedLine } from '../state/store';
-import { engine } from '../worker/shared';
+import { engine } from '../worker/engine';
 import { useAsked } from './asked';
 import { EdgeLabels } from './EdgeLabels';
 import { HairLines } from './TurningOverlay';

@@ -26,7 +26,7 @@ import { FlatPicture } from '../pane/FlatPicture';
 import { dragWindow, windowBack } from '../state/actions';
 import { placeCrossHair } from '../state/cross-hair';
 import * as store from '../state/store';
-import { engine } from '../worker/shared';
+import { engine } from '../worker/engine';
 import { useAsked } from './asked';
 import { EdgeLabels } from './EdgeLabels';
 import { LumenInset } from './LumenInset';

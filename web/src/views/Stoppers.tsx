@@ -7,7 +7,6 @@ import { isTracing } from '../edit/mode';
 import { moveStopper, removeStopper } from '../edit/stoppers';
 import { Handle } from '../pane/Handle';
 import { document_ } from '../state/history';
-import { engine } from '../worker/shared';
 import { lookAt } from './look-at';
 import type { Projection } from './projection';
 
@@ -45,7 +44,7 @@ function Ball({ number, stopper, projection }: BallProps) {
   };
   const end = async () => {
     if (draggedStopper.value) {
-      await moveStopper(engine, number, draggedStopper.value.point);
+      await moveStopper(number, draggedStopper.value.point);
       draggedStopper.value = null;
     }
   };
@@ -67,7 +66,7 @@ function Ball({ number, stopper, projection }: BallProps) {
         onPutBack={() => {
           draggedStopper.value = null;
         }}
-        onRemove={() => void removeStopper(engine, number)}
+        onRemove={() => void removeStopper(number)}
       />
     </>
   );

@@ -14,7 +14,7 @@ import * as actions from '../state/actions';
 import { placeCrossHair } from '../state/cross-hair';
 import { recover } from '../state/device';
 import * as store from '../state/store';
-import { engine } from '../worker/shared';
+import { engine } from '../worker/engine';
 import { FrameLoop, type Shown } from './frame-loop';
 import { ofCamera } from './projection';
 import { TurningOverlay } from './TurningOverlay';
@@ -31,7 +31,7 @@ export function TurningView() {
   const canvas = useRef<HTMLCanvasElement>(null);
 
   useEffect(() => {
-    const frames = new FrameLoop(engine, (shown) => showFrame(canvas.current, shown), recover);
+    const frames = new FrameLoop((shown) => showFrame(canvas.current, shown), recover);
     loop.current = frames;
     return () => frames.end();
   }, []);

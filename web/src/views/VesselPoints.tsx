@@ -11,7 +11,6 @@ import { Handle } from '../pane/Handle';
 import { nameOf } from '../state/changes';
 import { document_ } from '../state/history';
 import { active, tool } from '../state/tool';
-import { engine } from '../worker/shared';
 import { isNear } from './curves';
 import { lookAt } from './look-at';
 import type { Projection } from './projection';
@@ -67,13 +66,13 @@ function Click({ vessel, number, point, projection }: ClickProps) {
     const moved = dragged.value;
     if (moved) {
       lookAt(moved.point);
-      await moveClick(engine, id, number, moved.point);
+      await moveClick(id, number, moved.point);
       dragged.value = null;
     } else if (number === (vessel.clicks?.length ?? 0) - 1 && !isDrawing.value) {
       // A click on the last point extends the vessel; on another point it begins a branch or ends one there.
       active.value = id;
     } else if (tool.value === 'trace' && id !== active.value) {
-      await setPoint(engine, point);
+      await setPoint(point);
     }
   };
   return (
@@ -89,7 +88,7 @@ function Click({ vessel, number, point, projection }: ClickProps) {
       onPutBack={() => {
         dragged.value = null;
       }}
-      onRemove={() => void removeClick(engine, id, number)}
+      onRemove={() => void removeClick(id, number)}
     />
   );
 }

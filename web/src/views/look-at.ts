@@ -3,7 +3,7 @@
 import type { Vector } from '../core/messages';
 import { placeCrossHair } from '../state/cross-hair';
 import { recover } from '../state/device';
-import { engine } from '../worker/shared';
+import { engine } from '../worker/engine';
 
 export async function lookAt(point: Vector): Promise<void> {
   try {

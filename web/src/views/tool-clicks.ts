@@ -13,7 +13,7 @@ import { placeCrossHair } from '../state/cross-hair';
 import { recover } from '../state/device';
 import { crossHair, type ViewName } from '../state/store';
 import { tool } from '../state/tool';
-import { engine } from '../worker/shared';
+import { engine } from '../worker/engine';
 import { curveAt, isAt } from './curves';
 import type { Projection } from './projection';
 
@@ -47,7 +47,7 @@ export function clickWithTool(view: Pointed, action: Action, at: Pair): boolean 
 async function setAt(view: Pointed, at: Pair): Promise<void> {
   const { projection } = view;
   if (candidate.value && isAt(projection, candidate.value, at)) {
-    acceptCandidate(engine);
+    acceptCandidate();
     return;
   }
   // A click on its own curve does not extend a vessel, since a double click adds a point there.
@@ -69,7 +69,7 @@ async function setAt(view: Pointed, at: Pair): Promise<void> {
 
 async function setHere(view: Pointed, point: Vector): Promise<void> {
   crossHair.value = { point, value: null, vessel: null, arcLength: null };
-  showValue(view, point, (await setPoint(engine, point)) ?? (await engine.ask('at', point)));
+  showValue(view, point, (await setPoint(point)) ?? (await engine.ask('at', point)));
 }
 
 /** A click in a projection sets a point in the displayed lumen, or proposes the brightest point. */
@@ -97,7 +97,7 @@ function showValue(view: Pointed, point: Vector, pick: Pick): void {
 
 /** A double click ends the vessel, traces the whole vessel at its only point, or adds a point on a curve. */
 function endAt(view: Pointed, at: Pair): void {
-  if (acceptCandidate(engine)) {
+  if (acceptCandidate()) {
     return;
   }
   const hit = curveAt(view.projection, at);
@@ -107,7 +107,7 @@ function endAt(view: Pointed, at: Pair): void {
   if (hit && !isOther && !isEnd && tool.value === 'trace') {
     first.value = null;
     addOnCurve(view, at);
-  } else if (!takeWhole(engine)) {
+  } else if (!takeWhole()) {
     endVessel();
   }
 }
@@ -115,7 +115,7 @@ function endAt(view: Pointed, at: Pair): void {
 function addOnCurve({ projection }: Pointed, at: Pair): void {
   const hit = curveAt(projection, at);
   if (hit) {
-    void addClickOnLine(engine, hit.vessel.id, hit.point);
+    void addClickOnLine(hit.vessel.id, hit.point);
   }
 }
 
@@ -151,7 +151,7 @@ async function lookUnder(view: Pointed, at: Pair): Promise<void> {
   const { projection, name } = view;
   const through = projection.along;
   const point = projection.at(at, crossHair.value?.point ?? [0, 0, 0]);
-  const lumen = await lookForLumens(engine, [name, at], { point, along: through });
+  const lumen = await lookForLumens([name, at], { point, along: through });
   if (through && anchor.value !== null) {
     // Outside the scan there is no path.
     const brightest = () => Promise.resolve(view.place(at)).then(placeOf, () => null);

@@ -1,4 +1,4 @@
-/** The connection of the page to the worker. Its methods throw `Failure`. */
+/** The connection of the page to the worker: the one `engine` that all parts of the page ask. Its methods throw `Failure`. */
 import { proxy, type Remote, transfer, wrap } from 'comlink';
 import type { Answer, Asked, Attachments, Message, OnProgress, Question } from '../core/asked';
 import { Failure } from '../core/failure';
@@ -131,4 +131,15 @@ async function typed<T>(answer: Promise<T>): Promise<T> {
   } catch (error) {
     throw Failure.of(error);
   }
+}
+
+/** What the page can ask of the worker. */
+export type Engine = Pick<EngineClient, keyof EngineClient>;
+
+/** The engine of the page. It is not passed as a parameter, except where there are two. */
+export let engine: Engine;
+
+/** Sets the engine when the page starts. Tests set one that answers only what they ask. */
+export function connect(to: Partial<Engine>): void {
+  engine = to as Engine;
 }
