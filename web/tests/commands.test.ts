@@ -3,11 +3,11 @@ import { Failure } from '../src/core/failure';
 import type { Vector } from '../src/core/messages';
 import { addMask, findVessels } from '../src/edit/branches';
 import { addClick, beginVessel, begunId, setBridge } from '../src/edit/clicks';
-import { dropEdits, refusal, waiting } from '../src/edit/committing';
 import { centerlineFile } from '../src/edit/files';
 import { beginStudy } from '../src/edit/shown';
 import { addStopper } from '../src/edit/stoppers';
 import { hide, recolor, remove, rename } from '../src/edit/vessels';
+import { editQueue } from '../src/state/edit-queue';
 import { document_, redo, redoWords, undo, undoWords } from '../src/state/history';
 import * as store from '../src/state/store';
 import { connect } from '../src/worker/engine';
@@ -81,11 +81,11 @@ describe('an edit', () => {
       open = resolve;
     });
     const both = [addClick(id, C), addClick(id, A)];
-    expect(waiting.value).toBe(2);
+    expect(editQueue.state.queued).toEqual(['add_click', 'add_click']);
     open();
     expect((await Promise.all(both)).map(Boolean)).toEqual([true, true]);
     expect(clicks()).toEqual([A, B, C, A]);
-    expect(waiting.value).toBe(0);
+    expect(editQueue.state.phase).toBe('idle');
   });
 });
 
@@ -98,13 +98,13 @@ describe('a rejected click', () => {
     expect(undoWords.value).toBe('begin_vessel');
     expect(store.problem.value?.message).toContain('no lumen');
     expect(store.crossHair.value).toMatchObject({ point: AIR, value: 35 });
-    expect(refusal.value?.failure).toBe(store.problem.value);
+    expect(editQueue.state.refusal?.failure).toBe(store.problem.value);
   });
 
   test('is accepted if the gap is bridged, as one undo step', async () => {
     const id = await begun();
     await addClick(id, AIR);
-    refusal.value?.bridge?.();
+    editQueue.state.refusal?.bridge?.();
     await expect.poll(() => clicks()).toEqual([A, B, AIR]);
     expect(document_.value.bridge).toBe(true);
     expect(store.problem.value).toBeNull();
@@ -124,14 +124,14 @@ describe('a rejected click', () => {
   test('offers no bridge if none would help', async () => {
     tracing.edit = () => Promise.reject(new Failure('tracing', 'x', 'y', 'z', '', { place: AIR }));
     await beginVessel([A, B]);
-    expect(refusal.value?.bridge).toBeNull();
+    expect(editQueue.state.refusal?.bridge).toBeNull();
   });
 });
 
 test('an edit that was stopped, or whose study was closed, does nothing', async () => {
   const id = await begun();
   const stopped = addClick(id, C);
-  dropEdits();
+  editQueue.drop();
   expect(await stopped).toBeNull();
   const late = addClick(id, C);
   beginStudy(null);

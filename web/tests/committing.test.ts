@@ -1,8 +1,9 @@
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import type { Asked } from '../src/core/asked';
 import type { Edit, Progress } from '../src/core/messages';
-import { commit, dropEdits, isLong } from '../src/edit/committing';
+import { commit } from '../src/edit/committing';
 import { EMPTY } from '../src/state/document';
+import { editQueue } from '../src/state/edit-queue';
 import { progress } from '../src/state/store';
 import { connect } from '../src/worker/engine';
 
@@ -26,7 +27,7 @@ class Slow {
 
 beforeEach(() => {
   vi.useFakeTimers();
-  dropEdits();
+  editQueue.drop();
 });
 afterEach(() => {
   vi.useRealTimers();
@@ -74,23 +75,23 @@ test('a quick edit shows no progress', async () => {
 test('after 20 s of searching branches the page asks, and the search continues meanwhile', async () => {
   const { slow, done } = await begun({ kind: 'add_branches', seed: [0, 0, 0] });
   await vi.advanceTimersByTimeAsync(19_900);
-  expect(isLong.value).toBe(false);
+  expect(editQueue.state.isLong).toBe(false);
   await vi.advanceTimersByTimeAsync(200);
-  expect(isLong.value).toBe(true);
+  expect(editQueue.state.isLong).toBe(true);
   slow.end();
   await done;
-  expect(isLong.value).toBe(false);
+  expect(editQueue.state.isLong).toBe(false);
 });
 
 test('the page does not ask during a search of the whole scan, nor about branches found in time', async () => {
   const whole = await begun();
   await vi.advanceTimersByTimeAsync(30_000);
-  expect(isLong.value).toBe(false);
+  expect(editQueue.state.isLong).toBe(false);
   whole.slow.end();
   await whole.done;
   const branches = await begun({ kind: 'add_branches', seed: [0, 0, 0] });
   branches.slow.end();
   await branches.done;
   await vi.advanceTimersByTimeAsync(30_000);
-  expect(isLong.value).toBe(false);
+  expect(editQueue.state.isLong).toBe(false);
 });

@@ -2,7 +2,6 @@
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import type { Asked } from '../src/core/asked';
 import type { DocumentVessel, EditRequest, LineFacts, Started } from '../src/core/messages';
-import { dropEdits } from '../src/edit/committing';
 import { answerDoubt, countedDoubts, placeOfDoubt, reasonOf, showDoubt, stepDoubt } from '../src/edit/doubts';
 import { isListOpen } from '../src/edit/list-open';
 import { chosenDoubt } from '../src/edit/mode';
@@ -10,6 +9,7 @@ import { tree } from '../src/edit/shown';
 import { followFacts, keepPart, marked, reachOf, removeMarked, unconnected } from '../src/edit/tidying';
 import { isTreeShown, listedVessels } from '../src/edit/vessel-order';
 import { EMPTY } from '../src/state/document';
+import { editQueue } from '../src/state/edit-queue';
 import { begin, document_, undo } from '../src/state/history';
 import { pickedVessel, started } from '../src/state/store';
 import { markNone, shorterThan, thinnerThan, treeChosen } from '../src/state/tidy';
@@ -77,7 +77,7 @@ const ids = () => document_.value.vessels.map((one) => one.id);
 let end = () => {};
 
 beforeEach(async () => {
-  dropEdits();
+  editQueue.drop();
   begin({ ...EMPTY, vessels: [...SURE, ...DOUBTFUL] });
   tree.value = SURE;
   isListOpen.value = true;

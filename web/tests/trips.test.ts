@@ -1,7 +1,6 @@
 /** A click while tracing needs only one request to the worker. */
 import { afterEach, beforeEach, expect, test } from 'vitest';
 import type { Vector } from '../src/core/messages';
-import { answered, dropEdits } from '../src/edit/committing';
 import { followPointer } from '../src/edit/drawing';
 import { contents, followLines, forgetLines } from '../src/edit/lines';
 import { isListOpen } from '../src/edit/list-open';
@@ -11,6 +10,7 @@ import { factsOf, followFacts } from '../src/edit/tidying';
 import { hide } from '../src/edit/vessels';
 import { takeWhole } from '../src/edit/whole';
 import { followWhole } from '../src/edit/whole-shown';
+import { answered, editQueue } from '../src/state/edit-queue';
 import { document_, undo } from '../src/state/history';
 import * as store from '../src/state/store';
 import { tool } from '../src/state/tool';
@@ -99,7 +99,7 @@ test('after an edit that was dropped while the engine worked, the document is di
   });
   const setting = setPoint(B as Vector);
   await idle();
-  dropEdits();
+  editQueue.drop();
   open();
   await setting;
   expect(await trips()).toEqual(['first_click', 'edit', 'show', 'whole_vessel']);

@@ -1,12 +1,13 @@
 /** Adds many vessels at once: all of a scan, those connected to a seed, or those of a mask. */
 
 import type { DocumentVessel, Edit, Edited, GivenFile, LineFacts, Vector } from '../core/messages';
+import { answered } from '../state/edit-queue';
 import { flyToAnswer } from '../state/flight';
 import { document_ } from '../state/history';
 import { showFailure } from '../state/message';
 import { camera, notes } from '../state/store';
 import { engine } from '../worker/engine';
-import { answered, commit, isDone } from './committing';
+import { commit, isDone } from './committing';
 import { openList } from './list-open';
 import { maskOf, namedBySegment } from './segmentation';
 import { pickOnceShown } from './shown';

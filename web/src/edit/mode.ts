@@ -3,9 +3,9 @@ import { batch, effect, signal, untracked } from '@preact/signals';
 import type { SettingValue } from '../core/messages';
 import { setSetting, settingOf } from '../state/actions';
 import { moveTo } from '../state/along';
+import { editQueue } from '../state/edit-queue';
 import * as store from '../state/store';
 import { type Tool, tool } from '../state/tool';
-import { forgetRefusal } from './committing';
 import { openList } from './list-open';
 import { endVessel } from './pointing';
 
@@ -35,7 +35,7 @@ export function followTool(): () => void {
         openList();
       } else if (!isOn && before) {
         endVessel();
-        forgetRefusal();
+        editQueue.forgetRefusal();
         // Restore only what the user has not changed meanwhile.
         const isOurs = store.layout.peek() === 'four' && peekContext() === 'mip';
         if (isOurs) {

@@ -2,12 +2,12 @@
 
 import type { Action } from '../input/bindings';
 import { perform } from '../state/actions';
+import { editQueue } from '../state/edit-queue';
 import { redo, undo } from '../state/history';
 import { crossHair, firstPlace, hasVolume, isHelpOpen, layout, problem, progress } from '../state/store';
 import { tool } from '../state/tool';
 import { engine } from '../worker/engine';
 import { addBranches } from './branches';
-import { dropEdits, waiting } from './committing';
 import { answerDoubt, stepDoubt } from './doubts';
 import { candidate, first, target } from './drawing';
 import { isListOpen } from './list-open';
@@ -104,7 +104,7 @@ export function branchesFromHere(): void {
 
 /** Stops running work; otherwise removes a pending point; otherwise undoes the last step. */
 export function undoLast(): void {
-  if (waiting.value > 0) {
+  if (editQueue.isBusy) {
     stopEdits();
   } else if (candidate.value || first.value) {
     candidate.value = null;
@@ -117,7 +117,7 @@ export function undoLast(): void {
 /** Escape: stops an edit or leaves the tool. Returns false if there is neither, or if a message must close first. */
 function cancelEdit(): boolean {
   target.value = null;
-  if (waiting.value > 0) {
+  if (editQueue.isBusy) {
     stopEdits();
     return true;
   }
@@ -132,7 +132,7 @@ function cancelEdit(): boolean {
 }
 
 function stopEdits(): void {
-  dropEdits();
+  editQueue.drop();
   progress.value = null;
   void engine.cancel();
 }

@@ -4,6 +4,7 @@ import { batch } from '@preact/signals';
 import { Failure } from '../core/failure';
 import type { AfterEdit, Pick, Vector } from '../core/messages';
 import { length, subtract } from '../core/vectors';
+import { editQueue } from '../state/edit-queue';
 import { document_ } from '../state/history';
 import { showMessage } from '../state/message';
 import { crossHair } from '../state/store';
@@ -11,7 +12,6 @@ import { active, tool } from '../state/tool';
 import { engine } from '../worker/engine';
 import { addBranches } from './branches';
 import { addClick, beginVessel, begunId, removeClick } from './clicks';
-import { forgetRefusal, refusal, searches, showRefusal } from './committing';
 import { anchor, candidate, coming, drawing, drawn, first, forgetDrawing, isDrawing } from './drawing';
 import { addStopper } from './stoppers';
 import { checked, only, whole } from './whole-shown';
@@ -23,7 +23,7 @@ let beginning: Promise<AfterEdit | null> | null = null;
 /** Sets a point, a stopper or a seed. Returns the value at the point, or null. */
 export async function setPoint(point: Vector): Promise<Pick | null> {
   candidate.value = null;
-  if (searches.value > 0) {
+  if (editQueue.isSearching) {
     showMessage('No point was set: the search for vessels is still running. Press Escape to stop it.');
     return null;
   }
@@ -35,7 +35,7 @@ export async function setPoint(point: Vector): Promise<Pick | null> {
     return null;
   }
   if (anchor.value === null) {
-    forgetRefusal();
+    editQueue.forgetRefusal();
     batch(() => {
       checked.value = point;
       first.value = point;
@@ -97,14 +97,14 @@ async function checkFirst(point: Vector): Promise<Pick | null> {
   } catch (error) {
     if (first.value === point) {
       first.value = null;
-      showRefusal(Failure.of(error));
+      editQueue.showRefusal(Failure.of(error));
     }
     return null;
   }
 }
 
 function isBlamed(point: Vector | null): boolean {
-  const place = refusal.value?.failure.place;
+  const place = editQueue.state.refusal?.failure.place;
   return Boolean(point && place && length(subtract(place, point)) < SAME_POINT_MM);
 }
 

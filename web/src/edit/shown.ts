@@ -6,11 +6,11 @@ import type { AfterEdit, DocumentVessel, ListedLine, Report, VesselDocument } fr
 import type { Window } from '../core/plain';
 import { shownVessels } from '../state/changes';
 import { type Document, EMPTY } from '../state/document';
+import { answered, editQueue } from '../state/edit-queue';
 import { begin, document_ } from '../state/history';
 import * as store from '../state/store';
 import { active } from '../state/tool';
 import { engine } from '../worker/engine';
-import { answered, dropEdits } from './committing';
 
 /** The displayed vessels, in the order of `store.report.value.vessels`. */
 export const tree = signal<readonly DocumentVessel[]>([]);
@@ -48,7 +48,7 @@ let shownText = textOf([]);
 
 /** Begins the document of a new study. Its vessels are already displayed, and there is nothing to undo. */
 export function beginStudy(vessels: VesselDocument | null): void {
-  dropEdits();
+  editQueue.drop();
   const document = { ...EMPTY, ...vessels };
   batch(() => {
     active.value = null;
@@ -61,7 +61,7 @@ export function beginStudy(vessels: VesselDocument | null): void {
 
 /** Replaces the document of the open study, for example by a session. This cannot be undone. */
 export function beginDocument(document: Document): void {
-  dropEdits();
+  editQueue.drop();
   batch(() => {
     active.value = null;
     begin(document);

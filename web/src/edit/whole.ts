@@ -1,7 +1,8 @@
 /** Traces the whole vessel at one clicked point, after Enter, a double click or a button. */
 import type { Edited } from '../core/messages';
+import { editQueue } from '../state/edit-queue';
 import { tool } from '../state/tool';
-import { commit, refusal } from './committing';
+import { commit } from './committing';
 import { first, isDrawing } from './drawing';
 import { endVessel } from './pointing';
 import { toPick } from './shown';
@@ -16,7 +17,7 @@ export function takeWhole(): boolean {
       toPick.value = id ?? toPick.value;
     };
     void commit({ kind: 'add_whole_vessel', click }, { then }).then((answer) => {
-      const isLeft = answer === null && refusal.value?.failure.advice !== '';
+      const isLeft = answer === null && editQueue.state.refusal?.failure.advice !== '';
       first.value = isLeft && !isDrawing.value && tool.value === 'trace' ? click : first.value;
     });
   }

@@ -2,9 +2,9 @@
 
 import { CRASH, type Failure } from '../core/failure';
 import { findAndList } from '../edit/branches';
-import { isLong, refusal } from '../edit/committing';
 import { performAny } from '../edit/performing';
 import { saveSession } from '../output/session';
+import { editQueue } from '../state/edit-queue';
 import { message, showFailure } from '../state/message';
 import { problem, progress } from '../state/store';
 import { Mends } from './Mends';
@@ -33,9 +33,9 @@ function Loading() {
     <div class="message" role="status">
       <span>{share === null ? `${shown.words} …` : `${shown.words}: ${(100 * share).toFixed(0)} %`}</span>
       <progress aria-label={shown.words} {...(share === null ? {} : { value: share })} />
-      {isLong.value && <LongWork />}
+      {editQueue.state.isLong && <LongWork />}
       <button type="button" onClick={() => performAny('cancel')}>
-        {isLong.value ? 'Stop' : 'Cancel'}
+        {editQueue.state.isLong ? 'Stop' : 'Cancel'}
       </button>
     </div>
   );
@@ -49,7 +49,7 @@ function LongWork() {
       <button
         type="button"
         onClick={() => {
-          isLong.value = false;
+          editQueue.goOnSearching();
         }}
       >
         Continue
@@ -93,7 +93,7 @@ function Problem() {
 
 /** Buttons shown if no lumen was found between two clicks. */
 function Bridging({ failure }: { readonly failure: Failure }) {
-  const bridge = refusal.value?.failure === failure ? refusal.value.bridge : null;
+  const bridge = editQueue.state.refusal?.failure === failure ? editQueue.state.refusal.bridge : null;
   return bridge ? (
     <>
       <button type="button" onClick={bridge}>

@@ -1,7 +1,6 @@
 /** Bar over the views: offers to trace, tells what the next click does, or shows a doubtful branch. */
 import { useSignal } from '@preact/signals';
 import { findAndList } from '../edit/branches';
-import { searches, waiting } from '../edit/committing';
 import { answerDoubt, placeOfDoubt, stepDoubt } from '../edit/doubts';
 import { candidate, coming, drawn, isDrawing } from '../edit/drawing';
 import { chosenDoubt, isTracing } from '../edit/mode';
@@ -12,6 +11,7 @@ import { tracedSummary } from '../edit/traced-summary';
 import { takeWhole } from '../edit/whole';
 import { only, whole } from '../edit/whole-shown';
 import { nameOf, vesselOf } from '../state/changes';
+import { editQueue } from '../state/edit-queue';
 import { document_ } from '../state/history';
 import { hasVolume, report } from '../state/store';
 import { type Tool, tool } from '../state/tool';
@@ -49,7 +49,7 @@ function Offer() {
       <span>No vessels yet: find all, click along one, or open or drop centerlines or a mask.</span>
       <button
         type="button"
-        disabled={waiting.value > 0}
+        disabled={editQueue.isBusy}
         title="Finds all vessels that are brighter than the surrounding tissue"
         onClick={() => void findAndList()}
       >
@@ -80,8 +80,7 @@ function Hint() {
     tool.value = wanted;
   };
   // The summary is hidden while a point waits for confirmation or is being traced.
-  const isSummaryShown =
-    waiting.value === 0 && !candidate.value && (!isDrawing.value || drawn.value !== null);
+  const isSummaryShown = !editQueue.isBusy && !candidate.value && (!isDrawing.value || drawn.value !== null);
   return (
     <div class="trace-bar" role="status">
       {isSummaryShown && <TracedSummary />}
@@ -118,8 +117,8 @@ function Hint() {
 }
 
 function hintWords(): string {
-  if (waiting.value > 0) {
-    return searches.value > 0 ? 'Searching for vessels …' : 'Tracing …';
+  if (editQueue.isBusy) {
+    return editQueue.isSearching ? 'Searching for vessels …' : 'Tracing …';
   }
   if (candidate.value) {
     return 'The marker is at the brightest point under the pointer. If the slices show your vessel there, click here again; otherwise click the vessel in a slice.';
