@@ -1,19 +1,10 @@
 import { afterEach, beforeEach, describe, expect, test } from 'vitest';
 import type { Vector } from '../src/core/messages';
-import {
-  anchor,
-  candidate,
-  coming,
-  dragged,
-  drawn,
-  first,
-  followPointer,
-  livePaths,
-  target,
-} from '../src/edit/drawing';
 import { acceptCandidate, endVessel, enter, leave, removeLast, setPoint } from '../src/edit/pointing';
-import { beginStudy } from '../src/edit/shown';
+import { followPointer } from '../src/edit/previews';
+import { anchor, candidate, coming, dragged, drawn, first, livePaths, target } from '../src/state/drawing';
 import { document_, undo } from '../src/state/history';
+import { beginStudy } from '../src/state/shown';
 import * as store from '../src/state/store';
 import { active, tool } from '../src/state/tool';
 import { connect } from '../src/worker/engine';

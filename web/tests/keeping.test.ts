@@ -2,8 +2,9 @@
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import { EMPTY } from '../src/state/document';
 import { begin, change, document_, markSaved } from '../src/state/history';
+import { isKeeping, kept } from '../src/state/questions';
 import { report } from '../src/state/store';
-import { followKeeping, isKeeping, kept } from '../src/study/keeping';
+import { followKeeping } from '../src/study/keeping';
 import { reportOf, withLines } from './fake-tracing';
 
 let held = new Map<string, string>();

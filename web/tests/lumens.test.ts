@@ -2,8 +2,8 @@
 import { beforeEach, expect, test } from 'vitest';
 import type { Asked } from '../src/core/asked';
 import type { PointedAt, PointedLumen, Vector } from '../src/core/messages';
-import { lookForLumens, meant, pointed, stepLumen } from '../src/edit/lumens';
 import { actionOf } from '../src/input/bindings';
+import { lookForLumens, meant, pointed, stepLumen } from '../src/state/lumens';
 import { ofCamera } from '../src/views/projection';
 import { connect } from '../src/worker/engine';
 import { CAMERA, expectNear } from './helpers';

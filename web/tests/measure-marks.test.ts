@@ -5,12 +5,10 @@ import {
   allConfirmed,
   comparedIn,
   moved,
-  NOTHING_SUGGESTED,
   placeAfter,
   placesOf,
   referenceSlots,
   removed,
-  type Suggested,
   stretchAround,
   type VesselPlace,
   withDiameter,
@@ -21,6 +19,7 @@ import { centerAt, seenNearest, snapped } from '../src/measure/sections';
 import { marksOf, withMarks } from '../src/measure/vessels';
 import { placeName } from '../src/measure/words';
 import { EMPTY } from '../src/state/document';
+import { NOTHING_SUGGESTED, type Suggested } from '../src/state/measuring';
 import { madeProfile, marks } from './measured';
 
 const profile = madeProfile();

@@ -2,14 +2,14 @@
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import type { Camera, DocumentVessel, Vector } from '../src/core/messages';
 import { findVessels } from '../src/edit/branches';
-import { first } from '../src/edit/drawing';
 import { branchesFromHere } from '../src/edit/performing';
 import { setPoint } from '../src/edit/pointing';
-import { toPick } from '../src/edit/shown';
 import { EMPTY } from '../src/state/document';
+import { first } from '../src/state/drawing';
 import { editQueue } from '../src/state/edit-queue';
 import { begin, document_ } from '../src/state/history';
 import { message } from '../src/state/message';
+import { toPick } from '../src/state/shown';
 import * as store from '../src/state/store';
 import { tool } from '../src/state/tool';
 import { connect } from '../src/worker/engine';

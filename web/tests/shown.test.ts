@@ -1,10 +1,10 @@
 import { afterEach, beforeEach, describe, expect, test } from 'vitest';
 import type { Pair, Report } from '../src/core/messages';
-import { contents, followLines, forgetLines, lengthOf } from '../src/edit/lines';
-import { beginStudy, followDocument, listedLines, pickedId, successor, tree } from '../src/edit/shown';
 import { hide, remove } from '../src/edit/vessels';
 import { changed } from '../src/state/changes';
 import { change, document_, redo, undo } from '../src/state/history';
+import { contents, followLines, forgetLines, lengthOf } from '../src/state/lines';
+import { beginStudy, followDocument, listedLines, pickedId, successor, tree } from '../src/state/shown';
 import * as store from '../src/state/store';
 import { active } from '../src/state/tool';
 import { connect } from '../src/worker/engine';

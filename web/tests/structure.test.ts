@@ -42,6 +42,49 @@ function circle(graph: ReadonlyMap<string, readonly string[]>): string[] {
   return [...graph.keys()].map((name) => walk(name, [])).find((found) => found.length > 0) ?? [];
 }
 
+const textOf = (name: string): string => readFileSync(join(SRC, name), 'utf8');
+
+/** Names of the signals that a text makes. */
+const signalsIn = (text: string): string[] =>
+  [...text.matchAll(/^export const (\w+)\b[^=]*= signal\b/gm)].map((match) => match[1] ?? '');
+
+/** Writes to any of the signals, such as `camera.value = to`. */
+const writesIn = (text: string, signals: readonly string[]): string[] =>
+  [...text.matchAll(/\b(\w+)\.value\s*(?:[-+*]|\?\?|\|\||&&)?=(?!=)/g)]
+    .map((match) => match[1] ?? '')
+    .filter((name) => signals.includes(name));
+
+describe('the state of the page', () => {
+  const inState = files.filter((name) => name.startsWith('state/'));
+  const elsewhere = files.filter((name) => !name.startsWith('state/'));
+  const signals = inState.flatMap((name) => signalsIn(textOf(name)));
+
+  test('has signals with one name each', () => {
+    expect(signals.length).toBeGreaterThan(50);
+    expect([...new Set(signals)]).toEqual(signals);
+  });
+
+  test('is kept in the room `state` alone', () => {
+    const makes = /import \{[^}]*\bsignal\b[^}]*\} from '@preact\/signals'/;
+    expect(elsewhere.filter((name) => makes.test(textOf(name)))).toEqual([]);
+    expect(inState.some((name) => makes.test(textOf(name)))).toBe(true);
+  });
+
+  test('is changed by its own actions alone', () => {
+    const writes = elsewhere.flatMap((name) =>
+      writesIn(textOf(name), signals).map((one) => `${name}: ${one}`),
+    );
+    expect(writes).toEqual([]);
+  });
+
+  test('is seen where it is written', () => {
+    const text =
+      'tool.value = x; store.camera.value ??= y; resets.value += 1; tool.value === z; box.value = 1;';
+    expect(writesIn(text, ['tool', 'camera', 'resets'])).toEqual(['tool', 'camera', 'resets']);
+    expect(writesIn(inState.map(textOf).join('\n'), signals).length).toBeGreaterThan(50);
+  });
+});
+
 describe('the files of the page', () => {
   test('are found', () => expect(files.length).toBeGreaterThan(20));
 

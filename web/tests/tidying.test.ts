@@ -3,16 +3,25 @@ import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import type { Asked } from '../src/core/asked';
 import type { DocumentVessel, EditRequest, LineFacts, Started } from '../src/core/messages';
 import { answerDoubt, countedDoubts, placeOfDoubt, reasonOf, showDoubt, stepDoubt } from '../src/edit/doubts';
-import { isListOpen } from '../src/edit/list-open';
-import { chosenDoubt } from '../src/edit/mode';
-import { tree } from '../src/edit/shown';
-import { followFacts, keepPart, marked, reachOf, removeMarked, unconnected } from '../src/edit/tidying';
 import { isTreeShown, listedVessels } from '../src/edit/vessel-order';
+import { keepPart, removeMarked } from '../src/edit/vessels';
 import { EMPTY } from '../src/state/document';
 import { editQueue } from '../src/state/edit-queue';
 import { begin, document_, undo } from '../src/state/history';
+import { isListOpen } from '../src/state/panels';
+import { tree } from '../src/state/shown';
 import { pickedVessel, started } from '../src/state/store';
-import { markNone, shorterThan, thinnerThan, treeChosen } from '../src/state/tidy';
+import {
+  followFacts,
+  marked,
+  markNone,
+  reachOf,
+  shorterThan,
+  thinnerThan,
+  treeChosen,
+  unconnected,
+} from '../src/state/tidying';
+import { chosenDoubt } from '../src/state/tool';
 import { connect } from '../src/worker/engine';
 
 const vessel = (id: number, doubt: string | null = null): DocumentVessel => ({

@@ -1,18 +1,16 @@
 /** A click while tracing needs only one request to the worker. */
 import { afterEach, beforeEach, expect, test } from 'vitest';
 import type { Vector } from '../src/core/messages';
-import { followPointer } from '../src/edit/drawing';
-import { contents, followLines, forgetLines } from '../src/edit/lines';
-import { isListOpen } from '../src/edit/list-open';
-import { endVessel, setPoint } from '../src/edit/pointing';
-import { beginStudy, followDocument, pickedId, tree } from '../src/edit/shown';
-import { factsOf, followFacts } from '../src/edit/tidying';
+import { endVessel, setPoint, takeWhole } from '../src/edit/pointing';
+import { followPointer, followWhole } from '../src/edit/previews';
 import { hide } from '../src/edit/vessels';
-import { takeWhole } from '../src/edit/whole';
-import { followWhole } from '../src/edit/whole-shown';
 import { answered, editQueue } from '../src/state/edit-queue';
 import { document_, undo } from '../src/state/history';
+import { contents, followLines, forgetLines } from '../src/state/lines';
+import { isListOpen } from '../src/state/panels';
+import { beginStudy, followDocument, pickedId, tree } from '../src/state/shown';
 import * as store from '../src/state/store';
+import { factsOf, followFacts } from '../src/state/tidying';
 import { tool } from '../src/state/tool';
 import { connect } from '../src/worker/engine';
 import { documentOf, FakeTracing, reportOf } from './fake-tracing';

@@ -5,12 +5,12 @@ import { answered } from '../state/edit-queue';
 import { flyToAnswer } from '../state/flight';
 import { document_ } from '../state/history';
 import { showFailure } from '../state/message';
-import { camera, notes } from '../state/store';
+import { openList } from '../state/panels';
+import { pickOnceShown } from '../state/shown';
+import { addNotes, camera } from '../state/store';
 import { engine } from '../worker/engine';
 import { commit, isDone } from './committing';
-import { openList } from './list-open';
 import { maskOf, namedBySegment } from './segmentation';
-import { pickOnceShown } from './shown';
 
 /** Adds all branches connected to a seed. Doubtful ones are only added once the user accepts them. */
 export const addBranches = (seed: Vector): Promise<boolean> => isDone(commit({ kind: 'add_branches', seed }));
@@ -62,7 +62,7 @@ export const addMask = (mask: readonly GivenFile[]): Promise<boolean> => addMany
 export async function addSegmentation(file: GivenFile): Promise<boolean> {
   try {
     const { mask, names, notes: maskNotes } = await maskOf(file);
-    notes.value = [...new Set([...notes.value, ...maskNotes])];
+    addNotes(maskNotes);
     return await addMany({ kind: 'add_mask' }, mask, (vessel) => namedBySegment(vessel, names));
   } catch (error) {
     showFailure(error);
@@ -75,8 +75,6 @@ function addMany(
   mask?: readonly GivenFile[],
   renamed?: (vessel: DocumentVessel) => DocumentVessel,
 ): Promise<boolean> {
-  const then = (edited: Edited) => {
-    notes.value = [...new Set([...notes.value, ...edited.notes])];
-  };
+  const then = (edited: Edited) => addNotes(edited.notes);
   return isDone(commit(edit, { then, ...(mask && { mask }), ...(renamed && { renamed }) }));
 }

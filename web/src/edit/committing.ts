@@ -4,8 +4,8 @@ import { afterEdit } from '../state/changes';
 import type { Document } from '../state/document';
 import { editQueue, keepAnswer, type Work } from '../state/edit-queue';
 import { document_ } from '../state/history';
+import { storeSummary } from '../state/traced-summary';
 import { engine } from '../worker/engine';
-import { storeSummary } from './traced-summary';
 
 export function commitPlain(words: string, edit: (document: Document) => Document): Promise<boolean> {
   return isDone(editQueue.add('plain', () => ({ words, after: edit(document_.value), result: words })));

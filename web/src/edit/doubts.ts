@@ -5,12 +5,12 @@ import { doubtful, vesselOf } from '../state/changes';
 import { placeCrossHair } from '../state/cross-hair';
 import { flyToAnswer } from '../state/flight';
 import { document_ } from '../state/history';
+import { contents } from '../state/lines';
 import { showFailure } from '../state/message';
 import { camera, started } from '../state/store';
+import { chooseDoubt, chosenDoubt } from '../state/tool';
 import { engine } from '../worker/engine';
 import { accept, leaveOut } from './branches';
-import { contents } from './lines';
-import { chosenDoubt } from './mode';
 
 /** Why the vessel is doubtful, in short if the engine has a short form. */
 export function reasonOf({ doubt }: DocumentVessel): string {
@@ -33,7 +33,7 @@ export function placeOfDoubt(): readonly [number, number] {
 }
 
 export async function showDoubt(vessel: DocumentVessel): Promise<void> {
-  chosenDoubt.value = vessel.id;
+  chooseDoubt(vessel.id);
   const points = contents.value.get(vessel.line)?.points ?? [];
   const middle = points[Math.floor(points.length / 2)];
   try {
@@ -74,7 +74,7 @@ export async function answerDoubt(answer: 'accept' | 'leave out'): Promise<void>
   const all = doubtful(document_.value);
   const at = all.indexOf(chosen);
   const following = [...all.slice(at + 1), ...all.slice(0, at)][0];
-  chosenDoubt.value = null;
+  chooseDoubt(null);
   if ((await (answer === 'accept' ? accept : leaveOut)([chosen.id])) && following) {
     await showDoubt(following);
   }

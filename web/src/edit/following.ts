@@ -1,10 +1,10 @@
 /** Starts all effects that update the page when the document changes. */
-import { followPointer } from './drawing';
-import { followLines } from './lines';
+
+import { followLines } from '../state/lines';
+import { followDocument } from '../state/shown';
+import { followFacts } from '../state/tidying';
 import { followTool } from './mode';
-import { followDocument } from './shown';
-import { followFacts } from './tidying';
-import { followWhole } from './whole-shown';
+import { followPointer, followWhole } from './previews';
 
 export function followEdits(): void {
   followDocument();

@@ -2,20 +2,27 @@
 
 import type { Action } from '../input/bindings';
 import { perform } from '../state/actions';
+import { aimAt, candidate, first, propose, setFirst } from '../state/drawing';
 import { editQueue } from '../state/edit-queue';
 import { redo, undo } from '../state/history';
-import { crossHair, firstPlace, hasVolume, isHelpOpen, layout, problem, progress } from '../state/store';
-import { tool } from '../state/tool';
+import { isListOpen, toggleList } from '../state/panels';
+import { pickedId } from '../state/shown';
+import {
+  crossHair,
+  firstPlace,
+  hasVolume,
+  isHelpOpen,
+  layout,
+  problem,
+  progress,
+  showProgress,
+} from '../state/store';
+import { chooseDoubt, chosenDoubt, isTracing, toggleTool, tool } from '../state/tool';
 import { engine } from '../worker/engine';
 import { addBranches } from './branches';
 import { answerDoubt, stepDoubt } from './doubts';
-import { candidate, first, target } from './drawing';
-import { isListOpen } from './list-open';
-import { chosenDoubt, isTracing, toggleTool } from './mode';
-import { endVessel, enter, isAtCrossHair, leave, removeLast } from './pointing';
-import { pickedId } from './shown';
+import { endVessel, enter, isAtCrossHair, leave, removeLast, takeWhole } from './pointing';
 import { remove } from './vessels';
-import { takeWhole } from './whole';
 
 export function performAny(action: Action): void {
   const edits = hasVolume.value ? edit(action) : false;
@@ -30,7 +37,7 @@ function edit(action: Action): boolean {
       toggleTool('trace');
       return true;
     case 'vessels':
-      isListOpen.value = !isListOpen.value;
+      toggleList();
       return true;
     case 'branches':
       branchesFromHere();
@@ -107,8 +114,8 @@ export function undoLast(): void {
   if (editQueue.isBusy) {
     stopEdits();
   } else if (candidate.value || first.value) {
-    candidate.value = null;
-    first.value = null;
+    propose(null);
+    setFirst(null);
   } else {
     undo();
   }
@@ -116,7 +123,7 @@ export function undoLast(): void {
 
 /** Escape: stops an edit or leaves the tool. Returns false if there is neither, or if a message must close first. */
 function cancelEdit(): boolean {
-  target.value = null;
+  aimAt(null);
   if (editQueue.isBusy) {
     stopEdits();
     return true;
@@ -125,7 +132,7 @@ function cancelEdit(): boolean {
     return false;
   }
   if (chosenDoubt.value !== null) {
-    chosenDoubt.value = null;
+    chooseDoubt(null);
     return true;
   }
   return leave();
@@ -133,6 +140,6 @@ function cancelEdit(): boolean {
 
 function stopEdits(): void {
   editQueue.drop();
-  progress.value = null;
+  showProgress(null);
   void engine.cancel();
 }

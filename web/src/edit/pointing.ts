@@ -1,20 +1,36 @@
 /** Clicks, Enter and Escape in the tracing tools. */
 
-import { batch } from '@preact/signals';
 import { Failure } from '../core/failure';
+import type { Edited } from '../core/generated/questions';
 import type { AfterEdit, Pick, Vector } from '../core/messages';
 import { length, subtract } from '../core/vectors';
+import {
+  addComing,
+  anchor,
+  candidate,
+  drawing,
+  drawn,
+  endDrawing,
+  extendBegun,
+  first,
+  isDrawing,
+  only,
+  propose,
+  setCheckedFirst,
+  setFirst,
+  showWhole,
+} from '../state/drawing';
 import { editQueue } from '../state/edit-queue';
 import { document_ } from '../state/history';
 import { showMessage } from '../state/message';
+import { pickWhenShown } from '../state/shown';
 import { crossHair } from '../state/store';
-import { active, tool } from '../state/tool';
+import { takeTool, tool } from '../state/tool';
 import { engine } from '../worker/engine';
 import { addBranches } from './branches';
 import { addClick, beginVessel, begunId, removeClick } from './clicks';
-import { anchor, candidate, coming, drawing, drawn, first, forgetDrawing, isDrawing } from './drawing';
+import { commit } from './committing';
 import { addStopper } from './stoppers';
-import { checked, only, whole } from './whole-shown';
 
 const SAME_POINT_MM = 0.05;
 
@@ -22,7 +38,7 @@ let beginning: Promise<AfterEdit | null> | null = null;
 
 /** Sets a point, a stopper or a seed. Returns the value at the point, or null. */
 export async function setPoint(point: Vector): Promise<Pick | null> {
-  candidate.value = null;
+  propose(null);
   if (editQueue.isSearching) {
     showMessage('No point was set: the search for vessels is still running. Press Escape to stop it.');
     return null;
@@ -36,23 +52,19 @@ export async function setPoint(point: Vector): Promise<Pick | null> {
   }
   if (anchor.value === null) {
     editQueue.forgetRefusal();
-    batch(() => {
-      checked.value = point;
-      first.value = point;
-    });
+    setCheckedFirst(point);
     return checkFirst(point);
   }
-  const own = { point, drawing: drawing.value };
-  coming.value = [...coming.value, own];
+  const end = addComing(point);
   const answer = await goOn(point);
-  coming.value = coming.value.filter((one) => one !== own);
+  end();
   return answer?.pick ?? null;
 }
 
 /** Searches branches from a seed; if none are found, the user can click again. */
 async function beginTree(point: Vector): Promise<void> {
   if ((await addBranches(point)) && tool.value === 'seed') {
-    tool.value = 'look';
+    takeTool('look');
   }
 }
 
@@ -73,17 +85,14 @@ async function begin(clicks: readonly [Vector, Vector]): Promise<AfterEdit | nul
   const goesOn = () => own === drawing.value;
   beginning = beginVessel(clicks, (id) => {
     if (goesOn()) {
-      batch(() => {
-        active.value = id;
-        first.value = null;
-      });
+      extendBegun(id);
     }
   });
   const begun = await beginning;
   if (goesOn()) {
     beginning = null;
     // If the first point caused the error, it must be set again.
-    first.value = begun === null && !isBlamed(first.value) ? first.value : null;
+    setFirst(begun === null && !isBlamed(first.value) ? first.value : null);
   }
   return begun;
 }
@@ -92,11 +101,13 @@ async function begin(clicks: readonly [Vector, Vector]): Promise<AfterEdit | nul
 async function checkFirst(point: Vector): Promise<Pick | null> {
   try {
     const answer = await engine.ask('first_click', { click: point, vessels: document_.value.vessels });
-    whole.value = first.value === point && only.value === point ? answer.whole : whole.value;
+    if (first.value === point) {
+      showWhole(answer.whole, point);
+    }
     return answer.pick;
   } catch (error) {
     if (first.value === point) {
-      first.value = null;
+      setFirst(null);
       editQueue.showRefusal(Failure.of(error));
     }
     return null;
@@ -139,11 +150,7 @@ export function isAtCrossHair(place: Vector): boolean {
 /** Ends the vessel; points still being traced are added to it. */
 export function endVessel(): void {
   beginning = null;
-  batch(() => {
-    drawing.value += 1;
-    active.value = null;
-    forgetDrawing();
-  });
+  endDrawing();
 }
 
 /** Drops the pending point; otherwise ends the vessel; otherwise leaves the tool. Returns whether it did something. */
@@ -152,11 +159,11 @@ export function leave(): boolean {
     return false;
   }
   if (candidate.value) {
-    candidate.value = null;
+    propose(null);
   } else if (isDrawing.value) {
     endVessel();
   } else {
-    tool.value = 'look';
+    takeTool('look');
   }
   return true;
 }
@@ -164,13 +171,29 @@ export function leave(): boolean {
 export function removeLast(): void {
   const clicks = drawn.value?.clicks;
   if (candidate.value) {
-    candidate.value = null;
+    propose(null);
   } else if (drawn.value && clicks) {
     const kept = clicks.length === 2 ? (clicks[0] ?? null) : null;
     void removeClick(drawn.value.id, clicks.length - 1).then(() => {
-      first.value = kept;
+      setFirst(kept);
     });
   } else {
-    first.value = null;
+    setFirst(null);
   }
+}
+
+/** Traces the whole vessel at one clicked point. Returns whether there was a point. If no vessel is found but a second point could help, the point stays. */
+export function takeWhole(): boolean {
+  const click = only.value;
+  if (click) {
+    endVessel();
+    const then = ({ added: [id] }: Edited) => pickWhenShown(id);
+    void commit({ kind: 'add_whole_vessel', click }, { then }).then((answer) => {
+      const isLeft = answer === null && editQueue.state.refusal?.failure.advice !== '';
+      if (isLeft && !isDrawing.value && tool.value === 'trace') {
+        setFirst(click);
+      }
+    });
+  }
+  return click !== null;
 }

@@ -1,6 +1,8 @@
 /** Edits of a vessel as a whole: name, colour, visibility, cutting and joining. */
+import { VESSEL_NAMES } from '../core/generated/tables';
 import type { DocumentVessel } from '../core/messages';
 import { changed, vesselOf } from '../state/changes';
+import { marked, markNone, unconnected } from '../state/tidying';
 import { commit, commitPlain, isDone } from './committing';
 
 export const rename = (id: number, name: string): Promise<boolean> => set('rename a vessel', id, { name });
@@ -25,3 +27,23 @@ export const cut = (id: number, at: number): Promise<boolean> => isDone(commit({
 
 export const join = (id: number, other: number): Promise<boolean> =>
   isDone(commit({ kind: 'join', id, other }));
+
+/** Removes the vessels marked by "Clean up", as one undo step. */
+export async function removeMarked(): Promise<boolean> {
+  const isRemoved = await remove([...marked.value]);
+  if (isRemoved) {
+    markNone();
+  }
+  return isRemoved;
+}
+
+/** Removes all vessels that are not connected to the picked one. */
+export const keepPart = (): Promise<boolean> => remove(unconnected.value);
+
+/** Anatomical names offered when the user names a vessel. */
+export function namesToOffer(taken: readonly string[]): string[] {
+  const used = new Set(taken.map((name) => name.trim().toLowerCase()));
+  return VESSEL_NAMES.filter((name) => !used.has(name.toLowerCase())).sort((a, b) =>
+    a.localeCompare(b, 'en'),
+  );
+}

@@ -1,6 +1,5 @@
 /** Saves DICOM objects for a PACS. The server of the page makes a zip archive of them; nothing is sent elsewhere. */
 
-import { signal } from '@preact/signals';
 import { DEFAULTS } from '../core/generated/tables';
 import type { GivenFile } from '../core/messages';
 import { inBase64, made, placeOf } from '../core/server';
@@ -8,6 +7,7 @@ import type { Finding } from '../measure/findings';
 import { settingOf } from '../state/actions';
 import { showMessage } from '../state/message';
 import { profileOfLine } from '../state/profiles';
+import { chooseFile, setPacsAsked } from '../state/questions';
 import { reformationKind } from '../state/reformation';
 import * as store from '../state/store';
 import { engine } from '../worker/engine';
@@ -28,29 +28,16 @@ const MOST_COLUMNS = 2000;
 
 export type PacsStudy = 'scan' | 'anonymous' | GivenFile;
 
-export interface ChosenFile {
-  readonly file: GivenFile;
-  /** Labels and values of patient name, ID, date, modality and body part. */
-  readonly facts: ReadonlyArray<readonly [string, string]>;
-  readonly doubts: readonly string[];
-  /** Why the file is rejected; null if it is accepted. */
-  readonly refusal: string | null;
-}
-
-export const isPacsAsked = signal(false);
-
-export const chosenFile = signal<ChosenFile | null>(null);
-
 export async function askAboutFile(file: GivenFile): Promise<void> {
   const content = { study: await studyPart(file), fingerprint: fingerprint() };
   const response = await made('study', SUBJECT, content);
-  chosenFile.value = { ...(await response.json()), file };
+  chooseFile({ ...(await response.json()), file });
 }
 
 /** Asks for the study of the objects. Throws if the server cannot create DICOM objects. */
 export async function askForPacs(): Promise<void> {
   placeOf('objects', SUBJECT);
-  isPacsAsked.value = true;
+  setPacsAsked(true);
 }
 
 export async function savePacs(study: PacsStudy): Promise<void> {

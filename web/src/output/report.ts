@@ -1,20 +1,19 @@
 /** Makes the report of the findings: the engine writes the text, the page adds the pictures. */
-import { signal } from '@preact/signals';
 import { Failure } from '../core/failure';
 import type { Profile, ReportVessel } from '../core/messages';
-import { type Finding, findingOf, leftOut, listedFindings, markedVessel, stated } from '../measure/findings';
+import { type Finding, findingOf, listedFindings, markedVessel, stated } from '../measure/findings';
 import { notGradedWords } from '../measure/words';
 import { document_ } from '../state/history';
+import { leftOut } from '../state/measuring';
 import { isMillimetreAssumed } from '../state/millimetres';
 import { profileOfLine, profiles } from '../state/profiles';
+import { isScanNamed } from '../state/questions';
 import { rulerLength } from '../state/rulers';
 import * as store from '../state/store';
 import { engine } from '../worker/engine';
 import { fileName } from './file-names';
 import { saveAs } from './pictures';
 import { pngOf, sectionPair, straightened, viewPicture } from './report-pictures';
-
-export const isScanNamed = signal(false);
 
 export async function saveReport(): Promise<void> {
   const findings = reported();

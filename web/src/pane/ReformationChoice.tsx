@@ -1,5 +1,5 @@
 /** Menu that selects the reformation of the picked vessel; it takes the place of the pane title. */
-import { REFORMATIONS, type ReformationKind, reformationKind } from '../state/reformation';
+import { chooseReformation, REFORMATIONS, type ReformationKind, reformationKind } from '../state/reformation';
 
 export function ReformationChoice() {
   return (
@@ -7,9 +7,7 @@ export function ReformationChoice() {
       class="reformation-choice"
       aria-label="Reformation"
       value={reformationKind.value}
-      onChange={(event) => {
-        reformationKind.value = event.currentTarget.value as ReformationKind;
-      }}
+      onChange={(event) => chooseReformation(event.currentTarget.value as ReformationKind)}
     >
       {REFORMATIONS.map(([kind, words]) => (
         <option key={kind} value={kind}>

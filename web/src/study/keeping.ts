@@ -1,7 +1,8 @@
 /** If the user allows it, keeps the session, without pixels, while the tab is reloaded; closing the tab deletes it. */
-import { effect, signal } from '@preact/signals';
+import { effect } from '@preact/signals';
 import { document_, saved } from '../state/history';
 import { showFailure } from '../state/message';
+import { isKeeping, kept, setKeeping, setKept } from '../state/questions';
 import { hasVolume } from '../state/store';
 
 /** Keys in the session storage: the session, and the permission to keep it. */
@@ -11,17 +12,12 @@ const ALLOWED = 'lumencut-keeps-session';
 /** The session is written this long after the last change (ms). */
 const SAVE_DELAY_MS = 1000;
 
-export const isKeeping = signal(false);
-
-/** The session kept from before the reload, until the user continues with it or discards it. */
-export const kept = signal<string | null>(null);
-
 type Kept = Pick<Storage, 'getItem' | 'setItem' | 'removeItem'>;
 
 /** Stores the session after each change. Returns a function that stops this. */
 export function followKeeping(tab: Kept, write: () => Promise<string>): () => void {
-  isKeeping.value = tab.getItem(ALLOWED) !== null;
-  kept.value = tab.getItem(SESSION);
+  setKeeping(tab.getItem(ALLOWED) !== null);
+  setKept(tab.getItem(SESSION));
   let timer: ReturnType<typeof setTimeout> | undefined;
   return effect(() => {
     const isOn = isKeeping.value;

@@ -1,12 +1,11 @@
 /** Opens dropped or chosen files. */
 
-import { signal } from '@preact/signals';
-import { Failure } from '../core/failure';
 import type { GivenFile, SeriesWish } from '../core/messages';
 import { addSegmentation } from '../edit/branches';
 import { isSegmentation } from '../edit/segmentation';
 import { document_, hasEdits, undo, undoWords } from '../state/history';
 import { openWith } from '../state/last-opened';
+import { askWhatIs } from '../state/questions';
 import * as store from '../state/store';
 import { engine } from '../worker/engine';
 import { leave } from './leaving';
@@ -20,9 +19,7 @@ export function openFiles(files: readonly GivenFile[], first: SeriesWish = {}): 
   let isAgain = false;
   return openWith(first, (wish) => {
     const load = async () => {
-      const opened = await engine.openFiles(files, wish, (progress) => {
-        store.progress.value = progress;
-      });
+      const opened = await engine.openFiles(files, wish, store.showProgress);
       const isVolume = opened.name !== undefined;
       // Centerlines that are opened again, with another choice, replace those opened before.
       if (isAgain && wasEdited && undoWords.value === 'open centerlines') {
@@ -35,9 +32,6 @@ export function openFiles(files: readonly GivenFile[], first: SeriesWish = {}): 
     return open(load, '');
   });
 }
-
-/** Files of a volume that may be a new scan or a vessel mask, until the user decides. */
-export const question = signal<readonly GivenFile[] | null>(null);
 
 const CENTERLINES = /\.(vtp|vtk|fcsv|pth|swc|tre|csv|json)$/i;
 const VOLUMES = /\.(nii|nii\.gz|nrrd|nhdr|mha|mhd|hdr|img|raw|zraw)$/i;
@@ -54,7 +48,7 @@ export async function takeFiles(files: readonly GivenFile[]): Promise<void> {
       await goOn(session);
     });
   } else if (store.hasVolume.value && files.length > 0 && files.every(({ path }) => VOLUMES.test(path))) {
-    question.value = files;
+    askWhatIs(files);
   } else if (store.hasVolume.value && files[0] && (await isSegmentation(files))) {
     await addSegmentation(files[0]);
   } else if (files.every(({ path }) => CENTERLINES.test(path))) {
@@ -77,7 +71,7 @@ async function goOn(session: GivenFile): Promise<void> {
   try {
     await openSession(session);
   } catch (error) {
-    store.problem.value = Failure.of(error);
+    store.showProblem(error);
   }
 }
 

@@ -1,15 +1,17 @@
 /** Saves and opens sessions. */
+
 import { batch, effect, untracked } from '@preact/signals';
 import type { Asked } from '../core/asked';
 import { CRASH, Failure } from '../core/failure';
 import type { Bytes, DocumentVessel, GivenFile, Method, SavedView } from '../core/messages';
-import { contents } from '../edit/lines';
-import { beginDocument, pickedId, tree } from '../edit/shown';
 import { shownVessels } from '../state/changes';
 import { recover } from '../state/device';
 import type { Document } from '../state/document';
 import { document_ } from '../state/history';
+import { contents } from '../state/lines';
+import { showView } from '../state/opened';
 import { giveFwhm, givenFwhm } from '../state/profiles';
+import { beginDocument, pickedId, tree } from '../state/shown';
 import * as store from '../state/store';
 import { EngineClient, engine } from '../worker/engine';
 import { handedOver } from './handing-over';
@@ -111,13 +113,12 @@ function onceShown(document: Document, work: () => void): void {
 function point({ picked, cross_hair: place }: SavedView, document: Document): void {
   const number = picked ? tree.value.indexOf(document.vessels[picked.vessel] as DocumentVessel) : -1;
   if (picked && number >= 0) {
-    store.pickedVessel.value = number;
-    store.pickedPlace.value = picked.at_mm;
+    store.pickVessel(number, picked.at_mm);
   }
   if (place) {
     void engine.ask('at', place).then(({ value, vessel, arc_length: arcLength }) => {
       if (store.crossHair.value?.point === place) {
-        store.crossHair.value = { point: place, value, vessel, arcLength };
+        store.setCrossHair({ point: place, value, vessel, arcLength });
       }
     }, recover);
   }
@@ -126,18 +127,12 @@ function point({ picked, cross_hair: place }: SavedView, document: Document): vo
 function look(view: SavedView): void {
   const { window, context_window: _, ...settings } = view.settings;
   const size = store.camera.value?.size ?? view.camera.size;
-  store.camera.value = cameraOf(view, size);
-  store.method.value = view.method as Method;
-  store.settings.value = settings;
-  if (Array.isArray(window)) {
-    store.window_.value = [Number(window[0]), Number(window[1])];
-  }
-  const isLayout = (name: string): name is store.Layout =>
-    (store.LAYOUTS as readonly string[]).includes(name);
-  if (isLayout(view.layout)) {
-    store.layout.value = view.layout;
-  }
-  if (view.cross_hair) {
-    store.crossHair.value = { point: view.cross_hair, value: null, vessel: null, arcLength: null };
-  }
+  showView({
+    camera: cameraOf(view, size),
+    method: view.method as Method,
+    settings,
+    window: Array.isArray(window) ? [Number(window[0]), Number(window[1])] : null,
+    layout: view.layout,
+    crossHair: view.cross_hair,
+  });
 }

@@ -5,19 +5,18 @@ import { Failure } from '../core/failure';
 import type { Report } from '../core/messages';
 import { middle } from '../core/vectors';
 import { addLoaded } from '../edit/files';
-import { forgetLines } from '../edit/lines';
-import { beginStudy, showAgain } from '../edit/shown';
-import { forgetFindings } from '../measure/findings';
 import { placeCrossHair } from '../state/cross-hair';
 import { document_, hasEdits } from '../state/history';
 import { openWith } from '../state/last-opened';
-import { dropLength } from '../state/length';
+import { forgetLines } from '../state/lines';
+import { dropLength, forgetFindings } from '../state/measuring';
+import { forgetOpened, takeOpened } from '../state/opened';
 import { beginMeasuring } from '../state/profiles';
 import { putRulerAway } from '../state/rulers';
+import { beginStudy, showAgain } from '../state/shown';
 import * as store from '../state/store';
-import { tool } from '../state/tool';
-import type { Opened } from '../worker/engine';
-import { engine } from '../worker/engine';
+import { takeTool } from '../state/tool';
+import { engine, type Opened } from '../worker/engine';
 
 const FIRST_SIZE = [512, 512] as const;
 
@@ -28,23 +27,23 @@ export interface Loaded extends Opened {
 
 export async function open(load: () => Promise<Loaded>, name: string): Promise<void> {
   batch(() => {
-    store.problem.value = null;
-    store.progress.value = { words: 'Opening', done: 0, total: null };
+    store.closeProblem();
+    store.showProgress({ words: 'Opening', done: 0, total: null });
   });
   try {
     const opened = await load();
     const isEdited = document_.value.vessels.length > 0 || hasEdits.value;
     const comesToEdits = opened.isBeside && store.hasVolume.value && isEdited;
     await (comesToEdits ? showBeside(opened) : showStudy(opened, opened.name ?? name));
-    store.problem.value = misread(opened);
+    store.setProblem(misread(opened));
   } catch (error) {
     const failure = Failure.of(error);
     if (failure.kind !== 'interrupted') {
-      store.problem.value = failure;
+      store.setProblem(failure);
     }
     await forgetWhatIsClosed();
   } finally {
-    store.progress.value = null;
+    store.showProgress(null);
   }
 }
 
@@ -76,10 +75,7 @@ export function openPhantom(name: string): Promise<void> {
 
 export function openAddresses(volume: string | null, centerlines: string | null): Promise<void> {
   return openWith({}, (wish) => {
-    const load = () =>
-      engine.openAddresses({ volume, centerlines }, wish, (progress) => {
-        store.progress.value = progress;
-      });
+    const load = () => engine.openAddresses({ volume, centerlines }, wish, store.showProgress);
     return open(load, '');
   });
 }
@@ -93,9 +89,9 @@ export async function close(): Promise<void> {
 
 /** Ends tracing and measuring, and restores the layout before them. */
 function layDown(): void {
-  tool.value = 'look';
+  takeTool('look');
   if (store.layout.value === 'measure') {
-    store.layout.value = 'strip';
+    store.setLayout('strip');
   }
 }
 
@@ -108,18 +104,16 @@ async function showStudy({ report, notes, states, study = null }: Opened, name: 
   layDown();
   batch(() => {
     forget();
-    store.report.value = report;
-    store.notes.value = notes;
-    store.studyName.value = name;
-    store.scanStudy.value = study;
-    store.states.value = states ?? { spacing: true, orientation: true };
-    store.histogram.value = histogram;
-    store.window_.value = report.windows?.main ?? store.window_.value;
-    store.camera.value = camera;
-    store.crossHair.value = hair;
-    store.firstPlace.value = hair?.point ?? null;
-    store.pickedVessel.value = hair?.vessel ?? null;
-    store.pickedPlace.value = hair?.arcLength ?? 0;
+    takeOpened({
+      report,
+      name,
+      notes,
+      states: states ?? { spacing: true, orientation: true },
+      study,
+      histogram,
+      camera,
+      hair,
+    });
     beginStudy(vessels);
   });
 }
@@ -128,7 +122,7 @@ async function showBeside({ report, notes }: Opened): Promise<void> {
   const loaded = report.vessels ?? [];
   await addLoaded(loaded);
   await showAgain();
-  store.notes.value = notes;
+  store.setNotes(notes);
   const line = loaded[longest(report)]?.line;
   const shown = store.report.value?.vessels ?? [];
   const vessel = shown.findIndex((one) => one.line === line);
@@ -166,16 +160,7 @@ function forget(): void {
   forgetFindings();
   putRulerAway();
   dropLength();
-  store.report.value = null;
-  store.notes.value = [];
-  store.scanStudy.value = null;
-  store.histogram.value = null;
-  store.crossHair.value = null;
-  store.pickedVessel.value = null;
-  store.cprAngle.value = 0;
-  store.isTurning.value = false;
-  store.maximised.value = null;
-  store.frameTime.value = null;
+  forgetOpened();
   forgetLines();
   beginStudy(null);
 }

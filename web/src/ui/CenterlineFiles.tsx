@@ -1,7 +1,7 @@
 /** Buttons to save and open centerlines. */
 
 import type { CenterlineKind } from '../core/messages';
-import { attempt } from '../output/attempt';
+import { attempt } from '../output/by-key';
 import { hasCenterlines, saveCenterlines } from '../output/centerlines';
 import { OpenMore } from './OpenButtons';
 

@@ -3,10 +3,10 @@
 import type { DocumentVessel } from '../core/messages';
 import { accept, leaveOut } from '../edit/branches';
 import { countedDoubts, reasonOf, showDoubt, stepDoubt } from '../edit/doubts';
-import { lengthOf } from '../edit/lines';
-import { chosenDoubt } from '../edit/mode';
 import { nameOf } from '../state/changes';
+import { lengthOf } from '../state/lines';
 import { hasMillimetres } from '../state/millimetres';
+import { chosenDoubt } from '../state/tool';
 import { lighting } from './VesselRow';
 
 export function DoubtfulPart({ vessels }: { readonly vessels: readonly DocumentVessel[] }) {

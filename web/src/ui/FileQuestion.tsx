@@ -1,16 +1,17 @@
 /** Asks how to use a volume that arrives while a scan is open. */
 
 import { addMask } from '../edit/branches';
+import { askWhatIs, unclearFiles } from '../state/questions';
 import { leave } from '../study/leaving';
-import { openFiles, question } from '../study/opening';
+import { openFiles } from '../study/opening';
 
 export function FileQuestion() {
-  const files = question.value;
+  const files = unclearFiles.value;
   if (!files) {
     return null;
   }
   const answer = (work: () => Promise<unknown>) => {
-    question.value = null;
+    askWhatIs(null);
     void work();
   };
   return (

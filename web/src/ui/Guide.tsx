@@ -1,5 +1,6 @@
 /** Box over the views with the current step of the guided tour. */
-import { guideStep, leaveGuide, nextStep, STEPS, wordsOf } from './guide-steps';
+import { guideStep } from '../state/panels';
+import { leaveGuide, nextStep, STEPS, wordsOf } from './guide-steps';
 
 export function Guide() {
   const number = guideStep.value;

@@ -6,7 +6,7 @@ import { performAny } from '../edit/performing';
 import { saveSession } from '../output/session';
 import { editQueue } from '../state/edit-queue';
 import { message, showFailure } from '../state/message';
-import { problem, progress } from '../state/store';
+import { closeProblem, problem, progress } from '../state/store';
 import { Mends } from './Mends';
 
 export function Messages() {
@@ -46,12 +46,7 @@ function LongWork() {
   return (
     <>
       <strong>This is taking long. Is the point in a vessel, not in bone?</strong>
-      <button
-        type="button"
-        onClick={() => {
-          editQueue.goOnSearching();
-        }}
-      >
+      <button type="button" onClick={() => editQueue.goOnSearching()}>
         Continue
       </button>
     </>
@@ -79,12 +74,7 @@ function Problem() {
           Save the session
         </button>
       )}
-      <button
-        type="button"
-        onClick={() => {
-          problem.value = null;
-        }}
-      >
+      <button type="button" onClick={closeProblem}>
         Close
       </button>
     </div>
@@ -99,12 +89,7 @@ function Bridging({ failure }: { readonly failure: Failure }) {
       <button type="button" onClick={bridge}>
         Bridge the gap
       </button>
-      <button
-        type="button"
-        onClick={() => {
-          problem.value = null;
-        }}
-      >
+      <button type="button" onClick={closeProblem}>
         Add a point between
       </button>
     </>

@@ -58,7 +58,7 @@ function VesselChoice() {
 }
 
 function pick(vessel: number): void {
-  store.pickedVessel.value = vessel;
+  store.pickVessel(vessel);
   moveTo((store.report.value?.vessels?.[vessel]?.length ?? 0) / 2);
 }
 

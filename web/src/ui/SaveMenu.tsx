@@ -1,7 +1,7 @@
 /** The menu "Save". */
 import { currentProfile } from '../measure/current';
 import { listedFindings } from '../measure/findings';
-import { attempt } from '../output/attempt';
+import { attempt } from '../output/by-key';
 import { hasCenterlines, saveCenterlines } from '../output/centerlines';
 import { askForPacs } from '../output/pacs';
 import { savePng } from '../output/pictures';
@@ -9,7 +9,7 @@ import { saveReport } from '../output/report';
 import { saveSession } from '../output/session';
 import { saveNumbers } from '../output/tables';
 import { saveFilm, savePictures } from '../output/turntable';
-import { isKeeping } from '../study/keeping';
+import { isKeeping, setKeeping } from '../state/questions';
 import { useClosing } from './closing-menu';
 import { ScanNamed } from './ScanNamed';
 import { keepWithin } from './within-window';
@@ -74,9 +74,7 @@ function Keeping() {
       <input
         type="checkbox"
         checked={isKeeping.value}
-        onChange={(event) => {
-          isKeeping.value = event.currentTarget.checked;
-        }}
+        onChange={(event) => setKeeping(event.currentTarget.checked)}
       />
       Keep the session when this tab reloads
     </label>

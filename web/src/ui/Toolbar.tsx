@@ -1,8 +1,8 @@
 /** Top bar: modes, vessel list, saving, window, layout and research. */
 
-import { isListOpen } from '../edit/list-open';
 import { performAny } from '../edit/performing';
 import { perform, showLayout } from '../state/actions';
+import { isListOpen } from '../state/panels';
 import * as store from '../state/store';
 import { leave } from '../study/leaving';
 import { close } from '../study/study';

@@ -2,19 +2,16 @@
 import { useSignal } from '@preact/signals';
 import { findAndList } from '../edit/branches';
 import { answerDoubt, placeOfDoubt, stepDoubt } from '../edit/doubts';
-import { candidate, coming, drawn, isDrawing } from '../edit/drawing';
-import { chosenDoubt, isTracing } from '../edit/mode';
 import { performAny } from '../edit/performing';
-import { acceptCandidate, endVessel } from '../edit/pointing';
+import { acceptCandidate, endVessel, takeWhole } from '../edit/pointing';
 import { STOPPER } from '../edit/stoppers';
-import { tracedSummary } from '../edit/traced-summary';
-import { takeWhole } from '../edit/whole';
-import { only, whole } from '../edit/whole-shown';
 import { nameOf, vesselOf } from '../state/changes';
+import { candidate, coming, drawn, isDrawing, only, whole } from '../state/drawing';
 import { editQueue } from '../state/edit-queue';
 import { document_ } from '../state/history';
 import { hasVolume, report } from '../state/store';
-import { type Tool, tool } from '../state/tool';
+import { chosenDoubt, isTracing, type Tool, takeTool, tool } from '../state/tool';
+import { tracedSummary } from '../state/traced-summary';
 import { OpenMore } from './OpenButtons';
 import { TracedSummary } from './TracedSummary';
 
@@ -76,9 +73,7 @@ const WHOLE =
   'Traces the clicked vessel to its end, starting where it leaves a vessel of the list (key w). The first use searches the whole scan.';
 
 function Hint() {
-  const take = (wanted: Tool) => () => {
-    tool.value = wanted;
-  };
+  const take = (wanted: Tool) => () => takeTool(wanted);
   // The summary is hidden while a point waits for confirmation or is being traced.
   const isSummaryShown = !editQueue.isBusy && !candidate.value && (!isDrawing.value || drawn.value !== null);
   return (

@@ -1,11 +1,12 @@
 /** Summary of the vessel traced last: its length, its connections, and its doubts with buttons. */
+
 import { useSignal } from '@preact/signals';
 import type { Told } from '../core/messages';
-import { tree } from '../edit/shown';
-import { tracedSummary } from '../edit/traced-summary';
 import { cut } from '../edit/vessels';
 import { moveTo } from '../state/along';
-import { pickedVessel } from '../state/store';
+import { tree } from '../state/shown';
+import { pickVessel } from '../state/store';
+import { tracedSummary } from '../state/traced-summary';
 
 export function TracedSummary() {
   return tracedSummary.value && <Summary key={tracedSummary.value.words} summary={tracedSummary.value} />;
@@ -47,7 +48,7 @@ function Summary({ summary: { vessel, words, doubts } }: { readonly summary: Tol
 function goTo(vessel: number, at: number): void {
   const place = tree.value.findIndex(({ id }) => id === vessel);
   if (place >= 0) {
-    pickedVessel.value = place;
+    pickVessel(place);
     moveTo(at);
   }
 }

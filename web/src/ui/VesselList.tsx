@@ -1,18 +1,17 @@
 /** The vessel list, with buttons for all vessels. */
 
-import { namesToOffer } from '../edit/anatomy';
 import { findVessels } from '../edit/branches';
 import { setBridge } from '../edit/clicks';
-import { isListOpen } from '../edit/list-open';
-import { isTracing, toggleTool } from '../edit/mode';
 import { performAny } from '../edit/performing';
 import { STOPPER } from '../edit/stoppers';
 import { isTreeShown, listedVessels } from '../edit/vessel-order';
-import { remove } from '../edit/vessels';
+import { namesToOffer, remove } from '../edit/vessels';
 import { doubtful } from '../state/changes';
 import { document_ } from '../state/history';
 import { hasMillimetres } from '../state/millimetres';
-import { treeChosen } from '../state/tidy';
+import { isListOpen, toggleList } from '../state/panels';
+import { chooseTree } from '../state/tidying';
+import { isTracing, toggleTool } from '../state/tool';
 import { CenterlineFiles } from './CenterlineFiles';
 import { DoubtfulPart } from './DoubtfulPart';
 import { TidyPart } from './TidyPart';
@@ -60,9 +59,7 @@ function TreeChoice() {
         <input
           type="checkbox"
           checked={isTreeShown.value}
-          onChange={(event) => {
-            treeChosen.value = event.currentTarget.checked;
-          }}
+          onChange={(event) => chooseTree(event.currentTarget.checked)}
         />
         {`As a tree, the widest first${hasMillimetres.value ? ' (diameter × length, mm)' : ''}`}
       </label>
@@ -74,13 +71,7 @@ function Closing() {
   return (
     <div class="buttons">
       <span class="spring" />
-      <button
-        type="button"
-        aria-label="Close the list"
-        onClick={() => {
-          isListOpen.value = false;
-        }}
-      >
+      <button type="button" aria-label="Close the list" onClick={toggleList}>
         ✕
       </button>
     </div>

@@ -2,20 +2,19 @@
 
 import { useEffect, useRef, useState } from 'preact/hooks';
 import type { DocumentVessel } from '../core/messages';
-import { lengthOf } from '../edit/lines';
-import { pickedId, pickOnceShown, tree } from '../edit/shown';
-import { factsOf, marked, sure } from '../edit/tidying';
 import { isTreeShown } from '../edit/vessel-order';
 import { cut, hide, join, recolor, remove, rename } from '../edit/vessels';
 import { nameOf } from '../state/changes';
 import { placeCrossHair } from '../state/cross-hair';
 import { recover } from '../state/device';
 import { document_ } from '../state/history';
+import { lengthOf } from '../state/lines';
 import { hasMillimetres } from '../state/millimetres';
 import { PALETTE } from '../state/palette';
+import { pickedId, pickOnceShown, tree } from '../state/shown';
 import { pickedPlace, report } from '../state/store';
-import { highlighted } from '../state/tidy';
-import { active, tool } from '../state/tool';
+import { endHighlight, factsOf, highlight, marked, sure } from '../state/tidying';
+import { extend, takeTool } from '../state/tool';
 import { engine } from '../worker/engine';
 import { BestViewButton } from './BestViewButton';
 
@@ -82,12 +81,8 @@ const rowClass = (isPicked: boolean, isMarked: boolean): string =>
   `${isPicked ? 'picked' : ''}${isMarked ? ' marked' : ''}`;
 
 export const lighting = ({ id }: DocumentVessel) => ({
-  onPointerEnter: () => {
-    highlighted.value = id;
-  },
-  onPointerLeave: () => {
-    highlighted.value = highlighted.value === id ? null : highlighted.value;
-  },
+  onPointerEnter: () => highlight(id),
+  onPointerLeave: () => endHighlight(id),
 });
 
 /** The vessel name. A click picks the vessel; a click if it is picked, a double click, Enter or F2 edits the name. */
@@ -176,8 +171,8 @@ function VesselActions({ vessel }: RowProps) {
   const { id } = vessel;
   const others = document_.value.vessels.filter((one) => one.id !== id && one.doubt === null);
   const goOn = () => {
-    tool.value = 'trace';
-    active.value = id;
+    takeTool('trace');
+    extend(id);
   };
   return (
     <div class="buttons">

@@ -1,12 +1,13 @@
 /** Steps of the guided tour with a phantom; each step ends when the user has done what it asks. */
-import { effect, signal } from '@preact/signals';
+import { effect } from '@preact/signals';
 import type { Vector } from '../core/messages';
 import { dot } from '../core/vectors';
-import { isTracing } from '../edit/mode';
-import { beginDocument } from '../edit/shown';
 import { EMPTY } from '../state/document';
 import { document_ } from '../state/history';
+import { goToGuideStep, guideStep } from '../state/panels';
+import { beginDocument } from '../state/shown';
 import * as store from '../state/store';
+import { isTracing } from '../state/tool';
 import { openPhantom } from '../study/study';
 
 export interface GuideStep {
@@ -18,9 +19,6 @@ export interface GuideStep {
 
 /** The step "Turn it" is done after a turn of 20°; this is the cosine. */
 const COS_MIN_TURN = Math.cos(Math.PI / 9);
-
-/** Current step, counted from 0; null without a tour. */
-export const guideStep = signal<number | null>(null);
 
 let directionAtFirst: Vector | null = null;
 
@@ -92,18 +90,18 @@ export async function startGuide(): Promise<void> {
   await openPhantom('stenosis');
   if (store.report.value) {
     beginDocument(EMPTY);
-    guideStep.value = 0;
+    goToGuideStep(0);
   }
 }
 
 export function leaveGuide(): void {
-  guideStep.value = null;
+  goToGuideStep(null);
 }
 
 export function nextStep(): void {
   const step = guideStep.peek();
   if (step !== null) {
-    guideStep.value = step + 1 < STEPS.length ? step + 1 : null;
+    goToGuideStep(step + 1 < STEPS.length ? step + 1 : null);
   }
 }
 

@@ -2,10 +2,10 @@
 import { useEffect, useRef } from 'preact/hooks';
 import { Latest } from '../core/latest';
 import type { Pair, Plane, PointedLumen } from '../core/messages';
-import { pointed } from '../edit/lumens';
-import { isTracing } from '../edit/mode';
+import { pointed } from '../state/lumens';
 import { hasMillimetres } from '../state/millimetres';
 import { isInverted, type ViewName, window_ } from '../state/store';
+import { isTracing } from '../state/tool';
 import { engine } from '../worker/engine';
 
 /** Side of the picture, and its distance from the pointer (CSS pixels). */

@@ -1,7 +1,7 @@
 /** Markers over a view for pending points, and for the point that caused an error. */
 import type { Failure } from '../core/failure';
 import type { Vector } from '../core/messages';
-import { candidate, coming, drawnColor, first } from '../edit/drawing';
+import { candidate, coming, drawnColor, first } from '../state/drawing';
 import { editQueue, isGap } from '../state/edit-queue';
 import { problem } from '../state/store';
 import { isNear } from './curves';

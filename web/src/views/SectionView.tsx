@@ -1,4 +1,5 @@
 /** Cross-section of the picked vessel. */
+
 import { useEffect, useState } from 'preact/hooks';
 import type { Answer } from '../core/asked';
 import type { LineId, Pair, Plane } from '../core/messages';
@@ -11,6 +12,7 @@ import { dragWindow, windowBack } from '../state/actions';
 import { moveAlong } from '../state/along';
 import { placeCrossHair } from '../state/cross-hair';
 import { recover } from '../state/device';
+import { toggleMaximised } from '../state/panels';
 import * as store from '../state/store';
 import { pickedLine } from '../state/store';
 import { engine } from '../worker/engine';
@@ -71,7 +73,7 @@ export function SectionView() {
     scroll: (steps: number) => moveAlong(steps * STEP),
     click: (action: string, place: Pair) => {
       if (action === 'maximise') {
-        store.maximised.value = store.maximised.value === 'section' ? null : 'section';
+        toggleMaximised('section');
       } else {
         point(place);
       }

@@ -2,11 +2,11 @@
 
 import type { Stopper, Vector } from '../core/messages';
 import { add } from '../core/vectors';
-import { draggedStopper } from '../edit/drawing';
-import { isTracing } from '../edit/mode';
 import { moveStopper, removeStopper } from '../edit/stoppers';
 import { Handle } from '../pane/Handle';
+import { draggedStopper, dragStopper } from '../state/drawing';
 import { document_ } from '../state/history';
+import { isTracing } from '../state/tool';
 import { lookAt } from './look-at';
 import type { Projection } from './projection';
 
@@ -39,13 +39,11 @@ function Ball({ number, stopper, projection }: BallProps) {
   if (radius === 0) {
     return null;
   }
-  const drag = (point: Vector) => {
-    draggedStopper.value = { number, point };
-  };
+  const drag = (point: Vector) => dragStopper({ number, point });
   const end = async () => {
     if (draggedStopper.value) {
       await moveStopper(number, draggedStopper.value.point);
-      draggedStopper.value = null;
+      dragStopper(null);
     }
   };
   const [x, y] = projection.pixel(center);
@@ -63,9 +61,7 @@ function Ball({ number, stopper, projection }: BallProps) {
         onDrag={(at) => drag(projection.at(at, center))}
         onArrow={(by) => drag(add(center, projection.step(by)))}
         onEnd={() => void end()}
-        onPutBack={() => {
-          draggedStopper.value = null;
-        }}
+        onPutBack={() => dragStopper(null)}
         onRemove={() => void removeStopper(number)}
       />
     </>

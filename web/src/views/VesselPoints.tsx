@@ -3,14 +3,13 @@
 import type { DocumentVessel, Vector } from '../core/messages';
 import { add } from '../core/vectors';
 import { moveClick, removeClick } from '../edit/clicks';
-import { dragged, isDrawing } from '../edit/drawing';
-import { isTracing } from '../edit/mode';
 import { setPoint } from '../edit/pointing';
-import { pickedId } from '../edit/shown';
 import { Handle } from '../pane/Handle';
 import { nameOf } from '../state/changes';
+import { dragClick, dragged, isDrawing } from '../state/drawing';
 import { document_ } from '../state/history';
-import { active, tool } from '../state/tool';
+import { pickedId } from '../state/shown';
+import { active, extend, isTracing, tool } from '../state/tool';
 import { isNear } from './curves';
 import { lookAt } from './look-at';
 import type { Projection } from './projection';
@@ -59,18 +58,16 @@ interface ClickProps extends OverProps {
 
 function Click({ vessel, number, point, projection }: ClickProps) {
   const { id } = vessel;
-  const drag = (to: Vector) => {
-    dragged.value = { id, number, point: to };
-  };
+  const drag = (to: Vector) => dragClick({ id, number, point: to });
   const end = async () => {
     const moved = dragged.value;
     if (moved) {
       lookAt(moved.point);
       await moveClick(id, number, moved.point);
-      dragged.value = null;
+      dragClick(null);
     } else if (number === (vessel.clicks?.length ?? 0) - 1 && !isDrawing.value) {
       // A click on the last point extends the vessel; on another point it begins a branch or ends one there.
-      active.value = id;
+      extend(id);
     } else if (tool.value === 'trace' && id !== active.value) {
       await setPoint(point);
     }
@@ -85,9 +82,7 @@ function Click({ vessel, number, point, projection }: ClickProps) {
       onDrag={(at) => drag(projection.at(at, point))}
       onArrow={(by) => drag(add(point, projection.step(by)))}
       onEnd={() => void end()}
-      onPutBack={() => {
-        dragged.value = null;
-      }}
+      onPutBack={() => dragClick(null)}
       onRemove={() => void removeClick(id, number)}
     />
   );

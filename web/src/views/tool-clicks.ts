@@ -3,16 +3,14 @@
 import { Latest } from '../core/latest';
 import type { Pair, Pick, Vector } from '../core/messages';
 import { addClickOnLine } from '../edit/clicks';
-import { anchor, candidate, drawn, first, target } from '../edit/drawing';
-import { lookForLumens, meant, pointed } from '../edit/lumens';
-import { chosenDoubt, isTracing } from '../edit/mode';
-import { acceptCandidate, endVessel, setPoint } from '../edit/pointing';
-import { takeWhole } from '../edit/whole';
+import { acceptCandidate, endVessel, setPoint, takeWhole } from '../edit/pointing';
 import type { Action, Where } from '../input/bindings';
 import { placeCrossHair } from '../state/cross-hair';
 import { recover } from '../state/device';
-import { crossHair, type ViewName } from '../state/store';
-import { tool } from '../state/tool';
+import { aimAt, anchor, candidate, drawn, propose, setFirst } from '../state/drawing';
+import { forgetLumens, lookForLumens, meant } from '../state/lumens';
+import { crossHair, putCrossHair, type ViewName } from '../state/store';
+import { chooseDoubt, chosenDoubt, isTracing, tool } from '../state/tool';
 import { engine } from '../worker/engine';
 import { curveAt, isAt } from './curves';
 import type { Projection } from './projection';
@@ -68,7 +66,7 @@ async function setAt(view: Pointed, at: Pair): Promise<void> {
 }
 
 async function setHere(view: Pointed, point: Vector): Promise<void> {
-  crossHair.value = { point, value: null, vessel: null, arcLength: null };
+  putCrossHair(point);
   showValue(view, point, (await setPoint(point)) ?? (await engine.ask('at', point)));
 }
 
@@ -85,7 +83,7 @@ async function setThrough(view: Pointed, at: Pair): Promise<void> {
   placeCrossHair(pick, view.name);
   // The user must confirm the point in the slices. If the tool has been left meanwhile, nothing is proposed.
   if (isTracing()) {
-    candidate.value = pick.point;
+    propose(pick.point);
   }
 }
 
@@ -105,7 +103,7 @@ function endAt(view: Pointed, at: Pair): void {
   const last = anchor.value;
   const isEnd = drawn.value !== null && last !== null && isAt(view.projection, last, at);
   if (hit && !isOther && !isEnd && tool.value === 'trace') {
-    first.value = null;
+    setFirst(null);
     addOnCurve(view, at);
   } else if (!takeWhole()) {
     endVessel();
@@ -121,7 +119,7 @@ function addOnCurve({ projection }: Pointed, at: Pair): void {
 
 function chooseDoubtful({ projection }: Pointed, at: Pair): boolean {
   const hit = curveAt(projection, at);
-  chosenDoubt.value = hit?.vessel.doubt ? hit.vessel.id : null;
+  chooseDoubt(hit?.vessel.doubt ? hit.vessel.id : null);
   return chosenDoubt.value !== null;
 }
 
@@ -135,11 +133,11 @@ const isSame = (a: Pair, b: Pair): boolean => Math.hypot(a[0] - b[0], a[1] - b[1
 /** Updates the picture of the lumen and the path preview, for one pointer position at a time. */
 export function followPointerAt(view: Pointed, at: Pair): void {
   if (tool.value !== 'trace') {
-    pointed.value = null;
+    forgetLumens();
     return;
   }
   if (!view.projection.isThrough && anchor.value !== null) {
-    target.value = view.place(at) as Vector;
+    aimAt(view.place(at) as Vector);
   }
   const done = new Promise<void>((resolve) => {
     following.run(() => lookUnder(view, at).then(resolve, resolve));
@@ -155,7 +153,7 @@ async function lookUnder(view: Pointed, at: Pair): Promise<void> {
   if (through && anchor.value !== null) {
     // Outside the scan there is no path.
     const brightest = () => Promise.resolve(view.place(at)).then(placeOf, () => null);
-    target.value = lumen?.point ?? (await brightest());
+    aimAt(lumen?.point ?? (await brightest()));
   }
 }
 
@@ -163,6 +161,6 @@ const placeOf = (place: Pick | Vector): Vector => ('point' in place ? place.poin
 
 /** Called when the pointer has left the view, or the content under it has moved. */
 export function forgetPointer(): void {
-  pointed.value = null;
+  forgetLumens();
   lastPointer = null;
 }

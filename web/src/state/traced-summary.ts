@@ -1,8 +1,8 @@
 /** The text of the engine about the vessel that was traced last. */
 import { computed, signal } from '@preact/signals';
 import type { Edited, LineId, Told } from '../core/messages';
-import { vesselOf } from '../state/changes';
-import { document_ } from '../state/history';
+import { vesselOf } from './changes';
+import { document_ } from './history';
 
 const last = signal<{ readonly told: Told; readonly line: LineId | undefined } | null>(null);
 

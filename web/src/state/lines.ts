@@ -4,10 +4,10 @@ import { effect, signal } from '@preact/signals';
 import { Failure } from '../core/failure';
 import type { LineContent, LineId, NumberedLine } from '../core/messages';
 import { length, subtract } from '../core/vectors';
-import { answered } from '../state/edit-queue';
-import { document_ } from '../state/history';
-import { problem } from '../state/store';
 import { engine } from '../worker/engine';
+import { answered } from './edit-queue';
+import { document_ } from './history';
+import { problem } from './store';
 
 /** Contents by line number; they never change. Emptied when the study closes. */
 export const contents = signal<ReadonlyMap<LineId, LineContent>>(new Map());

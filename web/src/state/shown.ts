@@ -4,13 +4,13 @@ import { batch, effect, signal, untracked } from '@preact/signals';
 import { Failure } from '../core/failure';
 import type { AfterEdit, DocumentVessel, ListedLine, Report, VesselDocument } from '../core/messages';
 import type { Window } from '../core/plain';
-import { shownVessels } from '../state/changes';
-import { type Document, EMPTY } from '../state/document';
-import { answered, editQueue } from '../state/edit-queue';
-import { begin, document_ } from '../state/history';
-import * as store from '../state/store';
-import { active } from '../state/tool';
 import { engine } from '../worker/engine';
+import { shownVessels } from './changes';
+import { type Document, EMPTY } from './document';
+import { answered, editQueue } from './edit-queue';
+import { begin, document_ } from './history';
+import * as store from './store';
+import { active } from './tool';
 
 /** The displayed vessels, in the order of `store.report.value.vessels`. */
 export const tree = signal<readonly DocumentVessel[]>([]);
@@ -23,6 +23,11 @@ const linesOf = (vessels: readonly DocumentVessel[]): string =>
     .join();
 
 export const toPick = signal<number | null>(null);
+
+/** Picks a vessel that is not displayed yet; without an id, nothing changes. */
+export function pickWhenShown(id: number | undefined): void {
+  toPick.value = id ?? toPick.value;
+}
 
 /** Picks a vessel, and its point at half its length, once the vessel is displayed. */
 export function pickOnceShown(id: number): void {

@@ -1,16 +1,49 @@
-/** Cleans a tree: removes short or thin vessels, or those not connected to the picked vessel, as one undo step. */
+/** Facts about the vessels for the list and "Clean up": which are short, thin or not connected to the picked one. */
 
 import { computed, effect, signal } from '@preact/signals';
 import { Latest } from '../core/latest';
 import type { DocumentVessel, LineFacts, LineId } from '../core/messages';
-import { recover } from '../state/device';
-import { answered } from '../state/edit-queue';
-import { document_ } from '../state/history';
-import { markNone, shorterThan, thinnerThan } from '../state/tidy';
 import { engine } from '../worker/engine';
-import { isListOpen } from './list-open';
+import { recover } from './device';
+import { answered } from './edit-queue';
+import { document_ } from './history';
+import { isListOpen } from './panels';
 import { pickedId } from './shown';
-import { remove } from './vessels';
+
+/** Vessels below these limits (mm) are marked; 0 marks none. */
+export const shorterThan = signal(0);
+export const thinnerThan = signal(0);
+
+/** Whether the user wants the list as a tree; null if the user has not chosen. */
+export const treeChosen = signal<boolean | null>(null);
+
+export const highlighted = signal<number | null>(null);
+
+export function markShorterThan(limit: number): void {
+  shorterThan.value = limit;
+}
+
+export function markThinnerThan(limit: number): void {
+  thinnerThan.value = limit;
+}
+
+export function markNone(): void {
+  shorterThan.value = 0;
+  thinnerThan.value = 0;
+}
+
+export function chooseTree(isTree: boolean): void {
+  treeChosen.value = isTree;
+}
+
+/** Highlights a vessel in all views while the pointer is on it in the list. */
+export function highlight(id: number): void {
+  highlighted.value = id;
+}
+
+export function endHighlight(id: number): void {
+  highlighted.value = highlighted.value === id ? null : highlighted.value;
+}
 
 const facts = signal<ReadonlyMap<LineId, LineFacts>>(new Map());
 
@@ -74,13 +107,3 @@ export const unconnected = computed<readonly number[]>(() => {
     ? []
     : sure.value.filter((vessel) => (factsOf(vessel)?.part ?? part) !== part).map((vessel) => vessel.id);
 });
-
-export async function removeMarked(): Promise<boolean> {
-  const isDone = await remove([...marked.value]);
-  if (isDone) {
-    markNone();
-  }
-  return isDone;
-}
-
-export const keepPart = (): Promise<boolean> => remove(unconnected.value);

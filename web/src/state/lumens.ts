@@ -3,8 +3,8 @@
 import { computed, signal } from '@preact/signals';
 import type { Pair, PointedAt, PointedLumen } from '../core/messages';
 import { length, subtract } from '../core/vectors';
-import type { ViewName } from '../state/store';
 import { engine } from '../worker/engine';
+import type { ViewName } from './store';
 
 interface UnderPointer {
   readonly view: ViewName;
@@ -42,4 +42,8 @@ export function stepLumen(by: number): boolean {
   const number = Math.min(Math.max(now.number + by, 0), now.lumens.length - 1);
   pointed.value = { ...now, number };
   return true;
+}
+
+export function forgetLumens(): void {
+  pointed.value = null;
 }

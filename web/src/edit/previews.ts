@@ -1,57 +1,24 @@
-/** The vessel being drawn: its first clicks, and the preview of the path to the pointer. */
-
-import { computed, effect, signal } from '@preact/signals';
+/** Previews while tracing: the path to the pointer, and the whole vessel at a single clicked point. */
+import { effect } from '@preact/signals';
 import { Latest } from '../core/latest';
 import type { PathRequest, Vector } from '../core/messages';
 import { length, subtract } from '../core/vectors';
 import { vesselOf } from '../state/changes';
+import {
+  anchor,
+  candidate,
+  checked,
+  dragged,
+  forgetWhole,
+  type LivePath,
+  only,
+  showPaths,
+  showWhole,
+  target,
+} from '../state/drawing';
 import { document_ } from '../state/history';
-import { nextColor } from '../state/palette';
-import { active, tool } from '../state/tool';
+import { tool } from '../state/tool';
 import { engine } from '../worker/engine';
-
-/** The first point of a vessel that has no second point yet. */
-export const first = signal<Vector | null>(null);
-/** A point from a projection that the user must confirm in the slices. */
-export const candidate = signal<Vector | null>(null);
-export const target = signal<Vector | null>(null);
-interface Coming {
-  readonly point: Vector;
-  readonly drawing: number;
-}
-/** Clicked points that are still being traced, also those of vessels already ended. */
-export const coming = signal<readonly Coming[]>([]);
-/** Number of the vessel being drawn; late results of earlier ones are ignored. */
-export const drawing = signal(0);
-
-export interface Dragged {
-  readonly id: number;
-  readonly number: number;
-  readonly point: Vector;
-}
-export const dragged = signal<Dragged | null>(null);
-export const draggedStopper = signal<Omit<Dragged, 'id'> | null>(null);
-
-/** A preview of the traced path; a straight line if none was found. */
-export interface LivePath {
-  readonly points: readonly Vector[];
-  readonly isFound: boolean;
-}
-export const livePaths = signal<readonly LivePath[]>([]);
-
-/** The vessel that the next point extends; null if it begins a new one. */
-export const drawn = computed(() => vesselOf(document_.value, active.value));
-
-export const drawnColor = computed(() => drawn.value?.color ?? nextColor(document_.value.vessels));
-
-export const anchor = computed<Vector | null>(
-  () =>
-    coming.value.findLast((one) => one.drawing === drawing.value)?.point ??
-    drawn.value?.clicks?.at(-1) ??
-    first.value,
-);
-
-export const isDrawing = computed(() => anchor.value !== null);
 
 /** Within this distance (mm), the pointer counts as being on the point. */
 const SAME_POINT_MM = 0.05;
@@ -89,7 +56,7 @@ export function followPointer(): () => void {
     const look = async (tries: number) => {
       const paths = await Promise.all(wanted.map((leg) => pathOf(leg, { stoppers, bridge })));
       if (own >= ended) {
-        livePaths.value = paths;
+        showPaths(paths);
       }
       if (own === number && tries < MOST_TRIES && paths.some((path) => !path.isFound)) {
         latest.run(() => look(tries + 1));
@@ -97,7 +64,7 @@ export function followPointer(): () => void {
     };
     if (wanted.length === 0) {
       ended = number;
-      livePaths.value = [];
+      showPaths([]);
     }
     latest.run(() => look(1));
   });
@@ -108,10 +75,19 @@ async function pathOf([from, to]: Leg, rules: Pick<PathRequest, 'stoppers' | 'br
   return points ? { points, isFound: true } : { points: [from, to], isFound: false };
 }
 
-export function forgetDrawing(): void {
-  first.value = null;
-  candidate.value = null;
-  target.value = null;
-  dragged.value = null;
-  draggedStopper.value = null;
+/** Keeps the preview of the whole vessel up to date. Returns a function that stops this. */
+export function followWhole(): () => void {
+  const latest = new Latest();
+  return effect(() => {
+    const click = only.value;
+    const { vessels } = document_.value;
+    const isChecked = click !== null && click === checked.peek();
+    forgetWhole();
+    if (click && !isChecked) {
+      latest.run(async () => {
+        const found = await engine.ask('whole_vessel', { click, vessels }).catch(() => null);
+        showWhole(found, click);
+      });
+    }
+  });
 }
