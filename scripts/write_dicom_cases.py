@@ -22,9 +22,9 @@ from dicom_cases import CASES  # noqa: E402
 from dicom_series import Case  # noqa: E402
 from lumencut import FormatError, read_volume  # noqa: E402
 from lumencut._lumencut import judge_dicom  # noqa: E402
-from lumencut.volume_files.dicom import Wanted  # noqa: E402
-from lumencut.volume_files.dicom.files import read_files  # noqa: E402
-from lumencut.volume_files.dicom.judging import headers_document, wanted_document  # noqa: E402
+from lumencut.dicom.reading import Wanted  # noqa: E402
+from lumencut.dicom.reading.files import read_files  # noqa: E402
+from lumencut.dicom.reading.judging import headers_document, wanted_document  # noqa: E402
 
 
 def document(case: Case, path: Path) -> dict[str, Any]:

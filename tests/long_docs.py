@@ -27,7 +27,7 @@ def test_the_site_holds_its_pages_and_pictures(site):
     made = {path.stem for path in (site / "gallery").glob("*.webp")}
     assert made == {path.stem for path in (ROOT / "examples/gallery").glob("*.py")}
     told = (site / "api/pictures.html").read_text("utf-8")
-    assert 'id="lumencut.camera.Camera.rotated"' in told
+    assert 'id="lumencut.scene.camera.Camera.rotated"' in told
 
 
 def test_the_site_in_a_browser(site):

@@ -42,7 +42,7 @@ def test_every_public_name_is_on_one_page():
 def test_roles_of_docstrings_become_links_but_where_types_are_code():
     text = "volume : Volume, or what :func:`lumencut.render` takes\n    :meth:`Camera.rotated`, :attr:`gone`."
     assert docs_api.linked(text) == (
-        "volume : Volume, or what render takes\n    [`Camera.rotated`][lumencut.camera.Camera], `gone`."
+        "volume : Volume, or what render takes\n    [`Camera.rotated`][lumencut.scene.camera.Camera], `gone`."
     )
 
 
