@@ -2,7 +2,7 @@ import { expect, test } from 'vitest';
 import type { Asked } from '../src/core/asked';
 import type { LineContent } from '../src/core/messages';
 import { EMPTY } from '../src/state/document';
-import { handedOver } from '../src/study/handing-over';
+import { handedOver } from '../src/study/saving';
 
 const line = (end: number): LineContent => ({
   points: [

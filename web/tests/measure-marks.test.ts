@@ -4,6 +4,7 @@ import type { Pair, Vector } from '../src/core/messages';
 import {
   allConfirmed,
   comparedIn,
+  marksOf,
   moved,
   placeAfter,
   placesOf,
@@ -12,11 +13,11 @@ import {
   stretchAround,
   type VesselPlace,
   withDiameter,
+  withMarks,
   withReference,
   withStretch,
 } from '../src/measure/marks';
 import { centerAt, seenNearest, snapped } from '../src/measure/sections';
-import { marksOf, withMarks } from '../src/measure/vessels';
 import { placeName } from '../src/measure/words';
 import { EMPTY } from '../src/state/document';
 import { NOTHING_SUGGESTED, type Suggested } from '../src/state/measuring';

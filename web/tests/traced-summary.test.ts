@@ -1,8 +1,8 @@
 import { expect, test } from 'vitest';
 import type { DocumentVessel, Told } from '../src/core/messages';
 import { EMPTY } from '../src/state/document';
+import { storeSummary, tracedSummary } from '../src/state/drawing';
 import { begin, change, undo } from '../src/state/history';
-import { storeSummary, tracedSummary } from '../src/state/traced-summary';
 
 const VESSEL: DocumentVessel = {
   id: 3,

@@ -1,4 +1,4 @@
-/** Edits the clicked points of a vessel. Each edit retraces the vessel; a rejected click changes nothing. */
+/** Edits the clicked points of a vessel, and stoppers. Each edit retraces the vessel; a rejected click changes nothing. */
 import type { AfterEdit, Vector } from '../core/messages';
 import { commit, isDone } from './committing';
 
@@ -30,3 +30,14 @@ export const removeClick = (id: number, number: number): Promise<boolean> =>
 
 export const setBridge = (bridge: boolean): Promise<boolean> =>
   isDone(commit({ kind: 'set_bridge', bridge }));
+
+export const STOPPER = 'Sphere that no centerline may pass; place it where a centerline leaves its vessel';
+
+export const addStopper = (center: Vector): Promise<AfterEdit | null> =>
+  commit({ kind: 'add_stopper', center });
+
+export const moveStopper = (number: number, center: Vector): Promise<boolean> =>
+  isDone(commit({ kind: 'move_stopper', number, center }));
+
+export const removeStopper = (number: number): Promise<boolean> =>
+  isDone(commit({ kind: 'remove_stopper', number }));

@@ -2,9 +2,9 @@
 import type { AfterEdit, DocumentVessel, Edit, Edited, GivenFile } from '../core/messages';
 import { afterEdit } from '../state/changes';
 import type { Document } from '../state/document';
+import { storeSummary } from '../state/drawing';
 import { editQueue, keepAnswer, type Work } from '../state/edit-queue';
 import { document_ } from '../state/history';
-import { storeSummary } from '../state/traced-summary';
 import { engine } from '../worker/engine';
 
 export function commitPlain(words: string, edit: (document: Document) => Document): Promise<boolean> {

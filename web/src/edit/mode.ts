@@ -3,7 +3,7 @@
 import { batch, effect, untracked } from '@preact/signals';
 import type { SettingValue } from '../core/messages';
 import { setSetting, settingOf } from '../state/actions';
-import { moveTo } from '../state/along';
+import { moveTo } from '../state/cross-hair';
 import { editQueue } from '../state/edit-queue';
 import { openList, showAllViews } from '../state/panels';
 import * as store from '../state/store';

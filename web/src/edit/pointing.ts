@@ -28,9 +28,8 @@ import { crossHair } from '../state/store';
 import { takeTool, tool } from '../state/tool';
 import { engine } from '../worker/engine';
 import { addBranches } from './branches';
-import { addClick, beginVessel, begunId, removeClick } from './clicks';
+import { addClick, addStopper, beginVessel, begunId, removeClick } from './clicks';
 import { commit } from './committing';
-import { addStopper } from './stoppers';
 
 const SAME_POINT_MM = 0.05;
 

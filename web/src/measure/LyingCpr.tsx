@@ -5,12 +5,12 @@ import type { Axis, Cpr, Pair, StripLayout } from '../core/messages';
 import { CprControls } from '../pane/CprControls';
 import { FlatPicture } from '../pane/FlatPicture';
 import { dragWindow, windowBack } from '../state/actions';
-import { moveTo } from '../state/along';
+import { moveTo } from '../state/cross-hair';
 import { toggleMaximised } from '../state/panels';
 import * as store from '../state/store';
 import { engine } from '../worker/engine';
+import { valueAt } from './layout';
 import { lyingBox, lyingPicture } from './lying';
-import { valueAt } from './scale';
 
 interface LyingCprProps {
   readonly x: Axis;

@@ -2,17 +2,16 @@
 
 import type { Profile } from '../core/messages';
 import { cut } from '../edit/vessels';
-import { moveTo } from '../state/along';
+import { moveTo } from '../state/cross-hair';
 import { document_ } from '../state/history';
 import { placeTurn, togglePlaceTurn } from '../state/place-turn';
 import * as store from '../state/store';
 import { currentMarks, currentPlaces, currentVessel } from './current';
 import { confirm, remove } from './editing';
-import { meanings } from './flags';
 import type { Kind, VesselPlace } from './marks';
 import { COLORS } from './PlaceHandles';
 import { sectionNumbers } from './sections';
-import { area, doubtWords, mm, NOTHING, placeName, spread, withKnownUnits } from './words';
+import { area, doubtWords, meanings, mm, NOTHING, placeName, spread, withKnownUnits } from './words';
 
 /** Kinds of places listed here; `StretchPart` lists the stretches. */
 const LISTED: readonly Kind[] = ['place', 'reference', 'diameter'];

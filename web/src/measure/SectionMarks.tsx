@@ -6,9 +6,8 @@ import { pixelOn } from '../core/planes';
 import { pickedPlace } from '../state/store';
 import { engine } from '../worker/engine';
 import { currentProfile, currentVessel } from './current';
-import { meanings } from './flags';
 import { nearestSection, sectionNumbers } from './sections';
-import { area, doubtWords, mm, spread } from './words';
+import { area, doubtWords, meanings, mm, spread } from './words';
 
 /** Contour colours, as in the pictures of `lumencut measure`. */
 export const CONTOUR = { counts: '#00e5ff', leftOut: '#ff9f1a' } as const;

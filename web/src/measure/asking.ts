@@ -5,7 +5,7 @@ import { useRef } from 'preact/hooks';
 import { Failure } from '../core/failure';
 import { Latest } from '../core/latest';
 import type { LineId, Profile } from '../core/messages';
-import { moveTo } from '../state/along';
+import { moveTo } from '../state/cross-hair';
 import type { VesselMarks } from '../state/document';
 import { document_ } from '../state/history';
 import {

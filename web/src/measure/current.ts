@@ -7,8 +7,7 @@ import { document_ } from '../state/history';
 import { answers } from '../state/measuring';
 import { profiles } from '../state/profiles';
 import * as store from '../state/store';
-import { type ComparedPlaces, comparedIn, placesOf, type VesselPlace } from './marks';
-import { marksOf } from './vessels';
+import { type ComparedPlaces, comparedIn, marksOf, placesOf, type VesselPlace } from './marks';
 
 export interface CurrentVessel {
   readonly line: LineId;

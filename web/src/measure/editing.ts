@@ -1,6 +1,6 @@
 /** Edits of marked places. A drag is previewed and becomes one undo step. */
 import { batch, computed } from '@preact/signals';
-import { moveTo } from '../state/along';
+import { moveTo } from '../state/cross-hair';
 import { type Document, NO_MARKS, type VesselMarks } from '../state/document';
 import { change, document_, endPreview, preview } from '../state/history';
 import { answers, beginLengthAt, begunLength, dropLength, isCrossed, setCrossed } from '../state/measuring';
@@ -14,11 +14,11 @@ import {
   taken,
   type VesselPlace,
   withDiameter,
+  withMarks,
   withReference,
   withStretch,
 } from './marks';
 import { snapped } from './sections';
-import { withMarks } from './vessels';
 import { placeName } from './words';
 
 interface Drag {

@@ -6,7 +6,7 @@ import type { VesselMarks } from '../state/document';
 import { document_ } from '../state/history';
 import { hasMillimetres } from '../state/millimetres';
 import * as store from '../state/store';
-import { marksOf } from './vessels';
+import { marksOf } from './marks';
 
 export interface Finding {
   readonly vessel: number;

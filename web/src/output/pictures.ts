@@ -7,8 +7,7 @@ import { negate } from '../core/vectors';
 import { showMessage } from '../state/message';
 import * as store from '../state/store';
 import { engine } from '../worker/engine';
-import { sideOf } from './file-names';
-import { studyFileName } from './study-file-names';
+import { sideOf, studyFileName } from './file-names';
 
 export async function composed(labels: 'labels' | 'plain'): Promise<HTMLCanvasElement> {
   const shown = document.querySelector<HTMLCanvasElement>('[data-testid=turning] canvas.picture');

@@ -4,8 +4,8 @@ import { Failure } from '../core/failure';
 import { DEFAULTS } from '../core/generated/tables';
 import type { Camera } from '../core/messages';
 import * as store from '../state/store';
+import { studyFileName } from './file-names';
 import { composed, saveAs } from './pictures';
-import { studyFileName } from './study-file-names';
 
 const FRAMES = DEFAULTS['turntable.frames'];
 const PER_SECOND = 18;

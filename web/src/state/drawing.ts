@@ -1,10 +1,9 @@
 /** The vessel being drawn: its points so far, the points at the pointer, and the previews. */
 
 import { batch, computed, signal } from '@preact/signals';
-import type { Vector, WholeVessel } from '../core/messages';
-import { vesselOf } from './changes';
+import type { Edited, LineId, Told, Vector, WholeVessel } from '../core/messages';
+import { nextColor, vesselOf } from './changes';
 import { document_ } from './history';
-import { nextColor } from './palette';
 import { active, tool } from './tool';
 
 /** The first point of a vessel that has no second point yet. */
@@ -138,4 +137,19 @@ function forgetDrawing(): void {
   target.value = null;
   dragged.value = null;
   draggedStopper.value = null;
+}
+
+/** What the engine told about the vessel that was traced last. */
+const last = signal<{ readonly told: Told; readonly line: LineId | undefined } | null>(null);
+
+/** The summary of the last trace; null if nothing was traced or the vessel has changed since. */
+export const tracedSummary = computed<Told | null>(() => {
+  const of = last.value;
+  const vessel = vesselOf(document_.value, of?.told.vessel ?? null);
+  return of && vessel?.line === of.line ? of.told : null;
+});
+
+export function storeSummary({ told, document }: Edited): void {
+  const line = document.vessels.find((vessel) => vessel.id === told?.vessel)?.line;
+  last.value = told && { told, line };
 }

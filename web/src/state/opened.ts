@@ -1,6 +1,17 @@
-/** Replaces the state when a study is opened, closed, or shown as a session saved it. */
+/** Replaces the state when a study is opened, closed, or shown as a session saved it; opens rejected files again. */
+
 import { batch } from '@preact/signals';
-import type { Camera, Histogram, Method, Report, Settings, States, Vector, Window } from '../core/messages';
+import type {
+  Camera,
+  Histogram,
+  Method,
+  Report,
+  SeriesWish,
+  Settings,
+  States,
+  Vector,
+  Window,
+} from '../core/messages';
 import type { ScanStudy } from '../core/scan-study';
 import * as store from './store';
 
@@ -73,4 +84,18 @@ export function showView({ camera, method, settings, window, layout, crossHair }
       store.putCrossHair(crossHair);
     }
   });
+}
+
+type Open = (wish: SeriesWish) => Promise<void>;
+
+let last: { readonly open: Open; readonly wish: SeriesWish } = { open: async () => {}, wish: {} };
+
+export function openWith(wish: SeriesWish, open: Open): Promise<void> {
+  last = { open, wish };
+  return open(wish);
+}
+
+/** Opens the files again, with a choice that the user made. */
+export function openAgain(wish: SeriesWish): Promise<void> {
+  return openWith({ ...last.wish, ...wish }, last.open);
 }

@@ -4,7 +4,7 @@ import type { GivenFile, SeriesWish } from '../core/messages';
 import { addSegmentation } from '../edit/branches';
 import { isSegmentation } from '../edit/segmentation';
 import { document_, hasEdits, undo, undoWords } from '../state/history';
-import { openWith } from '../state/last-opened';
+import { openWith } from '../state/opened';
 import { askWhatIs } from '../state/questions';
 import * as store from '../state/store';
 import { engine } from '../worker/engine';

@@ -3,7 +3,15 @@
 import { batch, effect, untracked } from '@preact/signals';
 import type { Asked } from '../core/asked';
 import { CRASH, Failure } from '../core/failure';
-import type { Bytes, DocumentVessel, GivenFile, Method, SavedView } from '../core/messages';
+import type {
+  Bytes,
+  DocumentVessel,
+  GivenFile,
+  LineContent,
+  LineId,
+  Method,
+  SavedView,
+} from '../core/messages';
 import { shownVessels } from '../state/changes';
 import { recover } from '../state/device';
 import type { Document } from '../state/document';
@@ -14,7 +22,6 @@ import { giveFwhm, givenFwhm } from '../state/profiles';
 import { beginDocument, pickedId, tree } from '../state/shown';
 import * as store from '../state/store';
 import { EngineClient, engine } from '../worker/engine';
-import { handedOver } from './handing-over';
 import { cameraOf, contentOf, type DisplayState, documentOf } from './session-content';
 
 /** Bytes to read from the start of a file to find the session field, which precedes the curves. */
@@ -135,4 +142,17 @@ function look(view: SavedView): void {
     layout: view.layout,
     crossHair: view.cross_hair,
   });
+}
+
+/** The document with line numbers of the other engine. Vessels whose lines were not loaded are dropped. */
+export async function handedOver(
+  other: Asked,
+  document: Document,
+  contents: ReadonlyMap<LineId, LineContent>,
+): Promise<Document> {
+  const vessels = document.vessels.map(async (vessel) => {
+    const content = contents.get(vessel.line);
+    return content ? [{ ...vessel, line: await other.ask('add_line', content) }] : [];
+  });
+  return { ...document, vessels: (await Promise.all(vessels)).flat() };
 }

@@ -2,7 +2,7 @@
 
 import type { CenterlineKind } from '../core/messages';
 import { attempt } from '../output/by-key';
-import { hasCenterlines, saveCenterlines } from '../output/centerlines';
+import { hasCenterlines, saveCenterlines } from '../output/session';
 import { OpenMore } from './OpenButtons';
 
 const KINDS: readonly (readonly [CenterlineKind, string])[] = [

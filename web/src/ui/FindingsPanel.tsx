@@ -9,7 +9,7 @@ import { keyImage, keyPicture } from '../output/key-image';
 import { askForPacs } from '../output/pacs';
 import { saveReport } from '../output/report';
 import { showBestView, toggleLayout } from '../state/actions';
-import { moveTo } from '../state/along';
+import { moveTo } from '../state/cross-hair';
 import { findingSentences, leaveOut, leftOut } from '../state/measuring';
 import { profiles, stopped } from '../state/profiles';
 import * as store from '../state/store';

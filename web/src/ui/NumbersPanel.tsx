@@ -5,7 +5,7 @@ import { PlacesTable } from '../measure/PlacesTable';
 import { RulersPart } from '../measure/RulersPart';
 import { StretchPart } from '../measure/StretchPart';
 import { mm, unitless } from '../measure/words';
-import { moveTo } from '../state/along';
+import { moveTo } from '../state/cross-hair';
 import { giveFwhm } from '../state/profiles';
 import * as store from '../state/store';
 import { BestViewButton } from './BestViewButton';

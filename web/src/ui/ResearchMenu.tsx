@@ -3,8 +3,7 @@ import type { Method, SettingRow } from '../core/messages';
 import { VIEW_METHODS } from '../core/method-names';
 import { setSetting, settingOf } from '../state/actions';
 import { chooseMethod, method, resetSettings, started } from '../state/store';
-import { useClosing } from './closing-menu';
-import { keepWithin } from './within-window';
+import { keepWithin, useClosing } from './closing-menu';
 
 const CONTEXTS: readonly (readonly [string, string])[] = [
   ['mida', 'MIDA'],

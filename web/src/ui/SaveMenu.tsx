@@ -2,17 +2,15 @@
 import { currentProfile } from '../measure/current';
 import { listedFindings } from '../measure/findings';
 import { attempt } from '../output/by-key';
-import { hasCenterlines, saveCenterlines } from '../output/centerlines';
 import { askForPacs } from '../output/pacs';
 import { savePng } from '../output/pictures';
 import { saveReport } from '../output/report';
-import { saveSession } from '../output/session';
+import { hasCenterlines, saveCenterlines, saveSession } from '../output/session';
 import { saveNumbers } from '../output/tables';
 import { saveFilm, savePictures } from '../output/turntable';
 import { isKeeping, setKeeping } from '../state/questions';
-import { useClosing } from './closing-menu';
+import { keepWithin, useClosing } from './closing-menu';
 import { ScanNamed } from './ScanNamed';
-import { keepWithin } from './within-window';
 
 export function SaveMenu() {
   const isMeasured = currentProfile.value !== null;

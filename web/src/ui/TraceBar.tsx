@@ -1,17 +1,16 @@
 /** Bar over the views: offers to trace, tells what the next click does, or shows a doubtful branch. */
 import { useSignal } from '@preact/signals';
 import { findAndList } from '../edit/branches';
+import { STOPPER } from '../edit/clicks';
 import { answerDoubt, placeOfDoubt, stepDoubt } from '../edit/doubts';
 import { performAny } from '../edit/performing';
 import { acceptCandidate, endVessel, takeWhole } from '../edit/pointing';
-import { STOPPER } from '../edit/stoppers';
 import { nameOf, vesselOf } from '../state/changes';
-import { candidate, coming, drawn, isDrawing, only, whole } from '../state/drawing';
+import { candidate, coming, drawn, isDrawing, only, tracedSummary, whole } from '../state/drawing';
 import { editQueue } from '../state/edit-queue';
 import { document_ } from '../state/history';
 import { hasVolume, report } from '../state/store';
 import { chosenDoubt, isTracing, type Tool, takeTool, tool } from '../state/tool';
-import { tracedSummary } from '../state/traced-summary';
 import { OpenMore } from './OpenButtons';
 import { TracedSummary } from './TracedSummary';
 

@@ -3,10 +3,10 @@
 import { useSignal } from '@preact/signals';
 import type { Told } from '../core/messages';
 import { cut } from '../edit/vessels';
-import { moveTo } from '../state/along';
+import { moveTo } from '../state/cross-hair';
+import { tracedSummary } from '../state/drawing';
 import { tree } from '../state/shown';
 import { pickVessel } from '../state/store';
-import { tracedSummary } from '../state/traced-summary';
 
 export function TracedSummary() {
   return tracedSummary.value && <Summary key={tracedSummary.value.words} summary={tracedSummary.value} />;

@@ -1,9 +1,8 @@
 /** The vessel list, with buttons for all vessels. */
 
 import { findVessels } from '../edit/branches';
-import { setBridge } from '../edit/clicks';
+import { STOPPER, setBridge } from '../edit/clicks';
 import { performAny } from '../edit/performing';
-import { STOPPER } from '../edit/stoppers';
 import { isTreeShown, listedVessels } from '../edit/vessel-order';
 import { namesToOffer, remove } from '../edit/vessels';
 import { doubtful } from '../state/changes';

@@ -2,12 +2,12 @@
 
 import type { Stopper, Vector } from '../core/messages';
 import { add } from '../core/vectors';
-import { moveStopper, removeStopper } from '../edit/stoppers';
+import { moveStopper, removeStopper } from '../edit/clicks';
 import { Handle } from '../pane/Handle';
+import { lookAt } from '../state/cross-hair';
 import { draggedStopper, dragStopper } from '../state/drawing';
 import { document_ } from '../state/history';
 import { isTracing } from '../state/tool';
-import { lookAt } from './look-at';
 import type { Projection } from './projection';
 
 const COLOR = '#ff4d4d';

@@ -1,10 +1,10 @@
 /** Draws the vessels as curves over a view, and the preview of the traced path. */
 
 import type { DocumentVessel, Vector } from '../core/messages';
+import { DOUBTFUL } from '../state/changes';
 import { drawnColor, livePaths, whole } from '../state/drawing';
 import { document_ } from '../state/history';
 import { contents } from '../state/lines';
-import { DOUBTFUL } from '../state/palette';
 import { tree } from '../state/shown';
 import { pickedVessel } from '../state/store';
 import { highlighted, marked } from '../state/tidying';

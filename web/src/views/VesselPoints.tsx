@@ -6,12 +6,12 @@ import { moveClick, removeClick } from '../edit/clicks';
 import { setPoint } from '../edit/pointing';
 import { Handle } from '../pane/Handle';
 import { nameOf } from '../state/changes';
+import { lookAt } from '../state/cross-hair';
 import { dragClick, dragged, isDrawing } from '../state/drawing';
 import { document_ } from '../state/history';
 import { pickedId } from '../state/shown';
 import { active, extend, isTracing, tool } from '../state/tool';
 import { isNear } from './curves';
-import { lookAt } from './look-at';
 import type { Projection } from './projection';
 
 interface OverProps {
