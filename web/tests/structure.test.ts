@@ -44,7 +44,6 @@ function circle(graph: ReadonlyMap<string, readonly string[]>): string[] {
 
 const textOf = (name: string): string => readFileSync(join(SRC, name), 'utf8');
 
-/** Names of the signals that a text makes. */
 const signalsIn = (text: string): string[] =>
   [...text.matchAll(/^export const (\w+)\b[^=]*= signal\b/gm)].map((match) => match[1] ?? '');
 

@@ -181,7 +181,7 @@ export function removeLast(): void {
   }
 }
 
-/** Traces the whole vessel at one clicked point. Returns whether there was a point. If no vessel is found but a second point could help, the point stays. */
+/** Traces the whole vessel at one clicked point. Returns whether there was one. It stays if a second point could help. */
 export function takeWhole(): boolean {
   const click = only.value;
   if (click) {

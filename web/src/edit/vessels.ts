@@ -28,7 +28,6 @@ export const cut = (id: number, at: number): Promise<boolean> => isDone(commit({
 export const join = (id: number, other: number): Promise<boolean> =>
   isDone(commit({ kind: 'join', id, other }));
 
-/** Removes the vessels marked by "Clean up", as one undo step. */
 export async function removeMarked(): Promise<boolean> {
   const isRemoved = await remove([...marked.value]);
   if (isRemoved) {
@@ -37,7 +36,6 @@ export async function removeMarked(): Promise<boolean> {
   return isRemoved;
 }
 
-/** Removes all vessels that are not connected to the picked one. */
 export const keepPart = (): Promise<boolean> => remove(unconnected.value);
 
 /** Anatomical names offered when the user names a vessel. */

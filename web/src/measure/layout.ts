@@ -36,7 +36,6 @@ export function useMeasureLayout(size: Pair | null): MeasureLayout | null {
   return laid?.line === line ? laid.layout : null;
 }
 
-/** The pixel at a value of an axis. */
 export function pixelAt({ low, high, start, end }: Axis, value: number): number {
   return start + ((value - low) / (high - low)) * (end - start);
 }

@@ -23,7 +23,6 @@ export function placeCrossHair(pick: Pick, from: ViewName): void {
   });
 }
 
-/** Moves the cross-hair in all views. */
 export async function lookAt(point: Vector): Promise<void> {
   try {
     placeCrossHair(await engine.ask('at', point), 'turning');
@@ -34,7 +33,6 @@ export async function lookAt(point: Vector): Promise<void> {
 
 const latest = new Latest();
 
-/** Moves the section along the picked vessel, in all views. */
 export function moveTo(place: number): void {
   const vessel = pickedVessel.value;
   const length = vessel === null ? 0 : (report.value?.vessels?.[vessel]?.length ?? 0);

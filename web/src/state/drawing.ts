@@ -61,12 +61,10 @@ export const whole = signal<WholeVessel | null>(null);
 /** A first point whose check has already returned the whole vessel. */
 export const checked = signal<Vector | null>(null);
 
-/** Sets the first point of a vessel, or takes it back. */
 export function setFirst(point: Vector | null): void {
   first.value = point;
 }
 
-/** Sets a first point that the engine will check; the check returns the preview of the whole vessel. */
 export function setCheckedFirst(point: Vector): void {
   batch(() => {
     checked.value = point;
@@ -74,7 +72,6 @@ export function setCheckedFirst(point: Vector): void {
   });
 }
 
-/** Proposes a point that the user must confirm, or takes it back. */
 export function propose(point: Vector | null): void {
   candidate.value = point;
 }
@@ -83,7 +80,6 @@ export function aimAt(point: Vector | null): void {
   target.value = point;
 }
 
-/** Adds a clicked point that is being traced. The result ends this. */
 export function addComing(point: Vector): () => void {
   const own = { point, drawing: drawing.value };
   coming.value = [...coming.value, own];
@@ -104,7 +100,6 @@ export function showPaths(paths: readonly LivePath[]): void {
   livePaths.value = paths;
 }
 
-/** Shows the preview of the whole vessel at a point, if it is still the only one. */
 export function showWhole(found: WholeVessel | null, at: Vector): void {
   whole.value = only.value === at ? found : whole.value;
 }
@@ -114,7 +109,6 @@ export function forgetWhole(): void {
   whole.value = null;
 }
 
-/** The vessel begun with the first point is in the document; the next points extend it. */
 export function extendBegun(id: number): void {
   batch(() => {
     active.value = id;
@@ -122,7 +116,6 @@ export function extendBegun(id: number): void {
   });
 }
 
-/** Ends the vessel; results for it that arrive later do not change the next one. */
 export function endDrawing(): void {
   batch(() => {
     drawing.value += 1;

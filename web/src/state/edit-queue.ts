@@ -29,7 +29,6 @@ export interface EditState {
   /** `stopping`: the running edit was dropped, and the next one waits until the engine has ended it. */
   readonly phase: 'idle' | 'waiting' | 'running' | 'stopping';
   readonly running: EditKind | null;
-  /** The edits behind the running one, in their order. */
   readonly queued: readonly EditKind[];
   /** Whether the running search takes so long that the page asks the user. */
   readonly isLong: boolean;
@@ -112,7 +111,6 @@ export class EditQueue {
     }
   }
 
-  /** The user lets a long search go on. */
   goOnSearching(): void {
     this.setLong(this.running, false);
   }
@@ -194,7 +192,6 @@ export class EditQueue {
   }
 }
 
-/** The queue of the page. */
 export const editQueue = new EditQueue();
 
 export const isGap = (failure: Failure): boolean => failure.isMendedBy('bridge');

@@ -52,7 +52,6 @@ export const NO_ANSWERS: Answers = {
   angle: null,
 };
 
-/** Answers about the picked vessel. */
 export const answers = signal<Answers>(NO_ANSWERS);
 
 export function takeAnswers(found: Answers): void {

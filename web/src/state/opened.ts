@@ -58,7 +58,6 @@ export function forgetOpened(): void {
   });
 }
 
-/** How a session shows its scan. */
 export interface ShownView {
   readonly camera: Camera;
   readonly method: Method;
@@ -95,7 +94,6 @@ export function openWith(wish: SeriesWish, open: Open): Promise<void> {
   return open(wish);
 }
 
-/** Opens the files again, with a choice that the user made. */
 export function openAgain(wish: SeriesWish): Promise<void> {
   return openWith({ ...last.wish, ...wish }, last.open);
 }

@@ -42,7 +42,6 @@ export function moveDivider(place: Signal<number>, to: number): void {
   place.value = Math.min(Math.max(to, MIN_SHARE), 1 - MIN_SHARE);
 }
 
-/** Shows one view alone, or again all views of the layout. */
 export function toggleMaximised(name: ViewName): void {
   maximised.value = maximised.value === name ? null : name;
 }

@@ -31,7 +31,6 @@ export interface ChosenFile {
   readonly refusal: string | null;
 }
 
-/** Whether the page asks for the study of the objects for a PACS. */
 export const isPacsAsked = signal(false);
 
 export const chosenFile = signal<ChosenFile | null>(null);
@@ -44,14 +43,12 @@ export function chooseFile(file: ChosenFile | null): void {
   chosenFile.value = file;
 }
 
-/** Whether reports contain the name of the scan. */
 export const isScanNamed = signal(false);
 
 export function setScanNamed(isNamed: boolean): void {
   isScanNamed.value = isNamed;
 }
 
-/** Whether the session is kept while the tab is reloaded. */
 export const isKeeping = signal(false);
 
 export function setKeeping(isOn: boolean): void {

@@ -24,7 +24,6 @@ const linesOf = (vessels: readonly DocumentVessel[]): string =>
 
 export const toPick = signal<number | null>(null);
 
-/** Picks a vessel that is not displayed yet; without an id, nothing changes. */
 export function pickWhenShown(id: number | undefined): void {
   toPick.value = id ?? toPick.value;
 }

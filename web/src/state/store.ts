@@ -111,7 +111,6 @@ export function moved(own: Window, from: Window, to: Window): Window {
   return [to[0] + (own[0] - from[0]) * factor, own[1] * factor];
 }
 
-/** Shows why something failed. */
 export function showProblem(error: unknown): void {
   problem.value = Failure.of(error);
 }
@@ -130,7 +129,6 @@ export function setNotes(all: readonly string[]): void {
   notes.value = all;
 }
 
-/** Adds notes about the scan; each is shown once. */
 export function addNotes(more: readonly string[]): void {
   notes.value = [...new Set([...notes.value, ...more])];
 }
@@ -139,7 +137,6 @@ export function setCamera(to: Camera): void {
   camera.value = to;
 }
 
-/** The camera of a displayed picture in full quality; null while the view moves. */
 export function setCompleteCamera(of: Camera | null): void {
   completeCamera.value = of;
 }
@@ -164,7 +161,6 @@ export function closeHelp(): void {
   isHelpOpen.value = false;
 }
 
-/** Picks a vessel, and a place on it (mm). */
 export function pickVessel(vessel: number, at = pickedPlace.value): void {
   batch(() => {
     pickedVessel.value = vessel;
@@ -172,7 +168,6 @@ export function pickVessel(vessel: number, at = pickedPlace.value): void {
   });
 }
 
-/** Moves the cross-hair to a point about which nothing else is known yet. */
 export function putCrossHair(point: Vector): void {
   crossHair.value = { point, value: null, vessel: null, arcLength: null };
 }

@@ -36,7 +36,6 @@ export function chooseTree(isTree: boolean): void {
   treeChosen.value = isTree;
 }
 
-/** Highlights a vessel in all views while the pointer is on it in the list. */
 export function highlight(id: number): void {
   highlighted.value = id;
 }

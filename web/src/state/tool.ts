@@ -8,7 +8,6 @@ export const tool = signal<Tool>('look');
 /** Id of the vessel being extended; null if the next point begins one. */
 export const active = signal<number | null>(null);
 
-/** The doubtful vessel that the user reviews. */
 export const chosenDoubt = signal<number | null>(null);
 
 const TRACING: readonly Tool[] = ['trace', 'stopper', 'seed'];

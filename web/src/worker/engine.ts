@@ -133,7 +133,6 @@ async function typed<T>(answer: Promise<T>): Promise<T> {
   }
 }
 
-/** What the page can ask of the worker. */
 export type Engine = Pick<EngineClient, keyof EngineClient>;
 
 /** The engine of the page. It is not passed as a parameter, except where there are two. */
