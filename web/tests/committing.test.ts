@@ -63,6 +63,18 @@ test('progress reported after the end of an edit is not shown', async () => {
   expect(progress.value).toBeNull();
 });
 
+test('the progress of an edit that was dropped goes with the edit', async () => {
+  const { slow, done } = await begun();
+  slow.onProgress(FINDING);
+  await vi.advanceTimersByTimeAsync(1000);
+  editQueue.drop();
+  slow.onProgress({ ...FINDING, done: 5 });
+  expect(progress.value).toEqual(FINDING);
+  slow.end();
+  await done;
+  expect(progress.value).toBeNull();
+});
+
 test('a quick edit shows no progress', async () => {
   const { slow, done } = await begun();
   slow.onProgress(FINDING);

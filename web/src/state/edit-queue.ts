@@ -208,9 +208,11 @@ function record({ words, after, answer, also }: Step<unknown>): void {
 /** Shows the progress of an edit after a delay, even if no progress was reported. */
 function progressOf(entry: Entry): { onProgress: (progress: Progress) => void; end: () => void } {
   let newest: Progress | null = null;
+  let shown: Progress | null = null;
   let isDue = false;
   const show = () => {
     if (!entry.isDropped && isDue && newest) {
+      shown = newest;
       progress.value = newest;
     }
   };
@@ -226,7 +228,7 @@ function progressOf(entry: Entry): { onProgress: (progress: Progress) => void; e
   const end = () => {
     clearTimeout(timer);
     isDue = false;
-    progress.value = progress.peek() === newest ? null : progress.peek();
+    progress.value = progress.peek() === shown ? null : progress.peek();
   };
   return { onProgress, end };
 }
