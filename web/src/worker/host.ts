@@ -4,7 +4,7 @@ import type { Attachments, Message, OnProgress, Question } from '../core/asked';
 import { CRASH, Failure } from '../core/failure';
 import type { PlaceDoubt } from '../core/generated/questions';
 import type { Drawn, GivenFile, Picture, Report, SeriesWish, Started, View } from '../core/messages';
-import { Engine, loadJudge, loadModule, loadVolumes, memorySize } from '../core/module';
+import { Engine, loadJudge, loadModule, loadPackedVolumes, loadVolumes, memorySize } from '../core/module';
 import { ALL_OF_IT } from '../io/dicom/wanted';
 import { EverySecond } from '../io/every-second';
 import { among, BlobSource } from '../io/source';
@@ -150,7 +150,7 @@ export class EngineHost {
       const study = wish.every_second ? new EverySecond(replacing) : replacing;
       try {
         const steps = new Steps(onProgress, signal);
-        const loaded = await work({ study, loadJudge, loadVolumes, kindOf, steps });
+        const loaded = await work({ study, loadJudge, loadVolumes, loadPackedVolumes, kindOf, steps });
         const report = this.report();
         const ofVolume = replacing.hasBegun ? report.volume?.doubt : null;
         const every = [...loaded.notes, ofVolume, wish.every_second ? COARSER : null];

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use lumencut_core::named::Named;
-use lumencut_vessels::measure::groups::Territory;
 use lumencut_vessels::measure::stenosis::Method;
+use lumencut_vessels::measure::stenosis::groups::Territory;
 use ts_rs::{Config, TS, TypeVisitor};
 
 use super::generated::require_current;
