@@ -49,6 +49,8 @@ BUDGETS = {
     "docs/limits.md": 800,
     "docs/comparison.md": 600,
     "docs/glossary.md": 1200,
+    **{f"docs/api/{name}.md": 80 for name in ("cohorts", "errors", "measuring", "pictures", "reformations")},
+    **{f"docs/api/{name}.md": 80 for name in ("scenes", "tracing")},
     "docs/method/cut-surface.md": 2090,
     "docs/method/surroundings.md": 2180,
     "docs/method/reformations.md": 2400,
