@@ -10,11 +10,11 @@ from lumencut.base.checks import integers, number
 from lumencut.errors import CameraError, SettingsError, VesselTreeError, VolumeError
 from lumencut.evaluation.amounts import Amounts, Columns, pooled
 from lumencut.evaluation.centerline import Centerline, Stations, centerline_of, width_stations
-from lumencut.evaluation.engine import shown_by
 from lumencut.evaluation.measures import MEASURES, columns_of, criteria_of
 from lumencut.evaluation.methods import METHODS, USUAL, Method, checked_methods
 from lumencut.evaluation.own_pictures import COUNTED, nothing_shown, own_amounts
 from lumencut.evaluation.result import Evaluation, Row
+from lumencut.evaluation.shown import shown_by
 from lumencut.evaluation.truth import Truth, truth_of
 from lumencut.evaluation.views import cameras
 from lumencut.pictures.renderer import Renderer
