@@ -16,9 +16,13 @@ DEMO_PROFILE = $(or $(patsubst $(VENV)/.lumencut-%,%,$(firstword $(wildcard $(VE
 RUST_SOURCES := Cargo.toml Cargo.lock pyproject.toml $(wildcard crates/*/Cargo.toml) \
 	$(wildcard crates/*/build.rs) $(shell find crates/*/src)
 
+# The seeds of each fuzz target, and the number of inputs of each.
+FUZZED := $(wildcard crates/*/fuzz/seeds/*)
+RUNS := 20000
+
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo docs page site test test-long lint format settings results types fuzz bench bench-gpu bench-dicom calibration compare-dicom wheel licences lock clean develop tools toolchain
+.PHONY: $(FUZZED) help demo docs page site test test-long lint format settings results types fuzz bench bench-gpu bench-dicom calibration compare-dicom wheel licences lock clean develop tools toolchain
 
 help: ## List the commands.
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 22
@@ -69,8 +73,18 @@ types: toolchain ## Write the files that repeat tables of the facade: types and 
 	LUMENCUT_WRITE_TYPES=1 cargo test --quiet --profile checks --package lumencut --lib of_the_page
 	@test ! -d web/node_modules || npm run notebook --silent --prefix web
 
-fuzz: toolchain ## Fuzz the readers of centerlines and volumes; RUNS=1000000 sets the number of inputs.
-	@$(PYTHON) scripts/fuzz.py $(if $(RUNS),--runs $(RUNS))
+fuzz: $(FUZZED) ## Fuzz the readers of centerlines and volumes; RUNS=100000 sets the number of inputs of each format.
+
+# The targets limit memory and time themselves; these limits end a process that hangs on a busy machine.
+$(FUZZED): %: | target/fuzz/found
+	@mkdir -p target/fuzz/corpus/$(@F)
+	@cargo run --quiet --locked --release --config crates/fuzz.toml --manifest-path $(word 1,$(subst /seeds, ,$@))/Cargo.toml \
+		--bin $(@F) -- -runs=$(RUNS) -timeout=60 -rss_limit_mb=1024 -max_len=65536 -verbosity=0 -print_final_stats=1 \
+		-artifact_prefix=target/fuzz/found/$(@F)- $(addprefix -dict=,$(wildcard $(subst seeds,dictionaries,$@).dict)) \
+		target/fuzz/corpus/$(@F) $@
+
+target/fuzz/found:
+	@mkdir -p $@
 
 bench: develop tools ## Measure this machine and VTK; prints tables, keeps nothing.
 	cargo bench --locked --package lumencut-core --bench '*'

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut import Flag, Vessel, Volume, cross_section, measure
-from lumencut.profile import Profile
+from lumencut.measuring.profile import Profile
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "tests"))
 

@@ -110,7 +110,7 @@ def decoder_alone(folder: Path, plugin: str, count: int) -> None:
 
 def seconds(work: Callable[[], object]) -> float:
     """Seconds that `work` takes, without imports."""
-    import lumencut.volume_files.dicom.pixels  # noqa: F401
+    import lumencut.dicom.reading.pixels  # noqa: F401
 
     pydicom.pixels.get_decoder(ExplicitVRLittleEndian)
     start = time.perf_counter()

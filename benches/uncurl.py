@@ -13,8 +13,8 @@ from collections.abc import Callable
 from typing import Any
 
 from lumencut import Camera, Renderer, VesselTree, cfa, demo, set_threads
-from lumencut.tangential import tangential_of
-from lumencut.uncurling import fitted_uncurling, uncurl_of
+from lumencut.reformations.tangential import tangential_of
+from lumencut.reformations.uncurling import fitted_uncurling, uncurl_of
 
 SIZE = (512, 1024)
 THREADS = 2

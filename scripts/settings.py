@@ -11,7 +11,7 @@ import textwrap
 from pathlib import Path
 
 from lumencut._lumencut import QUANTITIES, SETTINGS, Setting
-from lumencut.window import WINDOW_NAMES
+from lumencut.scene.window import WINDOW_NAMES
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -25,12 +25,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
-from lumencut._checked_settings import CheckedSettings
-from lumencut._pickles import by_name
-from lumencut.focus import Focus
-from lumencut.slab import Slab
-from lumencut.transfer import TransferFunction
-from lumencut.window import Opacity, Window
+from lumencut.base.pickles import by_name
+from lumencut.scene.checked_settings import CheckedSettings
+from lumencut.scene.focus import Focus
+from lumencut.scene.slab import Slab
+from lumencut.scene.transfer import TransferFunction
+from lumencut.scene.window import Opacity, Window
 
 '''
 CLASS = '''
@@ -245,7 +245,7 @@ def files() -> dict[Path, str]:
     """Each file that repeats a table, and what it has to hold."""
     python = ROOT / "docs/python.md"
     return {
-        ROOT / "python/lumencut/settings.py": class_file(),
+        ROOT / "python/lumencut/scene/settings.py": class_file(),
         ROOT / "docs/settings.md": page(),
         python: with_defaults(python.read_text("utf-8")),
     }

@@ -16,9 +16,9 @@ from typing import Any
 from dicom_series import Case
 from lumencut import FormatError, read_volume
 from lumencut._lumencut import judge_dicom
-from lumencut.volume_files.dicom import Wanted
-from lumencut.volume_files.dicom.files import read_files
-from lumencut.volume_files.dicom.judging import headers_document, wanted_document
+from lumencut.dicom.reading import Wanted
+from lumencut.dicom.reading.files import read_files
+from lumencut.dicom.reading.judging import headers_document, wanted_document
 
 
 def document(case: Case, path: Path) -> dict[str, Any]:

@@ -22,11 +22,11 @@ from dicom_phantom import CENTER, save, single
 from dicom_series import PLAIN_STACK
 from lumencut import Vessel, VesselTree, read_volume, write_centerlines
 from lumencut.cli import main
-from lumencut.dicomweb.address import Address
-from lumencut.dicomweb.client import Client
-from lumencut.dicomweb.pulling import pull_instances
-from lumencut.dicomweb.queries import find_instances, find_series
-from lumencut.pacs_zip.archive import pacs_zip
+from lumencut.dicom.web.address import Address
+from lumencut.dicom.web.client import Client
+from lumencut.dicom.web.pulling import pull_instances
+from lumencut.dicom.web.queries import find_instances, find_series
+from lumencut.viewer.pacs_zip.archive import pacs_zip
 from pacs_requests import dropped, encoded, header, members
 from pacs_requests import sent as sent_as
 

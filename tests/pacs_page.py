@@ -19,10 +19,10 @@ from dicom_judges import faults
 from dicom_phantom import instance, save
 from dicom_scenes import LINE, scan, series
 from lumencut import Vessel, VesselTree, Volume, write_centerlines
+from lumencut.files.volumes import open_volume
 from lumencut.viewer.arriving import ArrivingScene
 from lumencut.viewer.page import Page
 from lumencut.viewer.server import ViewerServer
-from lumencut.volume_files import open_volume
 from pacs_requests import NAME, members
 from segmentation_files import segmentation
 from test_dicom_reports import child, code, groups, numbers

@@ -14,9 +14,9 @@ from typing import Any
 import lumencut
 from dicom_scenes import LINE, scan, series
 from lumencut import Camera, Renderer, Vessel, VesselTree, _lumencut
-from lumencut.frame import picture_as_png
-from lumencut.measure_report import report
-from lumencut.measured_vessel import Marked, MeasuredVessel
+from lumencut.measuring.measured_vessel import Marked, MeasuredVessel
+from lumencut.pictures.frame import picture_as_png
+from lumencut.reports.measure_report import report
 
 NAME = "left renal artery"
 MARKED = Marked(12.0, (24.0,))

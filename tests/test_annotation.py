@@ -26,7 +26,7 @@ from lumencut import (
     Window,
     phantom,
 )
-from lumencut.orientation import edges
+from lumencut.scene.orientation import edges
 
 WAYS = {
     "L": (1, 0, 0), "R": (-1, 0, 0), "P": (0, 1, 0), "A": (0, -1, 0), "S": (0, 0, 1), "I": (0, 0, -1),

@@ -9,9 +9,9 @@ import pytest
 
 from conftest import SHARED_DATA, needs_shared_data
 from lumencut import _lumencut
-from lumencut.centerlines import inspect_centerlines, read_centerlines
 from lumencut.errors import FileError, FormatError, SettingsError
-from lumencut.vessel_tree import VesselTree
+from lumencut.files.centerlines import inspect_centerlines, read_centerlines
+from lumencut.scene.vessel_tree import VesselTree
 
 VARIANTS = sorted((SHARED_DATA / "formats" / "vtp_variants").glob("*.vt[pk]"))
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from lumencut import _lumencut
-from lumencut.centerlines import inspect_centerlines, read_centerlines
+from lumencut.files.centerlines import inspect_centerlines, read_centerlines
 
 vtk = pytest.importorskip("vtk", reason="the vtk package writes the files of these tests")
 numpy_support = pytest.importorskip("vtk.util.numpy_support")

@@ -8,12 +8,12 @@ import pytest
 
 from conftest import needs_shared_data
 from lumencut import Renderer, render
-from lumencut.centerlines import inspect_centerlines, read_centerlines
 from lumencut.errors import FormatError, SettingsError, SpaceWarning
-from lumencut.placement import check_space
-from lumencut.vessel import Vessel
-from lumencut.vessel_tree import VesselTree
-from lumencut.volume import Volume
+from lumencut.files.centerlines import inspect_centerlines, read_centerlines
+from lumencut.scene.placement import check_space
+from lumencut.scene.vessel import Vessel
+from lumencut.scene.vessel_tree import VesselTree
+from lumencut.scene.volume import Volume
 
 POINTS = np.array([[10.0, 20.0, 0.0], [11.0, 21.0, 5.0], [12.0, 22.0, 9.0]])
 FLIP = [-1.0, -1.0, 1.0]

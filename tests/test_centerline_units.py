@@ -10,17 +10,17 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from lumencut.centerlines import inspect_centerlines, read_centerlines
+from lumencut.base.mends import as_option
 from lumencut.cli import main
 from lumencut.errors import FormatError, SpaceWarning
-from lumencut.mends import as_option
-from lumencut.placement import MILLIMETRES
-from lumencut.renderer import Renderer
-from lumencut.vessel import Vessel
-from lumencut.vessel_tree import VesselTree
-from lumencut.volume import Volume
-from lumencut.volume_files import inspect_volume, read_volume
-from lumencut.volume_files.memory import as_volume
+from lumencut.files.centerlines import inspect_centerlines, read_centerlines
+from lumencut.files.volumes import inspect_volume, read_volume
+from lumencut.pictures.renderer import Renderer
+from lumencut.scene.images import as_volume
+from lumencut.scene.placement import MILLIMETRES
+from lumencut.scene.vessel import Vessel
+from lumencut.scene.vessel_tree import VesselTree
+from lumencut.scene.volume import Volume
 
 SIGNS = {"lps": np.ones(3), "ras": np.array([-1.0, -1.0, 1.0])}
 

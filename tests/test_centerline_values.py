@@ -10,10 +10,10 @@ from click.testing import CliRunner
 
 from conftest import needs_shared_data
 from lumencut import FormatError, Renderer, SpaceWarning, Vessel, VesselTree, Volume, phantom
-from lumencut.centerlines import inspect_centerlines, read_centerlines
 from lumencut.cli import main
-from lumencut.placement import check_space
-from lumencut.volume_files import read_volume
+from lumencut.files.centerlines import inspect_centerlines, read_centerlines
+from lumencut.files.volumes import read_volume
+from lumencut.scene.placement import check_space
 
 FLIP = np.array([-1.0, -1.0, 1.0])
 

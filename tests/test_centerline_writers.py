@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 import lumencut
 from conftest import odd_lines
 from lumencut import FileError, FormatError, Vessel, VesselTree, VesselTreeError, write_centerlines
-from lumencut.centerlines import inspect_centerlines
+from lumencut.files.centerlines import inspect_centerlines
 
 pytestmark = odd_lines
 

@@ -13,8 +13,8 @@ from cpr_scenes import grid, noise, vessel, wave
 from lumencut import Settings, Slab, Volume, Window, cfa, cpr
 from lumencut.cli import main
 from lumencut.errors import SettingsError
-from lumencut.feature_aggregation import FEATURES
-from lumencut.reformation_recipe import read_reformation_recipe
+from lumencut.pictures.reformation_recipe import read_reformation_recipe
+from lumencut.reformations.feature_aggregation import FEATURES
 from scene_files import bent_line, write_lines, write_volume
 
 LINE = vessel([[0, 0, 20], [0, 0, -20]])

@@ -319,8 +319,9 @@ def test_the_process_leaves_with_1_and_one_line(tmp_path):
 
 def test_ctrl_c_leaves_with_130_without_a_traceback(tmp_path):
     code = """if True:
-        import sys, time, lumencut.centerline_file
-        lumencut.centerline_file.CenterlineFile = lambda *_: print("reading", flush=True) or time.sleep(60)
+        import sys, time
+        from lumencut.files import centerline_file
+        centerline_file.CenterlineFile = lambda *_: print("reading", flush=True) or time.sleep(60)
         from lumencut.cli import main
         main(["render", "ct.nii", "lines.vtk", "-o", sys.argv[1]])
     """

@@ -13,7 +13,7 @@ from pydicom.valuerep import PersonName
 from dicom_phantom import axial, images, save, single
 from lumencut import Camera, Renderer, Settings, Window, read_centerlines, read_volume
 from lumencut.cli import main
-from lumencut.recipe import read_recipe
+from lumencut.pictures.recipe import read_recipe
 from scene_files import write_lines, write_volume
 
 

@@ -11,10 +11,10 @@ from click.testing import CliRunner
 from PIL import Image
 
 from lumencut import Camera, Renderer, Settings, Vessel, VesselTree, read_centerlines, read_volume
-from lumencut.centerline_writers import write_centerlines
 from lumencut.cli import main
-from lumencut.picture_text import KEYWORD
-from lumencut.recipe import read_recipe
+from lumencut.files.centerline_writers import write_centerlines
+from lumencut.pictures.picture_text import KEYWORD
+from lumencut.pictures.recipe import read_recipe
 from scene_files import bent_line, write_volume
 
 SIZE = ("--size", "240x220")

@@ -12,8 +12,8 @@ from PIL import Image
 
 from lumencut import Vessel, VesselTree, measure, phantom, read_centerlines, read_volume, write_centerlines
 from lumencut.cli import main
-from lumencut.measured_vessel import GROUPS
-from lumencut.stenosis import METHODS
+from lumencut.measuring.measured_vessel import GROUPS
+from lumencut.measuring.stenosis import METHODS
 from report_reading import Page
 from scene_files import write_volume_of
 

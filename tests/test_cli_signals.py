@@ -13,7 +13,7 @@ from functools import partial
 
 import pytest
 
-from lumencut._files import write_text
+from lumencut.base.paths import write_text
 from scene_files import write_lines, write_volume
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="these signals are those of POSIX")

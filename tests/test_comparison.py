@@ -8,7 +8,7 @@ from PIL import Image
 from device_scenes import scene
 from lumencut import Camera, Frame, Renderer, Settings, cr, mpcpr
 from lumencut.cli import main
-from lumencut.comparison import Panel, marks, panels, share_beyond, side_by_side
+from lumencut.evaluation.methods_side_by_side import Panel, marks, panels, share_beyond, side_by_side
 from scene_files import write_lines, write_volume
 
 CAMERA = Camera((0, 0, 0), (0, 1, 0), (0, 0, 1), (240, 200), 1.0)

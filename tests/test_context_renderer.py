@@ -26,7 +26,7 @@ from lumencut import (
     phantom,
     render,
 )
-from lumencut.turntables import fitted_turn, turntable
+from lumencut.pictures.turntables import fitted_turn, turntable
 
 SIZE = (50, 40)
 WINDOW = Window(350, 900)

@@ -21,7 +21,7 @@ from lumencut import (
     phantom,
     render,
 )
-from lumencut.camera import Camera
+from lumencut.scene.camera import Camera
 
 POINTS = [(-50, (0, 0, 0), 0), (100.5, (255, 128, 0), 0.25), (100.5, (255, 255, 255), 1)]
 NUMBERS = [None, "1", [1], 1j, np.nan, np.inf, -np.inf]

@@ -5,8 +5,8 @@ import json
 import numpy as np
 import pytest
 
-from lumencut.centerlines import inspect_centerlines, read_centerlines
 from lumencut.errors import FormatError
+from lumencut.files.centerlines import inspect_centerlines, read_centerlines
 
 HEAD = "label,r,a,s,defined,selected,visible,locked,description"
 POINTS = np.array([[30 + 6 * np.sin(t / 12), -40 + 5 * np.cos(t / 15), 100.0 + t] for t in range(0, 40, 2)])

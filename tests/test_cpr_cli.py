@@ -12,7 +12,7 @@ from PIL import Image
 import lumencut
 from lumencut import cpr, read_centerlines, read_volume
 from lumencut.cli import main
-from lumencut.planar_reformation import ALL_MODES
+from lumencut.reformations.planar_reformation import ALL_MODES
 from scene_files import bent_line, write_lines, write_volume
 
 

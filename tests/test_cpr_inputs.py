@@ -195,7 +195,7 @@ def test_labels(volume):
 
 
 def test_contact_sheets():
-    from lumencut.contact_sheet import contact_sheet
+    from lumencut.pictures.contact_sheet import contact_sheet
 
     random = np.random.default_rng(2)
     pictures = [

@@ -12,8 +12,8 @@ from PIL import Image
 from lumencut import Vessel, VesselTree, Volume, cpr, write_centerlines
 from lumencut.cli import main
 from lumencut.errors import CameraError, MeasuringError
-from lumencut.reformation_recipe import read_reformation_recipe
-from lumencut.volume_writers import write_volume
+from lumencut.files.volume_writers import write_volume
+from lumencut.pictures.reformation_recipe import read_reformation_recipe
 
 LINE = Vessel([[0, 0, 25], [0, 0, -25]], radius=4.0)
 

@@ -18,7 +18,7 @@ import reference_images
 import reference_surface
 from conftest import needs_shared_data, odd_lines
 from lumencut import Camera, Renderer, Settings, Vessel, VesselTree, Volume, phantom, read_centerlines
-from lumencut._checked_settings import checked
+from lumencut.scene.checked_settings import checked
 from scenes import lattice, nearly_along_y, of_few_points, wandering
 
 TOLERANCE = 1e-3

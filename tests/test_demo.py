@@ -24,7 +24,7 @@ from lumencut import (
     trace,
 )
 from lumencut.cli import main
-from lumencut.recipe import read_recipe
+from lumencut.pictures.recipe import read_recipe
 
 POINTS = demo.STENT_POINTS
 PICTURES = [

@@ -307,7 +307,7 @@ def test_a_missing_gpu_is_one_line_and_exit_code_1(tmp_path, monkeypatch):
     def missing(*_):
         raise DeviceError("device", "no GPU", "a GPU", "compute with the device 'cpu'")
 
-    monkeypatch.setattr("lumencut.renderer._lumencut.Renderer", missing)
+    monkeypatch.setattr("lumencut.pictures.renderer._lumencut.Renderer", missing)
     files = [str(write_volume(tmp_path / "ct.nii.gz")), str(write_lines(tmp_path / "lines.vtk"))]
     result = CliRunner().invoke(main, ["render", *files, "-o", str(tmp_path / "out.png"), "--device", "gpu"])
     assert result.exit_code == 1

@@ -10,7 +10,7 @@ from pydicom.uid import ExplicitVRLittleEndian
 
 from dicom_codecs import gdcm_does
 from lumencut.errors import FormatError
-from lumencut.volume_files import inspect_volume, read_volume
+from lumencut.files.volumes import inspect_volume, read_volume
 from volume_samples import DATA, SIZE, assert_maps, coded, oblique, save, slice_of, write_stack
 
 AXIAL = np.diag([0.5, 0.75, 2.0, 1.0])

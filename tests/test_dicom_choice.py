@@ -11,7 +11,7 @@ from click.testing import CliRunner
 from lumencut import list_series, read_volume
 from lumencut.cli import main
 from lumencut.errors import FileError, FormatError, SeriesError
-from lumencut.volume_files import inspect_volume
+from lumencut.files.volumes import inspect_volume
 from test_dicom import AXIAL
 from volume_samples import SIZE, assert_maps, coded, save, slice_of, write_stack
 

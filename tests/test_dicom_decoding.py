@@ -17,9 +17,9 @@ import lumencut
 from dicom_codecs import gdcm_does, pydicom_does
 from dicom_phantom import axial, images
 from dicom_series import PLAIN_STACK, Stack
+from lumencut.base.foreign_errors import refusing
 from lumencut.errors import FormatError
-from lumencut.volume_files import read_volume
-from lumencut.volume_files.opened import refusing
+from lumencut.files.volumes import read_volume
 
 jpeg = gdcm_does("JPEGLosslessProcess14_1")
 

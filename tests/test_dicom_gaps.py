@@ -11,7 +11,7 @@ from click.testing import CliRunner
 from lumencut import read_volume
 from lumencut.cli import main
 from lumencut.errors import FormatError
-from lumencut.volume_files import inspect_volume
+from lumencut.files.volumes import inspect_volume
 from test_dicom import AXIAL, shift, tilted
 from volume_samples import coded, write_stack
 

@@ -17,7 +17,7 @@ from dicom_phantom import save
 from dicom_series import PLAIN_STACK, Stack, sets
 from lumencut.cli import main
 from lumencut.errors import FormatError, SeriesError
-from lumencut.volume_files import inspect_volume, list_series, read_volume
+from lumencut.files.volumes import inspect_volume, list_series, read_volume
 
 NAME = "DOE^JOHN"
 STACK = Stack(PLAIN_STACK)

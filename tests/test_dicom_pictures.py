@@ -15,7 +15,7 @@ import lumencut
 from dicom_judges import faults, seen_by_dcmtk
 from dicom_scenes import LINE, SETTINGS, scan, series, stated, write_series
 from lumencut import Camera, FormatError, Settings, SettingsError, Volume
-from lumencut.dicom_objects.picture import on_black
+from lumencut.dicom.writing.picture import on_black
 
 REPEATED = (
     *("PatientName", "PatientID", "IssuerOfPatientID", "PatientBirthDate", "PatientSex", "PatientAge"),

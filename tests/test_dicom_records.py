@@ -21,9 +21,9 @@ from dicom_phantom import save
 from dicom_series import PLAIN_STACK, Stack
 from lumencut import FormatError, list_series, read_volume
 from lumencut._lumencut import DICOM_ATTRIBUTES, describe_dicom, judge_dicom
-from lumencut.volume_files.dicom.files import read_files
-from lumencut.volume_files.dicom.headers import header_tags
-from lumencut.volume_files.dicom.records import plain
+from lumencut.dicom.reading.files import read_files
+from lumencut.dicom.reading.headers import header_tags
+from lumencut.dicom.reading.records import plain
 
 NAMED = {case.name: case for case in CASES}
 BOTH_DOORS = (

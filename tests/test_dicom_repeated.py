@@ -16,7 +16,7 @@ from dicom_repeated import OVERLAPS, acquired, changed, own_frame, own_series, t
 from dicom_series import LATE_STACK, PLAIN_STACK, Stack
 from lumencut import FormatError, SeriesError, list_series, read_volume
 from lumencut.cli import main
-from lumencut.volume_files import as_volume, inspect_volume
+from lumencut.files.volumes import as_volume, inspect_volume
 
 
 def warned(caplog):

@@ -24,7 +24,7 @@ from lumencut import (
     _lumencut,
     phantom,
 )
-from lumencut.dicom_objects import codes
+from lumencut.dicom.writing import codes
 from test_cli_dicom import line as line
 from test_cli_dicom import run
 

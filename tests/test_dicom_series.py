@@ -12,7 +12,7 @@ import pytest
 from dicom_cases import CASES
 from dicom_repeated import REPEATED
 from lumencut import FormatError, VolumeError, read_volume
-from lumencut.volume_files import as_volume
+from lumencut.files.volumes import as_volume
 
 
 @pytest.mark.parametrize("case", [*CASES, *REPEATED], ids=lambda case: case.name)

@@ -10,9 +10,9 @@ import lumencut
 from dicom_judges import faults, seen_by_dcmtk
 from dicom_scenes import LINE, SETTINGS, scan, series
 from lumencut import Camera, FormatError, Renderer, SettingsError
-from lumencut.dicom_objects.picture import greys, on_black
-from lumencut.turntables import save_animation, turntable
-from lumencut.uncurling import fitted_uncurling
+from lumencut.dicom.writing.picture import greys, on_black
+from lumencut.pictures.turntables import save_animation, turntable
+from lumencut.reformations.uncurling import fitted_uncurling
 from test_cli_dicom import line as line
 from test_cli_dicom import run
 

@@ -15,7 +15,7 @@ from dicom_series import Stack
 from lumencut import read_volume
 from lumencut.cli import main
 from lumencut.errors import FormatError
-from lumencut.volume_files import inspect_volume, list_series
+from lumencut.files.volumes import inspect_volume, list_series
 
 SIZE = (12, 10)
 PHASE = [4.0] * 13 + [1.08] + [7.0] * 13

@@ -8,7 +8,7 @@ import pytest
 
 from lumencut import Camera
 from lumencut.notebook import gestures
-from lumencut.window import Window
+from lumencut.scene.window import Window
 
 CASES = json.loads((Path(__file__).parent / "drags.json").read_text("utf-8"))
 TOLERANCE = 1e-12

@@ -8,7 +8,7 @@ import pytest
 import lumencut
 from lumencut import Camera, Renderer, Settings, VesselTree, phantom
 from lumencut.errors import SettingsError, VesselTreeError, VolumeError
-from lumencut.frame import IMAGES
+from lumencut.pictures.frame import IMAGES
 
 SIZE = (64, 48)
 

@@ -11,9 +11,9 @@ import pytest
 from click.testing import CliRunner
 
 from lumencut import _lumencut, read_centerlines, read_volume
+from lumencut.base.file_kinds import kind_of
 from lumencut.cli import main
 from lumencut.errors import FileError, FormatError
-from lumencut.file_kinds import kind_of
 from scene_files import bent_line, write_lines, write_volume
 from volume_samples import coded, save, slice_of, write_stack
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from lumencut import doctor
+from lumencut.cli import installation as doctor
 from lumencut.cli import main
 from lumencut.cli.first_words import program
 from lumencut.errors import DeviceError
@@ -155,7 +155,7 @@ def test_the_doctor_goes_on_where_a_device_fails(built, monkeypatch):
     def failing(*_):
         raise DeviceError("device", "a lost GPU", "one that answers")
 
-    monkeypatch.setattr("lumencut.renderer.Renderer.__init__", failing)
+    monkeypatch.setattr("lumencut.pictures.renderer.Renderer.__init__", failing)
     said = ran("doctor")
     assert said.exit_code == 1
     assert "a picture by cpu: device: found a lost GPU" in said.stderr

@@ -6,7 +6,7 @@ from click.testing import CliRunner
 
 from lumencut import Camera, CameraError, Renderer, Settings, flight, phantom, write_centerlines
 from lumencut.cli import main
-from lumencut.flights import flight_views
+from lumencut.pictures.flights import flight_views
 from scene_files import write_volume_of
 
 

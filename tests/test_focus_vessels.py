@@ -22,7 +22,7 @@ from lumencut import (
 )
 from lumencut.cli import main
 from lumencut.cli.settings import settings_from
-from lumencut.recipe import read_recipe
+from lumencut.pictures.recipe import read_recipe
 from scene_files import write_volume_of
 
 

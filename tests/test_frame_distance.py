@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from lumencut import Camera, Renderer, Settings, VolumeError, phantom
-from lumencut.frame import Frame
+from lumencut.pictures.frame import Frame
 
 #: Settings with which the distance is computed later, and settings with which it is computed at once.
 LATER = Settings()

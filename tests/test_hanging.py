@@ -7,10 +7,10 @@ import pydicom
 import pytest
 
 from dicom_scenes import LINE, scan, series
-from lumencut.camera import Camera
 from lumencut.cli.render import HANGINGS as NAMES
-from lumencut.hanging import HANGINGS, fitted_alike, hanging_views
-from lumencut.orientation import view_name
+from lumencut.pictures.hanging import HANGINGS, fitted_alike, hanging_views
+from lumencut.scene.camera import Camera
+from lumencut.scene.orientation import view_name
 from test_cli_dicom import line as line
 from test_cli_dicom import run
 

@@ -12,9 +12,9 @@ from pydicom.encaps import encapsulate
 import lumencut
 from dicom_phantom import instance
 from dicom_phantom import save as save_instance
+from lumencut.base.file_kinds import extensions
 from lumencut.cli import main
 from lumencut.errors import FormatError
-from lumencut.file_kinds import extensions
 from volume_samples import coded, oblique, write_stack
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -205,7 +205,9 @@ CLAIMED = {
     "segmentations (DICOM SEG, `.seg.nrrd`, label maps) as masks": mask_takes_segmentations,
     "scans and results with a PACS over DICOMweb": has_commands("pull", "push"),
     "many scans measured in the same way": has_commands("batch", "measure", "summarize"),
-    "maps the thickness of calcium": lambda: '"thickness"' in source("python/lumencut/lumen_mapping.py"),
+    "maps the thickness of calcium": lambda: (
+        '"thickness"' in source("python/lumencut/reformations/lumen_mapping.py")
+    ),
     "is not supported; DICOMweb is": has_commands("pull", "push"),
 }
 

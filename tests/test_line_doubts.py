@@ -18,9 +18,9 @@ from click.testing import CliRunner
 import lumencut
 from conftest import needs_shared_data
 from lumencut import FormatError, LineWarning, SettingsError, Vessel, VesselTree, Volume, phantom
-from lumencut.centerlines import inspect_centerlines, read_centerlines
 from lumencut.cli import main
-from lumencut.line_doubts import line_doubts
+from lumencut.files.centerlines import inspect_centerlines, read_centerlines
+from lumencut.scene.line_doubts import line_doubts
 
 T = np.arange(0, 70, 1.0)
 LINE = np.stack([6 + 8 * np.sin(T / 20), -3 + 4 * np.cos(T / 25), T], -1)

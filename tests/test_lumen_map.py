@@ -14,10 +14,10 @@ from PIL.PngImagePlugin import PngInfo
 from lumencut import Settings, Vessel, VesselTree, Volume, Window, cpr, lumen_map, write_centerlines
 from lumencut.cli import main
 from lumencut.errors import CameraError, FormatError, MeasuringError, SettingsError, VesselTreeError
-from lumencut.picture_text import KEYWORD
-from lumencut.recipe import read_recipe
-from lumencut.reformation_recipe import read_reformation_recipe
-from lumencut.volume_writers import write_volume
+from lumencut.files.volume_writers import write_volume
+from lumencut.pictures.picture_text import KEYWORD
+from lumencut.pictures.recipe import read_recipe
+from lumencut.pictures.reformation_recipe import read_reformation_recipe
 
 SPACING = 0.5
 

@@ -7,7 +7,7 @@ import pytest
 
 import lumencut
 from lumencut import Flag, Vessel, VesselTree, Volume, measure
-from lumencut.profile import Profile
+from lumencut.measuring.profile import Profile
 from measure_scenes import FWHM, LUMEN, PARTS, TISSUE, Grid, Tube, blurred, narrowed, round_tube
 
 EVEN = (0.4, 0.4, 0.4)

@@ -12,12 +12,12 @@ from PIL import Image
 
 import lumencut
 from lumencut import Flag, FormatError, MissingPackageError, Profile, Window, _lumencut, measure, phantom
-from lumencut.contact_sheet import contact_sheet
-from lumencut.measured_vessel import Marked, MeasuredVessel, vessels_csv, vessels_json
-from lumencut.profile_files import csv_text
-from lumencut.profile_plot import figure_of, write
-from lumencut.profile_sections import counts, flag_words, marks, nearest
-from lumencut.section_pictures import SectionView, sections_sheet
+from lumencut.measuring.measured_vessel import Marked, MeasuredVessel, vessels_csv, vessels_json
+from lumencut.measuring.profile_files import csv_text
+from lumencut.measuring.profile_plot import figure_of, write
+from lumencut.measuring.profile_sections import counts, flag_words, marks, nearest
+from lumencut.pictures.contact_sheet import contact_sheet
+from lumencut.reports.section_pictures import SectionView, sections_sheet
 
 CYAN, ORANGE = (64, 220, 255), (255, 150, 40)
 

@@ -7,8 +7,8 @@ import pytest
 
 import lumencut
 from lumencut import Renderer, VesselTree, measure, phantom
-from lumencut.measure_report import report
-from lumencut.measured_vessel import Marked, MeasuredVessel
+from lumencut.measuring.measured_vessel import Marked, MeasuredVessel
+from lumencut.reports.measure_report import report
 from report_reading import Page
 
 

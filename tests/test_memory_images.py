@@ -15,8 +15,8 @@ import vtkmodules.all as vtk
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 
 from lumencut.errors import VolumeError
-from lumencut.volume import Volume
-from lumencut.volume_files import as_volume, read_volume
+from lumencut.files.volumes import as_volume, read_volume
+from lumencut.scene.volume import Volume
 from volume_samples import SIZE, assert_maps, coded, oblique
 
 LENGTHS = np.linalg.norm(oblique()[:3, :3], axis=0)
@@ -178,7 +178,7 @@ def test_itk_by_a_stand_in(monkeypatch):
 
 def test_nothing_heavy_is_imported():
     code = (
-        "import sys, numpy, lumencut.volume_files as v, lumencut.volume\n"
+        "import sys, numpy, lumencut.files.volumes as v, lumencut.scene.volume\n"
         "try: v.as_volume(numpy.zeros((2, 2, 2)))\n"
         "except lumencut.errors.VolumeError: pass\n"
         "heavy = {'SimpleITK', 'itk', 'nibabel', 'vtkmodules', 'vtk', 'pydicom', 'nrrd', 'gdcm', 'PIL'}\n"

@@ -13,10 +13,10 @@ import pytest
 from click.testing import CliRunner
 
 from lumencut import Mend, Vessel, VesselTree, Volume, _lumencut, read_volume, trace
+from lumencut.base.mends import WORDS, MendName, advised, as_option
 from lumencut.cli import main
 from lumencut.errors import FormatError, LumencutError, SeriesError, SpaceWarning, VesselTreeError
-from lumencut.mends import WORDS, MendName, advised, as_option
-from lumencut.placement import check_meeting, check_space
+from lumencut.scene.placement import check_meeting, check_space
 from test_dicom import AXIAL
 from test_dicom_choice import phases
 from test_dicom_gaps import with_holes

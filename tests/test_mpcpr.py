@@ -26,7 +26,7 @@ from lumencut import (
     _lumencut,
     mpcpr,
 )
-from lumencut.renderer import Renderer
+from lumencut.pictures.renderer import Renderer
 from scenes import wandering
 
 BARE = Settings(context=None, silhouettes=False, background=(0, 0, 0, 0), window=Window(50, 100))

@@ -2,7 +2,7 @@
 
 import pytest
 
-from lumencut.dicomweb.multipart import MultipartError, PartReader, boundary_of, written
+from lumencut.dicom.web.multipart import MultipartError, PartReader, boundary_of, written
 
 CONTENTS = [b"", b"\r\n--between", b"--betwee\r\n\r\n", bytes(range(256)) * 40, b"\r\n"]
 

@@ -25,10 +25,10 @@ from lumencut import (
     read_centerlines,
     read_volume,
 )
-from lumencut.camera import Camera
-from lumencut.centerlines import inspect_centerlines
-from lumencut.turntables import save_animation, turntable
-from lumencut.volume_files import inspect_volume
+from lumencut.files.centerlines import inspect_centerlines
+from lumencut.files.volumes import inspect_volume
+from lumencut.pictures.turntables import save_animation, turntable
+from lumencut.scene.camera import Camera
 from scene_files import bent_line
 
 READERS = [read_volume, inspect_volume, read_centerlines, inspect_centerlines]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from lumencut import VIEWS, Camera
-from lumencut.orientation import edges, sides, view_name
+from lumencut.scene.orientation import edges, sides, view_name
 
 
 def seen_from(viewer, up=(0, 0, 1)):

@@ -8,8 +8,8 @@ import pytest
 
 from dicom_phantom import save
 from lumencut import Volume, list_series, read_volume
-from lumencut.dicomweb.address import parsed_address
-from lumencut.dicomweb.source import fetched
+from lumencut.dicom.web.address import parsed_address
+from lumencut.dicom.web.source import fetched
 from lumencut.errors import FormatError, LumencutError
 from lumencut.viewer import page as page_room
 from lumencut.viewer.server import ViewerServer

@@ -10,8 +10,8 @@ import pytest
 
 from dicom_phantom import ROOT, instance, save
 from lumencut import FormatError, StudyWarning, Volume, VolumeError, read_volume, trace_mask
-from lumencut.mask_grid import on_grid_of
-from lumencut.pacs_zip.segmentation import segmentation_mask
+from lumencut.files.mask_grid import on_grid_of
+from lumencut.viewer.pacs_zip.segmentation import segmentation_mask
 from segmentation_files import segmentation
 from test_segmentation import NAMES, masks
 from test_segmentation import scan as scan

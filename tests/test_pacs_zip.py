@@ -13,14 +13,14 @@ import pytest
 from dicom_judges import faults
 from dicom_scenes import scan, series
 from lumencut import FormatError, MissingPackageError, Profile
-from lumencut.dicom_objects.chosen_study import chosen_study
-from lumencut.dicom_objects.measured import measured as reported
-from lumencut.dicom_objects.structured_report import write_report
-from lumencut.measured_vessel import Marked
-from lumencut.pacs_zip.archive import pacs_zip
-from lumencut.pacs_zip.given import Given
-from lumencut.pacs_zip.placing import chosen_file
-from lumencut.pacs_zip.vessels import measured_vessel
+from lumencut.dicom.writing.chosen_study import chosen_study
+from lumencut.measuring.dicom_profile import measured as reported
+from lumencut.measuring.measured_vessel import Marked
+from lumencut.measuring.structured_report import write_report
+from lumencut.viewer.pacs_zip.archive import pacs_zip
+from lumencut.viewer.pacs_zip.given import Given
+from lumencut.viewer.pacs_zip.placing import chosen_file
+from lumencut.viewer.pacs_zip.vessels import measured_vessel
 from pacs_requests import (
     dropped,
     encoded,

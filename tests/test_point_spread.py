@@ -8,7 +8,7 @@ from click.testing import CliRunner
 
 from lumencut import Vessel, VesselTree, Volume, _lumencut, measure, phantom, write_centerlines
 from lumencut.cli import main
-from lumencut.profile import Profile
+from lumencut.measuring.profile import Profile
 from measure_scenes import Grid, round_tube
 from scene_files import write_volume_of
 

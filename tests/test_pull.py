@@ -8,7 +8,7 @@ import sys
 import pytest
 
 from lumencut import read_volume
-from lumencut.dicomweb import pulling
+from lumencut.dicom.web import pulling
 from lumencut.errors import PacsError
 from pacs_scenes import files, forget_user, holding, run, write_scan
 from pacs_stub import BOUNDARY, Pacs, running

@@ -26,8 +26,8 @@ from lumencut import (
     phantom,
     read_volume,
 )
-from lumencut.picture_text import KEYWORD
-from lumencut.recipe import Recipe, png_options, read_recipe
+from lumencut.pictures.picture_text import KEYWORD
+from lumencut.pictures.recipe import Recipe, png_options, read_recipe
 
 RAMP = TransferFunction([(-100.5, (0, 10, 20), 0), (0.1 + 0.2, (255, 0, 1), 1 / 3)])
 CHOSEN = [

@@ -7,14 +7,14 @@ import pytest
 
 import lumencut
 from lumencut.cli.reformation_table import MAP_MODES
-from lumencut.feature_aggregation import CfaRequest
-from lumencut.lumen_mapping import LumenMapRequest
-from lumencut.planar_reformation import CprRequest
-from lumencut.spiral_reformation import SpiralRequest
-from lumencut.tangential import TangentialRequest
-from lumencut.uncurling import UncurlRequest
-from lumencut.unrolled_wall import MODES
-from lumencut.untangling import UntangledRequest
+from lumencut.reformations.feature_aggregation import CfaRequest
+from lumencut.reformations.lumen_mapping import LumenMapRequest
+from lumencut.reformations.planar_reformation import CprRequest
+from lumencut.reformations.spiral_reformation import SpiralRequest
+from lumencut.reformations.tangential import TangentialRequest
+from lumencut.reformations.uncurling import UncurlRequest
+from lumencut.reformations.unrolled_wall import MODES
+from lumencut.reformations.untangling import UntangledRequest
 
 MADE_BY = {
     "cpr": CprRequest,

@@ -18,7 +18,7 @@ from packaging.utils import canonicalize_name
 import lumencut
 from import_graph import circle, import_graph
 from lumencut import errors
-from lumencut.volume_files import overlaps
+from lumencut.base import overlaps
 from rust_graph import rust_graph
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -273,7 +273,7 @@ def test_importing_is_light():
 def test_no_modules_import_each_other_in_a_circle():
     graph = import_graph(ROOT / "python/lumencut")
     assert len(graph) > 40
-    assert {"lumencut._files", "lumencut.vessel_tree"} <= graph["lumencut.centerline_file"]
+    assert {"lumencut.base.paths", "lumencut.scene.vessel_tree"} <= graph["lumencut.files.centerline_file"]
     assert " imports ".join(circle(graph)) == ""
 
 

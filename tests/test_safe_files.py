@@ -10,8 +10,8 @@ import pytest
 from PIL import Image
 
 from lumencut import Renderer, Vessel, VesselTree, Volume
-from lumencut.camera import Camera
-from lumencut.turntables import fitted_turn, save_animation, turntable
+from lumencut.pictures.turntables import fitted_turn, save_animation, turntable
+from lumencut.scene.camera import Camera
 from scene_files import bent_line
 
 needs_modes = pytest.mark.skipif(os.name == "nt", reason="no permissions of this kind here")

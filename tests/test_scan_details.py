@@ -12,9 +12,9 @@ import pytest
 
 from dicom_phantom import CENTER, axial, images, single
 from lumencut import Measurements, ScanDetails, Vessel, VesselTree, Volume, measure, read_volume
-from lumencut.profile_files import csv_text, json_text
+from lumencut.files.volumes import open_volume
+from lumencut.measuring.profile_files import csv_text, json_text
 from lumencut.viewer.volume_stream import header
-from lumencut.volume_files import open_volume
 
 WHOLE = ScanDetails("3", "CTA 2.0", "70 % of the cardiac cycle", 2.0, "Bv40f, 3")
 

@@ -8,8 +8,8 @@ import pytest
 
 import lumencut
 from lumencut import MeasuringError, Vessel, _lumencut
-from lumencut.section_pictures import SectionView
-from lumencut.window import Window
+from lumencut.reports.section_pictures import SectionView
+from lumencut.scene.window import Window
 from measure_scenes import FWHM, LUMEN, TISSUE, bent
 
 PLACES = (4.13, 12.6, 18.87, 25.4)

@@ -13,7 +13,7 @@ from dicom_phantom import ROOT, Image, instance, oblique, save, single, tilted
 from lumencut import Volume, read_centerlines, read_volume, trace_mask
 from lumencut.cli import main
 from lumencut.errors import FormatError, VolumeError
-from lumencut.mask_grid import on_grid_of
+from lumencut.files.mask_grid import on_grid_of
 from mask_scenes import tubes
 from segmentation_files import label_map, packed, segmentation
 
@@ -128,7 +128,7 @@ def test_other_forms_hold_the_same(tmp_path, form):
         data = segmentation(both, NAMES)
     if form == "dataset":
         assert {vessel.name for vessel in trace_mask(data)} == set(NAMES.values())
-        np.testing.assert_array_equal(lumencut.volume_files.as_volume(data).array, wanted)
+        np.testing.assert_array_equal(lumencut.files.volumes.as_volume(data).array, wanted)
         return
     if form == "deflated":
         data.file_meta.TransferSyntaxUID = "1.2.840.10008.1.2.1.99"

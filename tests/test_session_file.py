@@ -21,7 +21,7 @@ from lumencut import (
     write_centerlines,
 )
 from lumencut.cli import main
-from lumencut.session_file import is_session_file, read_session
+from lumencut.viewer.session_file import is_session_file, read_session
 from scene_files import write_volume_of
 
 CAMERA = {

@@ -23,7 +23,7 @@ from lumencut import (
     _lumencut,
 )
 from lumencut.cli import main
-from lumencut.settings_file import settings_text
+from lumencut.scene.settings_file import settings_text
 from scene_files import write_lines, write_volume
 
 POINTS = TransferFunction([(-50.5, (0, 0, 0), 0), (300, (255, 128, 0), 0.25), (300, (255, 255, 255), 1)])

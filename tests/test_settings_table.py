@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from lumencut import Renderer, Settings, Slab, TransferFunction, Vessel, VesselTree, Volume, Window, _lumencut
-from lumencut.camera import Camera
+from lumencut.scene.camera import Camera
 from scene_files import bent_line
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -30,7 +30,7 @@ def written_files():
     return module.files()
 
 
-@pytest.mark.parametrize("path", ["python/lumencut/settings.py", "docs/settings.md", "docs/python.md"])
+@pytest.mark.parametrize("path", ["python/lumencut/scene/settings.py", "docs/settings.md", "docs/python.md"])
 def test_what_repeats_the_table_is_what_the_script_writes(path):
     assert (ROOT / path).read_text("utf-8") == written_files()[ROOT / path], "run: make settings"
 

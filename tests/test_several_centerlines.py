@@ -282,7 +282,7 @@ def test_the_evaluation_takes_several_files_with_and_without_a_volume(runs):
 
 
 def test_each_view_has_a_file_of_its_own_and_the_volume_is_read_once(runs, monkeypatch):
-    import lumencut.volume_files as volume_files
+    import lumencut.files.volumes as volume_files
 
     read = []
     original = volume_files.read_volume

@@ -13,7 +13,7 @@ from vtk.util.numpy_support import vtk_to_numpy
 
 from conftest import SHARED_DATA, needs_shared_data
 from lumencut import read_centerlines
-from lumencut.centerlines import inspect_centerlines
+from lumencut.files.centerlines import inspect_centerlines
 
 pytestmark = needs_shared_data
 

@@ -9,7 +9,7 @@ import pytest
 import SimpleITK
 
 from lumencut.errors import FormatError
-from lumencut.volume_files import inspect_volume, read_volume
+from lumencut.files.volumes import inspect_volume, read_volume
 from volume_samples import DATA
 
 pytestmark = pytest.mark.skipif(

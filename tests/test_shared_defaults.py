@@ -22,14 +22,14 @@ from lumencut import (
 from lumencut.cli import main
 from lumencut.cohort.recipe import Measure, Pictures
 from lumencut.cohort.study import _pictures
-from lumencut.measured_vessel import GROUPS
-from lumencut.planar_reformation import CprRequest
-from lumencut.renderer import Renderer
-from lumencut.stenosis import METHODS
+from lumencut.measuring.measured_vessel import GROUPS
+from lumencut.measuring.stenosis import METHODS
+from lumencut.pictures.renderer import Renderer
+from lumencut.reformations.planar_reformation import CprRequest
 from scene_files import write_lines, write_volume_of
 
 #: Modules with functions that the package does not export.
-HOMES = {"uncurling": "lumencut.uncurling"}
+HOMES = {"uncurling": "lumencut.reformations.uncurling"}
 
 #: The command of each function; its options have the names of the parameters.
 COMMANDS = {

@@ -10,7 +10,7 @@ from click.testing import CliRunner
 
 from lumencut import FormatError, Volume, VolumeError, read_centerlines, read_volume, trace_mask
 from lumencut.cli import main
-from lumencut.mask_files import open_mask
+from lumencut.files.mask_files import open_mask
 from test_volume_files import save_meta, save_nifti
 from volume_samples import oblique
 

@@ -11,7 +11,7 @@ from click.testing import CliRunner
 from lumencut import Vessel, VesselTree, Volume, spiral, write_centerlines
 from lumencut.cli import main
 from lumencut.errors import CameraError, SettingsError, VesselTreeError
-from lumencut.volume_writers import write_volume
+from lumencut.files.volume_writers import write_volume
 
 LINE = Vessel([[0, 0, 10], [0, 0, -10]], radius=4.0)
 

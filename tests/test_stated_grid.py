@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from lumencut import Renderer, Volume, VolumeError, phantom, read_volume
-from lumencut.volume_files import as_volume
+from lumencut.files.volumes import as_volume
 
 VOXELS = np.zeros((3, 4, 5), np.int16)
 

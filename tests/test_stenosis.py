@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from lumencut import MeasuringError, SettingsError, Vessel, Volume, measure, phantom
-from lumencut.profile import Profile, Spot
+from lumencut.measuring.profile import Profile, Spot
 from measure_scenes import FWHM, Grid, narrowed, round_tube
 
 

@@ -174,7 +174,7 @@ def test_a_scan_without_orientation_lends_its_sides_with_a_remark(ramps):
 def test_the_command_line_warns_of_sides(ramps, tmp_path):
     line = tmp_path / "bow.csv"
     line.write_text("l,p,s\n" + "\n".join(",".join(map(str, row)) for row in bow().points.tolist()))
-    lumencut.volume_writers.write_volume(ramps[0], tmp_path / "scan.nrrd")
+    lumencut.files.volume_writers.write_volume(ramps[0], tmp_path / "scan.nrrd")
     picture, volume = tmp_path / "a.png", tmp_path / "a.nii.gz"
     said = run("cpr", tmp_path / "scan.nrrd", line, "-o", picture, "--volume-out", volume, "--width", 16)
     assert "lumencut: warning: the vessel runs across the body" in said

@@ -13,9 +13,9 @@ import lumencut
 from dicom_scenes import LINE, SETTINGS, scan, series, stated, write_series
 from lumencut import FormatError, SettingsError, StudyWarning, Volume
 from lumencut.cli import main
-from lumencut.dicom_objects.extents import Box
-from lumencut.dicom_objects.patients import Patient
-from lumencut.volume_writers import write_volume
+from lumencut.files.volume_writers import write_volume
+from lumencut.scene.extents import Box
+from lumencut.scene.patients import Patient
 
 OTHER = {"PatientID": "B-2", "PatientName": "Roe^Mary"}
 FOLLOW_UP = {

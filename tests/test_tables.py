@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 import lumencut
 from cohort_scenes import RECIPE, run
 from lumencut import phantom
-from lumencut._tables import read_rows, written
+from lumencut.base.csv_cells import read_rows, written
 from lumencut.cohort.result_tables import ResultTable
 from scene_files import bent_line, write_volume
 

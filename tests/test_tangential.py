@@ -11,7 +11,7 @@ from cpr_scenes import GRIDS, index_volumes, noise, vessel, wave
 from lumencut import Camera, Settings, Vessel, VesselTree, cpr, cr
 from lumencut.cli import main
 from lumencut.errors import CameraError, SettingsError, VesselTreeError
-from lumencut.reformation_recipe import read_reformation_recipe
+from lumencut.pictures.reformation_recipe import read_reformation_recipe
 from scene_files import write_lines, write_volume
 
 VIEW = Camera((0, 0, 0), (0.4, 0.8, -0.3), (0, 0, 1), size=(90, 110), pixel_spacing=0.6)

@@ -16,7 +16,7 @@ from lumencut import (
     trace_mask,
 )
 from lumencut.cli import main
-from lumencut.volume_files.label_names import read_label_names
+from lumencut.files.label_names import read_label_names
 from mask_scenes import betti_of, tubes
 
 SIZE = (60, 30, 30)

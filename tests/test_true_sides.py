@@ -16,9 +16,9 @@ from dicom_scenes import series
 from label_reading import read_sides
 from lumencut import Camera, Settings, Vessel, VesselTree, Volume, Window, read_centerlines, write_centerlines
 from lumencut.cli.findings import orientation
-from lumencut.hanging import HANGINGS, hanging_views
-from lumencut.orientation import c_arm_angles, view_name
-from lumencut.turntables import turntable
+from lumencut.pictures.hanging import HANGINGS, hanging_views
+from lumencut.pictures.turntables import turntable
+from lumencut.scene.orientation import c_arm_angles, view_name
 from ramp_scenes import letters_of, oblique, ramp_volumes
 
 #: The volumes lie elsewhere than the study into which the results are written.

@@ -24,7 +24,7 @@ from lumencut import (
     Volume,
 )
 from lumencut.cli import main
-from lumencut.turntables import fitted_turn, frame_angles, save_animation, turntable
+from lumencut.pictures.turntables import fitted_turn, frame_angles, save_animation, turntable
 from scene_files import bent_line, write_lines, write_volume
 
 

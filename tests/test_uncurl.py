@@ -11,8 +11,8 @@ from cpr_scenes import GRIDS, index_volumes, noise, vessel, wave
 from lumencut import Camera, Settings, Slab, cpr, uncurl
 from lumencut.cli import main
 from lumencut.errors import CameraError, SettingsError, VesselTreeError
-from lumencut.reformation_recipe import read_reformation_recipe
-from lumencut.uncurling import film_amounts, fitted_uncurling, uncurling
+from lumencut.pictures.reformation_recipe import read_reformation_recipe
+from lumencut.reformations.uncurling import film_amounts, fitted_uncurling, uncurling
 from scene_files import bent_line, write_lines, write_volume
 
 VIEW = Camera((0, 0, 0), (0.4, 0.8, -0.3), (0, 0, 1), size=(91, 161), pixel_spacing=0.5)

@@ -13,7 +13,7 @@ from click.testing import CliRunner
 
 import lumencut
 from lumencut.cli import main
-from lumencut.reformation_recipe import read_reformation_recipe
+from lumencut.pictures.reformation_recipe import read_reformation_recipe
 from scene_files import write_volume_of
 
 #: Voxels of 1.5 mm whose value is their x, y or z (mm) plus a thousand.

@@ -29,8 +29,8 @@ from lumencut import (
     VesselTreeError,
     Volume,
     Window,
-    turntables,
 )
+from lumencut.pictures import turntables
 
 LINE = [[0.0, 0.0, 0.0], [1.0, 2.0, 3.0], [4.0, 4.0, 4.0]]
 

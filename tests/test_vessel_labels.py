@@ -7,7 +7,7 @@ import pytest
 
 from label_reading import heights, read
 from lumencut import VIEWS, Camera, Renderer, Settings, Vessel, VesselTree, Volume, Window
-from lumencut.lettering import writable
+from lumencut.pictures.lettering import writable
 
 SIZE, MIDDLE = (400, 300), (199.5, 149.5)
 VOLUME = Volume(np.zeros((8, 8, 8), np.int16), world_from_index=np.diag([60.0, 60.0, 60.0, 1.0]))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from lumencut import Camera, CameraError, Renderer, Settings, Vessel, VesselTree, VesselTreeError, Volume
-from lumencut.place_turns import cut_diameter, radius_at, turn_about
+from lumencut.pictures.place_turns import cut_diameter, radius_at, turn_about
 
 #: Half the axes of the elliptical lumen (mm), and the spacing of its voxels.
 A, B, SPACING = 6.0, 3.0, 0.4

@@ -18,10 +18,10 @@ from click.testing import CliRunner
 
 from lumencut import Vessel, VesselTree, Volume, demo, read_centerlines
 from lumencut.cli import browser, main
+from lumencut.files.volume_writers import write_volume as write_any
 from lumencut.viewer import page as page_room
 from lumencut.viewer.guard import Place
 from lumencut.viewer.server import ViewerServer
-from lumencut.volume_writers import write_volume as write_any
 from scene_files import write_lines, write_volume
 from view_serving import Client, split, write_page
 

@@ -7,10 +7,10 @@ import pytest
 
 from dicom_scenes import series
 from lumencut import FormatError
-from lumencut.pacs_zip import archive
+from lumencut.files.volumes import open_volume
 from lumencut.viewer.arriving import ArrivingScene
+from lumencut.viewer.pacs_zip import archive
 from lumencut.viewer.posts import OBJECTS, Posts
-from lumencut.volume_files import open_volume
 from pacs_requests import dropped, members, request, sent
 from view_serving import serving, write_page
 

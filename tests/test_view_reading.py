@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from lumencut import FormatError, Volume, VolumeError
+from lumencut.files.volume_writers import write_volume as write_any
+from lumencut.files.volumes import open_volume
 from lumencut.viewer.arriving import ArrivingScene
-from lumencut.volume_files import open_volume
-from lumencut.volume_writers import write_volume as write_any
 from view_serving import made_file, serving, split, write_page
 from volume_samples import coded, write_stack
 

@@ -7,12 +7,12 @@ import pytest
 
 from lumencut import FormatError, Volume, read_centerlines, read_volume
 from lumencut.cli.view import _scene
+from lumencut.files.volume_writers import write_volume as write_any
+from lumencut.files.volumes import open_volume
 from lumencut.viewer import volume_stream
 from lumencut.viewer.arriving import ArrivingScene
 from lumencut.viewer.page import Page
 from lumencut.viewer.server import ViewerServer
-from lumencut.volume_files import open_volume
-from lumencut.volume_writers import write_volume as write_any
 from scene_files import bent_line, write_lines, write_volume
 from view_serving import SCRIPT, SERVED, made_file, serving, split, write_page
 from volume_samples import coded, oblique, write_stack

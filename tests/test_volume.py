@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 from lumencut.errors import LumencutError, VolumeError
-from lumencut.volume import Volume
+from lumencut.scene.volume import Volume
 from volume_samples import SIZE, assert_maps, coded, oblique, value_at
 
 

@@ -12,7 +12,7 @@ import pytest
 import SimpleITK
 
 from lumencut.errors import FileError, FormatError
-from lumencut.volume_files import inspect_volume, read_volume
+from lumencut.files.volumes import inspect_volume, read_volume
 from volume_samples import SIZE, assert_maps, coded, oblique
 
 LPS_FROM_RAS = np.diag([-1.0, -1.0, 1.0, 1.0])

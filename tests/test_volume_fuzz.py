@@ -22,8 +22,8 @@ from hypothesis import strategies as st
 
 from dicom_codecs import gdcm_does
 from lumencut.errors import FormatError, LumencutError
-from lumencut.volume import Volume
-from lumencut.volume_files import inspect_volume, read_volume
+from lumencut.files.volumes import inspect_volume, read_volume
+from lumencut.scene.volume import Volume
 from test_volume_files import LPS_FROM_RAS, save_meta, save_nifti, save_nrrd
 from volume_samples import coded, oblique, save, slice_of
 

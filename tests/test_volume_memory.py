@@ -14,9 +14,10 @@ import pytest
 
 from dicom_phantom import Image, save, single
 from lumencut import Volume
+from lumencut.base import memory as room
 from lumencut.errors import FormatError
-from lumencut.volume_files import read_volume, room
-from lumencut.volume_writers import write_volume
+from lumencut.files.volume_writers import write_volume
+from lumencut.files.volumes import read_volume
 from test_volume_files import save_meta, save_nifti, save_nrrd
 
 #: Zeros after the pixels (bytes); each MB is compressed to a kilobyte.
@@ -26,7 +27,7 @@ SIZE = (20, 24, 10)
 #: Prints the sum of a volume or the error, and by how many MB reading increased the peak memory.
 PROBE = """
 import resource, sys
-import lumencut, numpy, nibabel, nrrd, pydicom, pydicom.pixels, lumencut.volume_files
+import lumencut, numpy, nibabel, nrrd, pydicom, pydicom.pixels, lumencut.files.volumes
 limit = int(sys.argv[2])
 if limit:
     used = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()

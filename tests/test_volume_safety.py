@@ -14,9 +14,9 @@ import nibabel
 import numpy as np
 import pytest
 
+from lumencut.base.foreign_errors import impersonal, refusing
 from lumencut.errors import FileError, FormatError, LumencutError
-from lumencut.volume_files import inspect_volume, read_volume
-from lumencut.volume_files.opened import impersonal, refusing
+from lumencut.files.volumes import inspect_volume, read_volume
 from test_volume_files import save_meta, save_nifti
 from test_volume_variants import RAW, save_by_hand
 from volume_samples import assert_maps, coded, oblique

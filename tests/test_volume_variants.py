@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 import SimpleITK
 
+from lumencut.base.rescale import slabs
 from lumencut.errors import FormatError
-from lumencut.volume_files import inspect_volume, read_volume
-from lumencut.volume_files.rescale import slabs
+from lumencut.files.volumes import inspect_volume, read_volume
 from test_volume_files import LPS_FROM_RAS, save_meta, save_nifti, save_nrrd
 from volume_samples import SIZE, assert_maps, coded, oblique
 

@@ -14,8 +14,8 @@ from vtkmodules.util.numpy_support import numpy_to_vtk
 import lumencut
 from dicom_phantom import axial, images, single
 from lumencut import Camera, CameraError, Vessel, VesselTree, Volume, VolumeError, Window
-from lumencut.centerlines import inspect_centerlines
-from lumencut.volume_files import as_volume
+from lumencut.files.centerlines import inspect_centerlines
+from lumencut.files.volumes import as_volume
 
 STACK = [single(image, number + 1) for number, image in enumerate(images(axial()))]
 VOLUME = as_volume(STACK)

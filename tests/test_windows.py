@@ -28,8 +28,8 @@ from lumencut import (
 )
 from lumencut.cli import main
 from lumencut.cli.parameters import WINDOW_NAMES as CLI_NAMES
-from lumencut.recipe import read_recipe
-from lumencut.window import WINDOW_NAMES
+from lumencut.pictures.recipe import read_recipe
+from lumencut.scene.window import WINDOW_NAMES
 from window_measures import background, contrast, share, shares
 from window_scenes import FAT, KINDS, SOFT, angiography, tree
 

@@ -12,10 +12,10 @@ from pathlib import Path
 
 import numpy as np
 
+from lumencut.scene.volume_file import VolumeFile
 from lumencut.viewer.arriving import ArrivingScene
 from lumencut.viewer.page import Page
 from lumencut.viewer.server import ViewerServer
-from lumencut.volume_files.opened import VolumeFile
 
 INDEX = "<!doctype html><html><head lang='en'><title>stand-in</title></head><body></body></html>"
 #: The index as served: it also states where the server accepts posted content.

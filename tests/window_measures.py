@@ -6,7 +6,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut import Camera, Renderer, Settings, Window
-from lumencut.settings import ContextName
+from lumencut.scene.settings import ContextName
 from window_scenes import BONE, FAT, LUMEN, SOFT, WALL, Angiography
 
 PICTURE = (96, 96)

@@ -15,12 +15,9 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from lumencut._lumencut import __version__
-    from lumencut.camera import VIEWS, Camera
-    from lumencut.centerline_comparison import CenterlineComparison, compare_centerlines
-    from lumencut.centerline_writers import write_centerlines
-    from lumencut.centerlines import read_centerlines
+    from lumencut.base.mends import Mend
+    from lumencut.base.threads import get_threads, set_threads
     from lumencut.cohort.batch import BatchSummary, batch
-    from lumencut.device import Device, devices
     from lumencut.errors import (
         CameraError,
         DeviceError,
@@ -41,56 +38,56 @@ if TYPE_CHECKING:
         VolumeError,
     )
     from lumencut.evaluation import Evaluation, evaluate
-    from lumencut.feature_aggregation import FeatureAggregation, cfa
-    from lumencut.flags import Flag
-    from lumencut.flights import flight
-    from lumencut.focus import Focus
-    from lumencut.frame import Frame
-    from lumencut.lumen_mapping import lumen_map
-    from lumencut.mask_tracing import trace_mask
-    from lumencut.measurements import Measurements
-    from lumencut.measuring import CrossSection, cross_section, measure
-    from lumencut.mends import Mend
+    from lumencut.files.centerline_writers import write_centerlines
+    from lumencut.files.centerlines import read_centerlines
+    from lumencut.files.volumes import SeriesReport, list_series, read_volume
+    from lumencut.measuring.flags import Flag
+    from lumencut.measuring.measurements import Measurements
+    from lumencut.measuring.profile import Profile
+    from lumencut.measuring.sections import CrossSection, cross_section, measure
+    from lumencut.measuring.stenosis import Stenosis
     from lumencut.notebook import show
-    from lumencut.picking import brightest
-    from lumencut.planar_reformation import PlanarReformation, cpr
-    from lumencut.profile import Profile
-    from lumencut.reformation import Reformation
-    from lumencut.renderer import Renderer, render
-    from lumencut.scan_details import ScanDetails
-    from lumencut.seed_tracing import trace_from
-    from lumencut.settings import Settings
-    from lumencut.slab import Slab
-    from lumencut.spiral_reformation import SpiralReformation, spiral
-    from lumencut.stenosis import Stenosis
-    from lumencut.straightening import StraightenedVolume, straightened_volume
-    from lumencut.tangential import TangentialReformation
-    from lumencut.threads import get_threads, set_threads
-    from lumencut.tracing import Tracer, trace
-    from lumencut.transfer import TransferFunction
-    from lumencut.tree_reformations import cr, mpcpr
-    from lumencut.turntables import fitted_turn, save_animation, turntable
-    from lumencut.uncurling import Uncurled, uncurl
-    from lumencut.unrolled_wall import LumenMap, Ostium
-    from lumencut.untangled_tree import UntangledTree
-    from lumencut.untangling import untangled
-    from lumencut.vessel import Vessel
-    from lumencut.vessel_finding import find_vessels
-    from lumencut.vessel_gap import Gap
-    from lumencut.vessel_tree import VesselTree
-    from lumencut.volume import Volume
-    from lumencut.volume_files import SeriesReport, list_series, read_volume
-    from lumencut.window import Opacity, Window
+    from lumencut.pictures.flights import flight
+    from lumencut.pictures.frame import Frame
+    from lumencut.pictures.renderer import Renderer, render
+    from lumencut.pictures.turntables import fitted_turn, save_animation, turntable
+    from lumencut.reformations.feature_aggregation import FeatureAggregation, cfa
+    from lumencut.reformations.lumen_mapping import lumen_map
+    from lumencut.reformations.planar_reformation import PlanarReformation, cpr
+    from lumencut.reformations.reformation import Reformation
+    from lumencut.reformations.spiral_reformation import SpiralReformation, spiral
+    from lumencut.reformations.straightening import StraightenedVolume, straightened_volume
+    from lumencut.reformations.tangential import TangentialReformation
+    from lumencut.reformations.tree_reformations import cr, mpcpr
+    from lumencut.reformations.uncurling import Uncurled, uncurl
+    from lumencut.reformations.unrolled_wall import LumenMap, Ostium
+    from lumencut.reformations.untangled_tree import UntangledTree
+    from lumencut.reformations.untangling import untangled
+    from lumencut.scene.camera import VIEWS, Camera
+    from lumencut.scene.device import Device, devices
+    from lumencut.scene.focus import Focus
+    from lumencut.scene.picking import brightest
+    from lumencut.scene.scan_details import ScanDetails
+    from lumencut.scene.settings import Settings
+    from lumencut.scene.slab import Slab
+    from lumencut.scene.transfer import TransferFunction
+    from lumencut.scene.vessel import Vessel
+    from lumencut.scene.vessel_gap import Gap
+    from lumencut.scene.vessel_tree import VesselTree
+    from lumencut.scene.volume import Volume
+    from lumencut.scene.window import Opacity, Window
+    from lumencut.tracing.centerline_comparison import CenterlineComparison, compare_centerlines
+    from lumencut.tracing.mask_tracing import trace_mask
+    from lumencut.tracing.seed_tracing import trace_from
+    from lumencut.tracing.tracer import Tracer, trace
+    from lumencut.tracing.vessel_finding import find_vessels
 
 #: Module of each public name; modules are imported on first use, so that ``import lumencut`` is fast.
 _HOME = {
     "_lumencut": ("__version__",),
-    "camera": ("VIEWS", "Camera"),
-    "centerline_comparison": ("CenterlineComparison", "compare_centerlines"),
-    "centerline_writers": ("write_centerlines",),
-    "centerlines": ("read_centerlines",),
+    "base.mends": ("Mend",),
+    "base.threads": ("get_threads", "set_threads"),
     "cohort.batch": ("BatchSummary", "batch"),
-    "device": ("Device", "devices"),
     "errors": (
         "CameraError",
         "DeviceError",
@@ -111,46 +108,49 @@ _HOME = {
         "VolumeError",
     ),
     "evaluation": ("Evaluation", "evaluate"),
-    "feature_aggregation": ("FeatureAggregation", "cfa"),
-    "flags": ("Flag",),
-    "flights": ("flight",),
-    "focus": ("Focus",),
-    "frame": ("Frame",),
-    "lumen_mapping": ("lumen_map",),
-    "untangled_tree": ("UntangledTree",),
-    "untangling": ("untangled",),
-    "unrolled_wall": ("LumenMap", "Ostium"),
-    "mask_tracing": ("trace_mask",),
-    "measurements": ("Measurements",),
-    "measuring": ("CrossSection", "cross_section", "measure"),
-    "mends": ("Mend",),
+    "files.centerline_writers": ("write_centerlines",),
+    "files.centerlines": ("read_centerlines",),
+    "files.volumes": ("SeriesReport", "list_series", "read_volume"),
+    "measuring.flags": ("Flag",),
+    "measuring.measurements": ("Measurements",),
+    "measuring.profile": ("Profile",),
+    "measuring.sections": ("CrossSection", "cross_section", "measure"),
+    "measuring.stenosis": ("Stenosis",),
     "notebook": ("show",),
-    "picking": ("brightest",),
-    "planar_reformation": ("PlanarReformation", "cpr"),
-    "profile": ("Profile",),
-    "reformation": ("Reformation",),
-    "renderer": ("Renderer", "render"),
-    "scan_details": ("ScanDetails",),
-    "seed_tracing": ("trace_from",),
-    "settings": ("Settings",),
-    "slab": ("Slab",),
-    "spiral_reformation": ("SpiralReformation", "spiral"),
-    "stenosis": ("Stenosis",),
-    "straightening": ("StraightenedVolume", "straightened_volume"),
-    "tangential": ("TangentialReformation",),
-    "threads": ("get_threads", "set_threads"),
-    "tracing": ("Tracer", "trace"),
-    "transfer": ("TransferFunction",),
-    "tree_reformations": ("cr", "mpcpr"),
-    "turntables": ("fitted_turn", "save_animation", "turntable"),
-    "uncurling": ("Uncurled", "uncurl"),
-    "vessel_gap": ("Gap",),
-    "vessel": ("Vessel",),
-    "vessel_finding": ("find_vessels",),
-    "vessel_tree": ("VesselTree",),
-    "volume": ("Volume",),
-    "volume_files": ("SeriesReport", "list_series", "read_volume"),
-    "window": ("Opacity", "Window"),
+    "pictures.flights": ("flight",),
+    "pictures.frame": ("Frame",),
+    "pictures.renderer": ("Renderer", "render"),
+    "pictures.turntables": ("fitted_turn", "save_animation", "turntable"),
+    "reformations.feature_aggregation": ("FeatureAggregation", "cfa"),
+    "reformations.lumen_mapping": ("lumen_map",),
+    "reformations.planar_reformation": ("PlanarReformation", "cpr"),
+    "reformations.reformation": ("Reformation",),
+    "reformations.spiral_reformation": ("SpiralReformation", "spiral"),
+    "reformations.straightening": ("StraightenedVolume", "straightened_volume"),
+    "reformations.tangential": ("TangentialReformation",),
+    "reformations.tree_reformations": ("cr", "mpcpr"),
+    "reformations.uncurling": ("Uncurled", "uncurl"),
+    "reformations.unrolled_wall": ("LumenMap", "Ostium"),
+    "reformations.untangled_tree": ("UntangledTree",),
+    "reformations.untangling": ("untangled",),
+    "scene.camera": ("VIEWS", "Camera"),
+    "scene.device": ("Device", "devices"),
+    "scene.focus": ("Focus",),
+    "scene.picking": ("brightest",),
+    "scene.scan_details": ("ScanDetails",),
+    "scene.settings": ("Settings",),
+    "scene.slab": ("Slab",),
+    "scene.transfer": ("TransferFunction",),
+    "scene.vessel": ("Vessel",),
+    "scene.vessel_gap": ("Gap",),
+    "scene.vessel_tree": ("VesselTree",),
+    "scene.volume": ("Volume",),
+    "scene.window": ("Opacity", "Window"),
+    "tracing.centerline_comparison": ("CenterlineComparison", "compare_centerlines"),
+    "tracing.mask_tracing": ("trace_mask",),
+    "tracing.seed_tracing": ("trace_from",),
+    "tracing.tracer": ("Tracer", "trace"),
+    "tracing.vessel_finding": ("find_vessels",),
 }
 _MODULE = {name: module for module, names in _HOME.items() for name in names}
 
@@ -253,7 +253,7 @@ def __getattr__(name: str) -> Any:
 
 def _restored(name: str, *arguments: Any) -> Any:
     """Create an object of a class by name; pickles refer only to this function, so modules can move."""
-    from lumencut._pickles import part
+    from lumencut.base.pickles import part
 
     kind = __getattr__(name) if name in _MODULE else part(name)
     return kind.__new__(kind, *arguments)

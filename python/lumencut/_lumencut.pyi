@@ -11,8 +11,8 @@ import numpy as np
 import numpy.typing as npt
 from typing_extensions import disjoint_base
 
-from lumencut.mends import MendName, Told
-from lumencut.placement import Coordinates, Unit
+from lumencut.base.mends import MendName, Told
+from lumencut.scene.placement import Coordinates, Unit
 
 _Axis = str | npt.NDArray[np.float64]
 _Arrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None]

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from lumencut.mends import Mend, Told, Write, as_argument, written
-from lumencut.series_report import SeriesReport
+from lumencut.base.mends import Mend, Told, Write, as_argument, written
+from lumencut.base.series_report import SeriesReport
 
 
 class LumencutError(Exception):

@@ -22,9 +22,9 @@ import numpy.typing as npt
 
 from lumencut._lumencut import make_phantom
 from lumencut.errors import SettingsError
-from lumencut.vessel import Vessel
-from lumencut.vessel_tree import VesselTree
-from lumencut.volume import Volume
+from lumencut.scene.vessel import Vessel
+from lumencut.scene.vessel_tree import VesselTree
+from lumencut.scene.volume import Volume
 
 __all__ = [
     "Phantom",

@@ -12,9 +12,9 @@ import sys
 from typing import Any
 
 from lumencut import Profile, Vessel, _lumencut, measure, phantom
-from lumencut.measured_vessel import Marked, MeasuredVessel, vessels_csv, vessels_json
-from lumencut.profile_plot import draw
-from lumencut.profile_sections import counts, flag_words, nearest
+from lumencut.measuring.measured_vessel import Marked, MeasuredVessel, vessels_csv, vessels_json
+from lumencut.measuring.profile_plot import draw
+from lumencut.measuring.profile_sections import counts, flag_words, nearest
 
 #: Positions on the first vessel, as shares of its length.
 PLACE, BEFORE, AFTER = 0.4, 0.03, 0.995

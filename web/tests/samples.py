@@ -30,7 +30,7 @@ from dicom_repeated import REPEATED  # noqa: E402
 from dicom_scenes import scan  # noqa: E402
 from lumencut import Vessel, straightened_volume  # noqa: E402
 from lumencut.errors import LumencutError  # noqa: E402
-from lumencut.volume_files import inspected_volume, read_volume  # noqa: E402
+from lumencut.files.volumes import inspected_volume, read_volume  # noqa: E402
 from volume_samples import DATA, coded, oblique  # noqa: E402
 
 Writer = Callable[[Path], Path]

@@ -1,4 +1,4 @@
-//! Reads centerline files for `lumencut.centerlines`.
+//! Reads centerline files for `lumencut.files.centerlines`.
 
 use lumencut::centerlines::{Centerlines, Error, Line, Space, Unit, junctions};
 use lumencut::line_doubts::{DoubtedLine, LineDoubt, beside_doubts_of, order_doubts_of};

@@ -31,7 +31,7 @@ pub(crate) fn exception(class: &str, subject: &str, found: &str, expected: &str,
 /// The error of segments that overlap, which a caller of a report notes.
 pub(crate) fn overlap([subject, found, expected, advice]: [&str; 4]) -> PyErr {
     let made = |py: Python<'_>| {
-        let class = py.import("lumencut.volume_files.overlaps")?.getattr("OverlapError")?;
+        let class = py.import("lumencut.base.overlaps")?.getattr("OverlapError")?;
         class.call1((subject, found, expected, advice)).map(PyErr::from_value)
     };
     Python::attach(|py| made(py).unwrap_or_else(|error| error))
@@ -58,7 +58,7 @@ pub(crate) fn advised<'py>(
     mended_by: Option<&Mend>,
 ) -> PyResult<Bound<'py, PyAny>> {
     let mends: Vec<_> = mended_by.iter().map(|mend| (mend.name(), mend.values())).collect();
-    py.import("lumencut.mends")?.getattr("advised")?.call1((advice, mends))
+    py.import("lumencut.base.mends")?.getattr("advised")?.call1((advice, mends))
 }
 
 pub(crate) fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {

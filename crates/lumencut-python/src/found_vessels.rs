@@ -1,4 +1,4 @@
-//! Finds vessels automatically or from a seed; used by `lumencut.finding` and `lumencut.seed_tracing`.
+//! Finds vessels automatically or from a seed; used by `lumencut.tracing.vessel_finding` and `lumencut.tracing.seed_tracing`.
 
 use glam::DVec3;
 use lumencut::error::Result;

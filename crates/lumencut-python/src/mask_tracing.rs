@@ -1,4 +1,4 @@
-//! Traces masks and compares centerlines; used by `lumencut.mask_tracing` and `lumencut.centerline_comparison`.
+//! Traces masks and compares centerlines; used by `lumencut.tracing.mask_tracing` and `lumencut.tracing.centerline_comparison`.
 
 use glam::{DAffine3, DMat3, DVec3};
 use lumencut::mask_grid::{Grid, place_of, place_within, placed_note};

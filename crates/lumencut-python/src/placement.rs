@@ -1,4 +1,4 @@
-//! Finds space and unit of centerlines; used by `lumencut.placement`.
+//! Finds space and unit of centerlines; used by `lumencut.scene.placement`.
 
 use glam::DVec3;
 use lumencut::centerlines::{Space, Unit};
@@ -40,7 +40,7 @@ impl FromPyObject<'_, '_> for UnitArgument {
     }
 }
 
-/// What is known about a file's coordinates: the caller's request and the file's statement (`lumencut.placement.Stated`).
+/// What is known about a file's coordinates: the caller's request and the file's statement (`lumencut.scene.placement.Stated`).
 #[derive(FromPyObject)]
 pub(crate) struct KnownArgument {
     #[pyo3(item)]
@@ -101,7 +101,7 @@ fn judged<T: Send>(
 }
 
 /// How to read the file `subject` with points (n, 3) and radii (n,), NaN if unknown. Returns the attributes of
-/// `lumencut.placement.Placement`.
+/// `lumencut.scene.placement.Placement`.
 #[pyfunction]
 #[pyo3(signature = (subject, points, radii, known, volume))]
 #[allow(clippy::needless_pass_by_value)]

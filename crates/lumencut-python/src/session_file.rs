@@ -1,4 +1,4 @@
-//! Reads session files for `lumencut.session_file`.
+//! Reads session files for `lumencut.viewer.session_file`.
 
 use lumencut::centerlines::session_file;
 use pyo3::prelude::*;

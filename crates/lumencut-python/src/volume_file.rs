@@ -1,4 +1,4 @@
-//! Volume files for `lumencut.volume_files.grids`, which reads and writes the bytes of files.
+//! Volume files for `lumencut.files.grids`, which reads and writes the bytes of files.
 
 use std::path::{Path, PathBuf};
 

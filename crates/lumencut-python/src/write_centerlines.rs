@@ -1,4 +1,4 @@
-//! Writes centerline files for `lumencut.centerline_writers`.
+//! Writes centerline files for `lumencut.files.centerline_writers`.
 
 use lumencut::centerlines::{Line, write_csv, write_mrk_json, write_swc, write_vtk, write_vtp};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};

@@ -166,7 +166,7 @@ def _one(found: Manifest, recipe: CohortRecipe, output: Path, study_id: str, cho
     end_with_parent()
     limit_memory(None if chosen["memory"] is None else int(chosen["memory"]))
     if chosen["threads"] is not None:
-        from lumencut.threads import set_threads
+        from lumencut.base.threads import set_threads
 
         set_threads(chosen["threads"])
     try:

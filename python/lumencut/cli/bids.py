@@ -58,7 +58,7 @@ def bids(
     lumencut bids data derivatives/lumencut participant --participant-label 01
     lumencut bids data derivatives/lumencut group
     """  # noqa: D301 - click needs the control character itself
-    from lumencut._files import WRITABLE, checked_path
+    from lumencut.base.paths import WRITABLE, checked_path
     from lumencut.cohort.batch import Cohort
     from lumencut.cohort.bids import read_bids
     from lumencut.cohort.layout import Layout

@@ -14,10 +14,10 @@ from lumencut.cli.report import busy, say
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from lumencut.reformation import Reformation
-    from lumencut.vessel import Vessel
+    from lumencut.reformations.reformation import Reformation
+    from lumencut.scene.vessel import Vessel
 
-#: The names of ``lumencut.feature_aggregation.FEATURES``; copied so that ``--help`` does not import numpy.
+#: `FEATURES` of `lumencut.reformations.feature_aggregation`; copied so that `--help` does not import numpy.
 FEATURES = ("max", "mean", "min", "range", "share")
 
 
@@ -54,7 +54,7 @@ def _write_beside(
     makers: Mapping[str, Callable[[Vessel], Reformation]],
 ) -> None:
     """Make the images of each vessel by all `makers`, and write a sheet with one row per vessel."""
-    from lumencut.contact_sheet import contact_sheet
+    from lumencut.pictures.contact_sheet import contact_sheet
 
     pictures, titles, all_made = [], [], []
     for title, vessel in vessels:

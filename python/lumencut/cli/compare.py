@@ -11,9 +11,9 @@ from lumencut.cli.report import one_line
 from lumencut.errors import FormatError
 
 if TYPE_CHECKING:
-    from lumencut.centerline_file import CenterlineFile, CenterlineReport
-    from lumencut.vessel_tree import VesselTree
-    from lumencut.volume import Volume
+    from lumencut.files.centerline_file import CenterlineFile, CenterlineReport
+    from lumencut.scene.vessel_tree import VesselTree
+    from lumencut.scene.volume import Volume
 
 
 @dataclass(frozen=True)
@@ -88,7 +88,7 @@ def compared(lines: dict[str, Any], volumes: list[dict[str, Any]]) -> list[dict[
 
 def _pair(lines: dict[str, Any], volume: dict[str, Any]) -> dict[str, Any]:
     """Count the points of a tree inside a volume, once as read and once with x and y negated."""
-    from lumencut.placement import check_space_once
+    from lumencut.scene.placement import check_space_once
 
     tree, grid = lines["_tree"], volume["_volume"]
     points = tree.points

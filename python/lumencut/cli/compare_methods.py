@@ -33,9 +33,9 @@ from lumencut.cli.scene import (
 from lumencut.cli.settings import setting_options, settings_from
 
 if TYPE_CHECKING:
-    from lumencut.camera import Camera
-    from lumencut.comparison import Panel
-    from lumencut.untangled_tree import UntangledTree
+    from lumencut.evaluation.methods_side_by_side import Panel
+    from lumencut.reformations.untangled_tree import UntangledTree
+    from lumencut.scene.camera import Camera
 
 
 @click.command("compare", short_help="Show mpCPR, CR and CSR side by side.")
@@ -104,8 +104,8 @@ def compare_methods(
     warn_of_window(settings, renderer)
     warn_of_vessels(chosen, recipe, renderer)
 
-    from lumencut.comparison import panels, side_by_side
-    from lumencut.untangling import UntangledRequest
+    from lumencut.evaluation.methods_side_by_side import panels, side_by_side
+    from lumencut.reformations.untangling import UntangledRequest
 
     for picture, (_, view) in zip(planned, views, strict=True):
         camera = camera_of(view, scene, chosen, recipe)
@@ -129,7 +129,7 @@ def compare_methods(
 
 def _words(camera: Camera) -> str:
     """Return the description of the sheet for its DICOM object."""
-    from lumencut.orientation import view_name
+    from lumencut.scene.orientation import view_name
 
     return f"mpCPR, CR and CSR side by side, and how far their depths differ. View {view_name(camera)}."
 
@@ -150,9 +150,9 @@ def _check(
     output: tuple[Path, ...], size: tuple[int, int], chosen: dict[str, Any], thresholds: tuple[float, float]
 ) -> None:
     """Reject what cannot be compared before any file is read."""
-    from lumencut.comparison import SMALLEST_SIDE
     from lumencut.errors import SettingsError
-    from lumencut.tree_reformations import cr_method
+    from lumencut.evaluation.methods_side_by_side import SMALLEST_SIDE
+    from lumencut.reformations.tree_reformations import cr_method
 
     if not chosen["centerlines"]:
         raise click.UsageError("found no CENTERLINES; expected VOLUME, then CENTERLINES to compare along")

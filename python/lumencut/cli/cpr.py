@@ -18,12 +18,12 @@ from lumencut.cli.report import busy, detail, say, warn
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from lumencut.reformation import Reformation
-    from lumencut.renderer import Renderer
-    from lumencut.settings import Settings
-    from lumencut.tangential import TangentialReformation
-    from lumencut.vessel import Vessel
-    from lumencut.volume import Volume
+    from lumencut.pictures.renderer import Renderer
+    from lumencut.reformations.reformation import Reformation
+    from lumencut.reformations.tangential import TangentialReformation
+    from lumencut.scene.settings import Settings
+    from lumencut.scene.vessel import Vessel
+    from lumencut.scene.volume import Volume
 
 #: The modes of ``lumencut.cpr``; copied so that ``--help`` does not import numpy.
 MODES = ("projected", "stretched", "straightened", "tangential")
@@ -78,9 +78,9 @@ def _tangential(
     renderer: Renderer, chosen: dict[str, Any], settings: Settings, vessel: Vessel
 ) -> TangentialReformation:
     """Return the tangential CPR in the view of --like, or in that of the options, fitted to the vessel."""
-    from lumencut.reformation_recipe import recipe_camera
-    from lumencut.tangential import TangentialRequest
-    from lumencut.vessel_tree import VesselTree
+    from lumencut.pictures.reformation_recipe import recipe_camera
+    from lumencut.reformations.tangential import TangentialRequest
+    from lumencut.scene.vessel_tree import VesselTree
 
     if chosen["camera"] is not None and not {*_OWN, "up", "pixel_spacing"} & typed(chosen).keys():
         camera = recipe_camera(chosen["camera"])
@@ -95,7 +95,7 @@ def _tangential(
 
 def _write_volume(path: Path, voxels: Volume, vessel: Vessel, chosen: dict[str, Any]) -> None:
     """Write the sections across a vessel as a volume, by default with the voxel size of the scan."""
-    from lumencut.straightening import straightened_volume
+    from lumencut.reformations.straightening import straightened_volume
 
     with busy(f"writing {path.name}"):
         made = straightened_volume(

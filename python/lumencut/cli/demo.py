@@ -15,11 +15,11 @@ from lumencut.cli.options import device_option
 from lumencut.cli.report import bar, detail, say, timings, verbose_option, warn
 
 if TYPE_CHECKING:
-    from lumencut.camera import Camera
-    from lumencut.renderer import Renderer
-    from lumencut.settings import Settings
-    from lumencut.vessel_tree import VesselTree
-    from lumencut.volume import Volume
+    from lumencut.pictures.renderer import Renderer
+    from lumencut.scene.camera import Camera
+    from lumencut.scene.settings import Settings
+    from lumencut.scene.vessel_tree import VesselTree
+    from lumencut.scene.volume import Volume
 
 _SIZE, _TURN_SIZE, _TURN_FRAMES = (768, 768), (384, 384), 24
 
@@ -61,7 +61,7 @@ def demo(
 def _scene(cache: Path | None, device: Literal["auto", "cpu", "gpu"]) -> tuple[Renderer, Any]:
     """The scene, and points from which its vessels can be traced."""
     from lumencut.demo import STENT_POINTS
-    from lumencut.renderer import Renderer
+    from lumencut.pictures.renderer import Renderer
 
     volume, tree, is_stent = demo_scene(cache)
     points: Any = STENT_POINTS
@@ -85,9 +85,9 @@ def demo_scene(cache: Path | None = None) -> tuple[Volume, VesselTree, bool]:
 
 
 def _views(renderer: Renderer) -> Iterator[tuple[str, Camera, Settings]]:
-    from lumencut.camera import Camera
-    from lumencut.settings import Settings
-    from lumencut.window import Opacity
+    from lumencut.scene.camera import Camera
+    from lumencut.scene.settings import Settings
+    from lumencut.scene.window import Opacity
 
     scene, window = renderer.scene, renderer.window
     anterior = Camera.anterior(scene, _SIZE)
@@ -105,8 +105,8 @@ def _views(renderer: Renderer) -> Iterator[tuple[str, Camera, Settings]]:
 
 def _trace(renderer: Renderer, points: Any, path: Path, *, annotate: bool) -> None:
     """Trace vessels from points only, and write their picture from the front."""
-    from lumencut.camera import Camera
-    from lumencut.tracing import trace
+    from lumencut.scene.camera import Camera
+    from lumencut.tracing.tracer import trace
 
     assert renderer.volume is not None
     with bar("tracing", "share") as progress:
@@ -117,8 +117,8 @@ def _trace(renderer: Renderer, points: Any, path: Path, *, annotate: bool) -> No
 
 
 def _spin(renderer: Renderer, path: Path) -> None:
-    from lumencut.camera import Camera
-    from lumencut.turntables import fitted_turn, save_animation, turntable
+    from lumencut.pictures.turntables import fitted_turn, save_animation, turntable
+    from lumencut.scene.camera import Camera
 
     camera = fitted_turn(Camera.anterior(renderer.scene, _TURN_SIZE), renderer.scene)
     with bar("turntable", "frame") as progress:

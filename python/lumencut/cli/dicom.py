@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
-    from lumencut.settings import Settings
-    from lumencut.volume import Volume
+    from lumencut.scene.settings import Settings
+    from lumencut.scene.volume import Volume
 
 _OPTIONS = ("like_study", "anonymous", "other_patient", "compress", "grey", "values")
 
@@ -106,14 +106,14 @@ def save_sheet(
 
     `about` holds a short title, a description of how the sheet was made, and the settings.
     """
-    from lumencut.frame import save_picture
+    from lumencut.pictures.frame import save_picture
 
     if not is_object(path) or volume is None:
         save_picture(image, path)
         return
-    from lumencut.dicom_objects.chosen_study import chosen_study
-    from lumencut.dicom_objects.picture import write_picture
-    from lumencut.dicom_objects.views import joined_picture
+    from lumencut.dicom.writing.chosen_study import chosen_study
+    from lumencut.dicom.writing.picture import write_picture
+    from lumencut.pictures.dicom_views import joined_picture
 
     study = chosen_study(volume._origin, **study_of(chosen))
     write_picture(path, joined_picture(image, *about), study, compress=chosen["compress"])

@@ -23,7 +23,7 @@ def doctor(as_json: bool) -> None:
     your files is named: you can put all of the output into a bug report. The exit code is 1 if there is a
     problem, and each problem has a line.
     """
-    from lumencut.doctor import examined
+    from lumencut.cli.installation import examined
 
     with busy("examining"):
         found = examined()

@@ -17,7 +17,7 @@ from lumencut.errors import FileError, SettingsError
 
 if TYPE_CHECKING:
     from lumencut.evaluation import Evaluation
-    from lumencut.vessel_tree import VesselTree
+    from lumencut.scene.vessel_tree import VesselTree
 
 
 @click.command(short_help="Measure how much of the true lumen each method shows.")
@@ -104,7 +104,7 @@ def evaluate(
 
 def _scene(files: tuple[Path, ...], chosen: dict[str, Any]) -> SceneFiles:
     """Return volume and centerlines: the first of several files is the volume, unless all are centerlines."""
-    from lumencut.file_kinds import kind_of
+    from lumencut.base.file_kinds import kind_of
 
     roles = [None if kind is None else kind.role for kind in map(kind_of, files)]
     has_volume = len(files) > 1 and (roles[0] != "centerlines" or "volume" in roles)
@@ -137,7 +137,7 @@ def _check_outputs(scene: SceneFiles, csv: Path | None, markdown: Path | None, p
 
 def _write(found: Evaluation, csv: Path | None, markdown: Path | None, pictures: Path | None) -> None:
     """Write the requested outputs, or print the table."""
-    from lumencut._files import write_text
+    from lumencut.base.paths import write_text
 
     summary = f"{', '.join(found.settings)} in {len(found.cameras)} views"
     if csv is not None:

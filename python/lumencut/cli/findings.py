@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
-    from lumencut.mends import Told
-    from lumencut.vessel_tree import VesselTree
+    from lumencut.base.mends import Told
+    from lumencut.scene.vessel_tree import VesselTree
 
 _ORIGINS = {
     "asked": "as asked",
@@ -30,7 +30,7 @@ _TRIED_SMOOTHING = 0.5
 
 def of_volume(path: Path, **chosen: Any) -> dict[str, Any]:
     """Inspect a volume file; the arguments select series and phase, and whether gaps are filled."""
-    from lumencut.volume_files import inspected_volume
+    from lumencut.files.volumes import inspected_volume
 
     with bar(f"reading {path.name}", "slice") as progress:
         report, volume = inspected_volume(path, progress=progress, **chosen)
@@ -77,7 +77,7 @@ def of_centerlines(
     reorder: bool = False,
 ) -> dict[str, Any]:
     """Inspect a centerline file; the volume that it fits best decides what the file leaves open."""
-    from lumencut.centerline_file import CenterlineFile
+    from lumencut.files.centerline_file import CenterlineFile
 
     file = CenterlineFile(path)
     place = best(file, coordinates, unit, volumes, reorder=reorder)
@@ -113,7 +113,7 @@ def of_devices() -> dict[str, Any]:
     from dataclasses import asdict
 
     from lumencut import _lumencut
-    from lumencut.device import devices
+    from lumencut.scene.device import devices
 
     software = "software: it computes only with --device gpu"
     found = [asdict(device) | {"notes": [software] if device.is_software else []} for device in devices()]
@@ -157,7 +157,7 @@ def _odd_tree(tree: VesselTree) -> list[str]:
     import numpy as np
 
     from lumencut._lumencut import SETTINGS
-    from lumencut.placement import LARGEST, SMALLEST
+    from lumencut.scene.placement import LARGEST, SMALLEST
 
     notes = []
     extent = float(np.linalg.norm(np.diff(tree.bounds, axis=0)))

@@ -23,7 +23,7 @@ from lumencut.cohort.parent import PARENT, end_with_parent
 _LOOK = 0.01
 #: Modules imported before the first fork; otherwise each study would have to import them.
 _LOADED = (
-    *("lumencut.cohort.one", "lumencut.recipe", "pydicom", "tqdm", "numpy.ma"),
+    *("lumencut.cohort.one", "lumencut.pictures.recipe", "pydicom", "tqdm", "numpy.ma"),
     *("PIL.Image", "PIL.ImageDraw", "PIL.ImageFont", "PIL.WebPImagePlugin"),
 )
 

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
-    from lumencut.vessel_tree import VesselTree
-    from lumencut.volume import Volume
+    from lumencut.scene.vessel_tree import VesselTree
+    from lumencut.scene.volume import Volume
 
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 
@@ -77,7 +77,7 @@ def check_found(chosen: dict[str, Any]) -> None:
 
 def shown_vessels(chosen: dict[str, Any], voxels: Volume) -> VesselTree:
     """Find the vessels of a picture; by default only those of the most important part are shown."""
-    from lumencut.vessel_tree import VesselTree
+    from lumencut.scene.vessel_tree import VesselTree
 
     tree = found_vessels(chosen, voxels)
     if chosen.get("all_parts") or chosen["doubtful"] or len(tree.parts) < 2:
@@ -88,7 +88,7 @@ def shown_vessels(chosen: dict[str, Any], voxels: Volume) -> VesselTree:
 
 def found_vessels(chosen: dict[str, Any], voxels: Volume) -> VesselTree:
     """Find the requested vessels, and report the doubtful ones."""
-    from lumencut.vessel_tree import VesselTree
+    from lumencut.scene.vessel_tree import VesselTree
 
     tree = _tree(chosen, voxels)
     if not len(tree.doubtful):
@@ -102,8 +102,8 @@ def found_vessels(chosen: dict[str, Any], voxels: Volume) -> VesselTree:
 
 def _tree(chosen: dict[str, Any], voxels: Volume) -> VesselTree:
     """Return the vessels, and a report on them."""
-    from lumencut.seed_tracing import trace_from
-    from lumencut.vessel_finding import find_vessels
+    from lumencut.tracing.seed_tracing import trace_from
+    from lumencut.tracing.vessel_finding import find_vessels
 
     smallest = {} if chosen["smallest_radius"] is None else {"smallest_radius": chosen["smallest_radius"]}
     with bar("finding vessels", "share") as progress:

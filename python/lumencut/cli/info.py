@@ -99,7 +99,7 @@ def _check(chosen: dict[str, Any], files: tuple[Path, ...]) -> None:
 
 
 def _holds_centerlines(path: Path) -> bool:
-    from lumencut.file_kinds import extensions, kind_of
+    from lumencut.base.file_kinds import extensions, kind_of
 
     kind = kind_of(path)
     if kind is not None:

@@ -10,18 +10,18 @@ from typing import TYPE_CHECKING, Any
 import click
 from click.core import ParameterSource
 
-from lumencut._wording import counted
+from lumencut.base.wording import counted
 from lumencut.cli import options
 from lumencut.cli.found_vessels import found_by
 from lumencut.cli.report import warn
 from lumencut.errors import CameraError, FormatError
 
 if TYPE_CHECKING:
-    from lumencut.camera import Camera
-    from lumencut.recipe import Recipe
-    from lumencut.renderer import Renderer
-    from lumencut.vessel_tree import VesselTree
-    from lumencut.volume import Volume
+    from lumencut.pictures.recipe import Recipe
+    from lumencut.pictures.renderer import Renderer
+    from lumencut.scene.camera import Camera
+    from lumencut.scene.vessel_tree import VesselTree
+    from lumencut.scene.volume import Volume
 
 like_option = click.option(
     "--like",
@@ -39,8 +39,8 @@ def recipe_from(path: Path | None) -> Recipe | None:
     """Return how the picture of ``--like`` was rendered; None if there is no ``--like``."""
     if path is None:
         return None
-    from lumencut.recipe import read_recipe
-    from lumencut.session_file import is_session_file, read_session
+    from lumencut.pictures.recipe import read_recipe
+    from lumencut.viewer.session_file import is_session_file, read_session
 
     if not is_session_file(path):
         return read_recipe(path)
@@ -53,7 +53,7 @@ def recipe_from(path: Path | None) -> Recipe | None:
 
 def beside_session(chosen: dict[str, Any]) -> dict[str, Any]:
     """Return the options; missing ones are taken from a session file given to ``--like``."""
-    from lumencut.session_file import is_session_file, read_session
+    from lumencut.viewer.session_file import is_session_file, read_session
 
     like = chosen["like"]
     if like is None or not is_session_file(like):
@@ -133,7 +133,7 @@ def _resized(camera: Camera, given: dict[str, Any]) -> Camera:
 def _turned(camera: Camera, given: dict[str, Any]) -> Camera:
     import numpy as np
 
-    from lumencut.camera import VIEWS, upright
+    from lumencut.scene.camera import VIEWS, upright
 
     if "view" in given or "up" in given:
         view = given.get("view", camera.direction)

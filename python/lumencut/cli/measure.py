@@ -21,15 +21,15 @@ from lumencut.cli.vessels import named_vessels, path_option
 from lumencut.errors import MeasuringError
 
 if TYPE_CHECKING:
-    from lumencut.measured_vessel import Marked, MeasuredVessel
-    from lumencut.profile import Profile
-    from lumencut.session_file import SessionFile
-    from lumencut.vessel import Vessel
-    from lumencut.vessel_tree import VesselTree
-    from lumencut.volume import Volume
+    from lumencut.measuring.measured_vessel import Marked, MeasuredVessel
+    from lumencut.measuring.profile import Profile
+    from lumencut.scene.vessel import Vessel
+    from lumencut.scene.vessel_tree import VesselTree
+    from lumencut.scene.volume import Volume
+    from lumencut.viewer.session_file import SessionFile
 
-#: The names of `lumencut.stenosis.METHODS` and `lumencut.measured_vessel.GROUPS`; copied so that `--help`
-#: does not import numpy.
+#: `METHODS` of `lumencut.measuring.stenosis` and `GROUPS` of `lumencut.measuring.measured_vessel`; copied so
+#: that `--help` does not import numpy.
 METHODS, GROUPS = ("nascet", "ecst", "area"), ("carotid", "coronary")
 
 _OF_A_PLACE = ("reference", "method", "original", "comparison", "group")
@@ -140,7 +140,7 @@ def measure(output: tuple[Path, ...], **chosen: Any) -> None:
     voxels, tree = read_files(files, chosen)
     if voxels is None or tree is None:
         raise click.UsageError("lumencut measure needs VOLUME and CENTERLINES")
-    from lumencut.placement import check_meeting
+    from lumencut.scene.placement import check_meeting
 
     check_meeting(voxels, tree)
     study = None if chosen["dicom"] is None else study_for(voxels, chosen)
@@ -182,8 +182,8 @@ def _measured(
     voxels: Volume, tree: VesselTree, vessels: Sequence[tuple[str, Vessel]], chosen: dict[str, Any]
 ) -> list[MeasuredVessel]:
     """Return the measured vessels, and warn of vessels that cannot be measured; fail if none can."""
-    from lumencut.measured_vessel import MeasuredVessel
-    from lumencut.measuring import measure as library
+    from lumencut.measuring.measured_vessel import MeasuredVessel
+    from lumencut.measuring.sections import measure as library
 
     found, marked = [], _marked(chosen)
     session = _session(chosen)
@@ -226,14 +226,14 @@ def _refuse(profile: Profile, at: float, marked: Marked) -> None:
 
 def _session(chosen: dict[str, Any]) -> SessionFile | None:
     """Return the session file if it is the only file of CENTERLINES."""
-    from lumencut.session_file import is_session_file, read_session
+    from lumencut.viewer.session_file import is_session_file, read_session
 
     files = chosen["centerlines"]
     return read_session(files[0]) if len(files) == 1 and is_session_file(files[0]) else None
 
 
 def _marked(chosen: dict[str, Any]) -> Marked:
-    from lumencut.measured_vessel import Marked
+    from lumencut.measuring.measured_vessel import Marked
 
     return Marked(
         chosen["at"],

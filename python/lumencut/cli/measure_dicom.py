@@ -12,11 +12,11 @@ from lumencut.cli.dicom import check_study_options, study_of
 from lumencut.cli.report import busy, say
 
 if TYPE_CHECKING:
-    from lumencut.dicom_objects.study import Study
-    from lumencut.measured_vessel import MeasuredVessel
-    from lumencut.renderer import Renderer
-    from lumencut.vessel_tree import VesselTree
-    from lumencut.volume import Volume
+    from lumencut.measuring.measured_vessel import MeasuredVessel
+    from lumencut.pictures.renderer import Renderer
+    from lumencut.scene.study import Study
+    from lumencut.scene.vessel_tree import VesselTree
+    from lumencut.scene.volume import Volume
 
 
 def check_dicom(chosen: dict[str, Any]) -> None:
@@ -32,8 +32,8 @@ def check_dicom(chosen: dict[str, Any]) -> None:
     check_study_options(chosen)
     if chosen["dicom"].exists() and not chosen["dicom"].is_dir():
         raise click.UsageError(f"--dicom {chosen['dicom']}: found a file; expected a folder")
-    from lumencut.dicom_objects.structured_report import check_highdicom
-    from lumencut.profile_plot import check_matplotlib
+    from lumencut.measuring.profile_plot import check_matplotlib
+    from lumencut.measuring.structured_report import check_highdicom
 
     check_highdicom()
     check_matplotlib()
@@ -41,7 +41,7 @@ def check_dicom(chosen: dict[str, Any]) -> None:
 
 def study_for(voxels: Volume, chosen: dict[str, Any]) -> Study:
     """Return the study of the objects, before anything is measured."""
-    from lumencut.dicom_objects.chosen_study import chosen_study
+    from lumencut.dicom.writing.chosen_study import chosen_study
 
     return chosen_study(voxels._origin, **study_of(chosen))
 
@@ -50,7 +50,7 @@ def write_objects(
     scene: tuple[Volume, VesselTree], measured: Sequence[MeasuredVessel], study: Study, chosen: dict[str, Any]
 ) -> None:
     """Write the structured report, the PDF, a view and a straightened CPR of each vessel into the folder."""
-    from lumencut.renderer import Renderer
+    from lumencut.pictures.renderer import Renderer
 
     folder = chosen["dicom"]
     folder.mkdir(exist_ok=True)
@@ -64,8 +64,8 @@ def write_objects(
 
 
 def _write_numbers(path: Path, shown: list[MeasuredVessel], study: Study) -> None:
-    from lumencut.dicom_objects.measured import measured
-    from lumencut.dicom_objects.structured_report import write_report
+    from lumencut.measuring.dicom_profile import measured
+    from lumencut.measuring.structured_report import write_report
 
     graded = [(one, () if one.stenosis is None else (one.stenosis,)) for one in shown]
     write_report(
@@ -76,9 +76,9 @@ def _write_numbers(path: Path, shown: list[MeasuredVessel], study: Study) -> Non
 def _write_pdf(
     path: Path, shown: list[MeasuredVessel], study: Study, renderer: Renderer, chosen: dict[str, Any]
 ) -> None:
-    from lumencut.dicom_objects.encapsulated_pdf import write_pdf
-    from lumencut.measure_report import report
-    from lumencut.report_pdf import report_pdf
+    from lumencut.dicom.writing.encapsulated_pdf import write_pdf
+    from lumencut.reports.measure_report import report
+    from lumencut.reports.report_pdf import report_pdf
 
     volume = renderer.volume
     assert volume is not None, "vessels are measured in a volume"
@@ -88,9 +88,9 @@ def _write_pdf(
 
 def _write_pictures(folder: Path, shown: list[MeasuredVessel], study: Study, renderer: Renderer) -> int:
     """Write the view from the front, and each vessel straightened; return the number of pictures."""
-    from lumencut.camera import Camera
-    from lumencut.dicom_objects.picture import write_picture
-    from lumencut.planar_reformation import CprRequest
+    from lumencut.dicom.writing.picture import write_picture
+    from lumencut.reformations.planar_reformation import CprRequest
+    from lumencut.scene.camera import Camera
 
     frame = renderer.render(Camera.anterior(renderer.scene, (768, 768)))
     write_picture(folder / "anterior.dcm", frame._as_object(annotate=True, vessel_names=False), study)

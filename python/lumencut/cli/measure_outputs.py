@@ -12,9 +12,9 @@ from lumencut.cli import options
 from lumencut.cli.report import bar, busy, say
 
 if TYPE_CHECKING:
-    from lumencut.measured_vessel import MeasuredVessel
-    from lumencut.vessel_tree import VesselTree
-    from lumencut.volume import Volume
+    from lumencut.measuring.measured_vessel import MeasuredVessel
+    from lumencut.scene.vessel_tree import VesselTree
+    from lumencut.scene.volume import Volume
 
 _ENDINGS = {
     "output": (".csv", ".json"),
@@ -46,7 +46,7 @@ def check_outputs(output: Sequence[Path], chosen: dict[str, Any]) -> None:
         )
     _check_twice([path for _, path in named] + [chosen["sections"]])
     if chosen["plot"] is not None:
-        from lumencut.profile_plot import check_matplotlib
+        from lumencut.measuring.profile_plot import check_matplotlib
 
         check_matplotlib()
 
@@ -84,8 +84,8 @@ def _check_twice(paths: Sequence[Path | None]) -> None:
 
 
 def _write_profiles(path: Path, measured: Sequence[MeasuredVessel], chosen: dict[str, Any]) -> None:
-    from lumencut._files import write_text
-    from lumencut.measured_vessel import vessels_csv, vessels_json
+    from lumencut.base.paths import write_text
+    from lumencut.measuring.measured_vessel import vessels_csv, vessels_json
 
     is_table = path.suffix.lower() == ".csv"
     text = vessels_csv(measured) if is_table else vessels_json(chosen, measured)
@@ -98,7 +98,7 @@ def _write_plot(path: Path, measured: Sequence[MeasuredVessel]) -> None:
     if len(measured) > _PLOTTED:
         mend = "choose by --vessel"
         raise click.UsageError(f"{path} holds {_PLOTTED} vessels at most; found {len(measured)}; {mend}")
-    from lumencut.profile_plot import figure_of, write
+    from lumencut.measuring.profile_plot import figure_of, write
 
     with busy(f"writing {path.name}"):
         rows = [(_title(one), one.profile, one.marks) for one in measured]
@@ -113,9 +113,9 @@ def _title(one: MeasuredVessel) -> str:
 
 
 def _write_sheet(path: Path, voxels: Volume, tree: VesselTree, measured: Sequence[MeasuredVessel]) -> None:
-    from lumencut.frame import save_picture
-    from lumencut.section_pictures import SectionView, sections_sheet
-    from lumencut.window import Window
+    from lumencut.pictures.frame import save_picture
+    from lumencut.reports.section_pictures import SectionView, sections_sheet
+    from lumencut.scene.window import Window
 
     count = min(_SECTIONS, max(_LEAST, _IN_ALL // len(measured)))
     with bar("sections", "vessel") as progress:
@@ -131,9 +131,9 @@ def _write_report(
     measured: Sequence[MeasuredVessel],
     chosen: dict[str, Any],
 ) -> None:
-    from lumencut._files import write_text
-    from lumencut.measure_report import report
-    from lumencut.renderer import Renderer
+    from lumencut.base.paths import write_text
+    from lumencut.pictures.renderer import Renderer
+    from lumencut.reports.measure_report import report
 
     with bar("report", "page") as progress:
         write_text(path, report(Renderer(voxels, tree, chosen["device"]), voxels, measured, chosen, progress))

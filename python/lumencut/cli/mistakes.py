@@ -15,8 +15,8 @@ import click
 from lumencut._lumencut import SETTINGS
 
 if TYPE_CHECKING:
-    from lumencut.settings import Settings
-    from lumencut.vessel_tree import VesselTree
+    from lumencut.scene.settings import Settings
+    from lumencut.scene.vessel_tree import VesselTree
 
 _CONTEXT = tuple(name for name in SETTINGS if name.startswith("context"))
 _OF_ALL = ("background", "samples", *_CONTEXT)
@@ -30,7 +30,7 @@ _PICTURE = ("window", "opacity", "silhouette_color", "background", "samples", *_
 
 def check_files(volume: Path | None, centerlines: Sequence[Path]) -> None:
     """Reject a volume given as centerlines, and centerlines given as a volume."""
-    from lumencut.file_kinds import kind_of
+    from lumencut.base.file_kinds import kind_of
 
     first = None if volume is None else kind_of(volume)
     kinds = {path: kind_of(path) for path in centerlines}
@@ -52,7 +52,7 @@ def check_files(volume: Path | None, centerlines: Sequence[Path]) -> None:
 
 def check_reading(chosen: dict[str, Any], volumes: Iterable[Path], *, has_centerlines: bool) -> None:
     """Reject options for reading DICOM or centerlines if no such file is given."""
-    from lumencut.file_kinds import kind_of
+    from lumencut.base.file_kinds import kind_of
 
     kinds = {path: kind_of(path) for path in volumes}
     if all(kind is not None and not kind.is_dicom for kind in kinds.values()):

@@ -14,10 +14,10 @@ from lumencut.cli.parameters import SIZE, VECTOR, Named
 from lumencut.errors import CameraError, FileError
 
 if TYPE_CHECKING:
-    from lumencut.camera import Camera
-    from lumencut.vessel_tree import VesselTree
-    from lumencut.volume import Volume
-    from lumencut.window import Window
+    from lumencut.scene.camera import Camera
+    from lumencut.scene.vessel_tree import VesselTree
+    from lumencut.scene.volume import Volume
+    from lumencut.scene.window import Window
 
 
 Command = TypeVar("Command", bound=Callable[..., Any])
@@ -91,7 +91,7 @@ device_option = click.option(
 
 def _remember_threads(ctx: click.Context, _: click.Parameter, count: int | None) -> None:
     if count is not None and not ctx.resilient_parsing:
-        from lumencut.threads import set_threads
+        from lumencut.base.threads import set_threads
 
         set_threads(count)
 
@@ -235,7 +235,7 @@ def view_from(chosen: dict[str, Any]) -> Camera:
     """Return a camera with the direction, up vector and size of the options; its position is not set yet."""
     import numpy as np
 
-    from lumencut.camera import VIEWS, Camera, upright
+    from lumencut.scene.camera import VIEWS, Camera, upright
 
     view = chosen["view"]
     direction, up = VIEWS[view] if isinstance(view, str) else (view, upright(view))
@@ -250,7 +250,7 @@ def view_from(chosen: dict[str, Any]) -> Camera:
 
 def placed(view: Camera, scene: VesselTree | Volume, chosen: dict[str, Any]) -> Camera:
     """Return the camera of this view; what the options do not fix is fitted to the scene."""
-    from lumencut.camera import Camera
+    from lumencut.scene.camera import Camera
 
     return placed_like(Camera.fitted(scene, view.direction, view.up, view.size), chosen)
 

@@ -16,7 +16,7 @@ _Parameter: TypeAlias = "click.Parameter | None"
 _Context: TypeAlias = "click.Context | None"
 
 
-#: The names of ``lumencut.window.WINDOW_NAMES``; copied so that ``--help`` does not import numpy.
+#: The names of ``lumencut.scene.window.WINDOW_NAMES``; copied so that ``--help`` does not import numpy.
 WINDOW_NAMES = ("auto", "cta", "soft-tissue", "bone", "lung", "full", "mra", "stent")
 
 

@@ -12,9 +12,9 @@ from lumencut.cli.options import FILE, Command, added
 from lumencut.cli.report import INCOMPLETE, bar, inform, say, verbose_option, warn
 
 if TYPE_CHECKING:
-    from lumencut.dicomweb.address import Address
-    from lumencut.dicomweb.client import Client
-    from lumencut.dicomweb.queries import Found
+    from lumencut.dicom.web.address import Address
+    from lumencut.dicom.web.client import Client
+    from lumencut.dicom.web.queries import Found
 
 #: Default number of studies in a table.
 _MOST_STUDIES = 100
@@ -85,8 +85,8 @@ def pull(
     lumencut pull https://pacs.example/dicom-web --patient 'Doe*' --modality CT
     lumencut pull https://pacs.example/dicom-web/studies/1.2.3/series/1.2.3.4 -o scan
     """  # noqa: D301 - click needs the control character itself
-    from lumencut.dicomweb.address import parsed_address
-    from lumencut.dicomweb.client import Client
+    from lumencut.dicom.web.address import parsed_address
+    from lumencut.dicom.web.client import Client
 
     place = parsed_address(address)
     match = {"PatientName": patient, "StudyDate": date, "ModalitiesInStudy": modality}
@@ -105,7 +105,7 @@ def pull(
 
 
 def _list(client: Client, place: Address, wanted: dict[str, str], most: int) -> None:
-    from lumencut.dicomweb.queries import find_series, find_studies
+    from lumencut.dicom.web.queries import find_series, find_studies
 
     if place.study:
         _table(find_series(client, place), _SERIES_COLUMNS, "series")
@@ -130,8 +130,8 @@ def _table(found: list[Found], columns: tuple[str, ...], what: str) -> None:
 
 
 def _pull(client: Client, place: Address, folder: Path) -> bool:
-    from lumencut.dicomweb.pulling import pull_instances
-    from lumencut.dicomweb.queries import find_instances
+    from lumencut.dicom.web.pulling import pull_instances
+    from lumencut.dicom.web.queries import find_instances
 
     instances = find_instances(client, place)
     _warn_of_patients(client, place)
@@ -146,7 +146,7 @@ def _pull(client: Client, place: Address, folder: Path) -> bool:
 
 def _warn_of_patients(client: Client, place: Address) -> None:
     """Warn if the PACS lists the study under several patients; if it cannot be asked, continue."""
-    from lumencut.dicomweb.queries import find_patients
+    from lumencut.dicom.web.queries import find_patients
     from lumencut.errors import PacsError
 
     with suppress(PacsError):

@@ -14,9 +14,9 @@ from lumencut.cli.report import INCOMPLETE, bar, busy, complain, detail, inform,
 from lumencut.errors import PacsError
 
 if TYPE_CHECKING:
-    from lumencut.dicomweb.address import Address
-    from lumencut.dicomweb.client import Client
-    from lumencut.dicomweb.objects import Outgoing
+    from lumencut.dicom.web.address import Address
+    from lumencut.dicom.web.client import Client
+    from lumencut.dicom.web.objects import Outgoing
 
 _NO_TERMINAL = "no terminal in which to confirm the first push to this address"
 _NOT_BACK = "objects in a PACS cannot be removed from here"
@@ -53,10 +53,10 @@ def push(
     lumencut push results/ https://pacs.example/dicom-web --dry-run
     lumencut push results/ https://pacs.example/dicom-web
     """  # noqa: D301 - click needs the control character itself
-    from lumencut.dicomweb.address import parsed_address
-    from lumencut.dicomweb.client import Client
-    from lumencut.dicomweb.objects import outgoing_objects
-    from lumencut.dicomweb.patients import check_objects
+    from lumencut.dicom.web.address import parsed_address
+    from lumencut.dicom.web.client import Client
+    from lumencut.dicom.web.objects import outgoing_objects
+    from lumencut.dicom.web.patients import check_objects
 
     if len(files) < 2:
         raise click.UsageError("found one argument; expected FILES, then the ADDRESS of the PACS")
@@ -94,7 +94,7 @@ def _check_studies(
     client: Client, address: Address, objects: list[Outgoing], *, is_new_allowed: bool
 ) -> None:
     """Reject objects of another patient, and of studies that the PACS lacks: usually it is the wrong PACS."""
-    from lumencut.dicomweb.patients import check_pacs
+    from lumencut.dicom.web.patients import check_pacs
 
     unknown, doubts = check_pacs(client, address.base, objects)
     _warn(doubts)
@@ -110,7 +110,7 @@ def _warn(doubts: list[str]) -> None:
 
 
 def _ask(address: Address, *, is_sure: bool) -> None:
-    from lumencut.dicomweb.known_addresses import is_known, remember
+    from lumencut.dicom.web.known_addresses import is_known, remember
 
     if not is_sure and not is_known(address.base):
         if not sys.stdin.isatty():
@@ -121,7 +121,7 @@ def _ask(address: Address, *, is_sure: bool) -> None:
 
 
 def _push(client: Client, address: Address, objects: list[Outgoing]) -> bool:
-    from lumencut.dicomweb.pushing import push_objects
+    from lumencut.dicom.web.pushing import push_objects
 
     with bar(f"sending {len(objects)} objects", "object") as progress:
         done = push_objects(client, address, objects, progress)

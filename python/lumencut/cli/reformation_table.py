@@ -18,7 +18,7 @@ from lumencut.cli.reformations import show_each
 from lumencut.cli.uncurl import show_uncurled
 from lumencut.cli.untangled import show_untangled
 
-#: The names of ``lumencut.unrolled_wall.MODES``; copied so that ``--help`` does not import numpy.
+#: `MODES` of `lumencut.reformations.unrolled_wall`; copied so that `--help` does not import numpy.
 MAP_MODES = ("wall", "radius", "thickness", "shaded")
 
 

@@ -22,11 +22,11 @@ from lumencut.cli.vessels import titled_vessels
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from lumencut.reformation import Reformation
-    from lumencut.renderer import Renderer
-    from lumencut.settings import Settings
-    from lumencut.vessel import Vessel
-    from lumencut.vessel_tree import VesselTree
+    from lumencut.pictures.renderer import Renderer
+    from lumencut.reformations.reformation import Reformation
+    from lumencut.scene.settings import Settings
+    from lumencut.scene.vessel import Vessel
+    from lumencut.scene.vessel_tree import VesselTree
 
 #: Parameters that a recipe holds in radians and the command line in degrees.
 _ANGLES = ("angle", "overlap")
@@ -37,9 +37,9 @@ def like(chosen: dict[str, Any], command: str) -> tuple[dict[str, Any], Settings
     path = chosen.pop("like")
     if path is None:
         return chosen, settings_from(chosen)
-    from lumencut._checks import number
+    from lumencut.base.checks import number
     from lumencut.errors import FormatError
-    from lumencut.reformation_recipe import read_reformation_recipe
+    from lumencut.pictures.reformation_recipe import read_reformation_recipe
 
     recipe, settings = read_reformation_recipe(path)
     if recipe.command != command:
@@ -69,7 +69,7 @@ def read_vessels(
     if chosen["output"].suffix.lower() == ".npz":
         check_single(vessels, chosen["output"])
 
-    from lumencut.renderer import Renderer
+    from lumencut.pictures.renderer import Renderer
 
     renderer = Renderer(voxels, tree, files.device)
     warn_of_window(settings, renderer)
@@ -78,12 +78,21 @@ def read_vessels(
 
 def asked(command: str, chosen: dict[str, Any], settings: Settings, tree: VesselTree) -> Any:
     """Return the request for the reformation of a command, from its options."""
-    from lumencut.reformation_kinds import KINDS
-
+    requests = _requests()
     given = {**chosen, "settings": settings, "slab": None, "tree": tree}
-    own = {field.name: given[field.name] for field in fields(KINDS[command]) if field.name in given}
+    own = {field.name: given[field.name] for field in fields(requests[command]) if field.name in given}
     own |= {name: math.radians(own[name]) for name in _ANGLES if own.get(name) is not None}
-    return KINDS[command](**own)
+    return requests[command](**own)
+
+
+def _requests() -> dict[str, Any]:
+    """Return the requests that show each vessel in separate rows, by the names of their commands."""
+    from lumencut.reformations.feature_aggregation import CfaRequest
+    from lumencut.reformations.lumen_mapping import LumenMapRequest
+    from lumencut.reformations.planar_reformation import CprRequest
+    from lumencut.reformations.spiral_reformation import SpiralRequest
+
+    return {request.kind: request for request in (CprRequest, CfaRequest, SpiralRequest, LumenMapRequest)}
 
 
 def show_each(command: str, **given: Any) -> None:
@@ -130,7 +139,7 @@ def made_of(title: str, vessel: Vessel, make: Callable[[Vessel], Reformation]) -
 
 
 def _write(chosen: dict[str, Any], made: list[Reformation], titles: list[str], *, annotate: bool) -> None:
-    from lumencut.contact_sheet import contact_sheet
+    from lumencut.pictures.contact_sheet import contact_sheet
 
     output = chosen["output"]
     if len(made) == 1:

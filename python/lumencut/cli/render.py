@@ -34,12 +34,12 @@ from lumencut.cli.scene import (
 from lumencut.cli.settings import paper_option, setting_options, settings_from
 
 if TYPE_CHECKING:
-    from lumencut.camera import Camera
-    from lumencut.recipe import Recipe
-    from lumencut.vessel_tree import VesselTree
-    from lumencut.volume import Volume
+    from lumencut.pictures.recipe import Recipe
+    from lumencut.scene.camera import Camera
+    from lumencut.scene.vessel_tree import VesselTree
+    from lumencut.scene.volume import Volume
 
-#: The names of `lumencut.hanging.HANGINGS`; copied so that ``--help`` does not import numpy.
+#: The names of `lumencut.pictures.hanging.HANGINGS`; copied so that ``--help`` does not import numpy.
 HANGINGS = ("evar", "carotid", "runoff", "coronary", "head")
 
 
@@ -148,7 +148,7 @@ def _hanging(name: str, chosen: dict[str, Any]) -> list[tuple[Any, Camera]]:
         if other in typed(chosen):
             found = f"--{other.replace('_', '-')} does nothing with --hanging"
             raise click.UsageError(f"{found}, which sets the views; leave out --{other.replace('_', '-')}")
-    from lumencut.hanging import hanging_views
+    from lumencut.pictures.hanging import hanging_views
 
     return list(hanging_views(name, chosen["size"]))
 
@@ -164,7 +164,7 @@ def _placed(
     """Return the views with their cameras in position; all views of a hanging have one pixel spacing."""
     if not is_hanging:
         return [camera_of(view, scene, chosen, recipe) for _, view in views]
-    from lumencut.hanging import fitted_alike
+    from lumencut.pictures.hanging import fitted_alike
 
     alike = fitted_alike([view for _, view in views], scene)
     return [options.placed_like(camera, chosen) for camera in alike]

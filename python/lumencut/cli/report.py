@@ -13,9 +13,9 @@ from typing import NoReturn
 
 import click
 
+from lumencut.base.mends import Told, as_option, written
 from lumencut.cli.signals import EndedError, ended_by_signals
 from lumencut.errors import DeviceWarning, LineWarning, LumencutError, SpaceWarning, StudyWarning
-from lumencut.mends import Told, as_option, written
 
 #: Exit codes other than 0 and click's 2 for wrong usage.
 FAILED, INCOMPLETE, INTERRUPTED = 1, 3, 130

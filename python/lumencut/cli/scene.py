@@ -19,15 +19,15 @@ if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
-    from lumencut.camera import Camera
-    from lumencut.centerline_file import CenterlineFile
-    from lumencut.frame import Frame
-    from lumencut.renderer import Renderer
-    from lumencut.settings import Settings
-    from lumencut.several_centerlines import CenterlineFiles
-    from lumencut.vessel_tree import VesselTree
-    from lumencut.volume import Volume
-    from lumencut.window import Window
+    from lumencut.files.centerline_file import CenterlineFile
+    from lumencut.files.several_centerlines import CenterlineFiles
+    from lumencut.pictures.frame import Frame
+    from lumencut.pictures.renderer import Renderer
+    from lumencut.scene.camera import Camera
+    from lumencut.scene.settings import Settings
+    from lumencut.scene.vessel_tree import VesselTree
+    from lumencut.scene.volume import Volume
+    from lumencut.scene.window import Window
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ def check_scene(files: SceneFiles, chosen: dict[str, Any], settings: Settings) -
 
 def read_scene(files: SceneFiles, chosen: dict[str, Any]) -> tuple[Renderer, VesselTree | Volume]:
     """Return a renderer of the files and the vessels that views fit; reject options without effect."""
-    from lumencut.renderer import Renderer
+    from lumencut.pictures.renderer import Renderer
 
     voxels, tree = read_files(files, chosen)
     if tree is None:
@@ -100,11 +100,11 @@ def read_files(files: SceneFiles, chosen: dict[str, Any]) -> tuple[Volume | None
 
 def centerlines_of(paths: tuple[Path, ...]) -> CenterlineFile | CenterlineFiles | None:
     """Read files of centerlines. If there is only one, the renderer later compares it with the volume."""
-    from lumencut.centerline_file import CenterlineFile
+    from lumencut.files.centerline_file import CenterlineFile
 
     if len(paths) < 2:
         return CenterlineFile(paths[0]) if paths else None
-    from lumencut.several_centerlines import CenterlineFiles
+    from lumencut.files.several_centerlines import CenterlineFiles
 
     return CenterlineFiles(paths)
 
@@ -115,7 +115,7 @@ def _read_volume(path: Path, files: SceneFiles) -> Volume:
 
 def volume_of(path: Path, chosen: dict[str, Any]) -> Volume:
     """Read a volume as the options define."""
-    from lumencut.volume_files import read_volume
+    from lumencut.files.volumes import read_volume
 
     with bar(f"reading {path.name}", "slice") as progress:
         voxels = read_volume(

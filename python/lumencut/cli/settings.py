@@ -14,7 +14,7 @@ from lumencut.cli.parameters import RGB, RGBA, WINDOW, WINDOW_NAMES, NumberOrNon
 from lumencut.errors import SettingsError
 
 if TYPE_CHECKING:
-    from lumencut.settings import Settings
+    from lumencut.scene.settings import Settings
 
 NO_CONTEXT = "none"
 
@@ -145,7 +145,7 @@ def settings_from(chosen: dict[str, Any], base: Settings | None = None) -> Setti
 
     Without both they have their defaults.
     """
-    from lumencut.settings import Settings
+    from lumencut.scene.settings import Settings
 
     given = {name: chosen[name] for name in SETTINGS if chosen.get(name) not in (None, ())}
     path = chosen.get("settings_file")
@@ -166,17 +166,17 @@ def settings_from(chosen: dict[str, Any], base: Settings | None = None) -> Setti
 
 def _look(name: str | None) -> dict[str, Any]:
     """Return the settings of a look."""
-    from lumencut._checked_settings import look_values
+    from lumencut.scene.checked_settings import look_values
 
     return {} if name is None else look_values(name)
 
 
 def _as_field(setting: Setting, value: Any) -> Any:
     """Convert the value of an option to that of the setting."""
-    from lumencut.focus import Focus
-    from lumencut.slab import Slab
-    from lumencut.transfer import TransferFunction
-    from lumencut.window import Opacity, Window
+    from lumencut.scene.focus import Focus
+    from lumencut.scene.slab import Slab
+    from lumencut.scene.transfer import TransferFunction
+    from lumencut.scene.window import Opacity, Window
 
     match setting.kind:
         case "window" if not isinstance(value, str):

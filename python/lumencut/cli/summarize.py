@@ -79,8 +79,8 @@ def _print(rows: Sequence[Sequence[str]], output: Path | None) -> None:
     for row in rows:
         say("  ".join(word.ljust(width) for word, width in zip(row, widths, strict=True)).rstrip())
     if output is not None:
-        from lumencut._files import write_text
-        from lumencut._tables import written
+        from lumencut.base.csv_cells import written
+        from lumencut.base.paths import write_text
 
         write_text(output, written(rows))
         say(str(output))

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
-    from lumencut.vessel_tree import VesselTree
-    from lumencut.volume import Volume
+    from lumencut.scene.vessel_tree import VesselTree
+    from lumencut.scene.volume import Volume
 
     Points = npt.NDArray[np.float64]
 
@@ -116,7 +116,7 @@ def trace(
         tree = found_vessels(chosen, voxels)
     else:
         tree = _traced(voxels, chosen, bridge=bridge)
-    from lumencut.centerline_writers import write_centerlines
+    from lumencut.files.centerline_writers import write_centerlines
 
     with busy(f"writing {output.name}"):
         write_centerlines(tree, output)
@@ -186,7 +186,7 @@ def _check_points(chosen: dict[str, Any]) -> None:
 
 
 def _traced(voxels: Volume, chosen: dict[str, Any], *, bridge: bool) -> VesselTree:
-    from lumencut.tracing import trace
+    from lumencut.tracing.tracer import trace
 
     lists, names = _vessels(voxels, chosen)
     with bar("tracing", "share") as progress:
@@ -214,7 +214,7 @@ def _vessels(voxels: Volume, chosen: dict[str, Any]) -> tuple[list[Points], list
         lists.append(np.array(chosen["index"]) @ affine[:3, :3].T + affine[:3, 3])
     names += [None] * len(lists)
     if chosen["points"]:
-        from lumencut.centerlines import read_centerlines
+        from lumencut.files.centerlines import read_centerlines
 
         for vessel in read_centerlines(list(chosen["points"]), volume=voxels):
             lists.append(vessel.points)
@@ -235,7 +235,7 @@ def _mean(name: str, numbers: Points | None, unit: str = "") -> str:
 
 
 def _render(voxels: Volume, tree: VesselTree, path: Path, device: Literal["auto", "cpu", "gpu"]) -> None:
-    from lumencut.renderer import Renderer
+    from lumencut.pictures.renderer import Renderer
 
     with bar("rendering", "share") as progress:
         frame = Renderer(voxels, tree, device).render(progress=progress)

@@ -13,9 +13,9 @@ from lumencut.cli.report import bar, busy, detail, say, warn
 from lumencut.errors import SettingsError
 
 if TYPE_CHECKING:
-    from lumencut.mask_files import MaskFile
-    from lumencut.vessel_tree import VesselTree
-    from lumencut.volume import Volume
+    from lumencut.files.mask_files import MaskFile
+    from lumencut.scene.vessel_tree import VesselTree
+    from lumencut.scene.volume import Volume
 
 _Command = TypeVar("_Command", bound=Callable[..., Any])
 
@@ -64,7 +64,7 @@ def mask_options(command: _Command) -> _Command:
 
 def traced_from_mask(chosen: dict[str, Any], volume: Volume | None) -> VesselTree:
     """Trace the mask of the options, and report the vessels."""
-    from lumencut.mask_tracing import trace_mask
+    from lumencut.tracing.mask_tracing import trace_mask
 
     path: Path = chosen["mask"]
     with busy(f"looking into {path.name}"):
@@ -96,7 +96,7 @@ def traced_from_mask(chosen: dict[str, Any], volume: Volume | None) -> VesselTre
 
 def _opened(path: Path, words: tuple[str, ...]) -> MaskFile:
     """Return the opened mask, with the labels of the options."""
-    from lumencut.mask_files import open_mask
+    from lumencut.files.mask_files import open_mask
 
     try:
         return open_mask(path, words)
@@ -105,7 +105,7 @@ def _opened(path: Path, words: tuple[str, ...]) -> MaskFile:
 
 
 def _above(mask: Volume, threshold: float) -> Volume:
-    from lumencut.volume import Volume
+    from lumencut.scene.volume import Volume
 
     above = Volume(mask.array >= threshold, world_from_index=mask.world_from_index)
     above._patient = mask._patient

@@ -26,11 +26,11 @@ from lumencut.cli.settings import paper_option, setting_options, settings_from
 from lumencut.errors import CameraError, FormatError, SettingsError
 
 if TYPE_CHECKING:
-    from lumencut.animation import Writer
-    from lumencut.camera import Camera
-    from lumencut.frame import Frame
-    from lumencut.renderer import Renderer
-    from lumencut.settings import Settings
+    from lumencut.pictures.animation import Writer
+    from lumencut.pictures.frame import Frame
+    from lumencut.pictures.renderer import Renderer
+    from lumencut.scene.camera import Camera
+    from lumencut.scene.settings import Settings
 
 AXIS_NAMES = ("superior", "up", "right", "direction")
 
@@ -121,7 +121,7 @@ def turntable(
     renderer, scene = read_scene(files, chosen)
     warn_of_window(settings, renderer)
 
-    from lumencut import turntables as library
+    from lumencut.pictures import turntables as library
 
     if chosen["fly_to"] is not None:
         first = library.fitted_turn(view, scene, 0.0)
@@ -155,9 +155,9 @@ def _about(
     renderer: Renderer, view: Camera, chosen: dict[str, Any], how: tuple[Settings, int]
 ) -> tuple[Camera, Iterator[Frame]]:
     """Return the first view of a turn about a place, and the frames of the turn."""
-    from lumencut._vessel_names import id_or_name
-    from lumencut.camera import Camera
-    from lumencut.place_turns import radius_at, turn_about
+    from lumencut.pictures.place_turns import radius_at, turn_about
+    from lumencut.scene.camera import Camera
+    from lumencut.scene.vessel_names import id_or_name
 
     word, at = chosen["about"]
     tree = renderer.tree
@@ -187,9 +187,9 @@ def _flight(
     renderer: Renderer, first: Camera, chosen: dict[str, Any], how: tuple[Settings, int]
 ) -> tuple[Camera, Iterator[Frame]]:
     """Return the first view of a flight to a vessel, and the frames of the flight."""
-    from lumencut._vessel_names import id_or_name
-    from lumencut.camera import Camera
-    from lumencut.flights import flight
+    from lumencut.pictures.flights import flight
+    from lumencut.scene.camera import Camera
+    from lumencut.scene.vessel_names import id_or_name
 
     word, tree = chosen["fly_to"], renderer.tree
     if tree is None:
@@ -211,7 +211,7 @@ def watched(turn: Iterable[Frame], count: int, empty: list[Camera]) -> Iterator[
 
 def _check_turn(view: Camera, frames: int, degrees: float, axis: Any) -> None:
     """Reject an invalid turn before any file is read."""
-    from lumencut.turntables import frame_angles
+    from lumencut.pictures.turntables import frame_angles
 
     try:
         frame_angles(frames, degrees)
@@ -222,7 +222,7 @@ def _check_turn(view: Camera, frames: int, degrees: float, axis: Any) -> None:
 
 def _checked_writer(output: str, fps: float, how: dict[str, Any], *, is_timed: bool) -> Writer:
     """Reject an output that cannot be written before any file is read."""
-    from lumencut.animation import checked_fps, is_sequence, writer_for
+    from lumencut.pictures.animation import checked_fps, is_sequence, writer_for
 
     try:
         checked_fps(fps)

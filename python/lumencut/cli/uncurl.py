@@ -19,14 +19,14 @@ if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
-    from lumencut.animation import Writer
-    from lumencut.camera import Camera
-    from lumencut.dicom_objects.picture import Picture
-    from lumencut.dicom_objects.study import Study
-    from lumencut.renderer import Renderer
-    from lumencut.settings import Settings
-    from lumencut.uncurling import Uncurled
-    from lumencut.vessel import Vessel
+    from lumencut.dicom.writing.picture import Picture
+    from lumencut.pictures.animation import Writer
+    from lumencut.pictures.renderer import Renderer
+    from lumencut.reformations.uncurling import Uncurled
+    from lumencut.scene.camera import Camera
+    from lumencut.scene.settings import Settings
+    from lumencut.scene.study import Study
+    from lumencut.scene.vessel import Vessel
 
 
 def show_uncurled(**given: Any) -> None:
@@ -54,7 +54,7 @@ def _writer(output: Path, amount: float | None, fps: float, dicom: dict[str, Any
             raise click.UsageError("--grey does nothing with --amount; leave out one of them")
         options.check_picture(output)
         return None
-    from lumencut.animation import checked_fps, writer_for
+    from lumencut.pictures.animation import checked_fps, writer_for
 
     try:
         checked_fps(fps)
@@ -67,8 +67,8 @@ def _writer(output: Path, amount: float | None, fps: float, dicom: dict[str, Any
 
 def _camera(chosen: dict[str, Any], vessel: Vessel) -> Camera:
     """Return the view of --like unless options define another one, fitted to the film."""
-    from lumencut.reformation_recipe import recipe_camera
-    from lumencut.uncurling import fitted_uncurling
+    from lumencut.pictures.reformation_recipe import recipe_camera
+    from lumencut.reformations.uncurling import fitted_uncurling
 
     own = {"view", "up", "rotate", "tilt", "size", "center", "pixel_spacing", "zoom"}
     if chosen["camera"] is not None and not own & typed(chosen).keys():
@@ -81,7 +81,7 @@ def _made(
     renderer: Renderer, vessel: Vessel, camera: Camera, chosen: dict[str, Any], settings: Settings
 ) -> Uncurled:
     """Return the vessel, straightened by the requested amount, in the window of all frames."""
-    from lumencut.uncurling import UncurlRequest
+    from lumencut.reformations.uncurling import UncurlRequest
 
     amount, shown = chosen["amount"] or 0.0, renderer.windowed(settings)
     asked = UncurlRequest(camera, amount, chosen["width"], smoothing=chosen["smoothing"], settings=shown)
@@ -111,7 +111,7 @@ class _Picture:
 
 def _film(first: Uncurled, frames: int, *, annotate: bool) -> Iterator[Any]:
     """Yield the frames, opaque, while a progress bar moves."""
-    from lumencut.uncurling import uncurling
+    from lumencut.reformations.uncurling import uncurling
 
     with bar("uncurl", "frame") as progress:
         for done, made in enumerate(uncurling(first, frames), 1):

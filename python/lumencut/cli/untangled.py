@@ -15,9 +15,9 @@ from lumencut.cli.scene import read_files, scene_from, warn_of_window
 from lumencut.cli.vessels import shown_ids
 
 if TYPE_CHECKING:
-    from lumencut.renderer import Renderer
-    from lumencut.settings import Settings
-    from lumencut.untangled_tree import UntangledTree
+    from lumencut.pictures.renderer import Renderer
+    from lumencut.reformations.untangled_tree import UntangledTree
+    from lumencut.scene.settings import Settings
 
 _UNUSED = {"size": (64, 64), "zoom": 1.0}
 
@@ -29,7 +29,7 @@ def show_untangled(**given: Any) -> None:
     view = options.view_from({**chosen, **_UNUSED, "pixel_spacing": None})
     renderer = _renderer(chosen, settings)
 
-    from lumencut.untangling import UntangledRequest
+    from lumencut.reformations.untangling import UntangledRequest
 
     own = {name: chosen[name] for name in UntangledRequest.told}
     with busy("laying out the tree"):
@@ -53,7 +53,7 @@ def _renderer(chosen: dict[str, Any], settings: Settings) -> Renderer:
         raise click.UsageError("lumencut untangled needs VOLUME and CENTERLINES")
     wanted = shown_ids(tree, chosen)
 
-    from lumencut.renderer import Renderer
+    from lumencut.pictures.renderer import Renderer
 
     renderer = Renderer(voxels, tree, files.device)
     warn_of_window(settings, renderer)

@@ -9,8 +9,8 @@ import click
 from lumencut.errors import VesselTreeError
 
 if TYPE_CHECKING:
-    from lumencut.vessel import Vessel
-    from lumencut.vessel_tree import VesselTree
+    from lumencut.scene.vessel import Vessel
+    from lumencut.scene.vessel_tree import VesselTree
 
 path_option = click.option(
     "--path",
@@ -39,7 +39,7 @@ def shown_ids(tree: VesselTree, chosen: dict[str, Any]) -> list[int]:
 
 def ids_of(tree: VesselTree, words: tuple[str, ...]) -> list[int]:
     """Return the ids that the words mean; a word of digits that is a name is not an id."""
-    from lumencut._vessel_names import id_or_name
+    from lumencut.scene.vessel_names import id_or_name
 
     return [index for word in words for index in tree.ids(id_or_name(tree, word))]
 

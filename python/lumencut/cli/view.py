@@ -15,12 +15,12 @@ from lumencut.cli.report import bar, detail, say, verbose_option
 from lumencut.cli.scene import centerlines_of
 
 if TYPE_CHECKING:
-    from lumencut.centerline_file import CenterlineFile
-    from lumencut.several_centerlines import CenterlineFiles
-    from lumencut.vessel_tree import VesselTree
+    from lumencut.files.centerline_file import CenterlineFile
+    from lumencut.files.several_centerlines import CenterlineFiles
+    from lumencut.scene.vessel_tree import VesselTree
+    from lumencut.scene.volume import Volume
+    from lumencut.scene.volume_file import VolumeFile
     from lumencut.viewer.arriving import ArrivingScene
-    from lumencut.volume import Volume
-    from lumencut.volume_files.opened import VolumeFile
 
 
 @click.command(short_help="Open the viewer in a browser tab.")
@@ -102,8 +102,8 @@ def _scene(volume: Path, centerlines: tuple[Path, ...], chosen: dict[str, Any]) 
 
 def _demo(*, has_centerlines: bool) -> ArrivingScene:
     """The scene of the demo, in memory."""
+    from lumencut.scene.volume_file import held_in_memory
     from lumencut.viewer.arriving import ArrivingScene
-    from lumencut.volume_files.opened import held_in_memory
 
     volume, tree, _ = demo_scene()
     file = held_in_memory(volume, "demo")
@@ -111,7 +111,7 @@ def _demo(*, has_centerlines: bool) -> ArrivingScene:
 
 
 def _opened(path: Path, chosen: dict[str, Any]) -> VolumeFile:
-    from lumencut.volume_files import open_volume
+    from lumencut.files.volumes import open_volume
 
     with bar(f"reading {path.name}", "file") as progress:
         return open_volume(
@@ -125,7 +125,7 @@ def _opened(path: Path, chosen: dict[str, Any]) -> VolumeFile:
 
 
 def _tree(lines: CenterlineFile | CenterlineFiles, volume: Volume, chosen: dict[str, Any]) -> VesselTree:
-    from lumencut.centerline_file import CenterlineFile
+    from lumencut.files.centerline_file import CenterlineFile
 
     if isinstance(lines, CenterlineFile):
         return lines.within(volume, chosen["coordinates"], chosen["unit"], reorder=chosen["reorder"])[0]

@@ -27,7 +27,7 @@ def settings(output: Path | None, **chosen: Any) -> None:
     lumencut settings --window 900/300 --no-silhouettes -o look.toml
     lumencut render ct.nii.gz centerlines.vtp --settings look.toml -o out.png
     """  # noqa: D301 - click needs the control character itself
-    from lumencut.settings_file import settings_text
+    from lumencut.scene.settings_file import settings_text
 
     found = settings_from(chosen)
     if output is None:

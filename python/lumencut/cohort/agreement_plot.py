@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from lumencut._files import replace_whole
+from lumencut.base.paths import replace_whole
 from lumencut.cohort.agreement import Agreement
-from lumencut.profile_plot import check_matplotlib
+from lumencut.measuring.profile_plot import check_matplotlib
 
 #: With more points than this, they are drawn as pixels, because a vector picture would be too large.
 _AS_PIXELS = 5000

@@ -11,9 +11,9 @@ from functools import partial
 from pathlib import Path
 from typing import Literal
 
-from lumencut._checks import choice, integers, number
-from lumencut._files import WRITABLE, checked_path
-from lumencut._pickles import by_name
+from lumencut.base.checks import choice, integers, number
+from lumencut.base.paths import WRITABLE, checked_path
+from lumencut.base.pickles import by_name
 from lumencut.cohort.child import Outcome
 from lumencut.cohort.engine import side_by_side
 from lumencut.cohort.job import Job

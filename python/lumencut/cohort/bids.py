@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from lumencut._files import checked_path
+from lumencut.base.paths import checked_path
 from lumencut.cohort.manifest import Manifest, Study
 from lumencut.cohort.manifest_table import table_of
 from lumencut.errors import FileError, FormatError, LumencutError

@@ -9,15 +9,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from lumencut import _lumencut
-from lumencut.centerline_file import CenterlineFile
+from lumencut.base.memory import available_memory, in_words
 from lumencut.cohort.manifest import Study
 from lumencut.cohort.recipe import Reading
 from lumencut.cohort.sources import mask_of, places_of, reading_of
 from lumencut.errors import FormatError, LumencutError
-from lumencut.mask_grid import place_within
-from lumencut.volume_files import open_volume
-from lumencut.volume_files.opened import VolumeFile
-from lumencut.volume_files.room import available_memory, in_words
+from lumencut.files.centerline_file import CenterlineFile
+from lumencut.files.mask_grid import place_within
+from lumencut.files.volumes import open_volume
+from lumencut.scene.volume_file import VolumeFile
 
 #: Smallest address space of the process of a study before it reads a voxel (bytes).
 _PROCESS = 256 << 20

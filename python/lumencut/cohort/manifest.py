@@ -8,9 +8,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from lumencut._files import checked_path
+from lumencut.base.paths import checked_path
 from lumencut.cohort.manifest_table import Row, table_of
-from lumencut.dicomweb.address import is_address
+from lumencut.dicom.web.address import is_address
 from lumencut.errors import FormatError
 
 #: The columns that say where centerlines come from; a study may use only one of them.

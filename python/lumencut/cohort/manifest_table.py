@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from lumencut._tables import unmarked
+from lumencut.base.csv_cells import unmarked
 from lumencut.errors import FileError, FormatError
 
 _EXPECTED = "a table of studies (.csv or .tsv)"

@@ -6,8 +6,8 @@ import csv
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from lumencut._files import replace_whole
-from lumencut._tables import FORMULA
+from lumencut.base.csv_cells import FORMULA
+from lumencut.base.paths import replace_whole
 from lumencut.errors import MissingPackageError
 
 if TYPE_CHECKING:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from lumencut._files import write_text
+from lumencut.base.paths import write_text
 from lumencut.cohort.layout import Layout
 from lumencut.cohort.lock import Shard
 from lumencut.cohort.manifest import Manifest, Study

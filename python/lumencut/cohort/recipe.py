@@ -11,11 +11,11 @@ from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
-from lumencut._files import checked_path
+from lumencut.base.paths import checked_path
 from lumencut.errors import FileError, FormatError
 
 if TYPE_CHECKING:
-    from lumencut.planar_reformation import Mode
+    from lumencut.reformations.planar_reformation import Mode
 
 _EXPECTED = "a recipe, as shown in docs/cohorts.md"
 _LARGEST = 1 << 20
@@ -248,8 +248,8 @@ def _checked(subject: str, key: str, value: Any) -> Any:
 
 def _choices(key: str) -> tuple[str, ...]:
     from lumencut._lumencut import LOOKS
-    from lumencut.camera import VIEWS
-    from lumencut.planar_reformation import MODES
+    from lumencut.reformations.planar_reformation import MODES
+    from lumencut.scene.camera import VIEWS
 
     return {"views": tuple(VIEWS), "looks": tuple(LOOKS), "reformations": MODES}[key]
 

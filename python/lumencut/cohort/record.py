@@ -13,7 +13,7 @@ from typing import Any, Literal
 from lumencut import _lumencut
 from lumencut.cohort.layout import flush
 from lumencut.cohort.manifest import Study
-from lumencut.dicomweb.address import is_address
+from lumencut.dicom.web.address import is_address
 from lumencut.errors import FileError, FormatError
 
 FORMAT = 1

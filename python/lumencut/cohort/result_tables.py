@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
-from lumencut._tables import read_rows
+from lumencut.base.csv_cells import read_rows
 from lumencut.errors import FileError, FormatError
 
 _EXPECTED = "the results of lumencut batch"

@@ -8,21 +8,21 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from lumencut.centerline_file import CenterlineFile
-from lumencut.centerlines import read_centerlines
 from lumencut.cohort.manifest import Study
 from lumencut.cohort.recipe import Centerlines, Reading
 from lumencut.errors import FormatError, TracingError
-from lumencut.mask_files import MaskFile, open_mask
-from lumencut.mask_tracing import trace_mask
-from lumencut.placement import check_meeting
-from lumencut.seed_tracing import trace_from
-from lumencut.tracing import trace
-from lumencut.vessel import Vessel
-from lumencut.vessel_finding import find_vessels
-from lumencut.vessel_tree import VesselTree
-from lumencut.volume import Volume
-from lumencut.volume_files import read_volume
+from lumencut.files.centerline_file import CenterlineFile
+from lumencut.files.centerlines import read_centerlines
+from lumencut.files.mask_files import MaskFile, open_mask
+from lumencut.files.volumes import read_volume
+from lumencut.scene.placement import check_meeting
+from lumencut.scene.vessel import Vessel
+from lumencut.scene.vessel_tree import VesselTree
+from lumencut.scene.volume import Volume
+from lumencut.tracing.mask_tracing import trace_mask
+from lumencut.tracing.seed_tracing import trace_from
+from lumencut.tracing.tracer import trace
+from lumencut.tracing.vessel_finding import find_vessels
 
 _Points = npt.NDArray[np.float64]
 

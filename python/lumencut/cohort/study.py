@@ -8,24 +8,24 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from lumencut._tables import written
-from lumencut.camera import VIEWS, Camera
-from lumencut.centerline_writers import write_centerlines
+from lumencut.base.csv_cells import written
 from lumencut.cohort.manifest import Study
 from lumencut.cohort.recipe import CohortRecipe, Measure, Pictures
 from lumencut.cohort.sources import StudyVessels, scan_of, vessels_of
 from lumencut.cohort.study_tables import StudyVessel, flag_counts, sections_rows, vessels_rows
-from lumencut.contact_sheet import contact_sheet
 from lumencut.errors import MeasuringError
-from lumencut.frame import save_picture
-from lumencut.measure_report import report
-from lumencut.measured_vessel import Marked, MeasuredVessel
-from lumencut.measuring import measure
-from lumencut.planar_reformation import CprRequest
-from lumencut.renderer import Renderer
-from lumencut.settings import Settings
-from lumencut.vessel_tree import VesselTree
-from lumencut.volume import Volume
+from lumencut.files.centerline_writers import write_centerlines
+from lumencut.measuring.measured_vessel import Marked, MeasuredVessel
+from lumencut.measuring.sections import measure
+from lumencut.pictures.contact_sheet import contact_sheet
+from lumencut.pictures.frame import save_picture
+from lumencut.pictures.renderer import Renderer
+from lumencut.reformations.planar_reformation import CprRequest
+from lumencut.reports.measure_report import report
+from lumencut.scene.camera import VIEWS, Camera
+from lumencut.scene.settings import Settings
+from lumencut.scene.vessel_tree import VesselTree
+from lumencut.scene.volume import Volume
 
 Device = Literal["auto", "cpu", "gpu"]
 

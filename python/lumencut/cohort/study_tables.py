@@ -9,10 +9,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from lumencut._tables import read_rows
-from lumencut.measured_vessel import MeasuredVessel, vessels_csv
-from lumencut.profile_sections import counts
-from lumencut.vessel import Vessel
+from lumencut.base.csv_cells import read_rows
+from lumencut.measuring.measured_vessel import MeasuredVessel, vessels_csv
+from lumencut.measuring.profile_sections import counts
+from lumencut.scene.vessel import Vessel
 
 VESSEL_COLUMNS = (
     "id",

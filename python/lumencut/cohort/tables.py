@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import BinaryIO
 
 from lumencut import _lumencut
-from lumencut._files import replace_whole, write_text
-from lumencut._tables import written
+from lumencut.base.csv_cells import written
+from lumencut.base.paths import replace_whole, write_text
 from lumencut.cohort.contact_page import contact_page
 from lumencut.cohort.layout import Layout
 from lumencut.cohort.manifest import Manifest, Study

@@ -20,12 +20,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from lumencut._files import replace_whole
+from lumencut.base.paths import replace_whole
 from lumencut.errors import FormatError, LumencutError
 
 if TYPE_CHECKING:
-    from lumencut.vessel_tree import VesselTree
-    from lumencut.volume import Volume
+    from lumencut.scene.vessel_tree import VesselTree
+    from lumencut.scene.volume import Volume
 
 REQUIREMENT = "imageio==2.9.0"
 WHEEL_SHA256 = "3604d751f03002e8e0e7650aa71d8d9148144a87daf17cb1f3228e80747f2e6b"
@@ -68,8 +68,8 @@ def stent_scene(cache: Path | None = None) -> tuple[Volume, VesselTree]:
     FormatError
         If the checksum of a file differs.
     """
-    from lumencut.centerlines import read_centerlines
-    from lumencut.volume import Volume
+    from lumencut.files.centerlines import read_centerlines
+    from lumencut.scene.volume import Volume
 
     content = _checked(*_cached(cache or default_cache()), MEMBER_SHA256)
     voxels = np.load(BytesIO(content), allow_pickle=False)["arr_0"]

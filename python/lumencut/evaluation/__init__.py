@@ -6,21 +6,21 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from lumencut._checks import integers, number
-from lumencut.camera import Camera
+from lumencut.base.checks import integers, number
 from lumencut.errors import CameraError, SettingsError, VesselTreeError, VolumeError
 from lumencut.evaluation.amounts import Amounts, Columns, pooled
 from lumencut.evaluation.centerline import Centerline, Stations, centerline_of, width_stations
-from lumencut.evaluation.engine import shown_by
 from lumencut.evaluation.measures import MEASURES, columns_of, criteria_of
 from lumencut.evaluation.methods import METHODS, USUAL, Method, checked_methods
 from lumencut.evaluation.own_pictures import COUNTED, nothing_shown, own_amounts
 from lumencut.evaluation.result import Evaluation, Row
+from lumencut.evaluation.shown import shown_by
 from lumencut.evaluation.truth import Truth, truth_of
 from lumencut.evaluation.views import cameras
-from lumencut.renderer import Renderer
-from lumencut.settings import Settings
-from lumencut.vessel_tree import VesselTree
+from lumencut.pictures.renderer import Renderer
+from lumencut.scene.camera import Camera
+from lumencut.scene.settings import Settings
+from lumencut.scene.vessel_tree import VesselTree
 
 __all__ = ["Evaluation", "evaluate"]
 

@@ -11,8 +11,8 @@ import numpy.typing as npt
 from lumencut.evaluation.ragged import parts, ragged
 
 if TYPE_CHECKING:
-    from lumencut.vessel import Vessel
-    from lumencut.vessel_tree import VesselTree
+    from lumencut.scene.vessel import Vessel
+    from lumencut.scene.vessel_tree import VesselTree
 
 #: Closer points count as one, and shorter projected segments have no direction (mm).
 COLLINEAR_MM = 1e-3

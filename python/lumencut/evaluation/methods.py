@@ -10,16 +10,16 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
-from lumencut._checked_settings import checked
-from lumencut._checks import choice
-from lumencut.camera import Camera
+from lumencut.base.checks import choice
 from lumencut.errors import SettingsError
 from lumencut.evaluation.own_pictures import untangled_picture
-from lumencut.frame import Frame
-from lumencut.reformation import Reformation
-from lumencut.renderer import Renderer
-from lumencut.settings import Settings
-from lumencut.tree_reformations import MPCPR, cr_method
+from lumencut.pictures.frame import Frame
+from lumencut.pictures.renderer import Renderer
+from lumencut.reformations.reformation import Reformation
+from lumencut.reformations.tree_reformations import MPCPR, cr_method
+from lumencut.scene.camera import Camera
+from lumencut.scene.checked_settings import checked
+from lumencut.scene.settings import Settings
 
 
 @dataclass(frozen=True)

@@ -9,13 +9,13 @@ import numpy as np
 from lumencut.evaluation.amounts import Amounts, counted
 from lumencut.evaluation.shown import Shown
 from lumencut.evaluation.truth import EXACT, Truth
-from lumencut.untangling import UntangledRequest
+from lumencut.reformations.untangling import UntangledRequest
 
 if TYPE_CHECKING:
-    from lumencut.camera import Camera
-    from lumencut.reformation import Reformation
-    from lumencut.renderer import Renderer
-    from lumencut.settings import Settings
+    from lumencut.pictures.renderer import Renderer
+    from lumencut.reformations.reformation import Reformation
+    from lumencut.scene.camera import Camera
+    from lumencut.scene.settings import Settings
 
 COUNTED = ("tissue", "centerline")
 

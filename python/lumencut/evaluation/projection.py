@@ -11,7 +11,7 @@ import numpy.typing as npt
 from lumencut.evaluation.centerline import Centerline
 
 if TYPE_CHECKING:
-    from lumencut.camera import Camera
+    from lumencut.scene.camera import Camera
 
 
 @dataclass(frozen=True)

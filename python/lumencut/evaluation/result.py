@@ -7,14 +7,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from lumencut._files import WRITABLE, checked_path, write_text
-from lumencut._pickles import by_name
-from lumencut._tables import written
-from lumencut.camera import Camera
+from lumencut.base.csv_cells import written
+from lumencut.base.paths import WRITABLE, checked_path, write_text
+from lumencut.base.pickles import by_name
 from lumencut.errors import FileError, VolumeError
 from lumencut.evaluation.methods import METHODS
-from lumencut.renderer import Renderer
-from lumencut.settings import Settings
+from lumencut.pictures.renderer import Renderer
+from lumencut.scene.camera import Camera
+from lumencut.scene.settings import Settings
 
 #: A row of a table: names, numbers, and None for undefined numbers.
 Row = dict[str, str | float | int | None]

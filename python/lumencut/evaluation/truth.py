@@ -20,7 +20,7 @@ from lumencut.evaluation.ragged import ragged
 from lumencut.evaluation.raster import pixels_within
 
 if TYPE_CHECKING:
-    from lumencut.camera import Camera
+    from lumencut.scene.camera import Camera
 
 #: Depths that differ by at most this are equal (mm).
 EXACT = 0.05

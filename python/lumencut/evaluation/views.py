@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from lumencut.camera import Camera, upright
+from lumencut.scene.camera import Camera, upright
 
 if TYPE_CHECKING:
-    from lumencut.vessel_tree import VesselTree
+    from lumencut.scene.vessel_tree import VesselTree
 
 _GOLDEN_ANGLE = math.pi * (3 - math.sqrt(5))
 

@@ -8,10 +8,10 @@ from lumencut.errors import MissingPackageError
 from lumencut.notebook.scene import DeviceName
 
 if TYPE_CHECKING:
-    from lumencut.camera import Camera
     from lumencut.notebook.widget import VesselWidget
-    from lumencut.settings import Settings
-    from lumencut.vessel_tree import VesselTree
+    from lumencut.scene.camera import Camera
+    from lumencut.scene.settings import Settings
+    from lumencut.scene.vessel_tree import VesselTree
 
 
 def show(

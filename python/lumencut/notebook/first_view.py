@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
-from lumencut._checks import integers
-from lumencut.camera import Camera
+from lumencut.base.checks import integers
 from lumencut.errors import CameraError, SettingsError
 from lumencut.notebook.scene import DeviceName, Scene
-from lumencut.settings import Settings
-from lumencut.vessel_tree import VesselTree
+from lumencut.scene.camera import Camera
+from lumencut.scene.settings import Settings
+from lumencut.scene.vessel_tree import VesselTree
 
 #: Longest side of a picture (pixels): larger than a screen, and accepted by browsers.
 MOST_PIXELS = 4096

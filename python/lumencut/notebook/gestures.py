@@ -8,8 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
-from lumencut.camera import Camera
-from lumencut.window import Window
+from lumencut.scene.camera import Camera
+from lumencut.scene.window import Window
 
 Point = npt.NDArray[np.float64]
 

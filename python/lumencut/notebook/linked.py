@@ -9,12 +9,12 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
-from lumencut.measuring import CrossSection, cross_section
+from lumencut.measuring.sections import CrossSection, cross_section
 from lumencut.notebook.scene import Place, Scene
-from lumencut.planar_reformation import PlanarReformation, cpr
-from lumencut.reformation_request import pixel_side
-from lumencut.section_pictures import grey_picture
-from lumencut.settings import Settings
+from lumencut.reformations.planar_reformation import PlanarReformation, cpr
+from lumencut.reformations.request import pixel_side
+from lumencut.reports.section_pictures import grey_picture
+from lumencut.scene.settings import Settings
 
 Point = npt.NDArray[np.float64]
 Picture = npt.NDArray[np.uint8]

@@ -10,15 +10,15 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut import _lumencut
-from lumencut._checked_settings import checked
-from lumencut.camera import Camera
 from lumencut.errors import VolumeError
-from lumencut.frame import Frame
-from lumencut.picking import brightest
-from lumencut.renderer import Renderer
-from lumencut.settings import Settings
-from lumencut.vessel_tree import VesselTree
-from lumencut.window import Window
+from lumencut.pictures.frame import Frame
+from lumencut.pictures.renderer import Renderer
+from lumencut.scene.camera import Camera
+from lumencut.scene.checked_settings import checked
+from lumencut.scene.picking import brightest
+from lumencut.scene.settings import Settings
+from lumencut.scene.vessel_tree import VesselTree
+from lumencut.scene.window import Window
 
 Point = npt.NDArray[np.float64]
 DeviceName = Literal["auto", "cpu", "gpu"]

@@ -9,17 +9,17 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from lumencut._vessel_names import id_or_name
-from lumencut.camera import Camera
 from lumencut.errors import LumencutError, TracingError, VesselTreeError
-from lumencut.frame import Frame
 from lumencut.notebook.first_view import FirstView
 from lumencut.notebook.gestures import sampled
 from lumencut.notebook.linked import Linked
 from lumencut.notebook.scene import Pick, Place, Scene
 from lumencut.notebook.tracing import ClickedVessels
-from lumencut.settings import Settings
-from lumencut.vessel_tree import VesselTree
+from lumencut.pictures.frame import Frame
+from lumencut.scene.camera import Camera
+from lumencut.scene.settings import Settings
+from lumencut.scene.vessel_names import id_or_name
+from lumencut.scene.vessel_tree import VesselTree
 
 Point = npt.NDArray[np.float64]
 Progress = Callable[[int, int], object]

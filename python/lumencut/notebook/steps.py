@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from lumencut.camera import VIEWS, Camera
 from lumencut.errors import LumencutError
 from lumencut.notebook import gestures
 from lumencut.notebook.linked import Linked
 from lumencut.notebook.scene import Pick
 from lumencut.notebook.shown import Shown
-from lumencut.window import WINDOW_NAMES, Window
+from lumencut.scene.camera import VIEWS, Camera
+from lumencut.scene.window import WINDOW_NAMES, Window
 
 
 @dataclass(frozen=True)

@@ -6,9 +6,9 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut.errors import TracingError
-from lumencut.tracing import Tracer
-from lumencut.vessel_tree import VesselTree
-from lumencut.volume import Volume
+from lumencut.scene.vessel_tree import VesselTree
+from lumencut.scene.volume import Volume
+from lumencut.tracing.tracer import Tracer
 
 Point = npt.NDArray[np.float64]
 

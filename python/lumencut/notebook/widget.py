@@ -14,17 +14,17 @@ import anywidget
 import numpy as np
 import traitlets
 
-from lumencut._checks import numbers
-from lumencut.camera import Camera
+from lumencut.base.checks import numbers
 from lumencut.errors import CameraError, LumencutError
-from lumencut.frame import Frame
 from lumencut.notebook.first_view import FirstView, checked_camera
 from lumencut.notebook.pictures import Pace, as_jpeg, as_png
 from lumencut.notebook.scene import Scene
 from lumencut.notebook.shown import Shown
 from lumencut.notebook.steps import take
-from lumencut.settings import Settings
-from lumencut.vessel_tree import VesselTree
+from lumencut.pictures.frame import Frame
+from lumencut.scene.camera import Camera
+from lumencut.scene.settings import Settings
+from lumencut.scene.vessel_tree import VesselTree
 
 _LINKED = ("straightened", "section")
 

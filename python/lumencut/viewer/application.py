@@ -19,7 +19,7 @@ from starlette.responses import (
 )
 from starlette.types import Receive, Scope, Send
 
-from lumencut.mends import as_option
+from lumencut.base.mends import as_option
 from lumencut.viewer import volume_stream
 from lumencut.viewer.arriving import ArrivingScene
 from lumencut.viewer.guard import Place, has_body

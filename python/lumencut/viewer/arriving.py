@@ -11,13 +11,13 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from lumencut.centerline_writers import centerline_content
 from lumencut.errors import FormatError, LumencutError
-from lumencut.vessel_tree import VesselTree
+from lumencut.files.centerline_writers import centerline_content
+from lumencut.files.volumes import log_oddities
+from lumencut.scene.vessel_tree import VesselTree
+from lumencut.scene.volume import Volume
+from lumencut.scene.volume_file import VolumeFile
 from lumencut.viewer import volume_stream
-from lumencut.volume import Volume
-from lumencut.volume_files import log_oddities
-from lumencut.volume_files.opened import VolumeFile
 
 _log = logging.getLogger("lumencut")
 

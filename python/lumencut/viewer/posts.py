@@ -11,10 +11,10 @@ from starlette.requests import ClientDisconnect, Request
 from starlette.responses import Response
 
 from lumencut.errors import FormatError, LumencutError
+from lumencut.scene.volume import Volume
 from lumencut.viewer.arriving import ArrivingScene
 from lumencut.viewer.guard import Place
 from lumencut.viewer.refusing import refusal, unreadable
-from lumencut.volume import Volume
 
 #: Paths for "Save for PACS", for the study of a chosen file, and for a DICOM segmentation as a mask.
 OBJECTS, STUDY, MASK = "make/objects", "make/study", "make/mask"
@@ -91,9 +91,9 @@ class Posts:
 
 def _made_of(name: str, content: bytes, volume: Volume | None) -> bytes:
     """Return the object that a request asks for."""
-    from lumencut.pacs_zip.archive import pacs_zip
-    from lumencut.pacs_zip.placing import chosen_file
-    from lumencut.pacs_zip.segmentation import segmentation_mask
+    from lumencut.viewer.pacs_zip.archive import pacs_zip
+    from lumencut.viewer.pacs_zip.placing import chosen_file
+    from lumencut.viewer.pacs_zip.segmentation import segmentation_mask
 
     make = {OBJECTS: pacs_zip, STUDY: chosen_file, MASK: segmentation_mask}[name]
     return make(content, volume)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from starlette.responses import JSONResponse, Response
 
+from lumencut.base.mends import as_option, written
 from lumencut.errors import LumencutError
-from lumencut.mends import as_option, written
 
 
 def refusal(status: int, headers: dict[str, str] | None = None) -> Response:

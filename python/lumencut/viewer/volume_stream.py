@@ -15,9 +15,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from lumencut.scan_details import ScanDetails
-from lumencut.volume_files.opened import VolumeFile, printable
-from lumencut.volume_files.rescale import slabs
+from lumencut.base.foreign_errors import printable
+from lumencut.base.rescale import slabs
+from lumencut.scene.scan_details import ScanDetails
+from lumencut.scene.volume_file import VolumeFile
 
 MEDIA_TYPE = "application/vnd.lumencut.volume"
 

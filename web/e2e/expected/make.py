@@ -15,8 +15,8 @@ from PIL import Image
 
 import lumencut
 from lumencut import Camera, Settings, Window, _lumencut, phantom
-from lumencut.measured_vessel import Marked, MeasuredVessel, vessels_csv
-from lumencut.orientation import edges
+from lumencut.measuring.measured_vessel import Marked, MeasuredVessel, vessels_csv
+from lumencut.scene.orientation import edges
 
 HERE = Path(__file__).parent
 

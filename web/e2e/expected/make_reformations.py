@@ -16,7 +16,7 @@ from PIL import Image
 
 import lumencut
 from lumencut import Camera, Settings, Vessel, Window, phantom
-from lumencut.uncurling import fitted_uncurling
+from lumencut.reformations.uncurling import fitted_uncurling
 
 HERE = Path(__file__).parent
 

@@ -1,0 +1,1 @@
+"""What all folders use: checks of arguments and paths, values, pickles, CSV cells, remedies of errors."""

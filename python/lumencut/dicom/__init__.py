@@ -1,0 +1,1 @@
+"""DICOM: reading of series, writing of objects, and PACS over DICOMweb."""

@@ -1,0 +1,383 @@
+"""Volume files: one reader per format, and one entry point for all of them."""
+
+from __future__ import annotations
+
+import logging
+import os
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from lumencut._lumencut import VOLUME_FILES as _KNOWN
+from lumencut.base.checks import callback, integers
+from lumencut.base.file_kinds import kind_of
+from lumencut.base.foreign_errors import Progress, heeding, refusing
+from lumencut.base.overlaps import OverlapError
+from lumencut.base.paths import checked_path
+from lumencut.base.rescale import slabs
+from lumencut.base.series_report import SeriesReport
+from lumencut.dicom.reading import (
+    Wanted,
+    is_dicom,
+    is_zip,
+    list_dicom_series,
+    open_dicom,
+    opened,
+)
+from lumencut.dicom.reading.files import read_files
+from lumencut.dicom.web.address import is_address
+from lumencut.errors import FileError, FormatError
+from lumencut.files.grids import open_grid
+from lumencut.scene.images import as_volume
+from lumencut.scene.volume import Volume
+from lumencut.scene.volume_file import VolumeFile
+
+__all__ = ["SeriesReport", "VolumeReport", "as_volume", "inspect_volume", "list_series", "read_volume"]
+
+_log = logging.getLogger("lumencut")
+_HEAD = 352
+
+
+@dataclass(frozen=True, eq=False)
+class VolumeReport:
+    """The content of a volume file.
+
+    Attributes
+    ----------
+    path : Path
+        The file or folder.
+    format : str
+        Such as ``NIfTI-1`` or ``DICOM``.
+    size : tuple of 3 int
+        Number of voxels along i, j, k.
+    spacing : ndarray, shape (3,)
+        Distance between neighbouring voxels along i, j, k (mm).
+    dtype : numpy.dtype
+        Type of the voxels as read; as stored if the values were not requested.
+    space : str
+        The patient space as the file states it.
+    world_from_index : ndarray, shape (4, 4)
+        Affine from index (i, j, k) to world (mm, LPS).
+    value_range : tuple of 2 float, or None
+        Smallest and largest finite value; None without finite values, or if values were not requested.
+    details : dict of str
+        Further facts: for DICOM the series, its modality, files and codec.
+    filled_slices : tuple of int
+        The indices k of slices that are missing and were interpolated.
+    notes : tuple of str
+        Anything unusual or assumed.
+    """
+
+    path: Path
+    format: str
+    size: tuple[int, int, int]
+    spacing: npt.NDArray[np.float64]
+    dtype: np.dtype[Any]
+    space: str
+    world_from_index: npt.NDArray[np.float64]
+    value_range: tuple[float, float] | None
+    details: dict[str, str]
+    filled_slices: tuple[int, ...]
+    notes: tuple[str, ...]
+
+
+def read_volume(
+    path: str | os.PathLike[str],
+    *,
+    series: str | int | None = None,
+    phase: str | float | None = None,
+    fill_gaps: bool = False,
+    resample_slices: bool = False,
+    segments: Iterable[int] | None = None,
+    progress: Progress | None = None,
+) -> Volume:
+    """Read a volume; nothing is resampled unless requested, shear and flips are kept.
+
+    Parameters
+    ----------
+    path : str or path
+        A DICOM folder, file or zip archive, NIfTI, NRRD or MetaImage file, or the address of a series or
+        study in a PACS: ``dicomweb:https://HOST/ROOT/studies/UID/series/UID``.
+    series : str or int, optional
+        Number or UID of the DICOM series to read where a folder holds several. By default the only one
+        that can be an angiography volume.
+    phase : str or number, optional
+        Which phase (or echo, or kernel) of a DICOM series that mixes several: the value of the attribute that
+        distinguishes them, as listed by the error without this argument.
+    fill_gaps : bool, default False
+        Interpolate missing DICOM slices linearly between their neighbours instead of refusing the series;
+        `Volume.filled_slices` lists them.
+    resample_slices : bool, default False
+        Put a DICOM series of uneven slice distances on a regular grid, linearly between neighbouring slices,
+        instead of rejecting it. The grid has the largest distance of which all distances are multiples, where
+        that makes at most four times as many slices as there are; else the smallest distance, or what makes
+        four times as many. `Volume.filled_slices` lists the interpolated slices.
+    segments : iterable of int, optional
+        The numbers of the segments of a segmentation (DICOM SEG, or .seg.nrrd of 3D Slicer) that are read; by
+        default all, which must not overlap then.
+    progress : callable, optional
+        Called with (slices read, slices in all); for DICOM with (files looked into, files in all) before.
+
+    Returns
+    -------
+    Volume
+        The voxels on their grid in world space (mm, LPS), integers wherever scaling leaves them exact, else
+        float32 (float64 where they are stored so). A segmentation becomes a label map: each voxel has
+        the number of its segment, or 0; fractional ones count from one half on. What was assumed is logged as
+        a warning.
+
+    Raises
+    ------
+    SeriesError
+        A FormatError for several DICOM series without a choice; its `series` describes them.
+    FormatError
+        For an unknown format, damaged files, and data that is not one regular volume.
+    FileError
+        For a file that is missing or cannot be read.
+    PacsError
+        For a PACS that cannot be reached, rejects the request, or does not send the complete series.
+    """
+    callback(FormatError, "progress", progress)
+    counted = progress if progress is not None else _silent
+    file = _open(path, _wanted(series, phase, fill_gaps, resample_slices, segments), counted)
+    volume = file.volume(counted)
+    if not file.format.startswith("DICOM"):
+        counted(volume.size[2], volume.size[2])
+    log_oddities(file)
+    return volume
+
+
+def open_volume(
+    path: str | os.PathLike[str],
+    *,
+    series: str | int | None = None,
+    phase: str | float | None = None,
+    fill_gaps: bool = False,
+    resample_slices: bool = False,
+    segments: Iterable[int] | None = None,
+    progress: Progress | None = None,
+) -> VolumeFile:
+    """Read the headers that `read_volume` reads, and leave the voxels on disk; parameters are the same."""
+    counted = progress if progress is not None else _silent
+    return _open(path, _wanted(series, phase, fill_gaps, resample_slices, segments), counted)
+
+
+def log_oddities(file: VolumeFile) -> None:
+    """Log the assumptions about a file."""
+    for note in file.notes:
+        _log.warning("%s: %s", file.path, note)
+    for remark in file.remarks:
+        _log.info("%s: %s", file.path, remark)
+
+
+def inspect_volume(
+    path: str | os.PathLike[str],
+    *,
+    series: str | int | None = None,
+    phase: str | float | None = None,
+    fill_gaps: bool = False,
+    resample_slices: bool = False,
+    values: bool = True,
+    progress: Progress | None = None,
+) -> VolumeReport:
+    """Report what a volume file holds, and anything unusual.
+
+    Parameters
+    ----------
+    path : str or path
+        A DICOM folder, file or zip archive, NIfTI, NRRD or MetaImage file.
+    series : str or int, optional
+        Number or UID of the DICOM series where a folder holds several.
+    phase, fill_gaps, resample_slices
+        As for `read_volume`.
+    values : bool, default True
+        Read the voxels too, to check them and find their range; False reads headers only.
+    progress : callable, optional
+        Called with (slices read, slices in all); for DICOM with (files looked into, files in all) before.
+
+    Returns
+    -------
+    VolumeReport
+        Format, grid, values and oddities.
+    """
+    callback(FormatError, "progress", progress)
+    counted = progress if progress is not None else _silent
+    file = _open(path, _wanted(series, phase, fill_gaps, resample_slices), counted)
+    return _report(file, _values(file, counted) if values else None)
+
+
+def inspected_volume(
+    path: str | os.PathLike[str],
+    *,
+    series: str | int | None = None,
+    phase: str | float | None = None,
+    fill_gaps: bool = False,
+    resample_slices: bool = False,
+    progress: Progress | None = None,
+) -> tuple[VolumeReport, Volume]:
+    """Return the report of `inspect_volume` and the volume, with the same parameters and errors."""
+    callback(FormatError, "progress", progress)
+    counted = progress if progress is not None else _silent
+    file = _open(path, _wanted(series, phase, fill_gaps, resample_slices), counted)
+    volume = _values(file, counted)
+    report = _report(file, volume)
+    if volume is None:
+        # A label map cannot hold overlapping segments, but the grid is known.
+        volume = Volume(np.zeros(file.size[::-1], np.uint8), world_from_index=file.world_from_index)
+    return report, volume
+
+
+def _values(file: VolumeFile, counted: Progress) -> Volume | None:
+    """Return the volume; if segments overlap, None and a note."""
+    try:
+        return file.volume(counted)
+    except OverlapError as error:
+        file.notes.append(f"{error.found}; {error.mend}")
+        return None
+
+
+def _report(file: VolumeFile, volume: Volume | None) -> VolumeReport:
+    """Return the content of a file; without its volume, only what the headers state."""
+    dtype, value_range = file.dtype.newbyteorder("="), None
+    if volume is not None:
+        dtype, value_range = volume.array.dtype, _finite_range(volume.array, file.notes)
+    spacing = np.linalg.norm(file.world_from_index[:3, :3], axis=0)
+    return VolumeReport(
+        path=file.path,
+        format=file.format,
+        size=file.size,
+        spacing=np.asarray(spacing, dtype=np.float64),
+        dtype=dtype,
+        space=file.space,
+        world_from_index=file.world_from_index,
+        value_range=value_range,
+        details=file.details,
+        filled_slices=file.filled,
+        notes=(*file.notes, *file.remarks),
+    )
+
+
+def list_series(path: str | os.PathLike[str]) -> list[SeriesReport]:
+    """Describe all DICOM series below a folder, in a zip archive, of a single file, or of a study in a PACS.
+
+    Raises
+    ------
+    FormatError
+        If no image is found, or a file is damaged.
+    FileError
+        For a path that is missing or cannot be read.
+    PacsError
+        For a PACS that cannot be reached, rejects the request, or does not send the complete study.
+    """
+    if is_address(path):
+        from lumencut.dicom.web.source import fetched
+
+        # Keep a reference while reading: the temporary folder is removed together with the last one.
+        folder = fetched(path)
+        return list_dicom_series(folder.path)
+    return list_dicom_series(_existing(path))
+
+
+def _silent(done: int, total: int) -> None:
+    """Ignore progress."""
+
+
+def _finite_range(array: npt.NDArray[Any], notes: list[str]) -> tuple[float, float] | None:
+    low, high, odd = np.inf, -np.inf, 0
+    for slab in slabs(array):
+        finite = slab[np.isfinite(slab)] if array.dtype.kind == "f" else slab
+        odd += slab.size - finite.size
+        if finite.size:
+            low, high = min(low, float(finite.min())), max(high, float(finite.max()))
+    if odd:
+        notes.append(f"{odd} of {array.size} voxels are not finite (NaN or infinite)")
+    return (low, high) if low <= high else None
+
+
+def _existing(given: str | os.PathLike[str]) -> Path:
+    path = checked_path(given, _KNOWN)
+    if not path.exists():
+        raise FileError(str(path), "no such file or folder", _KNOWN)
+    return path
+
+
+def _wanted(
+    series: object,
+    phase: object,
+    fill_gaps: bool,
+    resample_slices: bool,
+    segments: Iterable[int] | None = None,
+) -> Wanted:
+    chosen = None if segments is None else _numbers_of(segments)
+    return Wanted(_text(series), _text(phase), fill_gaps, resample_slices, chosen)
+
+
+def _numbers_of(segments: Any) -> tuple[int, ...]:
+    """Return the checked numbers of segments."""
+    try:
+        listed = list(segments)
+    except TypeError as error:
+        raise FormatError("segments", f"{segments!r:.80}", "numbers of segments") from error
+    return integers(FormatError, "segments", listed, 1, 65535, len(listed))
+
+
+def _text(value: object) -> str | None:
+    return None if value is None else str(value)
+
+
+def _open(given: str | os.PathLike[str], wanted: Wanted, progress: Progress) -> VolumeFile:
+    """Choose the reader by content, or by name if the content is ambiguous."""
+    if is_address(given):
+        return _fetched(given, wanted, progress)
+    path = _existing(given)
+    notes: list[str] = []
+    with heeding(progress) as counted, refusing(path, "volume", notes):
+        if path.is_dir() or _is_archive(path):
+            return open_dicom(path, wanted, counted).checked()
+        with path.open("rb") as opened_file:
+            head = opened_file.read(_HEAD)
+        if not head:
+            raise FormatError(str(path), "an empty file", _KNOWN, "copy or export it again")
+        if is_dicom(head) and not head.startswith(b"NRRD"):
+            file = open_dicom(path, wanted, counted)
+        elif (grid := open_grid(path, wanted.segments)) is not None:
+            file = grid
+        else:
+            raise _unknown(path)
+        if wanted.segments is not None and not file.is_segmentation:
+            raise _no_segmentation(path)
+    file.notes.extend(note for note in notes if note not in file.notes)
+    return file.checked()
+
+
+def _fetched(given: str | os.PathLike[str], wanted: Wanted, progress: Progress) -> VolumeFile:
+    """Return a volume of a PACS, whose files stay in a temporary folder as long as it exists."""
+    from lumencut.dicom.web.source import fetched
+
+    with heeding(progress) as counted:
+        folder = fetched(given, wanted.series, counted)
+        file = opened(Path(given), wanted, lambda notes: read_files(folder.path, notes, counted)).checked()
+    return replace(file, holds=folder)
+
+
+def _unknown(path: Path) -> FormatError:
+    kind = kind_of(path)
+    if kind is None:
+        return FormatError(str(path), "a file of unknown format", _KNOWN)
+    is_readable = kind.role == "centerlines" and not kind.mend
+    mend = "read centerlines with read_centerlines" if is_readable else kind.mend
+    return FormatError(str(path), kind.name, _KNOWN, mend)
+
+
+def _no_segmentation(path: Path) -> FormatError:
+    expected = "a segmentation (DICOM SEG, or .seg.nrrd of 3D Slicer), to choose segments"
+    return FormatError(str(path), "no segmentation", expected, "leave out segments")
+
+
+def _is_archive(path: Path) -> bool:
+    with path.open("rb") as file:
+        return is_zip(file.read(4))

@@ -1,0 +1,40 @@
+"""Flags of measured sections."""
+
+from __future__ import annotations
+
+from enum import IntFlag
+from typing import Any
+
+from lumencut.base.pickles import restored
+
+
+class Flag(IntFlag):
+    """Flags of a section; even a flagged section keeps its numbers.
+
+    Sections with `BRANCH`, `OUTSIDE`, `NO_EDGE`, `RECENTERED` or `RESTLESS_LINE` are excluded from extrema,
+    suggestions and references.
+    """
+
+    def __reduce_ex__(self, protocol: Any) -> Any:
+        """Return the pickle: the name of the class and the bits."""
+        return restored(), ("Flag", int(self))
+
+    #: The diameter is below 1.5 times the width (FWHM) of the point spread.
+    AT_LIMIT = 1
+    #: The section lies in a junction, or the lumen continues sideways.
+    BRANCH = 2
+    #: Something brighter than lumen lies in the wall; it is not lumen, and the fit leaves it out.
+    CALCIUM = 4
+    #: Something brighter than lumen surrounds it, or is much brighter: a stent or other metal.
+    METAL = 8
+    #: Another lumen or bone is next to the wall.
+    NEIGHBOR = 16
+    OUTSIDE = 32
+    #: No wall was found, or it does not enclose a lumen; numbers are NaN, or unreliable.
+    NO_EDGE = 64
+    #: The centerline lies outside the lumen; the middle of the lumen was found elsewhere.
+    RECENTERED = 128
+    #: The wall differs much from an ellipse.
+    IRREGULAR = 256
+    #: The centerline turns by more than 75° within one diameter, which no vessel does.
+    RESTLESS_LINE = 512

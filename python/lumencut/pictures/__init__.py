@@ -1,0 +1,1 @@
+"""Rendered pictures: the renderer and its frames, labels, recipes, turntables and films."""

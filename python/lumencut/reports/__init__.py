@@ -1,0 +1,1 @@
+"""Reports of measured vessels as HTML and PDF, with the pictures of their sections."""

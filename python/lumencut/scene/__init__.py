@@ -1,0 +1,1 @@
+"""What a picture is made of: volumes, vessels and trees, cameras, windows, settings."""
