@@ -48,7 +48,7 @@ SCRIPTS = tuple(
         *("results", "settings", "toolchain", "types_for_users", "wheel", "window_table", "words"),
     )
 )
-TOOLS = ("python", "rust", "targets", "vulkan", "page", "browser", "dicom")
+TOOLS = ("rust", "targets", "page", "debian")
 FUZZED = "crates/lumencut-io/fuzz/Cargo.toml"
 FUZZ_RUNS = 110_000
 """Inputs of libFuzzer over all formats."""
