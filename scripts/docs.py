@@ -165,7 +165,7 @@ def draw(script: Script, folder: Path) -> None:
     """Run a script of the gallery, which makes its picture in a folder."""
     paths = [str(ROOT / "python"), os.environ.get("PYTHONPATH", "")]
     environment = os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, paths))}
-    command = [sys.executable, "-W", "error", script.path]
+    command = [sys.executable, "-W", "error", str(script.path)]
     try:
         subprocess.run(
             command,

@@ -175,7 +175,7 @@ def main() -> None:
     if not check:
         LISTING.write_text(wanted, "utf-8")
     elif not LISTING.exists() or LISTING.read_text("utf-8") != wanted:
-        sys.exit(f"licences: {LISTING.name} is not what the locked crates make of it; mend it: make licences")
+        sys.exit(f"licences: {LISTING.name} is not what the locked crates make of it; mend it: make generate")
     print(f"{LISTING.name}: {len(crates)} crates")
 
 

@@ -124,7 +124,7 @@ def main() -> int:
             continue
         is_stale = True
         if is_check:
-            print(f"{path.relative_to(ROOT)}: out of date; run `make results`", file=sys.stderr)
+            print(f"{path.relative_to(ROOT)}: out of date; run `make generate`", file=sys.stderr)
         else:
             path.parent.mkdir(exist_ok=True)
             path.write_text(text, "utf-8")

@@ -17,7 +17,7 @@ ROOT = Path(__file__).resolve().parent.parent
 
 CLASS_HEAD = '''"""All settings with units and defaults.
 
-``make settings`` generates this file from the table of settings in the core.
+``make generate`` generates this file from the table of settings in the core.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ PAGE = """# Settings
 
 Each setting is a field of `lumencut.Settings`. It is also an option of `lumencut render` and
 `lumencut turntable`, with hyphens instead of underscores. A value outside the range is rejected.
-[The command line](command-line.md) describes settings in a TOML file. `make settings` generates this page.
+[The command line](command-line.md) describes settings in a TOML file. `make generate` generates this page.
 
 | setting | kind | range | unit | default | what it does |
 |---|---|---|---|---|---|

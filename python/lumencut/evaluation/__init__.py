@@ -14,7 +14,6 @@ from lumencut.evaluation.measures import MEASURES, columns_of, criteria_of
 from lumencut.evaluation.methods import METHODS, USUAL, Method, checked_methods, shown_by
 from lumencut.evaluation.own_pictures import COUNTED, nothing_shown, own_amounts
 from lumencut.evaluation.result import Evaluation, Row
-from lumencut.evaluation.shown import shown_by
 from lumencut.evaluation.truth import Truth, truth_of
 from lumencut.evaluation.views import cameras
 from lumencut.pictures.renderer import Renderer

@@ -1,19 +1,11 @@
-"""The images of a view that the measures need, rendered by a method."""
+"""The images of a view that the measures need."""
 
 from __future__ import annotations
 
-import math
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-
-if TYPE_CHECKING:
-    from lumencut.evaluation.methods import Method
-    from lumencut.pictures.renderer import Renderer
-    from lumencut.scene.camera import Camera
-    from lumencut.scene.settings import Settings
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,23 +41,3 @@ class Shown:
     plain_depth: npt.NDArray[np.floating] | None = None
     strength: npt.NDArray[np.floating] | None = None
     sheet_gap: npt.NDArray[np.floating] | None = None
-
-
-def shown_by(method: Method, renderer: Renderer, camera: Camera, settings: Settings) -> Shown:
-    """Render all images that the measures need."""
-    frame = method.surface(renderer, camera, settings)
-    turned = method.surface(renderer, camera.rotated(math.radians(1.0), "up"), settings)
-    unfiltered = replace(settings, depth_filter=False)
-    plain = method.surface(renderer, camera, unfiltered) if method.is_filtered else frame
-    details = method.details(renderer, camera, settings)
-    return Shown(
-        depth=frame.depth,
-        vessel=frame.vessel,
-        position=frame.position,
-        turned_depth=turned.depth,
-        turned_vessel=turned.vessel,
-        value=frame.value if frame.has("value") else None,
-        plain_depth=plain.depth,
-        strength=details.get("strength"),
-        sheet_gap=details.get("sheet_gap"),
-    )
