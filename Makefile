@@ -65,7 +65,7 @@ format: tools ## Format Rust, Python and the page, and apply the safe fixes of t
 generate: develop ## Write the files that repeat tables: settings, types of the page, results, gestures, licences.
 	$(BIN)/python scripts/settings.py
 	LUMENCUT_WRITE_TYPES=1 cargo test --quiet --profile checks --package lumencut --lib of_the_page
-	$(PYTHON) scripts/results.py
+	$(PYTHON) benches/result_pages.py
 	$(PYTHON) scripts/licences.py
 	@test ! -d web/node_modules || npm run notebook --silent --prefix web
 

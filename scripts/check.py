@@ -109,7 +109,7 @@ def lint_checks() -> list[Check]:
     """Format, lint, types and documentation."""
     return [
         Check("toolchain", (sys.executable, "scripts/toolchain.py", *TOOLS)),
-        Check("results", (sys.executable, "scripts/results.py", "--check")),
+        Check("results", (sys.executable, "benches/result_pages.py", "--check")),
         *python_lints(),
         *page_lints(),
         *rust_lints(),

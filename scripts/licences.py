@@ -2,7 +2,7 @@
 
 The texts come from the crates; shared texts appear once. A crate without a text is listed in `WITHOUT_TEXT`
 and gets the standard text of its licence. With --check the file must match the locked crates.
-Needs only Python itself and cargo, which downloads the crates.
+Needs only Python itself and cargo; cargo deny collects no texts, and cargo about takes minutes to compile.
 """
 
 from __future__ import annotations

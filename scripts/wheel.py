@@ -16,7 +16,6 @@ import sys
 import tempfile
 import zipfile
 from collections.abc import Sequence
-from dataclasses import dataclass
 from email.parser import BytesParser
 from pathlib import Path
 
@@ -32,30 +31,6 @@ MACHINES = ("x86_64", "aarch64")
 
 class PackageError(Exception):
     """An invalid package."""
-
-
-@dataclass(frozen=True)
-class Environment:
-    """A virtual environment with only the requirements of the package."""
-
-    folder: Path
-
-    def run(self, *command: str | Path) -> None:
-        """Run a command of the environment, in its folder, without the repository, Rust and Node."""
-        outside = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
-        outside["PATH"] = str(self.folder / "bin")
-        program = self.folder / "bin" / str(command[0])
-        subprocess.run((program, *command[1:]), cwd=self.folder, env=outside, check=True)
-
-    def install(self, wheel: Path) -> None:
-        """Replace the installed wheel, with its locked requirements."""
-        # Without hashes: with them pip would require one for the wheel too.
-        versions = re.findall(r"^\w.*?(?= \\)", LOCK.read_text("utf-8"), re.MULTILINE)
-        locked = self.folder / "locked.txt"
-        locked.write_text("\n".join(versions), "utf-8")
-        pip = ("python", "-m", "pip", "--disable-pip-version-check")
-        self.run(*pip, "install", "--quiet", "--force-reinstall", "--constraint", locked, wheel)
-        self.run(*pip, "check")
 
 
 def run(*command: str | Path) -> None:
@@ -103,14 +78,26 @@ def check_wheel(wheel: Path) -> None:
         raise PackageError(f"{wheel.name}: expected the stable ABI of Python 3.11 (cp311-abi3)")
 
 
+def run_apart(folder: Path, *command: str | Path) -> None:
+    """Run a command of an environment, in its folder, without the repository, Rust and Node."""
+    outside = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
+    program = folder / "bin" / str(command[0])
+    outside["PATH"] = str(program.parent)
+    subprocess.run((program, *command[1:]), cwd=folder, env=outside, check=True)
+
+
 def try_out(wheels: Sequence[Path], folder: Path) -> None:
-    """Install each wheel in an empty environment; its doctor renders a phantom."""
+    """Install each wheel in an empty environment, where its doctor renders a phantom."""
     subprocess.run((sys.executable, "-m", "venv", folder), check=True)
-    environment = Environment(folder)
+    # Without hashes: with them pip would require one for the wheel too.
+    locked = folder / "locked.txt"
+    locked.write_text("\n".join(re.findall(r"^\w.*?(?= \\)", LOCK.read_text("utf-8"), re.MULTILINE)), "utf-8")
+    pip = ("python", "-m", "pip", "--disable-pip-version-check")
     for wheel in wheels:
         print(f"\n== trial of {wheel.name}", flush=True)
-        environment.install(wheel)
-        environment.run("lumencut", "doctor")
+        run_apart(folder, *pip, "install", "--quiet", "--force-reinstall", "--constraint", locked, wheel)
+        run_apart(folder, *pip, "check")
+        run_apart(folder, "lumencut", "doctor")
 
 
 def package(folder: Path) -> None:

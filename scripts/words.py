@@ -289,18 +289,13 @@ def faults(left_out: Iterable[str] = ()) -> list[Fault]:
 
 def report() -> str:
     """The counts as a table."""
-    texts, said = pages(), messages()
-    lines = [f"{len(text.split()):7} of {BUDGETS.get(name, 0):5}  {name}" for name, text in texts.items()]
-    lines.append(f"{sum(len(text.split()) for text in texts.values()):7} of {MOST_WORDS:5}  all pages")
-    lines.append(f"{comment_lines():7} of {MOST_COMMENTS:5}  comment lines")
-    spoken = "\n".join(text for one in said.values() for text in one)
-    in_messages = dialect_counts(spoken)
-    for name, count in dialect_counts("\n".join(map(prose, texts.values()))).items():
-        _, most, most_said = DIALECT[name]
-        lines.append(
-            f"{count:7} of {most:5}  {name!r} in pages; {in_messages[name]} of {most_said} in messages"
-        )
-    return "\n".join(lines)
+    texts = pages()
+    counts = {name: (len(text.split()), BUDGETS.get(name, 0)) for name, text in texts.items()}
+    counts["all pages"] = sum(count for count, _ in counts.values()), MOST_WORDS
+    counts["comment lines"] = comment_lines(), MOST_COMMENTS
+    found = dialect_counts("\n".join(map(prose, texts.values())))
+    counts |= {repr(name): (count, DIALECT[name][1]) for name, count in found.items()}
+    return "\n".join(f"{count:7} of {most:5}  {name}" for name, (count, most) in counts.items())
 
 
 def main() -> int:

@@ -62,5 +62,5 @@ def test_a_wheel_is_tried_without_rust_and_node(wheel, tmp_path):
     (tmp_path / "bin").mkdir()
     (tmp_path / "bin/python").symlink_to(sys.executable)
     seen = "import os, pathlib, shutil; pathlib.Path('seen').write_text(repr([*map(shutil.which, {!r})]))"
-    wheel.Environment(tmp_path).run("python", "-c", seen.format(("cargo", "rustc", "node", "npm")))
+    wheel.run_apart(tmp_path, "python", "-c", seen.format(("cargo", "rustc", "node", "npm")))
     assert (tmp_path / "seen").read_text("utf-8") == "[None, None, None, None]"

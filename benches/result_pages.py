@@ -92,7 +92,12 @@ def pages(data: Path = DATA) -> dict[str, str]:
     if plan["machines_on"] not in plan["pages"]:
         raise ResultError(f"pages.json: found machines_on {plan['machines_on']!r}; expected one of its pages")
     for name, page in plan["pages"].items():
-        lines = [f"# {page['title']}", "", "<!-- Written by scripts/results.py from benches/results. -->", ""]
+        lines = [
+            f"# {page['title']}",
+            "",
+            "<!-- Written by benches/result_pages.py from benches/results. -->",
+            "",
+        ]
         for paragraph in page["intro"]:
             lines += [paragraph, ""]
         subjects = [subject(data / f"{stem}.json", machines) for stem in page["subjects"]]
