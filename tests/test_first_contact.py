@@ -52,3 +52,14 @@ def test_the_release_takes_the_tools_that_the_repository_names():
     [maturin] = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["build-system"]["requires"]
     assert f"pip install {maturin}\n" in WORKFLOW
     assert set(re.findall(r"node-version\S*: (.*)", WORKFLOW)) == {".nvmrc"}
+
+
+def test_pull_requests_run_every_check_and_the_audits_that_need_the_network():
+    checks = yaml.safe_load((ROOT / ".github/workflows/checks.yml").read_text("utf-8"))
+    # YAML reads the key `on` as true.
+    assert set(checks[True]) == {"pull_request"}
+    ran = {
+        job: "\n".join(one.get("run", "") for one in steps["steps"]) for job, steps in checks["jobs"].items()
+    }
+    assert "make test" in ran["tests"]
+    assert all(one in ran["audit"] for one in ("check advisories", "pip_audit", "npm audit"))
