@@ -1,4 +1,4 @@
-"""Write the DICOM cases of the tests with Lumencut's answers, for other hosts of its judge.
+"""Writes a DICOM case with Lumencut's answer, as other hosts of its judge get it.
 
 Each case becomes a folder of files and a JSON document next to it: name, path, the headers and options given
 to the core, its answer, and for a volume the type, size and SHA-256 of the voxels as little-endian 32-bit
@@ -7,24 +7,18 @@ floats (i fastest). For unreadable files it has the error.
 
 from __future__ import annotations
 
-import argparse
 import hashlib
 import json
-import sys
 import warnings
 from pathlib import Path
 from typing import Any
 
-ROOT = Path(__file__).resolve().parent.parent
-sys.path.insert(0, str(ROOT / "tests"))
-
-from dicom_cases import CASES  # noqa: E402
-from dicom_series import Case  # noqa: E402
-from lumencut import FormatError, read_volume  # noqa: E402
-from lumencut._lumencut import judge_dicom  # noqa: E402
-from lumencut.dicom.reading import Wanted  # noqa: E402
-from lumencut.dicom.reading.files import read_files  # noqa: E402
-from lumencut.dicom.reading.judging import headers_document, wanted_document  # noqa: E402
+from dicom_series import Case
+from lumencut import FormatError, read_volume
+from lumencut._lumencut import judge_dicom
+from lumencut.dicom.reading import Wanted
+from lumencut.dicom.reading.files import read_files
+from lumencut.dicom.reading.judging import headers_document, wanted_document
 
 
 def document(case: Case, path: Path) -> dict[str, Any]:
@@ -58,19 +52,3 @@ def write(case: Case, place: Path) -> None:
         path = case.write(place).path
     described = document(case, path) | {"path": path.relative_to(place.parent).as_posix()}
     place.with_suffix(".json").write_text(json.dumps(described, ensure_ascii=False), "utf-8")
-
-
-def main() -> None:
-    """Write all cases."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("folder", type=Path, help="a folder that is not there yet")
-    folder = parser.parse_args().folder
-    for number, case in enumerate(CASES):
-        try:
-            write(case, folder / f"{number:03}")
-        except ImportError as missing:
-            print(f"left out: {case.name} ({missing})")
-
-
-if __name__ == "__main__":
-    main()

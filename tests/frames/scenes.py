@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, partial
@@ -13,12 +12,9 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut import Vessel, VesselTree, Volume, phantom, read_centerlines, read_volume
-
-sys.path.append(str(Path(__file__).resolve().parent.parent / "tests"))
-
 from scenes import lattice, nearly_along_y, wandering
 
-DATA = Path(__file__).resolve().parents[2] / "shared" / "data"
+DATA = Path(__file__).resolve().parents[3] / "shared" / "data"
 """Real volumes and their centerlines; a scene whose files are not there has no frames."""
 REAL = {
     "stent": ("stent-cta/stent_cta.nii.gz", "stent-cta/centerlines.vtp"),

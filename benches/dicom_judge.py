@@ -13,8 +13,8 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-
 from dicom_peers import Answer, Grid
+
 from dicom_phantom import Image, field
 from dicom_series import Case, Made
 

@@ -1,8 +1,8 @@
 """Checks whether two states of the code render the same frames.
 
-``frames.py write`` renders a fixed list of frames and writes their hashes. Run it in each state;
-then ``frames.py compare`` names the frames that differ in any bit. On a GPU frames may differ slightly:
-write their arrays too; ``frames.py difference`` counts the pixels that differ and applies the limits of the
+``frames write`` renders a fixed list of frames and writes their hashes. Run it in each state;
+then ``frames compare`` names the frames that differ in any bit. On a GPU frames may differ slightly:
+write their arrays too; ``frames difference`` counts the pixels that differ and applies the limits of the
 GPU tests.
 """
 
@@ -19,10 +19,10 @@ from typing import Literal
 
 import numpy as np
 
-from frame_difference import difference
-from frame_hashes import Arrays, compare, hashed
-from frame_list import Entry, entries
-from frame_scenes import Scene, scene
+from frames.difference import difference
+from frames.entries import Entry, entries
+from frames.hashes import Arrays, compare, hashed
+from frames.scenes import Scene, scene
 from lumencut import Frame, Renderer, Settings
 
 ARRAYS = ("image", "depth", "vessel", "distance", "value", "context", "position")
@@ -121,7 +121,7 @@ def write(file: Path, device: DeviceName, folder: Path | None, part: str) -> int
 def main() -> int:
     """Run the chosen command; the exit status is 1 if frames differ."""
     kept = argparse.RawDescriptionHelpFormatter
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=kept)
+    parser = argparse.ArgumentParser("frames", description=__doc__, formatter_class=kept)
     commands = parser.add_subparsers(dest="command", required=True)
     writing = commands.add_parser("write", help="render the list and write the hashes of its frames")
     writing.add_argument("file", type=Path, metavar="FILE.json")

@@ -15,11 +15,12 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(ROOT / "tests"), str(ROOT / "scripts")]
+sys.path.insert(0, str(ROOT / "tests"))
 
-from dicom_cases import CASES  # noqa: E402
 from dicom_judge import CANNOT, REFUSED, RIGHT, WARNED, WRONG, Verdict, judged  # noqa: E402
 from dicom_peers import PEERS, Reader, lumencut, version  # noqa: E402
+
+from dicom_cases import CASES  # noqa: E402
 from dicom_series import Case  # noqa: E402
 
 BEGIN, END = "<!-- dicom-table -->", "<!-- /dicom-table -->"

@@ -92,7 +92,12 @@ def pages(data: Path = DATA) -> dict[str, str]:
     if plan["machines_on"] not in plan["pages"]:
         raise ResultError(f"pages.json: found machines_on {plan['machines_on']!r}; expected one of its pages")
     for name, page in plan["pages"].items():
-        lines = [f"# {page['title']}", "", "<!-- Written by scripts/results.py from benches/results. -->", ""]
+        lines = [
+            f"# {page['title']}",
+            "",
+            "<!-- Written by benches/result_pages.py from benches/results. -->",
+            "",
+        ]
         for paragraph in page["intro"]:
             lines += [paragraph, ""]
         subjects = [subject(data / f"{stem}.json", machines) for stem in page["subjects"]]
@@ -124,7 +129,7 @@ def main() -> int:
             continue
         is_stale = True
         if is_check:
-            print(f"{path.relative_to(ROOT)}: out of date; run `make results`", file=sys.stderr)
+            print(f"{path.relative_to(ROOT)}: out of date; run `make generate`", file=sys.stderr)
         else:
             path.parent.mkdir(exist_ok=True)
             path.write_text(text, "utf-8")

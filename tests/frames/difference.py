@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-
-sys.path.append(str(Path(__file__).resolve().parent.parent / "tests"))
 
 from frame_comparison import LIMITS as LIMITS_OF_TESTS
 from image_comparison import compare

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Literal
 
-from frame_scenes import ARRAYS, DTYPES, GRIDS, RANGES, SMALL, STENOSES, TREES
-from frame_settings import (
+from frames.scenes import ARRAYS, DTYPES, GRIDS, RANGES, SMALL, STENOSES, TREES
+from frames.settings import (
     MODES,
     POINTS,
     SEE_THROUGH,

@@ -1,6 +1,6 @@
 """Print the table of windows for ``benches/results/windows-from-the-data.json``, and save its pictures.
 
-``python scripts/window_table.py FOLDER`` covers each angiography of ``tests/window_scenes.py``, the phantoms
+``python benches/windows.py FOLDER`` covers each angiography of ``tests/window_scenes.py``, the phantoms
 and, if ``../shared/data`` exists, real scans: along their centerlines and alone, with MIP and MIDA.
 """
 
