@@ -1,5 +1,4 @@
 /** Access to the WebAssembly module; no other file imports it. */
-import type { Judge } from './judge';
 import init, { Engine, initSync, run_thread, use_threads } from './pkg/lumencut.js';
 import type { Volumes } from './volumes';
 
@@ -55,4 +54,10 @@ export function joinModule({ module, memory }: Shared): void {
 
 export function useThreads(count: number): void {
   use_threads(count);
+}
+
+/** Functions of the crate `lumencut-dicom`; arguments and results are JSON. */
+export interface Judge {
+  dicom_attributes(): string;
+  judge_dicom(headers: string, wanted: string): string;
 }

@@ -12,7 +12,6 @@ import { Steps } from '../io/steps';
 import { ask, askAtOnce, isAtOnce, kindOf, moved, refuseStopped } from './answers';
 import { type Fetched, fetchStudy } from './fetching';
 import { askWithFiles } from './masks';
-import { Queue } from './queue';
 import { type LoadContext, Replacing } from './replacing';
 import { startThreads } from './threads';
 
@@ -219,4 +218,15 @@ function sent(picture: Picture, milliseconds: number): Drawn {
 /** The pixels as a plain array. They need no copy, since the engine has copied them. */
 function plain(bytes: Uint8ClampedArray): Uint8ClampedArray<ArrayBuffer> {
   return bytes as Uint8ClampedArray<ArrayBuffer>;
+}
+
+/** Runs tasks one at a time, in order. */
+export class Queue {
+  private last: Promise<unknown> = Promise.resolve();
+
+  run<T>(work: () => T | Promise<T>): Promise<T> {
+    const next = this.last.then(work, work);
+    this.last = next.catch(() => undefined);
+    return next;
+  }
 }

@@ -1,5 +1,5 @@
 //! Generates the page's types, `web/src/core/generated/questions.ts`, from the table of questions. A test fails if the file is out
-//! of date; `make types` writes it again.
+//! of date; `make generate` writes it again.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
@@ -100,7 +100,7 @@ fn written() -> String {
 }
 
 const HEAD: &str = "\
-/** What the engine is asked and answers, written of `crates/lumencut/src/study/questions.rs` by `make types`; a test says where it is stale. */
+/** What the engine is asked and answers, written of `crates/lumencut/src/study/questions.rs` by `make generate`; a test says where it is stale. */
 import type { Bytes, Pair, Settings, SettingValue, Turn, Vector } from '../plain';
 ";
 
