@@ -24,7 +24,7 @@ export async function untraced(
   options: BrowserContextOptions = {},
 ): Promise<Viewer> {
   const viewer = await Viewer.open(browser, `?phantom=${phantom}&device=cpu`, { viewport: SIZE, ...options });
-  await expect(viewer.pane()).toBeVisible({ timeout: 50_000 });
+  await expect(viewer.pane()).toBeVisible();
   await viewer.press('v');
   const all = viewer.page.getByRole('button', { name: 'Delete all' });
   const one = viewer.page.getByRole('button', { name: 'Delete', exact: true });
@@ -122,7 +122,7 @@ export async function tabTo(viewer: Viewer, words: string | RegExp, back = false
 }
 
 export async function traced(viewer: Viewer, count: number): Promise<void> {
-  await expect(rows(viewer)).toHaveCount(count, { timeout: 30_000 });
+  await expect(rows(viewer)).toHaveCount(count);
   await expect(viewer.page.locator('.trace-bar').getByText('Tracing …')).toHaveCount(0);
   const last = rows(viewer).nth(count - 1);
   await expect(last.getByRole('radio')).toBeChecked();

@@ -32,8 +32,7 @@ let session: Buffer;
 let before: Awaited<ReturnType<typeof pageState>>;
 let picture: Awaited<ReturnType<Viewer['pixels']>>;
 
-const started = (browser: Browser, query = '?device=cpu') =>
-  Viewer.open(browser, query, { viewport: SIZE, acceptDownloads: true });
+const started = (browser: Browser, query = '?device=cpu') => Viewer.open(browser, query, { viewport: SIZE });
 const fileNow = (bytes = session) => fileOf('lumencut-session.mrk.json', bytes);
 
 const blur = () => viewer.page.getByRole('region', { name: 'Blur of the scan' });
@@ -83,8 +82,8 @@ async function work(): Promise<void> {
   await viewer.press('m');
   await blur().getByLabel('Known FWHM').fill('0.8');
   await blur().getByLabel('Known FWHM').press('Enter');
-  await expect(blur()).toContainText('0.80 mm, given', { timeout: 30_000 });
-  await button(viewer, 'Confirm the suggested places').click({ timeout: 30_000 });
+  await expect(blur()).toContainText('0.80 mm, given');
+  await button(viewer, 'Confirm the suggested places').click();
   await expect(stenosis(viewer)).toContainText('%');
   await button(viewer, 'Ruler').click();
   await expect(button(viewer, 'Ruler')).toHaveAttribute('aria-pressed', 'true');
@@ -97,7 +96,7 @@ async function work(): Promise<void> {
 
 async function expectAllBack(): Promise<void> {
   await expect(rows(viewer)).toHaveCount(2);
-  await expect(stenosis(viewer)).toHaveText(before.stenosis ?? '', { timeout: 30_000 });
+  await expect(stenosis(viewer)).toHaveText(before.stenosis ?? '');
   await viewer.rest();
   await expect.poll(pageState).toEqual(before);
   expect(difference(await viewer.picture(), picture, OTHER_DEVICE)).toBeNull();

@@ -216,7 +216,7 @@ test('in a window of another size all views fill their panes', async () => {
     await expect(async () => {
       const { width, height } = await viewer.pixels(pane);
       expect([width, height]).toEqual([...(await viewer.size(pane))]);
-    }).toPass({ timeout: 10_000 });
+    }).toPass();
   }
   await viewer.page.setViewportSize({ width: 800, height: 560 });
   await viewer.rest();
