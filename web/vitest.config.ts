@@ -1,4 +1,9 @@
 import { defineConfig } from 'vitest/config';
 
 /** Unit tests; browser tests are Playwright's, in e2e. */
-export default defineConfig({ test: { include: ['tests/**/*.test.ts'], testTimeout: 5000 } });
+export default defineConfig({
+  test: {
+    include: ['tests/**/*.test.ts'],
+    testTimeout: 120_000,
+  },
+});
