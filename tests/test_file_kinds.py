@@ -11,6 +11,7 @@ import pytest
 from click.testing import CliRunner
 
 from lumencut import _lumencut, read_centerlines, read_volume
+from lumencut.base.file_kinds import extensions as extensions_of
 from lumencut.base.file_kinds import kind_of
 from lumencut.cli import main
 from lumencut.errors import FileError, FormatError
@@ -158,3 +159,10 @@ def far_volume(folder):
     affine = np.diag([2.0, 2.0, 3.0, 1.0])
     affine[:3, 3] = (500, 500, 500)
     return write_stack(folder, coded((8, 8, 8)), affine)
+
+
+@pytest.mark.parametrize("command", ["render", "view"])
+def test_help_lists_all_centerline_files(command):
+    *first, last = extensions_of("centerlines")
+    shown = " ".join(CliRunner().invoke(main, [command, "--help"]).output.split())
+    assert f"{', '.join(first)} or {last} files" in shown

@@ -2,6 +2,8 @@
 
 import importlib
 import inspect
+import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -87,22 +89,31 @@ def test_the_default_width_is_that_of_the_table():
     assert own == cpr(volume, line, "straightened", _lumencut.DEFAULTS["cpr.width"]).size
 
 
-SIDES = {
-    "coarse": ((0.8, 0.8, 1.0), 0.25),
-    "usual": ((0.2, 0.3, 0.5), 0.2),
-    "fine": ((0.02, 0.02, 0.03), 0.05),
-}
+#: Drawn volumes and the pixel sides that Python and the page show them with.
+SIDES = json.loads((Path(__file__).parent / "pixel_sides.json").read_text("utf-8"))
 
 
-@pytest.fixture(params=SIDES)
-def scan(request):
+@pytest.fixture(params=SIDES["cases"].values(), ids=SIDES["cases"])
+def case(request):
+    return request.param
+
+
+@pytest.fixture
+def scan(case):
     """Return a small volume, a vessel through its middle, and the pixel side of its reformations."""
-    spacing, side = SIDES[request.param]
-    grid = np.indices((24, 20, 20))
+    spacing = case["spacing"]
+    grid = np.indices(SIDES["voxels"][::-1])
     away = np.hypot(grid[1] - 10, grid[2] - 10)
     volume = Volume(np.where(away < 5, 300.0, 0.0).astype(np.float32), spacing)
-    points = np.array([[10, 10, k] for k in range(3, 21)]) * spacing
-    return volume, Vessel(points, 4.5 * spacing[0], "aorta"), side
+    (x, y, start), (_, _, end) = SIDES["line"]
+    points = np.array([[x, y, k] for k in range(start, end + 1)]) * spacing
+    return volume, Vessel(points, 4.5 * spacing[0], "aorta"), case["side"]
+
+
+def test_a_straightened_vessel_is_that_of_the_page(scan, case):
+    volume, vessel, side = scan
+    made = cpr(volume, vessel, "straightened", SIDES["width"] * spacing_of(volume))
+    assert (made.pixel_spacing, made.size) == (pytest.approx(side), tuple(case["size"]))
 
 
 def test_every_reformation_has_the_same_default_pixel_side(scan):
@@ -154,6 +165,8 @@ def test_every_host_states_the_rule():
         assert words in " ".join(CliRunner().invoke(main, [command, "--help"]).output.split())
     for function in (cpr, spiral, untangled, lumen_map):
         assert words in " ".join(inspect.getdoc(function).split())
+    for page in ("python.md", "reformations.md"):
+        assert words in " ".join((Path(__file__).parents[1] / "docs" / page).read_text("utf-8").split())
 
 
 def test_names_of_methods_are_those_of_the_core():

@@ -73,6 +73,8 @@ __all__ = [
     "VIEW_METHODS",
     "VOLUME_FILES",
     "WINDOW_PRESETS",
+    "WRITTEN_CENTERLINES",
+    "WRITTEN_VOLUMES",
     "CenterlineFile",
     "Cpr",
     "Grade",
@@ -268,6 +270,8 @@ FILE_KINDS: list[tuple[str, str, str, list[str], list[str]]]
 FILE_HEAD: int
 VOLUME_FILES: str
 CENTERLINE_FILES: str
+WRITTEN_CENTERLINES: str
+WRITTEN_VOLUMES: str
 SMALLEST_EXTENT: float
 LARGEST_EXTENT: float
 #: How the note ends that says of a line that its points were moved.

@@ -1,7 +1,8 @@
 //! Recognises kinds of files by content and name.
 
 use lumencut::file_kinds::{
-    FILE_KINDS, HEAD, KnownFile, Role, centerline_files, folder, kind_of, volume_files,
+    FILE_KINDS, HEAD, KnownFile, Role, centerline_files, folder, kind_of, volume_files, written_centerlines,
+    written_volumes,
 };
 use pyo3::prelude::*;
 
@@ -28,7 +29,7 @@ pub(crate) fn file_kind(head: Option<&[u8]>, name: &str) -> Known {
 }
 
 /// Adds to the module: the table (identifier, role, format, extensions to read, extensions to write), the number of
-/// bytes that decide, and the words for the files that can be read.
+/// bytes that decide, and the words for the files that can be read and written.
 pub(crate) fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let rows = FILE_KINDS.iter().map(|kind| {
         (kind.name, word(kind.role), kind.title, kind.extensions.to_vec(), kind.written.to_vec())
@@ -36,5 +37,7 @@ pub(crate) fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("FILE_KINDS", rows.collect::<Vec<_>>())?;
     module.add("FILE_HEAD", HEAD)?;
     module.add("VOLUME_FILES", volume_files())?;
-    module.add("CENTERLINE_FILES", centerline_files())
+    module.add("CENTERLINE_FILES", centerline_files())?;
+    module.add("WRITTEN_CENTERLINES", written_centerlines())?;
+    module.add("WRITTEN_VOLUMES", written_volumes())
 }

@@ -25,11 +25,18 @@ pub const ABOVE_0: f64 = f64::MIN_POSITIVE;
 
 const OPEN: f64 = f64::INFINITY;
 
-/// Smallest and largest pixel side that a reformation has by default (mm).
-pub const PIXEL_SIDES: [f64; 2] = [0.05, 0.25];
+macro_rules! pixel_sides {
+    ($smallest:literal, $largest:literal) => {
+        /// Smallest and largest pixel side that a reformation has by default (mm).
+        pub const PIXEL_SIDES: [f64; 2] = [$smallest, $largest];
 
-/// The rule of [`pixel_side`] in words, for help texts and documentation.
-pub const PIXEL_SIDE_WORDS: &str = "the smallest voxel side, at least 0.05 and at most 0.25 mm";
+        /// The rule of [`pixel_side`] in words, for help texts and documentation.
+        pub const PIXEL_SIDE_WORDS: &str =
+            concat!("the smallest voxel side, at least ", $smallest, " and at most ", $largest, " mm");
+    };
+}
+
+pixel_sides!(0.05, 0.25);
 
 /// The pixel side (mm) that every reformation along vessels has by default, in a scan with this smallest voxel side
 /// (mm). The largest side leaves room for labels, the smallest one bounds the size of pictures of very fine scans.

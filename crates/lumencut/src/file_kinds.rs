@@ -285,6 +285,23 @@ pub fn volume_files() -> String {
     format!("a DICOM folder, file or zip archive, {}", listed(&formats))
 }
 
+/// The extensions of centerline files that are written, in the words of messages: SWC, which keeps least, is last.
+pub fn written_centerlines() -> String {
+    let (swc, others): (Vec<&FileKind>, Vec<&FileKind>) =
+        read(Role::Centerlines).partition(|kind| kind.name == "swc");
+    either(others.iter().chain(&swc).flat_map(|kind| kind.written))
+}
+
+/// The extensions of volume files that are written, in the words of messages.
+pub fn written_volumes() -> String {
+    either([NRRD, NIFTI].iter().flat_map(|kind| kind.written))
+}
+
+/// The formats in which the page saves centerlines, without a dot: those that keep all properties of vessels.
+pub fn saved_by_the_page() -> [&'static str; 2] {
+    [POLY_DATA, MARKUPS].map(|kind| kind.written[0].trim_start_matches('.'))
+}
+
 /// The centerline files that are recognised by their file name extensions, in the words of messages.
 pub fn centerline_files() -> String {
     let recognised = read(Role::Centerlines).filter(|kind| !kind.decisive.is_empty());
@@ -294,6 +311,10 @@ pub fn centerline_files() -> String {
 
 fn read(role: Role) -> impl Iterator<Item = &'static FileKind> {
     FILE_KINDS.iter().filter(move |kind| kind.role == role && !kind.title.is_empty())
+}
+
+fn either(extensions: impl Iterator<Item = &'static &'static str>) -> String {
+    listed(&extensions.map(|extension| (*extension).to_owned()).collect::<Vec<_>>())
 }
 
 fn listed(words: &[String]) -> String {

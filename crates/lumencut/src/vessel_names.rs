@@ -47,7 +47,7 @@ pub struct NamedVessel {
     pub snomed: &'static str,
     /// Meaning of the SNOMED CT code.
     pub meaning: &'static str,
-    /// Identifier in the Foundational Model of Anatomy; None if it was not verified.
+    /// Number in the Foundational Model of Anatomy (323778 is `fma0323778`), from UBERON, BodyParts3D and HRA-VCCF.
     pub fma: Option<u32>,
 }
 
@@ -133,35 +133,35 @@ vessels! {
     SINGLE "chest" "aorta" [] "15825003" "Aorta" Some(3734);
     SINGLE "chest" "ascending aorta" [] "54247002" "Ascending aorta" Some(3736);
     SINGLE "chest" "aortic arch" ["arch of aorta"] "57034009" "Aortic arch" Some(3768);
-    SINGLE "chest" "descending thoracic aorta" [] "281130003" "Descending aorta" None;
+    SINGLE "chest" "descending thoracic aorta" [] "281130003" "Descending aorta" Some(87217);
     RECOGNISED "chest" "descending aorta" [] "281130003" "Descending aorta" Some(3784);
-    RECOGNISED "chest" "thoracic aorta" [] "113262008" "Thoracic aorta" None;
+    RECOGNISED "chest" "thoracic aorta" [] "113262008" "Thoracic aorta" Some(3786);
     SINGLE "abdomen" "abdominal aorta" [] "7832008" "Abdominal aorta" Some(3789);
     SINGLE "heart" "left main coronary artery" ["left main", "lm"] "3227004" "Left Main Coronary Artery" None;
     SINGLE "heart" "left anterior descending artery" ["left anterior descending", "lad"]
-        "59438005" "Left Anterior Descending Coronary Artery" None;
+        "59438005" "Left Anterior Descending Coronary Artery" Some(3862);
     SINGLE "heart" "circumflex artery" ["circumflex", "left circumflex", "left circumflex artery", "lcx"]
-        "57396003" "Circumflex Coronary Artery" None;
-    SINGLE "heart" "right coronary artery" ["right coronary", "rca"] "13647002" "Right Coronary Artery" None;
-    SINGLE "chest" "pulmonary trunk" ["main pulmonary artery"] "45341000" "Pulmonary trunk" None;
-    PAIRED "chest" "pulmonary artery" [] "81040000" "Pulmonary artery" None;
+        "57396003" "Circumflex Coronary Artery" Some(3895);
+    SINGLE "heart" "right coronary artery" ["right coronary", "rca"] "13647002" "Right Coronary Artery" Some(50039);
+    SINGLE "chest" "pulmonary trunk" ["main pulmonary artery"] "45341000" "Pulmonary trunk" Some(8612);
+    PAIRED "chest" "pulmonary artery" [] "81040000" "Pulmonary artery" Some(66326);
     SINGLE "chest" "brachiocephalic trunk" ["brachiocephalic artery", "innominate artery"]
         "12691009" "Innominate artery" Some(3932);
     PAIRED "neck" "common carotid artery" ["common carotid", "cca"] "32062004" "Common carotid artery" Some(3939);
     PAIRED "neck" "internal carotid artery" ["internal carotid", "ica"] "86117002" "Internal carotid artery" Some(3947);
-    PAIRED "neck" "external carotid artery" ["external carotid", "eca"] "22286001" "External carotid artery" None;
+    PAIRED "neck" "external carotid artery" ["external carotid", "eca"] "22286001" "External carotid artery" Some(10635);
     PAIRED "neck" "vertebral artery" ["vertebral", "va"] "85234005" "Vertebral artery" Some(3956);
     SINGLE "head" "basilar artery" ["basilar"] "59011009" "Basilar artery" Some(50542);
     PAIRED "head" "anterior cerebral artery" ["anterior cerebral", "aca"] "60176003" "Anterior Cerebral Artery" Some(50028);
-    PAIRED "head" "middle cerebral artery" ["middle cerebral", "mca"] "17232002" "Middle Cerebral Artery" None;
-    PAIRED "head" "posterior cerebral artery" ["posterior cerebral", "pca"] "70382005" "Posterior Cerebral Artery" None;
+    PAIRED "head" "middle cerebral artery" ["middle cerebral", "mca"] "17232002" "Middle Cerebral Artery" Some(50079);
+    PAIRED "head" "posterior cerebral artery" ["posterior cerebral", "pca"] "70382005" "Posterior Cerebral Artery" Some(50583);
     PAIRED "chest" "subclavian artery" ["subclavian"] "36765005" "Subclavian artery" Some(3951);
     PAIRED "arm" "axillary artery" ["axillary"] "67937003" "Axillary Artery" Some(22654);
     SINGLE "abdomen" "celiac trunk" ["celiac", "celiac artery", "celiac axis", "coeliac", "coeliac artery", "coeliac trunk", "coeliac axis"]
         "57850000" "Celiac Axis" Some(14812);
     SINGLE "abdomen" "common hepatic artery" ["common hepatic", "cha"] "66559000" "Common Hepatic Artery" Some(14771);
     SINGLE "abdomen" "splenic artery" ["splenic"] "22083002" "Splenic artery" Some(14773);
-    SINGLE "abdomen" "left gastric artery" ["left gastric", "lga"] "23771002" "Structure of left gastric artery (body structure)" None;
+    SINGLE "abdomen" "left gastric artery" ["left gastric", "lga"] "23771002" "Structure of left gastric artery (body structure)" Some(14768);
     SINGLE "abdomen" "superior mesenteric artery" ["superior mesenteric", "sma"]
         "42258001" "Superior mesenteric artery" Some(14749);
     SINGLE "abdomen" "inferior mesenteric artery" ["inferior mesenteric", "ima"]
@@ -171,15 +171,15 @@ vessels! {
     PAIRED "pelvis" "internal iliac artery" ["internal iliac", "iia", "hypogastric artery"]
         "90024005" "Internal iliac artery" Some(18808);
     PAIRED "pelvis" "external iliac artery" ["external iliac", "eia"] "113269004" "External iliac artery" Some(18805);
-    PAIRED "leg" "common femoral artery" ["common femoral", "cfa"] "181347005" "Common Femoral Artery" None;
-    PAIRED "leg" "superficial femoral artery" ["superficial femoral", "sfa"] "181349008" "Superficial Femoral Artery" None;
+    PAIRED "leg" "common femoral artery" ["common femoral", "cfa"] "181347005" "Common Femoral Artery" Some(323778);
+    PAIRED "leg" "superficial femoral artery" ["superficial femoral", "sfa"] "181349008" "Superficial Femoral Artery" Some(323777);
     PAIRED "leg" "deep femoral artery" ["deep femoral", "profunda femoris", "profunda femoris artery", "dfa", "pfa"]
-        "31677005" "Profunda Femoris Artery" None;
-    RECOGNISED_PAIRED "leg" "femoral artery" ["femoral"] "7657000" "Femoral artery" None;
-    PAIRED "leg" "popliteal artery" ["popliteal"] "43899006" "Popliteal artery" None;
+        "31677005" "Profunda Femoris Artery" Some(20741);
+    RECOGNISED_PAIRED "leg" "femoral artery" ["femoral"] "7657000" "Femoral artery" Some(70248);
+    PAIRED "leg" "popliteal artery" ["popliteal"] "43899006" "Popliteal artery" Some(77155);
     PAIRED "leg" "anterior tibial artery" ["anterior tibial", "ata"] "68053000" "Anterior tibial artery" Some(43894);
     PAIRED "leg" "posterior tibial artery" ["posterior tibial", "pta"] "13363002" "Posterior tibial artery" Some(43895);
-    PAIRED "leg" "fibular artery" ["fibular", "peroneal", "peroneal artery"] "8821006" "Peroneal artery" None;
+    PAIRED "leg" "fibular artery" ["fibular", "peroneal", "peroneal artery"] "8821006" "Peroneal artery" Some(43921);
     SINGLE "abdomen" "portal vein" [] "32764006" "Portal vein" Some(50735);
     SINGLE "chest" "superior vena cava" ["svc"] "48345005" "Superior vena cava" Some(4720);
     SINGLE "abdomen" "inferior vena cava" ["ivc"] "64131007" "Inferior vena cava" Some(10951);

@@ -59,6 +59,12 @@ def extensions(role: str, *, written: bool = False) -> tuple[str, ...]:
     return tuple(one for read, saved in kinds for one in (saved if written else read))
 
 
+def written_kind(path: Path, role: str) -> str | None:
+    """Return the kind that is written to a file with this extension, such as ``nifti``; None if none is."""
+    kinds = [(name, saved) for name, of_role, _, _, saved in _lumencut.FILE_KINDS if of_role == role]
+    return next((name for name, saved in kinds if path.name.lower().endswith(tuple(saved))), None)
+
+
 def _head(path: Path) -> bytes:
     """Return the first bytes of a file, decompressed if it is gzipped."""
     with path.open("rb") as file:

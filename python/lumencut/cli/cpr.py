@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from lumencut._lumencut import DEFAULTS
+from lumencut._lumencut import DEFAULTS, WRITTEN_VOLUMES
+from lumencut.base.file_kinds import written_kind
 from lumencut.cli import options, reformations
 from lumencut.cli.dicom import study_of
 from lumencut.cli.like import typed
@@ -68,9 +69,9 @@ def _check_outputs(output: Path, volume_out: Path | None) -> None:
     options.check_picture(output)
     if volume_out is None:
         return
-    if volume_out.suffix and not volume_out.name.lower().endswith((".nrrd", ".nii", ".nii.gz")):
+    if volume_out.suffix and written_kind(volume_out, "volume") is None:
         found = f"{volume_out}: found the extension {volume_out.suffix!r}"
-        raise click.UsageError(f"{found}; expected .nrrd, .nii or .nii.gz, or none for a DICOM series")
+        raise click.UsageError(f"{found}; expected {WRITTEN_VOLUMES}, or none for a DICOM series")
     options.check_folder(volume_out)
 
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import click
 
+from lumencut._lumencut import WRITTEN_VOLUMES
 from lumencut.cli import options
 from lumencut.cli import reformation_options as shared
 from lumencut.cli.cfa import FEATURES, show_cfa
@@ -91,7 +92,7 @@ _CPR = _command(
         option(
             "--volume-out",
             options.FILE,
-            "Write the sections across one vessel as a volume too (.nrrd, .nii or .nii.gz, or a name without "
+            f"Write the sections across one vessel as a volume too ({WRITTEN_VOLUMES}, or a name without "
             "an ending: a new folder for a DICOM series).",
         ),
     ),

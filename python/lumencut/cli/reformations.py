@@ -78,12 +78,21 @@ def read_vessels(
 
 def asked(command: str, chosen: dict[str, Any], settings: Settings, tree: VesselTree) -> Any:
     """Return the request for the reformation of a command, from its options."""
-    from lumencut.reformations.kinds import KINDS
-
+    requests = _requests()
     given = {**chosen, "settings": settings, "slab": None, "tree": tree}
-    own = {field.name: given[field.name] for field in fields(KINDS[command]) if field.name in given}
+    own = {field.name: given[field.name] for field in fields(requests[command]) if field.name in given}
     own |= {name: math.radians(own[name]) for name in _ANGLES if own.get(name) is not None}
-    return KINDS[command](**own)
+    return requests[command](**own)
+
+
+def _requests() -> dict[str, Any]:
+    """Return the requests that show each vessel in separate rows, by the names of their commands."""
+    from lumencut.reformations.feature_aggregation import CfaRequest
+    from lumencut.reformations.lumen_mapping import LumenMapRequest
+    from lumencut.reformations.planar_reformation import CprRequest
+    from lumencut.reformations.spiral_reformation import SpiralRequest
+
+    return {request.kind: request for request in (CprRequest, CfaRequest, SpiralRequest, LumenMapRequest)}
 
 
 def show_each(command: str, **given: Any) -> None:

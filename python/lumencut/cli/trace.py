@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
+from lumencut._lumencut import WRITTEN_CENTERLINES
 from lumencut.cli import options
 from lumencut.cli.found_vessels import check_found, found_by, found_options, found_vessels
 from lumencut.cli.mistakes import check_reading
@@ -75,7 +76,7 @@ if TYPE_CHECKING:
     "--output",
     type=FILE,
     required=True,
-    help="The centerlines (mm, LPS): .vtp, .vtk, .mrk.json, .csv or .swc.",
+    help=f"The centerlines (mm, LPS): {WRITTEN_CENTERLINES}.",
 )
 @click.option("--preview", type=FILE, help="A picture of the result from the front, such as preview.png.")
 @options.series_option

@@ -31,7 +31,7 @@ def show_untangled(**given: Any) -> None:
 
     from lumencut.reformations.untangling import UntangledRequest
 
-    own = {name: chosen[name] for name in UntangledRequest.told}
+    own = {name: chosen[name] for name in UntangledRequest.stored}
     with busy("laying out the tree"):
         made = UntangledRequest(view, settings=settings, **own).of(renderer)
         _ = made.image

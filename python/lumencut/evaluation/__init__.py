@@ -10,9 +10,8 @@ from lumencut.base.checks import integers, number
 from lumencut.errors import CameraError, SettingsError, VesselTreeError, VolumeError
 from lumencut.evaluation.amounts import Amounts, Columns, pooled
 from lumencut.evaluation.centerline import Centerline, Stations, centerline_of, width_stations
-from lumencut.evaluation.engine import shown_by
 from lumencut.evaluation.measures import MEASURES, columns_of, criteria_of
-from lumencut.evaluation.methods import METHODS, USUAL, Method, checked_methods
+from lumencut.evaluation.methods import METHODS, USUAL, Method, checked_methods, shown_by
 from lumencut.evaluation.own_pictures import COUNTED, nothing_shown, own_amounts
 from lumencut.evaluation.result import Evaluation, Row
 from lumencut.evaluation.truth import Truth, truth_of

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from typing import Any
@@ -13,6 +14,7 @@ from lumencut import _lumencut
 from lumencut.base.checks import choice
 from lumencut.errors import SettingsError
 from lumencut.evaluation.own_pictures import untangled_picture
+from lumencut.evaluation.shown import Shown
 from lumencut.pictures.frame import Frame
 from lumencut.pictures.renderer import Renderer
 from lumencut.reformations.reformation import Reformation
@@ -134,3 +136,23 @@ def checked_methods(names: Any) -> tuple[str, ...]:
         shown = "no method" if not found else f"{', '.join(found)}"
         raise SettingsError("methods", shown, f"one or more different names of {', '.join(METHODS)}")
     return found
+
+
+def shown_by(method: Method, renderer: Renderer, camera: Camera, settings: Settings) -> Shown:
+    """Render all images that the measures need."""
+    frame = method.surface(renderer, camera, settings)
+    turned = method.surface(renderer, camera.rotated(math.radians(1.0), "up"), settings)
+    unfiltered = replace(settings, depth_filter=False)
+    plain = method.surface(renderer, camera, unfiltered) if method.is_filtered else frame
+    details = method.details(renderer, camera, settings)
+    return Shown(
+        depth=frame.depth,
+        vessel=frame.vessel,
+        position=frame.position,
+        turned_depth=turned.depth,
+        turned_vessel=turned.vessel,
+        value=frame.value if frame.has("value") else None,
+        plain_depth=plain.depth,
+        strength=details.get("strength"),
+        sheet_gap=details.get("sheet_gap"),
+    )

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from lumencut import _lumencut
+from lumencut.base.file_kinds import written_kind
 from lumencut.base.paths import WRITABLE, checked_path, replace_whole
 from lumencut.base.rescale import slabs
 from lumencut.errors import FormatError
@@ -37,14 +38,13 @@ def write_volume(volume: Volume, path: str | os.PathLike[str], mark: str = "") -
         If the file cannot be written.
     """
     path = checked_path(path, WRITABLE)
-    name = path.name.lower()
-    if name.endswith(".nrrd"):
-        replace_whole(path, lambda whole: _write(volume, whole, "nrrd.gz", mark, is_packed=True))
-    elif name.endswith((".nii", ".nii.gz")):
-        is_packed = name.endswith(".gz")
-        replace_whole(path, lambda whole: _write(volume, whole, "nifti", mark, is_packed=is_packed))
-    else:
-        raise FormatError(str(path), f"the extension {path.suffix!r}", ".nrrd, .nii or .nii.gz")
+    kind = written_kind(path, "volume")
+    if kind is None:
+        raise FormatError(str(path), f"the extension {path.suffix!r}", _lumencut.WRITTEN_VOLUMES)
+    is_nrrd = kind == "nrrd"
+    header = "nrrd.gz" if is_nrrd else kind
+    is_packed = is_nrrd or path.name.lower().endswith(".gz")
+    replace_whole(path, lambda whole: _write(volume, whole, header, mark, is_packed=is_packed))
 
 
 def _write(volume: Volume, whole: Path, kind: str, mark: str, *, is_packed: bool) -> None:

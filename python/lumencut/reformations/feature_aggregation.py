@@ -156,7 +156,7 @@ class CfaRequest(ReformationRequest):
     """The parameters of :func:`cfa`."""
 
     kind, subject = "cfa", "CFA"
-    told = ("level", "radius")
+    stored = ("level", "radius")
 
     radius: float = 10.0
     feature: Feature = "max"

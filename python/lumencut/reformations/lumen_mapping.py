@@ -120,7 +120,7 @@ class LumenMapRequest(ReformationRequest):
     """The parameters of :func:`lumen_map`."""
 
     kind, subject = "map", "lumen map"
-    told = ("pixel_spacing", "angle", "overlap", "band", "show", "calcium_level", "up", "smoothing")
+    stored = ("pixel_spacing", "angle", "overlap", "band", "show", "calcium_level", "up", "smoothing")
 
     mode: Mode = "wall"
     pixel_spacing: float | None = None

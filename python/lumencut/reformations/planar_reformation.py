@@ -269,7 +269,7 @@ class CprRequest(ReformationRequest):
     """The parameters of :func:`cpr` in the modes that have rows."""
 
     kind, subject = "cpr", "CPR"
-    told = ("mode", "width", "pixel_spacing", "angle", "up", "smoothing", "normal", "roll")
+    stored = ("mode", "width", "pixel_spacing", "angle", "up", "smoothing", "normal", "roll")
 
     mode: Mode = "projected"
     width: float | None = None

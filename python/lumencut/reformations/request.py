@@ -34,7 +34,7 @@ class ReformationRequest:
     kind: ClassVar[str]
     subject: ClassVar[str]
     #: The parameters that the recipe stores, in this order.
-    told: ClassVar[tuple[str, ...]]
+    stored: ClassVar[tuple[str, ...]]
     #: Parameters that are settings, with their names in messages. All other parameters position the pixels.
     of_settings: ClassVar[dict[str, str]] = {
         "smoothing": "smoothing of the centerline",
@@ -49,7 +49,7 @@ class ReformationRequest:
 
         `defaults` are the values of parameters that are None.
         """
-        given = {name: getattr(self, name) for name in self.told}
+        given = {name: getattr(self, name) for name in self.stored}
         given |= {name: value for name, value in defaults.items() if given[name] is None}
         return {name: self._checked(name, value) for name, value in given.items()}
 

@@ -169,7 +169,7 @@ class SpiralRequest(ReformationRequest):
     """The parameters of :func:`spiral`."""
 
     kind, subject = "spiral", "spiral CPR"
-    told = ("pixel_spacing", "radius", "sampling", "angle", "up", "smoothing", "pitch")
+    stored = ("pixel_spacing", "radius", "sampling", "angle", "up", "smoothing", "pitch")
 
     pitch: float | None = None
     radius: float | None = None

@@ -77,7 +77,7 @@ class TangentialRequest(ReformationRequest):
     """The parameters of :func:`lumencut.cpr` in the mode ``"tangential"``."""
 
     kind, subject = "cpr", "CPR"
-    told = ("smoothing",)
+    stored = ("smoothing",)
 
     camera: Camera | None = None
     slab: SlabArgument = None

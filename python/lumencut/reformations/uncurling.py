@@ -147,7 +147,7 @@ class UncurlRequest(ReformationRequest):
     """The parameters of :func:`uncurl`."""
 
     kind, subject = "uncurl", "uncurling"
-    told = ("amount", "smoothing", "width", "pixel_spacing")
+    stored = ("amount", "smoothing", "width", "pixel_spacing")
 
     camera: Camera | None = None
     amount: float = 0.5

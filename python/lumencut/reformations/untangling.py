@@ -96,7 +96,7 @@ class UntangledRequest(ReformationRequest):
     """The parameters of :func:`untangled`."""
 
     kind, subject = "untangled", "untangled CPR"
-    told = ("width", "hull_margin", "smoothing", "pixel_spacing", "root")
+    stored = ("width", "hull_margin", "smoothing", "pixel_spacing", "root")
 
     of_settings: ClassVar[dict[str, str]] = {}
 

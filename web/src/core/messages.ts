@@ -1,10 +1,11 @@
 /** Types of messages between page and worker. Those of the engine are generated (`generated/questions.ts`). */
 import type { DoubtRow, LookRow, Picture, RegionRow, SettingRow } from './generated/questions';
+import type { SAVED_CENTERLINES } from './generated/tables';
 
 export type * from './generated/questions';
 export type * from './plain';
 
-export type CenterlineKind = 'vtp' | 'mrk.json';
+export type CenterlineKind = (typeof SAVED_CENTERLINES)[number];
 
 /** Whether the file states spacing and orientation; otherwise the page shows no mm and no patient sides. */
 export interface States {

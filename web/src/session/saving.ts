@@ -4,6 +4,7 @@ import { EngineClient } from '../client/engine';
 import { engine } from '../client/shared';
 import type { Asked } from '../core/asked';
 import { CRASH, Failure } from '../core/failure';
+import { SESSION_FIELD } from '../core/generated/tables';
 import type { Bytes, DocumentVessel, GivenFile, Method, SavedView } from '../core/messages';
 import { contents } from '../edit/lines';
 import { beginDocument, pickedId, tree } from '../edit/shown';
@@ -18,10 +19,9 @@ import { handedOver } from './handing-over';
 
 /** Bytes to read from the start of a file to find the session field, which precedes the curves. */
 const HEAD = 4096;
-const FIELD = '"LumencutSession"';
 
 export async function isSession({ file }: GivenFile): Promise<boolean> {
-  return /\.json$/i.test(file.name) && (await file.slice(0, HEAD).text()).includes(FIELD);
+  return /\.json$/i.test(file.name) && (await file.slice(0, HEAD).text()).includes(`"${SESSION_FIELD}"`);
 }
 
 /** The session as a file. After a crash, a new engine writes it from the data that the page holds. */

@@ -1,19 +1,14 @@
 /** Buttons to save and open centerlines. */
 
-import type { CenterlineKind } from '../core/messages';
+import { SAVED_CENTERLINES } from '../core/generated/tables';
 import { attempt } from '../output/attempt';
 import { hasCenterlines, saveCenterlines } from '../output/centerlines';
 import { OpenMore } from './OpenButtons';
 
-const KINDS: readonly (readonly [CenterlineKind, string])[] = [
-  ['vtp', 'Save .vtp'],
-  ['mrk.json', 'Save .mrk.json'],
-];
-
 export function CenterlineFiles() {
   return (
     <div class="buttons">
-      {KINDS.map(([kind, words]) => (
+      {SAVED_CENTERLINES.map((kind) => (
         <button
           key={kind}
           type="button"
@@ -21,7 +16,7 @@ export function CenterlineFiles() {
           title="All vessels in the list except the doubtful ones"
           onClick={() => attempt(() => saveCenterlines(kind))}
         >
-          {words}
+          {`Save .${kind}`}
         </button>
       ))}
       <OpenMore words="Open centerlines" />

@@ -1,4 +1,5 @@
 /** The menu "Save". */
+import { SAVED_CENTERLINES } from '../core/generated/tables';
 import { currentProfile } from '../measure/current';
 import { listedFindings } from '../measure/findings';
 import { attempt } from '../output/attempt';
@@ -32,12 +33,10 @@ export function SaveMenu() {
           save={saveSession}
         />
         <Keeping />
-        {hasCenterlines() && (
-          <>
-            <Choice words="Centerlines (.vtp)" save={() => saveCenterlines('vtp')} />
-            <Choice words="Centerlines (.mrk.json)" save={() => saveCenterlines('mrk.json')} />
-          </>
-        )}
+        {hasCenterlines() &&
+          SAVED_CENTERLINES.map((kind) => (
+            <Choice key={kind} words={`Centerlines (.${kind})`} save={() => saveCenterlines(kind)} />
+          ))}
         {isMeasured && (
           <>
             <Choice words="Measurements of all measured vessels (CSV)" save={() => saveNumbers('csv')} />

@@ -77,3 +77,10 @@ fn messages_name_every_kind_that_is_read() {
     );
     assert_eq!(centerline_files(), "centerlines (.vtp, .vtk, .mrk.json, .fcsv, .pth, .swc, .tre, .csv)");
 }
+
+#[test]
+fn extensions_are_listed_in_words() {
+    assert_eq!(written_volumes(), ".nrrd, .nii or .nii.gz");
+    assert_eq!(written_centerlines(), ".vtp, .vtk, .mrk.json, .csv or .swc");
+    assert_eq!(saved_by_the_page(), ["vtp", "mrk.json"]);
+}

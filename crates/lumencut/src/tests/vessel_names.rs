@@ -30,6 +30,15 @@ fn codes_have_a_valid_check_digit() {
     assert!(!is_valid("2841008") && !is_valid("2814007"));
 }
 
+/// Sources give it three numbers: 50040 (with its branches), 4685 (stem) and 3855 (trunk).
+#[test]
+fn only_the_left_main_coronary_artery_has_no_number_in_the_fma() {
+    let without = VESSEL_NAMES.iter().filter(|vessel| vessel.fma.is_none()).map(|vessel| vessel.name);
+    assert_eq!(without.collect::<Vec<_>>(), ["left main coronary artery"]);
+    let numbers: BTreeSet<u32> = VESSEL_NAMES.iter().filter_map(|vessel| vessel.fma).collect();
+    assert_eq!(numbers.len(), VESSEL_NAMES.len() - 1);
+}
+
 #[test]
 fn no_two_vessels_share_a_name() {
     let names: Vec<&str> =

@@ -120,6 +120,15 @@ export const FILES = {
   'centerlines': "centerlines (.vtp, .vtk, .mrk.json, .fcsv, .pth, .swc, .tre, .csv)",
 } as const;
 
+/** Formats in which centerlines are saved. */
+export const SAVED_CENTERLINES = [
+  "vtp",
+  "mrk.json",
+] as const;
+
+/** Name of the field that only sessions have. */
+export const SESSION_FIELD = 'LumencutSession';
+
 /** Constants of drags, the wheel and keys. */
 export const GESTURES = {
   /** Movement above which a press becomes a drag (px). */

@@ -1,9 +1,11 @@
 //! Generates `web/src/core/generated/tables.ts`, the tables of the facade that the page reads before the engine has started.
 
+use lumencut_io::session_file::FIELD;
+
 use super::generated::require_current;
 use crate::defaults::{PIXEL_SIDES, QUANTITIES};
 use crate::drags::GESTURES;
-use crate::file_kinds::{centerline_files, volume_files};
+use crate::file_kinds::{centerline_files, saved_by_the_page, volume_files};
 use crate::report::chart::DEVIATIONS;
 use crate::report::section_room::PAGE_PIXELS;
 use crate::study::palette::PALETTE;
@@ -58,6 +60,8 @@ fn the_tables_of_the_page_are_those_of_the_facade() {
             &PIXEL_SIDES,
         ),
         record("Files that can be opened, in the words of messages.", "FILES", &files),
+        table("Formats in which centerlines are saved.", "SAVED_CENTERLINES", &saved_by_the_page()),
+        number("Name of the field that only sessions have.", "SESSION_FIELD", format_args!("'{FIELD}'")),
         constants(),
         number("Side of a section picture in a report (pixels).", "SECTION_PIXELS", PAGE_PIXELS),
         number("Half width of the uncertainty band, in standard deviations.", "DEVIATIONS", DEVIATIONS),
