@@ -1,6 +1,12 @@
 /** The button offered by the page finds all vessels of a scan, as one undo step; the tree is cleaned afterwards. */
+import { spawnSync } from 'node:child_process';
+import { existsSync } from 'node:fs';
+import { join } from 'node:path';
 import { expect, test } from '@playwright/test';
-import { button, rows, untraced } from './controls';
+import { button, rows, SIZE, untraced } from './controls';
+import { Viewer } from './page';
+
+const python = process.env.LUMENCUT_PYTHON ?? join(import.meta.dirname, '../../.venv/bin/python');
 
 test('a page without vessels offers to find all of them, in one step that can be undone', async ({
   browser,
@@ -31,14 +37,24 @@ test('a page without vessels offers to find all of them, in one step that can be
 
 test('a search is refused or stopped; then all vessels are found, and the tree is cleaned', async ({
   browser,
-}) => {
-  const viewer = await untraced(browser, 'aorta');
+}, testInfo) => {
+  test.skip(!existsSync(python), 'there is no Python package beside the repository');
+  const volume = testInfo.outputPath('volume');
+  const made = spawnSync(python, [join(import.meta.dirname, 'stream.py'), 'aorta', volume], {
+    encoding: 'utf-8',
+  });
+  expect(made.stderr).toBe('');
+  const viewer = await Viewer.open(browser, '?device=cpu', { viewport: SIZE });
+  await viewer.page.route('**/made/volume', (route) => route.fulfill({ path: volume }));
+  await viewer.page.goto('./?volume=made/volume&device=cpu');
+  await viewer.rest();
+  await viewer.press('v');
   const doubtful = () => viewer.page.locator('.doubtful-rows li');
 
   await test.step('searching branches from a point outside lumen is rejected at once, with the value there', async () => {
     for (const [row, words] of [
-      [0.66, 'P 62.9'],
-      [0.57, 'P 29.0'],
+      [0.66, /P 6\d\./],
+      [0.57, /P [23]\d\./],
     ] as const) {
       await viewer.click([0.52, row], 'axial');
       await expect(viewer.readOut).toContainText(words);
@@ -64,7 +80,7 @@ test('a search is refused or stopped; then all vessels are found, and the tree i
   const [sure, unsure] =
     await test.step('all vessels are found as a tree; doubtful ones are accepted or left out', async () => {
       await button(viewer, 'Find all vessels').last().click();
-      await expect(doubtful().first()).toBeVisible();
+      await expect(doubtful().first()).toBeVisible({ timeout: 150_000 });
       const [sure, unsure] = [await rows(viewer).count(), await doubtful().count()] as const;
       expect(sure).toBeGreaterThan(3);
       await expect(viewer.page.getByLabel('As a tree, the widest first')).toBeChecked();

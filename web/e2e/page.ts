@@ -271,6 +271,10 @@ export class Viewer {
     return { width, height, bytes: Buffer.from(text, 'base64') };
   }
 
+  stage(): Promise<string | null> {
+    return this.pane().locator('canvas').getAttribute('data-stage');
+  }
+
   async picture(): Promise<Pixels> {
     await this.rest();
     return this.pixels();
