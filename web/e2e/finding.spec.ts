@@ -51,15 +51,15 @@ test('a search is refused or stopped; then all vessels are found, and the tree i
   await viewer.press('v');
   const doubtful = () => viewer.page.locator('.doubtful-rows li');
 
-  await test.step('searching branches from a point outside lumen is rejected at once, with the value there', async () => {
-    for (const [row, words] of [
-      [0.66, /P 6\d\./],
-      [0.57, /P [23]\d\./],
+  await test.step('searching branches from a point outside lumen or in a doubtful vessel is rejected at once', async () => {
+    for (const [row, words, expected] of [
+      [0.66, /P 6\d\./, 'expected lumen'],
+      [0.57, /P [23]\d\./, 'expected one that is sure'],
     ] as const) {
       await viewer.click([0.52, row], 'axial');
       await expect(viewer.readOut).toContainText(words);
       await viewer.press('b');
-      await expect(viewer.problem).toContainText('expected lumen');
+      await expect(viewer.problem).toContainText(expected);
       await viewer.screenshot(`no-lumen-${row}`);
       await viewer.press('Escape');
       await expect(viewer.problem).toHaveCount(0);
