@@ -15,7 +15,6 @@ export async function rename(viewer: Viewer, n: number, name: string): Promise<v
 }
 export const button = (viewer: Viewer, words: string): Locator =>
   viewer.page.getByRole('button', { name: words, exact: true });
-/** A window size at which the vessel list fits next to the views. */
 export const SIZE = { width: 1100, height: 720 };
 
 export async function untraced(

@@ -77,7 +77,6 @@ test('a scan without voxel spacing has mm only if the user assumes them, and und
   await expect(scale).toBeVisible();
   await expect(assume).toHaveCount(0);
   await expect(viewer.readOut).toContainText('10.0 mm');
-  // The press acts on the button only; the cross-hair stays.
   expect(await viewer.hair('turning')).toEqual(hair);
   await viewer.screenshot('one-millimetre');
   await viewer.press('Control+z');

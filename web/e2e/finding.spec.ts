@@ -17,7 +17,6 @@ test('a page without vessels offers to find all of them, in one step that can be
   const count = await rows(viewer).count();
   await expect(button(viewer, 'Find all vessels')).toHaveCount(1);
   await viewer.screenshot('find-vessels');
-  // The list of notes closes by Escape and by a press elsewhere; the vessels stay.
   const notes = viewer.page.locator('footer summary');
   const note = viewer.page.locator('footer .menu-body li').first();
   for (const close of [() => viewer.press('Escape'), () => viewer.click([0.5, 0.1])]) {

@@ -22,7 +22,6 @@ export class MeasuredTube {
     return tube;
   }
 
-  /** Measuring begins at the narrowest place, with the section and with the cross-hair. */
   private static async made(browser: Browser): Promise<MeasuredTube> {
     const viewer = await Viewer.open(browser, '?phantom=stenosis&device=cpu', { viewport: SIZE });
     const tube = new MeasuredTube(viewer);

@@ -97,6 +97,7 @@ export class Viewer {
     await page.unrouteAll({ behavior: 'ignoreErrors' });
     page.removeAllListeners('dialog');
     await page.mouse.move(0, 0);
+    this.own = new URL(pageAddress()).origin;
     await page.goto(new URL(IDLE, this.own).href);
     await page.evaluate(() => {
       localStorage.clear();
@@ -304,7 +305,6 @@ export class Viewer {
     return this.page.evaluate(`window.lumencutTest.ask(...${asked})`) as Promise<Answer<N>>;
   }
 
-  /** Saves a picture of the page for people to look at, if the environment asks for it. */
   async screenshot(name: string): Promise<void> {
     if (process.env.LUMENCUT_SCREENS) {
       await this.page.screenshot({ path: `test-results/screens/${name}.png` });

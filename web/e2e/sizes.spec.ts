@@ -51,7 +51,6 @@ test('at 200 % the view has as many pixels as the screen, and a click picks the 
   expect([pixels.width, pixels.height]).toEqual([2 * width, 2 * height]);
   await viewer.click([0.5, 0.7]);
   await expect(viewer.readOut).toHaveText(/ · trunk · /);
-  // When the read-out becomes longer, the views keep their size.
   expect(await viewer.size()).toEqual([width, height]);
   const [x, y] = await viewer.hair('turning');
   expect(Math.abs(x - 0.5 * width)).toBeLessThan(2);

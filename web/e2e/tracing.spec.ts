@@ -125,7 +125,6 @@ test('if no lumen is under the pointer, a click in the projection must be confir
   await viewer.tap([0.5, 0.7]);
   await button(viewer, 'Set the point here').click();
   await expect(viewer.page.locator('[data-place=first]')).toHaveCount(4);
-  // Two quick taps are a double click, which ends the vessel.
   await viewer.tap([0.5, 0.5]);
   await viewer.tap([0.5, 0.5]);
   await expect(rows(viewer)).toHaveCount(1);

@@ -18,8 +18,7 @@ from lumencut.measuring.profile_sections import counts, flag_words, nearest
 
 #: Positions on the first vessel, as shares of its length.
 PLACE, BEFORE, AFTER = 0.4, 0.03, 0.995
-#: Number of vessels that are measured.
-MOST = 2
+MOST_VESSELS = 2
 
 
 def bounds(profile: Profile) -> list[str | None]:
@@ -123,7 +122,7 @@ def report(vessel: Vessel, profile: Profile, options: dict[str, Any]) -> str:
 def main() -> None:
     """Write it."""
     scene = getattr(phantom, sys.argv[1])()
-    vessels = list(scene.tree)[:MOST]
+    vessels = list(scene.tree)[:MOST_VESSELS]
     profiles = [measure(scene.volume, vessel, tree=scene.tree) for vessel in vessels]
     options = dict.fromkeys(("fwhm", "at", "reference", "method", "original", "comparison", "group"))
     measured = [
