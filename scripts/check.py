@@ -2,7 +2,7 @@
 
 Checks run in parallel lanes: the page is compiled while Rust is checked, since neither keeps both cores busy.
 The last line is ``N passed, N failed``: the tests of all languages; a red check without tests counts as one
-failed test. The script needs only Python itself. On two cores without a GPU it takes about 30 minutes.
+failed test. No tool runs three languages in parallel and adds up their counts. Needs only Python itself.
 """
 
 from __future__ import annotations
@@ -30,28 +30,10 @@ COMPILED_ELSEWHERE = {WASM, "aarch64-unknown-linux-gnu"}
 """The page compiles for browsers; macOS covers ARM, as no code is specific to ARM under Linux."""
 CHECKS = ("--locked", "--profile", "checks")
 """One profile for all, so shared crates compile once."""
-SCRIPTS = tuple(
-    f"scripts/{name}.py"
-    for name in (
-        *(
-            "build_backend",
-            "check",
-            "docs",
-            "docs_api",
-            "docs_pages",
-            "docs_roles",
-            "docs_site",
-            "frames",
-            "fuzz",
-        ),
-        *("licences", "notices", "page", "render_phantom"),
-        *("results", "settings", "toolchain", "types_for_users", "wheel", "window_table", "words"),
-    )
-)
-TOOLS = ("python", "rust", "targets", "vulkan", "page", "browser", "dicom")
+TOOLS = ("rust", "targets", "page", "debian")
 FUZZED = "crates/lumencut-io/fuzz/Cargo.toml"
-FUZZ_RUNS = 110_000
-"""Inputs of libFuzzer over all formats."""
+FUZZ_RUNS = 8000
+"""Inputs of libFuzzer of each format."""
 MAIN, PAGE, PYTHON, FUZZ = "main", "page", "python", "fuzzing"
 """The lanes. Page and Rust use separate build folders."""
 
@@ -127,8 +109,7 @@ def lint_checks() -> list[Check]:
     """Format, lint, types and documentation."""
     return [
         Check("toolchain", (sys.executable, "scripts/toolchain.py", *TOOLS)),
-        Check("words", (sys.executable, "scripts/words.py", "--check")),
-        Check("results", (sys.executable, "scripts/results.py", "--check")),
+        Check("results", (sys.executable, "benches/result_pages.py", "--check")),
         *python_lints(),
         *page_lints(),
         *rust_lints(),
@@ -138,19 +119,15 @@ def lint_checks() -> list[Check]:
 
 
 def python_lints() -> list[Check]:
-    """Checks that need only the Python tools."""
-    tools = Check("tools", ("make", "--no-print-directory", "tools"), lane=PYTHON, needs=("toolchain",))
-    commands = {
-        "format of Python": ("ruff", "format", "--check"),
-        "lint of Python": ("ruff", "check"),
-        "lint of the workflow": ("zizmor", "--offline", "--quiet", ".github"),
-        "types": ("mypy",),
-        "types of the scripts": ("mypy", *SCRIPTS),
-        "types for users": ("python", "scripts/types_for_users.py"),
-    }
+    """Checks by tools that are Python packages; .pre-commit-config.yaml lists the fast ones."""
+    # The lint of the page runs the hook of Biome when its packages are installed.
+    hooks = {"SKIP": "biome", "PRE_COMMIT_HOME": "target/pre-commit"}
+    deny = ("cargo-deny", "--locked", "check", "licenses", "bans", "sources")
     return [
-        tools,
-        *(Check(name, (f"{BIN}/{tool}", *words), lane=PYTHON) for name, (tool, *words) in commands.items()),
+        Check("tools", ("make", "--no-print-directory", "tools"), lane=PYTHON, needs=("toolchain",)),
+        Check("hooks", (f"{BIN}/pre-commit", "run", "--all-files", "--verbose"), hooks, lane=PYTHON),
+        Check("types for users", (f"{BIN}/python", "scripts/types_for_users.py"), lane=PYTHON),
+        Check("licences of crates", (f"{BIN}/{deny[0]}", *deny[1:]), lane=PYTHON),
     ]
 
 
@@ -172,10 +149,9 @@ def rust_lints() -> list[Check]:
     clippy = (*cargo, "clippy", *CHECKS, "--workspace", "--all-targets", "--", "-D", "warnings")
     targets = (f"--target={one}" for one in TARGETS if one not in COMPILED_ELSEWHERE)
     return [
-        Check("format of Rust", ("cargo", "fmt", "--all", "--check")),
         # Fuzzing runs last and has its own lock file, so that file is already checked here.
         Check("lock file of fuzzing", lock),
-        Check("licences", (sys.executable, "scripts/licences.py", "--check")),
+        Check("licence texts", (sys.executable, "scripts/licences.py", "--check")),
         Check("lint of Rust", clippy),
         Check(
             "documentation",
@@ -215,7 +191,7 @@ def test_checks(report: str) -> list[Check]:
         # Runs while the tests of the page wait for the browser.
         Check(
             "fuzzing",
-            ("nice", "-n", "19", sys.executable, "scripts/fuzz.py", "--runs", str(FUZZ_RUNS)),
+            ("nice", "-n", "19", "make", "--jobs=2", "fuzz", f"RUNS={FUZZ_RUNS}"),
             lane=FUZZ,
             needs=("tests of Python",),
         ),

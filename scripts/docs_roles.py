@@ -1,4 +1,7 @@
-"""An extension for MkDocs: roles in docstrings become links."""
+"""An extension of Griffe: Sphinx roles in docstrings, which editors follow, become links to public names.
+
+Griffe and mkdocstrings read no roles.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +13,7 @@ from griffe import Extension, Object
 
 # MkDocs loads this file by path.
 sys.path.append(str(Path(__file__).resolve().parent))
-from docs_api import linked
+from docs import linked
 
 
 class Roles(Extension):

@@ -2,7 +2,7 @@
 
 The texts come from the crates; shared texts appear once. A crate without a text is listed in `WITHOUT_TEXT`
 and gets the standard text of its licence. With --check the file must match the locked crates.
-Needs only Python itself and cargo, which downloads the crates.
+Needs only Python itself and cargo; cargo deny collects no texts, and cargo about takes minutes to compile.
 """
 
 from __future__ import annotations
@@ -175,7 +175,7 @@ def main() -> None:
     if not check:
         LISTING.write_text(wanted, "utf-8")
     elif not LISTING.exists() or LISTING.read_text("utf-8") != wanted:
-        sys.exit(f"licences: {LISTING.name} is not what the locked crates make of it; mend it: make licences")
+        sys.exit(f"licences: {LISTING.name} is not what the locked crates make of it; mend it: make generate")
     print(f"{LISTING.name}: {len(crates)} crates")
 
 

@@ -1,7 +1,7 @@
 """Write the notices of the viewer's page: the licence texts of its npm packages and crates.
 
 Packages are the run-time ones of `web/package-lock.json`, crates those that the WebAssembly links.
-`make page` runs it after `npm ci`.
+`make page` runs it after `npm ci`. Plugins of Vite list packages, but neither crates nor compiled codecs.
 """
 
 from __future__ import annotations

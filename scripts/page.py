@@ -5,7 +5,8 @@ The page is built from `web/` by Node 20 or newer, and its WebAssembly by Rust:
     npm ci --prefix web && npm run build --prefix web
 
 It builds only if a source is newer than the page. With --if-possible a missing tool is reported but is no
-error; with --site FOLDER the page is copied for a static file server. Needs only Python and these tools.
+error; with --site FOLDER the page is copied for a static file server. Needs only Python and these tools: npm
+knows neither Rust's sources nor what the package needs when Node is missing.
 """
 
 from __future__ import annotations

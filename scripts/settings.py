@@ -1,6 +1,6 @@
 """Generate the class `Settings`, ``docs/settings.md`` and the defaults in ``docs/python.md`` from the tables.
 
-The tables, `settings/table.rs` and `defaults.rs`, are read from the built package.
+The tables, `settings/table.rs` and `defaults.rs`, are read from the built package; no tool knows their form.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ ROOT = Path(__file__).resolve().parent.parent
 
 CLASS_HEAD = '''"""All settings with units and defaults.
 
-``make settings`` generates this file from the table of settings in the core.
+``make generate`` generates this file from the table of settings in the core.
 """
 
 from __future__ import annotations
@@ -56,7 +56,7 @@ PAGE = """# Settings
 
 Each setting is a field of `lumencut.Settings`. It is also an option of `lumencut render` and
 `lumencut turntable`, with hyphens instead of underscores. A value outside the range is rejected.
-[The command line](command-line.md) describes settings in a TOML file. `make settings` generates this page.
+[The command line](command-line.md) describes settings in a TOML file. `make generate` generates this page.
 
 | setting | kind | range | unit | default | what it does |
 |---|---|---|---|---|---|
@@ -96,16 +96,11 @@ def parameter(name: str, setting: Setting) -> str:
         parts.append(span(setting))
     default = literal(setting.default).removesuffix(".0")
     parts.append("optional" if setting.open is not None else f"default {default}")
-    text = described(setting)
+    text = f"{setting.sentence} {setting.details}".strip()
     if setting.open is not None:
         text += f" If not given: {setting.open}."
     lines = textwrap.wrap(text.replace("`", "``"), 100, break_on_hyphens=False)
     return "\n".join([f"    {name} : {', '.join(parts)}", *(f"        {line}" for line in lines)])
-
-
-def described(setting: Setting) -> str:
-    """What a setting does, all of it."""
-    return f"{setting.sentence} {setting.details}".strip()
 
 
 def kind_in_words(setting: Setting) -> str:
@@ -179,7 +174,7 @@ def page() -> str:
 def row(name: str, setting: Setting) -> str:
     """The row of a setting."""
     limits, unit = (span(setting), (setting.unit or "").strip("()")) if setting.range else ("", "")
-    text = described(setting)
+    text = f"{setting.sentence} {setting.details}".strip()
     return f"| `{name}` | {page_kind(setting)} | {limits} | {unit} | {page_default(setting)} | {text} |"
 
 
@@ -222,16 +217,11 @@ def page_default(setting: Setting) -> str:
 def with_defaults(text: str) -> str:
     """A page with the table of defaults between its marks."""
     rows = "\n".join(
-        f"| `{name}` | {default_of(default)} | {limits(*span)} | {unit} | {about} |"
+        f"| `{name}` | {plain(default).replace('-', '−')} | {limits(*span)} | {unit} | {about} |"
         for name, _, unit, span, default, about in QUANTITIES
     )
     table = f"| parameter | default | range | unit | what it is |\n|---|---|---|---|---|\n{rows}\n"
     return re.sub(r"(<!-- defaults -->\n).*(<!-- end -->)", rf"\1{table}\2", text, flags=re.DOTALL)
-
-
-def default_of(number: float) -> str:
-    """A default as pages state it."""
-    return plain(number).replace("-", "−")
 
 
 def limits(low: float, high: float) -> str:

@@ -1,9 +1,8 @@
-"""Build the packages of a release into dist/ and check them: a wheel for each Linux machine, and the sources.
+"""Build the packages of a release into dist/ and try them: a wheel for each Linux machine, and the sources.
 
-zig (a Python package) links the wheels against glibc 2.17. The wheel of this machine, and one built from the
-sources, are installed in an empty environment and render a phantom without Rust and Node on the path. Of the
-other wheel, name, machine and glibc versions are checked. On other systems there is one wheel. `make wheel`
-runs it and installs the tools.
+maturin links the wheels against glibc 2.17 with zig and checks their symbols. No tool then installs the wheel
+of this machine and one built from the sources in an empty environment, and runs `lumencut doctor` there, with
+neither Rust nor Node. On other systems there is one wheel. `make wheel` runs it and installs the tools.
 """
 
 from __future__ import annotations
@@ -17,62 +16,28 @@ import sys
 import tempfile
 import zipfile
 from collections.abc import Sequence
-from dataclasses import dataclass
 from email.parser import BytesParser
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 BIN = ROOT / ".venv/bin"
 DIST = ROOT / "dist"
-#: The pictures of the trials.
-PICTURES = ROOT / "target/wheel"
 LOCK = ROOT / "requirements/runtime.lock"
 #: Files of the viewer's page that a wheel must contain.
 PAGE = tuple(f"lumencut/viewer/page/{name}" for name in ("index.html", "THIRD-PARTY-NOTICES.txt"))
 LICENCES = ("LICENSE-MIT", "LICENSE-APACHE", "THIRD-PARTY-LICENSES")
-#: The oldest supported glibc.
-GLIBC = (2, 17)
-#: Machine codes of ELF headers.
-MACHINES = {"x86_64": 62, "aarch64": 183}
+MACHINES = ("x86_64", "aarch64")
 
 
 class PackageError(Exception):
     """An invalid package."""
 
 
-@dataclass(frozen=True)
-class Environment:
-    """A virtual environment with only the requirements of the package."""
-
-    folder: Path
-
-    def run(self, *command: str | Path) -> None:
-        """Run a command of the environment, in its folder, without the repository, Rust and Node."""
-        outside = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
-        outside["PATH"] = str(self.folder / "bin")
-        program = self.folder / "bin" / str(command[0])
-        subprocess.run((program, *command[1:]), cwd=self.folder, env=outside, check=True)
-
-    def install(self, wheel: Path) -> None:
-        """Replace the installed wheel, with its locked requirements."""
-        # Without hashes: with them pip would require one for the wheel too.
-        versions = re.findall(r"^\w.*?(?= \\)", LOCK.read_text("utf-8"), re.MULTILINE)
-        locked = self.folder / "locked.txt"
-        locked.write_text("\n".join(versions), "utf-8")
-        pip = ("python", "-m", "pip", "--disable-pip-version-check")
-        self.run(*pip, "install", "--quiet", "--force-reinstall", "--constraint", locked, wheel)
-        self.run(*pip, "check")
-
-
-def say(line: str) -> None:
-    """Print the next step; some take minutes."""
-    print(f"\n== {line}", flush=True)
-
-
-def maturin(*arguments: str | Path) -> None:
-    """Run maturin with the tools of the environment first on the path."""
-    environment = os.environ | {"PATH": f"{BIN}{os.pathsep}{os.environ['PATH']}"}
-    subprocess.run((BIN / "maturin", *arguments), cwd=ROOT, env=environment, check=True)
+def run(*command: str | Path) -> None:
+    """Run a tool of the environment; a build takes minutes."""
+    print("\n==", *command, flush=True)
+    environment = {"PATH": f"{BIN}{os.pathsep}{os.environ['PATH']}", "CARGO_TARGET_DIR": str(ROOT / "target")}
+    subprocess.run((BIN / command[0], *command[1:]), cwd=ROOT, env=os.environ | environment, check=True)
 
 
 def only(folder: Path, pattern: str) -> Path:
@@ -85,21 +50,14 @@ def only(folder: Path, pattern: str) -> Path:
 
 def build_wheels(folder: Path) -> list[Path]:
     """A wheel for each kind of Linux machine; elsewhere one for this machine."""
-    release = ("build", "--release", "--locked", "--out", folder)
+    release = ("maturin", "build", "--release", "--locked", "--out", folder)
     if sys.platform != "linux":
-        say(f"wheel for {sys.platform}: compiled with optimisation at link time, which takes minutes")
-        maturin(*release)
+        run(*release)
         return [only(folder, "*.whl")]
-    portable = f"manylinux_{GLIBC[0]}_{GLIBC[1]}"
-    wheels = []
     for machine in MACHINES:
-        say(f"wheel for {machine}: compiled with optimisation at link time, which takes minutes")
         target = f"{machine}-unknown-linux-gnu"
-        maturin(*release, "--zig", "--compatibility", portable, "--target", target)
-        wheels.append(only(folder, f"*{machine}.whl"))
-        check_wheel(wheels[-1])
-        check_portable(wheels[-1], machine)
-    return wheels
+        run(*release, "--zig", "--compatibility", "manylinux_2_17", "--target", target)
+    return [only(folder, f"*-cp311-abi3-manylinux_2_17_{machine}.*whl") for machine in MACHINES]
 
 
 def check_wheel(wheel: Path) -> None:
@@ -118,74 +76,45 @@ def check_wheel(wheel: Path) -> None:
             raise PackageError(f"{wheel.name}: {name} is not the repository's")
     if "-cp311-abi3-" not in wheel.name:
         raise PackageError(f"{wheel.name}: expected the stable ABI of Python 3.11 (cp311-abi3)")
-    print(
-        f"{wheel.name}: {wheel.stat().st_size / 1e6:.1f} MB, {len(names)} files, with {', '.join(LICENCES)}"
-    )
 
 
-def check_portable(wheel: Path, machine: str) -> None:
-    """Check that the wheel states the glibc and machine of its extension module."""
-    with zipfile.ZipFile(wheel) as archive:
-        (module,) = [name for name in archive.namelist() if name.endswith(".so")]
-        binary = archive.read(module)
-        (statement,) = [name for name in archive.namelist() if name.endswith(".dist-info/WHEEL")]
-        tags = BytesParser().parsebytes(archive.read(statement)).get_all("Tag") or []
-    wanted = f"manylinux_{GLIBC[0]}_{GLIBC[1]}_{machine}"
-    if f"cp311-abi3-{wanted}" not in tags or wanted not in wheel.name:
-        raise PackageError(f"{wheel.name}: found the tags {tags}; expected {wanted}")
-    if binary[:4] != b"\x7fELF" or int.from_bytes(binary[18:20], "little") != MACHINES[machine]:
-        raise PackageError(f"{wheel.name}: {module} is not compiled for {machine}")
-    versions = {tuple(map(int, found.split(b"."))) for found in re.findall(rb"\bGLIBC_([\d.]+)\b", binary)}
-    if not versions or max(versions) > GLIBC:
-        raise PackageError(f"{wheel.name}: {module} needs glibc {max(versions, default=None)}")
-    newest = ".".join(map(str, max(versions)))
-    print(f"{module}: {len(binary) / 1e6:.1f} MB, {machine}, symbols of glibc {newest} at the newest")
-
-
-def build_from_sources(sources: Path, folder: Path) -> Path:
-    """A wheel for this machine from the packed sources, by pip, outside the repository."""
-    environment = os.environ | {
-        "PATH": f"{BIN}{os.pathsep}{os.environ['PATH']}",
-        "CARGO_TARGET_DIR": str(ROOT / "target"),
-    }
-    # Use the locked tools of the environment.
-    pip = (BIN / "python", "-m", "pip", "--disable-pip-version-check", "wheel", "--quiet")
-    options = ("--no-deps", "--no-build-isolation", "--wheel-dir", folder, sources)
-    subprocess.run((*pip, *options), cwd=folder, env=environment, check=True)
-    return only(folder, "*.whl")
+def run_apart(folder: Path, *command: str | Path) -> None:
+    """Run a command of an environment, in its folder, without the repository, Rust and Node."""
+    outside = {name: value for name, value in os.environ.items() if not name.startswith("PYTHON")}
+    program = folder / "bin" / str(command[0])
+    outside["PATH"] = str(program.parent)
+    subprocess.run((program, *command[1:]), cwd=folder, env=outside, check=True)
 
 
 def try_out(wheels: Sequence[Path], folder: Path) -> None:
-    """Install each wheel in an empty environment, and render."""
-    PICTURES.mkdir(parents=True, exist_ok=True)
+    """Install each wheel in an empty environment, where its doctor renders a phantom."""
     subprocess.run((sys.executable, "-m", "venv", folder), check=True)
-    environment = Environment(folder)
-    for number, wheel in enumerate(wheels):
-        say(f"trial of {wheel.name}: installed in {'an empty' if number == 0 else 'the same'} environment")
-        environment.install(wheel)
-        environment.run("lumencut")
-        environment.run("lumencut", "doctor")
-        picture = PICTURES / f"{wheel.stem}.png"
-        environment.run("python", "-I", ROOT / "scripts/render_phantom.py", picture)
+    # Without hashes: with them pip would require one for the wheel too.
+    locked = folder / "locked.txt"
+    locked.write_text("\n".join(re.findall(r"^\w.*?(?= \\)", LOCK.read_text("utf-8"), re.MULTILINE)), "utf-8")
+    pip = ("python", "-m", "pip", "--disable-pip-version-check")
+    for wheel in wheels:
+        print(f"\n== trial of {wheel.name}", flush=True)
+        run_apart(folder, *pip, "install", "--quiet", "--force-reinstall", "--constraint", locked, wheel)
+        run_apart(folder, *pip, "check")
+        run_apart(folder, "lumencut", "doctor")
 
 
 def package(folder: Path) -> None:
     """Build and check everything in a folder, then put it into dist/."""
-    packed, built = folder / "packed", folder / "built"
-    built.mkdir()
-    say("sources: packed")
-    maturin("sdist", "--out", packed)
-    sources = only(packed, "*.tar.gz")
-    wheels = build_wheels(packed)
-    say("sources: a wheel is built from them, compiled as the others were")
-    from_sources = build_from_sources(sources, built)
-    check_wheel(from_sources)
+    run("maturin", "sdist", "--out", folder)
+    sources = only(folder, "*.tar.gz")
+    wheels = build_wheels(folder)
+    pip = ("python", "-m", "pip", "--disable-pip-version-check", "wheel", "--quiet")
+    run(*pip, "--no-deps", "--no-build-isolation", "--wheel-dir", folder / "built", sources)
+    from_sources = only(folder / "built", "*.whl")
+    for wheel in (*wheels, from_sources):
+        check_wheel(wheel)
     native = [wheel for wheel in wheels if sys.platform != "linux" or platform.machine() in wheel.name]
     try_out([*native, from_sources], folder / "environment")
     DIST.mkdir(exist_ok=True)
     for old in DIST.glob("lumencut-*"):
         old.unlink()
-    say("dist:")
     for file in (sources, *wheels):
         shutil.move(file, DIST / file.name)
         print(f"{(DIST / file.name).stat().st_size:>10,}  {file.name}")

@@ -1,4 +1,4 @@
-"""The stated uncertainty of diameters is right in all scenes of ``make calibration``.
+"""The stated uncertainty of diameters is right in all scenes of ``tests/calibration.py``.
 
 This takes minutes, so ``make test-long`` runs it and ``make test`` does not.
 """

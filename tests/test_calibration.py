@@ -1,4 +1,4 @@
-"""The stated uncertainty of diameters is right in some of the scenes of ``make calibration``."""
+"""The stated uncertainty of diameters is right in some of the scenes of ``tests/calibration.py``."""
 
 import numpy as np
 import pytest

@@ -171,7 +171,7 @@ def test_ci_leaves_no_test_of_the_gpu_out(check, monkeypatch, ci):
     wanted = {"LUMENCUT_REQUIRE_GPU": "1"} if ci else {}
     counted = [one for one in check.test_checks("report.xml") if one.count]
     assert [one.environment for one in counted if one.name != "tests of the page"] == [wanted] * 2
-    assert "vulkan" in check.lint_checks()[0].command
+    assert "debian" in check.lint_checks()[0].command
 
 
 def test_the_count_of_the_page_is_its_last_one(check):
@@ -179,84 +179,56 @@ def test_the_count_of_the_page_is_its_last_one(check):
     assert check.count_page("41 tests passed\n") == check.Count(failed=1)
 
 
-def test_a_missing_browser_is_installed_by_root_and_else_refused(toolchain, monkeypatch):
-    there, ran = {"apt-get"}, []
-    monkeypatch.setattr(toolchain.shutil, "which", lambda name: name if name in there else None)
-
-    def installs(command, **_):
-        ran.append(command[1])
-        there.add("chromium")
-        return subprocess.CompletedProcess(command, 0)
-
-    monkeypatch.setattr(toolchain.subprocess, "run", installs)
-    monkeypatch.setattr(toolchain.os, "geteuid", lambda: 1000)
-    with pytest.raises(SystemExit, match="no chromium on the PATH"):
-        toolchain.add_browser()
-    monkeypatch.setattr(toolchain.os, "geteuid", lambda: 0)
-    toolchain.add_browser()
-    toolchain.add_browser()
-    assert ran == ["install"]
-
-
-def test_missing_judges_of_dicom_are_installed_by_root_and_else_refused(toolchain, monkeypatch, tmp_path):
-    there, asked = {"apt-get", "dcm2pnm"}, []
-    monkeypatch.setattr(toolchain.shutil, "which", lambda name, **_: name if name in there else None)
-    monkeypatch.setattr(toolchain, "ORTHANC_PLUGINS", tmp_path)
-
-    def installs(command, env, **_):
-        asked.append((command[4:], env["RUNLEVEL"]))
-        there.update(toolchain.DICOM_TOOLS)
-        (tmp_path / toolchain.DICOMWEB_PLUGIN).touch()
-        return subprocess.CompletedProcess(command, 0)
-
-    monkeypatch.setattr(toolchain.subprocess, "run", installs)
-    monkeypatch.setattr(toolchain.os, "geteuid", lambda: 1000)
-    with pytest.raises(
-        SystemExit, match="no dicom3tools, orthanc, poppler-utils, orthanc-dicomweb; expected"
-    ):
-        toolchain.add_dicom()
-    monkeypatch.setattr(toolchain.os, "geteuid", lambda: 0)
-    toolchain.add_dicom()
-    toolchain.add_dicom()
-    # At run level 1 Debian starts no servers, which would be reachable from other machines.
-    assert asked == [(["dicom3tools", "orthanc", "poppler-utils", "orthanc-dicomweb"], "1")]
-
-
-def test_a_missing_vulkan_is_installed_by_root_and_else_refused(toolchain, monkeypatch, tmp_path):
-    (tmp_path / "driver.json").touch()
-    monkeypatch.setattr(toolchain.sys, "platform", "linux")
+def test_missing_packages_are_named_and_installed_by_root_and_else_refused(
+    toolchain, monkeypatch, tmp_path, capsys
+):
+    there, libraries, asked = {"apt-get", "dcm2pnm"}, [], []
     for name in ("VK_DRIVER_FILES", "VK_ICD_FILENAMES"):
         monkeypatch.delenv(name, raising=False)
-    loader, ran = ["libvulkan.so.1"], []
-    monkeypatch.setattr(toolchain.ctypes.util, "find_library", lambda name: (loader and loader[0]) or None)
-    monkeypatch.setattr(toolchain.shutil, "which", lambda name: f"/usr/bin/{name}")
+    monkeypatch.setattr(toolchain.sys, "platform", "linux")
+    monkeypatch.setattr(toolchain.shutil, "which", lambda name, **_: name if name in there else None)
+    monkeypatch.setattr(toolchain.ctypes.util, "find_library", lambda _: libraries[0] if libraries else None)
+    monkeypatch.setattr(toolchain, "DICOMWEB_PLUGIN", tmp_path / "plugin.so")
+    monkeypatch.setattr(toolchain, "DRIVERS", (tmp_path / "nowhere", tmp_path))
 
-    def installs(command, **_):
-        ran.append(command[1])
-        if ran.count("install") == 2:
-            loader.append("libvulkan.so.1")
-        return subprocess.CompletedProcess(command, 0 if loader else 100)
+    def installs(command, env, **_):
+        assert ("these packages of Debian" in capsys.readouterr().out) == (not asked)
+        asked.append((command[1], env["RUNLEVEL"]))
+        if len(asked) == 3:
+            there.update(toolchain.COMMANDS)
+            libraries.append("libvulkan.so.1")
+            (tmp_path / "plugin.so").touch()
+            (tmp_path / "driver.json").touch()
+        return subprocess.CompletedProcess(command, 0 if libraries else 100)
 
     monkeypatch.setattr(toolchain.subprocess, "run", installs)
-    monkeypatch.setattr(toolchain, "DRIVERS", (tmp_path / "nowhere", tmp_path))
-    toolchain.add_vulkan()
-    assert ran == []
-    loader.clear()
     monkeypatch.setattr(toolchain.os, "geteuid", lambda: 1000)
-    with pytest.raises(SystemExit, match=r"no loader of Vulkan.*; as root: apt-get install .*libvulkan1"):
-        toolchain.add_vulkan()
+    named = "chromium, dicom3tools, orthanc, poppler-utils, orthanc-dicomweb, libvulkan1, mesa-vulkan-drivers"
+    with pytest.raises(SystemExit, match=f"found no {named}; .*; as root: apt-get install"):
+        toolchain.add_debian()
     monkeypatch.setattr(toolchain.os, "geteuid", lambda: 0)
-    toolchain.add_vulkan()
-    assert ran == ["install", "update", "install"]
-    monkeypatch.setattr(toolchain, "DRIVERS", (tmp_path / "nowhere",))
-    with pytest.raises(SystemExit, match=r"no driver of Vulkan in .*nowhere after apt-get install"):
-        toolchain.add_vulkan()
+    toolchain.add_debian()
+    toolchain.add_debian()
+    # At run level 1 Debian starts no servers, which would be reachable from other machines.
+    assert asked == [("install", "1"), ("update", "1"), ("install", "1")]
+
+
+def test_packages_that_are_still_missing_are_named(toolchain, monkeypatch):
+    monkeypatch.setattr(toolchain.sys, "platform", "linux")
+    monkeypatch.setattr(toolchain, "missing_packages", lambda: ["mesa-vulkan-drivers"])
+    monkeypatch.setattr(toolchain.shutil, "which", lambda name: name)
+    monkeypatch.setattr(toolchain.os, "geteuid", lambda: 0)
+    monkeypatch.setattr(
+        toolchain.subprocess, "run", lambda command, **_: subprocess.CompletedProcess(command, 0)
+    )
+    with pytest.raises(SystemExit, match="found no mesa-vulkan-drivers after apt-get"):
+        toolchain.add_debian()
 
 
 @pytest.fixture
 def broken_copy(tmp_path) -> Path:
     """Copy the files that `.ci/run` needs to a folder in which nothing can be built."""
-    for name in (".ci/run", "Makefile", "scripts/check.py", "scripts/toolchain.py"):
+    for name in (".ci/run", ".nvmrc", "Makefile", "scripts/check.py", "scripts/toolchain.py"):
         (tmp_path / name).parent.mkdir(exist_ok=True)
         shutil.copy(ROOT / name, tmp_path / name)
     (tmp_path / "Cargo.toml").write_text('rust-version = "999.0"\n', encoding="utf-8")

@@ -1,4 +1,4 @@
-"""The script that judges DICOM readers: it must notice every kind of error in a volume, and nothing else."""
+"""The bench that judges DICOM readers: it must notice every kind of error in a volume, and nothing else."""
 
 from __future__ import annotations
 
@@ -9,11 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-sys.path.append(str(Path(__file__).resolve().parents[1] / "scripts"))
+sys.path.append(str(Path(__file__).resolve().parents[1] / "benches"))
 
-import compare_dicom
+import dicom_readers
 from dicom_judge import CANNOT, REFUSED, RIGHT, WARNED, WRONG, Verdict, judged
 from dicom_peers import Answer
+
 from dicom_phantom import axial, field, images, tilted
 from dicom_series import Case, Made
 
@@ -95,13 +96,13 @@ def test_resampled(shift, expected):
 
 def test_cells():
     right, wrong = Verdict(RIGHT), Verdict(WRONG, "up to 3 mm off")
-    assert compare_dicom.cell([right, right]) == "right"
-    assert compare_dicom.cell([wrong, right, wrong]) == "1 right, 2 **WRONG, silently** (up to 3 mm off)"
+    assert dicom_readers.cell([right, right]) == "right"
+    assert dicom_readers.cell([wrong, right, wrong]) == "1 right, 2 **WRONG, silently** (up to 3 mm off)"
 
 
 def test_the_document_has_the_table():
-    document = (compare_dicom.ROOT / "docs/clinic.md").read_text("utf-8")
-    written = compare_dicom.column(compare_dicom.between(document)[1])
-    groups = dict.fromkeys(case.group for case in compare_dicom.CASES)
+    document = (dicom_readers.ROOT / "docs/clinic.md").read_text("utf-8")
+    written = dicom_readers.column(dicom_readers.between(document)[1])
+    groups = dict.fromkeys(case.group for case in dicom_readers.CASES)
     assert [name.split(" (")[0] for name in written] == list(groups)
-    assert compare_dicom.WRONG not in "".join(written.values()), "Lumencut must not read wrongly unsaid"
+    assert dicom_readers.WRONG not in "".join(written.values()), "Lumencut must not read wrongly unsaid"

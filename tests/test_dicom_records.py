@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import json
-import sys
 from pathlib import Path
 
 import numpy as np
@@ -15,9 +14,7 @@ from pydicom.sequence import Sequence
 from pydicom.uid import EnhancedCTImageStorage
 from pydicom.valuerep import IS, TM, DSdecimal, DSfloat, PersonName
 
-sys.path.append(str(Path(__file__).resolve().parents[1] / "scripts"))
-
-import write_dicom_cases
+import dicom_answers
 from dicom_cases import CASES
 from dicom_enhanced import enhanced
 from dicom_phantom import save
@@ -72,7 +69,7 @@ def test_every_attribute_that_is_judged_by_is_read():
 
 
 def test_names_of_kinds_and_syntaxes_are_those_of_pydicom():
-    listed = write_dicom_cases.ROOT / "crates/lumencut-dicom/src/uids.txt"
+    listed = Path(__file__).resolve().parents[1] / "crates/lumencut-dicom/src/uids.txt"
     names = dict(line.split(" ", 1) for line in listed.read_text("utf-8").splitlines())
     wanted = {"SOP Class", "Transfer Syntax"}
     assert names == {uid: told[0] for uid, told in UID_dictionary.items() if told[1] in wanted}
@@ -129,7 +126,7 @@ def test_documents_of_another_form_are_refused():
 @pytest.mark.parametrize("name", BOTH_DOORS)
 def test_cases_are_written_for_other_hosts(tmp_path, name):
     case = NAMED[name]
-    write_dicom_cases.write(case, tmp_path / "case")
+    dicom_answers.write(case, tmp_path / "case")
     told = json.loads((tmp_path / "case.json").read_text("utf-8"))
     assert (tmp_path / told["path"]).exists()
     headers, wanted = (json.dumps(told[key]).encode() for key in ("headers", "wanted"))

@@ -14,35 +14,32 @@ from lumencut.cli import main
 
 from script_modules import SCRIPTS  # isort: skip - the next ones are found by it
 import docs
-import docs_api
-import docs_pages
-import docs_site
+import site_checks
 import types_for_users
 from stent_scene import stent_stand_in
 
 ROOT = SCRIPTS.parent
 
-EXAMPLES = [script.path for script in docs_pages.scripts_of(docs_pages.EXAMPLES)]
-GALLERY = [script.path for script in docs_pages.scripts_of(docs_pages.GALLERY)]
+EXAMPLES = [script.path for script in docs.scripts_of(docs.EXAMPLES)]
+GALLERY = [script.path for script in docs.scripts_of(docs.GALLERY)]
 
 
 def test_every_page_is_in_the_navigation_and_the_other_way_round():
     named = re.findall(r"^      - (\S+\.md)$", (ROOT / "mkdocs.yml").read_text("utf-8"), re.MULTILINE)
     assert len(named) > 30
-    assert sorted(named) == sorted([*docs_pages.page_sources(), *docs_api.api_pages()])
+    assert sorted(named) == sorted(docs.page_sources())
 
 
 def test_every_public_name_is_on_one_page():
-    told = [name for _, names in docs_api.GROUPS.values() for name in names]
+    told = docs.names_on_pages()
     assert len(told) == len(set(told))
-    assert set(told) | docs_api.UNTOLD == set(lumencut.__all__)
-    assert set(docs_api.public_names()) == set(lumencut.__all__)
+    assert {*told, "__version__"} == set(lumencut.__all__)
 
 
 def test_roles_of_docstrings_become_links_but_where_types_are_code():
     text = "volume : Volume, or what :func:`lumencut.render` takes\n    :meth:`Camera.rotated`, :attr:`gone`."
-    assert docs_api.linked(text) == (
-        "volume : Volume, or what render takes\n    [`Camera.rotated`][lumencut.scene.camera.Camera], `gone`."
+    assert docs.linked(text) == (
+        "volume : Volume, or what render takes\n    [`Camera.rotated`][lumencut.Camera], `gone`."
     )
 
 
@@ -53,10 +50,10 @@ def headings(text: str) -> set[str]:
     return {re.sub(r"[^\w\- ]", "", line.lower()).replace(" ", "-") for line in lines}
 
 
-@pytest.mark.parametrize("name", [*docs_pages.page_sources(), "README.md", "examples/README.md"])
+@pytest.mark.parametrize("name", [*docs.page_sources(), "README.md", "examples/README.md"])
 def test_every_link_of_a_page_leads_somewhere(name):
-    source = docs_pages.page_sources().get(name, ROOT / name)
-    docs_pages.site_page(source)
+    source = docs.page_sources().get(name, ROOT / name)
+    docs.site_page(source)
     for link in re.findall(r"\]\(([^)\s]+)\)", source.read_text("utf-8")):
         target, _, anchor = link.partition("#")
         path = (source.parent / target).resolve() if target else source
@@ -64,24 +61,24 @@ def test_every_link_of_a_page_leads_somewhere(name):
             assert anchor in headings(path.read_text("utf-8")), link
 
 
-@pytest.mark.parametrize("name", docs_pages.page_sources())
+@pytest.mark.parametrize("name", docs.page_sources())
 def test_a_part_of_a_list_is_indented_by_four(name):
     """GitHub accepts a smaller indentation, MkDocs does not."""
-    text = re.sub(r"^```.*?^```$", "", docs_pages.page_sources()[name].read_text("utf-8"), flags=re.S | re.M)
+    text = re.sub(r"^```.*?^```$", "", docs.page_sources()[name].read_text("utf-8"), flags=re.S | re.M)
     assert re.findall(r"^\n {1,3}(?! ).*", text, re.MULTILINE) == []
 
 
 def test_links_are_those_of_the_site(tmp_path):
-    text, files = docs_pages.site_page(ROOT / "docs/pictures.md")
+    text, files = docs.site_page(ROOT / "docs/pictures.md")
     assert "](method/cut-surface.md)" in text
     assert "](results/accuracy.md)" in text
     assert files["images/csr.webp"] == ROOT / "docs/images/csr.webp"
-    assert "](command-line.md)" in docs_pages.site_page(ROOT / "docs/gallery.md")[0]
-    assert "](docs/" not in docs_pages.site_page(ROOT / "ARCHITECTURE.md")[0]
+    assert "](command-line.md)" in docs.site_page(ROOT / "docs/gallery.md")[0]
+    assert "](docs/" not in docs.site_page(ROOT / "ARCHITECTURE.md")[0]
 
 
 def test_links_of_pages_in_subfolders_are_relative(monkeypatch, tmp_path):
-    monkeypatch.setattr(docs_pages, "ROOT", tmp_path)
+    monkeypatch.setattr(docs, "ROOT", tmp_path)
     for name in (
         "README.md",
         "docs/measuring.md",
@@ -89,7 +86,7 @@ def test_links_of_pages_in_subfolders_are_relative(monkeypatch, tmp_path):
         "docs/images/one.png",
         "docs/results/speed.md",
         "scripts/one.py",
-        *(f"{one}.md" for one in docs_pages.OF_ROOT),
+        *(f"{one}.md" for one in docs.OF_ROOT),
     ):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).touch()
@@ -99,14 +96,14 @@ def test_links_of_pages_in_subfolders_are_relative(monkeypatch, tmp_path):
         "[e](../../README.md) ![f](../images/one.png) [g](../../scripts/one.py)",
         "utf-8",
     )
-    text, files = docs_pages.site_page(page)
+    text, files = docs.site_page(page)
     assert text == (
         "[a](../measuring.md#x) [b](../results/speed.md) [c](measuring.md) [d](../CHANGELOG.md) "
         "[e](../index.md) ![f](../images/one.png) [g](../scripts/one.py)"
     )
     assert set(files) == {"images/one.png", "scripts/one.py"}
     (tmp_path / "CHANGELOG.md").write_text("[a](docs/method/measuring.md) [b](SECURITY.md)", "utf-8")
-    assert docs_pages.site_page(tmp_path / "CHANGELOG.md")[0] == "[a](method/measuring.md) [b](SECURITY.md)"
+    assert docs.site_page(tmp_path / "CHANGELOG.md")[0] == "[a](method/measuring.md) [b](SECURITY.md)"
 
 
 def tracked_sources() -> dict[str, str]:
@@ -134,17 +131,17 @@ def test_files_and_names_of_the_code_that_a_page_names_exist(page):
 
 
 def test_a_link_that_leads_nowhere_is_refused(monkeypatch, tmp_path):
-    monkeypatch.setattr(docs_pages, "ROOT", tmp_path)
+    monkeypatch.setattr(docs, "ROOT", tmp_path)
     page = tmp_path / "docs" / "page.md"
     page.parent.mkdir()
     page.write_text("See [this](nowhere.md).", "utf-8")
-    with pytest.raises(docs_pages.PageError, match=r"docs/page.md: found the link nowhere.md"):
-        docs_pages.site_page(page)
+    with pytest.raises(docs.PageError, match=r"docs/page.md: found the link nowhere.md"):
+        docs.site_page(page)
     page.write_text("```\n[code](nowhere.md)\n```\n[there](page.md#a) [else](https://example.org)", "utf-8")
-    assert docs_pages.site_page(page)[1] == {}
+    assert docs.site_page(page)[1] == {}
 
 
-PAGES = {**docs_pages.page_sources(), "README.md": ROOT / "README.md"}
+PAGES = {**docs.page_sources(), "README.md": ROOT / "README.md"}
 
 
 def blocks(language: str) -> list[tuple[str, str]]:
@@ -182,8 +179,8 @@ def test_every_name_that_a_page_shows_is_public():
 def test_every_script_is_a_card_of_one_page(path):
     page = "gallery.md" if path in GALLERY else "python.md"
     assert (ROOT / "docs" / page).read_text("utf-8").count(f"(../{path.relative_to(ROOT)})") == 1
-    text, _ = docs_pages.site_page(ROOT / "docs" / page)
-    script = docs_pages.script_of(path)
+    text, _ = docs.site_page(ROOT / "docs" / page)
+    script = docs.script_of(path)
     assert f"### {script.title}\n" in text
     assert "    import lumencut\n" in script.card()
     assert (f"](gallery/{path.stem}.webp)" in text) == (path in GALLERY)
@@ -192,8 +189,8 @@ def test_every_script_is_a_card_of_one_page(path):
 def test_a_script_without_words_is_refused(tmp_path):
     path = tmp_path / "silent.py"
     path.write_text('"""No more than a title."""\nimport lumencut\n', "utf-8")
-    with pytest.raises(docs_pages.PageError, match=r"silent.py: found no title and text"):
-        docs_pages.script_of(path)
+    with pytest.raises(docs.PageError, match=r"silent.py: found no title and text"):
+        docs.script_of(path)
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
@@ -215,7 +212,7 @@ def test_a_script_of_the_gallery_makes_its_picture(path, stent, tmp_path, monkey
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(demo, "stent_scene", lambda: stent)
     runpy.run_path(str(path), run_name="__main__")
-    with Image.open(tmp_path / docs_pages.script_of(path).picture) as picture:
+    with Image.open(tmp_path / docs.script_of(path).picture) as picture:
         low, high = picture.convert("L").getextrema()
     assert high - low > 100
 
@@ -238,7 +235,7 @@ def built(tmp_path):
 
 def test_a_good_site_passes(built):
     body = '<a href="other.html#top">a</a><a href="#top">b</a><a href="https://example.org">c</a>'
-    docs_site.check_site(built('<link rel="stylesheet" href="site.css">', f'{body}<img src="data:,">'))
+    site_checks.check_site(built('<link rel="stylesheet" href="site.css">', f'{body}<img src="data:,">'))
 
 
 @pytest.mark.parametrize(
@@ -255,30 +252,23 @@ def test_a_good_site_passes(built):
     ],
 )
 def test_requests_to_other_hosts_and_broken_links_are_rejected(built, parts, fault):
-    with pytest.raises(docs_site.SiteError, match=re.escape(fault)):
-        docs_site.check_site(built(**parts))
+    with pytest.raises(site_checks.SiteError, match=re.escape(fault)):
+        site_checks.check_site(built(**parts))
 
 
 def test_an_empty_site_is_refused(tmp_path):
-    with pytest.raises(docs_site.SiteError, match="found no page"):
-        docs_site.check_site(tmp_path)
+    with pytest.raises(site_checks.SiteError, match="found no page"):
+        site_checks.check_site(tmp_path)
 
 
-def test_without_the_ct_of_the_demo_nothing_is_built(tmp_path, monkeypatch, capsys):
+def test_without_the_ct_of_the_demo_no_picture_is_made(tmp_path, monkeypatch):
     def unreachable():
         raise demo.UnreachableError("imageio", "no network", "a wheel from the package index")
 
-    former = tmp_path / "site"
-    former.mkdir()
-    (former / "index.html").write_text("the one before", "utf-8")
     monkeypatch.setattr(demo, "stent_scene", unreachable)
-    monkeypatch.setattr(docs, "WORK", tmp_path / "work")
-    monkeypatch.setattr("sys.argv", ["docs.py", "--output", str(former)])
-    assert docs.main() == 1
-    said = capsys.readouterr().err
-    assert "the CT of the gallery: imageio: found no network" in said
-    assert "no site was written" in said
-    assert (former / "index.html").read_text("utf-8") == "the one before"
+    with pytest.raises(docs.PageError, match="the CT of the gallery: imageio: found no network"):
+        docs.drawn(tmp_path / "gallery")
+    assert not list(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize(
@@ -288,9 +278,9 @@ def test_without_the_ct_of_the_demo_nothing_is_built(tmp_path, monkeypatch, caps
 def test_a_picture_that_cannot_be_made_ends_the_build(tmp_path, monkeypatch, code, said):
     path = tmp_path / "broken.py"
     path.write_text(f'"""A title.\n\nA text.\n"""\n{code}\n', "utf-8")
-    monkeypatch.setattr(docs_pages, "GALLERY", Path(tmp_path))
-    with pytest.raises(docs_pages.PageError, match=said):
-        docs.draw(docs_pages.script_of(path), tmp_path)
+    monkeypatch.setattr(docs, "GALLERY", Path(tmp_path))
+    with pytest.raises(docs.PageError, match=said):
+        docs.draw(docs.script_of(path), tmp_path)
 
 
 def symbol(name, *, known=True, ambiguous=False):

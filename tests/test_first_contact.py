@@ -7,8 +7,6 @@ from pathlib import Path
 import pytest
 import yaml
 
-from script_modules import script
-
 ROOT = Path(__file__).resolve().parents[1]
 FORMS = ROOT / ".github/ISSUE_TEMPLATE"
 WORKFLOW = (ROOT / ".github/workflows/release.yml").read_text("utf-8")
@@ -51,7 +49,17 @@ def test_the_release_builds_for_three_systems_and_tries_each_on_every_python(job
 
 
 def test_the_release_takes_the_tools_that_the_repository_names():
-    [module] = list(script("toolchain"))
     [maturin] = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["build-system"]["requires"]
     assert f"pip install {maturin}\n" in WORKFLOW
-    assert set(re.findall(r'node-version: "(\d+)"', WORKFLOW)) == {str(module.NODE)}
+    assert set(re.findall(r"node-version\S*: (.*)", WORKFLOW)) == {".nvmrc"}
+
+
+def test_pull_requests_run_every_check_and_the_audits_that_need_the_network():
+    checks = yaml.safe_load((ROOT / ".github/workflows/checks.yml").read_text("utf-8"))
+    # YAML reads the key `on` as true.
+    assert set(checks[True]) == {"pull_request"}
+    ran = {
+        job: "\n".join(one.get("run", "") for one in steps["steps"]) for job, steps in checks["jobs"].items()
+    }
+    assert "make test" in ran["tests"]
+    assert all(one in ran["audit"] for one in ("check advisories", "pip_audit", "npm audit"))

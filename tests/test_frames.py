@@ -13,22 +13,19 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from frames.difference import LIMITS, difference
+from frames.entries import entries
+from frames.hashes import compare, hashed
+from frames.scenes import DTYPES, REAL, SCENES, scene
 from lumencut import VIEWS, Renderer, Settings, _lumencut
 
-sys.path.append(str(Path(__file__).resolve().parents[1] / "scripts"))
-
-from frame_difference import LIMITS, difference
-from frame_hashes import compare, hashed
-from frame_list import entries
-from frame_scenes import DTYPES, REAL, SCENES, scene
-
-SCRIPTS = Path(__file__).resolve().parents[1] / "scripts"
+TESTS = Path(__file__).resolve().parent
 LIST = entries()
 
 
 def run(*arguments: object) -> subprocess.CompletedProcess:
-    command = [sys.executable, SCRIPTS / "frames.py", *map(str, arguments)]
-    return subprocess.run(command, capture_output=True, text=True, check=False)
+    command = [sys.executable, "-m", "frames", *map(str, arguments)]
+    return subprocess.run(command, cwd=TESTS, capture_output=True, text=True, check=False)
 
 
 def test_the_list_is_long_and_its_names_are_file_names():
@@ -46,7 +43,7 @@ def test_the_list_has_every_setting_at_several_values():
         values = {repr(entry.values[one.name]) for entry in LIST if one.name in entry.values}
         changed = values - {repr(getattr(default, one.name))}
         few = isinstance(getattr(default, one.name), bool) or len(_lumencut.SETTINGS[one.name].choices) == 2
-        assert len(changed) >= (1 if few else 2), f"add frames of {one.name} to frame_settings.py"
+        assert len(changed) >= (1 if few else 2), f"add frames of {one.name} to frames/settings.py"
     assert {entry.values["levels"] for entry in LIST if "levels" in entry.values} == set(range(16))
     assert any(Settings(**entry.values) == Settings.paper() for entry in LIST)
     slopes = [entry.values for entry in LIST if "silhouette_slope" in entry.values]
@@ -107,7 +104,7 @@ def test_what_cannot_be_written_is_refused(tmp_path):
     told = run("write", tmp_path / "a.json", "--only", "no frame has this name")
     assert told.returncode == 1
     assert "found none with 'no frame has this name'" in told.stderr
-    told = run("write", tmp_path / "a.json", "--only", "one voxel", "--arrays", SCRIPTS)
+    told = run("write", tmp_path / "a.json", "--only", "one voxel", "--arrays", TESTS)
     assert told.returncode == 1
     assert "expected an empty folder" in told.stderr
     assert not list(tmp_path.iterdir())

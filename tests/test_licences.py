@@ -137,12 +137,12 @@ def run(licences, monkeypatch, tmp_path):
 
 
 def test_a_stale_file_is_noticed_and_left_alone(run):
-    with pytest.raises(SystemExit, match="mend it: make licences"):
+    with pytest.raises(SystemExit, match="mend it: make generate"):
         run("one text", "--check")
     listing = run("one text")
     before = listing.read_text("utf-8")
     assert "one text" in before
     run("one text", "--check")
-    with pytest.raises(SystemExit, match="mend it: make licences"):
+    with pytest.raises(SystemExit, match="mend it: make generate"):
         run("another text", "--check")
     assert listing.read_text("utf-8") == before

@@ -5,12 +5,12 @@ import shutil
 
 import pytest
 
-from script_modules import script
+from script_modules import BENCHES, script
 
 
 @pytest.fixture(scope="module")
 def results():
-    yield from script("results")
+    yield from script("result_pages", BENCHES)
 
 
 def broken(results, tmp_path, **changes):

@@ -15,7 +15,45 @@ ROOMS: dict[str, tuple[str, ...]] = {
     "trace::clicks": ("voxels", "trace::lines", "trace::lumen", "trace::ways"),
     "trace::mask": ("voxels", "trace::lines", "trace::lumen", "trace::skeleton"),
     "trace::find": ("voxels", "trace::lines", "trace::lumen"),
-    "measure": ("voxels", "trace::lines"),
+    "measure::section": ("voxels",),
+    "measure::beside": ("measure::section",),
+    "measure::estimation": (),
+    "measure::model": ("measure::section", "measure::estimation"),
+    "measure::uncertainty": ("measure::section",),
+    "measure::fit": (
+        "measure::section",
+        "measure::beside",
+        "measure::estimation",
+        "measure::model",
+        "measure::uncertainty",
+    ),
+    "measure::wall": (
+        "voxels",
+        "measure::section",
+        "measure::beside",
+        "measure::estimation",
+        "measure::model",
+        "measure::fit",
+    ),
+    "measure::along": (
+        "measure::section",
+        "measure::estimation",
+        "measure::model",
+        "measure::uncertainty",
+        "measure::fit",
+    ),
+    "measure::profile": (
+        "voxels",
+        "measure::section",
+        "measure::beside",
+        "measure::estimation",
+        "measure::model",
+        "measure::uncertainty",
+        "measure::fit",
+        "measure::wall",
+        "measure::along",
+    ),
+    "measure::stenosis": ("measure::section", "measure::uncertainty", "measure::profile"),
 }
 
 
@@ -36,10 +74,20 @@ def stray_arrows(graph, order):
 def test_rooms_of_vessels_need_only_those_below_them():
     source = ROOT / "crates/lumencut-vessels/src"
     graph = rust_graph(source)
-    folders = {f"trace::{path.name}" for path in (source / "trace").iterdir() if path.is_dir()}
-    assert folders == {name for name in ROOMS if name.startswith("trace::")}
+    folders = {
+        f"{part}::{path.name}"
+        for part in ("trace", "measure")
+        for path in (source / part).iterdir()
+        if path.is_dir()
+    }
+    assert folders == {name for name in ROOMS if "::" in name}
     assert any(graph["trace::find"])
+    assert {module.split("::")[1] for module in graph if module.startswith("measure::")} == {
+        name.split("::")[1] for name in ROOMS if name.startswith("measure::")
+    }
     assert stray_arrows(graph, ROOMS) == []
+    order = list(ROOMS)
+    assert all(order.index(other) < order.index(name) for name, others in ROOMS.items() for other in others)
 
 
 def test_an_arrow_upwards_is_found(tmp_path):

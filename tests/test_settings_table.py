@@ -32,7 +32,7 @@ def written_files():
 
 @pytest.mark.parametrize("path", ["python/lumencut/scene/settings.py", "docs/settings.md", "docs/python.md"])
 def test_what_repeats_the_table_is_what_the_script_writes(path):
-    assert (ROOT / path).read_text("utf-8") == written_files()[ROOT / path], "run: make settings"
+    assert (ROOT / path).read_text("utf-8") == written_files()[ROOT / path], "run: make generate"
 
 
 def test_the_class_has_the_settings_of_the_table_and_their_defaults():

@@ -199,6 +199,33 @@ def test_ends_of_compressed_streams(tmp_path, codec, pack):
             read(whole[:-cut])
     with pytest.raises(FormatError, match="damaged"):
         read(whole[:-6] + bytes(6))
+    for count in (70_000, 69_999, 60_000):
+        with pytest.raises(FormatError, match=r"breaks off|bytes of voxels"):
+            read(whole[:-1], count)
+
+
+@pytest.mark.parametrize("suffix", ["nii.gz", "nhdr"])
+def test_no_flipped_bit_changes_voxels(tmp_path, suffix):
+    array, path = coded(), tmp_path / f"x.{suffix}"
+    if suffix == "nii.gz":
+        plain = tmp_path / "x.nii"
+        save_nifti(plain, array, np.eye(4))
+        changed, content = path, gzip.compress(plain.read_bytes() + b"what follows", mtime=0)
+    else:
+        changed, content = tmp_path / "x", bz2.compress(array.tobytes() + b"what follows")
+        save_by_hand(path, b"", "bzip2", "data file: x\n")
+    read = 0
+    for bit in range(8 * len(content)):
+        damaged = bytearray(content)
+        damaged[bit // 8] ^= 1 << bit % 8
+        changed.write_bytes(damaged)
+        try:
+            volume = read_volume(path)
+        except FormatError:
+            continue
+        read += 1
+        np.testing.assert_array_equal(volume.array, array)
+    assert read < 100
 
 
 def test_text_takes_no_more_memory_than_its_file(tmp_path):

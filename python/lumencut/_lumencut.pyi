@@ -138,6 +138,7 @@ __all__ = [
     "flight",
     "frame_angles",
     "grade",
+    "grid_fault",
     "grid_letters",
     "is_session_file",
     "join",
@@ -387,6 +388,7 @@ class GzipPacker:
     def pack(self, content: bytes, /) -> bytes: ...
     def end(self) -> bytes: ...
 
+def grid_fault(size: tuple[int, int, int], affine_rows: list[list[float]], /) -> tuple[str, str] | None: ...
 def nifti_units(header: bytes, /) -> tuple[float, bool, bool] | None: ...
 def volume_header(
     file_format: str,

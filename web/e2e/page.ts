@@ -10,7 +10,7 @@ import {
 import type { Answer, Asked, Message, Question } from '../src/core/asked';
 import { GESTURES } from '../src/core/generated/tables';
 import type { Camera, Pair, Report } from '../src/core/messages';
-import { stateOf, type ViewState } from '../src/url/fragment';
+import { stateOf, type ViewState } from '../src/state/address';
 import type { Pixels } from './compare';
 
 export type PaneName = 'turning' | 'axial' | 'coronal' | 'sagittal' | 'straightened' | 'section' | 'profile';

@@ -2,7 +2,7 @@
 import { readFileSync } from 'node:fs';
 import { type Browser, expect, test } from '@playwright/test';
 import type { Pair, Reformation, Vector } from '../src/core/messages';
-import type { ViewState } from '../src/url/fragment';
+import type { ViewState } from '../src/state/address';
 import { difference, type Pixels, SAME_CODE } from './compare';
 import { Viewer, viewFragment } from './page';
 

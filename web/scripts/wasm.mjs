@@ -1,5 +1,5 @@
-// Compiles the crates of the page to src/core/pkg: the engine, and in `dicom/` and `volumes/` modules that are loaded on
-// demand.
+// Compiles the crates of the page to src/core/pkg: the engine, and in `dicom/`, `volumes/` and `packed/` modules that are
+// loaded on demand.
 // Workers share the engine's memory, so Rust's standard library is recompiled (RUSTC_BOOTSTRAP, `build-std`).
 // Without `panic=immediate-abort`, which ends the module at a panic, the modules would be 5 % larger.
 import { spawnSync } from 'node:child_process';
@@ -22,8 +22,10 @@ const flags = [
 const modules = [
   { crate: 'lumencut-wasm', folder: pkg, name: 'lumencut' },
   { crate: 'lumencut-dicom-wasm', folder: join(pkg, 'dicom'), name: 'lumencut_dicom' },
-  { crate: 'lumencut-volumes-wasm', folder: join(pkg, 'volumes'), name: 'lumencut_volumes' },
+  { crate: 'lumencut-volumes-wasm', folder: join(pkg, 'packed'), name: 'lumencut_packed' },
 ];
+/** Without decoders: a third smaller, for files that are not compressed, or that the browser unpacks. */
+const small = { crate: 'lumencut-volumes-wasm', folder: join(pkg, 'volumes'), name: 'lumencut_volumes' };
 
 function run(command, commandArguments, environment = {}) {
   const done = spawnSync(command, commandArguments, {
@@ -37,13 +39,13 @@ function run(command, commandArguments, environment = {}) {
   }
 }
 
-/** Compiles all crates at once, so that shared parts compile once. */
-function compile() {
-  const packages = modules.flatMap(({ crate }) => ['--package', crate]);
+/** Compiles these crates at once, so that shared parts compile once. */
+function compile(crates, ...more) {
+  const packages = crates.flatMap(({ crate }) => ['--package', crate]);
   run(
     'cargo',
     [
-      ...['build', '--locked', '--quiet', ...packages, '--lib', '--profile', profile],
+      ...['build', '--locked', '--quiet', ...packages, '--lib', '--profile', profile, ...more],
       ...['--target', target, '--target-dir', 'target', '-Z', 'build-std=std', '-Z', 'build-std-features='],
     ],
     { RUSTC_BOOTSTRAP: '1', CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS: flags.join(' ') },
@@ -76,5 +78,7 @@ const bindings = [
   '--target-dir',
   'target/xtask',
 ];
-compile();
+compile(modules);
 modules.forEach(write);
+compile([small], '--no-default-features');
+write(small);

@@ -1,23 +1,24 @@
 /** Starts the page: the engine, the keys, and the files that the address of the page names. */
+
 import { render } from 'preact';
-import { engine } from './client/shared';
 import { followEdits } from './edit/following';
-import { followGuide } from './guide/steps';
-import { followKeeping } from './session/keeping';
-import { savedSession } from './session/saving';
 import { start } from './state/device';
 import { followPlaceTurn } from './state/place-turn';
 import { report } from './state/store';
+import { followKeeping } from './study/keeping';
 import { guardLeaving } from './study/leaving';
+import { savedSession } from './study/saving';
 import { openAddresses, openPhantom } from './study/study';
+import { followGuide } from './ui/guide-steps';
 import { listenToKeys } from './ui/keys';
+import { connect, EngineClient, engine } from './worker/engine';
 import './style/page.css';
 import './style/views.css';
 import './style/panels.css';
 import './style/editing.css';
 import './style/measure.css';
+import { followView, restore, stateOf } from './state/address';
 import { App } from './ui/App';
-import { followView, restore, stateOf } from './url/fragment';
 
 const asked = new URLSearchParams(window.location.search);
 
@@ -41,9 +42,9 @@ async function begin(): Promise<void> {
     asked.get('phantom'),
   ];
   if (volume !== null || centerlines !== null) {
-    await openAddresses(engine, volume, centerlines);
+    await openAddresses(volume, centerlines);
   } else if (phantom !== null) {
-    await openPhantom(engine, phantom);
+    await openPhantom(phantom);
   }
   if (state && report.value) {
     restore(state);
@@ -52,6 +53,7 @@ async function begin(): Promise<void> {
   followGuide();
 }
 
+connect(new EngineClient());
 const root = document.getElementById('page');
 if (root) {
   render(<App />, root);
@@ -59,7 +61,7 @@ if (root) {
 listenToKeys();
 guardLeaving(window);
 followKeeping(sessionStorage, async () => new TextDecoder().decode(await savedSession()));
-followEdits(engine);
+followEdits();
 followPlaceTurn();
 if (asked.has('test')) {
   // For tests only: gives access to the memory size and to requests to the engine.

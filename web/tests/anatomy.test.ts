@@ -1,6 +1,6 @@
 /** Tests of the anatomical names that are offered for vessels. */
 import { expect, test } from 'vitest';
-import { namesToOffer } from '../src/edit/anatomy';
+import { namesToOffer } from '../src/edit/vessels';
 
 test('paired arteries are offered once per side, and no name twice', () => {
   const names = namesToOffer([]);

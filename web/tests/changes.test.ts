@@ -1,7 +1,15 @@
 import { describe, expect, test } from 'vitest';
-import { afterEdit, changed, doubtful, nameOf, shownVessels } from '../src/state/changes';
+import {
+  afterEdit,
+  changed,
+  DOUBTFUL,
+  doubtful,
+  nameOf,
+  nextColor,
+  PALETTE,
+  shownVessels,
+} from '../src/state/changes';
 import { type Document, EMPTY, NO_MARKS } from '../src/state/document';
-import { DOUBTFUL, nextColor, PALETTE } from '../src/state/palette';
 import { documentOf } from './fake-tracing';
 
 const THREE: Document = { ...EMPTY, ...documentOf(11, 12, 13), marks: { 1: NO_MARKS, 2: NO_MARKS } };

@@ -2,14 +2,14 @@ import { beforeEach, describe, expect, test } from 'vitest';
 import { Failure } from '../src/core/failure';
 import type { Vector } from '../src/core/messages';
 import { addMask, findVessels } from '../src/edit/branches';
-import { addClick, beginVessel, begunId, setBridge } from '../src/edit/clicks';
-import { dropEdits, refusal, waiting } from '../src/edit/committing';
+import { addClick, addStopper, beginVessel, begunId, setBridge } from '../src/edit/clicks';
 import { centerlineFile } from '../src/edit/files';
-import { beginStudy } from '../src/edit/shown';
-import { addStopper } from '../src/edit/stoppers';
 import { hide, recolor, remove, rename } from '../src/edit/vessels';
+import { editQueue } from '../src/state/edit-queue';
 import { document_, redo, redoWords, undo, undoWords } from '../src/state/history';
+import { beginStudy } from '../src/state/shown';
 import * as store from '../src/state/store';
+import { connect } from '../src/worker/engine';
 import { documentOf, FakeTracing, FLOOR } from './fake-tracing';
 
 const A: Vector = [0, 0, 0];
@@ -22,6 +22,7 @@ const clicks = (n = 0) => document_.value.vessels[n]?.clicks;
 
 beforeEach(() => {
   tracing = new FakeTracing();
+  connect(tracing);
   store.problem.value = null;
   store.crossHair.value = null;
   store.notes.value = [];
@@ -29,7 +30,7 @@ beforeEach(() => {
 });
 
 async function begun(from = A, to = B): Promise<number> {
-  const id = begunId(await beginVessel(tracing, [from, to]));
+  const id = begunId(await beginVessel([from, to]));
   expect(id).not.toBeNull();
   return id ?? -1;
 }
@@ -46,9 +47,9 @@ describe('an edit', () => {
 
   test('sends the current document to the engine, without data that only the page needs', async () => {
     await begun();
-    await addStopper(tracing, C);
+    await addStopper(C);
     const { vessels, stoppers } = document_.value;
-    await setBridge(tracing, true);
+    await setBridge(true);
     expect(tracing.edits.at(-1)).toEqual({
       document: { vessels, stoppers, bridge: false },
       edit: { kind: 'set_bridge', bridge: true },
@@ -58,13 +59,13 @@ describe('an edit', () => {
 
   test('is requested again if the user has redone a step meanwhile', async () => {
     const id = await begun();
-    await addClick(tracing, id, C);
+    await addClick(id, C);
     undo();
     let open = () => {};
     tracing.gate = new Promise((resolve) => {
       open = resolve;
     });
-    const adding = addClick(tracing, id, A);
+    const adding = addClick(id, A);
     await Promise.resolve();
     redo();
     open();
@@ -78,12 +79,12 @@ describe('an edit', () => {
     tracing.gate = new Promise((resolve) => {
       open = resolve;
     });
-    const both = [addClick(tracing, id, C), addClick(tracing, id, A)];
-    expect(waiting.value).toBe(2);
+    const both = [addClick(id, C), addClick(id, A)];
+    expect(editQueue.state.queued).toEqual(['add_click', 'add_click']);
     open();
     expect((await Promise.all(both)).map(Boolean)).toEqual([true, true]);
     expect(clicks()).toEqual([A, B, C, A]);
-    expect(waiting.value).toBe(0);
+    expect(editQueue.state.phase).toBe('idle');
   });
 });
 
@@ -91,18 +92,18 @@ describe('a rejected click', () => {
   test('changes nothing, and the cross-hair jumps to the least lumen-like point', async () => {
     const id = await begun();
     const before = document_.value;
-    expect(await addClick(tracing, id, AIR)).toBeNull();
+    expect(await addClick(id, AIR)).toBeNull();
     expect(document_.value).toBe(before);
     expect(undoWords.value).toBe('begin_vessel');
     expect(store.problem.value?.message).toContain('no lumen');
     expect(store.crossHair.value).toMatchObject({ point: AIR, value: 35 });
-    expect(refusal.value?.failure).toBe(store.problem.value);
+    expect(editQueue.state.refusal?.failure).toBe(store.problem.value);
   });
 
   test('is accepted if the gap is bridged, as one undo step', async () => {
     const id = await begun();
-    await addClick(tracing, id, AIR);
-    refusal.value?.bridge?.();
+    await addClick(id, AIR);
+    editQueue.state.refusal?.bridge?.();
     await expect.poll(() => clicks()).toEqual([A, B, AIR]);
     expect(document_.value.bridge).toBe(true);
     expect(store.problem.value).toBeNull();
@@ -113,25 +114,25 @@ describe('a rejected click', () => {
 
   test('drops clicks that wait behind it', async () => {
     const id = await begun();
-    const both = [addClick(tracing, id, AIR), addClick(tracing, id, C)];
+    const both = [addClick(id, AIR), addClick(id, C)];
     expect(await Promise.all(both)).toEqual([null, null]);
     expect(clicks()).toEqual([A, B]);
-    expect(await addClick(tracing, id, C)).not.toBeNull();
+    expect(await addClick(id, C)).not.toBeNull();
   });
 
   test('offers no bridge if none would help', async () => {
     tracing.edit = () => Promise.reject(new Failure('tracing', 'x', 'y', 'z', '', { place: AIR }));
-    await beginVessel(tracing, [A, B]);
-    expect(refusal.value?.bridge).toBeNull();
+    await beginVessel([A, B]);
+    expect(editQueue.state.refusal?.bridge).toBeNull();
   });
 });
 
 test('an edit that was stopped, or whose study was closed, does nothing', async () => {
   const id = await begun();
-  const stopped = addClick(tracing, id, C);
-  dropEdits();
+  const stopped = addClick(id, C);
+  editQueue.drop();
   expect(await stopped).toBeNull();
-  const late = addClick(tracing, id, C);
+  const late = addClick(id, C);
   beginStudy(null);
   expect(await late).toBeNull();
   expect(document_.value.vessels).toEqual([]);
@@ -144,7 +145,7 @@ test('changes made while a vessel is traced are kept', async () => {
   tracing.gate = new Promise((resolve) => {
     open = resolve;
   });
-  const adding = addClick(tracing, id, C);
+  const adding = addClick(id, C);
   const { change } = await import('../src/state/history');
   change('mark', { ...document_.value, rulers: [{ from: A, to: B }] });
   open();
@@ -155,16 +156,16 @@ test('changes made while a vessel is traced are kept', async () => {
 
 test('notes about a mask are shown once', async () => {
   tracing.notes = ['the mask has holes'];
-  await addMask(tracing, []);
-  await addMask(tracing, []);
+  await addMask([]);
+  await addMask([]);
   expect(store.notes.value).toEqual(['the mask has holes']);
 });
 
 test('finding all vessels is one undo step, and notes about the scan are shown once', async () => {
   tracing.notes = ['vessels have about 330, 322 above their surroundings'];
-  expect(await findVessels(tracing)).toBe(true);
+  expect(await findVessels()).toBe(true);
   expect(tracing.edits.at(-1)?.edit).toEqual({ kind: 'find_vessels', doubtful: false });
-  expect(await findVessels(tracing)).toBe(true);
+  expect(await findVessels()).toBe(true);
   expect(store.notes.value).toEqual(tracing.notes);
 });
 
@@ -175,7 +176,7 @@ describe('whole vessels', () => {
     await recolor(id, '#cc79a7');
     await hide(id, true);
     expect(document_.value.vessels).toMatchObject([{ name: 'SMA', color: '#cc79a7', isHidden: true }]);
-    await remove(tracing, [id]);
+    await remove([id]);
     expect(document_.value.vessels).toEqual([]);
   });
 
@@ -200,7 +201,7 @@ test('a centerline file contains all vessels except doubtful ones', async () => 
   const doubts = [null, 'touches bone', null];
   beginStudy({ ...rest, vessels: vessels.map((vessel, n) => ({ ...vessel, doubt: doubts[n] ?? null })) });
   await hide(3, true);
-  const file = await centerlineFile(tracing, 'vtp');
+  const file = await centerlineFile('vtp');
   expect(await file.text()).toBe('vtp: n1,n3');
 });
 
@@ -208,7 +209,7 @@ test('thirty steps are undone and redone exactly', async () => {
   const id = await begun();
   const states = [document_.value];
   for (let n = 0; n < 29; n++) {
-    await addClick(tracing, id, [n, 1, 0]);
+    await addClick(id, [n, 1, 0]);
     states.push(document_.value);
   }
   for (let n = 28; n >= 0; n--) {

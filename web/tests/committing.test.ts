@@ -1,9 +1,11 @@
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import type { Asked } from '../src/core/asked';
 import type { Edit, Progress } from '../src/core/messages';
-import { commit, dropEdits, isLong } from '../src/edit/committing';
+import { commit } from '../src/edit/committing';
 import { EMPTY } from '../src/state/document';
+import { editQueue } from '../src/state/edit-queue';
 import { progress } from '../src/state/store';
+import { connect } from '../src/worker/engine';
 
 const FINDING: Progress = { words: 'Finding vessels', done: 0, total: null };
 
@@ -25,7 +27,7 @@ class Slow {
 
 beforeEach(() => {
   vi.useFakeTimers();
-  dropEdits();
+  editQueue.drop();
 });
 afterEach(() => {
   vi.useRealTimers();
@@ -35,7 +37,8 @@ async function begun(
   edit: Edit = { kind: 'find_vessels', doubtful: false },
 ): Promise<{ slow: Slow; done: Promise<unknown> }> {
   const slow = new Slow();
-  const done = commit(slow.asked, edit);
+  connect(slow.asked);
+  const done = commit(edit);
   await vi.advanceTimersByTimeAsync(0);
   return { slow, done };
 }
@@ -60,6 +63,18 @@ test('progress reported after the end of an edit is not shown', async () => {
   expect(progress.value).toBeNull();
 });
 
+test('the progress of an edit that was dropped goes with the edit', async () => {
+  const { slow, done } = await begun();
+  slow.onProgress(FINDING);
+  await vi.advanceTimersByTimeAsync(1000);
+  editQueue.drop();
+  slow.onProgress({ ...FINDING, done: 5 });
+  expect(progress.value).toEqual(FINDING);
+  slow.end();
+  await done;
+  expect(progress.value).toBeNull();
+});
+
 test('a quick edit shows no progress', async () => {
   const { slow, done } = await begun();
   slow.onProgress(FINDING);
@@ -72,23 +87,23 @@ test('a quick edit shows no progress', async () => {
 test('after 20 s of searching branches the page asks, and the search continues meanwhile', async () => {
   const { slow, done } = await begun({ kind: 'add_branches', seed: [0, 0, 0] });
   await vi.advanceTimersByTimeAsync(19_900);
-  expect(isLong.value).toBe(false);
+  expect(editQueue.state.isLong).toBe(false);
   await vi.advanceTimersByTimeAsync(200);
-  expect(isLong.value).toBe(true);
+  expect(editQueue.state.isLong).toBe(true);
   slow.end();
   await done;
-  expect(isLong.value).toBe(false);
+  expect(editQueue.state.isLong).toBe(false);
 });
 
 test('the page does not ask during a search of the whole scan, nor about branches found in time', async () => {
   const whole = await begun();
   await vi.advanceTimersByTimeAsync(30_000);
-  expect(isLong.value).toBe(false);
+  expect(editQueue.state.isLong).toBe(false);
   whole.slow.end();
   await whole.done;
   const branches = await begun({ kind: 'add_branches', seed: [0, 0, 0] });
   branches.slow.end();
   await branches.done;
   await vi.advanceTimersByTimeAsync(30_000);
-  expect(isLong.value).toBe(false);
+  expect(editQueue.state.isLong).toBe(false);
 });

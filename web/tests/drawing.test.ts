@@ -1,21 +1,13 @@
 import { afterEach, beforeEach, describe, expect, test } from 'vitest';
 import type { Vector } from '../src/core/messages';
-import {
-  anchor,
-  candidate,
-  coming,
-  dragged,
-  drawn,
-  first,
-  followPointer,
-  livePaths,
-  target,
-} from '../src/edit/drawing';
 import { acceptCandidate, endVessel, enter, leave, removeLast, setPoint } from '../src/edit/pointing';
-import { beginStudy } from '../src/edit/shown';
+import { followPointer } from '../src/edit/previews';
+import { anchor, candidate, coming, dragged, drawn, first, livePaths, target } from '../src/state/drawing';
 import { document_, undo } from '../src/state/history';
+import { beginStudy } from '../src/state/shown';
 import * as store from '../src/state/store';
 import { active, tool } from '../src/state/tool';
+import { connect } from '../src/worker/engine';
 import { documentOf, FakeTracing, FLOOR } from './fake-tracing';
 
 const A: Vector = [0, 0, 0];
@@ -29,10 +21,11 @@ const clicks = () => document_.value.vessels.map((vessel) => vessel.clicks);
 
 beforeEach(() => {
   tracing = new FakeTracing();
+  connect(tracing);
   beginStudy(documentOf());
   tool.value = 'trace';
   endVessel();
-  end = followPointer(tracing);
+  end = followPointer();
 });
 
 afterEach(() => {
@@ -46,15 +39,15 @@ const hairAt = (point: Vector) => {
 
 describe('points', () => {
   test('the second begins a vessel, further ones extend it, and after its end another begins', async () => {
-    await setPoint(tracing, A);
+    await setPoint(A);
     expect(first.value).toEqual(A);
     expect(clicks()).toEqual([]);
-    await setPoint(tracing, B);
-    await setPoint(tracing, C);
+    await setPoint(B);
+    await setPoint(C);
     expect(clicks()).toEqual([[A, B, C]]);
     endVessel();
-    await setPoint(tracing, C);
-    await setPoint(tracing, A);
+    await setPoint(C);
+    await setPoint(A);
     expect(clicks()).toEqual([
       [A, B, C],
       [C, A],
@@ -62,14 +55,14 @@ describe('points', () => {
   });
 
   test('that are set while the first two are traced belong to the same vessel', async () => {
-    await Promise.all([setPoint(tracing, A), setPoint(tracing, B), setPoint(tracing, C)]);
+    await Promise.all([setPoint(A), setPoint(B), setPoint(C)]);
     expect(clicks()).toEqual([[A, B, C]]);
     expect(drawn.value?.clicks).toHaveLength(3);
   });
 
   test('a vessel that was ended while it was traced is not extended', async () => {
-    await setPoint(tracing, A);
-    const setting = setPoint(tracing, B);
+    await setPoint(A);
+    const setting = setPoint(B);
     endVessel();
     await setting;
     expect(active.value).toBeNull();
@@ -82,7 +75,7 @@ describe('points', () => {
       tracing.gate = new Promise((resolve) => {
         open = resolve;
       });
-      await setPoint(tracing, A);
+      await setPoint(A);
       hairAt(B);
     });
 
@@ -92,16 +85,16 @@ describe('points', () => {
     };
 
     test.each([
-      ['Enter', () => enter(tracing)],
+      ['Enter', () => enter()],
       ['Done and t', layDown],
     ])('are finished after %s, and the next point is of another vessel', async (_, end) => {
-      const setting = [setPoint(tracing, B), setPoint(tracing, C)];
+      const setting = [setPoint(B), setPoint(C)];
       hairAt(C);
       end();
       expect(anchor.value).toBeNull();
       expect(coming.value).toHaveLength(2);
       tool.value = 'trace';
-      setting.push(setPoint(tracing, [1, 2, 3]), setPoint(tracing, [4, 5, 6]));
+      setting.push(setPoint([1, 2, 3]), setPoint([4, 5, 6]));
       open();
       await Promise.all(setting);
       expect(clicks()).toEqual([
@@ -116,7 +109,7 @@ describe('points', () => {
     });
 
     test('are reported if they are rejected after the vessel was ended', async () => {
-      const setting = setPoint(tracing, [0, 0, FLOOR - 1]);
+      const setting = setPoint([0, 0, FLOOR - 1]);
       layDown();
       open();
       await setting;
@@ -128,52 +121,52 @@ describe('points', () => {
   test('the first is rejected at once if no vessel can begin there; the next one clears the message', async () => {
     const found = () => store.problem.value?.found ?? 'nothing wrong';
     const fat: Vector = [0, 0, FLOOR - 1];
-    const setting = setPoint(tracing, fat);
+    const setting = setPoint(fat);
     expect(first.value).toEqual(fat);
     await setting;
     expect(first.value).toBeNull();
     expect(found()).toBe('fat');
     expect(store.crossHair.value?.point).toEqual(fat);
-    await setPoint(tracing, A);
+    await setPoint(A);
     expect(first.value).toEqual(A);
     expect(found()).toBe('nothing wrong');
   });
 
   test('a rejected second point keeps the first', async () => {
-    await setPoint(tracing, A);
-    await setPoint(tracing, [0, 0, FLOOR - 1]);
+    await setPoint(A);
+    await setPoint([0, 0, FLOOR - 1]);
     expect(clicks()).toEqual([]);
     expect(anchor.value).toEqual(A);
-    await setPoint(tracing, B);
+    await setPoint(B);
     expect(clicks()).toEqual([[A, B]]);
   });
 
   test('after undo of a vessel, the next point begins another', async () => {
-    await setPoint(tracing, A);
-    await setPoint(tracing, B);
+    await setPoint(A);
+    await setPoint(B);
     undo();
-    await setPoint(tracing, C);
+    await setPoint(C);
     expect(first.value).toEqual(C);
   });
 
   test('the last one is removed, down to the first', async () => {
     for (const point of [A, B, C]) {
-      await setPoint(tracing, point);
+      await setPoint(point);
     }
-    removeLast(tracing);
+    removeLast();
     await idle();
     expect(clicks()).toEqual([[A, B]]);
-    removeLast(tracing);
+    removeLast();
     await idle();
     expect(clicks()).toEqual([]);
     expect(anchor.value).toEqual(A);
-    removeLast(tracing);
+    removeLast();
     expect(anchor.value).toBeNull();
   });
 
   test('set with the stopper tool are stoppers', async () => {
     tool.value = 'stopper';
-    await setPoint(tracing, A);
+    await setPoint(A);
     expect(document_.value.stoppers).toEqual([{ center: A, radius: 3 }]);
   });
 });
@@ -182,11 +175,11 @@ describe('by keys', () => {
   test('Enter sets points at the cross-hair; twice at one position it ends the vessel', async () => {
     for (const point of [A, B, C]) {
       hairAt(point);
-      enter(tracing);
+      enter();
       await idle();
     }
     expect(clicks()).toEqual([[A, B, C]]);
-    enter(tracing);
+    enter();
     expect(active.value).toBeNull();
     expect(clicks()).toEqual([[A, B, C]]);
   });
@@ -194,10 +187,10 @@ describe('by keys', () => {
   test('Enter first confirms a pending point from a projection', async () => {
     hairAt(C);
     candidate.value = A;
-    enter(tracing);
+    enter();
     expect(first.value).toEqual(A);
     expect(candidate.value).toBeNull();
-    expect(acceptCandidate(tracing)).toBe(false);
+    expect(acceptCandidate()).toBe(false);
   });
 
   test('Escape leaves step by step: the pending point, the vessel, the tool', () => {
@@ -215,7 +208,7 @@ describe('by keys', () => {
 
 describe('the path preview', () => {
   test('leads from the last point to the pointer, and ends with the vessel', async () => {
-    await setPoint(tracing, A);
+    await setPoint(A);
     target.value = C;
     await idle();
     expect(livePaths.value).toEqual([{ points: [A, [20, 0, 0], C], isFound: true }]);
@@ -225,7 +218,7 @@ describe('the path preview', () => {
   });
 
   test('that arrives after the vessel was ended is not shown', async () => {
-    await setPoint(tracing, A);
+    await setPoint(A);
     let open = () => {};
     tracing.gate = new Promise((resolve) => {
       open = resolve;
@@ -241,7 +234,7 @@ describe('the path preview', () => {
   });
 
   test('is straight and marked as missing if none is found', async () => {
-    await setPoint(tracing, A);
+    await setPoint(A);
     const far: Vector = [1, 1, FLOOR - 1];
     target.value = far;
     await idle();
@@ -249,7 +242,7 @@ describe('the path preview', () => {
   });
 
   test('is requested again while the pointer rests, but not without end', async () => {
-    await setPoint(tracing, A);
+    await setPoint(A);
     let asked = 0;
     const path = tracing.path.bind(tracing);
     tracing.path = async (request) => {
@@ -267,7 +260,7 @@ describe('the path preview', () => {
 
   test('leads to both neighbours of a dragged point', async () => {
     for (const point of [A, B, C]) {
-      await setPoint(tracing, point);
+      await setPoint(point);
     }
     dragged.value = { id: drawn.value?.id ?? -1, number: 1, point: [9, 9, 9] };
     await idle();
@@ -278,7 +271,7 @@ describe('the path preview', () => {
   });
 
   test('while a request runs, only the latest position is remembered', async () => {
-    await setPoint(tracing, A);
+    await setPoint(A);
     await idle();
     let asked = 0;
     const path = tracing.path.bind(tracing);

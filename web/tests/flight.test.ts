@@ -5,6 +5,7 @@ import { Failure } from '../src/core/failure';
 import type { Camera, Vector } from '../src/core/messages';
 import { destination, flyTo } from '../src/state/flight';
 import * as store from '../src/state/store';
+import { connect } from '../src/worker/engine';
 import { CAMERA } from './helpers';
 
 const TURNED_CAMERA = turnedAbout({ ...CAMERA, pixel_spacing: 0.25 }, [0, 0, 0], [0, 0, 1], 1);
@@ -20,6 +21,7 @@ const engine: Asked = {
     return answer() as Promise<Answer<N>>;
   },
 };
+connect(engine);
 const answered = () => new Promise<void>((done) => setTimeout(done, 0));
 
 describe('a flight', () => {
@@ -50,7 +52,7 @@ describe('a flight', () => {
   });
 
   test('shows the views of the engine at their times, in less than half a second, and ends exactly at its destination', async () => {
-    flyTo(engine, TURNED_CAMERA);
+    flyTo(TURNED_CAMERA);
     expect(destination.value).toBe(TURNED_CAMERA);
     await answered();
     expect(asked).toEqual([{ from: CAMERA, to: TURNED_CAMERA, views: 49 }]);
@@ -70,7 +72,7 @@ describe('a flight', () => {
   });
 
   test('continues if its pane changes size, also before the engine has answered', async () => {
-    flyTo(engine, TURNED_CAMERA);
+    flyTo(TURNED_CAMERA);
     store.camera.value = { ...CAMERA, size: [200, 150], pixel_spacing: 2 * CAMERA.pixel_spacing };
     await answered();
     pass(100);
@@ -84,7 +86,7 @@ describe('a flight', () => {
   test.each([true, false])(
     'ends where something else moves the camera; after the answer: %s',
     async (isLate) => {
-      flyTo(engine, TURNED_CAMERA);
+      flyTo(TURNED_CAMERA);
       if (isLate) {
         await answered();
         pass(100);
@@ -100,9 +102,9 @@ describe('a flight', () => {
   );
 
   test('ends if another flight begins', async () => {
-    flyTo(engine, TURNED_CAMERA);
+    flyTo(TURNED_CAMERA);
     const last = { ...CAMERA, pixel_spacing: 1 };
-    flyTo(engine, last);
+    flyTo(last);
     await answered();
     pass(100);
     pass(400);
@@ -112,7 +114,7 @@ describe('a flight', () => {
   test('does not begin if the engine rejects it, and the page says why', async () => {
     store.report.value = { volume: null, vessels: [], windows: null };
     answer = () => Promise.reject(new Failure('camera', 'size of the flight', 'two', 'one'));
-    flyTo(engine, TURNED_CAMERA);
+    flyTo(TURNED_CAMERA);
     await answered();
     expect([store.camera.value, destination.value, steps.length]).toEqual([CAMERA, null, 0]);
     expect(store.problem.value?.subject).toBe('size of the flight');
@@ -122,7 +124,7 @@ describe('a flight', () => {
   test.each([true, false])('is none where the view turns already, or no motion is wanted', (isTurning) => {
     store.isTurning.value = isTurning;
     vi.stubGlobal('window', { matchMedia: () => ({ matches: !isTurning }) });
-    flyTo(engine, { ...TURNED_CAMERA, size: [200, 150], pixel_spacing: 0.5 });
+    flyTo({ ...TURNED_CAMERA, size: [200, 150], pixel_spacing: 0.5 });
     expect(store.camera.value).toEqual(TURNED_CAMERA);
     expect([asked, steps]).toEqual([[], []]);
   });

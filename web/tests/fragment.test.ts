@@ -1,7 +1,7 @@
 import { afterEach, beforeEach, describe, expect, test } from 'vitest';
 import type { SettingRow, Started } from '../src/core/messages';
+import { currentState, fragmentOf, restore, stateOf } from '../src/state/address';
 import * as store from '../src/state/store';
-import { currentState, fragmentOf, restore, stateOf } from '../src/url/fragment';
 import { CAMERA, expectNear, random } from './helpers';
 
 const ROW: SettingRow = {

@@ -1,8 +1,8 @@
 import { afterEach, beforeEach, describe, expect, test, vi } from 'vitest';
-import type { EngineClient } from '../src/client/engine';
 import { Failure } from '../src/core/failure';
 import type { Drawn, View } from '../src/core/messages';
 import { FrameLoop, type Shown } from '../src/views/frame-loop';
+import { connect } from '../src/worker/engine';
 import { CAMERA } from './helpers';
 
 const VIEW: View = { camera: CAMERA, method: 'csr', settings: { levels: 3 } };
@@ -50,8 +50,8 @@ let failures: Failure[];
 
 function loopOf(time: (view: View) => number) {
   const engine = new FakeEngine(time);
+  connect(engine);
   const loop = new FrameLoop(
-    engine as unknown as EngineClient,
     (picture) => shown.push(picture),
     (failure) => failures.push(failure),
   );

@@ -1,8 +1,8 @@
 import { expect, test } from 'vitest';
 import type { Asked } from '../src/core/asked';
 import type { LineContent } from '../src/core/messages';
-import { handedOver } from '../src/session/handing-over';
 import { EMPTY } from '../src/state/document';
+import { handedOver } from '../src/study/saving';
 
 const line = (end: number): LineContent => ({
   points: [

@@ -1,9 +1,10 @@
 /** The session is kept over a reload only if the user allows it. */
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
-import { followKeeping, isKeeping, kept } from '../src/session/keeping';
 import { EMPTY } from '../src/state/document';
 import { begin, change, document_, markSaved } from '../src/state/history';
+import { isKeeping, kept } from '../src/state/questions';
 import { report } from '../src/state/store';
+import { followKeeping } from '../src/study/keeping';
 import { reportOf, withLines } from './fake-tracing';
 
 let held = new Map<string, string>();

@@ -2,7 +2,8 @@
 import { beforeEach, expect, test } from 'vitest';
 import { EMPTY } from '../src/state/document';
 import { begin, change, document_, markSaved, undo } from '../src/state/history';
-import { guardLeaving, leave, leaving, lossWords } from '../src/study/leaving';
+import { leaving } from '../src/state/questions';
+import { guardLeaving, leave, lossWords } from '../src/study/leaving';
 import { withLines } from './fake-tracing';
 
 const more = (...lines: number[]) => withLines(document_.value, ...lines);

@@ -1,10 +1,7 @@
 /** Which place a drag moves: the one whose line is nearest to the pointer. */
-import { expect, test, vi } from 'vitest';
+import { expect, test } from 'vitest';
 import { GRAB_DISTANCE_PX, nearestLine } from '../src/measure/line-grips';
 import type { VesselPlace } from '../src/measure/marks';
-
-// The real engine needs a worker, which these tests do not have.
-vi.mock('../src/client/shared', () => ({ engine: {} }));
 
 const place = (at: number): VesselPlace => ({ kind: 'place', slot: 0, at, isSuggestion: false });
 /** An axis with 10 pixels per mm that starts at pixel 5. */

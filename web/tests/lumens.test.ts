@@ -2,9 +2,10 @@
 import { beforeEach, expect, test } from 'vitest';
 import type { Asked } from '../src/core/asked';
 import type { PointedAt, PointedLumen, Vector } from '../src/core/messages';
-import { lookForLumens, meant, pointed, stepLumen } from '../src/edit/lumens';
 import { actionOf } from '../src/input/bindings';
+import { lookForLumens, meant, pointed, stepLumen } from '../src/state/lumens';
 import { ofCamera } from '../src/views/projection';
+import { connect } from '../src/worker/engine';
 import { CAMERA, expectNear } from './helpers';
 
 const lumen = (depth: number): PointedLumen => ({
@@ -26,8 +27,8 @@ beforeEach(() => {
 });
 
 test('the nearest lumen is selected, and steps reach only those behind it', async () => {
-  const engine = engineOf([NEAR, FAR]);
-  expect(await lookForLumens(engine, ['turning', [3, 4]], ASKED)).toBe(NEAR);
+  connect(engineOf([NEAR, FAR]));
+  expect(await lookForLumens(['turning', [3, 4]], ASKED)).toBe(NEAR);
   expect(meant.value).toBe(NEAR);
   expect([stepLumen(1), meant.value]).toEqual([true, FAR]);
   expect([stepLumen(1), meant.value]).toEqual([true, FAR]);
@@ -35,21 +36,25 @@ test('the nearest lumen is selected, and steps reach only those behind it', asyn
 });
 
 test('a selected lumen stays selected while it is under the pointer; then the nearest one is selected', async () => {
-  const engine = engineOf([NEAR, FAR]);
-  await lookForLumens(engine, ['turning', [3, 4]], ASKED);
+  connect(engineOf([NEAR, FAR]));
+  await lookForLumens(['turning', [3, 4]], ASKED);
   stepLumen(1);
   const further: PointedLumen = { ...FAR, center: [2, 40, 0.5] };
-  expect(await lookForLumens(engineOf([NEAR, further]), ['turning', [4, 4]], ASKED)).toBe(further);
+  connect(engineOf([NEAR, further]));
+  expect(await lookForLumens(['turning', [4, 4]], ASKED)).toBe(further);
   const other: PointedLumen = { ...FAR, center: [9, 40, 0.5] };
-  expect(await lookForLumens(engineOf([NEAR, other]), ['turning', [9, 9]], ASKED)).toBe(NEAR);
+  connect(engineOf([NEAR, other]));
+  expect(await lookForLumens(['turning', [9, 9]], ASKED)).toBe(NEAR);
 });
 
 test('without a lumen, or without an open scan, none is selected and there are no steps', async () => {
   for (const engine of [engineOf([]), engineOf(null)]) {
-    expect(await lookForLumens(engine, ['axial', [0, 0]], { ...ASKED, along: null })).toBeNull();
+    connect(engine);
+    expect(await lookForLumens(['axial', [0, 0]], { ...ASKED, along: null })).toBeNull();
     expect([meant.value, stepLumen(1)]).toEqual([null, false]);
   }
-  await lookForLumens(engineOf([NEAR]), ['axial', [0, 0]], ASKED);
+  connect(engineOf([NEAR]));
+  await lookForLumens(['axial', [0, 0]], ASKED);
   expect(stepLumen(1)).toBe(false);
 });
 

@@ -1,7 +1,7 @@
 /** Axes of a profile, with the horizontal vessel on the same axis. */
 import { describe, expect, test } from 'vitest';
+import { pixelAt, valueAt } from '../src/measure/layout';
 import { lyingBox, lyingPicture } from '../src/measure/lying';
-import { pixelAt, valueAt } from '../src/measure/scale';
 
 const AXIS = { low: 0, high: 60, start: 50, end: 650 };
 

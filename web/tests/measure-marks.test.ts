@@ -4,23 +4,23 @@ import type { Pair, Vector } from '../src/core/messages';
 import {
   allConfirmed,
   comparedIn,
+  marksOf,
   moved,
-  NOTHING_SUGGESTED,
   placeAfter,
   placesOf,
   referenceSlots,
   removed,
-  type Suggested,
   stretchAround,
   type VesselPlace,
   withDiameter,
+  withMarks,
   withReference,
   withStretch,
 } from '../src/measure/marks';
 import { centerAt, seenNearest, snapped } from '../src/measure/sections';
-import { marksOf, withMarks } from '../src/measure/vessels';
 import { placeName } from '../src/measure/words';
 import { EMPTY } from '../src/state/document';
+import { NOTHING_SUGGESTED, type Suggested } from '../src/state/measuring';
 import { madeProfile, marks } from './measured';
 
 const profile = madeProfile();

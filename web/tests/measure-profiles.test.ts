@@ -15,6 +15,7 @@ import {
   stopped,
 } from '../src/state/profiles';
 import * as store from '../src/state/store';
+import { connect } from '../src/worker/engine';
 import { madeProfile } from './measured';
 
 /** A fake engine that measures only when the test says so, and records requests. */
@@ -33,47 +34,46 @@ class Fake {
 }
 
 let fake: Fake;
-let measuring: Asked;
 beforeEach(() => {
   fake = new Fake();
-  measuring = fake as unknown as Asked;
+  connect(fake as unknown as Asked);
   forgetProfiles();
   givenFwhm.value = null;
   store.progress.value = null;
 });
 
 test('a line is measured once', async () => {
-  const first = measure(measuring, 3);
-  await measure(measuring, 3);
+  const first = measure(3);
+  await measure(3);
   expect(store.progress.value?.words).toBe('Measuring the vessel');
   fake.answer(madeProfile());
   await first;
-  await measure(measuring, 3);
+  await measure(3);
   expect(fake.asked).toEqual([[3, null]]);
   expect(profiles.value.get(3)).toHaveProperty('profile');
   expect(store.progress.value).toBeNull();
 });
 
 test('the reason why a line cannot be measured is cached too', async () => {
-  const asked = measure(measuring, 3);
+  const asked = measure(3);
   fake.refuse(new Failure('measuring', 'vessel', 'nothing', 'lumen'));
   await asked;
   expect(profiles.value.get(3)).toHaveProperty('failure.found', 'nothing');
-  await measure(measuring, 3);
+  await measure(3);
   expect(fake.asked).toHaveLength(1);
 });
 
 test('after a stop, a line is measured only on request', async () => {
-  const asked = measure(measuring, 3);
+  const asked = measure(3);
   stopMeasuring();
   expect([beingMeasured.value, stopped.value]).toEqual([null, 3]);
   fake.refuse(new Failure('interrupted', 'view', 'a stop', 'none'));
   await asked;
   expect(profiles.value.size).toBe(0);
-  await measure(measuring, 3);
+  await measure(3);
   expect(fake.asked).toHaveLength(1);
   measureAgain();
-  void measure(measuring, 3);
+  void measure(3);
   expect(fake.asked).toHaveLength(2);
 });
 
@@ -83,7 +83,7 @@ test('a stop while nothing is measured does nothing', () => {
 });
 
 test('an answer about another study is not cached', async () => {
-  const asked = measure(measuring, 3);
+  const asked = measure(3);
   forgetProfiles();
   fake.answer(madeProfile());
   await asked;
@@ -91,12 +91,12 @@ test('an answer about another study is not cached', async () => {
 });
 
 test('with another FWHM, all vessels are measured again', async () => {
-  const asked = measure(measuring, 3);
+  const asked = measure(3);
   fake.answer(madeProfile());
   await asked;
   giveFwhm(0.8);
   expect(profiles.value.size).toBe(0);
-  void measure(measuring, 3);
+  void measure(3);
   expect(fake.asked).toEqual([
     [3, null],
     [3, 0.8],

@@ -7,6 +7,7 @@ import { Failure } from '../src/core/failure';
 import type { States } from '../src/core/messages';
 import { dicom_attributes, initSync, judge_dicom } from '../src/core/pkg/dicom/lumencut_dicom.js';
 import { initSync as startEngine } from '../src/core/pkg/lumencut.js';
+import { VolumeFile as PackedFile, initSync as startPacked } from '../src/core/pkg/packed/lumencut_packed.js';
 import { initSync as startVolumes, VolumeFile } from '../src/core/pkg/volumes/lumencut_volumes.js';
 import { ALL_OF_IT, type Wanted } from '../src/io/dicom/wanted';
 import type { Kind } from '../src/io/numbers';
@@ -71,6 +72,9 @@ initSync({ module: readFileSync(new URL('../src/core/pkg/dicom/lumencut_dicom_bg
 const { memory: ofVolumes } = startVolumes({
   module: readFileSync(new URL('../src/core/pkg/volumes/lumencut_volumes_bg.wasm', import.meta.url)),
 });
+const { memory: ofPacked } = startPacked({
+  module: readFileSync(new URL('../src/core/pkg/packed/lumencut_packed_bg.wasm', import.meta.url)),
+});
 
 export function sourceOf(path: string, name: string): Source {
   return new BlobSource(name, new Blob([readFileSync(path)]));
@@ -93,6 +97,7 @@ export async function openSources(
     loadJudge: async () => ({ dicom_attributes, judge_dicom }),
     kindOf,
     loadVolumes: async () => ({ VolumeFile, memory: ofVolumes }),
+    loadPackedVolumes: async () => ({ VolumeFile: PackedFile, memory: ofPacked }),
     steps: new Steps(() => {}, signal),
   };
   try {

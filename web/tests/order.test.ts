@@ -1,7 +1,7 @@
 /** Tests of the order in which `Latest` and `Queue` run tasks. */
 import { describe, expect, test } from 'vitest';
 import { Latest } from '../src/core/latest';
-import { Queue } from '../src/worker/queue';
+import { Queue } from '../src/worker/host';
 
 /** A task that ends when the test says so. */
 function held(name: string, log: string[]) {

@@ -17,6 +17,7 @@ import {
 } from '../src/state/place-turn';
 import * as store from '../src/state/store';
 import { tool } from '../src/state/tool';
+import { connect } from '../src/worker/engine';
 import { CAMERA, expectNear } from './helpers';
 
 const FIRST: Camera = { ...CAMERA, center: [5, 6, 7], pixel_spacing: 0.1 };
@@ -56,6 +57,7 @@ const engine: Asked = {
     return answer() as Promise<Answer<N>>;
   },
 };
+connect(engine);
 
 let end: () => void;
 beforeEach(() => {
@@ -104,17 +106,17 @@ describe('the diameters of a turn', () => {
 
 describe('a turn', () => {
   test('is about the place of the section, and is requested once', async () => {
-    await togglePlaceTurn(engine);
+    await togglePlaceTurn();
     expect(questions).toEqual([['turn_about', { vessel: 0, at: 20, size: CAMERA.size }]]);
     expect(placeTurn.value).toEqual({ ...TURN, least: 10, largest: 10 });
     expect(store.camera.value).toEqual(FIRST);
-    await togglePlaceTurn(engine);
+    await togglePlaceTurn();
     expect(placeTurn.value).toBeNull();
     expect(store.camera.value).toEqual(FIRST);
   });
 
   test('keeps the place at its pixel, also after the view was moved', async () => {
-    await togglePlaceTurn(engine);
+    await togglePlaceTurn();
     store.camera.value = { ...FIRST, center: [6, 6, 8], pixel_spacing: 0.2 };
     const before = pixelOf(store.camera.value, FIRST.center);
     turnTo(90);
@@ -126,7 +128,7 @@ describe('a turn', () => {
   });
 
   test('follows a drag in integer degrees, and Escape undoes the drag', async () => {
-    await togglePlaceTurn(engine);
+    await togglePlaceTurn();
     const drag = windowBack();
     drag.begin();
     dragPlaceTurn(1, 300);
@@ -144,7 +146,7 @@ describe('a turn', () => {
     vi.stubGlobal('window', { matchMedia: () => ({ matches: false }) });
     const turn = { camera: FIRST, diameters: DIAMETERS };
     answer = () => (questions.length > 1 ? new Promise(() => undefined) : Promise.resolve(turn));
-    await togglePlaceTurn(engine);
+    await togglePlaceTurn();
     expect([store.camera.value, destination.value]).toEqual([CAMERA, FIRST]);
     const drag = windowBack();
     drag.begin();
@@ -162,7 +164,7 @@ describe('a turn', () => {
     ['no study', () => (store.report.value = null)],
     ['a tool', () => (tool.value = 'trace')],
   ])('ends with %s', async (_, change) => {
-    await togglePlaceTurn(engine);
+    await togglePlaceTurn();
     expect(placeTurn.value).not.toBeNull();
     change();
     expect(placeTurn.value).toBeNull();
@@ -171,18 +173,18 @@ describe('a turn', () => {
   test('does not begin if the engine rejects it, and the page says why', async () => {
     const failure = new Failure('measuring', 'radius', 'none', 'one');
     answer = () => Promise.reject(failure);
-    await togglePlaceTurn(engine);
+    await togglePlaceTurn();
     expect(placeTurn.value).toBeNull();
     expect(store.problem.value?.subject).toBe('radius');
   });
 
   test('does not begin on a vessel that is no longer picked, nor without a vessel', async () => {
-    const asked = togglePlaceTurn(engine);
+    const asked = togglePlaceTurn();
     store.report.value = shown(5);
     await asked;
     expect(placeTurn.value).toBeNull();
     store.pickedVessel.value = null;
-    await togglePlaceTurn(engine);
+    await togglePlaceTurn();
     expect(questions).toHaveLength(1);
   });
 });

@@ -1,35 +1,32 @@
 /** Tests of the search for vessels: its seeds, clicks during the search, and the first view of the result. */
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
-import type { EngineClient } from '../src/client/engine';
 import type { Camera, DocumentVessel, Vector } from '../src/core/messages';
 import { findVessels } from '../src/edit/branches';
-import { dropEdits, searches } from '../src/edit/committing';
-import { first } from '../src/edit/drawing';
 import { branchesFromHere } from '../src/edit/performing';
 import { setPoint } from '../src/edit/pointing';
-import { toPick } from '../src/edit/shown';
 import { EMPTY } from '../src/state/document';
+import { first } from '../src/state/drawing';
+import { editQueue } from '../src/state/edit-queue';
 import { begin, document_ } from '../src/state/history';
 import { message } from '../src/state/message';
+import { toPick } from '../src/state/shown';
 import * as store from '../src/state/store';
 import { tool } from '../src/state/tool';
+import { connect } from '../src/worker/engine';
 import { FakeTracing, withLines } from './fake-tracing';
-
-// The real engine needs a worker, which these tests do not have.
-vi.mock('../src/client/shared', () => ({ engine: {} }));
 
 const OPENED: Vector = [0, 0, 0];
 const CHOSEN: Vector = [3, 4, 5];
 const hairAt = (point: Vector) => ({ point, value: null, vessel: null, arcLength: null });
 
 let tracing = new FakeTracing();
-const engine = () => tracing as unknown as EngineClient;
 const kinds = () => tracing.edits.map(({ edit }) => edit.kind);
 
 beforeEach(() => {
   vi.stubGlobal('window', Object.assign(globalThis, { matchMedia: () => ({ matches: true }) }));
   tracing = new FakeTracing();
-  dropEdits();
+  connect(tracing);
+  editQueue.drop();
   begin(EMPTY);
   store.firstPlace.value = OPENED;
   store.crossHair.value = hairAt(OPENED);
@@ -44,20 +41,20 @@ afterEach(() => {
 });
 
 test('if the user has not placed the cross-hair, a click chooses where a tree begins', async () => {
-  branchesFromHere(engine());
+  branchesFromHere();
   expect([tool.value, kinds()]).toEqual(['seed', []]);
-  await setPoint(tracing, CHOSEN);
+  await setPoint(CHOSEN);
   expect(tracing.edits[0]?.edit).toEqual({ kind: 'add_branches', seed: CHOSEN });
   expect(tool.value).toBe('look');
   store.crossHair.value = hairAt(CHOSEN);
-  branchesFromHere(engine());
+  branchesFromHere();
   await vi.waitFor(() => expect(kinds()).toEqual(['add_branches', 'add_branches']));
   expect(tool.value, 'the cross-hair stands where the reader put it').toBe('look');
 });
 
 test('a second press of the key cancels the choice of a seed', () => {
-  branchesFromHere(engine());
-  branchesFromHere(engine());
+  branchesFromHere();
+  branchesFromHere();
   expect([tool.value, kinds()]).toEqual(['look', []]);
 });
 
@@ -66,16 +63,16 @@ test('clicks during a search for vessels set no points, and the page says so', a
   tracing.gate = new Promise((resolve) => {
     open = resolve;
   });
-  const finding = findVessels(tracing);
-  await vi.waitFor(() => expect(searches.value).toBe(1));
+  const finding = findVessels();
+  await vi.waitFor(() => expect(editQueue.isSearching).toBe(true));
   tool.value = 'trace';
-  await setPoint(tracing, CHOSEN);
+  await setPoint(CHOSEN);
   expect(first.value).toBeNull();
   expect(message.value).toContain('No point was set');
   open();
   await finding;
-  expect(searches.value).toBe(0);
-  await setPoint(tracing, CHOSEN);
+  expect(editQueue.isSearching).toBe(false);
+  await setPoint(CHOSEN);
   expect(first.value).toEqual(CHOSEN);
 });
 
@@ -83,7 +80,7 @@ test('of the first vessels found, the widest is picked and shown best; later sea
   const camera = { size: [10, 10], center: [0, 0, 0] } as unknown as Camera;
   const best = { ...camera, center: [7, 7, 7] } as unknown as Camera;
   const asked: unknown[] = [];
-  const found = Object.assign(tracing, {
+  Object.assign(tracing, {
     edit: async () => ({
       edited: {
         document: withLines({ ...document_.value }, 20, 21, 22),
@@ -110,10 +107,10 @@ test('of the first vessels found, the widest is picked and shown best; later sea
     },
   });
   store.camera.value = camera;
-  await findVessels(found);
+  await findVessels();
   expect(asked).toEqual([21]);
   expect(toPick.value).toBe((document_.value.vessels[1] as DocumentVessel).id);
   expect(store.camera.value?.center).toEqual([7, 7, 7]);
-  await findVessels(found);
+  await findVessels();
   expect(asked, 'there were vessels before').toEqual([21]);
 });

@@ -1,11 +1,9 @@
 /** Position of the buttons at the section, and font sizes of key images. */
-import { expect, test, vi } from 'vitest';
+import { expect, test } from 'vitest';
 import { leftOf } from '../src/measure/SectionTools';
 import { fittingSize } from '../src/output/wrapping';
 
 // The page's engine needs a worker, which tests lack.
-vi.mock('../src/client/shared', () => ({ engine: {} }));
-
 test('the bar stands over its column and never runs off an edge', () => {
   expect(leftOf(500, 400, 1000)).toBe(300);
   expect(leftOf(990, 400, 1000)).toBe(596);

@@ -1,8 +1,8 @@
 /** A document stays the same when it is saved as a session and opened again. */
 import { describe, expect, test } from 'vitest';
 import type { Report } from '../src/core/messages';
-import { cameraOf, contentOf, type DisplayState, documentOf } from '../src/session/content';
 import { type Document, NO_MARKS } from '../src/state/document';
+import { cameraOf, contentOf, type DisplayState, documentOf } from '../src/study/session-content';
 
 const GRID = [
   [0.5, 0, 0, -10],

@@ -1,12 +1,13 @@
 import { afterEach, beforeEach, describe, expect, test } from 'vitest';
 import type { Pair, Report } from '../src/core/messages';
-import { contents, followLines, forgetLines, lengthOf } from '../src/edit/lines';
-import { beginStudy, followDocument, listedLines, pickedId, successor, tree } from '../src/edit/shown';
 import { hide, remove } from '../src/edit/vessels';
 import { changed } from '../src/state/changes';
 import { change, document_, redo, undo } from '../src/state/history';
+import { contents, followLines, forgetLines, lengthOf } from '../src/state/lines';
+import { beginStudy, followDocument, listedLines, pickedId, successor, tree } from '../src/state/shown';
 import * as store from '../src/state/store';
 import { active } from '../src/state/tool';
+import { connect } from '../src/worker/engine';
 import { documentOf, FakeTracing, reportOf, withLines } from './fake-tracing';
 
 let tracing: FakeTracing;
@@ -25,7 +26,8 @@ function open(...lines: number[]): void {
 
 beforeEach(() => {
   tracing = new FakeTracing();
-  end = followDocument(tracing);
+  connect(tracing);
+  end = followDocument();
   store.pickedPlace.value = 0;
 });
 
@@ -156,7 +158,7 @@ describe('the picked vessel', () => {
     open(1, 2, 3);
     store.pickedVessel.value = 2;
     store.pickedPlace.value = 7;
-    await remove(tracing, [1]);
+    await remove([1]);
     await idle();
     expect(store.pickedVessel.value).toBe(1);
     expect(pickedId()).toBe(3);
@@ -175,7 +177,7 @@ describe('the picked vessel', () => {
   test('is none if all are deleted, and the cross-hair lies on none', async () => {
     open(1);
     store.crossHair.value = { point: [1, 2, 3], value: 4, vessel: 0, arcLength: 5 };
-    await remove(tracing, [1]);
+    await remove([1]);
     await idle();
     expect(store.pickedVessel.value).toBeNull();
     expect(store.crossHair.value).toMatchObject({ point: [1, 2, 3], vessel: null, arcLength: null });
@@ -202,7 +204,7 @@ test('the content of a line is requested once, and contains its length', async (
     confidence: null,
     bridged: null,
   });
-  const stop = followLines(tracing);
+  const stop = followLines();
   open(line);
   await idle();
   expect(lengthOf(line)).toBe(7);

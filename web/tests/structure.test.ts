@@ -5,6 +5,8 @@ import { describe, expect, test } from 'vitest';
 
 const SRC = join(import.meta.dirname, '../src');
 const LONGEST = 300;
+/** Each room imports only from the rooms before it. */
+const ROOMS = 'core input notebook io worker state pane edit measure study output views ui'.split(' ');
 /** Generated files may be longer than the limit. */
 const GENERATED = 'core/generated/';
 
@@ -18,9 +20,6 @@ function imported(name: string): string[] {
   const paths = found.map((path) => normalize(join(dirname(name), path)));
   return paths.flatMap((path) => files.filter((file) => [path, `${path}.ts`, `${path}.tsx`].includes(file)));
 }
-
-/** Folder of a file below src; for a file directly in src, such as `main.tsx`, its own name. */
-const folderOf = (name: string): string => name.split(/[/\\]/).slice(0, -1)[0] ?? name;
 
 function circle(graph: ReadonlyMap<string, readonly string[]>): string[] {
   const done = new Set<string>();
@@ -43,6 +42,48 @@ function circle(graph: ReadonlyMap<string, readonly string[]>): string[] {
   return [...graph.keys()].map((name) => walk(name, [])).find((found) => found.length > 0) ?? [];
 }
 
+const textOf = (name: string): string => readFileSync(join(SRC, name), 'utf8');
+
+const signalsIn = (text: string): string[] =>
+  [...text.matchAll(/^export const (\w+)\b[^=]*= signal\b/gm)].map((match) => match[1] ?? '');
+
+/** Writes to any of the signals, such as `camera.value = to`. */
+const writesIn = (text: string, signals: readonly string[]): string[] =>
+  [...text.matchAll(/\b(\w+)\.value\s*(?:[-+*]|\?\?|\|\||&&)?=(?!=)/g)]
+    .map((match) => match[1] ?? '')
+    .filter((name) => signals.includes(name));
+
+describe('the state of the page', () => {
+  const inState = files.filter((name) => name.startsWith('state/'));
+  const elsewhere = files.filter((name) => !name.startsWith('state/'));
+  const signals = inState.flatMap((name) => signalsIn(textOf(name)));
+
+  test('has signals with one name each', () => {
+    expect(signals.length).toBeGreaterThan(50);
+    expect([...new Set(signals)]).toEqual(signals);
+  });
+
+  test('is kept in the room `state` alone', () => {
+    const makes = /import \{[^}]*\bsignal\b[^}]*\} from '@preact\/signals'/;
+    expect(elsewhere.filter((name) => makes.test(textOf(name)))).toEqual([]);
+    expect(inState.some((name) => makes.test(textOf(name)))).toBe(true);
+  });
+
+  test('is changed by its own actions alone', () => {
+    const writes = elsewhere.flatMap((name) =>
+      writesIn(textOf(name), signals).map((one) => `${name}: ${one}`),
+    );
+    expect(writes).toEqual([]);
+  });
+
+  test('is seen where it is written', () => {
+    const text =
+      'tool.value = x; store.camera.value ??= y; resets.value += 1; tool.value === z; box.value = 1;';
+    expect(writesIn(text, ['tool', 'camera', 'resets'])).toEqual(['tool', 'camera', 'resets']);
+    expect(writesIn(inState.map(textOf).join('\n'), signals).length).toBeGreaterThan(50);
+  });
+});
+
 describe('the files of the page', () => {
   test('are found', () => expect(files.length).toBeGreaterThan(20));
 
@@ -54,18 +95,16 @@ describe('the files of the page', () => {
     expect(circle(new Map(files.map((name) => [name, imported(name)])))).toEqual([]);
   });
 
-  test('lie in folders that do not import each other in a cycle', () => {
-    const folders = [...new Set(files.map(folderOf))];
-    const needed = (folder: string) =>
-      files
-        .filter((name) => folderOf(name) === folder)
-        .flatMap(imported)
-        .map(folderOf);
-    const graph = new Map(
-      folders.map((folder) => [folder, needed(folder).filter((other) => other !== folder)]),
+  test('lie in rooms that import only from the rooms before them', () => {
+    const inRooms = files.filter((name) => name !== 'main.tsx');
+    const placeOf = (name: string) => ROOMS.indexOf(name.split(/[/\\]/)[0] ?? '');
+    expect(inRooms.filter((name) => placeOf(name) < 0)).toEqual([]);
+    const backwards = inRooms.flatMap((name) =>
+      imported(name)
+        .filter((other) => placeOf(other) > placeOf(name))
+        .map((other) => `${name} imports ${other}`),
     );
-    expect(folders.length).toBeGreaterThan(10);
-    expect(circle(graph)).toEqual([]);
+    expect(backwards).toEqual([]);
   });
 
   test('a cycle would be detected', () => {
@@ -75,6 +114,13 @@ describe('the files of the page', () => {
       ['c', ['a']],
     ]);
     expect(circle(graph)).toEqual(['a', 'b', 'c', 'a']);
+  });
+
+  test('import the engine of the page instead of taking it as a parameter', () => {
+    const isTaken = /\bengine\??: (Engine|EngineClient|Asked)\b[^;]*?[,)]/;
+    const above = files.filter((name) => !/^(core|io|worker)\b/.test(name));
+    expect(above.filter((name) => isTaken.test(readFileSync(join(SRC, name), 'utf8')))).toEqual([]);
+    expect(isTaken.test('show(engine: Asked)')).toBe(true);
   });
 
   test('import WebAssembly in only one file', () => {

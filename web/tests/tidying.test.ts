@@ -2,20 +2,27 @@
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
 import type { Asked } from '../src/core/asked';
 import type { DocumentVessel, EditRequest, LineFacts, Started } from '../src/core/messages';
-import { dropEdits } from '../src/edit/committing';
 import { answerDoubt, countedDoubts, placeOfDoubt, reasonOf, showDoubt, stepDoubt } from '../src/edit/doubts';
-import { isListOpen } from '../src/edit/list-open';
-import { chosenDoubt } from '../src/edit/mode';
-import { tree } from '../src/edit/shown';
-import { followFacts, keepPart, marked, reachOf, removeMarked, unconnected } from '../src/edit/tidying';
 import { isTreeShown, listedVessels } from '../src/edit/vessel-order';
+import { keepPart, removeMarked } from '../src/edit/vessels';
 import { EMPTY } from '../src/state/document';
+import { editQueue } from '../src/state/edit-queue';
 import { begin, document_, undo } from '../src/state/history';
+import { isListOpen } from '../src/state/panels';
+import { tree } from '../src/state/shown';
 import { pickedVessel, started } from '../src/state/store';
-import { markNone, shorterThan, thinnerThan, treeChosen } from '../src/state/tidy';
-
-// The real engine needs a worker, which these tests do not have.
-vi.mock('../src/client/shared', () => ({ engine: {} }));
+import {
+  followFacts,
+  marked,
+  markNone,
+  reachOf,
+  shorterThan,
+  thinnerThan,
+  treeChosen,
+  unconnected,
+} from '../src/state/tidying';
+import { chosenDoubt } from '../src/state/tool';
+import { connect } from '../src/worker/engine';
 
 const vessel = (id: number, doubt: string | null = null): DocumentVessel => ({
   id,
@@ -73,16 +80,17 @@ const engine = {
         );
   },
 } as unknown as Asked;
+connect(engine);
 
 const ids = () => document_.value.vessels.map((one) => one.id);
 let end = () => {};
 
 beforeEach(async () => {
-  dropEdits();
+  editQueue.drop();
   begin({ ...EMPTY, vessels: [...SURE, ...DOUBTFUL] });
   tree.value = SURE;
   isListOpen.value = true;
-  end = followFacts(engine);
+  end = followFacts();
   await vi.waitFor(() => expect(unconnected.value.length).toBe(0));
   await Promise.resolve();
 });
@@ -109,7 +117,7 @@ test('short and thin vessels are marked while the limits change, and are removed
   thinnerThan.value = 0;
   expect([...marked.value]).toEqual([5]);
   thinnerThan.value = 2;
-  expect(await removeMarked(engine)).toBe(true);
+  expect(await removeMarked()).toBe(true);
   expect(ids()).toEqual([1, 2, 6, 7, 8]);
   expect([shorterThan.value, thinnerThan.value]).toEqual([0, 0]);
   undo();
@@ -131,7 +139,7 @@ test('only vessels connected to the picked one are kept; doubtful branches stay 
   expect(unconnected.value).toEqual([1, 2, 3, 5]);
   pickedVessel.value = 1;
   expect(unconnected.value).toEqual([4, 5]);
-  await keepPart(engine);
+  await keepPart();
   expect(ids()).toEqual([1, 2, 3, 6, 7, 8]);
 });
 
@@ -173,7 +181,7 @@ test('doubtful branches are counted by their short reasons, the most frequent fi
 test('doubtful branches are shown in turn, and after the last comes the first', async () => {
   expect(placeOfDoubt()).toEqual([-1, 3]);
   const seen = [1, 1, 1, 1, -1, -1].map((by) => {
-    stepDoubt(engine, by as 1 | -1);
+    stepDoubt(by as 1 | -1);
     return chosenDoubt.value;
   });
   expect(seen).toEqual([6, 7, 8, 6, 8, 7]);
@@ -181,16 +189,16 @@ test('doubtful branches are shown in turn, and after the last comes the first', 
 });
 
 test('after each answer the next doubtful branch is shown, after the last one none', async () => {
-  await showDoubt(engine, DOUBTFUL[1] as DocumentVessel);
-  await answerDoubt(engine, 'accept');
+  await showDoubt(DOUBTFUL[1] as DocumentVessel);
+  await answerDoubt('accept');
   expect(chosenDoubt.value).toBe(8);
-  await answerDoubt(engine, 'leave out');
+  await answerDoubt('leave out');
   expect(chosenDoubt.value, 'after the last comes the first').toBe(6);
-  await answerDoubt(engine, 'leave out');
+  await answerDoubt('leave out');
   expect(chosenDoubt.value).toBeNull();
   expect(document_.value.vessels.map(({ id, doubt }) => [id, doubt])).toEqual(
     [1, 2, 3, 4, 5, 7].map((id) => [id, null]),
   );
-  await answerDoubt(engine, 'accept');
+  await answerDoubt('accept');
   expect(ids()).toEqual([1, 2, 3, 4, 5, 7]);
 });

@@ -1,7 +1,7 @@
 import { expect, test } from 'vitest';
 import type { DocumentVessel, Told } from '../src/core/messages';
-import { storeSummary, tracedSummary } from '../src/edit/traced-summary';
 import { EMPTY } from '../src/state/document';
+import { storeSummary, tracedSummary } from '../src/state/drawing';
 import { begin, change, undo } from '../src/state/history';
 
 const VESSEL: DocumentVessel = {

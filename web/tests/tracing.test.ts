@@ -1,6 +1,6 @@
 import { expect, test } from 'vitest';
 import type { Vector } from '../src/core/messages';
-import { nextColor, PALETTE } from '../src/state/palette';
+import { nextColor, PALETTE } from '../src/state/changes';
 import { distance, EMPTY, edited, lineOf, opened, refusal } from './traced';
 
 test('a line between two clicks follows the vessel there', async () => {

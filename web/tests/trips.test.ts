@@ -1,23 +1,19 @@
 /** A click while tracing needs only one request to the worker. */
-import { afterEach, beforeEach, expect, test, vi } from 'vitest';
+import { afterEach, beforeEach, expect, test } from 'vitest';
 import type { Vector } from '../src/core/messages';
-import { answered, dropEdits } from '../src/edit/committing';
-import { followPointer } from '../src/edit/drawing';
-import { contents, followLines, forgetLines } from '../src/edit/lines';
-import { isListOpen } from '../src/edit/list-open';
-import { endVessel, setPoint } from '../src/edit/pointing';
-import { beginStudy, followDocument, pickedId, tree } from '../src/edit/shown';
-import { factsOf, followFacts } from '../src/edit/tidying';
+import { endVessel, setPoint, takeWhole } from '../src/edit/pointing';
+import { followPointer, followWhole } from '../src/edit/previews';
 import { hide } from '../src/edit/vessels';
-import { takeWhole } from '../src/edit/whole';
-import { followWhole } from '../src/edit/whole-shown';
+import { answered, editQueue } from '../src/state/edit-queue';
 import { document_, undo } from '../src/state/history';
+import { contents, followLines, forgetLines } from '../src/state/lines';
+import { isListOpen } from '../src/state/panels';
+import { beginStudy, followDocument, pickedId, tree } from '../src/state/shown';
 import * as store from '../src/state/store';
+import { factsOf, followFacts } from '../src/state/tidying';
 import { tool } from '../src/state/tool';
+import { connect } from '../src/worker/engine';
 import { documentOf, FakeTracing, reportOf } from './fake-tracing';
-
-// The real engine needs a worker, which these tests do not have.
-vi.mock('../src/client/shared', () => ({ engine: {} }));
 
 const [A, B, C]: Vector[] = [
   [0, 0, 0],
@@ -37,6 +33,7 @@ async function trips(): Promise<readonly string[]> {
 
 beforeEach(() => {
   tracing = new FakeTracing();
+  connect(tracing);
   forgetLines();
   store.report.value = reportOf([]);
   store.pickedVessel.value = null;
@@ -45,7 +42,7 @@ beforeEach(() => {
   tool.value = 'trace';
   endVessel();
   const followers = [followDocument, followLines, followFacts, followPointer, followWhole];
-  ends = followers.map((follow) => follow(tracing));
+  ends = followers.map((follow) => follow());
 });
 
 afterEach(() => {
@@ -59,10 +56,10 @@ afterEach(() => {
 });
 
 test('each click takes one request, whose answer contains all that the page shows', async () => {
-  expect((await setPoint(tracing, A as Vector))?.value).toBe(300);
+  expect((await setPoint(A as Vector))?.value).toBe(300);
   expect(await trips()).toEqual(['first_click']);
   for (const point of [B, C] as Vector[]) {
-    await setPoint(tracing, point);
+    await setPoint(point);
     expect(await trips()).toEqual(['edit']);
     const [vessel] = document_.value.vessels;
     expect(tree.value).toEqual(document_.value.vessels);
@@ -74,14 +71,14 @@ test('each click takes one request, whose answer contains all that the page show
 });
 
 test('the answer to a first click contains the whole vessel, which is picked once it is added', async () => {
-  await setPoint(tracing, A as Vector);
-  takeWhole(tracing);
+  await setPoint(A as Vector);
+  takeWhole();
   expect(await trips()).toEqual(['first_click', 'edit']);
 });
 
 test('undo and changes by the page itself are displayed by a separate request', async () => {
-  await setPoint(tracing, A as Vector);
-  await setPoint(tracing, B as Vector);
+  await setPoint(A as Vector);
+  await setPoint(B as Vector);
   await trips();
   await hide(document_.value.vessels[0]?.id ?? -1, true);
   expect(await trips()).toEqual(['show']);
@@ -93,14 +90,14 @@ test('undo and changes by the page itself are displayed by a separate request', 
 });
 
 test('after an edit that was dropped while the engine worked, the document is displayed again', async () => {
-  await setPoint(tracing, A as Vector);
+  await setPoint(A as Vector);
   let open = () => {};
   tracing.gate = new Promise((resolve) => {
     open = resolve;
   });
-  const setting = setPoint(tracing, B as Vector);
+  const setting = setPoint(B as Vector);
   await idle();
-  dropEdits();
+  editQueue.drop();
   open();
   await setting;
   expect(await trips()).toEqual(['first_click', 'edit', 'show', 'whole_vessel']);

@@ -2,7 +2,6 @@
 //! every pixel, `look` shows the volume there. A reformation finds the positions in another way and then also uses
 //! `look`.
 
-mod clock;
 mod details;
 mod images;
 mod pass;
@@ -11,15 +10,15 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use rayon::prelude::*;
+use web_time::Instant;
 
-use self::clock::Clock;
 pub use self::details::SurfaceDetails;
 pub use self::images::Images;
 use self::pass::Lines;
 pub use self::pass::{CutSurfacePass, LookPass};
 use crate::camera::Camera;
 use crate::error::{Error, ErrorKind, Result};
-use crate::frame::{Frame, clear_outside};
+use crate::frame::{Frame, Timing, clear_outside};
 use crate::geometry::Geometry;
 use crate::math::chosen_slots::chosen_slots;
 use crate::math::lanes::Isa;
@@ -251,4 +250,23 @@ pub fn picture(value: &[f32], size: [usize; 2], (settings, stop): (&Settings, St
 pub fn nothing_to_show() -> Error {
     let found = "neither a volume nor vessels";
     Error::new(ErrorKind::Volume, "scene of the renderer", found, "one of them or both")
+}
+
+/// Measures the stages one after the other.
+struct Clock {
+    last: Instant,
+    timings: Vec<Timing>,
+}
+
+impl Clock {
+    fn start() -> Self {
+        Self { last: Instant::now(), timings: Vec::new() }
+    }
+
+    fn lap(&mut self, stage: Stage) {
+        let now = Instant::now();
+        let milliseconds = (now - self.last).as_secs_f64() * 1e3;
+        self.timings.push(Timing { stage: stage.name(), milliseconds });
+        self.last = now;
+    }
 }

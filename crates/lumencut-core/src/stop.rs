@@ -17,7 +17,7 @@ pub fn go_on(stop: Stop) -> Result<()> {
 }
 
 /// Resizes a list and polls `stop`: the first touch of the memory of a large image takes seconds.
-pub fn resize<T: Clone>(list: &mut Vec<T>, count: usize, value: T, stop: Stop) -> Result<()> {
+pub(crate) fn resize<T: Clone>(list: &mut Vec<T>, count: usize, value: T, stop: Stop) -> Result<()> {
     list.truncate(count);
     list.reserve_exact(count - list.len());
     while list.len() < count {

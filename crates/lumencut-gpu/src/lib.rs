@@ -22,9 +22,8 @@ mod recording;
 pub mod renderer;
 #[cfg(target_arch = "wasm32")]
 pub mod screen;
-pub mod shader;
 mod silhouette;
-mod stage;
+pub mod stage;
 pub mod stages;
 mod surface;
 #[cfg(all(test, not(target_arch = "wasm32")))]

@@ -60,6 +60,6 @@ impl Stages {
 
 /// The stages that the CPU can compute instead of the GPU, to find the cause of a difference: all that write
 /// images. In a browser it computes none, so that a page need not load the CPU's kernels.
-pub fn on_either() -> impl Iterator<Item = Stage> {
+pub(crate) fn on_either() -> impl Iterator<Item = Stage> {
     Stage::ALL.into_iter().filter(|stage| !stage.writes().is_empty())
 }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use lumencut_core::shaders::SHADERS;
-use lumencut_gpu::shader::assemble;
+use lumencut_gpu::stage::assemble;
 use naga::valid::{Capabilities, ModuleInfo, ValidationFlags, Validator};
 use naga::{AddressSpace, GlobalVariable, Handle, Module};
 

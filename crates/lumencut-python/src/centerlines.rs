@@ -1,14 +1,14 @@
-//! Reads centerline files for `lumencut.files.centerlines`.
+//! Reads centerline files for `lumencut.files.centerlines`, and session files for `lumencut.viewer.session_file`.
 
-use lumencut::centerlines::{Centerlines, Error, Line, Space, Unit, junctions};
-use lumencut::line_doubts::{DoubtedLine, LineDoubt, beside_doubts_of, order_doubts_of};
-use lumencut::mends::Mend;
-use lumencut::reordering::{in_order, parted_doubt};
-use numpy::{PyArray1, PyArray2, ndarray::Array2};
 use pyo3::prelude::*;
 
 use crate::errors::{advised, mended};
 use crate::tree::{VesselArrays, points_of};
+use lumencut::centerlines::{Centerlines, Error, Line, Space, Unit, junctions, session_file};
+use lumencut::line_doubts::{DoubtedLine, LineDoubt, beside_doubts_of, order_doubts_of};
+use lumencut::mends::Mend;
+use lumencut::reordering::{in_order, parted_doubt};
+use numpy::{PyArray1, PyArray2, ndarray::Array2};
 
 type Vessel<'py> = (Bound<'py, PyArray2<f64>>, Option<Bound<'py, PyArray1<f64>>>, Option<String>);
 
@@ -120,4 +120,16 @@ fn vessel(py: Python<'_>, line: Line) -> Vessel<'_> {
     let points = Array2::from_shape_fn((line.points.len(), 3), |(i, axis)| line.points[i][axis]);
     let radius = line.radius.map(|radius| PyArray1::from_vec(py, radius));
     (PyArray2::from_owned_array(py, points), radius, line.name)
+}
+
+#[pyfunction]
+pub(crate) fn is_session_file(py: Python<'_>, content: &[u8]) -> bool {
+    py.detach(|| session_file::is_session(content))
+}
+
+/// Checks the session file `name` and returns its content, without the lines, as JSON.
+#[pyfunction]
+pub(crate) fn read_session_file(py: Python<'_>, content: &[u8], name: &str) -> PyResult<String> {
+    let file = py.detach(|| session_file::read_session(content, name)).map_err(raised)?;
+    file.session.json().map_err(raised)
 }

@@ -4,7 +4,7 @@ use std::slice;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use lumencut::kept_profiles::{KeptProfiles as Core, MeasureParameters, Scan};
-use lumencut::measure::with_progress::with_progress as counted;
+use lumencut::measure::profile::request::with_progress as counted;
 use lumencut::vessel_tree::Vessel;
 use pyo3::prelude::*;
 
@@ -12,8 +12,8 @@ use crate::errors::to_python;
 use crate::measuring::Profile;
 use crate::pool;
 use crate::tree::{VesselArrays, vessel as vessel_of};
+use crate::tree_findings::wall_request;
 use crate::volume::VolumeArgument;
-use crate::wall_request::wall_request;
 use crate::watching::reporting;
 
 /// A cache of the profiles of one volume and its vessel tree.

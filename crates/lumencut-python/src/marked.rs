@@ -1,6 +1,6 @@
 //! A reader's marks on a vessel, and the results at the marked places.
 
-use lumencut::measure::groups::Territory;
+use lumencut::measure::stenosis::groups::Territory;
 use lumencut::measure::stenosis::{Compared, Method};
 use lumencut::named::Named;
 use lumencut::profile_marks::{self, Marked};

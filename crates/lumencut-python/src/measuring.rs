@@ -5,16 +5,16 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use lumencut::flag_table::{FLAGS, FlagLook};
-use lumencut::measure::cross_section::{CrossSection, section_place};
-use lumencut::measure::groups::Territory;
-use lumencut::measure::measuring;
-use lumencut::measure::parts::Part;
 use lumencut::measure::profile;
-use lumencut::measure::radii;
-use lumencut::measure::request::MeasureRequest;
+use lumencut::measure::profile::cross_section::{CrossSection, section_place};
+use lumencut::measure::profile::measuring;
+use lumencut::measure::profile::radii;
+use lumencut::measure::profile::request::MeasureRequest;
+use lumencut::measure::profile::request::with_progress as counted;
+use lumencut::measure::stenosis::groups::Territory;
+use lumencut::measure::stenosis::suggestions::Spot;
 use lumencut::measure::stenosis::{self, Compared, Method};
-use lumencut::measure::suggestions::Spot;
-use lumencut::measure::with_progress::with_progress as counted;
+use lumencut::measure::uncertainty::Part;
 use lumencut::measure_words;
 use lumencut::named::Named;
 use lumencut::scan_details::ScanDetails;
@@ -27,8 +27,8 @@ use crate::errors::to_python;
 use crate::pool;
 use crate::tree::{VesselArrays, vessel as vessel_of};
 use crate::tree_findings::TreeFindings;
+use crate::tree_findings::wall_request;
 use crate::volume::VolumeArgument;
-use crate::wall_request::wall_request;
 use crate::watching::reporting;
 
 /// Adds to the module: flags (name, bit, word, meaning, colours on paper and screen) and methods with labels.

@@ -1,6 +1,6 @@
 //! Profiles as words, tables and JSON, and the places on them that readers should review.
 
-use lumencut::measure::stretch::CArm;
+use lumencut::measure::profile::stretch::CArm;
 use lumencut::measure_words;
 use lumencut::profile_json::{self as for_programs, Asked, NOTICE};
 use lumencut::profile_marks::{Mark, Measured, marks};

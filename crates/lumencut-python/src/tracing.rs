@@ -4,8 +4,8 @@ use std::sync::{Mutex, PoisonError};
 
 use glam::DVec3;
 use lumencut::progress::Progress;
+use lumencut::trace::clicks::Traced;
 use lumencut::trace::clicks::checks::Clicks;
-use lumencut::trace::clicks::traced::Traced;
 use lumencut::trace::clicks::tracer::Tracer as Core;
 use lumencut::trace::ways::region::Stopper;
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};

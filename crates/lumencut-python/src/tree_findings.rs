@@ -1,18 +1,18 @@
 //! Computes the tree-wide estimates of a measurement once.
 
-use lumencut::measure::measuring;
-use lumencut::measure::request::MeasureRequest;
 use pyo3::prelude::*;
 
 use crate::errors::to_python;
 use crate::pool;
 use crate::tree::{VesselArrays, vessel as vessel_of};
 use crate::volume::VolumeArgument;
-use crate::wall_request::wall_request;
 use crate::watching::interruptible;
+use lumencut::measure::profile::measuring;
+use lumencut::measure::profile::request::MeasureRequest;
+use lumencut::measure::wall::WallRequest;
 
 #[pyclass(frozen, module = "lumencut._lumencut")]
-pub(crate) struct TreeFindings(pub lumencut::measure::tree_findings::TreeFindings);
+pub(crate) struct TreeFindings(pub lumencut::measure::profile::TreeFindings);
 
 #[pyfunction]
 #[pyo3(signature = (volume, tree, step, fwhm=None, wall=None))]
@@ -33,4 +33,13 @@ pub(crate) fn tree_findings<'py>(
         pool::install(|| measuring::tree_findings(&volume, &request))?.map_err(to_python)
     })
     .map(TreeFindings)
+}
+
+/// Converts a wall level and its standard deviation; a standard deviation of 0 means that no walls are separated.
+pub(crate) fn wall_request(wall: Option<[f64; 2]>) -> WallRequest {
+    match wall {
+        None => WallRequest::Automatic,
+        Some([_, 0.0]) => WallRequest::Off,
+        Some(level) => WallRequest::Level(level),
+    }
 }

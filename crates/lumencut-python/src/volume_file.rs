@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use lumencut_volumes::{
     Affine, Error, ErrorKind, Fill, Found, Kind, Known, Need, Packer, Plan, Step, Stop, Window, Written,
-    open, stated_units,
+    grid_fault, open, stated_units,
 };
 use numpy::{PyArray1, PyArrayMethods};
 use pyo3::exceptions::PyValueError;
@@ -13,7 +13,7 @@ use pyo3::types::PyBytes;
 
 use crate::errors::{exception, overlap};
 
-/// Most bytes of voxels that one call writes, so that Ctrl-C is noticed in time.
+/// Most bytes of voxels that one call writes or checks, so that Ctrl-C is noticed in time.
 const PIECE: usize = 16 << 20;
 
 /// The error as an exception; its file is in the folder of `path`.
@@ -210,12 +210,12 @@ impl VolumeFill {
     }
 }
 
-/// Continues until another part of the file is needed, or [`PIECE`] bytes are written.
+/// Continues until another part of the file is needed, or [`PIECE`] bytes are written or checked.
 fn steps(fill: &mut Fill, window: Window<'_>, output: &mut [u8]) -> Result<(usize, Step), Box<Error>> {
-    let mut written = 0;
+    let (mut written, mut checked) = (0, 0);
     loop {
         match fill.step(window, &mut output[written..])? {
-            Step::Checked(_) => {}
+            Step::Checked(count) if checked < PIECE => checked += count,
             Step::Filled(count) if count > 0 && written < PIECE => written += count,
             Step::Filled(count) => return Ok((written + count, Step::Filled(0))),
             step => return Ok((written, step)),
@@ -229,6 +229,13 @@ fn steps(fill: &mut Fill, window: Window<'_>, output: &mut [u8]) -> Result<(usiz
 #[pyo3(signature = (header, /))]
 pub(crate) fn nifti_units(header: &[u8]) -> Option<(f64, bool, bool)> {
     stated_units(header).map(|stated| (stated.millimetres, stated.spacing, stated.orientation))
+}
+
+/// What is wrong with a grid of size (ni, nj, nk) and these affine rows, and what is expected; None for a sound grid.
+#[pyfunction]
+#[pyo3(name = "grid_fault", signature = (size, affine_rows, /))]
+pub(crate) fn fault_of_grid(size: [u64; 3], affine_rows: Affine) -> Option<(String, &'static str)> {
+    grid_fault(size, &affine_rows)
 }
 
 /// The header of a volume in the format `"nifti"`, `"nrrd"` or `"nrrd.gz"`, up to its first voxel.

@@ -5,9 +5,9 @@ use glam::{DAffine3, DVec3};
 use lumencut_core::error::{Error, ErrorKind};
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::{Volume, Voxels};
-use lumencut_vessels::measure::measuring::measure;
-use lumencut_vessels::measure::request::MeasureRequest;
-use lumencut_vessels::measure::wall_level::WallRequest;
+use lumencut_vessels::measure::profile::measuring::measure;
+use lumencut_vessels::measure::profile::request::MeasureRequest;
+use lumencut_vessels::measure::wall::WallRequest;
 use lumencut_vessels::trace::clicks::checks::Clicks;
 use lumencut_vessels::trace::clicks::tracer::Tracer;
 

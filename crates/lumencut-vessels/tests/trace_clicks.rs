@@ -4,13 +4,13 @@
 use glam::{DAffine3, DVec3};
 use lumencut_core::volume::{Volume, Voxels};
 use lumencut_phantom::straight_tube;
+use lumencut_vessels::trace::clicks::Traced;
 use lumencut_vessels::trace::clicks::checks::Clicks;
-use lumencut_vessels::trace::clicks::traced::Traced;
 use lumencut_vessels::trace::clicks::tracer::Tracer;
 use lumencut_vessels::trace::lines::centerline::Centerline;
-use lumencut_vessels::trace::lines::wander::wandering;
 use lumencut_vessels::trace::lumen::surroundings::Surroundings;
-use lumencut_vessels::trace::lumen::wander_removal::without_wander;
+use lumencut_vessels::trace::lumen::wander::wandering;
+use lumencut_vessels::trace::lumen::wander::without_wander;
 use lumencut_vessels::voxels;
 
 fn traced(volume: &Volume, clicks: &[DVec3]) -> lumencut_core::error::Result<Traced> {

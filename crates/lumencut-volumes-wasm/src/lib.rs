@@ -4,7 +4,9 @@
 mod json;
 
 use crate::json::{list, map, object, text};
-use lumencut_volumes::{Error, ErrorKind, Fill, Found, Grid, Known, Need, Plan, Step, Stop, Window, open};
+use lumencut_volumes::{
+    Codec, Error, ErrorKind, Fill, Format, Found, Grid, Known, Need, Place, Plan, Step, Stop, Window, open,
+};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 /// Size of the buffer for voxels (bytes).
@@ -64,10 +66,13 @@ impl VolumeFile {
         self.plan.iter().flat_map(|plan| plan.grid.world_from_index).flatten().collect()
     }
 
-    /// Begins to read voxels from the file that the plan names; `size` in bytes. Fails if `size` is undefined: the
-    /// file is missing.
-    pub fn begin(&mut self, size: Option<f64>) -> Thrown<()> {
-        let plan = self.plan.take().ok_or("no plan")?;
+    /// Begins to read voxels from the file that the plan names; `size` in bytes. With `is_unpacked` from the unpacked
+    /// bytes of the gzip stream in it. Fails if `size` is undefined: the file is missing.
+    pub fn begin(&mut self, size: Option<f64>, is_unpacked: bool) -> Thrown<()> {
+        let mut plan = self.plan.take().ok_or("no plan")?;
+        if is_unpacked {
+            plan.place = Place { codec: Codec::Raw, start: Some(0), lines: 0, ..plan.place };
+        }
         let size = size.ok_or_else(|| thrown(&plan.missing()))?;
         self.fill = Some(Fill::new(plan, size as u64, true));
         Ok(())
@@ -132,7 +137,13 @@ fn need_text(need: &Need) -> String {
 fn plan_text(plan: &Plan) -> String {
     let names = plan.label_names.iter().map(|(value, name)| (value.to_string(), text(name)));
     let Grid { size, states_spacing, states_orientation, .. } = &plan.grid;
+    let is_packed = matches!(plan.place.codec, Codec::Zlib | Codec::Bzip2);
+    // Lines to skip are in the file, so that where the stream begins is not known yet.
+    let start = plan.place.start.filter(|_| plan.place.codec == Codec::Zlib && plan.place.lines == 0);
     object(&[
+        ("nifti", matches!(plan.format, Format::Nifti1 | Format::Nifti2).to_string()),
+        ("packed", is_packed.to_string()),
+        ("stream", start.map_or("null".into(), |start| start.to_string())),
         ("size", list(size)),
         ("spacing", states_spacing.to_string()),
         ("orientation", states_orientation.to_string()),

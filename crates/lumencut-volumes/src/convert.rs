@@ -3,7 +3,6 @@
 use crate::numbers::{Kind, Scaling};
 use crate::plan::Stored;
 
-/// Number of values that are converted at once.
 const BATCH: usize = 1024;
 
 /// Calls `$function::<T>($argument, …)` with the Rust type of a kind.
@@ -76,7 +75,6 @@ macro_rules! numbers {
 
 numbers!(i8, u8, i16, u16, i32, u32, i64, u64, f32, f64);
 
-/// Converts stored numbers to values of one type.
 pub(crate) struct Conversion {
     stored: Stored,
     kind: Kind,
@@ -150,7 +148,6 @@ pub(crate) fn reals(stored: Stored, from: &[u8], to: &mut [f64]) {
     of_kind!(stored.kind, read_real(from, stored.is_big, to));
 }
 
-/// The range, extended to these stored integers.
 pub(crate) fn widened(stored: Stored, from: &[u8], range: (i128, i128)) -> (i128, i128) {
     of_kind!(stored.kind, widened_by(from, stored.is_big, range))
 }

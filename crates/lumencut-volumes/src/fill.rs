@@ -11,14 +11,14 @@ use crate::plan::{Plan, Stored};
 use crate::stream::Codec;
 use pass::{Pass, Piece};
 
-/// Bytes of a file that one step requests.
 const READ: u64 = 1 << 20;
-/// Stored bytes that are converted at once.
 const PIECE: usize = 1 << 18;
 /// A byte of a deflate stream unpacks to at most this many bytes.
 const DEFLATE_LIMIT: u128 = 1032;
 /// Up to this multiple of the compressed size, memory is requested before the stream has proved its length.
 const TRUSTED: u128 = 8;
+/// Unpacked bytes that may follow the voxels: this many, the voxels' own, or what a trusted stream has.
+const BEYOND: u64 = 1 << 30;
 
 /// A part of the file that holds the voxels.
 #[derive(Clone, Copy, Debug, Default)]
@@ -47,7 +47,7 @@ pub enum Step {
         /// Bytes of the voxels in the smallest type that they may have.
         least: u64,
     },
-    /// This many stored bytes were examined before any voxel is written.
+    /// This many stored bytes were examined, before any voxel is written or after the last one.
     Checked(usize),
     /// The next steps write the voxels; the host provides memory.
     Room {
@@ -80,10 +80,8 @@ pub struct Fill {
     in_engine: bool,
     size: u64,
     at: u64,
-    /// Start of the bytes that were requested last.
     asked: Option<u64>,
     phase: Phase,
-    /// Stored numbers that are not yet converted.
     buffer: Vec<u8>,
     held: usize,
 }
@@ -158,8 +156,9 @@ impl Fill {
 
     fn after(&mut self, piece: Piece, step: fn(usize) -> Step) -> Turn {
         match piece {
-            Piece::Bytes(0) => Turn::Again,
+            Piece::Bytes(0) | Piece::Beyond(0) => Turn::Again,
             Piece::Bytes(count) => Turn::Step(step(count)),
+            Piece::Beyond(count) => Turn::Step(Step::Checked(count)),
             Piece::Hungry => Turn::Hungry,
             Piece::Full => Turn::Step(step(0)),
             Piece::End => {
@@ -169,7 +168,6 @@ impl Fill {
         }
     }
 
-    /// Rejects a volume for which the file is too short.
     fn check_lengths(&mut self) -> Result<Turn, Box<Error>> {
         let (place, needed) = (&self.plan.place, self.plan.stored_bytes());
         let (name, skip) = (place.name.as_str(), u128::from(place.skip));
@@ -197,6 +195,7 @@ impl Fill {
             }
             (Codec::Zlib | Codec::Bzip2, _) => {}
         }
+        self.plan.grid.check(&self.plan.name, self.plan.grid.size)?;
         self.phase = self.first_pass(held);
         let kind = self.plan.settled(self.in_engine);
         let smallest = if self.in_engine { 1 } else { self.plan.stored.kind.bytes() };
@@ -222,7 +221,10 @@ impl Fill {
     }
 
     fn pass(&self) -> Pass {
-        Pass::new(&self.plan, self.at, self.plan.stored_bytes(), self.numbers())
+        let needed = self.plan.stored_bytes();
+        let trusted = TRUSTED * u128::from(self.size.saturating_sub(self.at));
+        let beyond = saturated(needed.max(trusted)).max(BEYOND);
+        Pass::new(&self.plan, self.at, needed, self.numbers(), beyond)
     }
 
     /// How numbers are stored when a pass returns them: those of a text are in this machine's byte order.
@@ -232,7 +234,6 @@ impl Fill {
         Stored { is_big, ..self.plan.stored }
     }
 
-    /// Examines stored bytes without writing voxels.
     fn look(&mut self, input: &[u8]) -> Result<Turn, Box<Error>> {
         self.buffer.resize(PIECE, 0);
         let stored = self.stored();
@@ -240,8 +241,8 @@ impl Fill {
         let start = pass.start;
         let piece = pass.take(&mut self.at, self.size, input, &mut self.buffer[self.held..])?;
         let Piece::Bytes(count) = piece else {
-            if piece == Piece::Hungry {
-                return Ok(Turn::Hungry);
+            if matches!(piece, Piece::Hungry | Piece::Beyond(_)) {
+                return Ok(self.after(piece, Step::Checked));
             }
             let kind = match &self.phase {
                 Phase::Range(_, range) => {
@@ -316,7 +317,7 @@ impl Fill {
         let piece = pass.take(&mut self.at, self.size, input, &mut self.buffer[self.held..])?;
         match piece {
             Piece::Bytes(count) => self.held += count,
-            Piece::Hungry => return Ok(Turn::Hungry),
+            Piece::Hungry | Piece::Beyond(_) => return Ok(self.after(piece, Step::Filled)),
             Piece::Full => return Ok(Turn::Step(Step::Filled(0))),
             Piece::End => {
                 map.refuse_overlaps(&self.plan.name)?;

@@ -66,7 +66,6 @@ impl Known {
         self.file(name).map(|file| file.found).ok_or_else(unknown)
     }
 
-    /// The first of these files that exists.
     pub(crate) fn first_found(&self, names: &[String]) -> Opening<Option<String>> {
         let unknown: Vec<String> = names.iter().filter(|name| self.file(name).is_none()).cloned().collect();
         if !unknown.is_empty() {
@@ -94,7 +93,6 @@ impl Known {
         Ok(&head[..wanted])
     }
 
-    /// As [`Self::unpacked`], but rejects other compressions.
     pub(crate) fn head(&self, name: &str, count: usize) -> Opening<Vec<u8>> {
         let start = self.first(name, 8)?;
         if let Some((_, codec)) = PACKED.iter().find(|(magic, _)| start.starts_with(magic)) {
@@ -124,18 +122,19 @@ impl Known {
     }
 }
 
-/// The first bytes of a stream, and whether it yields no further bytes.
+/// The first `count` bytes of a stream; if they are fewer, also whether it yields no further bytes.
 fn first_unpacked(packed: &[u8], is_whole: bool, count: usize) -> (Vec<u8>, bool) {
-    let mut unpacker = Unpacker::new(Codec::Zlib, count as u128);
+    let mut unpacker = Unpacker::new(Codec::Zlib, count as u128, 0);
     let (mut bytes, mut piece, mut at) = (Vec::new(), vec![0; PIECE.min(count)], 0);
-    loop {
+    while bytes.len() < count {
         match unpacker.take(&packed[at..], is_whole, &mut piece) {
             Ok(Taken::Some { read, written }) => {
                 at += read;
                 bytes.extend_from_slice(&piece[..written]);
             }
             Ok(Taken::Hungry) => return (bytes, is_whole),
-            Ok(Taken::End) | Err(_) => return (bytes, true),
+            Ok(Taken::Beyond { .. } | Taken::End) | Err(_) => return (bytes, true),
         }
     }
+    (bytes, is_whole)
 }

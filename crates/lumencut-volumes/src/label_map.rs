@@ -31,7 +31,6 @@ pub(crate) struct LabelMap {
 }
 
 impl LabelMap {
-    /// None if memory cannot hold so large a volume.
     pub(crate) fn new(segmentation: &Segmentation, size: [u64; 3], stored: Stored) -> Option<Self> {
         let mut of_layer = vec![Vec::new(); usize::try_from(segmentation.layers).ok()?];
         for segment in segmentation.read_ones() {

@@ -45,8 +45,10 @@
 mod beside;
 mod built_in;
 mod convert;
+mod decoder;
 mod error;
 mod fill;
+mod grid;
 mod known;
 mod label_map;
 mod metaimage;
@@ -54,6 +56,8 @@ mod nifti;
 mod nrrd;
 mod numbers;
 mod open;
+#[cfg(feature = "unpacking")]
+mod pack;
 mod plan;
 mod segments;
 mod stream;
@@ -63,12 +67,15 @@ mod write;
 
 pub use error::{Error, ErrorKind, Need, Stop};
 pub use fill::{Fill, Step, Window};
+pub use grid::grid_fault;
 pub use known::{Found, Known};
 pub use nifti::{StatedUnits, stated_units};
 pub use numbers::{Kind, Scaling};
 pub use open::{HEAD, format_of, open};
+#[cfg(feature = "unpacking")]
+pub use pack::Packer;
 pub use plan::{Affine, Format, Grid, Place, Plan, Stored};
 pub use segments::{Segment, Segmentation};
 pub use stream::Codec;
 pub use text::printable;
-pub use write::{Packer, Written};
+pub use write::Written;

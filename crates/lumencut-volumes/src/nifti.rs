@@ -15,7 +15,6 @@ use crate::text::{latin1, short};
 pub(crate) use header::format_of;
 use header::{HEADER_BYTES, Header};
 
-/// Number of bytes of a file in which extensions are searched.
 const LONGEST: usize = 1 << 20;
 const COMPLEX: (&str, &str) = ("complex voxels", "write their magnitude");
 const COLOUR: (&str, &str) = ("colour voxels", "write one channel");

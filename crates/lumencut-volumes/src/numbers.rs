@@ -67,7 +67,7 @@ impl Kind {
 
     /// Whether the numbers are integers.
     #[must_use]
-    pub const fn is_integer(self) -> bool {
+    pub(crate) const fn is_integer(self) -> bool {
         !matches!(self, Self::Float32 | Self::Float64)
     }
 
@@ -90,7 +90,7 @@ impl Kind {
 
     /// The type in which the engine stores the numbers: an integer type if it is exact, else float32.
     #[must_use]
-    pub const fn in_the_engine(self) -> Self {
+    pub(crate) const fn in_the_engine(self) -> Self {
         match self {
             Self::Uint8 | Self::Int16 | Self::Uint16 => self,
             Self::Int8 => Self::Int16,
@@ -132,7 +132,6 @@ impl Scaling {
     }
 }
 
-/// The type of the values, if the header decides it.
 pub(crate) fn settled(stored: Kind, scaling: Scaling) -> Option<Kind> {
     match stored {
         _ if scaling.is_none() => Some(stored),

@@ -19,12 +19,15 @@ pub fn open(name: &str, known: &Known, chosen: Option<&[u32]>) -> Result<Plan, S
         let expected = "a NIfTI, NRRD or MetaImage volume";
         return Err(Error::new(name, "an empty file", expected).mend("copy or export it again").into());
     }
-    match format_of(name, &head) {
-        Some(Format::Nrrd) => nrrd::open(name, known, chosen),
-        Some(Format::MetaImage) => metaimage::open(name, known),
-        Some(Format::Nifti1 | Format::Nifti2) => nifti::open(name, known),
-        None => Err(Stop::Unknown),
-    }
+    let plan = match format_of(name, &head) {
+        Some(Format::Nrrd) => nrrd::open(name, known, chosen)?,
+        Some(Format::MetaImage) => metaimage::open(name, known)?,
+        Some(Format::Nifti1 | Format::Nifti2) => nifti::open(name, known)?,
+        None => return Err(Stop::Unknown),
+    };
+    // `Fill` checks it for the stated size, after it has refused a size that the file does not fill.
+    plan.grid.check(name, [1; 3])?;
+    Ok(plan)
 }
 
 /// The format that the first bytes of a file (unpacked) and its name state. If only the name is that of NIfTI, the

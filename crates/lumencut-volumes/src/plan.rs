@@ -39,7 +39,7 @@ pub type Affine = [[f64; 4]; 3];
 pub struct Grid {
     /// Number of voxels along i, j, k.
     pub size: [u64; 3],
-    /// World (LPS, mm) from index; numbers may not be finite.
+    /// World (LPS, mm) from index.
     pub world_from_index: Affine,
     /// Whether lengths in mm are known.
     pub states_spacing: bool,

@@ -75,7 +75,6 @@ impl Segmentation {
         self.segments.iter().any(|one| one.number != one.value)
     }
 
-    /// The type of the label map if the stored values are not the label map.
     pub(crate) fn kind(&self) -> Kind {
         let most = self.segments.iter().map(|one| one.number).max().unwrap_or(0);
         if most <= u32::from(u8::MAX) { Kind::Uint8 } else { Kind::Uint16 }

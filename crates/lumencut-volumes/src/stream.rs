@@ -1,6 +1,7 @@
 //! Decompresses streams of several parts in pieces of bounded size, and verifies checksums.
 
-use flate2::{Decompress as Inflate, FlushDecompress, Status};
+use crate::decoder::{Decoder, Moved};
+use crate::error::Error;
 
 /// How the voxels are stored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -19,19 +20,28 @@ pub enum Codec {
 const MOST_EMPTY: u32 = 1000;
 /// Number of bytes that show whether another part begins.
 const MAGIC: usize = 3;
+/// Bytes after the wanted ones that are unpacked at once.
+const BEYOND: usize = 1 << 14;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Fault {
     Damaged,
     BreaksOff,
+    /// Far more bytes than voxels.
+    GoesOn(u64),
 }
 
 impl Fault {
-    pub(crate) fn words(self) -> &'static str {
-        match self {
+    pub(crate) fn of(self, subject: &str) -> Box<Error> {
+        let found = match self {
             Self::Damaged => "a compressed stream that is damaged",
             Self::BreaksOff => "a compressed stream that breaks off",
-        }
+            Self::GoesOn(most) => {
+                let found = format!("a compressed stream with over {most} bytes after the voxels");
+                return Error::new(subject, found, "a stream of voxels").mend("write the volume again");
+            }
+        };
+        Error::damaged(subject, found, "a whole one")
     }
 }
 
@@ -39,18 +49,23 @@ impl Fault {
 pub(crate) enum Taken {
     /// The numbers of bytes read and written; one of them may be 0.
     Some { read: usize, written: usize },
+    /// The numbers of bytes read, and of bytes unpacked that follow the wanted ones.
+    Beyond { read: usize, count: usize },
     /// More input is needed.
     Hungry,
     /// All wanted bytes were written and checksums match, or the stream has no more bytes.
     End,
 }
 
-/// Decompresses at most `wanted` bytes, and ignores all that follows. If a part ends with these bytes, its checksum
-/// is verified.
+/// Decompresses at most `wanted` bytes, and verifies the checksum of the part in which they end. Ignores what follows
+/// this part.
 pub(crate) struct Unpacker {
     codec: Codec,
     part: Part,
     wanted: u128,
+    /// Number of bytes that this part may have after the wanted ones, and how many are left of them.
+    most: u64,
+    beyond: u64,
     empty: u32,
 }
 
@@ -59,8 +74,7 @@ enum Part {
     Between {
         is_first: bool,
     },
-    Zlib(Box<Inflate>),
-    Bzip2(Box<bzip2::Decompress>),
+    Begun(Decoder),
     Over,
 }
 
@@ -69,8 +83,8 @@ pub(crate) fn is_gzip(bytes: &[u8]) -> bool {
 }
 
 impl Unpacker {
-    pub(crate) fn new(codec: Codec, wanted: u128) -> Self {
-        Self { codec, part: Part::Between { is_first: true }, wanted, empty: 0 }
+    pub(crate) fn new(codec: Codec, wanted: u128, most: u64) -> Self {
+        Self { codec, part: Part::Between { is_first: true }, wanted, most, beyond: most, empty: 0 }
     }
 
     /// Reads `input` and writes `output`; `is_last` states that no more input follows.
@@ -81,21 +95,23 @@ impl Unpacker {
             }
             self.part = self.begun(input, is_first);
         }
-        // Reading one more byte makes a part that ends here verify its checksum.
-        let mut beyond = [0];
         let is_beyond = self.wanted == 0;
         let most = usize::try_from(self.wanted).unwrap_or(usize::MAX).min(output.len());
-        let room = if is_beyond { &mut beyond[..] } else { &mut output[..most] };
-        let (read, written, has_ended) = match &mut self.part {
-            Part::Zlib(part) => inflated(part, input, room, is_beyond)?,
-            Part::Bzip2(part) => unpacked(part, input, room)?,
-            Part::Between { .. } | Part::Over => return Ok(Taken::End),
+        let mut beyond;
+        let room = if is_beyond {
+            beyond = [0; BEYOND];
+            &mut beyond[..]
+        } else {
+            &mut output[..most]
         };
-        if is_beyond && written > 0 {
-            self.part = Part::Over;
-            return Ok(Taken::End);
+        let Part::Begun(decoder) = &mut self.part else { return Ok(Taken::End) };
+        let Moved { read, written, has_ended } =
+            decoder.take(input, room, is_beyond).ok_or(Fault::Damaged)?;
+        if is_beyond {
+            self.beyond = self.beyond.checked_sub(written as u64).ok_or(Fault::GoesOn(self.most))?;
+        } else {
+            self.wanted -= written as u128;
         }
-        self.wanted -= written as u128;
         if written > 0 {
             self.empty = 0;
         }
@@ -106,7 +122,7 @@ impl Unpacker {
         } else if read == 0 && written == 0 {
             return if is_last { self.broken_off() } else { Ok(Taken::Hungry) };
         }
-        Ok(Taken::Some { read, written })
+        Ok(if is_beyond { Taken::Beyond { read, count: written } } else { Taken::Some { read, written } })
     }
 
     fn broken_off(&mut self) -> Result<Taken, Fault> {
@@ -116,34 +132,10 @@ impl Unpacker {
 
     fn begun(&self, input: &[u8], is_first: bool) -> Part {
         match self.codec {
-            Codec::Zlib if is_gzip(input) => Part::Zlib(Box::new(Inflate::new_gzip(15))),
-            Codec::Zlib if is_first => Part::Zlib(Box::new(Inflate::new(true))),
-            Codec::Bzip2 if is_first || input.starts_with(b"BZh") => {
-                Part::Bzip2(Box::new(bzip2::Decompress::new(false)))
-            }
+            Codec::Zlib if is_gzip(input) => Part::Begun(Decoder::gzip()),
+            Codec::Zlib if is_first => Part::Begun(Decoder::zlib()),
+            Codec::Bzip2 if is_first || input.starts_with(b"BZh") => Part::Begun(Decoder::bzip2()),
             _ => Part::Over,
         }
     }
-}
-
-type Moved = (usize, usize, bool);
-
-fn inflated(part: &mut Inflate, input: &[u8], output: &mut [u8], is_beyond: bool) -> Result<Moved, Fault> {
-    let (read, written) = (part.total_in(), part.total_out());
-    let status = part.decompress(input, output, FlushDecompress::None);
-    let moved = |now: u64, before: u64| usize::try_from(now - before).unwrap_or(0);
-    let (read, written) = (moved(part.total_in(), read), moved(part.total_out(), written));
-    match status {
-        // Bytes before the damage are returned, since they may identify the file. The next call fails again.
-        Err(_) if written == 0 || is_beyond => Err(Fault::Damaged),
-        status => Ok((read, written, status.ok() == Some(Status::StreamEnd))),
-    }
-}
-
-fn unpacked(part: &mut bzip2::Decompress, input: &[u8], output: &mut [u8]) -> Result<Moved, Fault> {
-    let (read, written) = (part.total_in(), part.total_out());
-    let status = part.decompress(input, output).map_err(|_| Fault::Damaged)?;
-    let moved = |now: u64, before: u64| usize::try_from(now - before).unwrap_or(0);
-    let has_ended = status == bzip2::Status::StreamEnd;
-    Ok((moved(part.total_in(), read), moved(part.total_out(), written), has_ended))
 }

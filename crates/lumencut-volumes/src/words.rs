@@ -43,7 +43,6 @@ impl Words {
         Ok((from.len(), written))
     }
 
-    /// Ends the last word of the text, and checks the number of words.
     pub(crate) fn end(&mut self, to: &mut [u8]) -> Result<usize, Box<Error>> {
         let written = if self.begun.is_empty() { 0 } else { self.end_word(to)? };
         if self.found != self.wanted {

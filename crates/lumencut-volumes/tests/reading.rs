@@ -13,6 +13,9 @@ use lumencut_volumes::{Codec, ErrorKind, Format, Kind, Packer, Scaling, Stop, Wr
 const SIZE: [u64; 3] = [4, 3, 2];
 const AFFINE: [[f64; 4]; 3] = [[0.5, 0.125, 0.0, -10.0], [0.0, 0.75, 0.0, 20.0], [0.0, 0.0, -2.0, 30.0]];
 
+const MHD: &str = "ObjectType = Image\nNDims = 3\nDimSize = 4 3 2\nElementSpacing = 0.5 0.75 2\n\
+                   ElementType = MET_SHORT\nCompressedData = True\nElementDataFile = a.zraw\n";
+
 fn written(kind: Kind) -> Written<'static> {
     Written { size: SIZE, world_from_index: AFFINE, kind, mark: "a mark" }
 }
@@ -23,6 +26,18 @@ fn ramp() -> Vec<u8> {
 
 fn gzipped(bytes: &[u8]) -> Vec<u8> {
     let mut encoder = GzEncoder::new(Vec::new(), Compression::default());
+    encoder.write_all(bytes).unwrap();
+    encoder.finish().unwrap()
+}
+
+fn zlibbed(bytes: &[u8]) -> Vec<u8> {
+    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::default());
+    encoder.write_all(bytes).unwrap();
+    encoder.finish().unwrap()
+}
+
+fn bzipped(bytes: &[u8]) -> Vec<u8> {
+    let mut encoder = bzip2::write::BzEncoder::new(Vec::new(), bzip2::Compression::best());
     encoder.write_all(bytes).unwrap();
     encoder.finish().unwrap()
 }
@@ -100,16 +115,10 @@ fn scaled_integers_get_the_type_that_holds_them() {
 
 #[test]
 fn compressed_voxels_of_other_kinds_are_unpacked() {
-    let mut zlib = ZlibEncoder::new(Vec::new(), Compression::default());
-    zlib.write_all(&ramp()).unwrap();
-    let mut bzip2 = bzip2::write::BzEncoder::new(Vec::new(), bzip2::Compression::best());
-    bzip2.write_all(&ramp()).unwrap();
-    let header = "ObjectType = Image\nNDims = 3\nDimSize = 4 3 2\nElementSpacing = 0.5 0.75 2\n\
-                  ElementType = MET_SHORT\nCompressedData = True\nElementDataFile = a.zraw\n";
     let files = Files::from([
-        ("a.mhd", header.into()),
-        ("a.zraw", zlib.finish().unwrap()),
-        ("a.nrrd", nrrd("bzip2", &bzip2.finish().unwrap())),
+        ("a.mhd", MHD.into()),
+        ("a.zraw", zlibbed(&ramp())),
+        ("a.nrrd", nrrd("bzip2", &bzipped(&ramp()))),
     ]);
     assert_eq!(read(&files, "a.nrrd", false).unwrap().2, ramp());
     let (plan, _, voxels) = read(&files, "a.mhd", false).unwrap();
@@ -126,18 +135,60 @@ fn damaged_streams_are_refused() {
     wrong[at] ^= 1;
     let mut length = whole.clone();
     *length.last_mut().unwrap() ^= 1;
+    let long = gzipped(&[nifti(), vec![7; 9]].concat());
+    let mut packer = Packer::default();
+    let mut bomb = packer.pack(&nifti());
+    (0..1025).for_each(|_| bomb.extend(packer.pack(&[0; 1 << 20])));
+    bomb.extend(packer.end());
     let cases = [
         ("wrong length", length, "a compressed stream that is damaged"),
         ("short", whole[..whole.len() - 9].to_vec(), "a compressed stream that breaks off"),
         ("no check sum", whole[..whole.len() - 1].to_vec(), "a compressed stream that breaks off"),
         ("wrong check sum", wrong, "a compressed stream that is damaged"),
         ("few voxels", gzipped(&nifti()[..390]), "38 bytes of voxels"),
+        ("short after the voxels", long[..long.len() - 1].to_vec(), "a compressed stream that breaks off"),
+        ("bomb after the voxels", bomb, "over 1073741824 bytes after the voxels"),
         ("empty parts", [gzipped(&nifti()[..390]), gzipped(&[]).repeat(1002)].concat(), "38 bytes of voxels"),
     ];
     for (case, bytes, words) in cases {
         let error = read(&Files::from([("a.nii.gz", bytes)]), "a.nii.gz", false).unwrap_err();
         assert!(error.found.contains(words), "{case}: {error}");
-        assert_eq!(error.mend, "copy the file again");
+        assert!(["copy the file again", "write the volume again"].contains(&error.mend.as_str()));
+    }
+}
+
+/// Flips every bit of a file; returns how many files were read. Panics if one has other voxels.
+fn read_with_a_flipped_bit(files: &Files, name: &'static str, changed: &'static str) -> usize {
+    let mut files = files.clone();
+    let mut count = 0;
+    for bit in 0..8 * files[changed].len() {
+        let flip = |files: &mut Files| files.get_mut(changed).unwrap()[bit / 8] ^= 1 << (bit % 8);
+        flip(&mut files);
+        if let Ok((_, _, voxels)) = read(&files, name, false) {
+            assert_eq!(voxels, ramp(), "bit {bit} of {changed}");
+            count += 1;
+        }
+        flip(&mut files);
+    }
+    count
+}
+
+#[test]
+fn no_flipped_bit_of_a_compressed_stream_changes_voxels() {
+    let long = [ramp(), b"what follows the voxels".to_vec()].concat();
+    let detached = |encoding: &str| [nrrd(encoding, b"").trim_ascii_end(), b"\ndata file: a.raw\n"].concat();
+    let nii = Files::from([("a.nii.gz", gzipped(&[nifti(), b"what follows".to_vec()].concat()))]);
+    let several = [gzipped(&ramp()[..20]), gzipped(&long[20..]), gzipped(b"more")].concat();
+    // Bits that change no voxel: those of a name, a time or a system in the header of gzip, and what pads a byte.
+    for (files, name, changed, most) in [
+        (nii, "a.nii.gz", "a.nii.gz", 70),
+        (Files::from([("a.nhdr", detached("gzip")), ("a.raw", gzipped(&long))]), "a.nhdr", "a.raw", 70),
+        (Files::from([("a.nhdr", detached("gzip")), ("a.raw", several)]), "a.nhdr", "a.raw", 350),
+        (Files::from([("a.nhdr", detached("bzip2")), ("a.raw", bzipped(&long))]), "a.nhdr", "a.raw", 20),
+        (Files::from([("a.mhd", MHD.into()), ("a.zraw", zlibbed(&long))]), "a.mhd", "a.zraw", 20),
+    ] {
+        let count = read_with_a_flipped_bit(&files, name, changed);
+        assert!(count <= most, "{count} files like {changed} of {name} were read");
     }
 }
 
@@ -187,6 +238,33 @@ fn files_outside_the_folder_are_refused() {
         let file = format!("{header}data file: {name}\n");
         let error = refused(opened(&Files::from([("a.nhdr", file.into())]), "a.nhdr", None).unwrap_err());
         assert!(error.found.contains("data file"), "{error}");
+    }
+}
+
+#[test]
+fn a_grid_that_no_volume_can_have_is_refused() {
+    let mut far = nifti();
+    far[280..284].copy_from_slice(&1e9_f32.to_le_bytes());
+    let flat = nrrd("raw", &ramp());
+    let flat = String::from_utf8_lossy(&flat).replace("(0.0,0.0,-2.0)", "(0.5,0.75,0)").into_bytes();
+    let mhd = MHD.replace("ElementSpacing", "Offset = 0 -2e9 0\nElementSpacing");
+    let long = MHD.replace("2\nElementType", "6e8\nElementType");
+    let files = Files::from([
+        ("a.nii", far),
+        ("b.nrrd", flat),
+        ("c.mhd", mhd.into()),
+        ("d.mhd", long.into()),
+        ("a.zraw", zlibbed(&ramp())),
+    ]);
+    for (name, found, expected) in [
+        ("a.nii", "[[-1e+09, 0.125, 0, -10], [0, 0.75, 0, 20], [0, 0, -2, 30]]", "a grid within 1e+09 mm"),
+        ("b.nrrd", "[[0.5, 0.125, 0.5, -10], [0, 0.75, 0.75, 20], [0, 0, 0, 30]]", "an invertible affine"),
+        ("c.mhd", "[[0.5, 0, 0, 0], [0, 0.75, 0, -2e+09], [0, 0, 2, 0]]", "a grid within 1e+09 mm"),
+        ("d.mhd", "[[0.5, 0, 0, 0], [0, 0.75, 0, 0], [0, 0, 6e+08, 0]]", "a grid within 1e+09 mm"),
+    ] {
+        let error = read(&files, name, false).unwrap_err();
+        assert_eq!(error.found, format!("world_from_index of the volume {found}"));
+        assert!(error.expected.starts_with(expected), "{error}");
     }
 }
 

@@ -1,6 +1,6 @@
 //! Defaults that the command line, Python and the page share, and the rule for the pixel side of reformations.
 
-use lumencut_vessels::measure::measuring;
+use lumencut_vessels::measure::profile::measuring;
 use lumencut_vessels::trace::{find, skeleton};
 
 /// A parameter with its default.
@@ -21,14 +21,14 @@ pub struct Quantity {
 }
 
 /// The lower end of a range of numbers that must be above 0.
-pub const ABOVE_0: f64 = f64::MIN_POSITIVE;
+pub(crate) const ABOVE_0: f64 = f64::MIN_POSITIVE;
 
 const OPEN: f64 = f64::INFINITY;
 
 macro_rules! pixel_sides {
     ($smallest:literal, $largest:literal) => {
         /// Smallest and largest pixel side that a reformation has by default (mm).
-        pub const PIXEL_SIDES: [f64; 2] = [$smallest, $largest];
+        pub(crate) const PIXEL_SIDES: [f64; 2] = [$smallest, $largest];
 
         /// The rule of [`pixel_side`] in words, for help texts and documentation.
         pub const PIXEL_SIDE_WORDS: &str =

@@ -70,7 +70,7 @@ const fn row(name: &'static str, value: f64, unit: &'static str, about: &'static
 
 /// The camera rotated about an axis (LPS) through a point (mm, LPS), by an angle (radians). Fails with
 /// [`ErrorKind::Camera`] for a non-finite angle or point, an invalid axis, or a center out of range.
-pub fn turned_about(camera: &Camera, pivot: DVec3, axis: DVec3, angle: f64) -> Result<Camera> {
+pub(crate) fn turned_about(camera: &Camera, pivot: DVec3, axis: DVec3, angle: f64) -> Result<Camera> {
     let turn = rotation(axis, angle)?;
     let vectors = [camera.center() - pivot, camera.direction(), camera.up()];
     let [away, direction, up] = vectors.map(|vector| fused::product(&turn, vector));

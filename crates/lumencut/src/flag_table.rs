@@ -1,6 +1,6 @@
 //! The table of section flags for Python package and viewer: names, words, meanings and colours.
 
-use lumencut_vessels::measure::flags::{
+use lumencut_vessels::measure::section::flags::{
     AT_LIMIT, BRANCH, CALCIUM, IRREGULAR, METAL, NEIGHBOR, NO_EDGE, OUTSIDE, RECENTERED, RESTLESS_LINE,
 };
 use serde::Serialize;

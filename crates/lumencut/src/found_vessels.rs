@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 use lumencut_core::error::Result;
 use lumencut_core::volume::Volume;
-use lumencut_vessels::trace::find::choose::find_from;
 use lumencut_vessels::trace::find::found::{FoundVessel, Trees};
+use lumencut_vessels::trace::find::from_seed::find_from;
 use lumencut_vessels::trace::find::track::TrackDoubt;
 use lumencut_vessels::trace::find::{self, FindRequest, one_vessel, refusals};
 use lumencut_vessels::trace::lines::centerline::Centerline;
@@ -44,7 +44,7 @@ pub fn find_vessels(volume: &Volume, request: &FindRequest) -> Result<FoundTree>
 
 /// Describes the vessels found; at least one of them must be confident. Fails with
 /// [`lumencut_core::error::ErrorKind::Tracing`] if no vessel is confident; the error states `smallest_radius` (mm).
-pub fn confident_tree(trees: &Trees, smallest_radius: f64) -> Result<FoundTree> {
+pub(crate) fn confident_tree(trees: &Trees, smallest_radius: f64) -> Result<FoundTree> {
     if trees.vessels.iter().any(|vessel| vessel.doubt.is_none()) {
         return Ok(found(trees.clone()));
     }

@@ -6,11 +6,11 @@ use lumencut_core::error::Result;
 use lumencut_core::stop::Stop;
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::Volume;
-use lumencut_vessels::measure::measuring::{measure_with, tree_findings};
 use lumencut_vessels::measure::profile::Profile;
-use lumencut_vessels::measure::request::MeasureRequest;
-use lumencut_vessels::measure::tree_findings::TreeFindings;
-use lumencut_vessels::measure::wall_level::WallRequest;
+use lumencut_vessels::measure::profile::TreeFindings;
+use lumencut_vessels::measure::profile::measuring::{measure_with, tree_findings};
+use lumencut_vessels::measure::profile::request::MeasureRequest;
+use lumencut_vessels::measure::wall::WallRequest;
 
 /// A volume and its tree. A cache is valid for only one such pair.
 #[derive(Clone, Copy)]

@@ -14,9 +14,9 @@ use lumencut_core::reformations::Wall;
 use lumencut_core::reformations::cpr::Straightened;
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::Volume;
-use lumencut_vessels::measure::flags::BRANCH;
 use lumencut_vessels::measure::profile::Profile;
-use lumencut_vessels::measure::section_plane::known_radius;
+use lumencut_vessels::measure::section::flags::BRANCH;
+use lumencut_vessels::measure::section::known_radius;
 use lumencut_vessels::voxels::Voxels;
 
 use crate::rays_across::{Fall, RaysAcross};

@@ -2,9 +2,9 @@
 
 use lumencut_core::named::Named;
 use lumencut_vessels::measure::profile::Source;
+use lumencut_vessels::measure::profile::stretch::CArm;
 use lumencut_vessels::measure::stenosis::{Doubts, Method, Stenosis};
-use lumencut_vessels::measure::stretch::CArm;
-use lumencut_vessels::measure::wall_level::{CT_WALL, WallSource};
+use lumencut_vessels::measure::wall::{CT_WALL, WallSource};
 
 use crate::flag_table::set_in;
 use crate::text::fixed;

@@ -1,8 +1,8 @@
 //! Describes why no place on a vessel is suggested as narrowest place or reference.
 
-use lumencut_vessels::measure::hindrances::{CHANGE_OF_LUMEN, FLAP, UNSURE};
 use lumencut_vessels::measure::profile::Profile;
-use lumencut_vessels::measure::suggestions::Spot;
+use lumencut_vessels::measure::stenosis::hindrances::{CHANGE_OF_LUMEN, FLAP, UNSURE};
+use lumencut_vessels::measure::stenosis::suggestions::Spot;
 
 use crate::flag_table::FLAGS;
 use crate::profile_marks::{main_place, offered_references};

@@ -5,7 +5,7 @@ use glam::DVec3;
 use lumencut_core::camera::Camera;
 
 /// The world point seen at the pixel (i, j), which may be fractional, at `depth` (mm).
-pub fn world_from_pixel(camera: &Camera, [i, j]: [f64; 2], depth: f64) -> DVec3 {
+pub(crate) fn world_from_pixel(camera: &Camera, [i, j]: [f64; 2], depth: f64) -> DVec3 {
     let [width, height] = camera.size().map(|n| n as f64);
     let x = (i + 0.5 - width / 2.0) * camera.pixel_spacing();
     let y = (height / 2.0 - j - 0.5) * camera.pixel_spacing();
@@ -34,7 +34,7 @@ pub struct PixelPlace {
 }
 
 /// The pixel of a world point.
-pub fn pixel_from_world(camera: &Camera, point: DVec3) -> PixelPlace {
+pub(crate) fn pixel_from_world(camera: &Camera, point: DVec3) -> PixelPlace {
     let [width, height] = camera.size().map(|n| n as f64);
     let view = camera.view_from_world(point);
     let i = view.x / camera.pixel_spacing() + width / 2.0 - 0.5;

@@ -1,9 +1,9 @@
 //! Converts the columns of a profile to and from plain numbers.
 
 use glam::DVec3;
-use lumencut_vessels::measure::parts::Parts;
 use lumencut_vessels::measure::profile::{Profile, Source};
-use lumencut_vessels::measure::wall_level::WallSource;
+use lumencut_vessels::measure::uncertainty::Parts;
+use lumencut_vessels::measure::wall::WallSource;
 
 pub(crate) enum Column<'a> {
     Number(&'a mut f64),

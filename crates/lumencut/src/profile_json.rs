@@ -113,7 +113,7 @@ struct ProgramProfile {
 
 impl ProgramProfile {
     fn of(profile: &Profile, scan: &ScanDetails) -> Self {
-        let longest = |spot: lumencut_vessels::measure::suggestions::Spot| Longest {
+        let longest = |spot: lumencut_vessels::measure::stenosis::suggestions::Spot| Longest {
             arc_length_mm: spot.at,
             diameter_max_mm: spot.diameter,
         };

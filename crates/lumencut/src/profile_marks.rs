@@ -1,10 +1,10 @@
 //! Marks on a measured vessel, their results, and suggestions for places that are not marked.
 
 use lumencut_core::error::Result;
-use lumencut_vessels::measure::groups::Territory;
 use lumencut_vessels::measure::profile::Profile;
+use lumencut_vessels::measure::stenosis::groups::Territory;
+use lumencut_vessels::measure::stenosis::suggestions::Spot;
 use lumencut_vessels::measure::stenosis::{Compared, Method, Stenosis};
-use lumencut_vessels::measure::suggestions::Spot;
 
 use crate::measure_words::{MILLIMETRE_ASSUMED, of_doubts, of_stenosis};
 use crate::scan_details::ScanDetails;

@@ -5,9 +5,9 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_vessels::measure::profile::{CONTOUR_POINTS, Profile, Source};
-use lumencut_vessels::measure::section_plane::MOST_SECTIONS;
-use lumencut_vessels::measure::tree_walls::PooledWall;
-use lumencut_vessels::measure::wall_level::WallSource;
+use lumencut_vessels::measure::section::MOST_SECTIONS;
+use lumencut_vessels::measure::wall::WallSource;
+use lumencut_vessels::measure::wall::tree::PooledWall;
 use serde::{Deserialize, Serialize};
 
 use crate::flag_table::FLAGS;

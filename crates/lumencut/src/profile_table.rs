@@ -1,8 +1,8 @@
 //! Profiles as CSV, one line per section.
 
 use lumencut_io::marked_cell;
-use lumencut_vessels::measure::parts::Part;
 use lumencut_vessels::measure::profile::Profile;
+use lumencut_vessels::measure::uncertainty::Part;
 
 use crate::measure_words::{of_doubts, of_flags, of_source, of_stenosis, of_wall};
 use crate::profile_marks::{Grade, Measured};
@@ -21,7 +21,7 @@ struct Block<'a> {
 }
 
 /// The numbers of all sections, as columns with names that include the unit.
-pub fn columns(profile: &Profile) -> Vec<(&'static str, Vec<f64>)> {
+pub(crate) fn columns(profile: &Profile) -> Vec<(&'static str, Vec<f64>)> {
     let centers = |axis: usize| profile.center.iter().map(|point| point[axis]).collect();
     let normals = |axis: usize| profile.normal.iter().map(|normal| normal[axis]).collect();
     let levels = |which: usize| profile.levels.iter().map(|levels| levels[which]).collect();

@@ -1,6 +1,6 @@
 """All settings with units and defaults.
 
-``make settings`` generates this file from the table of settings in the core.
+``make generate`` generates this file from the table of settings in the core.
 """
 
 from __future__ import annotations

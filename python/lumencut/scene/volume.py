@@ -6,11 +6,12 @@ import functools
 import hashlib
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from lumencut import _lumencut
 from lumencut.base.checks import flag
 from lumencut.base.found_once import FoundOnce
 from lumencut.base.pickles import by_name
@@ -21,13 +22,9 @@ from lumencut.scene.patients import Patient
 from lumencut.scene.scan_details import ScanDetails
 from lumencut.scene.study import Origin, Study
 
-if TYPE_CHECKING:
-    from lumencut import _lumencut
-
 _UNIT_SPACING = (1.0, 1.0, 1.0)
 _NO_OFFSET = (0.0, 0.0, 0.0)
 _UNIT_TOLERANCE = 1e-3
-_FARTHEST = 1e9
 
 
 @by_name
@@ -285,17 +282,12 @@ def _points(points: npt.ArrayLike) -> npt.NDArray[np.float64]:
 
 def _checked_affine(world_from_index: npt.ArrayLike, shape: tuple[int, ...]) -> npt.NDArray[np.float64]:
     affine = _numbers("world_from_index", world_from_index, (4, 4))
-    with np.errstate(over="ignore"):
-        reach = np.abs(affine[:3, :3]) @ np.asarray(shape[::-1], dtype=np.float64) + np.abs(affine[:3, 3])
-    if not (reach < _FARTHEST).all():
-        raise VolumeError(
-            "world_from_index of the volume", f"{affine.tolist()}", f"a grid within {_FARTHEST:g} mm"
-        )
-    lengths = np.linalg.norm(affine[:3, :3], axis=0)
-    singular = not (lengths > 1 / _FARTHEST).all() or not abs(np.linalg.det(affine[:3, :3] / lengths)) > 1e-9
-    if singular or not np.array_equal(affine[3], [0, 0, 0, 1]):
-        expected = "an invertible affine whose last row is 0 0 0 1"
-        raise VolumeError("world_from_index of the volume", f"{affine.tolist()}", expected)
+    ni, nj, nk = shape[::-1]
+    fault = _lumencut.grid_fault((ni, nj, nk), affine[:3].tolist())
+    if fault is None and not np.array_equal(affine[3], [0, 0, 0, 1]):
+        fault = f"{affine.tolist()}", "an invertible affine whose last row is 0 0 0 1"
+    if fault is not None:
+        raise VolumeError("world_from_index of the volume", *fault)
     return affine
 
 

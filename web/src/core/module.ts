@@ -1,5 +1,4 @@
 /** Access to the WebAssembly module; no other file imports it. */
-import type { Judge } from './judge';
 import init, { Engine, initSync, run_thread, use_threads } from './pkg/lumencut.js';
 import type { Volumes } from './volumes';
 
@@ -12,10 +11,18 @@ export async function loadJudge(): Promise<Judge> {
   return module;
 }
 
-/** Loads the module for volume files on first use. */
+/** Loads the module for volume files that are not compressed, or that the browser unpacks, on first use. */
 export async function loadVolumes(): Promise<Volumes> {
   const { default: start, VolumeFile } = await import('./pkg/volumes/lumencut_volumes.js');
   const address = new URL('./pkg/volumes/lumencut_volumes_bg.wasm', import.meta.url);
+  const { memory } = await start({ module_or_path: address });
+  return { VolumeFile, memory };
+}
+
+/** Loads the module for all volume files on first use. */
+export async function loadPackedVolumes(): Promise<Volumes> {
+  const { default: start, VolumeFile } = await import('./pkg/packed/lumencut_packed.js');
+  const address = new URL('./pkg/packed/lumencut_packed_bg.wasm', import.meta.url);
   const { memory } = await start({ module_or_path: address });
   return { VolumeFile, memory };
 }
@@ -47,4 +54,10 @@ export function joinModule({ module, memory }: Shared): void {
 
 export function useThreads(count: number): void {
   use_threads(count);
+}
+
+/** Functions of the crate `lumencut-dicom`; arguments and results are JSON. */
+export interface Judge {
+  dicom_attributes(): string;
+  judge_dicom(headers: string, wanted: string): string;
 }

@@ -1,4 +1,4 @@
-/** Interface of the WebAssembly module that reads volume files. */
+/** Interface of the WebAssembly modules that read volume files. */
 
 export interface Volumes {
   readonly VolumeFile: new (name: string) => VolumeFile;
@@ -13,8 +13,8 @@ export interface VolumeFile {
   open(): string;
   /** Matrix from index to world (LPS, mm): three rows of four numbers. */
   world_from_index(): Float64Array;
-  /** Begins to read voxels from a file of this size (bytes). */
-  begin(size?: number): void;
+  /** Begins to read voxels from a file of this size (bytes), or from the unpacked gzip stream in it. */
+  begin(size: number | undefined, isUnpacked: boolean): void;
   /** Replaces the bytes that the next step can read. */
   read(start: number, bytes: Uint8Array): void;
   step(): string;
@@ -42,6 +42,10 @@ export interface Plan {
   readonly orientation: boolean;
   /** Name of the file that holds the voxels. */
   readonly voxels: string;
+  readonly nifti: boolean;
+  /** Whether the voxels are a compressed stream; `stream` is its first byte if it may be gzip, else null. */
+  readonly packed: boolean;
+  readonly stream: number | null;
   readonly notes: readonly string[];
   readonly label_names: Readonly<Record<string, string>>;
   /** Description in the file. It may name a patient, so only the engine reads it. */

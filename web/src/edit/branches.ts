@@ -1,31 +1,31 @@
 /** Adds many vessels at once: all of a scan, those connected to a seed, or those of a mask. */
-import type { Asked } from '../core/asked';
+
 import type { DocumentVessel, Edit, Edited, GivenFile, LineFacts, Vector } from '../core/messages';
+import { answered } from '../state/edit-queue';
 import { flyToAnswer } from '../state/flight';
 import { document_ } from '../state/history';
 import { showFailure } from '../state/message';
-import { camera, notes } from '../state/store';
-import { answered, commit, isDone } from './committing';
-import { openList } from './list-open';
+import { openList } from '../state/panels';
+import { pickOnceShown } from '../state/shown';
+import { addNotes, camera } from '../state/store';
+import { engine } from '../worker/engine';
+import { commit, isDone } from './committing';
 import { maskOf, namedBySegment } from './segmentation';
-import { pickOnceShown } from './shown';
 
 /** Adds all branches connected to a seed. Doubtful ones are only added once the user accepts them. */
-export const addBranches = (engine: Asked, seed: Vector): Promise<boolean> =>
-  isDone(commit(engine, { kind: 'add_branches', seed }));
+export const addBranches = (seed: Vector): Promise<boolean> => isDone(commit({ kind: 'add_branches', seed }));
 
-export const accept = (engine: Asked, ids: readonly number[]): Promise<boolean> =>
-  isDone(commit(engine, { kind: 'accept', ids }));
+export const accept = (ids: readonly number[]): Promise<boolean> => isDone(commit({ kind: 'accept', ids }));
 
-export const leaveOut = (engine: Asked, ids: readonly number[]): Promise<boolean> =>
-  isDone(commit(engine, { kind: 'leave_out', ids }));
+export const leaveOut = (ids: readonly number[]): Promise<boolean> =>
+  isDone(commit({ kind: 'leave_out', ids }));
 
 /** Adds all vessels of the scan as a tree. Fails if all are doubtful, unless `doubtful` is set. */
-export async function findVessels(engine: Asked, doubtful = false): Promise<boolean> {
+export async function findVessels(doubtful = false): Promise<boolean> {
   const isFirst = sure().length === 0;
-  const isFound = await addMany(engine, { kind: 'find_vessels', doubtful });
+  const isFound = await addMany({ kind: 'find_vessels', doubtful });
   if (isFound && isFirst) {
-    await showMain(engine);
+    await showMain();
   }
   return isFound;
 }
@@ -33,13 +33,13 @@ export async function findVessels(engine: Asked, doubtful = false): Promise<bool
 const sure = () => document_.value.vessels.filter((vessel) => vessel.doubt === null);
 
 /** Picks the widest vessel, and turns the view so that most of it is visible. */
-async function showMain(engine: Asked): Promise<void> {
+async function showMain(): Promise<void> {
   try {
     const main = widest(answered.value?.facts ?? []);
     const vessel = sure().find(({ line }) => line === main?.line);
     if (vessel && camera.value) {
       pickOnceShown(vessel.id);
-      await flyToAnswer(engine, engine.ask('best_view', { camera: camera.value, line: vessel.line }));
+      await flyToAnswer(engine.ask('best_view', { camera: camera.value, line: vessel.line }));
     }
   } catch (error) {
     showFailure(error);
@@ -51,20 +51,19 @@ function widest(facts: readonly LineFacts[]): LineFacts | null {
   return [...facts].sort(isLess).at(-1) ?? null;
 }
 
-export async function findAndList(engine: Asked, doubtful = false): Promise<void> {
-  if (await findVessels(engine, doubtful)) {
+export async function findAndList(doubtful = false): Promise<void> {
+  if (await findVessels(doubtful)) {
     openList();
   }
 }
 
-export const addMask = (engine: Asked, mask: readonly GivenFile[]): Promise<boolean> =>
-  addMany(engine, { kind: 'add_mask' }, mask);
+export const addMask = (mask: readonly GivenFile[]): Promise<boolean> => addMany({ kind: 'add_mask' }, mask);
 
-export async function addSegmentation(engine: Asked, file: GivenFile): Promise<boolean> {
+export async function addSegmentation(file: GivenFile): Promise<boolean> {
   try {
     const { mask, names, notes: maskNotes } = await maskOf(file);
-    notes.value = [...new Set([...notes.value, ...maskNotes])];
-    return await addMany(engine, { kind: 'add_mask' }, mask, (vessel) => namedBySegment(vessel, names));
+    addNotes(maskNotes);
+    return await addMany({ kind: 'add_mask' }, mask, (vessel) => namedBySegment(vessel, names));
   } catch (error) {
     showFailure(error);
     return false;
@@ -72,13 +71,10 @@ export async function addSegmentation(engine: Asked, file: GivenFile): Promise<b
 }
 
 function addMany(
-  engine: Asked,
   edit: Edit,
   mask?: readonly GivenFile[],
   renamed?: (vessel: DocumentVessel) => DocumentVessel,
 ): Promise<boolean> {
-  const then = (edited: Edited) => {
-    notes.value = [...new Set([...notes.value, ...edited.notes])];
-  };
-  return isDone(commit(engine, edit, { then, ...(mask && { mask }), ...(renamed && { renamed }) }));
+  const then = (edited: Edited) => addNotes(edited.notes);
+  return isDone(commit(edit, { then, ...(mask && { mask }), ...(renamed && { renamed }) }));
 }

@@ -1,15 +1,16 @@
 /** Review of the doubtful branches: shows one after another, and the user accepts it or leaves it out. */
-import type { Asked } from '../core/asked';
+
 import type { Camera, DocumentVessel, LineId } from '../core/messages';
-import { placeCrossHair } from '../link/cross-hair';
 import { doubtful, vesselOf } from '../state/changes';
+import { placeCrossHair } from '../state/cross-hair';
 import { flyToAnswer } from '../state/flight';
 import { document_ } from '../state/history';
+import { contents } from '../state/lines';
 import { showFailure } from '../state/message';
 import { camera, started } from '../state/store';
+import { chooseDoubt, chosenDoubt } from '../state/tool';
+import { engine } from '../worker/engine';
 import { accept, leaveOut } from './branches';
-import { contents } from './lines';
-import { chosenDoubt } from './mode';
 
 /** Why the vessel is doubtful, in short if the engine has a short form. */
 export function reasonOf({ doubt }: DocumentVessel): string {
@@ -31,8 +32,8 @@ export function placeOfDoubt(): readonly [number, number] {
   return [all.findIndex((vessel) => vessel.id === chosenDoubt.value), all.length];
 }
 
-export async function showDoubt(engine: Asked, vessel: DocumentVessel): Promise<void> {
-  chosenDoubt.value = vessel.id;
+export async function showDoubt(vessel: DocumentVessel): Promise<void> {
+  chooseDoubt(vessel.id);
   const points = contents.value.get(vessel.line)?.points ?? [];
   const middle = points[Math.floor(points.length / 2)];
   try {
@@ -40,7 +41,7 @@ export async function showDoubt(engine: Asked, vessel: DocumentVessel): Promise<
       placeCrossHair({ ...(await engine.ask('at', middle)), vessel: null, arc_length: null }, 'turning');
     }
     if (camera.value) {
-      await flyToAnswer(engine, viewOf(engine, camera.value, vessel.line));
+      await flyToAnswer(viewOf(camera.value, vessel.line));
     }
   } catch (error) {
     showFailure(error);
@@ -50,22 +51,22 @@ export async function showDoubt(engine: Asked, vessel: DocumentVessel): Promise<
 /** Smallest field of view (mm, shorter side); the surroundings help to identify the branch. */
 const LEAST_SEEN = 80;
 
-async function viewOf(engine: Asked, from: Camera, line: LineId): Promise<Camera> {
+async function viewOf(from: Camera, line: LineId): Promise<Camera> {
   const best = await engine.ask('best_view', { camera: from, line });
   return { ...best, pixel_spacing: Math.max(best.pixel_spacing, LEAST_SEEN / Math.min(...best.size)) };
 }
 
 /** Shows the next or previous doubtful branch; after the last comes the first. */
-export function stepDoubt(engine: Asked, by: 1 | -1): void {
+export function stepDoubt(by: 1 | -1): void {
   const all = doubtful(document_.value);
   const [now] = placeOfDoubt();
   const next = all[now < 0 ? 0 : (now + by + all.length) % all.length];
   if (next) {
-    void showDoubt(engine, next);
+    void showDoubt(next);
   }
 }
 
-export async function answerDoubt(engine: Asked, answer: 'accept' | 'leave out'): Promise<void> {
+export async function answerDoubt(answer: 'accept' | 'leave out'): Promise<void> {
   const chosen = vesselOf(document_.value, chosenDoubt.value);
   if (!chosen?.doubt) {
     return;
@@ -73,8 +74,8 @@ export async function answerDoubt(engine: Asked, answer: 'accept' | 'leave out')
   const all = doubtful(document_.value);
   const at = all.indexOf(chosen);
   const following = [...all.slice(at + 1), ...all.slice(0, at)][0];
-  chosenDoubt.value = null;
-  if ((await (answer === 'accept' ? accept : leaveOut)(engine, [chosen.id])) && following) {
-    await showDoubt(engine, following);
+  chooseDoubt(null);
+  if ((await (answer === 'accept' ? accept : leaveOut)([chosen.id])) && following) {
+    await showDoubt(following);
   }
 }

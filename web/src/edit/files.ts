@@ -1,12 +1,13 @@
 /** Writes the vessels as a centerline file, and adds centerlines from files. */
-import type { Asked } from '../core/asked';
+
 import type { CenterlineKind, NamedLine } from '../core/messages';
 import { nameOf } from '../state/changes';
 import { document_ } from '../state/history';
+import { engine } from '../worker/engine';
 import { commit, isDone } from './committing';
 
 /** A centerline file of all vessels, also hidden ones, but without doubtful ones. */
-export async function centerlineFile(engine: Asked, kind: CenterlineKind): Promise<Blob> {
+export async function centerlineFile(kind: CenterlineKind): Promise<Blob> {
   const vessels = document_.value.vessels.filter((vessel) => vessel.doubt === null);
   const lines = vessels.map((vessel) => ({ line: vessel.line, name: nameOf(vessel) }));
   return new Blob([(await engine.ask('write_lines', { lines, kind })).bytes], {
@@ -14,7 +15,7 @@ export async function centerlineFile(engine: Asked, kind: CenterlineKind): Promi
   });
 }
 
-export function addLoaded(engine: Asked, vessels: readonly NamedLine[]): Promise<boolean> {
+export function addLoaded(vessels: readonly NamedLine[]): Promise<boolean> {
   const lines = vessels.map(({ line, name }) => ({ line, name }));
-  return isDone(commit(engine, { kind: 'add_lines', lines }));
+  return isDone(commit({ kind: 'add_lines', lines }));
 }

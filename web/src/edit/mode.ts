@@ -1,19 +1,15 @@
 /** While tracing, the page shows three slices and a maximum intensity projection. */
-import { batch, effect, signal, untracked } from '@preact/signals';
+
+import { batch, effect, untracked } from '@preact/signals';
 import type { SettingValue } from '../core/messages';
-import { moveTo } from '../link/along';
 import { setSetting, settingOf } from '../state/actions';
+import { moveTo } from '../state/cross-hair';
+import { editQueue } from '../state/edit-queue';
+import { openList, showAllViews } from '../state/panels';
 import * as store from '../state/store';
-import { type Tool, tool } from '../state/tool';
-import { forgetRefusal } from './committing';
-import { openList } from './list-open';
+import { setLayout } from '../state/store';
+import { isTracing } from '../state/tool';
 import { endVessel } from './pointing';
-
-export const chosenDoubt = signal<number | null>(null);
-
-const TRACING: readonly Tool[] = ['trace', 'stopper', 'seed'];
-
-export const isTracing = (): boolean => TRACING.includes(tool.value);
 
 interface Kept {
   readonly layout: store.Layout;
@@ -31,18 +27,18 @@ export function followTool(): () => void {
       if (isOn && !before) {
         before = { layout: store.layout.peek(), context: peekContext() };
         show({ layout: 'four', context: 'mip' });
-        store.maximised.value = null;
+        showAllViews();
         openList();
       } else if (!isOn && before) {
         endVessel();
-        forgetRefusal();
+        editQueue.forgetRefusal();
         // Restore only what the user has not changed meanwhile.
         const isOurs = store.layout.peek() === 'four' && peekContext() === 'mip';
         if (isOurs) {
           show(before);
         }
         // A maximised slice would hide the traced vessel.
-        store.maximised.value = null;
+        showAllViews();
         before = null;
         untracked(() => moveTo(store.pickedPlace.value));
       }
@@ -55,10 +51,6 @@ function peekContext(): SettingValue {
 }
 
 function show({ layout, context }: Kept): void {
-  store.layout.value = layout;
+  setLayout(layout);
   untracked(() => setSetting('context', context));
-}
-
-export function toggleTool(wanted: Tool): void {
-  tool.value = tool.value === wanted ? 'look' : wanted;
 }

@@ -1,132 +1,143 @@
 /** Clicks, Enter and Escape in the tracing tools. */
-import { batch } from '@preact/signals';
-import type { Asked } from '../core/asked';
+
 import { Failure } from '../core/failure';
+import type { Edited } from '../core/generated/questions';
 import type { AfterEdit, Pick, Vector } from '../core/messages';
 import { length, subtract } from '../core/vectors';
+import {
+  addComing,
+  anchor,
+  candidate,
+  drawing,
+  drawn,
+  endDrawing,
+  extendBegun,
+  first,
+  isDrawing,
+  only,
+  propose,
+  setCheckedFirst,
+  setFirst,
+  showWhole,
+} from '../state/drawing';
+import { editQueue } from '../state/edit-queue';
 import { document_ } from '../state/history';
 import { showMessage } from '../state/message';
+import { pickWhenShown } from '../state/shown';
 import { crossHair } from '../state/store';
-import { active, tool } from '../state/tool';
+import { takeTool, tool } from '../state/tool';
+import { engine } from '../worker/engine';
 import { addBranches } from './branches';
-import { addClick, beginVessel, begunId, removeClick } from './clicks';
-import { forgetRefusal, refusal, searches, showRefusal } from './committing';
-import { anchor, candidate, coming, drawing, drawn, first, forgetDrawing, isDrawing } from './drawing';
-import { addStopper } from './stoppers';
-import { checked, only, whole } from './whole-shown';
+import { addClick, addStopper, beginVessel, begunId, removeClick } from './clicks';
+import { commit } from './committing';
 
 const SAME_POINT_MM = 0.05;
 
 let beginning: Promise<AfterEdit | null> | null = null;
 
 /** Sets a point, a stopper or a seed. Returns the value at the point, or null. */
-export async function setPoint(engine: Asked, point: Vector): Promise<Pick | null> {
-  candidate.value = null;
-  if (searches.value > 0) {
+export async function setPoint(point: Vector): Promise<Pick | null> {
+  propose(null);
+  if (editQueue.isSearching) {
     showMessage('No point was set: the search for vessels is still running. Press Escape to stop it.');
     return null;
   }
   if (tool.value === 'stopper') {
-    return (await addStopper(engine, point))?.pick ?? null;
+    return (await addStopper(point))?.pick ?? null;
   }
   if (tool.value === 'seed') {
-    await beginTree(engine, point);
+    await beginTree(point);
     return null;
   }
   if (anchor.value === null) {
-    forgetRefusal();
-    batch(() => {
-      checked.value = point;
-      first.value = point;
-    });
-    return checkFirst(engine, point);
+    editQueue.forgetRefusal();
+    setCheckedFirst(point);
+    return checkFirst(point);
   }
-  const own = { point, drawing: drawing.value };
-  coming.value = [...coming.value, own];
-  const answer = await goOn(engine, point);
-  coming.value = coming.value.filter((one) => one !== own);
+  const end = addComing(point);
+  const answer = await goOn(point);
+  end();
   return answer?.pick ?? null;
 }
 
 /** Searches branches from a seed; if none are found, the user can click again. */
-async function beginTree(engine: Asked, point: Vector): Promise<void> {
-  if ((await addBranches(engine, point)) && tool.value === 'seed') {
-    tool.value = 'look';
+async function beginTree(point: Vector): Promise<void> {
+  if ((await addBranches(point)) && tool.value === 'seed') {
+    takeTool('look');
   }
 }
 
-async function goOn(engine: Asked, point: Vector): Promise<AfterEdit | null> {
+async function goOn(point: Vector): Promise<AfterEdit | null> {
   if (drawn.value) {
-    return addClick(engine, drawn.value.id, point);
+    return addClick(drawn.value.id, point);
   }
   if (beginning) {
     const id = begunId(await beginning);
-    return id === null ? null : addClick(engine, id, point);
+    return id === null ? null : addClick(id, point);
   }
-  return first.value && begin(engine, [first.value, point]);
+  return first.value && begin([first.value, point]);
 }
 
-async function begin(engine: Asked, clicks: readonly [Vector, Vector]): Promise<AfterEdit | null> {
+async function begin(clicks: readonly [Vector, Vector]): Promise<AfterEdit | null> {
   const own = drawing.value;
   // If the user ended the vessel while it was traced, it is not extended further.
   const goesOn = () => own === drawing.value;
-  beginning = beginVessel(engine, clicks, (id) => {
+  beginning = beginVessel(clicks, (id) => {
     if (goesOn()) {
-      batch(() => {
-        active.value = id;
-        first.value = null;
-      });
+      extendBegun(id);
     }
   });
   const begun = await beginning;
   if (goesOn()) {
     beginning = null;
     // If the first point caused the error, it must be set again.
-    first.value = begun === null && !isBlamed(first.value) ? first.value : null;
+    setFirst(begun === null && !isBlamed(first.value) ? first.value : null);
   }
   return begun;
 }
 
 /** Checks the first point, and previews the whole vessel there. Removes the point if no vessel can begin there. */
-async function checkFirst(engine: Asked, point: Vector): Promise<Pick | null> {
+async function checkFirst(point: Vector): Promise<Pick | null> {
   try {
     const answer = await engine.ask('first_click', { click: point, vessels: document_.value.vessels });
-    whole.value = first.value === point && only.value === point ? answer.whole : whole.value;
+    if (first.value === point) {
+      showWhole(answer.whole, point);
+    }
     return answer.pick;
   } catch (error) {
     if (first.value === point) {
-      first.value = null;
-      showRefusal(Failure.of(error));
+      setFirst(null);
+      editQueue.showRefusal(Failure.of(error));
     }
     return null;
   }
 }
 
 function isBlamed(point: Vector | null): boolean {
-  const place = refusal.value?.failure.place;
+  const place = editQueue.state.refusal?.failure.place;
   return Boolean(point && place && length(subtract(place, point)) < SAME_POINT_MM);
 }
 
 /** Confirms the pending point from a projection. Returns whether there was one. */
-export function acceptCandidate(engine: Asked): boolean {
+export function acceptCandidate(): boolean {
   const point = candidate.value;
   if (point) {
-    void setPoint(engine, point);
+    void setPoint(point);
   }
   return point !== null;
 }
 
 /** Enter confirms a pending point, or sets one at the cross-hair. Twice at one position, it ends the vessel. */
-export function enter(engine: Asked): void {
+export function enter(): void {
   const place = crossHair.value?.point;
-  if (acceptCandidate(engine) || !place) {
+  if (acceptCandidate() || !place) {
     return;
   }
   const last = anchor.value;
   if (tool.value === 'trace' && last && isAtCrossHair(last)) {
     endVessel();
   } else {
-    void setPoint(engine, place);
+    void setPoint(place);
   }
 }
 
@@ -138,11 +149,7 @@ export function isAtCrossHair(place: Vector): boolean {
 /** Ends the vessel; points still being traced are added to it. */
 export function endVessel(): void {
   beginning = null;
-  batch(() => {
-    drawing.value += 1;
-    active.value = null;
-    forgetDrawing();
-  });
+  endDrawing();
 }
 
 /** Drops the pending point; otherwise ends the vessel; otherwise leaves the tool. Returns whether it did something. */
@@ -151,25 +158,41 @@ export function leave(): boolean {
     return false;
   }
   if (candidate.value) {
-    candidate.value = null;
+    propose(null);
   } else if (isDrawing.value) {
     endVessel();
   } else {
-    tool.value = 'look';
+    takeTool('look');
   }
   return true;
 }
 
-export function removeLast(engine: Asked): void {
+export function removeLast(): void {
   const clicks = drawn.value?.clicks;
   if (candidate.value) {
-    candidate.value = null;
+    propose(null);
   } else if (drawn.value && clicks) {
     const kept = clicks.length === 2 ? (clicks[0] ?? null) : null;
-    void removeClick(engine, drawn.value.id, clicks.length - 1).then(() => {
-      first.value = kept;
+    void removeClick(drawn.value.id, clicks.length - 1).then(() => {
+      setFirst(kept);
     });
   } else {
-    first.value = null;
+    setFirst(null);
   }
+}
+
+/** Traces the whole vessel at one clicked point. Returns whether there was one. It stays if a second point could help. */
+export function takeWhole(): boolean {
+  const click = only.value;
+  if (click) {
+    endVessel();
+    const then = ({ added: [id] }: Edited) => pickWhenShown(id);
+    void commit({ kind: 'add_whole_vessel', click }, { then }).then((answer) => {
+      const isLeft = answer === null && editQueue.state.refusal?.failure.advice !== '';
+      if (isLeft && !isDrawing.value && tool.value === 'trace') {
+        setFirst(click);
+      }
+    });
+  }
+  return click !== null;
 }

@@ -1,8 +1,7 @@
 /** Order of the vessel list: as added, or as a tree with the widest branches first. */
 import { computed } from '@preact/signals';
 import type { DocumentVessel, LineFacts } from '../core/messages';
-import { treeChosen } from '../state/tidy';
-import { factsOf, sure } from './tidying';
+import { factsOf, sure, treeChosen } from '../state/tidying';
 
 export interface ListedVessel {
   readonly vessel: DocumentVessel;

@@ -1,7 +1,8 @@
 /** Edits of a vessel as a whole: name, colour, visibility, cutting and joining. */
-import type { Asked } from '../core/asked';
+import { VESSEL_NAMES } from '../core/generated/tables';
 import type { DocumentVessel } from '../core/messages';
 import { changed, vesselOf } from '../state/changes';
+import { marked, markNone, unconnected } from '../state/tidying';
 import { commit, commitPlain, isDone } from './committing';
 
 export const rename = (id: number, name: string): Promise<boolean> => set('rename a vessel', id, { name });
@@ -20,11 +21,27 @@ function set(words: string, id: number, to: Partial<DocumentVessel>): Promise<bo
   });
 }
 
-export const remove = (engine: Asked, ids: readonly number[]): Promise<boolean> =>
-  isDone(commit(engine, { kind: 'remove', ids }));
+export const remove = (ids: readonly number[]): Promise<boolean> => isDone(commit({ kind: 'remove', ids }));
 
-export const cut = (engine: Asked, id: number, at: number): Promise<boolean> =>
-  isDone(commit(engine, { kind: 'cut', id, at }));
+export const cut = (id: number, at: number): Promise<boolean> => isDone(commit({ kind: 'cut', id, at }));
 
-export const join = (engine: Asked, id: number, other: number): Promise<boolean> =>
-  isDone(commit(engine, { kind: 'join', id, other }));
+export const join = (id: number, other: number): Promise<boolean> =>
+  isDone(commit({ kind: 'join', id, other }));
+
+export async function removeMarked(): Promise<boolean> {
+  const isRemoved = await remove([...marked.value]);
+  if (isRemoved) {
+    markNone();
+  }
+  return isRemoved;
+}
+
+export const keepPart = (): Promise<boolean> => remove(unconnected.value);
+
+/** Anatomical names offered when the user names a vessel. */
+export function namesToOffer(taken: readonly string[]): string[] {
+  const used = new Set(taken.map((name) => name.trim().toLowerCase()));
+  return VESSEL_NAMES.filter((name) => !used.has(name.toLowerCase())).sort((a, b) =>
+    a.localeCompare(b, 'en'),
+  );
+}

@@ -1,8 +1,8 @@
 /** Opens dropped, chosen or fetched files as a volume, as its centerlines, or both. */
 
 import { FILES } from '../core/generated/tables';
-import type { Judge } from '../core/judge';
 import type { States } from '../core/messages';
+import type { Judge } from '../core/module';
 import type { ScanStudy } from '../core/scan-study';
 import type { Volumes } from '../core/volumes';
 import type { Wanted } from './dicom/wanted';
@@ -23,6 +23,7 @@ export interface LoadContext {
   readonly loadJudge: () => Promise<Judge>;
   readonly kindOf: KindOf;
   readonly loadVolumes: () => Promise<Volumes>;
+  readonly loadPackedVolumes: () => Promise<Volumes>;
   readonly steps: Steps;
 }
 
@@ -166,14 +167,13 @@ async function membersOf(archive: Source): Promise<Source[]> {
   return zip.membersOf(archive);
 }
 
-async function openFile(source: Source, { beside, study, steps, loadVolumes }: Asked): Promise<Volume> {
-  const volumes = await loadVolumes();
+async function openFile(source: Source, { study, ...asked }: Asked): Promise<Volume> {
   const {
     notes: stated,
     description,
     spacing,
     orientation,
-  } = await readVolume(source, { beside, volumes, sink: study, steps });
+  } = await readVolume(source, { ...asked, sink: study });
   const notes = [...stated, ...sideNotes(study, description)];
   return { study: null, name: fileName(source.path), notes, states: { spacing, orientation } };
 }

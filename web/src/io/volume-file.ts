@@ -5,6 +5,7 @@ import type { Opening, Plan, Step, VolumeFile, Volumes } from '../core/volumes';
 import { Ahead } from './ahead';
 import { type Beside, besidePath, fileName, type Source } from './source';
 import type { Steps } from './steps';
+import { Unpacked, Unverified } from './unpacked';
 import { formatFailure } from './words';
 
 export type Size = readonly [number, number, number];
@@ -29,7 +30,8 @@ export interface Sink {
 
 interface Means {
   readonly beside: Beside;
-  readonly volumes: Volumes;
+  readonly loadVolumes: () => Promise<Volumes>;
+  readonly loadPackedVolumes: () => Promise<Volumes>;
   readonly sink: Sink;
   readonly steps: Steps;
 }
@@ -50,38 +52,59 @@ export function begin(sink: Sink, path: string, grid: Grid, dtype: string): void
   }
 }
 
-/** Reads a volume file, or either file of a pair. */
+/** Reads a volume file, or either file of a pair. After a failure the module with decoders states what is wrong. */
 export async function readVolume(source: Source, means: Means): Promise<Plan> {
-  const file = new means.volumes.VolumeFile(fileName(source.path));
   try {
-    return await new Reading(source, file, means).read();
+    return await read(source, means, await means.loadVolumes(), true);
+  } catch (error) {
+    if (means.steps.signal.aborted) {
+      throw error;
+    }
+    return read(source, means, await means.loadPackedVolumes(), false);
+  }
+}
+
+async function read(source: Source, means: Means, volumes: Volumes, unpacks: boolean): Promise<Plan> {
+  const file = new volumes.VolumeFile(fileName(source.path));
+  const reading = new Reading(source, file, means, volumes.memory, unpacks);
+  try {
+    return await reading.read();
   } finally {
+    await reading.close();
     file.free();
   }
 }
 
 class Reading {
   private readonly path: string;
-  /** Files by their names relative to the folder. */
+  /** Files by their names relative to the folder, and the content of those that are gzipped. */
   private readonly sources = new Map<string, Source | null>();
+  private readonly unpacked = new Map<string, Unpacked>();
 
   constructor(
     source: Source,
     private readonly file: VolumeFile,
     private readonly means: Means,
+    private readonly memory: WebAssembly.Memory,
+    /** Whether the browser unpacks gzip, not the module. */
+    private readonly unpacks: boolean,
   ) {
     this.path = source.path;
     this.sources.set(fileName(source.path), source);
   }
 
+  async close(): Promise<void> {
+    for (const one of this.unpacked.values()) {
+      await one.close();
+    }
+  }
+
   async read(): Promise<Plan> {
     const plan = await this.plan();
-    const rows = this.file.world_from_index();
-    if (!rows.every(Number.isFinite)) {
-      const found = 'a number in world_from_index that is not finite';
-      throw formatFailure(this.path, found, 'finite numbers', 'correct the position of the volume');
+    if (!plan.nifti) {
+      this.requirePlain();
     }
-    await this.fill(plan, gridOf(plan, [...rows]));
+    await this.fill(plan, gridOf(plan, [...this.file.world_from_index()]));
     return plan;
   }
 
@@ -90,11 +113,11 @@ class Reading {
       const answer: Opening = JSON.parse(this.asked(() => this.file.open()));
       if ('sizes' in answer) {
         for (const name of answer.sizes) {
-          this.file.add_size(name, (await this.source(name))?.size);
+          this.file.add_size(name, (await this.content(name))?.size);
         }
       } else if ('bytes' in answer) {
         const [start, end] = answer.range;
-        const source = await this.source(answer.bytes);
+        const source = await this.content(answer.bytes);
         this.file.add_bytes(answer.bytes, start, (await source?.slice(start, end)) ?? new Uint8Array());
       } else {
         return answer;
@@ -109,21 +132,59 @@ class Reading {
     return this.sources.get(name) ?? null;
   }
 
+  /** Only NIfTI files may be gzipped as a whole. */
+  private requirePlain(): void {
+    if ([...this.unpacked.values()].some((content) => content.isBegun)) {
+      throw new Unverified();
+    }
+    this.unpacked.clear();
+  }
+
+  private async content(name: string): Promise<Source | null> {
+    const source = await this.source(name);
+    if (this.unpacks && source && !this.unpacked.has(name)) {
+      await this.unpack(name, source, 0);
+    }
+    return this.unpacked.get(name) ?? source;
+  }
+
+  private async unpack(name: string, source: Source, from: number): Promise<Unpacked | null> {
+    const content = await Unpacked.of(source, from);
+    if (content) {
+      await this.unpacked.get(name)?.close();
+      this.unpacked.set(name, content);
+    }
+    return content;
+  }
+
+  private async voxels(plan: Plan): Promise<Source | null> {
+    const source = await this.source(plan.voxels);
+    if (!this.unpacks || !source) {
+      return source;
+    }
+    if (plan.packed) {
+      return plan.stream === null ? null : this.unpack(plan.voxels, source, plan.stream);
+    }
+    return plan.nifti ? this.content(plan.voxels) : source;
+  }
+
   private async fill(plan: Plan, grid: Grid): Promise<void> {
     const { file, means } = this;
-    const source = await this.source(plan.voxels);
-    this.asked(() => file.begin(source?.size));
-    const ahead = new Ahead(source);
+    const source = await this.voxels(plan);
+    if (this.unpacks && plan.packed && !source) {
+      throw new Unverified();
+    }
+    this.asked(() => file.begin(source?.size, this.unpacks && plan.packed));
+    const pieces = source instanceof Unpacked ? source : new Ahead(source);
     let [offset, all] = [0, 0];
     for (;;) {
       const step: Step = JSON.parse(this.asked(() => file.step()));
       if (step.filled > 0) {
-        const { buffer } = means.volumes.memory;
-        means.sink.take_voxels(offset, new Uint8Array(buffer, file.output(), step.filled));
+        means.sink.take_voxels(offset, new Uint8Array(this.memory.buffer, file.output(), step.filled));
         offset += step.filled;
       }
       if (step.isDone) {
-        return;
+        break;
       }
       this.refuseLarge(source?.path ?? this.path, step.least ?? 0);
       if (step.room) {
@@ -132,10 +193,13 @@ class Reading {
       }
       if (step.read) {
         const [start] = step.read;
-        file.read(start, await ahead.from(start));
+        file.read(start, await pieces.from(start));
       }
       const isChecking = all === 0;
       await means.steps.step(isChecking ? 'Checking the volume' : 'Volume', offset, isChecking ? null : all);
+    }
+    for (const content of [...this.unpacked.values()].filter(({ isBegun }) => isBegun)) {
+      await content.finish(() => means.steps.step('Volume', offset, all));
     }
   }
 

@@ -1,14 +1,16 @@
 /** Straightened CPR of the picked vessel, shown horizontally with its first point on the left. */
+
 import { useCallback, useState } from 'preact/hooks';
-import { engine } from '../client/shared';
 import type { Axis, Cpr, Pair, StripLayout } from '../core/messages';
-import { moveTo } from '../link/along';
-import { CprControls, TURN_STEP } from '../pane/CprControls';
+import { CprControls } from '../pane/CprControls';
 import { FlatPicture } from '../pane/FlatPicture';
 import { dragWindow, windowBack } from '../state/actions';
+import { moveTo } from '../state/cross-hair';
+import { toggleMaximised } from '../state/panels';
 import * as store from '../state/store';
+import { engine } from '../worker/engine';
+import { valueAt } from './layout';
 import { lyingBox, lyingPicture } from './lying';
-import { valueAt } from './scale';
 
 interface LyingCprProps {
   readonly x: Axis;
@@ -66,11 +68,11 @@ function handlersOf(x: Axis) {
     drag: (action: string, by: Pair) => (action === 'window' ? dragWindow(by) : undefined),
     zoom: () => undefined,
     scroll: (steps: number) => {
-      store.cprAngle.value += steps * TURN_STEP;
+      store.turnCpr(steps);
     },
     click: (action: string, [column]: Pair) => {
       if (action === 'maximise') {
-        store.maximised.value = store.maximised.value === 'profile' ? null : 'profile';
+        toggleMaximised('profile');
       } else {
         moveTo(valueAt(x, column));
       }

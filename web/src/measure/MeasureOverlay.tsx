@@ -1,11 +1,11 @@
 /** Draws marked places and rulers over the turning view and the slices. */
 
-import { engine } from '../client/shared';
 import { pixelOf } from '../core/camera';
 import type { Camera, Pair, Plane, Vector } from '../core/messages';
 import { pixelOn, pointOn } from '../core/planes';
 import { cross, dot, subtract } from '../core/vectors';
 import * as store from '../state/store';
+import { engine } from '../worker/engine';
 import { currentProfile } from './current';
 import { PlaceHandles } from './PlaceHandles';
 import { RulerLayer } from './RulerLayer';

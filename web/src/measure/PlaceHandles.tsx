@@ -1,8 +1,9 @@
 /** Handles to drag the marked places, in the chart, the CPR and the turning view. */
 import type { Pair, ReportPlace } from '../core/messages';
 import { Handle } from '../pane/Handle';
+import { isCrossed } from '../state/measuring';
 import { currentPlaces } from './current';
-import { beginMove, confirm, endMove, isCrossed, move, putBack, remove } from './editing';
+import { beginMove, confirm, endMove, move, putBack, remove } from './editing';
 import type { Kind, VesselPlace } from './marks';
 import { mm, placeName } from './words';
 

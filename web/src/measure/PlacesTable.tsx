@@ -1,18 +1,17 @@
 /** Table of marked and suggested places, and the largest diameter of the vessel. */
-import { engine } from '../client/shared';
+
 import type { Profile } from '../core/messages';
 import { cut } from '../edit/vessels';
-import { moveTo } from '../link/along';
+import { moveTo } from '../state/cross-hair';
 import { document_ } from '../state/history';
 import { placeTurn, togglePlaceTurn } from '../state/place-turn';
 import * as store from '../state/store';
 import { currentMarks, currentPlaces, currentVessel } from './current';
 import { confirm, remove } from './editing';
-import { meanings } from './flags';
 import type { Kind, VesselPlace } from './marks';
 import { COLORS } from './PlaceHandles';
 import { sectionNumbers } from './sections';
-import { area, doubtWords, mm, NOTHING, placeName, spread, withKnownUnits } from './words';
+import { area, doubtWords, meanings, mm, NOTHING, placeName, spread, withKnownUnits } from './words';
 
 /** Kinds of places listed here; `StretchPart` lists the stretches. */
 const LISTED: readonly Kind[] = ['place', 'reference', 'diameter'];
@@ -55,7 +54,7 @@ function NotMeasured({ profile }: { readonly profile: Profile }) {
         <p key={at} class="refused" data-testid="not-measured">
           {withKnownUnits(words)}{' '}
           {id !== undefined && (
-            <button type="button" class="small" onClick={() => void cut(engine, id, at)}>
+            <button type="button" class="small" onClick={() => void cut(id, at)}>
               Cut here
             </button>
           )}
@@ -79,7 +78,7 @@ function TurnButton() {
       class="small"
       aria-pressed={turn !== null}
       title="Rotates the cut around this place, to show every diameter of the lumen (o)"
-      onClick={() => void togglePlaceTurn(engine)}
+      onClick={() => void togglePlaceTurn()}
     >
       {`Turn about ${mm(turn?.at ?? store.pickedPlace.value, 1)}`}
     </button>

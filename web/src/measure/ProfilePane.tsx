@@ -6,14 +6,13 @@ import { hasMillimetres } from '../state/millimetres';
 import * as store from '../state/store';
 import { currentPlaces, currentProfile, currentVessel } from './current';
 import { LyingCpr } from './LyingCpr';
-import { useMeasureLayout } from './layout';
+import { pixelAt, useMeasureLayout, valueAt } from './layout';
 import { useLineGrips } from './line-grips';
 import { NoProfile } from './NoProfile';
 import { COLORS, PlaceHandles } from './PlaceHandles';
 import { ProfileChart } from './ProfileChart';
 import { ProfileReading } from './ProfileReading';
 import { SectionTools, TOOLS } from './SectionTools';
-import { pixelAt, valueAt } from './scale';
 import { sectionNumbers } from './sections';
 
 /** Distance of the handles from the edge, clear of the lumen. */

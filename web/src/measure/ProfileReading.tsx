@@ -1,9 +1,9 @@
 /** Shows the measurements at the pointer, or else at the section. A click moves the section. */
 import type { ComponentChildren, TargetedPointerEvent } from 'preact';
 import type { Axis, Profile } from '../core/messages';
-import { moveAlong, moveTo } from '../link/along';
+import { moveAlong, moveTo } from '../state/cross-hair';
 import * as store from '../state/store';
-import { valueAt } from './scale';
+import { valueAt } from './layout';
 import { sectionNumbers, snapped } from './sections';
 import { sectionWords } from './words';
 

@@ -1,14 +1,13 @@
 /** Draws contour, diameters and measurements of a section over its picture. */
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { engine } from '../client/shared';
 import { Latest } from '../core/latest';
 import type { LineId, MeasuredSection, Pair, Plane, Vector } from '../core/messages';
 import { pixelOn } from '../core/planes';
 import { pickedPlace } from '../state/store';
+import { engine } from '../worker/engine';
 import { currentProfile, currentVessel } from './current';
-import { meanings } from './flags';
 import { nearestSection, sectionNumbers } from './sections';
-import { area, doubtWords, mm, spread } from './words';
+import { area, doubtWords, meanings, mm, spread } from './words';
 
 /** Contour colours, as in the pictures of `lumencut measure`. */
 export const CONTOUR = { counts: '#00e5ff', leftOut: '#ff9f1a' } as const;

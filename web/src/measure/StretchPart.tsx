@@ -1,12 +1,12 @@
 /** Marked stretches of a vessel: their length, and the C-arm angles that show them without foreshortening. */
 
-import { engine } from '../client/shared';
 import type { Pair, Profile, Stretch } from '../core/messages';
 import { middle } from '../core/vectors';
 import type { VesselMarks } from '../state/document';
 import { flyTo } from '../state/flight';
+import { answers } from '../state/measuring';
 import * as store from '../state/store';
-import { answers, currentMarks } from './current';
+import { currentMarks } from './current';
 import { changeMarks } from './editing';
 import { stretchAround } from './marks';
 import { COLORS } from './PlaceHandles';
@@ -92,7 +92,7 @@ function turnThere({ view }: Stretch, ends: Pair, profile: Profile): void {
   const camera = store.camera.value;
   const points = ends.map((at) => centerAt(profile, at)).filter((point) => point !== null);
   if (camera) {
-    flyTo(engine, {
+    flyTo({
       ...camera,
       direction: view.direction,
       up: view.up,

@@ -1,8 +1,8 @@
 /** Lines with handles at the marked places, over the straightened vessel when it is vertical. */
 import type { Pair } from '../core/messages';
 import { currentPlaces, currentVessel } from './current';
+import { pixelAt, valueAt } from './layout';
 import { COLORS, PlaceHandles } from './PlaceHandles';
-import { pixelAt, valueAt } from './scale';
 
 const HANDLE_INSET_PX = 16;
 

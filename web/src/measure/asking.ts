@@ -1,21 +1,31 @@
 /** Requests measurements from the engine whenever the marks or the picked vessel change. */
+
 import { untracked, useSignalEffect } from '@preact/signals';
 import { useRef } from 'preact/hooks';
-import { engine } from '../client/shared';
 import { Failure } from '../core/failure';
 import { Latest } from '../core/latest';
 import type { LineId, Profile } from '../core/messages';
-import { listedLines } from '../edit/shown';
-import { moveTo } from '../link/along';
-import { isArriving } from '../state/arriving';
+import { moveTo } from '../state/cross-hair';
 import type { VesselMarks } from '../state/document';
 import { document_ } from '../state/history';
+import {
+  type Answers,
+  endArriving,
+  isArriving,
+  NO_ANSWERS,
+  NOTHING_SUGGESTED,
+  type Suggested,
+  takeAnswers,
+  takeSentences,
+} from '../state/measuring';
 import { beingMeasured, forgetProfiles, measure, profiles, stopped } from '../state/profiles';
 import { rulerLength } from '../state/rulers';
+import { listedLines } from '../state/shown';
 import * as store from '../state/store';
-import { type Answers, answers, currentMarks, currentProfile, currentVessel, NO_ANSWERS } from './current';
-import { findingSentences, listedFindings, markedVessel, stated } from './findings';
-import { comparedIn, mainPlace, NOTHING_SUGGESTED, placesOf, type Suggested } from './marks';
+import { engine } from '../worker/engine';
+import { currentMarks, currentProfile, currentVessel } from './current';
+import { listedFindings, markedVessel, stated } from './findings';
+import { comparedIn, mainPlace, placesOf } from './marks';
 
 /** Keeps all measurements of the picked vessel up to date. Only the layout uses this hook. */
 export function useMeasuring(): void {
@@ -37,7 +47,7 @@ export function useMeasuring(): void {
     // Both signals are read in any case, so that a change of either runs this effect again.
     const isFree = beingMeasured.value === null && store.hasVolume.value;
     if (line !== undefined && isFree && stopped.value !== line) {
-      void measure(engine, line);
+      void measure(line);
     }
   });
   useSignalEffect(arrive);
@@ -47,18 +57,18 @@ export function useMeasuring(): void {
     if (vessel?.line !== answered.current) {
       // Numbers of one vessel must not appear next to the name of another.
       answered.current = vessel?.line ?? null;
-      answers.value = NO_ANSWERS;
+      takeAnswers(NO_ANSWERS);
     }
     if (vessel && profile && marks) {
       latest.current.run(async () => {
         const found = await asked(vessel.line, profile, marks).catch(unlessGone);
         // The user may have picked another vessel meanwhile.
         if (found && currentVessel.value?.line === vessel.line) {
-          answers.value = found;
+          takeAnswers(found);
         }
       });
     } else {
-      answers.value = NO_ANSWERS;
+      takeAnswers(NO_ANSWERS);
     }
   });
 }
@@ -82,8 +92,7 @@ function askForSentences(latest: Latest): void {
     stated: stated(),
   };
   latest.run(async () => {
-    findingSentences.value =
-      (await engine.ask('findings', message).catch(unlessGone)) ?? findingSentences.value;
+    takeSentences(await engine.ask('findings', message).catch(unlessGone));
   });
 }
 
@@ -95,7 +104,7 @@ function arrive(): void {
   if (isArriving.value && store.layout.value === 'measure' && profile && marks) {
     const main = mainPlace(profile, marks);
     untracked(() => {
-      isArriving.value = false;
+      endArriving();
       if (main) {
         moveTo(main.at);
       }

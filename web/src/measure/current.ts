@@ -1,20 +1,13 @@
 /** The picked vessel, its diameter profile, its marks and its measurements. */
-import { computed, signal } from '@preact/signals';
+import { computed } from '@preact/signals';
 import type { Failure } from '../core/failure';
-import type { LineId, Profile, Stenosis, Stretch } from '../core/messages';
+import type { LineId, Profile } from '../core/messages';
 import type { VesselMarks } from '../state/document';
 import { document_ } from '../state/history';
+import { answers } from '../state/measuring';
 import { profiles } from '../state/profiles';
 import * as store from '../state/store';
-import {
-  type ComparedPlaces,
-  comparedIn,
-  NOTHING_SUGGESTED,
-  placesOf,
-  type Suggested,
-  type VesselPlace,
-} from './marks';
-import { marksOf } from './vessels';
+import { type ComparedPlaces, comparedIn, marksOf, placesOf, type VesselPlace } from './marks';
 
 export interface CurrentVessel {
   readonly line: LineId;
@@ -50,30 +43,6 @@ export const currentMarks = computed<VesselMarks | null>(() => {
   const vessel = currentVessel.value;
   return vessel && marksOf(document_.value, vessel.line);
 });
-
-export interface Answers {
-  readonly suggested: Suggested;
-  readonly stenosis: Stenosis | null;
-  readonly notGraded: string | null;
-  /** Doubts about the stenosis percentage; if nothing is marked, about that of the suggested places. */
-  readonly doubts: readonly string[];
-  readonly stretch: Stretch | null;
-  readonly secondStretch: Stretch | null;
-  /** Angle between the two stretches (radians). */
-  readonly angle: number | null;
-}
-
-export const NO_ANSWERS: Answers = {
-  suggested: NOTHING_SUGGESTED,
-  stenosis: null,
-  notGraded: null,
-  doubts: [],
-  stretch: null,
-  secondStretch: null,
-  angle: null,
-};
-
-export const answers = signal<Answers>(NO_ANSWERS);
 
 /** Marked and suggested places; empty before the vessel is measured. */
 export const currentPlaces = computed<readonly VesselPlace[]>(() => {

@@ -1,11 +1,11 @@
 /** Edits of marked places. A drag is previewed and becomes one undo step. */
-import { batch, computed, signal } from '@preact/signals';
-import { moveTo } from '../link/along';
+import { batch, computed } from '@preact/signals';
+import { moveTo } from '../state/cross-hair';
 import { type Document, NO_MARKS, type VesselMarks } from '../state/document';
 import { change, document_, endPreview, preview } from '../state/history';
-import { begunLength, dropLength } from '../state/length';
+import { answers, beginLengthAt, begunLength, dropLength, isCrossed, setCrossed } from '../state/measuring';
 import { pickedPlace } from '../state/store';
-import { answers, comparedPlaces, currentMarks, currentProfile, currentVessel } from './current';
+import { comparedPlaces, currentMarks, currentProfile, currentVessel } from './current';
 import {
   allConfirmed,
   moved,
@@ -14,11 +14,11 @@ import {
   taken,
   type VesselPlace,
   withDiameter,
+  withMarks,
   withReference,
   withStretch,
 } from './marks';
 import { snapped } from './sections';
-import { withMarks } from './vessels';
 import { placeName } from './words';
 
 interface Drag {
@@ -29,9 +29,6 @@ interface Drag {
 }
 
 let drag: Drag | null = null;
-
-/** Whether the dragged reference has passed the stenosis; then the keys of the two reference handles are swapped. */
-export const isCrossed = signal(false);
 
 function documentWith(marks: VesselMarks): Document {
   const vessel = currentVessel.value;
@@ -59,7 +56,7 @@ export function move(to: number): void {
     const after = moved(profile, marks, place, snapped(profile, to));
     const now = placeAfter(profile, marks, place, after);
     batch(() => {
-      isCrossed.value = wasCrossed !== (now.slot !== place.slot);
+      setCrossed(wasCrossed !== (now.slot !== place.slot));
       preview(documentWith(after));
       moveTo(now.at);
     });
@@ -75,7 +72,7 @@ export function endMove(): void {
 
 export function putBack(): void {
   if (drag) {
-    isCrossed.value = drag.wasCrossed;
+    setCrossed(drag.wasCrossed);
     preview(drag.document);
     drag = null;
   }
@@ -106,7 +103,7 @@ export const lengthFrom = computed<number | null>(() =>
 export function beginLength(): void {
   const [vessel, profile] = [currentVessel.value, currentProfile.value];
   if (vessel && profile) {
-    begunLength.value = { line: vessel.line, at: snapped(profile, pickedPlace.value) };
+    beginLengthAt(vessel.line, snapped(profile, pickedPlace.value));
   }
 }
 

@@ -1,12 +1,12 @@
 /** Findings: the vessels with marks, and the sentences that the engine writes about them. */
-import { computed, signal } from '@preact/signals';
-import type { Findings, LineId, MeasuredVessel, Stated } from '../core/messages';
+import { computed } from '@preact/signals';
+import type { LineId, MeasuredVessel, Stated } from '../core/messages';
 import { nameOf } from '../state/changes';
 import type { VesselMarks } from '../state/document';
 import { document_ } from '../state/history';
 import { hasMillimetres } from '../state/millimetres';
 import * as store from '../state/store';
-import { marksOf } from './vessels';
+import { marksOf } from './marks';
 
 export interface Finding {
   readonly vessel: number;
@@ -46,21 +46,6 @@ export const hiddenFindings = computed<readonly string[]>(() => {
   const { vessels, marks } = document_.value;
   return vessels.filter(({ id, isHidden }) => isHidden && marks[id] && isMarked(marks[id])).map(nameOf);
 });
-
-export const leftOut = signal<ReadonlySet<LineId>>(new Set());
-
-export function leaveOut(line: LineId, isOut: boolean): void {
-  const others = [...leftOut.value].filter((other) => other !== line);
-  leftOut.value = new Set(isOut ? [...others, line] : others);
-}
-
-/** The sentences about all findings; null until the engine has answered. */
-export const findingSentences = signal<Findings | null>(null);
-
-export function forgetFindings(): void {
-  leftOut.value = new Set();
-  findingSentences.value = null;
-}
 
 /** Whether lengths are in mm, and whether the orientation of the patient is known. */
 export const stated = (): Stated => ({

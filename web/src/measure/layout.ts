@@ -1,9 +1,10 @@
-/** Layout of the measuring pane, which the engine computes (CSS pixels). */
+/** Layout of the measuring pane, which the engine computes (CSS pixels), and its linear axes. */
+
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { engine } from '../client/shared';
 import { Latest } from '../core/latest';
-import type { LineId, MeasureLayout, Pair } from '../core/messages';
+import type { Axis, LineId, MeasureLayout, Pair } from '../core/messages';
 import { recover } from '../state/device';
+import { engine } from '../worker/engine';
 import { unlessGone } from './asking';
 import { currentProfile, currentVessel } from './current';
 import { TOOLS } from './SectionTools';
@@ -33,4 +34,14 @@ export function useMeasureLayout(size: Pair | null): MeasureLayout | null {
     });
   }, [line, profile, size, density]);
   return laid?.line === line ? laid.layout : null;
+}
+
+export function pixelAt({ low, high, start, end }: Axis, value: number): number {
+  return start + ((value - low) / (high - low)) * (end - start);
+}
+
+/** The value at a pixel, clamped to the axis. */
+export function valueAt({ low, high, start, end }: Axis, pixel: number): number {
+  const value = low + ((pixel - start) / (end - start)) * (high - low);
+  return Math.min(Math.max(value, low), high);
 }

@@ -3,8 +3,8 @@ import { useRef } from 'preact/hooks';
 import type { Axis } from '../core/messages';
 import { currentPlaces } from './current';
 import { beginMove, endMove, move, putBack } from './editing';
+import { pixelAt, valueAt } from './layout';
 import type { VesselPlace } from './marks';
-import { pixelAt, valueAt } from './scale';
 
 export const GRAB_DISTANCE_PX = 22;
 const CLICK_MOVE_PX = 4;

@@ -1,6 +1,7 @@
 /** Marked places of a vessel, and suggestions for those not yet marked. */
-import type { Pair, Profile, Spot } from '../core/messages';
-import type { VesselMarks } from '../state/document';
+import type { LineId, Pair, Profile } from '../core/messages';
+import { type Document, NO_MARKS, type VesselMarks } from '../state/document';
+import type { Suggested } from '../state/measuring';
 import { lengthOf } from './sections';
 
 /** Kinds of marks: `place` is the stenosis, `diameter` a noted diameter. */
@@ -16,9 +17,6 @@ export interface VesselPlace {
   /** For a reference: whether it is shown as the one before the stenosis, also if both lie on one side. */
   readonly isBefore?: boolean;
 }
-
-export type Suggested = readonly [Spot | null, Spot | null];
-export const NOTHING_SUGGESTED: Suggested = [null, null];
 
 export function mainPlace(profile: Profile, marks: VesselMarks): VesselPlace | null {
   const at = marks.at ?? profile.narrowest?.at ?? null;
@@ -196,4 +194,16 @@ export function stretchAround(profile: Profile, at: number): Pair {
 
 function within(value: number, [low, high]: Pair): number {
   return Math.min(Math.max(value, low), high);
+}
+
+const byLine = (document: Document, line: LineId) => document.vessels.find((vessel) => vessel.line === line);
+
+export function marksOf(document: Document, line: LineId): VesselMarks {
+  const vessel = byLine(document, line);
+  return (vessel && document.marks[vessel.id]) ?? NO_MARKS;
+}
+
+export function withMarks(document: Document, line: LineId, marks: VesselMarks): Document {
+  const id = byLine(document, line)?.id;
+  return id === undefined ? document : { ...document, marks: { ...document.marks, [id]: marks } };
 }

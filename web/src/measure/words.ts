@@ -1,5 +1,5 @@
 /** Formats measurements as text, without units if the voxel spacing is unknown. */
-import type { Stenosis } from '../core/messages';
+import type { Profile, Stenosis } from '../core/messages';
 import { hasMillimetres } from '../state/millimetres';
 import type { VesselPlace } from './marks';
 import type { SectionNumbers } from './sections';
@@ -70,3 +70,9 @@ export function sectionWords(section: SectionNumbers): string {
 }
 
 export const degrees = (radians: number): string => `${Math.round((radians * 180) / Math.PI)}°`;
+
+export const meanings = ({ flag_table }: Profile, words: readonly string[]): string =>
+  flag_table
+    .filter(({ word }) => words.includes(word))
+    .map(({ word, meaning }) => `${word}: ${meaning}`)
+    .join('\n');

@@ -1,7 +1,6 @@
-/** Saves the session or the report by a keyboard shortcut. */
-import { Failure } from '../core/failure';
+/** Saves by a button or a key; if saving fails, the page shows why. */
 import type { Action } from '../input/bindings';
-import { problem, report } from '../state/store';
+import { report, showProblem } from '../state/store';
 import { saveReport } from './report';
 import { saveSession } from './session';
 
@@ -9,9 +8,11 @@ import { saveSession } from './session';
 export function saveByKey(action: Action): boolean {
   const save = { 'save session': saveSession, 'save report': saveReport }[action as string];
   if (save && report.value) {
-    save().catch((error: unknown) => {
-      problem.value = Failure.of(error);
-    });
+    attempt(save);
   }
   return save !== undefined;
+}
+
+export function attempt(save: () => Promise<void>): void {
+  save().catch(showProblem);
 }

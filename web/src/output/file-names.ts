@@ -1,5 +1,7 @@
 /** Names of saved files, made of scan name, content, viewing side and time. */
+
 import type { Vector } from '../core/messages';
+import { studyName } from '../state/store';
 
 export interface Named {
   /** Name of the scan; null if the file name must not identify it. */
@@ -51,3 +53,6 @@ export function sideOf(direction: Vector): string {
     .map(({ side }) => side)
     .join('-');
 }
+
+export const studyFileName = (named: Omit<Named, 'scan'>): string =>
+  fileName({ ...named, scan: studyName.value });

@@ -1,5 +1,5 @@
 /** Draws the key image of a finding: the straightened vessel with its marks, above the sections at these marks. */
-import { engine } from '../client/shared';
+
 import { Failure } from '../core/failure';
 import { SECTION_PIXELS as SIDE } from '../core/generated/tables';
 import type { Pair, Profile, ReportPlace } from '../core/messages';
@@ -8,6 +8,7 @@ import { colorOfPlace } from '../measure/PlaceHandles';
 import { nearestSection } from '../measure/sections';
 import { spread } from '../measure/words';
 import { profileOfLine } from '../state/profiles';
+import { engine } from '../worker/engine';
 import { canvasOf, sectionPair, straightenedCanvas } from './report-pictures';
 import { fittingSize } from './wrapping';
 
@@ -18,7 +19,7 @@ const MAX_VESSEL_HEIGHT = 260;
 const LINE = 36;
 
 export async function keyImage(finding: Finding): Promise<HTMLCanvasElement> {
-  const profile = await profileOfLine(engine, finding.line);
+  const profile = await profileOfLine(finding.line);
   const plan = await engine.ask('report_plan', markedVessel(finding));
   const places = plan.places.filter((place) => !place.is_suggestion);
   const strip = await straightenedCanvas(finding.vessel, plan);

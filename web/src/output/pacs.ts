@@ -1,6 +1,5 @@
 /** Saves DICOM objects for a PACS. The server of the page makes a zip archive of them; nothing is sent elsewhere. */
-import { signal } from '@preact/signals';
-import { engine } from '../client/shared';
+
 import { DEFAULTS } from '../core/generated/tables';
 import type { GivenFile } from '../core/messages';
 import { inBase64, made, placeOf } from '../core/server';
@@ -8,8 +7,10 @@ import type { Finding } from '../measure/findings';
 import { settingOf } from '../state/actions';
 import { showMessage } from '../state/message';
 import { profileOfLine } from '../state/profiles';
+import { chooseFile, setPacsAsked } from '../state/questions';
 import { reformationKind } from '../state/reformation';
 import * as store from '../state/store';
+import { engine } from '../worker/engine';
 import { fileName } from './file-names';
 import { keyImage } from './key-image';
 import { drawnPane } from './pane-picture';
@@ -27,29 +28,16 @@ const MOST_COLUMNS = 2000;
 
 export type PacsStudy = 'scan' | 'anonymous' | GivenFile;
 
-export interface ChosenFile {
-  readonly file: GivenFile;
-  /** Labels and values of patient name, ID, date, modality and body part. */
-  readonly facts: ReadonlyArray<readonly [string, string]>;
-  readonly doubts: readonly string[];
-  /** Why the file is rejected; null if it is accepted. */
-  readonly refusal: string | null;
-}
-
-export const isPacsAsked = signal(false);
-
-export const chosenFile = signal<ChosenFile | null>(null);
-
 export async function askAboutFile(file: GivenFile): Promise<void> {
   const content = { study: await studyPart(file), fingerprint: fingerprint() };
   const response = await made('study', SUBJECT, content);
-  chosenFile.value = { ...(await response.json()), file };
+  chooseFile({ ...(await response.json()), file });
 }
 
 /** Asks for the study of the objects. Throws if the server cannot create DICOM objects. */
 export async function askForPacs(): Promise<void> {
   placeOf('objects', SUBJECT);
-  isPacsAsked.value = true;
+  setPacsAsked(true);
 }
 
 export async function savePacs(study: PacsStudy): Promise<void> {
@@ -145,7 +133,7 @@ const pixelWords = (spacing: number): string =>
 
 async function partOf(finding: Finding): Promise<object> {
   const { line, name, marks } = finding;
-  await profileOfLine(engine, line);
+  await profileOfLine(line);
   return {
     picture: pngOf(await keyImage(finding)),
     name,

@@ -1,9 +1,9 @@
 /** Saves the picture of a section or reformation with a caption. */
 import { Failure } from '../core/failure';
 import { isInverted, type ViewName } from '../state/store';
+import { studyFileName } from './file-names';
 import { saveAs } from './pictures';
 import { canvasOf } from './report-pictures';
-import { studyFileName } from './study-file-names';
 import { wrapped } from './wrapping';
 
 const FONT = '13px system-ui, sans-serif';

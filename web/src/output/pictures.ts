@@ -1,14 +1,13 @@
 /** Saves pictures of the turning view, with or without labels. */
 
-import { engine } from '../client/shared';
 import { rightOf } from '../core/camera';
 import { Failure } from '../core/failure';
 import type { Camera, PictureLabels } from '../core/messages';
 import { negate } from '../core/vectors';
 import { showMessage } from '../state/message';
 import * as store from '../state/store';
-import { sideOf } from './file-names';
-import { studyFileName } from './study-file-names';
+import { engine } from '../worker/engine';
+import { sideOf, studyFileName } from './file-names';
 
 export async function composed(labels: 'labels' | 'plain'): Promise<HTMLCanvasElement> {
   const shown = document.querySelector<HTMLCanvasElement>('[data-testid=turning] canvas.picture');

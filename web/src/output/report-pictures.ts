@@ -1,6 +1,5 @@
 /** Draws the pictures of the report and of its findings. */
 
-import { engine } from '../client/shared';
 import { pixelOf } from '../core/camera';
 import { Failure } from '../core/failure';
 import { SECTION_PIXELS as SIDE } from '../core/generated/tables';
@@ -21,6 +20,7 @@ import { colorOfPlace } from '../measure/PlaceHandles';
 import { CONTOUR } from '../measure/SectionMarks';
 import { centerAt, nearestSection } from '../measure/sections';
 import * as store from '../state/store';
+import { engine } from '../worker/engine';
 import { composed } from './pictures';
 
 export function canvasOf(width: number, height: number): [HTMLCanvasElement, CanvasRenderingContext2D] {

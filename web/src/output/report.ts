@@ -1,20 +1,19 @@
 /** Makes the report of the findings: the engine writes the text, the page adds the pictures. */
-import { signal } from '@preact/signals';
-import { engine } from '../client/shared';
 import { Failure } from '../core/failure';
 import type { Profile, ReportVessel } from '../core/messages';
-import { type Finding, findingOf, leftOut, listedFindings, markedVessel, stated } from '../measure/findings';
+import { type Finding, findingOf, listedFindings, markedVessel, stated } from '../measure/findings';
 import { notGradedWords } from '../measure/words';
 import { document_ } from '../state/history';
+import { leftOut } from '../state/measuring';
 import { isMillimetreAssumed } from '../state/millimetres';
 import { profileOfLine, profiles } from '../state/profiles';
+import { isScanNamed } from '../state/questions';
 import { rulerLength } from '../state/rulers';
 import * as store from '../state/store';
+import { engine } from '../worker/engine';
 import { fileName } from './file-names';
 import { saveAs } from './pictures';
 import { pngOf, sectionPair, straightened, viewPicture } from './report-pictures';
-
-export const isScanNamed = signal(false);
 
 export async function saveReport(): Promise<void> {
   const findings = reported();
@@ -59,7 +58,7 @@ const namedScan = (): string | null =>
 export async function reportOf(findings: readonly Finding[], scan = namedScan()): Promise<string> {
   const vessels: ReportVessel[] = [];
   for (const finding of findings) {
-    vessels.push(await pageOf(finding, await profileOfLine(engine, finding.line)));
+    vessels.push(await pageOf(finding, await profileOfLine(finding.line)));
   }
   return engine.ask('measured_report', {
     vessels,

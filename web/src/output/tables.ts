@@ -1,15 +1,15 @@
 /** Saves the measurements of all measured vessels as CSV or JSON. */
 
-import { engine } from '../client/shared';
 import { Failure } from '../core/failure';
 import type { MeasuredVessel } from '../core/messages';
-import { marksOf } from '../measure/vessels';
+import { marksOf } from '../measure/marks';
 import { document_ } from '../state/history';
 import { isMillimetreAssumed } from '../state/millimetres';
 import { profiles } from '../state/profiles';
 import * as store from '../state/store';
+import { engine } from '../worker/engine';
+import { studyFileName } from './file-names';
 import { saveAs } from './pictures';
-import { studyFileName } from './study-file-names';
 
 export async function saveNumbers(kind: 'csv' | 'json'): Promise<void> {
   const vessels = measuredVessels();

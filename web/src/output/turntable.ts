@@ -4,8 +4,8 @@ import { Failure } from '../core/failure';
 import { DEFAULTS } from '../core/generated/tables';
 import type { Camera } from '../core/messages';
 import * as store from '../state/store';
+import { studyFileName } from './file-names';
 import { composed, saveAs } from './pictures';
-import { studyFileName } from './study-file-names';
 
 const FRAMES = DEFAULTS['turntable.frames'];
 const PER_SECOND = 18;
@@ -31,9 +31,9 @@ async function saveTurn(album: Album, ending: string): Promise<void> {
   }
   try {
     for (let n = 0; n < FRAMES; n++) {
-      store.progress.value = { words: 'Turntable', done: n, total: FRAMES };
+      store.showProgress({ words: 'Turntable', done: n, total: FRAMES });
       const turned = turnedAbout(camera, camera.center, [0, 0, 1], (2 * Math.PI * n) / FRAMES);
-      store.camera.value = turned;
+      store.setCamera(turned);
       await untilComplete(turned);
       await album.add(await composed('labels'));
       if (store.progress.value === null) {
@@ -43,11 +43,11 @@ async function saveTurn(album: Album, ending: string): Promise<void> {
     const film = await album.finish();
     saveAs(film, studyFileName({ content: 'turntable', ending }));
   } catch (error) {
-    store.problem.value = Failure.of(error);
+    store.showProblem(error);
   } finally {
     album.close?.();
-    store.progress.value = null;
-    store.camera.value = camera;
+    store.showProgress(null);
+    store.setCamera(camera);
   }
 }
 

@@ -1,10 +1,6 @@
 /** Controls of the straightened CPR. */
-import { batch } from '@preact/signals';
 import type { Feature, Roll } from '../core/messages';
 import * as store from '../state/store';
-
-/** Rotation per wheel step (radians). */
-export const TURN_STEP = Math.PI / 36;
 
 export function CprControls() {
   const degrees = Math.round((store.cprAngle.value * 180) / Math.PI);
@@ -19,9 +15,7 @@ export function CprControls() {
         value={String(((((degrees + 180) % 360) + 360) % 360) - 180)}
         aria-label="Rotation about the vessel (degrees)"
         disabled={isRolled}
-        onInput={(event) => {
-          store.cprAngle.value = (Number(event.currentTarget.value) * Math.PI) / 180;
-        }}
+        onInput={(event) => store.setCprAngle(Number(event.currentTarget.value))}
       />
       <output>{isRolled ? '' : `${degrees}°`}</output>
       <select
@@ -42,8 +36,8 @@ export function CprControls() {
 
 function choose(name: string): void {
   const isRoll = name === 'narrowest' || name === 'widest';
-  batch(() => {
-    store.cprRoll.value = isRoll ? (name as Roll) : null;
-    store.cprFeature.value = isRoll ? null : ((name || null) as Feature | null);
+  store.chooseCpr({
+    roll: isRoll ? (name as Roll) : null,
+    feature: isRoll ? null : ((name || null) as Feature | null),
   });
 }

@@ -1,6 +1,6 @@
 /** Controls of reformations other than the straightened CPR. */
 import type { MapOf, Reformation } from '../core/messages';
-import { mapOf, uncurled } from '../state/reformation';
+import { chooseMap, mapOf, setUncurled, uncurled } from '../state/reformation';
 
 const MAPS: readonly (readonly [MapOf, string])[] = [
   ['wall', 'brightest value at the wall'],
@@ -20,9 +20,7 @@ export function ReformationControls({ kind }: { readonly kind: Reformation['kind
           step="2"
           value={String(percent)}
           aria-label="How far the vessel is straightened (percent)"
-          onInput={(event) => {
-            uncurled.value = Number(event.currentTarget.value) / 100;
-          }}
+          onInput={(event) => setUncurled(Number(event.currentTarget.value) / 100)}
         />
         <output>{`${percent} %`}</output>
       </>
@@ -33,9 +31,7 @@ export function ReformationControls({ kind }: { readonly kind: Reformation['kind
       <select
         aria-label="What the map shows"
         value={mapOf.value}
-        onChange={(event) => {
-          mapOf.value = event.currentTarget.value as MapOf;
-        }}
+        onChange={(event) => chooseMap(event.currentTarget.value as MapOf)}
       >
         {MAPS.map(([of, words]) => (
           <option key={of} value={of}>

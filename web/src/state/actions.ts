@@ -1,15 +1,14 @@
 /** Actions of the user. They only change the store; the views react to it. */
+
 import { batch } from '@preact/signals';
-import type { EngineClient } from '../client/engine';
-import type { Asked } from '../core/asked';
 import { panned, resized, spun, trackballed, turnedAbout, zoomed } from '../core/camera';
 import { GESTURES } from '../core/generated/tables';
 import type { Camera, Pair, SettingValue, Vector, Window } from '../core/messages';
 import type { Action } from '../input/bindings';
-import { isArriving } from './arriving';
+import { engine } from '../worker/engine';
 import { destination, flyToAnswer } from './flight';
 import { windowChanged } from './history';
-import { dropLength } from './length';
+import { dropLength, isArriving } from './measuring';
 import { dragPlaceTurn, endPlaceTurn, placeTurn, togglePlaceTurn } from './place-turn';
 import { stopMeasuring } from './profiles';
 import { putRulerAway } from './rulers';
@@ -115,17 +114,17 @@ export function setSetting(name: string, value: SettingValue): void {
   store.settings.value = { ...store.settings.value, [name]: value };
 }
 
-export async function showNamedView(engine: EngineClient, name: string): Promise<void> {
+export async function showNamedView(name: string): Promise<void> {
   const camera = store.camera.value;
   if (camera && store.report.value) {
-    await flyToAnswer(engine, engine.ask('fitted', { view: name, size: camera.size }));
+    await flyToAnswer(engine.ask('fitted', { view: name, size: camera.size }));
   }
 }
 
-export async function showBestView(engine: Asked): Promise<void> {
+export async function showBestView(): Promise<void> {
   const [camera, line] = [store.camera.value, store.pickedLine()];
   if (camera && line !== null) {
-    await flyToAnswer(engine, engine.ask('best_view', { camera, line }));
+    await flyToAnswer(engine.ask('best_view', { camera, line }));
   }
 }
 
@@ -157,17 +156,17 @@ export function turnSlowly(angle: number): void {
   changeCamera((camera) => turnedAbout(camera, pivot(camera), [0, 0, 1], angle));
 }
 
-export function perform(engine: EngineClient, action: Action): void {
+export function perform(action: Action): void {
   if (action.startsWith('view ')) {
-    void showNamedView(engine, action.slice('view '.length));
+    void showNamedView(action.slice('view '.length));
   } else if (action.startsWith('preset ')) {
     choosePreset(Number(action.slice('preset '.length)));
   } else {
-    performSimple(engine, action);
+    performSimple(action);
   }
 }
 
-function performSimple(engine: EngineClient, action: Action): void {
+function performSimple(action: Action): void {
   switch (action) {
     case 'invert':
       store.isInverted.value = !store.isInverted.value;
@@ -183,10 +182,10 @@ function performSimple(engine: EngineClient, action: Action): void {
       toggleLayout(action);
       break;
     case 'best view':
-      void showBestView(engine);
+      void showBestView();
       break;
     case 'turn about place':
-      void togglePlaceTurn(engine);
+      void togglePlaceTurn();
       break;
     case 'turn':
       store.isTurning.value = !store.isTurning.value;
@@ -195,16 +194,16 @@ function performSimple(engine: EngineClient, action: Action): void {
       store.isHelpOpen.value = !store.isHelpOpen.value;
       break;
     case 'cancel':
-      cancel(engine);
+      cancel();
       break;
     case 'reset':
-      reset(engine);
+      reset();
       break;
     default:
   }
 }
 
-function cancel(engine: EngineClient): void {
+function cancel(): void {
   putRulerAway();
   dropLength();
   if (store.progress.value) {
@@ -221,7 +220,7 @@ function cancel(engine: EngineClient): void {
   });
 }
 
-function reset(engine: EngineClient): void {
+function reset(): void {
   const windows = store.report.value?.windows;
   const window = store.window_.value;
   batch(() => {
@@ -235,5 +234,5 @@ function reset(engine: EngineClient): void {
       windowChanged(window);
     }
   });
-  void showNamedView(engine, 'anterior');
+  void showNamedView('anterior');
 }

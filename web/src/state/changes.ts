@@ -1,4 +1,5 @@
-/** Reads documents, and applies edits that the engine has made. */
+/** Reads documents, applies edits that the engine has made, and chooses colours of vessels. */
+import { PALETTE } from '../core/generated/tables';
 import type { DocumentVessel, Edited } from '../core/messages';
 import type { Document } from './document';
 
@@ -43,3 +44,13 @@ export const shownVessels = (document: Document): readonly DocumentVessel[] =>
 
 export const doubtful = (document: Document): readonly DocumentVessel[] =>
   document.vessels.filter((vessel) => vessel.doubt !== null);
+
+export { PALETTE };
+
+export const DOUBTFUL = '#ffa500';
+
+/** The least used colour, the first of several. */
+export function nextColor(vessels: readonly DocumentVessel[]): string {
+  const counts = PALETTE.map(([color]) => vessels.filter((vessel) => vessel.color === color).length);
+  return PALETTE[counts.indexOf(Math.min(...counts))]?.[0] ?? '#ffffff';
+}

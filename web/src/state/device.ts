@@ -1,7 +1,7 @@
 /** Selects the compute device at the start of the page, and again if the GPU is lost. */
 import { batch } from '@preact/signals';
-import { engine } from '../client/shared';
 import { Failure } from '../core/failure';
+import { engine } from '../worker/engine';
 import * as store from './store';
 
 /** If the GPU fails twice within this time (ms), the CPU replaces it. */

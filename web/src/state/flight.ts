@@ -1,8 +1,9 @@
 /** Flights: animated changes of the camera, so that the user can follow how the view turns. */
+
 import { signal } from '@preact/signals';
-import type { Asked } from '../core/asked';
 import { resized } from '../core/camera';
 import type { Camera } from '../core/messages';
+import { engine } from '../worker/engine';
 import { showFailure } from './message';
 import * as store from './store';
 
@@ -18,7 +19,7 @@ export const destination = signal<Camera | null>(null);
 let flights = 0;
 
 /** Flies to a view. Another camera change ends the flight; a change of pane size does not. */
-export function flyTo(engine: Asked, to: Camera): void {
+export function flyTo(to: Camera): void {
   flights += 1;
   const from = store.camera.value;
   // Without animation if the view is rotating, or if the user prefers reduced motion.
@@ -28,10 +29,10 @@ export function flyTo(engine: Asked, to: Camera): void {
     return;
   }
   destination.value = to;
-  void fly(engine, flights, from, to);
+  void fly(flights, from, to);
 }
 
-async function fly(engine: Asked, number: number, from: Camera, to: Camera): Promise<void> {
+async function fly(number: number, from: Camera, to: Camera): Promise<void> {
   try {
     const views = await engine.ask('flight', { from: resized(from, to.size), to, views: VIEWS });
     show(number, from, [...views.slice(0, -1), to]);
@@ -73,9 +74,9 @@ function show(number: number, from: Camera, views: readonly Camera[]): void {
 const looksAlike = (a: Camera, b: Camera): boolean =>
   a.center === b.center && a.direction === b.direction && a.up === b.up;
 
-export async function flyToAnswer(engine: Asked, view: Promise<Camera>): Promise<void> {
+export async function flyToAnswer(view: Promise<Camera>): Promise<void> {
   try {
-    flyTo(engine, await view);
+    flyTo(await view);
   } catch (error) {
     showFailure(error);
   }

@@ -1,10 +1,11 @@
 /** Turns the view about a place on a vessel, so that the cut passes through all diameters there. */
+
 import { batch, effect, signal, untracked } from '@preact/signals';
-import type { Asked } from '../core/asked';
 import { resized, turnedAbout } from '../core/camera';
 import { GESTURES } from '../core/generated/tables';
 import type { Camera, LineId, Vector } from '../core/messages';
 import { length, subtract, turned } from '../core/vectors';
+import { engine } from '../worker/engine';
 import { destination, flyTo } from './flight';
 import { showFailure } from './message';
 import * as store from './store';
@@ -29,7 +30,7 @@ export const placeTurn = signal<PlaceTurn | null>(null);
 
 const AXIS_TOLERANCE = 1e-6;
 
-export async function togglePlaceTurn(engine: Asked): Promise<void> {
+export async function togglePlaceTurn(): Promise<void> {
   const [vessel, line, camera] = [store.pickedVessel.value, store.pickedLine(), store.camera.value];
   if (placeTurn.value) {
     endPlaceTurn();
@@ -43,18 +44,18 @@ export async function togglePlaceTurn(engine: Asked): Promise<void> {
     const { camera: first, diameters } = await engine.ask('turn_about', { vessel, at, size: camera.size });
     // Meanwhile the vessel may have been retraced, or another one picked.
     if (store.pickedLine() === line) {
-      begin(engine, { line, at, first, diameters });
+      begin({ line, at, first, diameters });
     }
   } catch (error) {
     showFailure(error);
   }
 }
 
-function begin(engine: Asked, found: Pick<PlaceTurn, 'line' | 'at' | 'first' | 'diameters'>): void {
+function begin(found: Pick<PlaceTurn, 'line' | 'at' | 'first' | 'diameters'>): void {
   const diameter = found.diameters[0] ?? null;
   batch(() => {
     store.isTurning.value = false;
-    flyTo(engine, found.first);
+    flyTo(found.first);
     placeTurn.value = { ...found, angle: 0, least: diameter, largest: diameter };
   });
 }

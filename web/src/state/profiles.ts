@@ -1,8 +1,9 @@
 /** Diameter profiles of vessels, measured on demand and cached by line until the study closes. */
+
 import { batch, signal } from '@preact/signals';
-import type { Asked } from '../core/asked';
 import { Failure } from '../core/failure';
 import type { LineId, Profile } from '../core/messages';
+import { engine } from '../worker/engine';
 import * as store from './store';
 
 export type Measured = { readonly profile: Profile } | { readonly failure: Failure };
@@ -17,13 +18,13 @@ export const stopped = signal<LineId | null>(null);
 let asked = 0;
 
 /** Measures a line, unless its profile is known or another line is being measured. */
-export async function measure(engine: Asked, line: LineId): Promise<void> {
+export async function measure(line: LineId): Promise<void> {
   if (profiles.value.has(line) || beingMeasured.value !== null || stopped.value === line) {
     return;
   }
   const question = ++asked;
   beingMeasured.value = line;
-  const found = await profileOf(engine, line, question);
+  const found = await profileOf(line, question);
   if (question !== asked) {
     return;
   }
@@ -38,7 +39,7 @@ export async function measure(engine: Asked, line: LineId): Promise<void> {
   });
 }
 
-export async function profileOfLine(engine: Asked, line: LineId): Promise<Profile> {
+export async function profileOfLine(line: LineId): Promise<Profile> {
   const known = profiles.value.get(line);
   if (known) {
     if ('failure' in known) {
@@ -49,7 +50,7 @@ export async function profileOfLine(engine: Asked, line: LineId): Promise<Profil
   return engine.ask('profile', { line, fwhm: givenFwhm.value });
 }
 
-async function profileOf(engine: Asked, line: LineId, question: number): Promise<Measured | null> {
+async function profileOf(line: LineId, question: number): Promise<Measured | null> {
   try {
     showProgress(question, null);
     const profile = await engine.ask('profile', { line, fwhm: givenFwhm.value });

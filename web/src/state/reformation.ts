@@ -17,6 +17,18 @@ export const reformationKind = signal<ReformationKind>('cpr');
 export const uncurled = signal(0.5);
 export const mapOf = signal<MapOf>('wall');
 
+export function chooseReformation(kind: ReformationKind): void {
+  reformationKind.value = kind;
+}
+
+export function setUncurled(degree: number): void {
+  uncurled.value = Math.min(Math.max(degree, 0), 1);
+}
+
+export function chooseMap(of: MapOf): void {
+  mapOf.value = of;
+}
+
 export interface Chosen {
   readonly vessel: number | null;
   /** Direction of the turning view; null before that view is shown. */

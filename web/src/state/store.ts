@@ -1,6 +1,6 @@
 /** The state of the page, as signals. Actions change it, and the views show it. */
-import { computed, signal } from '@preact/signals';
-import type { Failure } from '../core/failure';
+import { batch, computed, signal } from '@preact/signals';
+import { Failure } from '../core/failure';
 import type {
   Camera,
   Feature,
@@ -109,4 +109,94 @@ export const viewSettings = computed<Settings>(() => {
 export function moved(own: Window, from: Window, to: Window): Window {
   const factor = to[1] / from[1];
   return [to[0] + (own[0] - from[0]) * factor, own[1] * factor];
+}
+
+export function showProblem(error: unknown): void {
+  problem.value = Failure.of(error);
+}
+
+export function setProblem(failure: Failure | null): void {
+  problem.value = failure;
+}
+
+export const closeProblem = (): void => setProblem(null);
+
+export function showProgress(now: Progress | null): void {
+  progress.value = now;
+}
+
+export function setNotes(all: readonly string[]): void {
+  notes.value = all;
+}
+
+export function addNotes(more: readonly string[]): void {
+  notes.value = [...new Set([...notes.value, ...more])];
+}
+
+export function setCamera(to: Camera): void {
+  camera.value = to;
+}
+
+export function setCompleteCamera(of: Camera | null): void {
+  completeCamera.value = of;
+}
+
+export function setFrameTime(milliseconds: number): void {
+  frameTime.value = milliseconds;
+}
+
+export function chooseMethod(name: Method): void {
+  method.value = name;
+}
+
+export function resetSettings(): void {
+  settings.value = firstSettings.value;
+}
+
+export function setLayout(to: Layout): void {
+  layout.value = to;
+}
+
+export function closeHelp(): void {
+  isHelpOpen.value = false;
+}
+
+export function pickVessel(vessel: number, at = pickedPlace.value): void {
+  batch(() => {
+    pickedVessel.value = vessel;
+    pickedPlace.value = at;
+  });
+}
+
+export function putCrossHair(point: Vector): void {
+  crossHair.value = { point, value: null, vessel: null, arcLength: null };
+}
+
+export function setCrossHair(to: CrossHair): void {
+  crossHair.value = to;
+}
+
+/** Rotation per wheel step over a CPR (radians). */
+const TURN_STEP = Math.PI / 36;
+
+export function turnCpr(steps: number): void {
+  cprAngle.value += steps * TURN_STEP;
+}
+
+export function setCprAngle(degrees: number): void {
+  cprAngle.value = (degrees * Math.PI) / 180;
+}
+
+/** What a pixel of the CPR shows: a feature across the vessel, or the side that it follows. */
+export function chooseCpr({
+  roll,
+  feature,
+}: {
+  readonly roll: Roll | null;
+  readonly feature: Feature | null;
+}): void {
+  batch(() => {
+    cprRoll.value = roll;
+    cprFeature.value = feature;
+  });
 }

@@ -1,22 +1,14 @@
 /** Asks the user before closing or opening a scan would lose unsaved work. */
-import { signal } from '@preact/signals';
 import type { Document } from '../state/document';
 import { document_, saved } from '../state/history';
-
-/** The action that waits for the user, and the question to the user. */
-export interface Leaving {
-  readonly words: string;
-  go(): Promise<unknown>;
-}
-
-export const leaving = signal<Leaving | null>(null);
+import { askToLeave } from '../state/questions';
 
 /** Performs `go` at once if everything is saved, otherwise after the user has agreed. */
 export async function leave(go: () => Promise<unknown>): Promise<void> {
   if (document_.value === saved.value) {
     await go();
   } else {
-    leaving.value = { words: lossWords(document_.value, saved.value), go };
+    askToLeave({ words: lossWords(document_.value, saved.value), go });
   }
 }
 

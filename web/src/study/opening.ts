@@ -1,31 +1,25 @@
 /** Opens dropped or chosen files. */
-import { signal } from '@preact/signals';
-import type { EngineClient } from '../client/engine';
-import { Failure } from '../core/failure';
+
 import type { GivenFile, SeriesWish } from '../core/messages';
 import { addSegmentation } from '../edit/branches';
 import { isSegmentation } from '../edit/segmentation';
-import { isSession, openSession } from '../session/saving';
 import { document_, hasEdits, undo, undoWords } from '../state/history';
-import { openWith } from '../state/last-opened';
+import { openWith } from '../state/opened';
+import { askWhatIs } from '../state/questions';
 import * as store from '../state/store';
+import { engine } from '../worker/engine';
 import { leave } from './leaving';
+import { isSession, openSession } from './saving';
 import { open } from './study';
 
 /** Opens files. A volume replaces the open study; centerlines are added to it. */
-export function openFiles(
-  engine: EngineClient,
-  files: readonly GivenFile[],
-  first: SeriesWish = {},
-): Promise<void> {
+export function openFiles(files: readonly GivenFile[], first: SeriesWish = {}): Promise<void> {
   const before = store.notes.value;
   const wasEdited = document_.value.vessels.length > 0 || hasEdits.value;
   let isAgain = false;
   return openWith(first, (wish) => {
     const load = async () => {
-      const opened = await engine.openFiles(files, wish, (progress) => {
-        store.progress.value = progress;
-      });
+      const opened = await engine.openFiles(files, wish, store.showProgress);
       const isVolume = opened.name !== undefined;
       // Centerlines that are opened again, with another choice, replace those opened before.
       if (isAgain && wasEdited && undoWords.value === 'open centerlines') {
@@ -35,35 +29,32 @@ export function openFiles(
       isAgain = true;
       return isVolume ? opened : { ...opened, ...beside(), isBeside, notes: [...before, ...opened.notes] };
     };
-    return open(engine, load, '');
+    return open(load, '');
   });
 }
-
-/** Files of a volume that may be a new scan or a vessel mask, until the user decides. */
-export const question = signal<readonly GivenFile[] | null>(null);
 
 const CENTERLINES = /\.(vtp|vtk|fcsv|pth|swc|tre|csv|json)$/i;
 const VOLUMES = /\.(nii|nii\.gz|nrrd|nhdr|mha|mhd|hdr|img|raw|zraw)$/i;
 
 /** Opens files; first asks if their meaning is ambiguous or work would be lost. A session is opened after its scan. */
-export async function takeFiles(engine: EngineClient, files: readonly GivenFile[]): Promise<void> {
+export async function takeFiles(files: readonly GivenFile[]): Promise<void> {
   const session = await sessionAmong(files);
   if (session) {
     const others = files.filter((file) => file !== session);
     await leave(async () => {
       if (others.length > 0) {
-        await openFiles(engine, others);
+        await openFiles(others);
       }
       await goOn(session);
     });
   } else if (store.hasVolume.value && files.length > 0 && files.every(({ path }) => VOLUMES.test(path))) {
-    question.value = files;
+    askWhatIs(files);
   } else if (store.hasVolume.value && files[0] && (await isSegmentation(files))) {
-    await addSegmentation(engine, files[0]);
+    await addSegmentation(files[0]);
   } else if (files.every(({ path }) => CENTERLINES.test(path))) {
-    await openFiles(engine, files);
+    await openFiles(files);
   } else {
-    await leave(() => openFiles(engine, files));
+    await leave(() => openFiles(files));
   }
 }
 
@@ -80,7 +71,7 @@ async function goOn(session: GivenFile): Promise<void> {
   try {
     await openSession(session);
   } catch (error) {
-    store.problem.value = Failure.of(error);
+    store.showProblem(error);
   }
 }
 

@@ -1,21 +1,21 @@
 /** Opens and closes a study; sets its windows and its first view. */
+
 import { batch } from '@preact/signals';
-import type { EngineClient, Opened } from '../client/engine';
 import { Failure } from '../core/failure';
 import type { Report } from '../core/messages';
 import { middle } from '../core/vectors';
 import { addLoaded } from '../edit/files';
-import { forgetLines } from '../edit/lines';
-import { beginStudy, showAgain } from '../edit/shown';
-import { placeCrossHair } from '../link/cross-hair';
-import { forgetFindings } from '../measure/findings';
+import { placeCrossHair } from '../state/cross-hair';
 import { document_, hasEdits } from '../state/history';
-import { openWith } from '../state/last-opened';
-import { dropLength } from '../state/length';
+import { forgetLines } from '../state/lines';
+import { dropLength, forgetFindings } from '../state/measuring';
+import { forgetOpened, openWith, takeOpened } from '../state/opened';
 import { beginMeasuring } from '../state/profiles';
 import { putRulerAway } from '../state/rulers';
+import { beginStudy, showAgain } from '../state/shown';
 import * as store from '../state/store';
-import { tool } from '../state/tool';
+import { takeTool } from '../state/tool';
+import { engine, type Opened } from '../worker/engine';
 
 const FIRST_SIZE = [512, 512] as const;
 
@@ -24,25 +24,25 @@ export interface Loaded extends Opened {
   readonly isBeside?: boolean;
 }
 
-export async function open(engine: EngineClient, load: () => Promise<Loaded>, name: string): Promise<void> {
+export async function open(load: () => Promise<Loaded>, name: string): Promise<void> {
   batch(() => {
-    store.problem.value = null;
-    store.progress.value = { words: 'Opening', done: 0, total: null };
+    store.closeProblem();
+    store.showProgress({ words: 'Opening', done: 0, total: null });
   });
   try {
     const opened = await load();
     const isEdited = document_.value.vessels.length > 0 || hasEdits.value;
     const comesToEdits = opened.isBeside && store.hasVolume.value && isEdited;
-    await (comesToEdits ? showBeside(engine, opened) : showStudy(engine, opened, opened.name ?? name));
-    store.problem.value = misread(opened);
+    await (comesToEdits ? showBeside(opened) : showStudy(opened, opened.name ?? name));
+    store.setProblem(misread(opened));
   } catch (error) {
     const failure = Failure.of(error);
     if (failure.kind !== 'interrupted') {
-      store.problem.value = failure;
+      store.setProblem(failure);
     }
-    await forgetWhatIsClosed(engine);
+    await forgetWhatIsClosed();
   } finally {
-    store.progress.value = null;
+    store.showProgress(null);
   }
 }
 
@@ -57,7 +57,7 @@ function misread({ doubt }: Loaded): Failure | null {
 }
 
 /** After a failure, closes the study in the page if the engine has already closed it. */
-async function forgetWhatIsClosed(engine: EngineClient): Promise<void> {
+async function forgetWhatIsClosed(): Promise<void> {
   const { volume, vessels } = await engine.ask('report', null);
   if (!volume && !vessels) {
     layDown();
@@ -65,29 +65,22 @@ async function forgetWhatIsClosed(engine: EngineClient): Promise<void> {
   }
 }
 
-export function openPhantom(engine: EngineClient, name: string): Promise<void> {
+export function openPhantom(name: string): Promise<void> {
   return openWith({}, (wish) => {
     const load = async () => ({ report: await engine.openPhantom(name, wish), notes: [] });
-    return open(engine, load, `phantom ${name}`);
+    return open(load, `phantom ${name}`);
   });
 }
 
-export function openAddresses(
-  engine: EngineClient,
-  volume: string | null,
-  centerlines: string | null,
-): Promise<void> {
+export function openAddresses(volume: string | null, centerlines: string | null): Promise<void> {
   return openWith({}, (wish) => {
-    const load = () =>
-      engine.openAddresses({ volume, centerlines }, wish, (progress) => {
-        store.progress.value = progress;
-      });
-    return open(engine, load, '');
+    const load = () => engine.openAddresses({ volume, centerlines }, wish, store.showProgress);
+    return open(load, '');
   });
 }
 
 /** Closes the study. The views are removed first, so that none requests data that is gone. */
-export async function close(engine: EngineClient): Promise<void> {
+export async function close(): Promise<void> {
   layDown();
   batch(forget);
   await engine.ask('close', null);
@@ -95,46 +88,40 @@ export async function close(engine: EngineClient): Promise<void> {
 
 /** Ends tracing and measuring, and restores the layout before them. */
 function layDown(): void {
-  tool.value = 'look';
+  takeTool('look');
   if (store.layout.value === 'measure') {
-    store.layout.value = 'strip';
+    store.setLayout('strip');
   }
 }
 
-async function showStudy(
-  engine: EngineClient,
-  { report, notes, states, study = null }: Opened,
-  name: string,
-): Promise<void> {
+async function showStudy({ report, notes, states, study = null }: Opened, name: string): Promise<void> {
   const size = store.camera.value?.size ?? FIRST_SIZE;
   const camera = await engine.ask('fitted', { view: 'anterior', size: size });
   const histogram = report.volume ? await engine.ask('histogram', { bins: 128 }) : null;
-  const hair = await firstPlace(engine, report);
+  const hair = await firstPlace(report);
   const vessels = await engine.ask('begin_document', null);
   layDown();
   batch(() => {
     forget();
-    store.report.value = report;
-    store.notes.value = notes;
-    store.studyName.value = name;
-    store.scanStudy.value = study;
-    store.states.value = states ?? { spacing: true, orientation: true };
-    store.histogram.value = histogram;
-    store.window_.value = report.windows?.main ?? store.window_.value;
-    store.camera.value = camera;
-    store.crossHair.value = hair;
-    store.firstPlace.value = hair?.point ?? null;
-    store.pickedVessel.value = hair?.vessel ?? null;
-    store.pickedPlace.value = hair?.arcLength ?? 0;
+    takeOpened({
+      report,
+      name,
+      notes,
+      states: states ?? { spacing: true, orientation: true },
+      study,
+      histogram,
+      camera,
+      hair,
+    });
     beginStudy(vessels);
   });
 }
 
-async function showBeside(engine: EngineClient, { report, notes }: Opened): Promise<void> {
+async function showBeside({ report, notes }: Opened): Promise<void> {
   const loaded = report.vessels ?? [];
-  await addLoaded(engine, loaded);
-  await showAgain(engine);
-  store.notes.value = notes;
+  await addLoaded(loaded);
+  await showAgain();
+  store.setNotes(notes);
   const line = loaded[longest(report)]?.line;
   const shown = store.report.value?.vessels ?? [];
   const vessel = shown.findIndex((one) => one.line === line);
@@ -147,7 +134,7 @@ async function showBeside(engine: EngineClient, { report, notes }: Opened): Prom
 }
 
 /** First position of the cross-hair: half way along the longest vessel, or the centre of the volume. */
-async function firstPlace(engine: EngineClient, report: Report): Promise<store.CrossHair | null> {
+async function firstPlace(report: Report): Promise<store.CrossHair | null> {
   if (report.vessels?.length) {
     const vessel = longest(report);
     const arcLength = (report.vessels[vessel]?.length ?? 0) / 2;
@@ -172,16 +159,7 @@ function forget(): void {
   forgetFindings();
   putRulerAway();
   dropLength();
-  store.report.value = null;
-  store.notes.value = [];
-  store.scanStudy.value = null;
-  store.histogram.value = null;
-  store.crossHair.value = null;
-  store.pickedVessel.value = null;
-  store.cprAngle.value = 0;
-  store.isTurning.value = false;
-  store.maximised.value = null;
-  store.frameTime.value = null;
+  forgetOpened();
   forgetLines();
   beginStudy(null);
 }

@@ -1,8 +1,9 @@
 /** The root component of the page. */
-import { Guide } from '../guide/Guide';
+
 import { report } from '../state/store';
 import { DropZone } from './DropZone';
 import { FileQuestion } from './FileQuestion';
+import { Guide } from './Guide';
 import { Help } from './Help';
 import { KeptQuestion } from './KeptQuestion';
 import { Layout } from './Layout';

@@ -1,5 +1,5 @@
 /** Button that turns the view so that most of the picked vessel is visible. */
-import { engine } from '../client/shared';
+
 import { showBestView } from '../state/actions';
 
 export function BestViewButton() {
@@ -7,7 +7,7 @@ export function BestViewButton() {
     <button
       type="button"
       title="Turns the view so that most of the vessel is visible (f)"
-      onClick={() => void showBestView(engine)}
+      onClick={() => void showBestView()}
     >
       Best view
     </button>

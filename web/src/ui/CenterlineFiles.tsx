@@ -1,8 +1,8 @@
 /** Buttons to save and open centerlines. */
 
 import { SAVED_CENTERLINES } from '../core/generated/tables';
-import { attempt } from '../output/attempt';
-import { hasCenterlines, saveCenterlines } from '../output/centerlines';
+import { attempt } from '../output/by-key';
+import { hasCenterlines, saveCenterlines } from '../output/session';
 import { OpenMore } from './OpenButtons';
 
 export function CenterlineFiles() {

@@ -1,7 +1,6 @@
 /** Divider between panes, moved by dragging or arrow keys. */
 import type { Signal } from '@preact/signals';
-
-const MIN_SHARE = 0.12;
+import { moveDivider } from '../state/panels';
 
 interface DividerProps {
   readonly words: string;
@@ -12,9 +11,7 @@ interface DividerProps {
 }
 
 export function Divider({ words, between, place }: DividerProps) {
-  const set = (value: number) => {
-    place.value = Math.min(Math.max(value, MIN_SHARE), 1 - MIN_SHARE);
-  };
+  const set = (value: number) => moveDivider(place, value);
   const move = (event: PointerEvent) => {
     const layout = (event.currentTarget as HTMLElement).parentElement;
     if (layout && (event.currentTarget as HTMLElement).hasPointerCapture(event.pointerId)) {

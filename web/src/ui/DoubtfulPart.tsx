@@ -1,12 +1,12 @@
 /** List of the doubtful branches with their reasons. The user accepts each or leaves it out. */
-import { engine } from '../client/shared';
+
 import type { DocumentVessel } from '../core/messages';
 import { accept, leaveOut } from '../edit/branches';
 import { countedDoubts, reasonOf, showDoubt, stepDoubt } from '../edit/doubts';
-import { lengthOf } from '../edit/lines';
-import { chosenDoubt } from '../edit/mode';
 import { nameOf } from '../state/changes';
+import { lengthOf } from '../state/lines';
 import { hasMillimetres } from '../state/millimetres';
+import { chosenDoubt } from '../state/tool';
 import { lighting } from './VesselRow';
 
 export function DoubtfulPart({ vessels }: { readonly vessels: readonly DocumentVessel[] }) {
@@ -21,14 +21,14 @@ export function DoubtfulPart({ vessels }: { readonly vessels: readonly DocumentV
         <button
           type="button"
           title="Shows each doubtful branch with its reason (.)"
-          onClick={() => stepDoubt(engine, 1)}
+          onClick={() => stepDoubt(1)}
         >
           Review each
         </button>
-        <button type="button" onClick={() => void accept(engine, ids)}>
+        <button type="button" onClick={() => void accept(ids)}>
           Accept all
         </button>
-        <button type="button" onClick={() => void leaveOut(engine, ids)}>
+        <button type="button" onClick={() => void leaveOut(ids)}>
           Leave all out
         </button>
       </div>
@@ -51,21 +51,17 @@ function DoubtfulRow({ vessel }: { readonly vessel: DocumentVessel }) {
         class="name"
         title={`${vessel.doubt}. Click to show it`}
         aria-label={`Show ${name}, ${reasonOf(vessel)}`}
-        onClick={() => void showDoubt(engine, vessel)}
+        onClick={() => void showDoubt(vessel)}
       >
         <span>{name}</span> <span class="doubt-reason">{reasonOf(vessel)}</span>
       </button>
       <span class="length" title={hasMillimetres.value ? 'Length (mm)' : 'Length'}>
         {lengthText(vessel)}
       </span>
-      <button type="button" aria-label={`Accept ${name}`} onClick={() => void accept(engine, [vessel.id])}>
+      <button type="button" aria-label={`Accept ${name}`} onClick={() => void accept([vessel.id])}>
         ✓
       </button>
-      <button
-        type="button"
-        aria-label={`Leave ${name} out`}
-        onClick={() => void leaveOut(engine, [vessel.id])}
-      >
+      <button type="button" aria-label={`Leave ${name} out`} onClick={() => void leaveOut([vessel.id])}>
         ✕
       </button>
     </li>

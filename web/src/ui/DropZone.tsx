@@ -1,6 +1,5 @@
 /** Accepts files dropped anywhere on the page. */
 import { useSignal, useSignalEffect } from '@preact/signals';
-import { engine } from '../client/shared';
 import { dropped } from '../input/dropped';
 import { hasVolume, started } from '../state/store';
 import { takeFiles } from '../study/opening';
@@ -52,6 +51,6 @@ function listen(signal: AbortSignal, show: (isOver: boolean) => void): void {
 async function open(transfer: DataTransfer): Promise<void> {
   const files = await dropped(transfer);
   if (files.length > 0 && started.value) {
-    await takeFiles(engine, files);
+    await takeFiles(files);
   }
 }

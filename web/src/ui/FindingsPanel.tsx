@@ -1,23 +1,16 @@
 /** Preview of the report, with buttons to copy and save: sentences and key image of each finding. */
 import { useEffect, useState } from 'preact/hooks';
-import { engine } from '../client/shared';
 import type { Sentence } from '../core/messages';
-import { moveTo } from '../link/along';
-import {
-  type Finding,
-  findingSentences,
-  hiddenFindings,
-  leaveOut,
-  leftOut,
-  listedFindings,
-} from '../measure/findings';
+import { type Finding, hiddenFindings, listedFindings } from '../measure/findings';
 import { mm, unitless } from '../measure/words';
-import { attempt } from '../output/attempt';
+import { attempt } from '../output/by-key';
 import { copyPicture, copyWords } from '../output/copying';
 import { keyImage, keyPicture } from '../output/key-image';
 import { askForPacs } from '../output/pacs';
 import { saveReport } from '../output/report';
 import { showBestView, toggleLayout } from '../state/actions';
+import { moveTo } from '../state/cross-hair';
+import { findingSentences, leaveOut, leftOut } from '../state/measuring';
 import { profiles, stopped } from '../state/profiles';
 import * as store from '../state/store';
 import { ScanNamed } from './ScanNamed';
@@ -159,7 +152,7 @@ function KeyImage({ finding, name }: { readonly finding: Finding; readonly name:
 }
 
 function show({ vessel, marks, length }: Finding): void {
-  store.pickedVessel.value = vessel;
+  store.pickVessel(vessel);
   moveTo(marks.at ?? marks.references[0] ?? marks.stretch?.[0] ?? length / 2);
-  void showBestView(engine);
+  void showBestView();
 }

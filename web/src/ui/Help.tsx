@@ -1,7 +1,7 @@
 /** Help on mouse, touch and keys, generated from the table of bindings. */
 import { useEffect, useRef } from 'preact/hooks';
 import { BINDINGS, inputName, type Where } from '../input/bindings';
-import { isHelpOpen } from '../state/store';
+import { closeHelp, isHelpOpen } from '../state/store';
 
 const PARTS: readonly (readonly [Where, string])[] = [
   ['turning', 'In the turning view'],
@@ -21,14 +21,11 @@ export function Help() {
       dialog.current?.close();
     }
   }, [isOpen]);
-  const closed = () => {
-    isHelpOpen.value = false;
-  };
   return (
-    <dialog ref={dialog} class="help" onClose={closed} aria-label="Keys and mouse">
+    <dialog ref={dialog} class="help" onClose={closeHelp} aria-label="Keys and mouse">
       <header>
         <h2>Keys and mouse</h2>
-        <button type="button" onClick={closed}>
+        <button type="button" onClick={closeHelp}>
           Close
         </button>
       </header>
@@ -47,7 +44,7 @@ export function Help() {
           </section>
         ))}
       </div>
-      <button type="button" onClick={closed}>
+      <button type="button" onClick={closeHelp}>
         Close
       </button>
     </dialog>

@@ -1,9 +1,8 @@
 /** After a reload of the tab, asks whether to continue with the kept session. */
-import { Failure } from '../core/failure';
-import { openList } from '../edit/list-open';
-import { kept } from '../session/keeping';
-import { openSession } from '../session/saving';
-import { hasVolume, problem } from '../state/store';
+import { openList } from '../state/panels';
+import { kept, setKept } from '../state/questions';
+import { hasVolume, showProblem } from '../state/store';
+import { openSession } from '../study/saving';
 
 export function KeptQuestion() {
   const text = kept.value;
@@ -11,12 +10,12 @@ export function KeptQuestion() {
     return null;
   }
   const goOn = async () => {
-    kept.value = null;
+    setKept(null);
     try {
       await openSession({ path: 'kept.mrk.json', file: new File([text], 'kept.mrk.json') });
       openList();
     } catch (error) {
-      problem.value = Failure.of(error);
+      showProblem(error);
     }
   };
   const words = 'This tab kept unsaved vessels from before the reload.';
@@ -26,12 +25,7 @@ export function KeptQuestion() {
       <button type="button" ref={(button) => button?.focus()} onClick={() => void goOn()}>
         Continue with them
       </button>
-      <button
-        type="button"
-        onClick={() => {
-          kept.value = null;
-        }}
-      >
+      <button type="button" onClick={() => setKept(null)}>
         Discard them
       </button>
     </div>

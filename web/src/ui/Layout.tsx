@@ -1,8 +1,8 @@
 /** The panes of each layout, and the views in them. */
-import { type Signal, signal } from '@preact/signals';
 import type { ComponentChildren } from 'preact';
 import { useMeasuring } from '../measure/asking';
 import { ProfilePane } from '../measure/ProfilePane';
+import { columns, rows, toggleMaximised } from '../state/panels';
 import { reformationTitle } from '../state/reformation';
 import { layout, maximised, type Layout as Name, type ViewName } from '../state/store';
 import { SectionView } from '../views/SectionView';
@@ -33,17 +33,6 @@ const TITLES: Readonly<Record<ViewName, string>> = {
   numbers: 'Numbers',
   findings: 'Findings',
 };
-
-/** Positions of the vertical dividers, as shares of the width of the layout. */
-const columns: Readonly<Record<Name, Signal<number>>> = {
-  one: signal(1),
-  two: signal(0.67),
-  four: signal(0.5),
-  strip: signal(0.75),
-  measure: signal(0.42),
-  report: signal(0.5),
-};
-const rows: Readonly<Partial<Record<Name, Signal<number>>>> = { four: signal(0.5), measure: signal(0.5) };
 
 export function Layout() {
   const shown = VIEWS[layout.value];
@@ -99,9 +88,6 @@ interface PaneProps {
 
 function Pane({ name, isHidden, children }: PaneProps) {
   const isAlone = maximised.value === name;
-  const toggle = () => {
-    maximised.value = isAlone ? null : name;
-  };
   return (
     <section class={`pane ${name}${isHidden ? ' hidden' : ''}`} aria-label={TITLES[name]}>
       {name === 'turning' && <LooksBar />}
@@ -110,7 +96,7 @@ function Pane({ name, isHidden, children }: PaneProps) {
       <button
         type="button"
         class="pane-button"
-        onClick={toggle}
+        onClick={() => toggleMaximised(name)}
         aria-label={isAlone ? 'Show all views' : `Show ${TITLES[name]} alone`}
       >
         {isAlone ? '⤡' : '⤢'}

@@ -1,28 +1,22 @@
 /** Asks the user before unsaved work is lost. */
-import { Failure } from '../core/failure';
+
 import { saveSession } from '../output/session';
-import { problem } from '../state/store';
-import { leaving } from '../study/leaving';
+import { askToLeave, leaving } from '../state/questions';
+import { showProblem } from '../state/store';
 
 export function LeaveQuestion() {
   const waiting = leaving.value;
   if (!waiting) {
     return null;
   }
-  const stay = () => {
-    leaving.value = null;
-  };
+  const stay = () => askToLeave(null);
   const go = () => {
     stay();
     void waiting.go();
   };
   const saveFirst = () => {
     stay();
-    saveSession()
-      .then(waiting.go)
-      .catch((error: unknown) => {
-        problem.value = Failure.of(error);
-      });
+    saveSession().then(waiting.go).catch(showProblem);
   };
   return (
     <div

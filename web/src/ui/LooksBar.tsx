@@ -1,6 +1,5 @@
 /** Display controls: look, region preset, margin around vessels, and edge lines. */
 import type { LookRow } from '../core/messages';
-import { isTracing } from '../edit/mode';
 import { setSetting, settingOf } from '../state/actions';
 import {
   chooseLines,
@@ -17,6 +16,7 @@ import {
   STENT_LOOK,
 } from '../state/looks';
 import { hasTree, hasVolume, started } from '../state/store';
+import { isTracing } from '../state/tool';
 
 const MAX_MARGIN_MM = 30;
 const LINES: readonly (readonly [Lines, string])[] = [

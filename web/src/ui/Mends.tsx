@@ -1,9 +1,9 @@
 /** Buttons for those remedies of a failure that the page can perform. */
-import type { Failure, SeriesChoice } from '../core/failure';
+import { useEffect, useRef } from 'preact/hooks';
+import type { Failure, SeriesChoice, Thumbnail } from '../core/failure';
 import { type Mend, type MendName, readingWords } from '../core/mends';
 import type { SeriesWish } from '../core/messages';
-import { openAgain } from '../state/last-opened';
-import { SeriesThumbnail } from './SeriesThumbnail';
+import { openAgain } from '../state/opened';
 
 /** The label of a button, and the choice with which it opens the files again. */
 type Button = readonly [words: string, wish: SeriesWish];
@@ -78,4 +78,14 @@ function wordsOf({ number, description, modality, images, size, spacing, trouble
   const extent = size && steps ? [size.join(' × '), `${steps.join(' × ')} mm`] : [`${images} images`];
   const parts = [description || 'no description', modality, ...extent, trouble];
   return `${number || '–'}: ${parts.filter((part) => part !== '').join(' · ')}`;
+}
+
+function SeriesThumbnail({ of }: { readonly of: Thumbnail }) {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const { width, height, grey } = of;
+  useEffect(() => {
+    const rgba = Uint8ClampedArray.from(grey.flatMap((value) => [value, value, value, 255]));
+    canvas.current?.getContext('2d')?.putImageData(new ImageData(rgba, width, height), 0, 0);
+  }, [of]);
+  return <canvas ref={canvas} width={width} height={height} data-testid="series-thumbnail" aria-hidden />;
 }

@@ -1,13 +1,12 @@
 /** Messages about failures, and the progress of long work. */
 
-import { engine } from '../client/shared';
 import { CRASH, type Failure } from '../core/failure';
 import { findAndList } from '../edit/branches';
-import { isLong, refusal } from '../edit/committing';
 import { performAny } from '../edit/performing';
 import { saveSession } from '../output/session';
+import { editQueue } from '../state/edit-queue';
 import { message, showFailure } from '../state/message';
-import { problem, progress } from '../state/store';
+import { closeProblem, problem, progress } from '../state/store';
 import { Mends } from './Mends';
 
 export function Messages() {
@@ -34,9 +33,9 @@ function Loading() {
     <div class="message" role="status">
       <span>{share === null ? `${shown.words} …` : `${shown.words}: ${(100 * share).toFixed(0)} %`}</span>
       <progress aria-label={shown.words} {...(share === null ? {} : { value: share })} />
-      {isLong.value && <LongWork />}
-      <button type="button" onClick={() => performAny(engine, 'cancel')}>
-        {isLong.value ? 'Stop' : 'Cancel'}
+      {editQueue.state.isLong && <LongWork />}
+      <button type="button" onClick={() => performAny('cancel')}>
+        {editQueue.state.isLong ? 'Stop' : 'Cancel'}
       </button>
     </div>
   );
@@ -47,12 +46,7 @@ function LongWork() {
   return (
     <>
       <strong>This is taking long. Is the point in a vessel, not in bone?</strong>
-      <button
-        type="button"
-        onClick={() => {
-          isLong.value = false;
-        }}
-      >
+      <button type="button" onClick={() => editQueue.goOnSearching()}>
         Continue
       </button>
     </>
@@ -80,12 +74,7 @@ function Problem() {
           Save the session
         </button>
       )}
-      <button
-        type="button"
-        onClick={() => {
-          problem.value = null;
-        }}
-      >
+      <button type="button" onClick={closeProblem}>
         Close
       </button>
     </div>
@@ -94,18 +83,13 @@ function Problem() {
 
 /** Buttons shown if no lumen was found between two clicks. */
 function Bridging({ failure }: { readonly failure: Failure }) {
-  const bridge = refusal.value?.failure === failure ? refusal.value.bridge : null;
+  const bridge = editQueue.state.refusal?.failure === failure ? editQueue.state.refusal.bridge : null;
   return bridge ? (
     <>
       <button type="button" onClick={bridge}>
         Bridge the gap
       </button>
-      <button
-        type="button"
-        onClick={() => {
-          problem.value = null;
-        }}
-      >
+      <button type="button" onClick={closeProblem}>
         Add a point between
       </button>
     </>
@@ -115,7 +99,7 @@ function Bridging({ failure }: { readonly failure: Failure }) {
 /** Button shown if all vessels that were found are doubtful. */
 function DoubtfulOnes() {
   return (
-    <button type="button" onClick={() => void findAndList(engine, true)}>
+    <button type="button" onClick={() => void findAndList(true)}>
       Show the doubtful vessels
     </button>
   );

@@ -1,8 +1,8 @@
 /** Buttons that switch between the modes Look, Trace, Measure and Report. */
-import { isTracing } from '../edit/mode';
+
 import { toggleLayout } from '../state/actions';
 import { hasVolume, layout } from '../state/store';
-import { tool } from '../state/tool';
+import { isTracing, takeTool } from '../state/tool';
 
 type Mode = 'look' | 'trace' | 'measure' | 'report';
 
@@ -21,13 +21,13 @@ function change(to: Mode): void {
     return;
   }
   if (to === 'trace') {
-    tool.value = 'trace';
+    takeTool('trace');
   } else if (to === 'measure' || to === 'report') {
     toggleLayout(to);
   } else if (from === 'measure' || from === 'report') {
     toggleLayout(from);
   } else {
-    tool.value = 'look';
+    takeTool('look');
   }
 }
 

@@ -1,10 +1,11 @@
 /** Panel with the measurements of the picked vessel. */
-import { moveTo } from '../link/along';
+
 import { currentProfile, currentVessel } from '../measure/current';
 import { PlacesTable } from '../measure/PlacesTable';
 import { RulersPart } from '../measure/RulersPart';
 import { StretchPart } from '../measure/StretchPart';
 import { mm, unitless } from '../measure/words';
+import { moveTo } from '../state/cross-hair';
 import { giveFwhm } from '../state/profiles';
 import * as store from '../state/store';
 import { BestViewButton } from './BestViewButton';
@@ -57,7 +58,7 @@ function VesselChoice() {
 }
 
 function pick(vessel: number): void {
-  store.pickedVessel.value = vessel;
+  store.pickVessel(vessel);
   moveTo((store.report.value?.vessels?.[vessel]?.length ?? 0) / 2);
 }
 

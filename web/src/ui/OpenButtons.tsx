@@ -1,6 +1,5 @@
 /** Buttons that open files, or a DICOM folder. */
 import { useRef } from 'preact/hooks';
-import { engine } from '../client/shared';
 import { chosen } from '../input/dropped';
 import { started } from '../state/store';
 import { takeFiles } from '../study/opening';
@@ -30,7 +29,7 @@ function Chooser({ words, isFolder }: ChooserProps) {
     // Otherwise the same files could not be chosen again.
     element.value = '';
     if (files.length > 0) {
-      void takeFiles(engine, files);
+      void takeFiles(files);
     }
   };
   return (

@@ -1,14 +1,8 @@
 /** Asks in which study the objects of "Save for PACS" belong. */
 import { useRef } from 'preact/hooks';
-import { attempt } from '../output/attempt';
-import {
-  askAboutFile,
-  type ChosenFile,
-  chosenFile,
-  isPacsAsked,
-  type PacsStudy,
-  savePacs,
-} from '../output/pacs';
+import { attempt } from '../output/by-key';
+import { askAboutFile, type PacsStudy, savePacs } from '../output/pacs';
+import { type ChosenFile, chooseFile, chosenFile, isPacsAsked, setPacsAsked } from '../state/questions';
 import { scanStudy } from '../state/store';
 
 export function PacsQuestion() {
@@ -19,9 +13,7 @@ export function PacsQuestion() {
   if (!isPacsAsked.value) {
     return null;
   }
-  const close = () => {
-    isPacsAsked.value = false;
-  };
+  const close = () => setPacsAsked(false);
   const save = (study: PacsStudy) => {
     close();
     attempt(() => savePacs(study));
@@ -82,9 +74,7 @@ export function PacsQuestion() {
 }
 
 function FileOfStudy({ chosen: { file, facts, doubts, refusal } }: { chosen: ChosenFile }) {
-  const close = () => {
-    chosenFile.value = null;
-  };
+  const close = () => chooseFile(null);
   const words = refusal
     ? `This file cannot be used: ${refusal}.`
     : 'Add the objects to the study of this file?';
@@ -132,7 +122,7 @@ function FileOfStudy({ chosen: { file, facts, doubts, refusal } }: { chosen: Cho
         ref={(button) => button?.focus()}
         onClick={() => {
           close();
-          isPacsAsked.value = true;
+          setPacsAsked(true);
         }}
       >
         Choose again

@@ -2,9 +2,8 @@
 import type { Method, SettingRow } from '../core/messages';
 import { VIEW_METHODS } from '../core/method-names';
 import { setSetting, settingOf } from '../state/actions';
-import { firstSettings, method, settings, started } from '../state/store';
-import { useClosing } from './closing-menu';
-import { keepWithin } from './within-window';
+import { chooseMethod, method, resetSettings, started } from '../state/store';
+import { keepWithin, useClosing } from './closing-menu';
 
 const CONTEXTS: readonly (readonly [string, string])[] = [
   ['mida', 'MIDA'],
@@ -24,9 +23,6 @@ export function ResearchMenu() {
   const rows = (started.value?.table ?? []).filter(
     (row) => KINDS.includes(row.kind) && !ELSEWHERE.includes(row.name),
   );
-  const reset = () => {
-    settings.value = firstSettings.value;
-  };
   return (
     <details class="menu" onToggle={keepWithin} ref={useClosing()}>
       <summary>Research</summary>
@@ -37,7 +33,7 @@ export function ResearchMenu() {
         {rows.map((row) => (
           <Row key={row.name} row={row} />
         ))}
-        <button type="button" onClick={reset}>
+        <button type="button" onClick={resetSettings}>
           Reset
         </button>
       </div>
@@ -49,12 +45,7 @@ function MethodChoice() {
   return (
     <label>
       <span>Method</span>
-      <select
-        value={method.value}
-        onChange={(event) => {
-          method.value = event.currentTarget.value as Method;
-        }}
-      >
+      <select value={method.value} onChange={(event) => chooseMethod(event.currentTarget.value as Method)}>
         {VIEW_METHODS.map(([name, words]) => (
           <option key={name} value={name}>
             {words}

@@ -2,18 +2,16 @@
 import { SAVED_CENTERLINES } from '../core/generated/tables';
 import { currentProfile } from '../measure/current';
 import { listedFindings } from '../measure/findings';
-import { attempt } from '../output/attempt';
-import { hasCenterlines, saveCenterlines } from '../output/centerlines';
+import { attempt } from '../output/by-key';
 import { askForPacs } from '../output/pacs';
 import { savePng } from '../output/pictures';
 import { saveReport } from '../output/report';
-import { saveSession } from '../output/session';
+import { hasCenterlines, saveCenterlines, saveSession } from '../output/session';
 import { saveNumbers } from '../output/tables';
 import { saveFilm, savePictures } from '../output/turntable';
-import { isKeeping } from '../session/keeping';
-import { useClosing } from './closing-menu';
+import { isKeeping, setKeeping } from '../state/questions';
+import { keepWithin, useClosing } from './closing-menu';
 import { ScanNamed } from './ScanNamed';
-import { keepWithin } from './within-window';
 
 export function SaveMenu() {
   const isMeasured = currentProfile.value !== null;
@@ -73,9 +71,7 @@ function Keeping() {
       <input
         type="checkbox"
         checked={isKeeping.value}
-        onChange={(event) => {
-          isKeeping.value = event.currentTarget.checked;
-        }}
+        onChange={(event) => setKeeping(event.currentTarget.checked)}
       />
       Keep the session when this tab reloads
     </label>

@@ -1,5 +1,5 @@
 /** Checkbox that decides whether reports contain the name of the scan. */
-import { isScanNamed } from '../output/report';
+import { isScanNamed, setScanNamed } from '../state/questions';
 
 export function ScanNamed() {
   return (
@@ -7,9 +7,7 @@ export function ScanNamed() {
       <input
         type="checkbox"
         checked={isScanNamed.value}
-        onChange={(event) => {
-          isScanNamed.value = event.currentTarget.checked;
-        }}
+        onChange={(event) => setScanNamed(event.currentTarget.checked)}
       />
       include the name of the scan
     </label>

@@ -1,8 +1,8 @@
 /** Start page: instructions and phantoms. */
-import { engine } from '../client/shared';
-import { startGuide } from '../guide/steps';
+
 import { started } from '../state/store';
 import { openPhantom } from '../study/study';
+import { startGuide } from './guide-steps';
 import { OpenButtons } from './OpenButtons';
 
 const PHANTOMS: readonly (readonly [string, string])[] = [
@@ -43,7 +43,7 @@ export function StartPage() {
       <ul class="phantoms">
         {PHANTOMS.map(([name, words]) => (
           <li key={name}>
-            <button type="button" disabled={!isReady} onClick={() => void openPhantom(engine, name)}>
+            <button type="button" disabled={!isReady} onClick={() => void openPhantom(name)}>
               {words}
             </button>
           </li>

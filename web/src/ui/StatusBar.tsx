@@ -1,9 +1,9 @@
 /** Status bar: position and value at the cross-hair, window, and compute device. */
 
-import { tree } from '../edit/shown';
 import { nameOf } from '../state/changes';
-import { openAgain } from '../state/last-opened';
 import { hasMillimetres } from '../state/millimetres';
+import { openAgain } from '../state/opened';
+import { tree } from '../state/shown';
 import * as store from '../state/store';
 import { positionText } from '../views/position';
 import { useClosing } from './closing-menu';

@@ -1,12 +1,13 @@
 /** The marked stenosis. The percentage never appears without its method, its references and diameters in mm. */
 import type { StenosisMethod, Territory } from '../core/messages';
 import { STENOSIS_METHODS } from '../core/method-names';
-import { answers, currentMarks, currentPlaces } from '../measure/current';
+import { currentMarks, currentPlaces } from '../measure/current';
 import { changeMarks, confirmAll } from '../measure/editing';
 import { notGradedWords, stenosisWords, withKnownUnits } from '../measure/words';
-import { attempt } from '../output/attempt';
+import { attempt } from '../output/by-key';
 import { saveReport } from '../output/report';
 import type { VesselMarks } from '../state/document';
+import { answers } from '../state/measuring';
 
 export function StenosisPart() {
   const marks = currentMarks.value;

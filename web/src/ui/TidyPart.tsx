@@ -1,9 +1,17 @@
 /** "Clean up": limits mark short or thin vessels. Buttons remove these, or all not connected to the picked vessel. */
-import type { Signal } from '@preact/signals';
-import { engine } from '../client/shared';
-import { factsOf, keepPart, marked, reachOf, removeMarked, sure, unconnected } from '../edit/tidying';
+import { keepPart, removeMarked } from '../edit/vessels';
 import { hasMillimetres } from '../state/millimetres';
-import { shorterThan, thinnerThan } from '../state/tidy';
+import {
+  factsOf,
+  marked,
+  markShorterThan,
+  markThinnerThan,
+  reachOf,
+  shorterThan,
+  sure,
+  thinnerThan,
+  unconnected,
+} from '../state/tidying';
 
 /** Usual ends of the sliders (mm); the number fields accept more. */
 const USUAL_LENGTH = 60;
@@ -20,19 +28,31 @@ export function TidyPart() {
   return (
     <details class="tidy">
       <summary>Clean up</summary>
-      <Limit words="Shorter than" limit={shorterThan} most={reachOf(lengths, USUAL_LENGTH)} step={1} />
+      <Limit
+        words="Shorter than"
+        limit={shorterThan.value}
+        mark={markShorterThan}
+        most={reachOf(lengths, USUAL_LENGTH)}
+        step={1}
+      />
       {calibres.length > 0 && (
-        <Limit words="Thinner than" limit={thinnerThan} most={reachOf(calibres, USUAL_CALIBRE)} step={0.1} />
+        <Limit
+          words="Thinner than"
+          limit={thinnerThan.value}
+          mark={markThinnerThan}
+          most={reachOf(calibres, USUAL_CALIBRE)}
+          step={0.1}
+        />
       )}
       <div class="buttons">
-        <button type="button" disabled={count === 0} onClick={() => void removeMarked(engine)}>
+        <button type="button" disabled={count === 0} onClick={() => void removeMarked()}>
           {removeWords(count)}
         </button>
         <button
           type="button"
           disabled={unconnected.value.length === 0}
           title="Removes all vessels that are not connected to the picked vessel"
-          onClick={() => void keepPart(engine)}
+          onClick={() => void keepPart()}
         >
           {unconnected.value.length > 0
             ? `Keep only this tree (removes ${unconnected.value.length})`
@@ -52,16 +72,17 @@ function removeWords(count: number): string {
 
 interface LimitProps {
   readonly words: string;
-  readonly limit: Signal<number>;
+  readonly limit: number;
+  readonly mark: (limit: number) => void;
   readonly most: number;
   readonly step: number;
 }
 
 /** A slider and a number field for a limit (mm); the number may lie beyond the slider. */
-function Limit({ words, limit, most, step }: LimitProps) {
+function Limit({ words, limit, mark, most, step }: LimitProps) {
   const take = (event: { readonly currentTarget: HTMLInputElement }) => {
     // An empty field means 0, which marks no vessel.
-    limit.value = Math.max(Number(event.currentTarget.value), 0);
+    mark(Math.max(Number(event.currentTarget.value), 0));
   };
   const unit = hasMillimetres.value ? ' (mm)' : '';
   return (
@@ -73,17 +94,10 @@ function Limit({ words, limit, most, step }: LimitProps) {
         min="0"
         max={Math.max(Math.ceil(most / step) * step, step)}
         step={step}
-        value={limit.value}
+        value={limit}
         onInput={take}
       />
-      <input
-        type="number"
-        aria-label={`${words}${unit}`}
-        min="0"
-        step={step}
-        value={limit.value}
-        onInput={take}
-      />
+      <input type="number" aria-label={`${words}${unit}`} min="0" step={step} value={limit} onInput={take} />
       <span>{hasMillimetres.value ? 'mm' : ''}</span>
     </div>
   );

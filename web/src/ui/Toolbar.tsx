@@ -1,8 +1,8 @@
 /** Top bar: modes, vessel list, saving, window, layout and research. */
-import { engine } from '../client/shared';
-import { isListOpen } from '../edit/list-open';
+
 import { performAny } from '../edit/performing';
 import { perform, showLayout } from '../state/actions';
+import { isListOpen } from '../state/panels';
 import * as store from '../state/store';
 import { leave } from '../study/leaving';
 import { close } from '../study/study';
@@ -35,10 +35,10 @@ export function Toolbar() {
       <ResearchMenu />
       <span class="spring" />
       <OpenMore />
-      <button type="button" onClick={() => perform(engine, 'help')} aria-label="Keys and mouse">
+      <button type="button" onClick={() => perform('help')} aria-label="Keys and mouse">
         ?
       </button>
-      <button type="button" onClick={() => void leave(() => close(engine))} aria-label="Close the scan">
+      <button type="button" onClick={() => void leave(() => close())} aria-label="Close the scan">
         Close
       </button>
     </header>
@@ -69,7 +69,7 @@ function ListButton() {
       type="button"
       class="tool"
       aria-pressed={isListOpen.value}
-      onClick={() => performAny(engine, 'vessels')}
+      onClick={() => performAny('vessels')}
       title="List of the vessels (v)"
     >
       Vessels

@@ -1,21 +1,16 @@
 /** Bar over the views: offers to trace, tells what the next click does, or shows a doubtful branch. */
 import { useSignal } from '@preact/signals';
-import { engine } from '../client/shared';
 import { findAndList } from '../edit/branches';
-import { searches, waiting } from '../edit/committing';
+import { STOPPER } from '../edit/clicks';
 import { answerDoubt, placeOfDoubt, stepDoubt } from '../edit/doubts';
-import { candidate, coming, drawn, isDrawing } from '../edit/drawing';
-import { chosenDoubt, isTracing } from '../edit/mode';
 import { performAny } from '../edit/performing';
-import { acceptCandidate, endVessel } from '../edit/pointing';
-import { STOPPER } from '../edit/stoppers';
-import { tracedSummary } from '../edit/traced-summary';
-import { takeWhole } from '../edit/whole';
-import { only, whole } from '../edit/whole-shown';
+import { acceptCandidate, endVessel, takeWhole } from '../edit/pointing';
 import { nameOf, vesselOf } from '../state/changes';
+import { candidate, coming, drawn, isDrawing, only, tracedSummary, whole } from '../state/drawing';
+import { editQueue } from '../state/edit-queue';
 import { document_ } from '../state/history';
 import { hasVolume, report } from '../state/store';
-import { type Tool, tool } from '../state/tool';
+import { chosenDoubt, isTracing, type Tool, takeTool, tool } from '../state/tool';
 import { OpenMore } from './OpenButtons';
 import { TracedSummary } from './TracedSummary';
 
@@ -50,13 +45,13 @@ function Offer() {
       <span>No vessels yet: find all, click along one, or open or drop centerlines or a mask.</span>
       <button
         type="button"
-        disabled={waiting.value > 0}
+        disabled={editQueue.isBusy}
         title="Finds all vessels that are brighter than the surrounding tissue"
-        onClick={() => void findAndList(engine)}
+        onClick={() => void findAndList()}
       >
         Find all vessels
       </button>
-      <button type="button" onClick={() => performAny(engine, 'trace')}>
+      <button type="button" onClick={() => performAny('trace')}>
         Trace one vessel
       </button>
       <OpenMore words="I have centerlines" />
@@ -77,23 +72,20 @@ const WHOLE =
   'Traces the clicked vessel to its end, starting where it leaves a vessel of the list (key w). The first use searches the whole scan.';
 
 function Hint() {
-  const take = (wanted: Tool) => () => {
-    tool.value = wanted;
-  };
+  const take = (wanted: Tool) => () => takeTool(wanted);
   // The summary is hidden while a point waits for confirmation or is being traced.
-  const isSummaryShown =
-    waiting.value === 0 && !candidate.value && (!isDrawing.value || drawn.value !== null);
+  const isSummaryShown = !editQueue.isBusy && !candidate.value && (!isDrawing.value || drawn.value !== null);
   return (
     <div class="trace-bar" role="status">
       {isSummaryShown && <TracedSummary />}
       {!(isSummaryShown && tracedSummary.value?.doubts.length) && <span>{hintWords()}</span>}
       {candidate.value && (
-        <button type="button" onClick={() => acceptCandidate(engine)}>
+        <button type="button" onClick={() => acceptCandidate()}>
           Set the point here
         </button>
       )}
       {only.value && (
-        <button type="button" title={WHOLE} onClick={() => takeWhole(engine)}>
+        <button type="button" title={WHOLE} onClick={() => takeWhole()}>
           Whole vessel
         </button>
       )}
@@ -119,8 +111,8 @@ function Hint() {
 }
 
 function hintWords(): string {
-  if (waiting.value > 0) {
-    return searches.value > 0 ? 'Searching for vessels …' : 'Tracing …';
+  if (editQueue.isBusy) {
+    return editQueue.isSearching ? 'Searching for vessels …' : 'Tracing …';
   }
   if (candidate.value) {
     return 'The marker is at the brightest point under the pointer. If the slices show your vessel there, click here again; otherwise click the vessel in a slice.';
@@ -146,19 +138,19 @@ function Doubt({ words }: { readonly words: string }) {
   return (
     <div class="trace-bar over" role="status">
       <span>{words}</span>
-      <button type="button" title="Accept (y)" onClick={() => void answerDoubt(engine, 'accept')}>
+      <button type="button" title="Accept (y)" onClick={() => void answerDoubt('accept')}>
         Accept
       </button>
-      <button type="button" title="Leave out (n)" onClick={() => void answerDoubt(engine, 'leave out')}>
+      <button type="button" title="Leave out (n)" onClick={() => void answerDoubt('leave out')}>
         Leave out
       </button>
       {count > 1 && (
         <>
-          <button type="button" aria-label="Previous (,)" onClick={() => stepDoubt(engine, -1)}>
+          <button type="button" aria-label="Previous (,)" onClick={() => stepDoubt(-1)}>
             ‹
           </button>
           <span>{`${place + 1} of ${count}`}</span>
-          <button type="button" aria-label="Next (.)" onClick={() => stepDoubt(engine, 1)}>
+          <button type="button" aria-label="Next (.)" onClick={() => stepDoubt(1)}>
             ›
           </button>
         </>

@@ -1,12 +1,12 @@
 /** Summary of the vessel traced last: its length, its connections, and its doubts with buttons. */
+
 import { useSignal } from '@preact/signals';
-import { engine } from '../client/shared';
 import type { Told } from '../core/messages';
-import { tree } from '../edit/shown';
-import { tracedSummary } from '../edit/traced-summary';
 import { cut } from '../edit/vessels';
-import { moveTo } from '../link/along';
-import { pickedVessel } from '../state/store';
+import { moveTo } from '../state/cross-hair';
+import { tracedSummary } from '../state/drawing';
+import { tree } from '../state/shown';
+import { pickVessel } from '../state/store';
 
 export function TracedSummary() {
   return tracedSummary.value && <Summary key={tracedSummary.value.words} summary={tracedSummary.value} />;
@@ -25,7 +25,7 @@ function Summary({ summary: { vessel, words, doubts } }: { readonly summary: Tol
           <button type="button" onClick={() => goTo(vessel, at)}>
             Go there
           </button>
-          <button type="button" onClick={() => void cut(engine, vessel, at)}>
+          <button type="button" onClick={() => void cut(vessel, at)}>
             Cut there
           </button>
         </>
@@ -48,7 +48,7 @@ function Summary({ summary: { vessel, words, doubts } }: { readonly summary: Tol
 function goTo(vessel: number, at: number): void {
   const place = tree.value.findIndex(({ id }) => id === vessel);
   if (place >= 0) {
-    pickedVessel.value = place;
+    pickVessel(place);
     moveTo(at);
   }
 }

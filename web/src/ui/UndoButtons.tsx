@@ -1,5 +1,5 @@
 /** Buttons for undo and redo. */
-import { engine } from '../client/shared';
+
 import { performAny } from '../edit/performing';
 import { redoWords, undoWords } from '../state/history';
 import { hasVolume } from '../state/store';
@@ -16,7 +16,7 @@ export function UndoButtons() {
         aria-label="Undo"
         disabled={back === null}
         title={back ? `Undo: ${back} (Ctrl+z)` : 'Nothing to undo'}
-        onClick={() => performAny(engine, 'undo')}
+        onClick={() => performAny('undo')}
       >
         ↶
       </button>
@@ -25,7 +25,7 @@ export function UndoButtons() {
         aria-label="Redo"
         disabled={forth === null}
         title={forth ? `Redo: ${forth} (Ctrl+Shift+z)` : 'Nothing to redo'}
-        onClick={() => performAny(engine, 'redo')}
+        onClick={() => performAny('redo')}
       >
         ↷
       </button>

@@ -1,19 +1,16 @@
 /** The vessel list, with buttons for all vessels. */
 
-import { engine } from '../client/shared';
-import { namesToOffer } from '../edit/anatomy';
 import { findVessels } from '../edit/branches';
-import { setBridge } from '../edit/clicks';
-import { isListOpen } from '../edit/list-open';
-import { isTracing, toggleTool } from '../edit/mode';
+import { STOPPER, setBridge } from '../edit/clicks';
 import { performAny } from '../edit/performing';
-import { STOPPER } from '../edit/stoppers';
 import { isTreeShown, listedVessels } from '../edit/vessel-order';
-import { remove } from '../edit/vessels';
+import { namesToOffer, remove } from '../edit/vessels';
 import { doubtful } from '../state/changes';
 import { document_ } from '../state/history';
 import { hasMillimetres } from '../state/millimetres';
-import { treeChosen } from '../state/tidy';
+import { isListOpen, toggleList } from '../state/panels';
+import { chooseTree } from '../state/tidying';
+import { isTracing, toggleTool } from '../state/tool';
 import { CenterlineFiles } from './CenterlineFiles';
 import { DoubtfulPart } from './DoubtfulPart';
 import { TidyPart } from './TidyPart';
@@ -44,15 +41,7 @@ export function VesselList() {
       </datalist>
       {vessels.length > 1 && (
         <div class="buttons">
-          <button
-            type="button"
-            onClick={() =>
-              void remove(
-                engine,
-                vessels.map((vessel) => vessel.id),
-              )
-            }
-          >
+          <button type="button" onClick={() => void remove(vessels.map((vessel) => vessel.id))}>
             Delete all
           </button>
         </div>
@@ -69,9 +58,7 @@ function TreeChoice() {
         <input
           type="checkbox"
           checked={isTreeShown.value}
-          onChange={(event) => {
-            treeChosen.value = event.currentTarget.checked;
-          }}
+          onChange={(event) => chooseTree(event.currentTarget.checked)}
         />
         {`As a tree, the widest first${hasMillimetres.value ? ' (diameter × length, mm)' : ''}`}
       </label>
@@ -83,13 +70,7 @@ function Closing() {
   return (
     <div class="buttons">
       <span class="spring" />
-      <button
-        type="button"
-        aria-label="Close the list"
-        onClick={() => {
-          isListOpen.value = false;
-        }}
-      >
+      <button type="button" aria-label="Close the list" onClick={toggleList}>
         ✕
       </button>
     </div>
@@ -102,14 +83,14 @@ function AddButtons() {
       <button
         type="button"
         title="Finds all vessels that are brighter than the surrounding tissue"
-        onClick={() => void findVessels(engine)}
+        onClick={() => void findVessels()}
       >
         Find all vessels
       </button>
       <button
         type="button"
         title="Searches from the cross-hair if you placed it, otherwise from your next click (b)"
-        onClick={() => performAny(engine, 'branches')}
+        onClick={() => performAny('branches')}
       >
         All branches from here
       </button>
@@ -122,7 +103,7 @@ function AddButtons() {
         <input
           type="checkbox"
           checked={document_.value.bridge}
-          onChange={(event) => void setBridge(engine, event.currentTarget.checked)}
+          onChange={(event) => void setBridge(event.currentTarget.checked)}
         />
         Bridge gaps without lumen
       </label>

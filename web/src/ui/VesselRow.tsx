@@ -1,21 +1,20 @@
 /** A row of the vessel list. The row of the picked vessel has buttons for it. */
+
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { engine } from '../client/shared';
 import type { DocumentVessel } from '../core/messages';
-import { lengthOf } from '../edit/lines';
-import { pickedId, pickOnceShown, tree } from '../edit/shown';
-import { factsOf, marked, sure } from '../edit/tidying';
 import { isTreeShown } from '../edit/vessel-order';
 import { cut, hide, join, recolor, remove, rename } from '../edit/vessels';
-import { placeCrossHair } from '../link/cross-hair';
-import { nameOf } from '../state/changes';
+import { nameOf, PALETTE } from '../state/changes';
+import { placeCrossHair } from '../state/cross-hair';
 import { recover } from '../state/device';
 import { document_ } from '../state/history';
+import { lengthOf } from '../state/lines';
 import { hasMillimetres } from '../state/millimetres';
-import { PALETTE } from '../state/palette';
+import { pickedId, pickOnceShown, tree } from '../state/shown';
 import { pickedPlace, report } from '../state/store';
-import { highlighted } from '../state/tidy';
-import { active, tool } from '../state/tool';
+import { endHighlight, factsOf, highlight, marked, sure } from '../state/tidying';
+import { extend, takeTool } from '../state/tool';
+import { engine } from '../worker/engine';
 import { BestViewButton } from './BestViewButton';
 
 export const NAMES_TO_OFFER = 'names-to-offer';
@@ -81,12 +80,8 @@ const rowClass = (isPicked: boolean, isMarked: boolean): string =>
   `${isPicked ? 'picked' : ''}${isMarked ? ' marked' : ''}`;
 
 export const lighting = ({ id }: DocumentVessel) => ({
-  onPointerEnter: () => {
-    highlighted.value = id;
-  },
-  onPointerLeave: () => {
-    highlighted.value = highlighted.value === id ? null : highlighted.value;
-  },
+  onPointerEnter: () => highlight(id),
+  onPointerLeave: () => endHighlight(id),
 });
 
 /** The vessel name. A click picks the vessel; a click if it is picked, a double click, Enter or F2 edits the name. */
@@ -175,8 +170,8 @@ function VesselActions({ vessel }: RowProps) {
   const { id } = vessel;
   const others = document_.value.vessels.filter((one) => one.id !== id && one.doubt === null);
   const goOn = () => {
-    tool.value = 'trace';
-    active.value = id;
+    takeTool('trace');
+    extend(id);
   };
   return (
     <div class="buttons">
@@ -189,7 +184,7 @@ function VesselActions({ vessel }: RowProps) {
       <button
         type="button"
         title="Cuts the vessel at the section"
-        onClick={() => void cut(engine, id, pickedPlace.value)}
+        onClick={() => void cut(id, pickedPlace.value)}
       >
         Cut here
       </button>
@@ -197,7 +192,7 @@ function VesselActions({ vessel }: RowProps) {
         <select
           value=""
           aria-label={`Join ${nameOf(vessel)} with`}
-          onChange={(event) => void join(engine, id, Number(event.currentTarget.value))}
+          onChange={(event) => void join(id, Number(event.currentTarget.value))}
         >
           <option value="">Join with …</option>
           {others.map((other) => (
@@ -207,7 +202,7 @@ function VesselActions({ vessel }: RowProps) {
           ))}
         </select>
       )}
-      <button type="button" onClick={() => void remove(engine, [id])}>
+      <button type="button" onClick={() => void remove([id])}>
         Delete
       </button>
     </div>

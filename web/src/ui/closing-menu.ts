@@ -1,5 +1,5 @@
-/** Closes a menu after a choice, on Escape, and on a press elsewhere. */
-import type { RefObject } from 'preact';
+/** Menus: moves them into the window, and closes them after a choice, on Escape, and on a press elsewhere. */
+import type { RefObject, TargetedEvent } from 'preact';
 import { useEffect, useRef } from 'preact/hooks';
 
 export function useClosing(): RefObject<HTMLDetailsElement | null> {
@@ -31,4 +31,16 @@ export function useClosing(): RefObject<HTMLDetailsElement | null> {
     return () => ended.abort();
   }, []);
   return menu;
+}
+
+const EDGE = 8;
+
+/** Moves an opened menu so that it lies within the window. */
+export function keepWithin({ currentTarget: menu }: TargetedEvent<HTMLDetailsElement>): void {
+  const body = menu.querySelector<HTMLElement>('.menu-body');
+  if (menu.open && body) {
+    body.style.left = '0';
+    const beyond = body.getBoundingClientRect().right + EDGE - window.innerWidth;
+    body.style.left = `${-Math.max(beyond, 0)}px`;
+  }
 }

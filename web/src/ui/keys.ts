@@ -1,11 +1,11 @@
 /** Handles keys for the whole page, except those that a text field needs. */
-import { engine } from '../client/shared';
-import { isTracing } from '../edit/mode';
+
 import { performAny } from '../edit/performing';
 import { type Action, actionOfKey } from '../input/bindings';
 import { focusSoon } from '../input/focus';
 import { saveByKey } from '../output/by-key';
 import { layout } from '../state/store';
+import { isTracing } from '../state/tool';
 
 export function listenToKeys(): void {
   window.addEventListener('keydown', (event) => {
@@ -16,7 +16,7 @@ export function listenToKeys(): void {
     }
     event.preventDefault();
     if (!saveByKey(action)) {
-      performAny(engine, action);
+      performAny(action);
       follow(action);
     }
   });

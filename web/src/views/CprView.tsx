@@ -1,14 +1,16 @@
 /** View of the picked vessel as straightened CPR. */
+
 import { useCallback, useState } from 'preact/hooks';
-import { engine } from '../client/shared';
 import { DEFAULTS, PIXEL_SIDES } from '../core/generated/tables';
 import type { Cpr, Pair } from '../core/messages';
-import { placeCrossHair } from '../link/cross-hair';
 import { UprightPlaces } from '../measure/UprightPlaces';
-import { CprControls, TURN_STEP } from '../pane/CprControls';
+import { CprControls } from '../pane/CprControls';
 import { FlatPicture } from '../pane/FlatPicture';
 import { dragWindow, windowBack } from '../state/actions';
+import { placeCrossHair } from '../state/cross-hair';
+import { toggleMaximised } from '../state/panels';
 import * as store from '../state/store';
+import { engine } from '../worker/engine';
 
 export function CprView() {
   const vessel = store.pickedVessel.value;
@@ -53,11 +55,11 @@ export function CprView() {
     drag: (action: string, by: Pair) => (action === 'window' ? dragWindow(by) : undefined),
     zoom: () => undefined,
     scroll: (steps: number) => {
-      store.cprAngle.value += steps * TURN_STEP;
+      store.turnCpr(steps);
     },
     click: (action: string, at: Pair) => {
       if (action === 'maximise') {
-        store.maximised.value = store.maximised.value === 'straightened' ? null : 'straightened';
+        toggleMaximised('straightened');
       } else {
         point(at);
       }

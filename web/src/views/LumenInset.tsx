@@ -1,12 +1,12 @@
 /** Small picture of the lumen that a click would select: its section, its diameter and its value. */
 import { useEffect, useRef } from 'preact/hooks';
-import { engine } from '../client/shared';
 import { Latest } from '../core/latest';
 import type { Pair, Plane, PointedLumen } from '../core/messages';
-import { pointed } from '../edit/lumens';
-import { isTracing } from '../edit/mode';
+import { pointed } from '../state/lumens';
 import { hasMillimetres } from '../state/millimetres';
 import { isInverted, type ViewName, window_ } from '../state/store';
+import { isTracing } from '../state/tool';
+import { engine } from '../worker/engine';
 
 /** Side of the picture, and its distance from the pointer (CSS pixels). */
 const SIDE = 120;

@@ -1,11 +1,11 @@
 /** Outline and name of the picked vessel in the turning view. */
 import type { LineContent } from '../core/messages';
-import { contents } from '../edit/lines';
-import { isTracing } from '../edit/mode';
-import { tree } from '../edit/shown';
 import { nameOf } from '../state/changes';
+import { contents } from '../state/lines';
 import { placeTurn } from '../state/place-turn';
+import { tree } from '../state/shown';
 import { pickedVessel } from '../state/store';
+import { isTracing } from '../state/tool';
 import { type Disc, hullPath, thinned } from './hull';
 import type { Projection } from './projection';
 

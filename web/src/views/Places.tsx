@@ -1,14 +1,14 @@
 /** Markers over a view for pending points, and for the point that caused an error. */
 import type { Failure } from '../core/failure';
 import type { Vector } from '../core/messages';
-import { isGap, refusal } from '../edit/committing';
-import { candidate, coming, drawnColor, first } from '../edit/drawing';
+import { candidate, coming, drawnColor, first } from '../state/drawing';
+import { editQueue, isGap } from '../state/edit-queue';
 import { problem } from '../state/store';
 import { isNear } from './curves';
 import type { Projection } from './projection';
 
 export function Places({ projection }: { readonly projection: Projection }) {
-  const refused = refusal.value?.failure;
+  const refused = editQueue.state.refusal?.failure;
   // Only while the message about the error is shown.
   const weakest = refused && refused === problem.value ? refused.place : null;
   return (

@@ -1,17 +1,18 @@
 /** View of the picked vessel in a reformation other than the straightened CPR. */
+
 import { useCallback, useEffect, useRef, useState } from 'preact/hooks';
-import { engine } from '../client/shared';
 import { Failure } from '../core/failure';
 import type { Pair, Picture, Reformation, ReformedPicture, Side } from '../core/messages';
-import { placeCrossHair } from '../link/cross-hair';
-import { attempt } from '../output/attempt';
+import { attempt } from '../output/by-key';
 import { savePane } from '../output/pane-picture';
-import { TURN_STEP } from '../pane/CprControls';
 import { FlatPicture } from '../pane/FlatPicture';
 import { ReformationControls } from '../pane/ReformationControls';
 import { dragWindow, windowBack } from '../state/actions';
-import { mapOf, reformationOf, reformationTitle, uncurled } from '../state/reformation';
+import { placeCrossHair } from '../state/cross-hair';
+import { toggleMaximised } from '../state/panels';
+import { mapOf, reformationOf, reformationTitle, setUncurled, uncurled } from '../state/reformation';
 import * as store from '../state/store';
+import { engine } from '../worker/engine';
 import { HairLines } from './TurningOverlay';
 
 /** Empty picture, shown if the reformation failed. */
@@ -145,14 +146,14 @@ function handlersOf(kind: Reformation['kind'], [left, top]: Pair) {
     zoom: () => undefined,
     scroll: (steps: number) => {
       if (kind === 'uncurl') {
-        uncurled.value = Math.min(Math.max(uncurled.value + steps * 0.02, 0), 1);
+        setUncurled(uncurled.value + steps * 0.02);
       } else {
-        store.cprAngle.value += steps * TURN_STEP;
+        store.turnCpr(steps);
       }
     },
     click: (action: string, at: Pair) => {
       if (action === 'maximise') {
-        store.maximised.value = store.maximised.value === 'straightened' ? null : 'straightened';
+        toggleMaximised('straightened');
       } else {
         point(at);
       }

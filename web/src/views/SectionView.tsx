@@ -1,19 +1,20 @@
 /** Cross-section of the picked vessel. */
+
 import { useEffect, useState } from 'preact/hooks';
-import { engine } from '../client/shared';
 import type { Answer } from '../core/asked';
 import type { LineId, Pair, Plane } from '../core/messages';
 import { pixelOn, pointOn } from '../core/planes';
-import { moveAlong } from '../link/along';
-import { placeCrossHair } from '../link/cross-hair';
 import { currentProfile } from '../measure/current';
 import { SliceMeasures } from '../measure/MeasureOverlay';
 import { SectionMarks } from '../measure/SectionMarks';
 import { FlatPicture } from '../pane/FlatPicture';
 import { dragWindow, windowBack } from '../state/actions';
+import { moveAlong, placeCrossHair } from '../state/cross-hair';
 import { recover } from '../state/device';
+import { toggleMaximised } from '../state/panels';
 import * as store from '../state/store';
 import { pickedLine } from '../state/store';
+import { engine } from '../worker/engine';
 import { useAsked } from './asked';
 import { EdgeLabels } from './EdgeLabels';
 import { HairLines } from './TurningOverlay';
@@ -71,7 +72,7 @@ export function SectionView() {
     scroll: (steps: number) => moveAlong(steps * STEP),
     click: (action: string, place: Pair) => {
       if (action === 'maximise') {
-        store.maximised.value = store.maximised.value === 'section' ? null : 'section';
+        toggleMaximised('section');
       } else {
         point(place);
       }

@@ -1,7 +1,7 @@
 /** An axial, coronal or sagittal slice through the cross-hair. */
+
 import { batch } from '@preact/signals';
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { engine } from '../client/shared';
 import { Latest } from '../core/latest';
 import type { Pair, Plane, Vector } from '../core/messages';
 import {
@@ -18,15 +18,17 @@ import {
   zoomedLook,
 } from '../core/planes';
 import { add, cross, scale } from '../core/vectors';
-import { target } from '../edit/drawing';
-import { stepLumen } from '../edit/lumens';
-import { isTracing } from '../edit/mode';
 import type { Handlers } from '../input/pointer';
-import { placeCrossHair } from '../link/cross-hair';
 import { SliceMeasures } from '../measure/MeasureOverlay';
 import { FlatPicture } from '../pane/FlatPicture';
 import { dragWindow, windowBack } from '../state/actions';
+import { placeCrossHair } from '../state/cross-hair';
+import { aimAt } from '../state/drawing';
+import { stepLumen } from '../state/lumens';
+import { toggleMaximised } from '../state/panels';
 import * as store from '../state/store';
+import { isTracing } from '../state/tool';
+import { engine } from '../worker/engine';
 import { useAsked } from './asked';
 import { EdgeLabels } from './EdgeLabels';
 import { LumenInset } from './LumenInset';
@@ -116,7 +118,7 @@ function sliceHandlers(
         return;
       }
       if (action === 'maximise') {
-        store.maximised.value = store.maximised.value === name ? null : name;
+        toggleMaximised(name);
       } else {
         point(at);
       }
@@ -169,13 +171,13 @@ function moveCrossHair(name: SliceName, projection: Projection, by: Pair): void 
   const point = add(hair.point, projection.step(by));
   batch(() => {
     moveTo(name, point);
-    target.value = point;
+    aimAt(point);
   });
 }
 
 /** Moves the cross-hair at once, so that no step is lost; its value is requested afterwards. */
 function moveTo(name: SliceName, point: Vector): void {
-  store.crossHair.value = { point, value: null, vessel: null, arcLength: null };
+  store.putCrossHair(point);
   moving.run(async () => {
     const pick = await engine.ask('at', point);
     if (store.crossHair.value?.point === point) {

@@ -1,14 +1,13 @@
 /** Draws the stoppers over a view, as circles that can be dragged. */
 
-import { engine } from '../client/shared';
 import type { Stopper, Vector } from '../core/messages';
 import { add } from '../core/vectors';
-import { draggedStopper } from '../edit/drawing';
-import { isTracing } from '../edit/mode';
-import { moveStopper, removeStopper } from '../edit/stoppers';
+import { moveStopper, removeStopper } from '../edit/clicks';
 import { Handle } from '../pane/Handle';
+import { lookAt } from '../state/cross-hair';
+import { draggedStopper, dragStopper } from '../state/drawing';
 import { document_ } from '../state/history';
-import { lookAt } from './look-at';
+import { isTracing } from '../state/tool';
 import type { Projection } from './projection';
 
 const COLOR = '#ff4d4d';
@@ -40,13 +39,11 @@ function Ball({ number, stopper, projection }: BallProps) {
   if (radius === 0) {
     return null;
   }
-  const drag = (point: Vector) => {
-    draggedStopper.value = { number, point };
-  };
+  const drag = (point: Vector) => dragStopper({ number, point });
   const end = async () => {
     if (draggedStopper.value) {
-      await moveStopper(engine, number, draggedStopper.value.point);
-      draggedStopper.value = null;
+      await moveStopper(number, draggedStopper.value.point);
+      dragStopper(null);
     }
   };
   const [x, y] = projection.pixel(center);
@@ -64,10 +61,8 @@ function Ball({ number, stopper, projection }: BallProps) {
         onDrag={(at) => drag(projection.at(at, center))}
         onArrow={(by) => drag(add(center, projection.step(by)))}
         onEnd={() => void end()}
-        onPutBack={() => {
-          draggedStopper.value = null;
-        }}
-        onRemove={() => void removeStopper(engine, number)}
+        onPutBack={() => dragStopper(null)}
+        onRemove={() => void removeStopper(number)}
       />
     </>
   );

@@ -1,20 +1,22 @@
 /** The main view, which shows the vessels cut open and can be turned freely. */
+
 import { useSignalEffect } from '@preact/signals';
 import { useEffect, useRef } from 'preact/hooks';
-import { engine } from '../client/shared';
 import { resized, zoomed } from '../core/camera';
 import type { Pair, Picture, Settings, Vector, View } from '../core/messages';
 import { cross } from '../core/vectors';
-import { stepLumen } from '../edit/lumens';
-import { isTracing } from '../edit/mode';
 import type { Action } from '../input/bindings';
 import { dragOfKey, zoomOfKey } from '../input/keys';
 import { listen } from '../input/pointer';
-import { placeCrossHair } from '../link/cross-hair';
 import { usePaneSize } from '../pane/pane-size';
 import * as actions from '../state/actions';
+import { placeCrossHair } from '../state/cross-hair';
 import { recover } from '../state/device';
+import { stepLumen } from '../state/lumens';
+import { toggleMaximised } from '../state/panels';
 import * as store from '../state/store';
+import { isTracing } from '../state/tool';
+import { engine } from '../worker/engine';
 import { FrameLoop, type Shown } from './frame-loop';
 import { ofCamera } from './projection';
 import { TurningOverlay } from './TurningOverlay';
@@ -31,7 +33,7 @@ export function TurningView() {
   const canvas = useRef<HTMLCanvasElement>(null);
 
   useEffect(() => {
-    const frames = new FrameLoop(engine, (shown) => showFrame(canvas.current, shown), recover);
+    const frames = new FrameLoop((shown) => showFrame(canvas.current, shown), recover);
     loop.current = frames;
     return () => frames.end();
   }, []);
@@ -52,7 +54,7 @@ export function TurningView() {
   useEffect(() => {
     const camera = store.camera.value;
     if (camera && size && (camera.size[0] !== size[0] || camera.size[1] !== size[1])) {
-      store.camera.value = resized(camera, size);
+      store.setCamera(resized(camera, size));
     }
   }, [size, store.report.value]);
 
@@ -118,7 +120,7 @@ function showFrame(canvas: HTMLCanvasElement | null, { drawn, stage, view, wante
   }
   // The time of a supersampled picture says nothing about the frame rate.
   if (stage !== 'samples') {
-    store.frameTime.value = drawn.milliseconds;
+    store.setFrameTime(drawn.milliseconds);
   }
   if (canvas && drawn.picture) {
     paint(canvas, drawn.picture);
@@ -128,7 +130,7 @@ function showFrame(canvas: HTMLCanvasElement | null, { drawn, stage, view, wante
     canvas.dataset.last = String(isLast);
     canvas.dataset.pixels = view.camera.size.join('x');
   }
-  store.completeCamera.value = stage === 'moving' ? null : wanted.camera;
+  store.setCompleteCamera(stage === 'moving' ? null : wanted.camera);
 }
 
 function paint(canvas: HTMLCanvasElement, picture: Picture): void {
@@ -186,7 +188,7 @@ const handlers = {
       return;
     }
     if (action === 'maximise') {
-      store.maximised.value = store.maximised.value === 'turning' ? null : 'turning';
+      toggleMaximised('turning');
     } else {
       void pickAt(at);
     }

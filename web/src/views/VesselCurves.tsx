@@ -1,17 +1,14 @@
 /** Draws the vessels as curves over a view, and the preview of the traced path. */
 
 import type { DocumentVessel, Vector } from '../core/messages';
-import { drawnColor, livePaths } from '../edit/drawing';
-import { contents } from '../edit/lines';
-import { chosenDoubt, isTracing } from '../edit/mode';
-import { tree } from '../edit/shown';
-import { marked } from '../edit/tidying';
-import { whole } from '../edit/whole-shown';
+import { DOUBTFUL } from '../state/changes';
+import { drawnColor, livePaths, whole } from '../state/drawing';
 import { document_ } from '../state/history';
-import { DOUBTFUL } from '../state/palette';
+import { contents } from '../state/lines';
+import { tree } from '../state/shown';
 import { pickedVessel } from '../state/store';
-import { highlighted } from '../state/tidy';
-import { tool } from '../state/tool';
+import { highlighted, marked } from '../state/tidying';
+import { chosenDoubt, isTracing, tool } from '../state/tool';
 import { pathData } from './curves';
 import type { Projection } from './projection';
 

@@ -1,19 +1,17 @@
 /** Draws the clicked points of vessels over a view. They can be dragged, moved by keys and removed. */
 
-import { engine } from '../client/shared';
 import type { DocumentVessel, Vector } from '../core/messages';
 import { add } from '../core/vectors';
 import { moveClick, removeClick } from '../edit/clicks';
-import { dragged, isDrawing } from '../edit/drawing';
-import { isTracing } from '../edit/mode';
 import { setPoint } from '../edit/pointing';
-import { pickedId } from '../edit/shown';
 import { Handle } from '../pane/Handle';
 import { nameOf } from '../state/changes';
+import { lookAt } from '../state/cross-hair';
+import { dragClick, dragged, isDrawing } from '../state/drawing';
 import { document_ } from '../state/history';
-import { active, tool } from '../state/tool';
+import { pickedId } from '../state/shown';
+import { active, extend, isTracing, tool } from '../state/tool';
 import { isNear } from './curves';
-import { lookAt } from './look-at';
 import type { Projection } from './projection';
 
 interface OverProps {
@@ -60,20 +58,18 @@ interface ClickProps extends OverProps {
 
 function Click({ vessel, number, point, projection }: ClickProps) {
   const { id } = vessel;
-  const drag = (to: Vector) => {
-    dragged.value = { id, number, point: to };
-  };
+  const drag = (to: Vector) => dragClick({ id, number, point: to });
   const end = async () => {
     const moved = dragged.value;
     if (moved) {
       lookAt(moved.point);
-      await moveClick(engine, id, number, moved.point);
-      dragged.value = null;
+      await moveClick(id, number, moved.point);
+      dragClick(null);
     } else if (number === (vessel.clicks?.length ?? 0) - 1 && !isDrawing.value) {
       // A click on the last point extends the vessel; on another point it begins a branch or ends one there.
-      active.value = id;
+      extend(id);
     } else if (tool.value === 'trace' && id !== active.value) {
-      await setPoint(engine, point);
+      await setPoint(point);
     }
   };
   return (
@@ -86,10 +82,8 @@ function Click({ vessel, number, point, projection }: ClickProps) {
       onDrag={(at) => drag(projection.at(at, point))}
       onArrow={(by) => drag(add(point, projection.step(by)))}
       onEnd={() => void end()}
-      onPutBack={() => {
-        dragged.value = null;
-      }}
-      onRemove={() => void removeClick(engine, id, number)}
+      onPutBack={() => dragClick(null)}
+      onRemove={() => void removeClick(id, number)}
     />
   );
 }

@@ -1,8 +1,8 @@
 /** Curves over a view: their SVG paths, and which curve lies under the pointer. */
 
 import type { DocumentVessel, Pair, Vector } from '../core/messages';
-import { contents } from '../edit/lines';
 import { document_ } from '../state/history';
+import { contents } from '../state/lines';
 import type { Projection } from './projection';
 
 /** Points within this distance of a slice (mm) are drawn as lying in it. */

@@ -1,9 +1,9 @@
 /** Renders the turning view: in low resolution while it moves, in full resolution at rest, then supersampled. */
 
-import type { EngineClient } from '../client/engine';
 import { sampled } from '../core/camera';
 import { Failure } from '../core/failure';
 import type { Drawn, View } from '../core/messages';
+import { engine } from '../worker/engine';
 
 /** Wanted time of a frame while the view moves (ms); 25 frames per second leave time for other work. */
 const MOVING_TIME = 40;
@@ -46,7 +46,6 @@ export class FrameLoop {
   private timer = 0;
 
   constructor(
-    private readonly engine: EngineClient,
     private readonly show: (shown: Shown) => void,
     private readonly fail: (failure: Failure) => void,
   ) {}
@@ -56,7 +55,7 @@ export class FrameLoop {
     this.changed = performance.now();
     this.gaveWay = 0;
     if (this.isBusy && (this.stage === 'full' || this.stage === 'samples')) {
-      this.engine.stop();
+      engine.stop();
     }
     this.stage = 'moving';
     this.next();
@@ -89,7 +88,7 @@ export class FrameLoop {
     this.isBusy = true;
     const asked = this.atStage(view, stage);
     try {
-      const drawn = await this.engine.render(asked);
+      const drawn = await engine.render(asked);
       this.gaveWay = 0;
       const next = this.stageAfter(view, stage, drawn.milliseconds);
       if (!this.isStopped && !this.isOutdated) {

@@ -1,8 +1,9 @@
 /** Requests orientation letters and scale bar of a picture from the engine. */
+
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { engine } from '../client/shared';
 import { Latest } from '../core/latest';
 import type { LaidPicture, PictureLabels } from '../core/messages';
+import { engine } from '../worker/engine';
 
 /** Labels of a picture; until they arrive, those of the previous picture. */
 export function useLabels(picture: LaidPicture): PictureLabels | null {

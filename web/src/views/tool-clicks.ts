@@ -1,19 +1,17 @@
 /** Handles clicks and pointer moves in a view while a tracing tool is active. */
 
-import { engine } from '../client/shared';
 import { Latest } from '../core/latest';
 import type { Pair, Pick, Vector } from '../core/messages';
 import { addClickOnLine } from '../edit/clicks';
-import { anchor, candidate, drawn, first, target } from '../edit/drawing';
-import { lookForLumens, meant, pointed } from '../edit/lumens';
-import { chosenDoubt, isTracing } from '../edit/mode';
-import { acceptCandidate, endVessel, setPoint } from '../edit/pointing';
-import { takeWhole } from '../edit/whole';
+import { acceptCandidate, endVessel, setPoint, takeWhole } from '../edit/pointing';
 import type { Action, Where } from '../input/bindings';
-import { placeCrossHair } from '../link/cross-hair';
+import { placeCrossHair } from '../state/cross-hair';
 import { recover } from '../state/device';
-import { crossHair, type ViewName } from '../state/store';
-import { tool } from '../state/tool';
+import { aimAt, anchor, candidate, drawn, propose, setFirst } from '../state/drawing';
+import { forgetLumens, lookForLumens, meant } from '../state/lumens';
+import { crossHair, putCrossHair, type ViewName } from '../state/store';
+import { chooseDoubt, chosenDoubt, isTracing, tool } from '../state/tool';
+import { engine } from '../worker/engine';
 import { curveAt, isAt } from './curves';
 import type { Projection } from './projection';
 
@@ -47,7 +45,7 @@ export function clickWithTool(view: Pointed, action: Action, at: Pair): boolean 
 async function setAt(view: Pointed, at: Pair): Promise<void> {
   const { projection } = view;
   if (candidate.value && isAt(projection, candidate.value, at)) {
-    acceptCandidate(engine);
+    acceptCandidate();
     return;
   }
   // A click on its own curve does not extend a vessel, since a double click adds a point there.
@@ -68,8 +66,8 @@ async function setAt(view: Pointed, at: Pair): Promise<void> {
 }
 
 async function setHere(view: Pointed, point: Vector): Promise<void> {
-  crossHair.value = { point, value: null, vessel: null, arcLength: null };
-  showValue(view, point, (await setPoint(engine, point)) ?? (await engine.ask('at', point)));
+  putCrossHair(point);
+  showValue(view, point, (await setPoint(point)) ?? (await engine.ask('at', point)));
 }
 
 /** A click in a projection sets a point in the displayed lumen, or proposes the brightest point. */
@@ -85,7 +83,7 @@ async function setThrough(view: Pointed, at: Pair): Promise<void> {
   placeCrossHair(pick, view.name);
   // The user must confirm the point in the slices. If the tool has been left meanwhile, nothing is proposed.
   if (isTracing()) {
-    candidate.value = pick.point;
+    propose(pick.point);
   }
 }
 
@@ -97,7 +95,7 @@ function showValue(view: Pointed, point: Vector, pick: Pick): void {
 
 /** A double click ends the vessel, traces the whole vessel at its only point, or adds a point on a curve. */
 function endAt(view: Pointed, at: Pair): void {
-  if (acceptCandidate(engine)) {
+  if (acceptCandidate()) {
     return;
   }
   const hit = curveAt(view.projection, at);
@@ -105,9 +103,9 @@ function endAt(view: Pointed, at: Pair): void {
   const last = anchor.value;
   const isEnd = drawn.value !== null && last !== null && isAt(view.projection, last, at);
   if (hit && !isOther && !isEnd && tool.value === 'trace') {
-    first.value = null;
+    setFirst(null);
     addOnCurve(view, at);
-  } else if (!takeWhole(engine)) {
+  } else if (!takeWhole()) {
     endVessel();
   }
 }
@@ -115,13 +113,13 @@ function endAt(view: Pointed, at: Pair): void {
 function addOnCurve({ projection }: Pointed, at: Pair): void {
   const hit = curveAt(projection, at);
   if (hit) {
-    void addClickOnLine(engine, hit.vessel.id, hit.point);
+    void addClickOnLine(hit.vessel.id, hit.point);
   }
 }
 
 function chooseDoubtful({ projection }: Pointed, at: Pair): boolean {
   const hit = curveAt(projection, at);
-  chosenDoubt.value = hit?.vessel.doubt ? hit.vessel.id : null;
+  chooseDoubt(hit?.vessel.doubt ? hit.vessel.id : null);
   return chosenDoubt.value !== null;
 }
 
@@ -135,11 +133,11 @@ const isSame = (a: Pair, b: Pair): boolean => Math.hypot(a[0] - b[0], a[1] - b[1
 /** Updates the picture of the lumen and the path preview, for one pointer position at a time. */
 export function followPointerAt(view: Pointed, at: Pair): void {
   if (tool.value !== 'trace') {
-    pointed.value = null;
+    forgetLumens();
     return;
   }
   if (!view.projection.isThrough && anchor.value !== null) {
-    target.value = view.place(at) as Vector;
+    aimAt(view.place(at) as Vector);
   }
   const done = new Promise<void>((resolve) => {
     following.run(() => lookUnder(view, at).then(resolve, resolve));
@@ -151,11 +149,11 @@ async function lookUnder(view: Pointed, at: Pair): Promise<void> {
   const { projection, name } = view;
   const through = projection.along;
   const point = projection.at(at, crossHair.value?.point ?? [0, 0, 0]);
-  const lumen = await lookForLumens(engine, [name, at], { point, along: through });
+  const lumen = await lookForLumens([name, at], { point, along: through });
   if (through && anchor.value !== null) {
     // Outside the scan there is no path.
     const brightest = () => Promise.resolve(view.place(at)).then(placeOf, () => null);
-    target.value = lumen?.point ?? (await brightest());
+    aimAt(lumen?.point ?? (await brightest()));
   }
 }
 
@@ -163,6 +161,6 @@ const placeOf = (place: Pick | Vector): Vector => ('point' in place ? place.poin
 
 /** Called when the pointer has left the view, or the content under it has moved. */
 export function forgetPointer(): void {
-  pointed.value = null;
+  forgetLumens();
   lastPointer = null;
 }

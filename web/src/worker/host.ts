@@ -4,7 +4,7 @@ import type { Attachments, Message, OnProgress, Question } from '../core/asked';
 import { CRASH, Failure } from '../core/failure';
 import type { PlaceDoubt } from '../core/generated/questions';
 import type { Drawn, GivenFile, Picture, Report, SeriesWish, Started, View } from '../core/messages';
-import { Engine, loadJudge, loadModule, loadVolumes, memorySize } from '../core/module';
+import { Engine, loadJudge, loadModule, loadPackedVolumes, loadVolumes, memorySize } from '../core/module';
 import { ALL_OF_IT } from '../io/dicom/wanted';
 import { EverySecond } from '../io/every-second';
 import { among, BlobSource } from '../io/source';
@@ -12,7 +12,6 @@ import { Steps } from '../io/steps';
 import { ask, askAtOnce, isAtOnce, kindOf, moved, refuseStopped } from './answers';
 import { type Fetched, fetchStudy } from './fetching';
 import { askWithFiles } from './masks';
-import { Queue } from './queue';
 import { type LoadContext, Replacing } from './replacing';
 import { startThreads } from './threads';
 
@@ -151,7 +150,7 @@ export class EngineHost {
       const study = wish.every_second ? new EverySecond(replacing) : replacing;
       try {
         const steps = new Steps(onProgress, signal);
-        const loaded = await work({ study, loadJudge, loadVolumes, kindOf, steps });
+        const loaded = await work({ study, loadJudge, loadVolumes, loadPackedVolumes, kindOf, steps });
         const report = this.report();
         const ofVolume = replacing.hasBegun ? report.volume?.doubt : null;
         const every = [...loaded.notes, ofVolume, wish.every_second ? COARSER : null];
@@ -219,4 +218,15 @@ function sent(picture: Picture, milliseconds: number): Drawn {
 /** The pixels as a plain array. They need no copy, since the engine has copied them. */
 function plain(bytes: Uint8ClampedArray): Uint8ClampedArray<ArrayBuffer> {
   return bytes as Uint8ClampedArray<ArrayBuffer>;
+}
+
+/** Runs tasks one at a time, in order. */
+export class Queue {
+  private last: Promise<unknown> = Promise.resolve();
+
+  run<T>(work: () => T | Promise<T>): Promise<T> {
+    const next = this.last.then(work, work);
+    this.last = next.catch(() => undefined);
+    return next;
+  }
 }

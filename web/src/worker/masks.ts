@@ -2,7 +2,7 @@
 import type { Answer, Attachments, Message, Question } from '../core/asked';
 import { Failure } from '../core/failure';
 import type { AfterEdit, GivenFile } from '../core/messages';
-import { type Engine, loadJudge, loadVolumes } from '../core/module';
+import { type Engine, loadJudge, loadPackedVolumes, loadVolumes } from '../core/module';
 import { ALL_OF_IT } from '../io/dicom/wanted';
 import { among, BlobSource } from '../io/source';
 import { Steps } from '../io/steps';
@@ -49,6 +49,7 @@ async function readMask(
     loadJudge,
     kindOf,
     loadVolumes,
+    loadPackedVolumes,
     steps,
   });
   return notes;

@@ -3,15 +3,15 @@
 //! correctly rounded, so all instruction sets give the same bits.
 
 /// The width of a tile (pixels).
-pub const COLUMNS: usize = 16;
+pub(crate) const COLUMNS: usize = 16;
 /// The height of a tile (pixels).
-pub const ROWS: usize = 8;
-pub const PIXELS: usize = COLUMNS * ROWS;
+pub(crate) const ROWS: usize = 8;
+pub(crate) const PIXELS: usize = COLUMNS * ROWS;
 /// Number of children of a node and of slots of a bundle; they are tested together.
 pub const FAN: usize = 16;
 pub(crate) const PART_SIDE: usize = 8;
 pub(crate) const PART_PIXELS: usize = PART_SIDE * PART_SIDE;
-pub const PARTS: usize = PIXELS / PART_PIXELS;
+pub(crate) const PARTS: usize = PIXELS / PART_PIXELS;
 
 /// A key above that of every piece: no piece was found yet. Finite, so that no kernel ever meets inf or NaN.
 pub const UNSET: f32 = 1e30;
@@ -109,7 +109,7 @@ pub fn places(mut bits: u32) -> impl Iterator<Item = usize> {
 
 /// The distance along one axis from the interval `center` ± `half` to the interval from `low` to `high`.
 #[inline(always)]
-pub fn gap(low: f32, high: f32, center: f32, half: f32) -> f32 {
+pub(crate) fn gap(low: f32, high: f32, center: f32, half: f32) -> f32 {
     larger(larger(low - center, center - high) - half, 0.0)
 }
 

@@ -10,10 +10,10 @@ use crate::volume::Volume;
 
 pub(crate) const PACKET: [usize; 2] = [4, 4];
 /// Number of parts of a ray that are sampled or skipped together.
-pub const STEPS: usize = 8;
+pub(crate) const STEPS: usize = 8;
 
 /// The largest number of samples along a ray and across a slab.
-pub const MAX_SAMPLES: f64 = 65_536.0;
+pub(crate) const MAX_SAMPLES: f64 = 65_536.0;
 
 /// A chord that exceeds n steps by less than this share of a step still has n parts, so that rounding adds none.
 pub const SPARE: f64 = 1e-3;

@@ -7,7 +7,6 @@
 
 mod chains;
 mod nearest;
-mod parameters;
 mod row;
 mod stretch;
 mod view;
@@ -15,8 +14,8 @@ mod view;
 use rayon::prelude::*;
 
 pub(super) use self::nearest::nearest_slots;
-pub use self::parameters::CrParameters;
 use self::row::CrRow;
+pub use self::view::CrParameters;
 use self::view::CrView;
 use super::found::{Found, expect_lengths, work};
 use crate::error::Result;

@@ -18,7 +18,7 @@ override HAS_FOCUS: bool = false;
 // Whether rays start at a partly shown cut surface; otherwise they start in front of the volume.
 override FROM_CUT: bool = true;
 
-// raster.rs explains this value.
+// context.rs explains this value.
 const IN_FRONT: f32 = NONE / 2.0;
 
 @group(0) @binding(2) var<storage, read> value: array<f32>;

@@ -17,7 +17,7 @@ use lumencut_core::stages::{context, depth, leap, silhouette};
 use naga::{Expression, Handle, Literal, Module};
 
 use crate::cut_surface;
-use crate::shader::assemble_from;
+use crate::stage::assemble_from;
 
 type Name = (String, String);
 

@@ -2,7 +2,7 @@
 
 use lumencut_core::shaders::Shader;
 
-use crate::shader::assemble_from;
+use crate::stage::assemble_from;
 
 const ROOMS: &[Shader] = &[
     Shader { room: "top", text: "// import left\n// import right\n// import left\nTOP" },
@@ -41,5 +41,5 @@ fn an_unknown_import_is_refused() {
 #[test]
 #[should_panic(expected = "no shader for the room stages/nowhere")]
 fn an_unknown_room_is_refused() {
-    crate::shader::assemble("stages/nowhere");
+    crate::stage::assemble("stages/nowhere");
 }

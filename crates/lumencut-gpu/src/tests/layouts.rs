@@ -16,7 +16,7 @@ use lumencut_core::stages::surface::SurfaceParameters;
 use naga::{AddressSpace, Handle, Module, Type, TypeInner};
 
 use crate::levels::{Along, NodeBox, Point, Projected, Slot, Span};
-use crate::shader::assemble;
+use crate::stage::assemble;
 use crate::surface::CurvedPixel;
 use crate::view::{Axis, ViewParameters};
 use crate::volume::GridParameters;

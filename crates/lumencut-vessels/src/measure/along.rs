@@ -1,15 +1,25 @@
-//! Corrects areas for the blur along the vessel. If the width of a vessel changes, blur mixes a section with its
-//! neighbours. To first order, the measured area is the true area plus half of the blur variance times the second
-//! derivative of the area.
+//! What sections of a vessel share. If the width of a vessel changes, blur along it mixes a section with its neighbours:
+//! to first order, the measured area is the true area plus half of the blur variance times the second derivative of
+//! the area. If a centerline turns too sharply, section planes intersect inside the lumen.
 
-use super::sections::Section;
+pub(crate) mod all_sections;
+pub(crate) mod levels;
+pub(crate) mod point_spread;
+
+use crate::measure::fit::sections::Section;
+use crate::measure::section::SectionPlane;
+use crate::measure::section::flags::RESTLESS_LINE;
 use lumencut_core::math::same_place::REPEATED_POINT;
+use lumencut_core::math::statistics::median;
 
 /// Half-length (mm) of the window in which a parabola is fitted to the areas, and its minimum number of sections.
 const PARABOLA: (f64, usize) = (2.0, 5);
 
 /// Maximum relative correction of an area, because the formula is only a first-order approximation.
 const MAX_CORRECTION: f64 = 0.25;
+
+/// Maximum turn within one diameter (degrees). The geometric limit is 115°; real vessels reach 70°.
+pub(crate) const SHARP: f64 = 75.0;
 
 /// Corrects the areas of sections at arc lengths `at` (mm); `variance` is the blur variance along the vessel (mm²).
 pub(crate) fn sharpen(sections: &mut [Section], at: &[f64], variance: &[f64]) {
@@ -45,6 +55,32 @@ fn second_derivative(at: &[f64], areas: &[f64], n: usize) -> Option<f64> {
     Some(2.0 * product / norm)
 }
 
+pub(crate) fn flag_sharp_turns(places: &[SectionPlane], sections: &mut [Section]) {
+    let widths = sections.iter().filter_map(|section| section.fit.as_ref());
+    let mut widths: Vec<f64> = widths.map(|fit| fit.ellipse.equivalent_diameter()).collect();
+    let Some(diameter) = median(&mut widths) else { return };
+    for (section, turn) in sections.iter_mut().zip(turns(places, diameter)) {
+        if turn > SHARP {
+            section.flags |= RESTLESS_LINE;
+        }
+    }
+}
+
+/// Total turn (degrees) within a window of `within` mm around each section.
+fn turns(places: &[SectionPlane], within: f64) -> Vec<f64> {
+    let mut turned = vec![0.0];
+    for two in places.windows(2) {
+        let so_far = turned.last().copied().unwrap_or(0.0);
+        turned.push(so_far + two[0].normal.angle_between(two[1].normal).to_degrees());
+    }
+    let ends = |at: f64| {
+        let first = places.partition_point(|place| place.at < at - 0.5 * within);
+        let behind = places.partition_point(|place| place.at <= at + 0.5 * within);
+        turned[behind.max(1) - 1] - turned[first.min(places.len() - 1)]
+    };
+    places.iter().map(|place| ends(place.at)).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -60,3 +96,7 @@ mod tests {
         assert!(second_derivative(&at, &areas, 10).is_none());
     }
 }
+
+#[cfg(test)]
+#[path = "along/tests/sharp_turns.rs"]
+mod sharp_turns;

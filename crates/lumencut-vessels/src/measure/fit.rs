@@ -1,17 +1,24 @@
 //! Fits a blurred ellipse to the voxels of a section.
 
+pub(crate) mod fitting;
+pub(crate) mod sections;
+pub(crate) mod stable_fit;
+pub(crate) mod sums;
+
 use std::marker::PhantomData;
 
-use super::ellipse::{Ellipse, SHAPE, Whitening};
-use super::least_squares::{Minimum, Normal, minimum, solved, variance};
-use super::model::{Model, ThreeLevels, TwoLevels};
-use super::parameters::{BACKGROUND, HARMONICS, LUMEN, PLAIN, SECTORS, THICKNESS, WALL, WALLED};
-use super::parts::Parts;
-use super::slab::Samples;
-use super::sums::{Missing, Moves, Sums};
-use super::terms::{Term, unit};
-use super::texture::Texture;
-use super::wall::{KnownWall, Wall};
+use self::sums::{Missing, Moves, Sums};
+use crate::measure::estimation::least_squares::{Minimum, Normal, minimum, solved, variance};
+use crate::measure::estimation::{Term, unit};
+use crate::measure::model::ellipse::{Ellipse, SHAPE, Whitening};
+use crate::measure::model::parameters::{
+    BACKGROUND, HARMONICS, LUMEN, PLAIN, SECTORS, THICKNESS, WALL, WALLED,
+};
+use crate::measure::model::wall::{KnownWall, Wall};
+use crate::measure::model::{Model, ThreeLevels, TwoLevels};
+use crate::measure::section::slab::Samples;
+use crate::measure::uncertainty::Parts;
+use crate::measure::uncertainty::texture::Texture;
 use lumencut_core::math::lanes::{FAN, Isa, dispatch};
 use lumencut_core::math::statistics::median;
 

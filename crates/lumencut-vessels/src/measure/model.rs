@@ -1,10 +1,15 @@
 //! Models of a section: lumen, optional wall, and surroundings, each with its own level.
 
+pub(crate) mod contour;
+pub mod ellipse;
+pub(crate) mod parameters;
+pub(crate) mod wall;
+
 use glam::DVec2;
 
-use super::ellipse::{Blurred, Boundary, Ellipse, SHAPE, Whitening};
-use super::parameters::{BACKGROUND, HARMONICS, LUMEN, PLAIN, SECTORS, THICKNESS, WALL, WALLED};
-use super::wall::Wall;
+use self::ellipse::{Blurred, Boundary, Ellipse, SHAPE, Whitening};
+use self::parameters::{BACKGROUND, HARMONICS, LUMEN, PLAIN, SECTORS, THICKNESS, WALL, WALLED};
+use self::wall::Wall;
 use lumencut_core::math::lanes::FAN;
 
 /// Range of the wall thickness (mm). Thicker layers are thrombus or other tissue.

@@ -1,19 +1,27 @@
 //! The profile of a vessel: its lumen at each arc length.
 
+pub mod cross_section;
+pub mod measuring;
+pub(crate) mod prepared;
+pub mod radii;
+pub mod request;
+pub mod stretch;
+
 use glam::{DVec2, DVec3};
 
-use super::blooming::join_rings;
-use super::contour::inscribed;
-use super::ellipse::Ellipse;
-use super::fit::Fit;
-use super::flags::{CALCIUM, LEFT_OUT, METAL};
-use super::parts::Parts;
-use super::rays::RAYS;
-use super::scale::Scale;
-use super::section_plane::SectionPlane;
-use super::sections::{Section, center};
-use super::wall::Wall;
-use super::wall_level::WallSource;
+use crate::measure::beside::blooming::join_rings;
+use crate::measure::fit::Fit;
+use crate::measure::fit::sections::{Section, center};
+use crate::measure::model::contour::inscribed;
+use crate::measure::model::ellipse::Ellipse;
+use crate::measure::model::wall::Wall;
+use crate::measure::section::SectionPlane;
+use crate::measure::section::flags::{CALCIUM, LEFT_OUT, METAL};
+use crate::measure::section::rays::RAYS;
+use crate::measure::section::scale::Scale;
+use crate::measure::uncertainty::Parts;
+use crate::measure::wall::WallSource;
+use crate::measure::wall::tree::VesselWall;
 
 /// Number of points of a contour; a section without a lumen has none.
 pub const CONTOUR_POINTS: usize = RAYS;
@@ -67,7 +75,7 @@ pub struct Profile {
     pub diameter_outer: Vec<[f64; 2]>,
     /// Equivalent diameter (mm) without, and with, the bright material at the wall; NaN if there is no such material.
     pub bounds: Vec<[f64; 2]>,
-    /// Flags of each section; see [`super::flags`].
+    /// Flags of each section; see [`crate::measure::section::flags`].
     pub flags: Vec<u32>,
     /// Centre of the lumen (mm, LPS); the centerline point if no lumen was found.
     pub center: Vec<DVec3>,
@@ -233,4 +241,13 @@ fn outer((section, flags): (&Section, &u32)) -> [f64; 2] {
 fn half_axes(place: &SectionPlane, fit: Option<&Fit>) -> [DVec3; 2] {
     let in_world = |axis: DVec2| place.axes[0] * axis.x + place.axes[1] * axis.y;
     fit.map_or([DVec3::NAN; 2], |fit| fit.ellipse.half_axes().map(in_world))
+}
+
+/// Values estimated on a tree that apply to all its vessels.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TreeFindings {
+    /// Point spread of the scan.
+    pub spread: PointSpread,
+    /// Wall levels of the vessels whose walls are visible.
+    pub(crate) walls: Vec<VesselWall>,
 }

@@ -5,11 +5,15 @@
 //! - ECST: 1 - narrowest / assumed original diameter (ECST 1998, doi:10.1016/S0140-6736(97)09292-1).
 //! - Area: 1 - narrowest / normal area.
 
+pub mod groups;
+pub mod hindrances;
+pub mod suggestions;
+
 use std::f64::consts::PI;
 
-use super::flags::BRANCH;
-use super::parts::{Parts, deviation_of_sum};
-use super::profile::Profile;
+use crate::measure::profile::Profile;
+use crate::measure::section::flags::BRANCH;
+use crate::measure::uncertainty::{Parts, deviation_of_sum};
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::math::arc_length::LinePlace;
 use lumencut_core::math::same_place::ALONG_LINE;
@@ -61,7 +65,7 @@ pub struct Compared {
 /// Reasons to doubt a percentage. They should be shown with it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Doubts {
-    /// Flags of the sections that were used; see [`super::flags`].
+    /// Flags of the sections that were used; see [`crate::measure::section::flags`].
     pub flags: u32,
     /// Whether a branch lies between the stenosis and a reference; the calibre may change there.
     pub is_branch_between: bool,
@@ -306,9 +310,13 @@ fn at_stenosis(at: f64, references: &[[f64; 2]]) -> Result<f64> {
 }
 
 #[cfg(test)]
-#[path = "tests/doubts.rs"]
+#[path = "stenosis/tests/doubts.rs"]
 mod tests;
 
 #[cfg(test)]
-#[path = "tests/near_reference.rs"]
+#[path = "stenosis/tests/near_reference.rs"]
 mod near_reference;
+
+#[cfg(test)]
+#[path = "stenosis/tests/made_profile.rs"]
+mod made_profile;

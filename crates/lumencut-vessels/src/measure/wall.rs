@@ -1,92 +1,126 @@
-//! The prior of the vessel wall, and the result of its fit. The wall of an artery is mostly surrounded by fat. The
-//! value midway between lumen and fat lies in the wall, so without a wall model a lumen of 3 mm is measured as 3.5
-//! mm. In CT, walls have about the level of soft tissue.
+//! The expected wall level of a volume, and where it comes from.
 
-use glam::DVec2;
+pub(crate) mod pool;
+pub mod tree;
 
-use super::ellipse::Ellipse;
-use super::least_squares::{Minimum, solved};
-use super::parameters::{HARMONICS, SECTORS, THICKNESS as LOG_THICKNESS, WALL, WALLED};
-use super::pooled::Level;
-use super::scale::Scale;
-use super::terms::unit;
+use self::tree::PooledWall;
+use crate::measure::estimation::Level;
+use crate::measure::model::wall::KnownWall;
+use crate::measure::section::scale::Scale;
+use crate::voxels::Voxels;
+use lumencut_core::error::{Error, ErrorKind, Result};
+use lumencut_core::limits::Limits;
 
-/// Expected thickness of the wall as a factor of √diameter (mm), and the standard deviation of its logarithm.
-const THICKNESS: [f64; 2] = [0.45, 0.5];
+/// Intensity of walls in CT (HU) and its standard deviation: soft tissue, in arteries with and without plaque.
+pub const CT_WALL: Level = [45.0, 25.0];
 
-/// Range of the expected thickness (mm), because even the walls of very wide arteries have limited thickness.
-const MIDDLE: [f64; 2] = [0.4, 1.6];
+/// A volume may be in HU if its lumen is above `LUMEN` and its surroundings are within `AROUND`.
+const LUMEN: f64 = 80.0;
+const AROUND: [f64; 2] = [-400.0, 400.0];
 
-/// Minimum variance of the logarithm of a thickness.
-const LEAST_THICKNESS: f64 = 1e-4;
+/// A wall is darker than its lumen by at least this fraction of the contrast.
+const BELOW_LUMEN: f64 = 0.1;
 
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Wall {
-    /// Intensity level of the wall, as a fraction of the contrast, and its standard deviation.
-    pub level: Level,
-    /// Logarithm of the thickness (mm), and its standard deviation.
-    pub(crate) log_thickness: Level,
-    /// Change of the log thickness per change of the level: a thin, bright wall looks like a thick, dark one.
-    pub slope: f64,
-    /// Harmonics of the surroundings, as fractions of the contrast; see [`super::model::ThreeLevels`].
-    pub sectors: [f64; HARMONICS],
-    /// The point in the plane from which directions are measured (mm).
-    pub origin: DVec2,
+const DEVIATION: Limits =
+    Limits::new(0.1, 1000.0, "(the standard deviation of the wall's level, in the volume's unit)");
+const LEVEL: Limits = Limits::new(-2000.0, 1e5, "(the wall's level, in the volume's unit)");
+
+/// How the caller chooses the intensity level of the wall.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum WallRequest {
+    /// [`CT_WALL`] in CT; no wall in other volumes.
+    #[default]
+    Automatic,
+    /// Walls are not modelled.
+    Off,
+    /// This intensity level and standard deviation, in the volume's unit.
+    Level(Level),
 }
 
-impl Wall {
-    pub(crate) fn new(minimum: &Minimum<WALLED>, origin: DVec2) -> Option<Self> {
-        let [level, thickness] = [WALL, LOG_THICKNESS];
-        let of = |n: usize| solved(&minimum.normal.matrix, &unit(n));
-        let (by_level, by_thickness) = (of(level)?, of(thickness)?);
-        let at = &minimum.at;
-        let deviation = |square: f64| (square >= 0.0 && square.is_finite()).then(|| square.sqrt());
-        Some(Self {
-            level: [at[level], deviation(by_level[level])?],
-            log_thickness: [at[thickness], deviation(by_thickness[thickness])?],
-            slope: by_level[thickness] / by_level[level],
-            sectors: std::array::from_fn(|h| at[SECTORS + h]),
-            origin,
-        })
-    }
-
-    pub(crate) fn assumed(level: Level, log_thickness: Level, origin: DVec2) -> Self {
-        Self { level, log_thickness, slope: 0.0, sectors: [0.0; HARMONICS], origin }
-    }
-
-    /// Log thickness that the same voxels imply if the wall level (a fraction of the contrast) is known.
-    pub(crate) fn log_thickness_at(&self, level: f64) -> Level {
-        let [mean, deviation] = self.log_thickness;
-        let square = deviation.powi(2) - (self.slope * self.level[1]).powi(2);
-        [mean + self.slope * (level - self.level[0]), square.max(LEAST_THICKNESS).sqrt()]
-    }
-
-    pub(crate) fn thickness(&self) -> f64 {
-        self.log_thickness[0].exp()
+impl WallRequest {
+    /// Checks the choice. Errors: [`ErrorKind::Settings`] for an invalid level or standard deviation.
+    pub fn check(&self) -> Result<()> {
+        let Self::Level([level, deviation]) = self else { return Ok(()) };
+        LEVEL.check("wall", *level)?;
+        DEVIATION.check("wall", *deviation)
     }
 }
 
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct KnownWall {
-    pub level: Level,
-    /// Log thickness and its standard deviation; None if only the lumen width predicts it.
-    pub(crate) log_thickness: Option<Level>,
-    /// See [`Wall::slope`]; `log_thickness` applies to a wall of level `level`.
-    pub slope: f64,
+/// Whether walls were modelled, and where their level comes from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum WallSource {
+    /// The level in CT, because the volume is in HU.
+    Hounsfield,
+    /// The caller gave this level.
+    Given(Level),
+    /// The level expected after including other vessels of the tree.
+    Pooled {
+        /// The level that the caller gave, if any.
+        given: Option<Level>,
+        /// The level estimated from the other vessels.
+        by_others: PooledWall,
+    },
+    /// No walls: the caller turned them off.
+    NotAsked,
+    /// No walls: the lumen is darker than its surroundings.
+    DarkLumen,
+    /// No walls: nothing shows that the volume is in HU.
+    OtherUnit,
+    /// No walls: the surroundings are as bright as walls.
+    AsBright,
 }
 
-impl KnownWall {
-    pub(crate) fn of(level: Level, scale: &Scale) -> Self {
-        let share = [scale.share(level[0]), level[1] / scale.contrast.abs()];
-        Self { level: share, log_thickness: None, slope: 0.0 }
+impl WallSource {
+    /// The expected level in the volume's unit; None if no walls are modelled.
+    pub fn expected(&self) -> Option<Level> {
+        match self {
+            Self::Hounsfield => Some(CT_WALL),
+            Self::Given(level) => Some(*level),
+            _ => None,
+        }
     }
 
-    pub(crate) fn log_thickness(&self, lumen: &Ellipse) -> Level {
-        self.log_thickness.unwrap_or_else(|| beforehand(lumen))
+    #[must_use]
+    pub(crate) fn pooled(self, by_others: PooledWall) -> Self {
+        let given = if let Self::Given(level) = self { Some(level) } else { None };
+        Self::Pooled { given, by_others }
     }
 }
 
-pub(crate) fn beforehand(lumen: &Ellipse) -> Level {
-    let [share, deviation] = THICKNESS;
-    [(share * (2.0 * lumen.mean).sqrt()).clamp(MIDDLE[0], MIDDLE[1]).ln(), deviation]
+/// Whether a wall level from other vessels is plausible for this vessel: clearly darker than the lumen.
+pub(crate) fn is_below_lumen(wall: &PooledWall, scale: &Scale) -> bool {
+    scale.share(wall.level[0]) <= 1.0 - BELOW_LUMEN
+}
+
+pub(crate) fn expected(
+    voxels: &Voxels,
+    scale: &Scale,
+    request: WallRequest,
+) -> Result<(Option<KnownWall>, WallSource)> {
+    match request {
+        WallRequest::Off => Ok((None, WallSource::NotAsked)),
+        _ if scale.contrast < 0.0 => Ok((None, WallSource::DarkLumen)),
+        WallRequest::Level(level) => {
+            let wall = KnownWall::of(level, scale);
+            if wall.level[0] <= 1.0 - BELOW_LUMEN {
+                return Ok((Some(wall), WallSource::Given(level)));
+            }
+            let found = format!("{} in a lumen of {:.0}", level[0], scale.value(1.0));
+            let expected = "a level below that of the lumen";
+            Err(Error::new(ErrorKind::Settings, "wall", found, expected))
+        }
+        WallRequest::Automatic if is_hounsfield(voxels, scale) => {
+            Ok((Some(KnownWall::of(CT_WALL, scale)), WallSource::Hounsfield))
+        }
+        WallRequest::Automatic => Ok((None, WallSource::OtherUnit)),
+    }
+}
+
+/// Whether a volume is in HU: it has negative values, and its lumen and surroundings have levels typical of CT.
+fn is_hounsfield(voxels: &Voxels, scale: &Scale) -> bool {
+    let around = (AROUND[0]..=AROUND[1]).contains(&scale.outside);
+    around
+        && scale.value(1.0) > LUMEN
+        && scale.share(CT_WALL[0]) <= 1.0 - BELOW_LUMEN
+        && voxels.has_negative()
 }

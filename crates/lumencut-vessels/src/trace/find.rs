@@ -1,37 +1,36 @@
 //! Finds all vessels of an angiography without a start point (seed). All scans use the same thresholds.
 
+pub(crate) mod all_tracks;
 pub(crate) mod bone;
 pub(crate) mod candidates;
-pub mod choose;
 pub(crate) mod confidence;
+pub(crate) mod doubtful;
 pub(crate) mod flux;
 pub mod found;
-pub(crate) mod from_seed;
+pub mod from_seed;
 pub(crate) mod grid;
-pub(crate) mod hidden;
+pub(crate) mod inside_wide;
 pub(crate) mod links;
+pub(crate) mod one_track;
 pub mod one_vessel;
 pub(crate) mod paint;
 pub(crate) mod point_grid;
+pub(crate) mod progress;
 pub(crate) mod pyramid;
 pub(crate) mod quantiles;
 pub mod refusals;
 pub(crate) mod scan;
-pub(crate) mod scarce;
 pub(crate) mod section;
 pub(crate) mod side_by_side;
-pub(crate) mod stages;
 pub mod track;
-pub(crate) mod tracker;
-pub(crate) mod tracking;
 pub(crate) mod tubes;
 pub(crate) mod vessel_level;
 pub(crate) mod whole_vessels;
 
+use crate::trace::find::doubtful::{doubted_where_scarce, is_angiography};
 use crate::trace::find::found::Trees;
+use crate::trace::find::progress::Stages;
 use crate::trace::find::scan::Scan;
-use crate::trace::find::scarce::{doubted_where_scarce, is_angiography};
-use crate::trace::find::stages::Stages;
 use crate::voxels::Voxels;
 use glam::DVec3;
 use lumencut_core::error::Result;

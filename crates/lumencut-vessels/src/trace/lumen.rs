@@ -1,6 +1,5 @@
 //! Recognises lumen by its values, fits cross-sections along a line, and centres the line in the lumen.
 
-pub mod across;
 pub mod cross_section;
 pub(crate) mod directions;
 pub mod level_change;
@@ -11,5 +10,5 @@ pub(crate) mod ray;
 pub mod refine;
 pub mod seen;
 pub mod surroundings;
-pub mod wander_removal;
+pub mod wander;
 pub(crate) mod within;

@@ -2,7 +2,7 @@
 
 use crate::error::Error;
 use crate::plan::Plan;
-use crate::stream::{Codec, Fault, Taken, Unpacker};
+use crate::stream::{Codec, Taken, Unpacker};
 use crate::words::Words;
 
 const SKIPPED: usize = 1 << 14;
@@ -11,6 +11,8 @@ const SKIPPED: usize = 1 << 14;
 pub(crate) enum Piece {
     /// The number of bytes written; 0 while bytes are skipped.
     Bytes(usize),
+    /// This many bytes after the voxels were unpacked, to verify the checksum.
+    Beyond(usize),
     /// More of the file is needed.
     Hungry,
     Full,
@@ -23,7 +25,6 @@ pub(crate) struct Pass {
     /// The smallest output (bytes) to which it can write.
     unit: usize,
     pub(crate) start: u64,
-    /// Unpacked bytes to skip.
     skip: u64,
     needed: u128,
     given: u128,
@@ -38,15 +39,19 @@ enum Source {
 }
 
 impl Pass {
-    /// A pass over `needed` bytes, which are `numbers` stored numbers, from byte `start` of the file on.
-    pub(crate) fn new(plan: &Plan, start: u64, needed: u128, numbers: u128) -> Self {
+    /// A pass over `needed` bytes, which are `numbers` stored numbers, from byte `start` of the file on. In a
+    /// compressed stream at most `beyond` bytes may follow them.
+    pub(crate) fn new(plan: &Plan, start: u64, needed: u128, numbers: u128, beyond: u64) -> Self {
         let place = &plan.place;
         let is_packed = matches!(place.codec, Codec::Zlib | Codec::Bzip2);
         let skip = if is_packed { place.skip } else { 0 };
         let source = match place.codec {
             Codec::Raw => Source::Plain,
             Codec::Text => Source::Text(Words::new(&place.name, plan.stored.kind, numbers)),
-            codec => Source::Packed(Box::new(Unpacker::new(codec, needed.saturating_add(skip.into())))),
+            codec => {
+                let wanted = needed.saturating_add(skip.into());
+                Source::Packed(Box::new(Unpacker::new(codec, wanted, beyond)))
+            }
         };
         let unit = if place.codec == Codec::Text { plan.stored.kind.bytes() } else { 1 };
         Self { subject: place.name.clone(), unit, start, skip, needed, given: 0, source }
@@ -112,13 +117,14 @@ impl Pass {
         let Source::Packed(unpacker) = &mut self.source else { return Ok((0, Piece::End)) };
         match unpacker.take(input, is_last, output) {
             Ok(Taken::Some { read, written }) => Ok((read, Piece::Bytes(written))),
+            Ok(Taken::Beyond { read, count }) => Ok((read, Piece::Beyond(count))),
             Ok(Taken::Hungry) => Ok((0, Piece::Hungry)),
             Ok(Taken::End) if self.given < self.needed => Err(self.too_short()),
             Ok(Taken::End) => {
                 self.source = Source::Ended;
                 Ok((0, Piece::End))
             }
-            Err(fault) => Err(self.faulty(fault)),
+            Err(fault) => Err(fault.of(&self.subject)),
         }
     }
 
@@ -143,9 +149,5 @@ impl Pass {
 
     fn too_short(&self) -> Box<Error> {
         Error::too_short(&self.subject, "", self.given, self.needed)
-    }
-
-    fn faulty(&self, fault: Fault) -> Box<Error> {
-        Error::damaged(&self.subject, fault.words(), "a whole one")
     }
 }

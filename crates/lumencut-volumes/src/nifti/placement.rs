@@ -15,7 +15,6 @@ const APART: f64 = 0.01;
 const SAME_AXIS: f64 = 25.0;
 
 impl Header {
-    /// World (LPS, mm) from index, of a repaired header.
     pub(crate) fn placement(
         &self,
         path: &str,
@@ -42,7 +41,6 @@ impl Header {
         self.qform().ok_or_else(refused)
     }
 
-    /// The grid centred at the origin; i points to the left.
     fn centred(&self) -> Affine {
         let sides = [-self.pixdim[1], self.pixdim[2], self.pixdim[3]];
         std::array::from_fn(|axis| {
@@ -134,7 +132,6 @@ impl Header {
         })
     }
 
-    /// Notes a missing placement, or two placements that contradict each other.
     fn note_forms(&self, size: [u64; 3], notes: &mut Vec<String>) {
         if !self.is_placed() {
             let assumed = "centred at the origin, i to the left, like nibabel";

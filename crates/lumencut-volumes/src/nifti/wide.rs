@@ -11,7 +11,6 @@ const SPLIT: f64 = 134_217_729.0;
 impl Wide {
     pub(crate) const ZERO: Self = Self(0.0, 0.0);
 
-    /// The nearest number with 53 significant bits.
     pub(crate) fn narrow(self) -> f64 {
         self.0
     }

@@ -5,7 +5,6 @@ use crate::text::{decoded, number};
 
 /// Number of bytes in which the end of the header is searched.
 pub(crate) const LONGEST_HEADER: u64 = 1 << 20;
-/// Maximum length of a field (characters).
 const LONGEST_VALUE: usize = 4096;
 const NEWEST: i64 = 5;
 const FIELDS: [&str; 16] = [
@@ -32,9 +31,7 @@ pub(crate) type Direction = Option<Vec<f64>>;
 pub(crate) struct Header<'a> {
     pub(crate) path: &'a str,
     fields: Vec<(&'static str, String)>,
-    /// All lines except the first.
     pub(crate) lines: Vec<String>,
-    /// The byte after the header.
     pub(crate) end: u64,
     pub(crate) content: String,
 }
@@ -85,7 +82,6 @@ impl<'a> Header<'a> {
         content.map(|(_, value)| value.trim().to_owned()).unwrap_or_default()
     }
 
-    /// Checks that every stated field can be read.
     fn check(&self) -> Result<(), Box<Error>> {
         for name in ["dimension", "line skip", "byte skip", "space dimension"] {
             self.whole(name)?;
@@ -103,7 +99,6 @@ impl<'a> Header<'a> {
         self.fields.iter().any(|(known, _)| *known == name)
     }
 
-    /// The text of a field; empty if it is not stated.
     pub(crate) fn text(&self, name: &str) -> &str {
         self.fields.iter().find(|(known, _)| *known == name).map_or("", |(_, value)| value)
     }

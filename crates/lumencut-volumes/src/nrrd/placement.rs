@@ -25,7 +25,6 @@ fn millimetres(unit: &str) -> Option<f64> {
 }
 
 impl Header<'_> {
-    /// World (LPS, mm) from index.
     pub(crate) fn affine(&self, axes: &[usize; 3], notes: &mut Vec<String>) -> Result<Affine, Box<Error>> {
         let columns = self.columns(axes, notes)?;
         let origin = self.origin_or_zero(notes)?;
@@ -101,7 +100,6 @@ impl Header<'_> {
         self.to_lps().is_some()
     }
 
-    /// The signs that convert the file's space to LPS.
     fn signs(&self, notes: &mut Vec<String>) -> [f64; 3] {
         self.to_lps().unwrap_or_else(|| {
             let stated = self.patient_space();

@@ -13,7 +13,7 @@ const HEADROOM: f64 = 1.12;
 pub const DEVIATIONS: f64 = 2.0;
 
 /// Diameters smaller than this many times the FWHM are near the resolution limit.
-pub const RESOLUTION_LIMIT_FWHM: f64 = 1.5;
+pub(crate) const RESOLUTION_LIMIT_FWHM: f64 = 1.5;
 
 /// The chart of a vessel. Values of sections that are left out are NaN.
 #[derive(Clone, Debug)]

@@ -42,7 +42,7 @@ const MIN_STRIP_RATIO: f64 = 0.6;
 const MIN_PIXEL_MM: f64 = 0.05;
 
 /// The axis along a vessel of this length (mm), in a chart of this width (plot pixels).
-pub fn axis_along(length: f64, width: f64) -> Axis {
+pub(crate) fn axis_along(length: f64, width: f64) -> Axis {
     let start = MARGINS.left;
     Axis { low: 0.0, high: length, start, end: (width - MARGINS.right).max(start + MIN_AXES) }
 }

@@ -18,10 +18,10 @@ pub const REPORT_PIXELS: usize = 200;
 /// Side of section pictures on sheets of the command line (pixels).
 pub const SHEET_PIXELS: usize = 260;
 /// Side of section pictures in reports of the page (pixels).
-pub const PAGE_PIXELS: usize = 300;
+pub(crate) const PAGE_PIXELS: usize = 300;
 
 /// The side of section pictures (mm) in which nearly all reliable sections fit.
-pub fn section_side(profile: &Profile) -> f64 {
+pub(crate) fn section_side(profile: &Profile) -> f64 {
     let mut diameters = longest_diameters(profile);
     let fitting = quantile(&mut diameters, FITTING_QUANTILE).map(|wide| (SECTION_DIAMETERS * wide).ceil());
     fitting.map_or(DEFAULT_SIDE_MM, |side| side.clamp(SECTION_SIDES_MM[0], SECTION_SIDES_MM[1]))

@@ -6,7 +6,7 @@ use glam::DVec3;
 use lumencut_core::error::{Error, ErrorKind};
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_io as centerlines;
-use lumencut_vessels::trace::clicks::traced::Traced;
+use lumencut_vessels::trace::clicks::Traced;
 use lumencut_vessels::trace::lines::centerline::Centerline;
 use serde::{Deserialize, Serialize};
 

@@ -8,11 +8,11 @@ use crate::profile_json::Asked;
 use crate::profile_marks::{Grade, Marked};
 use glam::DVec3;
 use lumencut_core::named::Named;
-use lumencut_vessels::measure::groups::Territory;
 use lumencut_vessels::measure::profile::Profile;
+use lumencut_vessels::measure::profile::stretch::{towards_detector, up_at_detector};
+use lumencut_vessels::measure::stenosis::groups::Territory;
+use lumencut_vessels::measure::stenosis::suggestions::Spot;
 use lumencut_vessels::measure::stenosis::{Compared, Method};
-use lumencut_vessels::measure::stretch::{towards_detector, up_at_detector};
-use lumencut_vessels::measure::suggestions::Spot;
 use serde::{Deserialize, Serialize};
 
 use crate::study::failure::Result;

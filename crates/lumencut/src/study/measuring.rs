@@ -5,8 +5,8 @@ use crate::profile_marks::{Grade, Measured};
 use crate::profile_record::ProfileRecord;
 use crate::profile_table::vessels_csv;
 use lumencut_core::stop::Stop;
-use lumencut_vessels::measure::measuring::STEP;
 use lumencut_vessels::measure::profile::Profile;
+use lumencut_vessels::measure::profile::measuring::STEP;
 
 use crate::study::failure::Result;
 use crate::study::measure_messages::VesselMessage;

@@ -11,7 +11,7 @@ use lumencut_core::settings::{Settings, Window};
 use lumencut_core::stages::{Image, ImageSet};
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::with_voxels;
-use lumencut_vessels::measure::cross_section::section_place;
+use lumencut_vessels::measure::profile::cross_section::section_place;
 use lumencut_vessels::trace::clicks::tracer::Tracer;
 use lumencut_vessels::trace::find::found::Trees;
 

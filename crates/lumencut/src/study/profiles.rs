@@ -5,9 +5,9 @@
 use std::collections::HashMap;
 
 use lumencut_core::stop::Stop;
-use lumencut_vessels::measure::measuring::STEP;
 use lumencut_vessels::measure::profile::Profile;
-use lumencut_vessels::measure::wall_level::WallRequest;
+use lumencut_vessels::measure::profile::measuring::STEP;
+use lumencut_vessels::measure::wall::WallRequest;
 
 use crate::kept_profiles::{self, KeptProfiles, Scan};
 use crate::study::content::{Content, NamedTree};

@@ -15,7 +15,7 @@ use lumencut_core::reformations::untangled::{Untangled, UntangledParameters};
 use lumencut_core::stop::Stop;
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
 use lumencut_core::volume::Volume;
-use lumencut_vessels::measure::section_plane::known_radius;
+use lumencut_vessels::measure::section::known_radius;
 use serde::Deserialize;
 
 use crate::axes_words::Axes;

@@ -3,9 +3,9 @@
 use glam::DVec3;
 use lumencut_core::math::arc_length::arc_lengths;
 use lumencut_vessels::trace::lines::centerline::Centerline;
-use lumencut_vessels::trace::lines::wander::wandering;
-use lumencut_vessels::trace::lumen::across::runs_across;
 use lumencut_vessels::trace::lumen::level_change::level_change;
+use lumencut_vessels::trace::lumen::own_axis::runs_across;
+use lumencut_vessels::trace::lumen::wander::wandering;
 use lumencut_vessels::voxels::Voxels;
 use serde::Serialize;
 

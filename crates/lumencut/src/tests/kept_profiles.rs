@@ -3,9 +3,9 @@
 use lumencut_core::error::ErrorKind;
 use lumencut_core::volume::Voxels;
 use lumencut_phantom::Phantom;
-use lumencut_vessels::measure::measuring::measure;
 use lumencut_vessels::measure::profile::Source;
-use lumencut_vessels::measure::wall_level::{WallRequest, WallSource};
+use lumencut_vessels::measure::profile::measuring::measure;
+use lumencut_vessels::measure::wall::{WallRequest, WallSource};
 
 use super::*;
 

@@ -4,9 +4,9 @@ use glam::{DAffine3, DMat3};
 use lumencut_core::math::centerline_path::CenterlinePath;
 use lumencut_core::reformations::cpr::View;
 use lumencut_core::volume::Voxels as Samples;
-use lumencut_vessels::measure::measuring;
-use lumencut_vessels::measure::request::MeasureRequest;
-use lumencut_vessels::measure::wall_level::WallRequest;
+use lumencut_vessels::measure::profile::measuring;
+use lumencut_vessels::measure::profile::request::MeasureRequest;
+use lumencut_vessels::measure::wall::WallRequest;
 
 use super::*;
 

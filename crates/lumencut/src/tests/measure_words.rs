@@ -1,5 +1,5 @@
 use super::*;
-use lumencut_vessels::measure::flags::{AT_LIMIT, BRANCH, CALCIUM, NO_EDGE};
+use lumencut_vessels::measure::section::flags::{AT_LIMIT, BRANCH, CALCIUM, NO_EDGE};
 
 fn graded(method: Method, references: Vec<[f64; 2]>) -> Stenosis {
     Stenosis {

@@ -1,6 +1,6 @@
 use super::*;
 use crate::tube::tube;
-use lumencut_vessels::measure::flags::{BRANCH, CALCIUM, METAL, OUTSIDE};
+use lumencut_vessels::measure::section::flags::{BRANCH, CALCIUM, METAL, OUTSIDE};
 
 #[test]
 fn where_places_are_suggested_or_marked_there_is_no_reason() {

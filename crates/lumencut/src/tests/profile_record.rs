@@ -4,9 +4,9 @@ use std::sync::LazyLock;
 
 use lumencut_core::volume::{Volume, Voxels};
 use lumencut_phantom::Phantom;
-use lumencut_vessels::measure::measuring::measure;
-use lumencut_vessels::measure::request::MeasureRequest;
-use lumencut_vessels::measure::wall_level::WallRequest;
+use lumencut_vessels::measure::profile::measuring::measure;
+use lumencut_vessels::measure::profile::request::MeasureRequest;
+use lumencut_vessels::measure::wall::WallRequest;
 use serde_json::{Value, json};
 
 use super::*;

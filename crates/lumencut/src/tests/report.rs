@@ -1,5 +1,5 @@
-use lumencut_vessels::measure::flags::BRANCH;
 use lumencut_vessels::measure::profile::Profile;
+use lumencut_vessels::measure::section::flags::BRANCH;
 use lumencut_vessels::measure::stenosis::{Compared, Method};
 
 use super::*;

@@ -1,10 +1,10 @@
 //! The profile of a synthetic tube.
 
 use glam::DVec3;
-use lumencut_vessels::measure::flags::{BRANCH, CALCIUM};
-use lumencut_vessels::measure::parts::Parts;
 use lumencut_vessels::measure::profile::{Profile, Source};
-use lumencut_vessels::measure::wall_level::WallSource;
+use lumencut_vessels::measure::section::flags::{BRANCH, CALCIUM};
+use lumencut_vessels::measure::uncertainty::Parts;
+use lumencut_vessels::measure::wall::WallSource;
 
 /// A 60 mm tube that is 8 mm wide and 4 mm in its middle, with calcium at 20 mm and a branch on its last 10 mm.
 pub(crate) fn tube() -> Profile {

@@ -1,4 +1,4 @@
-/** What the engine is asked and answers, written of `crates/lumencut/src/study/questions.rs` by `make types`; a test says where it is stale. */
+/** What the engine is asked and answers, written of `crates/lumencut/src/study/questions.rs` by `make generate`; a test says where it is stale. */
 import type { Bytes, Pair, Settings, SettingValue, Turn, Vector } from '../plain';
 
 export type Method = 'csr' | 'csr-paper' | 'cr' | 'mpcpr';

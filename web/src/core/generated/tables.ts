@@ -1,4 +1,4 @@
-/** Tables of the facade, written from crates/lumencut by `make types`. */
+/** Tables of the facade, written from crates/lumencut by `make generate`. */
 
 /** Names of vessels that have a code in reports. */
 export const VESSEL_NAMES = [

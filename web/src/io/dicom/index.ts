@@ -1,6 +1,6 @@
 /** Opens DICOM: one greyscale series from a folder, a zip archive or single files becomes one volume. */
 
-import type { Judge } from '../../core/judge';
+import type { Judge } from '../../core/module';
 import type { ReadScan } from '../../core/scan-study';
 import { inOrder, type Source } from '../source';
 import type { Steps } from '../steps';

@@ -1,7 +1,7 @@
 /** Asks `lumencut-dicom` for the plan of a volume, or the reason why there is none. */
 import { Failure, type SeriesChoice } from '../../core/failure';
-import type { Judge } from '../../core/judge';
 import type { Mend } from '../../core/mends';
+import type { Judge } from '../../core/module';
 import type { ExaminedFile } from './headers';
 import { TRANSFER_SYNTAXES } from './pixels';
 import type { Asked } from './records';

@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use crate::trace::clicks::traced::Traced;
+use crate::trace::clicks::Traced;
 use crate::trace::lines::centerline::Centerline;
-use crate::trace::lines::nearest_point::nearest_point;
+use crate::trace::lines::nearest_point;
 use crate::trace::lumen::refine::STEP;
 use crate::trace::lumen::within::holds;
 use lumencut_core::error::{Clicked, Error, ErrorKind, Result};

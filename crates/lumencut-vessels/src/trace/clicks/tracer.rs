@@ -4,17 +4,17 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 
+use crate::trace::clicks::Traced;
 use crate::trace::clicks::checks::{Clicks, check, check_place};
 use crate::trace::clicks::gaps::{LONGEST_GAP, Line, no_lumen, no_way};
 use crate::trace::clicks::junctions::joined;
 use crate::trace::clicks::preview::{Live, Sought};
-use crate::trace::clicks::traced::Traced;
 use crate::trace::clicks::way::{Way, start};
-use crate::trace::lines::nearest_point::nearest_point;
+use crate::trace::lines::nearest_point;
 use crate::trace::lumen::lumen_model::{LumenModel, in_words};
 use crate::trace::lumen::refine::refined;
 use crate::trace::lumen::surroundings::Surroundings;
-use crate::trace::lumen::wander_removal::without_wander;
+use crate::trace::lumen::wander::without_wander;
 use crate::trace::ways::front::{Found, Front, Reach};
 use crate::trace::ways::region::{Region, Stopper, Strictness};
 use crate::voxels::Voxels;

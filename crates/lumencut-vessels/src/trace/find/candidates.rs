@@ -6,9 +6,9 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::trace::find::flux::{FluxOf, HALO, RADII, Responses, gains};
+use crate::trace::find::progress::{Stage, Stages};
 use crate::trace::find::pyramid::{Level, Pyramid};
 use crate::trace::find::section::{Section, across};
-use crate::trace::find::stages::{Stage, Stages};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 

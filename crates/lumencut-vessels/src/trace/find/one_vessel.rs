@@ -2,10 +2,10 @@
 
 use glam::DVec3;
 
-use crate::trace::find::choose::vessel_at;
 use crate::trace::find::found::{NoVessel, Trees};
+use crate::trace::find::from_seed::vessel_at;
 use crate::trace::lines::centerline::Centerline;
-use crate::trace::lines::nearest_point::nearest_point;
+use crate::trace::lines::nearest_point;
 use crate::trace::lumen::within::holds;
 
 /// Points less than this far apart (mm) differ only by rounding.

@@ -3,10 +3,10 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
+use crate::trace::find::all_tracks::Tracking;
 use crate::trace::find::candidates::Candidate;
-use crate::trace::find::stages::Stages;
+use crate::trace::find::progress::Stages;
 use crate::trace::find::track::{Track, TrackPoint};
-use crate::trace::find::tracking::Tracking;
 use lumencut_core::error::Result;
 use lumencut_core::stop::go_on;
 

@@ -4,18 +4,18 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::trace::find::FindRequest;
+use crate::trace::find::all_tracks::Tracking;
 use crate::trace::find::bone::{self, Shape};
-use crate::trace::find::candidates::{Floors, noise};
+use crate::trace::find::candidates::{Floors, candidates_near, noise};
 use crate::trace::find::confidence::{UsualVessels, confidence};
-use crate::trace::find::from_seed::from_seed;
+use crate::trace::find::from_seed::SELECT_RADII;
 use crate::trace::find::grid::Grid;
-use crate::trace::find::hidden::hidden;
+use crate::trace::find::inside_wide::hidden;
+use crate::trace::find::progress::{Stage, Stages};
 use crate::trace::find::pyramid::Pyramid;
 use crate::trace::find::scan::Scan;
 use crate::trace::find::side_by_side::side_by_side;
-use crate::trace::find::stages::{Stage, Stages};
 use crate::trace::find::track::{Track, TrackPoint};
-use crate::trace::find::tracking::Tracking;
 use crate::trace::find::vessel_level::vessel_level;
 use crate::voxels::Voxels;
 use lumencut_core::error::Result;
@@ -149,6 +149,34 @@ fn in_world(grid: &Grid, mut track: Track) -> Track {
     track
 }
 
+/// Contrast threshold around a seed, as a fraction of the normal threshold.
+const FAINTER: f64 = 1.0 / 3.0;
+
+/// Tracks through a seed (finest-level voxels); none if a known track already contains the seed.
+pub(crate) fn from_seed(tracking: &Tracking, seed: DVec3, known: &[Track]) -> Result<Vec<Track>> {
+    if known.iter().any(|track| holds(track, seed)) {
+        return Ok(Vec::new());
+    }
+    let floors = Floors { contrast: FAINTER * tracking.floors.contrast, ..tracking.floors };
+    let around = Tracking {
+        floors,
+        stages: Stages::default(),
+        levels_examined: tracking.levels_examined.clone(),
+        ..*tracking
+    };
+    let near = candidates_near(tracking.pyramid, &around.levels_examined, &floors, seed);
+    let found = around.tracks_beside(known, &near)?;
+    Ok(found.into_iter().filter(|track| holds(track, seed)).collect())
+}
+
+fn holds(track: &Track, place: DVec3) -> bool {
+    track.points.iter().any(|point| point.place.distance(place) <= (SELECT_RADII * point.radius).max(1.0))
+}
+
 #[cfg(test)]
 #[path = "tests/tubes.rs"]
 mod tests;
+
+#[cfg(test)]
+#[path = "tests/tubes_at_seed.rs"]
+mod from_seed_tests;

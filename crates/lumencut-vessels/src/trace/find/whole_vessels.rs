@@ -4,28 +4,28 @@
 
 pub(crate) mod attached;
 pub(crate) mod centered;
-pub(crate) mod closed;
+pub(crate) mod edge_ends;
 pub(crate) mod graph;
-pub(crate) mod outlook;
+pub(crate) mod rings;
 pub(crate) mod roots;
+pub(crate) mod run_path;
 pub(crate) mod runs;
 pub(crate) mod stubs;
-pub(crate) mod sure;
+pub(crate) mod sure_parts;
 pub(crate) mod trimmed;
-pub(crate) mod way;
 
 use rayon::prelude::*;
 
 use crate::trace::find::FindRequest;
 use crate::trace::find::found::FoundVessel;
 use crate::trace::find::links::link::Link;
+use crate::trace::find::progress::{Stage, Stages};
 use crate::trace::find::scan::Scan;
-use crate::trace::find::stages::{Stage, Stages};
 use crate::trace::find::track::Track;
 use crate::trace::find::whole_vessels::attached::{Attached, attached};
 use crate::trace::find::whole_vessels::centered::{Centered, centered};
-use crate::trace::find::whole_vessels::closed::closed;
 use crate::trace::find::whole_vessels::graph::Graph;
+use crate::trace::find::whole_vessels::rings::closed;
 use crate::trace::find::whole_vessels::roots::roots;
 use crate::trace::find::whole_vessels::runs::runs;
 use crate::trace::find::whole_vessels::stubs::without_stubs;
@@ -69,7 +69,7 @@ pub(crate) fn of(
     // Connected parts without vessels get no number.
     stays.retain(|lines| !lines.is_empty());
     let lines = stays.iter().enumerate().flat_map(|(part, lines)| lines.iter().map(move |line| (part, line)));
-    Ok(lines.flat_map(|(part, line)| sure::vessels(tracks, line, part)).collect())
+    Ok(lines.flat_map(|(part, line)| sure_parts::vessels(tracks, line, part)).collect())
 }
 
 #[cfg(test)]

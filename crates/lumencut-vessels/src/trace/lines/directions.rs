@@ -1,8 +1,9 @@
-//! Computes the directions of a line at its points.
+//! Computes the directions along and across a line at its points.
 
 use glam::DVec3;
 
 use lumencut_core::math::arc_length::{arc_lengths, point_at};
+use lumencut_core::math::frames::{MovingFrame, double_reflection};
 
 /// Direction at each point: from the first to the last point that is within `reach` mm of it along the line.
 pub fn point_directions(points: &[DVec3], reach: f64) -> Vec<DVec3> {
@@ -33,4 +34,15 @@ pub fn chord_directions(points: &[DVec3], reach: &[f64], is_closed: bool) -> Vec
             chord.try_normalize().or_else(|| step.try_normalize()).unwrap_or(DVec3::Z)
         })
         .collect()
+}
+
+/// Two directions across the line at each point. They do not rotate about the line from point to point.
+pub fn frames(points: &[DVec3], directions: &[DVec3]) -> Vec<[DVec3; 2]> {
+    let mut frame = MovingFrame::looking(directions[0], directions[0].any_orthonormal_vector());
+    let mut found = vec![[frame.ahead, frame.across]];
+    for i in 1..points.len() {
+        frame = double_reflection(frame, points[i] - points[i - 1], directions[i]);
+        found.push([frame.ahead, frame.across]);
+    }
+    found
 }

@@ -12,7 +12,7 @@ use crate::voxels::Voxels;
 const OUTSIDE: f64 = 1.5;
 
 /// Maximum radius of a lumen (mm).
-pub const WIDEST: f64 = 45.0;
+pub(crate) const WIDEST: f64 = 45.0;
 
 /// Smaller eigenvalue of the directions' covariance if only two sides show a wall, and if three quarters show one.
 const TWO_SIDED: f64 = 0.25;

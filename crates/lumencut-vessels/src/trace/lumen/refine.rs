@@ -3,9 +3,9 @@
 use glam::DVec3;
 
 use crate::trace::lines::centerline::Centerline;
+use crate::trace::lines::directions::frames;
 use crate::trace::lines::directions::point_directions;
 use crate::trace::lines::even_steps::in_even_steps;
-use crate::trace::lines::frames::frames;
 use crate::trace::lines::smoothing::smoothed_by_parabolas;
 use crate::trace::lumen::cross_section::{LumenSection, Probe};
 use crate::trace::lumen::lumen_model::LumenModel;

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::trace::lines::centerline::Centerline;
-use crate::trace::lines::nearest_point::nearest_point;
+use crate::trace::lines::nearest_point;
 use crate::trace::lumen::refine::STEP;
 
 /// Distance by which the lumen extends beyond an end of the line, in radii.

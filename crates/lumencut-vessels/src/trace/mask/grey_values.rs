@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use glam::DVec3;
 
 use crate::trace::lines::centerline::Centerline;
+use crate::trace::lines::directions::frames;
 use crate::trace::lines::directions::point_directions;
-use crate::trace::lines::frames::frames;
 use crate::trace::lumen::lumen_model::{LumenModel, quantile, tissue_level};
 use crate::trace::lumen::refine::refined;
 use crate::voxels::Voxels;

@@ -46,7 +46,7 @@ impl MaskVessel {
 }
 
 /// Orders and directs vessels: the longest component first, and outwards from the free end of its widest vessel.
-pub fn outwards(vessels: Vec<MaskVessel>) -> Vec<MaskVessel> {
+pub(crate) fn outwards(vessels: Vec<MaskVessel>) -> Vec<MaskVessel> {
     let mut at_node: HashMap<usize, Vec<usize>> = HashMap::new();
     for (number, vessel) in vessels.iter().enumerate() {
         for node in vessel.nodes {

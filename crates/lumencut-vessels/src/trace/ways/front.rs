@@ -268,7 +268,7 @@ fn parts_of(place: u32) -> (usize, usize) {
 }
 
 /// Steps to the 26 neighbours, with their lengths in world space (mm).
-pub fn steps(voxels: &Voxels) -> [([i32; 3], f32); 26] {
+pub(crate) fn steps(voxels: &Voxels) -> [([i32; 3], f32); 26] {
     std::array::from_fn(|n| {
         // Skips the centre, which is the 14th of the 27 positions.
         let n = if n < 13 { n } else { n + 1 };

@@ -57,7 +57,7 @@ impl Strictness {
 }
 
 /// The path cost per millimetre that each code means.
-pub fn costs() -> [f32; 256] {
+pub(crate) fn costs() -> [f32; 256] {
     std::array::from_fn(|code| {
         if code == 0 { f32::INFINITY } else { DEAREST.powf((code as f64 - 1.0) / 254.0) as f32 }
     })

@@ -1,8 +1,8 @@
-//! Files of the page that are generated from tables; `make types` writes them.
+//! Files of the page that are generated from tables; `make generate` writes them.
 
 use std::path::PathBuf;
 
-/// Writes a generated file of the page if `make types` runs, and fails if the file is out of date.
+/// Writes a generated file of the page if `make generate` runs, and fails if the file is out of date.
 pub(crate) fn require_current(name: &str, expected: &str) {
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../web/src/core/generated");
     let path = folder.join(name);
@@ -13,7 +13,7 @@ pub(crate) fn require_current(name: &str, expected: &str) {
     let stale = found.lines().zip(expected.lines()).position(|(found, expected)| found != expected);
     assert!(
         found == expected,
-        "web/src/core/generated/{name} is stale from line {}: run `make types`, and commit it",
+        "web/src/core/generated/{name} is stale from line {}: run `make generate`, and commit it",
         stale.unwrap_or(found.lines().count().min(expected.lines().count())) + 1
     );
 }

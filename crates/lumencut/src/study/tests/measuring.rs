@@ -4,11 +4,11 @@ use std::f64::consts::{FRAC_PI_6, PI};
 
 use glam::{DMat2, DVec2, DVec3};
 use lumencut_core::vessel_tree::Vessel;
-use lumencut_vessels::measure::blur::variance_of;
-use lumencut_vessels::measure::ellipse::{Boundary, Ellipse, Whitening};
-use lumencut_vessels::measure::measuring::measure;
-use lumencut_vessels::measure::request::MeasureRequest;
-use lumencut_vessels::measure::wall_level::WallRequest;
+use lumencut_vessels::measure::model::ellipse::{Boundary, Ellipse, Whitening};
+use lumencut_vessels::measure::profile::measuring::measure;
+use lumencut_vessels::measure::profile::request::MeasureRequest;
+use lumencut_vessels::measure::section::blur::variance_of;
+use lumencut_vessels::measure::wall::WallRequest;
 use serde_json::{Value as Json, json};
 
 use super::*;

@@ -11,7 +11,7 @@ use crate::report::section_room::PAGE_PIXELS;
 use crate::study::palette::PALETTE;
 use crate::vessel_names::{NamedVessel, VESSEL_NAMES};
 
-const HEAD: &str = "/** Tables of the facade, written from crates/lumencut by `make types`. */\n";
+const HEAD: &str = "/** Tables of the facade, written from crates/lumencut by `make generate`. */\n";
 
 fn table<T: serde::Serialize>(about: &str, name: &str, rows: &[T]) -> String {
     let rows: String = rows

@@ -5,7 +5,7 @@ use lumencut_core::math::arc_length::arc_lengths;
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
 use lumencut_phantom::Phantom;
 use lumencut_vessels::trace::lines::centerline::Centerline;
-use lumencut_vessels::trace::lines::wander::wandering;
+use lumencut_vessels::trace::lumen::wander::wandering;
 use serde_json::json;
 
 use super::edits::edited;

@@ -1,12 +1,12 @@
 //! Generates the page's types, `web/src/core/generated/questions.ts`, from the table of questions. A test fails if the file is out
-//! of date; `make types` writes it again.
+//! of date; `make generate` writes it again.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use lumencut_core::named::Named;
-use lumencut_vessels::measure::groups::Territory;
 use lumencut_vessels::measure::stenosis::Method;
+use lumencut_vessels::measure::stenosis::groups::Territory;
 use ts_rs::{Config, TS, TypeVisitor};
 
 use super::generated::require_current;
@@ -100,7 +100,7 @@ fn written() -> String {
 }
 
 const HEAD: &str = "\
-/** What the engine is asked and answers, written of `crates/lumencut/src/study/questions.rs` by `make types`; a test says where it is stale. */
+/** What the engine is asked and answers, written of `crates/lumencut/src/study/questions.rs` by `make generate`; a test says where it is stale. */
 import type { Bytes, Pair, Settings, SettingValue, Turn, Vector } from '../plain';
 ";
 

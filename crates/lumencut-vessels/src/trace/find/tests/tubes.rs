@@ -1,6 +1,6 @@
 use super::*;
 use crate::trace::find::made::{LEVEL, TISSUE, away, blurred, with_scan};
-use crate::trace::find::stages::Stages;
+use crate::trace::find::progress::Stages;
 use glam::DVec3;
 
 const SIZE: [usize; 3] = [70, 60, 50];

@@ -2,8 +2,8 @@
 
 use crate::trace::find::scan::Scan;
 use crate::trace::find::track::{Track, usual};
+use crate::trace::find::whole_vessels::edge_ends::{Outlook, outlook};
 use crate::trace::find::whole_vessels::graph::Graph;
-use crate::trace::find::whole_vessels::outlook::{Outlook, outlook};
 use crate::trace::find::whole_vessels::runs::straightest;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};

@@ -6,8 +6,8 @@ use std::collections::BinaryHeap;
 use glam::DVec3;
 
 use crate::trace::find::quantiles::median;
+use crate::trace::find::whole_vessels::edge_ends::{Outlook, outlook};
 use crate::trace::find::whole_vessels::graph::{Graph, WayPoint};
-use crate::trace::find::whole_vessels::outlook::{Outlook, outlook};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 

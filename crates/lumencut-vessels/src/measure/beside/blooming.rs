@@ -1,0 +1,50 @@
+//! Computes bounds of a diameter next to calcium or metal. Both look larger than they are and hide the wall.
+
+use std::f64::consts::TAU;
+
+use super::is_bright;
+use crate::measure::section::flags::{CALCIUM, METAL};
+use crate::measure::section::rays::{RAYS, Ray};
+
+/// Maximum distance (mm) between two rings of one stent.
+const RINGS: f64 = 6.0;
+
+/// Maximum distance (mm) between two rings if all sections between them contain bright material. Blurred
+/// struts look like calcium, but calcium does not start and end with metal.
+const BRIGHT_BETWEEN: f64 = 40.0;
+
+/// Bounds of the diameter as factors of the measured one: without, and with, all bright material at the wall.
+/// `wall` gives the measured radius (mm) on each ray.
+pub(crate) fn bounds(rays: &[Ray], wall: impl Fn(usize) -> f64, width: f64) -> [f64; 2] {
+    // Bright material beyond a visible edge of the lumen does not hide that edge.
+    let hides = |n: usize| rays[n].edge.is_none() && is_bright(&rays[n], wall(n), width);
+    let measured: Vec<f64> = (0..RAYS).map(&wall).collect();
+    let bound = |n: usize, other: f64| if hides(n) { other } else { measured[n] };
+    let inner: Vec<f64> = (0..RAYS).map(|n| bound(n, rays[n].rim[0].min(measured[n]))).collect();
+    let outer: Vec<f64> = (0..RAYS).map(|n| bound(n, rays[n].rim[1].max(measured[n]))).collect();
+    let area = area(&measured);
+    [inner, outer].map(|radii| (self::area(&radii) / area).sqrt())
+}
+
+fn area(radii: &[f64]) -> f64 {
+    let triangle = 0.5 * (TAU / RAYS as f64).sin();
+    (0..RAYS).map(|n| triangle * radii[n] * radii[(n + 1) % RAYS]).sum()
+}
+
+/// Flags the sections between rings of a stent as metal instead of calcium.
+pub(crate) fn join_rings(at: &[f64], flags: &mut [u32]) {
+    let rings: Vec<usize> = (0..at.len()).filter(|n| flags[*n] & METAL != 0).collect();
+    for two in rings.windows(2) {
+        let away = at[two[1]] - at[two[0]];
+        let is_bright = flags[two[0] + 1..two[1]].iter().all(|flags| flags & CALCIUM != 0);
+        if away <= RINGS || is_bright && away <= BRIGHT_BETWEEN {
+            for flags in &mut flags[two[0] + 1..two[1]] {
+                *flags = *flags & !CALCIUM | METAL;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+#[path = "tests/blooming.rs"]
+mod tests;

@@ -1,0 +1,358 @@
+//! Measures a vessel in steps: intensity scale, approximate lumen, levels, and finally each section.
+
+use std::sync::OnceLock;
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use super::request::MeasureRequest;
+use super::{Profile, TreeFindings};
+use crate::measure::along::all_sections::AllSections;
+use crate::measure::along::levels::lumen_levels;
+use crate::measure::along::point_spread::{SpreadEstimate, estimated};
+use crate::measure::along::{flag_sharp_turns, sharpen};
+use crate::measure::beside::branches::{Lumen, meets};
+use crate::measure::estimation::Level;
+use crate::measure::fit::Fit;
+use crate::measure::fit::sections::{Bench, Doubt, Known, LEAST_CONTRAST, Section, center, noise};
+use crate::measure::model::ellipse::Ellipse;
+use crate::measure::model::wall::KnownWall;
+use crate::measure::section::blur::Blur;
+use crate::measure::section::flags::{BRANCH, NO_EDGE, OUTSIDE};
+use crate::measure::section::lumen_estimate::LumenEstimate;
+use crate::measure::section::measured_part::MeasuredPart;
+use crate::measure::section::rays::Rays;
+use crate::measure::section::scale::{Scale, in_words};
+use crate::measure::section::slab::thickness;
+use crate::measure::section::{SectionPlane, Track, known_radius};
+use crate::measure::uncertainty::texture::{Pairs, Texture};
+use crate::measure::wall::pool::{is_apart, pooled, unpooled_level};
+use crate::measure::wall::tree::{PooledWall, wall_beside};
+use crate::measure::wall::{WallSource, expected, is_below_lumen};
+use crate::voxels::Voxels;
+use lumencut_core::error::{Error, ErrorKind, Result};
+use lumencut_core::math::statistics::median;
+use lumencut_core::stop::{Stop, go_on};
+use lumencut_core::vessel_tree::Vessel;
+
+/// FWHM of the point spread (voxel sides) that is assumed if nothing else is known.
+pub(crate) const DEFAULT_FWHM: f64 = 1.2;
+
+/// Number of sections that decide whether walls are visible.
+const WALL_SECTIONS: usize = 48;
+
+/// Number of sections from which the noise texture is estimated.
+const TEXTURE_SECTIONS: usize = 32;
+
+/// Minimum distance of separately fitted sections, in blur widths; closer sections contain the same voxels.
+const FIT_SPACING: f64 = 0.7;
+
+/// Minimum radius (mm) around the centerline in which the lumen is searched.
+const MIN_SEARCH_MM: f64 = 3.0;
+
+const MAX_RADIUS_MM: f64 = 45.0;
+
+/// Separate fits for one point spread; `hidden` is the possible wall if none is visible.
+#[derive(Clone)]
+struct FirstFits {
+    fwhm: f64,
+    hidden: Option<KnownWall>,
+    fits: Vec<Option<Fit>>,
+    texture: Texture,
+}
+
+pub(crate) struct PreparedVessel {
+    part: MeasuredPart,
+    scale: Scale,
+    wall: Option<KnownWall>,
+    wall_source: WallSource,
+    places: Vec<SectionPlane>,
+    estimates: Vec<Option<LumenEstimate>>,
+    /// Separate fits for the assumed point spread, and for the estimated or given one.
+    first: [OnceLock<FirstFits>; 2],
+}
+
+impl PreparedVessel {
+    pub(crate) fn new(voxels: &Voxels, vessel: &Vessel, request: &MeasureRequest) -> Result<Self> {
+        let first = Track::new(vessel, None)?.places(request.step)?;
+        let known = known_radius(vessel);
+        let part = MeasuredPart::of(voxels, &first, known)?;
+        let scale = part.scale;
+        let (wall, wall_source) = expected(voxels, &scale, request.wall)?;
+        let widest = known.map_or(MAX_RADIUS_MM, |radius| (3.0 * radius + 5.0).min(MAX_RADIUS_MM));
+        let search = known.unwrap_or(0.0).max(MIN_SEARCH_MM);
+        let bench = bench(voxels, scale, wall, assumed(voxels));
+        let mut estimates = bench.estimates(&first, search, widest, request.stop)?;
+        for (estimate, place) in estimates.iter_mut().zip(&first) {
+            *estimate = estimate.filter(|_| part.holds(place));
+        }
+        let mut radii: Vec<f64> = estimates.iter().flatten().map(|one| one.radius).collect();
+        let radius = median(&mut radii).ok_or_else(|| no_lumen(&scale))?;
+        let places = Track::new(vessel, Some(radius))?.places(request.step)?;
+        Ok(Self {
+            part,
+            scale,
+            wall,
+            wall_source,
+            places,
+            estimates: tamed(&estimates),
+            first: Default::default(),
+        })
+    }
+
+    /// Returns the separate fits for a point spread (FWHM, mm), and caches them.
+    fn kept_fits(&self, voxels: &Voxels, fwhm: f64, stop: Stop) -> Result<FirstFits> {
+        let kept = self.first.iter().filter_map(OnceLock::get).find(|first| first.fwhm == fwhm);
+        if let Some(kept) = kept {
+            return Ok(kept.clone());
+        }
+        let found = self.fitted(voxels, fwhm).1.first_fits(voxels, fwhm, stop)?;
+        let free = self.first.iter().find(|first| first.get().is_none());
+        if let Some(free) = free {
+            free.get_or_init(|| found.clone());
+        }
+        Ok(found)
+    }
+
+    /// Separate fits of all sections for a point spread (FWHM, mm). Some sections decide first whether walls
+    /// are visible. If walls are as bright as their surroundings, all sections are fitted without a wall.
+    fn first_fits(&self, voxels: &Voxels, fwhm: f64, stop: Stop) -> Result<FirstFits> {
+        let mut bench = bench(voxels, self.scale, self.wall, fwhm);
+        let Some(known) = self.wall else {
+            let fits = bench.first_fits(&self.places, &self.estimates, stop)?;
+            return self.textured(&bench, None, fits, stop);
+        };
+        let every = self.places.len().div_ceil(WALL_SECTIONS).max(1);
+        let some = self.part(|n| n % every == 0);
+        let fits = bench.first_fits(&some.places, &some.estimates, stop)?;
+        if let Some(hidden) = some.hidden_wall(&bench, &known, &fits, stop)? {
+            bench.wall = None;
+            let fits = bench.first_fits(&self.places, &self.estimates, stop)?;
+            return self.textured(&bench, Some(hidden), fits, stop);
+        }
+        let others = self.part(|n| n % every != 0);
+        let (mut these, mut those) =
+            (fits.into_iter(), bench.first_fits(&others.places, &others.estimates, stop)?.into_iter());
+        let merged = (0..self.places.len()).map(|n| if n % every == 0 { these.next() } else { those.next() });
+        self.textured(&bench, None, merged.map(Option::flatten).collect(), stop)
+    }
+
+    fn textured(
+        &self,
+        bench: &Bench,
+        hidden: Option<KnownWall>,
+        fits: Vec<Option<Fit>>,
+        stop: Stop,
+    ) -> Result<FirstFits> {
+        let texture = self.texture(bench, &fits, noise(&fits), stop)?;
+        Ok(FirstFits { fwhm: bench.fwhm, hidden, fits, texture })
+    }
+
+    fn bench<'a, 'v>(&self, voxels: &'a Voxels<'v>, fwhm: f64, hidden: Option<KnownWall>) -> Bench<'a, 'v> {
+        bench(voxels, self.scale, self.wall.filter(|_| hidden.is_none()), fwhm)
+    }
+
+    /// Interval of the sections that are fitted separately for a point spread (FWHM, mm), and the vessel
+    /// reduced to them.
+    fn fitted(&self, voxels: &Voxels, fwhm: f64) -> (usize, Self) {
+        let blur = Blur::new(fwhm, voxels.world_from_index.matrix3);
+        let width = self.places.iter().map(|place| blur.width(place)).fold(f64::INFINITY, f64::min);
+        let step = self.places.last().map_or(0.0, |last| last.at) / (self.places.len().max(2) - 1) as f64;
+        let every = ((FIT_SPACING * width / step) as usize).max(1);
+        (every, self.part(|n| n % every == 0))
+    }
+
+    fn part(&self, is_one: impl Fn(usize) -> bool) -> Self {
+        let kept = || (0..self.places.len()).filter(|n| is_one(*n));
+        Self {
+            places: kept().map(|n| self.places[n]).collect(),
+            estimates: kept().map(|n| self.estimates[n]).collect(),
+            first: Default::default(),
+            ..*self
+        }
+    }
+
+    /// A wall that may exist although it is as bright as its surroundings; None if walls are visible.
+    fn hidden_wall(
+        &self,
+        bench: &Bench,
+        known: &KnownWall,
+        fits: &[Option<Fit>],
+        stop: Stop,
+    ) -> Result<Option<KnownWall>> {
+        let inflation = self.inflation(bench, &self.texture(bench, fits, noise(fits), stop)?);
+        let walls = pooled(&self.arc_lengths(), fits, known, known.level, inflation);
+        let hidden = walls.first().map(|wall| KnownWall { log_thickness: None, slope: 0.0, ..*wall });
+        Ok(hidden.filter(|_| !is_apart(known, &walls, fits)))
+    }
+
+    fn arc_lengths(&self) -> Vec<f64> {
+        self.places.iter().map(|place| place.at).collect()
+    }
+
+    pub(crate) fn point_spread(&self, voxels: &Voxels, stop: Stop) -> Result<SpreadEstimate> {
+        let (_, fitted) = self.fitted(voxels, assumed(voxels));
+        let FirstFits { hidden, fits, .. } = self.kept_fits(voxels, assumed(voxels), stop)?;
+        let bench = self.bench(voxels, assumed(voxels), hidden);
+        estimated(&bench, voxels.world_from_index.matrix3, &fitted.places, &fits, stop)
+    }
+
+    /// Wall level (in the volume's unit) that the sections show without their prior; None if walls are not visible.
+    pub(crate) fn wall_level(&self, voxels: &Voxels, fwhm: f64, stop: Stop) -> Result<Option<Level>> {
+        let Some(known) = self.wall else { return Ok(None) };
+        let FirstFits { hidden, fits, texture, .. } = self.kept_fits(voxels, fwhm, stop)?;
+        if hidden.is_some() {
+            return Ok(None);
+        }
+        let (_, fitted) = self.fitted(voxels, fwhm);
+        let inflation = fitted.inflation(&self.bench(voxels, fwhm, None), &texture);
+        let level = unpooled_level(&fitted.arc_lengths(), &fits, &known, inflation);
+        Ok(level.map(|[mean, deviation]| [self.scale.value(mean), deviation * self.scale.contrast.abs()]))
+    }
+
+    pub(crate) fn profile(
+        &self,
+        voxels: &Voxels,
+        vessel: &Vessel,
+        request: &MeasureRequest,
+        findings: TreeFindings,
+    ) -> Result<Profile> {
+        let stop = request.stop;
+        let by_others = self.wall_by_others(&findings, request.tree, vessel);
+        let spread = findings.spread;
+        let (every, fitted) = self.fitted(voxels, spread.fwhm);
+        let first = self.kept_fits(voxels, spread.fwhm, stop)?;
+        let hidden = first.hidden;
+        let mut bench = self.bench(voxels, spread.fwhm, hidden);
+        let wall_source = match by_others {
+            _ if hidden.is_some() => WallSource::AsBright,
+            Some(by_others) => self.wall_source.pooled(by_others),
+            None => self.wall_source,
+        };
+        let all = fitted.all_sections(&bench, first, by_others, stop)?;
+        let wider = (spread.deviation > 0.0)
+            .then(|| Blur::new(spread.fwhm + spread.deviation, voxels.world_from_index.matrix3));
+        bench.doubt = Some(Doubt { texture: all.texture.clone(), wider, wall: hidden });
+        let others = Lumen::of_others(request.tree, vessel);
+        let section = |n: usize| {
+            go_on(stop)?;
+            let place = &self.places[n];
+            let estimate = self.estimates[n].map(|one| Ellipse::circle(one.center, one.radius));
+            let mut section = match all.known(n, every, estimate) {
+                Some((known, other)) => bench.section(place, &known, other),
+                None => Section::none(),
+            };
+            section.flags |= self.branch(n, section.fit.as_ref(), &others);
+            if voxels.at(place.origin).is_nan() {
+                section.flags |= OUTSIDE;
+            }
+            Ok(section)
+        };
+        let mut sections: Vec<Section> =
+            (0..self.places.len()).into_par_iter().map(section).collect::<Result<_>>()?;
+        if sections.iter().all(|section| section.flags & NO_EDGE > 0) {
+            return Err(no_lumen(&self.scale));
+        }
+        let variance: Vec<f64> =
+            self.places.iter().map(|place| bench.blur.along(place, thickness(voxels, place))).collect();
+        sharpen(&mut sections, &self.arc_lengths(), &variance);
+        flag_sharp_turns(&self.places, &mut sections);
+        let noise = all.noise * self.scale.contrast.abs();
+        let profile = Profile::new(&self.places, &sections, &self.scale, noise, spread, wall_source);
+        Ok(Profile { without_wall: self.part.left_out(&self.places), ..profile })
+    }
+
+    fn wall_by_others(
+        &self,
+        findings: &TreeFindings,
+        tree: &[Vessel],
+        vessel: &Vessel,
+    ) -> Option<PooledWall> {
+        let by_others = wall_beside(&findings.walls, tree, vessel, self.wall_source.expected()?)?;
+        is_below_lumen(&by_others, &self.scale).then_some(by_others)
+    }
+
+    /// Pools the separate fits of a vessel, and includes the wall level from other vessels.
+    fn all_sections(
+        &self,
+        bench: &Bench,
+        first: FirstFits,
+        by_others: Option<PooledWall>,
+        stop: Stop,
+    ) -> Result<AllSections> {
+        let FirstFits { fits, texture, .. } = first;
+        let noise = noise(&fits);
+        if LEAST_CONTRAST * noise > 1.0 {
+            return Err(no_lumen(&self.scale));
+        }
+        let lumen = lumen_levels(bench, &self.places, &fits, stop)?;
+        let inflation = self.inflation(bench, &texture);
+        let walls = bench.wall.map(|known| {
+            let expected = by_others.map_or(known.level, |wall| KnownWall::of(wall.level, &self.scale).level);
+            pooled(&self.arc_lengths(), &fits, &known, expected, inflation)
+        });
+        Ok(AllSections { fits, noise, lumen, walls, texture })
+    }
+
+    /// Factor by which the correlation of noise increases the variance of wall estimates.
+    fn inflation(&self, bench: &Bench, texture: &Texture) -> f64 {
+        let sides = bench.rays.voxels.world_from_index.matrix3;
+        self.places.first().map_or(1.0, |place| texture.inflation(sides, bench.blur.width(place)))
+    }
+
+    fn texture(&self, bench: &Bench, fits: &[Option<Fit>], noise: f64, stop: Stop) -> Result<Texture> {
+        let every = fits.len().div_ceil(TEXTURE_SECTIONS).max(1);
+        let some: Vec<usize> = (0..fits.len()).step_by(every).collect();
+        let pairs = |n: &usize| {
+            go_on(stop)?;
+            let Some(fit) = &fits[*n] else { return Ok(None) };
+            let known = Known { ellipse: fit.ellipse, lumen: fit.lumen, noise: Some(noise), wall: None };
+            Ok(bench.pairs(&self.places[*n], &known, fit))
+        };
+        let found: Vec<Option<Pairs>> = some.par_iter().map(pairs).collect::<Result<_>>()?;
+        let all = found.into_iter().flatten().reduce(|all, pairs| all.with(&pairs));
+        Ok(all.map_or_else(Texture::white, |all| Texture::of(&all)))
+    }
+
+    fn branch(&self, n: usize, fit: Option<&Fit>, others: &[Lumen]) -> u32 {
+        let Some(fit) = fit else { return 0 };
+        let place = &self.places[n];
+        let is_met = meets(place, center(place, fit), fit.ellipse.mean, others);
+        if is_met { BRANCH } else { 0 }
+    }
+}
+
+fn bench<'a, 'v>(voxels: &'a Voxels<'v>, scale: Scale, wall: Option<KnownWall>, fwhm: f64) -> Bench<'a, 'v> {
+    let blur = Blur::new(fwhm, voxels.world_from_index.matrix3);
+    Bench { rays: Rays { voxels, scale }, blur, fwhm, wall, doubt: None }
+}
+
+/// The assumed point spread (FWHM, mm), a multiple of the middle voxel side.
+pub(crate) fn assumed(voxels: &Voxels) -> f64 {
+    let sides = voxels.world_from_index.matrix3;
+    let mut lengths = [sides.x_axis, sides.y_axis, sides.z_axis].map(DVec3::length);
+    DEFAULT_FWHM * median(&mut lengths).unwrap_or_default()
+}
+
+fn no_lumen(scale: &Scale) -> Error {
+    let [lumen, outside] = [scale.value(1.0), scale.outside];
+    let found =
+        format!("no wall around it: {} on the vessel and {} next to it", in_words(lumen), in_words(outside));
+    let expected = "a lumen around the points of the vessel";
+    let mend = "centerlines must lie in the lumen or within one radius of it";
+    Error::new(ErrorKind::Measuring, "lumen of the vessel", found, expected).mend(mend)
+}
+
+/// Limits radii much larger than those of their neighbours, because rays escape where a branch starts.
+fn tamed(estimates: &[Option<LumenEstimate>]) -> Vec<Option<LumenEstimate>> {
+    /// Number of neighbours on each side, and the maximum ratio of a radius to their median.
+    const AROUND: (usize, f64) = (6, 1.5);
+    (0..estimates.len())
+        .map(|n| {
+            let around = &estimates[n.saturating_sub(AROUND.0)..(n + AROUND.0 + 1).min(estimates.len())];
+            let mut radii: Vec<f64> = around.iter().flatten().map(|one| one.radius).collect();
+            let middle = median(&mut radii)?;
+            estimates[n].map(|one| LumenEstimate { radius: one.radius.min(AROUND.1 * middle), ..one })
+        })
+        .collect()
+}

@@ -1,9 +1,0 @@
-//! Finds the nearest point of a line.
-
-use glam::DVec3;
-
-/// Index of the point nearest to a position; of equally near ones the first, for an empty line 0.
-pub fn nearest_point(points: &[DVec3], place: DVec3) -> usize {
-    let distance = |i: &usize| points[*i].distance_squared(place);
-    (0..points.len()).min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0)
-}

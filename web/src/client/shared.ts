@@ -1,4 +1,0 @@
-/** The only connection to the engine, used by the whole page. */
-import { EngineClient } from './engine';
-
-export const engine = new EngineClient();

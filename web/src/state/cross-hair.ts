@@ -1,0 +1,58 @@
+/** The cross-hair, shared by all views, and the section, which moves along the picked vessel. */
+
+import { batch } from '@preact/signals';
+import { Latest } from '../core/latest';
+import type { Pick, Vector } from '../core/messages';
+import { engine } from '../worker/engine';
+import { recover } from './device';
+import { crossHair, pickedPlace, pickedVessel, report, type ViewName } from './store';
+
+/** Places the cross-hair. If a vessel lies at that point, it is picked. */
+export function placeCrossHair(pick: Pick, from: ViewName): void {
+  batch(() => {
+    crossHair.value = {
+      point: pick.point,
+      value: pick.value,
+      vessel: pick.vessel,
+      arcLength: pick.arc_length,
+    };
+    if (pick.vessel !== null && from !== 'section') {
+      pickedVessel.value = pick.vessel;
+      pickedPlace.value = pick.arc_length ?? pickedPlace.value;
+    }
+  });
+}
+
+export async function lookAt(point: Vector): Promise<void> {
+  try {
+    placeCrossHair(await engine.ask('at', point), 'turning');
+  } catch (error) {
+    recover(error);
+  }
+}
+
+const latest = new Latest();
+
+export function moveTo(place: number): void {
+  const vessel = pickedVessel.value;
+  const length = vessel === null ? 0 : (report.value?.vessels?.[vessel]?.length ?? 0);
+  const at = Math.min(Math.max(place, 0), length);
+  pickedPlace.value = at;
+  if (vessel === null) {
+    return;
+  }
+  const study = report.value?.volume;
+  latest.run(async () => {
+    try {
+      const [center] = await engine.ask('across', { vessel, at: at });
+      const pick = { ...(await engine.ask('at', center)), vessel, arc_length: at };
+      if (report.value?.volume === study) {
+        placeCrossHair(pick, 'section');
+      }
+    } catch (error) {
+      recover(error);
+    }
+  });
+}
+
+export const moveAlong = (by: number): void => moveTo(pickedPlace.value + by);
