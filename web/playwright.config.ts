@@ -39,16 +39,16 @@ export default defineConfig({
   fullyParallel: false,
   forbidOnly: true,
   // Generous, for busy machines; waits end as soon as possible.
-  timeout: 120_000,
+  timeout: 300_000,
   globalTimeout: 1_800_000,
-  expect: { timeout: 30_000 },
+  expect: { timeout: 90_000 },
   reporter: 'list',
   use: {
     baseURL: `http://127.0.0.1:${port}/`,
     viewport: { width: 800, height: 560 },
     colorScheme: 'dark',
-    actionTimeout: 30_000,
-    navigationTimeout: 60_000,
+    actionTimeout: 90_000,
+    navigationTimeout: 90_000,
   },
   webServer: docs
     ? []

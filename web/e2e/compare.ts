@@ -22,6 +22,12 @@ export const OTHER_DEVICE: readonly Tolerance[] = [
   { apart: 4, share: 1e-4 },
 ];
 
+/** Tolerances if one of two pictures is not supersampled, since the machine was busy. */
+export const OTHER_SAMPLES: readonly Tolerance[] = [
+  { apart: 1, share: 0.01 },
+  { apart: 64, share: 0 },
+];
+
 export const OTHER_DEVICE_WITH_CONTEXT: readonly Tolerance[] = [{ apart: 4, share: 1e-3 }];
 
 /** Description of a difference beyond the tolerances; null if there is none. */

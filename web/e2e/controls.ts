@@ -15,7 +15,6 @@ export async function rename(viewer: Viewer, n: number, name: string): Promise<v
 }
 export const button = (viewer: Viewer, words: string): Locator =>
   viewer.page.getByRole('button', { name: words, exact: true });
-/** A window size at which the vessel list fits next to the views. */
 export const SIZE = { width: 1100, height: 720 };
 
 export async function untraced(
@@ -24,7 +23,7 @@ export async function untraced(
   options: BrowserContextOptions = {},
 ): Promise<Viewer> {
   const viewer = await Viewer.open(browser, `?phantom=${phantom}&device=cpu`, { viewport: SIZE, ...options });
-  await expect(viewer.pane()).toBeVisible({ timeout: 50_000 });
+  await expect(viewer.pane()).toBeVisible();
   await viewer.press('v');
   const all = viewer.page.getByRole('button', { name: 'Delete all' });
   const one = viewer.page.getByRole('button', { name: 'Delete', exact: true });
@@ -122,7 +121,7 @@ export async function tabTo(viewer: Viewer, words: string | RegExp, back = false
 }
 
 export async function traced(viewer: Viewer, count: number): Promise<void> {
-  await expect(rows(viewer)).toHaveCount(count, { timeout: 30_000 });
+  await expect(rows(viewer)).toHaveCount(count);
   await expect(viewer.page.locator('.trace-bar').getByText('Tracing …')).toHaveCount(0);
   const last = rows(viewer).nth(count - 1);
   await expect(last.getByRole('radio')).toBeChecked();

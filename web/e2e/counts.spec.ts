@@ -50,7 +50,7 @@ test('from a scan without vessels to a clean tree and a saved finding in at most
   await viewer.press('e');
   const finding = viewer.page.getByTestId('findings').locator('section[aria-label^="Finding on"]');
   await expect(finding).toHaveCount(1);
-  await expect(finding.getByRole('img')).toBeVisible({ timeout: 60_000 });
+  await expect(finding.getByRole('img')).toBeVisible();
   const [download] = await Promise.all([
     viewer.page.waitForEvent('download'),
     button(viewer, 'Save report').click(),

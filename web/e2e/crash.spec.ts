@@ -21,7 +21,7 @@ async function crash(viewer: Viewer): Promise<void> {
 test('after a crash the message offers to save the session, which restores the traced vessels', async ({
   browser,
 }) => {
-  const viewer = await Viewer.open(browser, '?device=cpu', { viewport: SIZE, acceptDownloads: true });
+  const viewer = await Viewer.open(browser, '?device=cpu', { viewport: SIZE });
   await openScan(viewer, SCAN);
   await startTracing(viewer);
   await traceTube(viewer, NARROWED, [28, -28], 1);

@@ -90,7 +90,6 @@ async function crashGpu(browser: Browser): Promise<void> {
 test('the GPU draws; after a loss it recovers; after a second loss the CPU shows the same', async ({
   browser,
 }) => {
-  test.setTimeout(120_000);
   const viewer = await Viewer.open(browser, `?phantom=stenosis&device=any${ONE}`);
   await viewer.pin(SMALL_VIEW);
   await viewer.rest();
@@ -101,7 +100,7 @@ test('the GPU draws; after a loss it recovers; after a second loss the CPU shows
   await viewer.screenshot('gpu');
 
   await crashGpu(browser);
-  await expect(viewer.page.getByText(/1 note/)).toBeVisible({ timeout: 30_000 });
+  await expect(viewer.page.getByText(/1 note/)).toBeVisible();
   const second = await complete(viewer);
   await viewer.screenshot('gpu-back');
   expect(difference(second, first, OTHER_DEVICE_WITH_CONTEXT)).toBeNull();
@@ -113,7 +112,7 @@ test('the GPU draws; after a loss it recovers; after a second loss the CPU shows
   const turned = await viewer.camera();
 
   await crashGpu(browser);
-  await expect(viewer.device).toContainText('CPU', { timeout: 30_000 });
+  await expect(viewer.device).toContainText('CPU');
   await viewer.rest();
   expect(await viewer.camera()).toEqual(turned);
   const third = await viewer.picture();
@@ -132,7 +131,7 @@ async function tracedOn(browser: Browser, device: 'any' | 'cpu'): Promise<[Pixel
     `?phantom=y_junction&device=${device}${viewFragment({ settings: SAMPLED })}`,
     { viewport },
   );
-  await expect(viewer.pane()).toBeVisible({ timeout: 50_000 });
+  await expect(viewer.pane()).toBeVisible();
   await expect(viewer.device).toContainText(device === 'any' ? 'GPU' : 'CPU');
   await viewer.press('v');
   await button(viewer, 'Delete all').click();
@@ -163,7 +162,6 @@ async function tracedOn(browser: Browser, device: 'any' | 'cpu'): Promise<[Pixel
 test('a vessel traced by two clicks is cut open on the GPU as on the CPU', { tag: '@long' }, async ({
   browser,
 }) => {
-  test.setTimeout(120_000);
   const onGpu = await tracedOn(browser, 'any');
   const [before, after, undone] = onGpu;
   expect(difference(after, before, OTHER_DEVICE_WITH_CONTEXT)).not.toBeNull();
@@ -183,8 +181,8 @@ const FADING = viewFragment({
 /** Small pictures of a focus; on the CPU also of the view without a focus. */
 async function focusedOn(browser: Browser, device: 'any' | 'cpu'): Promise<Pixels[]> {
   const viewer = await Viewer.open(browser, `?phantom=stenosis&device=${device}${FADING}`);
-  await expect(viewer.pane()).toBeVisible({ timeout: 50_000 });
-  await expect(viewer.device).toContainText(device === 'any' ? 'GPU' : 'CPU', { timeout: 60_000 });
+  await expect(viewer.pane()).toBeVisible();
+  await expect(viewer.device).toContainText(device === 'any' ? 'GPU' : 'CPU');
   await viewer.pin([64, 48]);
   const pictures = [await complete(viewer)];
   await viewer.screenshot(`focus-${device}`);
@@ -197,8 +195,7 @@ async function focusedOn(browser: Browser, device: 'any' | 'cpu'): Promise<Pixel
   return pictures;
 }
 
-test('a focus is the same on both', async ({ browser }) => {
-  test.setTimeout(180_000);
+test('a focus is the same on both', { tag: '@long' }, async ({ browser }) => {
   const found = await focusedOn(browser, 'any');
   const [focused, cut] = await focusedOn(browser, 'cpu');
   expect(focused && cut).toBeDefined();

@@ -52,7 +52,7 @@ test('each completed step leads to the next one, up to the report', async () => 
   // Tracing has ended, so the bar is gone and the layout is as before.
   await expect(viewer.page.locator('.trace-bar')).toHaveCount(0);
   await expect(viewer.field('Context')).toHaveValue('mida');
-  await expect(button(viewer, 'Confirm the suggested places')).toBeVisible({ timeout: 30_000 });
+  await expect(button(viewer, 'Confirm the suggested places')).toBeVisible();
   await viewer.screenshot('guide-4');
   expect(await serious()).toEqual([]);
   await button(viewer, 'Confirm the suggested places').click();

@@ -6,8 +6,8 @@ import { Viewer } from './page';
 const YJUNCTION = '?phantom=y_junction&device=cpu';
 
 async function opened(browser: Parameters<typeof Viewer.open>[0]): Promise<Viewer> {
-  const viewer = await Viewer.open(browser, YJUNCTION, { viewport: SIZE, acceptDownloads: true });
-  await expect(viewer.pane()).toBeVisible({ timeout: 50_000 });
+  const viewer = await Viewer.open(browser, YJUNCTION, { viewport: SIZE });
+  await expect(viewer.pane()).toBeVisible();
   await viewer.press('v');
   await expect(rows(viewer)).toHaveCount(3);
   return viewer;

@@ -9,7 +9,6 @@ test.beforeAll(async ({ browser }) => {
   tube = await MeasuredTube.open(browser);
 });
 test.afterEach(() => tube.viewer.expectNoFault());
-test.afterAll(() => tube.viewer.close());
 
 test('ECST requires an original diameter; the percentage by area equals that of the Python package', async () => {
   await tube.marked();
@@ -50,7 +49,7 @@ test('axe finds no serious fault, and the menu stays within a small window', asy
   await expect(async () => {
     const box = await page.locator('.menu[open] .menu-body').boundingBox();
     expect((box?.x ?? 0) + (box?.width ?? 1e9)).toBeLessThanOrEqual(900);
-  }).toPass({ timeout: 10_000 });
+  }).toPass();
   await tube.viewer.screenshot('measuring-small');
   await menu(tube.viewer).click();
   await page.setViewportSize(SIZE);
@@ -81,7 +80,7 @@ test('vessel and profile share their axis', async () => {
     const half = (canvas?.width ?? 0) / ((await tube.viewer.pixels('profile')).width * 2);
     expect(Math.abs((canvas?.x ?? 0) + half - from[0])).toBeLessThan(1);
     expect(Math.abs((canvas?.x ?? 0) + (canvas?.width ?? 0) - half - to[0])).toBeLessThan(1.5);
-  }).toPass({ timeout: 10_000 });
+  }).toPass();
 });
 
 test('legend and read-out do not overlap', async () => {

@@ -7,13 +7,6 @@ test.beforeAll(async ({ browser }) => {
   tube = await MeasuredTube.open(browser);
 });
 test.afterEach(() => tube.viewer.expectNoFault());
-test.afterAll(() => tube.viewer.close());
-
-test('measuring begins at the narrowest place, with the section and with the cross-hair', async () => {
-  const [at] = PYTHON.narrowest;
-  await expect(tube.viewer.page.getByTestId('section-numbers')).toContainText(`${at.toFixed(1)} mm`);
-  await expect(tube.viewer.readOut).toContainText(`${at.toFixed(1)} mm`);
-});
 
 test('places are suggested, and nothing is graded before the user marks one', async () => {
   await tube.nothingMarked();

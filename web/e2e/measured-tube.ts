@@ -9,19 +9,39 @@ export const expected = (name: string): string =>
 export const PYTHON = JSON.parse(expected('measuring.json'));
 export const SIZE = { width: 1280, height: 800 };
 
+const measured = new WeakMap<Browser, MeasuredTube>();
+
 export class MeasuredTube {
   private constructor(readonly viewer: Viewer) {}
 
+  /** Opens the tube, or takes the one that tests of another file measured, without marks. */
   static async open(browser: Browser): Promise<MeasuredTube> {
-    const viewer = await Viewer.open(browser, '?phantom=stenosis&device=cpu', {
-      viewport: SIZE,
-      acceptDownloads: true,
-    });
+    const tube = measured.get(browser) ?? (await MeasuredTube.made(browser));
+    measured.set(browser, tube);
+    await tube.reset();
+    return tube;
+  }
+
+  private static async made(browser: Browser): Promise<MeasuredTube> {
+    const viewer = await Viewer.open(browser, '?phantom=stenosis&device=cpu', { viewport: SIZE });
     const tube = new MeasuredTube(viewer);
     await viewer.rest();
     await viewer.press('m');
     await expect(tube.row('place-0')).toBeVisible();
+    const at = `${PYTHON.narrowest[0].toFixed(1)} mm`;
+    await expect(viewer.page.getByTestId('section-numbers')).toContainText(at);
+    await expect(viewer.readOut).toContainText(at);
     return tube;
+  }
+
+  private async reset(): Promise<void> {
+    const { page } = this.viewer;
+    this.viewer.faults.length = 0;
+    await page.setViewportSize(SIZE);
+    await this.nothingMarked();
+    await this.row('place-0').getByRole('button', { name: 'narrowest place' }).click();
+    await expect(page.getByTestId('section-numbers')).toContainText(`${PYTHON.narrowest[0].toFixed(1)} mm`);
+    await this.viewer.rest();
   }
 
   row(name: string): Locator {

@@ -30,7 +30,7 @@ const [WIDTH, HEIGHT] = size;
 async function shown(viewer: Viewer): Promise<{ found: Pixels; samples: number }> {
   await viewer.pin(size);
   const found = await viewer.picture();
-  const stage = await viewer.pane().locator('canvas').getAttribute('data-stage');
+  const stage = await viewer.stage();
   return { found, samples: stage === 'samples' ? 2 : 1 };
 }
 

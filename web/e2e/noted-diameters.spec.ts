@@ -8,7 +8,6 @@ test.beforeAll(async ({ browser }) => {
   tube = await MeasuredTube.open(browser);
 });
 test.afterEach(() => tube.viewer.expectNoFault());
-test.afterAll(() => tube.viewer.close());
 
 test('a diameter noted at the section appears in the table, all views, report and session', async () => {
   await tube.button('Diameter here').click();

@@ -55,7 +55,7 @@ function read(archive: string): Record<string, Told> {
 }
 
 const opened = (browser: Browser, { address }: Served): Promise<Viewer> =>
-  Viewer.open(browser, '?device=cpu', { baseURL: address, viewport: SIZE, acceptDownloads: true });
+  Viewer.open(browser, '?device=cpu', { baseURL: address, viewport: SIZE });
 
 async function measured(viewer: Viewer): Promise<void> {
   await viewer.rest();

@@ -1,5 +1,12 @@
 /** Operates the page as a user would, and records all errors that occur in it. */
-import { type Browser, type BrowserContextOptions, expect, type Locator, type Page } from '@playwright/test';
+import {
+  type Browser,
+  type BrowserContextOptions,
+  expect,
+  type Locator,
+  type Page,
+  type ViewportSize,
+} from '@playwright/test';
 import type { Answer, Asked, Message, Question } from '../src/core/asked';
 import { GESTURES } from '../src/core/generated/tables';
 import type { Camera, Pair, Report } from '../src/core/messages';
@@ -12,27 +19,59 @@ interface TestHook extends Asked {
   memory(): Promise<number>;
 }
 
+const THEME = 'dark';
+/** Idle pages of each browser, by the options of their context; they show a small file, without an engine. */
+const IDLE = 'icon.svg';
+const idle = new WeakMap<Browser, Map<string, Viewer[]>>();
+
 export class Viewer {
   readonly faults: string[] = [];
   /** Position of the last click, and the time (ms) until which another click there is a double click. */
   private lastClick: { readonly at: Pair; readonly until: number } = { at: [0, 0], until: 0 };
+  private own = '';
 
-  private constructor(readonly page: Page) {}
+  private constructor(
+    readonly page: Page,
+    private readonly viewport: ViewportSize | null,
+    private readonly pool: Viewer[],
+  ) {}
 
-  /** Opens the page in a new browser context; `query` is appended to the address and begins with `?` or `#`. */
+  /** Opens the page, in an idle one if there is one, since a new context compiles the WebAssembly; `query` begins with `?` or `#`. */
   static async open(browser: Browser, query = '', options: BrowserContextOptions = {}): Promise<Viewer> {
-    const context = await browser.newContext(options);
-    const page = await context.newPage();
-    const viewer = new Viewer(page);
-    await viewer.guard(options.baseURL ?? pageAddress());
-    await page.goto(`./${query}`);
+    const { viewport, colorScheme = THEME, baseURL = pageAddress(), ...context } = options;
+    const pools = idle.get(browser) ?? new Map<string, Viewer[]>();
+    idle.set(browser, pools);
+    const kind = JSON.stringify(context);
+    const pool = pools.get(kind) ?? [];
+    pools.set(kind, pool);
+    const viewer = pool.pop() ?? (await Viewer.made(browser, context, pool));
+    const { page } = viewer;
+    viewer.own = new URL(baseURL).origin;
+    viewer.faults.length = 0;
+    const size = viewport ?? viewer.viewport;
+    if (size) {
+      await page.setViewportSize(size);
+    }
+    await page.emulateMedia({ colorScheme });
+    await page.goto(new URL(query || '.', baseURL).href);
     return viewer;
   }
 
-  private async guard(address: string): Promise<void> {
+  private static async made(
+    browser: Browser,
+    options: BrowserContextOptions,
+    pool: Viewer[],
+  ): Promise<Viewer> {
+    const context = await browser.newContext(options);
+    const page = await context.newPage();
+    const viewer = new Viewer(page, page.viewportSize(), pool);
+    await viewer.guard();
+    return viewer;
+  }
+
+  private async guard(): Promise<void> {
     const context = this.page.context();
-    const own = new URL(address).origin;
-    const isForeign = ({ origin, protocol }: URL) => /^(http|ws)s?:$/.test(protocol) && origin !== own;
+    const isForeign = ({ origin, protocol }: URL) => /^(http|ws)s?:$/.test(protocol) && origin !== this.own;
     await context.route(isForeign, (route) => {
       this.faults.push(`request to ${route.request().url()}`);
       return route.abort();
@@ -52,8 +91,20 @@ export class Viewer {
     expect(this.faults).toEqual([]);
   }
 
+  /** Ends the use of the page by a test, and removes all that the test has changed in it. */
   async close(): Promise<void> {
-    await this.page.context().close();
+    const { page } = this;
+    await page.unrouteAll({ behavior: 'ignoreErrors' });
+    page.removeAllListeners('dialog');
+    await page.mouse.move(0, 0);
+    this.own = new URL(pageAddress()).origin;
+    await page.goto(new URL(IDLE, this.own).href);
+    await page.evaluate(() => {
+      localStorage.clear();
+      sessionStorage.clear();
+    });
+    this.lastClick = { at: [0, 0], until: 0 };
+    this.pool.push(this);
   }
 
   pane(name: PaneName = 'turning'): Locator {
@@ -221,6 +272,10 @@ export class Viewer {
     return { width, height, bytes: Buffer.from(text, 'base64') };
   }
 
+  stage(): Promise<string | null> {
+    return this.pane().locator('canvas').getAttribute('data-stage');
+  }
+
   async picture(): Promise<Pixels> {
     await this.rest();
     return this.pixels();
@@ -250,8 +305,10 @@ export class Viewer {
     return this.page.evaluate(`window.lumencutTest.ask(...${asked})`) as Promise<Answer<N>>;
   }
 
-  screenshot(name: string): Promise<Buffer> {
-    return this.page.screenshot({ path: `test-results/screens/${name}.png` });
+  async screenshot(name: string): Promise<void> {
+    if (process.env.LUMENCUT_SCREENS) {
+      await this.page.screenshot({ path: `test-results/screens/${name}.png` });
+    }
   }
 }
 

@@ -61,7 +61,7 @@ for (const row of table.reformations) {
       const found = await viewer.pixels('straightened');
       expect([found.width, found.height]).toEqual([expected.width, expected.height]);
       expect(difference(found, expected, SAME_CODE)).toBeNull();
-    }).toPass({ timeout: 60_000 });
+    }).toPass();
     await expect(viewer.page.locator('.reformed .axes')).toContainText('vessel');
     await viewer.screenshot(`reformation-${row.name}`);
     const [left, top] = [table.size[0] - expected.width, table.size[1] - expected.height];

@@ -9,7 +9,6 @@ test.beforeAll(async ({ browser }) => {
   tube = await MeasuredTube.open(browser);
 });
 test.afterEach(() => tube.viewer.expectNoFault());
-test.afterAll(() => tube.viewer.close());
 
 test('the table and the JSON equal those of the Python package', async () => {
   await tube.marked();
@@ -88,8 +87,12 @@ test('the report opens offline, on one page of paper', async ({ browser }) => {
 });
 
 test('the name of the scan is in the report if the user chooses so', async () => {
-  await menu(tube.viewer).click();
-  await tube.viewer.page.getByLabel('include the name of the scan').check();
-  await menu(tube.viewer).click();
+  const include = async (name: boolean) => {
+    await menu(tube.viewer).click();
+    await tube.viewer.page.getByLabel('include the name of the scan').setChecked(name);
+    await menu(tube.viewer).click();
+  };
+  await include(true);
   expect(await tube.saved(REPORT)).toMatch(/<h1>phantom stenosis – /);
+  await include(false);
 });

@@ -3,14 +3,24 @@ import { expect, test } from '@playwright/test';
 import { PYTHON, SIZE } from './measured-tube';
 import { Viewer } from './page';
 
-test('a stretch, its C-arm angles, and the angle to another one', async ({ browser }) => {
-  // This takes long, since the longest vessel of a large phantom is measured.
-  test.setTimeout(90_000);
+test('while a vessel is measured its section is outdated; then a stretch, its C-arm angles, and the angle to another one', async ({
+  browser,
+}) => {
   const aorta = await Viewer.open(browser, '?phantom=aorta&device=cpu', { viewport: SIZE });
-  await expect(aorta.pane('section')).toBeVisible({ timeout: 30_000 });
+  await expect(aorta.pane('section')).toBeVisible();
+  await aorta.rest();
   await aorta.press('m');
+  const busy = aorta.pane('section').locator('.busy');
+  const measuring = aorta.page.getByRole('progressbar', { name: 'Measuring the vessel' });
+  await expect(measuring).toBeVisible();
+  await aorta.wheel([0.5, 0.5], 120, 'section');
+  await expect(busy).toBeVisible();
+  await expect(measuring).toBeVisible();
+  await aorta.screenshot('section-busy');
+  await expect(measuring).toHaveCount(0);
+  await expect(busy).toHaveCount(0);
   const mark = aorta.page.getByRole('button', { name: 'Mark a stretch' });
-  await expect(mark).toBeVisible({ timeout: 30_000 });
+  await expect(mark).toBeVisible();
   const choice = aorta.page.getByRole('combobox', { name: /^Vessel \d/ });
   await choice.selectOption(await choice.inputValue());
   await mark.click();

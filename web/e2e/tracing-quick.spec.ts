@@ -8,8 +8,8 @@ const [UPPER, LOWER] = [0.3, 0.7];
 
 async function guided(browser: Browser): Promise<Viewer> {
   const viewer = await Viewer.open(browser, '?device=cpu', { viewport: SIZE });
-  await viewer.page.getByRole('button', { name: 'Two-minute guided tour' }).click({ timeout: 30_000 });
-  await expect(viewer.pane()).toBeVisible({ timeout: 50_000 });
+  await viewer.page.getByRole('button', { name: 'Two-minute guided tour' }).click();
+  await expect(viewer.pane()).toBeVisible();
   return viewer;
 }
 

@@ -37,7 +37,9 @@ async function traceTo(viewer: Viewer, end: readonly [number, number], count: nu
   await button(viewer, 'End this vessel').click();
 }
 
-test('a page without vessels offers three ways to get them', async ({ browser }) => {
+test('a page without vessels offers three ways to get them; after tracing in a maximised slice, the cut is shown', async ({
+  browser,
+}) => {
   const viewer = await untraced(browser);
   const offer = viewer.page.locator('.trace-bar.offer');
   for (const words of ['Find all vessels', 'Trace one vessel', 'I have centerlines']) {
@@ -55,12 +57,6 @@ test('a page without vessels offers three ways to get them', async ({ browser })
   await button(viewer, 'Done').click();
   await expect(viewer.page.locator('main')).toHaveAttribute('data-layout', 'strip');
   await expect(viewer.field('Context')).toHaveValue('mida');
-  viewer.expectNoFault();
-  await viewer.close();
-});
-
-test('a traced vessel is shown cut open, even if it was traced in a maximised slice', async ({ browser }) => {
-  const viewer = await untraced(browser);
   await startTool(viewer);
   await viewer.page.getByRole('button', { name: 'Show Coronal alone' }).click();
   await expect(viewer.pane()).toBeHidden();
@@ -129,7 +125,6 @@ test('if no lumen is under the pointer, a click in the projection must be confir
   await viewer.tap([0.5, 0.7]);
   await button(viewer, 'Set the point here').click();
   await expect(viewer.page.locator('[data-place=first]')).toHaveCount(4);
-  // Two quick taps are a double click, which ends the vessel.
   await viewer.tap([0.5, 0.5]);
   await viewer.tap([0.5, 0.5]);
   await expect(rows(viewer)).toHaveCount(1);
@@ -259,35 +254,6 @@ test('"All branches from here" finds those connected to the vessel at the cross-
   await viewer.screenshot('trace-branches');
   await viewer.press('Control+z');
   await expect(rows(viewer)).toHaveCount(0);
-  viewer.expectNoFault();
-  await viewer.close();
-});
-
-test('finds all vessels; doubtful ones are accepted or left out', async ({ browser }) => {
-  test.setTimeout(120_000);
-  const viewer = await untraced(browser, 'aorta');
-  await button(viewer, 'Find all vessels').last().click();
-  const doubtful = viewer.page.locator('.doubtful-rows li');
-  await expect(doubtful.first()).toBeVisible({ timeout: 90_000 });
-  const [sure, unsure] = [await rows(viewer).count(), await doubtful.count()];
-  expect(sure).toBeGreaterThan(3);
-  await doubtful
-    .first()
-    .getByRole('button', { name: /^Accept/ })
-    .click();
-  await expect(rows(viewer)).toHaveCount(sure + 1);
-  await expect(doubtful).toHaveCount(unsure - 1);
-  await doubtful
-    .first()
-    .getByRole('button', { name: /^Leave/ })
-    .click();
-  await expect(doubtful).toHaveCount(unsure - 2);
-  await button(viewer, 'Leave all out').click();
-  await expect(doubtful).toHaveCount(0);
-  await viewer.press('Control+z', 'Control+z', 'Control+z');
-  await expect(doubtful).toHaveCount(unsure);
-  await expect(rows(viewer)).toHaveCount(sure);
-  await viewer.screenshot('find-doubtful');
   viewer.expectNoFault();
   await viewer.close();
 });

@@ -10,7 +10,7 @@ const STEPS = 30;
 
 let viewer: Viewer;
 test.beforeEach(async ({ browser }) => {
-  viewer = await Viewer.open(browser, '?device=cpu', { viewport: SIZE, acceptDownloads: true });
+  viewer = await Viewer.open(browser, '?device=cpu', { viewport: SIZE });
   await openScan(viewer, SCAN);
 });
 test.afterEach(async () => {
@@ -83,9 +83,7 @@ async function editVessels(): Promise<number> {
 async function editMarks(): Promise<number> {
   const numbers = viewer.page.getByTestId('numbers');
   await viewer.press('m');
-  await step(/confirm the suggested places/, () =>
-    button(viewer, 'Confirm the suggested places').click({ timeout: 30_000 }),
-  );
+  await step(/confirm the suggested places/, () => button(viewer, 'Confirm the suggested places').click());
   const place = viewer.page.getByRole('button', { name: /^marked place.*, in the profile$/ });
   await place.focus();
   for (const key of ['ArrowLeft', 'ArrowRight', 'Shift+ArrowLeft', 'ArrowLeft', 'ArrowRight', 'ArrowLeft']) {
@@ -138,7 +136,7 @@ test('nothing of a study remains in the next one', async () => {
   await page.getByLabel('Bridge gaps without lumen').check();
   await button(viewer, 'Done').click();
   await viewer.press('m');
-  await button(viewer, 'Confirm the suggested places').click({ timeout: 30_000 });
+  await button(viewer, 'Confirm the suggested places').click();
   await button(viewer, 'Ruler').click();
   await viewer.click([0.4, 0.5], 'section');
   await viewer.click([0.6, 0.4], 'section');
@@ -169,7 +167,7 @@ test('nothing of a study remains in the next one', async () => {
   await traceTube(viewer, NARROWED, [26, -26], 1);
   await expect(nameOf(viewer, 0)).toHaveValue('Vessel 1');
   await viewer.press('m');
-  await expect(stenosis(viewer)).toContainText('Nothing is marked', { timeout: 30_000 });
+  await expect(stenosis(viewer)).toContainText('Nothing is marked');
   await expect(blur).toContainText('estimated on');
   await expect(button(viewer, 'Ruler')).toHaveAttribute('aria-pressed', 'false');
 });

@@ -28,7 +28,6 @@ const GRADED = /\d+ % of the diameter.*NASCET.*\d+\.\d\d? mm/;
 
 test('by mouse, from a scan file to the report', async ({ browser }) => {
   test.skip(!existsSync(SCAN), 'there are no real scans beside the repository');
-  test.setTimeout(60_000);
   const viewer = await Viewer.open(browser, '?device=cpu', { viewport: SIZE });
   const { page } = viewer;
   const counted = await countInput(viewer);
@@ -50,7 +49,7 @@ test('by mouse, from a scan file to the report', async ({ browser }) => {
   await button(viewer, 'Done').click();
   await button(viewer, 'Measure').click();
   // In a stent no safe reference may be suggested; then the page says so, and the user marks one.
-  await page.getByRole('button', { name: /^Confirm the suggested places?$/ }).click({ timeout: 30_000 });
+  await page.getByRole('button', { name: /^Confirm the suggested places?$/ }).click();
   const told = /No percentage: Mark a reference: where the vessel is normal\./;
   await expect(stenosis(viewer)).toHaveText(new RegExp(`${GRADED.source}|${told.source}`));
   await viewer.rest();
@@ -102,7 +101,7 @@ test('by keys only, from the start page to the report', async ({ browser }) => {
   await expect(button(viewer, 'End this vessel')).toHaveCount(0);
   await viewer.screenshot('keys-traced');
   await viewer.press('Escape', 'm');
-  await expect(button(viewer, 'Confirm the suggested places')).toBeVisible({ timeout: 30_000 });
+  await expect(button(viewer, 'Confirm the suggested places')).toBeVisible();
   await tabTo(viewer, /^Confirm the suggested places$/);
   await viewer.press('Enter');
   await expect(stenosis(viewer)).toHaveText(GRADED);

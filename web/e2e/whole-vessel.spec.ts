@@ -94,7 +94,6 @@ test('if a vessel is already traced there, or there is none, the page says so an
   await viewer.press('w');
   await expect(viewer.problem).toContainText('a vessel that is already traced');
   await expect(rows(viewer)).toHaveCount(1);
-  // The rejected point begins no vessel, so the next click does not extend one.
   await expect(button(viewer, 'Whole vessel')).toHaveCount(0);
   await viewer.press('Escape');
   await viewer.click(await at(viewer, AIR), 'coronal');
