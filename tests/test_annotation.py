@@ -73,7 +73,8 @@ def test_letters_stand_where_the_side_of_the_patient_is_seen(grid):
     center = (grid @ [SIDE // 2, SIDE // 2, SIDE // 2, 1])[:3]
     renderers = [(letter, *one_bright_voxel(grid, way)) for letter, way in WAYS.items()]
     renderers = [(letter, Renderer(volume), offset) for letter, volume, offset in renderers]
-    for view in cameras():
+    # Every grid is seen from all six sides; the oblique views of the plain one are the same for the others.
+    for view in itertools.islice(cameras(), None if grid is PLAIN else len(VIEWS)):
         camera = dataclasses.replace(view, center=center, size=(320, 280), pixel_spacing=0.5)
         seen = {}
         for letter, renderer, offset in renderers:

@@ -28,7 +28,8 @@ def test_a_batch_says_that_no_worker_is_there(monkeypatch, caplog):
         watch.check(0, 1)
 
 
-def test_an_address_without_a_scheduler_is_refused(tmp_path):
+def test_an_address_without_a_scheduler_is_refused(tmp_path, monkeypatch):
+    monkeypatch.setattr("lumencut.cohort.cluster._CONNECTING", 1.0)
     manifest = write_cohort(tmp_path, good=1, bad=False)
     ended = run(manifest, tmp_path / "out", "--dask", "127.0.0.1:9")
     assert ended.returncode == 1

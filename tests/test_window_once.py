@@ -116,7 +116,7 @@ def test_voxels_that_were_exchanged_have_a_window_of_their_own(scene):
 def test_another_tree_in_the_same_place_of_memory_has_a_window_of_its_own(scene):
     volume, _ = scene
     points = np.array([[10.0, 10.0, 10.0], [10.0, 10.0, 40.0]])
-    for shift in range(40):
+    for shift in range(12):
         vessel = Vessel(points + np.array([shift % 20, shift % 15, 0.0]), 2.0)
         window = Window.from_data(volume, VesselTree([vessel]))
         fresh = Window.from_data(Volume(volume.array), VesselTree([vessel]))
