@@ -17,7 +17,7 @@ use crate::write::check_all;
 use crate::write::mrk_json::markups;
 
 /// Name of the field that is added to the markups file.
-pub(crate) const FIELD: &str = "LumencutSession";
+pub const FIELD: &str = "LumencutSession";
 
 /// Versions of that field. Version 2 adds the assumed voxel spacing of 1 mm, and noted diameters. Files use
 /// the lowest sufficient version, so that older programs reject only files that they cannot read.
