@@ -281,6 +281,15 @@ def test_importing_is_light():
     assert modules & HEAVY == set()
 
 
+@pytest.mark.parametrize("crate", ["lumencut-io", "lumencut-volumes"])
+def test_each_fuzz_target_has_seeds(crate):
+    """`make fuzz` runs the targets that have a folder of seeds."""
+    folder = f"crates/{crate}/fuzz"
+    targets = {target["name"] for target in toml(f"{folder}/Cargo.toml")["bin"]}
+    seeds = {path.name for path in (ROOT / folder / "seeds").iterdir() if any(path.iterdir())}
+    assert targets == seeds
+
+
 def test_no_modules_import_each_other_in_a_circle():
     graph = import_graph(ROOT / "python/lumencut")
     assert len(graph) > 40

@@ -27,7 +27,7 @@ pub(crate) fn resize<T: Clone>(list: &mut Vec<T>, count: usize, value: T, stop: 
     Ok(())
 }
 
-/// A list of `count` entries of one value, as by [`resize`].
+/// A list of `count` entries of one value, as by `resize`.
 pub fn filled<T: Clone>(count: usize, value: T, stop: Stop) -> Result<Vec<T>> {
     let mut list = Vec::new();
     resize(&mut list, count, value, stop)?;

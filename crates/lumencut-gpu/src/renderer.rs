@@ -73,7 +73,7 @@ impl GpuRenderer {
     }
 
     /// From now on, computes these stages on the CPU, from the GPU's results of earlier stages. Fails with
-    /// [`lumencut_core::error::ErrorKind::Settings`] for a name that is not in [`crate::stages::on_either`].
+    /// [`lumencut_core::error::ErrorKind::Settings`] for a name that is not in `crate::stages::on_either`.
     #[cfg(not(target_arch = "wasm32"))]
     pub fn force_to_cpu(&mut self, names: &[String]) -> Result<()> {
         self.on_cpu = OnCpu::named(names)?;

@@ -1,7 +1,7 @@
 //! Measures the lumen of a vessel, as described in `docs/method/measuring.md`. Each module uses only those listed
-//! before it: [`section`] (planes and their voxels), [`beside`] (calcium, metal and other vessels), [`estimation`],
-//! [`model`] (the blurred lumen), [`uncertainty`], [`fit`] (one section), [`wall`], [`along`] (what sections share),
-//! [`profile`] (the result), [`stenosis`].
+//! before it: `section` (planes and their voxels), `beside` (calcium, metal and other vessels), `estimation`,
+//! `model` (the blurred lumen), `uncertainty`, `fit` (one section), `wall`, `along` (what sections share),
+//! `profile` (the result), `stenosis`.
 
 pub(crate) mod along;
 pub(crate) mod beside;

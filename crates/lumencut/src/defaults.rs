@@ -12,7 +12,7 @@ pub struct Quantity {
     pub also: &'static [&'static str],
     /// `mm`, `rad`, `pixels`, `radii`, or empty for counts and fractions.
     pub unit: &'static str,
-    /// The smallest and largest accepted number; [`ABOVE_0`] and infinity if there is no other limit.
+    /// The smallest and largest accepted number; `ABOVE_0` and infinity if there is no other limit.
     pub range: [f64; 2],
     /// The number if the user gives none.
     pub default: f64,

@@ -77,7 +77,7 @@ pub(crate) fn turned_about(camera: &Camera, pivot: DVec3, axis: DVec3, angle: f6
     Camera::new(pivot + away, direction, up, camera.size(), camera.pixel_spacing())
 }
 
-/// The camera after a drag over a ball that fills the view. Fails as [`turned_about`] does.
+/// The camera after a drag over a ball that fills the view. Fails as `turned_about` does.
 pub fn trackballed(camera: &Camera, pivot: DVec3, [right, down]: [f64; 2]) -> Result<Camera> {
     // Not `hypot`: its last bit differs between platforms.
     let pixels = (right * right + down * down).sqrt();
@@ -88,7 +88,7 @@ pub fn trackballed(camera: &Camera, pivot: DVec3, [right, down]: [f64; 2]) -> Re
     turned_about(camera, pivot, axis, angle_of(camera, pixels))
 }
 
-/// The camera after a drag to the right about an axis (LPS). Fails as [`turned_about`] does.
+/// The camera after a drag to the right about an axis (LPS). Fails as `turned_about` does.
 pub fn spun(camera: &Camera, pivot: DVec3, axis: DVec3, right: f64) -> Result<Camera> {
     turned_about(camera, pivot, axis, -angle_of(camera, right))
 }

@@ -309,6 +309,11 @@ pub fn centerline_files() -> String {
     format!("centerlines ({})", extensions.join(", "))
 }
 
+/// The extensions of files that are read as volumes or centerlines.
+pub fn extensions(role: Role) -> Vec<&'static str> {
+    read(role).flat_map(|kind| kind.extensions).copied().collect()
+}
+
 fn read(role: Role) -> impl Iterator<Item = &'static FileKind> {
     FILE_KINDS.iter().filter(move |kind| kind.role == role && !kind.title.is_empty())
 }

@@ -1,5 +1,6 @@
 /** Opens dropped or chosen files. */
 
+import { CENTERLINE_EXTENSIONS, VOLUME_EXTENSIONS } from '../core/generated/tables';
 import type { GivenFile, SeriesWish } from '../core/messages';
 import { addSegmentation } from '../edit/branches';
 import { isSegmentation } from '../edit/segmentation';
@@ -33,8 +34,13 @@ export function openFiles(files: readonly GivenFile[], first: SeriesWish = {}): 
   });
 }
 
-const CENTERLINES = /\.(vtp|vtk|fcsv|pth|swc|tre|csv|json)$/i;
-const VOLUMES = /\.(nii|nii\.gz|nrrd|nhdr|mha|mhd|hdr|img|raw|zraw)$/i;
+/** Markups and sessions may have any name that ends in `.json`. */
+const CENTERLINES = [...CENTERLINE_EXTENSIONS, '.json'];
+/** With the data files of headers. */
+const VOLUMES = [...VOLUME_EXTENSIONS, '.raw', '.zraw'];
+
+const areAll = (files: readonly GivenFile[], extensions: readonly string[]) =>
+  files.every(({ path }) => extensions.some((extension) => path.toLowerCase().endsWith(extension)));
 
 /** Opens files; first asks if their meaning is ambiguous or work would be lost. A session is opened after its scan. */
 export async function takeFiles(files: readonly GivenFile[]): Promise<void> {
@@ -47,11 +53,11 @@ export async function takeFiles(files: readonly GivenFile[]): Promise<void> {
       }
       await goOn(session);
     });
-  } else if (store.hasVolume.value && files.length > 0 && files.every(({ path }) => VOLUMES.test(path))) {
+  } else if (store.hasVolume.value && files.length > 0 && areAll(files, VOLUMES)) {
     askWhatIs(files);
   } else if (store.hasVolume.value && files[0] && (await isSegmentation(files))) {
     await addSegmentation(files[0]);
-  } else if (files.every(({ path }) => CENTERLINES.test(path))) {
+  } else if (areAll(files, CENTERLINES)) {
     await openFiles(files);
   } else {
     await leave(() => openFiles(files));

@@ -120,6 +120,32 @@ export const FILES = {
   'centerlines': "centerlines (.vtp, .vtk, .mrk.json, .fcsv, .pth, .swc, .tre, .csv)",
 } as const;
 
+/** File name extensions of volumes. */
+export const VOLUME_EXTENSIONS = [
+  ".nii",
+  ".nii.gz",
+  ".hdr",
+  ".img",
+  ".nrrd",
+  ".nhdr",
+  ".mha",
+  ".mhd",
+] as const;
+
+/** File name extensions of centerlines. */
+export const CENTERLINE_EXTENSIONS = [
+  ".vtp",
+  ".vtk",
+  ".mrk.json",
+  ".fcsv",
+  ".pth",
+  ".swc",
+  ".tre",
+  ".csv",
+  ".txt",
+  ".npy",
+] as const;
+
 /** Formats in which centerlines are saved. */
 export const SAVED_CENTERLINES = [
   "vtp",

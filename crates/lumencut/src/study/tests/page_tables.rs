@@ -5,7 +5,7 @@ use lumencut_io::session_file::FIELD;
 use super::generated::require_current;
 use crate::defaults::{PIXEL_SIDES, QUANTITIES};
 use crate::drags::GESTURES;
-use crate::file_kinds::{centerline_files, saved_by_the_page, volume_files};
+use crate::file_kinds::{Role, centerline_files, extensions, saved_by_the_page, volume_files};
 use crate::report::chart::DEVIATIONS;
 use crate::report::section_room::PAGE_PIXELS;
 use crate::study::palette::PALETTE;
@@ -60,6 +60,8 @@ fn the_tables_of_the_page_are_those_of_the_facade() {
             &PIXEL_SIDES,
         ),
         record("Files that can be opened, in the words of messages.", "FILES", &files),
+        table("File name extensions of volumes.", "VOLUME_EXTENSIONS", &extensions(Role::Volume)),
+        table("File name extensions of centerlines.", "CENTERLINE_EXTENSIONS", &extensions(Role::Centerlines)),
         table("Formats in which centerlines are saved.", "SAVED_CENTERLINES", &saved_by_the_page()),
         number("Name of the field that only sessions have.", "SESSION_FIELD", format_args!("'{FIELD}'")),
         constants(),
