@@ -61,7 +61,11 @@ fn the_tables_of_the_page_are_those_of_the_facade() {
         ),
         record("Files that can be opened, in the words of messages.", "FILES", &files),
         table("File name extensions of volumes.", "VOLUME_EXTENSIONS", &extensions(Role::Volume)),
-        table("File name extensions of centerlines.", "CENTERLINE_EXTENSIONS", &extensions(Role::Centerlines)),
+        table(
+            "File name extensions of centerlines.",
+            "CENTERLINE_EXTENSIONS",
+            &extensions(Role::Centerlines),
+        ),
         table("Formats in which centerlines are saved.", "SAVED_CENTERLINES", &saved_by_the_page()),
         number("Name of the field that only sessions have.", "SESSION_FIELD", format_args!("'{FIELD}'")),
         constants(),
