@@ -91,7 +91,7 @@ export class EditQueue {
     return new Promise((resolve) => {
       const entry = { kind, work, bridge, isDropped: false, isLong: false };
       this.entries.push({ ...entry, resolve: resolve as Entry['resolve'] });
-      this.tell();
+      this.publish();
       if (!this.isStarted) {
         this.isStarted = true;
         void this.runAll();
@@ -105,7 +105,7 @@ export class EditQueue {
     if (this.running) {
       this.running.isDropped = true;
     }
-    this.tell({ refusal: null });
+    this.publish({ refusal: null });
     for (const { resolve } of dropped) {
       resolve(null);
     }
@@ -116,7 +116,7 @@ export class EditQueue {
   }
 
   showRefusal(failure: Failure, bridge: (() => void) | null = null): void {
-    this.tell({ refusal: { failure, bridge } });
+    this.publish({ refusal: { failure, bridge } });
     problem.value = failure;
     if (failure.place) {
       const { place: point, value } = failure;
@@ -130,7 +130,7 @@ export class EditQueue {
     if (refusal && problem.peek() === refusal.failure) {
       problem.value = null;
     }
-    this.tell({ refusal: null });
+    this.publish({ refusal: null });
   }
 
   private async runAll(): Promise<void> {
@@ -164,7 +164,7 @@ export class EditQueue {
       clearTimeout(asking);
       display.end();
       this.running = null;
-      this.tell();
+      this.publish();
     }
   }
 
@@ -179,11 +179,11 @@ export class EditQueue {
   private setLong(entry: Entry | null, isLong: boolean): void {
     if (entry) {
       entry.isLong = isLong;
-      this.tell();
+      this.publish();
     }
   }
 
-  private tell({ refusal }: Pick<EditState, 'refusal'> = this.current.peek()): void {
+  private publish({ refusal }: Pick<EditState, 'refusal'> = this.current.peek()): void {
     const queued = this.entries.map(({ kind }) => kind);
     const { kind = null, isDropped = false, isLong = false } = this.running ?? {};
     const begun = isDropped ? 'stopping' : 'running';
