@@ -93,8 +93,8 @@ function PlaceRow({ place, profile }: { readonly place: VesselPlace; readonly pr
     <div class="place-row" data-testid={`row-${place.kind}-${place.slot}`}>
       <button
         type="button"
-        class="link"
-        style={{ color: COLORS[place.kind] }}
+        class="link in-colour"
+        style={{ '--colour': COLORS[place.kind] }}
         onClick={() => moveTo(place.at)}
         title="Shows the section at this place"
       >

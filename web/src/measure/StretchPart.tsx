@@ -69,7 +69,10 @@ function Numbers({ which, ends, stretch, profile }: NumbersProps) {
     );
   return (
     <div class="stretch" data-testid={which}>
-      <span style={{ color: COLORS[which] }}>{`${ends[0].toFixed(1)} to ${mm(ends[1], 1)}`}</span>
+      <span
+        class="in-colour"
+        style={{ '--colour': COLORS[which] }}
+      >{`${ends[0].toFixed(1)} to ${mm(ends[1], 1)}`}</span>
       <button type="button" class="small" aria-label="Remove the stretch" onClick={remove}>
         ×
       </button>
