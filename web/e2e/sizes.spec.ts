@@ -211,6 +211,9 @@ for (const { hasTouch, deviceScaleFactor, viewports } of USUAL) {
     await viewer.rest();
     for (const [mode, key] of MODES) {
       await viewer.press(key);
+      if (mode === 'measure') {
+        await expect(page.locator('.place-row').first()).toBeVisible();
+      }
       for (const viewport of viewports) {
         await page.setViewportSize(viewport);
         const themes = viewport === viewports.at(-1) ? (['dark', 'light'] as const) : (['dark'] as const);
