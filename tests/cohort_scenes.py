@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import csv
 import os
+import signal
 import subprocess
 import sys
 import time
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from unittest import mock
@@ -131,13 +133,29 @@ def run_apart(manifest: Path, out: Path, *words: str) -> subprocess.CompletedPro
         capture_output=True,
         text=True,
         check=False,
-        timeout=300,
+        timeout=HANGS,
     )
+
+
+@contextmanager
+def process(words, **options):
+    """Start a process; kill it and those it started when the context ends, also if the test fails."""
+    with subprocess.Popen(words, start_new_session=True, **options) as begun:
+        try:
+            yield begun
+        finally:
+            # A process that ended by itself has ended its own; its id may already be that of another.
+            if begun.poll() is None:
+                os.killpg(begun.pid, signal.SIGKILL)
+
+
+#: After this time a test counts as hanging (s).
+HANGS = 300
 
 
 def wait_for(is_so, process=None):
     """Wait until a condition holds, while a process works."""
-    end = time.monotonic() + 120
+    end = time.monotonic() + HANGS
     while not is_so():
         assert time.monotonic() < end, "it did not come"
         assert process is None or process.poll() is None

@@ -10,7 +10,18 @@ import subprocess
 import pytest
 
 import lumencut
-from cohort_scenes import BAD, command, environment, run, run_apart, table, wait_for, write_cohort
+from cohort_scenes import (
+    BAD,
+    HANGS,
+    command,
+    environment,
+    process,
+    run,
+    run_apart,
+    table,
+    wait_for,
+    write_cohort,
+)
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="processes are ended as POSIX does")
 
@@ -133,7 +144,7 @@ def children_end_with_their_parent(tmp_path, number):
         children = [nursery, *children_of(nursery)]
         assert len(children) == 2
         batch.send_signal(number)
-        code = batch.wait(30)
+        code = batch.wait(HANGS)
     wait_for(lambda: not any(map(is_there, children)))
     assert code == {signal.SIGINT: 130, signal.SIGTERM: 143, signal.SIGKILL: -9}[number]
     if number != signal.SIGKILL:
@@ -185,24 +196,10 @@ def test_a_batch_from_python(tmp_path):
 
 def started(manifest, out, *words):
     """Start a batch, and kill it when the test ends."""
-    return _Started(manifest, out, *words)
-
-
-class _Started:
-    def __init__(self, manifest, out, *words):
-        pipes = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-        # If the tests run in the background, their processes may ignore Ctrl-C.
-        told = {"preexec_fn": lambda: signal.signal(signal.SIGINT, signal.default_int_handler)}
-        self.process = subprocess.Popen(
-            command(manifest, out, *words), env=environment(manifest), **pipes, **told
-        )
-
-    def __enter__(self):
-        return self.process
-
-    def __exit__(self, *_):
-        self.process.kill()
-        self.process.wait()
+    # If the tests run in the background, their processes may ignore Ctrl-C.
+    told = {"preexec_fn": lambda: signal.signal(signal.SIGINT, signal.default_int_handler)}
+    pipes = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    return process(command(manifest, out, *words), env=environment(manifest), **pipes, **told)
 
 
 def children_of(process):
