@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import logging
 import os
+from io import StringIO
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -85,6 +87,29 @@ def test_a_batch_does_not_wait_for_dask_to_take_its_studies():
     job = Job("one", ("--version",), Path("log"), 1, None)
     with pytest.raises(FileError, match="after 0 of 1 studies"):
         list(Cluster(client).do([job], Path("lock")))
+
+
+@pytest.mark.parametrize("is_configured", [False, True])
+def test_the_log_of_dask_about_its_connection_is_hidden_unless_the_user_asks_for_it(is_configured):
+    pytest.importorskip("distributed")
+    dask = pytest.importorskip("dask")
+    told = logging.getLogger("distributed")
+    shown = logging.StreamHandler(StringIO())
+    client = SimpleNamespace(status="running")
+    told.addHandler(shown)
+    try:
+        with dask.config.set({"distributed.logging": {"distributed": "info"} if is_configured else None}):
+            with scheduler_room.quiet(client):
+                told.getChild("batched").info("Batched Comm Closed")
+                told.getChild("core").error("a mistake")
+                client.status = "connecting"
+                told.getChild("core").error("Failed to reconnect")
+            told.getChild("batched").info("later")
+    finally:
+        told.removeHandler(shown)
+    lines = shown.stream.getvalue().split("\n")[:-1]
+    expected = ["Batched Comm Closed", "a mistake", "Failed to reconnect", "later"]
+    assert lines == (expected if is_configured else expected[1::2])
 
 
 def test_an_address_without_a_scheduler_is_refused(tmp_path, monkeypatch):

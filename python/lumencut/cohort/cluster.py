@@ -8,14 +8,14 @@ import os
 import time
 from collections import Counter, deque
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from lumencut.cohort.child import Child, Outcome
 from lumencut.cohort.job import Job
-from lumencut.cohort.scheduler import SchedulerWatch, briefly, within
+from lumencut.cohort.scheduler import SchedulerWatch, briefly, quiet, within
 from lumencut.errors import MissingPackageError, SettingsError
 
 #: How often a study restarts on another worker if its worker is lost.
@@ -183,10 +183,13 @@ def dask_cluster(address: str) -> Iterator[Cluster]:
     except (OSError, ValueError) as error:
         found = str(error) or "no answer"
         raise SettingsError(f"dask {address}", found, "the address of a scheduler that answers") from error
+    connection = ExitStack()
+    connection.enter_context(quiet(client))
+    connection.callback(client.close)
     try:
         yield Cluster(client)
     finally:
-        briefly(client.close)
+        briefly(connection.close)
 
 
 @contextmanager

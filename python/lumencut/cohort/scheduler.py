@@ -7,8 +7,8 @@ import concurrent.futures
 import logging
 import threading
 import time
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from typing import Any, TypeVar
 
 from lumencut.errors import FileError
@@ -98,6 +98,32 @@ class SchedulerWatch:
         elif time.monotonic() - self._idle_since > _IDLE:
             self._idle_since = float("inf")
             _log.warning("dask %s: it has no workers; the batch waits until some come", self._address)
+
+
+@contextmanager
+def quiet(client: Any) -> Iterator[None]:
+    """Keep dask from printing its log about a lost scheduler, since `SchedulerWatch` reports that.
+
+    Warnings of a client that is connected are printed, and everything if the user configured the log of dask.
+    """
+    import dask
+
+    def is_shown(record: logging.LogRecord) -> bool:
+        return record.levelno >= logging.WARNING and bool(client.status == "running")
+
+    names = (
+        f"{where}{name}" for where in ("", "distributed.") for name in ("logging", "logging-file-config")
+    )
+    is_configured = any(dask.config.get(name, None) for name in names)
+    # The loggers of dask share their handlers.
+    handlers = [] if is_configured else list(logging.getLogger("distributed").handlers)
+    for handler in handlers:
+        handler.addFilter(is_shown)
+    try:
+        yield
+    finally:
+        for handler in handlers:
+            handler.removeFilter(is_shown)
 
 
 def within(seconds: float, act: Callable[[], Answer]) -> Answer:
