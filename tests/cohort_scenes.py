@@ -18,6 +18,8 @@ import numpy as np
 from click.testing import CliRunner
 
 from lumencut.cli import main
+from lumencut.cohort import engine
+from lumencut.cohort.nursery import Nursery
 from scene_files import write_lines, write_volume
 
 #: Code that each child process runs first: files with certain names make it crash or hang.
@@ -25,12 +27,13 @@ BROKEN_READING = """
 import os, sys, time
 def hook(event, arguments):
     if event == "open" and isinstance(arguments[0], (str, bytes, os.PathLike)):
-        name = os.path.basename(os.fspath(arguments[0]))
+        path = os.fsdecode(arguments[0])
+        name = os.path.basename(path)
         if name == "crashing.nii.gz":
             os.abort()
         if name == "hanging.nii.gz":
             time.sleep(1000)
-        if name == "sub-full_vessels.csv":
+        if name == "sub-full_vessels.csv" and not os.path.exists(path.partition(".lumencut")[0] + "room"):
             raise OSError(28, "No space left on device")
 sys.addaudithook(hook)
 """
@@ -74,10 +77,15 @@ def write_cohort(folder: Path, good: int = 7, bad: bool = True) -> Path:
     with (folder / "studies.csv").open("w", newline="", encoding="utf-8") as file:
         csv.writer(file).writerows(rows)
     (folder / "recipe.toml").write_text(RECIPE, encoding="utf-8")
+    write_site(folder)
+    return folder / "studies.csv"
+
+
+def write_site(folder: Path) -> None:
+    """Write what makes processes crash or hang that have `environment`."""
     site = folder / "site"
     site.mkdir()
     (site / "sitecustomize.py").write_text(BROKEN_READING, encoding="utf-8")
-    return folder / "studies.csv"
 
 
 def write_greedy(path: Path) -> None:
@@ -119,22 +127,40 @@ def run_here(*words: str) -> Ended:
     return Ended(ended.exit_code, ended.stdout, ended.stderr)
 
 
+class _KeptNursery(Nursery):
+    """Forks the studies of many batches, since its start takes a second."""
+
+    def close(self) -> None:
+        """Do nothing, as other batches follow."""
+
+
+_kept: list[Nursery] = []
+
+
+@contextmanager
+def kept_nursery(folder: Path):
+    """Let the batches of `run` share the process that forks studies."""
+    write_site(folder)
+    with mock.patch.dict(os.environ, environment(folder / "studies.csv")):
+        nursery = _KeptNursery()
+    _kept.append(nursery)
+    yield
+    _kept.remove(nursery)
+    Nursery.close(nursery)
+
+
+def any_nursery() -> Nursery:
+    """Return the shared process that forks studies, or a new one if a test does not use it."""
+    return _kept[0] if _kept else Nursery()
+
+
 def run(manifest: Path, out: Path, *words: str) -> Ended:
     """Run a batch to its end in this process; its studies have their own."""
-    with mock.patch.dict(os.environ, environment(manifest)):
+    with (
+        mock.patch.dict(os.environ, environment(manifest)),
+        mock.patch.object(engine, "Nursery", any_nursery),
+    ):
         return run_here(*command(manifest, out, *words)[3:])
-
-
-def run_apart(manifest: Path, out: Path, *words: str) -> subprocess.CompletedProcess[str]:
-    """Run a batch to its end in a process of its own."""
-    return subprocess.run(
-        command(manifest, out, *words),
-        env=environment(manifest),
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=HANGS,
-    )
 
 
 @contextmanager
