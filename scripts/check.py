@@ -1,8 +1,9 @@
 """Run every check of the repository, the fastest first; stop at the first failure.
 
 Checks run in parallel lanes, since no check keeps both cores busy: the page is compiled and tested next to
-Rust and Python. The last line is ``N passed, N failed``: the tests of all languages; a red check without tests counts as one
-failed test. No tool runs three languages in parallel and adds up their counts. Needs only Python itself.
+Rust and Python. The last line is ``N passed, N failed``: the tests of all languages; a red check without
+tests counts as one failed test. No tool runs three languages in parallel and adds up their counts. Needs only
+Python itself.
 """
 
 from __future__ import annotations
