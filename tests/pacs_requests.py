@@ -48,6 +48,7 @@ def camera() -> Camera:
     return Camera.anterior(renderer().scene, (96, 64))
 
 
+@cache
 def frame() -> lumencut.Frame:
     """The picture as Python renders it."""
     return renderer().render(camera())
