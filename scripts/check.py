@@ -35,7 +35,9 @@ FUZZED = "crates/lumencut-io/fuzz/Cargo.toml"
 FUZZ_RUNS = 2000
 """Inputs of libFuzzer of each format."""
 LEFT_OUT = ("MAKE", "MFLAGS", "PYTHONDONTWRITEBYTECODE")
-"""Commands cannot use the job slots of a `make`; the many processes of tests keep what they compile."""
+"""Commands cannot use the job slots of a `make`."""
+BYTECODE = {"PYTHONPYCACHEPREFIX": str(ROOT / "target" / "bytecode")}
+"""Tests start hundreds of processes, each of which would compile the modules that it imports."""
 PARALLEL = ("--numprocesses=2", "--dist=worksteal")
 """Most tests of a file run in one worker, which makes their scenes once; an idle worker takes tests over."""
 MAIN, PAGE, PYTHON, FUZZ = "main", "page", "python", "fuzzing"
@@ -211,7 +213,7 @@ def run(check: Check) -> tuple[int, str]:
     with subprocess.Popen(
         check.command,
         cwd=ROOT,
-        env=inherited | check.environment,
+        env=inherited | BYTECODE | check.environment,
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,

@@ -22,7 +22,7 @@ from lumencut.files.volume_writers import write_volume
 from lumencut.files.volumes import read_volume
 from test_volume_files import save_meta, save_nifti, save_nrrd
 
-#: Zeros after the pixels (bytes); each MB is compressed to a kilobyte.
+#: Zeros after the pixels (bytes); each MB is compressed to some kilobytes.
 TRAILING = 100 << 20
 SIZE = (20, 24, 10)
 
@@ -79,7 +79,7 @@ def inflated_with(content, more):
     """Return a deflated file with more zeros after its pixels."""
     start = 144 + struct.unpack("<I", content[140:144])[0]
     inside = zlib.decompress(content[start:], -zlib.MAX_WBITS)
-    packer = zlib.compressobj(9, zlib.DEFLATED, -zlib.MAX_WBITS)
+    packer = zlib.compressobj(1, zlib.DEFLATED, -zlib.MAX_WBITS)
     packed = packer.compress(inside) + b"".join(packer.compress(bytes(1 << 20)) for _ in range(more >> 20))
     return content[:start] + packed + packer.flush()
 
@@ -94,7 +94,7 @@ def rle(content):
 
 
 def archive_of(path, contents, more):
-    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
         for number, content in enumerate(contents):
             archive.writestr(f"IM{number}", content + bytes(more if number == 4 else 0))
     return path
@@ -110,7 +110,7 @@ def folder_of(path, contents):
 def with_zeros(path):
     """Return a gzipped file with more zeros after its end."""
     content = gzip.decompress(path.read_bytes())
-    path.write_bytes(gzip.compress(content + bytes(TRAILING), 6))
+    path.write_bytes(gzip.compress(content + bytes(TRAILING), 1))
     return path
 
 
@@ -140,14 +140,14 @@ def _nifti(folder):
 
 
 def _nrrd(folder):
-    packed = gzip.compress(values().tobytes() + bytes(TRAILING), 6)
+    packed = gzip.compress(values().tobytes() + bytes(TRAILING), 1)
     path = save_nrrd(folder / "x.nhdr", values(), np.eye(4), detached=True)
     next(folder.glob("*.raw.gz")).write_bytes(packed)
     return path
 
 
 def _metaimage(folder):
-    packed = zlib.compress(values().tobytes() + bytes(TRAILING), 6)
+    packed = zlib.compress(values().tobytes() + bytes(TRAILING), 1)
     return save_meta(folder / "x.mha", values(), np.eye(4), packed, CompressedData=True)
 
 
