@@ -208,6 +208,14 @@ def _scaled(folder):
     return path
 
 
+def _text(folder):
+    """A slice of numbers as text, and those of the others; the nrrd package writes many numbers slowly."""
+    path = save_nrrd(folder / "x.nrrd", LARGE[:1].astype("u1"), np.eye(4), encoding="ascii")
+    content = path.read_bytes().replace(b"sizes: 256 256 1\n", b"sizes: 256 256 20\n")
+    path.write_bytes(content + b"0\n" * LARGE[1:].size)
+    return path
+
+
 TOO_LARGE = {
     "nii": lambda folder: save_nifti(folder / "x.nii", LARGE, np.eye(4)),
     "nii.gz": lambda folder: save_nifti(folder / "x.nii.gz", LARGE, np.eye(4)),
@@ -215,7 +223,7 @@ TOO_LARGE = {
     "raw nrrd": lambda folder: save_nrrd(folder / "x.nrrd", LARGE, np.eye(4), encoding="raw"),
     "gzip nrrd": lambda folder: save_nrrd(folder / "x.nrrd", LARGE, np.eye(4)),
     "bzip2 nrrd": lambda folder: save_nrrd(folder / "x.nrrd", LARGE, np.eye(4), encoding="bzip2"),
-    "text nrrd": lambda folder: save_nrrd(folder / "x.nrrd", LARGE.astype("u1"), np.eye(4), encoding="ascii"),
+    "text nrrd": _text,
     "mha": lambda folder: save_meta(folder / "x.mha", LARGE, np.eye(4)),
     "big-endian mha": lambda folder: save_meta(
         folder / "x.mha", LARGE.astype(">i2"), np.eye(4), BinaryDataByteOrderMSB=True
