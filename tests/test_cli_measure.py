@@ -53,13 +53,13 @@ def test_the_names_are_those_of_the_library():
 
 
 def test_a_table_of_all_vessels(branches, tmp_path):
-    result = run(*branches, "-o", tmp_path / "all.csv", "--step", 2)
+    result = run(*branches, "-o", tmp_path / "all.csv", *QUICK)
     assert (result.exit_code, result.stderr) == (0, "")
     rows = rows_of(tmp_path / "all.csv")
     tree = read_centerlines(branches[1])
     assert sorted({row["vessel"] for row in rows}) == ["0", "1", "2"]
     assert {row["name"] for row in rows} == {vessel.name or "" for vessel in tree}
-    profile = measure(read_volume(branches[0]), tree[1], 2.0, tree=tree)
+    profile = measure(read_volume(branches[0]), tree[1], 2.0, 0.9, tree=tree)
     read = [float(row["area_mm2"] or "nan") for row in rows if row["vessel"] == "1"]
     np.testing.assert_allclose(read, profile.area, rtol=1e-6)
     assert "%" not in result.stdout

@@ -245,16 +245,17 @@ def run(*words):
     return done.exit_code, " ".join(done.output.split())
 
 
+COARSE = ("--pixel-spacing", "2", "--no-annotate")
 COMMANDS = {
     "render": ("--size", TALL, "-o", "a.dcm"),
     "hanging": ("--size", TALL, "--hanging", "carotid", "-o", "{view}.dcm"),
     "turntable": ("--size", TALL, "--frames", "2", "-o", "a.dcm"),
     "compare": ("--size", "200x200", "-o", "a.dcm"),
-    "cpr": ("-o", "a.dcm"),
-    "map": ("-o", "a.dcm"),
-    "spiral": ("-o", "a.dcm"),
-    "untangled": ("-o", "a.dcm"),
-    "cfa": ("--beside", "cpr", "-o", "a.dcm"),
+    "cpr": ("-o", "a.dcm", *COARSE),
+    "map": ("-o", "a.dcm", *COARSE),
+    "spiral": ("-o", "a.dcm", *COARSE),
+    "untangled": ("-o", "a.dcm", *COARSE),
+    "cfa": ("--beside", "cpr", "-o", "a.dcm", *COARSE),
     "uncurl": ("--frames", "2", "-o", "a.dcm"),
     "measure": ("-o", "a.csv", "--dicom", "a", "--step", "2", "--fwhm", "0.9"),
 }
