@@ -29,6 +29,10 @@ TOOLS = ("rust", "page", "debian")
 FUZZED = "crates/lumencut-io/fuzz/Cargo.toml"
 FUZZ_RUNS = 2000
 """Inputs of libFuzzer of each format."""
+LEFT_OUT = ("MAKE", "MFLAGS", "PYTHONDONTWRITEBYTECODE")
+"""Commands cannot use the job slots of a `make`."""
+BYTECODE = {"PYTHONPYCACHEPREFIX": str(ROOT / "target" / "bytecode")}
+"""Tests start hundreds of processes, each of which would compile the modules that it imports."""
 PARALLEL = ("--numprocesses=2", "--dist=worksteal")
 """Most tests of a file run in one worker, which makes their scenes once; an idle worker takes tests over."""
 MAIN, PAGE, PYTHON, FUZZ = "main", "page", "python", "fuzzing"
@@ -195,15 +199,14 @@ def test_checks(report: str) -> list[Check]:
 def run(check: Check) -> tuple[int, str]:
     """Run a command; return its exit status and output."""
     lines = []
-    # Commands cannot use the job slots of a `make` that runs this script.
-    inherited = {name: value for name, value in os.environ.items() if not name.startswith(("MAKE", "MFLAGS"))}
+    inherited = {name: value for name, value in os.environ.items() if not name.startswith(LEFT_OUT)}
     heading = f"\n== {check.name}: {' '.join(check.command)}\n"
     if check.lane == MAIN:
         print(heading, end="", flush=True)
     with subprocess.Popen(
         check.command,
         cwd=ROOT,
-        env=inherited | check.environment,
+        env=inherited | BYTECODE | check.environment,
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,

@@ -66,6 +66,12 @@ def shared_data() -> Path:
 
 
 @pytest.fixture
+def one_decoder(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Start one process that decodes DICOM pixels; `test_dicom_decoding.py` tries several at once."""
+    monkeypatch.setattr("lumencut.dicom.reading.workers._MOST", 1)
+
+
+@pytest.fixture
 def interruptible() -> Iterator[None]:
     """Make Ctrl-C raise KeyboardInterrupt, even if the process that started the tests ignores it."""
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
