@@ -238,8 +238,11 @@ export class Viewer {
       content: `[data-testid=turning] { position: absolute; width: ${width}px; height: ${height}px; inset: 0 auto auto 0; }`,
     });
     await this.page.waitForFunction(
-      (pixels) => document.querySelector<HTMLElement>('canvas.picture')?.dataset.pixels === pixels,
-      `${width}x${height}`,
+      (size) => {
+        const pixels = size.map((count) => count * window.devicePixelRatio).join('x');
+        return document.querySelector<HTMLElement>('canvas.picture')?.dataset.pixels === pixels;
+      },
+      [width, height],
     );
   }
 

@@ -51,3 +51,69 @@ POINTS 3 float
 LINES 1 4
 3 0 1 2
 `;
+
+/** Radii of an arc and of the tube along it (mm), and the directions in which the arc begins and bends. */
+const [ARC, TUBE] = [26, 3.5];
+const AHEAD = [0, 0, 1] as const;
+const BEND = [0.6, 0.8, 0] as const;
+/** The arc begins at this distance from the first voxel (mm). */
+const MARGIN = 10;
+
+/** A tube along a quarter of a circle and beyond it, in voxels of 0.8 mm. */
+export const BENT_VOLUME: StreamParts = {
+  size: [48, 54, 62],
+  dtype: 'int16',
+  world_from_index: [
+    [0.8, 0, 0, 0],
+    [0, 0.8, 0, 0],
+    [0, 0, 0.8, 0],
+    [0, 0, 0, 1],
+  ],
+  notes: [],
+  name: 'bent tube',
+};
+
+/** Position at an angle (degrees) of the arc. */
+function onArc(degrees: number): number[] {
+  const angle = (degrees * Math.PI) / 180;
+  const [ahead, aside] = [ARC * Math.sin(angle), ARC * (1 - Math.cos(angle))];
+  return AHEAD.map((part, n) => MARGIN + ahead * part + aside * (BEND[n] ?? 0));
+}
+
+function bentVoxels(): Buffer {
+  const [columns, rows, slices] = BENT_VOLUME.size;
+  const values = new Int16Array(columns * rows * slices);
+  for (let n = 0; n < values.length; n++) {
+    const index = [n % columns, Math.floor(n / columns) % rows, Math.floor(n / columns / rows)];
+    const [x, y, z] = index.map((count) => 0.8 * count - MARGIN) as [number, number, number];
+    const aside = x * BEND[0] + y * BEND[1];
+    const away = Math.hypot(Math.hypot(z, aside - ARC) - ARC, y * BEND[0] - x * BEND[1]);
+    // The edge of the lumen (350) is as wide as a voxel.
+    values[n] = 60 + 290 * Math.min(Math.max(0.5 + (TUBE - away) / 0.8, 0), 1);
+  }
+  return Buffer.concat([header(BENT_VOLUME), Buffer.from(values.buffer)]);
+}
+
+/** The scan of the bent tube, and two vessels in it: a quarter of the circle, and the next 20°. */
+export function bentTube(): { readonly volume: Buffer; readonly lines: string } {
+  const degrees = [Array.from({ length: 91 }, (_, n) => n), Array.from({ length: 21 }, (_, n) => 90 + n)];
+  const points = degrees.flat().map((at) => onArc(at).join(' '));
+  const lines = [`91 ${[...Array(91).keys()].join(' ')}`, `21 ${Array.from({ length: 21 }, (_, n) => 91 + n).join(' ')}`];
+  const text = `# vtk DataFile Version 3.0
+axis
+ASCII
+DATASET POLYDATA
+POINTS ${points.length} float
+${points.join('\n')}
+LINES 2 ${lines.join(' ').split(' ').length}
+${lines.join('\n')}
+`;
+  return { volume: bentVoxels(), lines: text };
+}
+
+/** Length, distance of the ends and tortuosity of a part of the arc of the bent tube (mm). */
+export function arcOf(share: number): readonly [number, number, number] {
+  const angle = (share * Math.PI) / 2;
+  const [length, straight] = [ARC * angle, 2 * ARC * Math.sin(angle / 2)];
+  return [length, straight, length / straight];
+}

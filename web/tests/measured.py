@@ -82,6 +82,7 @@ def asked(profile: Profile) -> dict[str, Any]:
         "contour": profile.contour[number].tolist(),
         "length": profile.stretch(before, after).length,
         "straight": profile.stretch(before, after).straight,
+        "tortuosity": profile.stretch(before, after).tortuosity,
         "direction": profile.direction(before, after).tolist(),
         "c_arm": str(profile.c_arm(before, after)),
         "angle": profile.angle_between((0.0, before), (after, length)),

@@ -83,6 +83,7 @@ async function answers(engine: Asked, line: number, length: number, { at, refere
     contour: section.contour,
     length: stretch.length,
     straight: stretch.straight,
+    tortuosity: stretch.tortuosity,
     direction: stretch.direction,
     c_arm: stretch.c_arm,
     angle: await engine.ask('angle_between', {
