@@ -68,7 +68,11 @@ export default defineConfig({
     {
       name: 'gpu',
       testMatch: ['gpu.spec.ts', 'native.spec.ts'],
-      use: { launchOptions: launch([...plain, ...gpu]), viewport: { width: 480, height: 400 }, deviceScaleFactor: 1 },
+      use: {
+        launchOptions: launch([...plain, ...gpu]),
+        viewport: { width: 480, height: 400 },
+        deviceScaleFactor: 1,
+      },
     },
   ],
 });

@@ -1,4 +1,5 @@
 /** Voxel streams as sent by `lumencut view`, complete and broken. */
+import type { Page } from '@playwright/test';
 
 export interface StreamParts {
   readonly size: readonly [number, number, number];
@@ -94,26 +95,36 @@ function bentVoxels(): Buffer {
   return Buffer.concat([header(BENT_VOLUME), Buffer.from(values.buffer)]);
 }
 
-/** The scan of the bent tube, and two vessels in it: a quarter of the circle, and the next 20°. */
-export function bentTube(): { readonly volume: Buffer; readonly lines: string } {
-  const degrees = [Array.from({ length: 91 }, (_, n) => n), Array.from({ length: 21 }, (_, n) => 90 + n)];
-  const points = degrees.flat().map((at) => onArc(at).join(' '));
-  const lines = [`91 ${[...Array(91).keys()].join(' ')}`, `21 ${Array.from({ length: 21 }, (_, n) => 91 + n).join(' ')}`];
+/** The end of the second vessel of the bent tube (degrees). */
+const END = 110;
+
+/** The scan of the bent tube, and centerlines of its two vessels: from 0° to `split`, and from there on. */
+function bentTube(split = 90): { readonly volume: Buffer; readonly lines: string } {
+  const numbers = Array.from({ length: END + 1 }, (_, n) => n);
+  const lines = [numbers.slice(0, split + 1), numbers.slice(split)].map((line) => [line.length, ...line]);
   const text = `# vtk DataFile Version 3.0
 axis
 ASCII
 DATASET POLYDATA
-POINTS ${points.length} float
-${points.join('\n')}
-LINES 2 ${lines.join(' ').split(' ').length}
-${lines.join('\n')}
+POINTS ${numbers.length} float
+${numbers.map((at) => onArc(at).join(' ')).join('\n')}
+LINES 2 ${lines.flat().length}
+${lines.map((line) => line.join(' ')).join('\n')}
 `;
   return { volume: bentVoxels(), lines: text };
 }
 
-/** Length, distance of the ends and tortuosity of a part of the arc of the bent tube (mm). */
+/** Length, distance of the ends (mm) and tortuosity of a share of the first 90° of the bent tube. */
 export function arcOf(share: number): readonly [number, number, number] {
   const angle = (share * Math.PI) / 2;
   const [length, straight] = [ARC * angle, 2 * ARC * Math.sin(angle / 2)];
   return [length, straight, length / straight];
+}
+
+/** Opens the bent tube with its two vessels in a page. */
+export async function openBentTube(page: Page, split?: number): Promise<void> {
+  const { volume, lines } = bentTube(split);
+  await page.route('**/made/volume', (route) => route.fulfill({ body: volume }));
+  await page.route('**/made/axis.vtk', (route) => route.fulfill({ body: lines }));
+  await page.goto('./?volume=made/volume&centerlines=made/axis.vtk&device=cpu&test');
 }

@@ -2,7 +2,7 @@
 import { expect, test } from '@playwright/test';
 import { SIZE } from './measured-tube';
 import { Viewer } from './page';
-import { arcOf, bentTube } from './streams';
+import { arcOf, openBentTube } from './streams';
 
 /** The marked stretches are quarters of the vessel, which bends by 90°: around its middle, and the first. */
 const [MIDDLE, FIRST] = [
@@ -16,10 +16,7 @@ test('while a vessel is measured its section is outdated; then a stretch, its C-
 }) => {
   const viewer = await Viewer.open(browser, '?device=cpu', { viewport: SIZE });
   const { page } = viewer;
-  const { volume, lines } = bentTube();
-  await page.route('**/made/volume', (route) => route.fulfill({ body: volume }));
-  await page.route('**/made/axis.vtk', (route) => route.fulfill({ body: lines }));
-  await page.goto('./?volume=made/volume&centerlines=made/axis.vtk&device=cpu&test');
+  await openBentTube(page);
   await expect(viewer.pane('section')).toBeVisible();
   await viewer.rest();
   await viewer.press('m');
