@@ -20,6 +20,8 @@ interface TestHook extends Asked {
 }
 
 const THEME = 'dark';
+/** Conditions are checked at this interval (ms); the default is every frame, which makes the page draw frames. */
+const POLLING = { polling: 50 };
 /** Idle pages of each browser, by the options of their context; they show a small file, without an engine. */
 const IDLE = 'icon.svg';
 const idle = new WeakMap<Browser, Map<string, Viewer[]>>();
@@ -141,12 +143,18 @@ export class Viewer {
     await this.frames();
     await this.page.waitForFunction(
       () => document.querySelector<HTMLElement>('canvas.picture')?.dataset.last === 'true',
+      null,
+      POLLING,
     );
   }
 
   async state(): Promise<ViewState> {
     await this.frames();
-    await this.page.waitForFunction(() => document.documentElement.dataset.address === 'written');
+    await this.page.waitForFunction(
+      () => document.documentElement.dataset.address === 'written',
+      null,
+      POLLING,
+    );
     const state = stateOf(new URL(this.page.url()).hash);
     expect(state).not.toBeNull();
     return state ?? {};
@@ -243,6 +251,7 @@ export class Viewer {
         return document.querySelector<HTMLElement>('canvas.picture')?.dataset.pixels === pixels;
       },
       [width, height],
+      POLLING,
     );
   }
 

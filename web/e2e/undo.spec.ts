@@ -105,7 +105,9 @@ async function editMarks(): Promise<number> {
   return 1 + 6 + 8;
 }
 
-test('more than thirty steps are undone and redone, and the saved file is the same', async () => {
+test('more than thirty steps are undone and redone, and the saved file is the same', {
+  tag: '@long',
+}, async () => {
   await viewer.press('v');
   const first = await made();
   const count = (await editVessels()) + (await editMarks());

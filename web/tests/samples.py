@@ -16,7 +16,7 @@ import sys
 from collections.abc import Callable, Iterator
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import nibabel
 import nrrd
@@ -28,12 +28,35 @@ sys.path.insert(0, str(ROOT / "tests"))
 from dicom_cases import CASES  # noqa: E402
 from dicom_repeated import REPEATED  # noqa: E402
 from dicom_scenes import scan  # noqa: E402
-from lumencut import Vessel, straightened_volume  # noqa: E402
+from lumencut import Vessel, set_threads, straightened_volume  # noqa: E402
+from lumencut.dicom.reading import workers  # noqa: E402
 from lumencut.errors import LumencutError  # noqa: E402
 from lumencut.files.volumes import inspected_volume, read_volume  # noqa: E402
 from volume_samples import DATA, coded, oblique  # noqa: E402
 
 Writer = Callable[[Path], Path]
+
+
+class SharedDecoder(workers.Worker):
+    """The decoder of all series is one process, since its start takes longer than decoding a series."""
+
+    _of_all: ClassVar[dict[str, Any]] = {}
+
+    def __init__(self) -> None:
+        if not self._of_all:
+            super().__init__()
+            self._of_all.update(self.__dict__)
+        self.__dict__ = self._of_all
+
+    def kill(self) -> None:
+        """Keep the process for the next series."""
+
+    def close(self) -> None:
+        """Keep the process for the next series."""
+
+    def end(self) -> None:
+        """End the process."""
+        super().close()
 
 
 def read(path: Path, **wanted: Any) -> dict[str, Any]:
@@ -295,7 +318,11 @@ def main() -> None:
     """Write everything."""
     logging.getLogger("lumencut").setLevel(logging.ERROR)
     folder = Path(sys.argv[1])
+    # One thread asks one decoder at a time.
+    set_threads(1)
+    workers.Worker = SharedDecoder  # type: ignore[misc]
     every = [*made(folder), straightened(folder), *shared()]
+    SharedDecoder().end()
     (folder / "expected.json").write_text(json.dumps(every, indent=1))
 
 
