@@ -2,8 +2,8 @@
 
 python tests/pacs_page.py web/dist [scan]
 
-prints a line of JSON, and serves until its input ends. Each line of the input names an archive; the content of
-its objects is printed as a line of JSON.
+prints a line of JSON, and serves until its input ends. Each line of the input names an archive; what its
+objects contain is printed as a line of JSON.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from test_dicom_reports import child, code, groups, numbers
 
 
 def serve(page: Path, shows_scan: bool) -> None:
-    """Serve the page, empty or with the phantom and its vessel; print address, names of files and archives."""
+    """Serve the page, empty or with the phantom and its vessel; print address, file names and archives."""
     tree = VesselTree([Vessel(LINE[0].points, 3.0, NAME)])
     scene = ArrivingScene(open_volume(series()), lambda _: tree) if shows_scan else None
     with tempfile.TemporaryDirectory() as folder, ViewerServer(Page.of(page), scene) as server:

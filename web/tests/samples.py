@@ -12,6 +12,8 @@ from __future__ import annotations
 import hashlib
 import json
 import logging
+import math
+import os
 import sys
 from collections.abc import Callable, Iterator
 from importlib.util import find_spec
@@ -23,6 +25,8 @@ import nrrd
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
+#: Larger files of the shared data are read by the long tests.
+MOST_BYTES = 3_000_000
 sys.path.insert(0, str(ROOT / "tests"))
 
 from dicom_cases import CASES  # noqa: E402
@@ -300,11 +304,19 @@ def straightened(folder: Path) -> dict[str, Any]:
     }
 
 
+def bytes_of(path: Path) -> int:
+    """The size of a file or of all files in a folder."""
+    return sum(file.stat().st_size for file in (path.rglob("*") if path.is_dir() else [path]))
+
+
 def shared() -> Iterator[dict[str, Any]]:
-    """The volumes of the shared data."""
+    """The volumes of the shared data; the large ones only in the long tests."""
     endings = (".nii.gz", ".nrrd", ".mha")
     files = [path for path in sorted(DATA.rglob("*")) if path.name.endswith(endings)]
+    most = math.inf if os.environ.get("LUMENCUT_LONG") else MOST_BYTES
     for path in (*files, *sorted((DATA / "dicom").glob("ct-*"))):
+        if bytes_of(path) > most:
+            continue
         kind = "series" if path.is_dir() else "volume"
         name = str(path.relative_to(DATA))
         named = {"name": name, "kind": kind, "path": str(path), "folder": str(path.parent)}
