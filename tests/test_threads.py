@@ -61,7 +61,7 @@ import numpy as np
 from lumencut import Camera, Renderer, Settings, phantom
 made = phantom.helix()
 renderer = Renderer(made.volume, made.tree)
-front = Camera.anterior(made.tree, (150, 130))
+front = Camera.anterior(made.tree, (75, 65))
 views = [(front.rotated(0.3 * n), Settings(levels=n % 7, lumen_first=n % 2 == 0)) for n in range(24)]
 expected = [renderer.render(*view) for view in views]
 with ThreadPoolExecutor(4) as pool:
