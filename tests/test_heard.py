@@ -16,7 +16,7 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="no timers of th
 
 TUBE = phantom.straight_tube()
 VESSEL = TUBE.tree[0]
-FRONT = lumencut.Camera.fitted(TUBE.tree, (0, 1, 0), (0, 0, 1), size=(4096, 4096))
+FRONT = lumencut.Camera.fitted(TUBE.tree, (0, 1, 0), (0, 0, 1), size=(2048, 2048))
 NEAR = replace(FRONT, size=(1024, 1024))
 
 
@@ -25,8 +25,8 @@ def curved(mode, **more):
     return lumencut.cpr(TUBE.volume, VESSEL, mode, width=40, pixel_spacing=0.02, **more)._core
 
 
-def depth():
-    return np.zeros((4096, 4096), np.float32)
+def depth(side):
+    return np.zeros((side, side), np.float32)
 
 
 #: For each name, a preparation and the call of the extension module that uses it.
@@ -45,10 +45,10 @@ CALLS = {
     ),
     "uncurl": (lambda: lumencut.uncurl(TUBE.volume, VESSEL, NEAR, 0.5)._core, lambda core: core.position()),
     "picture": (
-        lambda: (depth(), lumencut.Settings(window=lumencut.Window(100, 500))._checked),
+        lambda: (depth(4096), lumencut.Settings(window=lumencut.Window(100, 500))._checked),
         lambda given: lumencut._lumencut.picture(*given),
     ),
-    "positions": (depth, lambda given: lumencut._lumencut.positions(FRONT, given)),
+    "positions": (lambda: depth(2048), lambda given: lumencut._lumencut.positions(FRONT, given)),
     "sample": (
         lambda: np.random.default_rng(1).uniform(-10, 10, (1_000_000, 3)),
         lambda points: lumencut._lumencut.sample(TUBE.volume, points),

@@ -71,7 +71,7 @@ def branches(tmp_path_factory):
 
 def told(files, path, *words):
     """Return the widths and sources that `lumencut measure` reports."""
-    result = CliRunner().invoke(main, ["measure", *map(str, (*files, "-o", path, *words))])
+    result = CliRunner().invoke(main, ["measure", *map(str, (*files, "-o", path, "--step", 2, *words))])
     assert result.exit_code == 0, result.output
     return {(one["fwhm_mm"], one["fwhm_source"]) for one in json.loads(path.read_text("utf-8"))["vessels"]}
 
@@ -109,12 +109,12 @@ def test_a_tree_is_asked_once(branches, monkeypatch):
     monkeypatch.setattr(_lumencut, "tree_findings", lambda *of: asked.append(of) or find(*of))
     volume = Volume(scene.volume.array, world_from_index=scene.volume.world_from_index)
     vessels = [*scene.tree, scene.tree.path([0, 1])]
-    first = [measure(volume, vessel, tree=scene.tree) for vessel in vessels]
+    first = [measure(volume, vessel, 2.0, tree=scene.tree) for vessel in vessels]
     assert len(asked) == 1
     assert len({(one.fwhm, one.fwhm_source) for one in first}) == 1
     # Another step is measured separately, and so is a given width, since walls depend on it.
-    measure(volume, vessels[0], 1.0, tree=scene.tree)
+    measure(volume, vessels[0], 3.0, tree=scene.tree)
     assert len(asked) == 2
     for vessel in vessels:
-        measure(volume, vessel, fwhm=0.9, tree=scene.tree)
+        measure(volume, vessel, 2.0, fwhm=0.9, tree=scene.tree)
     assert len(asked) == 3
