@@ -230,9 +230,10 @@ def test_defaults_of_the_view_and_the_window():
     np.testing.assert_array_equal(again.image, frame.image)
 
 
-@pytest.mark.parametrize("name", ["straight_tube", "trefoil", "runoff", "cervical"])
+@pytest.mark.each_value(most=3)
+@pytest.mark.parametrize("name", ["straight_tube", "trefoil", "cervical", "runoff"])
 def test_the_window_from_the_data_shows_tissue_lumen_and_calcifications_apart(name):
-    made = getattr(phantom, name)(**({} if name in ("straight_tube", "trefoil") else {"scale": 0.3}))
+    made = getattr(phantom, name)(**({} if name in ("straight_tube", "trefoil") else {"scale": 0.5}))
     window = Window.from_data(made.volume, made.tree)
     assert grey(60, window) < 85
     assert 0.60 * 255 - 0.5 <= grey(LUMEN, window) <= 0.72 * 255 + 0.5
@@ -252,8 +253,10 @@ def test_ten_thousand_vessels():
     tree = wandering(9, vessels=10_000, points=5)
     frame = Renderer(None, tree).cut_surface(Camera.anterior(tree, (48, 48)))
     assert len(np.unique(frame.vessel)) > 300
+    assert frame.vessel.max() > 8192
     finest = Settings(depth_filter=False, levels=0)
-    assert_same(tree, Camera.anterior(tree, (4, 3)), finest, most_unsure=0.05)
+    fewer = VesselTree(list(tree)[::5])
+    assert_same(fewer, Camera.anterior(fewer, (6, 4)), finest, most_unsure=0.05)
 
 
 def test_a_tree_that_misses_the_volume_is_refused_with_counts():
