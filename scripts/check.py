@@ -202,8 +202,10 @@ def test_checks(report: str) -> list[Check]:
 def run(check: Check) -> tuple[int, str]:
     """Run a command; return its exit status and output."""
     lines = []
-    # Commands cannot use the job slots of a `make` that runs this script.
-    inherited = {name: value for name, value in os.environ.items() if not name.startswith(("MAKE", "MFLAGS"))}
+    # Commands cannot use the job slots of a `make` that runs this script. Without kept bytecode, each Python
+    # process that a test starts would compile all its packages again.
+    left_out = ("MAKE", "MFLAGS", "PYTHONDONTWRITEBYTECODE")
+    inherited = {name: value for name, value in os.environ.items() if not name.startswith(left_out)}
     heading = f"\n== {check.name}: {' '.join(check.command)}\n"
     if check.lane == MAIN:
         print(heading, end="", flush=True)
