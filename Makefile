@@ -21,7 +21,7 @@ RUNS := 20000
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help demo develop page docs test test-long lint format generate fuzz wheel lock tools rust $(FUZZED)
+.PHONY: help demo develop page docs test test-long platforms lint format generate fuzz wheel lock tools rust $(FUZZED)
 
 help: ## List the commands.
 	@sed -n 's/^\([a-z-]*\):.*## /  make \1\t/p' $(MAKEFILE_LIST) | expand -t 20
@@ -48,11 +48,18 @@ docs: $(VENV)/.docs ## Build the documentation site into ./docs-site, including 
 test: ## Run every check; the last line is `N passed, N failed`.
 	@$(PYTHON) scripts/check.py
 
-test-long: develop tools page $(VENV)/.docs ## Run the tests that take minutes, and fuzz with a million inputs.
+test-long: develop tools page platforms $(VENV)/.docs ## Run the tests that take minutes, and fuzz with a million inputs.
 	$(BIN)/python -m pytest --quiet --numprocesses=2 --dist=worksteal tests/long_*.py
 	$(BIN)/python -m pytest --quiet --numprocesses=2 --dist=worksteal --wide -m each_value
 	npm run check-long --silent --prefix web
 	$(MAKE_COMMAND) --no-print-directory --jobs=2 fuzz RUNS=70000
+
+# The page covers browsers. macOS covers ARM, as no code is specific to ARM under Linux. The extension module needs the
+# Python of its target.
+platforms: rust ## Compile everything but the extension module for Windows and macOS.
+	@$(PYTHON) scripts/toolchain.py targets
+	cargo check --quiet --locked --profile checks --workspace --exclude lumencut-python \
+		--target x86_64-pc-windows-gnu --target aarch64-apple-darwin
 
 lint: ## Run only the checks of format, lint, types, words and documentation.
 	@$(PYTHON) scripts/check.py --lint

@@ -1,8 +1,9 @@
 """Run every check of the repository, the fastest first; stop at the first failure.
 
-Checks run in parallel lanes: the page is compiled while Rust is checked, since neither keeps both cores busy.
-The last line is ``N passed, N failed``: the tests of all languages; a red check without tests counts as one
-failed test. No tool runs three languages in parallel and adds up their counts. Needs only Python itself.
+Checks run in parallel lanes, since no check keeps both cores busy: the page is compiled and tested next to
+Rust and Python. The last line is ``N passed, N failed``: the tests of all languages; a red check without
+tests counts as one failed test. No tool runs three languages in parallel and adds up their counts. Needs only
+Python itself.
 """
 
 from __future__ import annotations
@@ -20,17 +21,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
-from toolchain import TARGETS, WASM
-
 ROOT = Path(__file__).resolve().parent.parent
 BIN = ".venv/bin"
-PORTABLE = ("--workspace", "--exclude", "lumencut-python")
-"""Without the extension module, which needs the Python of its target."""
-COMPILED_ELSEWHERE = {WASM, "aarch64-unknown-linux-gnu"}
-"""The page compiles for browsers; macOS covers ARM, as no code is specific to ARM under Linux."""
 CHECKS = ("--locked", "--profile", "checks")
 """One profile for all, so shared crates compile once."""
-TOOLS = ("rust", "targets", "page", "debian")
+TOOLS = ("rust", "page", "debian")
 FUZZED = "crates/lumencut-io/fuzz/Cargo.toml"
 FUZZ_RUNS = 2000
 """Inputs of libFuzzer of each format."""
@@ -145,11 +140,10 @@ def page_lints() -> list[Check]:
 
 
 def rust_lints() -> list[Check]:
-    """Format, lints, documentation and targets of Rust."""
+    """Format, lints and documentation of Rust; `make platforms` compiles for further platforms."""
     cargo = ("cargo", "--quiet")
     lock = (*cargo, "update", "--workspace", "--locked", "--manifest-path", FUZZED)
     clippy = (*cargo, "clippy", *CHECKS, "--workspace", "--all-targets", "--", "-D", "warnings")
-    targets = (f"--target={one}" for one in TARGETS if one not in COMPILED_ELSEWHERE)
     return [
         # Fuzzing runs last and has its own lock file, so that file is already checked here.
         Check("lock file of fuzzing", lock),
@@ -160,8 +154,6 @@ def rust_lints() -> list[Check]:
             (*cargo, "doc", *CHECKS, "--workspace", "--no-deps"),
             {"RUSTDOCFLAGS": "-D warnings"},
         ),
-        # One command for all targets keeps both cores busy.
-        Check("other platforms", (*cargo, "check", *CHECKS, *PORTABLE, *targets)),
     ]
 
 
@@ -187,14 +179,15 @@ def test_checks(report: str) -> list[Check]:
             "tests of the page",
             ("npm", "run", "check", "--silent", "--prefix", "web"),
             count=count_page,
-            needs=("size of the page",),
+            lane=PAGE,
+            # Some tests compare the page with the package.
+            needs=("size of the page", "package"),
         ),
-        # Runs while the tests of the page wait for the browser.
         Check(
             "fuzzing",
             ("nice", "-n", "19", "make", "--jobs=2", "fuzz", f"RUNS={FUZZ_RUNS}"),
             lane=FUZZ,
-            needs=("tests of Python",),
+            needs=("tests of Rust",),
         ),
     ]
 

@@ -2,6 +2,7 @@
 
 import os
 import signal
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -70,6 +71,18 @@ def interruptible() -> Iterator[None]:
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
     signal.signal(signal.SIGINT, before)
+
+
+@pytest.fixture(scope="session")
+def nursery(tmp_path_factory):
+    """One process that forks the studies of all batches of `cohort_scenes.run`; on Linux alone."""
+    from cohort_scenes import kept_nursery
+
+    if sys.platform != "linux":
+        yield
+        return
+    with kept_nursery(tmp_path_factory.mktemp("nursery")):
+        yield
 
 
 @pytest.fixture(scope="module")

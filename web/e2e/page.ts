@@ -7,9 +7,8 @@ import {
   type Page,
   type ViewportSize,
 } from '@playwright/test';
-import type { Answer, Asked, Message, Question } from '../src/core/asked';
 import { GESTURES } from '../src/core/generated/tables';
-import type { Camera, Pair, Report } from '../src/core/messages';
+import type { Answer, Asked, Camera, Message, Pair, Question, Report } from '../src/core/messages';
 import { stateOf, type ViewState } from '../src/state/address';
 import type { Pixels } from './compare';
 

@@ -1,24 +1,26 @@
 /** Starts the page: the engine, the keys, and the files that the address of the page names. */
-
-import { render } from 'preact';
-import { followEdits } from './edit/following';
-import { start } from './state/device';
-import { followPlaceTurn } from './state/place-turn';
-import { report } from './state/store';
-import { followKeeping } from './study/keeping';
-import { guardLeaving } from './study/leaving';
-import { savedSession } from './study/saving';
-import { openAddresses, openPhantom } from './study/study';
-import { followGuide } from './ui/guide-steps';
-import { listenToKeys } from './ui/keys';
-import { connect, EngineClient, engine } from './worker/engine';
 import './style/page.css';
 import './style/views.css';
 import './style/panels.css';
 import './style/editing.css';
 import './style/measure.css';
+import { render } from 'preact';
+import { followTool } from './edit/mode';
+import { followPointer, followWhole } from './edit/previews';
 import { followView, restore, stateOf } from './state/address';
+import { start } from './state/device';
+import { followLines } from './state/lines';
+import { followPlaceTurn } from './state/place-turn';
+import { followDocument } from './state/shown';
+import { report } from './state/store';
+import { followFacts } from './state/tidying';
+import { savedSession } from './study/saving';
+import { openAddresses, openPhantom } from './study/study';
+import { followKeeping, guardLeaving } from './study/unsaved';
 import { App } from './ui/App';
+import { followGuide } from './ui/Guide';
+import { listenToKeys } from './ui/keys';
+import { connect, EngineClient, engine } from './worker/engine';
 
 const asked = new URLSearchParams(window.location.search);
 
@@ -73,3 +75,13 @@ if (asked.has('test')) {
   });
 }
 void begin();
+
+/** Starts all effects that update the page when the document changes. */
+function followEdits(): void {
+  followDocument();
+  followLines();
+  followFacts();
+  followPointer();
+  followWhole();
+  followTool();
+}

@@ -1,6 +1,5 @@
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
-import type { Asked } from '../src/core/asked';
-import type { Edit, Progress } from '../src/core/messages';
+import type { Asked, Edit, Progress } from '../src/core/messages';
 import { commit } from '../src/edit/committing';
 import { EMPTY } from '../src/state/document';
 import { editQueue } from '../src/state/edit-queue';

@@ -1,8 +1,10 @@
 /** A fake engine that traces straight lines between clicks, and records all requests. */
-import type { Answer, Asked, Message, Question } from '../src/core/asked';
+
 import { Failure } from '../src/core/failure';
 import type {
   AfterEdit,
+  Answer,
+  Asked,
   DocumentVessel,
   Edit,
   Edited,
@@ -10,7 +12,9 @@ import type {
   FirstClick,
   LineContent,
   ListedLine,
+  Message,
   NamedLine,
+  Question,
   Report,
   Vector,
   VesselDocument,

@@ -1,8 +1,7 @@
 import { afterEach, beforeEach, describe, expect, test, vi } from 'vitest';
-import type { Answer, Asked, Message, Question } from '../src/core/asked';
 import { turnedAbout } from '../src/core/camera';
 import { Failure } from '../src/core/failure';
-import type { Camera, Vector } from '../src/core/messages';
+import type { Answer, Asked, Camera, Message, Question, Vector } from '../src/core/messages';
 import { destination, flyTo } from '../src/state/flight';
 import * as store from '../src/state/store';
 import { connect } from '../src/worker/engine';

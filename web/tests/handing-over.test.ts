@@ -1,6 +1,5 @@
 import { expect, test } from 'vitest';
-import type { Asked } from '../src/core/asked';
-import type { LineContent } from '../src/core/messages';
+import type { Asked, LineContent } from '../src/core/messages';
 import { EMPTY } from '../src/state/document';
 import { handedOver } from '../src/study/saving';
 

@@ -4,7 +4,7 @@ import { EMPTY } from '../src/state/document';
 import { begin, change, document_, markSaved } from '../src/state/history';
 import { isKeeping, kept } from '../src/state/questions';
 import { report } from '../src/state/store';
-import { followKeeping } from '../src/study/keeping';
+import { followKeeping } from '../src/study/unsaved';
 import { reportOf, withLines } from './fake-tracing';
 
 let held = new Map<string, string>();

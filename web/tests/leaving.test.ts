@@ -3,7 +3,7 @@ import { beforeEach, expect, test } from 'vitest';
 import { EMPTY } from '../src/state/document';
 import { begin, change, document_, markSaved, undo } from '../src/state/history';
 import { leaving } from '../src/state/questions';
-import { guardLeaving, leave, lossWords } from '../src/study/leaving';
+import { guardLeaving, leave, lossWords } from '../src/study/unsaved';
 import { withLines } from './fake-tracing';
 
 const more = (...lines: number[]) => withLines(document_.value, ...lines);

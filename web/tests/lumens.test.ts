@@ -1,7 +1,6 @@
 /** Of the lumens under the pointer the nearest is selected; the wheel steps to those behind. */
 import { beforeEach, expect, test } from 'vitest';
-import type { Asked } from '../src/core/asked';
-import type { PointedAt, PointedLumen, Vector } from '../src/core/messages';
+import type { Asked, PointedAt, PointedLumen, Vector } from '../src/core/messages';
 import { actionOf } from '../src/input/bindings';
 import { lookForLumens, meant, pointed, stepLumen } from '../src/state/lumens';
 import { ofCamera } from '../src/views/projection';

@@ -1,7 +1,6 @@
 /** Axes of a profile, with the horizontal vessel on the same axis. */
 import { describe, expect, test } from 'vitest';
-import { pixelAt, valueAt } from '../src/measure/layout';
-import { lyingBox, lyingPicture } from '../src/measure/lying';
+import { lyingBox, lyingPicture, pixelAt, valueAt } from '../src/measure/layout';
 
 const AXIS = { low: 0, high: 60, start: 50, end: 650 };
 

@@ -1,8 +1,8 @@
 /** A diameter profile is measured once and cached by line; measuring can be stopped. */
+
 import { beforeEach, expect, test } from 'vitest';
-import type { Asked, Message } from '../src/core/asked';
 import { Failure } from '../src/core/failure';
-import type { Profile } from '../src/core/messages';
+import type { Asked, Message, Profile } from '../src/core/messages';
 import {
   beingMeasured,
   forgetProfiles,

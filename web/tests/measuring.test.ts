@@ -3,9 +3,8 @@ import { spawnSync } from 'node:child_process';
 import { existsSync } from 'node:fs';
 import { join } from 'node:path';
 import { describe, expect, test } from 'vitest';
-import type { Asked } from '../src/core/asked';
 import { SECTION_PIXELS } from '../src/core/generated/tables';
-import type { MeasuredVessel, Pair, Profile } from '../src/core/messages';
+import type { Asked, MeasuredVessel, Pair, Profile } from '../src/core/messages';
 import { NO_MARKS } from '../src/state/document';
 import { opened } from './traced';
 

@@ -1,6 +1,6 @@
 import { describe, expect, test } from 'vitest';
 import { Failure } from '../src/core/failure';
-import { narrowed } from '../src/worker/narrowed';
+import { narrowed } from '../src/worker/fetching';
 
 const bytesOf = (numbers: { buffer: ArrayBufferLike }) => new Uint8Array(numbers.buffer as ArrayBuffer);
 

@@ -1,8 +1,7 @@
 import { afterEach, beforeEach, describe, expect, test, vi } from 'vitest';
-import type { Answer, Asked, Question } from '../src/core/asked';
 import { pixelOf } from '../src/core/camera';
 import { Failure } from '../src/core/failure';
-import type { Camera, Report, Vector } from '../src/core/messages';
+import type { Answer, Asked, Camera, Question, Report, Vector } from '../src/core/messages';
 import { dragTurning, windowBack } from '../src/state/actions';
 import { destination } from '../src/state/flight';
 import {

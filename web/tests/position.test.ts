@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { positionText } from '../src/views/position';
+import { positionText } from '../src/ui/StatusBar';
 
 test('a position is written as radiologists write it', () => {
   expect(positionText([-17.6, 35.34, 12.06])).toBe('R 17.6 P 35.3 S 12.1');

@@ -1,10 +1,10 @@
 /** What the page keeps of the DICOM study of a series, to save objects in this study. */
 import { expect, test } from 'vitest';
 import { series } from '../e2e/dicom';
+import { headOf, studyOf } from '../src/io/dicom';
 import { type ExaminedFile, examine } from '../src/io/dicom/headers';
 import type { Plan } from '../src/io/dicom/judging';
 import { Recorder } from '../src/io/dicom/records';
-import { headOf, studyOf } from '../src/io/dicom/study';
 import { BlobSource } from '../src/io/source';
 
 const sources = series([0, 2, 4]).map(

@@ -1,9 +1,7 @@
 /** Cleaning a tree and reviewing doubtful branches, with an engine that answers at once. */
 import { afterEach, beforeEach, expect, test, vi } from 'vitest';
-import type { Asked } from '../src/core/asked';
-import type { DocumentVessel, EditRequest, LineFacts, Started } from '../src/core/messages';
+import type { Asked, DocumentVessel, EditRequest, LineFacts, Started } from '../src/core/messages';
 import { answerDoubt, countedDoubts, placeOfDoubt, reasonOf, showDoubt, stepDoubt } from '../src/edit/doubts';
-import { isTreeShown, listedVessels } from '../src/edit/vessel-order';
 import { keepPart, removeMarked } from '../src/edit/vessels';
 import { EMPTY } from '../src/state/document';
 import { editQueue } from '../src/state/edit-queue';
@@ -13,6 +11,8 @@ import { tree } from '../src/state/shown';
 import { pickedVessel, started } from '../src/state/store';
 import {
   followFacts,
+  isTreeShown,
+  listedVessels,
   marked,
   markNone,
   reachOf,

@@ -1,9 +1,8 @@
 /** Runs the real engine, as the worker of the page does. */
 import { readFileSync } from 'node:fs';
 import { vi } from 'vitest';
-import type { Asked } from '../src/core/asked';
 import { Failure } from '../src/core/failure';
-import type { Edit, Edited, Progress, Report, Vector, VesselDocument } from '../src/core/messages';
+import type { Asked, Edit, Edited, Progress, Report, Vector, VesselDocument } from '../src/core/messages';
 import { Engine, initSync } from '../src/core/pkg/lumencut.js';
 import { ask, refuseStopped } from '../src/worker/answers';
 import { askWithFiles } from '../src/worker/masks';

@@ -2,7 +2,6 @@
 //! every pixel, `look` shows the volume there. A reformation finds the positions in another way and then also uses
 //! `look`.
 
-mod details;
 mod images;
 mod pass;
 
@@ -12,10 +11,9 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use web_time::Instant;
 
-pub use self::details::SurfaceDetails;
 pub use self::images::Images;
 use self::pass::Lines;
-pub use self::pass::{CutSurfacePass, LookPass};
+pub use self::pass::{CutSurfacePass, LookPass, SurfaceDetails};
 use crate::camera::Camera;
 use crate::error::{Error, ErrorKind, Result};
 use crate::frame::{Frame, Timing, clear_outside};

@@ -13,7 +13,7 @@ use lumencut_core::stages::{Image, ImageSet};
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
 use lumencut_phantom::{Phantom, crossing};
 use lumencut_scenes::brute_force::{by_brute_force, by_hierarchy};
-use lumencut_scenes::identical::different_pixels;
+use lumencut_scenes::compare::different_pixels;
 use lumencut_scenes::pictures::context_alone;
 use lumencut_scenes::random_tree::random_tree;
 use lumencut_scenes::settings::unfiltered;

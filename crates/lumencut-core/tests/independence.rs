@@ -14,7 +14,7 @@ use lumencut_core::scene::{LeveledTree, Scene};
 use lumencut_core::settings::Settings;
 use lumencut_core::vessel_tree::VesselTree;
 use lumencut_core::volume::{Volume, Voxels};
-use lumencut_scenes::identical::different_pixels;
+use lumencut_scenes::compare::different_pixels;
 use lumencut_scenes::random_tree::random_tree;
 use lumencut_scenes::views::view;
 

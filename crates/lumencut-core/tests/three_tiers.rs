@@ -4,7 +4,7 @@
 use lumencut_core::settings::Settings;
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
 use lumencut_scenes::brute_force::by_hierarchy;
-use lumencut_scenes::identical::different_pixels;
+use lumencut_scenes::compare::different_pixels;
 use lumencut_scenes::random::Random;
 use lumencut_scenes::random_tree::random_tree;
 use lumencut_scenes::settings::unfiltered;

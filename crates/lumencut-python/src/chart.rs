@@ -3,8 +3,8 @@
 use lumencut::report::chart::DEVIATIONS;
 use lumencut::report::chart::{Chart, FlagRow};
 use lumencut::report::frame::{MARGINS, TICK_DISTANCES, row_height};
+use lumencut::report::pictures::{self, REPORT_PIXELS, SHEET_PIXELS};
 use lumencut::report::scale::Axis;
-use lumencut::report::section_room::{self, REPORT_PIXELS, SHEET_PIXELS};
 use pyo3::prelude::*;
 use pyo3::types::IntoPyDict;
 
@@ -69,5 +69,5 @@ pub(crate) fn chart_ticks(low: f64, high: f64, length: f64, is_along: bool) -> V
 /// The pixel side (mm) of section pictures with this many pixels on each side.
 #[pyfunction]
 pub(crate) fn section_spacing(profile: &Profile, pixels: usize) -> f64 {
-    section_room::section_spacing(&profile.0, pixels)
+    pictures::section_spacing(&profile.0, pixels)
 }

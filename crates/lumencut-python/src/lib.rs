@@ -2,7 +2,6 @@
 
 use pyo3::prelude::*;
 
-mod camera;
 mod centerlines;
 mod chart;
 mod cpr;
@@ -31,7 +30,6 @@ mod records;
 mod reforming;
 mod renderer;
 mod report;
-mod scan_details;
 mod settings;
 mod spiral;
 mod tracing;
@@ -101,7 +99,7 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(dicom::describe_dicom, module)?)?;
     module.add_function(wrap_pyfunction!(dicom::dicom_directions, module)?)?;
     module.add_function(wrap_pyfunction!(dicom::judge_dicom, module)?)?;
-    module.add_function(wrap_pyfunction!(camera::check_camera, module)?)?;
+    module.add_function(wrap_pyfunction!(views::check_camera, module)?)?;
     module.add_function(wrap_pyfunction!(labels::edge_letters, module)?)?;
     module.add_function(wrap_pyfunction!(labels::grid_letters, module)?)?;
     module.add_function(wrap_pyfunction!(labels::scale_bar, module)?)?;
@@ -180,7 +178,7 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(records::restored_stenosis, module)?)?;
     module.add_function(wrap_pyfunction!(records::profile_record, module)?)?;
     module.add_function(wrap_pyfunction!(records::stored_stenosis, module)?)?;
-    module.add_function(wrap_pyfunction!(scan_details::scan_words, module)?)?;
+    module.add_function(wrap_pyfunction!(volume::scan_words, module)?)?;
     module.add_function(wrap_pyfunction!(mask_tracing::correspondence, module)?)?;
     module.add_function(wrap_pyfunction!(mask_tracing::place_mask, module)?)?;
     module.add_function(wrap_pyfunction!(mask_tracing::trace_mask, module)?)?;

@@ -8,11 +8,11 @@ use lumencut::pipeline::CpuRenderer;
 use lumencut::study::brightest::brightest_on_ray;
 use pyo3::prelude::*;
 
-use crate::camera::CameraArgument;
 use crate::errors::to_python;
 use crate::renderer::Renderer;
 use crate::settings::Checked;
 use crate::tree::{self, VesselArrays};
+use crate::views::CameraArgument;
 use crate::volume::VolumeArgument;
 
 /// The brightest place (mm, LPS) on the ray of a pixel (column, row) between two depths (mm).

@@ -25,13 +25,13 @@ use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::camera::CameraArgument;
 use crate::cpr::Cpr;
 use crate::errors::{exception, to_python, warn};
 use crate::layout::Layout;
 use crate::pool;
 use crate::settings::Checked;
 use crate::tree::{VesselArrays, tree};
+use crate::views::CameraArgument;
 use crate::volume::VolumeArgument;
 use crate::watching::{Reporter, SHARES, interruptible};
 

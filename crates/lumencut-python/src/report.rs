@@ -1,6 +1,6 @@
 //! The report of measured vessels, with pictures from Python.
 
-use lumencut::report::section_room::REPORT_PIXELS;
+use lumencut::report::pictures::REPORT_PIXELS;
 use lumencut::report::{self, Lengths, Plan, ReportMark, Shown, Stated, Strip, VesselPage};
 use pyo3::prelude::*;
 

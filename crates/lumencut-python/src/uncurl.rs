@@ -9,10 +9,10 @@ use lumencut::vessel_tree::Vessel;
 use numpy::PyReadonlyArray2;
 use pyo3::prelude::*;
 
-use crate::camera::CameraArgument;
 use crate::errors::to_python;
 use crate::layout::Layout;
 use crate::tree::points_of;
+use crate::views::CameraArgument;
 
 /// The tangential CPR of points (n, 3).
 #[pyfunction]

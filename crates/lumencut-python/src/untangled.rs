@@ -7,9 +7,9 @@ use lumencut::reformations::untangled::{self, UntangledParameters};
 use numpy::{PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 
-use crate::camera::CameraArgument;
 use crate::layout::Layout;
 use crate::tree::{VesselArrays, tree};
+use crate::views::CameraArgument;
 use crate::watching::computed;
 
 /// Part of a vessel in the image: id, arc lengths (n,) (mm), columns and rows (n, 2), rotation (radians), and whether the part

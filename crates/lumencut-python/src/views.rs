@@ -5,7 +5,7 @@ use lumencut::camera::Camera;
 use lumencut::stop::go_on;
 use lumencut::vessel_tree::Vessel;
 use lumencut::views::{self, Axis, VIEWS};
-use lumencut::{flight as flights, positions as pixels, turn, uncurling, vessel_views};
+use lumencut::{flight as flights, positions as pixels, turn, vessel_views};
 use numpy::{PyArray1, PyArray3, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -84,7 +84,7 @@ pub(crate) fn fitted_uncurling(
     smoothing: f64,
 ) -> PyResult<DerivedView> {
     let vessel = Vessel::new(points_of(&points)?, None).map_err(to_python)?;
-    placed(uncurling::fitted_uncurling(&camera.camera()?, &vessel, smoothing))
+    placed(views::fitted_uncurling(&camera.camera()?, &vessel, smoothing))
 }
 
 /// Adds to the module the standard views: direction into the scene, and up (LPS).
@@ -215,4 +215,29 @@ pub(crate) fn positions<'py>(
 #[allow(clippy::needless_pass_by_value)]
 pub(crate) fn panned(camera: MadeCamera, right: f64, up: f64) -> PyResult<DerivedView> {
     placed(views::panned(&camera.camera()?, right, up))
+}
+
+/// The attributes of `lumencut.Camera`.
+#[derive(FromPyObject)]
+pub(crate) struct CameraArgument {
+    center: [f64; 3],
+    direction: [f64; 3],
+    up: [f64; 3],
+    size: [usize; 2],
+    pixel_spacing: f64,
+}
+
+impl CameraArgument {
+    pub(crate) fn camera(&self) -> PyResult<Camera> {
+        let [center, direction, up] = [self.center, self.direction, self.up].map(DVec3::from_array);
+        Camera::new(center, direction, up, self.size, self.pixel_spacing).map_err(to_python)
+    }
+}
+
+/// Checks a camera; returns its unit vectors (direction, right, up).
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub(crate) fn check_camera(camera: CameraArgument) -> PyResult<[[f64; 3]; 3]> {
+    let camera = camera.camera()?;
+    Ok([camera.direction(), camera.right(), camera.up()].map(|v| v.to_array()))
 }

@@ -11,7 +11,6 @@ use pyo3::prelude::*;
 use rayon::prelude::*;
 
 use crate::errors::{exception, to_python};
-use crate::scan_details::ScanArgument;
 use crate::tree::points_of;
 use crate::watching::computed;
 
@@ -138,4 +137,32 @@ pub(crate) fn sample<'py>(
         Ok(values)
     })?;
     Ok(PyArray1::from_vec(py, values))
+}
+
+/// How a scan was made, as Python describes it.
+#[derive(FromPyObject)]
+pub(crate) struct ScanArgument {
+    series_number: Option<String>,
+    series_description: Option<String>,
+    phase: Option<String>,
+    slice_thickness: Option<f64>,
+    kernel: Option<String>,
+}
+
+impl ScanArgument {
+    pub(crate) fn details(&self) -> ScanDetails {
+        ScanDetails {
+            series_number: self.series_number.clone(),
+            series_description: self.series_description.clone(),
+            phase: self.phase.clone(),
+            slice_thickness_mm: self.slice_thickness,
+            kernel: self.kernel.clone(),
+        }
+    }
+}
+
+#[pyfunction]
+#[allow(clippy::needless_pass_by_value)]
+pub(crate) fn scan_words(scan: ScanArgument) -> String {
+    scan.details().words()
 }

@@ -3,7 +3,6 @@
 
 pub mod brute_force;
 pub mod compare;
-pub mod identical;
 pub mod lumen;
 pub mod pictures;
 pub mod random;

@@ -42,7 +42,6 @@
 //! assert_eq!(voxels, [1, 2, 3, 4]);
 //! ```
 
-mod beside;
 mod built_in;
 mod convert;
 mod decoder;
@@ -57,7 +56,6 @@ mod nrrd;
 mod numbers;
 mod open;
 #[cfg(feature = "unpacking")]
-mod pack;
 mod plan;
 mod segments;
 mod stream;
@@ -73,9 +71,8 @@ pub use nifti::{StatedUnits, stated_units};
 pub use numbers::{Kind, Scaling};
 pub use open::{HEAD, format_of, open};
 #[cfg(feature = "unpacking")]
-pub use pack::Packer;
 pub use plan::{Affine, Format, Grid, Place, Plan, Stored};
 pub use segments::{Segment, Segmentation};
 pub use stream::Codec;
 pub use text::printable;
-pub use write::Written;
+pub use write::{Packer, Written};

@@ -1,9 +1,9 @@
 //! MetaImage (.mha, .mhd): always LPS; the rows of `TransformMatrix` are the directions of i, j, k, as in ITK.
 
-use crate::beside::require_inside;
 use crate::error::{Error, Opening};
 use crate::known::Known;
 use crate::numbers::{Kind, Scaling};
+use crate::plan::require_inside;
 use crate::plan::{Affine, Format, Grid, Place, Plan, Stored, detached};
 use crate::stream::Codec;
 use crate::text::{decoded, listed, number, short, shown};

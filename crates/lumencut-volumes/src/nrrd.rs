@@ -4,10 +4,10 @@ mod axes;
 mod fields;
 mod placement;
 
-use crate::beside::require_inside;
 use crate::error::{Error, Opening};
 use crate::known::Known;
 use crate::numbers::{Kind, Scaling};
+use crate::plan::require_inside;
 use crate::plan::{Format, Grid, Place, Plan, Stored, detached};
 use crate::segments::{self, Layers, Segmentation};
 use crate::stream::Codec;

@@ -60,7 +60,6 @@ mod text;
 #[path = "tests/tube.rs"]
 mod tube;
 pub mod turn;
-pub mod uncurling;
 pub mod value_colours;
 mod value_unit;
 pub mod vessel_names;

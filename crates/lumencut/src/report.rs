@@ -7,11 +7,10 @@ mod findings;
 pub mod frame;
 mod markup;
 mod method_text;
+pub mod pictures;
 mod places;
-mod plan;
 mod plot;
 pub mod scale;
-pub mod section_room;
 
 use lumencut_core::error::Result;
 use serde::Deserialize;
@@ -24,9 +23,9 @@ pub(crate) use findings::{Sentence, distances, sentences};
 use markup::{escaped, figure, paragraph};
 pub use method_text::Stated;
 use method_text::{EXPLAINED, UNITLESS, method_text};
+pub use pictures::{Plan, plan};
 pub use places::{ReportMark, ReportPlace};
 use places::{places, row, table, widest_row};
-pub use plan::{Plan, plan};
 use plot::Plot;
 
 const STYLE: &str = include_str!("report/style.css");

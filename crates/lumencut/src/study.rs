@@ -36,7 +36,6 @@ mod points_along;
 mod profiles;
 pub mod questions;
 mod reformations;
-mod reformed;
 mod reforming;
 mod regions;
 mod report_messages;

@@ -23,11 +23,11 @@ from lumencut.cli.push import push
 from lumencut.cli.reformation_table import COMMANDS
 from lumencut.cli.render import render
 from lumencut.cli.report import reported, say, verbose_option
+from lumencut.cli.settings import settings
 from lumencut.cli.summarize import summarize
 from lumencut.cli.trace import trace
 from lumencut.cli.turntable import turntable
 from lumencut.cli.view import view
-from lumencut.cli.write_settings import settings
 
 __all__ = ["main"]
 

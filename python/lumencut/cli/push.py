@@ -110,7 +110,7 @@ def _warn(doubts: list[str]) -> None:
 
 
 def _ask(address: Address, *, is_sure: bool) -> None:
-    from lumencut.dicom.web.known_addresses import is_known, remember
+    from lumencut.dicom.web.pushing import is_known, remember
 
     if not is_sure and not is_known(address.base):
         if not sys.stdin.isatty():

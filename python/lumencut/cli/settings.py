@@ -1,16 +1,19 @@
-"""Options for the settings of a picture, created from the table of settings."""
+"""Options for the settings of a picture, created from the table of settings, and a file of them to keep."""
 
 from __future__ import annotations
 
 import re
 from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from lumencut._lumencut import LOOK_SENTENCES, LOOKS, PAPER, SETTINGS, Setting
+from lumencut.cli import options
 from lumencut.cli.options import FILE, Command, added
 from lumencut.cli.parameters import RGB, RGBA, WINDOW, WINDOW_NAMES, NumberOrNone, Parts, Thickness, Transfer
+from lumencut.cli.report import say, verbose_option
 from lumencut.errors import SettingsError
 
 if TYPE_CHECKING:
@@ -195,3 +198,29 @@ def _as_field(setting: Setting, value: Any) -> Any:
         case "color" if len(value) < len(setting.default):
             return (*value, 255)
     return value
+
+
+@click.command(short_help="Write a file of settings.")
+@click.option("-o", "--output", type=options.FILE, help="The file, such as look.toml; default: print.")
+@paper_option
+@setting_options
+@verbose_option
+def settings(output: Path | None, **chosen: Any) -> None:
+    """Write all settings with their values, units and meaning as a TOML file.
+
+    The values are the defaults, or those of the options. Edit the file, and pass it to render, turntable or
+    evaluate with --settings.
+
+    \b
+    lumencut settings --window 900/300 --no-silhouettes -o look.toml
+    lumencut render ct.nii.gz centerlines.vtp --settings look.toml -o out.png
+    """  # noqa: D301 - click needs the control character itself
+    from lumencut.scene.settings_file import settings_text
+
+    found = settings_from(chosen)
+    if output is None:
+        say(settings_text(found).rstrip("\n"))
+        return
+    options.check_folder(output)
+    found.save(output)
+    say(str(output))

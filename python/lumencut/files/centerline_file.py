@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import logging
 import os
 import warnings
@@ -15,7 +16,6 @@ from lumencut.base.mends import Told
 from lumencut.base.paths import checked_path
 from lumencut.errors import FileError, FormatError, SettingsError, SpaceWarning, StudyWarning
 from lumencut.files.session_scan import other_scan
-from lumencut.files.vtk_lines import file_of, is_poly_data
 from lumencut.scene.images import as_volume
 from lumencut.scene.line_doubts import LineDoubt, line_doubts, settle, warn_of, worded
 from lumencut.scene.placement import (
@@ -251,3 +251,21 @@ class CenterlineFile:
 
 def _mostly_outside(tree: VesselTree, volume: Volume | None) -> bool:
     return volume is not None and 2 * int(volume.contains(tree.points).sum()) < len(tree.points)
+
+
+def is_poly_data(source: Any) -> bool:
+    """Return whether an object is a vtkPolyData, which requires that VTK is loaded."""
+    of_vtk = any(cls.__module__.partition(".")[0] == "vtkmodules" for cls in type(source).__mro__)
+    return of_vtk and hasattr(source, "GetLines") and hasattr(source, "GetPolys")
+
+
+def file_of(poly_data: Any) -> bytes:
+    """Return the content of the `.vtp` file that VTK writes of poly data, with exact numbers."""
+    writer = importlib.import_module("vtkmodules.vtkIOXML").vtkXMLPolyDataWriter()
+    writer.SetInputData(poly_data)
+    writer.SetDataModeToBinary()
+    writer.SetCompressorTypeToNone()
+    writer.WriteToOutputStringOn()
+    writer.Write()
+    content: str = writer.GetOutputString()
+    return content.encode()

@@ -9,8 +9,7 @@ from typing import Any
 
 from lumencut.base.mends import Option, Told
 from lumencut.errors import FormatError
-from lumencut.files.centerline_file import CenterlineFile, CenterlineReport
-from lumencut.files.vtk_lines import is_poly_data
+from lumencut.files.centerline_file import CenterlineFile, CenterlineReport, is_poly_data
 from lumencut.scene.images import as_volume
 from lumencut.scene.line_doubts import LineDoubt, line_doubts, settle, warn_of
 from lumencut.scene.placement import Coordinates, Unit

@@ -16,8 +16,7 @@ from lumencut.base.values import Value
 from lumencut.base.wording import counted
 from lumencut.errors import SettingsError, VesselTreeError
 from lumencut.scene.measured_radii import measured_radii
-from lumencut.scene.vessel import Vessel
-from lumencut.scene.vessel_edits import joined, parts_of
+from lumencut.scene.vessel import Vessel, joined, parts_of
 from lumencut.scene.vessel_gap import Gap
 from lumencut.scene.vessel_names import all_named, the_one_named
 from lumencut.scene.wall_level import Wall

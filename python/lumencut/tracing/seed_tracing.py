@@ -13,7 +13,7 @@ from lumencut.errors import TracingError
 from lumencut.scene.images import as_volume
 from lumencut.scene.vessel_tree import VesselTree
 from lumencut.scene.volume import Volume
-from lumencut.tracing.found_tree import checked_radius, found_tree
+from lumencut.tracing.vessel_finding import checked_radius, found_tree
 
 
 def trace_from(

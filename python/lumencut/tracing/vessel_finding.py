@@ -1,17 +1,22 @@
-"""All vessels of an angiography, without a seed."""
+"""All vessels of an angiography, without a seed, and the tree of found vessels."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
+import numpy.typing as npt
+
 from lumencut import _lumencut
-from lumencut.base.checks import callback
-from lumencut.errors import TracingError
+from lumencut.base.checks import callback, number
+from lumencut.errors import SettingsError, TracingError
 from lumencut.scene.images import as_volume
+from lumencut.scene.vessel import Vessel
 from lumencut.scene.vessel_tree import VesselTree
 from lumencut.scene.volume import Volume
-from lumencut.tracing.found_tree import checked_radius, found_tree
+
+_Array = npt.NDArray[np.float64]
 
 
 def find_vessels(
@@ -61,3 +66,27 @@ def find_vessels(
     smallest = checked_radius(smallest_radius)
     callback(TracingError, "progress", progress)
     return found_tree(*_lumencut.find_vessels(as_volume(volume), smallest, progress))
+
+
+def checked_radius(smallest_radius: float) -> float:
+    """Return the checked smallest radius of vessels to find (mm)."""
+    smallest = number(SettingsError, "smallest_radius", smallest_radius)
+    if not 0 <= smallest < float("inf"):
+        raise SettingsError("smallest_radius", f"{smallest:g}", "0 or more (mm)")
+    return smallest
+
+
+def found_tree(
+    vessels: list[tuple[_Array, _Array, _Array, str]], parts: list[list[int]], notes: list[str]
+) -> VesselTree:
+    """Return the tree of the certain vessels; it also stores the doubtful ones, the parts and the notes."""
+    made = [
+        (Vessel(points, radius, confidence=confidence), doubt)
+        for points, radius, confidence, doubt in vessels
+    ]
+    tree = VesselTree(vessel for vessel, doubt in made if not doubt)
+    tree._doubtful = tuple(vessel for vessel, doubt in made if doubt)
+    tree._doubts = tuple(doubt for _, doubt in made if doubt)
+    tree._parts = tuple(map(tuple, parts))
+    tree._notes = tuple(notes)
+    return tree

@@ -1,5 +1,5 @@
 /** Types of messages between page and worker. Those of the engine are generated (`generated/questions.ts`). */
-import type { DoubtRow, LookRow, Picture, RegionRow, SettingRow } from './generated/questions';
+import type { DoubtRow, LookRow, Picture, Questions, RegionRow, SettingRow } from './generated/questions';
 import type { SAVED_CENTERLINES } from './generated/tables';
 
 export type * from './generated/questions';
@@ -58,3 +58,38 @@ export interface Started {
   /** The shared byte through which the page stops the worker; null without shared memory. */
   readonly stop: { readonly buffer: SharedArrayBuffer; readonly address: number } | null;
 }
+
+export type Question = keyof Questions;
+export type Message<N extends Question> = Questions[N]['message'];
+export type Answer<N extends Question> = Questions[N]['answer'];
+
+export type OnProgress = (progress: Progress) => void;
+
+export interface Attachments {
+  readonly onProgress?: OnProgress;
+  readonly bytes?: Uint8Array;
+  /** Files of a vessel mask; the worker reads them before it runs the edit. */
+  readonly mask?: readonly GivenFile[];
+}
+
+/** Requests to the engine, also implemented by test doubles. */
+export interface Asked {
+  /** Answers a request listed in `generated/questions.ts`. Throws `Failure`. */
+  ask<N extends Question>(name: N, message: Message<N>, attachments?: Attachments): Promise<Answer<N>>;
+}
+
+/** A scan that the server of the page holds. Derived objects are saved in its DICOM study. */
+export interface ServedScan {
+  readonly isServed: true;
+  readonly hasStudy: boolean;
+}
+
+export interface ReadScan {
+  readonly isServed: false;
+  readonly hasStudy: true;
+  readonly header: Uint8Array<ArrayBuffer>;
+  readonly instances: readonly string[];
+  readonly studyCount: number;
+}
+
+export type ScanStudy = ServedScan | ReadScan;

@@ -1,6 +1,6 @@
-/** Adds many vessels at once: all of a scan, those connected to a seed, or those of a mask. */
+/** Adds many vessels at once: all of a scan, those connected to a seed, those of a mask or a centerline file. */
 
-import type { DocumentVessel, Edit, Edited, GivenFile, LineFacts, Vector } from '../core/messages';
+import type { DocumentVessel, Edit, Edited, GivenFile, LineFacts, NamedLine, Vector } from '../core/messages';
 import { answered } from '../state/edit-queue';
 import { flyToAnswer } from '../state/flight';
 import { document_ } from '../state/history';
@@ -68,6 +68,11 @@ export async function addSegmentation(file: GivenFile): Promise<boolean> {
     showFailure(error);
     return false;
   }
+}
+
+export function addLoaded(vessels: readonly NamedLine[]): Promise<boolean> {
+  const lines = vessels.map(({ line, name }) => ({ line, name }));
+  return isDone(commit({ kind: 'add_lines', lines }));
 }
 
 function addMany(

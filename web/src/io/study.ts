@@ -1,9 +1,7 @@
 /** Opens dropped, chosen or fetched files as a volume, as its centerlines, or both. */
-
 import { FILES } from '../core/generated/tables';
-import type { States } from '../core/messages';
+import type { ScanStudy, States } from '../core/messages';
 import type { Judge } from '../core/module';
-import type { ScanStudy } from '../core/scan-study';
 import type { Volumes } from '../core/volumes';
 import type { Wanted } from './dicom/wanted';
 import { type KindOf, type Known, known } from './kinds';

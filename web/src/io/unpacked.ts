@@ -1,6 +1,5 @@
 /** Gzipped files that the browser unpacks, so that the module of volume files needs no decoder. */
-import { Ahead } from './ahead';
-import type { Bytes, Source } from './source';
+import { Ahead, type Bytes, type Source } from './source';
 
 /** Compressed bytes that are unpacked at once; they become at most a thousand times as many. */
 const PACKED = 1 << 17;

@@ -2,8 +2,7 @@
 import { Failure } from '../core/failure';
 import { EVERY_SECOND } from '../core/mends';
 import type { Opening, Plan, Step, VolumeFile, Volumes } from '../core/volumes';
-import { Ahead } from './ahead';
-import { type Beside, besidePath, fileName, type Source } from './source';
+import { Ahead, type Beside, besidePath, fileName, type Source } from './source';
 import type { Steps } from './steps';
 import { Unpacked, Unverified } from './unpacked';
 import { formatFailure } from './words';

@@ -9,8 +9,7 @@ import { moveTo } from '../state/cross-hair';
 import { toggleMaximised } from '../state/panels';
 import * as store from '../state/store';
 import { engine } from '../worker/engine';
-import { valueAt } from './layout';
-import { lyingBox, lyingPicture } from './lying';
+import { lyingBox, lyingPicture, valueAt } from './layout';
 
 interface LyingCprProps {
   readonly x: Axis;

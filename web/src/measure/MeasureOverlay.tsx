@@ -8,7 +8,7 @@ import * as store from '../state/store';
 import { engine } from '../worker/engine';
 import { currentProfile } from './current';
 import { PlaceHandles } from './PlaceHandles';
-import { RulerLayer } from './RulerLayer';
+import { RulerLayer } from './Rulers';
 import { centerAt, seenNearest } from './sections';
 
 /** Points within this distance of a slice (mm) count as lying in it. */

@@ -15,7 +15,7 @@ import type {
   ReportStrip,
 } from '../core/messages';
 import { pixelOn } from '../core/planes';
-import { lyingPicture } from '../measure/lying';
+import { lyingPicture } from '../measure/layout';
 import { colorOfPlace } from '../measure/PlaceHandles';
 import { CONTOUR } from '../measure/SectionMarks';
 import { centerAt, nearestSection } from '../measure/sections';

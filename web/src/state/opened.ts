@@ -6,13 +6,13 @@ import type {
   Histogram,
   Method,
   Report,
+  ScanStudy,
   SeriesWish,
   Settings,
   States,
   Vector,
   Window,
 } from '../core/messages';
-import type { ScanStudy } from '../core/scan-study';
 import * as store from './store';
 
 export interface OpenedStudy {

@@ -10,13 +10,13 @@ import type {
   Progress,
   Report,
   Roll,
+  ScanStudy,
   Settings,
   Started,
   States,
   Vector,
   Window,
 } from '../core/messages';
-import type { ScanStudy } from '../core/scan-study';
 
 export type Layout = 'one' | 'two' | 'four' | 'strip' | 'measure' | 'report';
 export const LAYOUTS: readonly Layout[] = ['one', 'two', 'four', 'strip', 'measure', 'report'];

@@ -1,5 +1,4 @@
-/** Facts about the vessels for the list and "Clean up": which are short, thin or not connected to the picked one. */
-
+/** Order of the vessel list, and facts for "Clean up": which vessels are short, thin or not connected to the picked one. */
 import { computed, effect, signal } from '@preact/signals';
 import { Latest } from '../core/latest';
 import type { DocumentVessel, LineFacts, LineId } from '../core/messages';
@@ -106,3 +105,33 @@ export const unconnected = computed<readonly number[]>(() => {
     ? []
     : sure.value.filter((vessel) => (factsOf(vessel)?.part ?? part) !== part).map((vessel) => vessel.id);
 });
+
+interface ListedVessel {
+  readonly vessel: DocumentVessel;
+  readonly depth: number;
+}
+
+/** Whether the list is shown as a tree; by default if some vessels are connected. */
+export const isTreeShown = computed<boolean>(
+  () =>
+    sure.value.length > 1 &&
+    (treeChosen.value ?? sure.value.some((vessel) => (factsOf(vessel)?.parent ?? null) !== null)),
+);
+
+export const listedVessels = computed<readonly ListedVessel[]>(() =>
+  isTreeShown.value ? asTree(sure.value, factsOf) : sure.value.map((vessel) => ({ vessel, depth: 0 })),
+);
+
+/** The vessels in tree order; those of unknown diameter come last. */
+function asTree(
+  vessels: readonly DocumentVessel[],
+  facts: (vessel: DocumentVessel) => LineFacts | undefined,
+): readonly ListedVessel[] {
+  const width = (vessel: DocumentVessel) => facts(vessel)?.calibre ?? 0;
+  const widestFirst = [...vessels].sort((a, b) => width(b) - width(a));
+  const under = (parent: number | null, depth: number): ListedVessel[] =>
+    widestFirst
+      .filter((vessel) => (facts(vessel)?.parent ?? null) === parent)
+      .flatMap((vessel) => [{ vessel, depth }, ...under(vessel.line, depth + 1)]);
+  return under(null, 0);
+}

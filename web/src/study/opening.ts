@@ -9,9 +9,9 @@ import { openWith } from '../state/opened';
 import { askWhatIs } from '../state/questions';
 import * as store from '../state/store';
 import { engine } from '../worker/engine';
-import { leave } from './leaving';
 import { isSession, openSession } from './saving';
 import { open } from './study';
+import { leave } from './unsaved';
 
 /** Opens files. A volume replaces the open study; centerlines are added to it. */
 export function openFiles(files: readonly GivenFile[], first: SeriesWish = {}): Promise<void> {

@@ -1,10 +1,10 @@
 /** Saves and opens sessions. */
 
 import { batch, effect, untracked } from '@preact/signals';
-import type { Asked } from '../core/asked';
 import { CRASH, Failure } from '../core/failure';
 import { SESSION_FIELD } from '../core/generated/tables';
 import type {
+  Asked,
   Bytes,
   DocumentVessel,
   GivenFile,

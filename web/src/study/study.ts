@@ -4,7 +4,7 @@ import { batch } from '@preact/signals';
 import { Failure } from '../core/failure';
 import type { Report } from '../core/messages';
 import { middle } from '../core/vectors';
-import { addLoaded } from '../edit/files';
+import { addLoaded } from '../edit/branches';
 import { placeCrossHair } from '../state/cross-hair';
 import { document_, hasEdits } from '../state/history';
 import { forgetLines } from '../state/lines';

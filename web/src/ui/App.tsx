@@ -1,15 +1,12 @@
 /** The root component of the page. */
-
 import { report } from '../state/store';
 import { DropZone } from './DropZone';
-import { FileQuestion } from './FileQuestion';
 import { Guide } from './Guide';
 import { Help } from './Help';
-import { KeptQuestion } from './KeptQuestion';
 import { Layout } from './Layout';
-import { LeaveQuestion } from './LeaveQuestion';
 import { Messages } from './Messages';
 import { PacsQuestion } from './PacsQuestion';
+import { FileQuestion, KeptQuestion, LeaveQuestion } from './Questions';
 import { StartPage } from './StartPage';
 import { StatusBar } from './StatusBar';
 import { Toolbar } from './Toolbar';

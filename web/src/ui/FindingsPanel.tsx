@@ -3,17 +3,17 @@ import { useEffect, useState } from 'preact/hooks';
 import type { Sentence } from '../core/messages';
 import { type Finding, hiddenFindings, listedFindings } from '../measure/findings';
 import { mm, unitless } from '../measure/words';
-import { attempt } from '../output/by-key';
 import { copyPicture, copyWords } from '../output/copying';
 import { keyImage, keyPicture } from '../output/key-image';
 import { askForPacs } from '../output/pacs';
 import { saveReport } from '../output/report';
+import { attempt } from '../output/save-actions';
 import { showBestView, toggleLayout } from '../state/actions';
 import { moveTo } from '../state/cross-hair';
 import { findingSentences, leaveOut, leftOut } from '../state/measuring';
 import { profiles, stopped } from '../state/profiles';
 import * as store from '../state/store';
-import { ScanNamed } from './ScanNamed';
+import { ScanNamed } from './SaveMenu';
 
 export function FindingsPanel() {
   const findings = listedFindings.value;

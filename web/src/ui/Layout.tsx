@@ -3,12 +3,19 @@ import type { ComponentChildren } from 'preact';
 import { useMeasuring } from '../measure/asking';
 import { ProfilePane } from '../measure/ProfilePane';
 import { columns, rows, toggleMaximised } from '../state/panels';
-import { reformationTitle } from '../state/reformation';
+import {
+  chooseReformation,
+  REFORMATIONS,
+  type ReformationKind,
+  reformationKind,
+  reformationTitle,
+} from '../state/reformation';
 import { layout, maximised, type Layout as Name, type ViewName } from '../state/store';
+import { CprView } from '../views/CprView';
+import { ReformedView } from '../views/ReformedView';
 import { SectionView } from '../views/SectionView';
 import { SliceView } from '../views/SliceView';
 import { TurningView } from '../views/TurningView';
-import { VesselPane } from '../views/VesselPane';
 import { Divider } from './Divider';
 import { FindingsPanel } from './FindingsPanel';
 import { LooksBar } from './LooksBar';
@@ -102,5 +109,33 @@ function Pane({ name, isHidden, children }: PaneProps) {
         {isAlone ? '⤡' : '⤢'}
       </button>
     </section>
+  );
+}
+
+/** Shows the picked vessel as straightened CPR or in another reformation. */
+function VesselPane() {
+  const kind = reformationKind.value;
+  return (
+    <>
+      {kind === 'cpr' ? <CprView /> : <ReformedView key={kind} kind={kind} />}
+      <ReformationChoice />
+    </>
+  );
+}
+
+function ReformationChoice() {
+  return (
+    <select
+      class="reformation-choice"
+      aria-label="Reformation"
+      value={reformationKind.value}
+      onChange={(event) => chooseReformation(event.currentTarget.value as ReformationKind)}
+    >
+      {REFORMATIONS.map(([kind, words]) => (
+        <option key={kind} value={kind}>
+          {words}
+        </option>
+      ))}
+    </select>
   );
 }

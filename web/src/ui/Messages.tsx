@@ -3,7 +3,7 @@
 import { CRASH, type Failure } from '../core/failure';
 import { findAndList } from '../edit/branches';
 import { performAny } from '../edit/performing';
-import { saveSession } from '../output/session';
+import { saveSession } from '../output/save-actions';
 import { editQueue } from '../state/edit-queue';
 import { message, showFailure } from '../state/message';
 import { closeProblem, problem, progress } from '../state/store';

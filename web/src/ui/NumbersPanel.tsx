@@ -2,7 +2,7 @@
 
 import { currentProfile, currentVessel } from '../measure/current';
 import { PlacesTable } from '../measure/PlacesTable';
-import { RulersPart } from '../measure/RulersPart';
+import { RulersPart } from '../measure/Rulers';
 import { StretchPart } from '../measure/StretchPart';
 import { mm, unitless } from '../measure/words';
 import { moveTo } from '../state/cross-hair';

@@ -1,7 +1,7 @@
 /** Asks in which study the objects of "Save for PACS" belong. */
 import { useRef } from 'preact/hooks';
-import { attempt } from '../output/by-key';
 import { askAboutFile, type PacsStudy, savePacs } from '../output/pacs';
+import { attempt } from '../output/save-actions';
 import { type ChosenFile, chooseFile, chosenFile, isPacsAsked, setPacsAsked } from '../state/questions';
 import { scanStudy } from '../state/store';
 

@@ -2,16 +2,14 @@
 import { SAVED_CENTERLINES } from '../core/generated/tables';
 import { currentProfile } from '../measure/current';
 import { listedFindings } from '../measure/findings';
-import { attempt } from '../output/by-key';
 import { askForPacs } from '../output/pacs';
 import { savePng } from '../output/pictures';
 import { saveReport } from '../output/report';
-import { hasCenterlines, saveCenterlines, saveSession } from '../output/session';
+import { attempt, hasCenterlines, saveCenterlines, saveSession } from '../output/save-actions';
 import { saveNumbers } from '../output/tables';
 import { saveFilm, savePictures } from '../output/turntable';
-import { isKeeping, setKeeping } from '../state/questions';
+import { isKeeping, isScanNamed, setKeeping, setScanNamed } from '../state/questions';
 import { keepWithin, useClosing } from './closing-menu';
-import { ScanNamed } from './ScanNamed';
 
 export function SaveMenu() {
   const isMeasured = currentProfile.value !== null;
@@ -84,5 +82,19 @@ function Report() {
       <Choice words="Report (HTML)" save={saveReport} />
       <ScanNamed />
     </>
+  );
+}
+
+/** Checkbox that decides whether reports contain the name of the scan. */
+export function ScanNamed() {
+  return (
+    <label class="with-name">
+      <input
+        type="checkbox"
+        checked={isScanNamed.value}
+        onChange={(event) => setScanNamed(event.currentTarget.checked)}
+      />
+      include the name of the scan
+    </label>
   );
 }

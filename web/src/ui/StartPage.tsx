@@ -2,7 +2,7 @@
 
 import { started } from '../state/store';
 import { openPhantom } from '../study/study';
-import { startGuide } from './guide-steps';
+import { startGuide } from './Guide';
 import { OpenButtons } from './OpenButtons';
 
 const PHANTOMS: readonly (readonly [string, string])[] = [

@@ -1,11 +1,11 @@
 /** Status bar: position and value at the cross-hair, window, and compute device. */
 
+import type { Vector } from '../core/messages';
 import { nameOf } from '../state/changes';
 import { hasMillimetres } from '../state/millimetres';
 import { openAgain } from '../state/opened';
 import { tree } from '../state/shown';
 import * as store from '../state/store';
-import { positionText } from '../views/position';
 import { useClosing } from './closing-menu';
 
 export function StatusBar() {
@@ -99,4 +99,20 @@ function Notes() {
       </ul>
     </details>
   );
+}
+
+const NAMES = [
+  ['L', 'R'],
+  ['P', 'A'],
+  ['S', 'I'],
+] as const;
+
+/** A position such as `R 17.6 P 35.3 S 12.1` (mm); with x, y and z if the orientation is unknown. */
+export function positionText(point: Vector, isOriented = true): string {
+  if (!isOriented) {
+    return point.map((part, axis) => `${'xyz'[axis]} ${part.toFixed(1)}`).join(' ');
+  }
+  return point
+    .map((part, axis) => `${NAMES[axis]?.[part >= 0 ? 0 : 1]} ${Math.abs(part).toFixed(1)}`)
+    .join(' ');
 }

@@ -4,8 +4,8 @@ import { STENOSIS_METHODS } from '../core/method-names';
 import { currentMarks, currentPlaces } from '../measure/current';
 import { changeMarks, confirmAll } from '../measure/editing';
 import { notGradedWords, stenosisWords, withKnownUnits } from '../measure/words';
-import { attempt } from '../output/by-key';
 import { saveReport } from '../output/report';
+import { attempt } from '../output/save-actions';
 import type { VesselMarks } from '../state/document';
 import { answers } from '../state/measuring';
 

@@ -2,15 +2,16 @@
 
 import { performAny } from '../edit/performing';
 import { perform, showLayout } from '../state/actions';
+import { redoWords, undoWords } from '../state/history';
 import { isListOpen } from '../state/panels';
 import * as store from '../state/store';
-import { leave } from '../study/leaving';
+import { hasVolume } from '../state/store';
 import { close } from '../study/study';
+import { leave } from '../study/unsaved';
 import { ModeButtons } from './ModeButtons';
 import { OpenMore } from './OpenButtons';
 import { ResearchMenu } from './ResearchMenu';
 import { SaveMenu } from './SaveMenu';
-import { UndoButtons } from './UndoButtons';
 import { WindowStrip } from './WindowStrip';
 
 const LAYOUT_NAMES: Readonly<Record<store.Layout, string>> = {
@@ -75,4 +76,33 @@ function ListButton() {
       Vessels
     </button>
   ) : null;
+}
+
+function UndoButtons() {
+  if (!hasVolume.value) {
+    return null;
+  }
+  const [back, forth] = [undoWords.value, redoWords.value];
+  return (
+    <span class="undo">
+      <button
+        type="button"
+        aria-label="Undo"
+        disabled={back === null}
+        title={back ? `Undo: ${back} (Ctrl+z)` : 'Nothing to undo'}
+        onClick={() => performAny('undo')}
+      >
+        ↶
+      </button>
+      <button
+        type="button"
+        aria-label="Redo"
+        disabled={forth === null}
+        title={forth ? `Redo: ${forth} (Ctrl+Shift+z)` : 'Nothing to redo'}
+        onClick={() => performAny('redo')}
+      >
+        ↷
+      </button>
+    </span>
+  );
 }

@@ -1,18 +1,19 @@
 /** The vessel list, with buttons for all vessels. */
 
+import { SAVED_CENTERLINES } from '../core/generated/tables';
 import { findVessels } from '../edit/branches';
 import { STOPPER, setBridge } from '../edit/clicks';
 import { performAny } from '../edit/performing';
-import { isTreeShown, listedVessels } from '../edit/vessel-order';
 import { namesToOffer, remove } from '../edit/vessels';
+import { attempt, hasCenterlines, saveCenterlines } from '../output/save-actions';
 import { doubtful } from '../state/changes';
 import { document_ } from '../state/history';
 import { hasMillimetres } from '../state/millimetres';
 import { isListOpen, toggleList } from '../state/panels';
-import { chooseTree } from '../state/tidying';
+import { chooseTree, isTreeShown, listedVessels } from '../state/tidying';
 import { isTracing, toggleTool } from '../state/tool';
-import { CenterlineFiles } from './CenterlineFiles';
 import { DoubtfulPart } from './DoubtfulPart';
+import { OpenMore } from './OpenButtons';
 import { TidyPart } from './TidyPart';
 import { NAMES_TO_OFFER, VesselRow } from './VesselRow';
 
@@ -107,6 +108,25 @@ function AddButtons() {
         />
         Bridge gaps without lumen
       </label>
+    </div>
+  );
+}
+
+function CenterlineFiles() {
+  return (
+    <div class="buttons">
+      {SAVED_CENTERLINES.map((kind) => (
+        <button
+          key={kind}
+          type="button"
+          disabled={!hasCenterlines()}
+          title="All vessels in the list except the doubtful ones"
+          onClick={() => attempt(() => saveCenterlines(kind))}
+        >
+          {`Save .${kind}`}
+        </button>
+      ))}
+      <OpenMore words="Open centerlines" />
     </div>
   );
 }

@@ -1,8 +1,6 @@
 /** A row of the vessel list. The row of the picked vessel has buttons for it. */
-
 import { useEffect, useRef, useState } from 'preact/hooks';
 import type { DocumentVessel } from '../core/messages';
-import { isTreeShown } from '../edit/vessel-order';
 import { cut, hide, join, recolor, remove, rename } from '../edit/vessels';
 import { nameOf, PALETTE } from '../state/changes';
 import { placeCrossHair } from '../state/cross-hair';
@@ -12,7 +10,7 @@ import { lengthOf } from '../state/lines';
 import { hasMillimetres } from '../state/millimetres';
 import { pickedId, pickOnceShown, tree } from '../state/shown';
 import { pickedPlace, report } from '../state/store';
-import { endHighlight, factsOf, highlight, marked, sure } from '../state/tidying';
+import { endHighlight, factsOf, highlight, isTreeShown, marked, sure } from '../state/tidying';
 import { extend, takeTool } from '../state/tool';
 import { engine } from '../worker/engine';
 import { BestViewButton } from './BestViewButton';

@@ -3,7 +3,7 @@
 import { performAny } from '../edit/performing';
 import { type Action, actionOfKey } from '../input/bindings';
 import { focusSoon } from '../input/focus';
-import { saveByKey } from '../output/by-key';
+import { saveByKey } from '../output/save-actions';
 import { layout } from '../state/store';
 import { isTracing } from '../state/tool';
 

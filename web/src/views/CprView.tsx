@@ -3,7 +3,7 @@
 import { useCallback, useState } from 'preact/hooks';
 import { DEFAULTS, PIXEL_SIDES } from '../core/generated/tables';
 import type { Cpr, Pair } from '../core/messages';
-import { UprightPlaces } from '../measure/UprightPlaces';
+import { UprightPlaces } from '../measure/PlaceHandles';
 import { CprControls } from '../pane/CprControls';
 import { FlatPicture } from '../pane/FlatPicture';
 import { dragWindow, windowBack } from '../state/actions';

@@ -1,8 +1,11 @@
 /** Orientation letters at the edges of a view, and its scale bar. */
-import type { Pair, PictureLabels, Vector } from '../core/messages';
+
+import { useEffect, useRef, useState } from 'preact/hooks';
+import { Latest } from '../core/latest';
+import type { LaidPicture, Pair, PictureLabels, Vector } from '../core/messages';
 import { hasMillimetres } from '../state/millimetres';
 import { states } from '../state/store';
-import { useLabels } from './labels';
+import { engine } from '../worker/engine';
 
 interface EdgeLabelsProps {
   readonly right: Vector;
@@ -42,4 +45,28 @@ function Bar({ bar: { words, pixels } }: { readonly bar: NonNullable<PictureLabe
       </text>
     </svg>
   );
+}
+
+/** Labels of a picture; until they arrive, those of the previous picture. */
+function useLabels(picture: LaidPicture): PictureLabels | null {
+  const [labels, setLabels] = useState<PictureLabels | null>(null);
+  const latest = useRef(new Latest());
+  const isThere = useRef(true);
+  const text = JSON.stringify(picture);
+  useEffect(
+    () => () => {
+      isThere.current = false;
+    },
+    [],
+  );
+  useEffect(() => {
+    latest.current.run(async () => {
+      // After an error, show no labels rather than those of another view.
+      const found = await engine.ask('labels', JSON.parse(text) as LaidPicture).catch(() => null);
+      if (isThere.current) {
+        setLabels(found);
+      }
+    });
+  }, [text]);
+  return labels;
 }

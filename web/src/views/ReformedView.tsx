@@ -3,8 +3,8 @@
 import { useCallback, useEffect, useRef, useState } from 'preact/hooks';
 import { Failure } from '../core/failure';
 import type { Pair, Picture, Reformation, ReformedPicture, Side } from '../core/messages';
-import { attempt } from '../output/by-key';
 import { savePane } from '../output/pane-picture';
+import { attempt } from '../output/save-actions';
 import { FlatPicture } from '../pane/FlatPicture';
 import { ReformationControls } from '../pane/ReformationControls';
 import { dragWindow, windowBack } from '../state/actions';

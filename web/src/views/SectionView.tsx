@@ -1,8 +1,7 @@
 /** Cross-section of the picked vessel. */
 
 import { useEffect, useState } from 'preact/hooks';
-import type { Answer } from '../core/asked';
-import type { LineId, Pair, Plane } from '../core/messages';
+import type { Answer, LineId, Pair, Plane } from '../core/messages';
 import { pixelOn, pointOn } from '../core/planes';
 import { currentProfile } from '../measure/current';
 import { SliceMeasures } from '../measure/MeasureOverlay';

@@ -1,9 +1,8 @@
 /** Sends requests from the worker to the engine. Requests and answers are JSON; bytes are passed separately. */
 import { transfer } from 'comlink';
-import type { Answer, Attachments, Message, OnProgress, Question } from '../core/asked';
 import { Failure } from '../core/failure';
 import { TURNS } from '../core/generated/questions';
-import type { Bytes, Edit } from '../core/messages';
+import type { Answer, Attachments, Bytes, Edit, Message, OnProgress, Question } from '../core/messages';
 import { Engine } from '../core/module';
 import type { KindOf } from '../io/kinds';
 

@@ -1,11 +1,24 @@
 /** The connection of the page to the worker: the one `engine` that all parts of the page ask. Its methods throw `Failure`. */
 import { proxy, type Remote, transfer, wrap } from 'comlink';
-import type { Answer, Asked, Attachments, Message, OnProgress, Question } from '../core/asked';
 import { Failure } from '../core/failure';
 import { type PlaceDoubt, TURNS } from '../core/generated/questions';
-import type { Drawn, GivenFile, Report, SeriesWish, Started, States, View } from '../core/messages';
+import type {
+  Answer,
+  Asked,
+  Attachments,
+  Drawn,
+  GivenFile,
+  Message,
+  OnProgress,
+  Question,
+  Report,
+  ScanStudy,
+  SeriesWish,
+  Started,
+  States,
+  View,
+} from '../core/messages';
 import { Precedence } from '../core/precedence';
-import type { ScanStudy } from '../core/scan-study';
 import type { EngineHost } from './host';
 
 /** Addresses of the files to load, on the same origin as the page. */

@@ -1,10 +1,30 @@
 /** The interface of the worker for the page. Errors are passed as the text of `Failure`. */
 import { transfer } from 'comlink';
-import type { Attachments, Message, OnProgress, Question } from '../core/asked';
 import { CRASH, Failure } from '../core/failure';
 import type { PlaceDoubt } from '../core/generated/questions';
-import type { Drawn, GivenFile, Picture, Report, SeriesWish, Started, View } from '../core/messages';
-import { Engine, loadJudge, loadModule, loadPackedVolumes, loadVolumes, memorySize } from '../core/module';
+import type {
+  Attachments,
+  Drawn,
+  GivenFile,
+  Message,
+  OnProgress,
+  Picture,
+  Question,
+  Report,
+  SeriesWish,
+  Started,
+  View,
+} from '../core/messages';
+import {
+  Engine,
+  loadJudge,
+  loadModule,
+  loadPackedVolumes,
+  loadVolumes,
+  memorySize,
+  type Shared,
+  useThreads,
+} from '../core/module';
 import { ALL_OF_IT } from '../io/dicom/wanted';
 import { EverySecond } from '../io/every-second';
 import { among, BlobSource } from '../io/source';
@@ -13,7 +33,6 @@ import { ask, askAtOnce, isAtOnce, kindOf, moved, refuseStopped } from './answer
 import { type Fetched, fetchStudy } from './fetching';
 import { askWithFiles } from './masks';
 import { type LoadContext, Replacing } from './replacing';
-import { startThreads } from './threads';
 
 const COARSER = 'only every second voxel along each axis was loaded; measurements are less accurate';
 
@@ -229,4 +248,30 @@ export class Queue {
     this.last = next.catch(() => undefined);
     return next;
   }
+}
+
+/** Most threads; more would not help, because memory bandwidth limits rendering. */
+const MAX_THREADS = 16;
+
+export const THREAD = 'thread';
+
+/** Starts one thread per logical core; returns their number. */
+async function startThreads(shared: Shared): Promise<number> {
+  const count = Math.min(navigator.hardwareConcurrency || 1, MAX_THREADS);
+  if (!self.crossOriginIsolated || count < 2) {
+    return 1;
+  }
+  await Promise.all(Array.from({ length: count }, () => startThread(shared)));
+  useThreads(count);
+  return count;
+}
+
+function startThread(shared: Shared): Promise<void> {
+  // Threads use the same file as this worker, so that it is loaded and compiled only once.
+  const worker = new Worker(self.location.href, { type: 'module', name: THREAD });
+  return new Promise((resolve, reject) => {
+    worker.onmessage = () => resolve();
+    worker.onerror = (event) => reject(new Error(event.message || 'a worker did not start'));
+    worker.postMessage(shared);
+  });
 }

@@ -1,7 +1,7 @@
 /** Reads a vessel mask of the open scan, and traces its vessels. */
-import type { Answer, Attachments, Message, Question } from '../core/asked';
+
 import { Failure } from '../core/failure';
-import type { AfterEdit, GivenFile } from '../core/messages';
+import type { AfterEdit, Answer, Attachments, GivenFile, Message, Question } from '../core/messages';
 import { type Engine, loadJudge, loadPackedVolumes, loadVolumes } from '../core/module';
 import { ALL_OF_IT } from '../io/dicom/wanted';
 import { among, BlobSource } from '../io/source';

@@ -11,7 +11,7 @@ use crate::scene::SharedVolume;
 use crate::settings::{Settings, SilhouetteRule, SlabMode};
 use crate::stages::composite::{CompositeParameters, Layers, composite, layer};
 use crate::stages::context::{SurfaceImages, Surroundings, context, starts};
-use crate::stages::depth::{CutSurface, DepthImages, depth};
+use crate::stages::depth::{CutSurface, DepthImages, Sheet, depth};
 use crate::stages::depth_filter::{DepthFilterParameters, depth_filter};
 use crate::stages::distance::distance;
 use crate::stages::focus::{FocusParameters, Shares, focus};
@@ -234,4 +234,31 @@ impl<'a> Lines<'a> {
 
 fn has_rays(start: &[f32]) -> bool {
     start.iter().any(|start| *start < NONE)
+}
+
+/// Images of a cut surface that no frame has.
+#[derive(Clone, Debug)]
+pub struct SurfaceDetails {
+    /// Slopes, radius and blend in each pixel.
+    pub sheet: Vec<Sheet>,
+    /// Bits that mark depth jumps ([`crate::stages::leap`]).
+    pub leap: Vec<u32>,
+    /// The strength of the silhouettes, 0 to 1.
+    pub strength: Vec<f32>,
+}
+
+impl SurfaceDetails {
+    pub(super) const WANTED: ImageSet = ImageSet::of(&[Image::Sheet, Image::Leap]);
+
+    pub(super) fn of(pass: &CutSurfacePass) -> Result<Self> {
+        let (settings, mut images) = (pass.settings, Images::default());
+        for stage in Stage::of_cut_surface(settings, Self::WANTED) {
+            pass.run(stage, &mut images)?;
+        }
+        let Images { unfiltered_depth, depth, vessel, leap, sheet, .. } = images;
+        let depth = if depth.is_empty() { unfiltered_depth } else { depth };
+        let lines = Lines { depth: &depth, vessel: &vessel, leap: &leap, value: &[] };
+        let strength = lines.strength(&pass.work, settings, pass.surface.camera())?;
+        Ok(Self { sheet, leap, strength })
+    }
 }

@@ -7,7 +7,6 @@
 
 mod projected;
 mod roll;
-mod row;
 mod sections;
 mod straightened;
 mod stretched;
@@ -20,10 +19,9 @@ use glam::{DVec2, DVec3};
 
 use self::projected::Projected;
 pub use self::roll::{Roll, Side};
-use self::row::Row;
 pub use self::straightened::Straightened;
 use self::stretched::Stretched;
-use self::surface::Surface;
+use self::surface::{Row, Surface};
 pub use self::view::View;
 use super::layout::{Layout, by_rows, checked_size, curved_by_rows, whole_pixels};
 use crate::camera::MAX_PIXEL_SPACING;

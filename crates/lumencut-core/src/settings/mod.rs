@@ -6,7 +6,6 @@ mod context;
 mod field;
 mod focus;
 mod looks;
-mod paper;
 mod rules;
 mod setting;
 mod slab;

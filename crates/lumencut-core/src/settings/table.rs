@@ -1,4 +1,5 @@
-//! The table of settings: the source of checks, the Python class, command-line options and documents.
+//! The table of settings: the source of checks, the Python class, command-line options and documents; and the
+//! settings that select the paper's rules.
 
 use super::context::{Context, ContextFrom, ContextName};
 use super::field::Field;
@@ -185,4 +186,31 @@ settings! {
 fn unknown(name: &str) -> Error {
     let known: Vec<_> = table().map(|setting| setting.name).collect();
     Error::new(ErrorKind::Settings, "name of a setting", format!("'{name}'"), known.join(", "))
+}
+
+impl Settings {
+    /// The paper's rules, with the defaults of all other settings.
+    pub fn paper() -> Self {
+        Self {
+            lumen_first: false,
+            lumen_margin: 0.0,
+            level_choice: LevelChoice::Nearest,
+            zone_filter: false,
+            silhouette_rule: SilhouetteRule::Gradient,
+            silhouette_reach: None,
+            ..Self::default()
+        }
+    }
+
+    /// The settings in which [`Settings::paper`] differs from the defaults, with the paper's values.
+    pub fn paper_values() -> Vec<(&'static str, Value)> {
+        let defaults = Self::default().values();
+        Self::paper()
+            .values()
+            .into_iter()
+            .zip(defaults)
+            .filter(|(paper, own)| paper != own)
+            .map(|(paper, _)| paper)
+            .collect()
+    }
 }

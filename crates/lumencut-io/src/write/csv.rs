@@ -1,8 +1,9 @@
-//! Writes tables (`.csv`) with one row per point.
+//! Writes tables (`.csv`) with one row per point. Spreadsheets show their cells but do not execute them.
 
-use super::{check_all, confidences, marked_cell};
+use super::{check_all, confidences};
 use crate::centerlines::Line;
 use crate::error::{Error, Result};
+use std::borrow::Cow;
 
 /// Writes a `.csv` of vessels (mm, LPS) with the columns `line` (from 0), `name`, `l (mm)`, `p (mm)`, `s (mm)`,
 /// `radius (mm)` and `confidence`. Name, radius and confidence exist only if any vessel has them. Names that look
@@ -46,4 +47,37 @@ pub fn write_csv(vessels: &[Line]) -> Result<Vec<u8>> {
 fn quoted(field: &str) -> String {
     let plain = field.trim() == field && !field.contains([',', ';', '"']);
     if plain { field.to_owned() } else { format!("\"{}\"", field.replace('"', "\"\"")) }
+}
+
+/// Characters with which a formula starts.
+const FORMULA: [char; 6] = ['=', '+', '-', '@', '\t', '\r'];
+
+/// The text of a cell. If it looks like a formula but is not a number, an apostrophe is put in front. If text
+/// begins with apostrophes before a formula, it gets one more, so that reading can restore it.
+pub fn marked_cell(text: &str) -> Cow<'_, str> {
+    if text.trim_start_matches('\'').starts_with(FORMULA) && !is_number(text) {
+        return Cow::Owned(format!("'{text}"));
+    }
+    Cow::Borrowed(text)
+}
+
+fn is_number(text: &str) -> bool {
+    text.chars().all(|c| c.is_ascii_digit() || "+-.eE".contains(c)) && text.parse::<f64>().is_ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_text_that_begins_as_a_formula_is_marked() {
+        for text in [
+            "=1+1", "+1+1", "-1-", "@SUM(1)", "\t=1", "\r=1", "-", "--1", "+e5", "'=1", "''@", "-inf", "+nan",
+        ] {
+            assert_eq!(marked_cell(text), format!("'{text}"));
+        }
+        for text in ["", "LAD", "-1", "+.5", "-2.5e-3", "-3.", "1=1", "'LAD", "'", " =1"] {
+            assert_eq!(marked_cell(text), text);
+        }
+    }
 }

@@ -3,15 +3,13 @@
 //! The first three formats carry the mark `LumencutVessels`, so that this crate does not join their lines again.
 //! Groups are not written.
 
-mod cell;
 mod csv;
 pub(crate) mod mrk_json;
 mod swc;
 mod vtk;
 mod vtp;
 
-pub use cell::marked_cell;
-pub use csv::write_csv;
+pub use csv::{marked_cell, write_csv};
 pub use mrk_json::write_mrk_json;
 pub use swc::write_swc;
 pub use vtk::write_vtk;

@@ -6,7 +6,6 @@ pub mod level_change;
 pub(crate) mod lumen_model;
 pub mod on_ray;
 pub mod own_axis;
-pub(crate) mod ray;
 pub mod refine;
 pub mod seen;
 pub mod surroundings;

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::study::failure::{Failure, Result};
 use crate::study::open_study::Picture;
-use crate::study::reformed::ReformedPicture;
+use crate::study::reformations::ReformedPicture;
 use crate::study::tracing::Watch;
 
 /// When a viewer with only one thread answers a question.

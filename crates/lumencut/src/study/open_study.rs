@@ -22,7 +22,7 @@ use crate::study::histogram::Histogram;
 use crate::study::lines::Lines;
 use crate::study::planes::Plane;
 use crate::study::profiles::Profiles;
-use crate::study::reformed::Reformed;
+use crate::study::reformations::Reformed;
 use crate::study::straightened::Laid;
 use crate::study::view::{CameraMessage, View, ViewMessage};
 

@@ -1,4 +1,5 @@
-//! Reformations other than the straightened CPR: how the page requests them, and their layout in a pane.
+//! Reformations other than the straightened CPR: how the page requests them, their layout in a pane, and the last one
+//! that a study rendered.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -16,7 +17,7 @@ use lumencut_core::stop::Stop;
 use lumencut_core::vessel_tree::{Vessel, VesselTree};
 use lumencut_core::volume::Volume;
 use lumencut_vessels::measure::section::known_radius;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::axes_words::Axes;
 use crate::defaults::{BAND_END, BAND_START, PIXEL_SIDES};
@@ -24,7 +25,7 @@ use crate::lumen_map::{MapRequest, lumen_map};
 use crate::lumen_wall::FoundWall;
 use crate::spiral_lengths::{Room, spiral_pitch, spiral_reach};
 use crate::study::failure::{Failure, Result};
-use crate::uncurling::fitted_uncurling;
+use crate::views::fitted_uncurling;
 
 /// The range of distances beyond the wall that a map samples (mm).
 pub(crate) const BAND: [f64; 2] = [BAND_START.default, BAND_END.default];
@@ -197,4 +198,34 @@ pub(crate) fn head_up() -> View {
 fn filling(extent: DVec2, size: [usize; 2]) -> f64 {
     let [width, height] = size.map(|side| side.saturating_sub(2).max(1) as f64);
     (extent.x / width).max(extent.y / height).max(PIXEL_SIDES[0])
+}
+
+#[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub(crate) struct ReformedPicture {
+    /// Columns and rows.
+    pub size: [usize; 2],
+    /// One byte per channel.
+    #[cfg_attr(test, ts(type = "Bytes"))]
+    pub bytes: Vec<u8>,
+    /// What rows, columns and colours mean.
+    pub words: String,
+    /// Pixel side (mm).
+    pub pixel_spacing: f64,
+    pub(crate) marks: Vec<Mark>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub(crate) struct Mark {
+    pub words: String,
+    pub pixel: [f64; 2],
+}
+
+pub(crate) struct Reformed {
+    pub(super) message: ReformationMessage,
+    pub(super) size: [usize; 2],
+    pub(super) laid: Laid,
+    /// The value of each pixel: a value of the volume, or a length (mm); NaN if the pixel is empty.
+    pub(super) value: Vec<f32>,
 }

@@ -19,9 +19,9 @@ use crate::study::held_volume::no_volume;
 use crate::study::open_study::{Study, shown_flat};
 use crate::study::picking::Pick;
 use crate::study::reformations::{
-    BAND, Laid, MapOf, ReformationMessage, head_up, map, spiral, uncurl, untangled,
+    BAND, Laid, MapOf, Mark, ReformationMessage, Reformed, ReformedPicture, head_up, map, spiral, uncurl,
+    untangled,
 };
-use crate::study::reformed::{Mark, Reformed, ReformedPicture};
 use crate::value_colours::{Colours, coloured, scale_end};
 
 impl Study {

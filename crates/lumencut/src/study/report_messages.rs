@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value as Json};
 
 use crate::profile_json::Asked;
-use crate::report::section_room::PAGE_PIXELS;
+use crate::report::pictures::PAGE_PIXELS;
 use crate::report::{
     Lengths, Plan, ReportMark, Sentence, Shown, Stated, Strip, VesselPage, View, distances, html, plan,
     sentences,

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
+import os
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
+from lumencut.base.paths import write_text
 from lumencut.dicom.web.address import Address
 from lumencut.dicom.web.client import Client
 from lumencut.dicom.web.multipart import written
@@ -183,3 +187,31 @@ def _found(client: Client, address: Address, objects: Sequence[Outgoing]) -> set
             continue
         found.update(one.uid for one in listed)
     return found
+
+
+def is_known(base: str) -> bool:
+    """Return whether this user has pushed to an address before; the first push needs a confirmation."""
+    return base in _known()
+
+
+def remember(base: str) -> None:
+    """Remember an address; if that fails, the user is asked again."""
+    known = _known()
+    if base in known:
+        return
+    place = _place()
+    with contextlib.suppress(OSError):
+        place.parent.mkdir(parents=True, exist_ok=True)
+        write_text(place, "".join(f"{one}\n" for one in (*known, base)))
+
+
+def _place() -> Path:
+    state = os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state"
+    return Path(state) / "lumencut" / "pushed-to.txt"
+
+
+def _known() -> list[str]:
+    try:
+        return _place().read_text("utf-8").splitlines()
+    except (OSError, UnicodeDecodeError):
+        return []

@@ -208,36 +208,8 @@ var gestures = (function(exports) {
 			PageUp: -page
 		}[key] ?? null;
 	}
-	// src/input/wheel.ts
-	/** Converts wheel movements to zooms, and to steps: one per mouse notch; trackpad movements add up. */
-	var Steps = class {
-		rest = 0;
-		/** The number of complete steps of a wheel event; the remainder is kept for the next event. */
-		ofWheel(event) {
-			const by = alongWheel(event);
-			const isInPixels = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL;
-			if (isInPixels && Math.abs(by) < GESTURES.notch_from) return this.ofPixels(by);
-			this.rest = 0;
-			const notches = Math.abs(by) / (isInPixels ? GESTURES.notch : GESTURES.notch_lines);
-			return Math.sign(by) * Math.max(1, Math.round(notches));
-		}
-		ofPixels(pixels) {
-			this.rest += pixels;
-			const steps = Math.trunc(this.rest / GESTURES.scroll_step);
-			this.rest -= steps * GESTURES.scroll_step;
-			return steps;
-		}
-	};
-	/** The movement of the wheel; with Shift, browsers report it as horizontal. */
-	var alongWheel = ({ deltaX, deltaY, shiftKey }) => shiftKey && deltaY === 0 ? deltaX : deltaY;
-	/** Zoom of a wheel event; trackpads send many small ones. */
-	function zoomOfWheel(event) {
-		const { wheel_line: line, most_wheel: most, zoom_per_wheel: part } = GESTURES;
-		const pixels = alongWheel(event) * (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? line : 1);
-		return Math.exp(-Math.max(-most, Math.min(most, pixels)) * part);
-	}
 	// src/input/pointer.ts
-	/** Gestures of mouse, pen and touch. A press becomes a drag after some pixels; otherwise it is a click. */
+	/** Gestures of mouse, wheel, pen and touch. A press becomes a drag after some pixels; otherwise it is a click. */
 	function listen(element, where, handlers) {
 		const gestures = new Pointers$1(element, where, handlers);
 		const stop = new AbortController();
@@ -420,6 +392,33 @@ var gestures = (function(exports) {
 			if (steps !== 0) this.handlers.scroll(steps);
 		}
 	};
+	/** Converts wheel movements to steps: one per mouse notch; trackpad movements add up. */
+	var Steps = class {
+		rest = 0;
+		/** The number of complete steps of a wheel event; the remainder is kept for the next event. */
+		ofWheel(event) {
+			const by = alongWheel(event);
+			const isInPixels = event.deltaMode === WheelEvent.DOM_DELTA_PIXEL;
+			if (isInPixels && Math.abs(by) < GESTURES.notch_from) return this.ofPixels(by);
+			this.rest = 0;
+			const notches = Math.abs(by) / (isInPixels ? GESTURES.notch : GESTURES.notch_lines);
+			return Math.sign(by) * Math.max(1, Math.round(notches));
+		}
+		ofPixels(pixels) {
+			this.rest += pixels;
+			const steps = Math.trunc(this.rest / GESTURES.scroll_step);
+			this.rest -= steps * GESTURES.scroll_step;
+			return steps;
+		}
+	};
+	/** The movement of the wheel; with Shift, browsers report it as horizontal. */
+	var alongWheel = ({ deltaX, deltaY, shiftKey }) => shiftKey && deltaY === 0 ? deltaX : deltaY;
+	/** Zoom of a wheel event; trackpads send many small ones. */
+	function zoomOfWheel(event) {
+		const { wheel_line: line, most_wheel: most, zoom_per_wheel: part } = GESTURES;
+		const pixels = alongWheel(event) * (event.deltaMode === WheelEvent.DOM_DELTA_LINE ? line : 1);
+		return Math.exp(-Math.max(-most, Math.min(most, pixels)) * part);
+	}
 	// src/notebook/pointers.ts
 	var DRAGS = {
 		rotate: "rotate",

@@ -1,11 +1,9 @@
 /** Reads the header of a DICOM file: the record for `lumencut-dicom`, and where and how the pixels are stored. */
 import { Failure } from '../../core/failure';
-import type { Source } from '../source';
-import { fileName } from '../source';
+import { fileName, type Source } from '../source';
 import { damaged, printable } from '../words';
 import { TAGS } from './attributes';
-import { type Parsed, type PixelElement, parsed } from './parsing';
-import { isDicom } from './recognising';
+import { isDicom, type Parsed, type PixelElement, parsed } from './parsing';
 import type { HeaderRecord, Recorder } from './records';
 import { bytesIn, textsOf } from './values';
 

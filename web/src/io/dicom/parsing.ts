@@ -4,7 +4,6 @@ import { Part } from '../inflating';
 import type { Bytes } from '../source';
 import { formatFailure } from '../words';
 import { TAGS } from './attributes';
-import { lettersAt, PREAMBLE } from './recognising';
 
 export const SYNTAXES = {
   implicit: '1.2.840.10008.1.2',
@@ -155,4 +154,16 @@ function inflatedFrom(path: string, bytes: Bytes, start: number): Bytes {
     at += piece.length;
   }
   return whole;
+}
+
+const PREAMBLE = 132;
+
+/** Whether a file that starts with these bytes is DICOM, with a preamble or without. */
+export function isDicom(head: Uint8Array): boolean {
+  const isBare = (head[0] === 8 || head[0] === 2) && head[1] === 0 && head[3] === 0;
+  return lettersAt(head, 128, 4) === 'DICM' || isBare;
+}
+
+function lettersAt(bytes: Uint8Array, at: number, count: number): string {
+  return String.fromCharCode(...bytes.subarray(at, at + count));
 }

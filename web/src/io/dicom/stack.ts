@@ -15,7 +15,6 @@ import { begin, type Sink } from '../volume-file';
 import type { ExaminedFile } from './headers';
 import type { Plan, PlannedSlice } from './judging';
 import { PixelReader } from './pixels';
-import { isIntegral, isScaled, type Scaling, scaled } from './rescale';
 
 type Range = readonly [number, number];
 
@@ -166,4 +165,27 @@ function toEven(value: number): number {
   const low = Math.floor(value);
   const above = value - low;
   return above > 0.5 || (above === 0.5 && low % 2 !== 0) ? low + 1 : low;
+}
+
+interface Scaling {
+  readonly slope: number;
+  readonly intercept: number;
+}
+
+function isScaled({ slope, intercept }: Scaling): boolean {
+  return slope !== 1 || intercept !== 0;
+}
+
+/** Whether integers stay integers under slope and intercept. */
+function isIntegral({ slope, intercept }: Scaling): boolean {
+  return Number.isInteger(slope) && Number.isInteger(intercept);
+}
+
+/** Scales numbers with 64-bit precision, and converts them to another type. */
+export function scaled(numbers: Numbers, { slope, intercept }: Scaling, kind: Kind): Numbers {
+  const result = new ARRAYS[kind as 'float64'](numbers.length);
+  for (let i = 0; i < numbers.length; i += 1) {
+    result[i] = Number(numbers[i]) * slope + intercept;
+  }
+  return result;
 }

@@ -4,8 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use super::row::{Anchor, Row, Run};
-use super::surface::{Surface, one_row};
+use super::surface::{Anchor, Row, Run, Surface, one_row};
 use super::view::Axes;
 use crate::error::Result;
 use crate::math::centerline_path::CenterlinePath;

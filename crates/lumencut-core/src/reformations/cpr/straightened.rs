@@ -5,9 +5,8 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use super::roll::Roll;
-use super::row::{Anchor, Row, Run};
 use super::sections::{Section, Sections};
-use super::surface::{Surface, comes_first};
+use super::surface::{Anchor, Row, Run, Surface, comes_first};
 use super::view::{PARALLEL, View, unit};
 use crate::error::{Error, ErrorKind, Result};
 use crate::math::centerline_path::CenterlinePath;

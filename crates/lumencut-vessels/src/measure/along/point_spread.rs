@@ -4,7 +4,7 @@ use glam::{DMat3, DVec3};
 use rayon::prelude::*;
 
 use crate::measure::estimation::Level;
-use crate::measure::estimation::golden::least;
+use crate::measure::estimation::least;
 use crate::measure::fit::Fit;
 use crate::measure::fit::sections::{Bench, Known, noise};
 use crate::measure::section::SectionPlane;

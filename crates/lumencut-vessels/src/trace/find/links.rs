@@ -8,7 +8,6 @@ pub(crate) mod groups;
 pub(crate) mod landings;
 pub(crate) mod link;
 pub(crate) mod sides;
-pub(crate) mod way_level;
 
 use rayon::prelude::*;
 

@@ -7,7 +7,7 @@ use crate::defaults::{PIXEL_SIDES, QUANTITIES};
 use crate::drags::GESTURES;
 use crate::file_kinds::{Role, centerline_files, extensions, saved_by_the_page, volume_files};
 use crate::report::chart::DEVIATIONS;
-use crate::report::section_room::PAGE_PIXELS;
+use crate::report::pictures::PAGE_PIXELS;
 use crate::study::palette::PALETTE;
 use crate::vessel_names::{NamedVessel, VESSEL_NAMES};
 

@@ -9,7 +9,7 @@ use crate::trace::find::quantiles::{median, quantile};
 use crate::trace::find::scan::Scan;
 use crate::trace::find::section::{TOUCHED, across};
 use crate::trace::find::track::TrackPoint;
-use crate::trace::lumen::ray::Ray;
+use crate::trace::lumen::cross_section::Ray;
 
 /// Number of rays. It is even, because two opposite rays form a diameter.
 const RAYS: usize = 24;

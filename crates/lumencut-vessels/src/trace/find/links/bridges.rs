@@ -5,8 +5,7 @@ use rayon::prelude::*;
 
 use crate::trace::find::links::ends::End;
 use crate::trace::find::links::groups::Groups;
-use crate::trace::find::links::link::Link;
-use crate::trace::find::links::way_level::{WayEnd, lowest_level};
+use crate::trace::find::links::link::{Link, WayEnd, lowest_level};
 use crate::trace::find::point_grid::PointGrid;
 use crate::trace::find::scan::Scan;
 use crate::trace::find::track::Track;

@@ -1,8 +1,7 @@
 //! Points of other tracks to which an end may be linked, the cheapest first.
 
 use crate::trace::find::links::ends::{End, may_link};
-use crate::trace::find::links::link::Link;
-use crate::trace::find::links::way_level::{WayEnd, lowest_level};
+use crate::trace::find::links::link::{Link, WayEnd, lowest_level};
 use crate::trace::find::point_grid::PointGrid;
 use crate::trace::find::scan::Scan;
 use crate::trace::find::track::{Track, TrackPoint};

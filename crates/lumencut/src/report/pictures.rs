@@ -1,9 +1,41 @@
-//! The size of section pictures.
+//! Decides which pictures a report needs from its caller, and the size of its section pictures.
 
-use lumencut_core::math::statistics::quantile;
 use lumencut_vessels::measure::profile::Profile;
+use serde::Serialize;
 
 use super::chart::longest_diameters;
+use super::frame::{StripLayout, axis_along};
+use super::places::{ReportMark, ReportPlace, places};
+use super::plot::{STRIP, WIDTH};
+use lumencut_core::math::statistics::quantile;
+
+const PIXELS_PER_PLOT_PIXEL: f64 = 1.6;
+
+/// The pictures of a vessel.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS), ts(rename = "ReportPlan"))]
+pub struct Plan {
+    /// The width of the straightened vessel (mm); the picture is narrower if the volume is.
+    pub width: f64,
+    /// Pixel side of the straightened vessel (mm).
+    pub spacing: f64,
+    /// The places of the section pictures, in order.
+    pub places: Vec<ReportPlace>,
+    /// Pixel side of the section pictures (mm).
+    pub section_spacing: f64,
+}
+
+/// Plans the pictures of a vessel with these marks; section pictures have this many pixels on each side.
+pub fn plan(profile: &Profile, marks: &[ReportMark], section_pixels: usize) -> Plan {
+    let x = axis_along(profile.length(), WIDTH);
+    let strip = StripLayout::along(&x, STRIP, PIXELS_PER_PLOT_PIXEL, section_side(profile));
+    Plan {
+        width: strip.width,
+        spacing: strip.spacing,
+        places: places(marks),
+        section_spacing: section_spacing(profile, section_pixels),
+    }
+}
 
 /// The side of a section picture: a multiple of the lumen diameter, within bounds (mm), or a default without diameters.
 const SECTION_DIAMETERS: f64 = 2.5;
@@ -33,5 +65,5 @@ pub fn section_spacing(profile: &Profile, pixels: usize) -> f64 {
 }
 
 #[cfg(test)]
-#[path = "../tests/report_section_room.rs"]
+#[path = "../tests/report_pictures.rs"]
 mod tests;

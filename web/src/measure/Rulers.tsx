@@ -1,4 +1,4 @@
-/** Draws the rulers over a picture: those with both ends visible, and the one being drawn. */
+/** The rulers: over a picture those with both ends visible and the one being drawn, and the list of their lengths. */
 import { useLayoutEffect, useRef } from 'preact/hooks';
 import { Latest } from '../core/latest';
 import type { Pair, Vector } from '../core/messages';
@@ -16,6 +16,7 @@ import {
   removeRuler,
   rulerLength,
   setRulerPoint,
+  toggleRuler,
 } from '../state/rulers';
 import { tool } from '../state/tool';
 import { mm } from './words';
@@ -150,4 +151,35 @@ function listenToClicks(pane: HTMLElement, pointAt: (pixel: Pair) => Promise<Vec
     { signal: stop.signal },
   );
   return () => stop.abort();
+}
+
+export function RulersPart() {
+  const isDrawing = tool.value === 'ruler';
+  return (
+    <section aria-label="Distances">
+      <h3>Distances</h3>
+      {document_.value.rulers.map((ruler, number) => (
+        <div key={`ruler ${number}`} class="place-row" data-testid="ruler">
+          <strong>{`distance ${number + 1}`}</strong>
+          <span>{mm(rulerLength(ruler), 1)}</span>
+          <button
+            type="button"
+            class="small"
+            aria-label={`Remove distance ${number + 1}`}
+            onClick={() => removeRuler(number)}
+          >
+            ×
+          </button>
+        </div>
+      ))}
+      <button type="button" aria-pressed={isDrawing} onClick={toggleRuler}>
+        Ruler
+      </button>
+      {isDrawing && (
+        <span>
+          {firstEnd.value ? ' Click the second point.' : ' Click two points in a slice or on the vessels.'}
+        </span>
+      )}
+    </section>
+  );
 }
