@@ -27,6 +27,7 @@ def any_threads():
 LARGE = (1500, 1400)
 
 
+@pytest.mark.usefixtures("any_threads")
 @pytest.mark.parametrize(
     ("settings", "size"),
     [
@@ -38,6 +39,7 @@ LARGE = (1500, 1400)
 )
 def test_progress_grows_to_its_total(made, settings, size):
     told = []
+    lumencut.set_threads(1)
     renderer = Renderer(made.volume, made.tree, "cpu")
     camera = Camera.anterior(made.tree, size)
     frame = renderer.render(camera, settings, progress=lambda *parts: told.append(parts))
