@@ -12,6 +12,8 @@ const docs = process.env.LUMENCUT_DOCS_SITE;
 
 /** Slow tests that rarely fail: run only by `npm run check-long`. */
 const LONG = /@long/;
+/** Tests that would repeat the same on the GPU. */
+const CPU_ONLY = /@cpu/;
 const isLong = Boolean(process.env.LUMENCUT_LONG);
 
 process.env.LUMENCUT_E2E_PORT ??= freePort();
@@ -68,6 +70,7 @@ export default defineConfig({
     {
       name: 'gpu',
       testMatch: ['gpu.spec.ts', 'native.spec.ts'],
+      grepInvert: isLong ? CPU_ONLY : [CPU_ONLY, LONG],
       use: {
         launchOptions: launch([...plain, ...gpu]),
         viewport: { width: 480, height: 400 },

@@ -78,8 +78,8 @@ interface Labelled {
   readonly pixels: number;
 }
 
-test('letters and scale bar equal those of the Python package', async ({ browser }, { project }) => {
-  test.skip(project.name === 'gpu', 'letters and scale bar do not depend on the device');
+// They do not depend on the device.
+test('letters and scale bar equal those of the Python package', { tag: '@cpu' }, async ({ browser }) => {
   const { size, views } = JSON.parse(readFileSync(file('labels.json'), 'utf-8')) as {
     size: readonly [number, number];
     views: readonly Labelled[];

@@ -5,7 +5,7 @@ import { Latest } from '../core/latest';
 import type { Pick, Vector } from '../core/messages';
 import { engine } from '../worker/engine';
 import { recover } from './device';
-import { crossHair, pickedPlace, pickedVessel, report, type ViewName } from './store';
+import { crossHair, pickedPlace, pickedVessel, putCrossHair, report, type ViewName } from './store';
 
 /** Places the cross-hair. If a vessel lies at that point, it is picked. */
 export function placeCrossHair(pick: Pick, from: ViewName): void {
@@ -19,6 +19,25 @@ export function placeCrossHair(pick: Pick, from: ViewName): void {
     if (pick.vessel !== null && from !== 'section') {
       pickedVessel.value = pick.vessel;
       pickedPlace.value = pick.arc_length ?? pickedPlace.value;
+    }
+  });
+}
+
+const moving = new Latest();
+/** Number of movements by `moveCrossHair`, which answers to earlier requests must not undo. */
+let moves = 0;
+
+/**
+ * Moves the cross-hair at once, so that a later movement is never undone by a late answer; the value there is requested
+ * afterwards.
+ */
+export function moveCrossHair(point: Vector, from: ViewName): void {
+  moves += 1;
+  putCrossHair(point);
+  moving.run(async () => {
+    const pick = await engine.ask('at', point);
+    if (crossHair.value?.point === point) {
+      placeCrossHair(pick, from);
     }
   });
 }
@@ -42,11 +61,12 @@ export function moveTo(place: number): void {
     return;
   }
   const study = report.value?.volume;
+  const before = moves;
   latest.run(async () => {
     try {
       const [center] = await engine.ask('across', { vessel, at: at });
       const pick = { ...(await engine.ask('at', center)), vessel, arc_length: at };
-      if (report.value?.volume === study) {
+      if (report.value?.volume === study && before === moves) {
         placeCrossHair(pick, 'section');
       }
     } catch (error) {
