@@ -42,9 +42,18 @@ export function moveCrossHair(point: Vector, from: ViewName): void {
   });
 }
 
+/** Places the cross-hair once the engine has answered, unless it has been moved meanwhile; null places nothing. */
+export async function placeAnswer(answer: Promise<Pick | null>, from: ViewName): Promise<void> {
+  const before = moves;
+  const pick = await answer;
+  if (pick && before === moves) {
+    placeCrossHair(pick, from);
+  }
+}
+
 export async function lookAt(point: Vector): Promise<void> {
   try {
-    placeCrossHair(await engine.ask('at', point), 'turning');
+    await placeAnswer(engine.ask('at', point), 'turning');
   } catch (error) {
     recover(error);
   }
