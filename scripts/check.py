@@ -28,7 +28,7 @@ CHECKS = ("--locked", "--profile", "checks")
 TOOLS = ("rust", "page", "debian")
 FUZZED = "crates/lumencut-io/fuzz/Cargo.toml"
 LEFT_OUT = ("MAKE", "MFLAGS", "PYTHONDONTWRITEBYTECODE")
-"""Commands cannot use the job slots of a `make`."""
+"""Commands cannot use the job slots of a `make`, and keep the bytecode that they compile."""
 BYTECODE = {"PYTHONPYCACHEPREFIX": str(ROOT / "target" / "bytecode")}
 """Tests start hundreds of processes, each of which would compile the modules that it imports."""
 PARALLEL = ("--numprocesses=2", "--dist=worksteal")

@@ -1,4 +1,4 @@
-/** Voxel streams as sent by `lumencut view`, complete and broken. */
+/** Voxel streams as sent by `lumencut view`: of a straight and a bent tube, complete and broken. */
 import type { Page } from '@playwright/test';
 
 export interface StreamParts {

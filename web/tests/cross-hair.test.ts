@@ -1,8 +1,8 @@
 import { expect, test } from 'vitest';
 import type { Pick, Vector } from '../src/core/messages';
-import { moveCrossHair, moveTo } from '../src/state/cross-hair';
+import { jumpTo, moveCrossHair, moveTo, placeAnswer } from '../src/state/cross-hair';
 import { crossHair, pickVessel } from '../src/state/store';
-import { connect } from '../src/worker/engine';
+import { connect, engine } from '../src/worker/engine';
 
 const [EARLIER, LATER]: [Vector, Vector] = [
   [1, 2, 3],
@@ -43,5 +43,16 @@ test('a late answer of the section does not undo a movement in a slice', async (
   moveCrossHair(LATER, 'axial');
   await answers[0]?.();
   await answers[2]?.();
+  expect(crossHair.value?.point).toEqual(LATER);
+});
+
+test('a late answer about a click does not undo a movement along the vessel', async () => {
+  const answers = slowEngine();
+  jumpTo(LATER);
+  pickVessel(0, 0);
+  const placed = placeAnswer(engine.ask('at', EARLIER), 'turning');
+  moveTo(0);
+  await answers[0]?.();
+  await placed;
   expect(crossHair.value?.point).toEqual(LATER);
 });

@@ -24,16 +24,23 @@ export function placeCrossHair(pick: Pick, from: ViewName): void {
 }
 
 const moving = new Latest();
-/** Number of movements by `moveCrossHair`, which answers to earlier requests must not undo. */
+/** Numbers of movements that answers to earlier requests must not undo: all, and those to a place off the vessel. */
 let moves = 0;
+let jumps = 0;
+
+/** Moves the cross-hair at once; its value is not known yet. */
+export function jumpTo(point: Vector): void {
+  moves += 1;
+  jumps += 1;
+  putCrossHair(point);
+}
 
 /**
  * Moves the cross-hair at once, so that a later movement is never undone by a late answer; the value there is requested
  * afterwards.
  */
 export function moveCrossHair(point: Vector, from: ViewName): void {
-  moves += 1;
-  putCrossHair(point);
+  jumpTo(point);
   moving.run(async () => {
     const pick = await engine.ask('at', point);
     if (crossHair.value?.point === point) {
@@ -70,12 +77,13 @@ export function moveTo(place: number): void {
     return;
   }
   const study = report.value?.volume;
-  const before = moves;
+  const before = jumps;
+  moves += 1;
   latest.run(async () => {
     try {
       const [center] = await engine.ask('across', { vessel, at: at });
       const pick = { ...(await engine.ask('at', center)), vessel, arc_length: at };
-      if (report.value?.volume === study && before === moves) {
+      if (report.value?.volume === study && before === jumps) {
         placeCrossHair(pick, 'section');
       }
     } catch (error) {
