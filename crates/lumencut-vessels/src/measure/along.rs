@@ -6,6 +6,7 @@ pub(crate) mod all_sections;
 pub(crate) mod assumed_spread;
 pub(crate) mod levels;
 pub(crate) mod point_spread;
+pub(crate) mod struts;
 
 use crate::measure::fit::sections::Section;
 use crate::measure::section::SectionPlane;

@@ -10,6 +10,7 @@ use crate::measure::along::all_sections::AllSections;
 use crate::measure::along::levels::lumen_levels;
 use crate::measure::along::assumed_spread::AssumedSpread;
 use crate::measure::along::point_spread::{MIN_WIDTH, SharpEdges, SpreadEstimate, estimated};
+use crate::measure::along::struts::flag_struts;
 use crate::measure::along::{flag_sharp_turns, sharpen};
 use crate::measure::beside::branches::{Lumen, meets};
 use crate::measure::estimation::Level;
@@ -266,6 +267,10 @@ impl PreparedVessel {
             return Err(no_lumen(&self.scale));
         }
         let blur = Blur::new(spread.fwhm, voxels.world_from_index.matrix3);
+        if is_hounsfield(voxels, &self.scale) {
+            let widths: Vec<f64> = self.places.iter().map(|place| blur.width(place)).collect();
+            flag_struts(&Rays { voxels, scale: self.scale }, &self.places, &widths, &mut sections);
+        }
         let variance: Vec<f64> =
             self.places.iter().map(|place| blur.along(place, thickness(voxels, place))).collect();
         sharpen(&mut sections, &self.arc_lengths(), &variance);
