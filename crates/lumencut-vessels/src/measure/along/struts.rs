@@ -21,8 +21,9 @@ const SMOOTHED: f64 = 2.5;
 const COMPARED: f64 = 9.0;
 const FLAGGED: f64 = 6.0;
 
-/// Maximum distance between sections (mm).
+/// Maximum distance between sections, and maximum voxel side (mm): larger voxels hide struts, and repeat themselves.
 const STEP: f64 = 0.6;
+const SIDE: f64 = 0.8;
 
 /// Struts lie just outside of the lumen (mm); the noise is read within it, at this fraction of the radius.
 const OUTSIDE: f64 = 0.05;
@@ -52,7 +53,8 @@ fn has_struts(rays: &Rays, places: &[SectionPlane], sections: &[Section]) -> Vec
     let none = vec![false; places.len()];
     let [Some(first), Some(last)] = [places.first(), places.last()] else { return none };
     let step = (last.at - first.at) / (places.len().max(2) - 1) as f64;
-    if rays.scale.contrast < 0.0 || step > STEP || step <= 0.0 {
+    let is_coarse = step > STEP || rays.voxels.sampling_side > SIDE;
+    if rays.scale.contrast < 0.0 || is_coarse || step <= 0.0 {
         return none;
     }
     let count = |mm: f64| (mm / step).round() as usize;
@@ -80,11 +82,7 @@ fn has_struts(rays: &Rays, places: &[SectionPlane], sections: &[Section]) -> Vec
 }
 
 /// Centre of each section, and the wall from it in each direction (mm): medians over neighbouring sections.
-fn walls(
-    places: &[SectionPlane],
-    sections: &[Section],
-    reach: usize,
-) -> Vec<Option<(DVec2, [DVec2; RAYS])>> {
+fn walls(places: &[SectionPlane], sections: &[Section], reach: usize) -> Vec<Option<(DVec2, [DVec2; RAYS])>> {
     let is_judged = |n: &usize| {
         let section = &sections[*n];
         section.flags & OTHER_RIM == 0 && section.contour.len() == RAYS && section.fit.is_some()
@@ -98,7 +96,8 @@ fn walls(
                 return None;
             }
             let centers = near.iter().filter_map(|m| Some(center(&places[*m], sections[*m].fit.as_ref()?)));
-            let [x, y, _] = places[n].coordinates(centers.sum::<DVec3>() / near.len() as f64 - places[n].origin);
+            let [x, y, _] =
+                places[n].coordinates(centers.sum::<DVec3>() / near.len() as f64 - places[n].origin);
             let own = center(&places[n], sections[n].fit.as_ref()?);
             let wall = std::array::from_fn(|ray| {
                 let length = |m: &usize| {

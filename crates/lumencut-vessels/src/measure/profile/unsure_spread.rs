@@ -29,8 +29,8 @@ impl PreparedVessel {
         let diameters = sections.iter().filter_map(|section| section.fit.as_ref().map(diameter));
         let middle = median(&mut diameters.collect::<Vec<f64>>()).unwrap_or(f64::INFINITY);
         // Walls depend on the point spread in vessels of any width, the level of the lumen only in narrow ones.
-        let depends = self.wall.is_some() || middle < MIN_WIDTH * spread.fwhm;
-        if !matches!(spread.source, Source::Assumed { .. }) || !depends {
+        let is_narrow = middle < MIN_WIDTH * spread.fwhm;
+        if !matches!(spread.source, Source::Assumed { .. }) || self.wall.is_none() && !is_narrow {
             return Ok(());
         }
         let limit = LIMIT * (spread.fwhm + spread.deviation);
@@ -39,7 +39,13 @@ impl PreparedVessel {
                 section.flags |= AT_LIMIT;
             }
         }
-        for sign in [-1.0, 1.0] {
+        let signs: &[f64] = match self.wall {
+            // In lung, a wider point spread is that of a thinner wall: `include_thin_walls` covers it.
+            Some(wall) if wall.is_in_lung => &[-1.0],
+            _ if is_narrow => &[-1.0, 1.0],
+            _ => &[1.0],
+        };
+        for &sign in signs {
             let other = match self.read(voxels, [spread.fwhm + sign * spread.deviation, 0.0], None, stop) {
                 Ok(other) => other,
                 Err(error) if error.kind == ErrorKind::Interrupted => return Err(error),

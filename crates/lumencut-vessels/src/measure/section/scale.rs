@@ -12,7 +12,7 @@ const DIRECTIONS: usize = 16;
 const MOST_PLACES: usize = 150;
 
 /// A distance counts if at least this fraction of its points lies within the volume: its corners alone may hold bone.
-const LEAST_INSIDE: f64 = 0.25;
+const LEAST_INSIDE: f64 = 1.0 / 3.0;
 
 /// Search radius (mm) for a vessel whose radius is unknown.
 const SEARCH_RADIUS_MM: f64 = 30.0;
