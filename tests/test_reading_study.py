@@ -9,30 +9,21 @@ import pytest
 from click.testing import CliRunner
 
 import lumencut
-from lumencut import Camera, FileError, FormatError, Renderer, Vessel, VesselTree, VesselTreeError, Volume
+from lumencut import Camera, FileError, FormatError, Renderer, VesselTree, VesselTreeError
 from lumencut.cli import main
 from lumencut.evaluation.reading_study import make_study, study_results
 from lumencut.evaluation.reading_study.marked_places import pairs
 from lumencut.evaluation.reading_study.questions import METHODS, TASKS, questions_of
 from lumencut.evaluation.reading_study.statistics import Counts, agreement, holm, interval, sign_test
 from lumencut.files.volume_writers import write_volume
+from reading_study_scene import PLACES, two_tubes
 
 READERS = 12
-#: Where the tubes of the scene are (x and y, mm).
-PLACES = ((-20.0, -24.0), (20.0, 24.0))
-SHIFT = np.array([[1.0, 0, 0, -32], [0, 1, 0, -32], [0, 0, 1, -32], [0, 0, 0, 1]])
 
 
 @pytest.fixture(scope="module")
 def scene():
-    """Two vertical tubes of 3 mm radius, apart from each other in the views with tasks."""
-    _, y, x = np.mgrid[-32:33, -32:33, -32:33].astype(float)
-    inside = np.any([np.hypot(x - a, y - b) < 3 for a, b in PLACES], axis=0)
-    volume = Volume(np.where(inside, 300, -100).astype(np.int16), world_from_index=SHIFT)
-    line = np.linspace(-28, 28, 57)
-    return volume, VesselTree(
-        [Vessel(np.stack([0 * line + a, 0 * line + b, line], axis=1), 3.0) for a, b in PLACES]
-    )
+    return two_tubes()
 
 
 @pytest.fixture(scope="module")
