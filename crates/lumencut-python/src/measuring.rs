@@ -106,6 +106,7 @@ impl Profile {
             ("wall_uncertainty", second(&profile.wall)),
             ("diameter_calcium_excluded", first(&profile.bounds)),
             ("diameter_calcium_included", second(&profile.bounds)),
+            ("diameter_at_most", array(&profile.at_most)),
             ("diameter_outer", first(&profile.diameter_outer)),
             ("diameter_outer_uncertainty", second(&profile.diameter_outer)),
         ]
