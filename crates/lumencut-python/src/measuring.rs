@@ -207,6 +207,11 @@ impl Profile {
         self.0.narrowest().map(pair)
     }
 
+    /// A throat that must be narrower than all measured places: arc length and the limit of its diameter (mm).
+    fn throat(&self) -> Option<(f64, f64)> {
+        self.0.throat().map(pair)
+    }
+
     /// The largest diameter: arc length and diameter (mm).
     fn widest(&self) -> Option<(f64, f64)> {
         self.0.widest().map(pair)

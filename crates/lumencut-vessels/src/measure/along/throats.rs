@@ -3,6 +3,7 @@
 
 use glam::DVec2;
 
+use super::levels::DIM;
 use crate::measure::fit::Fit;
 use crate::measure::fit::sections::{Bench, Section};
 use crate::measure::section::SectionPlane;
@@ -10,9 +11,6 @@ use crate::measure::section::blur::fwhm_of;
 use crate::measure::section::flags::{LEFT_OUT, NO_EDGE};
 use crate::measure::section::rays::{RAYS, direction};
 use lumencut_core::math::statistics::median;
-
-/// A lumen is dim below this fraction of the level of its neighbours.
-const DIM: f64 = 0.9;
 
 /// Sections up to this distance from a run (mm) give the level of the lumen on that side.
 const LEVEL_REACH_MM: f64 = 10.0;
@@ -47,23 +45,25 @@ struct Run {
 }
 
 impl Throats<'_, '_, '_> {
-    /// Sets [`Section::at_most`] where the lumen is dim, and flags sections that are wider than that.
+    /// Replaces sections that the peak of a dim lumen refutes by the diameter that it allows ([`Section::at_most`]).
     pub(crate) fn limit(&self, sections: &mut [Section]) {
         let clear: Vec<bool> = (0..sections.len()).map(|n| self.is_clear(n, &sections[n])).collect();
+        let mut limited = Vec::new();
         for run in self.runs(sections, &clear) {
             for n in run.from + 1..run.to {
                 let Some(most) = self.most(&run, sections, n) else { continue };
-                let section = &mut sections[n];
+                let section = &sections[n];
                 let is_sure = |fit: &Fit| {
                     fit.lumen[0] >= DIM * run.level && fit.ellipse.equivalent_diameter() <= most
                 };
-                if !section.fit.as_ref().is_some_and(is_sure) {
-                    section.flags |= NO_EDGE;
-                }
-                if section.flags & LEFT_OUT != 0 {
-                    section.at_most = most;
+                if section.flags & LEFT_OUT != 0 || !section.fit.as_ref().is_some_and(is_sure) {
+                    let flags = section.flags | NO_EDGE;
+                    limited.push((n, Section { flags, at_most: most, ..Section::none() }));
                 }
             }
+        }
+        for (n, section) in limited {
+            sections[n] = section;
         }
     }
 
@@ -95,13 +95,15 @@ impl Throats<'_, '_, '_> {
 
     /// Largest diameter (mm) that the values in section `n` of a run allow; None if the lumen there is not dim.
     fn most(&self, run: &Run, sections: &[Section], n: usize) -> Option<f64> {
-        let beside = self.bench.wall.map_or(0.0, |wall| wall.level[0]);
+        // Darker plaque and a wider point spread allow a wider lumen.
+        let beside = self.bench.wall.map_or(0.0, |wall| wall.level[0] - wall.level[1]);
+        let wider = self.bench.doubt.as_ref().and_then(|doubt| doubt.wider);
         let peak = self.peak(run, sections, n)? + self.noise;
         let share = (peak - beside) / (run.level - beside);
         if share >= DIM {
             return None;
         }
-        let width = fwhm_of(self.bench.blur.interpolated(&self.places[n]).determinant().sqrt());
+        let width = fwhm_of(wider.unwrap_or(self.bench.blur).interpolated(&self.places[n]).determinant().sqrt());
         Some(width * (-(1.0 - share).log2()).max(LEAST_WIDTH.powi(2)).sqrt())
     }
 
