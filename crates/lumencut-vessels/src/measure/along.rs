@@ -5,6 +5,7 @@
 pub(crate) mod all_sections;
 pub(crate) mod levels;
 pub(crate) mod point_spread;
+pub(crate) mod throats;
 
 use crate::measure::fit::sections::Section;
 use crate::measure::section::SectionPlane;

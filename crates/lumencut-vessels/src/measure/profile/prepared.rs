@@ -10,6 +10,7 @@ use super::{Profile, TreeFindings};
 use crate::measure::along::all_sections::AllSections;
 use crate::measure::along::levels::lumen_levels;
 use crate::measure::along::point_spread::{SpreadEstimate, estimated};
+use crate::measure::along::throats::Throats;
 use crate::measure::along::{flag_sharp_turns, sharpen};
 use crate::measure::beside::branches::{Lumen, meets};
 use crate::measure::estimation::Level;
@@ -257,6 +258,9 @@ impl PreparedVessel {
             self.places.iter().map(|place| bench.blur.along(place, thickness(voxels, place))).collect();
         sharpen(&mut sections, &self.arc_lengths(), &variance);
         flag_sharp_turns(&self.places, &mut sections);
+        let lumen = (0..self.places.len()).map(|n| all.lumen_near(n, every)).collect();
+        let throats = Throats { bench: &bench, places: &self.places, lumen, noise: all.noise };
+        throats.limit(&mut sections);
         let noise = all.noise * self.scale.contrast.abs();
         let profile = Profile::new(&self.places, &sections, &self.scale, noise, spread, wall_source);
         Ok(Profile { without_wall: self.part.left_out(&self.places), ..profile })
