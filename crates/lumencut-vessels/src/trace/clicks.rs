@@ -3,6 +3,7 @@
 pub mod checks;
 pub(crate) mod gaps;
 pub(crate) mod junctions;
+pub(crate) mod paths;
 pub mod preview;
 pub mod tracer;
 pub(crate) mod way;

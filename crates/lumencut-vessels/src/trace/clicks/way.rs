@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::trace::clicks::gaps::{Gap, Line};
-use crate::trace::ways::region::{FORBIDDEN, Region, THIN, WEAK};
+use crate::trace::ways::region::{FORBIDDEN, Region, THIN};
 use crate::voxels::Voxels;
 
 #[derive(Clone, Debug)]
@@ -17,10 +17,7 @@ pub(crate) struct Way {
 impl Way {
     pub(crate) fn of(voxels: &Voxels, region: &mut Region, steps: &[[i32; 3]]) -> Self {
         let points: Vec<DVec3> = steps.iter().map(|voxel| voxels.center(*voxel)).collect();
-        let codes: Vec<u8> = steps.iter().map(|voxel| region.code_of(voxels, *voxel)).collect();
-        let below =
-            |limit: f64| codes.iter().map(|code| *code >= region.code_below(limit)).collect::<Vec<_>>();
-        let weak = below(WEAK);
+        let weak: Vec<bool> = steps.iter().map(|voxel| region.is_weak(voxels, *voxel)).collect();
         let line = Line::new(voxels, &region.model, &points);
         let mut gaps = line.gaps(&weak);
         for gap in &mut gaps {
