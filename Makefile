@@ -51,6 +51,7 @@ test: ## Run every check; the last line is `N passed, N failed`.
 test-long: develop tools page platforms $(VENV)/.docs ## Run the tests that take minutes, and fuzz with a million inputs.
 	$(BIN)/python -m pytest --quiet --numprocesses=2 --dist=worksteal tests/long_*.py
 	$(BIN)/python -m pytest --quiet --numprocesses=2 --dist=worksteal --wide -m each_value
+	LUMENCUT_FUZZ_EXAMPLES=10 $(BIN)/python -m pytest --quiet --numprocesses=2 --dist=worksteal tests/test_*_fuzz.py
 	npm run check-long --silent --prefix web
 	$(MAKE_COMMAND) --no-print-directory --jobs=2 fuzz RUNS=70000
 

@@ -27,11 +27,13 @@ CHECKS = ("--locked", "--profile", "checks")
 """One profile for all, so shared crates compile once."""
 TOOLS = ("rust", "page", "debian")
 FUZZED = "crates/lumencut-io/fuzz/Cargo.toml"
-FUZZ_RUNS = 2000
-"""Inputs of libFuzzer of each format."""
+LEFT_OUT = ("MAKE", "MFLAGS", "PYTHONDONTWRITEBYTECODE")
+"""Commands cannot use the job slots of a `make`, and keep the bytecode that they compile."""
+BYTECODE = {"PYTHONPYCACHEPREFIX": str(ROOT / "target" / "bytecode")}
+"""Tests start hundreds of processes, each of which would compile the modules that it imports."""
 PARALLEL = ("--numprocesses=2", "--dist=worksteal")
 """Most tests of a file run in one worker, which makes their scenes once; an idle worker takes tests over."""
-MAIN, PAGE, PYTHON, FUZZ = "main", "page", "python", "fuzzing"
+MAIN, PAGE, PYTHON = "main", "page", "python"
 """The lanes. Page and Rust use separate build folders."""
 
 
@@ -145,7 +147,7 @@ def rust_lints() -> list[Check]:
     lock = (*cargo, "update", "--workspace", "--locked", "--manifest-path", FUZZED)
     clippy = (*cargo, "clippy", *CHECKS, "--workspace", "--all-targets", "--", "-D", "warnings")
     return [
-        # Fuzzing runs last and has its own lock file, so that file is already checked here.
+        # Fuzzing belongs to the long tests and has its own lock file.
         Check("lock file of fuzzing", lock),
         Check("licence texts", (sys.executable, "scripts/licences.py", "--check")),
         Check("lint of Rust", clippy),
@@ -183,27 +185,20 @@ def test_checks(report: str) -> list[Check]:
             # Some tests compare the page with the package.
             needs=("size of the page", "package"),
         ),
-        Check(
-            "fuzzing",
-            ("nice", "-n", "19", "make", "--jobs=2", "fuzz", f"RUNS={FUZZ_RUNS}"),
-            lane=FUZZ,
-            needs=("tests of Rust",),
-        ),
     ]
 
 
 def run(check: Check) -> tuple[int, str]:
     """Run a command; return its exit status and output."""
     lines = []
-    # Commands cannot use the job slots of a `make` that runs this script.
-    inherited = {name: value for name, value in os.environ.items() if not name.startswith(("MAKE", "MFLAGS"))}
+    inherited = {name: value for name, value in os.environ.items() if not name.startswith(LEFT_OUT)}
     heading = f"\n== {check.name}: {' '.join(check.command)}\n"
     if check.lane == MAIN:
         print(heading, end="", flush=True)
     with subprocess.Popen(
         check.command,
         cwd=ROOT,
-        env=inherited | check.environment,
+        env=inherited | BYTECODE | check.environment,
         stdin=subprocess.DEVNULL,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,

@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from lumencut import Vessel, VesselTree, Volume
+from measure_scenes import means_of_parts
 
 Floats = npt.NDArray[np.float64]
 
@@ -77,14 +78,19 @@ class Scene:
             ((np.arange(n * p) + 0.5) / p - n / 2) * s + o
             for n, p, s, o in zip(size, parts, spacing, shift, strict=True)
         ]
-        z, y, x = np.meshgrid(axes[2], axes[1], axes[0], indexing="ij", sparse=True)
+        # What is the same along z is computed once.
+        is_even = not (self.bend or self.stenosis or self.patches)
+        along = axes[2][:1] if is_even else axes[2]
+        z, y, x = np.meshgrid(along, axes[1], axes[0], indexing="ij", sparse=True)
         values = self._sharp(x, y, z, draw)
+        values = np.array(np.broadcast_to(values, tuple(map(len, axes[::-1]))))
         # Air in a corner, as in every scan; so the values are recognised as CT.
         values[: 2 * parts[2], : parts[1], : parts[0]] = AIR
-        steps = spacing / parts
-        values = gaussian(values, self.fwhm / np.sqrt(8 * np.log(2)) / steps[::-1])
-        k, j, i = size[::-1]
-        means = values.reshape(k, parts[2], j, parts[1], i, parts[0]).mean(axis=(1, 3, 5))
+        sigma = self.fwhm / np.sqrt(8 * np.log(2)) / (spacing / parts)
+        # Along z first: the means of voxels leave fewer values to blur along the other axes.
+        means = means_of_parts(values, 0, sigma[2], parts[2])
+        means = means_of_parts(means, 1, sigma[1], parts[1])
+        means = means_of_parts(means, 2, sigma[0], parts[0])
         means += self.noise * correlated(draw, means.shape, self.kernel)
         affine = np.diag([*spacing, 1.0])
         affine[:3, 3] = -(size - 1) / 2 * spacing + shift

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import csv
 import os
+import signal
 import subprocess
 import sys
 import time
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from unittest import mock
@@ -16,6 +18,8 @@ import numpy as np
 from click.testing import CliRunner
 
 from lumencut.cli import main
+from lumencut.cohort import engine
+from lumencut.cohort.nursery import Nursery
 from scene_files import write_lines, write_volume
 
 #: Code that each child process runs first: files with certain names make it crash or hang.
@@ -23,12 +27,13 @@ BROKEN_READING = """
 import os, sys, time
 def hook(event, arguments):
     if event == "open" and isinstance(arguments[0], (str, bytes, os.PathLike)):
-        name = os.path.basename(os.fspath(arguments[0]))
+        path = os.fsdecode(arguments[0])
+        name = os.path.basename(path)
         if name == "crashing.nii.gz":
             os.abort()
         if name == "hanging.nii.gz":
             time.sleep(1000)
-        if name == "sub-full_vessels.csv":
+        if name == "sub-full_vessels.csv" and not os.path.exists(path.partition(".lumencut")[0] + "room"):
             raise OSError(28, "No space left on device")
 sys.addaudithook(hook)
 """
@@ -72,10 +77,15 @@ def write_cohort(folder: Path, good: int = 7, bad: bool = True) -> Path:
     with (folder / "studies.csv").open("w", newline="", encoding="utf-8") as file:
         csv.writer(file).writerows(rows)
     (folder / "recipe.toml").write_text(RECIPE, encoding="utf-8")
+    write_site(folder)
+    return folder / "studies.csv"
+
+
+def write_site(folder: Path) -> None:
+    """Write what makes processes crash or hang that have `environment`."""
     site = folder / "site"
     site.mkdir()
     (site / "sitecustomize.py").write_text(BROKEN_READING, encoding="utf-8")
-    return folder / "studies.csv"
 
 
 def write_greedy(path: Path) -> None:
@@ -117,27 +127,61 @@ def run_here(*words: str) -> Ended:
     return Ended(ended.exit_code, ended.stdout, ended.stderr)
 
 
+class _KeptNursery(Nursery):
+    """Forks the studies of many batches, since its start takes a second."""
+
+    def close(self) -> None:
+        """Do nothing, as other batches follow."""
+
+
+_kept: list[Nursery] = []
+
+
+@contextmanager
+def kept_nursery(folder: Path):
+    """Let the batches of `run` share the process that forks studies."""
+    write_site(folder)
+    with mock.patch.dict(os.environ, environment(folder / "studies.csv")):
+        nursery = _KeptNursery()
+    _kept.append(nursery)
+    yield
+    _kept.remove(nursery)
+    Nursery.close(nursery)
+
+
+def any_nursery() -> Nursery:
+    """Return the shared process that forks studies, or a new one if a test does not use it."""
+    return _kept[0] if _kept else Nursery()
+
+
 def run(manifest: Path, out: Path, *words: str) -> Ended:
     """Run a batch to its end in this process; its studies have their own."""
-    with mock.patch.dict(os.environ, environment(manifest)):
+    with (
+        mock.patch.dict(os.environ, environment(manifest)),
+        mock.patch.object(engine, "Nursery", any_nursery),
+    ):
         return run_here(*command(manifest, out, *words)[3:])
 
 
-def run_apart(manifest: Path, out: Path, *words: str) -> subprocess.CompletedProcess[str]:
-    """Run a batch to its end in a process of its own."""
-    return subprocess.run(
-        command(manifest, out, *words),
-        env=environment(manifest),
-        capture_output=True,
-        text=True,
-        check=False,
-        timeout=300,
-    )
+@contextmanager
+def process(words, **options):
+    """Start a process; kill it and those it started when the context ends, also if the test fails."""
+    with subprocess.Popen(words, start_new_session=True, **options) as begun:
+        try:
+            yield begun
+        finally:
+            # A process that ended by itself has ended its own; its id may already be that of another.
+            if begun.poll() is None:
+                os.killpg(begun.pid, signal.SIGKILL)
+
+
+#: After this time a test counts as hanging (s).
+HANGS = 300
 
 
 def wait_for(is_so, process=None):
     """Wait until a condition holds, while a process works."""
-    end = time.monotonic() + 120
+    end = time.monotonic() + HANGS
     while not is_so():
         assert time.monotonic() < end, "it did not come"
         assert process is None or process.poll() is None

@@ -2,6 +2,7 @@
 
 import os
 import signal
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -65,11 +66,29 @@ def shared_data() -> Path:
 
 
 @pytest.fixture
+def one_decoder(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Start one process that decodes DICOM pixels; `test_dicom_decoding.py` tries several at once."""
+    monkeypatch.setattr("lumencut.dicom.reading.workers._MOST", 1)
+
+
+@pytest.fixture
 def interruptible() -> Iterator[None]:
     """Make Ctrl-C raise KeyboardInterrupt, even if the process that started the tests ignores it."""
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
     signal.signal(signal.SIGINT, before)
+
+
+@pytest.fixture(scope="session")
+def nursery(tmp_path_factory):
+    """One process that forks the studies of all batches of `cohort_scenes.run`; on Linux alone."""
+    from cohort_scenes import kept_nursery
+
+    if sys.platform != "linux":
+        yield
+        return
+    with kept_nursery(tmp_path_factory.mktemp("nursery")):
+        yield
 
 
 @pytest.fixture(scope="module")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import itertools
 
 import numpy as np
@@ -22,6 +23,7 @@ def heights(size: tuple[int, int]) -> tuple[int, int]:
     return words, round(words * 1.3)
 
 
+@functools.cache
 def shape_of(text: str, height: int) -> np.ndarray:
     """Return the brightness of a text, white on black, without the border around it."""
     font = ImageFont.load_default(height)

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from cohort_scenes import command, environment, run, table, wait_for, write_cohort
+from cohort_scenes import HANGS, command, environment, process, run, table, wait_for, write_cohort
 from test_cohort import children_end_with_their_parent, children_of, started
 
 pytestmark = pytest.mark.skipif(os.name != "posix", reason="processes are ended as POSIX does")
@@ -23,15 +23,9 @@ def workers(manifest):
     """Two workers: the address of their scheduler, and their processes."""
     script = Path(__file__).with_name("dask_workers.py")
     pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
-    with subprocess.Popen(
-        [sys.executable, str(script)], env=environment(manifest), text=True, **pipes
-    ) as process:
-        try:
-            address = process.stdout.readline().strip()
-            yield address, [int(word) for word in process.stdout.readline().split()]
-        finally:
-            process.stdin.close()
-            process.wait(60)
+    with process([sys.executable, str(script)], env=environment(manifest), text=True, **pipes) as cluster:
+        address = cluster.stdout.readline().strip()
+        yield address, [int(word) for word in cluster.stdout.readline().split()]
 
 
 @contextmanager
@@ -42,34 +36,25 @@ def scheduler(manifest, folder):
     quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL, "env": environment(manifest)}
     words = [sys.executable, "-m", "distributed.cli.dask_scheduler", "--host", "127.0.0.1", "--port", "0"]
     words += ["--no-dashboard", "--scheduler-file", str(place)]
-    with subprocess.Popen(words, **quiet) as process:
-        wait_for(lambda: place.is_file() and place.read_text("utf-8").endswith("}"), process)
+    with process(words, **quiet) as begun:
+        wait_for(lambda: place.is_file() and place.read_text("utf-8").endswith("}"), begun)
         words = [sys.executable, "-m", "distributed.cli.dask_worker", "--scheduler-file", str(place)]
         words += ["--nthreads", "1", "--no-nanny", "--no-dashboard", "--local-directory", str(folder)]
-        with subprocess.Popen(words, **quiet) as worker:
-            try:
-                yield process, json.loads(place.read_text("utf-8"))["address"]
-            finally:
-                # A worker that is asked to end would wait for its scheduler.
-                worker.kill()
-                process.kill()
+        with process(words, **quiet):
+            yield begun, json.loads(place.read_text("utf-8"))["address"]
 
 
 def lose_scheduler(manifest, out, moment, number=signal.SIGKILL):
     """Kill the scheduler of a batch at a certain moment; return the output of the batch."""
-    folder = manifest.parent
-    with scheduler(manifest, folder) as (process, address):
-        pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+    pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+    with scheduler(manifest, manifest.parent) as (lost, address):
         words = command(manifest, out, "--dask", address)
-        with subprocess.Popen(words, env=environment(manifest), **pipes) as batch:
-            try:
-                moment(batch)
-                process.send_signal(number)
-                _, told = batch.communicate(timeout=30)
-            finally:
-                batch.kill()
-        assert (batch.returncode, "Traceback" in told) == (1, False), told
-        assert address in told
+        with process(words, env=environment(manifest), **pipes) as batch:
+            moment(batch)
+            lost.send_signal(number)
+            _, told = batch.communicate(timeout=HANGS)
+    assert (batch.returncode, "Traceback" in told, "distributed" in told) == (1, False, False), told
+    assert told.splitlines()[-1].startswith(f"lumencut: error: dask {address}: found no answer, after ")
     return told
 
 
@@ -111,8 +96,8 @@ def test_a_batch_ends_without_its_scheduler_and_goes_on_when_run_again(cohort, t
 
 def test_a_scheduler_that_hangs_from_the_start_is_refused(tmp_path):
     manifest = write_cohort(tmp_path, good=1, bad=False)
-    with scheduler(manifest, tmp_path) as (process, address):
-        process.send_signal(signal.SIGSTOP)
+    with scheduler(manifest, tmp_path) as (hung, address):
+        hung.send_signal(signal.SIGSTOP)
         ended = run(manifest, tmp_path / "out", "--dask", address)
     assert ended.returncode == 1
     assert "expected the address of a scheduler that answers" in ended.stderr
@@ -127,10 +112,10 @@ def test_studies_end_when_their_batch_is_interrupted(tmp_path):
         pipes = {"stdout": subprocess.DEVNULL, "stderr": subprocess.PIPE, "text": True}
         told = {"preexec_fn": lambda: signal.signal(signal.SIGINT, signal.default_int_handler)}
         words = command(manifest, out, "--dask", address)
-        with subprocess.Popen(words, env=environment(manifest), **pipes, **told) as batch:
+        with process(words, env=environment(manifest), **pipes, **told) as batch:
             wait_for(lambda: list(out.glob(".lumencut/unfinished/*")), batch)
             batch.send_signal(signal.SIGINT)
-            batch.communicate(timeout=60)
+            batch.communicate(timeout=HANGS)
         assert batch.returncode == 130
         wait_for(lambda: not processes_of(out))
     assert [row["state"] for row in table(out / "studies.csv")] == ["skipped"]
@@ -154,7 +139,7 @@ def test_a_second_batch_into_one_folder_is_refused(tmp_path):
         assert "another batch" in refused.stderr
         # The lock of a dead process is taken over; here the study is too slow for the second batch as well.
         first.send_signal(signal.SIGKILL)
-        first.wait()
+        first.wait(HANGS)
         assert list(out.glob(".lumencut/lock-*"))
         taken = run(manifest, out, "--time-limit", "3s")
     assert "0 done, 1 failed; 1 of them now" in taken.stdout
@@ -174,5 +159,5 @@ def test_studies_are_begun_again_where_the_process_that_forks_them_is_lost(tmp_p
         wait_for(lambda: len(list(out.glob(".lumencut/unfinished/*"))) == 2, batch)
         (nursery,) = children_of(batch.pid)
         os.kill(nursery, signal.SIGKILL)
-        assert batch.wait(60) == 0
+        assert batch.wait(HANGS) == 0
     assert [row["state"] for row in table(out / "studies.csv")] == ["done"] * 3

@@ -48,12 +48,48 @@ class Grid:
             [affine[a, 0] * i + affine[a, 1] * j + affine[a, 2] * k + affine[a, 3] for a in range(3)]
         )
 
+    def axes(self, parts: int) -> list[Floats]:
+        """The positions of `points` along x, y and z, if the sides of the voxels lie along them."""
+        assert np.count_nonzero(self.sides) == 3
+        along = [(np.arange(n * parts) - (parts - 1) / 2) / parts for n in self.size]
+        shapes = ((1, 1, -1), (1, -1, 1), (-1, 1, 1))
+        return [
+            (self.affine[a, a] * along[a] + self.affine[a, 3]).reshape(shape)
+            for a, shape in enumerate(shapes)
+        ]
+
+    def means(self, values: Floats) -> Floats:
+        """The means over the voxels."""
+        k, j, i = self.size[::-1]
+        return values.reshape(k, PARTS, j, PARTS, i, PARTS).mean(axis=(1, 3, 5))
+
     def volume(self, values: Floats, seed: int, noise: float) -> Volume:
         """The means over the voxels with noise."""
-        k, j, i = self.size[::-1]
-        means = values.reshape(k, PARTS, j, PARTS, i, PARTS).mean(axis=(1, 3, 5))
-        means = means + np.random.default_rng(seed).normal(0, noise, means.shape)
-        return Volume(means.astype(np.float32), world_from_index=self.affine)
+        return self.noisy(self.means(values), seed, noise)
+
+    def scanned(self, values: Floats, seed: int, noise: float, fwhm: float = FWHM) -> Volume:
+        """The means over the voxels after a blur, with noise; for sides along x, y and z."""
+        for axis, side in enumerate(np.diag(self.sides)[::-1]):
+            values = means_of_parts(values, axis, fwhm / np.sqrt(8 * np.log(2)) * PARTS / side, PARTS)
+        return self.noisy(values, seed, noise)
+
+    def noisy(self, means: Floats, seed: int, noise: float) -> Volume:
+        """The voxels, or layers that are all alike, with noise."""
+        random = np.random.default_rng(seed)
+        voxels = means + random.normal(0, noise, self.size[::-1])
+        return Volume(voxels.astype(np.float32), world_from_index=self.affine)
+
+
+def means_of_parts(values: Floats, axis: int, sigma: float, parts: int) -> Floats:
+    """Means of equal parts along one axis, after a blur along it (samples)."""
+    margin, count = int(np.ceil(4 * sigma)), values.shape[axis]
+    step = np.arange(-margin, margin + 1)
+    bell = np.exp(-0.5 * (step / sigma) ** 2)
+    sample = np.arange(count)[:, None]
+    weights = np.zeros((count // parts, count))
+    places = (sample // parts + 0 * step, np.clip(sample + step, 0, count - 1))
+    np.add.at(weights, places, bell / bell.sum() / parts)
+    return np.moveaxis(np.tensordot(weights, values, (1, axis)), 0, axis)
 
 
 def blurred(values: Floats, steps: tuple[float, ...], fwhm: float) -> Floats:
@@ -116,13 +152,16 @@ class Tube:
     def volume(self, grid: Grid, seed: int = 0, noise: float = NOISE) -> Volume:
         """The vessel on a grid."""
         values, step, reach = self.section()
-        x, y = np.tensordot(self.axes()[:2], grid.points(PARTS), axes=1)
+        is_even = np.allclose(self.axes()[:2] @ grid.sides[:, 2], 0)
+        # Along the vessel all layers of voxels are alike.
+        layers = Grid(grid.sides, (*grid.size[:2], 1)) if is_even else grid
+        x, y = np.tensordot(self.axes()[:2], layers.points(PARTS), axes=1)
         i, j = (np.clip((c + reach) / step, 0, len(values) - 1.001) for c in (x, y))
         left, top = i.astype(int), j.astype(int)
         u, v = i - left, j - top
         upper = values[top, left] * (1 - u) + values[top, left + 1] * u
         lower = values[top + 1, left] * (1 - u) + values[top + 1, left + 1] * u
-        return grid.volume(upper * (1 - v) + lower * v, seed, noise)
+        return grid.noisy(layers.means(upper * (1 - v) + lower * v), seed, noise)
 
     def vessel(self, length: float, step: float = 0.5) -> Vessel:
         """Its centerline."""
@@ -140,24 +179,23 @@ def narrowed(
 ) -> tuple[Volume, Vessel]:
     """A vessel of 60 mm along z with a stenosis in its middle, in voxels of 0.4 mm."""
     grid = Grid.even((0.4, 0.4, 0.4), (diameter + 8, diameter + 8, 66.0))
-    x, y, z = grid.points(PARTS)
+    x, y, z = grid.axes(PARTS)
     away = np.minimum(np.abs(z - at) / (length / 2), 1)
     radius = diameter / 2 * (1 - percent / 100 * (0.5 + 0.5 * np.cos(np.pi * away)))
     step = 0.4 / PARTS
     share = np.clip(0.5 - (np.hypot(x, y) - radius) / step, 0, 1)
-    values = blurred(TISSUE + (LUMEN - TISSUE) * share, (step,) * 3, FWHM)
     z = np.linspace(-30, 30, 121)
-    return grid.volume(values, int(percent), NOISE), Vessel(np.stack([0 * z, 0 * z, z], axis=1))
+    scan = grid.scanned(TISSUE + (LUMEN - TISSUE) * share, int(percent), NOISE)
+    return scan, Vessel(np.stack([0 * z, 0 * z, z], axis=1))
 
 
 def bent(radius: float = 3.0, bend: float = 12.0) -> tuple[Volume, Vessel]:
     """A vessel along half of a circle, whose centerline jitters about its axis as traced ones do."""
     grid = Grid.even((0.5, 0.5, 0.5), (2 * bend + 14, 2 * radius + 6, 2 * bend + 14))
-    x, y, z = grid.points(PARTS)
+    x, y, z = grid.axes(PARTS)
     share = np.clip(0.5 - (np.hypot(np.hypot(x, z) - bend, y) - radius) * PARTS / 0.5, 0, 1)
-    values = blurred(TISSUE + (LUMEN - TISSUE) * share, (0.5 / PARTS,) * 3, FWHM)
     t = np.linspace(0, np.pi, 41)
     jitter = np.random.default_rng(5).normal(0, 0.15, (len(t), 2))
     away = bend + jitter[:, 0]
     points = np.stack([away * np.cos(t), jitter[:, 1], away * np.sin(t)], axis=1)
-    return grid.volume(values, 1, NOISE), Vessel(points)
+    return grid.scanned(TISSUE + (LUMEN - TISSUE) * share, 1, NOISE), Vessel(points)

@@ -1,7 +1,9 @@
-"""For the browser test of "Save for PACS": serves a built page, and reads the saved archive.
+"""For the browser test of "Save for PACS": serves a built page, and reads saved archives.
 
-python tests/pacs_page.py serve web/dist [scan]    prints a line of JSON, and serves until its input ends
-python tests/pacs_page.py read archive.zip         prints the content of an archive's objects as JSON
+python tests/pacs_page.py web/dist [scan]
+
+prints a line of JSON, and serves until its input ends. Each line of the input names an archive; what its
+objects contain is printed as a line of JSON.
 """
 
 from __future__ import annotations
@@ -29,7 +31,7 @@ from test_dicom_reports import child, code, groups, numbers
 
 
 def serve(page: Path, shows_scan: bool) -> None:
-    """Serve the page, empty or with the phantom and its vessel; print the address and the names of files."""
+    """Serve the page, empty or with the phantom and its vessel; print address, file names and archives."""
     tree = VesselTree([Vessel(LINE[0].points, 3.0, NAME)])
     scene = ArrivingScene(open_volume(series()), lambda _: tree) if shows_scan else None
     with tempfile.TemporaryDirectory() as folder, ViewerServer(Page.of(page), scene) as server:
@@ -43,7 +45,8 @@ def serve(page: Path, shows_scan: bool) -> None:
         beside = {"lines": str(lines), "segmentation": str(tube), "contours": str(contours)}
         beside["other"] = str(other)
         print(json.dumps({"address": server.place.address, "files": files, **beside}), flush=True)
-        sys.stdin.read()
+        for archive in sys.stdin:
+            print(json.dumps(read(Path(archive.strip()))), flush=True)
 
 
 def _write_other_patient(path: Path) -> None:
@@ -89,7 +92,4 @@ def _told(path: Path) -> dict[str, Any]:
 
 
 if __name__ == "__main__":
-    if sys.argv[1] == "serve":
-        serve(Path(sys.argv[2]), sys.argv[3:] == ["scan"])
-    else:
-        print(json.dumps(read(Path(sys.argv[2]))))
+    serve(Path(sys.argv[1]), sys.argv[2:] == ["scan"])

@@ -31,10 +31,16 @@ ASKED: dict[str, Any] = {
 
 
 @cache
+def profile(name: str | None) -> lumencut.Profile:
+    """The measured vessel of the phantom."""
+    return lumencut.measure(scan(), Vessel(LINE[0].points, 3.0, name))
+
+
+@cache
 def measured(marked: Marked = MARKED, name: str | None = NAME) -> MeasuredVessel:
     """The vessel of the phantom, with marks."""
     vessel = Vessel(LINE[0].points, 3.0, name)
-    return MeasuredVessel.of("0", vessel, lumencut.measure(scan(), vessel), marked)
+    return MeasuredVessel.of("0", vessel, profile(name), marked)
 
 
 @cache
@@ -48,6 +54,7 @@ def camera() -> Camera:
     return Camera.anterior(renderer().scene, (96, 64))
 
 
+@cache
 def frame() -> lumencut.Frame:
     """The picture as Python renders it."""
     return renderer().render(camera())

@@ -72,7 +72,12 @@ def slurm(home: Path) -> Iterator[dict[str, str]]:
     finally:
         for process in reversed(running):
             process.terminate()
-            process.wait(30)
+            try:
+                process.wait(30)
+            except subprocess.TimeoutExpired:
+                # The others must end too.
+                process.kill()
+                process.wait()
 
 
 def _free_ports() -> tuple[int, int]:

@@ -118,7 +118,10 @@ def steps(points: np.ndarray, radius: np.ndarray) -> set:
 
 
 def min_distances(points: np.ndarray, others: np.ndarray) -> np.ndarray:
-    return np.array([np.linalg.norm(others - p, axis=1).min() for p in points])
+    there = set(map(tuple, others.tolist()))
+    return np.array(
+        [0.0 if p in there else np.linalg.norm(others - p, axis=1).min() for p in map(tuple, points.tolist())]
+    )
 
 
 @needs_shared_data

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
+from conftest import each_value
 from lumencut.base.mends import as_option
 from lumencut.cli import main
 from lumencut.errors import FormatError, SpaceWarning
@@ -82,6 +83,7 @@ def is_true(tree: VesselTree, points: np.ndarray) -> bool:
     return np.allclose(tree[0].points, points, atol=1e-6)
 
 
+@each_value
 @pytest.mark.parametrize("is_bright", [False, True])
 @pytest.mark.parametrize("unit", ["um", "mm", "cm", "m"])
 @pytest.mark.parametrize("length", [20.0, 72.0, 300.0])

@@ -112,6 +112,13 @@ def test_a_red_check_stops_the_run(check, tmp_path, capfd):
     assert made.exists()
 
 
+def test_what_processes_compile_is_kept(check, capfd, monkeypatch):
+    monkeypatch.setenv("PYTHONDONTWRITEBYTECODE", "1")
+    code = "import sys; print('kept in', sys.pycache_prefix, sys.dont_write_bytecode)"
+    check.perform([check.Check("one", (sys.executable, "-c", code))])
+    assert f"kept in {ROOT / 'target/bytecode'} False" in capfd.readouterr().out
+
+
 def test_lanes_run_beside_each_other_and_wait_for_what_they_need(check, tmp_path, capfd):
     """Each of the first two checks waits for a file that the other one writes."""
     wait = (

@@ -34,6 +34,10 @@ def branches(tmp_path_factory):
     return write_volume_of(scene.volume, folder / "ct.nii.gz"), folder / "lines.vtp"
 
 
+#: Options of tests whose fact is neither the point spread nor the distance of sections; later words win.
+QUICK = ("--step", 2, "--fwhm", 0.9)
+
+
 def run(*words):
     return CliRunner().invoke(main, ["measure", *map(str, words)])
 
@@ -49,13 +53,13 @@ def test_the_names_are_those_of_the_library():
 
 
 def test_a_table_of_all_vessels(branches, tmp_path):
-    result = run(*branches, "-o", tmp_path / "all.csv")
+    result = run(*branches, "-o", tmp_path / "all.csv", *QUICK)
     assert (result.exit_code, result.stderr) == (0, "")
     rows = rows_of(tmp_path / "all.csv")
     tree = read_centerlines(branches[1])
     assert sorted({row["vessel"] for row in rows}) == ["0", "1", "2"]
     assert {row["name"] for row in rows} == {vessel.name or "" for vessel in tree}
-    profile = measure(read_volume(branches[0]), tree[1], tree=tree)
+    profile = measure(read_volume(branches[0]), tree[1], 2.0, 0.9, tree=tree)
     read = [float(row["area_mm2"] or "nan") for row in rows if row["vessel"] == "1"]
     np.testing.assert_allclose(read, profile.area, rtol=1e-6)
     assert "%" not in result.stdout
@@ -63,11 +67,11 @@ def test_a_table_of_all_vessels(branches, tmp_path):
 
 
 def test_vessels_are_chosen_by_id_name_and_path(branches, tmp_path):
-    result = run(*branches, "-o", tmp_path / "one.csv", "--vessel", 2, "--step", 2)
+    result = run(*branches, "-o", tmp_path / "one.csv", "--vessel", 2, *QUICK)
     assert result.exit_code == 0
     assert {row["vessel"] for row in rows_of(tmp_path / "one.csv")} == {"2"}
     tree = read_centerlines(branches[1])
-    result = run(*branches, "-o", tmp_path / "path.csv", "--path", "0,1", "--step", 2)
+    result = run(*branches, "-o", tmp_path / "path.csv", "--path", "0,1", *QUICK)
     assert result.exit_code == 0
     rows = rows_of(tmp_path / "path.csv")
     assert {row["vessel"] for row in rows} == {"0,1"}
@@ -87,7 +91,7 @@ def test_a_marked_stenosis_with_all_outputs(files, tmp_path):
     outputs = [word for name, file in names.items() for word in (name, tmp_path / file)]
     result = run(
         *(*files, "-o", tmp_path / "p.csv", "-o", tmp_path / "p.json", *outputs),
-        *("--at", 30, "--reference", "10,50", "--group", "carotid"),
+        *("--at", 30, "--reference", "10,50", "--group", "carotid", "--step", 2),
     )
     assert (result.exit_code, result.stderr) == (0, "")
     (line,) = (line for line in result.stdout.splitlines() if "% of" in line)
@@ -110,7 +114,7 @@ def test_a_marked_stenosis_with_all_outputs(files, tmp_path):
 
 @pytest.mark.parametrize("words", [["--reference", "10,50"], ["--reference", "10", "--reference", "50"]])
 def test_two_references_are_joined_by_a_comma_or_given_one_by_one(files, tmp_path, words):
-    result = run(*files, "-o", tmp_path / "p.json", "--at", 30, *words)
+    result = run(*files, "-o", tmp_path / "p.json", "--at", 30, *words, *QUICK)
     assert result.exit_code == 0
     read = json.loads((tmp_path / "p.json").read_text("utf-8"))
     assert read["settings"]["reference_mm"] == [10, 50]
@@ -121,7 +125,7 @@ def test_two_references_are_joined_by_a_comma_or_given_one_by_one(files, tmp_pat
 def test_beside_one_reference_another_one_is_offered_and_not_graded_with(files, tmp_path):
     report = tmp_path / "report.html"
     result = run(
-        *(*files, "-o", tmp_path / "p.json", "--report", report, "--at", 30, "--reference", 50),
+        *(*files, "-o", tmp_path / "p.json", "--report", report, "--at", 30, "--reference", 50, *QUICK),
     )
     assert result.exit_code == 0
     graded = json.loads((tmp_path / "p.json").read_text("utf-8"))["vessels"][0]["stenosis"]
@@ -132,21 +136,21 @@ def test_beside_one_reference_another_one_is_offered_and_not_graded_with(files, 
 
 
 def test_ecst_states_the_original_diameter(files, tmp_path):
-    result = run(*files, "-o", tmp_path / "p.json", "--at", 30, "--method", "ecst", "--original", 8)
+    result = run(*files, "-o", tmp_path / "p.json", "--at", 30, "--method", "ecst", "--original", 8, *QUICK)
     assert result.exit_code == 0
     assert "(ECST)" in result.stdout
     assert "assumed original 8.00 mm" in result.stdout
 
 
 def test_a_place_alone_has_its_diameter_and_no_percentage(files, tmp_path):
-    result = run(*files, "-o", tmp_path / "p.csv", "--at", 30)
+    result = run(*files, "-o", tmp_path / "p.csv", "--at", 30, *QUICK)
     assert result.exit_code == 0
     assert "marked place: 3." in result.stdout
     assert "%" not in result.stdout
 
 
 def test_the_point_spread_is_the_given_one(files, tmp_path):
-    result = run(*files, "-o", tmp_path / "p.csv", "--fwhm", 0.9)
+    result = run(*files, "-o", tmp_path / "p.csv", *QUICK)
     assert "FWHM 0.90 mm given" in result.stdout
     assert {row["fwhm_mm"] for row in rows_of(tmp_path / "p.csv")} == {"0.9"}
 
@@ -191,7 +195,7 @@ def test_the_point_spread_is_the_given_one(files, tmp_path):
     ],
 )
 def test_mistakes(files, tmp_path, words, code, message):
-    result = run(*files, "-o", tmp_path / "p.csv", *(word.format(tmp_path) for word in words))
+    result = run(*files, "-o", tmp_path / "p.csv", *QUICK, *(word.format(tmp_path) for word in words))
     assert result.exit_code == code, result.output
     assert message in result.stderr
     assert "Traceback" not in result.output
@@ -219,7 +223,7 @@ def test_a_vessel_that_cannot_be_measured_is_named_and_the_others_are_measured(f
     outside = np.add(volume.corners.max(axis=0), [[50, 0, 0], [80, 0, 0]])
     vessels = [read_centerlines(files[1])[0], Vessel(outside, name="far")]
     write_centerlines(VesselTree(vessels), tmp_path / "lines.vtp")
-    words = (files[0], tmp_path / "lines.vtp", "-o", tmp_path / "p.csv", "--coordinates", "lps")
+    words = (files[0], tmp_path / "lines.vtp", "-o", tmp_path / "p.csv", "--coordinates", "lps", *QUICK)
     result = run(*words)
     assert result.exit_code == 0, result.output
     assert "warning: vessel 1 is not measured: " in result.stderr
@@ -236,9 +240,9 @@ def test_without_matplotlib_nothing_is_measured_and_the_extra_is_named(files, tm
     assert 'pip install "lumencut[plot]"' in result.stderr
     assert list(tmp_path.iterdir()) == []
     # Sections and the report need no matplotlib, and the numbers do not change.
-    assert run(*files, "-o", tmp_path / "p.csv", "--sections", tmp_path / "s.png").exit_code == 0
+    assert run(*files, *QUICK, "-o", tmp_path / "p.csv", "--sections", tmp_path / "s.png").exit_code == 0
     alone = (tmp_path / "p.csv").read_text("utf-8")
-    assert run(*files, "-o", tmp_path / "p.csv", "--report", tmp_path / "r.html").exit_code == 0
+    assert run(*files, *QUICK, "-o", tmp_path / "p.csv", "--report", tmp_path / "r.html").exit_code == 0
     assert (tmp_path / "p.csv").read_text("utf-8") == alone
     assert {row["vessel"] for row in rows_of(tmp_path / "p.csv")} == {"0"}
     with Image.open(tmp_path / "s.png") as image:

@@ -10,9 +10,22 @@ import subprocess
 import pytest
 
 import lumencut
-from cohort_scenes import BAD, command, environment, run, run_apart, table, wait_for, write_cohort
+from cohort_scenes import (
+    BAD,
+    HANGS,
+    command,
+    environment,
+    process,
+    run,
+    table,
+    wait_for,
+    write_cohort,
+)
 
-pytestmark = pytest.mark.skipif(os.name != "posix", reason="processes are ended as POSIX does")
+pytestmark = [
+    pytest.mark.skipif(os.name != "posix", reason="processes are ended as POSIX does"),
+    pytest.mark.usefixtures("nursery"),
+]
 
 LIMITS = ("--memory", "2GB", "--time-limit", "10s", "--jobs", "2", "--threads", "1")
 
@@ -133,7 +146,7 @@ def children_end_with_their_parent(tmp_path, number):
         children = [nursery, *children_of(nursery)]
         assert len(children) == 2
         batch.send_signal(number)
-        code = batch.wait(30)
+        code = batch.wait(HANGS)
     wait_for(lambda: not any(map(is_there, children)))
     assert code == {signal.SIGINT: 130, signal.SIGTERM: 143, signal.SIGKILL: -9}[number]
     if number != signal.SIGKILL:
@@ -151,7 +164,7 @@ def test_a_full_disk_ends_the_batch_and_blames_no_study(tmp_path):
     assert "found no room left on the disk" in ended.stderr
     assert [row["state"] for row in table(out / "studies.csv")] == ["done", "skipped", "skipped"]
     assert not list(out.glob(".lumencut/unfinished/*"))
-    (tmp_path / "site/sitecustomize.py").unlink()
+    (out / "room").touch()
     again = run(manifest, out)
     assert "2 of them now" in again.stdout
     assert again.returncode == 0
@@ -160,7 +173,7 @@ def test_a_full_disk_ends_the_batch_and_blames_no_study(tmp_path):
 def test_a_study_alone_is_done_in_this_process(tmp_path):
     manifest = write_cohort(tmp_path, good=2, bad=False)
     out = tmp_path / "out"
-    ended = run_apart(manifest, out, "--one", "good-1")
+    ended = run(manifest, out, "--one", "good-1")
     assert (ended.returncode, ended.stdout) == (0, "good-1: done\n")
     assert [path.name for path in out.glob("sub-*")] == ["sub-good1"]
     refused = run(manifest, out, "--one", "nobody")
@@ -185,24 +198,10 @@ def test_a_batch_from_python(tmp_path):
 
 def started(manifest, out, *words):
     """Start a batch, and kill it when the test ends."""
-    return _Started(manifest, out, *words)
-
-
-class _Started:
-    def __init__(self, manifest, out, *words):
-        pipes = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-        # If the tests run in the background, their processes may ignore Ctrl-C.
-        told = {"preexec_fn": lambda: signal.signal(signal.SIGINT, signal.default_int_handler)}
-        self.process = subprocess.Popen(
-            command(manifest, out, *words), env=environment(manifest), **pipes, **told
-        )
-
-    def __enter__(self):
-        return self.process
-
-    def __exit__(self, *_):
-        self.process.kill()
-        self.process.wait()
+    # If the tests run in the background, their processes may ignore Ctrl-C.
+    told = {"preexec_fn": lambda: signal.signal(signal.SIGINT, signal.default_int_handler)}
+    pipes = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+    return process(command(manifest, out, *words), env=environment(manifest), **pipes, **told)
 
 
 def children_of(process):

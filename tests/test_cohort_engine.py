@@ -7,6 +7,7 @@ import sys
 
 import pytest
 
+from cohort_scenes import any_nursery
 from lumencut.cli import batch_progress
 from lumencut.cohort import engine
 from lumencut.cohort.child import Outcome
@@ -25,6 +26,12 @@ def outcomes(jobs, count=2):
     return {one.id: one for one in side_by_side(jobs, count) if one is not None}
 
 
+@pytest.fixture
+def forked(nursery, monkeypatch):
+    """Fork all studies from one process."""
+    monkeypatch.setattr(engine, "Nursery", any_nursery)
+
+
 @pytest.fixture(params=["forked", "fresh"])
 def way(request, monkeypatch):
     """Both methods to start a process."""
@@ -32,6 +39,8 @@ def way(request, monkeypatch):
         monkeypatch.setattr(engine, "Nursery", _Broken)
     elif sys.platform != "linux":
         pytest.skip("studies are forked on Linux alone")
+    else:
+        request.getfixturevalue("forked")
     return request.param
 
 
@@ -52,32 +61,33 @@ def test_ends_are_told_by_code_and_last_words(tmp_path):
 
 
 class _Lost(Nursery):
-    lives = 1
+    """A forking process that is lost after its first fork."""
 
     def start(self, job):
         forked = super().start(job)
-        if _Lost.lives:
-            _Lost.lives -= 1
-            self._process.kill()
+        self._process.kill()
         return forked
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="studies are forked on Linux alone")
+@pytest.mark.usefixtures("nursery")
 def test_studies_are_begun_again_where_the_process_that_forks_them_is_lost(tmp_path, monkeypatch):
-    monkeypatch.setattr(engine, "Nursery", _Lost)
+    begun = [any_nursery, _Lost]
+    monkeypatch.setattr(engine, "Nursery", lambda: begun.pop()())
     found = outcomes(jobs_of(tmp_path, *[("--version",)] * 3))
     assert [one.state for one in found.values()] == ["done"] * 3
-    assert _Lost.lives == 0
+    assert begun == []
 
 
 @pytest.mark.usefixtures("way")
 def test_no_more_work_at_once_than_is_asked_for(tmp_path):
-    begun = outcomes(jobs_of(tmp_path, *[("--version",)] * 5), count=1)
-    assert [one.state for one in begun.values()] == ["done"] * 5
+    begun = outcomes(jobs_of(tmp_path, *[("--version",)] * 3), count=1)
+    assert [one.state for one in begun.values()] == ["done"] * 3
     # One after the other, in the requested order.
-    assert list(begun) == [f"job-{n}" for n in range(5)]
+    assert list(begun) == [f"job-{n}" for n in range(3)]
 
 
+@pytest.mark.usefixtures("forked")
 @pytest.mark.parametrize(("tick", "has_turns"), [(0.0, True), (1e9, False)])
 def test_the_caller_has_a_turn_now_and_then(tmp_path, monkeypatch, tick, has_turns):
     monkeypatch.setattr(engine, "_TICK", tick)

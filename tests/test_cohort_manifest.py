@@ -262,6 +262,7 @@ def test_mistakes_in_a_recipe_are_named(tmp_path, text, words):
     assert words in str(error.value)
 
 
+@pytest.mark.usefixtures("nursery")
 def test_the_check_and_the_batch_agree_on_sizes_and_lines(tmp_path):
     import nibabel as nib
 

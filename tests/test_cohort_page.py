@@ -51,6 +51,7 @@ def test_more_than_two_hundred_tiles_wait_for_the_script(page):
     assert is_hidden == [False] * 200 + [True] * 50
 
 
+@pytest.mark.usefixtures("nursery")
 def test_a_batch_writes_it_with_pictures(tmp_path):
     manifest = write_cohort(tmp_path, good=1, bad=False)
     recipe = '[pictures]\nviews = ["left"]\nsize = [220, 200]\nreformations = ["straightened"]\n'

@@ -14,6 +14,7 @@ from lumencut.cohort.parquet import check_parquet, write_parquet
 from lumencut.errors import MissingPackageError
 
 
+@pytest.mark.usefixtures("nursery")
 def test_a_batch_writes_its_tables_as_parquet_too(tmp_path):
     manifest = write_cohort(tmp_path, good=2, bad=False)
     text = "id,volume,centerlines,visit_mm\n01,good-0.nii.gz,tube.vtk,007\n02,good-1.nii.gz,,\n"

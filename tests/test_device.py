@@ -190,7 +190,7 @@ def test_ctrl_c_ends_a_rendering_and_the_renderer_goes_on():
     # Takes seconds on a software GPU; on other GPUs one of many frames is interrupted.
     clear = TransferFunction([(0, (255, 255, 255), 1e-6)])
     slow = Settings(context="dvr", context_window=Window(350, 900), context_transfer=clear, context_step=0.1)
-    large = Camera.anterior(found.scene, (300, 300))
+    large = Camera.anterior(found.scene, (150, 150))
     thread.start()
     try:
         with pytest.raises(KeyboardInterrupt):

@@ -8,6 +8,7 @@ import pytest
 import SimpleITK
 from pydicom.uid import ExplicitVRLittleEndian
 
+from conftest import each_value
 from dicom_codecs import gdcm_does
 from lumencut.errors import FormatError
 from lumencut.files.volumes import inspect_volume, read_volume
@@ -96,8 +97,10 @@ SYNTAXES = [
 ]
 
 
+@each_value
 @pytest.mark.parametrize("syntax", SYNTAXES)
 @pytest.mark.parametrize("dtype", [np.int16, np.uint16])
+@pytest.mark.usefixtures("one_decoder")
 def test_transfer_syntaxes(tmp_path, syntax, dtype):
     array = np.random.default_rng(0).integers(0, 4000, (3, 32, 24)).astype(dtype)
     if dtype == np.int16:

@@ -14,6 +14,7 @@ import pytest
 from pydicom.uid import JPEG2000Lossless, RLELossless
 
 import lumencut
+from conftest import each_value
 from dicom_codecs import gdcm_does, pydicom_does
 from dicom_phantom import axial, images
 from dicom_series import PLAIN_STACK, Stack
@@ -24,6 +25,7 @@ from lumencut.files.volumes import read_volume
 jpeg = gdcm_does("JPEGLosslessProcess14_1")
 
 
+@each_value
 @pytest.mark.parametrize("encoder", [pydicom_does(JPEG2000Lossless), pydicom_does(RLELossless), jpeg])
 @pytest.mark.parametrize("count", [20, 60])
 def test_damaged_pixels_are_named_alike_and_leave_no_process(tmp_path, encoder, count):

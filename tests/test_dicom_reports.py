@@ -296,7 +296,20 @@ def words_of(path, tmp_path):
 def measure(line, tmp_path, *words, volume=None):
     table = tmp_path / "a.csv"
     folder = tmp_path / "out"
-    run("measure", volume or series(), line, "-o", table, "--dicom", folder, "--step", "2", *words)
+    run(
+        "measure",
+        volume or series(),
+        line,
+        "-o",
+        table,
+        "--dicom",
+        folder,
+        "--step",
+        "2",
+        "--fwhm",
+        "0.9",
+        *words,
+    )
     return folder
 
 

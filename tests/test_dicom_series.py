@@ -15,6 +15,7 @@ from lumencut import FormatError, VolumeError, read_volume
 from lumencut.files.volumes import as_volume
 
 
+@pytest.mark.usefixtures("one_decoder")
 @pytest.mark.parametrize("case", [*CASES, *REPEATED], ids=lambda case: case.name)
 def test_series(tmp_path, caplog, case):
     if case.needs:

@@ -15,40 +15,40 @@ pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="no timers of th
 
 TUBE = phantom.straight_tube()
 VESSEL = TUBE.tree[0]
-FRONT = lumencut.Camera.fitted(TUBE.tree, (0, 1, 0), (0, 0, 1), size=(4096, 4096))
+FRONT = lumencut.Camera.fitted(TUBE.tree, (0, 1, 0), (0, 0, 1), size=(2048, 2048))
 
 
-def curved(mode, **more):
+def curved(mode, pixel_spacing=0.01):
     """Lay out a large CPR in the extension module."""
-    return lumencut.cpr(TUBE.volume, VESSEL, mode, width=40, pixel_spacing=0.01, **more)._core
+    return lumencut.cpr(TUBE.volume, VESSEL, mode, width=40, pixel_spacing=pixel_spacing)._core
 
 
-def depth():
-    return np.zeros((4096, 4096), np.float32)
+def depth(side):
+    return np.zeros((side, side), np.float32)
 
 
 #: For each name, a preparation and the call of the extension module that uses it.
 CALLS = {
     "phantom": (lambda: None, lambda _: phantom.aorta(scale=0.5)),
-    "position": (lambda: curved("stretched"), lambda core: core.position()),
+    "position": (lambda: curved("stretched", 0.02), lambda core: core.position()),
     "folded": (lambda: curved("straightened"), lambda core: core.folded()),
     "spiral": (
         lambda: lumencut.spiral(TUBE.volume, VESSEL, pixel_spacing=0.05)._core,
         lambda c: c.position(),
     ),
-    "map": (lambda: lumencut.lumen_map(TUBE.volume, VESSEL, pixel_spacing=0.01)._core, lambda c: c.shades()),
+    "map": (lambda: lumencut.lumen_map(TUBE.volume, VESSEL, pixel_spacing=0.02)._core, lambda c: c.shades()),
     "untangled": (
-        lambda: lumencut.untangled(TUBE.volume, TUBE.tree, pixel_spacing=0.015)._core,
+        lambda: lumencut.untangled(TUBE.volume, TUBE.tree, pixel_spacing=0.02)._core,
         lambda core: core.vessel(),
     ),
     "uncurl": (lambda: lumencut.uncurl(TUBE.volume, VESSEL, FRONT, 0.5)._core, lambda core: core.position()),
     "picture": (
-        lambda: (depth(), lumencut.Settings(window=lumencut.Window(100, 500))._checked),
+        lambda: (depth(4096), lumencut.Settings(window=lumencut.Window(100, 500))._checked),
         lambda given: lumencut._lumencut.picture(*given),
     ),
-    "positions": (depth, lambda given: lumencut._lumencut.positions(FRONT, given)),
+    "positions": (lambda: depth(2048), lambda given: lumencut._lumencut.positions(FRONT, given)),
     "sample": (
-        lambda: np.random.default_rng(1).uniform(-10, 10, (4_000_000, 3)),
+        lambda: np.random.default_rng(1).uniform(-10, 10, (2_000_000, 3)),
         lambda points: lumencut._lumencut.sample(TUBE.volume, points),
     ),
 }

@@ -121,7 +121,7 @@ def test_every_use_of_a_line_says_its_doubt_once(name):
     words = "point 20 at" if name == "stray" else "wrong order"
     scan = volume()
     uses = [
-        lambda vessel: lumencut.measure(scan, vessel),
+        lambda vessel: lumencut.measure(scan, vessel, 5.0),
         lambda vessel: lumencut.cpr(scan, vessel, width=5.0, pixel_spacing=2.0),
         lambda vessel: lumencut.Renderer(scan, VesselTree([vessel])),
         lambda vessel: lumencut.Renderer(None, VesselTree([vessel])),
@@ -138,7 +138,7 @@ def test_every_use_of_a_line_says_its_doubt_once(name):
         # The warning for this vessel was shown; objects made from it give no second one.
         tree = VesselTree([vessel])
         lumencut.Renderer(scan, tree)
-        lumencut.measure(scan, tree.path([0]))
+        lumencut.measure(scan, tree.path([0]), 5.0)
 
 
 def test_lines_in_order_are_used_in_silence(tmp_path):
@@ -147,7 +147,7 @@ def test_lines_in_order_are_used_in_silence(tmp_path):
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         tree = read_centerlines(path, volume=scan)
-        lumencut.measure(scan, tree[0])
+        lumencut.measure(scan, tree[0], 5.0)
         lumencut.Renderer(scan, tree)
     assert inspect_centerlines(path, reorder=True).reordered == ()
 
@@ -156,7 +156,10 @@ def test_the_command_line_says_it_and_takes_the_mend(tmp_path):
     ct = str(write_scan(tmp_path / "ct.nii.gz"))
     path = str(write_markups(tmp_path / "line.mrk.json", DISORDER["middle turned round"]))
     out = str(tmp_path / "out.csv")
-    for words in (["measure", ct, path, "-o", out], ["cpr", ct, path, "-o", str(tmp_path / "out.png")]):
+    for words in (
+        ["measure", ct, path, "-o", out, "--step", "5"],
+        ["cpr", ct, path, "-o", str(tmp_path / "out.png")],
+    ):
         found = CliRunner().invoke(main, words)
         assert found.exit_code == 0, found.output
         assert found.stderr.count("wrong order; --reorder puts the points of the file in order") == 1, words
@@ -200,7 +203,7 @@ def test_a_batch_keeps_the_doubt_beside_the_study(tmp_path):
     write_scan(tmp_path / "ct.nii.gz")
     write_markups(tmp_path / "line.mrk.json", DISORDER["middle turned round"])
     (tmp_path / "studies.csv").write_text("id,volume,centerlines\na,ct.nii.gz,line.mrk.json\n", "utf-8")
-    (tmp_path / "recipe.toml").write_text("[pictures]\nviews = []\n", "utf-8")
+    (tmp_path / "recipe.toml").write_text("[pictures]\nviews = []\n[measure]\nstep = 5.0\n", "utf-8")
     words = ["batch", "studies.csv", "-o", "out", "--recipe", "recipe.toml", "--device", "cpu"]
     command = [sys.executable, "-m", "lumencut", *words]
     ended = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False, timeout=120)

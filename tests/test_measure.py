@@ -184,11 +184,10 @@ def test_calcium_in_the_wall_is_no_lumen():
 def test_what_is_brighter_than_lumen_by_more_than_its_noise_is_no_lumen(away, reach, value):
     # Dense plaque over 6 mm in an 8-bit scan without HU: at the wall, in the entire lumen, or across it.
     grid = Grid.even((0.5, 0.5, 0.5), (14, 14, 42))
-    x, y, z = grid.points(PARTS)
+    x, y, z = grid.axes(PARTS)
     share = np.clip(0.5 - (np.hypot(x, y) - 3) * PARTS / 0.5, 0, 1)
     inside = (np.abs(z) < 3) & (np.hypot(x - away, y) < reach) & (np.hypot(x, y) < 3.2)
-    values = blurred(np.where(inside, value, 5 + 115 * share), (0.5 / PARTS,) * 3, 0.9)
-    noisy = grid.volume(values, 3, 1.5)
+    noisy = grid.scanned(np.where(inside, value, 5 + 115 * share), 3, 1.5, 0.9)
     scan = Volume(np.clip(np.round(noisy.array), 0, 255).astype(np.uint8), world_from_index=grid.affine)
     z = np.linspace(-19, 19, 77)
     profile = measure(scan, Vessel(np.stack([0 * z, 0 * z, z], axis=1)))

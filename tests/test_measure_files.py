@@ -29,14 +29,14 @@ def narrow():
 
 @pytest.fixture(scope="module")
 def profile(narrow) -> Profile:
-    return measure(narrow.volume, narrow.tree[0], tree=narrow.tree)
+    return measure(narrow.volume, narrow.tree[0], 1.0, tree=narrow.tree)
 
 
 @pytest.fixture(scope="module")
 def branched() -> Profile:
     """A profile with sections that do not count."""
     scene = phantom.y_junction()
-    found = measure(scene.volume, scene.tree[0], tree=scene.tree)
+    found = measure(scene.volume, scene.tree[0], 2.0, tree=scene.tree)
     assert 0 < counts(found).sum() < len(found)
     return found
 

@@ -18,12 +18,12 @@ SCENES = {
 def test_a_line_beside_the_middle_measures_the_same_lumen(name):
     scene = SCENES[name]
     volume, line = scene.volume(), scene.vessel()
-    middle = measure(volume, line, fwhm=scene.fwhm)
+    middle = measure(volume, line, 1.0, scene.fwhm)
     away = []
     for angle in (0.0, 2.1, 4.2):
         # Straight lines moved sideways have the same planes of sections.
         sideways = 0.35 * scene.diameter / 2 * np.array([np.cos(angle), np.sin(angle), 0.0])
-        moved = measure(volume, Vessel(line.points + sideways), fwhm=scene.fwhm)
+        moved = measure(volume, Vessel(line.points + sideways), 1.0, scene.fwhm)
         judged = (middle.flags == 0) & (moved.flags == 0)
         assert judged.mean() > 0.9
         apart = np.abs(moved.diameter_equivalent - middle.diameter_equivalent)

@@ -18,6 +18,7 @@ from lumencut.dicom.writing.chosen_study import chosen_study
 from lumencut.measuring.dicom_profile import measured as reported
 from lumencut.measuring.measured_vessel import Marked
 from lumencut.measuring.structured_report import write_report
+from lumencut.viewer.pacs_zip import archive as zipping
 from lumencut.viewer.pacs_zip.archive import pacs_zip
 from lumencut.viewer.pacs_zip.given import Given
 from lumencut.viewer.pacs_zip.placing import chosen_file
@@ -36,7 +37,19 @@ from pacs_requests import (
 )
 from test_dicom_reports import child, code, groups
 
+PDF = b"%PDF-1.4\n%%EOF\n"
 ALL = {"view.dcm", "vessel.dcm", "finding-1.dcm", "report.dcm", "report-pdf.dcm"}
+
+
+@pytest.fixture(autouse=True)
+def quick_pdf(monkeypatch):
+    """Return the same PDF for all reports, since laying one out takes longer than everything else."""
+    real = zipping.report_pdf
+
+    def quick(html, vessels):
+        return PDF if html.startswith("<!DOCTYPE html>") else real(html, vessels)
+
+    monkeypatch.setattr(zipping, "report_pdf", quick)
 
 
 @cache
@@ -105,13 +118,15 @@ def test_the_view_is_the_picture_that_is_shown(tmp_path):
     assert "PixelSpacing" not in pydicom.dcmread(tmp_path / "vessel.dcm")
 
 
-def test_the_pdf_holds_the_report(tmp_path):
-    data = pydicom.dcmread(made(request(), tmp_path)["report-pdf.dcm"])
+def test_the_pdf_holds_the_report(tmp_path, monkeypatch):
+    monkeypatch.undo()
+    data = pydicom.dcmread(members(pacs_zip(sent(request()), scan()), tmp_path)["report-pdf.dcm"])
     assert data.EncapsulatedDocument.startswith(b"%PDF")
     assert data.DocumentTitle == "Lumencut: measured vessels"
 
 
-def test_the_same_request_gives_the_same_objects(tmp_path):
+def test_the_same_request_gives_the_same_objects(tmp_path, monkeypatch):
+    monkeypatch.undo()
     uids = []
     for name in ("one", "other"):
         (tmp_path / name).mkdir()

@@ -63,15 +63,18 @@ def test_all_vessels_of_a_tree_are_measured_with_one_point_spread():
 
 @pytest.fixture(scope="module")
 def branches(tmp_path_factory):
-    """Three vessels that meet, and their volume as a file."""
-    folder, scene = tmp_path_factory.mktemp("branches"), phantom.y_junction()
-    write_centerlines(scene.tree, folder / "lines.vtp")
-    return scene, (write_volume_of(scene.volume, folder / "ct.nii.gz"), folder / "lines.vtp")
+    """Two vessels that meet, and their volume as a file."""
+    folder, scene = tmp_path_factory.mktemp("branches"), phantom.straight_tube()
+    points = scene.tree[0].points
+    middle = len(points) // 2
+    tree = VesselTree([Vessel(points[: middle + 1], 4.0), Vessel(points[middle:], 4.0)])
+    write_centerlines(tree, folder / "lines.vtp")
+    return (scene.volume, tree), (write_volume_of(scene.volume, folder / "ct.nii.gz"), folder / "lines.vtp")
 
 
 def told(files, path, *words):
     """Return the widths and sources that `lumencut measure` reports."""
-    result = CliRunner().invoke(main, ["measure", *map(str, (*files, "-o", path, *words))])
+    result = CliRunner().invoke(main, ["measure", *map(str, (*files, "-o", path, "--step", 2, *words))])
     assert result.exit_code == 0, result.output
     return {(one["fwhm_mm"], one["fwhm_source"]) for one in json.loads(path.read_text("utf-8"))["vessels"]}
 
@@ -104,17 +107,17 @@ def test_a_stretch_shorter_than_three_widths_tells_nothing_and_says_so():
 
 
 def test_a_tree_is_asked_once(branches, monkeypatch):
-    scene, _ = branches
+    (scanned, tree), _ = branches
     asked, find = [], _lumencut.tree_findings
     monkeypatch.setattr(_lumencut, "tree_findings", lambda *of: asked.append(of) or find(*of))
-    volume = Volume(scene.volume.array, world_from_index=scene.volume.world_from_index)
-    vessels = [*scene.tree, scene.tree.path([0, 1])]
-    first = [measure(volume, vessel, tree=scene.tree) for vessel in vessels]
+    volume = Volume(scanned.array, world_from_index=scanned.world_from_index)
+    vessels = [*tree, tree.path([0, 1])]
+    first = [measure(volume, vessel, 2.0, tree=tree) for vessel in vessels]
     assert len(asked) == 1
     assert len({(one.fwhm, one.fwhm_source) for one in first}) == 1
     # Another step is measured separately, and so is a given width, since walls depend on it.
-    measure(volume, vessels[0], 1.0, tree=scene.tree)
+    measure(volume, vessels[0], 3.0, tree=tree)
     assert len(asked) == 2
     for vessel in vessels:
-        measure(volume, vessel, fwhm=0.9, tree=scene.tree)
+        measure(volume, vessel, 2.0, fwhm=0.9, tree=tree)
     assert len(asked) == 3

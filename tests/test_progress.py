@@ -27,15 +27,21 @@ def any_threads():
 LARGE = (1500, 1400)
 
 
+@pytest.mark.usefixtures("any_threads")
 @pytest.mark.parametrize(
-    "settings",
-    [Settings(), Settings(context="mida", samples=2), Settings(context=None, level_choice="nearest")],
+    ("settings", "size"),
+    [
+        (Settings(), LARGE),
+        (Settings(context="mida", samples=2), (750, 700)),
+        (Settings(context=None, level_choice="nearest"), LARGE),
+    ],
     ids=["default", "samples", "surface"],
 )
-def test_progress_grows_to_its_total(made, settings):
+def test_progress_grows_to_its_total(made, settings, size):
     told = []
+    lumencut.set_threads(1)
     renderer = Renderer(made.volume, made.tree, "cpu")
-    camera = Camera.anterior(made.tree, LARGE)
+    camera = Camera.anterior(made.tree, size)
     frame = renderer.render(camera, settings, progress=lambda *parts: told.append(parts))
     done = [parts[0] for parts in told]
     assert {parts[1] for parts in told} == {1000}
@@ -105,13 +111,15 @@ def narrow():
     return phantom.stenosis()
 
 
-#: A distance of sections so small that progress is reported before the end (mm).
-NEAR = 0.01
+#: A distance of sections so small that one thread reports progress before the end (mm).
+NEAR = 0.1
 
 
+@pytest.mark.usefixtures("any_threads")
 @pytest.mark.parametrize("whole_tree", [False, True])
 def test_measuring_tells_how_far_it_is(narrow, whole_tree):
     told = []
+    lumencut.set_threads(1)
 
     def watch(done, total):
         told.append((done, total))
@@ -129,12 +137,14 @@ def test_measuring_tells_how_far_it_is(narrow, whole_tree):
     assert any(0 < part < 1000 for part in done)
 
 
+@pytest.mark.usefixtures("any_threads")
 @pytest.mark.parametrize("whole_tree", [False, True])
 def test_what_the_callable_raises_ends_the_measuring(narrow, whole_tree):
     def enough(done, _):
         assert done < 1000
         raise KeyboardInterrupt
 
+    lumencut.set_threads(1)
     work = narrow.tree.measured if whole_tree else partial(lumencut.measure, vessel=narrow.tree[0])
     with pytest.raises(KeyboardInterrupt):
         work(narrow.volume, step=NEAR, fwhm=1.0, progress=enough)

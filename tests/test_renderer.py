@@ -153,7 +153,7 @@ def test_silhouettes_stand_where_the_surface_leaps():
 
 
 def test_an_aorta_shows_its_lumen():
-    made = phantom.aorta(scale=0.5)
+    made = phantom.aorta(scale=0.3)
     frame = render(made.volume, made.tree)
     window = Renderer(made.volume, made.tree).window
     points = np.concatenate([vessel.points[vessel.radius > 2.5] for vessel in made.tree])
@@ -230,7 +230,8 @@ def test_defaults_of_the_view_and_the_window():
     np.testing.assert_array_equal(again.image, frame.image)
 
 
-@pytest.mark.parametrize("name", ["straight_tube", "trefoil", "runoff", "cervical"])
+@pytest.mark.each_value(most=3)
+@pytest.mark.parametrize("name", ["straight_tube", "trefoil", "cervical", "runoff"])
 def test_the_window_from_the_data_shows_tissue_lumen_and_calcifications_apart(name):
     made = getattr(phantom, name)(**({} if name in ("straight_tube", "trefoil") else {"scale": 0.5}))
     window = Window.from_data(made.volume, made.tree)
@@ -250,10 +251,12 @@ def test_without_a_volume_there_is_a_cut_surface_but_no_picture():
 
 def test_ten_thousand_vessels():
     tree = wandering(9, vessels=10_000, points=5)
-    frame = Renderer(None, tree).cut_surface(Camera.anterior(tree, (64, 64)))
+    frame = Renderer(None, tree).cut_surface(Camera.anterior(tree, (48, 48)))
     assert len(np.unique(frame.vessel)) > 300
+    assert frame.vessel.max() > 8192
     finest = Settings(depth_filter=False, levels=0)
-    assert_same(tree, Camera.anterior(tree, (6, 4)), finest, most_unsure=0.05)
+    fewer = VesselTree(list(tree)[::5])
+    assert_same(fewer, Camera.anterior(fewer, (6, 4)), finest, most_unsure=0.05)
 
 
 def test_a_tree_that_misses_the_volume_is_refused_with_counts():

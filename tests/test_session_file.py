@@ -103,7 +103,7 @@ def test_a_session_of_another_scan_is_said(tmp_path, scan, is_said):
     assert ["a session of another scan" in str(one.message) for one in caught] == [True] * is_said
     assert {one.filename for one in caught} == {__file__} if is_said else not caught
     volume = write_volume_of(scene.volume, tmp_path / "ct.nii.gz")
-    done = CliRunner().invoke(main, ["measure", str(volume), str(session), "-o", str(tmp_path / "a.csv")])
+    done = run("measure", volume, session, "-o", tmp_path / "a.csv", "--step", 5, "--fwhm", 0.9)
     assert done.exit_code == 0, done.output
     assert ("a session of another scan" in " ".join(done.output.split())) is is_said
 
@@ -166,13 +166,13 @@ def test_options_beside_a_session_come_on_top(branches, tmp_path):
 def test_measure_grades_what_was_marked_in_the_viewer(tmp_path):
     scene = phantom.stenosis(60)
     volume = write_volume_of(scene.volume, tmp_path / "ct.nii.gz")
-    session = write_session(tmp_path / "saved.mrk.json", scene.tree, marks=MARKS)
-    result = run("measure", volume, session, "-o", tmp_path / "out.json")
+    session = write_session(tmp_path / "saved.mrk.json", scene.tree, marks=MARKS, fwhm=0.9)
+    result = run("measure", volume, session, "-o", tmp_path / "out.json", "--step", 2)
     assert result.exit_code == 0, result.output
     stenosis = json.loads((tmp_path / "out.json").read_text())["vessels"][0]["stenosis"]
-    expected = measure(read_volume(volume), scene.tree[0], tree=scene.tree).stenosis(30.0, 50.0)
+    expected = measure(read_volume(volume), scene.tree[0], 2.0, 0.9, tree=scene.tree).stenosis(30.0, 50.0)
     assert (stenosis["percent"], stenosis["at_mm"]) == (expected.percent, 30.0)
-    result = run("measure", volume, session, "-o", tmp_path / "other.json", "--at", 20)
+    result = run("measure", volume, session, "-o", tmp_path / "other.json", "--at", 20, "--step", 5)
     assert json.loads((tmp_path / "other.json").read_text())["vessels"][0]["stenosis"] is None
 
 
@@ -181,7 +181,7 @@ def test_measure_reckons_with_the_point_spread_that_was_given_in_the_viewer(tmp_
     volume = write_volume_of(scene.volume, tmp_path / "ct.nii.gz")
     session = write_session(tmp_path / "saved.mrk.json", scene.tree, fwhm=0.9)
     for words, expected in (((), 0.9), (("--fwhm", 0.7), 0.7)):
-        result = run("measure", volume, session, "-o", tmp_path / "out.json", *words)
+        result = run("measure", volume, session, "-o", tmp_path / "out.json", "--step", 5, *words)
         assert result.exit_code == 0, result.output
         assert f"FWHM {expected:.2f} mm given" in result.output
 

@@ -29,8 +29,16 @@ STATES = {
 }
 
 
+#: The distance of sections and the point spread (mm); other tests measure with the defaults.
+STEP, FWHM = 2.0, 0.9
+
+
 def run(*words):
-    return CliRunner().invoke(main, ["measure", *map(str, words)])
+    return CliRunner().invoke(main, ["measure", *map(str, words), "--step", str(STEP)])
+
+
+def profile_of(scene, volume):
+    return measure(read_volume(volume), scene.tree[0], STEP, FWHM, tree=scene.tree)
 
 
 @pytest.fixture(scope="module")
@@ -48,7 +56,7 @@ def graded(narrow, tmp_path_factory):
     told = {}
     for name, changes in STATES.items():
         folder = tmp_path_factory.mktemp("state")
-        session = write_session(folder / "s.mrk.json", scene.tree, marks=MARKS | changes)
+        session = write_session(folder / "s.mrk.json", scene.tree, marks=MARKS | changes, fwhm=FWHM)
         result = run(volume, session, "-o", folder / "p.json", "-o", folder / "p.csv")
         assert (result.exit_code, result.stderr) == (0, ""), f"{name}: {result.output}"
         (vessel,) = json.loads((folder / "p.json").read_text("utf-8"))["vessels"]
@@ -59,7 +67,7 @@ def graded(narrow, tmp_path_factory):
 
 def test_no_state_costs_the_vessel_its_rows(graded, narrow):
     scene, volume = narrow
-    expected = measure(read_volume(volume), scene.tree[0], tree=scene.tree)
+    expected = profile_of(scene, volume)
     for name, (vessel, rows, _) in graded.items():
         assert vessel["sections"]["area_mm2"] == expected.area.tolist(), name
         assert len(rows) == len(expected), name
@@ -68,9 +76,8 @@ def test_no_state_costs_the_vessel_its_rows(graded, narrow):
 @pytest.mark.parametrize("name", ["an original given, then back to NASCET", "a group with area"])
 def test_what_another_method_was_given_is_left_aside(graded, narrow, name):
     scene, volume = narrow
-    profile = measure(read_volume(volume), scene.tree[0], tree=scene.tree)
     vessel, rows, words = graded[name]
-    expected = profile.stenosis(30.0, 50.0, vessel["stenosis"]["method"])
+    expected = profile_of(scene, volume).stenosis(30.0, 50.0, vessel["stenosis"]["method"])
     assert vessel["stenosis"]["percent"] == expected.percent
     assert vessel["stenosis"]["group"] is None
     assert vessel["not_graded"] is None
@@ -121,9 +128,8 @@ def test_the_reason_stands_where_the_percentage_would(graded, name, reason):
 
 def test_where_nothing_is_marked_there_is_no_reason(narrow, tmp_path):
     scene, volume = narrow
-    session = write_session(
-        tmp_path / "s.mrk.json", scene.tree, marks=MARKS | {"at_mm": None, "references_mm": []}
-    )
+    marks = MARKS | {"at_mm": None, "references_mm": []}
+    session = write_session(tmp_path / "s.mrk.json", scene.tree, marks=marks, fwhm=FWHM)
     result = run(volume, session, "-o", tmp_path / "p.json")
     (vessel,) = json.loads((tmp_path / "p.json").read_text("utf-8"))["vessels"]
     assert (vessel["stenosis"], vessel["not_graded"]) == (None, None)
@@ -134,7 +140,7 @@ def test_the_other_vessels_are_measured_too(tmp_path):
     scene = phantom.y_junction()
     volume = write_volume_of(scene.volume, tmp_path / "ct.nii.gz")
     marks = MARKS | {"at_mm": 500.0, "method": "ecst"}
-    session = write_session(tmp_path / "s.mrk.json", scene.tree, marks=marks)
+    session = write_session(tmp_path / "s.mrk.json", scene.tree, marks=marks, fwhm=FWHM)
     result = run(volume, session, "-o", tmp_path / "p.json")
     assert (result.exit_code, result.stderr) == (0, "")
     vessels = json.loads((tmp_path / "p.json").read_text("utf-8"))["vessels"]
@@ -150,7 +156,7 @@ def test_the_other_vessels_are_measured_too(tmp_path):
 )
 def test_a_report_says_why_there_is_no_percentage(narrow, tmp_path, changes, reason):
     scene, volume = narrow
-    session = write_session(tmp_path / "s.mrk.json", scene.tree, marks=MARKS | changes)
+    session = write_session(tmp_path / "s.mrk.json", scene.tree, marks=MARKS | changes, fwhm=FWHM)
     result = run(volume, session, "-o", tmp_path / "p.csv", "--report", tmp_path / "r.html")
     assert result.exit_code == 0, result.output
     page = (tmp_path / "r.html").read_text("utf-8")

@@ -9,6 +9,7 @@ import pydicom
 import pytest
 
 import lumencut
+from conftest import each_value
 from dicom_scenes import series
 from lumencut import Vessel, Volume, straightened_volume
 from ramp_scenes import ramp_volumes
@@ -103,6 +104,7 @@ def true_from_stated(ramps, vessel, folder, name, sections=slice(None), **how):
     return found[:3].T, letters
 
 
+@each_value
 @pytest.mark.parametrize("name", READERS)
 @pytest.mark.parametrize("way", ALONG)
 def test_a_stated_side_is_the_true_side(ramps, tmp_path, way, name):

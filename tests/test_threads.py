@@ -61,12 +61,12 @@ import numpy as np
 from lumencut import Camera, Renderer, Settings, phantom
 made = phantom.helix()
 renderer = Renderer(made.volume, made.tree)
-front = Camera.anterior(made.tree, (150, 130))
+front = Camera.anterior(made.tree, (75, 65))
 views = [(front.rotated(0.3 * n), Settings(levels=n % 7, lumen_first=n % 2 == 0)) for n in range(24)]
 expected = [renderer.render(*view) for view in views]
 with ThreadPoolExecutor(4) as pool:
-    found = list(pool.map(lambda view: renderer.render(*view), views * 20))
-for frame, other in zip(found, expected * 20, strict=True):
+    found = list(pool.map(lambda view: renderer.render(*view), views * 10))
+for frame, other in zip(found, expected * 10, strict=True):
     for name in ("image", "depth", "vessel", "distance", "value"):
         np.testing.assert_array_equal(getattr(frame, name), getattr(other, name))
 """

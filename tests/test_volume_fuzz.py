@@ -1,6 +1,7 @@
 """Damaged volume files: a volume or a LumencutError, no other exception, no memory only because of a header.
 
-LUMENCUT_FUZZ_EXAMPLES=100 makes each test try a hundred times as many inputs; with -s figures are printed.
+LUMENCUT_FUZZ_EXAMPLES=100 makes each test try a hundred times as many inputs; `make test-long` tries ten
+times as many. With -s figures are printed.
 """
 
 from __future__ import annotations
@@ -32,7 +33,7 @@ MEMORY = 10
 """Memory per byte of a file of 1 MiB or more; smaller ones may use as much as that one."""
 HANG = 120
 FUZZ = settings(
-    max_examples=40 * SCALE,
+    max_examples=20 * SCALE,
     deadline=None,
     suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
     **({"database": None} if SCALE > 1 else {}),
@@ -142,7 +143,7 @@ def volume_or_refusal(path, needed=0):
 @pytest.mark.parametrize("name", WRITERS)
 def test_every_truncation(tmp_path, sound, name):
     for which, whole in sound[name].items():
-        step = max(len(whole) // (30 * SCALE), 1)
+        step = max(len(whole) // (15 * SCALE), 1)
         for length in range(0, len(whole), step):
             volume_or_refusal(put(tmp_path, sound[name] | {which: whole[:length]}))
     path = put(tmp_path, sound[name] | {which: whole[:-4]})

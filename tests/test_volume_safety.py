@@ -14,6 +14,7 @@ import nibabel
 import numpy as np
 import pytest
 
+from conftest import each_value
 from lumencut.base.foreign_errors import impersonal, refusing
 from lumencut.errors import FileError, FormatError, LumencutError
 from lumencut.files.volumes import inspect_volume, read_volume
@@ -204,8 +205,14 @@ def test_ends_of_compressed_streams(tmp_path, codec, pack):
             read(whole[:-1], count)
 
 
+#: One of so many bits is flipped; as 8 is no multiple, all bits of a byte are among them.
+SHARES = 3
+
+
+@each_value(most=2)
 @pytest.mark.parametrize("suffix", ["nii.gz", "nhdr"])
-def test_no_flipped_bit_changes_voxels(tmp_path, suffix):
+@pytest.mark.parametrize("share", range(SHARES))
+def test_no_flipped_bit_changes_voxels(tmp_path, suffix, share):
     array, path = coded(), tmp_path / f"x.{suffix}"
     if suffix == "nii.gz":
         plain = tmp_path / "x.nii"
@@ -215,7 +222,7 @@ def test_no_flipped_bit_changes_voxels(tmp_path, suffix):
         changed, content = tmp_path / "x", bz2.compress(array.tobytes() + b"what follows")
         save_by_hand(path, b"", "bzip2", "data file: x\n")
     read = 0
-    for bit in range(8 * len(content)):
+    for bit in range(share, 8 * len(content), SHARES):
         damaged = bytearray(content)
         damaged[bit // 8] ^= 1 << bit % 8
         changed.write_bytes(damaged)
@@ -225,7 +232,7 @@ def test_no_flipped_bit_changes_voxels(tmp_path, suffix):
             continue
         read += 1
         np.testing.assert_array_equal(volume.array, array)
-    assert read < 100
+    assert read < 100 / SHARES
 
 
 def test_text_takes_no_more_memory_than_its_file(tmp_path):

@@ -114,21 +114,24 @@ def test_voxels_that_were_exchanged_have_a_window_of_their_own(scene):
 
 
 def test_another_tree_in_the_same_place_of_memory_has_a_window_of_its_own(scene):
-    volume, _ = scene
-    points = np.array([[10.0, 10.0, 10.0], [10.0, 10.0, 40.0]])
+    volume = Volume(scene[0].array[16:40, 4:34, 8:44].copy())
+    points = np.array([[2.0, 2.0, 2.0], [2.0, 2.0, 20.0]])
+    windows = set()
     for shift in range(12):
-        vessel = Vessel(points + np.array([shift % 20, shift % 15, 0.0]), 2.0)
+        vessel = Vessel(points + np.array([2.0 * shift, shift, 0.0]), 2.0)
         window = Window.from_data(volume, VesselTree([vessel]))
         fresh = Window.from_data(Volume(volume.array), VesselTree([vessel]))
         assert window == fresh
+        windows.add(window)
         del vessel, window
         gc.collect()
+    assert len(windows) > 6
 
 
 def test_a_volume_forgets_the_windows_of_trees_that_are_gone(scene):
-    volume, _ = scene
+    volume = Volume(scene[0].array[20:30, 15:30, 20:30].copy())
     for shift in range(100):
-        vessel = Vessel(np.array([[10.0 + shift / 10, 10.0, 10.0], [10.0, 10.0, 40.0]]), 2.0)
+        vessel = Vessel(np.array([[2.0 + shift / 20, 2.0, 2.0], [2.0, 2.0, 8.0]]), 2.0)
         Window.from_data(volume, VesselTree([vessel]))
     assert len(volume._windows) <= 32
 

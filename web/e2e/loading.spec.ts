@@ -9,6 +9,8 @@ import { CENTERLINE, header, VOLUME, voxels, WHOLE } from './streams';
 
 const ADDRESSES = '?volume=made/volume&centerlines=made/axis.vtk&device=cpu&test=1';
 const MEGABYTE = 1 << 20;
+/** Size of the turning view where many pictures are compared (CSS pixels). */
+const SMALL_VIEW = [240, 180] as const;
 
 async function serve(page: Page, volume: Buffer | number, axis = CENTERLINE): Promise<void> {
   await page.route('**/made/volume', (route) =>
@@ -44,6 +46,7 @@ test.describe('streams', () => {
   test('each context and a slab show another picture', async () => {
     await serve(viewer.page, WHOLE);
     await viewer.page.goto(`./${ADDRESSES}`);
+    await viewer.pin(SMALL_VIEW);
     await viewer.rest();
     // Outside the volume the cut ends, and what lies behind it is visible.
     await viewer.drag([0.5, 0.3], [50, 60]);
@@ -84,6 +87,7 @@ test.describe('streams', () => {
   test('each look has a button, and a slider sets the margin of the cut', async () => {
     await serve(viewer.page, WHOLE);
     await viewer.page.goto(`./${ADDRESSES}`);
+    await viewer.pin(SMALL_VIEW);
     await viewer.rest();
     const button = (words: string) => viewer.page.getByRole('button', { name: words, exact: true });
     await expect(button('Lumen in 3D')).toHaveAttribute('aria-pressed', 'true');

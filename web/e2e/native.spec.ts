@@ -41,7 +41,7 @@ for (const view of views) {
     const camera = { ...view.camera, height: Math.min(WIDTH, HEIGHT) };
     const state = { camera, window, method, settings, layout: 'one' };
     const query = `?phantom=${view.phantom}&device=${isGpu ? 'any' : 'cpu'}${viewFragment(state)}`;
-    const viewer = await Viewer.open(browser, query);
+    const viewer = await Viewer.open(browser, query, { deviceScaleFactor: 1 });
     const { found, samples } = await shown(viewer);
     await expect(viewer.device).toContainText(isGpu ? 'GPU' : 'CPU');
     const expected = await decoded(viewer, `${view.name}-${samples}.png`);
@@ -78,7 +78,8 @@ interface Labelled {
   readonly pixels: number;
 }
 
-test('letters and scale bar equal those of the Python package', async ({ browser }) => {
+// They do not depend on the device.
+test('letters and scale bar equal those of the Python package', { tag: '@cpu' }, async ({ browser }) => {
   const { size, views } = JSON.parse(readFileSync(file('labels.json'), 'utf-8')) as {
     size: readonly [number, number];
     views: readonly Labelled[];

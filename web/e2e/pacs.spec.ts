@@ -1,7 +1,8 @@
 /** "Save for PACS" saves an archive of DICOM objects from the server of the page; Python can read them. */
-import { type ChildProcess, spawn, spawnSync } from 'node:child_process';
+import { type ChildProcess, spawn } from 'node:child_process';
 import { once } from 'node:events';
 import { join } from 'node:path';
+import { createInterface, type Interface } from 'node:readline';
 import { type Browser, expect, test } from '@playwright/test';
 import { button, menu, nameOf, rows, SIZE } from './controls';
 import { Viewer } from './page';
@@ -31,27 +32,44 @@ interface Told {
   readonly words?: readonly string[];
 }
 
-const running: ChildProcess[] = [];
-test.afterEach(() => {
-  for (const server of running.splice(0)) {
-    server.stdin?.end();
+interface Server extends Served {
+  /** What Python reads in an archive. */
+  readonly read: (archive: string) => Promise<Record<string, Told>>;
+}
+
+/** The servers that the tests share: one without, one with a scan. */
+const running = new Map<string, { readonly process: ChildProcess; readonly server: Promise<Server> }>();
+test.afterAll(() => {
+  for (const { process } of running.values()) {
+    process.stdin?.end();
   }
+  running.clear();
 });
 
-async function served(...words: readonly string[]): Promise<Served> {
-  const server = spawn(python, [SCRIPT, 'serve', join(ROOT, 'web/dist'), ...words], {
+function served(...words: readonly string[]): Promise<Server> {
+  const known = running.get(words.join());
+  if (known) {
+    return known.server;
+  }
+  const started = spawn(python, [SCRIPT, join(ROOT, 'web/dist'), ...words], {
     env: ENVIRONMENT,
     stdio: ['pipe', 'pipe', 'inherit'],
   });
-  running.push(server);
-  const [line] = await once(server.stdout, 'data');
-  return JSON.parse(String(line));
+  const lines = createInterface(started.stdout);
+  const server = told<Served>(lines).then((place) => ({
+    ...place,
+    read: (archive: string) => {
+      started.stdin.write(`${archive}\n`);
+      return told<Record<string, Told>>(lines);
+    },
+  }));
+  running.set(words.join(), { process: started, server });
+  return server;
 }
 
-function read(archive: string): Record<string, Told> {
-  const done = spawnSync(python, [SCRIPT, 'read', archive], { encoding: 'utf-8', env: ENVIRONMENT });
-  expect(done.status, done.stderr).toBe(0);
-  return JSON.parse(done.stdout);
+async function told<T>(lines: Interface): Promise<T> {
+  const [line] = await once(lines, 'line');
+  return JSON.parse(line);
 }
 
 const opened = (browser: Browser, { address }: Served): Promise<Viewer> =>
@@ -65,7 +83,7 @@ async function measured(viewer: Viewer): Promise<void> {
 }
 
 /** Saves by the menu, and answers the question about the study. Returns the content of the archive. */
-async function saved(viewer: Viewer, answer: string): Promise<Record<string, Told>> {
+async function saved(viewer: Viewer, answer: string, { read }: Server): Promise<Record<string, Told>> {
   await menu(viewer).click();
   await button(viewer, 'For PACS (DICOM, zip)').click();
   const [download] = await Promise.all([
@@ -89,7 +107,7 @@ test('from a DICOM folder to an archive of objects in the study of the scan', as
     .setInputFiles([...place.files, place.lines]);
   await measured(viewer);
   const shown = await viewer.page.locator('[data-testid=stenosis] .graded').innerText();
-  const found = await saved(viewer, 'Save in the study of the scan');
+  const found = await saved(viewer, 'Save in the study of the scan', place);
   expect(Object.keys(found).sort()).toEqual(ALL);
   for (const told of Object.values(found)) {
     expect(told.errors).toEqual([]);
@@ -109,10 +127,11 @@ test('from a DICOM folder to an archive of objects in the study of the scan', as
 test('a scan opened by the server, saved anonymously and in its study: the same numbers, and no name', async ({
   browser,
 }) => {
-  const viewer = await opened(browser, await served('scan'));
+  const place = await served('scan');
+  const viewer = await opened(browser, place);
   await measured(viewer);
-  const named = await saved(viewer, 'Save in the study of the scan');
-  const bare = await saved(viewer, 'Anonymous');
+  const named = await saved(viewer, 'Save in the study of the scan', place);
+  const bare = await saved(viewer, 'Anonymous', place);
   expect(bare['report.dcm']?.diameters).toEqual(named['report.dcm']?.diameters);
   expect(Object.values(bare).map(({ patient }) => patient)).toEqual(ALL.map(() => ''));
   expect(bare['report.dcm']?.names?.join()).not.toContain('renal');
@@ -143,7 +162,7 @@ test('a scan that is not DICOM uses the study of a chosen file, and other files 
     viewer.page.waitForEvent('download'),
     button(viewer, 'Save in this study').click(),
   ]);
-  const found = read(await download.path());
+  const found = await place.read(await download.path());
   expect(Object.keys(found).sort()).toEqual(['vessel.dcm', 'view.dcm']);
   expect(found['view.dcm']?.patient).toBe('Doe^Jane');
   viewer.expectNoFault();

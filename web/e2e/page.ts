@@ -19,6 +19,8 @@ interface TestHook extends Asked {
 }
 
 const THEME = 'dark';
+/** Conditions are checked at this interval (ms); the default is every frame, which makes the page draw frames. */
+const POLLING = { polling: 50 };
 /** Idle pages of each browser, by the options of their context; they show a small file, without an engine. */
 const IDLE = 'icon.svg';
 const idle = new WeakMap<Browser, Map<string, Viewer[]>>();
@@ -140,12 +142,18 @@ export class Viewer {
     await this.frames();
     await this.page.waitForFunction(
       () => document.querySelector<HTMLElement>('canvas.picture')?.dataset.last === 'true',
+      null,
+      POLLING,
     );
   }
 
   async state(): Promise<ViewState> {
     await this.frames();
-    await this.page.waitForFunction(() => document.documentElement.dataset.address === 'written');
+    await this.page.waitForFunction(
+      () => document.documentElement.dataset.address === 'written',
+      null,
+      POLLING,
+    );
     const state = stateOf(new URL(this.page.url()).hash);
     expect(state).not.toBeNull();
     return state ?? {};
@@ -237,8 +245,12 @@ export class Viewer {
       content: `[data-testid=turning] { position: absolute; width: ${width}px; height: ${height}px; inset: 0 auto auto 0; }`,
     });
     await this.page.waitForFunction(
-      (pixels) => document.querySelector<HTMLElement>('canvas.picture')?.dataset.pixels === pixels,
-      `${width}x${height}`,
+      (size) => {
+        const pixels = size.map((count) => count * window.devicePixelRatio).join('x');
+        return document.querySelector<HTMLElement>('canvas.picture')?.dataset.pixels === pixels;
+      },
+      [width, height],
+      POLLING,
     );
   }
 

@@ -70,7 +70,7 @@ async function pageState() {
 async function work(): Promise<void> {
   await startTracing(viewer);
   for (const [n, x] of [NARROWED, STRAIGHT].entries()) {
-    await traceTube(viewer, x, [28, -28], n + 1);
+    await traceTube(viewer, x, [20, -20], n + 1);
     await button(viewer, 'End this vessel').click();
   }
   await button(viewer, 'Done').click();

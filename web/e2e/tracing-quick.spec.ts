@@ -49,6 +49,7 @@ test('points that are set quickly become a vessel, even if Done is pressed at on
   await expect(help.getByRole('button', { name: 'Close' }).first()).toBeFocused();
   await viewer.screenshot('guide-help');
   viewer.expectNoFault();
+  await viewer.close();
 });
 
 test('a first click outside the scan is rejected at once', async ({ browser }) => {
@@ -60,4 +61,5 @@ test('a first click outside the scan is rejected at once', async ({ browser }) =
   await expect(viewer.problem).toContainText('outside the volume; expected a point between its corners');
   await expect(viewer.page.locator('[data-place=first]')).toHaveCount(0);
   viewer.expectNoFault();
+  await viewer.close();
 });

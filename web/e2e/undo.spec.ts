@@ -41,7 +41,7 @@ async function editVessels(): Promise<number> {
   const { page } = viewer;
   await startTracing(viewer);
   for (const [n, x] of [NARROWED, STRAIGHT].entries()) {
-    await traceTube(viewer, x, [26, -26], n + 1);
+    await traceTube(viewer, x, [18, -18], n + 1);
     await button(viewer, 'End this vessel').click();
   }
   await point(2, 'Vessel 2').focus();
@@ -105,7 +105,9 @@ async function editMarks(): Promise<number> {
   return 1 + 6 + 8;
 }
 
-test('more than thirty steps are undone and redone, and the saved file is the same', async () => {
+test('more than thirty steps are undone and redone, and the saved file is the same', {
+  tag: '@long',
+}, async () => {
   await viewer.press('v');
   const first = await made();
   const count = (await editVessels()) + (await editMarks());
@@ -132,7 +134,7 @@ test('more than thirty steps are undone and redone, and the saved file is the sa
 test('nothing of a study remains in the next one', async () => {
   const { page } = viewer;
   await startTracing(viewer);
-  await traceTube(viewer, NARROWED, [26, -26], 1);
+  await traceTube(viewer, NARROWED, [18, -18], 1);
   await page.getByLabel('Bridge gaps without lumen').check();
   await button(viewer, 'Done').click();
   await viewer.press('m');
@@ -164,7 +166,7 @@ test('nothing of a study remains in the next one', async () => {
   // The next scan is measured without marks and with its own estimate of the FWHM.
   await startTracing(viewer);
   await expect(page.locator('[data-place]')).toHaveCount(0);
-  await traceTube(viewer, NARROWED, [26, -26], 1);
+  await traceTube(viewer, NARROWED, [18, -18], 1);
   await expect(nameOf(viewer, 0)).toHaveValue('Vessel 1');
   await viewer.press('m');
   await expect(stenosis(viewer)).toContainText('Nothing is marked');

@@ -72,7 +72,7 @@ test('by mouse, from a scan file to the report', async ({ browser }) => {
   await viewer.close();
 });
 
-test('by keys only, from the start page to the report', async ({ browser }) => {
+test('by keys only, from the start page to the report', { tag: '@long' }, async ({ browser }) => {
   const viewer = await Viewer.open(browser, '?device=cpu', { viewport: SIZE });
   const { page } = viewer;
   const counted = await countInput(viewer);

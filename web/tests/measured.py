@@ -1,7 +1,7 @@
 """Measure the vessels of a phantom with the Python package: what the page must show.
 
-The command line names the phantom, and the heights of the plots. What was measured is written to standard
-output as JSON.
+The command line names the phantom, the FWHM (mm) or 0 to estimate it, and the heights of the plots. What was
+measured is written to standard output as JSON.
 """
 
 from __future__ import annotations
@@ -82,6 +82,7 @@ def asked(profile: Profile) -> dict[str, Any]:
         "contour": profile.contour[number].tolist(),
         "length": profile.stretch(before, after).length,
         "straight": profile.stretch(before, after).straight,
+        "tortuosity": profile.stretch(before, after).tortuosity,
         "direction": profile.direction(before, after).tolist(),
         "c_arm": str(profile.c_arm(before, after)),
         "angle": profile.angle_between((0.0, before), (after, length)),
@@ -123,15 +124,16 @@ def main() -> None:
     """Write it."""
     scene = getattr(phantom, sys.argv[1])()
     vessels = list(scene.tree)[:MOST_VESSELS]
-    profiles = [measure(scene.volume, vessel, tree=scene.tree) for vessel in vessels]
-    options = dict.fromkeys(("fwhm", "at", "reference", "method", "original", "comparison", "group"))
+    fwhm = float(sys.argv[2]) or None
+    profiles = [measure(scene.volume, vessel, tree=scene.tree, fwhm=fwhm) for vessel in vessels]
+    options = dict.fromkeys(("at", "reference", "method", "original", "comparison", "group")) | {"fwhm": fwhm}
     measured = [
         MeasuredVessel.of(str(n), vessel, profile, Marked())
         for n, (vessel, profile) in enumerate(zip(vessels, profiles, strict=True))
     ]
     found = {
         "profiles": [numbers(profile) for profile in profiles],
-        "drawn": [drawn(*both) for both in zip(profiles, map(float, sys.argv[2:]), strict=True)],
+        "drawn": [drawn(*both) for both in zip(profiles, map(float, sys.argv[3:]), strict=True)],
         "asked": asked(profiles[0]),
         "csv": vessels_csv(measured),
         "json": vessels_json(options | {"step": 0.5}, measured),

@@ -12,28 +12,55 @@ from __future__ import annotations
 import hashlib
 import json
 import logging
+import math
+import os
 import sys
 from collections.abc import Callable, Iterator
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import nibabel
 import nrrd
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
+#: Larger files of the shared data are read by the long tests.
+MOST_BYTES = 3_000_000
 sys.path.insert(0, str(ROOT / "tests"))
 
 from dicom_cases import CASES  # noqa: E402
 from dicom_repeated import REPEATED  # noqa: E402
 from dicom_scenes import scan  # noqa: E402
-from lumencut import Vessel, straightened_volume  # noqa: E402
+from lumencut import Vessel, set_threads, straightened_volume  # noqa: E402
+from lumencut.dicom.reading import workers  # noqa: E402
 from lumencut.errors import LumencutError  # noqa: E402
 from lumencut.files.volumes import inspected_volume, read_volume  # noqa: E402
 from volume_samples import DATA, coded, oblique  # noqa: E402
 
 Writer = Callable[[Path], Path]
+
+
+class SharedDecoder(workers.Worker):
+    """The decoder of all series is one process, since its start takes longer than decoding a series."""
+
+    _of_all: ClassVar[dict[str, Any]] = {}
+
+    def __init__(self) -> None:
+        if not self._of_all:
+            super().__init__()
+            self._of_all.update(self.__dict__)
+        self.__dict__ = self._of_all
+
+    def kill(self) -> None:
+        """Keep the process for the next series."""
+
+    def close(self) -> None:
+        """Keep the process for the next series."""
+
+    def end(self) -> None:
+        """End the process."""
+        super().close()
 
 
 def read(path: Path, **wanted: Any) -> dict[str, Any]:
@@ -277,11 +304,19 @@ def straightened(folder: Path) -> dict[str, Any]:
     }
 
 
+def bytes_of(path: Path) -> int:
+    """The size of a file or of all files in a folder."""
+    return sum(file.stat().st_size for file in (path.rglob("*") if path.is_dir() else [path]))
+
+
 def shared() -> Iterator[dict[str, Any]]:
-    """The volumes of the shared data."""
+    """The volumes of the shared data; the large ones only in the long tests."""
     endings = (".nii.gz", ".nrrd", ".mha")
     files = [path for path in sorted(DATA.rglob("*")) if path.name.endswith(endings)]
+    most = math.inf if os.environ.get("LUMENCUT_LONG") else MOST_BYTES
     for path in (*files, *sorted((DATA / "dicom").glob("ct-*"))):
+        if bytes_of(path) > most:
+            continue
         kind = "series" if path.is_dir() else "volume"
         name = str(path.relative_to(DATA))
         named = {"name": name, "kind": kind, "path": str(path), "folder": str(path.parent)}
@@ -295,7 +330,11 @@ def main() -> None:
     """Write everything."""
     logging.getLogger("lumencut").setLevel(logging.ERROR)
     folder = Path(sys.argv[1])
+    # One thread asks one decoder at a time.
+    set_threads(1)
+    workers.Worker = SharedDecoder  # type: ignore[misc]
     every = [*made(folder), straightened(folder), *shared()]
+    SharedDecoder().end()
     (folder / "expected.json").write_text(json.dumps(every, indent=1))
 
 

@@ -4,7 +4,11 @@ use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::pipeline::CpuRenderer;
 use lumencut_core::stages::Stage;
 
-use crate::stages::on_either;
+/// The stages that the CPU can compute instead of the GPU: all that write images. In a browser it computes none, so
+/// that a page need not load the CPU's kernels.
+pub(crate) fn on_either() -> impl Iterator<Item = Stage> {
+    Stage::ALL.into_iter().filter(|stage| !stage.writes().is_empty())
+}
 
 #[derive(Debug, Default)]
 pub(crate) struct OnCpu {

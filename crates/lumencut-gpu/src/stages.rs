@@ -1,7 +1,6 @@
 //! All compiled stages, and the grid of the volume that they read.
 
 use lumencut_core::geometry::Geometry;
-use lumencut_core::stages::Stage;
 use lumencut_core::volume::Volume;
 use wgpu::Buffer;
 
@@ -56,10 +55,4 @@ impl Stages {
     ) {
         device.write(&self.grid, &[on_device.grid(volume, geometry.camera())]);
     }
-}
-
-/// The stages that the CPU can compute instead of the GPU, to find the cause of a difference: all that write
-/// images. In a browser it computes none, so that a page need not load the CPU's kernels.
-pub(crate) fn on_either() -> impl Iterator<Item = Stage> {
-    Stage::ALL.into_iter().filter(|stage| !stage.writes().is_empty())
 }

@@ -56,6 +56,7 @@ mod nrrd;
 mod numbers;
 mod open;
 #[cfg(feature = "unpacking")]
+mod pack;
 mod plan;
 mod segments;
 mod stream;
@@ -71,8 +72,9 @@ pub use nifti::{StatedUnits, stated_units};
 pub use numbers::{Kind, Scaling};
 pub use open::{HEAD, format_of, open};
 #[cfg(feature = "unpacking")]
+pub use pack::Packer;
 pub use plan::{Affine, Format, Grid, Place, Plan, Stored};
 pub use segments::{Segment, Segmentation};
 pub use stream::Codec;
 pub use text::printable;
-pub use write::{Packer, Written};
+pub use write::Written;

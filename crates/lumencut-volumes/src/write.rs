@@ -1,10 +1,7 @@
-//! Writes volumes as NIfTI-1 and NRRD files, and compresses them.
+//! Writes volumes as NIfTI-1 and NRRD files.
 
 use crate::numbers::Kind;
 use crate::plan::Affine;
-use flate2::Compression;
-use flate2::write::GzEncoder;
-use std::io::Write;
 
 const DESCRIPTION: usize = 79;
 /// NIfTI's code for a placement in the space of another scan.
@@ -139,30 +136,5 @@ impl Written<'_> {
             if is_packed { "gzip" } else { "raw" },
             column(3),
         )
-    }
-}
-
-/// Compresses pieces of bytes into a gzip stream, at the fastest level. The highest level takes six times as long and
-/// makes a noisy scan 0.5 % smaller.
-pub struct Packer(GzEncoder<Vec<u8>>);
-
-impl Default for Packer {
-    fn default() -> Self {
-        Self(GzEncoder::new(Vec::new(), Compression::fast()))
-    }
-}
-
-impl Packer {
-    /// Compresses bytes; returns the part of the stream that is ready.
-    pub fn pack(&mut self, bytes: &[u8]) -> Vec<u8> {
-        // Writing into memory cannot fail.
-        let _ = self.0.write_all(bytes);
-        std::mem::take(self.0.get_mut())
-    }
-
-    /// Returns the last bytes of the stream.
-    #[must_use]
-    pub fn end(self) -> Vec<u8> {
-        self.0.finish().unwrap_or_default()
     }
 }

@@ -6,16 +6,16 @@ import asyncio
 import concurrent.futures
 import os
 import time
-from collections import Counter
+from collections import Counter, deque
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from lumencut.cohort.child import Child, Outcome
 from lumencut.cohort.job import Job
-from lumencut.cohort.scheduler import SchedulerWatch, briefly, within
+from lumencut.cohort.scheduler import SchedulerWatch, briefly, quiet, within
 from lumencut.errors import MissingPackageError, SettingsError
 
 #: How often a study restarts on another worker if its worker is lost.
@@ -62,16 +62,18 @@ class Cluster:
         studies = _Studies(self.client, jobs, str(lock))
         try:
             with SchedulerWatch(self.client) as watch:
-                while studies.left:
-                    watch.check(len(jobs) - studies.left, len(jobs))
+                has_room = True
+                while studies.left and has_room:
                     studies.begin()
-                    outcomes = studies.ended()
-                    yield from outcomes
-                    if any(outcome.state == "no room" for outcome in outcomes):
-                        return
-                    if not outcomes:
-                        time.sleep(_LOOK)
-                        yield None
+                    for future in studies.ended():
+                        # Each result may take until its timeout.
+                        watch.check(len(jobs) - studies.left, len(jobs))
+                        outcome = studies.outcome(future)
+                        has_room = has_room and (outcome is None or outcome.state != "no room")
+                        yield outcome
+                    watch.check(len(jobs) - studies.left, len(jobs))
+                    time.sleep(_LOOK)
+                    yield None
         finally:
             briefly(studies.cancel)
 
@@ -81,7 +83,7 @@ class _Studies:
 
     def __init__(self, client: Any, jobs: Sequence[Job], lock: str) -> None:
         self._client, self._lock = client, lock
-        self._waiting = list(reversed(jobs))
+        self._waiting = deque(jobs)
         self._asked: dict[Any, Job] = {}
         self._lost: Counter[str] = Counter()
 
@@ -93,22 +95,23 @@ class _Studies:
     def begin(self) -> None:
         """Submit the waiting studies to the scheduler."""
         if self._waiting:
-            self._client.sync(self._submit)
+            # What dask has not submitted in time it submits later, or the check of the scheduler ends this.
+            with suppress(TimeoutError):
+                self._client.sync(self._submit, callback_timeout=_ANSWER)
 
     async def _submit(self) -> None:
         # In the event loop of dask: if the connection broke in between, dask would forget the studies.
         while self._waiting and self._client.status == "running":
-            job = self._waiting[-1]
+            job = self._waiting[0]
             key = f"lumencut-study-{job.id}-{os.urandom(4).hex()}"
-            future = self._client.submit(run_on_worker, job, self._lock, key=key)
-            self._asked[future] = self._waiting.pop()
+            self._asked[self._client.submit(run_on_worker, job, self._lock, key=key)] = job
+            self._waiting.popleft()
 
-    def ended(self) -> list[Outcome]:
-        """Yield how studies ended since the last call."""
-        ended = [future for future in self._asked if future.status in _ENDED]
-        return [outcome for future in ended if (outcome := self._outcome(future)) is not None]
+    def ended(self) -> list[Any]:
+        """Return the submitted studies that ended."""
+        return [future for future in list(self._asked) if future.status in _ENDED]
 
-    def _outcome(self, future: Any) -> Outcome | None:
+    def outcome(self, future: Any) -> Outcome | None:
         """Return how a study ended; None if it restarts or its end is not known yet."""
         try:
             outcome: Outcome | None = future.result(_ANSWER)
@@ -180,10 +183,13 @@ def dask_cluster(address: str) -> Iterator[Cluster]:
     except (OSError, ValueError) as error:
         found = str(error) or "no answer"
         raise SettingsError(f"dask {address}", found, "the address of a scheduler that answers") from error
+    connection = ExitStack()
+    connection.enter_context(quiet(client))
+    connection.callback(client.close)
     try:
         yield Cluster(client)
     finally:
-        briefly(client.close)
+        briefly(connection.close)
 
 
 @contextmanager

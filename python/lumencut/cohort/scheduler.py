@@ -7,8 +7,8 @@ import concurrent.futures
 import logging
 import threading
 import time
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from typing import Any, TypeVar
 
 from lumencut.errors import FileError
@@ -20,7 +20,7 @@ _log = logging.getLogger("lumencut")
 #: Interval between requests to the scheduler, and timeout for its answer (s).
 _EVERY, _ANSWER = 1.0, 5.0
 #: After this silence the scheduler counts as lost (s); a restart at the same address takes less time.
-_PATIENCE = 12.0
+_PATIENCE = 17.0
 #: Time without workers after which a warning appears (s).
 _IDLE = 30.0
 _GRACE = 2.0
@@ -39,7 +39,9 @@ class SchedulerWatch:
         self._client = client
         self._address = str(getattr(client.scheduler, "address", "scheduler"))
         self._is_over = False
-        self._silent_since: float | None = None
+        # Counted here: if dask does not end a request that takes too long, `_ask_on` never continues.
+        self._answers = self._known_answers = 0
+        self._silence, self._checked = 0.0, time.monotonic()
         self._idle_since: float | None = None
 
     def __enter__(self) -> SchedulerWatch:
@@ -57,17 +59,24 @@ class SchedulerWatch:
         FileError
             If it no longer answers.
         """
-        silent = self._silent_since
-        is_given_up = self._client.status in ("closing", "closed")
-        if is_given_up or (silent is not None and time.monotonic() - silent > _PATIENCE):
+        self._listen()
+        if self._silence > _PATIENCE or self._client.status in ("closing", "closed"):
             found = f"no answer, after {done} of {count} studies"
             mend = "start it, and run the command again: it continues"
             raise FileError(f"dask {self._address}", found, "a scheduler that answers", mend)
 
+    def _listen(self) -> None:
+        """Add the time since the last check to the silence, or end the silence."""
+        before, self._checked = self._checked, time.monotonic()
+        known, self._known_answers = self._known_answers, self._answers
+        # After a longer pause of this process, the scheduler gets time to answer.
+        passed = min(self._checked - before, _ANSWER)
+        self._silence = self._silence + passed if known == self._known_answers else 0.0
+
     async def _ask_on(self) -> None:
         while not self._is_over:
             workers = await self._workers()
-            self._silent_since = None if workers is not None else self._silent_since or time.monotonic()
+            self._answers += workers is not None
             self._note_idle(workers)
             await asyncio.sleep(_EVERY)
 
@@ -89,6 +98,32 @@ class SchedulerWatch:
         elif time.monotonic() - self._idle_since > _IDLE:
             self._idle_since = float("inf")
             _log.warning("dask %s: it has no workers; the batch waits until some come", self._address)
+
+
+@contextmanager
+def quiet(client: Any) -> Iterator[None]:
+    """Keep dask from printing its log about a lost scheduler, since `SchedulerWatch` reports that.
+
+    Warnings of a client that is connected are printed, and everything if the user configured the log of dask.
+    """
+    import dask
+
+    def is_shown(record: logging.LogRecord) -> bool:
+        return record.levelno >= logging.WARNING and bool(client.status == "running")
+
+    names = (
+        f"{where}{name}" for where in ("", "distributed.") for name in ("logging", "logging-file-config")
+    )
+    is_configured = any(dask.config.get(name, None) for name in names)
+    # The loggers of dask share their handlers.
+    handlers = [] if is_configured else list(logging.getLogger("distributed").handlers)
+    for handler in handlers:
+        handler.addFilter(is_shown)
+    try:
+        yield
+    finally:
+        for handler in handlers:
+            handler.removeFilter(is_shown)
 
 
 def within(seconds: float, act: Callable[[], Answer]) -> Answer:

@@ -35,21 +35,6 @@ def rendered(view: dict[str, Any], size: tuple[int, int], samples: int) -> Image
     return Image.fromarray(frame.image)
 
 
-def stretches() -> dict[str, Any]:
-    """What is measured of two quarters of a phantom's longest vessel: around its middle, and the first."""
-    scene = phantom.aorta()
-    longest = max(scene.tree, key=lambda vessel: vessel.length)
-    profile = lumencut.measure(scene.volume, longest, tree=scene.tree)
-    length = float(profile.arc_length[-1])
-    middle, first = (3 / 8 * length, 5 / 8 * length), (0.0, length / 4)
-    along = profile.stretch(*middle)
-    return {
-        "stretch": [along.length, along.straight, along.tortuosity],
-        "c_arm": str(profile.c_arm(*middle)),
-        "degrees": profile.angle_between(middle, first).degrees,
-    }
-
-
 def measured() -> None:
     """Write what is measured of the phantom with a narrowing of 50 %."""
     scene = phantom.stenosis()
@@ -63,7 +48,6 @@ def measured() -> None:
         "diameter": profile.diameter_at(profile.narrowest()[0]),
         "references": profile.suggested_references(profile.narrowest()[0]),
         "widest": profile.widest(),
-        "aorta": stretches(),
     }
     (HERE / "measuring.json").write_text(json.dumps(told, indent=2) + "\n", "utf-8")
     marked = MeasuredVessel.of("0", vessel, profile, Marked(30.0, (10.0, 50.0)))

@@ -2,7 +2,7 @@
 
 import type { Camera, DocumentVessel, LineId } from '../core/messages';
 import { doubtful, vesselOf } from '../state/changes';
-import { placeCrossHair } from '../state/cross-hair';
+import { placeAnswer } from '../state/cross-hair';
 import { flyToAnswer } from '../state/flight';
 import { document_ } from '../state/history';
 import { contents } from '../state/lines';
@@ -38,7 +38,11 @@ export async function showDoubt(vessel: DocumentVessel): Promise<void> {
   const middle = points[Math.floor(points.length / 2)];
   try {
     if (middle) {
-      placeCrossHair({ ...(await engine.ask('at', middle)), vessel: null, arc_length: null }, 'turning');
+      const pick = engine.ask('at', middle);
+      await placeAnswer(
+        pick.then((found) => ({ ...found, vessel: null, arc_length: null })),
+        'turning',
+      );
     }
     if (camera.value) {
       await flyToAnswer(viewOf(camera.value, vessel.line));

@@ -89,9 +89,16 @@ type Open = (wish: SeriesWish) => Promise<void>;
 
 let last: { readonly open: Open; readonly wish: SeriesWish } = { open: async () => {}, wish: {} };
 
+let opening: Promise<void> = Promise.resolve();
+
 export function openWith(wish: SeriesWish, open: Open): Promise<void> {
   last = { open, wish };
-  return open(wish);
+  opening = open(wish);
+  return opening;
+}
+
+export async function openingEnded(): Promise<void> {
+  await opening.catch(() => {});
 }
 
 export function openAgain(wish: SeriesWish): Promise<void> {

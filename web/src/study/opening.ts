@@ -5,7 +5,7 @@ import type { GivenFile, SeriesWish } from '../core/messages';
 import { addSegmentation } from '../edit/branches';
 import { isSegmentation } from '../edit/segmentation';
 import { document_, hasEdits, undo, undoWords } from '../state/history';
-import { openWith } from '../state/opened';
+import { openingEnded, openWith } from '../state/opened';
 import { askWhatIs } from '../state/questions';
 import * as store from '../state/store';
 import { engine } from '../worker/engine';
@@ -45,6 +45,12 @@ const areAll = (files: readonly GivenFile[], extensions: readonly string[]) =>
 /** Opens files; first asks if their meaning is ambiguous or work would be lost. A session is opened after its scan. */
 export async function takeFiles(files: readonly GivenFile[]): Promise<void> {
   const session = await sessionAmong(files);
+  const areLines = areAll(files, CENTERLINES);
+  const isMask = await isSegmentation(files);
+  if (session || areLines || isMask) {
+    // They belong to a scan, which may still be opening. A new scan replaces it instead.
+    await openingEnded();
+  }
   if (session) {
     const others = files.filter((file) => file !== session);
     await leave(async () => {
@@ -55,9 +61,9 @@ export async function takeFiles(files: readonly GivenFile[]): Promise<void> {
     });
   } else if (store.hasVolume.value && files.length > 0 && areAll(files, VOLUMES)) {
     askWhatIs(files);
-  } else if (store.hasVolume.value && files[0] && (await isSegmentation(files))) {
+  } else if (store.hasVolume.value && files[0] && isMask) {
     await addSegmentation(files[0]);
-  } else if (areAll(files, CENTERLINES)) {
+  } else if (areLines) {
     await openFiles(files);
   } else {
     await leave(() => openFiles(files));

@@ -34,7 +34,10 @@ export async function open(load: () => Promise<Loaded>, name: string): Promise<v
     const isEdited = document_.value.vessels.length > 0 || hasEdits.value;
     const comesToEdits = opened.isBeside && store.hasVolume.value && isEdited;
     await (comesToEdits ? showBeside(opened) : showStudy(opened, opened.name ?? name));
-    store.setProblem(misread(opened));
+    const doubt = misread(opened);
+    if (doubt) {
+      store.setProblem(doubt);
+    }
   } catch (error) {
     const failure = Failure.of(error);
     if (failure.kind !== 'interrupted') {

@@ -1,9 +1,9 @@
 /** A row of the vessel list. The row of the picked vessel has buttons for it. */
 import { useEffect, useRef, useState } from 'preact/hooks';
-import type { DocumentVessel } from '../core/messages';
+import type { DocumentVessel, Pick } from '../core/messages';
 import { cut, hide, join, recolor, remove, rename } from '../edit/vessels';
 import { nameOf, PALETTE } from '../state/changes';
-import { placeCrossHair } from '../state/cross-hair';
+import { placeAnswer } from '../state/cross-hair';
 import { recover } from '../state/device';
 import { document_ } from '../state/history';
 import { lengthOf } from '../state/lines';
@@ -207,6 +207,12 @@ function VesselActions({ vessel }: RowProps) {
   );
 }
 
+async function middleOf(vessel: number, length: number): Promise<Pick> {
+  const [point] = await engine.ask('across', { vessel, at: length / 2 });
+  const { value } = await engine.ask('at', point);
+  return { point, value, vessel, arc_length: length / 2 };
+}
+
 /** Picks a vessel, and moves all views to half its length. A hidden vessel is picked once displayed. */
 async function pick({ id }: DocumentVessel): Promise<void> {
   pickOnceShown(id);
@@ -216,9 +222,7 @@ async function pick({ id }: DocumentVessel): Promise<void> {
   }
   const length = report.value?.vessels?.[vessel]?.length ?? 0;
   try {
-    const [point] = await engine.ask('across', { vessel, at: length / 2 });
-    const { value } = await engine.ask('at', point);
-    placeCrossHair({ point, value, vessel, arc_length: length / 2 }, 'turning');
+    await placeAnswer(middleOf(vessel, length), 'turning');
   } catch (error) {
     recover(error);
   }

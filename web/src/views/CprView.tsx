@@ -7,7 +7,7 @@ import { UprightPlaces } from '../measure/PlaceHandles';
 import { CprControls } from '../pane/CprControls';
 import { FlatPicture } from '../pane/FlatPicture';
 import { dragWindow, windowBack } from '../state/actions';
-import { placeCrossHair } from '../state/cross-hair';
+import { placeAnswer } from '../state/cross-hair';
 import { toggleMaximised } from '../state/panels';
 import * as store from '../state/store';
 import { engine } from '../worker/engine';
@@ -46,9 +46,8 @@ export function CprView() {
   const left = size && shown ? (size[0] - shown[0]) / 2 : 0;
   const point = (at: Pair) => {
     if (shown) {
-      void engine
-        .ask('pick_straightened', { pixel: [at[0] - left, at[1]] })
-        .then((pick) => placeCrossHair(pick, 'straightened'));
+      const pixel: Pair = [at[0] - left, at[1]];
+      void placeAnswer(engine.ask('pick_straightened', { pixel }), 'straightened');
     }
   };
   const handlers = {

@@ -8,7 +8,7 @@ import { attempt } from '../output/save-actions';
 import { FlatPicture } from '../pane/FlatPicture';
 import { ReformationControls } from '../pane/ReformationControls';
 import { dragWindow, windowBack } from '../state/actions';
-import { placeCrossHair } from '../state/cross-hair';
+import { placeAnswer } from '../state/cross-hair';
 import { toggleMaximised } from '../state/panels';
 import { mapOf, reformationOf, reformationTitle, setUncurled, uncurled } from '../state/reformation';
 import * as store from '../state/store';
@@ -135,11 +135,9 @@ function useHair(shown: ReformedPicture | null): Pair | null {
 
 function handlersOf(kind: Reformation['kind'], [left, top]: Pair) {
   const point = ([x, y]: Pair) =>
-    attempt(async () => {
-      const pick = await engine.ask('pick_reformed', { pixel: [x - left - 0.5, y - top - 0.5] });
-      if (pick) {
-        placeCrossHair(pick, 'straightened');
-      }
+    attempt(() => {
+      const pixel: Pair = [x - left - 0.5, y - top - 0.5];
+      return placeAnswer(engine.ask('pick_reformed', { pixel }), 'straightened');
     });
   return {
     drag: (action: string, by: Pair) => (action === 'window' ? dragWindow(by) : undefined),

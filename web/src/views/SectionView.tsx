@@ -8,7 +8,7 @@ import { SliceMeasures } from '../measure/MeasureOverlay';
 import { SectionMarks } from '../measure/SectionMarks';
 import { FlatPicture } from '../pane/FlatPicture';
 import { dragWindow, windowBack } from '../state/actions';
-import { moveAlong, placeCrossHair } from '../state/cross-hair';
+import { moveAlong, moveCrossHair } from '../state/cross-hair';
 import { recover } from '../state/device';
 import { toggleMaximised } from '../state/panels';
 import * as store from '../state/store';
@@ -62,7 +62,7 @@ export function SectionView() {
   const ask = useAsked(plane, window);
   const point = (place: Pair) => {
     if (plane) {
-      void engine.ask('at', pointOn(plane, place)).then((pick) => placeCrossHair(pick, 'section'));
+      moveCrossHair(pointOn(plane, place), 'section');
     }
   };
   const handlers = {

@@ -2,8 +2,7 @@
 
 import { batch } from '@preact/signals';
 import { useEffect, useRef, useState } from 'preact/hooks';
-import { Latest } from '../core/latest';
-import type { Pair, Plane, Vector } from '../core/messages';
+import type { Pair, Plane } from '../core/messages';
 import {
   AXES,
   fittedLook,
@@ -22,13 +21,12 @@ import type { Handlers } from '../input/pointer';
 import { SliceMeasures } from '../measure/MeasureOverlay';
 import { FlatPicture } from '../pane/FlatPicture';
 import { dragWindow, windowBack } from '../state/actions';
-import { placeCrossHair } from '../state/cross-hair';
+import { moveCrossHair } from '../state/cross-hair';
 import { aimAt } from '../state/drawing';
 import { stepLumen } from '../state/lumens';
 import { toggleMaximised } from '../state/panels';
 import * as store from '../state/store';
 import { isTracing } from '../state/tool';
-import { engine } from '../worker/engine';
 import { useAsked } from './asked';
 import { EdgeLabels } from './EdgeLabels';
 import { LumenInset } from './LumenInset';
@@ -67,7 +65,7 @@ export function SliceView({ name }: { readonly name: SliceName }) {
       ask={ask}
       handlers={sliceHandlers(name, look, setLook, plane, projection)}
       onSize={setSize}
-      onArrow={projection && isTracing() ? (by) => moveCrossHair(name, projection, by) : undefined}
+      onArrow={projection && isTracing() ? (by) => stepCrossHair(name, projection, by) : undefined}
     >
       {plane && point && (
         <>
@@ -91,7 +89,7 @@ function sliceHandlers(
 ): Handlers {
   const point = (at: Pair) => {
     if (plane) {
-      void engine.ask('at', pointOn(plane, at)).then((pick) => placeCrossHair(pick, name));
+      moveCrossHair(pointOn(plane, at), name);
     }
   };
   const pointed = plane && projection ? { name, projection, place: (at: Pair) => pointOn(plane, at) } : null;
@@ -157,31 +155,18 @@ function scrollSlices(name: SliceName, steps: number): void {
     const normal = cross(right, down);
     const sign = name === 'coronal' ? 1 : -1;
     const step = scale(normal, steps * sign * sliceDistance(volume, name));
-    moveTo(name, add(hair.point, step));
+    moveCrossHair(add(hair.point, step), name);
   }
 }
 
-const moving = new Latest();
-
-function moveCrossHair(name: SliceName, projection: Projection, by: Pair): void {
+function stepCrossHair(name: SliceName, projection: Projection, by: Pair): void {
   const hair = store.crossHair.value;
   if (!hair) {
     return;
   }
   const point = add(hair.point, projection.step(by));
   batch(() => {
-    moveTo(name, point);
+    moveCrossHair(point, name);
     aimAt(point);
-  });
-}
-
-/** Moves the cross-hair at once, so that no step is lost; its value is requested afterwards. */
-function moveTo(name: SliceName, point: Vector): void {
-  store.putCrossHair(point);
-  moving.run(async () => {
-    const pick = await engine.ask('at', point);
-    if (store.crossHair.value?.point === point) {
-      placeCrossHair(pick, name);
-    }
   });
 }

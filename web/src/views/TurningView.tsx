@@ -10,7 +10,7 @@ import { dragOfKey, zoomOfKey } from '../input/keys';
 import { listen } from '../input/pointer';
 import { usePaneSize } from '../pane/pane-size';
 import * as actions from '../state/actions';
-import { placeCrossHair } from '../state/cross-hair';
+import { placeAnswer } from '../state/cross-hair';
 import { recover } from '../state/device';
 import { stepLumen } from '../state/lumens';
 import { toggleMaximised } from '../state/panels';
@@ -240,7 +240,7 @@ async function pickAt(at: readonly [number, number]): Promise<void> {
   }
   isPicking = true;
   try {
-    placeCrossHair(await engine.ask('pick', { view, pixel: at }), 'turning');
+    await placeAnswer(engine.ask('pick', { view, pixel: at }), 'turning');
   } catch (error) {
     recover(error);
   } finally {

@@ -5,11 +5,11 @@ import type { Pair, Pick, Vector } from '../core/messages';
 import { addClickOnLine } from '../edit/clicks';
 import { acceptCandidate, endVessel, setPoint, takeWhole } from '../edit/pointing';
 import type { Action, Where } from '../input/bindings';
-import { placeCrossHair } from '../state/cross-hair';
+import { jumpTo, placeCrossHair } from '../state/cross-hair';
 import { recover } from '../state/device';
 import { aimAt, anchor, candidate, drawn, propose, setFirst } from '../state/drawing';
 import { forgetLumens, lookForLumens, meant } from '../state/lumens';
-import { crossHair, putCrossHair, type ViewName } from '../state/store';
+import { crossHair, type ViewName } from '../state/store';
 import { chooseDoubt, chosenDoubt, isTracing, tool } from '../state/tool';
 import { engine } from '../worker/engine';
 import { curveAt, isAt } from './curves';
@@ -66,7 +66,7 @@ async function setAt(view: Pointed, at: Pair): Promise<void> {
 }
 
 async function setHere(view: Pointed, point: Vector): Promise<void> {
-  putCrossHair(point);
+  jumpTo(point);
   showValue(view, point, (await setPoint(point)) ?? (await engine.ask('at', point)));
 }
 

@@ -204,9 +204,10 @@ impl Difference {
     }
 }
 
-fn views() -> Vec<Camera> {
+/// Views of many and of few pixels; the largest has `large` times `large`.
+fn views_up_to(large: usize) -> Vec<Camera> {
     vec![
-        view_beside_voxels([0.0, 1.0, 0.0], [257, 257], 0.2),
+        view_beside_voxels([0.0, 1.0, 0.0], [large; 2], 51.4 / large as f64),
         view_beside_voxels([0.5, -0.6, 0.4], [33, 20], 1.3),
         view_beside_voxels([0.0, 0.0, -1.0], [1, 17], 2.1),
         view_beside_voxels([-1.0, 0.2, 0.1], [65, 49], 0.9),
@@ -214,10 +215,14 @@ fn views() -> Vec<Camera> {
     ]
 }
 
+fn views() -> Vec<Camera> {
+    views_up_to(257)
+}
+
 fn compare(volume: &Volume, contexts: &[Context], scale: f64, what: &str) {
     let Some(device) = device() else { return };
     let mut stage = ContextStage::new(device);
-    for camera in views() {
+    for camera in views_up_to(97) {
         let placed = Placed::new(device, volume, &camera);
         let surface = cut_surface(&camera);
         for (n, context) in contexts.iter().enumerate() {

@@ -17,8 +17,8 @@ use lumencut_scenes::views::{front, view};
 
 use super::both_sides::{BothSides, assert_same};
 use super::shared;
+use crate::on_cpu::on_either;
 use crate::renderer::GpuRenderer;
-use crate::stages::on_either;
 
 const SIZE: [usize; 2] = [96, 80];
 /// At single pixels two pieces of the trefoil knot are equally near, and the depth filter spreads each

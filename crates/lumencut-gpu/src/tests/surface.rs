@@ -166,7 +166,7 @@ fn a_long_volume_keeps_its_places() {
     let middle = DAffine3::from_translation(-DVec3::from(SIZE.map(|n| (n - 1) as f64)) / 2.0);
     let volume = volume(Voxels::I16(&voxels), SIZE, DAffine3::from_scale(DVec3::splat(0.7)) * middle);
     for direction in [[0.02, 0.03, 1.0], [0.3, 1.0, -0.4], [0.0, 1.0, 0.0]] {
-        let camera = view_beside_voxels(direction, [1031, 1200], 0.8);
+        let camera = view_beside_voxels(direction, [131, 1200], 0.8);
         compare(&volume, &camera, &[None], &depths(&camera, &volume), 10.0, "places");
     }
 }

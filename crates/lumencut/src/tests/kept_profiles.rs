@@ -18,7 +18,7 @@ fn with_junction(look: impl FnOnce(Scan)) {
 }
 
 fn parameters<'a>(fwhm: Option<f64>, stop: Stop<'a>) -> MeasureParameters<'a> {
-    MeasureParameters { step: 1.0, fwhm, wall: WallRequest::Automatic, stop }
+    MeasureParameters { step: 3.0, fwhm, wall: WallRequest::Automatic, stop }
 }
 
 #[test]
@@ -31,7 +31,7 @@ fn a_profile_is_measured_once() {
         let never = || true;
         assert_eq!(kept.of(1, vessel, scan, &parameters(None, &never)).expect("what was kept"), first);
         let request = MeasureRequest {
-            step: 1.0,
+            step: 3.0,
             fwhm: None,
             wall: WallRequest::Automatic,
             tree: scan.tree,
@@ -50,7 +50,7 @@ fn what_is_asked_for_in_another_way_is_measured_anew() {
         let go_on = || false;
         kept.of(0, &scan.tree[0], scan, &parameters(None, &go_on)).expect("a profile");
         let never = || true;
-        let finer = MeasureParameters { step: 0.5, ..parameters(None, &never) };
+        let finer = MeasureParameters { step: 2.0, ..parameters(None, &never) };
         let without_wall = MeasureParameters { wall: WallRequest::Off, ..parameters(None, &never) };
         for parameters in [finer, without_wall, parameters(Some(1.0), &never)] {
             let error = kept.of(0, &scan.tree[0], scan, &parameters).expect_err("it was stopped");

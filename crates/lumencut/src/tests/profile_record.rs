@@ -24,7 +24,7 @@ fn profile(wall: WallRequest) -> Profile {
         lumencut_phantom::y_junction().expect("a phantom");
     let strides = [1, size[0], size[0] * size[1]];
     let volume = Volume::new(Voxels::I16(&voxels), size, strides, world_from_index).expect("a volume");
-    let request = MeasureRequest { step: 1.0, fwhm: None, wall, tree: tree.vessels(), stop: &|| false };
+    let request = MeasureRequest { step: 3.0, fwhm: None, wall, tree: tree.vessels(), stop: &|| false };
     measure(&volume, &tree.vessels()[1], &request).expect("a profile")
 }
 

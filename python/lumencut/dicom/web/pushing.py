@@ -1,4 +1,7 @@
-"""Sends objects to a PACS (STOW-RS) in batches, retries failures once, and confirms all by a search."""
+"""Sends objects to a PACS (STOW-RS) in batches, retries failures once, and confirms all by a search.
+
+Addresses to which the user has pushed before are remembered, since the first push needs a confirmation.
+"""
 
 from __future__ import annotations
 

@@ -1,6 +1,7 @@
 //! Tests measurements by the study against tubes of known diameter and against the core.
 
 use std::f64::consts::{FRAC_PI_6, PI};
+use std::sync::LazyLock;
 
 use glam::{DMat2, DVec2, DVec3};
 use lumencut_core::vessel_tree::Vessel;
@@ -252,21 +253,28 @@ fn measured_by_core(study: &Study, tree: &[Vessel]) -> Profile {
     .expect("a profile")
 }
 
+/// The trunk of the junction, measured by the core: among all vessels, and as the only one.
+static TRUNK: LazyLock<[Profile; 2]> = LazyLock::new(|| {
+    let study = opened("y_junction");
+    let tree = study.content.tree().expect("a tree").tree().clone();
+    [tree.vessels(), &tree.vessels()[..1]].map(|tree| measured_by_core(&study, tree))
+});
+
 #[test]
 fn profiles_are_those_of_the_core_among_the_vessels_that_are_shown() {
     let mut study = opened("y_junction");
     let tree = study.content.tree().expect("a tree").tree().clone();
     let [trunk, branch] = [0, 1].map(|vessel| line_of(&study, vessel));
-    let among_all = measured_by_core(&study, tree.vessels());
+    let [among_all, alone] = &*TRUNK;
     let found = study.profile(trunk, None, &go_on).expect("a profile");
     assert_eq!(
         (&found.flags, &found.area, &found.fwhm_source),
         (&among_all.flags, &among_all.area, &among_all.fwhm_source)
     );
     // A single vessel has no branches, and the point spread is estimated from it.
-    for (line, vessel) in [(trunk, 0), (branch, 1)] {
+    let branch_alone = measured_by_core(&study, &tree.vessels()[1..=1]);
+    for (line, expected) in [(trunk, alone), (branch, &branch_alone)] {
         study.show(&[listed(line)]).expect("one line");
-        let expected = measured_by_core(&study, &tree.vessels()[vessel..=vessel]);
         assert_ne!((&expected.flags, expected.fwhm), (&among_all.flags, among_all.fwhm));
         let found = study.measured(line, &go_on).expect("a profile");
         assert_eq!((&found.flags, &found.area), (&expected.flags, &expected.area));
@@ -279,8 +287,7 @@ fn hiding_a_vessel_changes_no_number() {
     let mut study = opened("y_junction");
     let tree = study.content.tree().expect("a tree").tree().clone();
     let lines: Vec<usize> = (0..tree.vessels().len()).map(|vessel| line_of(&study, vessel)).collect();
-    let among_all = measured_by_core(&study, tree.vessels());
-    let alone = measured_by_core(&study, &tree.vessels()[..1]);
+    let [among_all, alone] = &*TRUNK;
     assert_ne!((&alone.flags, alone.fwhm), (&among_all.flags, among_all.fwhm));
     let hidden = |line: &usize| ListedLine { hidden: *line != lines[0], ..listed(*line) };
     let list: Vec<_> = lines.iter().map(hidden).collect();
