@@ -1,6 +1,9 @@
 //! Traces centerlines between clicks.
 
 pub mod checks;
+pub(crate) mod closure;
+pub(crate) mod dim;
+pub(crate) mod flaps;
 pub(crate) mod gaps;
 pub(crate) mod junctions;
 pub(crate) mod paths;

@@ -7,6 +7,7 @@ use glam::DVec3;
 
 use crate::trace::clicks::Traced;
 use crate::trace::clicks::checks::Clicks;
+use crate::trace::clicks::flaps::Flaps;
 use crate::trace::clicks::gaps::{LONGEST_GAP, Line, no_lumen, no_way};
 use crate::trace::clicks::way::{Way, start};
 use crate::trace::lines::nearest_point;
@@ -20,9 +21,12 @@ use lumencut_core::error::{Error, Result};
 use lumencut_core::progress::Progress;
 use lumencut_core::stop::Stop;
 
-/// Maximum number of voxels of a front (9 bytes each), and of a search that only explains why no path exists.
+/// Maximum number of voxels of a front (7 bytes each), and of a search that only explains why no path exists.
 const MOST_VOXELS: usize = 40_000_000;
 const MOST_VOXELS_OF_DOUBT: usize = 4_000_000;
+
+/// Around a click in dim lumen, the line is a guess up to this distance at least (mm).
+const NEAR_DIM: f64 = 3.0;
 
 type Ends = [[i32; 3]; 2];
 
@@ -34,9 +38,17 @@ pub(crate) struct Paths {
     ways: HashMap<Ends, Way>,
 }
 
+/// The path between two clicks: its points, and whether each lies where no lumen is seen.
+struct Part {
+    points: Vec<DVec3>,
+    is_open: Vec<bool>,
+}
+
 pub(crate) struct Search<'a, 'v> {
     pub voxels: &'a Voxels<'v>,
     pub clicks: &'a Clicks,
+    /// The clicks in dim lumen.
+    pub dim: &'a [DVec3],
     pub stop: Stop<'a>,
     pub progress: Option<&'a Progress>,
 }
@@ -72,34 +84,35 @@ impl Paths {
 
     /// The centerline through clicks. Errors: `ErrorKind::Tracing` without lumen between them.
     pub(crate) fn line(&mut self, search: &Search, clicks: &[DVec3]) -> Result<Traced> {
-        let mut points: Vec<DVec3> = Vec::new();
-        let mut open: Vec<bool> = Vec::new();
+        let mut parts = Vec::with_capacity(clicks.len() - 1);
         for pair in clicks.windows(2) {
             let way = self.way(search, [pair[0], pair[1]])?;
-            let mut is_open = vec![false; way.points.len()];
-            for gap in way.gaps.iter().filter(|gap| gap.is_open) {
-                is_open[gap.points.clone()].fill(true);
+            parts.push(Part { is_open: way.is_open(), points: way.straightened() });
+        }
+        let traced = centered(search, &self.region.model, clicks, &parts)?;
+        let crossing = Line::new(search.voxels, &self.region.model, &traced.line.points).crossing();
+        match crossing.filter(|_| !search.clicks.bridge) {
+            Some(crossing) => Err(no_lumen(traced.ends, &crossing, &self.region.model)),
+            None => Ok(traced),
+        }
+    }
+
+    /// The centerline through clicks that crosses no flap, and no edge of a lumen however dim; None if there is none.
+    pub(crate) fn line_without_flaps(&mut self, search: &Search, clicks: &[DVec3]) -> Result<Option<Traced>> {
+        let mut flaps = Flaps::new(search, self.region.model, clicks);
+        let mut parts = Vec::with_capacity(clicks.len() - 1);
+        for pair in clicks.windows(2) {
+            let Some(steps) = flaps.free_way(search, [pair[0], pair[1]])? else { return Ok(None) };
+            let way = Way::of(search.voxels, &mut self.region, &steps);
+            let is_dim = |place: DVec3| search.dim.iter().any(|dim| dim.distance(place) < NEAR_DIM);
+            let mut is_open = way.is_open();
+            for (is_open, place) in is_open.iter_mut().zip(&way.points) {
+                *is_open |= is_dim(*place);
             }
-            let skip = usize::from(!points.is_empty());
-            points.extend(&way.straightened()[skip..]);
-            open.extend(&is_open[skip..]);
+            // A dim lumen is no gap that a straight line may cross.
+            parts.push(Part { is_open, points: way.points });
         }
-        let region = &self.region;
-        let line = refined(search.voxels, &region.model, &points, search.stop)?;
-        let mut line = without_wander(search.voxels, &region.model, line, search.stop)?;
-        let bridged: Vec<bool> =
-            line.points.iter().map(|point| open[nearest_point(&points, *point)]).collect();
-        for (confidence, is_bridged) in line.confidence.iter_mut().zip(&bridged) {
-            if *is_bridged {
-                *confidence = 0.0;
-            }
-        }
-        let ends = [clicks[0], clicks[clicks.len() - 1]];
-        let crossing = Line::new(search.voxels, &region.model, &line.points).crossing();
-        if let Some(crossing) = crossing.filter(|_| !search.clicks.bridge) {
-            return Err(no_lumen(ends, &crossing, &region.model));
-        }
-        Ok(Traced { line, bridged, ends })
+        centered(search, &flaps.lumen, clicks, &parts).map(Some)
     }
 
     fn way(&mut self, search: &Search, between: [DVec3; 2]) -> Result<Way> {
@@ -174,4 +187,21 @@ const PARTS: usize = 1000;
 fn refusal(between: [DVec3; 2], way: &Way, model: &LumenModel) -> Error {
     let longest = way.gaps.iter().max_by(|a, b| a.length.total_cmp(&b.length));
     longest.map_or_else(|| no_way(between, model), |gap| no_lumen(between, gap, model))
+}
+
+fn centered(search: &Search, model: &LumenModel, clicks: &[DVec3], parts: &[Part]) -> Result<Traced> {
+    let first = |part: usize| usize::from(part > 0);
+    let points: Vec<DVec3> =
+        parts.iter().enumerate().flat_map(|(n, part)| &part.points[first(n)..]).copied().collect();
+    let open: Vec<bool> =
+        parts.iter().enumerate().flat_map(|(n, part)| &part.is_open[first(n)..]).copied().collect();
+    let line = refined(search.voxels, model, &points, search.stop)?;
+    let mut line = without_wander(search.voxels, model, line, search.stop)?;
+    let bridged: Vec<bool> = line.points.iter().map(|point| open[nearest_point(&points, *point)]).collect();
+    for (confidence, is_bridged) in line.confidence.iter_mut().zip(&bridged) {
+        if *is_bridged {
+            *confidence = 0.0;
+        }
+    }
+    Ok(Traced { line, bridged, ends: [clicks[0], clicks[clicks.len() - 1]] })
 }

@@ -6,7 +6,7 @@ use crate::trace::clicks::gaps::LONGEST_GAP;
 use crate::trace::clicks::way::{Way, start};
 use crate::trace::lumen::surroundings::Surroundings;
 use crate::trace::ways::front::{Found, Front, Reach};
-use crate::trace::ways::region::{FORBIDDEN, Region, Stopper, Strictness};
+use crate::trace::ways::region::{FORBIDDEN, Region, Stopper, Strictness, WEAK};
 use crate::voxels::Voxels;
 use lumencut_core::stop::Stop;
 
@@ -71,7 +71,7 @@ impl Live {
         voxels.voxel_at(sought.between[1])?;
         let target = start(voxels, region, sought.between[1]);
         let code = region.code_of(voxels, target);
-        if code == FORBIDDEN || region.is_weak(voxels, target) {
+        if code == FORBIDDEN || code >= region.code_below(WEAK) {
             return None;
         }
         for front in fronts {

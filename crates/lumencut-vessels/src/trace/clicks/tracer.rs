@@ -4,13 +4,14 @@ use glam::DVec3;
 
 use crate::trace::clicks::Traced;
 use crate::trace::clicks::checks::{Clicks, check, check_place};
+use crate::trace::clicks::dim::model_beside_dim;
 use crate::trace::clicks::junctions::joined;
 use crate::trace::clicks::paths::{Paths, Search};
 use crate::trace::clicks::preview::{Live, Sought};
 use crate::trace::lumen::level_change::level_change;
 use crate::trace::lumen::lumen_model::in_words;
 use crate::trace::lumen::surroundings::Surroundings;
-use crate::trace::ways::region::{Region, Stopper, Strictness};
+use crate::trace::ways::region::{Region, Strictness};
 use crate::voxels::Voxels;
 use lumencut_core::error::{Clicked, Error, ErrorKind, Result};
 use lumencut_core::progress::Progress;
@@ -24,8 +25,7 @@ const MOST_LIVE: usize = 2;
 #[derive(Debug, Default)]
 pub struct Tracer {
     surroundings: Option<Surroundings>,
-    /// The paths through lumen, and those that also avoid flaps between two lumens.
-    readings: Option<[Paths; 2]>,
+    paths: Option<Paths>,
     lines: Vec<(Vec<DVec3>, Traced)>,
     /// Fronts for the pointer, the most recently used one first.
     live: Vec<Live>,
@@ -46,8 +46,8 @@ impl Tracer {
         check(voxels, clicks)?;
         let surroundings = self.surroundings_of(voxels, &all_of(clicks));
         let clicks = &snapped(voxels, surroundings, clicks);
-        self.prepare(voxels, surroundings, clicks)?;
-        let search = Search { voxels, clicks, stop, progress };
+        let dim = self.prepare(voxels, surroundings, clicks)?;
+        let search = Search { voxels, clicks, dim: &dim, stop, progress };
         if let Some(progress) = progress {
             progress.expect_views(clicks.vessels.iter().map(|points| points.len() - 1).sum());
         }
@@ -70,7 +70,7 @@ impl Tracer {
         let voxels = &Voxels::new(volume);
         let known = self.live.iter().position(|live| live.is_from(sought));
         let kept = known.map(|number| self.live.remove(number));
-        let region = self.readings.as_ref().map(|[lumen, _]| &lumen.region);
+        let region = self.paths.as_ref().map(|paths| &paths.region);
         let begin = || Live::new(voxels, sought, self.surroundings, region);
         let mut live = kept.or_else(begin)?;
         let way = live.way(voxels, sought, stop);
@@ -93,56 +93,61 @@ impl Tracer {
         self.surroundings.unwrap_or_else(|| Surroundings::of(voxels, clicks))
     }
 
-    /// Fits the lumen model to the clicks, and drops caches that were made with a different model.
-    fn prepare(&mut self, voxels: &Voxels, surroundings: Surroundings, clicks: &Clicks) -> Result<()> {
-        let model = surroundings.model(voxels, &all_of(clicks))?;
+    /// Fits the lumen model to the clicks, and drops caches that were made with a different model. Returns the
+    /// clicks in dim lumen.
+    fn prepare(
+        &mut self,
+        voxels: &Voxels,
+        surroundings: Surroundings,
+        clicks: &Clicks,
+    ) -> Result<Vec<DVec3>> {
+        let (model, dim) = model_beside_dim(voxels, &surroundings, clicks)?;
         // The surroundings are stored only after the check, because those of rejected clicks would mislead
         // later ones.
         self.surroundings = Some(surroundings);
-        let fits = |[lumen, _]: &[Paths; 2]| lumen.region.model.covers(&model);
-        if !self.readings.as_ref().is_some_and(fits) {
-            let made = |strictness| Region::new(voxels.size, model, clicks.stoppers.clone(), strictness);
-            let readings =
-                [Strictness::Lumen, Strictness::Flaps].map(|strictness| Paths::new(made(strictness)));
-            *self = Self { surroundings: Some(surroundings), readings: Some(readings), ..Self::default() };
+        let fits = |paths: &Paths| paths.region.model.covers(&model);
+        if !self.paths.as_ref().is_some_and(fits) {
+            let region = Region::new(voxels.size, model, clicks.stoppers.clone(), Strictness::Lumen);
+            *self =
+                Self { surroundings: Some(surroundings), paths: Some(Paths::new(region)), ..Self::default() };
         }
-        self.heed(voxels, &clicks.stoppers);
-        Ok(())
-    }
-
-    fn heed(&mut self, voxels: &Voxels, stoppers: &[Stopper]) {
-        for paths in self.readings.iter_mut().flatten() {
-            if paths.heed(voxels, stoppers) {
-                self.lines.clear();
-            }
+        if self.paths.as_mut().is_some_and(|paths| paths.heed(voxels, &clicks.stoppers)) {
+            self.lines.clear();
         }
+        Ok(dim)
     }
 
     fn tidy(&mut self, voxels: &Voxels, clicks: &Clicks) {
         let known: Vec<[i32; 3]> =
             clicks.vessels.iter().flatten().filter_map(|click| voxels.voxel_at(*click)).collect();
-        for paths in self.readings.iter_mut().flatten() {
+        if let Some(paths) = &mut self.paths {
             paths.tidy(&known);
         }
     }
 
-    /// The line of the first reading; where that one is refused, or changes to another lumen, the line of the
-    /// second one, if it does neither.
+    /// The line through clear lumen. Where it is refused, or seems to enter another lumen, the line that crosses no flap
+    /// is taken, if there is one. A vessel with a click in dim lumen has no other line.
     fn line(&mut self, search: &Search, clicks: &[DVec3]) -> Result<Traced> {
-        let Some([lumen, flaps]) = &mut self.readings else { return Err(Error::interrupted()) };
-        let changes = |traced: &Traced| level_change(search.voxels, &traced.line).is_some();
-        let first = lumen.line(search, clicks);
-        match &first {
-            Ok(traced) if search.clicks.bridge || !changes(traced) => return first,
-            Err(error) if error.kind != ErrorKind::Tracing => return first,
-            _ => {}
-        }
-        match flaps.line(search, clicks) {
-            Ok(second) if first.is_err() || !changes(&second) => Ok(second),
-            Err(error) if error.kind != ErrorKind::Tracing => Err(error),
-            _ => first,
-        }
+        let Some(paths) = &mut self.paths else { return Err(Error::interrupted()) };
+        let dim = clicks.iter().find(|click| search.dim.contains(click));
+        let first = match dim {
+            Some(dim) => Err(no_free_way(*dim)),
+            None => paths.line(search, clicks),
+        };
+        let is_sure = match &first {
+            Ok(traced) => search.clicks.bridge || level_change(search.voxels, &traced.line).is_none(),
+            Err(error) => error.kind != ErrorKind::Tracing,
+        };
+        if is_sure { first } else { paths.line_without_flaps(search, clicks)?.map_or(first, Ok) }
     }
+}
+
+fn no_free_way(dim: DVec3) -> Error {
+    let found = "tissue, or dim lumen without a path to the other points that stays within the same walls";
+    let subject = format!("point {}", in_words(dim));
+    Error::new(ErrorKind::Tracing, subject, found, "lumen")
+        .about(Clicked::Single)
+        .mend("click where the lumen is clear")
 }
 
 fn all_of(clicks: &Clicks) -> Vec<DVec3> {

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use crate::trace::clicks::gaps::{Gap, Line};
-use crate::trace::ways::region::{FORBIDDEN, Region, THIN};
+use crate::trace::ways::region::{FORBIDDEN, Region, THIN, WEAK};
 use crate::voxels::Voxels;
 
 #[derive(Clone, Debug)]
@@ -17,7 +17,10 @@ pub(crate) struct Way {
 impl Way {
     pub(crate) fn of(voxels: &Voxels, region: &mut Region, steps: &[[i32; 3]]) -> Self {
         let points: Vec<DVec3> = steps.iter().map(|voxel| voxels.center(*voxel)).collect();
-        let weak: Vec<bool> = steps.iter().map(|voxel| region.is_weak(voxels, *voxel)).collect();
+        let codes: Vec<u8> = steps.iter().map(|voxel| region.code_of(voxels, *voxel)).collect();
+        let below =
+            |limit: f64| codes.iter().map(|code| *code >= region.code_below(limit)).collect::<Vec<_>>();
+        let weak = below(WEAK);
         let line = Line::new(voxels, &region.model, &points);
         let mut gaps = line.gaps(&weak);
         for gap in &mut gaps {
@@ -25,6 +28,15 @@ impl Way {
             gap.is_open |= region.stoppers.iter().any(|stopper| gap.passes(&points, stopper));
         }
         Self { points, gaps }
+    }
+
+    /// Whether each point lies in a gap that is too long to be accepted.
+    pub(crate) fn is_open(&self) -> Vec<bool> {
+        let mut is_open = vec![false; self.points.len()];
+        for gap in self.gaps.iter().filter(|gap| gap.is_open) {
+            is_open[gap.points.clone()].fill(true);
+        }
+        is_open
     }
 
     /// Points of the path, with straight lines in place of gaps, because no values guide the path there.

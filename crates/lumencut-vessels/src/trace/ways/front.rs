@@ -9,7 +9,7 @@ use glam::DVec3;
 use crate::trace::ways::barrier::{change_per_level, cost_of_change};
 use crate::trace::ways::blocks::{BLOCK, Blocks, SIDE, index_in, index_of, meets, voxel_of};
 use crate::trace::ways::buckets::Buckets;
-use crate::trace::ways::region::{BlockCosts, FORBIDDEN, Region, costs};
+use crate::trace::ways::region::{BlockCosts, FORBIDDEN, Region, WEAK, costs};
 use crate::voxels::Voxels;
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
@@ -83,6 +83,7 @@ pub struct Front {
     /// For each step, the factor from a difference of levels to a multiple of the free change.
     per_level: [f32; 26],
     costs: [f32; 256],
+    weak: u8,
 }
 
 impl Front {
@@ -97,6 +98,7 @@ impl Front {
             steps: steps(voxels),
             per_level: steps(voxels).map(|(_, length)| change_per_level(length)),
             costs: costs(),
+            weak: region.code_below(WEAK),
         };
         let (block, voxel) = front.locate(voxels, region, source);
         front.known[block].way[voxel] = 0.0;
@@ -146,6 +148,14 @@ impl Front {
                 }
             }
         }
+    }
+
+    /// Cost of the path between two voxels of the same path.
+    pub(crate) fn cost_between(&self, from: [i32; 3], to: [i32; 3]) -> f64 {
+        let [from, to] = [from, to].map(|voxel| {
+            self.find(voxel).map_or(f32::INFINITY, |(block, voxel)| self.known[block].way[voxel])
+        });
+        f64::from(to - from)
     }
 
     pub(crate) fn has_come_to(&self, target: [i32; 3]) -> bool {
@@ -216,7 +226,7 @@ impl Front {
             if way >= self.known[to].way[at] || (is_pulled && self.known[to].is_offered(at)) {
                 continue;
             }
-            let stretch = if costs.is_weak(at) {
+            let stretch = if code >= self.weak {
                 run.saturating_add((f64::from(length) / GAP_UNIT_MM) as u8)
             } else {
                 0

@@ -86,14 +86,6 @@ pub(crate) struct BlockCosts {
     pub codes: [u8; BLOCK],
     /// Levels of the voxels, between which a change costs more; None if changes cost nothing.
     pub levels: Option<Box<[i16; BLOCK]>>,
-    /// One bit per voxel that is not lumen.
-    weak: [u64; BLOCK / 64],
-}
-
-impl BlockCosts {
-    pub(crate) fn is_weak(&self, voxel: usize) -> bool {
-        self.weak[voxel / 64] >> (voxel % 64) & 1 != 0
-    }
 }
 
 /// Costs of the blocks that were needed so far, with one byte per voxel.
@@ -126,12 +118,6 @@ impl Region {
         self.costs_of(voxels, self.made.place_of(voxel)).codes[index_of(voxel)]
     }
 
-    /// Whether a voxel is not lumen.
-    pub(crate) fn is_weak(&mut self, voxels: &Voxels, voxel: [i32; 3]) -> bool {
-        self.costs_of(voxels, self.made.place_of(voxel)).is_weak(index_of(voxel))
-    }
-
-    /// Code of the cost of a membership.
     pub(crate) fn code_below(&self, limit: f64) -> u8 {
         let least = self.strictness.least_membership();
         let membership = least + (1.0 - least) * limit;
@@ -159,9 +145,8 @@ impl Region {
         let noise = self.model.noise_of_membership() * NOISE_LEFT;
         let wide = blurred(&shares, &[1.0 / 7.0; 7]);
         let least = self.strictness.least_membership();
-        let weak = self.code_below(WEAK);
         let levels = barrier.as_ref().map(|barrier| Box::new(barrier.levels));
-        let mut costs = BlockCosts { codes: [FORBIDDEN; BLOCK], levels, weak: [0; BLOCK / 64] };
+        let mut costs = BlockCosts { codes: [FORBIDDEN; BLOCK], levels };
         for n in 0..BLOCK {
             let from = padded(n);
             let bends = bends(&near, from);
@@ -170,8 +155,6 @@ impl Region {
             let membership = least + (1.0 - least) * share;
             let off_middle = OFF_MIDDLE.mul_add(1.0 - f64::from(wide[from]), 1.0);
             let wall = WALL.mul_add(wall_between(f64::from(near[from]), &bends), 1.0);
-            costs.weak[n / 64] |=
-                u64::from(code_of(wall * off_middle / (membership * membership)) >= weak) << (n % 64);
             let valley = barrier.as_ref().map_or(1.0, |barrier| f64::from(barrier.valleys[n]));
             costs.codes[n] = code_of(wall.max(valley) * off_middle / (membership * membership));
         }
