@@ -7,6 +7,7 @@ pub(crate) mod assumed_spread;
 pub(crate) mod levels;
 pub(crate) mod point_spread;
 pub(crate) mod struts;
+pub(crate) mod throats;
 
 use crate::measure::fit::sections::Section;
 use crate::measure::section::SectionPlane;

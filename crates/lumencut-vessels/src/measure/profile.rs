@@ -79,6 +79,8 @@ pub struct Profile {
     pub diameter_outer: Vec<[f64; 2]>,
     /// Equivalent diameter (mm) without, and with, the bright material at the wall; NaN if there is no such material.
     pub bounds: Vec<[f64; 2]>,
+    /// Largest diameter (mm) that the values allow where the lumen of a tight stenosis is dim and does not count, else NaN.
+    pub at_most: Vec<f64>,
     /// Flags of each section; see [`crate::measure::section::flags`].
     pub flags: Vec<u32>,
     /// Centre of the lumen (mm, LPS); the centerline point if no lumen was found.
@@ -142,6 +144,7 @@ impl Profile {
             wall: sections.iter().zip(&flags).map(wall).collect(),
             diameter_outer: sections.iter().zip(&flags).map(outer).collect(),
             bounds: sections.iter().map(|section| section.bounds).collect(),
+            at_most: sections.iter().map(|section| section.at_most).collect(),
             flags,
             normal: places.iter().map(|place| place.normal).collect(),
             axes: places.iter().map(|place| place.axes).collect(),

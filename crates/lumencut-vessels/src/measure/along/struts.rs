@@ -4,7 +4,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::measure::fit::sections::{Section, UNMODELLED_WIDTHS, center};
+use crate::measure::fit::sections::{Bench, Section, UNMODELLED_WIDTHS, center};
 use crate::measure::section::SectionPlane;
 use crate::measure::section::flags::{BRANCH, CALCIUM, LEFT_OUT, METAL, NEIGHBOR};
 use crate::measure::section::rays::{RAYS, Rays};
@@ -29,20 +29,21 @@ const SIDE: f64 = 0.8;
 const OUTSIDE: f64 = 0.05;
 const WITHIN: f64 = 0.4;
 
-/// Minimum covariance between periods, in variances of the noise. Vessels without stents reach 0.5.
+/// Minimum covariance between periods, and minimum variance, in variances of the noise.
 const REPEATS: f64 = 0.65;
+const UNEVEN: f64 = 1.7;
 
 /// Values (fractions of the contrast) in each direction of each section; NaN where the rim cannot be judged.
 type Rings = Vec<[f64; RAYS]>;
 
-/// Flags sections within thin struts, which are measured only as well as those within thick ones. `widths` are the
-/// blur (mm) of each section.
-pub(crate) fn flag_struts(rays: &Rays, places: &[SectionPlane], widths: &[f64], sections: &mut [Section]) {
-    let found = has_struts(rays, places, sections);
-    for ((section, width), _) in sections.iter_mut().zip(widths).zip(found).filter(|(_, has)| *has) {
+/// Flags sections within thin struts, which are measured only as well as those within thick ones.
+pub(crate) fn flag_struts(bench: &Bench, places: &[SectionPlane], sections: &mut [Section]) {
+    let found = has_struts(&bench.rays, places, sections);
+    for ((section, place), _) in sections.iter_mut().zip(places).zip(found).filter(|(_, has)| *has) {
         section.flags |= METAL;
         if let Some(fit) = &mut section.fit {
-            fit.parts.surroundings = fit.parts.surroundings.hypot(UNMODELLED_WIDTHS * width);
+            let unsure = UNMODELLED_WIDTHS * bench.blur.width(place);
+            fit.parts.surroundings = fit.parts.surroundings.hypot(unsure);
             fit.uncertainty = fit.parts.total();
         }
     }
@@ -73,7 +74,8 @@ fn has_struts(rays: &Rays, places: &[SectionPlane], sections: &[Section]) -> Vec
     let repeats: Vec<bool> = (0..places.len())
         .map(|n| {
             let around = n.saturating_sub(count(COMPARED))..(n + count(COMPARED) + 1).min(places.len());
-            repetition(&rim, around, PERIODS.map(count)) > REPEATS * noise
+            covariance(&rim, around.clone(), 0).is_some_and(|variance| variance > UNEVEN * noise)
+                && repetition(&rim, around, PERIODS.map(count)) > REPEATS * noise
         })
         .collect();
     let reach = count(FLAGGED);

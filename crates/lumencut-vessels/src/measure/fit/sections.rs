@@ -97,11 +97,13 @@ pub(crate) struct Section {
     pub flags: u32,
     /// See [`crate::measure::profile::Profile::bounds`].
     pub bounds: [f64; 2],
+    /// See [`crate::measure::profile::Profile::at_most`].
+    pub at_most: f64,
 }
 
 impl Section {
     pub(crate) fn none() -> Self {
-        Self { fit: None, contour: Vec::new(), flags: NO_EDGE, bounds: [f64::NAN; 2] }
+        Self { fit: None, contour: Vec::new(), flags: NO_EDGE, bounds: [f64::NAN; 2], at_most: f64::NAN }
     }
 
     pub(crate) fn scale(&mut self, by: f64) {
@@ -210,7 +212,13 @@ impl Bench<'_, '_> {
             flags |= NO_EDGE;
         }
         let contour = points(place, ellipse.center, &walls);
-        Section { contour, fit: Some(fit), flags: flags | self.place_flags(place, &ellipse), bounds }
+        Section {
+            contour,
+            fit: Some(fit),
+            flags: flags | self.place_flags(place, &ellipse),
+            bounds,
+            at_most: f64::NAN,
+        }
     }
 
     fn by_rays(&self, place: &SectionPlane, known: &Known) -> Option<Section> {
@@ -238,7 +246,13 @@ impl Bench<'_, '_> {
             other: None,
         };
         let contour = points(place, known.ellipse.center, &walls);
-        Some(Section { contour, fit: Some(fit), flags: flags | self.place_flags(place, &ellipse), bounds })
+        Some(Section {
+            contour,
+            fit: Some(fit),
+            flags: flags | self.place_flags(place, &ellipse),
+            bounds,
+            at_most: f64::NAN,
+        })
     }
 
     fn place_flags(&self, place: &SectionPlane, ellipse: &Ellipse) -> u32 {

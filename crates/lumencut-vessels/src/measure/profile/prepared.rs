@@ -11,6 +11,7 @@ use crate::measure::along::assumed_spread::AssumedSpread;
 use crate::measure::along::levels::lumen_levels;
 use crate::measure::along::point_spread::{MIN_WIDTH, SharpEdges, SpreadEstimate, estimated};
 use crate::measure::along::struts::flag_struts;
+use crate::measure::along::throats::Throats;
 use crate::measure::along::{flag_sharp_turns, sharpen};
 use crate::measure::beside::branches::{Lumen, meets};
 use crate::measure::estimation::Level;
@@ -60,8 +61,11 @@ struct FirstFits {
 }
 
 /// The sections of a vessel, measured for one point spread and wall.
-pub(super) struct Read {
+pub(super) struct Read<'a, 'v> {
     pub sections: Vec<Section>,
+    bench: Bench<'a, 'v>,
+    /// Pooled level of the lumen at each section.
+    lumen: Vec<f64>,
     /// Noise of a voxel, as a fraction of the contrast.
     pub noise: f64,
     /// Number of sections from one with own voxels to the next.
@@ -92,7 +96,7 @@ impl PreparedVessel {
         let (wall, wall_source) = expected(voxels, &scale, request.wall)?;
         let widest = known.map_or(MAX_RADIUS_MM, |radius| (3.0 * radius + 5.0).min(MAX_RADIUS_MM));
         let search = known.unwrap_or(0.0).max(MIN_SEARCH_MM);
-        let assumed = AssumedSpread::of(voxels, is_hounsfield(voxels, &scale));
+        let assumed = AssumedSpread::of(voxels.world_from_index.matrix3, is_hounsfield(voxels, &scale));
         let bench = bench(voxels, scale, wall, assumed.fwhm[0]);
         let mut estimates = bench.estimates(&first, search, widest, request.stop)?;
         for (estimate, place) in estimates.iter_mut().zip(&first) {
@@ -250,7 +254,7 @@ impl PreparedVessel {
         if !read.is_wall_hidden {
             self.include_thin_walls(voxels, &mut read.sections, &spread, request.stop)?;
         }
-        let mut sections = read.sections;
+        let mut sections = std::mem::take(&mut read.sections);
         let others = Lumen::of_others(request.tree, vessel);
         for (n, section) in sections.iter_mut().enumerate() {
             section.flags |= self.branch(n, section.fit.as_ref(), &others);
@@ -261,15 +265,15 @@ impl PreparedVessel {
         if sections.iter().all(|section| section.flags & NO_EDGE > 0) {
             return Err(no_lumen(&self.scale));
         }
-        let blur = Blur::new(spread.fwhm, voxels.world_from_index.matrix3);
+        let Read { bench, lumen, noise, .. } = &read;
         if is_hounsfield(voxels, &self.scale) {
-            let widths: Vec<f64> = self.places.iter().map(|place| blur.width(place)).collect();
-            flag_struts(&Rays { voxels, scale: self.scale }, &self.places, &widths, &mut sections);
+            flag_struts(bench, &self.places, &mut sections);
         }
         let variance: Vec<f64> =
-            self.places.iter().map(|place| blur.along(place, thickness(voxels, place))).collect();
+            self.places.iter().map(|place| bench.blur.along(place, thickness(voxels, place))).collect();
         sharpen(&mut sections, &self.arc_lengths(), &variance);
         flag_sharp_turns(&self.places, &mut sections);
+        Throats { bench, places: &self.places, lumen, noise: *noise }.limit(&mut sections);
         let wall_source = match by_others {
             _ if read.is_wall_hidden => WallSource::AsBright,
             Some(by_others) => self.wall_source.pooled(by_others),
@@ -281,13 +285,13 @@ impl PreparedVessel {
     }
 
     /// Measures all sections with a point spread (FWHM and its standard deviation, mm).
-    pub(super) fn read(
+    pub(super) fn read<'a, 'v>(
         &self,
-        voxels: &Voxels,
+        voxels: &'a Voxels<'v>,
         [fwhm, deviation]: Level,
         by_others: Option<PooledWall>,
         stop: Stop,
-    ) -> Result<Read> {
+    ) -> Result<Read<'a, 'v>> {
         let (every, fitted) = self.fitted(voxels, fwhm);
         let first = self.kept_fits(voxels, fwhm, stop)?;
         let hidden = first.hidden;
@@ -305,7 +309,8 @@ impl PreparedVessel {
         };
         let sections: Vec<Section> =
             (0..self.places.len()).into_par_iter().map(section).collect::<Result<_>>()?;
-        Ok(Read { sections, noise: all.noise, every, is_wall_hidden: hidden.is_some() })
+        let lumen = (0..self.places.len()).map(|n| all.lumen_near(n, every)).collect();
+        Ok(Read { sections, bench, lumen, noise: all.noise, every, is_wall_hidden: hidden.is_some() })
     }
 
     fn wall_by_others(
