@@ -30,7 +30,7 @@ const OUTSIDE: f64 = 0.05;
 const WITHIN: f64 = 0.4;
 
 /// Minimum covariance between periods, and minimum variance, in variances of the noise.
-const REPEATS: f64 = 0.65;
+const REPEATS: f64 = 0.75;
 const UNEVEN: f64 = 1.7;
 
 /// Values (fractions of the contrast) in each direction of each section; NaN where the rim cannot be judged.
