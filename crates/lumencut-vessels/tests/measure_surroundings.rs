@@ -19,7 +19,6 @@ const LUMEN: f64 = 350.0;
 const WALL: f64 = 50.0;
 const NOISE: f64 = 18.0;
 
-/// A round vessel along z.
 #[derive(Clone, Copy)]
 struct Scene {
     diameter: f64,
@@ -68,7 +67,6 @@ impl Scene {
                 let away = along.hypot(place.distance(middle) - 0.5 * self.diameter - 0.05);
                 let strut = self.struts * (-0.5 * away * away / variance).exp();
                 let value = if (STENT[0]..STENT[1]).contains(&at) { value + strut } else { value };
-                // One voxel of air, as every CT has.
                 let value = if n == 0 { -1000.0 } else { value };
                 (value + NOISE * noise(&mut state)) as f32
             })
@@ -128,7 +126,6 @@ fn walls_in_lung_too_thin_to_be_seen_make_diameters_unsure() {
 
 #[test]
 fn narrow_vessels_do_not_show_their_own_blur() {
-    // Wide enough for the blur that is assumed, too narrow for the true one.
     let scene = Scene { diameter: 2.8, fwhm: 1.2, ..MUSCLE };
     let profile = scene.measured();
     assert!(matches!(&profile.fwhm_source, Source::Assumed { from } if from.contains("CT of the body")));
@@ -154,7 +151,6 @@ fn thin_struts_are_seen_by_their_repetition() {
         scene.measured().flags.iter().map(|flags| flags & METAL > 0).collect()
     };
     let stent = is_metal(&Scene { struts: 160.0, ..FAT });
-    // Sections are 0.5 mm apart.
     let within = &stent[(2.0 * STENT[0]) as usize..(2.0 * STENT[1]) as usize];
     assert!(within.iter().filter(|is| **is).count() > within.len() * 9 / 10, "{within:?}");
     assert!(is_metal(&FAT).iter().all(|is| !is));

@@ -40,7 +40,7 @@ pub const FLAGS: [FlagLook; 10] = [
         ("AT_LIMIT", AT_LIMIT),
         [
             "near the blur",
-            "the lumen is narrower than 1.5 times the scanner's blur (FWHM): its diameter is near the limit of resolution",
+            "the lumen is narrower than 1.5 times the blur (FWHM), or twice the spacing of thick slices: it is hardly resolved",
         ],
         ["#7b5ea7", "#b59ae0"],
     ),
@@ -56,7 +56,10 @@ pub const FLAGS: [FlagLook; 10] = [
     ),
     look(
         ("METAL", METAL),
-        ["metal", "something brighter surrounds the lumen, or is far brighter than it: a stent"],
+        [
+            "metal",
+            "something brighter surrounds the lumen, is far brighter than it, or repeats along it: a stent",
+        ],
         ["#4d4d4d", "#b4b4b4"],
     ),
     look(

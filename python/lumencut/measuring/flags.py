@@ -19,13 +19,13 @@ class Flag(IntFlag):
         """Return the pickle: the name of the class and the bits."""
         return restored(), ("Flag", int(self))
 
-    #: The diameter is below 1.5 times the width (FWHM) of the point spread.
+    #: The diameter is below 1.5 times the FWHM of the point spread, or twice the spacing of thick slices.
     AT_LIMIT = 1
     #: The section lies in a junction, or the lumen continues sideways.
     BRANCH = 2
     #: Something brighter than lumen lies in the wall; it is not lumen, and the fit leaves it out.
     CALCIUM = 4
-    #: Something brighter than lumen surrounds it, or is much brighter: a stent or other metal.
+    #: Something brighter than lumen surrounds it, is much brighter, or repeats along it: a stent or other metal.
     METAL = 8
     #: Another lumen or bone is next to the wall.
     NEIGHBOR = 16

@@ -54,7 +54,7 @@ pub struct PointSpread {
     pub deviation: f64,
     /// Where the width comes from.
     pub source: Source,
-    /// In lung, the FWHM (mm) that the same sections show if their wall is too thin to be seen.
+    /// In lung, the FWHM (mm) if the wall is too thin to be seen.
     pub(crate) without_wall: Option<f64>,
 }
 

@@ -128,6 +128,6 @@ pub(crate) fn is_hounsfield(voxels: &Voxels, scale: &Scale) -> bool {
     let around = (AROUND[0]..=AROUND[1]).contains(&scale.outside);
     around
         && scale.value(1.0) > LUMEN
-        && scale.share(CT_WALL[0]) <= 1.0 - BELOW_LUMEN
+        && (scale.outside < LUNG || scale.share(CT_WALL[0]) <= 1.0 - BELOW_LUMEN)
         && voxels.has_negative()
 }

@@ -34,6 +34,11 @@ impl AssumedSpread {
         Self { fwhm, is_of_kernel: by_voxels < least }
     }
 
+    /// The assumption if vessels show that the blur is less than that of usual kernels.
+    pub(crate) fn of_voxels(sides: DMat3) -> Self {
+        Self::of(sides, false)
+    }
+
     /// What it is based on, in words.
     pub(crate) fn from(self) -> String {
         if self.is_of_kernel {

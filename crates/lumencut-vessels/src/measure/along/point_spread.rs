@@ -66,6 +66,9 @@ pub(crate) enum SpreadEstimate {
 /// Reason why nothing is estimated if the vessels are too narrow.
 pub(crate) const TOO_NARROW: &str = "no vessel is wide enough to estimate it";
 
+/// Reason why nothing is estimated if blur is too little to be seen.
+pub(crate) const TOO_SHARP: &str = "the walls of wide vessels are sharper than the voxels can show";
+
 /// Reason why nothing is estimated if the wide part is too short.
 const TOO_SHORT: &str = "free, round stretches of wide vessels are too short to estimate it";
 
@@ -127,7 +130,7 @@ fn agreed(best: &mut [f64], [low, high]: [f64; 2]) -> std::result::Result<Level,
     let Some(fwhm) = median(best).filter(|_| best.len() >= SECTIONS.1) else { return Err(TOO_NARROW) };
     let margin = 0.02 * (high - low);
     if fwhm < low + margin {
-        return Err("the walls of wide vessels are sharper than the voxels can show");
+        return Err(TOO_SHARP);
     }
     let away: Vec<f64> = best.iter().map(|one| (one - fwhm).abs()).collect();
     match median(&mut { away }) {

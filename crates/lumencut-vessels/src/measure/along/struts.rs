@@ -1,6 +1,5 @@
-//! Finds stents whose struts are too thin to be brighter than the lumen. Blurred, such struts only brighten the wall, and
-//! the lumen seems 2 to 10 % too wide. But they repeat along the vessel: the values at the wall resemble those
-//! one and two periods away, and not those half a period away. Noise, fat and plaque do not repeat.
+//! Finds stents whose struts only brighten the wall: the lumen seems 2 to 10 % too wide. The values at the wall resemble
+//! those one and two periods of the stent away, and not those half a period away. Noise, fat and plaque do not repeat.
 
 use glam::{DVec2, DVec3};
 
@@ -10,7 +9,6 @@ use crate::measure::section::flags::{BRANCH, CALCIUM, LEFT_OUT, METAL, NEIGHBOR}
 use crate::measure::section::rays::{RAYS, Rays};
 use lumencut_core::math::statistics::median;
 
-/// Sections whose rim is not that of a lumen in tissue.
 const OTHER_RIM: u32 = LEFT_OUT | BRANCH | CALCIUM | METAL | NEIGHBOR;
 
 /// Periods of the struts of stents along the vessel (mm).
@@ -21,9 +19,10 @@ const SMOOTHED: f64 = 2.5;
 const COMPARED: f64 = 9.0;
 const FLAGGED: f64 = 6.0;
 
-/// Maximum distance between sections, and maximum voxel side (mm): larger voxels hide struts, and repeat themselves.
+/// Maximum distance between sections, and maximum voxel side (mm), also as a fraction of the point spread: larger voxels
+/// hide struts, and repeat themselves.
 const STEP: f64 = 0.6;
-const SIDE: f64 = 0.8;
+const SIDE: (f64, f64) = (0.8, 0.83);
 
 /// Struts lie just outside of the lumen (mm); the noise is read within it, at this fraction of the radius.
 const OUTSIDE: f64 = 0.05;
@@ -38,6 +37,10 @@ type Rings = Vec<[f64; RAYS]>;
 
 /// Flags sections within thin struts, which are measured only as well as those within thick ones.
 pub(crate) fn flag_struts(bench: &Bench, places: &[SectionPlane], sections: &mut [Section]) {
+    let side = bench.rays.voxels.sampling_side;
+    if side > SIDE.0 || side > SIDE.1 * bench.fwhm {
+        return;
+    }
     let found = has_struts(&bench.rays, places, sections);
     for ((section, place), _) in sections.iter_mut().zip(places).zip(found).filter(|(_, has)| *has) {
         section.flags |= METAL;
@@ -49,13 +52,11 @@ pub(crate) fn flag_struts(bench: &Bench, places: &[SectionPlane], sections: &mut
     }
 }
 
-/// Whether thin struts surround each section.
 fn has_struts(rays: &Rays, places: &[SectionPlane], sections: &[Section]) -> Vec<bool> {
     let none = vec![false; places.len()];
     let [Some(first), Some(last)] = [places.first(), places.last()] else { return none };
     let step = (last.at - first.at) / (places.len().max(2) - 1) as f64;
-    let is_coarse = step > STEP || rays.voxels.sampling_side > SIDE;
-    if rays.scale.contrast < 0.0 || is_coarse || step <= 0.0 {
+    if rays.scale.contrast < 0.0 || step > STEP || step <= 0.0 {
         return none;
     }
     let count = |mm: f64| (mm / step).round() as usize;
@@ -115,7 +116,6 @@ fn walls(places: &[SectionPlane], sections: &[Section], reach: usize) -> Vec<Opt
         .collect()
 }
 
-/// Values minus their mean over neighbouring sections.
 fn without_trend(rings: &Rings, reach: usize) -> Rings {
     (0..rings.len())
         .map(|n| {

@@ -1,7 +1,5 @@
-//! Vessels in lung. Their walls are often thinner than half of the blur: then a thin wall with a wide blur looks like a
-//! thicker wall with a narrow blur, and no wall at all looks nearly the same. So such a vessel is measured twice, with a
-//! wall and without. If the voxels cannot tell which is true, the result is the mean, and its standard deviation
-//! includes both.
+//! Vessels in lung. A thin wall with a wide blur looks like a thicker wall with a narrow blur, or none. So such a vessel is
+//! measured with and without a wall. If the voxels cannot tell which is true, the result includes both.
 
 use super::PointSpread;
 use super::Source;
@@ -78,7 +76,7 @@ fn is_in_lung(scale: &Scale, fit: &Fit) -> bool {
     scale.value(fit.background) < LUNG
 }
 
-/// Whether the sections fit better with a wall. `every` of them share their voxels.
+/// Whether the sections, of which `every` share voxels, fit better with a wall.
 fn is_wall_seen(pairs: &[Option<(Fit, Fit)>], every: usize) -> bool {
     let excess: Vec<f64> = pairs
         .iter()
@@ -99,7 +97,9 @@ fn include(section: &mut Section, bare: &Fit) {
     let [with, without] = [fit, bare].map(|fit| fit.ellipse.equivalent_diameter());
     section.scale(f64::midpoint(with, without) / with);
     let Some(fit) = &mut section.fit else { return };
-    fit.parts.wall = fit.parts.wall.hypot(0.5 * (without - with));
+    let half = 0.5 * (without - with).abs();
+    fit.parts.wall = fit.parts.wall.hypot(half);
+    fit.parts.point_spread = fit.parts.point_spread.clamp(-half, half);
     fit.uncertainty = fit.parts.total();
     if let Some(wall) = &mut fit.wall {
         wall.log_thickness[1] = wall.log_thickness[1].max(UNSEEN);

@@ -10,7 +10,7 @@ use super::prepared::PreparedVessel;
 use super::request::MeasureRequest;
 use super::{PointSpread, Profile, Source, TreeFindings};
 use crate::measure::along::assumed_spread::AssumedSpread;
-use crate::measure::along::point_spread::{SharpEdges, SpreadEstimate, TOO_NARROW};
+use crate::measure::along::point_spread::{SharpEdges, SpreadEstimate, TOO_NARROW, TOO_SHARP};
 use crate::measure::section::known_radius;
 use crate::measure::wall::WallRequest;
 use crate::measure::wall::tree::VesselWall;
@@ -37,7 +37,7 @@ pub fn measure(volume: &Volume, vessel: &Vessel, request: &MeasureRequest) -> Re
         None if request.tree.is_empty() => {
             let spread = match prepared.point_spread(&voxels, request.stop)? {
                 SpreadEstimate::Width(found) => spread_of(&found, found.on()),
-                SpreadEstimate::Nothing(reason) => assumed(&prepared.assumed, reason),
+                SpreadEstimate::Nothing(reason) => assumed(&voxels, prepared.assumed, reason),
             };
             TreeFindings { spread, walls: Vec::new() }
         }
@@ -135,10 +135,10 @@ impl<'a, 'v> TreeMeasuring<'a, 'v> {
         }
         let widest = self.widest_vessels().into_iter().find_map(|n| self.prepared[n].get());
         let assumed = widest.map_or_else(
-            || AssumedSpread::of(self.voxels.world_from_index.matrix3, false),
+            || AssumedSpread::of_voxels(self.voxels.world_from_index.matrix3),
             |one| one.assumed,
         );
-        Ok(self::assumed(&assumed, why))
+        Ok(self::assumed(&self.voxels, assumed, why))
     }
 
     fn prepared_or_none(&self, n: usize, request: &MeasureRequest) -> Result<Option<&PreparedVessel>> {
@@ -179,7 +179,9 @@ fn spread_of(found: &SharpEdges, on: String) -> PointSpread {
     PointSpread { fwhm: found.fwhm, deviation: found.deviation, source, without_wall: found.without_wall }
 }
 
-fn assumed(spread: &AssumedSpread, reason: &str) -> PointSpread {
+fn assumed(voxels: &Voxels, usual: AssumedSpread, reason: &str) -> PointSpread {
+    let by_voxels = || AssumedSpread::of_voxels(voxels.world_from_index.matrix3);
+    let spread = if reason == TOO_SHARP { by_voxels() } else { usual };
     let [fwhm, deviation] = spread.fwhm;
     let source = Source::Assumed { from: format!("{}, as {reason}", spread.from()) };
     PointSpread { fwhm, deviation, source, without_wall: None }

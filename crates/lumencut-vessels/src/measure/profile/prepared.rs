@@ -251,7 +251,8 @@ impl PreparedVessel {
             return Err(no_lumen(&self.scale));
         }
         let (bench, noise) = (&read.bench, read.noise);
-        if is_hounsfield(voxels, &self.scale) {
+        let is_in_lung = self.wall.is_some_and(|wall| wall.is_in_lung);
+        if is_hounsfield(voxels, &self.scale) && !is_in_lung {
             flag_struts(bench, &self.places, &mut sections);
         }
         let variance: Vec<f64> =

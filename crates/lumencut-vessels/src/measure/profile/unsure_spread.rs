@@ -1,6 +1,4 @@
-//! What an assumed point spread leaves unsure. The wall, and the lumen level of narrow vessels, depend on it too. So the
-//! vessel is measured again with narrower and wider point spreads: the change of a section whose wall and level
-//! stay is too small.
+//! What an assumed point spread leaves unsure: wall and lumen level depend on it too, so the vessel is measured again.
 
 use super::prepared::PreparedVessel;
 use super::{PointSpread, Source};
@@ -17,8 +15,7 @@ use lumencut_core::stop::Stop;
 const SAME_LUMEN: f64 = 2.0;
 
 impl PreparedVessel {
-    /// Includes the change of diameters if the assumed point spread is one standard deviation off. Sections that a wider
-    /// one would put at the limit get its flag.
+    /// Includes the change if the assumed point spread is one standard deviation off, also in the flag of the limit.
     pub(super) fn include_other_spreads(
         &self,
         voxels: &Voxels,
@@ -39,12 +36,7 @@ impl PreparedVessel {
                 section.flags |= AT_LIMIT;
             }
         }
-        let signs: &[f64] = match self.wall {
-            // In lung, a wider point spread is that of a thinner wall: `include_thin_walls` covers it.
-            Some(wall) if wall.is_in_lung => &[-1.0],
-            _ if is_narrow => &[-1.0, 1.0],
-            _ => &[1.0],
-        };
+        let signs: &[f64] = if is_narrow { &[-1.0, 1.0] } else { &[1.0] };
         let mut changes = vec![Vec::new(); sections.len()];
         for &sign in signs {
             let other = match self.read(voxels, [spread.fwhm + sign * spread.deviation, 0.0], None, stop) {
@@ -61,12 +53,10 @@ impl PreparedVessel {
             }
         }
         for (section, changes) in sections.iter_mut().zip(changes) {
-            let change = changes.iter().sum::<f64>() / changes.len() as f64;
-            let fit = section.fit.as_mut().filter(|fit| change.abs() > fit.parts.point_spread.abs());
-            if let Some(fit) = fit {
-                fit.parts.point_spread = change;
-                fit.uncertainty = fit.parts.total();
-            }
+            let Some(fit) = &mut section.fit else { continue };
+            let greater = |a: f64, b: f64| if b.abs() > a.abs() { b } else { a };
+            fit.parts.point_spread = changes.into_iter().fold(fit.parts.point_spread, greater);
+            fit.uncertainty = fit.parts.total();
         }
         Ok(())
     }
