@@ -25,9 +25,6 @@ use lumencut_core::stop::Stop;
 const MOST_VOXELS: usize = 40_000_000;
 const MOST_VOXELS_OF_DOUBT: usize = 4_000_000;
 
-/// Around a click in dim lumen, the line is a guess up to this distance at least (mm).
-const NEAR_DIM: f64 = 3.0;
-
 type Ends = [[i32; 3]; 2];
 
 /// A region with the fronts of clicks, and the paths between clicks.
@@ -98,19 +95,14 @@ impl Paths {
     }
 
     /// The centerline through clicks that crosses no flap, and no edge of a lumen however dim; None if there is none.
-    pub(crate) fn line_without_flaps(&mut self, search: &Search, clicks: &[DVec3]) -> Result<Option<Traced>> {
+    pub(crate) fn line_without_flaps(&self, search: &Search, clicks: &[DVec3]) -> Result<Option<Traced>> {
         let mut flaps = Flaps::new(search, self.region.model, clicks);
         let mut parts = Vec::with_capacity(clicks.len() - 1);
         for pair in clicks.windows(2) {
             let Some(steps) = flaps.free_way(search, [pair[0], pair[1]])? else { return Ok(None) };
-            let way = Way::of(search.voxels, &mut self.region, &steps);
-            let is_dim = |place: DVec3| search.dim.iter().any(|dim| dim.distance(place) < NEAR_DIM);
-            let mut is_open = way.is_open();
-            for (is_open, place) in is_open.iter_mut().zip(&way.points) {
-                *is_open |= is_dim(*place);
-            }
-            // A dim lumen is no gap that a straight line may cross.
-            parts.push(Part { is_open, points: way.points });
+            let points: Vec<DVec3> = steps.iter().map(|voxel| search.voxels.center(*voxel)).collect();
+            let is_open = points.iter().map(|place| flaps.is_dim(search, *place)).collect();
+            parts.push(Part { points, is_open });
         }
         centered(search, &flaps.lumen, clicks, &parts).map(Some)
     }
