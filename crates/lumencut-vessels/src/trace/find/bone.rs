@@ -132,6 +132,7 @@ pub(crate) fn lumen_level(scan: &Scan, tracks: &[Track], shapes: &[Option<Shape>
         track.points.iter().map(in_voxels).collect::<Vec<_>>()
     };
     vessel_level(&lumens.map(|(track, _)| points(track)).collect::<Vec<_>>(), scan.noise)
+        .map(|found| found.level)
 }
 
 pub(crate) fn judged(

@@ -9,22 +9,35 @@ const LEAST_CLOSURE: f64 = 0.85;
 const NOISES: f64 = 6.0;
 const LEAST_LENGTH: f64 = 4.0;
 
+/// Half the resolution dims no lumen from this radius on (finest-level voxels).
+const WIDE: f64 = 4.0;
+
 /// Intensity levels are similar if they differ by about this fraction of the contrast.
 const KERNEL: f64 = 0.2;
 
 /// Radii above this (finest-level voxels) do not increase the weight of a tube.
 const WIDEST: f64 = 10.0;
 
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct UsualLevel {
+    /// Level and contrast.
+    pub level: [f64; 2],
+    /// Whether a tube that meets all limits is so wide that half the resolution does not dim it.
+    pub is_wide: bool,
+}
+
 #[derive(Clone, Copy, Debug)]
 struct Tube {
     level: f64,
     contrast: f64,
+    radius: f64,
     weight: f64,
 }
 
 /// The most frequent level, and its contrast, with tubes weighted by length, width and contrast. None without tubes.
-pub(crate) fn vessel_level(tracks: &[Vec<TrackPoint>], noise: f64) -> Option<[f64; 2]> {
+pub(crate) fn vessel_level(tracks: &[Vec<TrackPoint>], noise: f64) -> Option<UsualLevel> {
     let strict: Vec<Tube> = tracks.iter().filter_map(|points| tube(points, noise, true)).collect();
+    let is_wide = strict.iter().any(|tube| tube.radius >= WIDE);
     let tubes = if strict.is_empty() {
         tracks.iter().filter_map(|points| tube(points, noise, false)).collect()
     } else {
@@ -43,7 +56,7 @@ pub(crate) fn vessel_level(tracks: &[Vec<TrackPoint>], noise: f64) -> Option<[f6
     let alike: Vec<Tube> = tubes.iter().filter(near).copied().collect();
     let weight: f64 = alike.iter().map(|tube| tube.weight).sum();
     let mean = |of: fn(&Tube) -> f64| alike.iter().map(|tube| of(tube) * tube.weight).sum::<f64>() / weight;
-    Some([mean(|tube| tube.level), mean(|tube| tube.contrast)])
+    Some(UsualLevel { level: [mean(|tube| tube.level), mean(|tube| tube.contrast)], is_wide })
 }
 
 /// The tube of a track; None if the track is too short, too narrow or too open.
@@ -56,7 +69,7 @@ fn tube(points: &[TrackPoint], noise: f64, is_strict: bool) -> Option<Tube> {
     let length = length(points);
     let is_clear = radius >= LEAST_RADIUS && length >= LEAST_LENGTH * radius && contrast >= NOISES * noise;
     let tells = closure >= LEAST_CLOSURE && (is_clear || !is_strict);
-    tells.then(|| Tube { level, contrast, weight: length * radius.min(WIDEST) * contrast })
+    tells.then(|| Tube { level, contrast, radius, weight: length * radius.min(WIDEST) * contrast })
 }
 
 #[cfg(test)]

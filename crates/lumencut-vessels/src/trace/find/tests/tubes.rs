@@ -8,8 +8,8 @@ const SIZE: [usize; 3] = [70, 60, 50];
 /// Level, contrast and tracks found in voxels of 1 mm.
 fn found(value: impl Fn(DVec3) -> f64) -> Option<([f64; 2], Vec<Track>)> {
     with_scan(SIZE, 1.0, value, |scan| {
-        let request = FindRequest { smallest_radius: 1.0, stop: &|| false, progress: None };
-        let found = tubes(scan.voxels, None, &request, Stages::begin(None)).expect("tubes");
+        let grid = Grid::over(scan.voxels, 1.0);
+        let found = tubes(scan.voxels, grid, None, &|| false, Stages::begin(None)).expect("tubes");
         found.map(|found| ([found.scan.level, found.scan.contrast], found.tracks))
     })
 }
