@@ -81,14 +81,18 @@ pub(crate) fn one_vessel(
 }
 
 fn found(trees: Trees) -> FoundTree {
-    let Trees { vessels, level, contrast, .. } = trees;
+    let Trees { vessels, level, contrast, other, .. } = trees;
     let (sure, doubtful): (Vec<FoundVessel>, _) =
         vessels.into_iter().partition(|vessel| vessel.doubt.is_none());
     let line =
         |FoundVessel { line, part, doubt, .. }| FoundLine { line, doubt: doubt.map(TrackDoubt::words), part };
     let vessels: Vec<FoundLine> = sure.into_iter().chain(doubtful).map(line).collect();
     let [level, contrast] = [level, contrast].map(about);
-    let notes = vec![format!("vessels have about {level}, {contrast} above their surroundings")];
+    let mut notes = vec![format!("vessels have about {level}, {contrast} above their surroundings")];
+    notes.extend(other.map(|reading| {
+        let [level, contrast] = reading.map(about);
+        format!("other tubes have about {level}, {contrast} above theirs: the paler ones may be organs")
+    }));
     let doubts = doubts(&vessels);
     FoundTree { vessels, notes, doubts }
 }
@@ -145,6 +149,12 @@ mod tests {
         let flat = format!("1 vessel doubtful: {}", TrackDoubt::Flat.words());
         assert_eq!(tree.notes, ["vessels have about 330, 322 above their surroundings"]);
         assert_eq!(tree.doubts, [short, flat]);
+        let other = Some([29.0, 15.2]);
+        let paler = found(Trees { level: 129.0, contrast: 115.0, other, ..Trees::default() });
+        assert_eq!(
+            paler.notes[1],
+            "other tubes have about 29, 15 above theirs: the paler ones may be organs"
+        );
         assert_eq!([about(0.0421), about(-3.44), about(1713.6)], ["0.042", "-3.4", "1714"]);
     }
 }

@@ -89,7 +89,8 @@ pub fn trees(voxels: &Voxels, seed: Option<DVec3>, request: &FindRequest) -> Res
     let stages = Stages::begin(request.progress);
     let smallest_radius = request.smallest_radius.unwrap_or_else(|| smallest_radius(voxels));
     let grid = Grid::over(voxels, smallest_radius);
-    let Some(tubes::Tubes { scan, tracks, shapes }) = tubes::tubes(voxels, grid, seed, request.stop, stages)?
+    let Some(tubes::Tubes { scan, other, tracks, shapes }) =
+        tubes::tubes(voxels, grid, seed, request.stop, stages)?
     else {
         return Ok(Trees { smallest_radius, ..Trees::default() });
     };
@@ -100,7 +101,7 @@ pub fn trees(voxels: &Voxels, seed: Option<DVec3>, request: &FindRequest) -> Res
     let vessels = whole_vessels::of(&scan, &tracks, &links, smallest_radius, (request.stop, stages))?;
     stages.end();
     let Scan { level, contrast, noise, .. } = scan;
-    Ok(Trees { vessels, level, contrast, noise, is_angiography, smallest_radius, below: None })
+    Ok(Trees { vessels, level, contrast, other, noise, is_angiography, smallest_radius, below: None })
 }
 
 #[cfg(test)]

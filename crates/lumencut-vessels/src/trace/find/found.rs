@@ -13,6 +13,8 @@ pub struct Trees {
     pub level: f64,
     /// Contrast that vessels usually have to their surroundings, in the unit of the volume.
     pub contrast: f64,
+    /// Level and contrast of another reading of the scan, if one of both is far paler.
+    pub other: Option<[f64; 2]>,
     /// Noise of the voxels, in the unit of the volume.
     pub noise: f64,
     /// Whether the scan looks like an angiography. If not, and without a seed, no vessel is sure.

@@ -15,7 +15,7 @@ use crate::trace::find::pyramid::Pyramid;
 use crate::trace::find::scan::Scan;
 use crate::trace::find::side_by_side::side_by_side;
 use crate::trace::find::track::{Track, TrackPoint};
-use crate::trace::find::vessel_level::{UsualLevel, vessel_level};
+use crate::trace::find::vessel_level::{Readings, UsualLevel, vessel_level};
 use crate::voxels::Voxels;
 use lumencut_core::error::Result;
 use lumencut_core::stop::Stop;
@@ -36,6 +36,8 @@ const FIRST_CONTRAST: f64 = 0.3;
 
 pub(crate) struct Tubes<'v> {
     pub scan: Scan<'v>,
+    /// Another level and contrast, if one of two readings is far paler.
+    pub other: Option<[f64; 2]>,
     pub tracks: Vec<Track>,
     /// Shape of each track in the raw voxels.
     pub shapes: Vec<Option<Shape>>,
@@ -77,11 +79,11 @@ fn of_pass<'v>(pass: &Tracking, scan: Scan<'v>, seed: Option<DVec3>) -> Result<T
     let candidates = pass.candidates()?;
     let mut tracks = pass.tracks(&candidates)?;
     tracks.extend(side_by_side(pass, &candidates, &tracks)?);
-    let mut found = Tubes { scan, tracks: Vec::new(), shapes: Vec::new() };
+    let mut found = Tubes { scan, other: None, tracks: Vec::new(), shapes: Vec::new() };
     found.add(pass, &tracks, pass.stages)?;
-    let Scan { level, contrast, .. } = found.scan;
-    [found.scan.level, found.scan.contrast] =
-        bone::lumen_level(&found.scan, &found.tracks, &found.shapes).unwrap_or([level, contrast]);
+    let Readings { usual, other } = bone::readings(&found.scan, &found.tracks, &found.shapes);
+    [found.scan.level, found.scan.contrast] = usual;
+    found.other = other;
     let judged = bone::judged(&found.scan, found.tracks.clone(), &found.shapes, pass.stop)?;
     let hidden = hidden(pass, &candidates, &tracks, &judged)?;
     found.add(pass, &hidden, Stages::default())?;

@@ -15,6 +15,11 @@ const WIDE: f64 = 4.0;
 /// Intensity levels are similar if they differ by about this fraction of the contrast.
 const KERNEL: f64 = 0.2;
 
+/// Pale organs are round and even too. Their reading has less contrast than this fraction of the first one's, and
+/// their tubes weigh less than this fraction of all.
+const PALE: f64 = 0.35;
+const RARE: f64 = 0.25;
+
 /// Radii above this (finest-level voxels) do not increase the weight of a tube.
 const WIDEST: f64 = 10.0;
 
@@ -32,6 +37,30 @@ struct Tube {
     contrast: f64,
     radius: f64,
     weight: f64,
+}
+
+/// The first reading [level, contrast] and the one of round, even tubes alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Readings {
+    /// The reading that holds.
+    pub usual: [f64; 2],
+    /// The other one, if one of them is far paler.
+    pub other: Option<[f64; 2]>,
+}
+
+impl Readings {
+    /// The second reading holds, unless it is that of organs among all tracks.
+    pub(crate) fn of(first: [f64; 2], second: [f64; 2], tracks: &[Vec<TrackPoint>], noise: f64) -> Self {
+        if second[1] >= PALE * first[1] {
+            return Self { usual: second, other: None };
+        }
+        let tubes: Vec<Tube> = tracks.iter().filter_map(|points| tube(points, noise, true)).collect();
+        let is_near = |tube: &&Tube| (tube.level - second[0]).abs() <= KERNEL * first[1];
+        let weight = |tubes: &mut dyn Iterator<Item = &Tube>| tubes.map(|tube| tube.weight).sum::<f64>();
+        let is_rare = weight(&mut tubes.iter().filter(is_near)) < RARE * weight(&mut tubes.iter());
+        let [usual, other] = if is_rare { [first, second] } else { [second, first] };
+        Self { usual, other: Some(other) }
+    }
 }
 
 /// The most frequent level, and its contrast, with tubes weighted by length, width and contrast. None without tubes.
