@@ -23,7 +23,7 @@ _WrittenArrays = tuple[
 _FoundArrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64], str]
 _FoundParts = tuple[list[_FoundArrays], list[list[int]], list[str]]
 _MeasuredParts = tuple[str, str | None, Profile, Grade | None]
-_MarkParts = tuple[str, float, float, bool]
+_MarkParts = tuple[str, float, float, bool, str]
 _StoredStenosis = tuple[list[float], list[list[float]], str, tuple[int, bool]]
 _NamedArrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None, str | None]
 
@@ -553,6 +553,7 @@ class Profile:
         comparison: float | None = None,
     ) -> Stenosis: ...
     def narrowest(self) -> tuple[float, float] | None: ...
+    def throat(self) -> tuple[float, float] | None: ...
     def widest(self) -> tuple[float, float] | None: ...
     def offered_widest(self) -> tuple[float, float] | None: ...
     def suggested_references(

@@ -1,4 +1,3 @@
-/** Files that arrive while a study is opening. */
 import { beforeEach, expect, test } from 'vitest';
 import { Failure } from '../src/core/failure';
 import type { GivenFile } from '../src/core/messages';
@@ -16,7 +15,6 @@ const later = () => new Promise((resolve) => setTimeout(resolve));
 let asked: string[] = [];
 let end: () => void = () => {};
 
-/** An engine that rejects what it opens, and names what it was asked. */
 function rejecting(): void {
   asked = [];
   const reject = (name: string) => {

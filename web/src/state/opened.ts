@@ -97,7 +97,6 @@ export function openWith(wish: SeriesWish, open: Open): Promise<void> {
   return opening;
 }
 
-/** Resolves when no study is being opened, whether opening succeeded or not. */
 export async function openingEnded(): Promise<void> {
   await opening.catch(() => {});
 }

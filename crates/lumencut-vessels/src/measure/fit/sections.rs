@@ -93,11 +93,13 @@ pub(crate) struct Section {
     pub flags: u32,
     /// See [`crate::measure::profile::Profile::bounds`].
     pub bounds: [f64; 2],
+    /// See [`crate::measure::profile::Profile::at_most`].
+    pub at_most: f64,
 }
 
 impl Section {
     pub(crate) fn none() -> Self {
-        Self { fit: None, contour: Vec::new(), flags: NO_EDGE, bounds: [f64::NAN; 2] }
+        Self { fit: None, contour: Vec::new(), flags: NO_EDGE, bounds: [f64::NAN; 2], at_most: f64::NAN }
     }
 
     pub(crate) fn scale(&mut self, by: f64) {
@@ -206,7 +208,13 @@ impl Bench<'_, '_> {
             flags |= NO_EDGE;
         }
         let contour = points(place, ellipse.center, &walls);
-        Section { contour, fit: Some(fit), flags: flags | self.place_flags(&ellipse), bounds }
+        Section {
+            contour,
+            fit: Some(fit),
+            flags: flags | self.place_flags(&ellipse),
+            bounds,
+            at_most: f64::NAN,
+        }
     }
 
     fn by_rays(&self, place: &SectionPlane, known: &Known) -> Option<Section> {
@@ -234,7 +242,13 @@ impl Bench<'_, '_> {
             other: None,
         };
         let contour = points(place, known.ellipse.center, &walls);
-        Some(Section { contour, fit: Some(fit), flags: flags | self.place_flags(&ellipse), bounds })
+        Some(Section {
+            contour,
+            fit: Some(fit),
+            flags: flags | self.place_flags(&ellipse),
+            bounds,
+            at_most: f64::NAN,
+        })
     }
 
     fn place_flags(&self, ellipse: &Ellipse) -> u32 {

@@ -11,6 +11,9 @@ const DIRECTIONS: usize = 16;
 
 const MOST_PLACES: usize = 150;
 
+/// A distance counts if at least this fraction of its points lies within the volume; corners alone show nothing.
+const LEAST_INSIDE: f64 = 0.05;
+
 /// Search radius (mm) for a vessel whose radius is unknown.
 const SEARCH_RADIUS_MM: f64 = 30.0;
 
@@ -114,7 +117,8 @@ fn rings(voxels: &Voxels, places: &[SectionPlane], step: f64, count: usize) -> V
                     }
                 }
             }
-            median(&mut values)
+            let all = DIRECTIONS * places.len().div_ceil(every);
+            median(&mut values).filter(|_| values.len() as f64 >= LEAST_INSIDE * all as f64)
         })
         .collect()
 }
