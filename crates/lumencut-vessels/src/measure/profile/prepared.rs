@@ -235,12 +235,15 @@ impl PreparedVessel {
             .then(|| Blur::new(spread.fwhm + spread.deviation, voxels.world_from_index.matrix3));
         bench.doubt = Some(Doubt { texture: all.texture.clone(), wider, wall: hidden });
         let others = Lumen::of_others(request.tree, vessel);
-        let section = |n: usize| {
+        let section = |n: usize, lumen: Option<Level>| {
             go_on(stop)?;
             let place = &self.places[n];
             let estimate = self.estimates[n].map(|one| Ellipse::circle(one.center, one.radius));
             let mut section = match all.known(n, every, estimate) {
-                Some((known, other)) => bench.section(place, &known, other),
+                Some((known, other)) => {
+                    let lumen = lumen.unwrap_or(known.lumen);
+                    bench.section(place, &Known { lumen, ..known }, other)
+                }
                 None => Section::none(),
             };
             section.flags |= self.branch(n, section.fit.as_ref(), &others);
@@ -250,7 +253,10 @@ impl PreparedVessel {
             Ok(section)
         };
         let mut sections: Vec<Section> =
-            (0..self.places.len()).into_par_iter().map(section).collect::<Result<_>>()?;
+            (0..self.places.len()).into_par_iter().map(|n| section(n, None)).collect::<Result<_>>()?;
+        let lumen = (0..self.places.len()).map(|n| all.lumen_near(n, every)).collect();
+        let throats = Throats { bench: &bench, places: &self.places, lumen, noise: all.noise };
+        throats.refit(&mut sections, |n, lumen| section(n, Some(lumen)))?;
         if sections.iter().all(|section| section.flags & NO_EDGE > 0) {
             return Err(no_lumen(&self.scale));
         }
@@ -258,8 +264,6 @@ impl PreparedVessel {
             self.places.iter().map(|place| bench.blur.along(place, thickness(voxels, place))).collect();
         sharpen(&mut sections, &self.arc_lengths(), &variance);
         flag_sharp_turns(&self.places, &mut sections);
-        let lumen = (0..self.places.len()).map(|n| all.lumen_near(n, every)).collect();
-        let throats = Throats { bench: &bench, places: &self.places, lumen, noise: all.noise };
         throats.limit(&mut sections);
         let noise = all.noise * self.scale.contrast.abs();
         let profile = Profile::new(&self.places, &sections, &self.scale, noise, spread, wall_source);
