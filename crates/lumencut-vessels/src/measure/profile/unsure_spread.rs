@@ -45,21 +45,27 @@ impl PreparedVessel {
             _ if is_narrow => &[-1.0, 1.0],
             _ => &[1.0],
         };
+        let mut changes = vec![Vec::new(); sections.len()];
         for &sign in signs {
             let other = match self.read(voxels, [spread.fwhm + sign * spread.deviation, 0.0], None, stop) {
                 Ok(other) => other,
                 Err(error) if error.kind == ErrorKind::Interrupted => return Err(error),
                 Err(_) => continue,
             };
-            for (section, other) in sections.iter_mut().zip(other.sections) {
-                let (Some(fit), Some(other)) = (&mut section.fit, other.fit) else { continue };
-                let [before, after] = [&*fit, &other].map(diameter);
-                let change = sign * (after - before);
-                let is_same = after < SAME_LUMEN * before && before < SAME_LUMEN * after;
-                if is_same && change.abs() > fit.parts.point_spread.abs() {
-                    fit.parts.point_spread = change;
-                    fit.uncertainty = fit.parts.total();
+            for ((section, other), changes) in sections.iter().zip(&other.sections).zip(&mut changes) {
+                let (Some(fit), Some(other)) = (&section.fit, &other.fit) else { continue };
+                let [before, after] = [fit, other].map(diameter);
+                if after < SAME_LUMEN * before && before < SAME_LUMEN * after {
+                    changes.push(sign * (after - before));
                 }
+            }
+        }
+        for (section, changes) in sections.iter_mut().zip(changes) {
+            let change = changes.iter().sum::<f64>() / changes.len() as f64;
+            let fit = section.fit.as_mut().filter(|fit| change.abs() > fit.parts.point_spread.abs());
+            if let Some(fit) = fit {
+                fit.parts.point_spread = change;
+                fit.uncertainty = fit.parts.total();
             }
         }
         Ok(())
