@@ -28,6 +28,9 @@ const SIDE: (f64, f64) = (0.8, 0.83);
 const OUTSIDE: f64 = 0.05;
 const WITHIN: f64 = 0.4;
 
+/// Noise of every scan at least (fraction of the contrast): without noise, a narrowing would repeat more than it.
+const LEAST_NOISE: f64 = 0.03;
+
 /// Minimum covariance between periods, and minimum variance, in variances of the noise.
 const REPEATS: f64 = 0.75;
 const UNEVEN: f64 = 1.7;
@@ -72,6 +75,7 @@ fn has_struts(rays: &Rays, places: &[SectionPlane], sections: &[Section]) -> Vec
         without_trend(&rings.collect(), count(SMOOTHED))
     });
     let Some(noise) = covariance(&core, 0..core.len(), 0) else { return none };
+    let noise = noise.max(LEAST_NOISE.powi(2));
     let repeats: Vec<bool> = (0..places.len())
         .map(|n| {
             let around = n.saturating_sub(count(COMPARED))..(n + count(COMPARED) + 1).min(places.len());

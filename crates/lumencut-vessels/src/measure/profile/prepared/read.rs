@@ -5,8 +5,9 @@ use rayon::prelude::*;
 use super::{FirstFits, PreparedVessel, no_lumen};
 use crate::measure::along::all_sections::AllSections;
 use crate::measure::along::levels::lumen_levels;
+use crate::measure::along::throats::Throats;
 use crate::measure::estimation::Level;
-use crate::measure::fit::sections::{Bench, Doubt, LEAST_CONTRAST, Section, noise};
+use crate::measure::fit::sections::{Bench, Doubt, Known, LEAST_CONTRAST, Section, noise};
 use crate::measure::model::ellipse::Ellipse;
 use crate::measure::model::wall::KnownWall;
 use crate::measure::section::blur::Blur;
@@ -46,17 +47,22 @@ impl PreparedVessel {
         let all = fitted.all_sections(&bench, first, by_others, stop)?;
         let wider = (deviation > 0.0).then(|| Blur::new(fwhm + deviation, voxels.world_from_index.matrix3));
         bench.doubt = Some(Doubt { texture: all.texture.clone(), wider, wall: hidden });
-        let section = |n: usize| {
+        let section = |n: usize, lumen: Option<Level>| {
             go_on(stop)?;
             let estimate = self.estimates[n].map(|one| Ellipse::circle(one.center, one.radius));
             Ok(match all.known(n, every, estimate) {
-                Some((known, other)) => bench.section(&self.places[n], &known, other),
+                Some((known, other)) => {
+                    let lumen = lumen.unwrap_or(known.lumen);
+                    bench.section(&self.places[n], &Known { lumen, ..known }, other)
+                }
                 None => Section::none(),
             })
         };
-        let sections: Vec<Section> =
-            (0..self.places.len()).into_par_iter().map(section).collect::<Result<_>>()?;
-        let lumen = (0..self.places.len()).map(|n| all.lumen_near(n, every)).collect();
+        let mut sections: Vec<Section> =
+            (0..self.places.len()).into_par_iter().map(|n| section(n, None)).collect::<Result<_>>()?;
+        let lumen: Vec<f64> = (0..self.places.len()).map(|n| all.lumen_near(n, every)).collect();
+        Throats { bench: &bench, places: &self.places, lumen: &lumen, noise: all.noise }
+            .refit(&mut sections, |n, lumen| section(n, Some(lumen)))?;
         Ok(Read { sections, bench, lumen, noise: all.noise, every, is_wall_hidden: hidden.is_some() })
     }
 
