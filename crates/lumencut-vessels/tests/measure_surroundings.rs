@@ -66,8 +66,13 @@ impl Scene {
         let volume =
             Volume::new(Voxels::F32(&values), SIZE, [1, SIZE[0], SIZE[0] * SIZE[1]], affine).unwrap();
         let line = Vessel::new([3.0, 23.0].map(|z| DVec3::new(11.7, 11.6, z)).to_vec(), None).unwrap();
-        let request =
-            MeasureRequest { step: 0.5, fwhm: None, wall: WallRequest::Automatic, tree: &[], stop: &|| false };
+        let request = MeasureRequest {
+            step: 0.5,
+            fwhm: None,
+            wall: WallRequest::Automatic,
+            tree: &[],
+            stop: &|| false,
+        };
         measure(&volume, &line, &request).unwrap()
     }
 
@@ -76,7 +81,8 @@ impl Scene {
         let errors: Vec<f64> =
             profile.diameter_equivalent().iter().map(|diameter| diameter - self.diameter).collect();
         let count = errors.len() as f64;
-        let within = errors.iter().zip(&profile.uncertainty).filter(|(error, told)| error.abs() <= 2.0 * **told);
+        let within =
+            errors.iter().zip(&profile.uncertainty).filter(|(error, told)| error.abs() <= 2.0 * **told);
         let mean = |of: &[f64]| of.iter().sum::<f64>() / count;
         [mean(&errors), mean(&profile.uncertainty), within.count() as f64 / count]
     }

@@ -109,7 +109,9 @@ pub(crate) fn estimated(
     };
     let short = |n: &usize| fits[*n].map(|fit| 2.0 * fit.ellipse.semi_axes()[0]);
     // The widths were chosen by an assumption: what came out decides whether they were wide enough.
-    if median(&mut wide.iter().filter_map(short).collect::<Vec<f64>>()).is_none_or(|short| short < min_width * fwhm) {
+    if median(&mut wide.iter().filter_map(short).collect::<Vec<f64>>())
+        .is_none_or(|short| short < min_width * fwhm)
+    {
         return Ok(SpreadEstimate::Nothing(TOO_NARROW));
     }
     let [first, last] = [wide.iter().min(), wide.iter().max()].map(|n| n.map_or(0.0, |n| places[*n].at));

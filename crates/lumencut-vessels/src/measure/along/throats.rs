@@ -53,9 +53,8 @@ impl Throats<'_, '_, '_> {
             for n in run.from + 1..run.to {
                 let Some(most) = self.most(&run, sections, n) else { continue };
                 let section = &sections[n];
-                let is_sure = |fit: &Fit| {
-                    fit.lumen[0] >= DIM * run.level && fit.ellipse.equivalent_diameter() <= most
-                };
+                let is_sure =
+                    |fit: &Fit| fit.lumen[0] >= DIM * run.level && fit.ellipse.equivalent_diameter() <= most;
                 if section.flags & LEFT_OUT != 0 || !section.fit.as_ref().is_some_and(is_sure) {
                     let flags = section.flags | NO_EDGE;
                     limited.push((n, Section { flags, at_most: most, ..Section::none() }));
@@ -103,7 +102,8 @@ impl Throats<'_, '_, '_> {
         if share >= DIM {
             return None;
         }
-        let width = fwhm_of(wider.unwrap_or(self.bench.blur).interpolated(&self.places[n]).determinant().sqrt());
+        let width =
+            fwhm_of(wider.unwrap_or(self.bench.blur).interpolated(&self.places[n]).determinant().sqrt());
         Some(width * (-(1.0 - share).log2()).max(LEAST_WIDTH.powi(2)).sqrt())
     }
 

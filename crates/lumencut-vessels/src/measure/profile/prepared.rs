@@ -7,8 +7,8 @@ use rayon::prelude::*;
 use super::request::MeasureRequest;
 use super::{Profile, TreeFindings};
 use crate::measure::along::all_sections::AllSections;
-use crate::measure::along::levels::lumen_levels;
 use crate::measure::along::assumed_spread::AssumedSpread;
+use crate::measure::along::levels::lumen_levels;
 use crate::measure::along::point_spread::{MIN_WIDTH, SharpEdges, SpreadEstimate, estimated};
 use crate::measure::along::throats::Throats;
 use crate::measure::along::{flag_sharp_turns, sharpen};
@@ -219,12 +219,7 @@ impl PreparedVessel {
     }
 
     /// The point spread that sections at least `min_width` times as wide show.
-    pub(super) fn shown_spread(
-        &self,
-        voxels: &Voxels,
-        min_width: f64,
-        stop: Stop,
-    ) -> Result<SpreadEstimate> {
+    pub(super) fn shown_spread(&self, voxels: &Voxels, min_width: f64, stop: Stop) -> Result<SpreadEstimate> {
         let assumed = self.assumed.fwhm[0];
         let (_, fitted) = self.fitted(voxels, assumed);
         let FirstFits { hidden, fits, .. } = self.kept_fits(voxels, assumed, stop)?;
@@ -299,8 +294,7 @@ impl PreparedVessel {
         let hidden = first.hidden;
         let mut bench = self.bench(voxels, fwhm, hidden);
         let all = fitted.all_sections(&bench, first, by_others, stop)?;
-        let wider =
-            (deviation > 0.0).then(|| Blur::new(fwhm + deviation, voxels.world_from_index.matrix3));
+        let wider = (deviation > 0.0).then(|| Blur::new(fwhm + deviation, voxels.world_from_index.matrix3));
         bench.doubt = Some(Doubt { texture: all.texture.clone(), wider, wall: hidden });
         let section = |n: usize| {
             go_on(stop)?;
