@@ -2,6 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use glam::{DAffine3, DMat2, DVec2, DVec3};
+use lumencut_core::error::Result;
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::{Volume, Voxels};
 use lumencut_vessels::measure::model::ellipse::{Boundary, Ellipse, Whitening};
@@ -9,7 +10,7 @@ use lumencut_vessels::measure::profile::measuring::measure;
 use lumencut_vessels::measure::profile::request::MeasureRequest;
 use lumencut_vessels::measure::profile::{Profile, Source};
 use lumencut_vessels::measure::section::blur::variance_of;
-use lumencut_vessels::measure::section::flags::{AT_LIMIT, NO_EDGE};
+use lumencut_vessels::measure::section::flags::{AT_LIMIT, METAL, NO_EDGE};
 use lumencut_vessels::measure::wall::WallRequest;
 
 const SIDE: f64 = 0.6;
@@ -25,10 +26,18 @@ struct Scene {
     wall: f64,
     around: f64,
     fwhm: f64,
+    /// Voxel side along y (mm).
+    across: f64,
+    /// Brightness of blurred rings of struts (HU), 2.4 mm apart in the middle of the vessel.
+    struts: f64,
 }
 
-const LUNG: Scene = Scene { diameter: 8.0, wall: 0.8, around: -850.0, fwhm: 1.0 };
-const MUSCLE: Scene = Scene { diameter: 1.8, wall: 0.5, around: 55.0, fwhm: 1.0 };
+const FAT: Scene = Scene { diameter: 3.2, wall: 0.7, around: -95.0, fwhm: 1.0, across: SIDE, struts: 0.0 };
+const LUNG: Scene = Scene { diameter: 8.0, wall: 0.8, around: -850.0, ..FAT };
+const MUSCLE: Scene = Scene { diameter: 1.8, wall: 0.5, around: 55.0, ..FAT };
+
+/// Arc lengths of the part with struts (mm).
+const STENT: [f64; 2] = [3.0, 17.0];
 
 /// Noise of standard deviation 1, from the sum of twelve evenly distributed numbers (Knuth's generator).
 fn noise(state: &mut u64) -> f64 {
@@ -42,17 +51,23 @@ fn noise(state: &mut u64) -> f64 {
 
 impl Scene {
     fn values(&self) -> Vec<f32> {
-        let whitening =
-            Whitening::new(DMat2::from_diagonal(DVec2::splat(variance_of(self.fwhm) + SIDE * SIDE / 12.0)));
+        let sides = DVec2::new(SIDE, self.across);
+        let variance = variance_of(self.fwhm);
+        let whitening = Whitening::new(DMat2::from_diagonal(variance + sides * sides / 12.0));
         let middle = DVec2::new(11.8, 11.5);
         let within = |radius: f64| Boundary::new(&Ellipse::circle(middle, radius), whitening);
         let [lumen, wall] = [0.0, self.wall].map(|more| within(0.5 * self.diameter + more));
         let mut state = 7;
         (0..SIZE.iter().product())
             .map(|n: usize| {
-                let place = DVec2::new((n % SIZE[0]) as f64, (n / SIZE[0] % SIZE[1]) as f64) * SIDE;
+                let place = DVec2::new((n % SIZE[0]) as f64, (n / SIZE[0] % SIZE[1]) as f64) * sides;
                 let [inside, enclosed] = [&lumen, &wall].map(|boundary| boundary.value(place));
                 let value = self.around + (WALL - self.around) * enclosed + (LUMEN - WALL) * inside;
+                let at = (n / SIZE[0] / SIZE[1]) as f64 * SIDE - 3.0;
+                let along = (at / 2.4 - (at / 2.4).round()) * 2.4;
+                let away = along.hypot(place.distance(middle) - 0.5 * self.diameter - 0.05);
+                let strut = self.struts * (-0.5 * away * away / variance).exp();
+                let value = if (STENT[0]..STENT[1]).contains(&at) { value + strut } else { value };
                 // One voxel of air, as every CT has.
                 let value = if n == 0 { -1000.0 } else { value };
                 (value + NOISE * noise(&mut state)) as f32
@@ -61,10 +76,12 @@ impl Scene {
     }
 
     fn measured(&self) -> Profile {
-        let values = self.values();
-        let affine = DAffine3::from_scale(DVec3::splat(SIDE));
-        let volume =
-            Volume::new(Voxels::F32(&values), SIZE, [1, SIZE[0], SIZE[0] * SIZE[1]], affine).unwrap();
+        self.measured_in(&self.values()).unwrap()
+    }
+
+    fn measured_in(&self, values: &[f32]) -> Result<Profile> {
+        let affine = DAffine3::from_scale(DVec3::new(SIDE, self.across, SIDE));
+        let volume = Volume::new(Voxels::F32(values), SIZE, [1, SIZE[0], SIZE[0] * SIZE[1]], affine).unwrap();
         let line = Vessel::new([3.0, 23.0].map(|z| DVec3::new(11.7, 11.6, z)).to_vec(), None).unwrap();
         let request = MeasureRequest {
             step: 0.5,
@@ -73,7 +90,7 @@ impl Scene {
             tree: &[],
             stop: &|| false,
         };
-        measure(&volume, &line, &request).unwrap()
+        measure(&volume, &line, &request)
     }
 
     /// Mean error of the diameter (mm), mean standard deviation, and fraction of sections within two of them.
@@ -129,4 +146,38 @@ fn an_assumed_blur_is_as_unsure_as_the_diameters_that_others_would_give() {
     }
     let narrow = Scene { diameter: 1.4, ..MUSCLE }.measured();
     assert!(narrow.flags.iter().filter(|flags| *flags & AT_LIMIT > 0).count() > narrow.len() / 2);
+}
+
+#[test]
+fn thin_struts_are_seen_by_their_repetition() {
+    let is_metal = |scene: &Scene| -> Vec<bool> {
+        scene.measured().flags.iter().map(|flags| flags & METAL > 0).collect()
+    };
+    let stent = is_metal(&Scene { struts: 160.0, ..FAT });
+    // Sections are 0.5 mm apart.
+    let within = &stent[(2.0 * STENT[0]) as usize..(2.0 * STENT[1]) as usize];
+    assert!(within.iter().filter(|is| **is).count() > within.len() * 9 / 10, "{within:?}");
+    assert!(is_metal(&FAT).iter().all(|is| !is));
+}
+
+#[test]
+fn a_vessel_in_few_thick_slices_is_at_the_limit() {
+    let at_limit = |diameter| {
+        let profile = Scene { diameter, across: 3.0, ..FAT }.measured();
+        profile.flags.iter().filter(|flags| *flags & AT_LIMIT > 0).count() as f64 / profile.len() as f64
+    };
+    assert!(at_limit(4.5) > 0.9 && at_limit(9.0) < 0.1);
+}
+
+#[test]
+fn bone_in_the_corners_is_not_around_the_vessel() {
+    let mut values = MUSCLE.values();
+    for (n, value) in values.iter_mut().enumerate() {
+        let place = DVec2::new((n % SIZE[0]) as f64, (n / SIZE[0] % SIZE[1]) as f64) * SIDE;
+        if place.distance(DVec2::new(11.7, 11.6)) > 15.6 {
+            *value = 1200.0;
+        }
+    }
+    let profile = MUSCLE.measured_in(&values).unwrap();
+    assert!((0..profile.len()).all(|n| profile.counts(n)));
 }

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 use lumencut_core::error::Result;
 use lumencut_core::volume::Volume;
+use lumencut_vessels::trace::clicks::doubts::{Doubt, Doubted};
 use lumencut_vessels::trace::find::found::{FoundVessel, Trees};
 use lumencut_vessels::trace::find::from_seed::find_from;
 use lumencut_vessels::trace::find::track::TrackDoubt;
@@ -13,7 +14,6 @@ use lumencut_vessels::trace::lines::centerline::Centerline;
 use lumencut_vessels::voxels::Voxels;
 use rayon::prelude::*;
 
-use crate::doubtful_places::{DoubtfulPlace, doubtful_places};
 use crate::text::{fixed, rounded};
 
 /// A vessel that was found.
@@ -24,15 +24,15 @@ pub struct FoundLine {
     /// Why the vessel is doubtful; None if it is not.
     pub doubt: Option<&'static str>,
     /// Places from which a confident vessel is doubtful, as told of a traced one.
-    pub(crate) places: Vec<DoubtfulPlace>,
+    pub(crate) places: Vec<Doubt>,
     /// Number of the connected part; part 0 is the most important one.
     pub part: usize,
 }
 
 impl FoundLine {
     /// The places from which a confident vessel is doubtful, one sentence each.
-    pub fn doubtful_places(&self, name: &str) -> Vec<String> {
-        self.places.iter().map(|place| place.of(name)).collect()
+    pub fn doubts_of(&self, name: &str) -> Vec<String> {
+        self.places.iter().map(|doubt| format!("{name}: {}", doubt.words)).collect()
     }
 }
 
@@ -93,15 +93,15 @@ pub(crate) fn one_vessel(
 
 fn found_in(volume: &Volume, trees: Trees) -> FoundTree {
     let voxels = Voxels::new(volume);
-    found(trees, &|line| doubtful_places(&voxels, line))
+    found(trees, &|line| Doubted { line, bridged: &[], clicks: &[] }.doubts(&voxels))
 }
 
-fn found(trees: Trees, doubtful_places: &(dyn Fn(&Centerline) -> Vec<DoubtfulPlace> + Sync)) -> FoundTree {
+fn found(trees: Trees, doubts_of: &(dyn Fn(&Centerline) -> Vec<Doubt> + Sync)) -> FoundTree {
     let Trees { vessels, level, contrast, other, .. } = trees;
     let (sure, doubtful): (Vec<FoundVessel>, _) =
         vessels.into_iter().partition(|vessel| vessel.doubt.is_none());
     let line = |FoundVessel { line, part, doubt, .. }: FoundVessel| {
-        let places = if doubt.is_none() { doubtful_places(&line) } else { Vec::new() };
+        let places = if doubt.is_none() { doubts_of(&line) } else { Vec::new() };
         FoundLine { line, doubt: doubt.map(TrackDoubt::words), places, part }
     };
     let vessels: Vec<FoundLine> = sure.into_par_iter().chain(doubtful).map(line).collect();

@@ -13,7 +13,6 @@ pub mod defaults;
 pub mod devices;
 pub mod doubted_scan;
 mod doubted_unit;
-mod doubtful_places;
 pub mod drags;
 pub mod extent;
 pub mod feature_aggregation;

@@ -6,6 +6,7 @@ pub(crate) mod all_sections;
 pub(crate) mod assumed_spread;
 pub(crate) mod levels;
 pub(crate) mod point_spread;
+pub(crate) mod struts;
 pub(crate) mod throats;
 
 use crate::measure::fit::sections::Section;

@@ -3,6 +3,7 @@
 pub mod checks;
 pub(crate) mod closure;
 pub(crate) mod dim;
+pub mod doubts;
 pub(crate) mod flaps;
 pub(crate) mod gaps;
 pub(crate) mod junctions;

@@ -2,13 +2,13 @@
 
 use glam::DVec3;
 
-use crate::doubtful_places::DoubtfulPlace;
 use crate::study::document::{Document, DocumentVessel, WorldPoint};
 use crate::study::draft::Draft;
 use crate::study::edits::{Edit, EditMessage, Edited};
 use crate::study::failure::Result;
 use crate::study::open_study::Study;
 use crate::study::points_along::{click_after, nearest_point, points_along};
+use crate::study::trace_report::DoubtfulPlace;
 use crate::study::tracing::{HeldLine, TraceRequest, Watch};
 
 impl Study {
@@ -169,7 +169,7 @@ fn add_held(draft: &mut Draft, found: Vec<HeldLine>, kind: &str) -> Vec<String> 
     for HeldLine { line, places, doubt } in found {
         let vessel = draft.add_named(line, "", kind);
         vessel.doubt = doubt.map(str::to_owned);
-        notes.extend(places.iter().map(|place| place.of(&vessel.called())));
+        notes.extend(places.iter().map(|doubt| format!("{}: {}", vessel.called(), doubt.words)));
     }
     notes
 }

@@ -2,13 +2,12 @@
 
 use glam::DVec3;
 use lumencut_core::math::arc_length::arc_lengths;
+use lumencut_vessels::trace::clicks::doubts::Doubted;
 use lumencut_vessels::trace::lines::centerline::Centerline;
-use lumencut_vessels::trace::lumen::own_axis::runs_across;
 use lumencut_vessels::voxels::Voxels;
 use serde::Serialize;
 
-use crate::doubtful_places::{DoubtfulPlace, doubtful_places};
-use crate::study::document::{Document, DocumentVessel, WorldPoint};
+use crate::study::document::{Document, DocumentVessel};
 use crate::study::failure::Result;
 use crate::study::open_study::Study;
 use crate::text::fixed;
@@ -25,6 +24,15 @@ pub(crate) struct Told {
     pub doubts: Vec<DoubtfulPlace>,
 }
 
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(ts_rs::TS))]
+pub(crate) struct DoubtfulPlace {
+    /// A sentence that states the reason of the doubt.
+    pub words: String,
+    /// The arc length (mm) from which, or up to which, the vessel is doubtful, to show and cut there; none for the whole line.
+    pub at: Option<f64>,
+}
+
 impl Study {
     pub(crate) fn trace_report(&self, document: &Document, id: Option<u32>) -> Result<Option<Told>> {
         let Some(vessel) = id.and_then(|id| document.vessel(id)) else { return Ok(None) };
@@ -32,7 +40,7 @@ impl Study {
         let others: Vec<&DocumentVessel> =
             document.vessels.iter().filter(|other| other.id != vessel.id && other.is_sure()).collect();
         let words = format!("{}, {}.", vessel.called(), self.joining(&line, &others)?);
-        Ok(Some(Told { vessel: vessel.id, words, doubts: self.doubtful(&line, vessel.clicks.as_deref())? }))
+        Ok(Some(Told { vessel: vessel.id, words, doubts: self.doubtful(vessel)? }))
     }
 
     pub(crate) fn joining(&self, line: &Centerline, others: &[&DocumentVessel]) -> Result<String> {
@@ -53,15 +61,14 @@ impl Study {
         Ok(words)
     }
 
-    fn doubtful(&self, line: &Centerline, clicks: Option<&[WorldPoint]>) -> Result<Vec<DoubtfulPlace>> {
+    fn doubtful(&self, vessel: &DocumentVessel) -> Result<Vec<DoubtfulPlace>> {
         let Some(held) = &self.content.held else { return Ok(Vec::new()) };
         let volume = held.volume()?;
-        let voxels = &Voxels::new(&volume);
-        let ends = clicks.and_then(|clicks| Some([*clicks.first()?, *clicks.last()?].map(DVec3::from_array)));
-        if ends.is_some_and(|ends| runs_across(voxels, ends)) {
-            let words = "The path runs across the lumen, not along it: click in another slice.".to_owned();
-            return Ok(vec![DoubtfulPlace { words, at: None }]);
-        }
-        Ok(doubtful_places(voxels, line))
+        let line = self.lines.get(vessel.line)?;
+        let clicks: Vec<DVec3> = vessel.clicks.iter().flatten().copied().map(DVec3::from_array).collect();
+        let bridged = line.bridged.as_deref().unwrap_or_default();
+        let doubted = Doubted { line: &line.met(), bridged, clicks: &clicks };
+        let doubts = doubted.doubts(&Voxels::new(&volume)).into_iter();
+        Ok(doubts.map(|doubt| DoubtfulPlace { words: doubt.words, at: doubt.at }).collect())
     }
 }

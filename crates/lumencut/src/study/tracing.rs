@@ -7,12 +7,12 @@ use lumencut_core::stop::Stop;
 use lumencut_core::vessel_tree::VesselTree;
 use lumencut_io::{write_mrk_json, write_vtp};
 use lumencut_vessels::trace::clicks::checks::Clicks;
+use lumencut_vessels::trace::clicks::doubts::Doubt;
 use lumencut_vessels::trace::clicks::preview::Sought;
 use lumencut_vessels::trace::find::FindRequest;
 use lumencut_vessels::trace::ways::region::Stopper;
 use serde::{Deserialize, Serialize};
 
-use crate::doubtful_places::DoubtfulPlace;
 use crate::found_vessels::{self, FoundLine};
 use crate::study::content::{Listed, NamedTree};
 use crate::study::failure::{Failure, Result};
@@ -63,7 +63,7 @@ pub(crate) struct PathMessage {
 pub(crate) struct HeldLine {
     pub line: usize,
     /// Places from which a confident line is doubtful.
-    pub(crate) places: Vec<DoubtfulPlace>,
+    pub(crate) places: Vec<Doubt>,
     /// Why the line is doubtful; None if it is not.
     pub(crate) doubt: Option<&'static str>,
 }

@@ -1,9 +1,8 @@
 //! The point spread that is assumed if none is given and no vessel shows one.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use crate::measure::estimation::Level;
-use crate::voxels::Voxels;
 use lumencut_core::math::statistics::median;
 
 /// FWHM (voxel sides), and its relative standard deviation.
@@ -22,9 +21,8 @@ pub(crate) struct AssumedSpread {
 }
 
 impl AssumedSpread {
-    /// The assumption for a scan, from the middle voxel side; in CT it is at least the blur of usual kernels.
-    pub(crate) fn of(voxels: &Voxels, is_ct: bool) -> Self {
-        let sides = voxels.world_from_index.matrix3;
+    /// The assumption for a scan, from the middle of the voxel `sides`; in CT it is at least the blur of usual kernels.
+    pub(crate) fn of(sides: DMat3, is_ct: bool) -> Self {
         let mut lengths = [sides.x_axis, sides.y_axis, sides.z_axis].map(DVec3::length);
         let [share, unsure] = SIDES;
         let by_voxels = share * median(&mut lengths).unwrap_or_default();

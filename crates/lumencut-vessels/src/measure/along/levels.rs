@@ -35,9 +35,6 @@ const POOLED_DEVIATION: [f64; 2] = [0.01, 0.08];
 /// Larger differences between levels are clamped to this fraction of the contrast.
 const MAX_DEVIATION: f64 = 0.3;
 
-/// A lumen below this fraction of the level of its neighbours is dim: plaque hides it, or it is narrower than the blur.
-pub(super) const DIM: f64 = 0.9;
-
 const MAX_SECTIONS: usize = 500;
 
 /// Intensity level of the lumen and its standard deviation at each section, as fractions of the contrast.
@@ -108,9 +105,6 @@ fn level(at: f64, levels: &[(f64, Level)]) -> Level {
     let Some(level) = middle.map(|n| levels[n].1[0]) else { return [1.0, MAX_DEVIATION] };
     let mut excess = 0.0;
     for (weight, (_, [there, deviation])) in weights.iter().zip(levels) {
-        if *there < DIM * level {
-            continue;
-        }
         let off = (there - level).abs().min(MAX_DEVIATION);
         excess += weight / all * (off * off - deviation * deviation);
     }

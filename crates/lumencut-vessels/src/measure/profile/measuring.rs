@@ -134,7 +134,10 @@ impl<'a, 'v> TreeMeasuring<'a, 'v> {
             }
         }
         let widest = self.widest_vessels().into_iter().find_map(|n| self.prepared[n].get());
-        let assumed = widest.map_or_else(|| AssumedSpread::of(&self.voxels, false), |one| one.assumed);
+        let assumed = widest.map_or_else(
+            || AssumedSpread::of(self.voxels.world_from_index.matrix3, false),
+            |one| one.assumed,
+        );
         Ok(self::assumed(&assumed, why))
     }
 

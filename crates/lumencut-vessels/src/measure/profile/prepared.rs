@@ -1,22 +1,22 @@
 //! Measures a vessel in steps: intensity scale, approximate lumen, levels, and finally each section.
 
+mod read;
+
 use std::sync::OnceLock;
 
 use rayon::prelude::*;
 
 use super::request::MeasureRequest;
 use super::{Profile, TreeFindings};
-use crate::measure::along::all_sections::AllSections;
 use crate::measure::along::assumed_spread::AssumedSpread;
-use crate::measure::along::levels::lumen_levels;
 use crate::measure::along::point_spread::{MIN_WIDTH, SharpEdges, SpreadEstimate, estimated};
+use crate::measure::along::struts::flag_struts;
 use crate::measure::along::throats::Throats;
 use crate::measure::along::{flag_sharp_turns, sharpen};
 use crate::measure::beside::branches::{Lumen, meets};
 use crate::measure::estimation::Level;
 use crate::measure::fit::Fit;
-use crate::measure::fit::sections::{Bench, Doubt, Known, LEAST_CONTRAST, Section, center, noise};
-use crate::measure::model::ellipse::Ellipse;
+use crate::measure::fit::sections::{Bench, Known, center, noise};
 use crate::measure::model::wall::KnownWall;
 use crate::measure::section::blur::Blur;
 use crate::measure::section::flags::{BRANCH, NO_EDGE, OUTSIDE};
@@ -59,20 +59,6 @@ struct FirstFits {
     texture: Texture,
 }
 
-/// The sections of a vessel, measured for one point spread and wall.
-pub(super) struct Read<'a, 'v> {
-    pub sections: Vec<Section>,
-    bench: Bench<'a, 'v>,
-    /// Pooled level of the lumen at each section.
-    lumen: Vec<f64>,
-    /// Noise of a voxel, as a fraction of the contrast.
-    pub noise: f64,
-    /// Number of sections from one with own voxels to the next.
-    pub every: usize,
-    /// Whether the wall is as bright as its surroundings.
-    is_wall_hidden: bool,
-}
-
 pub(crate) struct PreparedVessel {
     part: MeasuredPart,
     pub(super) scale: Scale,
@@ -95,7 +81,7 @@ impl PreparedVessel {
         let (wall, wall_source) = expected(voxels, &scale, request.wall)?;
         let widest = known.map_or(MAX_RADIUS_MM, |radius| (3.0 * radius + 5.0).min(MAX_RADIUS_MM));
         let search = known.unwrap_or(0.0).max(MIN_SEARCH_MM);
-        let assumed = AssumedSpread::of(voxels, is_hounsfield(voxels, &scale));
+        let assumed = AssumedSpread::of(voxels.world_from_index.matrix3, is_hounsfield(voxels, &scale));
         let bench = bench(voxels, scale, wall, assumed.fwhm[0]);
         let mut estimates = bench.estimates(&first, search, widest, request.stop)?;
         for (estimate, place) in estimates.iter_mut().zip(&first) {
@@ -264,50 +250,23 @@ impl PreparedVessel {
         if sections.iter().all(|section| section.flags & NO_EDGE > 0) {
             return Err(no_lumen(&self.scale));
         }
-        let blur = Blur::new(spread.fwhm, voxels.world_from_index.matrix3);
+        let (bench, noise) = (&read.bench, read.noise);
+        if is_hounsfield(voxels, &self.scale) {
+            flag_struts(bench, &self.places, &mut sections);
+        }
         let variance: Vec<f64> =
-            self.places.iter().map(|place| blur.along(place, thickness(voxels, place))).collect();
+            self.places.iter().map(|place| bench.blur.along(place, thickness(voxels, place))).collect();
         sharpen(&mut sections, &self.arc_lengths(), &variance);
         flag_sharp_turns(&self.places, &mut sections);
-        let Read { bench, lumen, noise, .. } = &read;
-        Throats { bench, places: &self.places, lumen, noise: *noise }.limit(&mut sections);
+        Throats { bench, places: &self.places, lumen: &read.lumen, noise }.limit(&mut sections);
         let wall_source = match by_others {
             _ if read.is_wall_hidden => WallSource::AsBright,
             Some(by_others) => self.wall_source.pooled(by_others),
             None => self.wall_source,
         };
-        let noise = read.noise * self.scale.contrast.abs();
+        let noise = noise * self.scale.contrast.abs();
         let profile = Profile::new(&self.places, &sections, &self.scale, noise, spread, wall_source);
         Ok(Profile { without_wall: self.part.left_out(&self.places), ..profile })
-    }
-
-    /// Measures all sections with a point spread (FWHM and its standard deviation, mm).
-    pub(super) fn read<'a, 'v>(
-        &self,
-        voxels: &'a Voxels<'v>,
-        [fwhm, deviation]: Level,
-        by_others: Option<PooledWall>,
-        stop: Stop,
-    ) -> Result<Read<'a, 'v>> {
-        let (every, fitted) = self.fitted(voxels, fwhm);
-        let first = self.kept_fits(voxels, fwhm, stop)?;
-        let hidden = first.hidden;
-        let mut bench = self.bench(voxels, fwhm, hidden);
-        let all = fitted.all_sections(&bench, first, by_others, stop)?;
-        let wider = (deviation > 0.0).then(|| Blur::new(fwhm + deviation, voxels.world_from_index.matrix3));
-        bench.doubt = Some(Doubt { texture: all.texture.clone(), wider, wall: hidden });
-        let section = |n: usize| {
-            go_on(stop)?;
-            let estimate = self.estimates[n].map(|one| Ellipse::circle(one.center, one.radius));
-            Ok(match all.known(n, every, estimate) {
-                Some((known, other)) => bench.section(&self.places[n], &known, other),
-                None => Section::none(),
-            })
-        };
-        let sections: Vec<Section> =
-            (0..self.places.len()).into_par_iter().map(section).collect::<Result<_>>()?;
-        let lumen = (0..self.places.len()).map(|n| all.lumen_near(n, every)).collect();
-        Ok(Read { sections, bench, lumen, noise: all.noise, every, is_wall_hidden: hidden.is_some() })
     }
 
     fn wall_by_others(
@@ -318,28 +277,6 @@ impl PreparedVessel {
     ) -> Option<PooledWall> {
         let by_others = wall_beside(&findings.walls, tree, vessel, self.wall_source.expected()?)?;
         is_below_lumen(&by_others, &self.scale).then_some(by_others)
-    }
-
-    /// Pools the separate fits of a vessel, and includes the wall level from other vessels.
-    fn all_sections(
-        &self,
-        bench: &Bench,
-        first: FirstFits,
-        by_others: Option<PooledWall>,
-        stop: Stop,
-    ) -> Result<AllSections> {
-        let FirstFits { fits, texture, .. } = first;
-        let noise = noise(&fits);
-        if LEAST_CONTRAST * noise > 1.0 {
-            return Err(no_lumen(&self.scale));
-        }
-        let lumen = lumen_levels(bench, &self.places, &fits, stop)?;
-        let inflation = self.inflation(bench, &texture);
-        let walls = bench.wall.map(|known| {
-            let expected = by_others.map_or(known.level, |wall| KnownWall::of(wall.level, &self.scale).level);
-            pooled(&self.arc_lengths(), &fits, &known, expected, inflation)
-        });
-        Ok(AllSections { fits, noise, lumen, walls, texture })
     }
 
     /// Factor by which the correlation of noise increases the variance of wall estimates.

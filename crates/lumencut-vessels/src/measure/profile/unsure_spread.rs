@@ -1,6 +1,6 @@
-//! What an assumed point spread leaves unsure. Vessels about as narrow as the blur share one lumen level, which depends on
-//! the point spread too. So the vessel is measured again with narrower and wider point spreads, instead of
-//! the change of each section with the level unchanged.
+//! What an assumed point spread leaves unsure. The wall, and the lumen level of narrow vessels, depend on it too. So the
+//! vessel is measured again with narrower and wider point spreads: the change of a section whose wall and level
+//! stay is too small.
 
 use super::prepared::PreparedVessel;
 use super::{PointSpread, Source};
@@ -17,8 +17,8 @@ use lumencut_core::stop::Stop;
 const SAME_LUMEN: f64 = 2.0;
 
 impl PreparedVessel {
-    /// Includes in narrow sections the change if the assumed point spread is one standard deviation off. Those that a
-    /// wider point spread would put at the limit get its flag.
+    /// Includes the change of diameters if the assumed point spread is one standard deviation off. Sections that a wider
+    /// one would put at the limit get its flag.
     pub(super) fn include_other_spreads(
         &self,
         voxels: &Voxels,
@@ -26,11 +26,11 @@ impl PreparedVessel {
         spread: &PointSpread,
         stop: Stop,
     ) -> Result<()> {
-        let narrow = MIN_WIDTH * spread.fwhm;
         let diameters = sections.iter().filter_map(|section| section.fit.as_ref().map(diameter));
-        let middle = median(&mut diameters.collect::<Vec<f64>>());
-        let is_unsure = matches!(spread.source, Source::Assumed { .. });
-        if !is_unsure || middle.is_none_or(|middle| middle > narrow) {
+        let middle = median(&mut diameters.collect::<Vec<f64>>()).unwrap_or(f64::INFINITY);
+        // Walls depend on the point spread in vessels of any width, the level of the lumen only in narrow ones.
+        let is_narrow = middle < MIN_WIDTH * spread.fwhm;
+        if !matches!(spread.source, Source::Assumed { .. }) || self.wall.is_none() && !is_narrow {
             return Ok(());
         }
         let limit = LIMIT * (spread.fwhm + spread.deviation);
@@ -39,21 +39,33 @@ impl PreparedVessel {
                 section.flags |= AT_LIMIT;
             }
         }
-        for sign in [-1.0, 1.0] {
+        let signs: &[f64] = match self.wall {
+            // In lung, a wider point spread is that of a thinner wall: `include_thin_walls` covers it.
+            Some(wall) if wall.is_in_lung => &[-1.0],
+            _ if is_narrow => &[-1.0, 1.0],
+            _ => &[1.0],
+        };
+        let mut changes = vec![Vec::new(); sections.len()];
+        for &sign in signs {
             let other = match self.read(voxels, [spread.fwhm + sign * spread.deviation, 0.0], None, stop) {
                 Ok(other) => other,
                 Err(error) if error.kind == ErrorKind::Interrupted => return Err(error),
                 Err(_) => continue,
             };
-            for (section, other) in sections.iter_mut().zip(other.sections) {
-                let (Some(fit), Some(other)) = (&mut section.fit, other.fit) else { continue };
-                let [before, after] = [&*fit, &other].map(diameter);
-                let change = sign * (after - before);
-                let is_same = after < SAME_LUMEN * before && before < SAME_LUMEN * after;
-                if before < narrow && is_same && change.abs() > fit.parts.point_spread.abs() {
-                    fit.parts.point_spread = change;
-                    fit.uncertainty = fit.parts.total();
+            for ((section, other), changes) in sections.iter().zip(&other.sections).zip(&mut changes) {
+                let (Some(fit), Some(other)) = (&section.fit, &other.fit) else { continue };
+                let [before, after] = [fit, other].map(diameter);
+                if after < SAME_LUMEN * before && before < SAME_LUMEN * after {
+                    changes.push(sign * (after - before));
                 }
+            }
+        }
+        for (section, changes) in sections.iter_mut().zip(changes) {
+            let change = changes.iter().sum::<f64>() / changes.len() as f64;
+            let fit = section.fit.as_mut().filter(|fit| change.abs() > fit.parts.point_spread.abs());
+            if let Some(fit) = fit {
+                fit.parts.point_spread = change;
+                fit.uncertainty = fit.parts.total();
             }
         }
         Ok(())

@@ -4,7 +4,7 @@ use super::suggestions::Spot;
 use crate::measure::profile::Profile;
 
 /// A limit up to this multiple of the narrowest measured diameter is offered, since the lumen is mostly narrower.
-const TIGHTER: f64 = 1.3;
+const TIGHTER: f64 = 1.2;
 
 impl Profile {
     /// Place with the smallest limit ([`Profile::at_most`]), if no measured place is narrower. The diameter of the

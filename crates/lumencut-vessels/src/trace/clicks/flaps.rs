@@ -20,6 +20,13 @@ const LEAST_CONTRAST_HU: f64 = 20.0;
 const MOST_IN_MEAN: f64 = 1.2;
 const MOST_AT_A_STEP: f64 = 4.0;
 
+/// Lumen is clear if the mean within this distance (voxels) is above this fraction of the contrast, as in sections.
+const AROUND: f64 = 1.75;
+const LEAST_CLEAR: f64 = 0.35;
+
+/// Around a click in dim lumen, the line is a guess up to this distance at least (mm).
+const NEAR_DIM: f64 = 3.0;
+
 /// Maximum number of voxels of a front.
 const MOST_VOXELS: usize = 4_000_000;
 
@@ -42,6 +49,14 @@ impl Flaps {
         let lumen = LumenModel { noise: lumen.noise.min(lumen.contrast() / 8.0), ..lumen };
         let stoppers = search.clicks.stoppers.clone();
         Self { region: Region::new(search.voxels.size, dim, stoppers, Strictness::Flaps), lumen }
+    }
+
+    /// Whether the mean value around a place is too low for clear lumen.
+    pub(crate) fn is_dim(&self, search: &Search, place: DVec3) -> bool {
+        let near = search.voxels.ball(place, AROUND * search.voxels.smallest_side);
+        let mean = near.iter().map(|(_, value)| f64::from(*value)).sum::<f64>() / near.len() as f64;
+        let is_clear = mean > self.lumen.tissue + LEAST_CLEAR * self.lumen.contrast();
+        !is_clear || search.dim.iter().any(|dim| dim.distance(place) < NEAR_DIM)
     }
 
     /// Voxels of the cheapest path between two clicks; None if it is not free.

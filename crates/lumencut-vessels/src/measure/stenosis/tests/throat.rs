@@ -27,7 +27,7 @@ fn a_throat_is_offered_as_a_limit_and_never_as_a_measured_diameter() {
 
 #[test]
 fn a_throat_that_may_be_wider_than_a_measured_place_is_not_offered() {
-    let made = with_throat(0.6);
+    let made = with_throat(0.5);
     assert_eq!(made.throat(), None);
     assert_eq!(made.narrowest().map(|spot| spot.at), Some(10.0));
     assert_eq!(profile(&[[4.0, 0.1]; 20]).throat(), None);
