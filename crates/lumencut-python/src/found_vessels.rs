@@ -72,8 +72,11 @@ fn searching<'py>(
         reporter.report(py, SHARES)?;
     }
     let parts = sure_parts(&tree);
+    let vessels = tree.vessels.iter().enumerate();
+    let places =
+        vessels.flat_map(|(number, vessel)| vessel.doubts_of(&format!("vessel {number}"))).collect();
     let vessels = tree.vessels.into_iter().map(|vessel| arrays(py, vessel)).collect();
-    Ok((vessels, parts, [tree.notes, tree.doubts].concat()))
+    Ok((vessels, parts, [tree.notes, places, tree.doubts].concat()))
 }
 
 fn arrays(py: Python<'_>, FoundLine { line, doubt, .. }: FoundLine) -> FoundArrays<'_> {

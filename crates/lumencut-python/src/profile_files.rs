@@ -89,7 +89,10 @@ pub(crate) fn vessels_json(options: Options, measured: Vec<MeasuredParts>) -> St
 type MarkParts = (&'static str, f64, f64, bool, String);
 
 fn parts_of(marks: &[Mark]) -> Vec<MarkParts> {
-    marks.iter().map(|mark| (mark.name, mark.at, mark.diameter, mark.is_suggestion, mark.words.clone())).collect()
+    marks
+        .iter()
+        .map(|mark| (mark.name, mark.at, mark.diameter, mark.is_suggestion, mark.words.clone()))
+        .collect()
 }
 
 /// The places to review on a vessel with marks; places without a measurement are omitted.
