@@ -121,7 +121,8 @@ pub(crate) fn of_limit(most: f64) -> String {
 /// The bounds or the limit of the diameter of section `n`, if it has any.
 pub(crate) fn of_bounds_at(profile: &Profile, n: usize) -> Option<String> {
     let most = profile.at_most[n];
-    of_bounds(profile.bounds[n]).or_else(|| most.is_finite().then(|| format!("at most {} mm", fixed(most, 2))))
+    of_bounds(profile.bounds[n])
+        .or_else(|| most.is_finite().then(|| format!("at most {} mm", fixed(most, 2))))
 }
 
 /// The words for the flags that are set, such as `no clear wall`.

@@ -114,10 +114,7 @@ struct ProgramProfile {
 
 impl ProgramProfile {
     fn of(profile: &Profile, scan: &ScanDetails) -> Self {
-        let longest = |spot: Spot| Longest {
-            arc_length_mm: spot.at,
-            diameter_max_mm: spot.diameter,
-        };
+        let longest = |spot: Spot| Longest { arc_length_mm: spot.at, diameter_max_mm: spot.diameter };
         Self {
             scan: scan.clone(),
             fwhm_mm: profile.fwhm,

@@ -38,3 +38,5 @@ class Flag(IntFlag):
     IRREGULAR = 256
     #: The centerline turns by more than 75° within one diameter, which no vessel does.
     RESTLESS_LINE = 512
+    #: Plaque nearly as bright as the lumen lies beside it; the uncertainty includes it.
+    PLAQUE = 1024

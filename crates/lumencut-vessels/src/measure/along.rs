@@ -3,6 +3,7 @@
 //! the area. If a centerline turns too sharply, section planes intersect inside the lumen.
 
 pub(crate) mod all_sections;
+pub(crate) mod calcified;
 pub(crate) mod levels;
 pub(crate) mod point_spread;
 pub(crate) mod throats;

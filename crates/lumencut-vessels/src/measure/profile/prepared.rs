@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use super::request::MeasureRequest;
 use super::{Profile, TreeFindings};
 use crate::measure::along::all_sections::AllSections;
+use crate::measure::along::calcified::settle;
 use crate::measure::along::levels::lumen_levels;
 use crate::measure::along::point_spread::{SpreadEstimate, estimated};
 use crate::measure::along::throats::Throats;
@@ -264,6 +265,7 @@ impl PreparedVessel {
             self.places.iter().map(|place| bench.blur.along(place, thickness(voxels, place))).collect();
         sharpen(&mut sections, &self.arc_lengths(), &variance);
         flag_sharp_turns(&self.places, &mut sections);
+        settle(&self.places, &mut sections, bench.fwhm);
         throats.limit(&mut sections);
         let noise = all.noise * self.scale.contrast.abs();
         let profile = Profile::new(&self.places, &sections, &self.scale, noise, spread, wall_source);
