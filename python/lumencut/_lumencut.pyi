@@ -66,6 +66,7 @@ __all__ = [
     "SETTINGS",
     "SIGNS",
     "SMALLEST_EXTENT",
+    "SMALLEST_RADIUS",
     "STENOSIS_METHODS",
     "STENOSIS_TERRITORIES",
     "VESSEL_NAMES",
@@ -266,6 +267,7 @@ DEFAULTS: dict[str, float]
 QUANTITIES: list[tuple[str, list[str], str, tuple[float, float], float, str]]
 POINT_DISTANCE: float
 PIXEL_SIDE: str
+SMALLEST_RADIUS: str
 #: Identifier, role, format, extensions, and those that are written.
 FILE_KINDS: list[tuple[str, str, str, list[str], list[str]]]
 FILE_HEAD: int
@@ -669,7 +671,7 @@ def fitted_turn(
 ) -> dict[str, Any]: ...
 def find_vessels(
     volume: Any,
-    smallest_radius: float,
+    smallest_radius: float | None,
     callback: Callable[[int, int], object] | None = None,
 ) -> _FoundParts: ...
 def find_window(name: str, volume: Any, vessels: list[_Arrays] | None) -> tuple[float, float]: ...
@@ -759,7 +761,7 @@ def tree_findings(
 def trace_from(
     volume: Any,
     seed: tuple[float, float, float],
-    smallest_radius: float,
+    smallest_radius: float | None,
     callback: Callable[[int, int], object] | None = None,
 ) -> _FoundParts: ...
 def place_mask(

@@ -6,8 +6,10 @@ use glam::DVec3;
 use lumencut::progress::Progress;
 use lumencut::trace::clicks::Traced;
 use lumencut::trace::clicks::checks::Clicks;
+use lumencut::trace::clicks::doubts::Doubted;
 use lumencut::trace::clicks::tracer::Tracer as Core;
 use lumencut::trace::ways::region::Stopper;
+use lumencut::voxels::Voxels;
 use numpy::{PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 
@@ -17,12 +19,13 @@ use crate::tree::points_of;
 use crate::volume::VolumeArgument;
 use crate::watching::{Reporter, SHARES, interruptible};
 
-/// A line: points (n, 3), radii (n,), confidence (n,), and whether each point is bridged (n,).
+/// A line: points (n, 3), radii (n,), confidence (n,), whether each point is bridged (n,), and doubts in words.
 type TracedArrays<'py> = (
     Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray1<bool>>,
+    Vec<String>,
 );
 
 /// The data of a volume that are kept between tracings.
@@ -63,16 +66,25 @@ impl Tracer {
             let progress = reporter.as_ref().map(|reporter| reporter.progress);
             let mut tracer = self.0.lock().unwrap_or_else(PoisonError::into_inner);
             let tracer = &mut *tracer;
-            pool::install(|| tracer.trace(&volume, &clicks, stop, progress))?.map_err(to_python)
+            let told = || {
+                let traced = tracer.trace(&volume, &clicks, stop, progress)?;
+                let voxels = &Voxels::new(&volume);
+                let told = traced.into_iter().zip(&clicks.vessels).map(|(traced, clicks)| {
+                    let doubted = Doubted { line: &traced.line, bridged: &traced.bridged, clicks };
+                    (doubted.doubts(voxels).into_iter().map(|doubt| doubt.words).collect(), traced)
+                });
+                Ok(told.collect::<Vec<(Vec<String>, Traced)>>())
+            };
+            pool::install(told)?.map_err(to_python)
         })?;
         if let Some(reporter) = reporter {
             reporter.report(py, SHARES)?;
         }
-        traced.into_iter().map(|traced| arrays(py, traced)).collect()
+        traced.into_iter().map(|(doubts, traced)| arrays(py, traced, doubts)).collect()
     }
 }
 
-fn arrays(py: Python<'_>, traced: Traced) -> PyResult<TracedArrays<'_>> {
+fn arrays(py: Python<'_>, traced: Traced, doubts: Vec<String>) -> PyResult<TracedArrays<'_>> {
     let line = traced.line;
     let flat: Vec<f64> = line.points.iter().flat_map(|p| p.to_array()).collect();
     Ok((
@@ -80,5 +92,6 @@ fn arrays(py: Python<'_>, traced: Traced) -> PyResult<TracedArrays<'_>> {
         PyArray1::from_vec(py, line.radius),
         PyArray1::from_vec(py, line.confidence),
         PyArray1::from_vec(py, traced.bridged),
+        doubts,
     ))
 }

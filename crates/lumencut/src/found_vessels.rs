@@ -39,22 +39,22 @@ pub struct FoundTree {
 /// Finds all vessels of a scan. At least one of them must be confident. Fails as [`find::find_vessels`] does, and
 /// with [`lumencut_core::error::ErrorKind::Tracing`] if no vessel is confident.
 pub fn find_vessels(volume: &Volume, request: &FindRequest) -> Result<FoundTree> {
-    confident_tree(&find::find_vessels(volume, request)?, request.smallest_radius)
+    confident_tree(&find::find_vessels(volume, request)?)
 }
 
 /// Describes the vessels found; at least one of them must be confident. Fails with
-/// [`lumencut_core::error::ErrorKind::Tracing`] if no vessel is confident; the error states `smallest_radius` (mm).
-pub(crate) fn confident_tree(trees: &Trees, smallest_radius: f64) -> Result<FoundTree> {
-    if trees.vessels.iter().any(|vessel| vessel.doubt.is_none()) {
+/// [`lumencut_core::error::ErrorKind::Tracing`] if no vessel is confident.
+pub(crate) fn confident_tree(trees: &Trees) -> Result<FoundTree> {
+    if trees.sure_length() > 0.0 {
         return Ok(found(trees.clone()));
     }
-    Err(refusals::no_vessel(trees.vessels.len(), smallest_radius))
+    Err(refusals::no_vessel(trees))
 }
 
 /// As [`confident_tree`], but accepts a result with only doubtful vessels.
-pub(crate) fn tree_with_doubtful(trees: &Trees, smallest_radius: f64) -> Result<FoundTree> {
+pub(crate) fn tree_with_doubtful(trees: &Trees) -> Result<FoundTree> {
     if trees.vessels.is_empty() {
-        return Err(refusals::no_vessel(0, smallest_radius));
+        return Err(refusals::no_vessel(trees));
     }
     Ok(found(trees.clone()))
 }
@@ -75,20 +75,24 @@ pub(crate) fn one_vessel(
     if !click.is_finite() || voxels.voxel_at(click).is_none() {
         return Err(refusals::outside(click));
     }
-    let side = voxels.world_from_index.matrix3.determinant().abs().cbrt();
+    let side = voxels.mean_side();
     let refused = |reason| refusals::no_whole_vessel(click, f64::from(voxels.at(click)), reason);
     one_vessel::one_vessel(trees, click, side, beside).map_err(refused)
 }
 
 fn found(trees: Trees) -> FoundTree {
-    let Trees { vessels, level, contrast, .. } = trees;
+    let Trees { vessels, level, contrast, other, .. } = trees;
     let (sure, doubtful): (Vec<FoundVessel>, _) =
         vessels.into_iter().partition(|vessel| vessel.doubt.is_none());
     let line =
         |FoundVessel { line, part, doubt, .. }| FoundLine { line, doubt: doubt.map(TrackDoubt::words), part };
     let vessels: Vec<FoundLine> = sure.into_iter().chain(doubtful).map(line).collect();
     let [level, contrast] = [level, contrast].map(about);
-    let notes = vec![format!("vessels have about {level}, {contrast} above their surroundings")];
+    let mut notes = vec![format!("vessels have about {level}, {contrast} above their surroundings")];
+    notes.extend(other.map(|reading| {
+        let [level, contrast] = reading.map(about);
+        format!("other tubes have about {level}, {contrast} above theirs: the paler ones may be organs")
+    }));
     let doubts = doubts(&vessels);
     FoundTree { vessels, notes, doubts }
 }
@@ -137,7 +141,7 @@ mod tests {
         let [short, flat] = [TrackDoubt::Short, TrackDoubt::Flat].map(Some);
         let vessels = [(0, None), (0, flat), (0, None), (1, short), (2, None), (2, short)];
         let vessels = vessels.map(|(part, doubt)| vessel(part, doubt)).to_vec();
-        let tree = found(Trees { vessels, level: 330.4, contrast: 322.2, noise: 12.0, is_angiography: true });
+        let tree = found(Trees { vessels, level: 330.4, contrast: 322.2, ..Trees::default() });
         assert_eq!(sure_parts(&tree), [vec![0, 1], vec![2]]);
         let parts: Vec<usize> = tree.vessels.iter().map(|vessel| vessel.part).collect();
         assert_eq!(parts, [0, 0, 2, 0, 1, 2]);
@@ -145,6 +149,12 @@ mod tests {
         let flat = format!("1 vessel doubtful: {}", TrackDoubt::Flat.words());
         assert_eq!(tree.notes, ["vessels have about 330, 322 above their surroundings"]);
         assert_eq!(tree.doubts, [short, flat]);
+        let other = Some([29.0, 15.2]);
+        let paler = found(Trees { level: 129.0, contrast: 115.0, other, ..Trees::default() });
+        assert_eq!(
+            paler.notes[1],
+            "other tubes have about 29, 15 above theirs: the paler ones may be organs"
+        );
         assert_eq!([about(0.0421), about(-3.44), about(1713.6)], ["0.042", "-3.4", "1714"]);
     }
 }

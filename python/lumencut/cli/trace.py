@@ -191,7 +191,7 @@ def _traced(voxels: Volume, chosen: dict[str, Any], *, bridge: bool) -> VesselTr
 
     lists, names = _vessels(voxels, chosen)
     with bar("tracing", "share") as progress:
-        return trace(
+        tree = trace(
             voxels,
             lists,
             _in_lps(chosen["stopper"], chosen),
@@ -200,6 +200,9 @@ def _traced(voxels: Volume, chosen: dict[str, Any], *, bridge: bool) -> VesselTr
             names=names,
             progress=progress,
         )
+    for note in tree.notes:
+        say(note)
+    return tree
 
 
 def _vessels(voxels: Volume, chosen: dict[str, Any]) -> tuple[list[Points], list[str | None]]:

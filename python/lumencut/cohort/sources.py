@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,7 +11,7 @@ import numpy.typing as npt
 
 from lumencut.cohort.manifest import Study
 from lumencut.cohort.recipe import Centerlines, Reading
-from lumencut.errors import FormatError, TracingError
+from lumencut.errors import FormatError, LineWarning, TracingError
 from lumencut.files.centerline_file import CenterlineFile
 from lumencut.files.centerlines import read_centerlines
 from lumencut.files.mask_files import MaskFile, open_mask
@@ -129,10 +130,14 @@ def places_of(study: Study, volume: Volume | None = None) -> _Points:
 def _along_points(study: Study, volume: Volume, how: Centerlines) -> VesselTree:
     """Return the vessels along points: the manifest holds points of one vessel, a file those of several."""
     if study.given_as_text:
-        return trace(volume, [places_of(study)], bridge=how.bridge)
-    lines = list(read_centerlines(study.given, volume=volume))
-    names = [line.name for line in lines]
-    return trace(volume, [line.points for line in lines], bridge=how.bridge, names=names)
+        tree = trace(volume, [places_of(study)], bridge=how.bridge)
+    else:
+        lines = list(read_centerlines(study.given, volume=volume))
+        names = [line.name for line in lines]
+        tree = trace(volume, [line.points for line in lines], bridge=how.bridge, names=names)
+    for note in tree.notes:
+        warnings.warn(LineWarning(note), stacklevel=2)
+    return tree
 
 
 def _from_seeds(seeds: _Points, volume: Volume, how: Centerlines) -> StudyVessels:

@@ -67,6 +67,7 @@ def trace(
     -------
     VesselTree
         A vessel for each list, points at most 0.5 mm apart, with ``radius``, ``confidence`` and ``bridged``.
+        :attr:`VesselTree.notes` says what is doubtful: detours, changes of brightness, guesses in dim lumen.
 
     Raises
     ------
@@ -212,11 +213,15 @@ class Tracer:
             )
             self._tree = VesselTree(
                 Vessel(points, radius, confidence=confidence, bridged=bridged)
-                for points, radius, confidence, bridged in traced
+                for points, radius, confidence, bridged, _ in traced
             )
+            doubts = [(vessel, doubt) for vessel, (*_, told) in enumerate(traced) for doubt in told]
+            self._tree._notes = tuple(f"vessel {vessel}: {doubt}" for vessel, doubt in doubts)
         if names is None:
             return self._tree
-        return VesselTree(vessel.named(name) for vessel, name in zip(self._tree, called, strict=True))
+        tree = VesselTree(vessel.named(name) for vessel, name in zip(self._tree, called, strict=True))
+        tree._notes = self._tree._notes
+        return tree
 
     def _vessel(self, vessel: int) -> list[_Points]:
         return self._vessels[_index("vessel", vessel, len(self._vessels))]

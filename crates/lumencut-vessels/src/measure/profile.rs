@@ -1,11 +1,13 @@
 //! The profile of a vessel: its lumen at each arc length.
 
 pub mod cross_section;
+pub(crate) mod lung;
 pub mod measuring;
 pub(crate) mod prepared;
 pub mod radii;
 pub mod request;
 pub mod stretch;
+pub(crate) mod unsure_spread;
 
 use glam::{DVec2, DVec3};
 
@@ -52,6 +54,8 @@ pub struct PointSpread {
     pub deviation: f64,
     /// Where the width comes from.
     pub source: Source,
+    /// In lung, the FWHM (mm) that the same sections show if their wall is too thin to be seen.
+    pub(crate) without_wall: Option<f64>,
 }
 
 /// The lumen of a vessel at each arc length. Values are NaN if not measured.

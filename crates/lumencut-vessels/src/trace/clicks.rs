@@ -1,8 +1,13 @@
 //! Traces centerlines between clicks.
 
 pub mod checks;
+pub(crate) mod closure;
+pub(crate) mod dim;
+pub mod doubts;
+pub(crate) mod flaps;
 pub(crate) mod gaps;
 pub(crate) mod junctions;
+pub(crate) mod paths;
 pub mod preview;
 pub mod tracer;
 pub(crate) mod way;

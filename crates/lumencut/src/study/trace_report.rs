@@ -2,14 +2,12 @@
 
 use glam::DVec3;
 use lumencut_core::math::arc_length::arc_lengths;
+use lumencut_vessels::trace::clicks::doubts::Doubted;
 use lumencut_vessels::trace::lines::centerline::Centerline;
-use lumencut_vessels::trace::lumen::level_change::level_change;
-use lumencut_vessels::trace::lumen::own_axis::runs_across;
-use lumencut_vessels::trace::lumen::wander::wandering;
 use lumencut_vessels::voxels::Voxels;
 use serde::Serialize;
 
-use crate::study::document::{Document, DocumentVessel, WorldPoint};
+use crate::study::document::{Document, DocumentVessel};
 use crate::study::failure::Result;
 use crate::study::open_study::Study;
 use crate::text::fixed;
@@ -42,7 +40,7 @@ impl Study {
         let others: Vec<&DocumentVessel> =
             document.vessels.iter().filter(|other| other.id != vessel.id && other.is_sure()).collect();
         let words = format!("{}, {}.", vessel.called(), self.joining(&line, &others)?);
-        Ok(Some(Told { vessel: vessel.id, words, doubts: self.doubtful(&line, vessel.clicks.as_deref())? }))
+        Ok(Some(Told { vessel: vessel.id, words, doubts: self.doubtful(vessel)? }))
     }
 
     pub(crate) fn joining(&self, line: &Centerline, others: &[&DocumentVessel]) -> Result<String> {
@@ -63,44 +61,14 @@ impl Study {
         Ok(words)
     }
 
-    fn doubtful(&self, line: &Centerline, clicks: Option<&[WorldPoint]>) -> Result<Vec<DoubtfulPlace>> {
+    fn doubtful(&self, vessel: &DocumentVessel) -> Result<Vec<DoubtfulPlace>> {
         let Some(held) = &self.content.held else { return Ok(Vec::new()) };
         let volume = held.volume()?;
-        let voxels = &Voxels::new(&volume);
-        let ends = clicks.and_then(|clicks| Some([*clicks.first()?, *clicks.last()?].map(DVec3::from_array)));
-        if ends.is_some_and(|ends| runs_across(voxels, ends)) {
-            let words = "The path runs across the lumen, not along it: click in another slice.".to_owned();
-            return Ok(vec![DoubtfulPlace { words, at: None }]);
-        }
-        let lengths = arc_lengths(&line.points);
-        let change = level_change(voxels, line).map(|n| {
-            let at = lengths[n];
-            let words =
-                format!("Doubtful from {} mm on: the brightness of the lumen changes there.", fixed(at, 0));
-            DoubtfulPlace { words, at: Some(at) }
-        });
-        let wander = wandering_from(line).map(|(from, to)| wanders(lengths[from], lengths[to]));
-        Ok(change.into_iter().chain(wander).collect())
+        let line = self.lines.get(vessel.line)?;
+        let clicks: Vec<DVec3> = vessel.clicks.iter().flatten().copied().map(DVec3::from_array).collect();
+        let bridged = line.bridged.as_deref().unwrap_or_default();
+        let doubted = Doubted { line: &line.met(), bridged, clicks: &clicks };
+        let doubts = doubted.doubts(&Voxels::new(&volume)).into_iter();
+        Ok(doubts.map(|doubt| DoubtfulPlace { words: doubt.words, at: doubt.at }).collect())
     }
-}
-
-/// The first stretch on which a line turns sharply; interruptions shorter than a radius are part of it.
-fn wandering_from(line: &Centerline) -> Option<(usize, usize)> {
-    let is_wandering = wandering(line);
-    let lengths = arc_lengths(&line.points);
-    let from = is_wandering.iter().position(|wanders| *wanders)?;
-    let later = (from..is_wandering.len()).filter(|n| is_wandering[*n]);
-    let goes_on = |to: usize, n: usize| lengths[n] - lengths[to] <= line.radius[n];
-    Some((from, later.fold(from, |to, n| if goes_on(to, n) { n } else { to })))
-}
-
-/// The doubt about a stretch with sharp turns, between two arc lengths (mm).
-fn wanders(from: f64, to: f64) -> DoubtfulPlace {
-    let why = "the line turns in less than the width of the vessel there";
-    let (words, at) = if from > 0.0 {
-        (format!("Doubtful from {} mm on: {why}.", fixed(from, 0)), from)
-    } else {
-        (format!("Doubtful up to {} mm: {why}.", fixed(to, 0)), to)
-    };
-    DoubtfulPlace { words, at: Some(at) }
 }

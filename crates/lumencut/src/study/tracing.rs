@@ -8,7 +8,7 @@ use lumencut_core::vessel_tree::VesselTree;
 use lumencut_io::{write_mrk_json, write_vtp};
 use lumencut_vessels::trace::clicks::checks::Clicks;
 use lumencut_vessels::trace::clicks::preview::Sought;
-use lumencut_vessels::trace::find::{FindRequest, SMALLEST_RADIUS};
+use lumencut_vessels::trace::find::FindRequest;
 use lumencut_vessels::trace::ways::region::Stopper;
 use serde::{Deserialize, Serialize};
 
@@ -113,7 +113,7 @@ impl Study {
     pub(crate) fn trace_from(&mut self, seed: [f64; 3], watch: Watch) -> Result<Vec<HeldLine>> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         let Watch { stop, progress } = watch;
-        let request = FindRequest { smallest_radius: SMALLEST_RADIUS, stop, progress: Some(progress) };
+        let request = FindRequest { smallest_radius: None, stop, progress: Some(progress) };
         let tree = found_vessels::trace_from(&volume, DVec3::from_array(seed), &request)?;
         self.held_lines(tree.vessels)
     }
@@ -127,7 +127,7 @@ impl Study {
     ) -> Result<(Vec<HeldLine>, Vec<String>)> {
         let as_tree =
             if doubtful { found_vessels::tree_with_doubtful } else { found_vessels::confident_tree };
-        let tree = as_tree(self.trees(watch)?, SMALLEST_RADIUS)?;
+        let tree = as_tree(self.trees(watch)?)?;
         Ok((self.held_lines(tree.vessels)?, tree.notes))
     }
 

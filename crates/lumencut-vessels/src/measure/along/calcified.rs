@@ -58,7 +58,10 @@ fn judge(section: &mut Section, free: f64, is_near: bool) {
             let bounds = [low, high.max(free)];
             *section = Section { flags, bounds, ..Section::none() };
         }
-        section.bounds[0] = section.bounds[0].min(free);
+        // Thin struts have no bounds, and `min` would ignore their NaN.
+        if section.bounds[0] > free {
+            section.bounds[0] = free;
+        }
     } else if is_near && section.flags & LEFT_OUT == 0 && told > WIDER * free {
         section.flags |= CALCIUM;
         section.bounds = [free, told];

@@ -46,7 +46,7 @@ pub(crate) struct Throats<'a, 'b, 'v> {
     pub bench: &'a Bench<'b, 'v>,
     pub places: &'a [SectionPlane],
     /// Pooled level of the lumen at each section.
-    pub lumen: Vec<f64>,
+    pub lumen: &'a [f64],
     pub noise: f64,
 }
 

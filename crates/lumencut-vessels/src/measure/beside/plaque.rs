@@ -10,6 +10,9 @@ use lumencut_core::math::statistics::median;
 /// Range of the values of such plaque: 0 is the level of a wall, 1 that of the lumen.
 const PLATEAU: [f64; 2] = [0.2, 0.6];
 
+/// A plateau is longer than this many blur widths; an edge between lumen and wall takes half of one.
+const WIDTHS: f64 = 0.9;
+
 /// Every how many rays are read, and how many of them must cross a plateau.
 const EVERY: usize = 2;
 const LEAST_RAYS: usize = 5;
@@ -34,7 +37,8 @@ pub(crate) fn narrowed(
     };
     let numbers: Vec<usize> = (0..RAYS).step_by(EVERY).collect();
     let shares: Vec<Vec<f64>> = numbers.iter().map(read).collect();
-    let plateaus: Vec<Option<f64>> = shares.iter().map(|shares| plateau(shares, width / step)).collect();
+    let plateaus: Vec<Option<f64>> =
+        shares.iter().map(|shares| plateau(shares, WIDTHS * width / step)).collect();
     if plateaus.iter().flatten().count() < LEAST_RAYS {
         return None;
     }

@@ -39,6 +39,10 @@ const RAY_BEYOND: (f64, f64) = (2.0, 1.5);
 /// Diameters below this multiple of the point spread get the flag [`AT_LIMIT`].
 pub(crate) const LIMIT: f64 = 1.5;
 
+/// Slices cut a vessel lengthwise into too few parts if their spacing exceeds this fraction of its diameter; they are
+/// slices if their spacing is at least this multiple of that across.
+const SLICES: (f64, f64) = (0.5, 2.0);
+
 /// A contour is irregular if the root mean square of its relative differences from the ellipse exceeds this.
 const ROUGH_WALL: f64 = 0.12;
 
@@ -46,7 +50,7 @@ const ROUGH_WALL: f64 = 0.12;
 pub(crate) const LEAST_CONTRAST: f64 = 2.0;
 
 /// Standard deviation of diameters that are measured without a blur model, in blur widths.
-const UNMODELLED_WIDTHS: f64 = 0.5;
+pub(crate) const UNMODELLED_WIDTHS: f64 = 0.5;
 
 /// Noise before it is estimated, as a fraction of the contrast.
 const FIRST_NOISE: f64 = 0.1;
@@ -222,7 +226,7 @@ impl Bench<'_, '_> {
         Section {
             contour,
             fit: Some(fit),
-            flags: flags | self.place_flags(&ellipse),
+            flags: flags | self.place_flags(place, &ellipse),
             bounds,
             at_most: f64::NAN,
         }
@@ -265,17 +269,19 @@ impl Bench<'_, '_> {
         Some(Section {
             contour,
             fit: Some(fit),
-            flags: flags | self.place_flags(&ellipse),
+            flags: flags | self.place_flags(place, &ellipse),
             bounds,
             at_most: f64::NAN,
         })
     }
 
-    fn place_flags(&self, ellipse: &Ellipse) -> u32 {
+    fn place_flags(&self, place: &SectionPlane, ellipse: &Ellipse) -> u32 {
         let towards = -ellipse.center;
         let reach = towards.try_normalize().map_or(f64::INFINITY, |d| ellipse.radius_towards(d));
         let recentered = if towards.length() > reach { RECENTERED } else { 0 };
-        let limit = if ellipse.equivalent_diameter() < LIMIT * self.fwhm { AT_LIMIT } else { 0 };
+        let ([fine, coarse], diameter) = (self.blur.spacing(place), ellipse.equivalent_diameter());
+        let is_in_few_slices = coarse > SLICES.0 * diameter && coarse >= SLICES.1 * fine;
+        let limit = if diameter < LIMIT * self.fwhm || is_in_few_slices { AT_LIMIT } else { 0 };
         recentered | limit
     }
 }

@@ -2,15 +2,16 @@
 
 use std::sync::OnceLock;
 
-use glam::DVec3;
 use rayon::prelude::*;
 
 use super::request::MeasureRequest;
 use super::{Profile, TreeFindings};
 use crate::measure::along::all_sections::AllSections;
+use crate::measure::along::assumed_spread::AssumedSpread;
 use crate::measure::along::calcified::settle;
 use crate::measure::along::levels::lumen_levels;
-use crate::measure::along::point_spread::{SpreadEstimate, estimated};
+use crate::measure::along::point_spread::{MIN_WIDTH, SharpEdges, SpreadEstimate, estimated};
+use crate::measure::along::struts::flag_struts;
 use crate::measure::along::throats::Throats;
 use crate::measure::along::{flag_sharp_turns, sharpen};
 use crate::measure::beside::branches::{Lumen, meets};
@@ -30,15 +31,12 @@ use crate::measure::section::{SectionPlane, Track, known_radius};
 use crate::measure::uncertainty::texture::{Pairs, Texture};
 use crate::measure::wall::pool::{is_apart, pooled, unpooled_level};
 use crate::measure::wall::tree::{PooledWall, wall_beside};
-use crate::measure::wall::{WallSource, expected, is_below_lumen};
+use crate::measure::wall::{WallSource, expected, is_below_lumen, is_hounsfield};
 use crate::voxels::Voxels;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::math::statistics::median;
 use lumencut_core::stop::{Stop, go_on};
 use lumencut_core::vessel_tree::Vessel;
-
-/// FWHM of the point spread (voxel sides) that is assumed if nothing else is known.
-pub(crate) const DEFAULT_FWHM: f64 = 1.2;
 
 /// Number of sections that decide whether walls are visible.
 const WALL_SECTIONS: usize = 48;
@@ -63,10 +61,26 @@ struct FirstFits {
     texture: Texture,
 }
 
+/// The sections of a vessel, measured for one point spread and wall.
+pub(super) struct Read<'a, 'v> {
+    pub sections: Vec<Section>,
+    bench: Bench<'a, 'v>,
+    /// Pooled level of the lumen at each section.
+    lumen: Vec<f64>,
+    /// Noise of a voxel, as a fraction of the contrast.
+    pub noise: f64,
+    /// Number of sections from one with own voxels to the next.
+    pub every: usize,
+    /// Whether the wall is as bright as its surroundings.
+    is_wall_hidden: bool,
+}
+
 pub(crate) struct PreparedVessel {
     part: MeasuredPart,
-    scale: Scale,
-    wall: Option<KnownWall>,
+    pub(super) scale: Scale,
+    /// The point spread to assume if none is given or found.
+    pub(super) assumed: AssumedSpread,
+    pub(super) wall: Option<KnownWall>,
     wall_source: WallSource,
     places: Vec<SectionPlane>,
     estimates: Vec<Option<LumenEstimate>>,
@@ -83,7 +97,8 @@ impl PreparedVessel {
         let (wall, wall_source) = expected(voxels, &scale, request.wall)?;
         let widest = known.map_or(MAX_RADIUS_MM, |radius| (3.0 * radius + 5.0).min(MAX_RADIUS_MM));
         let search = known.unwrap_or(0.0).max(MIN_SEARCH_MM);
-        let bench = bench(voxels, scale, wall, assumed(voxels));
+        let assumed = AssumedSpread::of(voxels.world_from_index.matrix3, is_hounsfield(voxels, &scale));
+        let bench = bench(voxels, scale, wall, assumed.fwhm[0]);
         let mut estimates = bench.estimates(&first, search, widest, request.stop)?;
         for (estimate, place) in estimates.iter_mut().zip(&first) {
             *estimate = estimate.filter(|_| part.holds(place));
@@ -94,6 +109,7 @@ impl PreparedVessel {
         Ok(Self {
             part,
             scale,
+            assumed,
             wall,
             wall_source,
             places,
@@ -174,6 +190,11 @@ impl PreparedVessel {
         }
     }
 
+    /// The same vessel as if it had no wall.
+    pub(super) fn bare(&self) -> Self {
+        Self { wall: None, ..self.part(|_| true) }
+    }
+
     /// A wall that may exist although it is as bright as its surroundings; None if walls are visible.
     fn hidden_wall(
         &self,
@@ -193,10 +214,18 @@ impl PreparedVessel {
     }
 
     pub(crate) fn point_spread(&self, voxels: &Voxels, stop: Stop) -> Result<SpreadEstimate> {
-        let (_, fitted) = self.fitted(voxels, assumed(voxels));
-        let FirstFits { hidden, fits, .. } = self.kept_fits(voxels, assumed(voxels), stop)?;
-        let bench = self.bench(voxels, assumed(voxels), hidden);
-        estimated(&bench, voxels.world_from_index.matrix3, &fitted.places, &fits, stop)
+        let found = self.shown_spread(voxels, MIN_WIDTH, stop)?;
+        let SpreadEstimate::Width(with_wall) = found else { return Ok(found) };
+        let without_wall = self.spread_without_wall(voxels, stop)?;
+        Ok(SpreadEstimate::Width(SharpEdges { without_wall, ..with_wall }))
+    }
+
+    /// The point spread that sections at least `min_width` times as wide show.
+    pub(super) fn shown_spread(&self, voxels: &Voxels, min_width: f64, stop: Stop) -> Result<SpreadEstimate> {
+        let assumed = self.assumed.fwhm[0];
+        let (_, fitted) = self.fitted(voxels, assumed);
+        let FirstFits { hidden, fits, .. } = self.kept_fits(voxels, assumed, stop)?;
+        estimated(&self.bench(voxels, assumed, hidden), min_width, &fitted.places, &fits, stop)
     }
 
     /// Wall level (in the volume's unit) that the sections show without their prior; None if walls are not visible.
@@ -219,57 +248,76 @@ impl PreparedVessel {
         request: &MeasureRequest,
         findings: TreeFindings,
     ) -> Result<Profile> {
-        let stop = request.stop;
         let by_others = self.wall_by_others(&findings, request.tree, vessel);
         let spread = findings.spread;
-        let (every, fitted) = self.fitted(voxels, spread.fwhm);
-        let first = self.kept_fits(voxels, spread.fwhm, stop)?;
-        let hidden = first.hidden;
-        let mut bench = self.bench(voxels, spread.fwhm, hidden);
-        let wall_source = match by_others {
-            _ if hidden.is_some() => WallSource::AsBright,
-            Some(by_others) => self.wall_source.pooled(by_others),
-            None => self.wall_source,
-        };
-        let all = fitted.all_sections(&bench, first, by_others, stop)?;
-        let wider = (spread.deviation > 0.0)
-            .then(|| Blur::new(spread.fwhm + spread.deviation, voxels.world_from_index.matrix3));
-        bench.doubt = Some(Doubt { texture: all.texture.clone(), wider, wall: hidden });
+        let mut read = self.read(voxels, [spread.fwhm, spread.deviation], by_others, request.stop)?;
+        self.include_other_spreads(voxels, &mut read.sections, &spread, request.stop)?;
+        if !read.is_wall_hidden {
+            self.include_thin_walls(voxels, &mut read.sections, &spread, request.stop)?;
+        }
+        let mut sections = std::mem::take(&mut read.sections);
         let others = Lumen::of_others(request.tree, vessel);
-        let section = |n: usize, lumen: Option<Level>| {
-            go_on(stop)?;
-            let place = &self.places[n];
-            let estimate = self.estimates[n].map(|one| Ellipse::circle(one.center, one.radius));
-            let mut section = match all.known(n, every, estimate) {
-                Some((known, other)) => {
-                    let lumen = lumen.unwrap_or(known.lumen);
-                    bench.section(place, &Known { lumen, ..known }, other)
-                }
-                None => Section::none(),
-            };
+        for (n, section) in sections.iter_mut().enumerate() {
             section.flags |= self.branch(n, section.fit.as_ref(), &others);
-            if voxels.at(place.origin).is_nan() {
+            if voxels.at(self.places[n].origin).is_nan() {
                 section.flags |= OUTSIDE;
             }
-            Ok(section)
-        };
-        let mut sections: Vec<Section> =
-            (0..self.places.len()).into_par_iter().map(|n| section(n, None)).collect::<Result<_>>()?;
-        let lumen = (0..self.places.len()).map(|n| all.lumen_near(n, every)).collect();
-        let throats = Throats { bench: &bench, places: &self.places, lumen, noise: all.noise };
-        throats.refit(&mut sections, |n, lumen| section(n, Some(lumen)))?;
+        }
         if sections.iter().all(|section| section.flags & NO_EDGE > 0) {
             return Err(no_lumen(&self.scale));
+        }
+        let Read { bench, lumen, noise, .. } = &read;
+        if is_hounsfield(voxels, &self.scale) {
+            flag_struts(bench, &self.places, &mut sections);
         }
         let variance: Vec<f64> =
             self.places.iter().map(|place| bench.blur.along(place, thickness(voxels, place))).collect();
         sharpen(&mut sections, &self.arc_lengths(), &variance);
         flag_sharp_turns(&self.places, &mut sections);
         settle(&self.places, &mut sections, bench.fwhm);
-        throats.limit(&mut sections);
-        let noise = all.noise * self.scale.contrast.abs();
+        Throats { bench, places: &self.places, lumen, noise: *noise }.limit(&mut sections);
+        let wall_source = match by_others {
+            _ if read.is_wall_hidden => WallSource::AsBright,
+            Some(by_others) => self.wall_source.pooled(by_others),
+            None => self.wall_source,
+        };
+        let noise = read.noise * self.scale.contrast.abs();
         let profile = Profile::new(&self.places, &sections, &self.scale, noise, spread, wall_source);
         Ok(Profile { without_wall: self.part.left_out(&self.places), ..profile })
+    }
+
+    /// Measures all sections with a point spread (FWHM and its standard deviation, mm).
+    pub(super) fn read<'a, 'v>(
+        &self,
+        voxels: &'a Voxels<'v>,
+        [fwhm, deviation]: Level,
+        by_others: Option<PooledWall>,
+        stop: Stop,
+    ) -> Result<Read<'a, 'v>> {
+        let (every, fitted) = self.fitted(voxels, fwhm);
+        let first = self.kept_fits(voxels, fwhm, stop)?;
+        let hidden = first.hidden;
+        let mut bench = self.bench(voxels, fwhm, hidden);
+        let all = fitted.all_sections(&bench, first, by_others, stop)?;
+        let wider = (deviation > 0.0).then(|| Blur::new(fwhm + deviation, voxels.world_from_index.matrix3));
+        bench.doubt = Some(Doubt { texture: all.texture.clone(), wider, wall: hidden });
+        let section = |n: usize, lumen: Option<Level>| {
+            go_on(stop)?;
+            let estimate = self.estimates[n].map(|one| Ellipse::circle(one.center, one.radius));
+            Ok(match all.known(n, every, estimate) {
+                Some((known, other)) => {
+                    let lumen = lumen.unwrap_or(known.lumen);
+                    bench.section(&self.places[n], &Known { lumen, ..known }, other)
+                }
+                None => Section::none(),
+            })
+        };
+        let mut sections: Vec<Section> =
+            (0..self.places.len()).into_par_iter().map(|n| section(n, None)).collect::<Result<_>>()?;
+        let lumen: Vec<f64> = (0..self.places.len()).map(|n| all.lumen_near(n, every)).collect();
+        Throats { bench: &bench, places: &self.places, lumen: &lumen, noise: all.noise }
+            .refit(&mut sections, |n, lumen| section(n, Some(lumen)))?;
+        Ok(Read { sections, bench, lumen, noise: all.noise, every, is_wall_hidden: hidden.is_some() })
     }
 
     fn wall_by_others(
@@ -335,13 +383,6 @@ impl PreparedVessel {
 fn bench<'a, 'v>(voxels: &'a Voxels<'v>, scale: Scale, wall: Option<KnownWall>, fwhm: f64) -> Bench<'a, 'v> {
     let blur = Blur::new(fwhm, voxels.world_from_index.matrix3);
     Bench { rays: Rays { voxels, scale }, blur, fwhm, wall, doubt: None }
-}
-
-/// The assumed point spread (FWHM, mm), a multiple of the middle voxel side.
-pub(crate) fn assumed(voxels: &Voxels) -> f64 {
-    let sides = voxels.world_from_index.matrix3;
-    let mut lengths = [sides.x_axis, sides.y_axis, sides.z_axis].map(DVec3::length);
-    DEFAULT_FWHM * median(&mut lengths).unwrap_or_default()
 }
 
 fn no_lumen(scale: &Scale) -> Error {

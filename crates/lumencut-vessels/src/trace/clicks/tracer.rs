@@ -1,54 +1,34 @@
-//! Traces centerlines between clicks. Paths are cached, so a changed click affects only the paths next to it.
-
-use std::collections::HashMap;
+//! Traces centerlines between clicks.
 
 use glam::DVec3;
 
 use crate::trace::clicks::Traced;
 use crate::trace::clicks::checks::{Clicks, check, check_place};
-use crate::trace::clicks::gaps::{LONGEST_GAP, Line, no_lumen, no_way};
+use crate::trace::clicks::dim::model_beside_dim;
 use crate::trace::clicks::junctions::joined;
+use crate::trace::clicks::paths::{Paths, Search};
 use crate::trace::clicks::preview::{Live, Sought};
-use crate::trace::clicks::way::{Way, start};
-use crate::trace::lines::nearest_point;
-use crate::trace::lumen::lumen_model::{LumenModel, in_words};
-use crate::trace::lumen::refine::refined;
+use crate::trace::lumen::level_change::level_change;
+use crate::trace::lumen::lumen_model::in_words;
 use crate::trace::lumen::surroundings::Surroundings;
-use crate::trace::lumen::wander::without_wander;
-use crate::trace::ways::front::{Found, Front, Reach};
-use crate::trace::ways::region::{Region, Stopper, Strictness};
+use crate::trace::ways::region::{Region, Strictness};
 use crate::voxels::Voxels;
-use lumencut_core::error::{Clicked, Error, Result};
+use lumencut_core::error::{Clicked, Error, ErrorKind, Result};
 use lumencut_core::progress::Progress;
 use lumencut_core::stop::Stop;
 use lumencut_core::volume::Volume;
 
-/// Maximum number of voxels of a front (7 bytes each), and of a search that only explains why no path exists.
-const MOST_VOXELS: usize = 40_000_000;
-const MOST_VOXELS_OF_DOUBT: usize = 4_000_000;
-
 /// Number of fronts cached for the mouse pointer: one for each neighbour of a dragged point.
 const MOST_LIVE: usize = 2;
-
-type Ends = [[i32; 3]; 2];
 
 /// Caches the fronts of clicks, and the paths between clicks, for one volume.
 #[derive(Debug, Default)]
 pub struct Tracer {
     surroundings: Option<Surroundings>,
-    region: Option<Region>,
-    fronts: HashMap<[i32; 3], Front>,
-    ways: HashMap<Ends, Way>,
+    paths: Option<Paths>,
     lines: Vec<(Vec<DVec3>, Traced)>,
     /// Fronts for the pointer, the most recently used one first.
     live: Vec<Live>,
-}
-
-struct Search<'a, 'v> {
-    voxels: &'a Voxels<'v>,
-    clicks: &'a Clicks,
-    stop: Stop<'a>,
-    progress: Option<&'a Progress>,
 }
 
 impl Tracer {
@@ -66,8 +46,8 @@ impl Tracer {
         check(voxels, clicks)?;
         let surroundings = self.surroundings_of(voxels, &all_of(clicks));
         let clicks = &snapped(voxels, surroundings, clicks);
-        self.prepare(voxels, surroundings, clicks)?;
-        let search = Search { voxels, clicks, stop, progress };
+        let dim = self.prepare(voxels, surroundings, clicks)?;
+        let search = Search { voxels, clicks, dim: &dim, stop, progress };
         if let Some(progress) = progress {
             progress.expect_views(clicks.vessels.iter().map(|points| points.len() - 1).sum());
         }
@@ -90,7 +70,8 @@ impl Tracer {
         let voxels = &Voxels::new(volume);
         let known = self.live.iter().position(|live| live.is_from(sought));
         let kept = known.map(|number| self.live.remove(number));
-        let begin = || Live::new(voxels, sought, self.surroundings, self.region.as_ref());
+        let region = self.paths.as_ref().map(|paths| &paths.region);
+        let begin = || Live::new(voxels, sought, self.surroundings, region);
         let mut live = kept.or_else(begin)?;
         let way = live.way(voxels, sought, stop);
         self.live.truncate(MOST_LIVE - 1);
@@ -112,148 +93,61 @@ impl Tracer {
         self.surroundings.unwrap_or_else(|| Surroundings::of(voxels, clicks))
     }
 
-    /// Fits the lumen model to the clicks, and drops caches that were made with a different model.
-    fn prepare(&mut self, voxels: &Voxels, surroundings: Surroundings, clicks: &Clicks) -> Result<()> {
-        let model = surroundings.model(voxels, &all_of(clicks))?;
+    /// Fits the lumen model to the clicks, and drops caches that were made with a different model. Returns the
+    /// clicks in dim lumen.
+    fn prepare(
+        &mut self,
+        voxels: &Voxels,
+        surroundings: Surroundings,
+        clicks: &Clicks,
+    ) -> Result<Vec<DVec3>> {
+        let (model, dim) = model_beside_dim(voxels, &surroundings, clicks)?;
         // The surroundings are stored only after the check, because those of rejected clicks would mislead
         // later ones.
         self.surroundings = Some(surroundings);
-        let fits = |region: &Region| region.model.covers(&model);
-        if !self.region.as_ref().is_some_and(fits) {
-            *self = Self { surroundings: Some(surroundings), ..Self::default() };
-            self.region = Some(Region::new(voxels.size, model, clicks.stoppers.clone(), Strictness::Lumen));
+        let fits = |paths: &Paths| paths.region.model.covers(&model);
+        if !self.paths.as_ref().is_some_and(fits) {
+            let region = Region::new(voxels.size, model, clicks.stoppers.clone(), Strictness::Lumen);
+            *self =
+                Self { surroundings: Some(surroundings), paths: Some(Paths::new(region)), ..Self::default() };
         }
-        self.heed(voxels, &clicks.stoppers);
-        Ok(())
-    }
-
-    fn heed(&mut self, voxels: &Voxels, stoppers: &[Stopper]) {
-        let Some(region) = &mut self.region else { return };
-        let before = std::mem::replace(&mut region.stoppers, stoppers.to_vec());
-        let one_sided = |a: &[Stopper], b: &[Stopper]| -> Vec<Stopper> {
-            a.iter().filter(|stopper| !b.contains(stopper)).copied().collect()
-        };
-        let changed = [one_sided(&before, stoppers), one_sided(stoppers, &before)].concat();
-        for stopper in &changed {
-            region.forget(voxels, stopper);
-            self.fronts.retain(|_, front| !front.touches(voxels, stopper.center, stopper.radius));
-        }
-        if !changed.is_empty() {
-            self.ways.clear();
+        if self.paths.as_mut().is_some_and(|paths| paths.heed(voxels, &clicks.stoppers)) {
             self.lines.clear();
         }
+        Ok(dim)
     }
 
     fn tidy(&mut self, voxels: &Voxels, clicks: &Clicks) {
         let known: Vec<[i32; 3]> =
             clicks.vessels.iter().flatten().filter_map(|click| voxels.voxel_at(*click)).collect();
-        self.fronts.retain(|source, _| known.contains(source));
-        self.ways.retain(|ends, _| ends.iter().all(|end| known.contains(end)));
+        if let Some(paths) = &mut self.paths {
+            paths.tidy(&known);
+        }
     }
 
+    /// The line through clear lumen. Where it is refused, or seems to enter another lumen, the line that crosses no flap
+    /// is taken, if there is one. A vessel with a click in dim lumen has no other line.
     fn line(&mut self, search: &Search, clicks: &[DVec3]) -> Result<Traced> {
-        let mut points: Vec<DVec3> = Vec::new();
-        let mut open: Vec<bool> = Vec::new();
-        for pair in clicks.windows(2) {
-            let way = self.way(search, [pair[0], pair[1]])?;
-            let mut is_open = vec![false; way.points.len()];
-            for gap in way.gaps.iter().filter(|gap| gap.is_open) {
-                is_open[gap.points.clone()].fill(true);
-            }
-            let skip = usize::from(!points.is_empty());
-            points.extend(&way.straightened()[skip..]);
-            open.extend(&is_open[skip..]);
-        }
-        let Some(region) = &self.region else { return Err(Error::interrupted()) };
-        let line = refined(search.voxels, &region.model, &points, search.stop)?;
-        let mut line = without_wander(search.voxels, &region.model, line, search.stop)?;
-        let bridged: Vec<bool> =
-            line.points.iter().map(|point| open[nearest_point(&points, *point)]).collect();
-        for (confidence, is_bridged) in line.confidence.iter_mut().zip(&bridged) {
-            if *is_bridged {
-                *confidence = 0.0;
-            }
-        }
-        let ends = [clicks[0], clicks[clicks.len() - 1]];
-        let crossing = Line::new(search.voxels, &region.model, &line.points).crossing();
-        if let Some(crossing) = crossing.filter(|_| !search.clicks.bridge) {
-            return Err(no_lumen(ends, &crossing, &region.model));
-        }
-        Ok(Traced { line, bridged, ends })
-    }
-
-    fn way(&mut self, search: &Search, between: [DVec3; 2]) -> Result<Way> {
-        let Some(region) = &mut self.region else { return Err(Error::interrupted()) };
-        let ends = between.map(|click| start(search.voxels, region, click));
-        if let Some(way) = self.ways.get(&ends) {
-            return Ok(way.clone());
-        }
-        let backwards = !self.fronts.contains_key(&ends[0]) && self.fronts.contains_key(&ends[1]);
-        let [source, target] = if backwards { [ends[1], ends[0]] } else { ends };
-        let reach = Reach { longest_gap: Some(LONGEST_GAP), most_voxels: MOST_VOXELS, pull: 1.0 };
-        let front =
-            self.fronts.entry(source).or_insert_with(|| Front::new(search.voxels, region, source, reach));
-        let found = search.grow(front, region, target)?;
-        let mut way = None;
-        if found == Found::Target {
-            let mut steps = front.way_to(target);
-            if backwards {
-                steps.reverse();
-            }
-            way = Some(Way::of(search.voxels, region, &steps));
-        }
-        let whole = match way {
-            Some(way) if way.gaps.iter().all(|gap| !gap.is_open) => way,
-            Some(way) if search.clicks.bridge => way,
-            Some(way) => return Err(refusal(between, &way, &region.model)),
-            None => search.bridge(region, between, ends)?,
+        let Some(paths) = &mut self.paths else { return Err(Error::interrupted()) };
+        let dim = clicks.iter().find(|click| search.dim.contains(click));
+        let first = match dim {
+            Some(dim) => Err(no_free_way(*dim)),
+            None => paths.line(search, clicks),
         };
-        self.ways.insert(ends, whole.clone());
-        Ok(whole)
+        let is_sure = match &first {
+            Ok(traced) => search.clicks.bridge || level_change(search.voxels, &traced.line).is_none(),
+            Err(error) => error.kind != ErrorKind::Tracing,
+        };
+        if is_sure { first } else { paths.line_without_flaps(search, clicks)?.map_or(first, Ok) }
     }
 }
 
-impl Search<'_, '_> {
-    fn grow(&self, front: &mut Front, region: &mut Region, target: [i32; 3]) -> Result<Found> {
-        let whole = self.voxels.center(front.source()).distance(self.voxels.center(target)).max(1.0);
-        if let Some(progress) = self.progress {
-            progress.begin_view(std::iter::once(1), PARTS);
-            progress.begin_stage(1);
-        }
-        let reported = std::cell::Cell::new(0);
-        let found = front.grow(self.voxels, region, target, self.stop, &|left| {
-            let parts = ((1.0 - left / whole).clamp(0.0, 1.0) * PARTS as f64) as usize;
-            if let Some(progress) = self.progress {
-                progress.begin_pixels(parts.saturating_sub(reported.replace(parts.max(reported.get()))));
-            }
-        });
-        if let Some(progress) = self.progress {
-            progress.end_view();
-        }
-        found
-    }
-
-    /// Bridges parts without lumen if requested; otherwise returns an error that states where they are.
-    fn bridge(&self, region: &Region, between: [DVec3; 2], ends: Ends) -> Result<Way> {
-        let model = region.model;
-        let stoppers = self.clicks.stoppers.clone();
-        let mut lenient = Region::new(self.voxels.size, model, stoppers, Strictness::Bridge);
-        let most_voxels = if self.clicks.bridge { MOST_VOXELS } else { MOST_VOXELS_OF_DOUBT };
-        let reach = Reach { longest_gap: None, most_voxels, pull: 1.0 };
-        let mut front = Front::new(self.voxels, &mut lenient, ends[0], reach);
-        if front.grow(self.voxels, &mut lenient, ends[1], self.stop, &|_| ())? != Found::Target {
-            return Err(no_way(between, &model));
-        }
-        let way = Way::of(self.voxels, &mut lenient, &front.way_to(ends[1]));
-        if self.clicks.bridge { Ok(way) } else { Err(refusal(between, &way, &model)) }
-    }
-}
-
-const PARTS: usize = 1000;
-
-fn refusal(between: [DVec3; 2], way: &Way, model: &LumenModel) -> Error {
-    let longest = way.gaps.iter().max_by(|a, b| a.length.total_cmp(&b.length));
-    longest.map_or_else(|| no_way(between, model), |gap| no_lumen(between, gap, model))
+fn no_free_way(dim: DVec3) -> Error {
+    let found = "tissue, or dim lumen without a path to the other points that stays within the same walls";
+    let subject = format!("point {}", in_words(dim));
+    Error::new(ErrorKind::Tracing, subject, found, "lumen")
+        .about(Clicked::Single)
+        .mend("click where the lumen is clear")
 }
 
 fn all_of(clicks: &Clicks) -> Vec<DVec3> {

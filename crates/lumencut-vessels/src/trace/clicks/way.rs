@@ -30,6 +30,15 @@ impl Way {
         Self { points, gaps }
     }
 
+    /// Whether each point lies in a gap that is too long to be accepted.
+    pub(crate) fn is_open(&self) -> Vec<bool> {
+        let mut is_open = vec![false; self.points.len()];
+        for gap in self.gaps.iter().filter(|gap| gap.is_open) {
+            is_open[gap.points.clone()].fill(true);
+        }
+        is_open
+    }
+
     /// Points of the path, with straight lines in place of gaps, because no values guide the path there.
     pub(crate) fn straightened(&self) -> Vec<DVec3> {
         let mut points = self.points.clone();

@@ -27,10 +27,19 @@ const NEARLY: f64 = 0.9;
 /// Minimum radius in voxels. Values at the centre of a narrower lumen are mixed with those of the tissue.
 const LEAST_VOXELS: f64 = 2.0;
 
-/// Index of the point at which the lumen brightness changes suddenly and for good. The method is our own: two
+/// A sudden and lasting change of brightness.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LevelChange {
+    /// Index of the point.
+    pub at: usize,
+    /// Medians of the values before and after it.
+    pub levels: [f64; 2],
+}
+
+/// The point at which the lumen brightness changes suddenly and for good. The method is our own: two
 /// lines of common slope are fitted to the values along 15 mm (or two radii) before and after a point. The
 /// step between them must be at least a quarter of the contrast and three times the noise.
-pub fn level_change(voxels: &Voxels, line: &Centerline) -> Option<usize> {
+pub fn level_change(voxels: &Voxels, line: &Centerline) -> Option<LevelChange> {
     let along = Along::new(voxels, line);
     let steps = (0..line.points.len()).filter_map(|n| Some((n, along.step_at(n)?)));
     let mut steps: Vec<(usize, Step)> = steps.collect();
@@ -39,13 +48,14 @@ pub fn level_change(voxels: &Voxels, line: &Centerline) -> Option<usize> {
     steps.retain(|(_, step)| step.size >= NEARLY * largest);
     let (at, step) = *steps.get(steps.len() / 2)?;
     let tissue = Surroundings::of(voxels, &[line.points[at]]).tissue();
-    (step.size >= LEAST_CHANGE * (step.brighter - tissue)).then_some(at)
+    let least = LEAST_CHANGE * (step.levels[0].max(step.levels[1]) - tissue);
+    (step.size >= least).then_some(LevelChange { at, levels: step.levels })
 }
 
 #[derive(Clone, Copy, Debug)]
 struct Step {
     size: f64,
-    brighter: f64,
+    levels: [f64; 2],
 }
 
 /// Values along one part of the line: statistics, and the sums for fitting a line, without outliers.
@@ -91,7 +101,7 @@ impl<'a> Along<'a> {
         let change = after.median - before.median;
         let size = step.abs().min(change.abs());
         let is_seen = step * change > 0.0 && size >= LEAST_NOISES * before.noise.max(after.noise);
-        is_seen.then(|| Step { size, brighter: before.median.max(after.median) })
+        is_seen.then_some(Step { size, levels: [before.median, after.median] })
     }
 
     /// The values between two arc lengths; None if the line ends before, or if the vessel is thin there.

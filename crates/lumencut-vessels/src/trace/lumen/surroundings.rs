@@ -274,7 +274,7 @@ fn samples_between(voxels: &Voxels, first: [i32; 3], last: [i32; 3]) -> Vec<f32>
     values
 }
 
-fn value_at(voxels: &Voxels, click: DVec3) -> f64 {
+pub(crate) fn value_at(voxels: &Voxels, click: DVec3) -> f64 {
     let near = voxels.smallest_side * 1.05;
     let mut values: Vec<f32> =
         voxels.ball(click, near).into_iter().map(|(_, value)| value).filter(|v| v.is_finite()).collect();
@@ -286,7 +286,7 @@ fn value_at(voxels: &Voxels, click: DVec3) -> f64 {
     quantile(&values, 0.6)
 }
 
-fn noise(voxels: &Voxels, click: DVec3) -> f64 {
+pub(crate) fn noise(voxels: &Voxels, click: DVec3) -> f64 {
     let near = voxels.ball(click, (4.0 * voxels.smallest_side).max(3.0));
     noise_of(&near.into_iter().map(|(_, value)| value).collect::<Vec<f32>>())
 }

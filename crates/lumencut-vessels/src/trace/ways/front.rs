@@ -2,8 +2,11 @@
 //! lower bound (A*). Each voxel has 26 neighbours. Their distances are taken in world space, so any affine grid
 //! works.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
+use crate::trace::ways::barrier::{change_per_level, cost_of_change};
 use crate::trace::ways::blocks::{BLOCK, Blocks, SIDE, index_in, index_of, meets, voxel_of};
 use crate::trace::ways::buckets::Buckets;
 use crate::trace::ways::region::{BlockCosts, FORBIDDEN, Region, WEAK, costs};
@@ -23,7 +26,7 @@ const GAP_UNIT_MM: f64 = 0.1;
 /// Data of a front for one block of voxels: six bytes per voxel, and the costs.
 #[derive(Clone, Debug)]
 struct Block {
-    costs: BlockCosts,
+    costs: Arc<BlockCosts>,
     corner: [i32; 3],
     way: Box<[f32; BLOCK]>,
     /// One bit per voxel, set once its neighbours have been updated.
@@ -77,6 +80,8 @@ pub struct Front {
     settled: usize,
     /// Steps to the neighbours along (i, j, k), with their lengths in world space (mm).
     steps: [([i32; 3], f32); 26],
+    /// For each step, the factor from a difference of levels to a multiple of the free change.
+    per_level: [f32; 26],
     costs: [f32; 256],
     weak: u8,
 }
@@ -91,6 +96,7 @@ impl Front {
             waiting: Buckets::default(),
             settled: 0,
             steps: steps(voxels),
+            per_level: steps(voxels).map(|(_, length)| change_per_level(length)),
             costs: costs(),
             weak: region.code_below(WEAK),
         };
@@ -144,6 +150,14 @@ impl Front {
         }
     }
 
+    /// Cost of the path between two voxels of the same path.
+    pub(crate) fn cost_between(&self, from: [i32; 3], to: [i32; 3]) -> f64 {
+        let [from, to] = [from, to].map(|voxel| {
+            self.find(voxel).map_or(f32::INFINITY, |(block, voxel)| self.known[block].way[voxel])
+        });
+        f64::from(to - from)
+    }
+
     pub(crate) fn has_come_to(&self, target: [i32; 3]) -> bool {
         self.find(target).is_some_and(|(block, voxel)| self.known[block].way[voxel].is_finite())
     }
@@ -190,7 +204,8 @@ impl Front {
         self.settled += 1;
         self.known[block].offered[voxel / 64] |= 1 << (voxel % 64);
         let here = voxel_of(self.known[block].corner, voxel);
-        let cost = self.costs[usize::from(self.known[block].costs[voxel])];
+        let cost = self.costs[usize::from(self.known[block].costs.codes[voxel])];
+        let level = self.known[block].costs.levels.as_ref().map(|levels| levels[voxel]);
         let run = self.known[block].run[voxel];
         // If the pull is above 1, cheaper paths are often found late, so voxels are not updated again.
         let is_pulled = self.reach.pull > 1.0;
@@ -198,11 +213,16 @@ impl Front {
             let (step, length) = self.steps[n];
             let next: [i32; 3] = std::array::from_fn(|a| here[a] + step[a]);
             let Some((to, at)) = self.neighbour(voxels, region, block, next) else { continue };
-            let code = self.known[to].costs[at];
+            let costs = &self.known[to].costs;
+            let code = costs.codes[at];
             if code == FORBIDDEN {
                 continue;
             }
-            let way = waiting.way + 0.5 * (cost + self.costs[usize::from(code)]) * length;
+            let change = match (level, &costs.levels) {
+                (Some(level), Some(levels)) => cost_of_change(level, levels[at], self.per_level[n]),
+                _ => 1.0,
+            };
+            let way = waiting.way + 0.5 * (cost + self.costs[usize::from(code)]) * length * change;
             if way >= self.known[to].way[at] || (is_pulled && self.known[to].is_offered(at)) {
                 continue;
             }

@@ -5,8 +5,9 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::trace::lumen::lumen_model::LumenModel;
-use crate::trace::ways::blocks::{BLOCK, Blocks, SIDE, index_of, meets, voxel_of};
-use crate::trace::ways::shape::{HALO, PADDED_SIDE, bends, beside, blurred, raised, wall_between};
+use crate::trace::ways::barrier::Barrier;
+use crate::trace::ways::blocks::{BLOCK, Blocks, index_of, meets, voxel_of};
+use crate::trace::ways::shape::{HALO, PADDED_SIDE, bends, beside, blurred, padded, raised, wall_between};
 use crate::voxels::Voxels;
 
 /// Membership of plain tissue, which keeps its cost finite: for paths in lumen, and for bridges across gaps.
@@ -43,6 +44,8 @@ pub(crate) const FULL: f64 = 0.9;
 pub enum Strictness {
     /// Tissue costs 400 times as much as lumen.
     Lumen,
+    /// As [`Strictness::Lumen`], and a flap between two lumens costs up to 60 times as much as lumen.
+    Flaps,
     /// Tissue costs 25 times as much as lumen.
     Bridge,
 }
@@ -50,7 +53,7 @@ pub enum Strictness {
 impl Strictness {
     fn least_membership(self) -> f64 {
         match self {
-            Self::Lumen => LEAST_MEMBERSHIP,
+            Self::Lumen | Self::Flaps => LEAST_MEMBERSHIP,
             Self::Bridge => LEAST_OF_BRIDGES,
         }
     }
@@ -76,7 +79,14 @@ pub struct Stopper {
     pub radius: f64,
 }
 
-pub(crate) type BlockCosts = Arc<[u8; BLOCK]>;
+/// Data of a block that decide about paths.
+#[derive(Clone, Debug)]
+pub(crate) struct BlockCosts {
+    /// Code of the cost per millimetre of each voxel.
+    pub codes: [u8; BLOCK],
+    /// Levels of the voxels, between which a change costs more; None if changes cost nothing.
+    pub levels: Option<Box<[i16; BLOCK]>>,
+}
 
 /// Costs of the blocks that were needed so far, with one byte per voxel.
 #[derive(Clone, Debug)]
@@ -86,7 +96,7 @@ pub struct Region {
     /// Balls that no path may enter.
     pub stoppers: Vec<Stopper>,
     strictness: Strictness,
-    made: Blocks<BlockCosts>,
+    made: Blocks<Arc<BlockCosts>>,
 }
 
 impl Region {
@@ -95,7 +105,7 @@ impl Region {
         Self { model, stoppers, strictness, made: Blocks::new(size) }
     }
 
-    pub(crate) fn costs_of(&mut self, voxels: &Voxels, place: usize) -> BlockCosts {
+    pub(crate) fn costs_of(&mut self, voxels: &Voxels, place: usize) -> Arc<BlockCosts> {
         if let Some(number) = self.made.find(place) {
             return Arc::clone(&self.made[number]);
         }
@@ -105,7 +115,7 @@ impl Region {
     }
 
     pub(crate) fn code_of(&mut self, voxels: &Voxels, voxel: [i32; 3]) -> u8 {
-        self.costs_of(voxels, self.made.place_of(voxel))[index_of(voxel)]
+        self.costs_of(voxels, self.made.place_of(voxel)).codes[index_of(voxel)]
     }
 
     pub(crate) fn code_below(&self, limit: f64) -> u8 {
@@ -122,10 +132,11 @@ impl Region {
         self.made.forget(|place| gone.contains(&place));
     }
 
-    fn make(&self, voxels: &Voxels, place: usize) -> [u8; BLOCK] {
+    fn make(&self, voxels: &Voxels, place: usize) -> BlockCosts {
         let corner = self.made.corner(place);
         let mut shares = vec![0.0; PADDED_SIDE * PADDED_SIDE * PADDED_SIDE];
         voxels.cube(corner.map(|c| c - HALO as i32), PADDED_SIDE, &mut shares);
+        let barrier = (self.strictness == Strictness::Flaps).then(|| Barrier::new(&self.model, &shares));
         let beside_bone = beside(&shares, |value| self.model.is_far_above(value));
         for share in &mut shares {
             *share = self.model.membership(*share);
@@ -134,23 +145,21 @@ impl Region {
         let noise = self.model.noise_of_membership() * NOISE_LEFT;
         let wide = blurred(&shares, &[1.0 / 7.0; 7]);
         let least = self.strictness.least_membership();
-        let mut codes = [FORBIDDEN; BLOCK];
-        for k in 0..SIDE {
-            for j in 0..SIDE {
-                for i in 0..SIDE {
-                    let from = ((k + HALO) * PADDED_SIDE + j + HALO) * PADDED_SIDE + i + HALO;
-                    let bends = bends(&near, from);
-                    let rim = if beside_bone[from] { RIM_FACTOR } else { 1.0 };
-                    let share = rim * raised(f64::from(near[from]), &bends, noise);
-                    let membership = least + (1.0 - least) * share;
-                    let off_middle = OFF_MIDDLE.mul_add(1.0 - f64::from(wide[from]), 1.0);
-                    let wall = WALL.mul_add(wall_between(f64::from(near[from]), &bends), 1.0);
-                    codes[(k * SIDE + j) * SIDE + i] = code_of(wall * off_middle / (membership * membership));
-                }
-            }
+        let levels = barrier.as_ref().map(|barrier| Box::new(barrier.levels));
+        let mut costs = BlockCosts { codes: [FORBIDDEN; BLOCK], levels };
+        for n in 0..BLOCK {
+            let from = padded(n);
+            let bends = bends(&near, from);
+            let rim = if beside_bone[from] { RIM_FACTOR } else { 1.0 };
+            let share = rim * raised(f64::from(near[from]), &bends, noise);
+            let membership = least + (1.0 - least) * share;
+            let off_middle = OFF_MIDDLE.mul_add(1.0 - f64::from(wide[from]), 1.0);
+            let wall = WALL.mul_add(wall_between(f64::from(near[from]), &bends), 1.0);
+            let valley = barrier.as_ref().map_or(1.0, |barrier| f64::from(barrier.valleys[n]));
+            costs.codes[n] = code_of(wall.max(valley) * off_middle / (membership * membership));
         }
-        self.forbid(voxels, corner, &mut codes);
-        codes
+        self.forbid(voxels, corner, &mut costs.codes);
+        costs
     }
 
     fn forbid(&self, voxels: &Voxels, corner: [i32; 3], codes: &mut [u8; BLOCK]) {

@@ -7,6 +7,12 @@ pub(crate) const HALO: usize = 3;
 /// Side of the cube with border (voxels).
 pub(crate) const PADDED_SIDE: usize = SIDE + 2 * HALO;
 
+/// Index of a block's voxel in the cube with border.
+pub(crate) fn padded(n: usize) -> usize {
+    let [i, j, k] = [n % SIDE, n / SIDE % SIDE, n / (SIDE * SIDE)].map(|c| c + HALO);
+    (k * PADDED_SIDE + j) * PADDED_SIDE + i
+}
+
 /// A ridge adds up to this fraction of the missing membership.
 const RIDGE: f64 = 0.6;
 
@@ -72,7 +78,8 @@ pub(crate) fn beside(values: &[f32], is_marked: impl Fn(f32) -> bool) -> Vec<boo
     marked
 }
 
-fn eigenvalues(m: [[f64; 3]; 3]) -> [f64; 3] {
+/// Eigenvalues of a symmetric matrix, in descending order.
+pub(crate) fn eigenvalues(m: [[f64; 3]; 3]) -> [f64; 3] {
     let mean = (m[0][0] + m[1][1] + m[2][2]) / 3.0;
     let mut square = 2.0 * (m[0][1].powi(2) + m[0][2].powi(2) + m[1][2].powi(2));
     square += (0..3).map(|a| (m[a][a] - mean).powi(2)).sum::<f64>();

@@ -82,8 +82,8 @@ fn a_lumen_that_changes_its_brightness_at_a_place_is_told_with_the_place() {
     let (line, lengths) = (points(&study, vessel.line), arc_lengths(&points(&study, vessel.line)));
     let place = line[lengths.partition_point(|length| *length < at)];
     assert!((place.z - 48.0).abs() < 3.0, "{at} {place}");
-    let words = format!("Doubtful from {at:.0} mm on: the brightness of the lumen changes there.");
-    assert_eq!(doubt.words, words);
+    let words = format!("Doubtful from {at:.0} mm on: the brightness of the lumen changes there from 45");
+    assert!(doubt.words.starts_with(&words), "{}", doubt.words);
 }
 
 #[test]
