@@ -9,7 +9,7 @@ from lumencut.base.pickles import restored
 
 
 class Flag(IntFlag):
-    """Flags of a section; even a flagged section keeps its numbers.
+    """Flags of a section; a flagged section keeps its numbers, except in a dim throat.
 
     Sections with `BRANCH`, `OUTSIDE`, `NO_EDGE`, `RECENTERED` or `RESTLESS_LINE` are excluded from extrema,
     suggestions and references.
