@@ -18,6 +18,8 @@ const SIDE: f64 = 0.5;
 const FWHM: f64 = 0.9;
 const MIDDLE: DVec2 = DVec2::new(6.3, 6.2);
 
+const NOISE: f64 = 15.0;
+
 /// Diameter of the vessel (mm), and half of the length of the stenosis.
 const NORMAL: f64 = 4.0;
 const HALF: f64 = 3.0;
@@ -35,6 +37,18 @@ fn disc(diameter: f64, center: DVec2, place: DVec2) -> f64 {
     let variance = variance_of(FWHM) + SIDE * SIDE / 12.0;
     let circle = Ellipse::circle(center, 0.5 * diameter);
     Boundary::new(&circle, Whitening::new(DMat2::from_diagonal(DVec2::splat(variance)))).value(place)
+}
+
+/// Adds noise of `NOISE` HU: sums of twelve pseudo-random numbers (Knuth's constants of MMIX) are nearly normal.
+fn add_noise(values: &mut [f32]) {
+    let mut state = 1_u64;
+    let mut random = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 40) as f64 / f64::from(1 << 24)
+    };
+    for value in values {
+        *value += (NOISE * ((0..12).map(|_| random()).sum::<f64>() - 6.0)) as f32;
+    }
 }
 
 /// Blurs slices of `size` values along z, as the scanner does.
@@ -72,7 +86,8 @@ fn with_plaque(wall: f64, least: f64, lumen_level: impl Fn(f64) -> f64) -> Profi
             values.push((fat + (wall - fat) * outer + (lumen_level(z) - wall) * inner) as f32);
         }
     }
-    let values = blurred_along(&values, width * height);
+    let mut values = blurred_along(&values, width * height);
+    add_noise(&mut values);
     let affine = DAffine3::from_scale(DVec3::splat(SIDE));
     let volume = Volume::new(Voxels::F32(&values), SIZE, [1, width, width * height], affine).unwrap();
     let point = |n: i32| {
@@ -143,9 +158,11 @@ fn plaque_nearly_as_bright_as_the_lumen_is_told_and_its_uncertainty_holds() {
     let found = flagged(&bright);
     assert!(found.len() >= 6, "{found:?}");
     assert!(found.iter().all(|n| (bright.on_vessel[*n].z - 20.0).abs() < 5.0), "{found:?}");
-    for n in found {
-        let (told, truth) = (bright.diameter_equivalent()[n], lumen(bright.on_vessel[n].z, 2.2).0);
-        assert!((told - truth).abs() <= 2.0 * bright.uncertainty[n], "{told} for {truth}");
-    }
+    let holds = |n: &usize| {
+        let (told, truth) = (bright.diameter_equivalent()[*n], lumen(bright.on_vessel[*n].z, 2.2).0);
+        (told - truth).abs() <= 2.0 * bright.uncertainty[*n]
+    };
+    let held = found.iter().filter(|n| holds(n)).count();
+    assert!(5 * held >= 4 * found.len(), "{held} of {found:?}");
     assert_eq!(flagged(&with_plaque(50.0, 2.2, |_| LEVELS[2])), Vec::<usize>::new());
 }
