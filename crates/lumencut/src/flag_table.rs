@@ -1,7 +1,8 @@
 //! The table of section flags for Python package and viewer: names, words, meanings and colours.
 
 use lumencut_vessels::measure::section::flags::{
-    AT_LIMIT, BRANCH, CALCIUM, IRREGULAR, METAL, NEIGHBOR, NO_EDGE, OUTSIDE, RECENTERED, RESTLESS_LINE,
+    AT_LIMIT, BRANCH, CALCIUM, IRREGULAR, METAL, NEIGHBOR, NO_EDGE, OUTSIDE, PLAQUE, RECENTERED,
+    RESTLESS_LINE,
 };
 use serde::Serialize;
 
@@ -35,7 +36,7 @@ const fn look(
 }
 
 /// All flags, in the order of plots and tables.
-pub const FLAGS: [FlagLook; 10] = [
+pub const FLAGS: [FlagLook; 11] = [
     look(
         ("AT_LIMIT", AT_LIMIT),
         [
@@ -87,6 +88,11 @@ pub const FLAGS: [FlagLook; 10] = [
         ("RESTLESS_LINE", RESTLESS_LINE),
         ["restless line", "the centerline turns by more than 75° within one diameter, which no vessel does"],
         ["#1f5fbf", "#7fb2ff"],
+    ),
+    look(
+        ("PLAQUE", PLAQUE),
+        ["bright plaque", "plaque beside the lumen is nearly as bright as it: the lumen may be narrower"],
+        ["#a0522d", "#d98a5f"],
     ),
 ];
 

@@ -9,7 +9,7 @@ from lumencut.base.pickles import restored
 
 
 class Flag(IntFlag):
-    """Flags of a section; even a flagged section keeps its numbers.
+    """Flags of a section; a flagged section keeps its numbers, except in a dim throat.
 
     Sections with `BRANCH`, `OUTSIDE`, `NO_EDGE`, `RECENTERED` or `RESTLESS_LINE` are excluded from extrema,
     suggestions and references.
@@ -38,3 +38,5 @@ class Flag(IntFlag):
     IRREGULAR = 256
     #: The centerline turns by more than 75° within one diameter, which no vessel does.
     RESTLESS_LINE = 512
+    #: Plaque nearly as bright as the lumen lies beside it; the uncertainty includes it.
+    PLAQUE = 1024

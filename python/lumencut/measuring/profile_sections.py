@@ -21,7 +21,7 @@ class Mark:
     name : str
         Its kind: the place of a stenosis, a reference, the narrowest place, or a noted diameter.
     arc_length, diameter : float
-        Its place, and the diameter of a circle of the same area there (mm); NaN at a throat that is only limited.
+        Its place, and the diameter of a circle of the same area there (mm), or NaN at a throat.
     is_suggestion : bool
         Whether Lumencut suggested it; otherwise a reader marked it.
     words : str

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use super::Fit;
 use crate::measure::beside::blooming;
 use crate::measure::beside::flags_of;
+use crate::measure::beside::plaque::narrowed;
 use crate::measure::estimation::Level;
 use crate::measure::model::ThreeLevels;
 use crate::measure::model::contour::{ellipse_within, irregularity, points, wall, wall_by_rays};
@@ -14,7 +15,9 @@ use crate::measure::model::wall::KnownWall;
 use crate::measure::section::SectionPlane;
 use crate::measure::section::blur::Blur;
 use crate::measure::section::contour_check::{encloses_lumen, lumen_shares};
-use crate::measure::section::flags::{AT_LIMIT, CALCIUM, IRREGULAR, METAL, NO_EDGE, RECENTERED};
+use crate::measure::section::flags::{
+    AT_LIMIT, BRANCH, CALCIUM, IRREGULAR, METAL, NEIGHBOR, NO_EDGE, PLAQUE, RECENTERED,
+};
 use crate::measure::section::lumen_estimate::LumenEstimate;
 use crate::measure::section::rays::{Look, Rays, direction};
 use crate::measure::uncertainty::Parts;
@@ -51,6 +54,9 @@ pub(crate) const UNMODELLED_WIDTHS: f64 = 0.5;
 
 /// Noise before it is estimated, as a fraction of the contrast.
 const FIRST_NOISE: f64 = 0.1;
+
+/// What these flags mean looks like plaque.
+const PLAQUE_HIDDEN: u32 = NEIGHBOR | BRANCH | CALCIUM | METAL;
 
 pub(crate) struct Bench<'a, 'v> {
     pub rays: Rays<'a, 'v>,
@@ -178,7 +184,7 @@ impl Bench<'_, '_> {
         }
     }
 
-    fn fitted(&self, place: &SectionPlane, known: &Known, fit: Fit) -> Section {
+    fn fitted(&self, place: &SectionPlane, known: &Known, mut fit: Fit) -> Section {
         let (ellipse, width) = (fit.ellipse, self.blur.width(place));
         let boundary = Boundary::new(&ellipse, Whitening::new(self.blur.interpolated(place)));
         // If a lumen is narrower than the blur, its peak is below its level.
@@ -207,6 +213,11 @@ impl Bench<'_, '_> {
         {
             flags |= NO_EDGE;
         }
+        if let Some(share) = self.narrowed_by_plaque(place, &fit, &walls, flags) {
+            flags |= PLAQUE;
+            fit.parts.surroundings = fit.parts.surroundings.hypot((1.0 - share) * diameter);
+            fit.uncertainty = fit.parts.total();
+        }
         let shares = lumen_shares(fit.lumen[0], beside);
         if !encloses_lumen(&self.rays, place, ellipse.center, &walls, width, shares) {
             flags |= NO_EDGE;
@@ -221,9 +232,18 @@ impl Bench<'_, '_> {
         }
     }
 
+    /// Factor of the diameter if plaque that is nearly as bright as the lumen is left out; None without such plaque.
+    fn narrowed_by_plaque(&self, place: &SectionPlane, fit: &Fit, walls: &[f64], flags: u32) -> Option<f64> {
+        let levels = [fit.lumen[0], self.wall.filter(|_| flags & PLAQUE_HIDDEN == 0)?.level[0]];
+        narrowed(&self.rays, (place, fit.ellipse.center), walls, levels, self.blur.width(place))
+    }
+
     fn by_rays(&self, place: &SectionPlane, known: &Known) -> Option<Section> {
         let width = self.blur.width(place);
-        let rays = self.rays.all(place, known.ellipse.center, &self.look(place, known));
+        // The edge of the lumen lies halfway to the wall, which is brighter than fat.
+        let beside = self.wall_of(known).map_or(0.0, |wall| wall.level[0].max(0.0));
+        let look = Look { levels: [known.lumen[0], beside], ..self.look(place, known) };
+        let rays = self.rays.all(place, known.ellipse.center, &look);
         let walls = wall_by_rays(&rays, width)?;
         let ellipse = ellipse_within(known.ellipse.center, &walls)?;
         let mut flags = flags_of(&rays, |n| walls[n], width);

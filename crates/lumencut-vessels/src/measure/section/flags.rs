@@ -20,6 +20,8 @@ pub const RECENTERED: u32 = 1 << 7;
 pub const IRREGULAR: u32 = 1 << 8;
 /// The centerline turns more sharply than a vessel can.
 pub const RESTLESS_LINE: u32 = 1 << 9;
+/// Plaque nearly as bright as the lumen lies beside it.
+pub const PLAQUE: u32 = 1 << 10;
 
 /// Sections with any of these flags are ignored when the narrowest, widest or suggested sections are chosen.
 pub(crate) const LEFT_OUT: u32 = BRANCH | OUTSIDE | NO_EDGE | RECENTERED | RESTLESS_LINE;
