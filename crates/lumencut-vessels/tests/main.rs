@@ -7,5 +7,6 @@ mod find_stops;
 mod lumens_on_ray;
 mod measure;
 mod trace_clicks;
+mod trace_flaps;
 mod trace_mask;
 mod trace_rooms;
