@@ -9,5 +9,6 @@ mod measure;
 mod measure_surroundings;
 mod throats;
 mod trace_clicks;
+mod trace_flaps;
 mod trace_mask;
 mod trace_rooms;

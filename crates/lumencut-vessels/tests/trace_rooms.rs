@@ -16,7 +16,7 @@ use lumencut_vessels::trace::lines::directions::{chord_directions, point_directi
 use lumencut_vessels::trace::lines::even_steps::{curve_in_even_steps, in_even_steps};
 use lumencut_vessels::trace::lines::nearest_point;
 use lumencut_vessels::trace::lines::smoothing::{smoothed_by_gaussian, smoothed_by_parabolas};
-use lumencut_vessels::trace::lumen::cross_section::Probe;
+use lumencut_vessels::trace::lumen::cross_section::{HALF, Probe};
 use lumencut_vessels::trace::lumen::refine::refined;
 use lumencut_vessels::trace::lumen::surroundings::Surroundings;
 use lumencut_vessels::trace::mask::{MaskRequest, TracedMask, trace_mask};
@@ -81,7 +81,7 @@ fn a_line_beside_the_middle_of_a_tube_is_moved_to_it_with_its_radius() {
     assert!(
         (model.low - 350.0).abs() < 5.0 && model.membership(350.0) == 1.0 && model.membership(-100.0) == 0.0
     );
-    let probe = Probe { voxels: &voxels, model: &model, rays: 24 };
+    let probe = Probe { voxels: &voxels, model: &model, rays: 24, fall: HALF };
     let section = probe.look(DVec3::new(1.0, -0.5, 3.0), [DVec3::X, DVec3::Y], None).unwrap();
     let (off, radius) = (section.center.distance(DVec3::Z * 3.0), section.radius);
     assert!(off < 0.2 && (radius - 4.0).abs() < 0.2, "{off} {radius}");

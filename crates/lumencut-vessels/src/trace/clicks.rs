@@ -21,8 +21,18 @@ use crate::trace::lines::centerline::Centerline;
 pub struct Traced {
     /// The line with radii and confidence.
     pub line: Centerline,
-    /// Whether each point lies on a straight bridge across a part without lumen.
+    /// Whether each point is a guess: on a bridge across a part without lumen, in dim lumen, or in a flap.
     pub bridged: Vec<bool>,
     /// The first and the last click.
     pub ends: [DVec3; 2],
+}
+
+impl Traced {
+    /// A line through clicks; the confidence of guesses is 0.
+    pub(crate) fn new(mut line: Centerline, bridged: Vec<bool>, clicks: &[DVec3]) -> Self {
+        for (confidence, is_guess) in line.confidence.iter_mut().zip(&bridged) {
+            *confidence = if *is_guess { 0.0 } else { *confidence };
+        }
+        Self { line, bridged, ends: [clicks[0], clicks[clicks.len() - 1]] }
+    }
 }

@@ -83,7 +83,7 @@ impl Doubted<'_> {
             let mut values: Vec<f32> = places.map(|place| voxels.at(place)).collect();
             values.sort_unstable_by(f32::total_cmp);
             let [from, to] = [part.start, part.end - 1].map(|n| lengths[n]);
-            let why = format!("no clear lumen is seen there, but {:.0}", quantile(&values, 0.5));
+            let why = format!("no clear lumen is seen there (about {:.0})", quantile(&values, 0.5));
             let words = format!("Doubtful from {from:.0} to {to:.0} mm: {why}, so the line is a guess.");
             Doubt { words, at: Some(from) }
         };

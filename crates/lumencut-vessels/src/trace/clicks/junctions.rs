@@ -135,7 +135,7 @@ impl Traced {
         self.in_even_steps()
     }
 
-    pub(crate) fn in_even_steps(self) -> Self {
+    fn in_even_steps(self) -> Self {
         let line = self.line.resampled(STEP);
         let bridged =
             line.points.iter().map(|point| self.bridged[nearest_point(&self.line.points, *point)]).collect();

@@ -7,30 +7,22 @@ use glam::DVec3;
 
 use crate::trace::clicks::Traced;
 use crate::trace::clicks::checks::Clicks;
-use crate::trace::clicks::flaps::Flaps;
 use crate::trace::clicks::gaps::{LONGEST_GAP, Line, no_lumen, no_way};
 use crate::trace::clicks::way::{Way, start};
-use crate::trace::lines::even_steps::in_even_steps;
 use crate::trace::lines::nearest_point;
-use crate::trace::lines::smoothing::smoothed_by_gaussian;
 use crate::trace::lumen::lumen_model::LumenModel;
-use crate::trace::lumen::refine::{STEP, refined};
+use crate::trace::lumen::refine::refined;
 use crate::trace::lumen::wander::without_wander;
 use crate::trace::ways::front::{Found, Front, Reach};
 use crate::trace::ways::region::{Region, Stopper, Strictness};
 use crate::voxels::Voxels;
 use lumencut_core::error::{Error, Result};
-use lumencut_core::math::arc_length::arc_lengths;
 use lumencut_core::progress::Progress;
 use lumencut_core::stop::Stop;
 
 /// Maximum number of voxels of a front (7 bytes each), and of a search that only explains why no path exists.
 const MOST_VOXELS: usize = 40_000_000;
 const MOST_VOXELS_OF_DOUBT: usize = 4_000_000;
-
-/// Standard deviation of the smoothing of a path (mm), and the distance from a guess at which the line is no longer held.
-const HELD_SMOOTHING: f64 = 3.0;
-const HELD_FADES: f64 = 5.0;
 
 type Ends = [[i32; 3]; 2];
 
@@ -99,19 +91,6 @@ impl Paths {
             Some(crossing) => Err(no_lumen(traced.ends, &crossing, &self.region.model)),
             None => Ok(traced),
         }
-    }
-
-    /// The centerline through clicks that crosses no flap, and no edge of a lumen however dim; None if there is none.
-    pub(crate) fn line_without_flaps(&self, search: &Search, clicks: &[DVec3]) -> Result<Option<Traced>> {
-        let mut flaps = Flaps::new(search, self.region.model, clicks);
-        let mut parts = Vec::with_capacity(clicks.len() - 1);
-        for pair in clicks.windows(2) {
-            let Some(steps) = flaps.free_way(search, [pair[0], pair[1]])? else { return Ok(None) };
-            let points: Vec<DVec3> = steps.iter().map(|voxel| search.voxels.center(*voxel)).collect();
-            let is_open = points.iter().map(|place| flaps.is_dim(search, *place)).collect();
-            parts.push(Part { points, is_open });
-        }
-        Ok(Some(held(centered(search, &flaps.lumen, clicks, &parts)?, &parts)))
     }
 
     fn way(&mut self, search: &Search, between: [DVec3; 2]) -> Result<Way> {
@@ -195,30 +174,7 @@ fn centered(search: &Search, model: &LumenModel, clicks: &[DVec3], parts: &[Part
     let open: Vec<bool> =
         parts.iter().enumerate().flat_map(|(n, part)| &part.is_open[first(n)..]).copied().collect();
     let line = refined(search.voxels, model, &points, search.stop)?;
-    let mut line = without_wander(search.voxels, model, line, search.stop)?;
-    let bridged: Vec<bool> = line.points.iter().map(|point| open[nearest_point(&points, *point)]).collect();
-    for (confidence, is_bridged) in line.confidence.iter_mut().zip(&bridged) {
-        if *is_bridged {
-            *confidence = 0.0;
-        }
-    }
-    Ok(Traced { line, bridged, ends: [clicks[0], clicks[clicks.len() - 1]] })
-}
-
-/// The line with its guesses on the path itself, because sections beside them must not pull them. The path is smoothed.
-fn held(traced: Traced, parts: &[Part]) -> Traced {
-    if !traced.bridged.contains(&true) {
-        return traced;
-    }
-    let path: Vec<DVec3> = parts.iter().flat_map(|part| part.points.iter().copied()).collect();
-    let path = in_even_steps(&smoothed_by_gaussian(&path, &vec![HELD_SMOOTHING; path.len()], false), STEP);
-    let Traced { mut line, bridged, ends } = traced;
-    let lengths = arc_lengths(&line.points);
-    let guesses: Vec<f64> = (0..bridged.len()).filter(|n| bridged[*n]).map(|n| lengths[n]).collect();
-    for (point, length) in line.points.iter_mut().zip(&lengths) {
-        let away = guesses.iter().map(|guess| (guess - length).abs()).fold(f64::MAX, f64::min);
-        let share = (1.0 - away / HELD_FADES).max(0.0);
-        *point = point.lerp(path[nearest_point(&path, *point)], share);
-    }
-    Traced { line, bridged, ends }.in_even_steps()
+    let line = without_wander(search.voxels, model, line, search.stop)?;
+    let bridged = line.points.iter().map(|point| open[nearest_point(&points, *point)]).collect();
+    Ok(Traced::new(line, bridged, clicks))
 }

@@ -5,6 +5,7 @@ use glam::DVec3;
 use crate::trace::clicks::Traced;
 use crate::trace::clicks::checks::{Clicks, check, check_place};
 use crate::trace::clicks::dim::model_beside_dim;
+use crate::trace::clicks::flaps::Flaps;
 use crate::trace::clicks::junctions::joined;
 use crate::trace::clicks::paths::{Paths, Search};
 use crate::trace::clicks::preview::{Live, Sought};
@@ -134,11 +135,29 @@ impl Tracer {
             Some(dim) => Err(no_free_way(*dim)),
             None => paths.line(search, clicks),
         };
-        let is_sure = match &first {
-            Ok(traced) => search.clicks.bridge || level_change(search.voxels, &traced.line).is_none(),
-            Err(error) => error.kind != ErrorKind::Tracing,
-        };
-        if is_sure { first } else { paths.line_without_flaps(search, clicks)?.map_or(first, Ok) }
+        let flaps = Flaps::new(search, paths.region.model, clicks);
+        match first {
+            Ok(traced) if search.clicks.bridge => Ok(traced),
+            Ok(traced) => {
+                let met = flaps.met(&traced.line);
+                if met.is_none() && level_change(search.voxels, &traced.line).is_none() {
+                    return Ok(traced);
+                }
+                let second = flaps.line(clicks)?;
+                let second = second.filter(|second| met.is_none() || flaps.met(&second.line).is_none());
+                Ok(second.unwrap_or_else(|| {
+                    let met = met.unwrap_or_default();
+                    let bridged = traced
+                        .bridged
+                        .iter()
+                        .enumerate()
+                        .map(|(n, is_guess)| *is_guess || met.get(n) == Some(&true));
+                    Traced::new(traced.line, bridged.collect(), clicks)
+                }))
+            }
+            Err(error) if error.kind == ErrorKind::Tracing => flaps.line(clicks)?.ok_or(error),
+            Err(error) => Err(error),
+        }
     }
 }
 

@@ -43,7 +43,12 @@ pub struct Probe<'a, 'v> {
     pub model: &'a LumenModel,
     /// Number of rays of a section.
     pub rays: usize,
+    /// Fraction of the contrast by which values fall at a wall.
+    pub fall: f64,
 }
+
+/// Fall of the values at the wall of a lumen in tissue.
+pub const HALF: f64 = 0.5;
 
 impl Probe<'_, '_> {
     /// Lumen around `center` in the plane spanned by two directions; `guess` is its approximate radius (mm).
@@ -120,7 +125,7 @@ impl Probe<'_, '_> {
         let stride = self.voxels.index_from_world.transform_vector3(direction) * step;
         let mut ray = Ray::new(self.voxels, start, stride);
         let contrast = lumen - self.model.tissue;
-        let dark = lumen - 0.5 * contrast;
+        let dark = lumen - self.fall * contrast;
         let bright = lumen + (0.5 * contrast).max(4.0 * self.model.noise);
         // Two samples outside the range mean that the ray has left the lumen. NaN (outside the volume) counts
         // as outside.

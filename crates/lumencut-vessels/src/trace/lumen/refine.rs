@@ -7,7 +7,7 @@ use crate::trace::lines::directions::frames;
 use crate::trace::lines::directions::point_directions;
 use crate::trace::lines::even_steps::in_even_steps;
 use crate::trace::lines::smoothing::smoothed_by_parabolas;
-use crate::trace::lumen::cross_section::{LumenSection, Probe};
+use crate::trace::lumen::cross_section::{HALF, LumenSection, Probe};
 use crate::trace::lumen::lumen_model::LumenModel;
 use crate::voxels::Voxels;
 use lumencut_core::error::Result;
@@ -38,9 +38,14 @@ const UNSEEN: f64 = 0.1;
 
 /// Centres a path in the lumen that contains it.
 pub fn refined(voxels: &Voxels, model: &LumenModel, way: &[DVec3], stop: Stop) -> Result<Centerline> {
+    refined_by(&Probe { voxels, model, rays: 0, fall: HALF }, way, stop)
+}
+
+/// As [`refined`], with the fall of values at a wall that a probe states; its number of rays is not used.
+pub(crate) fn refined_by(probe: &Probe, way: &[DVec3], stop: Stop) -> Result<Centerline> {
     let points = in_even_steps(way, 2.0 * STEP);
     let line = Centerline { radius: vec![0.0; points.len()], confidence: vec![0.0; points.len()], points };
-    in_rounds(voxels, model, line, &[0, 1, 2, 3], stop)
+    in_rounds(probe, line, &[0, 1, 2, 3], stop)
 }
 
 /// Centres a line whose radii are known, with only half of the rounds.
@@ -50,20 +55,14 @@ pub(crate) fn refined_near(
     line: &Centerline,
     stop: Stop,
 ) -> Result<Centerline> {
-    in_rounds(voxels, model, line.clone(), &[1, 3], stop)
+    in_rounds(&Probe { voxels, model, rays: 0, fall: HALF }, line.clone(), &[1, 3], stop)
 }
 
-fn in_rounds(
-    voxels: &Voxels,
-    model: &LumenModel,
-    mut line: Centerline,
-    rounds: &[usize],
-    stop: Stop,
-) -> Result<Centerline> {
+fn in_rounds(probe: &Probe, mut line: Centerline, rounds: &[usize], stop: Stop) -> Result<Centerline> {
     for &round in rounds {
         go_on(stop)?;
         let (step, rays) = ROUNDS[round];
-        line = moved(&Probe { voxels, model, rays }, &line.resampled(step), round);
+        line = moved(&Probe { rays, ..*probe }, &line.resampled(step), round);
     }
     Ok(line.resampled(STEP))
 }

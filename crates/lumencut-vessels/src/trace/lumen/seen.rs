@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::trace::lumen::cross_section::{LumenSection, Probe, WIDEST};
+use crate::trace::lumen::cross_section::{HALF, LumenSection, Probe, WIDEST};
 use crate::trace::lumen::directions::{half_sphere, longest_axis};
 use crate::trace::lumen::surroundings::Surroundings;
 use crate::voxels::Voxels;
@@ -44,7 +44,7 @@ pub fn lumen_at(volume: &Volume, place: DVec3) -> Option<SeenLumen> {
 
 pub(crate) fn lumen_in(voxels: &Voxels, surroundings: &Surroundings, place: DVec3) -> Option<SeenLumen> {
     let model = surroundings.model_at(voxels, place)?;
-    let probe = Probe { voxels, model: &model, rays: RAYS };
+    let probe = Probe { voxels, model: &model, rays: RAYS, fall: HALF };
     let mut seen: Option<(LumenSection, DVec3)> = None;
     for _ in 0..ROUNDS {
         let (center, guess) =

@@ -5,6 +5,7 @@
 use crate::trace::lumen::lumen_model::LumenModel;
 use crate::trace::ways::blocks::{BLOCK, SIDE};
 use crate::trace::ways::shape::{HALO, PADDED_SIDE, blurred, eigenvalues, padded};
+use crate::voxels::Voxels;
 
 /// Standard deviations of the smoothing (voxels): of the second derivatives, and of the values that are compared.
 const VALLEY_SMOOTHING: f64 = 0.8;
@@ -53,18 +54,39 @@ pub(crate) struct Barrier {
     pub valleys: [f32; BLOCK],
 }
 
+/// Value above tissue in noises. No value counts as tissue.
+fn scaled(model: &LumenModel, value: f32) -> f32 {
+    let (noise, most) = (noise(model), model.high + CAP * model.contrast());
+    let value = if value.is_finite() { f64::from(value) } else { model.tissue };
+    ((value.min(most) - model.tissue) / noise) as f32
+}
+
+/// Whether a voxel lies in a clear valley, as in a flap.
+pub(crate) fn is_in_valley(voxels: &Voxels, model: &LumenModel, voxel: [i32; 3]) -> bool {
+    const SIDE: usize = 2 * HALO + 1;
+    let mut values = vec![0.0; SIDE * SIDE * SIDE];
+    voxels.cube(voxel.map(|c| c - HALO as i32), SIDE, &mut values);
+    for value in &mut values {
+        *value = scaled(model, *value);
+    }
+    let weights = gaussian(VALLEY_SMOOTHING, HALO as i32);
+    let entries = ENTRIES.map(|[i, j, k]| {
+        let rows = values.chunks_exact(SIDE).map(|row| product(row, &weights[i]));
+        let planes = rows.collect::<Vec<f32>>();
+        let planes: Vec<f32> = planes.chunks_exact(SIDE).map(|rows| product(rows, &weights[j])).collect();
+        f64::from(product(&planes, &weights[k]))
+    });
+    valley(entries) >= CLEAR_VALLEY as f32
+}
+
+fn product(values: &[f32], weights: &[f32]) -> f32 {
+    values.iter().zip(weights).map(|(value, weight)| value * weight).sum()
+}
+
 impl Barrier {
     /// The barrier from the values of a block with its border.
     pub(crate) fn new(model: &LumenModel, values: &[f32]) -> Self {
-        let (noise, most) = (noise(model), model.high + CAP * model.contrast());
-        let scaled: Vec<f32> = values
-            .iter()
-            .map(|value| {
-                // No value counts as tissue.
-                let value = if value.is_finite() { f64::from(*value) } else { model.tissue };
-                ((value.min(most) - model.tissue) / noise) as f32
-            })
-            .collect();
+        let scaled: Vec<f32> = values.iter().map(|value| scaled(model, *value)).collect();
         let smooth = blurred(&scaled, &gaussian(LEVEL_SMOOTHING, 2)[0]);
         let levels = std::array::from_fn(|n| (f64::from(smooth[padded(n)]) / LEVEL_UNIT) as i16);
         Self { levels, valleys: valleys(&scaled) }
