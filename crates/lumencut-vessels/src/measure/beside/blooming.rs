@@ -24,21 +24,21 @@ pub(crate) fn bounds(rays: &[Ray], wall: impl Fn(usize) -> f64, width: f64) -> [
     let measured: Vec<f64> = (0..RAYS).map(&wall).collect();
     let bound = |n: usize, other: f64| if hides(n) { other } else { measured[n] };
     let mut inner: Vec<f64> = (0..RAYS).map(|n| bound(n, rays[n].rim[0].min(measured[n]))).collect();
-    narrow_beside(&mut inner, hides, width);
+    narrow_beside(&mut inner, &measured, hides, width);
     let outer: Vec<f64> = (0..RAYS).map(|n| bound(n, rays[n].rim[1].max(measured[n]))).collect();
     let area = area(&measured);
     [inner, outer].map(|radii| (self::area(&radii) / area).sqrt())
 }
 
 /// Blur lets plaque beside calcium look like lumen, so the lower bound excludes it. Beside struts lies lumen.
-fn narrow_beside(inner: &mut [f64], hides: impl Fn(usize) -> bool, width: f64) {
+fn narrow_beside(inner: &mut [f64], measured: &[f64], hides: impl Fn(usize) -> bool, width: f64) {
     let radii = inner.to_vec();
     let is_wide = |n: usize| {
         let around = |first: usize| (first..first + WIDE).all(|m| hides(m % RAYS));
         (n + RAYS + 1 - WIDE..=n + RAYS).any(around)
     };
     for n in (0..RAYS).filter(|n| is_wide(*n)) {
-        let beside = (0.5 * width / radii[n].max(0.5 * width)).asin();
+        let beside = (0.5 * width / measured[n].max(0.5 * width)).asin();
         let count = (beside / TAU * RAYS as f64).ceil() as usize;
         for m in n + RAYS - count..=n + RAYS + count {
             inner[m % RAYS] = inner[m % RAYS].min(radii[n]);
