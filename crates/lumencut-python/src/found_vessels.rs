@@ -73,8 +73,7 @@ fn searching<'py>(
     }
     let parts = sure_parts(&tree);
     let vessels = tree.vessels.iter().enumerate();
-    let places =
-        vessels.flat_map(|(number, vessel)| vessel.doubts_of(&format!("vessel {number}"))).collect();
+    let places = vessels.flat_map(|(number, vessel)| vessel.doubts_of(&format!("vessel {number}"))).collect();
     let vessels = tree.vessels.into_iter().map(|vessel| arrays(py, vessel)).collect();
     Ok((vessels, parts, [tree.notes, places, tree.doubts].concat()))
 }
