@@ -16,6 +16,9 @@ use lumencut_core::math::arc_length::arc_lengths;
 /// A line between two clicks is a detour if it is longer than their distance by more than this factor.
 const DETOUR: f64 = 2.0;
 
+/// A line does not run across its lumen if its ends are farther apart than this many radii.
+const LONG: f64 = 4.0;
+
 /// Guesses that are at most this far apart (mm) are told together.
 const APART: f64 = 20.0;
 
@@ -42,9 +45,7 @@ pub struct Doubted<'a> {
 impl Doubted<'_> {
     /// The doubts about the line in the volume in which it was traced.
     pub fn doubts(&self, voxels: &Voxels) -> Vec<Doubt> {
-        if let [first, .., last] = self.clicks
-            && runs_across(voxels, [*first, *last])
-        {
+        if self.runs_across(voxels) {
             let words = "The path runs across the lumen, not along it: click in another slice.".to_owned();
             return vec![Doubt { words, at: None }];
         }
@@ -62,6 +63,14 @@ impl Doubted<'_> {
         let wander = wander.first().map(|part| wanders([lengths[part.start], lengths[part.end - 1]]));
         let detours = self.detours(&lengths);
         change.into_iter().chain(wander).chain(detours).chain(self.guesses(voxels, &lengths)).collect()
+    }
+
+    fn runs_across(&self, voxels: &Voxels) -> bool {
+        let [first, .., last] = self.clicks else { return false };
+        let widest = self.line.radius.iter().copied().fold(0.0, f64::max);
+        // A line of several widths is not tested, because the test samples a large part of the volume.
+        let is_long = widest > 0.0 && first.distance(*last) > LONG * widest;
+        !is_long && runs_across(voxels, [*first, *last])
     }
 
     fn detours(&self, lengths: &[f64]) -> Vec<Doubt> {

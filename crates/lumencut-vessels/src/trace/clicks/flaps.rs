@@ -16,7 +16,7 @@ use crate::trace::lumen::lumen_model::{LumenModel, lower_median};
 use crate::trace::lumen::refine::{STEP, refined_by};
 use crate::trace::lumen::surroundings::noise;
 use crate::trace::lumen::wander::wandering;
-use crate::trace::ways::barrier::is_in_valley;
+use crate::trace::ways::barrier::Valleys;
 use crate::trace::ways::front::{Found, Front, Reach};
 use crate::trace::ways::region::{Region, Strictness};
 use lumencut_core::error::Result;
@@ -28,7 +28,7 @@ const LEAST_CONTRAST_HU: f64 = 20.0;
 /// Maximum cost per mm of a free path, in the mean and at each step; in the middle of a lumen it is 1. In a dissection
 /// the mean was 1.00 to 1.17 within the false lumen, and 1.23 to 2.7 from tissue outside.
 const MOST_IN_MEAN: f64 = 1.2;
-const MOST_AT_A_STEP: f64 = 4.0;
+const MOST_AT_A_STEP: f64 = 2.5;
 
 /// Lumen is clear if the mean within this distance (voxels) is above this fraction of the contrast, as in sections.
 const AROUND: f64 = 1.75;
@@ -82,9 +82,17 @@ impl<'a, 'v> Flaps<'a, 'v> {
 
     fn in_flaps(&self, line: &Centerline) -> Vec<bool> {
         let voxels = self.search.voxels;
-        let is_in =
-            |place: &DVec3| voxels.voxel_at(*place).is_some_and(|at| is_in_valley(voxels, &self.lumen, at));
-        line.points.iter().map(is_in).collect()
+        let valleys = Valleys::new(voxels, &self.lumen);
+        let mut last = None;
+        let is_in = |place: &DVec3| {
+            let voxel = voxels.voxel_at(*place)?;
+            // Several points lie in one voxel.
+            let is_in =
+                last.filter(|(at, _)| *at == voxel).map_or_else(|| valleys.hold(voxel), |(_, is_in)| is_in);
+            last = Some((voxel, is_in));
+            Some(is_in)
+        };
+        line.points.iter().map(is_in).map(|is_in| is_in == Some(true)).collect()
     }
 
     /// The line through clicks that crosses no flap, and no edge of a lumen however dim; None if there is none.

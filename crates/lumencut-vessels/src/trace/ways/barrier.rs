@@ -61,26 +61,40 @@ fn scaled(model: &LumenModel, value: f32) -> f32 {
     ((value.min(most) - model.tissue) / noise) as f32
 }
 
-/// Whether a voxel lies in a clear valley, as in a flap.
-pub(crate) fn is_in_valley(voxels: &Voxels, model: &LumenModel, voxel: [i32; 3]) -> bool {
-    const SIDE: usize = 2 * HALO + 1;
-    let mut values = vec![0.0; SIDE * SIDE * SIDE];
-    voxels.cube(voxel.map(|c| c - HALO as i32), SIDE, &mut values);
-    for value in &mut values {
-        *value = scaled(model, *value);
-    }
-    let weights = gaussian(VALLEY_SMOOTHING, HALO as i32);
-    let entries = ENTRIES.map(|[i, j, k]| {
-        let rows = values.chunks_exact(SIDE).map(|row| product(row, &weights[i]));
-        let planes = rows.collect::<Vec<f32>>();
-        let planes: Vec<f32> = planes.chunks_exact(SIDE).map(|rows| product(rows, &weights[j])).collect();
-        f64::from(product(&planes, &weights[k]))
-    });
-    valley(entries) >= CLEAR_VALLEY as f32
+/// The clear valleys of a volume, such as flaps, for single voxels.
+pub(crate) struct Valleys<'a, 'v> {
+    voxels: &'a Voxels<'v>,
+    model: &'a LumenModel,
+    weights: [Vec<f32>; 3],
 }
 
-fn product(values: &[f32], weights: &[f32]) -> f32 {
-    values.iter().zip(weights).map(|(value, weight)| value * weight).sum()
+impl<'a, 'v> Valleys<'a, 'v> {
+    pub(crate) fn new(voxels: &'a Voxels<'v>, model: &'a LumenModel) -> Self {
+        Self { voxels, model, weights: gaussian(VALLEY_SMOOTHING, HALO as i32) }
+    }
+
+    /// Whether a voxel lies in a clear valley.
+    pub(crate) fn hold(&self, voxel: [i32; 3]) -> bool {
+        const SIDE: usize = 2 * HALO + 1;
+        let mut values = [0.0; SIDE * SIDE * SIDE];
+        self.voxels.cube(voxel.map(|c| c - HALO as i32), SIDE, &mut values);
+        for value in &mut values {
+            *value = scaled(self.model, *value);
+        }
+        let rows = self.weights.each_ref().map(|weights| products::<{ SIDE * SIDE }>(&values, weights));
+        let entries = ENTRIES.map(|[i, j, k]| {
+            let planes = products::<SIDE>(&rows[i], &self.weights[j]);
+            f64::from(products::<1>(&planes, &self.weights[k])[0])
+        });
+        valley(entries) >= CLEAR_VALLEY as f32
+    }
+}
+
+/// Weighted sums of rows of values.
+fn products<const N: usize>(values: &[f32], weights: &[f32]) -> [f32; N] {
+    std::array::from_fn(|n| {
+        values[n * weights.len()..].iter().zip(weights).map(|(value, weight)| value * weight).sum()
+    })
 }
 
 impl Barrier {
