@@ -25,7 +25,7 @@ class Flag(IntFlag):
     BRANCH = 2
     #: Something brighter than lumen lies in the wall; it is not lumen, and the fit leaves it out.
     CALCIUM = 4
-    #: Something brighter than lumen surrounds it, is much brighter, or repeats along it: a stent or other metal.
+    #: Something brighter than lumen surrounds it, is much brighter, or repeats along it: a stent.
     METAL = 8
     #: Another lumen or bone is next to the wall.
     NEIGHBOR = 16

@@ -29,7 +29,7 @@ const OUTSIDE: f64 = 0.05;
 const WITHIN: f64 = 0.4;
 
 /// Noise of every scan at least (fraction of the contrast): without noise, a narrowing would repeat more than it.
-const LEAST_NOISE: f64 = 0.03;
+const LEAST_NOISE: f64 = 0.012;
 
 /// Minimum covariance between periods, and minimum variance, in variances of the noise.
 const REPEATS: f64 = 0.75;
