@@ -85,8 +85,8 @@ def _estimated(draw: Draw) -> Scene:
 
 
 def _assumed(draw: Draw) -> Scene:
-    fwhm = 0.6 * max(draw.normal(1, 0.2), 0.4)
-    return Scene(**_artery(draw, 1.0, 1.6), around=(draw.normal(FAT, 12),), fwhm=fwhm)
+    fwhm = max(draw.normal(0.85, 0.2), 0.45)
+    return Scene(**_artery(draw, 1.4, 2.4), around=(draw.normal(FAT, 12),), fwhm=fwhm)
 
 
 @dataclass(frozen=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
 
 import pytest
@@ -67,6 +68,22 @@ class _Lost(Nursery):
         forked = super().start(job)
         self._process.kill()
         return forked
+
+
+class _Stuck(Nursery):
+    """A forking process that is stopped before it forks anything."""
+
+    def __init__(self):
+        super().__init__()
+        self._process.send_signal(signal.SIGSTOP)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="studies are forked on Linux alone")
+def test_studies_get_new_processes_where_the_process_that_forks_them_is_stuck(tmp_path, monkeypatch):
+    monkeypatch.setattr("lumencut.cohort.nursery.LONGEST_BIRTH", 0.0)
+    monkeypatch.setattr(engine, "Nursery", _Stuck)
+    found = outcomes(jobs_of(tmp_path, ("--version",)))
+    assert found["job-0"].state == "done"
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="studies are forked on Linux alone")

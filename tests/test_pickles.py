@@ -15,6 +15,7 @@ import pytest
 
 import lumencut
 from lumencut import MeasuringError, Settings, Vessel, _lumencut, phantom
+from lumencut.measuring.profile import Throat
 
 
 @pytest.fixture(scope="module")
@@ -47,6 +48,7 @@ def values(tube, profile):
         "Spot": profile.narrowest(),
         "Stenosis": profile.stenosis(at=31.0, reference=52.0),
         "Stretch": profile.stretch(10, 40),
+        "Throat": Throat(20.0, 0.7),
         "TransferFunction": lumencut.TransferFunction([(0, (1, 2, 3), 0.5)]),
         "Vessel": tube.tree[0],
         "VesselTree": tube.tree,

@@ -16,9 +16,11 @@ from lumencut import (
     _lumencut,
     cfa,
     cpr,
+    find_vessels,
     lumen_map,
     spiral,
     straightened_volume,
+    trace_from,
     untangled,
 )
 from lumencut.cli import main
@@ -167,6 +169,19 @@ def test_every_host_states_the_rule():
         assert words in " ".join(inspect.getdoc(function).split())
     for page in ("python.md", "reformations.md"):
         assert words in " ".join((Path(__file__).parents[1] / "docs" / page).read_text("utf-8").split())
+
+
+def test_every_host_states_the_smallest_radius():
+    words = _lumencut.SMALLEST_RADIUS
+    pages = [
+        (Path(__file__).parents[1] / "docs" / page).read_text("utf-8") for page in ("python.md", "cohorts.md")
+    ]
+    helps = [CliRunner().invoke(main, [command, "--help"]).output for command in ("trace", "render")]
+    for text in (*pages, *helps, inspect.getdoc(find_vessels), inspect.getdoc(trace_from)):
+        assert words in " ".join(text.split())
+    # No number is the default, because the rule needs the voxels.
+    for function in (find_vessels, trace_from):
+        assert inspect.signature(function).parameters["smallest_radius"].default is None
 
 
 def test_names_of_methods_are_those_of_the_core():

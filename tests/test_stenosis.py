@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from lumencut import MeasuringError, SettingsError, Vessel, Volume, measure, phantom
-from lumencut.measuring.profile import Profile, Spot
+from lumencut.measuring.profile import Profile, Spot, Throat
 from measure_scenes import FWHM, Grid, narrowed, round_tube
 
 
@@ -209,3 +209,26 @@ def test_a_percentage_tells_what_makes_it_doubtful(past_a_junction, half):
         assert graded.doubts == doubts
         assert str(graded).endswith(f"mm at 10.0 mm. {' '.join(doubts)}")
     assert past_a_junction.stenosis(50, 10, "ecst", 12.0).doubts == ()
+
+
+def test_a_throat_narrower_than_the_blur_is_limited_and_not_measured():
+    grid = Grid.even((0.5, 0.5, 0.5), (11.0, 11.0, 40.0))
+    x, y, z = grid.axes(3)
+
+    def lost(z):
+        return 1.75 * np.exp(-((z / 3.0) ** 4))
+
+    values = np.where(np.hypot(x, y) < 2.7, 50.0, -95.0) + 0 * z
+    inside = np.hypot(x - 0.8 * lost(z), y) < 2.0 - lost(z)
+    along = np.arange(-18.0, 18.1, 0.5)
+    line = Vessel(np.stack([0.8 * lost(along), 0 * along, along], 1))
+    profile = measure(grid.scanned(np.where(inside, 330.0, values), 5, 10.0), line, fwhm=FWHM)
+    throat = profile.throat()
+    assert isinstance(throat, Throat)
+    assert abs(throat.arc_length - line.length / 2) <= 2
+    assert 0.5 <= throat.at_most < 1.2
+    assert profile.narrowest() is None
+    assert f"at most {throat.at_most:.2f} mm wide" in profile.not_suggested()[0]
+    assert np.nanmin(profile.diameter_at_most) == throat.at_most
+    with pytest.raises(MeasuringError, match="no clear wall at"):
+        profile.stenosis(throat.arc_length, 4)

@@ -23,7 +23,7 @@ _WrittenArrays = tuple[
 _FoundArrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64], str]
 _FoundParts = tuple[list[_FoundArrays], list[list[int]], list[str]]
 _MeasuredParts = tuple[str, str | None, Profile, Grade | None]
-_MarkParts = tuple[str, float, float, bool]
+_MarkParts = tuple[str, float, float, bool, str]
 _StoredStenosis = tuple[list[float], list[list[float]], str, tuple[int, bool]]
 _NamedArrays = tuple[npt.NDArray[np.float64], npt.NDArray[np.float64] | None, str | None]
 
@@ -66,6 +66,7 @@ __all__ = [
     "SETTINGS",
     "SIGNS",
     "SMALLEST_EXTENT",
+    "SMALLEST_RADIUS",
     "STENOSIS_METHODS",
     "STENOSIS_TERRITORIES",
     "VESSEL_NAMES",
@@ -266,6 +267,7 @@ DEFAULTS: dict[str, float]
 QUANTITIES: list[tuple[str, list[str], str, tuple[float, float], float, str]]
 POINT_DISTANCE: float
 PIXEL_SIDE: str
+SMALLEST_RADIUS: str
 #: Identifier, role, format, extensions, and those that are written.
 FILE_KINDS: list[tuple[str, str, str, list[str], list[str]]]
 FILE_HEAD: int
@@ -551,6 +553,7 @@ class Profile:
         comparison: float | None = None,
     ) -> Stenosis: ...
     def narrowest(self) -> tuple[float, float] | None: ...
+    def throat(self) -> tuple[float, float] | None: ...
     def widest(self) -> tuple[float, float] | None: ...
     def offered_widest(self) -> tuple[float, float] | None: ...
     def suggested_references(
@@ -668,7 +671,7 @@ def fitted_turn(
 ) -> dict[str, Any]: ...
 def find_vessels(
     volume: Any,
-    smallest_radius: float,
+    smallest_radius: float | None,
     callback: Callable[[int, int], object] | None = None,
 ) -> _FoundParts: ...
 def find_window(name: str, volume: Any, vessels: list[_Arrays] | None) -> tuple[float, float]: ...
@@ -758,7 +761,7 @@ def tree_findings(
 def trace_from(
     volume: Any,
     seed: tuple[float, float, float],
-    smallest_radius: float,
+    smallest_radius: float | None,
     callback: Callable[[int, int], object] | None = None,
 ) -> _FoundParts: ...
 def place_mask(

@@ -1,8 +1,9 @@
 /** Closing a scan and opening another. */
 import { expect, test } from '@playwright/test';
-import { nameOf, rename } from './controls';
+import { drop, fileOf, nameOf, rename } from './controls';
 import { SIZE } from './measured-tube';
 import { Viewer } from './page';
+import { tubes } from './scans';
 
 test('the page asks before it closes unsaved work, and measuring does not continue in the next scan', async ({
   browser,
@@ -42,6 +43,34 @@ test('the page asks before it closes unsaved work, and measuring does not contin
   );
   await tube.rest();
   await expect(page.getByRole('alert')).toHaveCount(0);
+  tube.expectNoFault();
+  await tube.close();
+});
+
+test('a file that cannot be opened asks nothing; questions come one at a time, and Escape answers them', async ({
+  browser,
+}) => {
+  const tube = await Viewer.open(browser, '?phantom=stenosis&device=cpu', { viewport: SIZE });
+  const question = tube.page.getByRole('alertdialog');
+  await tube.rest();
+  await tube.press('v');
+  await rename(tube, 0, 'narrowed');
+  await drop(tube, fileOf('notes.txt', Buffer.from('patient was late')));
+  await expect(tube.problem).toContainText('notes.txt');
+  await expect(question).toHaveCount(0);
+  await tube.problem.getByRole('button', { name: 'Close' }).click();
+  await tube.page.getByRole('button', { name: 'Close the scan' }).click();
+  await expect(question).toContainText('Discard');
+  await drop(tube, tubes('tubes.nrrd'));
+  await tube.screenshot('one-question');
+  await expect(question).toHaveCount(1);
+  await expect(question).toContainText('Discard');
+  await tube.pane().click();
+  await tube.press('Escape');
+  await expect(question).toContainText('What is tubes.nrrd?');
+  await tube.press('Escape');
+  await expect(question).toHaveCount(0);
+  await expect(nameOf(tube, 0)).toHaveValue('narrowed');
   tube.expectNoFault();
   await tube.close();
 });

@@ -10,6 +10,7 @@ import { followPointer, followWhole } from './edit/previews';
 import { followView, restore, stateOf } from './state/address';
 import { start } from './state/device';
 import { followLines } from './state/lines';
+import { showMessage } from './state/message';
 import { followPlaceTurn } from './state/place-turn';
 import { followDocument } from './state/shown';
 import { report } from './state/store';
@@ -48,8 +49,8 @@ async function begin(): Promise<void> {
   } else if (phantom !== null) {
     await openPhantom(phantom);
   }
-  if (state && report.value) {
-    restore(state);
+  if (state && report.value && !restore(state)) {
+    showMessage('The view in the address belongs to another scan, so this scan is shown from the front.');
   }
   followView();
   followGuide();

@@ -94,6 +94,19 @@ test('a view can be written to the address and read back', () => {
   expect(store.camera.value).toEqual(CAMERA);
 });
 
+test('a view of another scan changes nothing', () => {
+  const state = stateOf(fragmentOf(currentState()));
+  const volume = { size: [4, 5, 6], world_from_index: [[1, 0, 0, 2]] };
+  store.report.value = { volume, vessels: null, windows: null } as never;
+  store.method.value = 'csr';
+  store.layout.value = 'one';
+  const before = currentState();
+  expect(restore({ ...state, method: 'mpcpr', layout: 'measure' })).toBe(false);
+  expect(currentState()).toEqual(before);
+  expect(restore({ ...state, scan: before.scan, layout: 'strip' } as never)).toBe(true);
+  expect(store.layout.value).toBe('strip');
+});
+
 test('the same part of the scene is shown in a window of another size', () => {
   const state = stateOf(fragmentOf(currentState()));
   store.camera.value = { ...CAMERA, size: [1000, 600], pixel_spacing: 9 };

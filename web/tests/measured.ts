@@ -28,6 +28,7 @@ export function madeProfile(length = 60): Profile {
     fwhm_source: 'given',
     wall_source: 'not separated, as requested',
     narrowest: { at: length / 2, diameter: 4 },
+    throat: null,
     widest: { at: 10, diameter: 8.8 },
     not_suggested: [],
     not_measured: [],

@@ -28,7 +28,7 @@ type FoundParts<'py> = (Vec<FoundArrays<'py>>, Vec<Vec<usize>>, Vec<String>);
 pub(crate) fn find_vessels<'py>(
     py: Python<'py>,
     volume: VolumeArgument<'py>,
-    smallest_radius: f64,
+    smallest_radius: Option<f64>,
     callback: Option<Py<PyAny>>,
 ) -> PyResult<FoundParts<'py>> {
     searching(py, &volume, callback.as_ref(), |volume, stop, progress| {
@@ -45,7 +45,7 @@ pub(crate) fn trace_from<'py>(
     py: Python<'py>,
     volume: VolumeArgument<'py>,
     seed: [f64; 3],
-    smallest_radius: f64,
+    smallest_radius: Option<f64>,
     callback: Option<Py<PyAny>>,
 ) -> PyResult<FoundParts<'py>> {
     searching(py, &volume, callback.as_ref(), |volume, stop, progress| {
@@ -72,8 +72,10 @@ fn searching<'py>(
         reporter.report(py, SHARES)?;
     }
     let parts = sure_parts(&tree);
+    let vessels = tree.vessels.iter().enumerate();
+    let places = vessels.flat_map(|(number, vessel)| vessel.doubts_of(&format!("vessel {number}"))).collect();
     let vessels = tree.vessels.into_iter().map(|vessel| arrays(py, vessel)).collect();
-    Ok((vessels, parts, [tree.notes, tree.doubts].concat()))
+    Ok((vessels, parts, [tree.notes, places, tree.doubts].concat()))
 }
 
 fn arrays(py: Python<'_>, FoundLine { line, doubt, .. }: FoundLine) -> FoundArrays<'_> {

@@ -106,6 +106,7 @@ impl Profile {
             ("wall_uncertainty", second(&profile.wall)),
             ("diameter_calcium_excluded", first(&profile.bounds)),
             ("diameter_calcium_included", second(&profile.bounds)),
+            ("diameter_at_most", array(&profile.at_most)),
             ("diameter_outer", first(&profile.diameter_outer)),
             ("diameter_outer_uncertainty", second(&profile.diameter_outer)),
         ]
@@ -204,6 +205,11 @@ impl Profile {
     /// The narrowest place: arc length and diameter (mm).
     fn narrowest(&self) -> Option<(f64, f64)> {
         self.0.narrowest().map(pair)
+    }
+
+    /// A throat that must be narrower than all measured places: arc length and the limit of its diameter (mm).
+    fn throat(&self) -> Option<(f64, f64)> {
+        self.0.throat().map(pair)
     }
 
     /// The largest diameter: arc length and diameter (mm).

@@ -85,11 +85,14 @@ pub(crate) fn vessels_json(options: Options, measured: Vec<MeasuredParts>) -> St
     for_programs::vessels_json(&options.into(), &rows(&measured))
 }
 
-/// Name, arc length and diameter (mm) of a place to review, and whether it is suggested.
-type MarkParts = (&'static str, f64, f64, bool);
+/// Name, arc length and diameter (mm) of a place to review, whether it is suggested, and the diameter in words.
+type MarkParts = (&'static str, f64, f64, bool, String);
 
 fn parts_of(marks: &[Mark]) -> Vec<MarkParts> {
-    marks.iter().map(|mark| (mark.name, mark.at, mark.diameter, mark.is_suggestion)).collect()
+    marks
+        .iter()
+        .map(|mark| (mark.name, mark.at, mark.diameter, mark.is_suggestion, mark.words.clone()))
+        .collect()
 }
 
 /// The places to review on a vessel with marks; places without a measurement are omitted.

@@ -71,6 +71,11 @@ impl<'a> Voxels<'a> {
         }
     }
 
+    /// Side (mm) of a cube with the volume of a voxel.
+    pub fn mean_side(&self) -> f64 {
+        self.world_from_index.matrix3.determinant().abs().cbrt()
+    }
+
     /// Writes the values of a cube of voxels, i fastest; NaN outside the volume.
     pub fn cube(&self, first: [i32; 3], side: usize, values: &mut [f32]) {
         self.source.cube(first, side, values);

@@ -19,7 +19,7 @@ fn straight(x: f64, radius: f64, part: usize, doubt: Option<TrackDoubt>) -> Foun
 }
 
 fn trees(vessels: Vec<FoundVessel>) -> Trees {
-    Trees { vessels, level: 300.0, contrast: 250.0, noise: 10.0, is_angiography: true }
+    Trees { vessels, level: 300.0, contrast: 250.0, ..Trees::default() }
 }
 
 #[test]
@@ -63,7 +63,7 @@ fn a_seed_outside_the_volume_is_refused_before_anything_is_found() {
     let values = vec![0_i16; 8 * 8 * 8];
     let volume = Volume::new(Voxels::I16(&values), [8; 3], [1, 8, 64], DAffine3::IDENTITY).unwrap();
     for seed in [DVec3::new(-1.0, 0.0, 0.0), DVec3::new(f64::NAN, 0.0, 0.0)] {
-        let request = FindRequest { smallest_radius: 1.0, stop: &|| true, progress: None };
+        let request = FindRequest { smallest_radius: None, stop: &|| true, progress: None };
         let error = find_from(&volume, seed, &request).unwrap_err();
         assert_eq!((error.kind, error.subject.as_str()), (ErrorKind::Tracing, "seed"));
     }
@@ -74,7 +74,7 @@ fn every_seed_in_one_tree_gives_the_same_vessels_to_the_bit() {
     let made = y_junction().unwrap();
     let strides = [1, made.size[0], made.size[0] * made.size[1]];
     let volume = Volume::new(Voxels::I16(&made.voxels), made.size, strides, made.world_from_index).unwrap();
-    let request = FindRequest { smallest_radius: 1.0, stop: &|| false, progress: None };
+    let request = FindRequest { smallest_radius: None, stop: &|| false, progress: None };
     let lines = |seed: DVec3| -> Vec<Centerline> {
         let trees = find_from(&volume, seed, &request).unwrap();
         trees.vessels.into_iter().map(|vessel| vessel.line).collect()

@@ -23,7 +23,7 @@ fn tree() -> Trees {
     let artery = line(DVec3::Z * 50.0, DVec3::new(60.0, 0.0, 50.0), 3.0);
     let branch = line(DVec3::new(30.0, 0.0, 50.0), DVec3::new(30.0, 40.0, 50.0), 1.5);
     let vessels = [trunk, artery, branch].map(|line| found(line, 0)).to_vec();
-    Trees { vessels, level: 300.0, contrast: 250.0, noise: 10.0, is_angiography: true }
+    Trees { vessels, level: 300.0, contrast: 250.0, ..Trees::default() }
 }
 
 fn lines(tree: &Trees) -> Vec<Centerline> {

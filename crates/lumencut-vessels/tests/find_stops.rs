@@ -22,7 +22,7 @@ fn found(stop: Stop, progress: &Progress) -> lumencut_core::error::Result<Trees>
     let made = y_junction().unwrap();
     let strides = [1, made.size[0], made.size[0] * made.size[1]];
     let volume = Volume::new(Voxels::I16(&made.voxels), made.size, strides, made.world_from_index).unwrap();
-    find_vessels(&volume, &FindRequest { smallest_radius: 1.0, stop, progress: Some(progress) })
+    find_vessels(&volume, &FindRequest { smallest_radius: None, stop, progress: Some(progress) })
 }
 
 /// The progress (0 to 1) at each call of `stop`.

@@ -6,6 +6,8 @@ mod find_one_vessel;
 mod find_stops;
 mod lumens_on_ray;
 mod measure;
+mod measure_surroundings;
+mod throats;
 mod trace_clicks;
 mod trace_flaps;
 mod trace_mask;

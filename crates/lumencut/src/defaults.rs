@@ -1,7 +1,8 @@
 //! Defaults that the command line, Python and the page share, and the rule for the pixel side of reformations.
 
 use lumencut_vessels::measure::profile::measuring;
-use lumencut_vessels::trace::{find, skeleton};
+pub use lumencut_vessels::trace::find::SMALLEST_RADIUS_WORDS;
+use lumencut_vessels::trace::skeleton;
 
 /// A parameter with its default.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,8 +90,6 @@ quantities! {
     FLIGHT_FRAMES "flight.frames", 36.0, [2.0, 1e6] "", "Frames of a flight between two views.";
     MEASURE_STEP "measure.step" = "VesselTree.measured", measuring::STEP, [ABOVE_0, OPEN] "mm", "Distance of measured sections.";
     STOPPER_RADIUS "trace.stopper_radius", 3.0, [ABOVE_0, OPEN] "mm", "Radius around a stopper that no vessel may enter.";
-    SMALLEST_RADIUS "trace_from.smallest_radius" = "find_vessels", find::SMALLEST_RADIUS, [ABOVE_0, OPEN] "mm",
-        "Smallest radius of vessels that are found.";
     SHORTEST_BRANCH "trace_mask.shortest_branch", skeleton::PARENT_RADII, [0.0, OPEN] "radii",
         "Length below which branches of a mask are left out, in radii of their parent.";
 }

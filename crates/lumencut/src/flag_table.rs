@@ -1,7 +1,8 @@
 //! The table of section flags for Python package and viewer: names, words, meanings and colours.
 
 use lumencut_vessels::measure::section::flags::{
-    AT_LIMIT, BRANCH, CALCIUM, IRREGULAR, METAL, NEIGHBOR, NO_EDGE, OUTSIDE, RECENTERED, RESTLESS_LINE,
+    AT_LIMIT, BRANCH, CALCIUM, IRREGULAR, METAL, NEIGHBOR, NO_EDGE, OUTSIDE, PLAQUE, RECENTERED,
+    RESTLESS_LINE,
 };
 use serde::Serialize;
 
@@ -35,12 +36,12 @@ const fn look(
 }
 
 /// All flags, in the order of plots and tables.
-pub const FLAGS: [FlagLook; 10] = [
+pub const FLAGS: [FlagLook; 11] = [
     look(
         ("AT_LIMIT", AT_LIMIT),
         [
             "near the blur",
-            "the lumen is narrower than 1.5 times the scanner's blur (FWHM): its diameter is near the limit of resolution",
+            "the lumen is narrower than 1.5 times the blur (FWHM), or twice the spacing of thick slices: it is hardly resolved",
         ],
         ["#7b5ea7", "#b59ae0"],
     ),
@@ -56,7 +57,10 @@ pub const FLAGS: [FlagLook; 10] = [
     ),
     look(
         ("METAL", METAL),
-        ["metal", "something brighter surrounds the lumen, or is far brighter than it: a stent"],
+        [
+            "metal",
+            "something brighter surrounds the lumen, is far brighter than it, or repeats along it: a stent",
+        ],
         ["#4d4d4d", "#b4b4b4"],
     ),
     look(
@@ -84,6 +88,11 @@ pub const FLAGS: [FlagLook; 10] = [
         ("RESTLESS_LINE", RESTLESS_LINE),
         ["restless line", "the centerline turns by more than 75° within one diameter, which no vessel does"],
         ["#1f5fbf", "#7fb2ff"],
+    ),
+    look(
+        ("PLAQUE", PLAQUE),
+        ["bright plaque", "plaque beside the lumen is nearly as bright as it: the lumen may be narrower"],
+        ["#a0522d", "#d98a5f"],
     ),
 ];
 

@@ -5,12 +5,14 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 use lumencut_core::error::Result;
 use lumencut_core::volume::Volume;
+use lumencut_vessels::trace::clicks::doubts::{Doubt, Doubted};
 use lumencut_vessels::trace::find::found::{FoundVessel, Trees};
 use lumencut_vessels::trace::find::from_seed::find_from;
 use lumencut_vessels::trace::find::track::TrackDoubt;
 use lumencut_vessels::trace::find::{self, FindRequest, one_vessel, refusals};
 use lumencut_vessels::trace::lines::centerline::Centerline;
 use lumencut_vessels::voxels::Voxels;
+use rayon::prelude::*;
 
 use crate::text::{fixed, rounded};
 
@@ -21,8 +23,17 @@ pub struct FoundLine {
     pub line: Centerline,
     /// Why the vessel is doubtful; None if it is not.
     pub doubt: Option<&'static str>,
+    /// Places from which a confident vessel is doubtful, as told of a traced one.
+    pub(crate) places: Vec<Doubt>,
     /// Number of the connected part; part 0 is the most important one.
     pub part: usize,
+}
+
+impl FoundLine {
+    /// The places from which a confident vessel is doubtful, one sentence each.
+    pub fn doubts_of(&self, name: &str) -> Vec<String> {
+        self.places.iter().map(|doubt| format!("{name}: {}", doubt.words)).collect()
+    }
 }
 
 /// All vessels found in a scan, with notes.
@@ -39,29 +50,29 @@ pub struct FoundTree {
 /// Finds all vessels of a scan. At least one of them must be confident. Fails as [`find::find_vessels`] does, and
 /// with [`lumencut_core::error::ErrorKind::Tracing`] if no vessel is confident.
 pub fn find_vessels(volume: &Volume, request: &FindRequest) -> Result<FoundTree> {
-    confident_tree(&find::find_vessels(volume, request)?, request.smallest_radius)
+    confident_tree(volume, &find::find_vessels(volume, request)?)
 }
 
 /// Describes the vessels found; at least one of them must be confident. Fails with
-/// [`lumencut_core::error::ErrorKind::Tracing`] if no vessel is confident; the error states `smallest_radius` (mm).
-pub(crate) fn confident_tree(trees: &Trees, smallest_radius: f64) -> Result<FoundTree> {
-    if trees.vessels.iter().any(|vessel| vessel.doubt.is_none()) {
-        return Ok(found(trees.clone()));
+/// [`lumencut_core::error::ErrorKind::Tracing`] if no vessel is confident.
+pub(crate) fn confident_tree(volume: &Volume, trees: &Trees) -> Result<FoundTree> {
+    if trees.sure_length() > 0.0 {
+        return Ok(found_in(volume, trees.clone()));
     }
-    Err(refusals::no_vessel(trees.vessels.len(), smallest_radius))
+    Err(refusals::no_vessel(trees))
 }
 
 /// As [`confident_tree`], but accepts a result with only doubtful vessels.
-pub(crate) fn tree_with_doubtful(trees: &Trees, smallest_radius: f64) -> Result<FoundTree> {
+pub(crate) fn tree_with_doubtful(volume: &Volume, trees: &Trees) -> Result<FoundTree> {
     if trees.vessels.is_empty() {
-        return Err(refusals::no_vessel(0, smallest_radius));
+        return Err(refusals::no_vessel(trees));
     }
-    Ok(found(trees.clone()))
+    Ok(found_in(volume, trees.clone()))
 }
 
 /// Finds the vessels connected to the one that contains a seed (mm, LPS).
 pub fn trace_from(volume: &Volume, seed: DVec3, request: &FindRequest) -> Result<FoundTree> {
-    Ok(found(find_from(volume, seed, request)?))
+    Ok(found_in(volume, find_from(volume, seed, request)?))
 }
 
 /// The vessel at a click (mm, LPS): from the nearest existing vessel (one of `beside`) to the vessel's end.
@@ -75,20 +86,31 @@ pub(crate) fn one_vessel(
     if !click.is_finite() || voxels.voxel_at(click).is_none() {
         return Err(refusals::outside(click));
     }
-    let side = voxels.world_from_index.matrix3.determinant().abs().cbrt();
+    let side = voxels.mean_side();
     let refused = |reason| refusals::no_whole_vessel(click, f64::from(voxels.at(click)), reason);
     one_vessel::one_vessel(trees, click, side, beside).map_err(refused)
 }
 
-fn found(trees: Trees) -> FoundTree {
-    let Trees { vessels, level, contrast, .. } = trees;
+fn found_in(volume: &Volume, trees: Trees) -> FoundTree {
+    let voxels = Voxels::new(volume);
+    found(trees, &|line| Doubted { line, bridged: &[], clicks: &[] }.doubts(&voxels))
+}
+
+fn found(trees: Trees, doubts_of: &(dyn Fn(&Centerline) -> Vec<Doubt> + Sync)) -> FoundTree {
+    let Trees { vessels, level, contrast, other, .. } = trees;
     let (sure, doubtful): (Vec<FoundVessel>, _) =
         vessels.into_iter().partition(|vessel| vessel.doubt.is_none());
-    let line =
-        |FoundVessel { line, part, doubt, .. }| FoundLine { line, doubt: doubt.map(TrackDoubt::words), part };
-    let vessels: Vec<FoundLine> = sure.into_iter().chain(doubtful).map(line).collect();
+    let line = |FoundVessel { line, part, doubt, .. }: FoundVessel| {
+        let places = if doubt.is_none() { doubts_of(&line) } else { Vec::new() };
+        FoundLine { line, doubt: doubt.map(TrackDoubt::words), places, part }
+    };
+    let vessels: Vec<FoundLine> = sure.into_par_iter().chain(doubtful).map(line).collect();
     let [level, contrast] = [level, contrast].map(about);
-    let notes = vec![format!("vessels have about {level}, {contrast} above their surroundings")];
+    let mut notes = vec![format!("vessels have about {level}, {contrast} above their surroundings")];
+    notes.extend(other.map(|reading| {
+        let [level, contrast] = reading.map(about);
+        format!("other tubes have about {level}, {contrast} above theirs: the paler ones may be organs")
+    }));
     let doubts = doubts(&vessels);
     FoundTree { vessels, notes, doubts }
 }
@@ -137,7 +159,8 @@ mod tests {
         let [short, flat] = [TrackDoubt::Short, TrackDoubt::Flat].map(Some);
         let vessels = [(0, None), (0, flat), (0, None), (1, short), (2, None), (2, short)];
         let vessels = vessels.map(|(part, doubt)| vessel(part, doubt)).to_vec();
-        let tree = found(Trees { vessels, level: 330.4, contrast: 322.2, noise: 12.0, is_angiography: true });
+        let tree =
+            found(Trees { vessels, level: 330.4, contrast: 322.2, ..Trees::default() }, &|_| Vec::new());
         assert_eq!(sure_parts(&tree), [vec![0, 1], vec![2]]);
         let parts: Vec<usize> = tree.vessels.iter().map(|vessel| vessel.part).collect();
         assert_eq!(parts, [0, 0, 2, 0, 1, 2]);
@@ -145,6 +168,13 @@ mod tests {
         let flat = format!("1 vessel doubtful: {}", TrackDoubt::Flat.words());
         assert_eq!(tree.notes, ["vessels have about 330, 322 above their surroundings"]);
         assert_eq!(tree.doubts, [short, flat]);
+        let other = Some([29.0, 15.2]);
+        let paler =
+            found(Trees { level: 129.0, contrast: 115.0, other, ..Trees::default() }, &|_| Vec::new());
+        assert_eq!(
+            paler.notes[1],
+            "other tubes have about 29, 15 above theirs: the paler ones may be organs"
+        );
         assert_eq!([about(0.0421), about(-3.44), about(1713.6)], ["0.042", "-3.4", "1714"]);
     }
 }

@@ -1,6 +1,7 @@
 //! States measurements in words, which Python package and viewer share.
 
 use lumencut_core::named::Named;
+use lumencut_vessels::measure::profile::Profile;
 use lumencut_vessels::measure::profile::Source;
 use lumencut_vessels::measure::profile::stretch::CArm;
 use lumencut_vessels::measure::stenosis::{Doubts, Method, Stenosis};
@@ -110,6 +111,18 @@ pub fn of_wall(source: &WallSource) -> String {
 pub(crate) fn of_bounds([excluded, included]: [f64; 2]) -> Option<String> {
     let [excluded, included] = [excluded, included].map(|mm| mm.is_finite().then(|| fixed(mm, 2)));
     Some(format!("{} mm if brighter material is excluded, {} mm if it is included", excluded?, included?))
+}
+
+/// The limit of a diameter (mm) at a throat without a clear wall.
+pub(crate) fn of_limit(most: f64) -> String {
+    format!("no clear wall, at most {} mm", fixed(most, 2))
+}
+
+/// The bounds or the limit of the diameter of section `n`, if it has any.
+pub(crate) fn of_bounds_at(profile: &Profile, n: usize) -> Option<String> {
+    let most = profile.at_most[n];
+    of_bounds(profile.bounds[n])
+        .or_else(|| most.is_finite().then(|| format!("at most {} mm", fixed(most, 2))))
 }
 
 /// The words for the flags that are set, such as `no clear wall`.

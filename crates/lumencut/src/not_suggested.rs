@@ -12,6 +12,11 @@ pub(crate) const HINDRANCES: [(u32, &str); 3] =
 
 /// Why no narrowest place or reference is suggested, a sentence each; `at` and `references` are marked places (mm).
 pub fn not_suggested(profile: &Profile, at: Option<f64>, references: &[f64]) -> Vec<String> {
+    let throat = profile.throat().filter(|_| at.is_none()).map(no_clear_wall);
+    throat.into_iter().chain(no_place(profile, at, references)).collect()
+}
+
+fn no_place(profile: &Profile, at: Option<f64>, references: &[f64]) -> Vec<String> {
     match main_place(profile, at) {
         None => {
             let unsafe_ones = profile.none_safe().map(|_| none_safe(profile));
@@ -46,6 +51,13 @@ fn none_safe(profile: &Profile) -> String {
     let words: Vec<&str> = found.iter().map(|(_, word)| *word).collect();
     let why = if words.is_empty() { String::new() } else { format!(" ({})", words.join(", ")) };
     format!("No narrowest place is suggested: no section is reliable{why}. Mark it yourself.")
+}
+
+fn no_clear_wall(throat: Spot) -> String {
+    format!(
+        "Narrowest place: no clear wall at {:.1} mm, where the lumen is at most {:.2} mm wide. Check the sections there.",
+        throat.at, throat.diameter
+    )
 }
 
 fn only_thinner(end: Spot) -> String {

@@ -16,7 +16,7 @@ pub(crate) enum Column<'a> {
 }
 
 /// The columns of a profile by name, except its flags.
-pub(crate) fn columns(profile: &mut Profile) -> [(&'static str, Column<'_>); 21] {
+pub(crate) fn columns(profile: &mut Profile) -> [(&'static str, Column<'_>); 22] {
     [
         ("arc_length", Column::Numbers(&mut profile.arc_length)),
         ("diameter_min", Column::Numbers(&mut profile.diameter_min)),
@@ -27,6 +27,7 @@ pub(crate) fn columns(profile: &mut Profile) -> [(&'static str, Column<'_>); 21]
         ("wall", Column::Pairs(&mut profile.wall)),
         ("diameter_outer", Column::Pairs(&mut profile.diameter_outer)),
         ("bounds", Column::Pairs(&mut profile.bounds)),
+        ("at_most", Column::Numbers(&mut profile.at_most)),
         ("center", Column::Points(&mut profile.center)),
         ("normal", Column::Points(&mut profile.normal)),
         ("axes", Column::PointPairs(&mut profile.axes)),
@@ -123,6 +124,7 @@ pub(crate) fn empty() -> Profile {
         wall: Vec::new(),
         diameter_outer: Vec::new(),
         bounds: Vec::new(),
+        at_most: Vec::new(),
         flags: Vec::new(),
         center: Vec::new(),
         normal: Vec::new(),
@@ -142,7 +144,7 @@ pub(crate) fn empty() -> Profile {
 }
 
 /// The numbers of sections of all columns, which are equal in a profile.
-pub(crate) fn lengths(profile: &Profile) -> [usize; 18] {
+pub(crate) fn lengths(profile: &Profile) -> [usize; 19] {
     [
         profile.arc_length.len(),
         profile.diameter_min.len(),
@@ -153,6 +155,7 @@ pub(crate) fn lengths(profile: &Profile) -> [usize; 18] {
         profile.wall.len(),
         profile.diameter_outer.len(),
         profile.bounds.len(),
+        profile.at_most.len(),
         profile.flags.len(),
         profile.center.len(),
         profile.normal.len(),

@@ -2,6 +2,7 @@
 
 use lumencut_core::named::Named;
 use lumencut_vessels::measure::profile::Profile;
+use lumencut_vessels::measure::stenosis::suggestions::Spot;
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 use serde_json::ser::PrettyFormatter;
@@ -9,7 +10,7 @@ use serde_json::ser::PrettyFormatter;
 use crate::measure_words::{of_doubts, of_flags, of_source, of_wall};
 use crate::not_measured::{NotMeasured, not_measured};
 use crate::not_suggested::not_suggested;
-use crate::profile_marks::{Grade, Mark, Measured, marks};
+use crate::profile_marks::{Grade, Mark, Measured, REFERENCE, marks};
 use crate::profile_table::columns;
 use crate::scan_details::ScanDetails;
 
@@ -113,10 +114,7 @@ struct ProgramProfile {
 
 impl ProgramProfile {
     fn of(profile: &Profile, scan: &ScanDetails) -> Self {
-        let longest = |spot: lumencut_vessels::measure::stenosis::suggestions::Spot| Longest {
-            arc_length_mm: spot.at,
-            diameter_max_mm: spot.diameter,
-        };
+        let longest = |spot: Spot| Longest { arc_length_mm: spot.at, diameter_max_mm: spot.diameter };
         Self {
             scan: scan.clone(),
             fwhm_mm: profile.fwhm,
@@ -151,9 +149,23 @@ impl From<&Mark> for PlaceRecord {
     }
 }
 
+/// A place without a clear wall, and the largest diameter that its values allow.
+#[derive(Serialize)]
+struct ThroatRecord {
+    arc_length_mm: f64,
+    at_most_mm: f64,
+}
+
+impl From<Spot> for ThroatRecord {
+    fn from(throat: Spot) -> Self {
+        Self { arc_length_mm: throat.at, at_most_mm: throat.diameter }
+    }
+}
+
 #[derive(Serialize)]
 struct Suggestions {
     narrowest: Option<PlaceRecord>,
+    throat: Option<ThroatRecord>,
     references: Vec<PlaceRecord>,
     not_suggested: Vec<String>,
 }
@@ -162,9 +174,12 @@ impl Suggestions {
     fn of(profile: &Profile) -> Self {
         // Places are suggested only at sections that count.
         let found = marks(profile, None, &[]).unwrap_or_default();
-        let narrowest = found.first().map(PlaceRecord::from);
-        let references = found.iter().skip(1).map(PlaceRecord::from).collect();
-        Self { narrowest, references, not_suggested: not_suggested(profile, None, &[]) }
+        let is_reference = |mark: &&Mark| mark.name == REFERENCE;
+        let narrowest = found.iter().find(|mark| !is_reference(mark) && mark.diameter.is_finite());
+        let narrowest = narrowest.map(PlaceRecord::from);
+        let throat = profile.throat().map(ThroatRecord::from);
+        let references = found.iter().filter(is_reference).map(PlaceRecord::from).collect();
+        Self { narrowest, throat, references, not_suggested: not_suggested(profile, None, &[]) }
     }
 }
 

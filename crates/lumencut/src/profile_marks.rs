@@ -6,7 +6,7 @@ use lumencut_vessels::measure::stenosis::groups::Territory;
 use lumencut_vessels::measure::stenosis::suggestions::Spot;
 use lumencut_vessels::measure::stenosis::{Compared, Method, Stenosis};
 
-use crate::measure_words::{MILLIMETRE_ASSUMED, of_doubts, of_stenosis};
+use crate::measure_words::{MILLIMETRE_ASSUMED, of_doubts, of_limit, of_stenosis};
 use crate::scan_details::ScanDetails;
 
 /// A reader's marks on one vessel. Inputs of all methods are kept, so that switching the method loses nothing.
@@ -24,6 +24,8 @@ pub struct Marked {
     pub diameters: Vec<f64>,
 }
 
+pub(crate) const REFERENCE: &str = "reference";
+const NARROWEST: &str = "narrowest place";
 pub(crate) const NOTED: &str = "noted diameter";
 
 /// The result at a marked place.
@@ -139,7 +141,7 @@ impl Marked {
         places.sort_unstable_by(f64::total_cmp);
         let mark = |at: f64| {
             let (diameter, _) = profile.diameter_at(at).ok()?;
-            Some(Mark { name: NOTED, at, diameter, is_suggestion: false })
+            Some(Mark::measured(NOTED, at, diameter))
         };
         places.into_iter().filter_map(mark).collect()
     }
@@ -170,16 +172,29 @@ impl Measured<'_> {
 }
 
 /// A place to review.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Mark {
     /// The kind of place: `marked place`, `narrowest place`, `reference` or `NOTED`.
     pub name: &'static str,
     /// Arc length (mm).
     pub at: f64,
-    /// Diameter of the circle of the same area (mm).
+    /// Diameter of the circle of the same area (mm); NaN at a throat without a clear wall.
     pub diameter: f64,
+    /// The diameter, or the limit of the diameter at a throat.
+    pub words: String,
     /// Whether the place is suggested and not marked.
     pub is_suggestion: bool,
+}
+
+impl Mark {
+    fn measured(name: &'static str, at: f64, diameter: f64) -> Self {
+        Self { name, at, diameter, words: format!("{diameter:.2} mm"), is_suggestion: false }
+    }
+
+    fn limited(throat: Spot) -> Self {
+        let words = of_limit(throat.diameter);
+        Self { name: NARROWEST, at: throat.at, diameter: f64::NAN, words, is_suggestion: true }
+    }
 }
 
 /// The places to review: marks, and suggestions for what is not marked. They ascend along the vessel, but a stenosis
@@ -188,16 +203,19 @@ pub struct Mark {
 pub fn marks(profile: &Profile, at: Option<f64>, references: &[f64]) -> Result<Vec<Mark>> {
     // The diameter at the place itself; a percentage uses medians around its references.
     let mark = |name, at, is_suggestion| {
-        profile.diameter_at(at).map(|(diameter, _)| Mark { name, at, diameter, is_suggestion })
+        let measured = profile.diameter_at(at);
+        measured.map(|(diameter, _)| Mark { is_suggestion, ..Mark::measured(name, at, diameter) })
     };
-    let main = main_place(profile, at).map(|main| mark("marked place", main, false)).transpose()?;
-    let main = main.map(|found| match at {
-        Some(_) => found,
-        None => Mark { name: "narrowest place", is_suggestion: true, ..found },
-    });
-    let named = references.iter().map(|place| mark("reference", *place, false));
+    let main = match at {
+        Some(at) => Some(mark("marked place", at, false)?),
+        None => match profile.throat() {
+            Some(throat) => Some(Mark::limited(throat)),
+            None => profile.narrowest().map(|spot| mark(NARROWEST, spot.at, true)).transpose()?,
+        },
+    };
+    let named = references.iter().map(|place| mark(REFERENCE, *place, false));
     let offered = offered_references(profile, at, references)?;
-    let offered = offered.into_iter().flatten().map(|spot| mark("reference", spot.at, true));
+    let offered = offered.into_iter().flatten().map(|spot| mark(REFERENCE, spot.at, true));
     let mut beside = named.chain(offered).collect::<Result<Vec<_>>>()?;
     beside.sort_by(|a, b| a.at.total_cmp(&b.at));
     Ok(main.into_iter().chain(beside).collect())
@@ -216,9 +234,9 @@ pub(crate) fn offered_references(
     Ok([before.filter(|_| is_free(true)), after.filter(|_| is_free(false))])
 }
 
-/// The place of the stenosis: the marked place, else the narrowest one.
+/// The place of the stenosis: the marked place, else the narrowest one or a throat that must be narrower.
 pub(crate) fn main_place(profile: &Profile, at: Option<f64>) -> Option<f64> {
-    at.or_else(|| profile.narrowest().map(|spot| spot.at))
+    at.or_else(|| profile.throat().or_else(|| profile.narrowest()).map(|spot| spot.at))
 }
 
 #[cfg(test)]

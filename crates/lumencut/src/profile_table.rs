@@ -53,6 +53,7 @@ pub(crate) fn columns(profile: &Profile) -> Vec<(&'static str, Vec<f64>)> {
         ("wall_uncertainty_mm", both(&profile.wall, 1)),
         ("diameter_calcium_excluded_mm", both(&profile.bounds, 0)),
         ("diameter_calcium_included_mm", both(&profile.bounds, 1)),
+        ("diameter_at_most_mm", profile.at_most.clone()),
         ("diameter_outer_mm", both(&profile.diameter_outer, 0)),
         ("diameter_outer_uncertainty_mm", both(&profile.diameter_outer, 1)),
     ]

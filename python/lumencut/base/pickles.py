@@ -16,6 +16,7 @@ _PARTS = {
     "Spot": "measuring.profile",
     "Stretch": "measuring.profile",
     "Study": "scene.study",
+    "Throat": "measuring.profile",
 }
 
 _Kind = TypeVar("_Kind", bound=type)

@@ -20,6 +20,7 @@ from lumencut.cli.info import info
 from lumencut.cli.measure import measure
 from lumencut.cli.pull import pull
 from lumencut.cli.push import push
+from lumencut.cli.reading_study import reading_results, reading_study
 from lumencut.cli.reformation_table import COMMANDS
 from lumencut.cli.render import render
 from lumencut.cli.report import reported, say, verbose_option
@@ -73,6 +74,8 @@ for _command in (
     compare_methods,
     *COMMANDS,
     evaluate,
+    reading_study,
+    reading_results,
     info,
     trace,
     measure,

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
+from lumencut._lumencut import SMALLEST_RADIUS
 from lumencut.cli.options import added
 from lumencut.cli.parameters import VECTOR
 from lumencut.cli.report import bar, detail, say
@@ -41,7 +42,7 @@ def found_options(command: _Command) -> _Command:
             "--smallest-radius",
             type=click.FloatRange(0),
             metavar="MM",
-            help="Vessels of --seed and --find end where they become narrower than this; default: 1.",
+            help=f"Vessels of --seed and --find end where they become narrower; default: {SMALLEST_RADIUS}.",
         ),
         click.option(
             "--doubtful",
@@ -105,12 +106,12 @@ def _tree(chosen: dict[str, Any], voxels: Volume) -> VesselTree:
     from lumencut.tracing.seed_tracing import trace_from
     from lumencut.tracing.vessel_finding import find_vessels
 
-    smallest = {} if chosen["smallest_radius"] is None else {"smallest_radius": chosen["smallest_radius"]}
+    smallest = chosen["smallest_radius"]
     with bar("finding vessels", "share") as progress:
         if chosen["find"]:
-            tree = find_vessels(voxels, **smallest, progress=progress)
+            tree = find_vessels(voxels, smallest_radius=smallest, progress=progress)
         else:
-            tree = trace_from(voxels, _place(chosen, voxels), **smallest, progress=progress)
+            tree = trace_from(voxels, _place(chosen, voxels), smallest_radius=smallest, progress=progress)
     for note in tree.notes:
         say(note)
     for number, part in enumerate(tree.parts):

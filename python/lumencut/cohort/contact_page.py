@@ -6,9 +6,9 @@ import base64
 import hashlib
 from collections.abc import Sequence
 from html import escape
-from pathlib import Path
 
 from lumencut import _lumencut
+from lumencut.base.html_pages import beside, policy_of
 from lumencut.cohort.layout import Layout
 from lumencut.cohort.manifest import Manifest, Study
 from lumencut.cohort.record import Record
@@ -47,22 +47,18 @@ def contact_page(layout: Layout, manifest: Manifest, records: Sequence[Record | 
     records : sequence of Record or None
         The record of each study, in the order of the manifest; None if it is not processed yet.
     """
-    style, script = (_beside(name) for name in ("contact_page.css", "contact_page.js"))
+    style, script = (beside(__file__, name) for name in ("contact_page.css", "contact_page.js"))
     pairs = zip(manifest.studies, records, strict=True)
     tiles = "\n".join(_tile(layout, row, study, record) for row, (study, record) in enumerate(pairs))
     ids = "\0".join(study.id for study in manifest.studies)
     cohort = hashlib.sha256(f"{layout.out}\0{ids}".encode()).hexdigest()[:16]
-    policy = (
-        f"default-src 'none'; img-src data:; style-src '{_hash(style)}'; script-src '{_hash(script)}'; "
-        "base-uri 'none'; form-action 'none'"
-    )
     filters = "".join(f"<option>{name}</option>" for name in _FILTERS)
     orders = "".join(f'<option value="{key}">{name}</option>' for key, name in _ORDERS.items())
     return f"""<!doctype html>
 <html lang="en">
 <head>
 <meta charset="utf-8">
-<meta http-equiv="Content-Security-Policy" content="{policy}">
+<meta http-equiv="Content-Security-Policy" content="{policy_of(style, script)}">
 <meta name="viewport" content="width=device-width">
 <meta name="generator" content="Lumencut {_lumencut.__version__}">
 <title>Cohort of {len(manifest.studies)} studies</title>
@@ -141,12 +137,3 @@ def _picture(layout: Layout, study: Study) -> str:
     address = escape((study.folder / first.name).as_posix())
     image = f'<img loading="lazy" alt="{escape(study.id)}" src="data:image/webp;base64,{encoded}">'
     return f'<a href="{address}" tabindex="-1">{image}</a>'
-
-
-def _beside(name: str) -> str:
-    return Path(__file__).with_name(name).read_text("utf-8")
-
-
-def _hash(text: str) -> str:
-    """The hash of a style or a script for a content policy."""
-    return f"sha256-{base64.b64encode(hashlib.sha256(text.encode()).digest()).decode('ascii')}"

@@ -6,13 +6,17 @@ import json
 import os
 import select
 import subprocess
+import time
 
 from lumencut.cohort.job import Job, launch_words
 from lumencut.cohort.parent import PARENT
 
+#: The longest wait for a fork (s). The first one waits for imports, which take seconds on a busy machine.
+LONGEST_BIRTH = 120.0
+
 
 class NurseryError(Exception):
-    """The process that forks studies is gone, together with its children."""
+    """The process that forks studies is gone or stuck, and its children with it."""
 
 
 class Nursery:
@@ -37,7 +41,7 @@ class Nursery:
         Raises
         ------
         NurseryError
-            If this process is gone.
+            If this process is gone, or does not fork within `LONGEST_BIRTH`.
         """
         self._count += 1
         order = {"number": self._count, "words": job.words, "log": str(job.log), "threads": job.threads}
@@ -47,8 +51,11 @@ class Nursery:
             self._process.stdin.flush()
         except OSError as error:
             raise NurseryError from error
+        deadline = time.monotonic() + LONGEST_BIRTH
         while self._count not in self._born:
-            self._hear(None)
+            if time.monotonic() >= deadline:
+                raise NurseryError
+            self._hear(1.0)
         return Forked(self, self._count, self._born.pop(self._count))
 
     def code(self, number: int) -> int | None:
@@ -61,7 +68,7 @@ class Nursery:
         self._process.kill()
         self._process.communicate()
 
-    def _hear(self, patience: float | None) -> None:
+    def _hear(self, patience: float) -> None:
         """Read the reports of the forking process: which children started and ended."""
         assert self._process.stdout is not None
         if not select.select([self._process.stdout], [], [], patience)[0]:

@@ -43,7 +43,7 @@ class Centerlines:
 
     Attributes
     ----------
-    smallest_radius : float
+    smallest_radius : float or None
         As for :func:`lumencut.find_vessels` (mm).
     doubtful : bool
         Whether to keep uncertain vessels.
@@ -55,7 +55,7 @@ class Centerlines:
         As for :func:`lumencut.trace`.
     """
 
-    smallest_radius: float = 1.0
+    smallest_radius: float | None = None
     doubtful: bool = False
     all_parts: bool = False
     shortest_branch: float = 2.0

@@ -9,7 +9,7 @@ from lumencut.base.pickles import restored
 
 
 class Flag(IntFlag):
-    """Flags of a section; even a flagged section keeps its numbers.
+    """Flags of a section; a flagged section keeps its numbers, except in a dim throat.
 
     Sections with `BRANCH`, `OUTSIDE`, `NO_EDGE`, `RECENTERED` or `RESTLESS_LINE` are excluded from extrema,
     suggestions and references.
@@ -19,13 +19,13 @@ class Flag(IntFlag):
         """Return the pickle: the name of the class and the bits."""
         return restored(), ("Flag", int(self))
 
-    #: The diameter is below 1.5 times the width (FWHM) of the point spread.
+    #: The diameter is below 1.5 times the FWHM of the point spread, or twice the spacing of thick slices.
     AT_LIMIT = 1
     #: The section lies in a junction, or the lumen continues sideways.
     BRANCH = 2
     #: Something brighter than lumen lies in the wall; it is not lumen, and the fit leaves it out.
     CALCIUM = 4
-    #: Something brighter than lumen surrounds it, or is much brighter: a stent or other metal.
+    #: Something brighter than lumen surrounds it, is much brighter, or repeats along it: a stent or other metal.
     METAL = 8
     #: Another lumen or bone is next to the wall.
     NEIGHBOR = 16
@@ -38,3 +38,5 @@ class Flag(IntFlag):
     IRREGULAR = 256
     #: The centerline turns by more than 75° within one diameter, which no vessel does.
     RESTLESS_LINE = 512
+    #: Plaque nearly as bright as the lumen lies beside it; the uncertainty includes it.
+    PLAQUE = 1024

@@ -29,6 +29,14 @@ class Spot(NamedTuple):
 
 
 @by_name
+class Throat(NamedTuple):
+    """A place without a clear wall: its arc length, and the largest diameter it can have, both in mm."""
+
+    arc_length: float
+    at_most: float
+
+
+@by_name
 class Stretch(NamedTuple):
     """The length of a part of a vessel (mm): along the vessel, and straight from end to end."""
 
@@ -155,13 +163,25 @@ class Profile(ProfileOutputs):
 
         A safe section counts, has no flag `METAL` or `CALCIUM`, has an uncertainty of at most a third of its
         diameter, and lies more than one diameter from a change of lumen and from a flap. None if no section
-        is safe, or if the vessel only tapers towards an end; :meth:`not_suggested` says why.
+        is safe, if the vessel only tapers towards an end, or if a place that could not be measured must be
+        narrower (:meth:`throat`); :meth:`not_suggested` says why.
         """
         found = self._core.narrowest()
         return None if found is None else Spot(*found)
 
+    def throat(self) -> Throat | None:
+        """Return a place without a clear wall that must be narrower than all measured ones, or None.
+
+        A lumen narrower than the blur is dim, so its peak limits its diameter, which is not measured. Then
+        :meth:`narrowest` returns None.
+        """
+        found = self._core.throat()
+        return None if found is None else Throat(*found)
+
     def not_suggested(self, at: float | None = None) -> tuple[str, ...]:
         """Return why no place is suggested, a sentence each; empty where places are suggested.
+
+        The first sentence tells a :meth:`throat`, if there is one.
 
         Parameters
         ----------

@@ -140,6 +140,14 @@ class ProfileNumbers:
         return self._numbers["diameter_calcium_included"]
 
     @property
+    def diameter_at_most(self) -> _Floats:
+        """The largest diameter that the values allow in a dim throat without a clear wall.
+
+        Shape (n,), mm; NaN elsewhere. It is a limit, not a measured diameter.
+        """
+        return self._numbers["diameter_at_most"]
+
+    @property
     def diameter_outer(self) -> _Floats:
         """The diameter of a circle of the area that the wall encloses, shape (n,), mm, or NaN."""
         return self._numbers["diameter_outer"]

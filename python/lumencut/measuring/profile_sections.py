@@ -21,15 +21,18 @@ class Mark:
     name : str
         Its kind: the place of a stenosis, a reference, the narrowest place, or a noted diameter.
     arc_length, diameter : float
-        Its place, and the diameter of a circle of the same area there (mm).
+        Its place, and the diameter of a circle of the same area there (mm), or NaN at a throat.
     is_suggestion : bool
         Whether Lumencut suggested it; otherwise a reader marked it.
+    words : str
+        The diameter in words, or its limit.
     """
 
     name: str
     arc_length: float
     diameter: float
     is_suggestion: bool
+    words: str
 
     @property
     def is_reference(self) -> bool:
@@ -48,7 +51,7 @@ class Mark:
 
     def __str__(self) -> str:
         """Return the place in words, with its diameter."""
-        return f"{self.title}: {self.diameter:.2f} mm at {self.arc_length:.1f} mm"
+        return f"{self.title}: {self.words} at {self.arc_length:.1f} mm"
 
 
 def counts(sections: ProfileNumbers) -> npt.NDArray[np.bool_]:
@@ -75,4 +78,4 @@ def marks(sections: ProfileNumbers, at: float | None = None, references: Sequenc
         For a place beyond the vessel or where nothing was measured.
     """
     found = _lumencut.profile_marks(sections._core, at, list(references))
-    return [Mark(name, place, diameter, is_suggestion) for name, place, diameter, is_suggestion in found]
+    return [Mark(*parts) for parts in found]

@@ -56,7 +56,7 @@ def measure(
     fwhm : float, optional
         The full width at half maximum of the scanner's point spread alone (mm), 0 excluded, at most 20.
         Averaging over voxels is added. By default it is estimated where the vessel is wide, or else assumed
-        as 1.2 sides of a voxel; :attr:`Profile.fwhm_source` states which, and why. With ``tree`` it is
+        as 1.2 sides of a voxel, in CT at least 0.85 mm; :attr:`Profile.fwhm_source` states which, and why. With ``tree`` it is
         estimated once from the widest vessels of the tree, for all measurements along it, including paths
         through several vessels.
     tree : VesselTree, optional

@@ -20,7 +20,7 @@ def trace_from(
     volume: Volume | Any,
     seed: npt.ArrayLike,
     *,
-    smallest_radius: float = 1.0,
+    smallest_radius: float | None = None,
     progress: Callable[[int, int], object] | None = None,
 ) -> VesselTree:
     """Find all vessels connected to the vessel that contains a point.
@@ -36,9 +36,9 @@ def trace_from(
         The angiography; lumen must be brighter than the tissue around it.
     seed : array_like, shape (3,)
         A point in a vessel (mm, LPS). It need not be central.
-    smallest_radius : float, default 1.0
-        Vessels end about where they become narrower than this (mm). Vessels less than about two voxels wide
-        are not found.
+    smallest_radius : float, optional
+        Vessels end about where they become narrower than this (mm); default: 1 mm, or 1.3 voxel sides if that
+        is less. Vessels less than about two voxels wide are not found.
     progress : callable, optional
         Called at intervals with the work done and the total work.
 

@@ -22,7 +22,7 @@ _Array = npt.NDArray[np.float64]
 def find_vessels(
     volume: Volume | Any,
     *,
-    smallest_radius: float = 1.0,
+    smallest_radius: float | None = None,
     progress: Callable[[int, int], object] | None = None,
 ) -> VesselTree:
     """Find all vessels of an angiography, with no point given.
@@ -37,9 +37,9 @@ def find_vessels(
     volume : Volume, or anything :func:`lumencut.render` takes as one
         The angiography; lumen must be brighter than the tissue around it. Nothing depends on the unit of its
         values.
-    smallest_radius : float, default 1.0
-        Vessels end about where they become narrower than this (mm). Vessels less than about two voxels wide
-        are not found.
+    smallest_radius : float, optional
+        Vessels end about where they become narrower than this (mm); default: 1 mm, or 1.3 voxel sides if that
+        is less. Vessels less than about two voxels wide are not found.
     progress : callable, optional
         Called at intervals with the work done and the total work.
 
@@ -55,7 +55,7 @@ def find_vessels(
     Raises
     ------
     TracingError
-        If no certain vessel is found.
+        If no certain vessel is found; it says how many mm a smaller radius finds.
     SettingsError
         For a smallest radius below 0.
     VolumeError
@@ -68,8 +68,10 @@ def find_vessels(
     return found_tree(*_lumencut.find_vessels(as_volume(volume), smallest, progress))
 
 
-def checked_radius(smallest_radius: float) -> float:
+def checked_radius(smallest_radius: float | None) -> float | None:
     """Return the checked smallest radius of vessels to find (mm)."""
+    if smallest_radius is None:
+        return None
     smallest = number(SettingsError, "smallest_radius", smallest_radius)
     if not 0 <= smallest < float("inf"):
         raise SettingsError("smallest_radius", f"{smallest:g}", "0 or more (mm)")

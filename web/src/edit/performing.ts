@@ -6,6 +6,7 @@ import { aimAt, candidate, first, propose, setFirst } from '../state/drawing';
 import { editQueue } from '../state/edit-queue';
 import { redo, undo } from '../state/history';
 import { isListOpen, toggleList } from '../state/panels';
+import { escapeQuestion } from '../state/questions';
 import { pickedId } from '../state/shown';
 import {
   crossHair,
@@ -121,8 +122,11 @@ export function undoLast(): void {
   }
 }
 
-/** Escape: stops an edit or leaves the tool. Returns false if there is neither, or if a message must close first. */
+/** Escape: answers a question, stops an edit or leaves the tool. Returns false if there is neither, or if a message must close first. */
 function cancelEdit(): boolean {
+  if (escapeQuestion()) {
+    return true;
+  }
   aimAt(null);
   if (editQueue.isBusy) {
     stopEdits();

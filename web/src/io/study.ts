@@ -64,6 +64,14 @@ export async function openFiles(
   return { volume, notes: [...(volume?.notes ?? []), ...notes] };
 }
 
+/** Rejects files that are no scan or centerlines, by their first bytes. */
+export async function checkFiles(
+  sources: readonly Source[],
+  means: Pick<LoadContext, 'kindOf' | 'steps'>,
+): Promise<void> {
+  requireOne(await sort(sources, means));
+}
+
 /** Adds centerlines. Returns notes. */
 export async function openLines(
   source: Source,
@@ -78,7 +86,10 @@ export async function openLines(
   return study.openCenterlines(await source.slice(0, source.size), fileName(source.path));
 }
 
-async function sort(sources: readonly Source[], { kindOf, steps }: LoadContext): Promise<Sorted> {
+async function sort(
+  sources: readonly Source[],
+  { kindOf, steps }: Pick<LoadContext, 'kindOf' | 'steps'>,
+): Promise<Sorted> {
   const every: Known[] = [];
   for (const source of sources) {
     every.push(await known(source, kindOf));

@@ -19,7 +19,7 @@ export interface VesselPlace {
 }
 
 export function mainPlace(profile: Profile, marks: VesselMarks): VesselPlace | null {
-  const at = marks.at ?? profile.narrowest?.at ?? null;
+  const at = marks.at ?? profile.narrowest?.at ?? profile.throat ?? null;
   return at === null ? null : { kind: 'place', slot: 0, at, isSuggestion: marks.at === null };
 }
 

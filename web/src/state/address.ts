@@ -20,6 +20,8 @@ export interface ViewState {
   readonly place?: number;
   readonly angle?: number;
   readonly hair?: Vector;
+  /** Identifies the grid of the scan, without its values. */
+  readonly scan?: string;
 }
 
 export function fragmentOf(state: ViewState): string {
@@ -53,7 +55,7 @@ const isObject = (value: unknown): value is Record<string, unknown> =>
   value !== null && typeof value === 'object' && !Array.isArray(value);
 
 function checked(read: Record<string, unknown>): ViewState {
-  const { camera, window, method, settings, layout, inverted, vessel, place, angle, hair } = read;
+  const { camera, window, method, settings, layout, inverted, vessel, place, angle, hair, scan } = read;
   const isWindow =
     Array.isArray(window) && window.length === 2 && isNumber(window[0]) && isPositive(window[1]);
   return {
@@ -67,6 +69,7 @@ function checked(read: Record<string, unknown>): ViewState {
     ...(isNumber(place) && { place }),
     ...(isNumber(angle) && { angle }),
     ...(isVector(hair) && { hair }),
+    ...(typeof scan === 'string' && { scan }),
   };
 }
 
@@ -112,12 +115,25 @@ export function currentState(): ViewState {
     place: short(store.pickedPlace.value),
     angle: store.cprAngle.value,
     ...(hair && { hair: hair.point.map(short) as unknown as Vector }),
+    scan: scanKey(),
   };
+}
+
+/** The FNV-1a hash of the grid of the scan, in base 36. */
+function scanKey(): string {
+  const volume = store.report.value?.volume;
+  const grid = volume ? [volume.size, volume.world_from_index.flat().map(short)] : null;
+  const bytes = new TextEncoder().encode(JSON.stringify(grid));
+  return bytes.reduce((hash, byte) => Math.imul(hash ^ byte, 0x01000193) >>> 0, 0x811c9dc5).toString(36);
 }
 
 const short = (value: number): number => Math.round(value * 1000) / 1000;
 
-export function restore(state: ViewState): void {
+/** Restores the view. Returns false, and changes nothing, if it is a view of another scan. */
+export function restore(state: ViewState): boolean {
+  if (state.scan !== undefined && state.scan !== scanKey()) {
+    return false;
+  }
   batch(() => {
     const size = store.camera.value?.size ?? ([512, 512] as const);
     if (state.camera) {
@@ -148,6 +164,7 @@ export function restore(state: ViewState): void {
       store.crossHair.value = { point: state.hair, value: null, vessel: null, arcLength: null };
     }
   });
+  return true;
 }
 
 function knownSettings(settings: Settings): Settings {

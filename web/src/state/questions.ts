@@ -1,5 +1,5 @@
 /** Questions that the page asks the user, and choices about what is saved and kept. */
-import { signal } from '@preact/signals';
+import { computed, signal } from '@preact/signals';
 import type { GivenFile } from '../core/messages';
 
 /** Closing or opening a scan would lose unsaved work: the question, and what waits for the answer. */
@@ -60,4 +60,43 @@ export const kept = signal<string | null>(null);
 
 export function setKept(session: string | null): void {
   kept.value = session;
+}
+
+export type QuestionName = 'leave' | 'file' | 'study' | 'pacs' | 'kept';
+
+/** The only question that is shown; others wait until it is answered. */
+export const shownQuestion = computed<QuestionName | null>(() => {
+  if (leaving.value) {
+    return 'leave';
+  }
+  if (unclearFiles.value) {
+    return 'file';
+  }
+  if (chosenFile.value) {
+    return 'study';
+  }
+  if (isPacsAsked.value) {
+    return 'pacs';
+  }
+  return kept.value === null ? null : 'kept';
+});
+
+/** Answers the shown question without any effect. Returns false if there is none, or if it must be decided. */
+export function escapeQuestion(): boolean {
+  switch (shownQuestion.value) {
+    case 'leave':
+      askToLeave(null);
+      return true;
+    case 'file':
+      askWhatIs(null);
+      return true;
+    case 'study':
+      chooseFile(null);
+      return true;
+    case 'pacs':
+      setPacsAsked(false);
+      return true;
+    default:
+      return false;
+  }
 }

@@ -4,7 +4,7 @@ import { CENTERLINE_EXTENSIONS, VOLUME_EXTENSIONS } from '../core/generated/tabl
 import type { GivenFile, SeriesWish } from '../core/messages';
 import { addSegmentation } from '../edit/branches';
 import { isSegmentation } from '../edit/segmentation';
-import { document_, hasEdits, undo, undoWords } from '../state/history';
+import { document_, hasEdits, saved, undo, undoWords } from '../state/history';
 import { openingEnded, openWith } from '../state/opened';
 import { askWhatIs } from '../state/questions';
 import * as store from '../state/store';
@@ -66,7 +66,19 @@ export async function takeFiles(files: readonly GivenFile[]): Promise<void> {
   } else if (areLines) {
     await openFiles(files);
   } else {
+    await replaceBy(files);
+  }
+}
+
+/** Opens files instead of the open study. Files that cannot be opened are rejected before unsaved work is asked about. */
+async function replaceBy(files: readonly GivenFile[]): Promise<void> {
+  try {
+    if (document_.value !== saved.value) {
+      await engine.checkFiles(files);
+    }
     await leave(() => openFiles(files));
+  } catch (error) {
+    store.showProblem(error);
   }
 }
 

@@ -5,8 +5,7 @@ import { Guide } from './Guide';
 import { Help } from './Help';
 import { Layout } from './Layout';
 import { Messages } from './Messages';
-import { PacsQuestion } from './PacsQuestion';
-import { FileQuestion, KeptQuestion, LeaveQuestion } from './Questions';
+import { ShownQuestion } from './ShownQuestion';
 import { StartPage } from './StartPage';
 import { StatusBar } from './StatusBar';
 import { Toolbar } from './Toolbar';
@@ -19,10 +18,7 @@ export function App() {
     <>
       {isOpen ? <Toolbar /> : null}
       {isOpen ? <Work /> : <StartPage />}
-      <FileQuestion />
-      <LeaveQuestion />
-      <PacsQuestion />
-      <KeptQuestion />
+      <ShownQuestion />
       <Messages />
       <DropZone />
       <StatusBar />

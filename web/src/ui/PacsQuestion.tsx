@@ -2,17 +2,12 @@
 import { useRef } from 'preact/hooks';
 import { askAboutFile, type PacsStudy, savePacs } from '../output/pacs';
 import { attempt } from '../output/save-actions';
-import { type ChosenFile, chooseFile, chosenFile, isPacsAsked, setPacsAsked } from '../state/questions';
+import { type ChosenFile, chooseFile, setPacsAsked } from '../state/questions';
 import { scanStudy } from '../state/store';
+import { Question } from './Question';
 
 export function PacsQuestion() {
   const input = useRef<HTMLInputElement>(null);
-  if (chosenFile.value) {
-    return <FileOfStudy chosen={chosenFile.value} />;
-  }
-  if (!isPacsAsked.value) {
-    return null;
-  }
   const close = () => setPacsAsked(false);
   const save = (study: PacsStudy) => {
     close();
@@ -21,17 +16,7 @@ export function PacsQuestion() {
   const isKnown = scanStudy.value?.hasStudy ?? false;
   const first = (button: HTMLButtonElement | null) => button?.focus();
   return (
-    <div
-      class="file-question"
-      role="alertdialog"
-      aria-label="Save for PACS"
-      onKeyDown={(event) => {
-        event.stopPropagation();
-        if (event.key === 'Escape') {
-          close();
-        }
-      }}
-    >
+    <Question label="Save for PACS">
       <p>
         Saves the displayed pictures, the report and the measurements as DICOM in a zip archive. Nothing is
         sent.
@@ -69,27 +54,17 @@ export function PacsQuestion() {
       <button type="button" onClick={close}>
         Go back
       </button>
-    </div>
+    </Question>
   );
 }
 
-function FileOfStudy({ chosen: { file, facts, doubts, refusal } }: { chosen: ChosenFile }) {
+export function FileOfStudy({ chosen: { file, facts, doubts, refusal } }: { chosen: ChosenFile }) {
   const close = () => chooseFile(null);
   const words = refusal
     ? `This file cannot be used: ${refusal}.`
     : 'Add the objects to the study of this file?';
   return (
-    <div
-      class="file-question"
-      role="alertdialog"
-      aria-label="Study of the chosen file"
-      onKeyDown={(event) => {
-        event.stopPropagation();
-        if (event.key === 'Escape') {
-          close();
-        }
-      }}
-    >
+    <Question label="Study of the chosen file">
       <p>{words}</p>
       <dl>
         {facts.map(([label, value]) => (
@@ -130,6 +105,6 @@ function FileOfStudy({ chosen: { file, facts, doubts, refusal } }: { chosen: Cho
       <button type="button" onClick={close}>
         Go back
       </button>
-    </div>
+    </Question>
   );
 }

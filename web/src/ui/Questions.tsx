@@ -8,6 +8,7 @@ import { hasVolume, showProblem } from '../state/store';
 import { openFiles } from '../study/opening';
 import { openSession } from '../study/saving';
 import { leave } from '../study/unsaved';
+import { Question } from './Question';
 
 /** Asks the user before unsaved work is lost. */
 export function LeaveQuestion() {
@@ -25,17 +26,7 @@ export function LeaveQuestion() {
     saveSession().then(waiting.go).catch(showProblem);
   };
   return (
-    <div
-      class="file-question"
-      role="alertdialog"
-      aria-label={waiting.words}
-      onKeyDown={(event) => {
-        event.stopPropagation();
-        if (event.key === 'Escape') {
-          stay();
-        }
-      }}
-    >
+    <Question label={waiting.words}>
       <p>{waiting.words}</p>
       <button type="button" onClick={go}>
         Discard
@@ -46,7 +37,7 @@ export function LeaveQuestion() {
       <button type="button" ref={(button) => button?.focus()} onClick={stay}>
         Go back
       </button>
-    </div>
+    </Question>
   );
 }
 
@@ -61,7 +52,7 @@ export function FileQuestion() {
     void work();
   };
   return (
-    <div class="file-question" role="alertdialog" aria-label="What is this file?">
+    <Question label="What is this file?">
       <p>{`What is ${files.map(({ file }) => file.name).join(', ')}?`}</p>
       <button type="button" onClick={() => answer(() => leave(() => openFiles(files)))}>
         Open as a new scan
@@ -72,7 +63,7 @@ export function FileQuestion() {
       <button type="button" onClick={() => answer(async () => undefined)}>
         Neither
       </button>
-    </div>
+    </Question>
   );
 }
 
@@ -83,9 +74,10 @@ export function KeptQuestion() {
     return null;
   }
   const goOn = async () => {
-    setKept(null);
     try {
       await openSession({ path: 'kept.mrk.json', file: new File([text], 'kept.mrk.json') });
+      // Only now, because a session of another scan is rejected, and must stay kept until that scan is open.
+      setKept(null);
       openList();
     } catch (error) {
       showProblem(error);
@@ -93,7 +85,7 @@ export function KeptQuestion() {
   };
   const words = 'This tab kept unsaved vessels from before the reload.';
   return (
-    <div class="file-question" role="alertdialog" aria-label={words}>
+    <Question label={words}>
       <p>{words}</p>
       <button type="button" ref={(button) => button?.focus()} onClick={() => void goOn()}>
         Continue with them
@@ -101,6 +93,6 @@ export function KeptQuestion() {
       <button type="button" onClick={() => setKept(null)}>
         Discard them
       </button>
-    </div>
+    </Question>
   );
 }

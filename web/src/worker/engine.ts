@@ -118,6 +118,10 @@ export class EngineClient implements Asked {
     return this.first(this.host.openFiles(files, wish, proxy(onProgress)));
   }
 
+  checkFiles(files: readonly GivenFile[]): Promise<void> {
+    return this.first(this.host.checkFiles(files));
+  }
+
   dicomHead(file: GivenFile): Promise<Uint8Array<ArrayBuffer>> {
     return this.first(this.host.dicomHead(file));
   }

@@ -148,6 +148,15 @@ export class EngineHost {
     return this.load(onProgress, work, wish);
   }
 
+  /** Rejects files that cannot be opened. The open study stays open. */
+  checkFiles(files: readonly GivenFile[]): Promise<void> {
+    return this.run(async () => {
+      const { checkFiles } = await import('../io/study');
+      const sources = files.map(({ path, file }) => new BlobSource(path, file));
+      await checkFiles(sources, { kindOf, steps: new Steps(() => {}, this.cancelled.signal) });
+    });
+  }
+
   dicomHead({ path, file }: GivenFile): Promise<Uint8Array<ArrayBuffer>> {
     return this.run(async () => {
       const { headOf } = await import('../io/dicom');

@@ -3,8 +3,12 @@
 //! the area. If a centerline turns too sharply, section planes intersect inside the lumen.
 
 pub(crate) mod all_sections;
+pub(crate) mod assumed_spread;
+pub(crate) mod calcified;
 pub(crate) mod levels;
 pub(crate) mod point_spread;
+pub(crate) mod struts;
+pub(crate) mod throats;
 
 use crate::measure::fit::sections::Section;
 use crate::measure::section::SectionPlane;

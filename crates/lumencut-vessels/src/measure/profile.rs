@@ -1,11 +1,13 @@
 //! The profile of a vessel: its lumen at each arc length.
 
 pub mod cross_section;
+pub(crate) mod lung;
 pub mod measuring;
 pub(crate) mod prepared;
 pub mod radii;
 pub mod request;
 pub mod stretch;
+pub(crate) mod unsure_spread;
 
 use glam::{DVec2, DVec3};
 
@@ -52,6 +54,8 @@ pub struct PointSpread {
     pub deviation: f64,
     /// Where the width comes from.
     pub source: Source,
+    /// In lung, the FWHM (mm) if the wall is too thin to be seen.
+    pub(crate) without_wall: Option<f64>,
 }
 
 /// The lumen of a vessel at each arc length. Values are NaN if not measured.
@@ -75,6 +79,8 @@ pub struct Profile {
     pub diameter_outer: Vec<[f64; 2]>,
     /// Equivalent diameter (mm) without, and with, the bright material at the wall; NaN if there is no such material.
     pub bounds: Vec<[f64; 2]>,
+    /// Largest diameter (mm) that the values allow where the lumen of a tight stenosis is dim and does not count, else NaN.
+    pub at_most: Vec<f64>,
     /// Flags of each section; see [`crate::measure::section::flags`].
     pub flags: Vec<u32>,
     /// Centre of the lumen (mm, LPS); the centerline point if no lumen was found.
@@ -138,6 +144,7 @@ impl Profile {
             wall: sections.iter().zip(&flags).map(wall).collect(),
             diameter_outer: sections.iter().zip(&flags).map(outer).collect(),
             bounds: sections.iter().map(|section| section.bounds).collect(),
+            at_most: sections.iter().map(|section| section.at_most).collect(),
             flags,
             normal: places.iter().map(|place| place.normal).collect(),
             axes: places.iter().map(|place| place.axes).collect(),

@@ -8,6 +8,7 @@
 pub mod groups;
 pub mod hindrances;
 pub mod suggestions;
+pub mod throat;
 
 use std::f64::consts::PI;
 
@@ -146,11 +147,11 @@ impl Profile {
         let (place, ends) = self.sections_around(at);
         let diameter = place.between(ends.map(|n| 2.0 * (self.area[n] / PI).sqrt()));
         if diameter.is_nan() {
-            return Err(measuring(
-                "place on the vessel",
-                format!("nothing measured at {at:.1} mm"),
-                MEASURED,
-            ));
+            let found = self.limit_at(at).map_or_else(
+                || format!("nothing measured at {at:.1} mm"),
+                |most| format!("no clear wall at {at:.1} mm, where the lumen is at most {most:.2} mm"),
+            );
+            return Err(measuring("place on the vessel", found, MEASURED));
         }
         Ok((diameter, place.between(ends.map(|n| self.uncertainty[n]))))
     }

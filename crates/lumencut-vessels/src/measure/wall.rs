@@ -14,9 +14,12 @@ use lumencut_core::limits::Limits;
 /// Intensity of walls in CT (HU) and its standard deviation: soft tissue, in arteries with and without plaque.
 pub const CT_WALL: Level = [45.0, 25.0];
 
-/// A volume may be in HU if its lumen is above `LUMEN` and its surroundings are within `AROUND`.
+/// A volume may be in HU if its lumen is above `LUMEN` and its surroundings, from air to bone, are within `AROUND`.
 const LUMEN: f64 = 80.0;
-const AROUND: [f64; 2] = [-400.0, 400.0];
+const AROUND: [f64; 2] = [-1100.0, 400.0];
+
+/// Darker surroundings (HU) are lung; fat is above -150.
+pub(crate) const LUNG: f64 = -300.0;
 
 /// A wall is darker than its lumen by at least this fraction of the contrast.
 const BELOW_LUMEN: f64 = 0.1;
@@ -101,7 +104,7 @@ pub(crate) fn expected(
         WallRequest::Off => Ok((None, WallSource::NotAsked)),
         _ if scale.contrast < 0.0 => Ok((None, WallSource::DarkLumen)),
         WallRequest::Level(level) => {
-            let wall = KnownWall::of(level, scale);
+            let wall = in_its_place(voxels, scale, KnownWall::of(level, scale));
             if wall.level[0] <= 1.0 - BELOW_LUMEN {
                 return Ok((Some(wall), WallSource::Given(level)));
             }
@@ -110,17 +113,21 @@ pub(crate) fn expected(
             Err(Error::new(ErrorKind::Settings, "wall", found, expected))
         }
         WallRequest::Automatic if is_hounsfield(voxels, scale) => {
-            Ok((Some(KnownWall::of(CT_WALL, scale)), WallSource::Hounsfield))
+            Ok((Some(in_its_place(voxels, scale, KnownWall::of(CT_WALL, scale))), WallSource::Hounsfield))
         }
         WallRequest::Automatic => Ok((None, WallSource::OtherUnit)),
     }
 }
 
+fn in_its_place(voxels: &Voxels, scale: &Scale, wall: KnownWall) -> KnownWall {
+    KnownWall { is_in_lung: scale.outside < LUNG && is_hounsfield(voxels, scale), ..wall }
+}
+
 /// Whether a volume is in HU: it has negative values, and its lumen and surroundings have levels typical of CT.
-fn is_hounsfield(voxels: &Voxels, scale: &Scale) -> bool {
+pub(crate) fn is_hounsfield(voxels: &Voxels, scale: &Scale) -> bool {
     let around = (AROUND[0]..=AROUND[1]).contains(&scale.outside);
     around
         && scale.value(1.0) > LUMEN
-        && scale.share(CT_WALL[0]) <= 1.0 - BELOW_LUMEN
+        && (scale.outside < LUNG || scale.share(CT_WALL[0]) <= 1.0 - BELOW_LUMEN)
         && voxels.has_negative()
 }

@@ -5,11 +5,9 @@ use serde::Serialize;
 
 use super::Shown;
 use super::markup::escaped;
-use crate::measure_words::{of_bounds, of_flags};
-use crate::profile_marks::{Mark, NOTED};
+use crate::measure_words::{of_bounds_at, of_flags};
+use crate::profile_marks::{Mark, NOTED, REFERENCE};
 use crate::text::fixed;
-
-const REFERENCE: &str = "reference";
 
 /// Colours of the stenosis, its references and noted diameters; the handles in pictures have the same colours.
 const COLORS: [&str; 3] = ["#ff6b6b", "#7ee787", "#79c0ff"];
@@ -108,7 +106,7 @@ fn numbers(profile: &Profile, name: &str, at: f64, shown: &Shown) -> String {
         number(profile.area[n], 1),
     ];
     let cells: String = cells.iter().map(|text| format!("<td>{text}</td>")).collect();
-    let bounds = of_bounds(profile.bounds[n]).map(|words| shown.stated.with_units(&words));
+    let bounds = of_bounds_at(profile, n).map(|words| shown.stated.with_units(&words));
     let flags = of_flags(profile.flags[n]).into_iter().chain(bounds).collect::<Vec<_>>().join(", ");
     let flags = if flags.is_empty() { "none" } else { &flags };
     format!("<tr><td>{name}</td>{cells}<td class=\"words\">{flags}</td></tr>\n")

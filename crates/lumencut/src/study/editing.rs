@@ -9,7 +9,7 @@ use crate::study::failure::Result;
 use crate::study::open_study::Study;
 use crate::study::points_along::{click_after, nearest_point, points_along};
 use crate::study::trace_report::DoubtfulPlace;
-use crate::study::tracing::{TraceRequest, Watch};
+use crate::study::tracing::{HeldLine, TraceRequest, Watch};
 
 impl Study {
     /// The initial document: the opened vessels, with ids from 1.
@@ -30,7 +30,9 @@ impl Study {
         let mut draft = Draft::of(message.document.clone(), self.last_id);
         let mut notes = Vec::new();
         let is_traced = match &message.edit {
-            Edit::AddBranches { seed } => self.add_branches(&mut draft, *seed, watch).map(|()| false),
+            Edit::AddBranches { seed } => {
+                self.add_branches(&mut draft, *seed, watch).map(|found| notes = found).map(|()| false)
+            }
             Edit::AddWholeVessel { click } => {
                 self.add_whole_vessel(&mut draft, &mut notes, (*click, watch)).map(|()| false)
             }
@@ -77,22 +79,16 @@ impl Study {
         Ok(())
     }
 
-    fn add_branches(&mut self, draft: &mut Draft, seed: WorldPoint, watch: Watch) -> Result<()> {
+    fn add_branches(&mut self, draft: &mut Draft, seed: WorldPoint, watch: Watch) -> Result<Vec<String>> {
         // Rejects a seed in bone or fat immediately, and not after a search of the whole scan.
         self.check_click(seed)?;
-        for branch in self.trace_from(seed, watch)? {
-            draft.add_named(branch.line, "", "Branch").doubt = branch.doubt.map(str::to_owned);
-        }
-        Ok(())
+        Ok(add_held(draft, self.trace_from(seed, watch)?, "Branch"))
     }
 
     /// Adds all vessels of the scan; returns notes.
     fn add_found(&mut self, draft: &mut Draft, doubtful: bool, watch: Watch) -> Result<Vec<String>> {
         let (found, notes) = self.find_vessels(doubtful, watch)?;
-        for vessel in found {
-            draft.add_named(vessel.line, "", "Vessel").doubt = vessel.doubt.map(str::to_owned);
-        }
-        Ok(notes)
+        Ok([notes, add_held(draft, found, "Vessel")].concat())
     }
 
     fn add_mask(&mut self, draft: &mut Draft, notes: &mut Vec<String>, watch: Watch) -> Result<()> {
@@ -165,4 +161,15 @@ fn changed(draft: &mut Draft, edit: &Edit) -> bool {
         _ => {}
     }
     edit.is_of_clicks()
+}
+
+/// Adds found vessels; returns the places from which confident ones are doubtful.
+fn add_held(draft: &mut Draft, found: Vec<HeldLine>, kind: &str) -> Vec<String> {
+    let mut notes = Vec::new();
+    for HeldLine { line, places, doubt } in found {
+        let vessel = draft.add_named(line, "", kind);
+        vessel.doubt = doubt.map(str::to_owned);
+        notes.extend(places.iter().map(|doubt| format!("{}: {}", vessel.called(), doubt.words)));
+    }
+    notes
 }

@@ -1,7 +1,7 @@
 //! Messages about measurements between page and worker. The page's types are generated from these types.
 
 use crate::flag_table::{FLAGS, FlagLook};
-use crate::measure_words::{of_bounds, of_c_arm, of_doubts, of_flags, of_source, of_stenosis, of_wall};
+use crate::measure_words::{of_bounds_at, of_c_arm, of_doubts, of_flags, of_source, of_stenosis, of_wall};
 use crate::not_measured::{NotMeasured, not_measured};
 use crate::not_suggested::not_suggested;
 use crate::profile_json::Asked;
@@ -54,7 +54,7 @@ pub(crate) struct ProfileMessage {
     counts: Vec<bool>,
     /// Words for the flags of each section, such as `calcium`, `no clear wall`.
     flags: Vec<Vec<String>>,
-    /// The two bounds of each diameter next to calcium or metal, in words.
+    /// The two bounds of each diameter next to calcium or metal, or its limit at a dim throat, in words.
     bounds: Vec<Option<String>>,
     /// All flags, in the order of plots and tables.
     flag_table: &'static [FlagLook],
@@ -66,6 +66,8 @@ pub(crate) struct ProfileMessage {
     /// The expected level of the wall, or why walls were not separated.
     wall_source: String,
     narrowest: Option<SpotMessage>,
+    /// The place of a throat that must be narrower than all measured places (arc length, mm), else null.
+    throat: Option<f64>,
     /// The largest diameter; none if an unusual outline or a branch may be its cause.
     widest: Option<SpotMessage>,
     /// Why no narrowest place or reference is suggested, one sentence each.
@@ -84,13 +86,14 @@ impl From<&Profile> for ProfileMessage {
             uncertainty: profile.uncertainty.clone(),
             counts: (0..profile.len()).map(|n| profile.counts(n)).collect(),
             flags: profile.flags.iter().map(|flags| of_flags(*flags)).collect(),
-            bounds: profile.bounds.iter().map(|bounds| of_bounds(*bounds)).collect(),
+            bounds: (0..profile.len()).map(|n| of_bounds_at(profile, n)).collect(),
             flag_table: &FLAGS,
             center: arrays(&profile.center),
             fwhm: profile.fwhm,
             fwhm_source: of_source(&profile.fwhm_source),
             wall_source: of_wall(&profile.wall_source),
             narrowest: profile.narrowest().map(SpotMessage::from),
+            throat: profile.throat().map(|spot| spot.at),
             widest: profile.offered_widest().map(SpotMessage::from),
             not_suggested: not_suggested(profile, None, &[]),
             not_measured: not_measured(profile),

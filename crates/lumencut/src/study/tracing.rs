@@ -7,8 +7,9 @@ use lumencut_core::stop::Stop;
 use lumencut_core::vessel_tree::VesselTree;
 use lumencut_io::{write_mrk_json, write_vtp};
 use lumencut_vessels::trace::clicks::checks::Clicks;
+use lumencut_vessels::trace::clicks::doubts::Doubt;
 use lumencut_vessels::trace::clicks::preview::Sought;
-use lumencut_vessels::trace::find::{FindRequest, SMALLEST_RADIUS};
+use lumencut_vessels::trace::find::FindRequest;
 use lumencut_vessels::trace::ways::region::Stopper;
 use serde::{Deserialize, Serialize};
 
@@ -58,9 +59,11 @@ pub(crate) struct PathMessage {
     bridge: bool,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct HeldLine {
     pub line: usize,
+    /// Places from which a confident line is doubtful.
+    pub(crate) places: Vec<Doubt>,
     /// Why the line is doubtful; None if it is not.
     pub(crate) doubt: Option<&'static str>,
 }
@@ -113,7 +116,7 @@ impl Study {
     pub(crate) fn trace_from(&mut self, seed: [f64; 3], watch: Watch) -> Result<Vec<HeldLine>> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         let Watch { stop, progress } = watch;
-        let request = FindRequest { smallest_radius: SMALLEST_RADIUS, stop, progress: Some(progress) };
+        let request = FindRequest { smallest_radius: None, stop, progress: Some(progress) };
         let tree = found_vessels::trace_from(&volume, DVec3::from_array(seed), &request)?;
         self.held_lines(tree.vessels)
     }
@@ -127,13 +130,15 @@ impl Study {
     ) -> Result<(Vec<HeldLine>, Vec<String>)> {
         let as_tree =
             if doubtful { found_vessels::tree_with_doubtful } else { found_vessels::confident_tree };
-        let tree = as_tree(self.trees(watch)?, SMALLEST_RADIUS)?;
+        let trees = self.trees(watch)?.clone();
+        let tree = as_tree(&self.content.held.as_ref().ok_or_else(no_volume)?.volume()?, &trees)?;
         Ok((self.held_lines(tree.vessels)?, tree.notes))
     }
 
     fn held_lines(&mut self, found: Vec<FoundLine>) -> Result<Vec<HeldLine>> {
-        let hold =
-            |found: FoundLine| Ok(HeldLine { line: self.lines.add(found.line.into())?, doubt: found.doubt });
+        let hold = |FoundLine { line, doubt, places, .. }: FoundLine| {
+            Ok(HeldLine { line: self.lines.add(line.into())?, places, doubt })
+        };
         found.into_iter().map(hold).collect()
     }
 

@@ -5,7 +5,7 @@ use lumencut_core::error::ErrorKind;
 use lumencut_vessels::trace::clicks::checks::Clicks;
 use lumencut_vessels::trace::clicks::tracer::Tracer;
 use lumencut_vessels::trace::find::found::Trees;
-use lumencut_vessels::trace::find::{FindRequest, SMALLEST_RADIUS, find_vessels};
+use lumencut_vessels::trace::find::{FindRequest, find_vessels};
 use lumencut_vessels::trace::lines::centerline::Centerline;
 use lumencut_vessels::trace::lumen::own_axis::OwnLumen;
 use lumencut_vessels::voxels::Voxels;
@@ -38,7 +38,7 @@ impl Study {
     pub(crate) fn trees(&mut self, watch: Watch) -> Result<&Trees> {
         let volume = self.content.held.as_ref().ok_or_else(no_volume)?.volume()?;
         let Watch { stop, progress } = watch;
-        let request = FindRequest { smallest_radius: SMALLEST_RADIUS, stop, progress: Some(progress) };
+        let request = FindRequest { smallest_radius: None, stop, progress: Some(progress) };
         Ok(match self.trees.take() {
             Some(known) => self.trees.insert(known),
             None => {

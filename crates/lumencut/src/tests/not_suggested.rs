@@ -1,6 +1,10 @@
 use super::*;
+use crate::profile_json::profile_json;
+use crate::profile_marks::marks;
+use crate::profile_table::profile_csv;
+use crate::scan_details::ScanDetails;
 use crate::tube::tube;
-use lumencut_vessels::measure::section::flags::{BRANCH, CALCIUM, METAL, OUTSIDE};
+use lumencut_vessels::measure::section::flags::{BRANCH, CALCIUM, METAL, NO_EDGE, OUTSIDE};
 
 #[test]
 fn where_places_are_suggested_or_marked_there_is_no_reason() {
@@ -46,4 +50,27 @@ fn a_vessel_that_only_gets_thinner_says_so() {
     taper.flags.fill(0);
     let [reason] = &not_suggested(&taper, None, &[])[..] else { panic!("one reason") };
     assert!(reason.contains("tapers towards its end"), "{reason}");
+}
+
+#[test]
+fn a_throat_is_offered_in_words_json_and_table() {
+    let mut vessel = tube();
+    let n = vessel.nearest_section(30.0);
+    (vessel.area[n], vessel.at_most[n], vessel.flags[n]) = (f64::NAN, 0.7, NO_EDGE);
+    let [reason] = &not_suggested(&vessel, None, &[])[..] else { panic!("one reason") };
+    assert_eq!(
+        reason,
+        "Narrowest place: no clear wall at 30.0 mm, where the lumen is at most 0.70 mm wide. Check the sections there."
+    );
+    let [first, ..] = &marks(&vessel, None, &[]).expect("marks")[..] else { panic!("a mark") };
+    assert_eq!((first.name, first.at, first.is_suggestion), ("narrowest place", 30.0, true));
+    assert_eq!(first.words, "no clear wall, at most 0.70 mm");
+    assert!(first.diameter.is_nan());
+    let json = profile_json(&vessel, &ScanDetails::default());
+    let words: String = json.split_whitespace().collect();
+    assert!(words.contains(r#""narrowest":null,"throat":{"arc_length_mm":30.0,"at_most_mm":0.7}"#), "{json}");
+    let csv = profile_csv(&vessel, &ScanDetails::default());
+    assert!(csv.starts_with("arc_length_mm,") && csv.contains("diameter_at_most_mm"));
+    // A mark elsewhere does not hide its missing references, and the throat is not told again.
+    assert!(not_suggested(&vessel, Some(15.0), &[40.0]).is_empty());
 }

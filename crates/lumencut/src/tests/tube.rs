@@ -26,6 +26,7 @@ pub(crate) fn tube() -> Profile {
         wall: vec![[f64::NAN; 2]; count],
         diameter_outer: vec![[f64::NAN; 2]; count],
         bounds: at.iter().map(|at| if *at == 20.0 { [7.0, 9.0] } else { [f64::NAN; 2] }).collect(),
+        at_most: vec![f64::NAN; count],
         flags: at.iter().map(|at| flags(*at)).collect(),
         center: at.iter().map(|at| DVec3::Z * *at).collect(),
         normal: vec![DVec3::Z; count],

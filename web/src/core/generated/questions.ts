@@ -521,7 +521,7 @@ export type Profile = {
   readonly counts: ReadonlyArray<boolean>;
   /** Words for the flags of each section, such as `calcium`, `no clear wall`. */
   readonly flags: ReadonlyArray<ReadonlyArray<string>>;
-  /** The two bounds of each diameter next to calcium or metal, in words. */
+  /** The two bounds of each diameter next to calcium or metal, or its limit at a dim throat, in words. */
   readonly bounds: ReadonlyArray<string | null>;
   /** All flags, in the order of plots and tables. */
   readonly flag_table: ReadonlyArray<FlagLook>;
@@ -533,6 +533,8 @@ export type Profile = {
   /** The expected level of the wall, or why walls were not separated. */
   readonly wall_source: string;
   readonly narrowest: Spot | null;
+  /** The place of a throat that must be narrower than all measured places (arc length, mm), else null. */
+  readonly throat: number | null;
   /** The largest diameter; none if an unusual outline or a branch may be its cause. */
   readonly widest: Spot | null;
   /** Why no narrowest place or reference is suggested, one sentence each. */

@@ -104,7 +104,6 @@ export const DEFAULTS = {
   'flight.frames': 36.0,
   'measure.step': 0.5,
   'trace.stopper_radius': 3.0,
-  'trace_from.smallest_radius': 1.0,
   'trace_mask.shortest_branch': 2.0,
 } as const;
 

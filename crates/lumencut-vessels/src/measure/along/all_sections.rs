@@ -26,8 +26,7 @@ impl AllSections {
         every: usize,
         estimate: Option<Ellipse>,
     ) -> Option<(Known, Option<Ellipse>)> {
-        let (before, share) = (n / every, (n % every) as f64 / every as f64);
-        let after = (before + usize::from(share > 0.0)).min(self.fits.len() - 1);
+        let ([before, after], share) = self.around(n, every);
         let nearest = if share > 0.5 { after } else { before };
         let fitted = self.fits[before].zip(self.fits[after]);
         let between = fitted.map(|(before, after)| before.ellipse.towards(&after.ellipse, share));
@@ -38,6 +37,18 @@ impl AllSections {
             wall: self.walls.as_ref().map(|walls| walls[nearest]),
         };
         Some((known, self.fits[nearest].and_then(|fit| fit.other)))
+    }
+
+    /// Level of the lumen at section `n`, as a fraction of the contrast.
+    pub(crate) fn lumen_near(&self, n: usize, every: usize) -> f64 {
+        let (around, share) = self.around(n, every);
+        self.lumen[around[usize::from(share > 0.5)]][0]
+    }
+
+    /// The fitted sections before and after section `n`, and how far it lies towards the latter.
+    fn around(&self, n: usize, every: usize) -> ([usize; 2], f64) {
+        let (before, share) = (n / every, (n % every) as f64 / every as f64);
+        ([before, (before + usize::from(share > 0.0)).min(self.fits.len() - 1)], share)
     }
 }
 

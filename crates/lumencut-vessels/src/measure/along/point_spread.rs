@@ -1,6 +1,6 @@
 //! Estimates the point spread of the scanner from wide sections of vessels.
 
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::measure::estimation::Level;
@@ -17,7 +17,7 @@ use lumencut_core::stop::{Stop, go_on};
 const SECTIONS: (usize, usize) = (16, 3);
 
 /// Minimum diameter of a section, in widths of the point spread.
-const MIN_WIDTH: f64 = 3.0;
+pub(crate) const MIN_WIDTH: f64 = 3.0;
 
 /// Limits of suitable sections: unobstructed fraction of directions, residual (times the noise), ratio of the axes.
 const FREE: f64 = 0.95;
@@ -46,6 +46,8 @@ pub(crate) struct SharpEdges {
     pub count: usize,
     /// Arc lengths of the first and last section (mm).
     pub ends: [f64; 2],
+    /// In lung, the FWHM that the same sections show if their wall is too thin to be seen.
+    pub(crate) without_wall: Option<f64>,
 }
 
 impl SharpEdges {
@@ -64,19 +66,23 @@ pub(crate) enum SpreadEstimate {
 /// Reason why nothing is estimated if the vessels are too narrow.
 pub(crate) const TOO_NARROW: &str = "no vessel is wide enough to estimate it";
 
+/// Reason why nothing is estimated if blur is too little to be seen.
+pub(crate) const TOO_SHARP: &str = "the walls of wide vessels are sharper than the voxels can show";
+
 /// Reason why nothing is estimated if the wide part is too short.
 const TOO_SHORT: &str = "free, round stretches of wide vessels are too short to estimate it";
 
 /// Estimates the point spread with which the widest sections fit best, given the lumen level visible in each section.
 pub(crate) fn estimated(
     bench: &Bench,
-    sides: DMat3,
+    min_width: f64,
     places: &[SectionPlane],
     fits: &[Option<Fit>],
     stop: Stop,
 ) -> Result<SpreadEstimate> {
+    let sides = bench.rays.voxels.world_from_index.matrix3;
     let noise = noise(fits);
-    let wide = wide_sections(bench, fits, noise);
+    let wide = wide_sections(bench, min_width, fits, noise);
     if wide.len() < SECTIONS.1 {
         return Ok(SpreadEstimate::Nothing(TOO_NARROW));
     }
@@ -104,11 +110,19 @@ pub(crate) fn estimated(
         Ok(agreed) => agreed,
         Err(reason) => return Ok(SpreadEstimate::Nothing(reason)),
     };
+    let short = |n: &usize| fits[*n].map(|fit| 2.0 * fit.ellipse.semi_axes()[0]);
+    // The widths were chosen by an assumption: what came out decides whether they were wide enough.
+    if median(&mut wide.iter().filter_map(short).collect::<Vec<f64>>())
+        .is_none_or(|short| short < min_width * fwhm)
+    {
+        return Ok(SpreadEstimate::Nothing(TOO_NARROW));
+    }
     let [first, last] = [wide.iter().min(), wide.iter().max()].map(|n| n.map_or(0.0, |n| places[*n].at));
     if last - first < MIN_EXTENT * fwhm {
         return Ok(SpreadEstimate::Nothing(TOO_SHORT));
     }
-    Ok(SpreadEstimate::Width(SharpEdges { fwhm, deviation, count: best.len(), ends: [first, last] }))
+    let ends = [first, last];
+    Ok(SpreadEstimate::Width(SharpEdges { fwhm, deviation, count: best.len(), ends, without_wall: None }))
 }
 
 /// Median and standard deviation of estimates that agree and lie inside the range, otherwise the reason why not.
@@ -116,7 +130,7 @@ fn agreed(best: &mut [f64], [low, high]: [f64; 2]) -> std::result::Result<Level,
     let Some(fwhm) = median(best).filter(|_| best.len() >= SECTIONS.1) else { return Err(TOO_NARROW) };
     let margin = 0.02 * (high - low);
     if fwhm < low + margin {
-        return Err("the walls of wide vessels are sharper than the voxels can show");
+        return Err(TOO_SHARP);
     }
     let away: Vec<f64> = best.iter().map(|one| (one - fwhm).abs()).collect();
     match median(&mut { away }) {
@@ -128,14 +142,14 @@ fn agreed(best: &mut [f64], [low, high]: [f64; 2]) -> std::result::Result<Level,
     }
 }
 
-fn wide_sections(bench: &Bench, fits: &[Option<Fit>], noise: f64) -> Vec<usize> {
+fn wide_sections(bench: &Bench, min_width: f64, fits: &[Option<Fit>], noise: f64) -> Vec<usize> {
     let side = bench.rays.voxels.smallest_side;
     let mut wide: Vec<(f64, usize)> = (0..fits.len())
         .filter_map(|n| {
             let fit = fits[n]?;
             let [short, long] = fit.ellipse.semi_axes();
             let is_good = fit.free > FREE && fit.missed <= LEAST_MISSED * noise && long < ROUND * short;
-            (is_good && 2.0 * short > MIN_WIDTH * bench.fwhm.max(1.2 * side)).then_some((2.0 * short, n))
+            (is_good && 2.0 * short > min_width * bench.fwhm.max(1.2 * side)).then_some((2.0 * short, n))
         })
         .collect();
     wide.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));

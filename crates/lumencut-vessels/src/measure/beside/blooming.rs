@@ -13,6 +13,9 @@ const RINGS: f64 = 6.0;
 /// struts look like calcium, but calcium does not start and end with metal.
 const BRIGHT_BETWEEN: f64 = 40.0;
 
+/// Calcium hides at least this many rays in a row; the struts of a stent hide fewer.
+const WIDE: usize = RAYS / 8;
+
 /// Bounds of the diameter as factors of the measured one: without, and with, all bright material at the wall.
 /// `wall` gives the measured radius (mm) on each ray.
 pub(crate) fn bounds(rays: &[Ray], wall: impl Fn(usize) -> f64, width: f64) -> [f64; 2] {
@@ -20,10 +23,27 @@ pub(crate) fn bounds(rays: &[Ray], wall: impl Fn(usize) -> f64, width: f64) -> [
     let hides = |n: usize| rays[n].edge.is_none() && is_bright(&rays[n], wall(n), width);
     let measured: Vec<f64> = (0..RAYS).map(&wall).collect();
     let bound = |n: usize, other: f64| if hides(n) { other } else { measured[n] };
-    let inner: Vec<f64> = (0..RAYS).map(|n| bound(n, rays[n].rim[0].min(measured[n]))).collect();
+    let mut inner: Vec<f64> = (0..RAYS).map(|n| bound(n, rays[n].rim[0].min(measured[n]))).collect();
+    narrow_beside(&mut inner, &measured, hides, width);
     let outer: Vec<f64> = (0..RAYS).map(|n| bound(n, rays[n].rim[1].max(measured[n]))).collect();
     let area = area(&measured);
     [inner, outer].map(|radii| (self::area(&radii) / area).sqrt())
+}
+
+/// Blur lets plaque beside calcium look like lumen, so the lower bound excludes it. Beside struts lies lumen.
+fn narrow_beside(inner: &mut [f64], measured: &[f64], hides: impl Fn(usize) -> bool, width: f64) {
+    let radii = inner.to_vec();
+    let is_wide = |n: usize| {
+        let around = |first: usize| (first..first + WIDE).all(|m| hides(m % RAYS));
+        (n + RAYS + 1 - WIDE..=n + RAYS).any(around)
+    };
+    for n in (0..RAYS).filter(|n| is_wide(*n)) {
+        let beside = (0.5 * width / measured[n].max(0.5 * width)).asin();
+        let count = (beside / TAU * RAYS as f64).ceil() as usize;
+        for m in n + RAYS - count..=n + RAYS + count {
+            inner[m % RAYS] = inner[m % RAYS].min(radii[n]);
+        }
+    }
 }
 
 fn area(radii: &[f64]) -> f64 {

@@ -90,7 +90,7 @@ impl Bench<'_, '_> {
         Some(Pairs::new(&samples, &missing, known.noise() as f32))
     }
 
-    fn wall_of(&self, known: &Known) -> Option<KnownWall> {
+    pub(super) fn wall_of(&self, known: &Known) -> Option<KnownWall> {
         self.wall.map(|wall| known.wall.unwrap_or(wall))
     }
 

@@ -6,6 +6,7 @@ use rayon::prelude::*;
 use super::Fit;
 use crate::measure::beside::blooming;
 use crate::measure::beside::flags_of;
+use crate::measure::beside::plaque::narrowed;
 use crate::measure::estimation::Level;
 use crate::measure::model::ThreeLevels;
 use crate::measure::model::contour::{ellipse_within, irregularity, points, wall, wall_by_rays};
@@ -14,7 +15,9 @@ use crate::measure::model::wall::KnownWall;
 use crate::measure::section::SectionPlane;
 use crate::measure::section::blur::Blur;
 use crate::measure::section::contour_check::{encloses_lumen, lumen_shares};
-use crate::measure::section::flags::{AT_LIMIT, CALCIUM, IRREGULAR, METAL, NO_EDGE, RECENTERED};
+use crate::measure::section::flags::{
+    AT_LIMIT, BRANCH, CALCIUM, IRREGULAR, METAL, NEIGHBOR, NO_EDGE, PLAQUE, RECENTERED,
+};
 use crate::measure::section::lumen_estimate::LumenEstimate;
 use crate::measure::section::rays::{Look, Rays, direction};
 use crate::measure::uncertainty::Parts;
@@ -36,6 +39,10 @@ const RAY_BEYOND: (f64, f64) = (2.0, 1.5);
 /// Diameters below this multiple of the point spread get the flag [`AT_LIMIT`].
 pub(crate) const LIMIT: f64 = 1.5;
 
+/// Slices cut a vessel lengthwise into too few parts if their spacing exceeds this fraction of its diameter; they are
+/// slices if their spacing is at least this multiple of that across.
+const SLICES: (f64, f64) = (0.5, 2.0);
+
 /// A contour is irregular if the root mean square of its relative differences from the ellipse exceeds this.
 const ROUGH_WALL: f64 = 0.12;
 
@@ -43,10 +50,13 @@ const ROUGH_WALL: f64 = 0.12;
 pub(crate) const LEAST_CONTRAST: f64 = 2.0;
 
 /// Standard deviation of diameters that are measured without a blur model, in blur widths.
-const UNMODELLED_WIDTHS: f64 = 0.5;
+pub(crate) const UNMODELLED_WIDTHS: f64 = 0.5;
 
 /// Noise before it is estimated, as a fraction of the contrast.
 const FIRST_NOISE: f64 = 0.1;
+
+/// What these flags mean looks like plaque.
+const PLAQUE_HIDDEN: u32 = NEIGHBOR | BRANCH | CALCIUM | METAL;
 
 pub(crate) struct Bench<'a, 'v> {
     pub rays: Rays<'a, 'v>,
@@ -93,11 +103,13 @@ pub(crate) struct Section {
     pub flags: u32,
     /// See [`crate::measure::profile::Profile::bounds`].
     pub bounds: [f64; 2],
+    /// See [`crate::measure::profile::Profile::at_most`].
+    pub at_most: f64,
 }
 
 impl Section {
     pub(crate) fn none() -> Self {
-        Self { fit: None, contour: Vec::new(), flags: NO_EDGE, bounds: [f64::NAN; 2] }
+        Self { fit: None, contour: Vec::new(), flags: NO_EDGE, bounds: [f64::NAN; 2], at_most: f64::NAN }
     }
 
     pub(crate) fn scale(&mut self, by: f64) {
@@ -172,7 +184,7 @@ impl Bench<'_, '_> {
         }
     }
 
-    fn fitted(&self, place: &SectionPlane, known: &Known, fit: Fit) -> Section {
+    fn fitted(&self, place: &SectionPlane, known: &Known, mut fit: Fit) -> Section {
         let (ellipse, width) = (fit.ellipse, self.blur.width(place));
         let boundary = Boundary::new(&ellipse, Whitening::new(self.blur.interpolated(place)));
         // If a lumen is narrower than the blur, its peak is below its level.
@@ -201,17 +213,37 @@ impl Bench<'_, '_> {
         {
             flags |= NO_EDGE;
         }
+        if let Some(share) = self.narrowed_by_plaque(place, &fit, &walls, flags) {
+            flags |= PLAQUE;
+            fit.parts.surroundings = fit.parts.surroundings.hypot((1.0 - share) * diameter);
+            fit.uncertainty = fit.parts.total();
+        }
         let shares = lumen_shares(fit.lumen[0], beside);
         if !encloses_lumen(&self.rays, place, ellipse.center, &walls, width, shares) {
             flags |= NO_EDGE;
         }
         let contour = points(place, ellipse.center, &walls);
-        Section { contour, fit: Some(fit), flags: flags | self.place_flags(&ellipse), bounds }
+        Section {
+            contour,
+            fit: Some(fit),
+            flags: flags | self.place_flags(place, &ellipse),
+            bounds,
+            at_most: f64::NAN,
+        }
+    }
+
+    /// Factor of the diameter if plaque that is nearly as bright as the lumen is left out; None without such plaque.
+    fn narrowed_by_plaque(&self, place: &SectionPlane, fit: &Fit, walls: &[f64], flags: u32) -> Option<f64> {
+        let levels = [fit.lumen[0], self.wall.filter(|_| flags & PLAQUE_HIDDEN == 0)?.level[0]];
+        narrowed(&self.rays, (place, fit.ellipse.center), walls, levels, self.blur.width(place))
     }
 
     fn by_rays(&self, place: &SectionPlane, known: &Known) -> Option<Section> {
         let width = self.blur.width(place);
-        let rays = self.rays.all(place, known.ellipse.center, &self.look(place, known));
+        // The edge of the lumen lies halfway to the wall, which is brighter than fat.
+        let beside = self.wall_of(known).map_or(0.0, |wall| wall.level[0].max(0.0));
+        let look = Look { levels: [known.lumen[0], beside], ..self.look(place, known) };
+        let rays = self.rays.all(place, known.ellipse.center, &look);
         let walls = wall_by_rays(&rays, width)?;
         let ellipse = ellipse_within(known.ellipse.center, &walls)?;
         let mut flags = flags_of(&rays, |n| walls[n], width);
@@ -234,14 +266,22 @@ impl Bench<'_, '_> {
             other: None,
         };
         let contour = points(place, known.ellipse.center, &walls);
-        Some(Section { contour, fit: Some(fit), flags: flags | self.place_flags(&ellipse), bounds })
+        Some(Section {
+            contour,
+            fit: Some(fit),
+            flags: flags | self.place_flags(place, &ellipse),
+            bounds,
+            at_most: f64::NAN,
+        })
     }
 
-    fn place_flags(&self, ellipse: &Ellipse) -> u32 {
+    fn place_flags(&self, place: &SectionPlane, ellipse: &Ellipse) -> u32 {
         let towards = -ellipse.center;
         let reach = towards.try_normalize().map_or(f64::INFINITY, |d| ellipse.radius_towards(d));
         let recentered = if towards.length() > reach { RECENTERED } else { 0 };
-        let limit = if ellipse.equivalent_diameter() < LIMIT * self.fwhm { AT_LIMIT } else { 0 };
+        let ([fine, coarse], diameter) = (self.blur.spacing(place), ellipse.equivalent_diameter());
+        let is_in_few_slices = coarse > SLICES.0 * diameter && coarse >= SLICES.1 * fine;
+        let limit = if diameter < LIMIT * self.fwhm || is_in_few_slices { AT_LIMIT } else { 0 };
         recentered | limit
     }
 }

@@ -14,8 +14,14 @@ use crate::measure::section::scale::Scale;
 /// Expected thickness of the wall as a factor of √diameter (mm), and the standard deviation of its logarithm.
 const THICKNESS: [f64; 2] = [0.45, 0.5];
 
+/// In lung, the thickness as a fraction of the diameter: there, arteries have the pressure and wall of veins.
+const PULMONARY: f64 = 1.0 / 16.0;
+
 /// Range of the expected thickness (mm), because even the walls of very wide arteries have limited thickness.
 const MIDDLE: [f64; 2] = [0.4, 1.6];
+
+/// Minimum of the thickness expected in lung (mm).
+const LEAST_PULMONARY: f64 = 0.22;
 
 /// Minimum variance of the logarithm of a thickness.
 const LEAST_THICKNESS: f64 = 1e-4;
@@ -73,20 +79,30 @@ pub(crate) struct KnownWall {
     pub(crate) log_thickness: Option<Level>,
     /// See [`Wall::slope`]; `log_thickness` applies to a wall of level `level`.
     pub slope: f64,
+    /// Whether the wall may be as thin as that of pulmonary vessels.
+    pub(crate) is_in_lung: bool,
 }
 
 impl KnownWall {
     pub(crate) fn of(level: Level, scale: &Scale) -> Self {
         let share = [scale.share(level[0]), level[1] / scale.contrast.abs()];
-        Self { level: share, log_thickness: None, slope: 0.0 }
+        Self { level: share, log_thickness: None, slope: 0.0, is_in_lung: false }
     }
 
     pub(crate) fn log_thickness(&self, lumen: &Ellipse) -> Level {
-        self.log_thickness.unwrap_or_else(|| beforehand(lumen))
+        self.log_thickness.unwrap_or_else(|| self.beforehand(lumen))
     }
-}
 
-pub(crate) fn beforehand(lumen: &Ellipse) -> Level {
-    let [share, deviation] = THICKNESS;
-    [(share * (2.0 * lumen.mean).sqrt()).clamp(MIDDLE[0], MIDDLE[1]).ln(), deviation]
+    /// Log thickness that the width of the lumen predicts. In lung, it lies between those of pulmonary vessels and of
+    /// other arteries, such as bronchial grafts and fistulas, and its standard deviation includes both.
+    pub(crate) fn beforehand(&self, lumen: &Ellipse) -> Level {
+        let [share, deviation] = THICKNESS;
+        let diameter = 2.0 * lumen.mean;
+        let artery = (share * diameter.sqrt()).clamp(MIDDLE[0], MIDDLE[1]).ln();
+        if !self.is_in_lung {
+            return [artery, deviation];
+        }
+        let pulmonary = (PULMONARY * diameter).clamp(LEAST_PULMONARY, MIDDLE[1]).ln();
+        [f64::midpoint(artery, pulmonary), deviation.hypot(0.5 * (artery - pulmonary))]
+    }
 }

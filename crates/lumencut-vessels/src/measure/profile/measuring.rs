@@ -6,10 +6,11 @@ use std::sync::OnceLock;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use super::prepared::{DEFAULT_FWHM, PreparedVessel, assumed};
+use super::prepared::PreparedVessel;
 use super::request::MeasureRequest;
 use super::{PointSpread, Profile, Source, TreeFindings};
-use crate::measure::along::point_spread::{SharpEdges, SpreadEstimate, TOO_NARROW};
+use crate::measure::along::assumed_spread::AssumedSpread;
+use crate::measure::along::point_spread::{SharpEdges, SpreadEstimate, TOO_NARROW, TOO_SHARP};
 use crate::measure::section::known_radius;
 use crate::measure::wall::WallRequest;
 use crate::measure::wall::tree::VesselWall;
@@ -21,9 +22,6 @@ use lumencut_core::volume::Volume;
 
 /// Default maximum distance between sections (mm).
 pub const STEP: f64 = 0.5;
-
-/// Relative standard deviation of the point spread if it is assumed.
-const ASSUMED_DEVIATION: f64 = 0.2;
 
 /// Maximum number of vessels from which point spread and wall level are estimated; the widest ones are used.
 const MAX_CONTRIBUTING: usize = 8;
@@ -39,7 +37,7 @@ pub fn measure(volume: &Volume, vessel: &Vessel, request: &MeasureRequest) -> Re
         None if request.tree.is_empty() => {
             let spread = match prepared.point_spread(&voxels, request.stop)? {
                 SpreadEstimate::Width(found) => spread_of(&found, found.on()),
-                SpreadEstimate::Nothing(reason) => default(&voxels, reason),
+                SpreadEstimate::Nothing(reason) => assumed(&voxels, prepared.assumed, reason),
             };
             TreeFindings { spread, walls: Vec::new() }
         }
@@ -135,7 +133,12 @@ impl<'a, 'v> TreeMeasuring<'a, 'v> {
                 SpreadEstimate::Nothing(reason) => why = reason,
             }
         }
-        Ok(default(&self.voxels, why))
+        let widest = self.widest_vessels().into_iter().find_map(|n| self.prepared[n].get());
+        let assumed = widest.map_or_else(
+            || AssumedSpread::of_voxels(self.voxels.world_from_index.matrix3),
+            |one| one.assumed,
+        );
+        Ok(self::assumed(&self.voxels, assumed, why))
     }
 
     fn prepared_or_none(&self, n: usize, request: &MeasureRequest) -> Result<Option<&PreparedVessel>> {
@@ -168,15 +171,18 @@ fn wider(one: &Vessel, other: &Vessel) -> Ordering {
 }
 
 fn given(fwhm: f64) -> PointSpread {
-    PointSpread { fwhm, deviation: 0.0, source: Source::Given }
+    PointSpread { fwhm, deviation: 0.0, source: Source::Given, without_wall: None }
 }
 
 fn spread_of(found: &SharpEdges, on: String) -> PointSpread {
-    PointSpread { fwhm: found.fwhm, deviation: found.deviation, source: Source::Estimated { on } }
+    let source = Source::Estimated { on };
+    PointSpread { fwhm: found.fwhm, deviation: found.deviation, source, without_wall: found.without_wall }
 }
 
-fn default(voxels: &Voxels, reason: &str) -> PointSpread {
-    let from = format!("{DEFAULT_FWHM} sides of a voxel, as {reason}");
-    let fwhm = assumed(voxels);
-    PointSpread { fwhm, deviation: ASSUMED_DEVIATION * fwhm, source: Source::Assumed { from } }
+fn assumed(voxels: &Voxels, usual: AssumedSpread, reason: &str) -> PointSpread {
+    let by_voxels = || AssumedSpread::of_voxels(voxels.world_from_index.matrix3);
+    let spread = if reason == TOO_SHARP { by_voxels() } else { usual };
+    let [fwhm, deviation] = spread.fwhm;
+    let source = Source::Assumed { from: format!("{}, as {reason}", spread.from()) };
+    PointSpread { fwhm, deviation, source, without_wall: None }
 }

@@ -1,21 +1,23 @@
 //! Measures a vessel in steps: intensity scale, approximate lumen, levels, and finally each section.
 
+mod read;
+
 use std::sync::OnceLock;
 
-use glam::DVec3;
 use rayon::prelude::*;
 
 use super::request::MeasureRequest;
 use super::{Profile, TreeFindings};
-use crate::measure::along::all_sections::AllSections;
-use crate::measure::along::levels::lumen_levels;
-use crate::measure::along::point_spread::{SpreadEstimate, estimated};
+use crate::measure::along::assumed_spread::AssumedSpread;
+use crate::measure::along::calcified::settle;
+use crate::measure::along::point_spread::{MIN_WIDTH, SharpEdges, SpreadEstimate, estimated};
+use crate::measure::along::struts::flag_struts;
+use crate::measure::along::throats::Throats;
 use crate::measure::along::{flag_sharp_turns, sharpen};
 use crate::measure::beside::branches::{Lumen, meets};
 use crate::measure::estimation::Level;
 use crate::measure::fit::Fit;
-use crate::measure::fit::sections::{Bench, Doubt, Known, LEAST_CONTRAST, Section, center, noise};
-use crate::measure::model::ellipse::Ellipse;
+use crate::measure::fit::sections::{Bench, Known, center, noise};
 use crate::measure::model::wall::KnownWall;
 use crate::measure::section::blur::Blur;
 use crate::measure::section::flags::{BRANCH, NO_EDGE, OUTSIDE};
@@ -28,15 +30,12 @@ use crate::measure::section::{SectionPlane, Track, known_radius};
 use crate::measure::uncertainty::texture::{Pairs, Texture};
 use crate::measure::wall::pool::{is_apart, pooled, unpooled_level};
 use crate::measure::wall::tree::{PooledWall, wall_beside};
-use crate::measure::wall::{WallSource, expected, is_below_lumen};
+use crate::measure::wall::{WallSource, expected, is_below_lumen, is_hounsfield};
 use crate::voxels::Voxels;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::math::statistics::median;
 use lumencut_core::stop::{Stop, go_on};
 use lumencut_core::vessel_tree::Vessel;
-
-/// FWHM of the point spread (voxel sides) that is assumed if nothing else is known.
-pub(crate) const DEFAULT_FWHM: f64 = 1.2;
 
 /// Number of sections that decide whether walls are visible.
 const WALL_SECTIONS: usize = 48;
@@ -63,8 +62,10 @@ struct FirstFits {
 
 pub(crate) struct PreparedVessel {
     part: MeasuredPart,
-    scale: Scale,
-    wall: Option<KnownWall>,
+    pub(super) scale: Scale,
+    /// The point spread to assume if none is given or found.
+    pub(super) assumed: AssumedSpread,
+    pub(super) wall: Option<KnownWall>,
     wall_source: WallSource,
     places: Vec<SectionPlane>,
     estimates: Vec<Option<LumenEstimate>>,
@@ -81,7 +82,8 @@ impl PreparedVessel {
         let (wall, wall_source) = expected(voxels, &scale, request.wall)?;
         let widest = known.map_or(MAX_RADIUS_MM, |radius| (3.0 * radius + 5.0).min(MAX_RADIUS_MM));
         let search = known.unwrap_or(0.0).max(MIN_SEARCH_MM);
-        let bench = bench(voxels, scale, wall, assumed(voxels));
+        let assumed = AssumedSpread::of(voxels.world_from_index.matrix3, is_hounsfield(voxels, &scale));
+        let bench = bench(voxels, scale, wall, assumed.fwhm[0]);
         let mut estimates = bench.estimates(&first, search, widest, request.stop)?;
         for (estimate, place) in estimates.iter_mut().zip(&first) {
             *estimate = estimate.filter(|_| part.holds(place));
@@ -92,6 +94,7 @@ impl PreparedVessel {
         Ok(Self {
             part,
             scale,
+            assumed,
             wall,
             wall_source,
             places,
@@ -172,6 +175,11 @@ impl PreparedVessel {
         }
     }
 
+    /// The same vessel as if it had no wall.
+    pub(super) fn bare(&self) -> Self {
+        Self { wall: None, ..self.part(|_| true) }
+    }
+
     /// A wall that may exist although it is as bright as its surroundings; None if walls are visible.
     fn hidden_wall(
         &self,
@@ -191,10 +199,18 @@ impl PreparedVessel {
     }
 
     pub(crate) fn point_spread(&self, voxels: &Voxels, stop: Stop) -> Result<SpreadEstimate> {
-        let (_, fitted) = self.fitted(voxels, assumed(voxels));
-        let FirstFits { hidden, fits, .. } = self.kept_fits(voxels, assumed(voxels), stop)?;
-        let bench = self.bench(voxels, assumed(voxels), hidden);
-        estimated(&bench, voxels.world_from_index.matrix3, &fitted.places, &fits, stop)
+        let found = self.shown_spread(voxels, MIN_WIDTH, stop)?;
+        let SpreadEstimate::Width(with_wall) = found else { return Ok(found) };
+        let without_wall = self.spread_without_wall(voxels, stop)?;
+        Ok(SpreadEstimate::Width(SharpEdges { without_wall, ..with_wall }))
+    }
+
+    /// The point spread that sections at least `min_width` times as wide show.
+    pub(super) fn shown_spread(&self, voxels: &Voxels, min_width: f64, stop: Stop) -> Result<SpreadEstimate> {
+        let assumed = self.assumed.fwhm[0];
+        let (_, fitted) = self.fitted(voxels, assumed);
+        let FirstFits { hidden, fits, .. } = self.kept_fits(voxels, assumed, stop)?;
+        estimated(&self.bench(voxels, assumed, hidden), min_width, &fitted.places, &fits, stop)
     }
 
     /// Wall level (in the volume's unit) that the sections show without their prior; None if walls are not visible.
@@ -217,47 +233,41 @@ impl PreparedVessel {
         request: &MeasureRequest,
         findings: TreeFindings,
     ) -> Result<Profile> {
-        let stop = request.stop;
         let by_others = self.wall_by_others(&findings, request.tree, vessel);
         let spread = findings.spread;
-        let (every, fitted) = self.fitted(voxels, spread.fwhm);
-        let first = self.kept_fits(voxels, spread.fwhm, stop)?;
-        let hidden = first.hidden;
-        let mut bench = self.bench(voxels, spread.fwhm, hidden);
-        let wall_source = match by_others {
-            _ if hidden.is_some() => WallSource::AsBright,
-            Some(by_others) => self.wall_source.pooled(by_others),
-            None => self.wall_source,
-        };
-        let all = fitted.all_sections(&bench, first, by_others, stop)?;
-        let wider = (spread.deviation > 0.0)
-            .then(|| Blur::new(spread.fwhm + spread.deviation, voxels.world_from_index.matrix3));
-        bench.doubt = Some(Doubt { texture: all.texture.clone(), wider, wall: hidden });
+        let mut read = self.read(voxels, [spread.fwhm, spread.deviation], by_others, request.stop)?;
+        self.include_other_spreads(voxels, &mut read.sections, &spread, request.stop)?;
+        if !read.is_wall_hidden {
+            self.include_thin_walls(voxels, &mut read.sections, &spread, request.stop)?;
+        }
+        let mut sections = std::mem::take(&mut read.sections);
         let others = Lumen::of_others(request.tree, vessel);
-        let section = |n: usize| {
-            go_on(stop)?;
-            let place = &self.places[n];
-            let estimate = self.estimates[n].map(|one| Ellipse::circle(one.center, one.radius));
-            let mut section = match all.known(n, every, estimate) {
-                Some((known, other)) => bench.section(place, &known, other),
-                None => Section::none(),
-            };
+        for (n, section) in sections.iter_mut().enumerate() {
             section.flags |= self.branch(n, section.fit.as_ref(), &others);
-            if voxels.at(place.origin).is_nan() {
+            if voxels.at(self.places[n].origin).is_nan() {
                 section.flags |= OUTSIDE;
             }
-            Ok(section)
-        };
-        let mut sections: Vec<Section> =
-            (0..self.places.len()).into_par_iter().map(section).collect::<Result<_>>()?;
+        }
         if sections.iter().all(|section| section.flags & NO_EDGE > 0) {
             return Err(no_lumen(&self.scale));
+        }
+        let (bench, noise) = (&read.bench, read.noise);
+        let is_in_lung = self.wall.is_some_and(|wall| wall.is_in_lung);
+        if is_hounsfield(voxels, &self.scale) && !is_in_lung {
+            flag_struts(bench, &self.places, &mut sections);
         }
         let variance: Vec<f64> =
             self.places.iter().map(|place| bench.blur.along(place, thickness(voxels, place))).collect();
         sharpen(&mut sections, &self.arc_lengths(), &variance);
         flag_sharp_turns(&self.places, &mut sections);
-        let noise = all.noise * self.scale.contrast.abs();
+        settle(&self.places, &mut sections, bench.fwhm);
+        Throats { bench, places: &self.places, lumen: &read.lumen, noise }.limit(&mut sections);
+        let wall_source = match by_others {
+            _ if read.is_wall_hidden => WallSource::AsBright,
+            Some(by_others) => self.wall_source.pooled(by_others),
+            None => self.wall_source,
+        };
+        let noise = noise * self.scale.contrast.abs();
         let profile = Profile::new(&self.places, &sections, &self.scale, noise, spread, wall_source);
         Ok(Profile { without_wall: self.part.left_out(&self.places), ..profile })
     }
@@ -270,28 +280,6 @@ impl PreparedVessel {
     ) -> Option<PooledWall> {
         let by_others = wall_beside(&findings.walls, tree, vessel, self.wall_source.expected()?)?;
         is_below_lumen(&by_others, &self.scale).then_some(by_others)
-    }
-
-    /// Pools the separate fits of a vessel, and includes the wall level from other vessels.
-    fn all_sections(
-        &self,
-        bench: &Bench,
-        first: FirstFits,
-        by_others: Option<PooledWall>,
-        stop: Stop,
-    ) -> Result<AllSections> {
-        let FirstFits { fits, texture, .. } = first;
-        let noise = noise(&fits);
-        if LEAST_CONTRAST * noise > 1.0 {
-            return Err(no_lumen(&self.scale));
-        }
-        let lumen = lumen_levels(bench, &self.places, &fits, stop)?;
-        let inflation = self.inflation(bench, &texture);
-        let walls = bench.wall.map(|known| {
-            let expected = by_others.map_or(known.level, |wall| KnownWall::of(wall.level, &self.scale).level);
-            pooled(&self.arc_lengths(), &fits, &known, expected, inflation)
-        });
-        Ok(AllSections { fits, noise, lumen, walls, texture })
     }
 
     /// Factor by which the correlation of noise increases the variance of wall estimates.
@@ -325,13 +313,6 @@ impl PreparedVessel {
 fn bench<'a, 'v>(voxels: &'a Voxels<'v>, scale: Scale, wall: Option<KnownWall>, fwhm: f64) -> Bench<'a, 'v> {
     let blur = Blur::new(fwhm, voxels.world_from_index.matrix3);
     Bench { rays: Rays { voxels, scale }, blur, fwhm, wall, doubt: None }
-}
-
-/// The assumed point spread (FWHM, mm), a multiple of the middle voxel side.
-pub(crate) fn assumed(voxels: &Voxels) -> f64 {
-    let sides = voxels.world_from_index.matrix3;
-    let mut lengths = [sides.x_axis, sides.y_axis, sides.z_axis].map(DVec3::length);
-    DEFAULT_FWHM * median(&mut lengths).unwrap_or_default()
 }
 
 fn no_lumen(scale: &Scale) -> Error {

@@ -44,6 +44,15 @@ impl Blur {
         self.in_plane(place, AVERAGING + INTERPOLATION)
     }
 
+    /// Smallest and largest spacing of the voxels within the plane (mm).
+    pub(crate) fn spacing(&self, place: &SectionPlane) -> [f64; 2] {
+        let [u, v] = place.axes;
+        let along = |a: DVec3, b: DVec3| a.dot(self.voxel * b);
+        let (middle, half) = (f64::midpoint(along(u, u), along(v, v)), 0.5 * (along(u, u) - along(v, v)));
+        let apart = half.hypot(along(u, v));
+        [middle - apart, middle + apart].map(|square| square.max(0.0).sqrt())
+    }
+
     /// FWHM (mm) of the blur of voxel values within the plane, averaged over directions.
     pub(crate) fn width(&self, place: &SectionPlane) -> f64 {
         fwhm_of(self.of_voxels(place).determinant().sqrt())

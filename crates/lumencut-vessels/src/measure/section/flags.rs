@@ -1,12 +1,12 @@
 //! Flags of a section, as bits. The crate `lumencut` has their words and colours.
 
-/// The diameter is below 1.5 times the FWHM of the point spread.
+/// The diameter is below 1.5 times the FWHM of the point spread, or twice the spacing of thick slices.
 pub const AT_LIMIT: u32 = 1;
 /// Another vessel starts at this section, or the lumen continues sideways.
 pub const BRANCH: u32 = 1 << 1;
 /// Something at the wall is brighter than lumen.
 pub const CALCIUM: u32 = 1 << 2;
-/// Metal: material at the wall that surrounds the lumen, forms a lattice, or is brighter than calcium.
+/// Metal: material at the wall that surrounds the lumen, forms a lattice, repeats, or is brighter than calcium.
 pub const METAL: u32 = 1 << 3;
 /// Another lumen, or bone, touches the wall.
 pub const NEIGHBOR: u32 = 1 << 4;
@@ -20,6 +20,8 @@ pub const RECENTERED: u32 = 1 << 7;
 pub const IRREGULAR: u32 = 1 << 8;
 /// The centerline turns more sharply than a vessel can.
 pub const RESTLESS_LINE: u32 = 1 << 9;
+/// Plaque nearly as bright as the lumen lies beside it.
+pub const PLAQUE: u32 = 1 << 10;
 
 /// Sections with any of these flags are ignored when the narrowest, widest or suggested sections are chosen.
 pub(crate) const LEFT_OUT: u32 = BRANCH | OUTSIDE | NO_EDGE | RECENTERED | RESTLESS_LINE;

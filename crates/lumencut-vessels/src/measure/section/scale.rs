@@ -11,6 +11,9 @@ const DIRECTIONS: usize = 16;
 
 const MOST_PLACES: usize = 150;
 
+/// A distance counts if at least this fraction of its points lies within the volume: its corners alone may hold bone.
+const LEAST_INSIDE: f64 = 1.0 / 3.0;
+
 /// Search radius (mm) for a vessel whose radius is unknown.
 const SEARCH_RADIUS_MM: f64 = 30.0;
 
@@ -102,6 +105,7 @@ fn scatter(voxels: &Voxels, places: &[SectionPlane], lumen: f64) -> f64 {
 /// Median value at each distance from the vessel, over all sections and directions.
 fn rings(voxels: &Voxels, places: &[SectionPlane], step: f64, count: usize) -> Vec<Option<f64>> {
     let every = places.len().div_ceil(MOST_PLACES);
+    let all = DIRECTIONS * places.len().div_ceil(every);
     (0..=count)
         .map(|n| {
             let mut values = Vec::new();
@@ -114,7 +118,7 @@ fn rings(voxels: &Voxels, places: &[SectionPlane], step: f64, count: usize) -> V
                     }
                 }
             }
-            median(&mut values)
+            median(&mut values).filter(|_| values.len() as f64 >= LEAST_INSIDE * all as f64)
         })
         .collect()
 }

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::measure::profile::Profile;
-use crate::measure::section::flags::{CALCIUM, IRREGULAR, LEFT_OUT, METAL, NEIGHBOR};
+use crate::measure::section::flags::{CALCIUM, IRREGULAR, LEFT_OUT, METAL, NEIGHBOR, PLAQUE};
 
 /// The lumen jumps sideways from the previous section, and its level or width may change too.
 pub const CHANGE_OF_LUMEN: u32 = 1 << 16;
@@ -45,7 +45,9 @@ impl Profile {
     }
 
     fn unsure(&self, n: usize) -> u32 {
-        if self.uncertainty[n] <= UNSURE_SHARE * self.width(n) { 0 } else { UNSURE }
+        // Beside bright plaque the diameter is less sure, but such a place must not be passed over.
+        let is_told = self.flags[n] & PLAQUE != 0;
+        if is_told || self.uncertainty[n] <= UNSURE_SHARE * self.width(n) { 0 } else { UNSURE }
     }
 
     fn width(&self, n: usize) -> f64 {

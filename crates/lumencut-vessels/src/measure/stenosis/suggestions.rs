@@ -46,8 +46,13 @@ pub struct Spot {
 
 impl Profile {
     /// Narrowest place without [`Profile::hindrances`] that is not a tapering end; diameters are medians of
-    /// three sections. None if there is no such place ([`Profile::none_safe`], [`Profile::thin_end`]).
+    /// three sections. None if there is no such place ([`Profile::none_safe`], [`Profile::thin_end`]), or if a place
+    /// that is not measured must be narrower ([`Profile::throat`]).
     pub fn narrowest(&self) -> Option<Spot> {
+        self.narrowest_measured().filter(|_| self.throat().is_none())
+    }
+
+    pub(super) fn narrowest_measured(&self) -> Option<Spot> {
         let spots = self.safe_spots();
         let narrowest = spots.iter().copied().min_by(thinner)?;
         let beside = self.widest_beside();
@@ -64,7 +69,7 @@ impl Profile {
     /// Narrowest place of a vessel that only tapers towards an end; None for other vessels.
     pub fn thin_end(&self) -> Option<Spot> {
         let narrowest = self.safe_spots().into_iter().min_by(thinner);
-        narrowest.map(|(_, spot)| spot).filter(|_| self.narrowest().is_none())
+        narrowest.map(|(_, spot)| spot).filter(|_| self.narrowest_measured().is_none())
     }
 
     /// Usable sections without hindrances; the diameter is the median of three sections.

@@ -3,7 +3,7 @@
 use crate::measure::estimation::Level;
 use crate::measure::fit::Fit;
 use crate::measure::model::ellipse::Ellipse;
-use crate::measure::model::wall::{KnownWall, Wall, beforehand};
+use crate::measure::model::wall::{KnownWall, Wall};
 
 /// Distance (mm) over which the weight of a section falls to 1/e; minimum standard deviation of the log thickness.
 const EVEN: (f64, f64) = (10.0, 0.1);
@@ -36,14 +36,14 @@ pub(crate) fn pooled(
     let [mean, deviation] = level_by(at, fits, known, WeightedLevel::new(expected), inflation).level();
     let level = [mean, deviation.max(LEAST_LEVEL)];
     let thickness = |here: f64, lumen: &Ellipse| {
-        let first = beforehand(lumen);
+        let first = known.beforehand(lumen);
         let mut weighted = WeightedLevel::new(first);
         let (mut slopes, mut shares) = (0.0, f64::MIN_POSITIVE);
         for (there, other, wall) in &walls {
             let weight = (-(there - here).abs() / EVEN.0).exp() * apart;
             // Pools the difference from the thickness that the lumen width predicts.
             let [mean, deviation] = wall.log_thickness_at(level[0]);
-            weighted.add([mean - beforehand(other)[0] + first[0], deviation], first, weight);
+            weighted.add([mean - known.beforehand(other)[0] + first[0], deviation], first, weight);
             let share = weight / deviation.powi(2);
             (slopes, shares) = (slopes + share * wall.slope, shares + share);
         }
@@ -55,7 +55,7 @@ pub(crate) fn pooled(
         .map(|(at, fit)| {
             let thickness = fit.map(|fit| thickness(*at, &fit.ellipse));
             let slope = thickness.map_or(0.0, |(_, slope)| slope);
-            KnownWall { level, log_thickness: thickness.map(|(thickness, _)| thickness), slope }
+            KnownWall { level, log_thickness: thickness.map(|(thickness, _)| thickness), slope, ..*known }
         })
         .collect()
 }

@@ -14,7 +14,7 @@ use crate::trace::find::progress::{Stage, Stages};
 use crate::trace::find::quantiles::{median, quantile};
 use crate::trace::find::scan::Scan;
 use crate::trace::find::track::{Track, TrackDoubt, TrackPoint};
-use crate::trace::find::vessel_level::vessel_level;
+use crate::trace::find::vessel_level::{Readings, vessel_level};
 use lumencut_core::error::Result;
 use lumencut_core::stop::{Stop, go_on};
 
@@ -115,23 +115,33 @@ pub(crate) fn shapes(
     tracks.par_iter().map(of_track).collect()
 }
 
-/// Refines vessel level and contrast by sure, round, even tracks, because the first estimate includes bone.
-pub(crate) fn lumen_level(scan: &Scan, tracks: &[Track], shapes: &[Option<Shape>]) -> Option<[f64; 2]> {
+/// The level of the vessels: that of sure, round, even tracks if possible, because the first estimate includes bone.
+pub(crate) fn readings(scan: &Scan, tracks: &[Track], shapes: &[Option<Shape>]) -> Readings {
+    let first = [scan.level, scan.contrast];
+    let Some(second) = lumen_level(scan, tracks, shapes) else {
+        return Readings { usual: first, other: None };
+    };
+    Readings::of(first, second, &in_voxels(scan, tracks.iter()), scan.noise)
+}
+
+fn lumen_level(scan: &Scan, tracks: &[Track], shapes: &[Option<Shape>]) -> Option<[f64; 2]> {
     let is_lumen = |track: &Track, shape: &Shape| {
         let is_even = !shape.is_marrow && shape.spread <= LUMEN_SPREAD;
         track.confidence >= LUMEN_CONFIDENCE && shape.elongation <= LUMEN_ELONGATION && is_even
     };
     let with_shape = tracks.iter().zip(shapes).filter_map(|(track, shape)| Some((track, shape.as_ref()?)));
-    let lumens = with_shape.filter(|(track, shape)| is_lumen(track, shape));
-    let points = |track: &Track| {
-        let in_voxels = |point: &TrackPoint| TrackPoint {
-            place: point.place / scan.side,
-            radius: point.radius / scan.side,
-            ..*point
-        };
-        track.points.iter().map(in_voxels).collect::<Vec<_>>()
+    let lumens = with_shape.filter(|(track, shape)| is_lumen(track, shape)).map(|(track, _)| track);
+    vessel_level(&in_voxels(scan, lumens), scan.noise).map(|found| found.level)
+}
+
+/// The points of tracks, in voxels instead of mm.
+fn in_voxels<'t>(scan: &Scan, tracks: impl Iterator<Item = &'t Track>) -> Vec<Vec<TrackPoint>> {
+    let point = |point: &TrackPoint| TrackPoint {
+        place: point.place / scan.side,
+        radius: point.radius / scan.side,
+        ..*point
     };
-    vessel_level(&lumens.map(|(track, _)| points(track)).collect::<Vec<_>>(), scan.noise)
+    tracks.map(|track| track.points.iter().map(point).collect()).collect()
 }
 
 pub(crate) fn judged(

@@ -2,9 +2,10 @@
 
 use crate::trace::find::track::TrackDoubt;
 use crate::trace::lines::centerline::Centerline;
+use lumencut_core::math::arc_length::arc_lengths;
 
 /// All vessels found in a scan.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Trees {
     /// Vessels ordered by part, the most important part first. Each part begins with its root vessel.
     pub vessels: Vec<FoundVessel>,
@@ -12,10 +13,33 @@ pub struct Trees {
     pub level: f64,
     /// Contrast that vessels usually have to their surroundings, in the unit of the volume.
     pub contrast: f64,
+    /// Level and contrast of another reading of the scan, if one of both is far paler.
+    pub other: Option<[f64; 2]>,
     /// Noise of the voxels, in the unit of the volume.
     pub noise: f64,
     /// Whether the scan looks like an angiography. If not, and without a seed, no vessel is sure.
     pub is_angiography: bool,
+    /// The smallest radius (mm) by which these vessels were found.
+    pub smallest_radius: f64,
+    /// What a smaller radius finds, if no vessel is sure here.
+    pub below: Option<Below>,
+}
+
+/// Sure vessels that a smaller radius finds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Below {
+    /// That radius (mm).
+    pub smallest_radius: f64,
+    /// Length of the vessels (mm).
+    pub length: f64,
+}
+
+impl Trees {
+    /// Length of all sure vessels (mm).
+    pub fn sure_length(&self) -> f64 {
+        let sure = self.vessels.iter().filter(|vessel| vessel.doubt.is_none());
+        sure.filter_map(|vessel| arc_lengths(&vessel.line.points).last().copied()).sum()
+    }
 }
 
 /// A vessel that was found.

@@ -29,9 +29,9 @@ pub fn find_from(volume: &Volume, seed: DVec3, request: &FindRequest) -> Result<
     }
     let trees = trees(&voxels, Some(seed), request)?;
     if trees.vessels.is_empty() {
-        return Err(refusals::no_vessel(0, request.smallest_radius));
+        return Err(refusals::no_vessel(&trees));
     }
-    let side = voxels.world_from_index.matrix3.determinant().abs().cbrt();
+    let side = voxels.mean_side();
     let value = || f64::from(voxels.at(seed));
     match part_at(&trees, seed, side) {
         Ok(part) => sure(only(trees, part)).map_err(|doubt| refusals::only_doubtful(seed, value(), doubt)),

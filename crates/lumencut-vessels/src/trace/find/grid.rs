@@ -6,7 +6,7 @@ use crate::voxels::Voxels;
 
 /// Voxels per smallest radius; finer voxels would show nothing more. `LARGEST_FOR_RADIUS` limits the voxel
 /// side (mm), so that the surroundings stay visible if only wide vessels are wanted.
-const VOXELS_PER_RADIUS: f64 = 1.25;
+pub(crate) const VOXELS_PER_RADIUS: f64 = 1.3;
 const LARGEST_FOR_RADIUS: f64 = 0.8;
 
 /// Maximum number of voxels of the grid; a larger volume gets larger voxels.
@@ -30,7 +30,7 @@ impl Grid {
         let axes = square(matrix);
         let corners = corners(voxels, axes);
         let extent = corners[1] - corners[0];
-        let mean = matrix.determinant().abs().cbrt();
+        let mean = voxels.mean_side();
         let least = (extent.max(DVec3::splat(mean)).element_product() / MOST_VOXELS).cbrt();
         let side = mean.max((smallest_radius / VOXELS_PER_RADIUS).min(LARGEST_FOR_RADIUS)).max(least);
         let size = extent.to_array().map(|length| (length / side + 1e-6).floor() as usize + 1);

@@ -2,21 +2,33 @@
 
 use glam::DVec3;
 
-use crate::trace::find::found::NoVessel;
+use crate::trace::find::found::{Below, NoVessel, Trees};
 use crate::trace::lumen::lumen_model::in_words;
 use lumencut_core::error::{Error, ErrorKind, Mend};
 
-/// The error if no vessel is sure. It states the number of doubtful ones; `smallest_radius` is in mm.
-pub fn no_vessel(doubtful: usize, smallest_radius: f64) -> Error {
+/// The error if no vessel is sure. It states the number of doubtful ones, and what a smaller radius finds.
+pub fn no_vessel(trees: &Trees) -> Error {
+    let doubtful = trees.vessels.len();
     let found = match doubtful {
-        0 => format!("none whose radius is {smallest_radius} mm or more"),
+        0 => format!("none whose radius is {} mm or more", rounded(trees.smallest_radius)),
         1 => "no certain vessel, but one doubtful vessel".to_owned(),
         several => format!("no certain vessel, but {several} doubtful vessels"),
     };
+    let subject = "no vessel found";
+    if let Some(Below { smallest_radius, length }) = trees.below {
+        let found = format!("{found}; from {} mm on, {length:.0} mm of sure ones", rounded(smallest_radius));
+        let expected = "vessels as wide as the smallest radius";
+        return Error::new(ErrorKind::Tracing, subject, found, expected).mended_by(Mend::SmallerRadius);
+    }
     let expected = "an angiography, whose vessels are brighter than the tissue around them";
-    let error = Error::new(ErrorKind::Tracing, "no vessel found", found, expected);
+    let error = Error::new(ErrorKind::Tracing, subject, found, expected);
     let mend = if doubtful > 0 { Mend::Doubtful } else { Mend::SmallerRadius };
     error.mend("trace between two points along a vessel").mended_by(mend)
+}
+
+/// A length (mm) in hundredths.
+fn rounded(length: f64) -> f64 {
+    (100.0 * length).round() / 100.0
 }
 
 /// The error for a seed outside the volume.

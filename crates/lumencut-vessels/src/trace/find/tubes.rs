@@ -3,7 +3,6 @@
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::trace::find::FindRequest;
 use crate::trace::find::all_tracks::Tracking;
 use crate::trace::find::bone::{self, Shape};
 use crate::trace::find::candidates::{Floors, candidates_near, noise};
@@ -16,7 +15,7 @@ use crate::trace::find::pyramid::Pyramid;
 use crate::trace::find::scan::Scan;
 use crate::trace::find::side_by_side::side_by_side;
 use crate::trace::find::track::{Track, TrackPoint};
-use crate::trace::find::vessel_level::vessel_level;
+use crate::trace::find::vessel_level::{Readings, UsualLevel, vessel_level};
 use crate::voxels::Voxels;
 use lumencut_core::error::Result;
 use lumencut_core::stop::Stop;
@@ -37,6 +36,8 @@ const FIRST_CONTRAST: f64 = 0.3;
 
 pub(crate) struct Tubes<'v> {
     pub scan: Scan<'v>,
+    /// Another level and contrast, if one of two readings is far paler.
+    pub other: Option<[f64; 2]>,
     pub tracks: Vec<Track>,
     /// Shape of each track in the raw voxels.
     pub shapes: Vec<Option<Shape>>,
@@ -45,17 +46,17 @@ pub(crate) struct Tubes<'v> {
 /// The tubes of a scan, if any. If no track contains the seed (mm, LPS), fainter tubes are found around it.
 pub(crate) fn tubes<'v>(
     voxels: &'v Voxels<'v>,
+    grid: Grid,
     seed: Option<DVec3>,
-    request: &FindRequest,
+    stop: Stop,
     stages: Stages,
 ) -> Result<Option<Tubes<'v>>> {
-    let FindRequest { smallest_radius, stop, .. } = *request;
     let Range { values: range, is_hounsfield } = range(voxels);
     if range[1] <= range[0] {
         return Ok(None);
     }
     stages.stage(Stage::Levels, 1);
-    let mut pyramid = Pyramid::new(voxels, Grid::over(voxels, smallest_radius), range, stop)?;
+    let mut pyramid = Pyramid::new(voxels, grid, range, stop)?;
     stages.stage(Stage::FirstPass, 1);
     let Some([level, contrast]) = usual(&pyramid, range[1] - range[0], stop)? else { return Ok(None) };
     pyramid.clamp((level + ABOVE * contrast).min(range[1]), stop)?;
@@ -78,11 +79,11 @@ fn of_pass<'v>(pass: &Tracking, scan: Scan<'v>, seed: Option<DVec3>) -> Result<T
     let candidates = pass.candidates()?;
     let mut tracks = pass.tracks(&candidates)?;
     tracks.extend(side_by_side(pass, &candidates, &tracks)?);
-    let mut found = Tubes { scan, tracks: Vec::new(), shapes: Vec::new() };
+    let mut found = Tubes { scan, other: None, tracks: Vec::new(), shapes: Vec::new() };
     found.add(pass, &tracks, pass.stages)?;
-    let Scan { level, contrast, .. } = found.scan;
-    [found.scan.level, found.scan.contrast] =
-        bone::lumen_level(&found.scan, &found.tracks, &found.shapes).unwrap_or([level, contrast]);
+    let Readings { usual, other } = bone::readings(&found.scan, &found.tracks, &found.shapes);
+    [found.scan.level, found.scan.contrast] = usual;
+    found.other = other;
     let judged = bone::judged(&found.scan, found.tracks.clone(), &found.shapes, pass.stop)?;
     let hidden = hidden(pass, &candidates, &tracks, &judged)?;
     found.add(pass, &hidden, Stages::default())?;
@@ -129,7 +130,16 @@ fn range(voxels: &Voxels) -> Range {
 }
 
 fn usual(pyramid: &Pyramid, range: f64, stop: Stop) -> Result<Option<[f64; 2]>> {
-    let first = usize::from(pyramid.levels.len() > 1);
+    let half = usize::from(pyramid.levels.len() > 1);
+    let of_half = usual_from(pyramid, half, range, stop)?;
+    if half == 0 || of_half.is_none_or(|found| found.is_wide) {
+        return Ok(of_half.map(|found| found.level));
+    }
+    // Half the resolution dims narrow vessels.
+    Ok(usual_from(pyramid, 0, range, stop)?.or(of_half).map(|found| found.level))
+}
+
+fn usual_from(pyramid: &Pyramid, first: usize, range: f64, stop: Stop) -> Result<Option<UsualLevel>> {
     let noise = noise(&pyramid.levels[first]);
     let floors = Floors { noise, contrast: FIRST_CONTRAST * range };
     let judge = |points: Vec<TrackPoint>| Track { points, confidence: 1.0, doubt: None };

@@ -9,22 +9,64 @@ const LEAST_CLOSURE: f64 = 0.85;
 const NOISES: f64 = 6.0;
 const LEAST_LENGTH: f64 = 4.0;
 
+/// Half the resolution dims no lumen from this radius on (finest-level voxels).
+const WIDE: f64 = 4.0;
+
 /// Intensity levels are similar if they differ by about this fraction of the contrast.
 const KERNEL: f64 = 0.2;
 
+/// Pale organs are round and even too. Their reading has less contrast than this fraction of the first one's, and
+/// their tubes weigh less than this fraction of all.
+const PALE: f64 = 0.35;
+const RARE: f64 = 0.25;
+
 /// Radii above this (finest-level voxels) do not increase the weight of a tube.
 const WIDEST: f64 = 10.0;
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct UsualLevel {
+    /// Level and contrast.
+    pub level: [f64; 2],
+    /// Whether a tube that meets all limits is so wide that half the resolution does not dim it.
+    pub is_wide: bool,
+}
 
 #[derive(Clone, Copy, Debug)]
 struct Tube {
     level: f64,
     contrast: f64,
+    radius: f64,
     weight: f64,
 }
 
+/// The first reading [level, contrast] and the one of round, even tubes alone.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Readings {
+    /// The reading that holds.
+    pub usual: [f64; 2],
+    /// The other one, if one of them is far paler.
+    pub other: Option<[f64; 2]>,
+}
+
+impl Readings {
+    /// The second reading holds, unless it is that of organs among all tracks.
+    pub(crate) fn of(first: [f64; 2], second: [f64; 2], tracks: &[Vec<TrackPoint>], noise: f64) -> Self {
+        if second[1] >= PALE * first[1] {
+            return Self { usual: second, other: None };
+        }
+        let tubes: Vec<Tube> = tracks.iter().filter_map(|points| tube(points, noise, true)).collect();
+        let is_near = |tube: &&Tube| (tube.level - second[0]).abs() <= KERNEL * first[1];
+        let weight = |tubes: &mut dyn Iterator<Item = &Tube>| tubes.map(|tube| tube.weight).sum::<f64>();
+        let is_rare = weight(&mut tubes.iter().filter(is_near)) < RARE * weight(&mut tubes.iter());
+        let [usual, other] = if is_rare { [first, second] } else { [second, first] };
+        Self { usual, other: Some(other) }
+    }
+}
+
 /// The most frequent level, and its contrast, with tubes weighted by length, width and contrast. None without tubes.
-pub(crate) fn vessel_level(tracks: &[Vec<TrackPoint>], noise: f64) -> Option<[f64; 2]> {
+pub(crate) fn vessel_level(tracks: &[Vec<TrackPoint>], noise: f64) -> Option<UsualLevel> {
     let strict: Vec<Tube> = tracks.iter().filter_map(|points| tube(points, noise, true)).collect();
+    let is_wide = strict.iter().any(|tube| tube.radius >= WIDE);
     let tubes = if strict.is_empty() {
         tracks.iter().filter_map(|points| tube(points, noise, false)).collect()
     } else {
@@ -43,7 +85,7 @@ pub(crate) fn vessel_level(tracks: &[Vec<TrackPoint>], noise: f64) -> Option<[f6
     let alike: Vec<Tube> = tubes.iter().filter(near).copied().collect();
     let weight: f64 = alike.iter().map(|tube| tube.weight).sum();
     let mean = |of: fn(&Tube) -> f64| alike.iter().map(|tube| of(tube) * tube.weight).sum::<f64>() / weight;
-    Some([mean(|tube| tube.level), mean(|tube| tube.contrast)])
+    Some(UsualLevel { level: [mean(|tube| tube.level), mean(|tube| tube.contrast)], is_wide })
 }
 
 /// The tube of a track; None if the track is too short, too narrow or too open.
@@ -56,7 +98,7 @@ fn tube(points: &[TrackPoint], noise: f64, is_strict: bool) -> Option<Tube> {
     let length = length(points);
     let is_clear = radius >= LEAST_RADIUS && length >= LEAST_LENGTH * radius && contrast >= NOISES * noise;
     let tells = closure >= LEAST_CLOSURE && (is_clear || !is_strict);
-    tells.then(|| Tube { level, contrast, weight: length * radius.min(WIDEST) * contrast })
+    tells.then(|| Tube { level, contrast, radius, weight: length * radius.min(WIDEST) * contrast })
 }
 
 #[cfg(test)]

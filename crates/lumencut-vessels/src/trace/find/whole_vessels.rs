@@ -16,7 +16,6 @@ pub(crate) mod trimmed;
 
 use rayon::prelude::*;
 
-use crate::trace::find::FindRequest;
 use crate::trace::find::found::FoundVessel;
 use crate::trace::find::links::link::Link;
 use crate::trace::find::progress::{Stage, Stages};
@@ -31,16 +30,15 @@ use crate::trace::find::whole_vessels::runs::runs;
 use crate::trace::find::whole_vessels::stubs::without_stubs;
 use crate::trace::find::whole_vessels::trimmed::trimmed;
 use lumencut_core::error::Result;
-use lumencut_core::stop::go_on;
+use lumencut_core::stop::{Stop, go_on};
 
 pub(crate) fn of(
     scan: &Scan,
     tracks: &[Track],
     links: &[Link],
-    request: &FindRequest,
-    stages: Stages,
+    smallest_radius: f64,
+    (stop, stages): (Stop, Stages),
 ) -> Result<Vec<FoundVessel>> {
-    let stop = request.stop;
     let (tracks, links) = without_stubs(tracks, links, stop)?;
     let tracks = &tracks;
     let graph = Graph::new(tracks, &links);
@@ -54,7 +52,7 @@ pub(crate) fn of(
         Ok(line)
     };
     let lines: Vec<Centered> = (0..runs.runs.len()).into_par_iter().map(line).collect::<Result<_>>()?;
-    let whole = trimmed(attached(&runs, &graph.places, &lines, stop)?, request.smallest_radius, stop)?;
+    let whole = trimmed(attached(&runs, &graph.places, &lines, stop)?, smallest_radius, stop)?;
     let whole: Vec<Option<Attached>> = whole.into_iter().map(|run| run.map(closed)).collect();
     let mut part_of_root = vec![0; graph.places.len()];
     let (of_node, count) = graph.parts();

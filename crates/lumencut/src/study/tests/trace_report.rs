@@ -118,3 +118,18 @@ fn a_line_wanders_where_it_turns_more_tightly_than_its_vessel_is_wide() {
     assert_eq!(circle(9.0), 0);
     assert!(circle(4.0) > 10, "{}", circle(4.0));
 }
+
+#[test]
+fn a_found_vessel_has_the_doubts_of_a_traced_one() {
+    let mut study = tube(|z| if z < 48.0 { 400.0 } else { 280.0 });
+    let find = json!({"kind": "find_vessels", "doubtful": false});
+    let found = edited(&mut study, &Document::default(), &find);
+    assert_eq!(found.document.vessels.len(), 1);
+    let line = points(&study, found.document.vessels[0].line);
+    let told = study.trace_report(&found.document, Some(found.document.vessels[0].id)).expect("a report");
+    let [change] = told.expect("a vessel").doubts.try_into().expect("one doubt");
+    assert_eq!(found.notes[1..], [format!("Vessel 1: {}", change.words)]);
+    let at =
+        arc_lengths(&line).iter().position(|length| *length >= change.at.expect("a place")).expect("a point");
+    assert!((line[at].z - 48.0).abs() < 3.0, "{}", line[at].z);
+}

@@ -26,6 +26,7 @@ pub fn profile(sections: &[[f64; 2]]) -> Profile {
         wall: vec![[f64::NAN; 2]; count],
         diameter_outer: vec![[f64::NAN; 2]; count],
         bounds: vec![[f64::NAN; 2]; count],
+        at_most: vec![f64::NAN; count],
         flags: vec![0; count],
         center: vec![DVec3::ZERO; count],
         normal: vec![DVec3::Z; count],

@@ -1,7 +1,9 @@
 use super::super::hindrances::UNSURE;
 use super::super::made_profile::profile;
 use super::*;
-use crate::measure::section::flags::{CALCIUM, METAL, NEIGHBOR, NO_EDGE, OUTSIDE, RECENTERED, RESTLESS_LINE};
+use crate::measure::section::flags::{
+    CALCIUM, METAL, NEIGHBOR, NO_EDGE, OUTSIDE, PLAQUE, RECENTERED, RESTLESS_LINE,
+};
 
 fn narrowest(sections: &[[f64; 2]]) -> [f64; 2] {
     let spot = profile(sections).narrowest().expect("a place");
@@ -22,6 +24,15 @@ fn a_narrow_lumen_that_is_sure_is_suggested() {
     let mut sections = vec![[6.0, 0.1]; 20];
     sections[12..15].fill([1.0, 0.1]);
     assert_eq!(narrowest(&sections), [6.0, 1.0]);
+}
+
+#[test]
+fn a_place_beside_bright_plaque_is_suggested_though_it_is_not_sure() {
+    let mut made = profile(&[[6.0, 0.1]; 20]);
+    for n in 12..15 {
+        (made.area[n], made.uncertainty[n], made.flags[n]) = (3.0, 0.8, PLAQUE);
+    }
+    assert_eq!(made.narrowest().map(|spot| spot.at), Some(6.0));
 }
 
 #[test]

@@ -8,8 +8,8 @@ const SIZE: [usize; 3] = [70, 60, 50];
 /// Level, contrast and tracks found in voxels of 1 mm.
 fn found(value: impl Fn(DVec3) -> f64) -> Option<([f64; 2], Vec<Track>)> {
     with_scan(SIZE, 1.0, value, |scan| {
-        let request = FindRequest { smallest_radius: 1.0, stop: &|| false, progress: None };
-        let found = tubes(scan.voxels, None, &request, Stages::begin(None)).expect("tubes");
+        let grid = Grid::over(scan.voxels, 1.0);
+        let found = tubes(scan.voxels, grid, None, &|| false, Stages::begin(None)).expect("tubes");
         found.map(|found| ([found.scan.level, found.scan.contrast], found.tracks))
     })
 }
@@ -37,4 +37,40 @@ fn a_constant_and_a_plate_have_no_tubes() {
     assert!(found(|_| TISSUE).is_none());
     let plate = found(|place: DVec3| blurred(2.0 - (place.z - 25.0).abs()));
     assert!(plate.is_none_or(|(_, tracks)| tracks.is_empty()));
+}
+
+/// Level and other level of a scan with a large oval vessel, and with this many pale round organs beside it.
+fn levels(organs: usize) -> (f64, Option<[f64; 2]>) {
+    let value = |place: DVec3| {
+        let oval = ((place.y - 16.0) / 13.0).hypot((place.z - 25.0) / 7.5);
+        let organ = |n: usize| {
+            let [y, z] = [[50.0, 10.0], [50.0, 25.0], [50.0, 40.0]][n];
+            5.0 - (place.y - y).hypot(place.z - z)
+        };
+        let pale = (0..organs).map(|n| blurred(organ(n))).fold(TISSUE, f64::max);
+        let grain = (place.dot(DVec3::new(79.0, 113.0, 187.0)).sin() * 1e4).rem_euclid(8.0);
+        blurred(9.0 * (1.0 - oval)).max(TISSUE + 0.33 * (pale - TISSUE)) + grain
+    };
+    with_scan(SIZE, 1.0, value, |scan| {
+        let grid = Grid::over(scan.voxels, 1.0);
+        let found = tubes(scan.voxels, grid, None, &|| false, Stages::begin(None)).expect("tubes");
+        let found = found.expect("a level");
+        (found.scan.level, found.other)
+    })
+}
+
+#[test]
+fn few_pale_organs_do_not_set_the_level_and_many_do_but_both_are_told() {
+    let organ = TISSUE + 0.33 * (LEVEL - TISSUE);
+    let (level, other) = levels(1);
+    assert!(
+        (level - LEVEL).abs() < 6.0 && (other.expect("organs")[0] - organ).abs() < 6.0,
+        "{level} {other:?}"
+    );
+    let (level, other) = levels(3);
+    assert!(
+        (level - organ).abs() < 6.0 && (other.expect("vessels")[0] - LEVEL).abs() < 6.0,
+        "{level} {other:?}"
+    );
+    assert_eq!(levels(0).1, None);
 }

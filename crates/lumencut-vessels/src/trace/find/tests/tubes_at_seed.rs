@@ -1,5 +1,4 @@
 use super::*;
-use crate::trace::find::FindRequest;
 use crate::trace::find::made::{TISSUE, away, blurred, with_scan};
 use crate::trace::find::progress::Stages;
 use crate::trace::find::tubes::tubes;
@@ -16,8 +15,8 @@ fn value(place: DVec3) -> f64 {
 
 fn found(seed: Option<DVec3>) -> Vec<Track> {
     with_scan(SIZE, 1.0, value, |scan| {
-        let request = FindRequest { smallest_radius: 1.0, stop: &|| false, progress: None };
-        tubes(scan.voxels, seed, &request, Stages::begin(None)).expect("tubes").expect("tracks").tracks
+        let grid = Grid::over(scan.voxels, 1.0);
+        tubes(scan.voxels, grid, seed, &|| false, Stages::begin(None)).expect("tubes").expect("tracks").tracks
     })
 }
 

@@ -12,6 +12,7 @@ use crate::trace::find::whole_vessels::runs::{Run, Runs};
 use crate::trace::lines::nearest_point;
 use crate::trace::lumen::lumen_model::LumenModel;
 use crate::trace::lumen::refine::{STEP, refined_near};
+use crate::trace::lumen::ridge::on_ridge;
 use lumencut_core::error::Result;
 use lumencut_core::stop::Stop;
 
@@ -51,7 +52,9 @@ pub(crate) fn centered(scan: &Scan, runs: &Runs, number: usize, stop: Stop) -> R
     let is_outside = outside.is_some();
     let way = Way::along(&way[outside.unwrap_or(0..=way.len() - 1)]);
     let line = if is_outside && way.length() >= SHORTEST {
-        way.guarded(&refined_near(scan.voxels, &model(scan, &way.points), &way.line, stop)?)
+        let model = model(scan, &way.points);
+        let line = way.guarded(&refined_near(scan.voxels, &model, &way.line, stop)?);
+        on_ridge(scan.voxels, model.tissue, line, stop)?
     } else {
         way.line.clone()
     };

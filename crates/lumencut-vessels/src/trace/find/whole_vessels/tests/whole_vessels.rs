@@ -24,8 +24,7 @@ fn found(tubes: &[([DVec3; 2], Track)], tracks: &[Track], smallest_radius: f64) 
     };
     with_scan(SIZE, SIDE, value, |scan| {
         let links = between(scan, tracks, &|| false, Stages::begin(None)).expect("links");
-        let request = FindRequest { smallest_radius, stop: &|| false, progress: None };
-        of(scan, tracks, &links, &request, Stages::begin(None)).expect("vessels")
+        of(scan, tracks, &links, smallest_radius, (&|| false, Stages::begin(None))).expect("vessels")
     })
 }
 
@@ -186,10 +185,7 @@ fn nothing_makes_no_vessels_and_work_stops_where_it_is_asked_to() {
         SIZE,
         SIDE,
         |_| 0.0,
-        |scan| {
-            let request = FindRequest { smallest_radius: 0.5, stop: &|| true, progress: None };
-            of(scan, std::slice::from_ref(&track), &[], &request, Stages::begin(None)).map(|_| ())
-        },
+        |scan| of(scan, std::slice::from_ref(&track), &[], 0.5, (&|| true, Stages::begin(None))).map(|_| ()),
     );
     assert!(stopped.is_err());
 }
@@ -207,8 +203,7 @@ fn making_vessels_whole_asks_whether_to_stop_for_every_track_in_each_step() {
         let work = |first: usize| {
             let asked = AtomicUsize::new(0);
             let stop = || asked.fetch_add(1, Ordering::Relaxed) >= first;
-            let request = FindRequest { smallest_radius: 0.5, stop: &stop, progress: None };
-            let is_whole = of(scan, &tracks, &[], &request, Stages::begin(None)).is_ok();
+            let is_whole = of(scan, &tracks, &[], 0.5, (&stop, Stages::begin(None))).is_ok();
             (asked.load(Ordering::Relaxed), is_whole)
         };
         let (whole, is_whole) = work(usize::MAX);
