@@ -308,3 +308,16 @@ def test_vessels_know_their_confidence_and_bridges():
     ):
         with pytest.raises(lumencut.VesselTreeError):
             Vessel(points, 1.0, **wrong)
+
+
+def test_doubts_about_a_traced_line_are_notes_of_its_tree():
+    line = arc(60)
+
+    def faded(scene):
+        # The second half of the vessel is that of a dimmer lumen.
+        scene.paint(line[len(line) // 2 :], 4.0, 220.0)
+
+    volume = painted(line, 4.0, background=FAT, after=faded)
+    (note,) = trace(volume, [line[2], line[-3]], names=["aorta"]).notes
+    assert note.startswith("vessel 0: Doubtful from ")
+    assert "the brightness of the lumen changes there from 3" in note

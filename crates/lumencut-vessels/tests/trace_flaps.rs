@@ -16,26 +16,22 @@ const SIDE: f64 = 0.75;
 const RADIUS: f64 = 10.0;
 const LENGTH: f64 = SIDE * 88.0;
 
-/// Standard deviation of a blur with a FWHM of 1 mm.
 const BLUR: f64 = 1.0 / 2.355;
 
 /// A tube of 20 mm along z. A flap, which turns by 40° along the tube, parts it into two lumens.
 struct Aorta {
     flap: f64,
     levels: [f64; 2],
-    /// Level of the second lumen between 24 and 42 mm.
     dim: Option<f64>,
     outside: f64,
 }
 
 const AORTA: Aorta = Aorta { flap: 0.8, levels: [350.0; 2], dim: None, outside: -100.0 };
 
-/// Share of a blurred half space at a signed distance from its face (mm): the logistic curve is nearly the integral.
 fn share(distance: f64) -> f64 {
     1.0 / (1.0 + (-1.702 * distance / BLUR).exp())
 }
 
-/// Signed distance from the flap; positive in the second lumen.
 fn beside_flap(place: DVec3) -> f64 {
     let (sin, cos) = (40.0_f64.to_radians() * (place.z / LENGTH - 0.5)).sin_cos();
     place.x * cos + place.y * sin
@@ -64,7 +60,6 @@ impl Aorta {
         };
         let value = |n: usize| {
             let index = [n % SIZE[0], n / SIZE[0] % SIZE[1], n / (SIZE[0] * SIZE[1])].map(|c| c as f64);
-            // The sum of twelve uniform random numbers is nearly normal.
             let deviate: f64 = (0..12).map(|_| uniform()).sum();
             (self.value(affine().transform_point3(index.into())) + 25.0 * deviate).round() as i16
         };
@@ -81,7 +76,6 @@ impl Aorta {
         self.with(|volume| traced(volume, clicks))
     }
 
-    /// The doubts about a line of this aorta.
     fn doubts(&self, traced: &Traced, clicks: &[DVec3]) -> Vec<String> {
         let doubted = Doubted { line: &traced.line, bridged: &traced.bridged, clicks };
         let doubts = self.with(|volume| doubted.doubts(&voxels::Voxels::new(volume)));
@@ -99,7 +93,6 @@ fn traced(volume: &Volume, clicks: &[DVec3]) -> Result<Traced> {
     Tracer::default().trace(volume, &clicks, &|| false, None).map(|mut lines| lines.remove(0))
 }
 
-/// A place in the middle of a lumen (-1 or 1) at a height (mm).
 fn inside(lumen: f64, z: f64) -> DVec3 {
     let (sin, cos) = (40.0_f64.to_radians() * (z / LENGTH - 0.5)).sin_cos();
     DVec3::new(cos, sin, 0.0) * (lumen * 0.5 * RADIUS) + DVec3::Z * z
@@ -157,7 +150,6 @@ fn a_click_in_dim_lumen_needs_a_clear_one_beside_it_and_tissue_stays_refused() {
     assert!(doubts.iter().any(|words| words.contains("the line is a guess")), "{doubts:?}");
     aorta.with(|volume| assert!(Tracer::default().check_click(volume, dim).is_err()));
     assert!(aorta.line(&[dim, inside(1.0, 36.0)]).is_err());
-    // The click lies in the dim part of the false lumen, and its partner in the true lumen.
     assert!(aorta.line(&[inside(-1.0, 6.0), dim]).is_err());
     let muscle = Aorta { outside: 84.0, ..AORTA };
     assert!(muscle.line(&[clear, DVec3::new(-12.6, -12.6, 33.0)]).is_err());
@@ -165,7 +157,6 @@ fn a_click_in_dim_lumen_needs_a_clear_one_beside_it_and_tissue_stays_refused() {
 
 #[test]
 fn a_line_much_longer_than_the_distance_of_its_clicks_is_told() {
-    // A hairpin of 40 mm in both lumens.
     let leg = |lumen: f64| (0..=80).map(move |n| inside(lumen, 10.0 + 0.5 * f64::from(n)));
     let points: Vec<DVec3> = leg(-1.0).chain(leg(1.0).rev()).collect();
     let count = points.len();

@@ -28,7 +28,6 @@ pub struct Traced {
 }
 
 impl Traced {
-    /// A line through clicks; the confidence of guesses is 0.
     pub(crate) fn new(mut line: Centerline, bridged: Vec<bool>, clicks: &[DVec3]) -> Self {
         for (confidence, is_guess) in line.confidence.iter_mut().zip(&bridged) {
             *confidence = if *is_guess { 0.0 } else { *confidence };

@@ -5,7 +5,6 @@ use glam::DVec3;
 use crate::trace::lumen::directions::half_sphere;
 use crate::voxels::Voxels;
 
-/// Length of the rays (mm), and number of opposite pairs of rays.
 const RAY: f64 = 15.0;
 const PAIRS: u32 = 24;
 
@@ -19,7 +18,6 @@ const LEAST_ENDED: f64 = 0.6;
 /// Values of a dim lumen (HU): it has some contrast medium, but less than a clear lumen.
 pub(crate) const DIM_HU: [f64; 2] = [65.0, 145.0];
 
-/// Whether a place may lie in dim lumen, for the `noise` of clear lumen.
 pub(crate) fn is_dim_lumen(voxels: &Voxels, place: DVec3, noise: f64) -> bool {
     let value = mean_around(voxels, place);
     let step = voxels.smallest_side;
@@ -33,7 +31,6 @@ pub(crate) fn is_dim_lumen(voxels: &Voxels, place: DVec3, noise: f64) -> bool {
     (DIM_HU[0]..=DIM_HU[1]).contains(&value) && ended as f64 >= LEAST_ENDED * f64::from(2 * PAIRS)
 }
 
-/// Mean of the 3³ values around a place, one voxel apart.
 fn mean_around(voxels: &Voxels, place: DVec3) -> f64 {
     let middle = voxels.index_from_world.transform_point3(place);
     let value = |n: i32| {

@@ -11,7 +11,6 @@ use crate::voxels::Voxels;
 use lumencut_core::error::Result;
 
 /// The model of the clear lumen, and the clicks in dim lumen: those that the model refuses, and that may be dim lumen.
-/// Errors: as of [`Surroundings::model`].
 pub(crate) fn model_beside_dim(
     voxels: &Voxels,
     surroundings: &Surroundings,

@@ -19,7 +19,6 @@ const DETOUR: f64 = 2.0;
 /// A line does not run across its lumen if its ends are farther apart than this many radii.
 const LONG: f64 = 4.0;
 
-/// Guesses that are at most this far apart (mm) are told together.
 const APART: f64 = 20.0;
 
 /// A doubt about a line.
@@ -68,7 +67,6 @@ impl Doubted<'_> {
     fn runs_across(&self, voxels: &Voxels) -> bool {
         let [first, .., last] = self.clicks else { return false };
         let widest = self.line.radius.iter().copied().fold(0.0, f64::max);
-        // A line of several widths is not tested, because the test samples a large part of the volume.
         let is_long = widest > 0.0 && first.distance(*last) > LONG * widest;
         !is_long && runs_across(voxels, [*first, *last])
     }
@@ -101,7 +99,6 @@ impl Doubted<'_> {
     }
 }
 
-/// Runs of marked points; a run goes on from one marked point to a later one if `goes_on`.
 fn stretches(marked: &[bool], goes_on: impl Fn(usize, usize) -> bool) -> Vec<Range<usize>> {
     let mut found: Vec<Range<usize>> = Vec::new();
     for n in (0..marked.len()).filter(|n| marked[*n]) {
@@ -113,7 +110,6 @@ fn stretches(marked: &[bool], goes_on: impl Fn(usize, usize) -> bool) -> Vec<Ran
     found
 }
 
-/// The doubt about a stretch with sharp turns, between two arc lengths (mm).
 fn wanders([from, to]: [f64; 2]) -> Doubt {
     let why = "the line turns in less than the width of the vessel there";
     let (words, at) = if from > 0.0 {

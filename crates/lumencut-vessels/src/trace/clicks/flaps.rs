@@ -55,10 +55,8 @@ const MOST_LONGER: f64 = 1.15;
 const IN_FLAPS_HU: f64 = 3.0;
 const IN_FLAPS: f64 = 10.0;
 
-/// Maximum number of voxels of a front.
 const MOST_VOXELS: usize = 4_000_000;
 
-/// A vessel with several lumens.
 pub(crate) struct Flaps<'a, 'v> {
     search: &'a Search<'a, 'v>,
     /// The clear lumen, with the noise of its values alone: the spread at a click may be that of two lumens.
@@ -66,14 +64,12 @@ pub(crate) struct Flaps<'a, 'v> {
 }
 
 impl<'a, 'v> Flaps<'a, 'v> {
-    /// `model` describes the clear lumen.
     pub(crate) fn new(search: &'a Search<'a, 'v>, model: LumenModel, clicks: &[DVec3]) -> Self {
         let clear = clicks.iter().filter(|click| !search.dim.contains(click));
         let noises: Vec<f64> = clear.map(|click| noise(search.voxels, *click)).collect();
         Self { search, lumen: LumenModel { noise: lower_median(noises), ..model } }
     }
 
-    /// Marks the points of a line that lie in flaps, if it follows or crosses flaps; None if it does not.
     pub(crate) fn met(&self, line: &Centerline) -> Option<Vec<bool>> {
         let marks = self.in_flaps(line);
         let least = if self.lumen.is_hounsfield { IN_FLAPS_HU } else { IN_FLAPS };
@@ -86,7 +82,6 @@ impl<'a, 'v> Flaps<'a, 'v> {
         let mut last = None;
         let is_in = |place: &DVec3| {
             let voxel = voxels.voxel_at(*place)?;
-            // Several points lie in one voxel.
             let is_in =
                 last.filter(|(at, _)| *at == voxel).map_or_else(|| valleys.hold(voxel), |(_, is_in)| is_in);
             last = Some((voxel, is_in));
@@ -116,8 +111,6 @@ impl<'a, 'v> Flaps<'a, 'v> {
         Region::new(self.search.voxels.size, LumenModel { low, ..self.lumen }, stoppers, Strictness::Flaps)
     }
 
-    /// The line in the middle of its lumen. The smoothed path itself is taken if sections cannot be trusted: if lumen is
-    /// dim, or the line leaves the path for a flap or in turns.
     fn line_along(&self, path: &[DVec3]) -> Result<Centerline> {
         let contrast = self.lumen.contrast();
         let model = LumenModel { noise: self.lumen.noise.min(MOST_NOISE * contrast), ..self.lumen };
@@ -138,7 +131,6 @@ impl<'a, 'v> Flaps<'a, 'v> {
         Ok(if is_better { centred } else { plain })
     }
 
-    /// Whether the mean value around a place is too low for clear lumen.
     fn is_dim(&self, place: DVec3) -> bool {
         let near = self.search.voxels.ball(place, AROUND * self.search.voxels.smallest_side);
         let mean = near.iter().map(|(_, value)| f64::from(*value)).sum::<f64>() / near.len() as f64;
@@ -146,7 +138,6 @@ impl<'a, 'v> Flaps<'a, 'v> {
         !is_clear || self.search.dim.iter().any(|dim| dim.distance(place) < NEAR_DIM)
     }
 
-    /// Voxels of the cheapest path between two clicks; None if it is not free.
     fn free_way(&self, region: &mut Region, between: [DVec3; 2]) -> Result<Option<Vec<[i32; 3]>>> {
         let voxels = self.search.voxels;
         let [source, target] = between.map(|click| start(voxels, region, click));
@@ -166,7 +157,6 @@ impl<'a, 'v> Flaps<'a, 'v> {
     }
 }
 
-/// The length (mm) of the marked parts of a line.
 fn length_of(line: &Centerline, marks: &[bool]) -> f64 {
     let steps = line.points.windows(2).zip(marks).filter(|(_, is_marked)| **is_marked);
     steps.map(|(step, _)| step[0].distance(step[1])).sum()

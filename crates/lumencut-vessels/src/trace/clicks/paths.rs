@@ -26,7 +26,6 @@ const MOST_VOXELS_OF_DOUBT: usize = 4_000_000;
 
 type Ends = [[i32; 3]; 2];
 
-/// A region with the fronts of clicks, and the paths between clicks.
 #[derive(Debug)]
 pub(crate) struct Paths {
     pub region: Region,
@@ -43,7 +42,6 @@ struct Part {
 pub(crate) struct Search<'a, 'v> {
     pub voxels: &'a Voxels<'v>,
     pub clicks: &'a Clicks,
-    /// The clicks in dim lumen.
     pub dim: &'a [DVec3],
     pub stop: Stop<'a>,
     pub progress: Option<&'a Progress>,
@@ -72,7 +70,6 @@ impl Paths {
         !changed.is_empty()
     }
 
-    /// Drops what belongs to none of the `known` clicks.
     pub(crate) fn tidy(&mut self, known: &[[i32; 3]]) {
         self.fronts.retain(|source, _| known.contains(source));
         self.ways.retain(|ends, _| ends.iter().all(|end| known.contains(end)));
@@ -144,7 +141,6 @@ impl Search<'_, '_> {
         found
     }
 
-    /// Bridges parts without lumen if requested; otherwise returns an error that states where they are.
     fn bridge(&self, region: &Region, between: [DVec3; 2], ends: Ends) -> Result<Way> {
         let model = region.model;
         let stoppers = self.clicks.stoppers.clone();

@@ -94,8 +94,6 @@ impl Tracer {
         self.surroundings.unwrap_or_else(|| Surroundings::of(voxels, clicks))
     }
 
-    /// Fits the lumen model to the clicks, and drops caches that were made with a different model. Returns the
-    /// clicks in dim lumen.
     fn prepare(
         &mut self,
         voxels: &Voxels,

@@ -30,7 +30,6 @@ impl Way {
         Self { points, gaps }
     }
 
-    /// Whether each point lies in a gap that is too long to be accepted.
     pub(crate) fn is_open(&self) -> Vec<bool> {
         let mut is_open = vec![false; self.points.len()];
         for gap in self.gaps.iter().filter(|gap| gap.is_open) {

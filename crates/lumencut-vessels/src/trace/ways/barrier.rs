@@ -27,41 +27,33 @@ const LEAST_NOISE: f64 = 0.05;
 /// Brighter values are capped at this fraction of the contrast above the lumen: the edge of bone must be no valley.
 const CAP: f64 = 0.6;
 
-/// Levels are stored in this fraction of the noise.
 const LEVEL_UNIT: f64 = 0.05;
 
 fn noise(model: &LumenModel) -> f64 {
     model.noise.max(LEAST_NOISE * model.contrast()).max(f64::MIN_POSITIVE)
 }
 
-/// For steps of `length` mm, the factor from a difference of levels to a multiple of the free change.
 pub(crate) fn change_per_level(length: f32) -> f32 {
     (LEVEL_UNIT / (FREE_CHANGE * f64::from(length))) as f32
 }
 
-/// Relative cost of a step between two levels.
 #[inline]
 pub(crate) fn cost_of_change(from: i16, to: i16, per_level: f32) -> f32 {
     let change = (f32::from(from) - f32::from(to)).abs() * per_level;
     CHANGE.mul_add((change - 1.0).max(0.0), 1.0)
 }
 
-/// The barrier in one block.
 pub(crate) struct Barrier {
-    /// Smoothed values above tissue, in [`LEVEL_UNIT`] of the noise.
     pub levels: [i16; BLOCK],
-    /// Relative cost of each voxel: 1 in no valley, [`CLEAR_VALLEY`] in a clear one.
     pub valleys: [f32; BLOCK],
 }
 
-/// Value above tissue in noises. No value counts as tissue.
 fn scaled(model: &LumenModel, value: f32) -> f32 {
     let (noise, most) = (noise(model), model.high + CAP * model.contrast());
     let value = if value.is_finite() { f64::from(value) } else { model.tissue };
     ((value.min(most) - model.tissue) / noise) as f32
 }
 
-/// The clear valleys of a volume, such as flaps, for single voxels.
 pub(crate) struct Valleys<'a, 'v> {
     voxels: &'a Voxels<'v>,
     model: &'a LumenModel,
@@ -73,7 +65,6 @@ impl<'a, 'v> Valleys<'a, 'v> {
         Self { voxels, model, weights: gaussian(VALLEY_SMOOTHING, HALO as i32) }
     }
 
-    /// Whether a voxel lies in a clear valley.
     pub(crate) fn hold(&self, voxel: [i32; 3]) -> bool {
         const SIDE: usize = 2 * HALO + 1;
         let mut values = [0.0; SIDE * SIDE * SIDE];
@@ -90,7 +81,6 @@ impl<'a, 'v> Valleys<'a, 'v> {
     }
 }
 
-/// Weighted sums of rows of values.
 fn products<const N: usize>(values: &[f32], weights: &[f32]) -> [f32; N] {
     std::array::from_fn(|n| {
         values[n * weights.len()..].iter().zip(weights).map(|(value, weight)| value * weight).sum()
@@ -98,7 +88,6 @@ fn products<const N: usize>(values: &[f32], weights: &[f32]) -> [f32; N] {
 }
 
 impl Barrier {
-    /// The barrier from the values of a block with its border.
     pub(crate) fn new(model: &LumenModel, values: &[f32]) -> Self {
         let scaled: Vec<f32> = values.iter().map(|value| scaled(model, *value)).collect();
         let smooth = blurred(&scaled, &gaussian(LEVEL_SMOOTHING, 2)[0]);
@@ -107,7 +96,6 @@ impl Barrier {
     }
 }
 
-/// A Gaussian and its first two derivatives, at whole voxels.
 fn gaussian(sigma: f64, reach: i32) -> [Vec<f32>; 3] {
     let at = |x: i32| (-0.5 * (f64::from(x) / sigma).powi(2)).exp();
     let sum: f64 = (-reach..=reach).map(at).sum();
@@ -118,7 +106,6 @@ fn gaussian(sigma: f64, reach: i32) -> [Vec<f32>; 3] {
     [made(&|_| 1.0), made(&|x| x / square), made(&|x| (x * x / square - 1.0) / square)]
 }
 
-/// Powers of the derivative along (i, j, k) for the entries xx, yy, zz, xy, xz, yz.
 const ENTRIES: [[usize; 3]; 6] = [[2, 0, 0], [0, 2, 0], [0, 0, 2], [1, 1, 0], [1, 0, 1], [0, 1, 1]];
 
 fn valleys(values: &[f32]) -> [f32; BLOCK] {
@@ -135,7 +122,6 @@ fn valleys(values: &[f32]) -> [f32; BLOCK] {
 
 fn valley([xx, yy, zz, xy, xz, yz]: [f64; 6]) -> f32 {
     let [from, to] = VALLEY;
-    // The largest eigenvalue is at most the root of the sum of squares.
     let squares = xx * xx + yy * yy + zz * zz + 2.0 * (xy * xy + xz * xz + yz * yz);
     if squares <= from * from {
         return 1.0;
@@ -144,7 +130,6 @@ fn valley([xx, yy, zz, xy, xz, yz]: [f64; 6]) -> f32 {
     (1.0 + (CLEAR_VALLEY - 1.0) * ((largest - from) / (to - from)).clamp(0.0, 1.0)) as f32
 }
 
-/// Weighted sums along one axis, where all weights lie inside; the axis gets shorter.
 fn filtered(values: &[f32], size: [usize; 3], axis: usize, weights: &[f32]) -> Vec<f32> {
     let mut shorter = size;
     shorter[axis] -= weights.len() - 1;

@@ -80,7 +80,6 @@ pub struct Front {
     settled: usize,
     /// Steps to the neighbours along (i, j, k), with their lengths in world space (mm).
     steps: [([i32; 3], f32); 26],
-    /// For each step, the factor from a difference of levels to a multiple of the free change.
     per_level: [f32; 26],
     costs: [f32; 256],
     weak: u8,
@@ -150,7 +149,6 @@ impl Front {
         }
     }
 
-    /// Cost of the path between two voxels of the same path.
     pub(crate) fn cost_between(&self, from: [i32; 3], to: [i32; 3]) -> f64 {
         let [from, to] = [from, to].map(|voxel| {
             self.find(voxel).map_or(f32::INFINITY, |(block, voxel)| self.known[block].way[voxel])

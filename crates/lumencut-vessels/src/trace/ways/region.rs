@@ -79,12 +79,9 @@ pub struct Stopper {
     pub radius: f64,
 }
 
-/// Data of a block that decide about paths.
 #[derive(Clone, Debug)]
 pub(crate) struct BlockCosts {
-    /// Code of the cost per millimetre of each voxel.
     pub codes: [u8; BLOCK],
-    /// Levels of the voxels, between which a change costs more; None if changes cost nothing.
     pub levels: Option<Box<[i16; BLOCK]>>,
 }
 

@@ -7,7 +7,6 @@ pub(crate) const HALO: usize = 3;
 /// Side of the cube with border (voxels).
 pub(crate) const PADDED_SIDE: usize = SIDE + 2 * HALO;
 
-/// Index of a block's voxel in the cube with border.
 pub(crate) fn padded(n: usize) -> usize {
     let [i, j, k] = [n % SIDE, n / SIDE % SIDE, n / (SIDE * SIDE)].map(|c| c + HALO);
     (k * PADDED_SIDE + j) * PADDED_SIDE + i
