@@ -501,7 +501,11 @@ class Tracer:
         callback: Callable[[int, int], object] | None = None,
     ) -> list[
         tuple[
-            npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.float64], npt.NDArray[np.bool_]
+            npt.NDArray[np.float64],
+            npt.NDArray[np.float64],
+            npt.NDArray[np.float64],
+            npt.NDArray[np.bool_],
+            list[str],
         ]
     ]: ...
 
