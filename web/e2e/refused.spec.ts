@@ -84,7 +84,7 @@ test('also as its first two clicks; once bridged, that vessel can be extended', 
   await expect(rows(viewer)).toHaveCount(1);
   await bridge().click();
   await traced(viewer, 2);
-  // The part that was bridged is told as a guess.
+  // The page calls the bridged part a guess.
   await expect(viewer.page.locator('.trace-bar')).toContainText(
     /Vessel 2, 27\.\d mm\. Doubtful from .*guess\./,
   );

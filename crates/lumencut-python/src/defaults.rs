@@ -12,8 +12,7 @@ pub(crate) fn pixel_side(smallest_side: f64) -> f64 {
 }
 
 /// Adds to the module: the defaults by name, the table (name, other functions, unit, range, default, sentence), and
-/// the rules for
-/// pixel sides and smallest radii in words.
+/// the rules for pixel sides and smallest radii in words.
 pub(crate) fn add_names(module: &Bound<'_, PyModule>) -> PyResult<()> {
     let by_name: Vec<_> = QUANTITIES.iter().map(|row| (row.name, row.default)).collect();
     module.add("DEFAULTS", by_name.into_py_dict(module.py())?)?;

@@ -66,16 +66,16 @@ impl Tracer {
             let progress = reporter.as_ref().map(|reporter| reporter.progress);
             let mut tracer = self.0.lock().unwrap_or_else(PoisonError::into_inner);
             let tracer = &mut *tracer;
-            let told = || {
+            let with_doubts = || {
                 let traced = tracer.trace(&volume, &clicks, stop, progress)?;
                 let voxels = &Voxels::new(&volume);
-                let told = traced.into_iter().zip(&clicks.vessels).map(|(traced, clicks)| {
+                let pairs = traced.into_iter().zip(&clicks.vessels).map(|(traced, clicks)| {
                     let doubted = Doubted { line: &traced.line, bridged: &traced.bridged, clicks };
                     (doubted.doubts(voxels).into_iter().map(|doubt| doubt.words).collect(), traced)
                 });
-                Ok(told.collect::<Vec<(Vec<String>, Traced)>>())
+                Ok(pairs.collect::<Vec<(Vec<String>, Traced)>>())
             };
-            pool::install(told)?.map_err(to_python)
+            pool::install(with_doubts)?.map_err(to_python)
         })?;
         if let Some(reporter) = reporter {
             reporter.report(py, SHARES)?;

@@ -7,8 +7,7 @@ import hashlib
 from collections.abc import Sequence
 from html import escape
 
-from lumencut import _lumencut
-from lumencut.base.html_pages import beside, policy_of
+from lumencut.base.html_pages import beside, one_file_page
 from lumencut.cohort.layout import Layout
 from lumencut.cohort.manifest import Manifest, Study
 from lumencut.cohort.record import Record
@@ -54,18 +53,7 @@ def contact_page(layout: Layout, manifest: Manifest, records: Sequence[Record | 
     cohort = hashlib.sha256(f"{layout.out}\0{ids}".encode()).hexdigest()[:16]
     filters = "".join(f"<option>{name}</option>" for name in _FILTERS)
     orders = "".join(f'<option value="{key}">{name}</option>' for key, name in _ORDERS.items())
-    return f"""<!doctype html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta http-equiv="Content-Security-Policy" content="{policy_of(style, script)}">
-<meta name="viewport" content="width=device-width">
-<meta name="generator" content="Lumencut {_lumencut.__version__}">
-<title>Cohort of {len(manifest.studies)} studies</title>
-<style>{style}</style>
-</head>
-<body>
-<header>
+    body = f"""<header>
 <h1>Cohort of {len(manifest.studies)} studies</h1>
 <label>Show <select id="filter">{filters}</select></label>
 <label>Order by <select id="order">{orders}</select></label>
@@ -77,11 +65,8 @@ def contact_page(layout: Layout, manifest: Manifest, records: Sequence[Record | 
 <ol data-cohort="{cohort}">
 {tiles}
 </ol>
-<footer></footer>
-<script>{script}</script>
-</body>
-</html>
-"""
+<footer></footer>"""
+    return one_file_page(f"Cohort of {len(manifest.studies)} studies", style, script, body)
 
 
 def _tile(layout: Layout, row: int, study: Study, record: Record | None) -> str:

@@ -45,7 +45,7 @@ const SMALLEST_RADIUS: f64 = 1.0;
 /// The rule of [`smallest_radius`] in words, for help texts and documentation.
 pub const SMALLEST_RADIUS_WORDS: &str = "1 mm, or 1.3 voxel sides if that is less";
 
-/// If no vessel is sure, this fraction of the smallest radius is tried, to tell what it finds.
+/// If no vessel is sure, this fraction of the smallest radius is tried, so that the refusal can say what it finds.
 const LOWER: f64 = 0.7;
 
 /// Which vessels to find.

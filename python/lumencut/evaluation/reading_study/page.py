@@ -5,8 +5,7 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING
 
-from lumencut import _lumencut
-from lumencut.base.html_pages import beside, policy_of
+from lumencut.base.html_pages import beside, one_file_page
 
 if TYPE_CHECKING:
     from lumencut.evaluation.reading_study.questions import Picture, Question
@@ -41,18 +40,7 @@ def study_page(
     }
     # The slash of an end tag would end the script early.
     data = json.dumps(content).replace("</", "<\\/")
-    return f"""<!doctype html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta http-equiv="Content-Security-Policy" content="{policy_of(style, script)}">
-<meta name="viewport" content="width=device-width">
-<meta name="generator" content="Lumencut {_lumencut.__version__}">
-<title>Reading study</title>
-<style>{style}</style>
-</head>
-<body>
-<main>
+    body = f"""<main>
 <section id="start">
 <h1>Reading study</h1>
 <p>{_HELP}</p>
@@ -76,8 +64,5 @@ def study_page(
 <button id="save" type="button">Save answers</button>
 </section>
 </main>
-<script type="application/json" id="study">{data}</script>
-<script>{script}</script>
-</body>
-</html>
-"""
+<script type="application/json" id="study">{data}</script>"""
+    return one_file_page("Reading study", style, script, body)

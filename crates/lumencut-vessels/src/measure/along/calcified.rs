@@ -12,7 +12,7 @@ const BLOOMING_WIDTHS: f64 = 2.0;
 /// A section next to calcium that is wider than the free ones by this factor shows blooming.
 const WIDER: f64 = 1.06;
 
-/// A lumen narrower than this fraction of the free ones is none if bright material hides its wall.
+/// If bright material hides the wall, a fit narrower than this fraction of the free lumens is not a lumen.
 const COLLAPSED: f64 = 0.3;
 
 /// Sections up to this distance give the free diameter on a side (mm), for stretches up to this length (mm).
@@ -51,9 +51,9 @@ pub(crate) fn settle(places: &[SectionPlane], sections: &mut [Section], width: f
 
 /// Judges a section by the free diameter (mm) that its neighbours let expect.
 fn judge(section: &mut Section, free: f64, is_near: bool) {
-    let told = diameter(section);
+    let measured = diameter(section);
     if is_bright(section) {
-        if told < COLLAPSED * free {
+        if measured < COLLAPSED * free {
             let (flags, [low, high]) = (section.flags | NO_EDGE, section.bounds);
             let bounds = [low, high.max(free)];
             *section = Section { flags, bounds, ..Section::none() };
@@ -62,9 +62,9 @@ fn judge(section: &mut Section, free: f64, is_near: bool) {
         if section.bounds[0] > free {
             section.bounds[0] = free;
         }
-    } else if is_near && section.flags & LEFT_OUT == 0 && told > WIDER * free {
+    } else if is_near && section.flags & LEFT_OUT == 0 && measured > WIDER * free {
         section.flags |= CALCIUM;
-        section.bounds = [free, told];
+        section.bounds = [free, measured];
     }
 }
 

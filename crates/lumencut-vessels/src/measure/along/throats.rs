@@ -1,5 +1,5 @@
 //! Limits the diameter where the lumen between two clear sections is dim: the throat of a tight stenosis. A lumen
-//! narrower than the blur does not reach its level, so its peak tells how wide it can be at most.
+//! narrower than the blur does not reach its level, so its peak limits how wide it can be.
 
 use glam::DVec2;
 

@@ -30,7 +30,7 @@ pub(crate) fn bounds(rays: &[Ray], wall: impl Fn(usize) -> f64, width: f64) -> [
     [inner, outer].map(|radii| (self::area(&radii) / area).sqrt())
 }
 
-/// Blur lets plaque beside calcium look like lumen, so the lower bound excludes it. Beside struts lies lumen.
+/// Blur lets plaque next to calcium look like lumen, so the lower bound excludes it. Next to struts is lumen.
 fn narrow_beside(inner: &mut [f64], measured: &[f64], hides: impl Fn(usize) -> bool, width: f64) {
     let radii = inner.to_vec();
     let is_wide = |n: usize| {

@@ -1,4 +1,4 @@
-//! Tells dim lumen from other tissue of the same values: a lumen is enclosed, by darker tissue or by brighter lumen.
+//! Distinguishes dim lumen from other tissue of the same values: a lumen is enclosed, by darker tissue or by brighter lumen.
 
 use glam::DVec3;
 

@@ -1,5 +1,5 @@
 //! Clicks in dim lumen, such as a false lumen that contrast medium hardly reaches. Their values are those of tissue, so
-//! they are accepted only beside a click in clear lumen.
+//! they are accepted only together with a click in clear lumen.
 
 use glam::DVec3;
 
