@@ -205,29 +205,6 @@ def test_every_preset_and_every_context_is_taken_and_makes_another_picture():
         assert picture(context=name) == picture(context=name, context_transfer="bone")
 
 
-def noisy(shape):
-    """Tissue of 100 ± 10 with a rod of 400."""
-    array = np.random.default_rng(1).normal(100, 10, shape).astype(np.float32)
-    array[:, 20:26, 20:26] += 300
-    return array
-
-
-def test_the_window_of_a_volume_is_the_same_in_any_order_of_its_axes():
-    array = noisy((100, 90, 80))
-    window = Window.from_data(Volume(array))
-    assert Window.from_data(Volume(np.asfortranarray(array))) == window
-
-
-def test_the_window_of_a_large_volume_looks_at_a_part_of_it():
-    # Of the larger volume, every second cube along each axis is examined.
-    part, whole = (
-        Window.from_data(Volume(noisy((128, 256, 192)))),
-        Window.from_data(Volume(noisy((64, 128, 96)))),
-    )
-    np.testing.assert_allclose(part.level, whole.level, rtol=0.1)
-    np.testing.assert_allclose(part.width, whole.width, rtol=0.1)
-
-
 @pytest.mark.parametrize("name", ["aorta", "runoff", "cervical"])
 def test_the_window_of_a_volume_alone_shows_the_lumen_and_not_the_tissue(name):
     made = getattr(phantom, name)(scale=0.3)
@@ -237,20 +214,6 @@ def test_the_window_of_a_volume_alone_shows_the_lumen_and_not_the_tissue(name):
     # Values of lumen and tissue in the phantoms.
     assert 0.4 < (350 - alone.level) / alone.width + 0.5 < 0.8
     assert (60 - alone.level) / alone.width + 0.5 < 0.28
-
-
-@pytest.mark.parametrize("value", [0, 7, -3000])
-def test_a_constant_volume_has_a_window(value):
-    window = Window.from_data(Volume(np.full((4, 5, 6), value, np.int16)))
-    assert window.level == value
-    assert window.width > 0
-
-
-def test_voxels_that_are_not_finite_are_left_out_of_the_window():
-    array = np.full((6, 6, 6), np.nan, np.float32)
-    assert Window.from_data(Volume(array)) == Window(300, 900)
-    array[2:4], array[4:, 0, 0] = np.linspace(0, 1, 72).reshape(2, 6, 6), np.inf
-    assert 0.3 < Window.from_data(Volume(array)).level < 1
 
 
 def test_windows_of_what_is_no_volume_or_beyond_all_windows():
