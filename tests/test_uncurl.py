@@ -12,7 +12,7 @@ from lumencut import Camera, Settings, Slab, cpr, uncurl
 from lumencut.cli import main
 from lumencut.errors import CameraError, SettingsError, VesselTreeError
 from lumencut.pictures.reformation_recipe import read_reformation_recipe
-from lumencut.reformations.uncurling import film_amounts, uncurling
+from lumencut.reformations.uncurling import film_amounts, fitted_uncurling, uncurling
 from scene_files import bent_line, write_lines, write_volume
 
 VIEW = Camera((0, 0, 0), (0.4, 0.8, -0.3), (0, 0, 1), size=(91, 161), pixel_spacing=0.5)
@@ -44,6 +44,10 @@ def test_pixels_of_another_size_show_the_same():
     assert fine.size == (182, 322)
     there = fine.world_from_pixel([91.5, 161.5])
     np.testing.assert_allclose(there, one.world_from_pixel([45.5, 80.5]), atol=1e-9)
+
+
+def test_the_camera_fits_the_vessel_at_every_amount_unless_it_is_given():
+    assert uncurl(noise(), wave()).camera == fitted_uncurling(Camera.anterior(wave()), wave())
 
 
 def test_a_film_begins_and_ends_as_the_two_reformations():
