@@ -69,3 +69,9 @@ def test_a_fitted_view_of_a_volume_holds_its_corners():
 def test_zooming_by_no_number_above_0(factor):
     with pytest.raises(CameraError, match=r"factor of the zoom: found .*; expected "):
         VIEW.zoomed(factor)
+
+
+def test_an_axis_is_a_name_or_a_vector():
+    front = Camera((0, 0, 0), POSTERIOR, SUPERIOR)
+    assert_same_view(front.rotated(0.3, "up"), front.rotated(0.3, SUPERIOR * 7))
+    np.testing.assert_allclose(front.rotated(math.pi / 2, "direction").up, LEFT, atol=1e-12)

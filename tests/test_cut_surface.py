@@ -13,6 +13,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import reference
 import reference_images
 import reference_surface
 from conftest import each_value, needs_shared_data, odd_lines
@@ -249,6 +250,14 @@ def test_tangles_of_points_with_whole_coordinates(lines, direction, lumen_first)
     frame = Renderer(None, tree).cut_surface(camera, changed)
     found = differences(frame, reference_surface.cut_surface(tree, camera, changed))
     assert (found["depth"], found["vessel"], found["distance"]) == (0, 0, 0), found
+
+
+def test_levels_of_detail():
+    tree = of_few_points(1)
+    for found, expected in zip(tree.levels(6), reference.levels_of(tree, 6), strict=True):
+        for vessel, (points, radius, _) in zip(found, expected, strict=True):
+            np.testing.assert_allclose(vessel.points, points, rtol=0, atol=1e-10)
+            np.testing.assert_allclose(vessel.radius, radius, rtol=0, atol=1e-10)
 
 
 @each_value
