@@ -43,13 +43,6 @@ def wave(count=160):
     return vessel(np.stack([9 * np.sin(5 * t), 7 * np.cos(4 * t), 22 - 44 * t + 2 * np.sin(9 * t)], axis=1))
 
 
-def helix(radius=12.0, rise=3.0, turns=1.5, count=1500):
-    """The helix (R cos a, R sin a, -P a), downwards, its angles and its length."""
-    a = np.linspace(0, 2 * np.pi * turns, count)
-    points = np.stack([radius * np.cos(a), radius * np.sin(a), -rise * a], axis=1)
-    return vessel(points), a, np.hypot(radius, rise) * a[-1]
-
-
 def trilinear(volume, points):
     """Sample the volume at world points (…, 3) with numpy only; NaN outside the outermost voxel centres."""
     inverse = np.linalg.inv(volume.world_from_index)

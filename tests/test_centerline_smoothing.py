@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from lumencut import Camera, Renderer, Settings, Vessel, VesselTree
+from lumencut import Vessel, VesselTree
 from lumencut.cli import main
 from lumencut.errors import SettingsError
 from scene_files import bent_line, write_lines
@@ -18,26 +18,6 @@ def trembling_tree():
     points = np.linspace((0, 0, 0), (60, 20, -30), 120) + rng.normal(0, 0.2, (120, 3))
     bare = Vessel(rng.normal(0, 9, (20, 3)), name="bare")
     return VesselTree([bare, Vessel(points, np.linspace(4, 1, 120), "trunk")])
-
-
-def integrated(points, at, sigma):
-    """Return the Gaussian mean around a point far from the ends, by small steps along the polyline."""
-    arc = np.concatenate([[0], np.linalg.norm(np.diff(points, axis=0), axis=1).cumsum()])
-    steps = np.linspace(-6, 6, 24_001)
-    weights = np.exp(-(steps**2) / 2)
-    places = arc[at] + sigma * steps
-    assert places[0] >= 0
-    assert places[-1] <= arc[-1]
-    return np.array([np.average(np.interp(places, arc, axis), weights=weights) for axis in points.T])
-
-
-def test_a_smoothed_point_is_the_gaussian_mean_of_the_curve():
-    tree = trembling_tree()
-    trunk, smoothed = tree[1], tree.smoothed(0.5)[1]
-    for at in range(40, 80):
-        expected = integrated(trunk.points, at, 0.5 * trunk.radius[at])
-        # The core approximates the Gaussian by several box filters.
-        assert np.linalg.norm(smoothed.points[at] - expected) < 2e-3
 
 
 def test_what_stays():
@@ -55,15 +35,6 @@ def test_what_stays():
 def test_radii_are_those_of_the_setting(radii):
     with pytest.raises(SettingsError, match="centerline_smoothing"):
         trembling_tree().smoothed(radii)
-
-
-def test_the_setting_shows_the_smoothed_tree():
-    tree = trembling_tree()
-    camera = Camera.anterior(tree, size=(60, 50))
-    shown = Renderer(None, tree, "cpu").cut_surface(camera, Settings(centerline_smoothing=1.5))
-    given = Renderer(None, tree.smoothed(1.5), "cpu").cut_surface(camera)
-    np.testing.assert_array_equal(shown.depth, given.depth)
-    np.testing.assert_array_equal(shown.vessel, given.vessel)
 
 
 def info(*words):

@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from conftest import each_value
 from lumencut.base.mends import as_option
 from lumencut.cli import main
 from lumencut.errors import FormatError, SpaceWarning
@@ -18,12 +17,9 @@ from lumencut.files.centerlines import inspect_centerlines, read_centerlines
 from lumencut.files.volumes import inspect_volume, read_volume
 from lumencut.pictures.renderer import Renderer
 from lumencut.scene.images import as_volume
-from lumencut.scene.placement import MILLIMETRES
 from lumencut.scene.vessel import Vessel
 from lumencut.scene.vessel_tree import VesselTree
 from lumencut.scene.volume import Volume
-
-SIGNS = {"lps": np.ones(3), "ras": np.array([-1.0, -1.0, 1.0])}
 
 
 def line(length: float) -> np.ndarray:
@@ -68,45 +64,8 @@ def read(path: Path, volume: Volume, **stated: str):
             return error, []
 
 
-def followed(error: FormatError) -> list[dict[str, str]]:
-    """Return the options that the remedy of an error proposes."""
-    ways: list[dict[str, str]] = []
-    for mend in error.mends:
-        for value in mend.values:
-            space, _, unit = value.partition(" in ")
-            named = {"reading": {"coordinates": space, "unit": unit}, "unit": {"unit": value}}
-            ways.append(named.get(mend.name, {"coordinates": value}))
-    return ways
-
-
 def is_true(tree: VesselTree, points: np.ndarray) -> bool:
     return np.allclose(tree[0].points, points, atol=1e-6)
-
-
-@each_value
-@pytest.mark.parametrize("is_bright", [False, True])
-@pytest.mark.parametrize("unit", ["um", "mm", "cm", "m"])
-@pytest.mark.parametrize("length", [20.0, 72.0, 300.0])
-@pytest.mark.parametrize(
-    ("kind", "space"), [("x,y,z", "lps"), ("x,y,z", "ras"), ("l,p,s", "lps"), ("mrk", "lps")]
-)
-def test_no_unit_is_wrong_without_a_word(kind, space, length, unit, is_bright, tmp_path):
-    points = line(length)
-    volume = volume_around(points, is_bright=is_bright)
-    path = write(tmp_path, kind, points * SIGNS[space] / MILLIMETRES[unit])
-    found, told = read(path, volume)
-    if isinstance(found, FormatError):
-        ways = followed(found)
-        assert ways
-        assert any(is_true(tree, points) for tree, _ in (read(path, volume, **way) for way in ways))
-    elif not is_true(found, points):
-        words = " ".join(told) or str(inspect_centerlines(path, volume=volume).decision)
-        is_size_of_vessels = kind == "mrk" and unit == "cm" and length == 300 and not is_bright
-        assert f'unit="{unit}"' in words or is_size_of_vessels
-    else:
-        assert unit in ("mm",) or told
-    asked, told = read(path, volume, coordinates=space, unit=unit)
-    assert (is_true(asked, points), told) == (True, [])
 
 
 def test_advice_for_lines_in_metres_beside_a_scan_with_the_origin_is_right(tmp_path):

@@ -134,35 +134,24 @@ def test_slabs_of_an_unknown_mode(mode):
             "context: found 'xray'; expected one of 'mida', 'dvr', 'mip', 'minip', 'average' or",
         ),
         ({"context": True}, "context: found True; expected one of 'mida'"),
-        ({"context": "\ud800"}, "context: found .*; expected one of 'mida'"),
         ({"context_gamma": 1.01}, r"context_gamma: found 1\.01; expected between -1 and 1"),
-        ({"context_gamma": -2}, "context_gamma: found -2; expected between -1 and 1"),
         ({"context_gamma": "a"}, "context_gamma: found 'a'; expected"),
         (
             {"context_gamma": 0.5, "context": "dvr"},
             r"context_gamma: found 0\.5 with the context 'dvr'; expected 0,",
         ),
         (
-            {"context_gamma": 1, "context": "mip"},
-            "found 1 with the context 'mip'; expected 0, or the context 'mida'",
-        ),
-        (
             {"context_gamma": -1, "context": None},
             "found -1 with the context None; expected 0, or the context 'mida'",
         ),
-        ({"context_gamma": np.nan, "context": "average"}, "found NaN with the context 'average'"),
         ({"context_window": (1, 2)}, r"context_window: found \(1, 2\); expected a Window, one of .* or None"),
         ({"context_step": 0}, r"context_step: found 0; expected between 0\.001 and 1000 mm"),
         ({"context_step": np.nan}, "context_step: found NaN; expected"),
-        ({"context_step": np.inf, "context": None}, "context_step: found inf; expected"),
         ({"context_step": "1"}, "context_step: found '1'; expected"),
         (
             {"context_step": 0.5, "context": "mip"},
             r"context_step: found 0\.5 mm with the context 'mip'; expected no step: this context has exact",
         ),
-        ({"context_step": 3, "context": "minip"}, "found 3 mm with the context 'minip'; expected no step"),
-        ({"context_step": 3, "context": "average"}, "found 3 mm with the context 'average'; expected no"),
-        ({"context_step": 3, "context_gamma": 1}, "found 3 mm with the context 'mida'; expected no step"),
         (
             {"context_transfer": "red"},
             "context_transfer: found 'red'; expected one of 'grey', 'angio', 'bone', 'soft",
@@ -205,29 +194,6 @@ def test_every_preset_and_every_context_is_taken_and_makes_another_picture():
         assert picture(context=name) == picture(context=name, context_transfer="bone")
 
 
-def noisy(shape):
-    """Tissue of 100 ± 10 with a rod of 400."""
-    array = np.random.default_rng(1).normal(100, 10, shape).astype(np.float32)
-    array[:, 20:26, 20:26] += 300
-    return array
-
-
-def test_the_window_of_a_volume_is_the_same_in_any_order_of_its_axes():
-    array = noisy((100, 90, 80))
-    window = Window.from_data(Volume(array))
-    assert Window.from_data(Volume(np.asfortranarray(array))) == window
-
-
-def test_the_window_of_a_large_volume_looks_at_a_part_of_it():
-    # Of the larger volume, every second cube along each axis is examined.
-    part, whole = (
-        Window.from_data(Volume(noisy((128, 256, 192)))),
-        Window.from_data(Volume(noisy((64, 128, 96)))),
-    )
-    np.testing.assert_allclose(part.level, whole.level, rtol=0.1)
-    np.testing.assert_allclose(part.width, whole.width, rtol=0.1)
-
-
 @pytest.mark.parametrize("name", ["aorta", "runoff", "cervical"])
 def test_the_window_of_a_volume_alone_shows_the_lumen_and_not_the_tissue(name):
     made = getattr(phantom, name)(scale=0.3)
@@ -237,20 +203,6 @@ def test_the_window_of_a_volume_alone_shows_the_lumen_and_not_the_tissue(name):
     # Values of lumen and tissue in the phantoms.
     assert 0.4 < (350 - alone.level) / alone.width + 0.5 < 0.8
     assert (60 - alone.level) / alone.width + 0.5 < 0.28
-
-
-@pytest.mark.parametrize("value", [0, 7, -3000])
-def test_a_constant_volume_has_a_window(value):
-    window = Window.from_data(Volume(np.full((4, 5, 6), value, np.int16)))
-    assert window.level == value
-    assert window.width > 0
-
-
-def test_voxels_that_are_not_finite_are_left_out_of_the_window():
-    array = np.full((6, 6, 6), np.nan, np.float32)
-    assert Window.from_data(Volume(array)) == Window(300, 900)
-    array[2:4], array[4:, 0, 0] = np.linspace(0, 1, 72).reshape(2, 6, 6), np.inf
-    assert 0.3 < Window.from_data(Volume(array)).level < 1
 
 
 def test_windows_of_what_is_no_volume_or_beyond_all_windows():

@@ -17,7 +17,6 @@ from lumencut import (
     VesselTree,
     VesselTreeError,
     VolumeError,
-    Window,
     cr,
 )
 from scenes import wandering
@@ -49,39 +48,6 @@ def test_every_pixel_shows_what_a_search_of_everything_finds(seed, thresholds):
     assert (np.abs(frame.depth - nearest) > 1e-2).any() == (thresholds != (0, 0)) or thresholds == (0, 0)
 
 
-def crossing():
-    """A horizontal vessel in front, and a vertical one 40 mm behind it, both with a radius of 4 mm."""
-    return VesselTree([Vessel([(-60, 0, 0), (60, 0, 0)], 4.0), Vessel([(0, 40, -60), (0, 40, 60)], 4.0)])
-
-
-@pytest.mark.parametrize("offset", [0, 5, 20, 55])
-def test_a_larger_offset_keeps_more_surroundings_and_hides_more_lumen(offset):
-    """A crossing of 120 mm: tissue around the vessel in front, and visible lumen of the vessel behind."""
-    camera = Camera((0, 0, 0), (0, 1, 0), (0, 0, 1), (240, 240), 0.5)
-    frame = cr(None, crossing(), camera, radius_offset=2 * offset)
-    x, y = np.meshgrid(*reference.places(camera))
-    expected = (np.abs(y) <= 4 + offset) | (np.abs(y) <= np.abs(x))
-    assert np.array_equal(frame.vessel == 0, expected)
-    assert np.array_equal(frame.depth, np.where(expected, 0, 40))
-    shown = (frame.vessel == 1) & (np.abs(x) <= 4)
-    assert shown.sum() / 4 == 8 * (120 - 2 * (4 + offset))
-    band = (frame.vessel == 0) & (np.abs(x) <= 20) & (np.abs(y) <= 20)
-    reach = min(4 + offset, 20)
-    assert band.sum() / 4 == pytest.approx(40 * 40 - (20 - reach) * (40 + 2 * reach), abs=45)
-
-
-def test_the_threshold_decides_what_is_one_stretch():
-    """A hairpin: within one stretch the limb nearer in the image is shown, otherwise the one in front."""
-    tree = VesselTree(
-        [Vessel([(0, 0, 50), (0, 0, -50)], 2.0), Vessel([(0, 0, -50), (10, 40, -50), (10, 40, 50)], 2.0)]
-    )
-    camera = Camera((0, 0, 0), (0, 1, 0), (0, 0, 1), (60, 21), 1.0)
-    way = 50 + np.hypot(10, 40) + 50
-    short, long = (cr(None, tree, camera, None, 10, threshold) for threshold in (way - 12, way + 12))
-    # The pixel at (8.5, 0) is in the disc of the limb in front, but nearer to the limb behind.
-    assert [frame.vessel[10, 38] for frame in (short, long)] == [0, 1]
-
-
 def test_the_images_of_the_frame():
     volume, tree = scene("phantom")
     camera = Camera.anterior(tree, (70, 60))
@@ -94,23 +60,6 @@ def test_the_images_of_the_frame():
     assert np.array_equal(alone.depth, frame.depth)
     with pytest.raises(VolumeError, match="folded"):
         _ = frame.folded
-
-
-@pytest.mark.parametrize("grid", reference.GRIDS)
-def test_values_are_those_of_the_positions(grid):
-    affine = reference.GRIDS[grid]
-    tree = VesselTree(
-        [Vessel([(-6, -5, -8), (3, 0, 2), (1, 2, 9)], 2.0), Vessel([(6, -3, -8), (-5, 1, 8)], 1.0)]
-    )
-    camera = Camera((0.2, 0.1, 0), (0.2, 1, 0.1), (0.1, 0, 1), (60, 40), 0.5)
-    bare = Settings(context=None, silhouettes=False, window=Window(50, 100))
-    frames = [cr(volume, tree, camera, bare, 4, 20) for volume in reference.index_valued(affine)]
-    position = frames[0].position.reshape(-1, 3)
-    expected = (position - affine[:3, 3]) @ np.linalg.inv(affine[:3, :3]).T
-    found = np.stack([frame.value.ravel() for frame in frames], axis=1)
-    within = (expected >= 0).all(axis=1) & (expected <= np.array([29, 25, 21])).all(axis=1)
-    assert within.sum() > 800
-    assert np.abs(found - expected)[within].max() < 1e-3
 
 
 def test_within_their_lumen_vessels_without_others_are_shown_as_by_csr():

@@ -116,18 +116,6 @@ def test_samples_change_the_picture_alone(scene, samples, device, request):
     assert set(several.timings) == set(one.timings)
 
 
-def test_samples_of_a_transparent_picture_keep_their_colours(scene):
-    """If half of a pixel is transparent, its colour is that of the other half."""
-    settings = Settings(context=None, silhouettes=False, background=(0, 0, 0, 0), samples=4)
-    camera = Camera.anterior(scene[0], SIZE).zoomed(0.4)
-    image = Renderer(*scene, "cpu").render(camera, settings).image
-    partly = (image[..., 3] > 0) & (image[..., 3] < 255)
-    assert partly.any()
-    opaque = image[image[..., 3] == 255]
-    assert image[partly][:, :3].max() <= opaque[:, :3].max()
-    assert not image[image[..., 3] == 0][:, :3].any()
-
-
 @pytest.mark.parametrize("samples", [0, 5, 2.5, "2", None])
 def test_samples_out_of_range_are_refused(samples):
     with pytest.raises(SettingsError, match="samples"):

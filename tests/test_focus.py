@@ -37,23 +37,6 @@ def camera(scene: phantom.Phantom) -> Camera:
     return Camera.anterior(scene.tree, size=(120, 100)).rotated(degrees=20)
 
 
-def test_a_margin_beyond_the_picture_is_csr(renderer: Renderer, camera: Camera) -> None:
-    plain = renderer.render(camera, Settings())
-    focused = renderer.render(camera, Settings(focus=Focus(1e6, 6)))
-    assert (focused.image == plain.image).all()
-
-
-def test_a_margin_far_below_zero_with_whole_rays_is_the_context_alone(
-    scene: phantom.Phantom, renderer: Renderer, camera: Camera
-) -> None:
-    window = Window(100, 400)
-    settings = Settings(focus=Focus(-1e6, 6), context_from="whole", window=window, context_window=window)
-    alone = Renderer(scene.volume, None, device="cpu").render(
-        camera, dataclasses.replace(settings, focus=None)
-    )
-    assert (renderer.render(camera, settings).image == alone.image).all()
-
-
 def test_between_two_tubes_the_share_is_that_of_the_nearer_wall() -> None:
     """White tubes in a white volume on black, no context: the brightness is the share of the cut surface."""
     volume = Volume(np.full((40, 40, 60), 1000, np.int16), origin=(-30, -20, -20))

@@ -1,7 +1,5 @@
 """Chosen vessels in front of all others: names and ids, what they show, and errors."""
 
-import dataclasses
-
 import numpy as np
 import pytest
 from click.testing import CliRunner
@@ -62,14 +60,6 @@ def test_names_ids_and_words_of_digits_are_the_same_vessels(renderer: Renderer, 
     ]
     assert all((image == found[0]).all() for image in found)
     assert Settings(focus_vessels=["back", np.int64(1)]).focus_vessels == ("back", 1)
-
-
-def test_all_vessels_or_none_are_the_plain_picture(renderer: Renderer, camera: Camera) -> None:
-    base = Settings(focus=Focus(1, 6), silhouettes=False)
-    plain = renderer.render(camera, base)
-    for words in ((), ("front", "back"), (1, 0)):
-        chosen = dataclasses.replace(base, focus_vessels=words, others_strength=0.1)
-        assert (renderer.render(camera, chosen).image == plain.image).all()
 
 
 @pytest.mark.parametrize(

@@ -66,16 +66,6 @@ def test_the_wall_is_where_the_lumen_ends(plain):
     assert not plain.open.any()
 
 
-def test_a_crust_lies_on_its_side(plain):
-    columns, _ = plain.size
-    angles = 2 * math.pi * (np.arange(columns) + 0.5) / columns - math.pi
-    sides = np.sin(angles)
-    shown = plain.value
-    assert (shown[5:50, sides > 0.7] > 900).all()
-    assert (shown[5:50, sides < 0.3] < 400).all()
-    assert (shown[70:] < 400).all()
-
-
 def test_the_cut_runs_opposite_to_calcium(crusted):
     turned = lumen_map(crusted, LINE)
     assert math.degrees(turned.angle) == pytest.approx(90, abs=5)
@@ -101,17 +91,6 @@ def test_an_ellipse_has_its_polar_radius():
     middle = made.value[20:-20]
     assert np.abs(middle - expected).max() < 0.25
     assert (made.value == made.wall.astype(np.float32)).all()
-
-
-def test_positions_lie_beyond_the_wall_and_come_back(plain):
-    away = np.hypot(plain.position[..., 0], plain.position[..., 1])
-    assert np.allclose(away, plain.wall + 1.0)
-    rows, columns = np.mgrid[0:121:17, 0:101:13]
-    there = np.stack([columns.ravel(), rows.ravel()], axis=1).astype(float)
-    world = plain.world_from_pixel(there)
-    assert np.allclose(world, plain.position[rows.ravel(), columns.ravel()])
-    assert np.abs(plain.pixel_from_world(world) - there).max() < 1e-5
-    assert np.isnan(plain.pixel_from_world([0, 4, 17])).all()
 
 
 def test_positions_are_exact_on_a_sheared_grid():

@@ -16,27 +16,6 @@ def seen_from(viewer, up=(0, 0, 1)):
 
 
 @pytest.mark.parametrize(
-    ("vector", "letters"),
-    [
-        ((1, 0, 0), "L"),
-        ((-2, 0, 0), "R"),
-        ((0, 3, 0), "P"),
-        ((0, -1, 0), "A"),
-        ((0, 0, 9), "S"),
-        ((0, 0, -1), "I"),
-        ((1, -2, 0), "AL"),
-        ((-3, 1, 2), "RSP"),
-        ((1, 1, 1), "LPS"),
-        ((1, 0.19, 0), "L"),
-        ((1, 0.21, 0), "LP"),
-        ((0.9, 0.18, -0.1), "L"),
-    ],
-)
-def test_letters_are_sorted_by_their_part_and_small_parts_left_out(vector, letters):
-    assert sides(np.array(vector, dtype=float)) == letters
-
-
-@pytest.mark.parametrize(
     ("name", "left", "right", "top", "bottom"),
     [
         ("anterior", "R", "L", "S", "I"),

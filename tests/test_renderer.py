@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 
 import nibabel
 import numpy as np
@@ -17,7 +16,6 @@ from conftest import needs_shared_data
 from lumencut import (
     Camera,
     CameraError,
-    Opacity,
     Renderer,
     Settings,
     SettingsError,
@@ -34,7 +32,6 @@ from lumencut import (
     render,
 )
 from scenes import wandering
-from test_cut_surface import assert_same
 
 LUMEN, SOFT, CALCIFIED = 350, 40, 1000
 AFFINE = np.array([[2.1, 0.3, -0.2, -30], [-0.4, 2.3, 0.1, -35], [0.2, 0.5, -2.6, 40], [0, 0, 0, 1.0]])
@@ -92,43 +89,6 @@ def test_fields_of_a_frame(size):
     for name in ("image", "value", "context"):
         with pytest.raises(VolumeError, match=f"{name} of the frame: found a cut surface without a volume"):
             getattr(bare, name)
-
-
-@pytest.mark.parametrize("direction", [(0, 1, 0), (0.4, 1, -0.2)])
-def test_position_and_value_belong_together(direction):
-    tree = wandering(1)
-    camera = Camera.fitted(tree, direction, (0, 0, 1), (60, 50))
-    frames = [Renderer(volume, tree).render(camera) for volume in indices()]
-    position = frames[0].position.reshape(-1, 3)
-    np.testing.assert_array_equal(frames[1].position, frames[0].position)
-    depth = reference.view_from_world(position, camera)[:, 2]
-    np.testing.assert_allclose(depth, frames[0].depth.ravel(), atol=1e-9)
-    index = (position - AFFINE[:3, 3]) @ np.linalg.inv(AFFINE[:3, :3]).T
-    values = np.stack([frame.value.ravel() for frame in frames], axis=1)
-    inside = ((index > -0.5) & (index < 31.5)).all(axis=1)
-    assert 0.05 < inside.mean() < 0.95, "inside and outside must both be seen"
-    assert np.isnan(values[~inside]).all()
-    np.testing.assert_allclose(values[inside], np.clip(index[inside], 0, 31), atol=1e-4)
-
-
-def test_the_image_is_the_value_through_the_window_and_the_opacity():
-    volume, tree = indices()[2], wandering(1)
-    window, background = Window(12, 9), (10, 200, 30, 128)
-    settings = Settings(window=window, silhouettes=False, background=background, context=None)
-    frame = Renderer(volume, tree).render(None, settings)
-    outside = np.isnan(frame.value)
-    assert outside.any()
-    assert (frame.image[outside] == background).all()
-    shown = frame.image[~outside]
-    assert (shown[:, 3] == 255).all()
-    for channel in shown.T[:3]:
-        np.testing.assert_allclose(channel, grey(frame.value[~outside], window), atol=0.51)
-    faint = Renderer(volume, tree).render(None, replace(settings, opacity=Opacity(5, 21)))
-    over = np.clip((frame.value[~outside] - 5) / 16, 0, 1)[:, None]
-    behind = (1 - over) * background[3] / 255
-    color = grey(frame.value[~outside], window)[:, None] * over + np.array(background[:3]) * behind
-    expected = np.hstack([color / (over + behind), 255 * (over + behind)])
-    np.testing.assert_allclose(faint.image[~outside], expected, atol=0.51)
 
 
 def test_silhouettes_stand_where_the_surface_leaps():
@@ -230,16 +190,6 @@ def test_defaults_of_the_view_and_the_window():
     np.testing.assert_array_equal(again.image, frame.image)
 
 
-@pytest.mark.each_value(most=3)
-@pytest.mark.parametrize("name", ["straight_tube", "trefoil", "cervical", "runoff"])
-def test_the_window_from_the_data_shows_tissue_lumen_and_calcifications_apart(name):
-    made = getattr(phantom, name)(**({} if name in ("straight_tube", "trefoil") else {"scale": 0.5}))
-    window = Window.from_data(made.volume, made.tree)
-    assert grey(60, window) < 85
-    assert 0.60 * 255 - 0.5 <= grey(LUMEN, window) <= 0.72 * 255 + 0.5
-    assert grey(CALCIFIED, window) > 240
-
-
 def test_without_a_volume_there_is_a_cut_surface_but_no_picture():
     renderer = Renderer(None, wandering(2))
     assert np.isfinite(renderer.cut_surface().depth).all()
@@ -247,16 +197,6 @@ def test_without_a_volume_there_is_a_cut_surface_but_no_picture():
         renderer.render()
     with pytest.raises(VolumeError, match="found None"):
         _ = renderer.window
-
-
-def test_ten_thousand_vessels():
-    tree = wandering(9, vessels=10_000, points=5)
-    frame = Renderer(None, tree).cut_surface(Camera.anterior(tree, (48, 48)))
-    assert len(np.unique(frame.vessel)) > 300
-    assert frame.vessel.max() > 8192
-    finest = Settings(depth_filter=False, levels=0)
-    fewer = VesselTree(list(tree)[::5])
-    assert_same(fewer, Camera.anterior(fewer, (6, 4)), finest, most_unsure=0.05)
 
 
 def test_a_tree_that_misses_the_volume_is_refused_with_counts():

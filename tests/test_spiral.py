@@ -45,30 +45,6 @@ def test_the_vessel_is_the_middle_column(narrowed):
     assert not made.folded.any()
 
 
-@pytest.mark.parametrize("sampling", ["arc", "angle"])
-def test_pixels_and_places_are_inverse(narrowed, sampling):
-    made = spiral(narrowed, LINE, pitch=1.0, sampling=sampling, angle=0.6)
-    columns, rows = made.size
-    pixels = np.array([[0.0, 0.0], [columns / 3, 7.25], [columns - 1.2, rows - 2.0]])
-    world = made.world_from_pixel(pixels)
-    assert np.abs(made.pixel_from_world(world) - pixels).max() < 1e-5
-    assert np.isnan(made.pixel_from_world([[20.0, 0, 0], [0, 1, 11]])).all()
-
-
-def test_positions_are_exact_on_a_sheared_grid():
-    """The value of a voxel is its first index, so values show at which positions the pixels look."""
-    affine = np.array([[0.4, 0.1, 0.05, -10], [0.0, 0.5, 0.1, -10], [0.02, 0.0, 0.6, -14], [0, 0, 0, 1.0]])
-    index = np.broadcast_to(np.arange(50, dtype=np.float32), (60, 44, 50))
-    volume = Volume(np.ascontiguousarray(index), world_from_index=affine)
-    made = spiral(volume, LINE, pitch=0.7)
-    inverse = np.linalg.inv(affine)
-    expected = made.position @ inverse[0, :3] + inverse[0, 3]
-    # Half a voxel beyond the outermost centres, border values continue.
-    known = np.isfinite(made.value) & (expected > 0) & (expected < 49)
-    assert known.mean() > 0.8
-    assert np.abs(made.value - expected)[known].max() < 1e-3
-
-
 @pytest.mark.parametrize(
     ("changes", "error", "words"),
     [

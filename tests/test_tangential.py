@@ -7,7 +7,7 @@ import pytest
 from click.testing import CliRunner
 from PIL import Image
 
-from cpr_scenes import GRIDS, index_volumes, noise, vessel, wave
+from cpr_scenes import noise, vessel, wave
 from lumencut import Camera, Settings, Vessel, VesselTree, cpr, cr
 from lumencut.cli import main
 from lumencut.errors import CameraError, SettingsError, VesselTreeError
@@ -32,18 +32,6 @@ def test_it_is_cr_of_one_vessel_without_a_threshold():
         assert not made.folded.any()
 
 
-@pytest.mark.parametrize("name", GRIDS)
-def test_positions_are_those_whose_values_are_shown(name):
-    for axis, volume in enumerate(index_volumes(name)):
-        made = cpr(volume, wave(), "tangential", camera=VIEW)
-        inverse = np.linalg.inv(volume.world_from_index)
-        index = made.position @ inverse[:3, :3].T + inverse[:3, 3]
-        index = index.clip(0, np.array(volume.size) - 1)
-        seen = ~np.isnan(made.value)
-        assert seen.sum() > 3000
-        np.testing.assert_allclose(made.value[seen], index[..., axis][seen], atol=1e-3)
-
-
 def test_the_camera_is_the_anterior_one_unless_it_is_named_and_can_be_turned():
     made = cpr(noise(), wave(), "tangential")
     assert made.camera == Camera.anterior(VesselTree([wave()]))
@@ -54,14 +42,6 @@ def test_the_camera_is_the_anterior_one_unless_it_is_named_and_can_be_turned():
     assert made._edges() == {"left": "R", "right": "L", "top": "S", "bottom": "I"}
     with pytest.raises(CameraError, match="angle of the rotation: found neither"):
         made.rotated()
-
-
-def test_every_point_has_the_pixel_where_the_camera_sees_it():
-    made = cpr(noise(), wave(), "tangential", camera=VIEW)
-    pixels = np.array([[3.0, 7.0], [44.5, 55.25]])
-    there = made.world_from_pixel(pixels)
-    np.testing.assert_allclose(made.pixel_from_world(there), pixels, atol=1e-9)
-    np.testing.assert_allclose(made.pixel_from_world(there + 5 * np.array(VIEW.direction)), pixels, atol=1e-9)
 
 
 @pytest.mark.parametrize(

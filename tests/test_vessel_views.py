@@ -68,18 +68,6 @@ def test_each_frame_of_a_turn_says_the_diameters(ellipse: tuple[Volume, Vessel])
     assert len(others) == 2
 
 
-def test_a_dark_lumen_has_its_diameter_too(ellipse: tuple[Volume, Vessel]) -> None:
-    volume, vessel = ellipse
-    dark = Volume(300 - volume.array, spacing=(SPACING,) * 3, origin=volume.origin)
-    assert cut_diameter(dark, Camera.about(vessel, 18.0), 4.2) == pytest.approx(2 * A, abs=0.3)
-
-
-def test_without_a_wall_there_is_no_diameter() -> None:
-    volume = Volume(np.zeros((30, 30, 30), np.int16), origin=(-15, -15, -15))
-    vessel = Vessel([[0, 0, -10], [0, 0, 10]], 3)
-    assert math.isnan(cut_diameter(volume, Camera.about(vessel, 10), 3.0))
-
-
 @pytest.mark.parametrize("at", [-1, 36.5, float("nan")])
 def test_a_place_off_the_vessel_is_refused(ellipse: tuple[Volume, Vessel], at: float) -> None:
     with pytest.raises(CameraError, match=r"place of the view: found .* mm on a vessel of 36 mm"):

@@ -197,3 +197,52 @@ fn a_lumen_is_never_hidden_by_what_lies_behind_it() {
     assert!(lumens > 500, "only {lumens} pixels show lumen");
     assert_eq!((behind, other), (0, 0), "of {lumens} pixels in a lumen");
 }
+
+#[test]
+fn on_a_tie_the_earlier_piece_wins() {
+    // From the front, 1.5 mm above the shallow line both costs are equal: 0 + 10 · 1.5 = 10 + 10 · 0.5.
+    let (shallow, deep) = ([[-64., 0., 0.], [64., 0., 0.]], [[64., 10., 2.], [-64., 10., 2.]]);
+    let camera = front([2, 8], 1.0);
+    let settings = Settings { levels: 0, ..paper_unfiltered() };
+    for deep_first in [true, false] {
+        let lines = if deep_first { [deep, shallow] } else { [shallow, deep] };
+        let linked = tree(vec![vessel(&lines.concat(), 0.0)]);
+        let parted = tree(lines.iter().map(|line| vessel(line, 0.0)).collect());
+        for (scene, ids) in [(linked, [0; 3]), (parted, [i32::from(!deep_first), 0, i32::from(deep_first)])] {
+            let frame = by_hierarchy(&scene, &camera, &settings);
+            let seen = [2, 4, 6].map(|p| (frame.depth()[p], frame.vessel[p]));
+            let tie = if deep_first { 10.0 } else { 0.0 };
+            assert_eq!(seen, [(10.0, ids[0]), (tie, ids[1]), (0.0, ids[2])], "deep first: {deep_first}");
+        }
+    }
+}
+
+#[test]
+fn a_point_nearly_repeated_changes_little() {
+    let settings = Settings { levels: 0, ..unfiltered() };
+    let camera = Camera::new(DVec3::new(0.0, 30.0, 0.0), DVec3::Y, DVec3::Z, [60, 60], 1.0).unwrap();
+    let seen = |apart: f64| {
+        let line = [[-20., 0., 0.], [-apart, 10., 0.], [0., 10., 0.], [0., 60., 20.], [-20., 70., 20.]];
+        by_hierarchy(&tree(vec![vessel(&line, 1.0)]), &camera, &settings)
+    };
+    let exact = seen(0.0);
+    for apart in [1e-9, 5e-4, 2e-3] {
+        let near = seen(apart);
+        let differ = |p: &usize| (near.depth()[*p] - exact.depth()[*p]).abs() > 0.1;
+        let different = (0..exact.depth().len()).filter(differ).count();
+        assert!(different <= 7, "{different} pixels differ by a point {apart} mm away");
+    }
+}
+
+#[test]
+fn panning_changes_no_depth() {
+    let scene = tree(vec![vessel(&[[0., 0., 0.], [9., 8., 7.]], 1.0)]);
+    let camera = view([0.3, 0.9, -0.2], [60, 40], 0.7);
+    let aside = camera.center() + camera.right() * 7.0 * 0.7 + camera.up() * 4.0 * 0.7;
+    let panned = Camera::new(aside, camera.direction(), camera.up(), [60, 40], 0.7).unwrap();
+    let [before, after] = [&camera, &panned].map(|camera| by_hierarchy(&scene, camera, &unfiltered()));
+    for p in (0..36).flat_map(|j| (0..53).map(move |i| j * 60 + i + 7)) {
+        let apart = (after.depth()[p + 4 * 60 - 7] - before.depth()[p]).abs();
+        assert!(apart < 1e-4, "{apart} mm at pixel {p}");
+    }
+}

@@ -5,6 +5,8 @@ mod bad_input;
 mod centerline_smoothing;
 mod chosen;
 mod context;
+mod context_forms;
+mod context_invariants;
 mod cr;
 mod cut_surface;
 mod depth_filter;

@@ -175,6 +175,41 @@ fn a_segment_within_a_row_shows_its_point_nearest_along_the_row() {
 }
 
 #[test]
+fn a_vessel_that_folds_over_a_row_is_shown_up_to_the_middle_of_both_crossings() {
+    let arch = vessel(&[[-12., 0., -10.], [-2., 4., 10.], [8., 9., -10.]], 1.0);
+    let frame = seen(&tree(vec![arch]), &front([61, 51], 1.0));
+    for j in 0..51 {
+        // Row 15 contains only the turning point.
+        let is_folded = (25 - j as i32).abs() <= 10 && j != 15;
+        assert_eq!(frame.folded[j * 61], is_folded, "row {j}");
+    }
+    // At z = 0 the row crosses it at x = -7 and 3, at depths 2 and 6.5; the middle is x = -2.
+    let row = &frame.depth()[25 * 61..26 * 61];
+    assert!(row[..28].iter().all(|depth| *depth == 2.0) && row[29..].iter().all(|depth| *depth == 6.5));
+}
+
+#[test]
+fn a_slanted_vessel_is_as_thin_as_the_geometry_predicts() {
+    for (phi, theta) in [(90.0, 0.0), (90.0, 50.0), (60.0, 30.0), (30.0, 45.0), (12.0, 45.0), (20.0, 70.0f64)]
+    {
+        let [phi, theta]: [f64; 2] = [phi, theta].map(f64::to_radians);
+        let along = DVec3::new(phi.cos() * theta.cos(), theta.sin(), phi.sin() * theta.cos());
+        let points: Vec<[f64; 3]> = (-150..=150).map(|n| (along * f64::from(n) / 0.75).to_array()).collect();
+        let camera = front([801, 101], 0.1);
+        let frame = seen(&tree(vec![vessel(&points, 4.0)]), &camera);
+        let row = 50 * 801..51 * 801;
+        let is_lumen = |p: &usize| {
+            let at = DVec3::new(camera.view_x(p % 801), camera.view_y(p / 801), f64::from(frame.depth()[*p]));
+            camera.world_from_view(at).cross(along).length() <= 4.0
+        };
+        let width = row.filter(is_lumen).count() as f64 * 0.1 * phi.sin();
+        // A point s along the row is s·√(1 − dx²) off the vessel, and a row crosses the band at the angle φ.
+        let expected = 8.0 * phi.sin() / (1.0 - along.x * along.x).sqrt();
+        assert!((width - expected).abs() < 0.11, "{width} mm instead of {expected} mm");
+    }
+}
+
+#[test]
 fn leaps_between_vessels_and_lumen_are_told() {
     // The vessel is at 45° to rows and view, d = (1, √2, 1)/2: a point s along the row is s·√(1 − ¼) off.
     let slanted = vessel(&[[-20., -28.284_271_2, -20.], [20., 28.284_271_2, 20.]], 3.0);

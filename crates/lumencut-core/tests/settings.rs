@@ -110,6 +110,17 @@ fn gamma_is_that_of_mida() {
 }
 
 #[test]
+fn a_step_is_for_contexts_with_samples_alone() {
+    for (context, gamma) in [("mip", 0.0), ("minip", 0.0), ("average", 0.0), ("mida", 1.0)] {
+        let numbers = [("context_gamma", Value::Number(gamma)), ("context_step", Value::Number(3.0))];
+        let given = [numbers.to_vec(), vec![("context", name(context))]].concat();
+        let message = chosen(&given).unwrap_err();
+        let start = format!("context_step: found 3 mm with the context '{context}'; expected no step: ");
+        assert!(message.starts_with(&start), "{message}");
+    }
+}
+
+#[test]
 fn a_maximum_is_grey_unless_chosen_otherwise() {
     for (context, preset) in [("mip", Preset::Grey), ("dvr", Preset::Angio), ("mida", Preset::Angio)] {
         let found = chosen(&[("context", name(context))]).unwrap().context.unwrap();

@@ -3,6 +3,7 @@
 
 pub mod brute_force;
 pub mod compare;
+pub mod contexts;
 pub mod lumen;
 pub mod pictures;
 pub mod random;

@@ -200,3 +200,7 @@ fn check_lengths(width: Option<f64>, pixel_spacing: f64) -> Result<()> {
 #[cfg(test)]
 #[path = "tests/cpr.rs"]
 mod tests;
+
+#[cfg(test)]
+#[path = "tests/cpr_forms.rs"]
+mod forms;

@@ -97,6 +97,24 @@ fn mutated_files_never_panic() {
     assert!((1..20_000).contains(&read_whole), "{read_whole} of the mutated files were read");
 }
 
+#[test]
+fn any_bytes_after_a_known_beginning_never_panic() {
+    let mut random = Random(0x9e37_79b9_7f4a_7c15);
+    let names = ["a.vtp", "a.vtk", "a.mrk.json", "a.csv", "a.fcsv", "a.pth", "a.swc", "a.tre", "a.npy"];
+    let beginnings: [&[u8]; 6] =
+        [b"", b"# vtk DataFile Version 5.1\n", b"<VTKFile", b"{", b"\x93NUMPY", b"x,y,z\n"];
+    for round in 0..6_000 {
+        let mut bytes = beginnings[random.below(beginnings.len())].to_vec();
+        for _ in 0..random.below(300) {
+            bytes.push(random.below(256) as u8);
+        }
+        if random.below(3) == 0 {
+            bytes.extend(NASTY[random.below(NASTY.len())]);
+        }
+        read_and_check(&bytes, names[round % names.len()]);
+    }
+}
+
 /// If every point is near every segment, comparing all of them would take quadratic time.
 #[test]
 fn radii_as_wide_as_the_tree_end_in_time() {

@@ -1,5 +1,7 @@
 use std::f64::consts::FRAC_PI_2;
 
+use glam::{DQuat, DVec2};
+
 use super::*;
 
 fn front() -> Camera {
@@ -76,6 +78,84 @@ fn turning_is_counterclockwise_as_seen_against_the_axis() {
     assert_near(rotated(&front(), FRAC_PI_2, Axis::Direction).unwrap().up(), DVec3::X);
     let about = Axis::World(DVec3::new(0.0, 0.0, 1e-200));
     assert_near(rotated(&front(), FRAC_PI_2, about).unwrap().direction(), DVec3::NEG_X);
+}
+
+fn oblique() -> Camera {
+    let direction = DVec3::new(0.3, 0.9, -0.2);
+    Camera::new(DVec3::new(3.0, -4.0, 5.0), direction, DVec3::new(0.1, 0.0, 1.0), [60, 40], 0.7).unwrap()
+}
+
+/// Column and row of a world point.
+fn pixel(camera: &Camera, point: DVec3) -> DVec2 {
+    let place = camera.view_from_world(point) / camera.pixel_spacing();
+    DVec2::new(place.x + 29.5, 19.5 - place.y)
+}
+
+fn assert_same(one: &Camera, other: &Camera) {
+    for (a, b) in
+        [(one.center(), other.center()), (one.direction(), other.direction()), (one.up(), other.up())]
+    {
+        assert!(a.distance(b) < 1e-9, "{a} is not {b}");
+    }
+    assert!((one.pixel_spacing() / other.pixel_spacing() - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn turning_a_view_is_turning_the_world_the_other_way_and_can_be_undone() {
+    let (view, point) = (oblique(), DVec3::new(12.0, -31.0, 8.0));
+    let world = DVec3::new(0.4, 2.0, 1.3);
+    for (name, axis) in [
+        (Axis::Up, view.up()),
+        (Axis::Right, view.right()),
+        (Axis::Direction, view.direction()),
+        (Axis::World(world), world.normalize()),
+    ] {
+        for angle in [-7.0, -1.3, 0.4, 2.9f64] {
+            let turned = rotated(&view, angle, name).unwrap();
+            let back = DQuat::from_axis_angle(axis, -angle) * (point - view.center()) + view.center();
+            assert!(pixel(&turned, point).distance(pixel(&view, back)) < 1e-9, "{angle} about {axis}");
+            // An axis of the view stays where it is.
+            assert_same(&rotated(&turned, -angle, name).unwrap(), &view);
+            let half = rotated(&view, angle / 2.0, name).unwrap();
+            assert_same(&rotated(&half, angle / 2.0, name).unwrap(), &turned);
+        }
+    }
+}
+
+#[test]
+fn zooming_and_panning_move_pixels_and_can_be_undone() {
+    let (view, point) = (oblique(), DVec3::new(12.0, -31.0, 8.0));
+    let middle = DVec2::new(29.5, 19.5);
+    for factor in [0.01, 0.5, 3.0, 100.0] {
+        let zoomed = zoomed(&view, factor).unwrap();
+        let expected = (pixel(&view, point) - middle) * factor;
+        assert!((pixel(&zoomed, point) - middle).distance(expected) < 1e-6 * factor);
+        assert_same(&super::zoomed(&zoomed, 1.0 / factor).unwrap(), &view);
+    }
+    for (right, up) in [(3.0, -2.0), (-90.0, 41.0)] {
+        let panned = panned(&view, right, up).unwrap();
+        let shift = DVec2::new(-right, up) / view.pixel_spacing();
+        assert!(pixel(&panned, point).distance(pixel(&view, point) + shift) < 1e-9);
+        assert_same(&super::panned(&panned, -right, -up).unwrap(), &view);
+    }
+}
+
+#[test]
+fn a_fitted_view_holds_all_points_in_its_middle_and_little_more() {
+    for (count, size) in [(2, [60, 40]), (5, [8, 200]), (9, [200, 9])] {
+        let points: Vec<DVec3> = (0..count)
+            .map(|n| f64::from(n * 7 + 1))
+            .map(|n| DVec3::new(90.0 * n.sin(), 70.0 * (1.7 * n).cos(), 40.0 * (2.9 * n).sin()))
+            .collect();
+        let camera = Camera::new(DVec3::ZERO, DVec3::new(1.0, 1.0, -1.0), DVec3::Z, size, 1.0).unwrap();
+        let fitted = fitted(&camera, &points).unwrap();
+        let seen = |point: &DVec3| fitted.view_from_world(*point).truncate() / fitted.pixel_spacing();
+        let low = points.iter().map(seen).reduce(DVec2::min).unwrap();
+        let high = points.iter().map(seen).reduce(DVec2::max).unwrap();
+        assert!((low + high).length() < 1e-6, "{low} to {high}");
+        let used = ((high - low) / DVec2::new(size[0] as f64, size[1] as f64)).max_element();
+        assert!(used > 0.85 && used < 0.9, "{used} of the view");
+    }
 }
 
 #[test]
