@@ -20,7 +20,7 @@ pub const RECENTERED: u32 = 1 << 7;
 pub const IRREGULAR: u32 = 1 << 8;
 /// The centerline turns more sharply than a vessel can.
 pub const RESTLESS_LINE: u32 = 1 << 9;
-/// Plaque nearly as bright as the lumen lies beside it.
+/// Plaque nearly as bright as the lumen lies beside it, or makes it dimmer and narrower.
 pub const PLAQUE: u32 = 1 << 10;
 
 /// Sections with any of these flags are ignored when the narrowest, widest or suggested sections are chosen.
