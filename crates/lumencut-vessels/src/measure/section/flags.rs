@@ -1,6 +1,6 @@
 //! Flags of a section, as bits. The crate `lumencut` has their words and colours.
 
-/// The diameter is below 1.5 times the FWHM of the point spread, or twice the spacing of thick slices.
+/// The diameter is below 1.5 times the FWHM of the point spread, or twice the spacing of thick slices, or unsure by 7 %.
 pub const AT_LIMIT: u32 = 1;
 /// Another vessel starts at this section, or the lumen continues sideways.
 pub const BRANCH: u32 = 1 << 1;
