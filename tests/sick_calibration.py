@@ -19,7 +19,7 @@ from voxelizer import SickScene
 Draw = np.random.Generator
 
 #: Sections with one of these flags do not count.
-UNCOUNTED = MARKED | Flag.RECENTERED | Flag.RESTLESS_LINE
+UNCOUNTED = MARKED | Flag.RECENTERED | Flag.RESTLESS_LINE | Flag.PLAQUE
 #: An error is silent beyond this share of the diameter, and beyond this length (mm).
 SILENT, SMALLEST = 0.1, 0.15
 #: The width of the point spread (mm) and the edge enhancement of five kernels.

@@ -10,7 +10,7 @@ use lumencut_vessels::measure::profile::measuring::measure;
 use lumencut_vessels::measure::profile::request::MeasureRequest;
 use lumencut_vessels::measure::profile::{Profile, Source};
 use lumencut_vessels::measure::section::blur::variance_of;
-use lumencut_vessels::measure::section::flags::{AT_LIMIT, METAL, NO_EDGE};
+use lumencut_vessels::measure::section::flags::{AT_LIMIT, METAL, NEIGHBOR, NO_EDGE};
 use lumencut_vessels::measure::wall::WallRequest;
 
 const SIDE: f64 = 0.6;
@@ -29,9 +29,22 @@ struct Scene {
     across: f64,
     /// Brightness of blurred rings of struts (HU), 2.4 mm apart in the middle of the vessel.
     struts: f64,
+    /// Fraction of the diameter that a throat in the middle of the vessel takes.
+    narrowed: f64,
+    /// Level of a vein of 6 mm at the wall (HU); 0 for none.
+    vein: f64,
 }
 
-const FAT: Scene = Scene { diameter: 3.2, wall: 0.7, around: -95.0, fwhm: 1.0, across: SIDE, struts: 0.0 };
+const FAT: Scene = Scene {
+    diameter: 3.2,
+    wall: 0.7,
+    around: -95.0,
+    fwhm: 1.0,
+    across: SIDE,
+    struts: 0.0,
+    narrowed: 0.0,
+    vein: 0.0,
+};
 const LUNG: Scene = Scene { diameter: 8.0, wall: 0.8, around: -850.0, ..FAT };
 const MUSCLE: Scene = Scene { diameter: 1.8, wall: 0.5, around: 55.0, ..FAT };
 
@@ -55,14 +68,22 @@ impl Scene {
         let whitening = Whitening::new(DMat2::from_diagonal(variance + sides * sides / 12.0));
         let middle = DVec2::new(11.8, 11.5);
         let within = |radius: f64| Boundary::new(&Ellipse::circle(middle, radius), whitening);
-        let [lumen, wall] = [0.0, self.wall].map(|more| within(0.5 * self.diameter + more));
+        let outside = 0.5 * self.diameter + self.wall;
+        let wall = within(outside);
+        let vein = Boundary::new(&Ellipse::circle(middle + DVec2::X * (outside + 3.1), 3.0), whitening);
+        let at = |slice: usize| slice as f64 * SIDE - 3.0;
+        let throat = |at: f64| 1.0 - self.narrowed * (-((at - 10.0) / 3.0).powi(4)).exp();
+        let lumens: Vec<_> = (0..SIZE[2]).map(|k| within(0.5 * self.diameter * throat(at(k)))).collect();
         let mut state = 7;
         (0..SIZE.iter().product())
             .map(|n: usize| {
                 let place = DVec2::new((n % SIZE[0]) as f64, (n / SIZE[0] % SIZE[1]) as f64) * sides;
-                let [inside, enclosed] = [&lumen, &wall].map(|boundary| boundary.value(place));
+                let slice = n / SIZE[0] / SIZE[1];
+                let [inside, enclosed] = [&lumens[slice], &wall].map(|boundary| boundary.value(place));
                 let value = self.around + (WALL - self.around) * enclosed + (LUMEN - WALL) * inside;
-                let at = (n / SIZE[0] / SIZE[1]) as f64 * SIDE - 3.0;
+                let beside = if self.vein > 0.0 { vein.value(place) } else { 0.0 };
+                let value = value + (self.vein - self.around) * beside;
+                let at = at(slice);
                 let along = (at / 2.4 - (at / 2.4).round()) * 2.4;
                 let away = along.hypot(place.distance(middle) - 0.5 * self.diameter - 0.05);
                 let strut = self.struts * (-0.5 * away * away / variance).exp();
@@ -153,7 +174,32 @@ fn thin_struts_are_seen_by_their_repetition() {
     let stent = is_metal(&Scene { struts: 160.0, ..FAT });
     let within = &stent[(2.0 * STENT[0]) as usize..(2.0 * STENT[1]) as usize];
     assert!(within.iter().filter(|is| **is).count() > within.len() * 9 / 10, "{within:?}");
-    assert!(is_metal(&FAT).iter().all(|is| !is));
+    for scene in [FAT, Scene { diameter: 4.2, narrowed: 0.8, ..FAT }] {
+        assert!(is_metal(&scene).iter().all(|is| !is), "{}", scene.narrowed);
+    }
+}
+
+#[test]
+fn a_vein_is_seen_although_blur_fills_the_valley() {
+    let neighbors = |scene: &Scene| {
+        let profile = scene.measured();
+        profile.flags.iter().filter(|flags| *flags & NEIGHBOR > 0).count() as f64 / profile.len() as f64
+    };
+    let beside = neighbors(&Scene { vein: 180.0, ..FAT });
+    assert!(beside > 0.9, "{beside}");
+    for alone in [FAT, MUSCLE] {
+        assert!(neighbors(&alone) < 0.05);
+    }
+}
+
+#[test]
+fn a_diameter_that_the_blur_leaves_unsure_is_at_the_limit() {
+    let at_limit = |diameter| {
+        let profile = Scene { diameter, fwhm: 1.2, ..MUSCLE }.measured();
+        profile.flags.iter().filter(|flags| *flags & AT_LIMIT > 0).count() as f64 / profile.len() as f64
+    };
+    let [narrow, wide] = [1.55, 2.8].map(at_limit);
+    assert!(narrow > 0.5 && wide < 0.1, "{narrow} {wide}");
 }
 
 #[test]

@@ -41,7 +41,7 @@ pub const FLAGS: [FlagLook; 11] = [
         ("AT_LIMIT", AT_LIMIT),
         [
             "near the blur",
-            "the lumen is narrower than 1.5 times the blur (FWHM), or twice the spacing of thick slices: it is hardly resolved",
+            "the lumen is narrower than 1.5 times the blur (FWHM), or twice the spacing of thick slices, or an unknown blur leaves 7 % of it unsure",
         ],
         ["#7b5ea7", "#b59ae0"],
     ),

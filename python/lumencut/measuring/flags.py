@@ -19,7 +19,7 @@ class Flag(IntFlag):
         """Return the pickle: the name of the class and the bits."""
         return restored(), ("Flag", int(self))
 
-    #: The diameter is below 1.5 times the FWHM of the point spread, or twice the spacing of thick slices.
+    #: The diameter is below 1.5 times the FWHM, or twice the spacing of thick slices, or unsure by 7 %.
     AT_LIMIT = 1
     #: The section lies in a junction, or the lumen continues sideways.
     BRANCH = 2

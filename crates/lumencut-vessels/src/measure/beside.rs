@@ -2,6 +2,7 @@
 
 pub(crate) mod blooming;
 pub(crate) mod branches;
+pub(crate) mod bright_side;
 pub(crate) mod plaque;
 
 use std::f64::consts::TAU;

@@ -22,7 +22,10 @@ const FLAGGED: f64 = 6.0;
 /// Maximum distance between sections, and maximum voxel side (mm), also as a fraction of the point spread: larger voxels
 /// hide struts, and repeat themselves.
 const STEP: f64 = 0.6;
-const SIDE: (f64, f64) = (0.8, 0.83);
+const SIDE: (f64, f64) = (0.8, 1.1);
+
+/// Where the lumen widens by more than this factor within the smoothed length, the rim is not judged: stents are even.
+const EVEN: f64 = 1.35;
 
 /// Struts lie just outside of the lumen (mm); the noise is read within it, at this fraction of the radius.
 const OUTSIDE: f64 = 0.05;
@@ -32,8 +35,11 @@ const WITHIN: f64 = 0.4;
 const LEAST_NOISE: f64 = 0.012;
 
 /// Minimum covariance between periods, and minimum variance, in variances of the noise.
-const REPEATS: f64 = 0.75;
-const UNEVEN: f64 = 1.7;
+const REPEATS: f64 = 0.45;
+const UNEVEN: f64 = 1.2;
+
+/// Larger values, in standard deviations of the noise, count as this one: a single calcification does not repeat.
+const LARGEST: f64 = 2.5;
 
 /// Values (fractions of the contrast) in each direction of each section; NaN where the rim cannot be judged.
 type Rings = Vec<[f64; RAYS]>;
@@ -74,8 +80,9 @@ fn has_struts(rays: &Rays, places: &[SectionPlane], sections: &[Section]) -> Vec
         });
         without_trend(&rings.collect(), count(SMOOTHED))
     });
-    let Some(noise) = covariance(&core, 0..core.len(), 0) else { return none };
-    let noise = noise.max(LEAST_NOISE.powi(2));
+    let Some(deviation) = deviation(&core).map(|found| found.max(LEAST_NOISE)) else { return none };
+    let (noise, largest) = (deviation.powi(2), LARGEST * deviation);
+    let rim: Rings = rim.into_iter().map(|ring| ring.map(|value| value.clamp(-largest, largest))).collect();
     let repeats: Vec<bool> = (0..places.len())
         .map(|n| {
             let around = n.saturating_sub(count(COMPARED))..(n + count(COMPARED) + 1).min(places.len());
@@ -97,9 +104,9 @@ fn walls(places: &[SectionPlane], sections: &[Section], reach: usize) -> Vec<Opt
     let middle = |mut values: Vec<f64>| median(&mut values).unwrap_or(f64::NAN);
     (0..places.len())
         .map(|n| {
-            let near = n.saturating_sub(reach)..(n + reach + 1).min(places.len());
-            let near: Vec<usize> = near.filter(is_judged).collect();
-            if !near.contains(&n) {
+            let window = n.saturating_sub(reach)..(n + reach + 1).min(places.len());
+            let near: Vec<usize> = window.clone().filter(is_judged).collect();
+            if !near.contains(&n) || !is_even(&sections[window]) {
                 return None;
             }
             let centers = near.iter().filter_map(|m| Some(center(&places[*m], sections[*m].fit.as_ref()?)));
@@ -118,6 +125,19 @@ fn walls(places: &[SectionPlane], sections: &[Section], reach: usize) -> Vec<Opt
             Some((DVec2::new(x, y), wall))
         })
         .collect()
+}
+
+fn is_even(sections: &[Section]) -> bool {
+    let radii = || sections.iter().filter_map(|section| Some(section.fit.as_ref()?.ellipse.mean));
+    radii().fold(0.0, f64::max) <= EVEN * radii().fold(f64::INFINITY, f64::min)
+}
+
+/// Standard deviation of the values by their median, which a few outliers do not change; None if there are too few.
+fn deviation(rings: &Rings) -> Option<f64> {
+    let all = rings.iter().flatten().filter(|value| value.is_finite());
+    let mut all: Vec<f64> = all.map(|value| value.abs()).collect();
+    let is_enough = all.len() >= 8 * RAYS;
+    median(&mut all).filter(|_| is_enough).map(|middle| 1.4826 * middle)
 }
 
 fn without_trend(rings: &Rings, reach: usize) -> Rings {

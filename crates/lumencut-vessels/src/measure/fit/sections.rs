@@ -5,6 +5,7 @@ use rayon::prelude::*;
 
 use super::Fit;
 use crate::measure::beside::blooming;
+use crate::measure::beside::bright_side::is_bright_behind;
 use crate::measure::beside::flags_of;
 use crate::measure::beside::plaque::narrowed;
 use crate::measure::estimation::Level;
@@ -217,6 +218,8 @@ impl Bench<'_, '_> {
             flags |= PLAQUE;
             fit.parts.surroundings = fit.parts.surroundings.hypot((1.0 - share) * diameter);
             fit.uncertainty = fit.parts.total();
+        } else if self.is_beside_bright(place, &fit, &walls, flags) {
+            flags |= NEIGHBOR;
         }
         let shares = lumen_shares(fit.lumen[0], beside);
         if !encloses_lumen(&self.rays, place, ellipse.center, &walls, width, shares) {
@@ -236,6 +239,14 @@ impl Bench<'_, '_> {
     fn narrowed_by_plaque(&self, place: &SectionPlane, fit: &Fit, walls: &[f64], flags: u32) -> Option<f64> {
         let levels = [fit.lumen[0], self.wall.filter(|_| flags & PLAQUE_HIDDEN == 0)?.level[0]];
         narrowed(&self.rays, (place, fit.ellipse.center), walls, levels, self.blur.width(place))
+    }
+
+    fn is_beside_bright(&self, place: &SectionPlane, fit: &Fit, walls: &[f64], flags: u32) -> bool {
+        let hidden = self.doubt.as_ref().and_then(|doubt| doubt.wall);
+        self.wall.or(hidden).filter(|_| flags & PLAQUE_HIDDEN == 0).is_some_and(|wall| {
+            let levels = [fit.lumen[0], wall.level[0]];
+            is_bright_behind(&self.rays, (place, fit.ellipse.center), walls, levels, self.blur.width(place))
+        })
     }
 
     fn by_rays(&self, place: &SectionPlane, known: &Known) -> Option<Section> {

@@ -10,6 +10,7 @@ use super::request::MeasureRequest;
 use super::{Profile, TreeFindings};
 use crate::measure::along::assumed_spread::AssumedSpread;
 use crate::measure::along::calcified::settle;
+use crate::measure::along::dim_plaque::flag_dim_plaque;
 use crate::measure::along::point_spread::{MIN_WIDTH, SharpEdges, SpreadEstimate, estimated};
 use crate::measure::along::struts::flag_struts;
 use crate::measure::along::throats::Throats;
@@ -255,6 +256,9 @@ impl PreparedVessel {
         let is_in_lung = self.wall.is_some_and(|wall| wall.is_in_lung);
         if is_hounsfield(voxels, &self.scale) && !is_in_lung {
             flag_struts(bench, &self.places, &mut sections);
+        }
+        if let Some(wall) = &bench.wall {
+            flag_dim_plaque(&self.places, &mut sections, &read.lumen, wall.level[0]);
         }
         let variance: Vec<f64> =
             self.places.iter().map(|place| bench.blur.along(place, thickness(voxels, place))).collect();

@@ -11,6 +11,9 @@ use lumencut_core::error::{ErrorKind, Result};
 use lumencut_core::math::statistics::median;
 use lumencut_core::stop::Stop;
 
+/// A narrow lumen is hardly resolved if an assumed point spread leaves more than this fraction of it unsure.
+const UNSURE: f64 = 0.07;
+
 /// A diameter that changes by more than this factor is that of another lumen.
 const SAME_LUMEN: f64 = 2.0;
 
@@ -57,6 +60,10 @@ impl PreparedVessel {
             let greater = |a: f64, b: f64| if b.abs() > a.abs() { b } else { a };
             fit.parts.point_spread = changes.into_iter().fold(fit.parts.point_spread, greater);
             fit.uncertainty = fit.parts.total();
+            let diameter = diameter(fit);
+            if diameter < MIN_WIDTH * spread.fwhm && fit.parts.point_spread.abs() > UNSURE * diameter {
+                section.flags |= AT_LIMIT;
+            }
         }
         Ok(())
     }

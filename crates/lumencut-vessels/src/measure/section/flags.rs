@@ -1,6 +1,6 @@
 //! Flags of a section, as bits. The crate `lumencut` has their words and colours.
 
-/// The diameter is below 1.5 times the FWHM of the point spread, or twice the spacing of thick slices.
+/// The diameter is below 1.5 times the FWHM of the point spread, or twice the spacing of thick slices, or unsure by 7 %.
 pub const AT_LIMIT: u32 = 1;
 /// Another vessel starts at this section, or the lumen continues sideways.
 pub const BRANCH: u32 = 1 << 1;
@@ -20,7 +20,7 @@ pub const RECENTERED: u32 = 1 << 7;
 pub const IRREGULAR: u32 = 1 << 8;
 /// The centerline turns more sharply than a vessel can.
 pub const RESTLESS_LINE: u32 = 1 << 9;
-/// Plaque nearly as bright as the lumen lies beside it.
+/// Plaque nearly as bright as the lumen lies beside it, or makes it dimmer and narrower.
 pub const PLAQUE: u32 = 1 << 10;
 
 /// Sections with any of these flags are ignored when the narrowest, widest or suggested sections are chosen.
