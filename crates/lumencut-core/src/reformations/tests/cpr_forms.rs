@@ -200,6 +200,24 @@ fn a_stretched_vessel_that_returns_is_folded_where_it_was_shown_before() {
 }
 
 #[test]
+fn limbs_of_a_v_are_parted_in_the_middle_between_them() {
+    let points = line(&[[-8., 0., 10.], [-2., 0., -10.], [2., 0., -10.], [8., 0., 10.]]);
+    let folded = folded(&seen(&points, CprMode::Stretched, FRONT, [32.0, 1.0]));
+    for j in [3, 12, 17] {
+        assert!((0..33).all(|i| folded[j][i] == (i > 16) && folded[40 - j][i] == (i <= 16)), "row {j}");
+    }
+}
+
+#[test]
+fn by_default_25_mm_beside_the_vessel_are_shown() {
+    let vessel = Vessel::new(line(&[[4., 0., 20.], [34., 0., 0.]]), None).unwrap();
+    for mode in [CprMode::Projected, CprMode::Stretched] {
+        let path = CenterlinePath::new(&vessel, 0.0).unwrap();
+        assert_eq!(Cpr::new(path, mode, FRONT, None, 0.5).unwrap().size(), [161, 41], "{mode:?}");
+    }
+}
+
+#[test]
 fn sections_of_a_helix_are_perpendicular_and_do_not_turn() {
     let (radius, rise) = (12.0, 3.0);
     let (step, turns) = (f64::hypot(radius, rise), 3.0 * PI);
