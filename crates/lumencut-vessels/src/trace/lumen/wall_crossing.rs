@@ -22,7 +22,7 @@ const LEAST_DIP: f64 = 1.0;
 
 /// Sheets of this many directions are tried, unless the line runs along them (cosine below `LEAST_ACROSS`).
 const SHEETS: u32 = 60;
-const LEAST_ACROSS: f64 = 0.5;
+const LEAST_ACROSS: f64 = 0.2;
 
 /// Radius of a sheet, in radii of the lumen, and its limits (mm).
 const SHEET_RADII: f64 = 0.4;
@@ -33,7 +33,7 @@ const APART_VOXELS: f64 = 1.6;
 const APART_MM: f64 = 1.2;
 
 /// In the throat of a stenosis, the middle is brighter than the rim by more than this fraction of the fall.
-const THROAT: f64 = 0.4;
+const THROAT: f64 = 0.45;
 
 /// The level of the lumen is the median up to this distance along the line (mm); the spread is that around a median of
 /// fewer values.
