@@ -9,7 +9,6 @@ use crate::trace::clicks::flaps::Flaps;
 use crate::trace::clicks::junctions::joined;
 use crate::trace::clicks::paths::{Paths, Search};
 use crate::trace::clicks::preview::{Live, Sought};
-use crate::trace::lines::centerline::Centerline;
 use crate::trace::lumen::level_change::level_change;
 use crate::trace::lumen::lumen_model::in_words;
 use crate::trace::lumen::surroundings::Surroundings;
@@ -140,14 +139,16 @@ impl Tracer {
             Ok(traced) if search.clicks.bridge => Ok(traced),
             Ok(traced) => {
                 let met = flaps.met(&traced.line);
-                let crosses = |line: &Centerline| !wall_crossings(search.voxels, line).is_empty();
-                let is_crossing = crosses(&traced.line);
-                if met.is_none() && !is_crossing && level_change(search.voxels, &traced.line).is_none() {
+                let crosses = |traced: &Traced| {
+                    let crossings = wall_crossings(search.voxels, &traced.line);
+                    crossings.iter().any(|crossing| !traced.bridged[crossing.at])
+                };
+                let is_told = met.is_some() || level_change(search.voxels, &traced.line).is_some();
+                if !is_told && !crosses(&traced) {
                     return Ok(traced);
                 }
                 let second = flaps.line(clicks)?.filter(|second| {
-                    (met.is_none() || flaps.met(&second.line).is_none())
-                        && !(is_crossing && crosses(&second.line))
+                    (met.is_none() || flaps.met(&second.line).is_none()) && (is_told || !crosses(second))
                 });
                 Ok(second.unwrap_or_else(|| {
                     let met = met.unwrap_or_default();
