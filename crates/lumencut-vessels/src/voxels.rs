@@ -142,7 +142,7 @@ impl<'a> Voxels<'a> {
                     let voxel = [first[0] + i, first[1] + j, first[2] + k];
                     let place = self.center(voxel);
                     if place.distance_squared(center) <= radius * radius {
-                        found.push((place, self.at_index(DVec3::from_array(voxel.map(f64::from)))));
+                        found.push((place, self.voxel(voxel)));
                     }
                 }
             }

@@ -12,3 +12,4 @@ mod trace_clicks;
 mod trace_flaps;
 mod trace_mask;
 mod trace_rooms;
+mod trace_walls;

@@ -125,6 +125,20 @@ fn a_line_into_another_lumen_is_refused_or_told() {
 }
 
 #[test]
+fn a_line_through_a_flap_between_lumens_of_equal_brightness_is_told_where_it_crosses() {
+    for flap in [0.5, 0.8] {
+        let points: Vec<DVec3> =
+            (0..=100).map(|n| inside(-1.0, 15.0).lerp(inside(1.0, 50.0), f64::from(n) / 100.0)).collect();
+        let line = Centerline { points, radius: vec![6.0; 101], confidence: vec![1.0; 101] };
+        let doubted = Doubted { line: &line, bridged: &[], clicks: &[] };
+        let doubts = Aorta { flap, ..AORTA }.with(|volume| doubted.doubts(&voxels::Voxels::new(volume)));
+        let told = doubts.iter().find(|doubt| doubt.words.contains("crosses a dark sheet")).unwrap();
+        let length = line.points[0].distance(line.points[100]);
+        assert!((told.at.unwrap() - length / 2.0).abs() < 2.0, "{told:?}");
+    }
+}
+
+#[test]
 fn a_dim_middle_of_a_false_lumen_is_passed_as_a_guess() {
     let aorta = Aorta { levels: [450.0, 300.0], dim: Some(84.0), ..AORTA };
     let clicks = [inside(1.0, 6.0), inside(1.0, 60.0)];

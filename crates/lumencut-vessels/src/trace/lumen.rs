@@ -11,5 +11,6 @@ pub mod refine;
 pub(crate) mod ridge;
 pub mod seen;
 pub mod surroundings;
+pub mod wall_crossing;
 pub mod wander;
 pub(crate) mod within;

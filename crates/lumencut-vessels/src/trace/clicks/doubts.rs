@@ -9,6 +9,7 @@ use crate::trace::lines::nearest_point;
 use crate::trace::lumen::level_change::level_change;
 use crate::trace::lumen::lumen_model::quantile;
 use crate::trace::lumen::own_axis::runs_across;
+use crate::trace::lumen::wall_crossing::wall_crossings;
 use crate::trace::lumen::wander::wandering;
 use crate::voxels::Voxels;
 use lumencut_core::math::arc_length::arc_lengths;
@@ -57,11 +58,18 @@ impl Doubted<'_> {
                 format!("Doubtful from {at:.0} mm on: {why}: another lumen, or fading contrast medium.");
             Doubt { words, at: Some(at) }
         });
+        let crossed = self.crossed(voxels, &lengths);
         let wander =
             stretches(&wandering(self.line), |from, to| lengths[to] - lengths[from] <= self.line.radius[to]);
         let wander = wander.first().map(|part| wanders([lengths[part.start], lengths[part.end - 1]]));
         let detours = self.detours(&lengths);
-        change.into_iter().chain(wander).chain(detours).chain(self.guesses(voxels, &lengths)).collect()
+        change
+            .into_iter()
+            .chain(crossed)
+            .chain(wander)
+            .chain(detours)
+            .chain(self.guesses(voxels, &lengths))
+            .collect()
     }
 
     fn runs_across(&self, voxels: &Voxels) -> bool {
@@ -69,6 +77,22 @@ impl Doubted<'_> {
         let widest = self.line.radius.iter().copied().fold(0.0, f64::max);
         let is_long = widest > 0.0 && first.distance(*last) > LONG * widest;
         !is_long && runs_across(voxels, [*first, *last])
+    }
+
+    fn crossed(&self, voxels: &Voxels, lengths: &[f64]) -> Option<Doubt> {
+        let mut crossings = wall_crossings(voxels, self.line);
+        crossings.retain(|crossing| self.bridged.get(crossing.at) != Some(&true));
+        let (first, last) = (crossings.first()?, crossings.last()?);
+        let [from, to] = [first, last].map(|crossing| lengths[crossing.at]);
+        let part =
+            if to > from { format!("from {from:.0} to {to:.0} mm") } else { format!("from {from:.0} mm on") };
+        let [beside, within] = first.levels;
+        let why =
+            format!("the line crosses a dark sheet ({within:.0} between {beside:.0}), a flap or a wall");
+        Some(Doubt {
+            words: format!("Doubtful {part}: {why}: perhaps another vessel or lumen."),
+            at: Some(from),
+        })
     }
 
     fn detours(&self, lengths: &[f64]) -> Vec<Doubt> {

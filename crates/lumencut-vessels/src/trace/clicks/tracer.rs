@@ -12,6 +12,7 @@ use crate::trace::clicks::preview::{Live, Sought};
 use crate::trace::lumen::level_change::level_change;
 use crate::trace::lumen::lumen_model::in_words;
 use crate::trace::lumen::surroundings::Surroundings;
+use crate::trace::lumen::wall_crossing::wall_crossings;
 use crate::trace::ways::region::{Region, Strictness};
 use crate::voxels::Voxels;
 use lumencut_core::error::{Clicked, Error, ErrorKind, Result};
@@ -138,11 +139,17 @@ impl Tracer {
             Ok(traced) if search.clicks.bridge => Ok(traced),
             Ok(traced) => {
                 let met = flaps.met(&traced.line);
-                if met.is_none() && level_change(search.voxels, &traced.line).is_none() {
+                let crosses = |traced: &Traced| {
+                    let crossings = wall_crossings(search.voxels, &traced.line);
+                    crossings.iter().any(|crossing| !traced.bridged[crossing.at])
+                };
+                let is_told = met.is_some() || level_change(search.voxels, &traced.line).is_some();
+                if !is_told && !crosses(&traced) {
                     return Ok(traced);
                 }
-                let second = flaps.line(clicks)?;
-                let second = second.filter(|second| met.is_none() || flaps.met(&second.line).is_none());
+                let second = flaps.line(clicks)?.filter(|second| {
+                    (met.is_none() || flaps.met(&second.line).is_none()) && (is_told || !crosses(second))
+                });
                 Ok(second.unwrap_or_else(|| {
                     let met = met.unwrap_or_default();
                     let bridged = traced

@@ -3,7 +3,7 @@
 use lumencut_core::math::arc_length::arc_lengths;
 
 use crate::trace::lines::centerline::Centerline;
-use crate::trace::lumen::lumen_model::quantile;
+use crate::trace::lumen::lumen_model::median_of;
 use crate::trace::lumen::surroundings::Surroundings;
 use crate::voxels::Voxels;
 
@@ -129,9 +129,4 @@ impl<'a> Along<'a> {
         });
         Some(Side { median, noise, mean, middle, products })
     }
-}
-
-fn median_of(mut values: Vec<f32>) -> f64 {
-    values.sort_unstable_by(f32::total_cmp);
-    quantile(&values, 0.5)
 }

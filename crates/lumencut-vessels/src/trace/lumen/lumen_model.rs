@@ -72,6 +72,12 @@ pub(crate) fn quantile(sorted: &[f32], share: f64) -> f64 {
     sorted.get((last * share).round() as usize).map_or(f64::NAN, |value| f64::from(*value))
 }
 
+/// The median; of two middle values, the upper one. NaN if there are none.
+pub(crate) fn median_of(mut values: Vec<f32>) -> f64 {
+    values.sort_unstable_by(f32::total_cmp);
+    quantile(&values, 0.5)
+}
+
 /// Noise, estimated from the small differences between neighbours, because most neighbours do not lie at an edge.
 pub(crate) fn noise_of(neighbours: &[f32]) -> f64 {
     let mut steps: Vec<f32> = neighbours.windows(2).map(|pair| (pair[1] - pair[0]).abs()).collect();

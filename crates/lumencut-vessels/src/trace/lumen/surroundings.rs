@@ -264,7 +264,7 @@ fn samples_between(voxels: &Voxels, first: [i32; 3], last: [i32; 3]) -> Vec<f32>
     for k in (first[2]..=last[2]).step_by(step) {
         for j in (first[1]..=last[1]).step_by(step) {
             for i in (first[0]..=last[0]).step_by(step) {
-                let value = voxels.at_index(DVec3::new(f64::from(i), f64::from(j), f64::from(k)));
+                let value = voxels.voxel([i, j, k]);
                 if value.is_finite() {
                     values.push(value);
                 }
