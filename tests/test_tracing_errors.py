@@ -43,7 +43,7 @@ def test_a_click_beside_the_lumen_is_told_what_it_hit_and_where_lumen_is(scene, 
     text = str(raised.value)
     assert words in text
     assert f"({click[0]:.1f}, {click[1]:.1f}, {click[2]:.1f})" in text
-    value = float(re.search(r"the volume has (-?\d+)", text)[1])
+    value = float(re.search(r"about (-?\d+) around it", text)[1])
     assert value == pytest.approx(float(volume.sample([click])[0]), abs=60)
     nearest = re.search(r"looks like lumen is \((.*?)\) mm, ([\d.]+) mm away", text)
     place = np.array([float(x) for x in nearest[1].split(",")])

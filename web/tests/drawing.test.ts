@@ -141,6 +141,19 @@ describe('points', () => {
     expect(clicks()).toEqual([[A, B]]);
   });
 
+  describe('a bad first point', () => {
+    test('is the one that is refused, and the good second one takes its place', async () => {
+      const air: Vector = [9, 9, FLOOR - 1];
+      first.value = air;
+      await setPoint(A);
+      expect(clicks()).toEqual([]);
+      expect(anchor.value).toEqual(A);
+      expect(store.crossHair.value?.point).toEqual(A);
+      await setPoint(B);
+      expect(clicks()).toEqual([[A, B]]);
+    });
+  });
+
   test('after undo of a vessel, the next point begins another', async () => {
     await setPoint(A);
     await setPoint(B);

@@ -97,16 +97,16 @@ fn found_in(volume: &Volume, trees: Trees) -> FoundTree {
 }
 
 fn found(trees: Trees, doubts_of: &(dyn Fn(&Centerline) -> Vec<Doubt> + Sync)) -> FoundTree {
-    let Trees { vessels, level, contrast, other, .. } = trees;
+    let Trees { vessels, level, contrast, other, is_hounsfield, .. } = trees;
     let (sure, doubtful): (Vec<FoundVessel>, _) =
         vessels.into_iter().partition(|vessel| vessel.doubt.is_none());
     let line = |FoundVessel { line, part, doubt, .. }: FoundVessel| {
         let places = if doubt.is_none() { doubts_of(&line) } else { Vec::new() };
-        FoundLine { line, doubt: doubt.map(TrackDoubt::words), places, part }
+        FoundLine { line, doubt: doubt.map(|doubt| doubt.words(is_hounsfield)), places, part }
     };
     let vessels: Vec<FoundLine> = sure.into_par_iter().chain(doubtful).map(line).collect();
     let [level, contrast] = [level, contrast].map(about);
-    let mut notes = vec![format!("vessels have about {level}, {contrast} above their surroundings")];
+    let mut notes = vec![format!("the lumen of the vessels has about {level}; its contrast to the surroundings is {contrast}")];
     notes.extend(other.map(|reading| {
         let [level, contrast] = reading.map(about);
         format!("other tubes have about {level}, {contrast} above theirs: the paler ones may be organs")
@@ -164,9 +164,9 @@ mod tests {
         assert_eq!(sure_parts(&tree), [vec![0, 1], vec![2]]);
         let parts: Vec<usize> = tree.vessels.iter().map(|vessel| vessel.part).collect();
         assert_eq!(parts, [0, 0, 2, 0, 1, 2]);
-        let short = format!("2 vessels doubtful: {}", TrackDoubt::Short.words());
-        let flat = format!("1 vessel doubtful: {}", TrackDoubt::Flat.words());
-        assert_eq!(tree.notes, ["vessels have about 330, 322 above their surroundings"]);
+        let short = format!("2 vessels doubtful: {}", TrackDoubt::Short.words(false));
+        let flat = format!("1 vessel doubtful: {}", TrackDoubt::Flat.words(false));
+        assert_eq!(tree.notes, ["the lumen of the vessels has about 330; its contrast to the surroundings is 322"]);
         assert_eq!(tree.doubts, [short, flat]);
         let other = Some([29.0, 15.2]);
         let paler =

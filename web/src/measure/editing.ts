@@ -65,7 +65,10 @@ export function move(to: number): void {
 
 export function endMove(): void {
   if (drag) {
-    endPreview(`move the ${placeName({ ...drag.place, isSuggestion: false })}`, drag.document);
+    endPreview(
+      `move the ${placeName({ ...drag.place, isSuggestion: false, isConfirmed: false })}`,
+      drag.document,
+    );
     drag = null;
   }
 }

@@ -12,18 +12,26 @@ interface EdgeLabelsProps {
   readonly down: Vector;
   readonly size: Pair;
   readonly spacing: number;
+  readonly hasSides?: boolean;
 }
 
-export function EdgeLabels({ right, down, size, spacing }: EdgeLabelsProps) {
+export function EdgeLabels({ right, down, size, spacing, hasSides = true }: EdgeLabelsProps) {
   const labels = useLabels({ right, down, width: size[0], pixel_spacing: spacing });
-  const hasSides = states.value.orientation;
   return (
     <>
-      {labels && hasSides && <Sides letters={labels.letters} />}
-      {labels?.bar && hasMillimetres.value && <Bar bar={labels.bar} />}
+      {labels && hasSides && states.value.orientation && <Sides letters={labels.letters} />}
+      {labels?.bar && hasMillimetres.value && fits(labels.bar.pixels, size[0]) && <Bar bar={labels.bar} />}
     </>
   );
 }
+
+/** Width of the bar's label and of the bar's distance from the edge (CSS pixels). */
+const BAR_LABEL = 56;
+const BAR_EDGE = 8;
+
+/** Whether the bar and its label fit into a view without being cut off. */
+export const fits = (bar: number, width: number): boolean =>
+  BAR_EDGE + bar / 2 >= BAR_LABEL / 2 && 2 * BAR_EDGE + Math.max(bar, BAR_LABEL) <= width;
 
 function Sides({ letters }: Pick<PictureLabels, 'letters'>) {
   return (
