@@ -41,7 +41,7 @@ fn contexts() -> Vec<Context> {
 }
 
 fn cameras() -> Vec<Camera> {
-    let far = view([0.3, 1.0, -0.4], [11, 9], 9.0);
+    let far = view([0.3, 1.0, -0.4], [22, 18], 4.5);
     vec![
         view([0.0, 1.0, 0.0], [67, 45], 0.7),
         view([0.5, -0.6, 0.4], [64, 33], 0.9),
@@ -139,8 +139,8 @@ fn a_preview_shows_nothing_before_the_cut_surface() {
     let voxels: Vec<i16> = (0..20 * 20 * 20).map(|n| if n / 20 % 20 < 10 { 1000 } else { 0 }).collect();
     let place = DAffine3::from_translation(DVec3::splat(-9.5));
     let volume = Volume::new(Voxels::I16(&voxels), [20; 3], [1, 20, 400], place).unwrap();
-    let camera = view([0.0, 1.0, 0.0], [9, 8], 1.0);
-    let start: Vec<f32> = (0..72).map(|p| if p % 9 < 5 { WHOLE } else { 1.0 }).collect();
+    let camera = view([0.0, 1.0, 0.0], [18, 8], 1.0);
+    let start: Vec<f32> = (0..144).map(|p| if p % 18 < 9 { WHOLE } else { 1.0 }).collect();
     let mode = ContextMode::Blend { gamma: 1.0 };
     let settings = Context {
         mode,
@@ -148,11 +148,11 @@ fn a_preview_shows_nothing_before_the_cut_surface() {
         transfer: Preset::Grey.transfer_function(WINDOW),
         ..Context::default()
     };
-    let mut pixels = vec![[0.0; 4]; 72];
+    let mut pixels = vec![[0.0; 4]; 144];
     let surroundings = Surroundings { camera: &camera, volume: &volume, blocks: None };
     context(&on_cpu(&camera), &surroundings, &Settings::default(), &settings, &start, &mut pixels).unwrap();
     for (p, pixel) in pixels.iter().enumerate() {
-        let white = p % 9 < 4;
+        let white = p % 18 < 9;
         assert_eq!(pixel[0] > 0.5, white, "pixel {p}: white where the ray starts in front, {pixel:?}");
         assert_eq!(pixel[3], 1.0);
     }

@@ -6,7 +6,7 @@ use lumencut_core::camera::Camera;
 use lumencut_core::error::Result;
 use lumencut_core::math::context_parameters::{ContextParameters, Gathering};
 use lumencut_core::math::ray::WHOLE;
-use lumencut_core::math::ray_lines::IndexFromView;
+use lumencut_core::math::ray_lines::{IndexFromView, PREVIEW_SIDE, RayGrid};
 use lumencut_core::math::transfer::Colors;
 use lumencut_core::settings::{Context, ContextFrom, Settings};
 use lumencut_core::stages::context::step;
@@ -43,10 +43,15 @@ impl Permutation {
             ("FLOAT_VOXELS", number(self.is_float)),
             ("MODE", f64::from(self.gathering.code())),
             ("SHADED", number(self.is_shaded)),
-            ("PREVIEW", number(self.is_preview)),
+            side(self.is_preview),
         ];
         Stage::new(device, ROOM, &constants)
     }
+}
+
+/// The side of the square of pixels that one ray serves.
+fn side(is_preview: bool) -> (&'static str, f64) {
+    ("SIDE", if is_preview { PREVIEW_SIDE as f64 } else { 1.0 })
 }
 
 #[derive(Debug)]
@@ -54,6 +59,8 @@ pub(crate) struct ContextStage {
     /// Stages that write starts of rays: without a focus; with rays from the front; with rays from the surface.
     starts: [OnceLock<Stage>; 3],
     stages: Vec<(Permutation, Stage)>,
+    /// Blends the squares of a preview.
+    spread: OnceLock<Stage>,
     parameters: Buffer,
     /// The parameters that were written last.
     written: Vec<u8>,
@@ -70,6 +77,7 @@ pub(crate) struct ContextImages<'a> {
     pub start: &'a Buffer,
     /// The resulting premultiplied colours and opacity.
     pub gathered: &'a Buffer,
+    pub squares: &'a Buffer,
 }
 
 impl ContextStage {
@@ -77,6 +85,7 @@ impl ContextStage {
         Self {
             starts: Default::default(),
             stages: Vec::new(),
+            spread: OnceLock::new(),
             parameters: device.uniform::<ContextParameters>("context parameters"),
             written: Vec::new(),
         }
@@ -122,7 +131,7 @@ impl ContextStage {
         context: &Context,
         images: ContextImages,
     ) {
-        let ContextImages { size, has_surface, depth, value, start, gathered, .. } = images;
+        let ContextImages { size, has_surface, depth, value, start, gathered, squares, .. } = images;
         let device = recording.device;
         if has_surface {
             // The shader does not read this binding if there is no focus.
@@ -146,8 +155,15 @@ impl ContextStage {
             blocks.ranges.as_entire_binding(),
             start.as_entire_binding(),
             gathered.as_entire_binding(),
+            squares.as_entire_binding(),
         ];
-        let side = if context.preview { 16 } else { 8 };
-        recording.run(&self.stages[known].1, &resources, groups(size, [side, side]));
+        let stage = &self.stages[known].1;
+        if !context.preview {
+            return recording.run(stage, &resources, groups(size, [8, 8]));
+        }
+        recording.run(stage, &resources, groups(RayGrid::squares(size), [8, 8]));
+        let spread = self.spread.get_or_init(|| Stage::entry(device, ROOM, "spread", &[side(true)]));
+        let buffers = [view, start, squares, gathered].map(Buffer::as_entire_binding);
+        recording.run(spread, &buffers, groups(size, [8, 8]));
     }
 }

@@ -1,6 +1,7 @@
 //! The images of a view on the GPU, one number or vector per pixel. They are kept until the size changes.
 
 use lumencut_core::error::Result;
+use lumencut_core::math::ray_lines::RayGrid;
 use lumencut_core::stages::Image;
 use wgpu::Buffer;
 
@@ -23,6 +24,8 @@ pub(crate) struct Images {
     pub strength: Buffer,
     pub start: Buffer,
     pub gathered: Buffer,
+    /// Colour and start of the ray of each square of a preview.
+    pub squares: Buffer,
     pub context: Buffer,
     pub picture: Buffer,
 }
@@ -52,6 +55,7 @@ impl Images {
             strength: number("strength"),
             start: number("start"),
             gathered: device.image("gathered", pixels, MAX_PIXEL_BYTES),
+            squares: device.image("squares", RayGrid::squares(size).iter().product(), 2 * MAX_PIXEL_BYTES),
             context: number("context"),
             picture: number("picture"),
         })

@@ -188,10 +188,11 @@ impl<'a> Pass<'a> {
         };
         self.stages.place(self.device, on_device, &shared.volume, &self.geometry);
         let blocks = on_device.blocks(self.device, shared, self.request.stop)?;
-        let Images { size, depth, value, start, gathered, .. } = self.images;
+        let Images { size, depth, value, start, gathered, squares, .. } = self.images;
         let has_surface = self.made.has(Image::Value);
         let focus = self.made.has(Image::Focus).then(|| self.buffer(Image::Focus));
-        let images = ContextImages { size: *size, has_surface, focus, depth, value, start, gathered };
+        let images =
+            ContextImages { size: *size, has_surface, focus, depth, value, start, gathered, squares };
         let Stages { view, grid, context: stage, .. } = &mut *self.stages;
         stage.write(self.device, settings, context, (&shared.volume, self.request.camera), blocks)?;
         stage.record(&mut self.recording, [view, grid], (on_device, blocks), context, images);

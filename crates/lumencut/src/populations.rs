@@ -1,9 +1,10 @@
 //! Estimates padding, tissue and lumen from the distribution of a volume's voxels.
 
-use lumencut_core::volume::Volume;
+use lumencut_core::volume::{Volume, Voxel};
 use lumencut_core::with_voxels;
+use rayon::prelude::*;
 
-use lumencut_core::math::statistics::{median, quantile, two_groups};
+use lumencut_core::math::statistics::{median, quantile, rising_median, rising_quantile, two_groups};
 
 /// Lumen and tissue are separated by the maxima of cubes with this side (voxels), at most this number of cubes.
 const CUBE_SIDE: usize = 4;
@@ -45,7 +46,7 @@ const ALONE_DIFFERENCE: f64 = 0.25;
 const EDGE: f64 = 0.1;
 
 pub(crate) struct VoxelSample {
-    /// All finite voxels.
+    /// The finite voxels of the cubes, in rising order.
     pub voxels: Vec<f64>,
     /// The maximum of each cube.
     pub largest: Vec<f64>,
@@ -76,6 +77,7 @@ impl VoxelSample {
                 sampled.largest.extend(sampled.voxels[before..].iter().copied().reduce(f64::max));
             }
         });
+        sampled.voxels.par_sort_unstable_by(f64::total_cmp);
         sampled
     }
 }
@@ -83,22 +85,27 @@ impl VoxelSample {
 /// The smallest and largest finite voxel; reversed if there is none.
 #[allow(clippy::cast_lossless, clippy::unnecessary_cast)]
 pub(crate) fn range(volume: &Volume) -> [f64; 2] {
-    let (size, strides) = (volume.size(), volume.strides());
-    let mut ends = [f64::INFINITY, f64::NEG_INFINITY];
-    with_voxels!(volume.voxels(), voxels => {
-        for k in 0..size[2] {
-            for j in 0..size[1] {
-                let row = (0..size[0]).map(|i| voxels[i * strides[0] + j * strides[1] + k * strides[2]] as f64);
-                ends = row.filter(|value| value.is_finite()).fold(ends, |[low, high], value| [low.min(value), high.max(value)]);
-            }
-        }
-    });
-    ends
+    with_voxels!(volume.voxels(), voxels => range_of(volume, voxels).map(|end| end as f64))
 }
 
-/// The padding: a dark value that many, but not all, voxels have. Sorts the voxels.
-pub(crate) fn padding(voxels: &mut [f64]) -> Option<f64> {
-    voxels.sort_unstable_by(f64::total_cmp);
+fn range_of<T: Voxel>(volume: &Volume, voxels: &[T]) -> [T; 2] {
+    let (size, strides) = (volume.size(), volume.strides());
+    let none = [T::LARGEST, T::SMALLEST];
+    let wider = |[low, high]: [T; 2], [least, most]: [T; 2]| {
+        [if least < low { least } else { low }, if most > high { most } else { high }]
+    };
+    let of_row = |start: usize| {
+        let row = (0..size[0]).map(|i| voxels[start + i * strides[0]]);
+        // Comparisons leave out NaN; infinity lies beyond the largest value.
+        row.filter(|value| (T::SMALLEST..=T::LARGEST).contains(value))
+            .fold(none, |ends, value| wider(ends, [value; 2]))
+    };
+    let of_slice = |k: usize| (0..size[1]).map(|j| of_row(j * strides[1] + k * strides[2])).fold(none, wider);
+    (0..size[2]).into_par_iter().map(of_slice).reduce(|| none, wider)
+}
+
+/// The padding: a dark value that many, but not all, of the rising voxels have.
+pub(crate) fn padding(voxels: &[f64]) -> Option<f64> {
     let darkest = *voxels.get((voxels.len() as f64 * MAX_DARKER_FRACTION) as usize)?;
     let start = voxels.partition_point(|value| *value < darkest);
     let end = voxels.partition_point(|value| *value <= darkest);
@@ -106,9 +113,13 @@ pub(crate) fn padding(voxels: &mut [f64]) -> Option<f64> {
     is_padding.then_some(darkest)
 }
 
-pub(crate) fn without_padding(voxels: &mut [f64]) -> &mut [f64] {
-    let start = padding(voxels).map_or(0, |padding| voxels.partition_point(|value| *value <= padding));
-    &mut voxels[start..]
+pub(crate) fn without_padding(voxels: &[f64]) -> &[f64] {
+    padding(voxels).map_or(voxels, |padding| above(voxels, padding))
+}
+
+/// The rising voxels brighter than `limit`.
+fn above(voxels: &[f64], limit: f64) -> &[f64] {
+    &voxels[voxels.partition_point(|value| *value <= limit)..]
 }
 
 /// Levels of tissue and lumen, for a volume without centerlines.
@@ -140,20 +151,21 @@ pub(crate) struct Populations {
 
 impl Populations {
     /// None if there are no voxels.
-    pub(crate) fn of(sampled: &mut VoxelSample) -> Option<Self> {
+    pub(crate) fn of(sampled: &VoxelSample) -> Option<Self> {
         let Air { smallest, darkest, ends, at: air, .. } = Air::of(sampled)?;
         let enough = VESSELS_ONLY_FRACTION * sampled.count as f64;
-        let shown = without_padding(&mut sampled.voxels);
-        let peak = quantile(shown, PEAK_QUANTILE)?;
-        let mut body: Vec<f64> = shown.iter().copied().filter(|value| *value > air).collect();
+        let shown = without_padding(&sampled.voxels);
+        let peak = rising_quantile(shown, PEAK_QUANTILE)?;
+        let body = above(shown, air);
         let is_body = body.len() as f64 >= enough && !body.is_empty();
         // In a constant volume, or with few voxels besides padding, all voxels count.
         let is_few = (shown.len() as f64) < enough || body.is_empty();
-        let vessels = if is_few { shown } else { &mut body };
-        let [edges, bright] = [quantile(vessels, ALONE_EDGES)?, quantile(vessels, ALONE_LUMEN)?];
+        let vessels = if is_few { shown } else { body };
+        let [edges, bright] =
+            [rising_quantile(vessels, ALONE_EDGES)?, rising_quantile(vessels, ALONE_LUMEN)?];
         let [tissue, brightest_tissue, lumen] = if is_body {
             let cubes = sampled.largest.iter().copied().filter(|value| *value > air).collect();
-            of_body(median(vessels)?, cubes)?
+            of_body(rising_median(vessels)?, cubes)?
         } else {
             let tissue = bright - (bright - edges).max(ALONE_DIFFERENCE * (bright - darkest));
             [tissue, tissue, bright]
@@ -174,13 +186,14 @@ struct Air {
 }
 
 impl Air {
-    fn of(sampled: &mut VoxelSample) -> Option<Self> {
-        let darkest = quantile(&mut sampled.voxels, MAX_DARKER_FRACTION)?;
-        let has_padding = padding(&mut sampled.voxels).is_some();
+    fn of(sampled: &VoxelSample) -> Option<Self> {
+        let darkest = rising_quantile(&sampled.voxels, MAX_DARKER_FRACTION)?;
+        let has_padding = padding(&sampled.voxels).is_some();
         let smallest = *sampled.voxels.first()?;
-        let shown = without_padding(&mut sampled.voxels);
+        let shown = without_padding(&sampled.voxels);
         let first = *shown.first()?;
-        let ends = [quantile(shown, MAX_DARKER_FRACTION)?, quantile(shown, 1.0 - MAX_DARKER_FRACTION)?];
+        let ends = [MAX_DARKER_FRACTION, 1.0 - MAX_DARKER_FRACTION].map(|part| rising_quantile(shown, part));
+        let ends = [ends[0]?, ends[1]?];
         // If other values follow the padding without a gap, it is clipped air.
         let is_air = first - darkest < MAX_GAP_FRACTION * (ends[1] - darkest);
         let low = if is_air { darkest } else { ends[0] };
@@ -191,14 +204,14 @@ impl Air {
 
 /// The darkest tissue (fat in CT): the 10th percentile of voxels above air. If air was clipped at a value of at least `cut_off`,
 /// that value, since tissue may be darker than the limit of air. None if the volume shows hardly anything but vessels.
-pub(crate) fn darkest_tissue(sampled: &mut VoxelSample, cut_off: f64) -> Option<f64> {
+pub(crate) fn darkest_tissue(sampled: &VoxelSample, cut_off: f64) -> Option<f64> {
     let air = Air::of(sampled)?;
     if air.is_cut_off && air.darkest >= cut_off {
         return Some(air.darkest);
     }
     let enough = VESSELS_ONLY_FRACTION * sampled.count as f64;
-    let mut body: Vec<f64> = sampled.voxels.iter().copied().filter(|value| *value > air.at).collect();
-    if (body.len() as f64) < enough { None } else { quantile(&mut body, DARKEST_TISSUE_QUANTILE) }
+    let body = above(&sampled.voxels, air.at);
+    if (body.len() as f64) < enough { None } else { rising_quantile(body, DARKEST_TISSUE_QUANTILE) }
 }
 
 fn of_body(tissue: f64, mut cubes: Vec<f64>) -> Option<[f64; 3]> {

@@ -1,6 +1,6 @@
 //! Guesses whether the values of a volume are Hounsfield units and whether it contains metal, if its file does not say so.
 
-use lumencut_core::math::statistics::quantile;
+use lumencut_core::math::statistics::rising_quantile;
 use lumencut_core::settings::Window;
 use lumencut_core::volume::Volume;
 use lumencut_vessels::trace::lumen::surroundings::are_hounsfield;
@@ -22,11 +22,9 @@ pub(crate) struct ValueUnit {
 
 impl ValueUnit {
     /// Examines a volume; `lumen` is the window that shows its lumen.
-    pub(crate) fn of(volume: &Volume, lumen: Window) -> Self {
-        let mut voxels = VoxelSample::at(volume).voxels;
-        voxels.sort_unstable_by(f64::total_cmp);
-        let darkest = voxels.first().copied().unwrap_or_default();
-        let brightest = quantile(&mut voxels, METAL_QUANTILE).unwrap_or(darkest);
+    pub(crate) fn of(sampled: &VoxelSample, volume: &Volume, lumen: Window) -> Self {
+        let darkest = sampled.voxels.first().copied().unwrap_or_default();
+        let brightest = rising_quantile(&sampled.voxels, METAL_QUANTILE).unwrap_or(darkest);
         let white = lumen.level + lumen.width / 2.0 - darkest;
         Self {
             is_hounsfield: are_hounsfield(&Voxels::new(volume)),

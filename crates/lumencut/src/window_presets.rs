@@ -6,18 +6,19 @@ use lumencut_core::settings::{ContextName, Window};
 use lumencut_core::vessel_tree::VesselTree;
 use lumencut_core::volume::Volume;
 
+use crate::populations::VoxelSample;
 use crate::windows;
 
 /// A window that is computed from the data.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DataWindow {
-    /// Separates lumen from surroundings: [`windows::along`] vessels, or `windows::of_volume` if there are none.
+    /// Separates lumen from surroundings: `windows::along` vessels, or `windows::of_volume` if there are none.
     Auto,
     /// For maximum intensity projections, see `windows::of_mip`.
     Mip,
-    /// From the 1st to the 99th percentile, see [`windows::whole`].
+    /// From the 1st to the 99th percentile, see `windows::whole`.
     Whole,
-    /// From the smallest to the largest voxel, see [`windows::full`].
+    /// From the smallest to the largest voxel, see `windows::full`.
     Full,
     /// For MR angiography, see `windows::mra`.
     Mra,
@@ -37,13 +38,23 @@ impl DataWindow {
     /// Computes the window; only [`DataWindow::Auto`] uses the vessels. Fails with
     /// [`ErrorKind::Volume`](lumencut_core::error::ErrorKind::Volume) for values out of range.
     pub fn find(self, volume: &Volume, tree: Option<&VesselTree>) -> Result<Window> {
+        self.find_in(&VoxelSample::at(volume), volume, tree)
+    }
+
+    /// As [`DataWindow::find`], with the sample of the volume.
+    pub(crate) fn find_in(
+        self,
+        sampled: &VoxelSample,
+        volume: &Volume,
+        tree: Option<&VesselTree>,
+    ) -> Result<Window> {
         match (self, tree) {
-            (Self::Auto, Some(tree)) => windows::along(volume, tree),
-            (Self::Auto, None) => windows::of_volume(volume),
-            (Self::Mip, _) => windows::of_mip(volume),
-            (Self::Whole, _) => windows::whole(volume),
+            (Self::Auto, Some(tree)) => windows::along(sampled, volume, tree),
+            (Self::Auto, None) => windows::of_volume(sampled),
+            (Self::Mip, _) => windows::of_mip(sampled),
+            (Self::Whole, _) => windows::whole(sampled),
             (Self::Full, _) => windows::full(volume),
-            (Self::Mra, _) => windows::mra(volume),
+            (Self::Mra, _) => windows::mra(sampled),
         }
     }
 

@@ -1,5 +1,7 @@
 //! Windows computed from the data, which separate lumen from surroundings. Intensities are in the volume's unit (HU in CT).
 
+use std::borrow::Cow;
+
 use glam::DVec3;
 use lumencut_core::error::{Error, ErrorKind, Mend, Result};
 use lumencut_core::math::sampling::Grid;
@@ -10,7 +12,7 @@ use lumencut_core::with_voxels;
 
 use crate::populations::{Populations, VoxelSample, darkest_tissue, padding, range, without_padding};
 use crate::text::rounded;
-use lumencut_core::math::statistics::{median, quantile};
+use lumencut_core::math::statistics::{median, quantile, rising_median, rising_quantile};
 
 /// Tissue is sampled this far beyond the wall (mm), and a radius that is unknown is taken to be this (mm).
 const TISSUE_DISTANCE_MM: f64 = 10.0;
@@ -73,32 +75,36 @@ pub fn sample(volume: &Volume, points: &[DVec3]) -> Vec<f32> {
 /// noisy or the darkest tissue (fat) would be black, but not below the volume's minimum. White is at the brightest
 /// voxels, as long as the lumen stays at 60 to 72 % of the range. For a dark lumen everything is mirrored: it lies at
 /// 28 to 40 %, or darker if no voxel is as dark as black. Fails with [`ErrorKind::Volume`] for values out of range.
-pub fn along(volume: &Volume, tree: &VesselTree) -> Result<Window> {
+pub(crate) fn along(sampled: &VoxelSample, volume: &Volume, tree: &VesselTree) -> Result<Window> {
     let points: Vec<DVec3> = tree.vessels().iter().flat_map(|vessel| vessel.points()).copied().collect();
     let mut lumen = finite(&sample(volume, &points));
     let Some(level) = median(&mut lumen) else {
         return Ok(EMPTY_VOLUME_WINDOW);
     };
-    let mut sampled = VoxelSample::at(volume);
-    let Some(beyond) = tissue_around(volume, tree, level, &mut sampled) else {
+    let Some(beyond) = tissue_around(volume, tree, level, sampled) else {
         return Ok(EMPTY_VOLUME_WINDOW);
     };
-    let darkest_tissue = darkest_tissue(&mut sampled, level - BLACK_BELOW_LUMEN[1] * (level - beyond));
+    let darkest_tissue = darkest_tissue(sampled, level - BLACK_BELOW_LUMEN[1] * (level - beyond));
     let mut wall = finite(&sample(volume, &beside(tree, 0.0)));
     // A dark lumen is handled like a bright one, with negated values.
     let sign = if level < beyond { -1.0 } else { 1.0 };
-    for value in lumen.iter_mut().chain(&mut wall).chain(&mut sampled.voxels) {
+    for value in lumen.iter_mut().chain(&mut wall) {
         *value *= sign;
     }
+    let rising: Cow<[f64]> = if sign < 0.0 {
+        sampled.voxels.iter().rev().map(|value| -value).collect()
+    } else {
+        (&sampled.voxels).into()
+    };
     let [lower, upper] = ONE_SIGMA_QUANTILES.map(|part| quantile(&mut lumen, part).unwrap_or_default());
-    let [low, high] = [DARKEST_QUANTILE, BRIGHTEST_QUANTILE]
-        .map(|part| quantile(&mut sampled.voxels, part).unwrap_or_default());
+    let [low, high] =
+        [DARKEST_QUANTILE, BRIGHTEST_QUANTILE].map(|part| rising_quantile(&rising, part).unwrap_or_default());
     let high = high.max(quantile(&mut wall, BRIGHT_QUANTILE).unwrap_or(high));
     let tissue = Tissue { middle: sign * beyond, darkest: darkest_tissue.filter(|_| sign > 0.0) };
     let [black, mut white] = around_lumen(sign * level, tissue, (upper - lower) / 2.0, [low, high]);
     if sign < 0.0 {
         // For a dark lumen, this is the black end of the window. It never lies below the volume's minimum.
-        white = white.min(quantile(&mut sampled.voxels, 1.0).unwrap_or(white));
+        white = white.min(rising.last().copied().unwrap_or(white));
     }
     within(sign * (black + white) / 2.0, white - black, || {
         format!("values around {} along the centerlines, {} beside", rounded(level, 3), rounded(beyond, 3))
@@ -107,10 +113,10 @@ pub fn along(volume: &Volume, tree: &VesselTree) -> Result<Window> {
 
 /// The median around the vessels. If most of that is padding or outside, the darker of the visible rest's median and the vessels'
 /// edges. In clipped scans most tissue looks like padding, and the visible rest may be only bone.
-fn tissue_around(volume: &Volume, tree: &VesselTree, lumen: f64, sampled: &mut VoxelSample) -> Option<f64> {
+fn tissue_around(volume: &Volume, tree: &VesselTree, lumen: f64, sampled: &VoxelSample) -> Option<f64> {
     let places = beside(tree, TISSUE_DISTANCE_MM);
     let mut around = finite(&sample(volume, &places));
-    let padding = padding(&mut sampled.voxels).unwrap_or(f64::NEG_INFINITY);
+    let padding = padding(&sampled.voxels).unwrap_or(f64::NEG_INFINITY);
     let mut shown: Vec<f64> = around.iter().copied().filter(|value| *value > padding).collect();
     let middle = median(&mut shown);
     if shown.len() as f64 >= MIN_SHOWN_FRACTION * places.len() as f64 {
@@ -156,20 +162,19 @@ fn beside(tree: &VesselTree, beyond: f64) -> Vec<DVec3> {
 }
 
 /// A window without centerlines that separates lumen from surroundings, with the levels of [`Populations`].
-pub(crate) fn of_volume(volume: &Volume) -> Result<Window> {
-    alone(volume, |_, _| 1.0)
+pub(crate) fn of_volume(sampled: &VoxelSample) -> Result<Window> {
+    alone(sampled, |_, _| 1.0)
 }
 
 /// A window without centerlines for slices, in which tissue matters. The lumen is at 60 to 72 %, and black as far below it as in
 /// [`along`]. The window of [`of_volume`] leaves more tissue black, as projections require.
-pub(crate) fn of_slices(volume: &Volume) -> Result<Window> {
-    let mut sampled = VoxelSample::at(volume);
-    let Some(found) = Populations::of(&mut sampled) else {
+pub(crate) fn of_slices(sampled: &VoxelSample) -> Result<Window> {
+    let Some(found) = Populations::of(sampled) else {
         return Ok(EMPTY_VOLUME_WINDOW);
     };
     let lumen = found.lumen;
-    let tissue = cut_off_tissue(&mut sampled, lumen).unwrap_or_else(|| {
-        let darkest = darkest_tissue(&mut sampled, lumen - BLACK_BELOW_LUMEN[1] * (lumen - found.tissue));
+    let tissue = cut_off_tissue(sampled, lumen).unwrap_or_else(|| {
+        let darkest = darkest_tissue(sampled, lumen - BLACK_BELOW_LUMEN[1] * (lumen - found.tissue));
         Tissue { middle: found.tissue, darkest }
     });
     let [black, white] = around_lumen(lumen, tissue, 0.0, [found.darkest, found.peak]);
@@ -178,15 +183,15 @@ pub(crate) fn of_slices(volume: &Volume) -> Result<Window> {
 
 /// The tissue of a volume whose dark values were clipped, else None. Most voxels above padding are nearer to it than to the lumen,
 /// and many of them would count as air.
-fn cut_off_tissue(sampled: &mut VoxelSample, lumen: f64) -> Option<Tissue> {
-    let padding = padding(&mut sampled.voxels)?;
-    let middle = median(&mut without_padding(&mut sampled.voxels).to_vec())?;
+fn cut_off_tissue(sampled: &VoxelSample, lumen: f64) -> Option<Tissue> {
+    let padding = padding(&sampled.voxels)?;
+    let middle = rising_median(without_padding(&sampled.voxels))?;
     (middle - padding < lumen - middle).then_some(Tissue { middle, darkest: Some(padding) })
 }
 
 /// The window of [`along`], widened if the brightest vessels would be white.
-pub(crate) fn holding_lumen(volume: &Volume, tree: &VesselTree) -> Result<Window> {
-    let window = along(volume, tree)?;
+pub(crate) fn holding_lumen(sampled: &VoxelSample, volume: &Volume, tree: &VesselTree) -> Result<Window> {
+    let window = along(sampled, volume, tree)?;
     let black = window.level - window.width / 2.0;
     let needed =
         brightest_lumen(volume, tree).map_or(0.0, |lumen| (lumen - black) / BRIGHT_LUMEN_POSITION[0]);
@@ -207,13 +212,13 @@ fn brightest_lumen(volume: &Volume, tree: &VesselTree) -> Option<f64> {
 
 /// [`of_volume`] for a MIP, widened at most 1.4 times so that white is at the 99.9th percentile. In a MIP noise makes
 /// lumen brighter, so the window must reach brighter values.
-pub(crate) fn of_mip(volume: &Volume) -> Result<Window> {
-    alone(volume, |found, [black, width]| ((found.peak - black) / width).clamp(1.0, MIP_MAX_WIDENING))
+pub(crate) fn of_mip(sampled: &VoxelSample) -> Result<Window> {
+    alone(sampled, |found, [black, width]| ((found.peak - black) / width).clamp(1.0, MIP_MAX_WIDENING))
 }
 
 /// A window from the levels of [`Populations`], widened by the factor `wider(populations, [black, width])`.
-fn alone(volume: &Volume, wider: impl Fn(&Populations, [f64; 2]) -> f64) -> Result<Window> {
-    let Some(found) = Populations::of(&mut VoxelSample::at(volume)) else {
+fn alone(sampled: &VoxelSample, wider: impl Fn(&Populations, [f64; 2]) -> f64) -> Result<Window> {
+    let Some(found) = Populations::of(sampled) else {
         return Ok(EMPTY_VOLUME_WINDOW);
     };
     let above =
@@ -229,17 +234,17 @@ fn alone(volume: &Volume, wider: impl Fn(&Populations, [f64; 2]) -> f64) -> Resu
 
 /// A window from the 1st percentile to the 99th, without padding: from air to lumen. Fails with [`ErrorKind::Volume`]
 /// for values out of range.
-pub fn whole(volume: &Volume) -> Result<Window> {
-    without_unit(volume, BRIGHT_QUANTILE)
+pub(crate) fn whole(sampled: &VoxelSample) -> Result<Window> {
+    without_unit(sampled, BRIGHT_QUANTILE)
 }
 
 /// As [`whole`] for MR angiography, but up to the 99.9th percentile, so that vessels are not all white.
-pub(crate) fn mra(volume: &Volume) -> Result<Window> {
-    without_unit(volume, BRIGHTEST_QUANTILE)
+pub(crate) fn mra(sampled: &VoxelSample) -> Result<Window> {
+    without_unit(sampled, BRIGHTEST_QUANTILE)
 }
 
 /// A window from the smallest to the largest voxel. Fails with [`ErrorKind::Volume`] for values out of range.
-pub fn full(volume: &Volume) -> Result<Window> {
+pub(crate) fn full(volume: &Volume) -> Result<Window> {
     let [black, white] = range(volume);
     if black > white {
         return Ok(EMPTY_VOLUME_WINDOW);
@@ -248,12 +253,11 @@ pub fn full(volume: &Volume) -> Result<Window> {
 }
 
 /// A window from the 1st percentile to the quantile `bright`, without padding.
-fn without_unit(volume: &Volume, bright: f64) -> Result<Window> {
-    let mut voxels = VoxelSample::at(volume).voxels;
-    let Some(black) = quantile(&mut voxels, DARKEST_QUANTILE) else {
+fn without_unit(sampled: &VoxelSample, bright: f64) -> Result<Window> {
+    let Some(black) = rising_quantile(&sampled.voxels, DARKEST_QUANTILE) else {
         return Ok(EMPTY_VOLUME_WINDOW);
     };
-    let white = quantile(without_padding(&mut voxels), bright).unwrap_or(black);
+    let white = rising_quantile(without_padding(&sampled.voxels), bright).unwrap_or(black);
     within((black + white) / 2.0, white - black, || from_to(black, white))
 }
 

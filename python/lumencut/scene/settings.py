@@ -116,7 +116,7 @@ class Settings(CheckedSettings):
         given: grey for mip, otherwise angio.
     context_step : float, 0.001 to 1000, optional
         Longest distance between samples of ``mida`` and ``dvr`` along a ray (mm). If not given: half the
-        smallest voxel side, the whole side in a preview.
+        smallest voxel side, two sides in a preview.
     context_shading : bool, default False
         Shade ``mida`` and ``dvr`` by the gradient, with light from the viewer.
     context_from : {"cut", "whole"} or None, optional
@@ -126,7 +126,7 @@ class Settings(CheckedSettings):
     context_strength : float, 0 to 1, default 1
         Brightness of the context: factor of its colours (number, 0 to 1).
     context_preview : bool, default False
-        Trace one ray per 2 × 2 pixels: faster and coarser.
+        Trace one ray per 6 × 6 pixels: faster and coarser.
 
     Raises
     ------

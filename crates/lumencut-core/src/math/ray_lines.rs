@@ -46,6 +46,9 @@ impl IndexFromView {
     }
 }
 
+/// Side of the square that one ray of a preview serves (pixels).
+pub const PREVIEW_SIDE: usize = 6;
+
 /// The rays of a raster: one through each of its pixels.
 #[derive(Clone, Copy, Debug)]
 pub struct RayGrid {
@@ -62,11 +65,16 @@ impl RayGrid {
         Self { size: camera.size(), first: [camera.view_x(0), camera.view_y(0)], next: [s, -s] }
     }
 
-    /// One ray for every square of four pixels.
+    /// One ray through the middle of each square of a preview.
     pub fn coarse(camera: &Camera) -> Self {
-        let fine = Self::fine(camera);
-        let first = std::array::from_fn(|a| fine.first[a] + fine.next[a] / 2.0);
-        Self { size: fine.size.map(|n| n.div_ceil(2)), first, next: fine.next.map(|s| 2.0 * s) }
+        let (fine, side) = (Self::fine(camera), PREVIEW_SIDE as f64);
+        let first = std::array::from_fn(|a| fine.first[a] + fine.next[a] * (side - 1.0) / 2.0);
+        Self { size: Self::squares(fine.size), first, next: fine.next.map(|s| side * s) }
+    }
+
+    /// Columns and rows of the squares of a preview.
+    pub fn squares(size: [usize; 2]) -> [usize; 2] {
+        size.map(|n| n.div_ceil(PREVIEW_SIDE))
     }
 }
 

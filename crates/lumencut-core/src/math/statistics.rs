@@ -1,21 +1,45 @@
-//! Medians, quantiles and groups of values, in time proportional to their number.
+//! Medians, quantiles and groups of values, in time proportional to their number; at once if they are sorted.
 
 /// The median, or the mean of the two in the middle; `None` without values. It reorders the values.
 pub fn median(values: &mut [f64]) -> Option<f64> {
     let last = values.len().checked_sub(1)?;
-    let [below, above] = neighbours(values, last / 2);
-    Some(if last % 2 == 0 { below } else { (below + above) / 2.0 })
+    Some(middle(last, neighbours(values, last / 2)))
+}
+
+/// The [`median`] of rising values.
+pub fn rising_median(values: &[f64]) -> Option<f64> {
+    let last = values.len().checked_sub(1)?;
+    Some(middle(last, rising_neighbours(values, last / 2)))
+}
+
+fn middle(last: usize, [below, above]: [f64; 2]) -> f64 {
+    if last % 2 == 0 { below } else { (below + above) / 2.0 }
 }
 
 /// The quantile at share `part`, interpolated linearly; `None` without values. It reorders the values.
 pub fn quantile(values: &mut [f64], part: f64) -> Option<f64> {
-    let last = values.len().checked_sub(1)?;
+    let (below, weight) = place(values.len(), part)?;
+    Some(between(neighbours(values, below), weight))
+}
+
+/// The [`quantile`] of rising values.
+pub fn rising_quantile(values: &[f64], part: f64) -> Option<f64> {
+    let (below, weight) = place(values.len(), part)?;
+    Some(between(rising_neighbours(values, below), weight))
+}
+
+/// The place below a quantile, and the weight of the next place.
+fn place(count: usize, part: f64) -> Option<(usize, f64)> {
+    let last = count.checked_sub(1)?;
     let place = last as f64 * part;
     let below = (place.floor() as usize).min(last);
-    let [low, high] = neighbours(values, below);
-    let (weight, difference) = (place - below as f64, high - low);
-    // The result is computed from the nearer end, so that it is exact at both ends.
-    Some(if weight < 0.5 { low + difference * weight } else { high - difference * (1.0 - weight) })
+    Some((below, place - below as f64))
+}
+
+/// The result is computed from the nearer end, so that it is exact at both ends.
+fn between([low, high]: [f64; 2], weight: f64) -> f64 {
+    let difference = high - low;
+    if weight < 0.5 { low + difference * weight } else { high - difference * (1.0 - weight) }
 }
 
 /// Splits rising values into two groups by Otsu (1979): the start of the second; `None` if all are equal.
@@ -42,6 +66,10 @@ fn neighbours(values: &mut [f64], n: usize) -> [f64; 2] {
     [*found, above.iter().copied().min_by(f64::total_cmp).unwrap_or(*found)]
 }
 
+fn rising_neighbours(values: &[f64], n: usize) -> [f64; 2] {
+    [values[n], values[(n + 1).min(values.len() - 1)]]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -63,6 +91,17 @@ mod tests {
         assert_eq!(quantile(&mut [10.0, 20.0], 0.75), Some(17.5));
         assert_eq!(quantile(&mut [10.0], 0.99), Some(10.0));
         assert_eq!(quantile(&mut [], 0.5), None);
+    }
+
+    #[test]
+    fn sorted_values_have_the_same_median_and_quantiles() {
+        for count in 0..6 {
+            let rising: Vec<f64> = (0..count).map(|n| f64::from(n * n)).collect();
+            assert_eq!(rising_median(&rising), median(&mut rising.clone()));
+            for part in [0.0, 0.1, 0.5, 0.77, 1.0] {
+                assert_eq!(rising_quantile(&rising, part), quantile(&mut rising.clone(), part));
+            }
+        }
     }
 
     #[test]

@@ -165,7 +165,7 @@ settings! {
 
         /// Longest distance between samples of `mida` and `dvr` along a ray (mm).
         context_step: Option<f64> = None, range(1e-3, 1e3, "mm"),
-            open("half the smallest voxel side, the whole side in a preview");
+            open("half the smallest voxel side, two sides in a preview");
 
         /// Shade `mida` and `dvr` by the gradient, with light from the viewer.
         context_shading: bool = false;
@@ -178,7 +178,7 @@ settings! {
         /// Brightness of the context: factor of its colours (number, 0 to 1).
         context_strength: f64 = 1.0, range(0.0, 1.0, "of its brightness");
 
-        /// Trace one ray per 2 × 2 pixels: faster and coarser.
+        /// Trace one ray per 6 × 6 pixels: faster and coarser.
         context_preview: bool = false;
     }
 }

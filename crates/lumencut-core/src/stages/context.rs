@@ -1,5 +1,5 @@
 //! The context: rays through the volume behind the cut surface (paper section 3.3.6). In a preview, one ray serves
-//! every square of four pixels.
+//! a square of pixels.
 
 mod plan;
 mod reduced;
@@ -16,7 +16,7 @@ use super::{Image, Work};
 use crate::error::Result;
 use crate::math::context_parameters::{Gathering, StartParameters};
 use crate::math::ray::{NONE, WHOLE};
-use crate::math::ray_lines::RayGrid;
+use crate::math::ray_lines::{PREVIEW_SIDE, RayGrid};
 use crate::settings::{Context, Settings};
 
 #[derive(Clone, Copy, Debug)]
@@ -76,36 +76,72 @@ pub fn context(
         return gather(&RayGrid::fine(camera), start, pixels);
     }
     let rays = RayGrid::coarse(camera);
-    let [columns, rows] = rays.size;
-    let mut coarse = vec![[0.0; 4]; columns * rows];
-    gather(&rays, &coarse_starts(start, work.size), &mut coarse)?;
-    spread(&coarse, start, work.size, pixels);
+    let starts = coarse_starts(start, work.size);
+    let mut colors = vec![[0.0; 4]; starts.len()];
+    gather(&rays, &starts, &mut colors)?;
+    Squares { size: rays.size, colors: &colors, starts: &starts }.spread(start, work.size[0], pixels);
     Ok(())
 }
 
 /// Stands for a start in front of the volume: larger than starts at cut surfaces, smaller than `NONE`.
 pub const IN_FRONT: f32 = NONE / 2.0;
 
-/// The start of the ray of each square of four pixels: the nearest start behind a cut surface. Only if there
+/// The start of the ray of each square of a preview: the nearest start behind a cut surface. Only if there
 /// is none, it is in front of the volume; else the ray would show what lies before the surface.
 fn coarse_starts(start: &[f32], [width, height]: [usize; 2]) -> Vec<f32> {
-    let (columns, rows) = (width.div_ceil(2), height.div_ceil(2));
+    let [columns, rows] = RayGrid::squares([width, height]);
     let mut coarse = vec![NONE; columns * rows];
     for (j, row) in start.chunks(width).enumerate() {
         for (i, start) in row.iter().enumerate() {
-            let square = &mut coarse[j / 2 * columns + i / 2];
+            let square = &mut coarse[j / PREVIEW_SIDE * columns + i / PREVIEW_SIDE];
             *square = square.min(if *start <= WHOLE { IN_FRONT } else { *start });
         }
     }
     coarse.into_iter().map(|start| if (IN_FRONT..NONE).contains(&start) { WHOLE } else { start }).collect()
 }
 
-fn spread(coarse: &[[f32; 4]], start: &[f32], [width, _]: [usize; 2], pixels: &mut [[f32; 4]]) {
-    let columns = width.div_ceil(2);
-    let rows = pixels.chunks_mut(width).zip(start.chunks(width));
-    for (j, (pixels, start)) in rows.enumerate() {
-        for (i, (pixel, start)) in pixels.iter_mut().zip(start).enumerate() {
-            *pixel = if *start >= NONE { [0.0; 4] } else { coarse[j / 2 * columns + i / 2] };
+/// The squares of a preview: the colour of each ray, and where it starts.
+struct Squares<'a> {
+    size: [usize; 2],
+    colors: &'a [[f32; 4]],
+    starts: &'a [f32],
+}
+
+impl Squares<'_> {
+    fn spread(&self, start: &[f32], width: usize, pixels: &mut [[f32; 4]]) {
+        let rows = pixels.par_chunks_mut(width).zip(start.par_chunks(width));
+        rows.enumerate().for_each(|(j, (pixels, start))| {
+            for (i, (pixel, start)) in pixels.iter_mut().zip(start).enumerate() {
+                *pixel = if *start >= NONE { [0.0; 4] } else { self.blended([i, j], *start) };
+            }
+        });
+    }
+
+    /// Blends the four squares around a pixel. Those count whose rays start in front of the volume, or behind the cut
+    /// surface, as the ray of the pixel does; if there is none, the pixel shows its own square.
+    fn blended(&self, pixel: [usize; 2], own: f32) -> [f32; 4] {
+        let places = pixel.map(|n| (n as f32 + 0.5) / PREVIEW_SIDE as f32 - 0.5);
+        let low = places.map(f32::floor);
+        let (mut sum, mut all) = ([0.0; 4], 0.0);
+        for corner in 0..4 {
+            let steps = [corner % 2, corner / 2];
+            let [column, row] = std::array::from_fn(|a| {
+                (low[a] as isize + steps[a]).clamp(0, self.size[a] as isize - 1) as usize
+            });
+            let square = row * self.size[0] + column;
+            let start = self.starts[square];
+            if start < NONE && (start <= WHOLE) == (own <= WHOLE) {
+                let part = |a: usize| places[a] - low[a];
+                let [across, down] =
+                    std::array::from_fn(|a| if steps[a] == 1 { part(a) } else { 1.0 - part(a) });
+                let weight = across * down;
+                sum = std::array::from_fn(|c| sum[c] + weight * self.colors[square][c]);
+                all += weight;
+            }
         }
+        if all > 0.0 {
+            return sum.map(|sum| sum / all);
+        }
+        self.colors[pixel[1] / PREVIEW_SIDE * self.size[0] + pixel[0] / PREVIEW_SIDE]
     }
 }

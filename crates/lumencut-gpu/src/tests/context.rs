@@ -108,6 +108,7 @@ fn starts_and_context(
     let focus = focus.as_ref().map(|focus| placed.device.upload("focus", focus));
     let start = placed.device.image("start", pixels, 4);
     let gathered = placed.device.image("gathered", pixels, 16);
+    let squares = placed.device.image("squares", pixels, 32);
     let blocks = placed.blocks();
     let chosen = settings.context.as_ref().unwrap();
     stage.write(placed.device, settings, chosen, (placed.volume, placed.camera), &blocks).unwrap();
@@ -119,6 +120,7 @@ fn starts_and_context(
         value: &value,
         start: &start,
         gathered: &gathered,
+        squares: &squares,
     };
     let mut recording = Recording::new(placed.device);
     let volumes = (&placed.on_device, &blocks);

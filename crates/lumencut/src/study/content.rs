@@ -13,6 +13,7 @@ use serde::Serialize;
 
 use crate::defaults::pixel_side;
 use crate::doubted_scan::doubted_size;
+use crate::populations::VoxelSample;
 use crate::scan_details::ScanDetails;
 use crate::study::failure::Result;
 use crate::study::held_volume::HeldVolume;
@@ -177,17 +178,18 @@ impl Content {
         let Some(held) = &self.held else { return Ok(None) };
         let (volume, tree) = (&held.volume()?, self.tree().map(|tree| tree.tree()));
         let pair = |window: Window| [window.level, window.width];
+        let sampled = &VoxelSample::at(volume);
         // Different presets use the same windows, so each window is computed once.
         let found = DataWindow::NAMES
             .iter()
-            .map(|(name, kind)| Ok((*name, pair(kind.find(volume, tree)?))))
+            .map(|(name, kind)| Ok((*name, pair(kind.find_in(sampled, volume, tree)?))))
             .collect::<Result<BTreeMap<_, _>>>()?;
         let contexts = ContextName::NAMES
             .iter()
             .map(|(name, context)| (*name, found[DataWindow::of_context(*context, tree.is_some()).name()]));
         let main = match tree {
-            Some(tree) => pair(windows::holding_lumen(volume, tree)?),
-            None => pair(windows::of_slices(volume)?),
+            Some(tree) => pair(windows::holding_lumen(sampled, volume, tree)?),
+            None => pair(windows::of_slices(sampled)?),
         };
         let presets = WINDOW_PRESETS.map(|preset| {
             let window = match preset.source {
@@ -198,7 +200,7 @@ impl Content {
             NamedWindow { name: preset.name, words: preset.words, window }
         });
         let [level, width] = found[DataWindow::Auto.name()];
-        let unit = ValueUnit::of(volume, Window { level, width });
+        let unit = ValueUnit::of(sampled, volume, Window { level, width });
         Ok(Some(Windows {
             main,
             contexts: contexts.collect(),

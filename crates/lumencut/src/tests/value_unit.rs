@@ -14,8 +14,9 @@ fn unit(level: i16, others: &[(usize, i16)], lumen: Window) -> ValueUnit {
         own.fill(*other);
         rest = after;
     }
-    let volume = Volume::new(Voxels::I16(&values), [40; 3], [1, 40, 1600], glam::DAffine3::IDENTITY);
-    ValueUnit::of(&volume.expect("a volume"), lumen)
+    let volume = Volume::new(Voxels::I16(&values), [40; 3], [1, 40, 1600], glam::DAffine3::IDENTITY)
+        .expect("a volume");
+    ValueUnit::of(&VoxelSample::at(&volume), &volume, lumen)
 }
 
 const CTA: Window = Window { level: 300.0, width: 900.0 };

@@ -14,6 +14,31 @@ fn volume(voxels: &[f32], size: [usize; 3]) -> Volume<'_> {
     Volume::new(Voxels::F32(voxels), size, [1, size[0], size[0] * size[1]], DAffine3::IDENTITY).unwrap()
 }
 
+/// The windows by volume alone.
+fn along(volume: &Volume, tree: &VesselTree) -> Result<Window> {
+    super::along(&VoxelSample::at(volume), volume, tree)
+}
+
+fn of_volume(volume: &Volume) -> Result<Window> {
+    super::of_volume(&VoxelSample::at(volume))
+}
+
+fn of_mip(volume: &Volume) -> Result<Window> {
+    super::of_mip(&VoxelSample::at(volume))
+}
+
+fn of_slices(volume: &Volume) -> Result<Window> {
+    super::of_slices(&VoxelSample::at(volume))
+}
+
+fn whole(volume: &Volume) -> Result<Window> {
+    super::whole(&VoxelSample::at(volume))
+}
+
+fn mra(volume: &Volume) -> Result<Window> {
+    super::mra(&VoxelSample::at(volume))
+}
+
 fn tree(radius: Option<f64>) -> VesselTree {
     let points = vec![DVec3::new(2.0, 20.0, 20.0), DVec3::new(37.0, 20.0, 20.0)];
     VesselTree::new(vec![Vessel::new(points, radius.map(|r| vec![r; 2])).unwrap()]).unwrap()
@@ -272,7 +297,7 @@ fn bright_vessels_beside_many_faint_ones_are_held() {
     });
     let (volume, tree) = (volume(&voxels, [40; 3]), line_of_points());
     assert!(!holds_lumen(along(&volume, &tree).unwrap(), &volume, &tree));
-    let found = holding_lumen(&volume, &tree).unwrap();
+    let found = holding_lumen(&VoxelSample::at(&volume), &volume, &tree).unwrap();
     assert!(holds_lumen(found, &volume, &tree));
     assert!((share(found, 800.0) - BRIGHT_LUMEN_POSITION[0]).abs() < 1e-9);
 }

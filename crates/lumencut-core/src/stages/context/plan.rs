@@ -26,9 +26,10 @@ fn rounded_up(number: f64) -> f64 {
     (number * scale).ceil() / scale
 }
 
-/// The default step: half a voxel's side, because colours and opacities rise within a voxel.
+/// The default step: half a voxel's side, because colours and opacities rise within a voxel; in a preview, whose rays are
+/// further apart, two sides.
 fn default_step(volume: &Volume, settings: &Context) -> f64 {
-    volume.smallest_side() * if settings.preview { 1.0 } else { 0.5 }
+    volume.smallest_side() * if settings.preview { 2.0 } else { 0.5 }
 }
 
 /// The longest distance between samples (mm). Fails with `Settings` for rays of more than 65,536 samples.
