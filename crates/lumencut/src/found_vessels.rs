@@ -8,7 +8,6 @@ use lumencut_core::volume::Volume;
 use lumencut_vessels::trace::clicks::doubts::{Doubt, Doubted};
 use lumencut_vessels::trace::find::found::{FoundVessel, Trees};
 use lumencut_vessels::trace::find::from_seed::find_from;
-use lumencut_vessels::trace::find::track::TrackDoubt;
 use lumencut_vessels::trace::find::{self, FindRequest, one_vessel, refusals};
 use lumencut_vessels::trace::lines::centerline::Centerline;
 use lumencut_vessels::voxels::Voxels;
@@ -144,6 +143,7 @@ pub fn sure_parts(tree: &FoundTree) -> Vec<Vec<usize>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use lumencut_vessels::trace::find::track::TrackDoubt;
 
     fn vessel(part: usize, doubt: Option<TrackDoubt>) -> FoundVessel {
         let line = Centerline {
@@ -152,6 +152,15 @@ mod tests {
             confidence: vec![0.8; 2],
         };
         FoundVessel { line, part, confidence: 0.8, doubt }
+    }
+
+    #[test]
+    fn a_found_vessel_has_the_doubts_of_a_traced_one() {
+        let doubt = Doubt { words: "Doubtful from 3 mm on.".to_owned(), at: Some(3.0) };
+        let vessels = vec![vessel(0, None), vessel(0, Some(TrackDoubt::Short))];
+        let tree = found(Trees { vessels, ..Trees::default() }, &|_| vec![doubt.clone()]);
+        assert_eq!(tree.vessels[0].doubts_of("Vessel 1"), ["Vessel 1: Doubtful from 3 mm on."]);
+        assert!(tree.vessels[1].places.is_empty(), "a doubtful vessel is doubtful as a whole");
     }
 
     #[test]

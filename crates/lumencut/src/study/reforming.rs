@@ -24,7 +24,7 @@ use crate::study::reformations::{
 };
 use crate::value_colours::{Colours, coloured, scale_end};
 
-const MAP_BLACK: &str = " Black: openings of branches, or outside the scan.";
+const MAP_BLACK: &str = " Black: openings of branches, no wall, or outside the scan.";
 const MAP_BRIGHT: &str = " A vein or bone that touches the wall looks like calcium.";
 
 impl Study {
