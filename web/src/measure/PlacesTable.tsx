@@ -122,7 +122,7 @@ function PlaceRow({ place, profile }: { readonly place: VesselPlace; readonly pr
         <button
           type="button"
           class="small"
-          aria-label={`Remove the ${placeName(place)}`}
+          aria-label={`Remove the ${placeName({ ...place, isConfirmed: false })}`}
           onClick={() => remove(place)}
         >
           ×

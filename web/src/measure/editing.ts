@@ -141,5 +141,5 @@ export function confirmAll(): void {
 }
 
 export function remove(place: VesselPlace): void {
-  changeMarks(`remove the ${placeName(place)}`, (marks) => removed(marks, place));
+  changeMarks(`remove the ${placeName({ ...place, isConfirmed: false })}`, (marks) => removed(marks, place));
 }
