@@ -13,7 +13,7 @@ afterEach(() => {
 });
 
 test('a scale bar whose label would be cut off is left out', () => {
-  expect([fits(60, 82), fits(60, 220), fits(20, 220), fits(300, 220)]).toEqual([true, true, false, false]);
+  expect([fits(60, 82), fits(20, 82), fits(20, 60), fits(300, 220)]).toEqual([true, true, false, false]);
 });
 
 test('a value has a unit, or the page states that none is known', () => {

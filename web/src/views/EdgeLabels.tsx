@@ -30,8 +30,7 @@ const BAR_LABEL = 56;
 const BAR_EDGE = 8;
 
 /** Whether the bar and its label fit into a view without being cut off. */
-export const fits = (bar: number, width: number): boolean =>
-  BAR_EDGE + bar / 2 >= BAR_LABEL / 2 && 2 * BAR_EDGE + Math.max(bar, BAR_LABEL) <= width;
+export const fits = (bar: number, width: number): boolean => 2 * BAR_EDGE + Math.max(bar, BAR_LABEL) <= width;
 
 function Sides({ letters }: Pick<PictureLabels, 'letters'>) {
   return (
@@ -45,10 +44,12 @@ function Sides({ letters }: Pick<PictureLabels, 'letters'>) {
 }
 
 function Bar({ bar: { words, pixels } }: { readonly bar: NonNullable<PictureLabels['bar']> }) {
+  // The middle of a longer label would begin left of the view.
+  const isShort = pixels < BAR_LABEL;
   return (
     <svg class="bar" width={pixels + 2} height="22" role="img" aria-label={`scale bar of ${words}`}>
       <path d={`M1 14v6h${pixels}v-6`} />
-      <text x={pixels / 2 + 1} y="12" text-anchor="middle">
+      <text x={isShort ? 0 : pixels / 2 + 1} y="12" text-anchor={isShort ? 'start' : 'middle'}>
         {words}
       </text>
     </svg>
