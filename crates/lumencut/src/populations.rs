@@ -90,18 +90,40 @@ pub(crate) fn range(volume: &Volume) -> [f64; 2] {
 
 fn range_of<T: Voxel>(volume: &Volume, voxels: &[T]) -> [T; 2] {
     let (size, strides) = (volume.size(), volume.strides());
-    let none = [T::LARGEST, T::SMALLEST];
-    let wider = |[low, high]: [T; 2], [least, most]: [T; 2]| {
-        [if least < low { least } else { low }, if most > high { most } else { high }]
+    let [row, column, slice] = {
+        let mut axes = [0, 1, 2];
+        axes.sort_by_key(|axis| strides[*axis]);
+        axes
     };
     let of_row = |start: usize| {
-        let row = (0..size[0]).map(|i| voxels[start + i * strides[0]]);
-        // Comparisons leave out NaN; infinity lies beyond the largest value.
-        row.filter(|value| (T::SMALLEST..=T::LARGEST).contains(value))
-            .fold(none, |ends, value| wider(ends, [value; 2]))
+        let length = (size[row] - 1) * strides[row] + 1;
+        let values = &voxels[start..start + length];
+        // Without steps, the compiler uses vectors.
+        if strides[row] == 1 { ends(values.iter()) } else { ends(values.iter().step_by(strides[row])) }
     };
-    let of_slice = |k: usize| (0..size[1]).map(|j| of_row(j * strides[1] + k * strides[2])).fold(none, wider);
-    (0..size[2]).into_par_iter().map(of_slice).reduce(|| none, wider)
+    let of_slice = |k: usize| {
+        (0..size[column]).map(|j| of_row(j * strides[column] + k * strides[slice])).fold(none(), wider)
+    };
+    (0..size[slice]).into_par_iter().map(of_slice).reduce(none, wider)
+}
+
+fn ends<'a, T: Voxel>(values: impl Iterator<Item = &'a T>) -> [T; 2] {
+    // Comparisons leave out NaN, and infinity lies beyond the largest value.
+    values.fold(none(), |[low, high], value| {
+        let is_finite = *value >= T::SMALLEST && *value <= T::LARGEST;
+        [
+            if is_finite && *value < low { *value } else { low },
+            if is_finite && *value > high { *value } else { high },
+        ]
+    })
+}
+
+fn none<T: Voxel>() -> [T; 2] {
+    [T::LARGEST, T::SMALLEST]
+}
+
+fn wider<T: Voxel>([low, high]: [T; 2], [least, most]: [T; 2]) -> [T; 2] {
+    [if least < low { least } else { low }, if most > high { most } else { high }]
 }
 
 /// The padding: a dark value that many, but not all, of the rising voxels have.

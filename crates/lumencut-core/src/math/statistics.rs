@@ -13,7 +13,7 @@ pub fn rising_median(values: &[f64]) -> Option<f64> {
 }
 
 fn middle(last: usize, [below, above]: [f64; 2]) -> f64 {
-    if last % 2 == 0 { below } else { (below + above) / 2.0 }
+    if last.is_multiple_of(2) { below } else { (below + above) / 2.0 }
 }
 
 /// The quantile at share `part`, interpolated linearly; `None` without values. It reorders the values.
