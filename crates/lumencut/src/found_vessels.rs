@@ -105,7 +105,9 @@ fn found(trees: Trees, doubts_of: &(dyn Fn(&Centerline) -> Vec<Doubt> + Sync)) -
     };
     let vessels: Vec<FoundLine> = sure.into_par_iter().chain(doubtful).map(line).collect();
     let [level, contrast] = [level, contrast].map(about);
-    let mut notes = vec![format!("the lumen of the vessels has about {level}; its contrast to the surroundings is {contrast}")];
+    let mut notes = vec![format!(
+        "the lumen of the vessels has about {level}; its contrast to the surroundings is {contrast}"
+    )];
     notes.extend(other.map(|reading| {
         let [level, contrast] = reading.map(about);
         format!("other tubes have about {level}, {contrast} above theirs: the paler ones may be organs")
@@ -175,7 +177,10 @@ mod tests {
         assert_eq!(parts, [0, 0, 2, 0, 1, 2]);
         let short = format!("2 vessels doubtful: {}", TrackDoubt::Short.words(false));
         let flat = format!("1 vessel doubtful: {}", TrackDoubt::Flat.words(false));
-        assert_eq!(tree.notes, ["the lumen of the vessels has about 330; its contrast to the surroundings is 322"]);
+        assert_eq!(
+            tree.notes,
+            ["the lumen of the vessels has about 330; its contrast to the surroundings is 322"]
+        );
         assert_eq!(tree.doubts, [short, flat]);
         let other = Some([29.0, 15.2]);
         let paler =

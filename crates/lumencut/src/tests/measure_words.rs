@@ -51,7 +51,7 @@ fn doubts_stand_behind_the_percentage() {
         "A branch lies between the place and a reference: beyond it a vessel may be of another width.",
     ];
     assert_eq!(of_doubts(&doubts), described);
-    let doubtful = Stenosis { doubts, ..sure.clone() };
+    let doubtful = Stenosis { doubts, ..sure };
     assert!(of_stenosis(&doubtful).starts_with(first_line), "{}", of_stenosis(&doubtful));
     assert_eq!(
         of_doubtful_stenosis(&doubtful),
