@@ -76,7 +76,7 @@ def test_an_error_leaves_no_file(file, line, tmp_path):
     out = tmp_path / "lines.vtp"
     result = run(file, "--point", word(line[5]), "--point", word(line[100] + [8, 0, 0]), "-o", out)
     assert result.exit_code == 1
-    assert "found fat: the volume has" in result.output
+    assert "found fat, about " in result.output
     assert not out.exists()
 
 

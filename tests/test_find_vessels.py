@@ -322,7 +322,8 @@ def run(*arguments):
 def test_the_command_finds_all_vessels(file, tmp_path):
     result = run("trace", file, "--find", "-o", tmp_path / "lines.vtp", "--verbose")
     assert result.exit_code == 0, result.output
-    assert re.search(r"^vessels have about 3\d\d, 4\d\d above", result.output, re.MULTILINE)
+    note = r"^the lumen of the vessels has about 3\d\d; its contrast to the surroundings is 4\d\d"
+    assert re.search(note, result.output, re.MULTILINE)
     assert len(read_centerlines(tmp_path / "lines.vtp").parts) == 1
 
 

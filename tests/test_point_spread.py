@@ -57,7 +57,7 @@ def test_all_vessels_of_a_tree_are_measured_with_one_point_spread():
     first, second = (measure(volume, line, tree=tree) for line in lines)
     assert first.fwhm == second.fwhm == pytest.approx(0.8, rel=0.1)
     assert first.fwhm_source == second.fwhm_source
-    assert first.fwhm_source.endswith(" of vessel 0 of the tree")
+    assert first.fwhm_source.endswith(f" of the vessel of {first.arc_length[-1]:.0f} mm")
     assert np.mean(second.diameter_equivalent) == pytest.approx(3.0, rel=0.03)
     given = tree.measured(volume, fwhm=first.fwhm)
     for one, other in zip(tree.measured(volume), given, strict=True):

@@ -66,7 +66,10 @@ def test_no_percentage_without_method_reference_and_mm(half):
         ((45, 45), r"found 45\.0 mm, 0\.0 mm from the stenosis at 45\.0 mm.*at least one diameter of"),
         ((30, 34, "area"), r"found 34\.0 mm, 4\.0 mm from the stenosis.*mark the reference farther from"),
         ((30, (10, 34)), r"found 34\.0 mm, 4\.0 mm from the stenosis.*mark the reference farther from"),
-        ((45, 30), r"reference of the stenosis: found 2\.\d+ mm, but the stenosis at 45.0 mm measures"),
+        (
+            (45, 30),
+            r"reference of the stenosis: found 2\.\d+ mm, the median within 1.5 mm, but the stenosis",
+        ),
         ((30, 45, "ecst"), "original diameter of the stenosis: found none"),
         ((30, 45, "ecst", 0.0), "original diameter of the stenosis: found 0 mm"),
         ((30, 45, "ecst", 1.0), "reference of the stenosis: found 1.00 mm"),

@@ -79,7 +79,14 @@ test('a search is refused or stopped; then all vessels are found, and the tree i
   const [sure, unsure] =
     await test.step('all vessels are found as a tree; doubtful ones are accepted or left out', async () => {
       await button(viewer, 'Find all vessels').last().click();
-      await expect(doubtful().first()).toBeVisible({ timeout: 150_000 });
+      const show = button(viewer, 'Show them');
+      await expect(show).toBeVisible({ timeout: 150_000 });
+      await expect(viewer.page.locator('.doubtful-rows h3')).toHaveText(/^\d+ doubtful, left out$/);
+      await expect(doubtful()).toHaveCount(0);
+      await expect(viewer.pane('axial').locator('.curve.doubtful')).toHaveCount(0);
+      await show.click();
+      await expect(doubtful().first()).toBeVisible();
+      expect(await viewer.pane('axial').locator('.curve.doubtful').count()).toBeGreaterThan(0);
       const [sure, unsure] = [await rows(viewer).count(), await doubtful().count()] as const;
       expect(sure).toBeGreaterThan(3);
       await expect(viewer.page.getByLabel('As a tree, the widest first')).toBeChecked();

@@ -39,7 +39,7 @@ test.describe('streams', () => {
     await viewer.rest();
     expect(isEmpty(await viewer.pixels())).toBe(false);
     await viewer.click([0.5, 0.5]);
-    await expect(viewer.readOut).toHaveText(/ · 350 · vessel 1 · \d+\.\d mm$/);
+    await expect(viewer.readOut).toHaveText(/ · 350 HU · vessel 1 · \d+\.\d mm$/);
     viewer.expectNoFault();
   });
 

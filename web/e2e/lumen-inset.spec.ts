@@ -13,7 +13,7 @@ test('in a slice the lumen under the pointer is shown next to it, in tissue noth
   const hover = async (x: number, y: number) =>
     viewer.page.mouse.move(...(await viewer.place([Math.round(x), Math.round(y)], 'coronal')));
   await hover(width / 2, 0.8 * height);
-  await expect(inset(viewer, 'coronal')).toContainText(/lumen, \d+\.\d mm\s*value \d+/);
+  await expect(inset(viewer, 'coronal')).toContainText(/lumen, \d+\.\d mm\s*median \d+ HU/);
   await viewer.screenshot('lumen-inset-slice');
   await hover(width / 2 + 0.4 * height, 0.5 * height);
   await expect(inset(viewer, 'coronal')).toHaveCount(0);

@@ -115,7 +115,10 @@ test('a third reference replaces the one on its side', async () => {
   const before = await tube.arcLength('reference-0');
   const chart = tube.viewer.page.getByTestId('chart');
   await chart.focus();
-  await tube.row('reference-1').getByRole('button', { name: 'reference after', exact: true }).click();
+  await tube
+    .row('reference-1')
+    .getByRole('button', { name: /^reference after/ })
+    .click();
   await chart.focus();
   await tube.viewer.press('Shift+ArrowLeft');
   const at = (await tube.arcLength('reference-1')) - 5;
@@ -195,9 +198,9 @@ test('Enter confirms a suggestion, Delete removes a mark', async () => {
   await tube.nothingMarked();
   await tube.handle('narrowest place', 'in the CPR').focus();
   await tube.viewer.press('Enter');
-  await expect(tube.row('place-0')).toContainText('marked place');
+  await expect(tube.row('place-0')).toContainText('narrowest place (confirmed suggestion)');
   await expect(tube.stenosis()).toContainText('Mark a reference');
-  await tube.handle('marked place', 'in the CPR').focus();
+  await tube.handle('narrowest place', 'in the CPR').focus();
   await tube.viewer.press('Delete');
   await expect(tube.row('place-0')).toContainText('(suggestion)');
 });

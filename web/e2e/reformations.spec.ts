@@ -63,6 +63,9 @@ for (const row of table.reformations) {
       expect(difference(found, expected, SAME_CODE)).toBeNull();
     }).toPass();
     await expect(viewer.page.locator('.reformed .axes')).toContainText('vessel');
+    await expect(viewer.pane('straightened').getByTestId('vessel-name')).toHaveCount(
+      asked.kind === 'untangled' ? 0 : 1,
+    );
     await viewer.screenshot(`reformation-${row.name}`);
     const [left, top] = [table.size[0] - expected.width, table.size[1] - expected.height];
     const at: Pair = [Math.floor(left / 2) + row.pixel[0] + 0.5, Math.floor(top / 2) + row.pixel[1] + 0.5];

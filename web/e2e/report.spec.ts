@@ -57,7 +57,7 @@ test('a report of a marked place without a percentage says so, and lists suggest
   expect(html).toContain(words);
   expect(html).toMatch(/Saved on \d{4}-\d\d-\d\d \d\d:\d\d/);
   const [looked = '', offered = ''] = html.split('Suggestions, not confirmed');
-  expect(looked).toContain('marked place</td>');
+  expect(looked).toContain('narrowest place (confirmed suggestion)</td>');
   expect(looked).not.toContain('reference before');
   expect(offered).toContain('reference before (suggestion)</td>');
   await tube.marked();

@@ -103,6 +103,14 @@ test.describe('touch', () => {
     await viewer.page.setViewportSize({ width: 1024, height: 768 });
     expect((await viewer.page.locator('header.toolbar').boundingBox())?.height).toBeLessThan(60);
     await expect(viewer.page.getByRole('button', { name: 'Close the scan' })).toBeInViewport({ ratio: 1 });
+    await viewer.press('v', 'm');
+    await expect(viewer.pane('section')).toBeVisible();
+    const section = await viewer.box('section');
+    expect(section.width, 'beside the list').toBeGreaterThanOrEqual(220);
+    const divider = await viewer.page
+      .getByRole('separator', { name: 'Width of the left views' })
+      .boundingBox();
+    expect(Math.abs((divider?.x ?? 0) - section.x)).toBeLessThan(6);
     viewer.expectNoFault();
     await viewer.close();
   });

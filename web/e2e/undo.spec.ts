@@ -84,7 +84,7 @@ async function editMarks(): Promise<number> {
   const numbers = viewer.page.getByTestId('numbers');
   await viewer.press('m');
   await step(/confirm the suggested places/, () => button(viewer, 'Confirm the suggested places').click());
-  const place = viewer.page.getByRole('button', { name: /^marked place.*, in the profile$/ });
+  const place = viewer.page.getByRole('button', { name: /^(narrowest|marked) place.*, in the profile$/ });
   await place.focus();
   for (const key of ['ArrowLeft', 'ArrowRight', 'Shift+ArrowLeft', 'ArrowLeft', 'ArrowRight', 'ArrowLeft']) {
     await step(/move the marked place/, () => viewer.press(key));

@@ -3,7 +3,8 @@ import { expect, test } from '@playwright/test';
 import { difference, isEmpty, OTHER_DEVICE, OTHER_SAMPLES, SAME_CODE } from './compare';
 import { type PaneName, Viewer } from './page';
 
-const READ_OUT = /^[LR] \d+\.\d [AP] \d+\.\d [SI] \d+\.\d · -?\d+(\.\d)?( · \S.* · \d+\.\d mm)?$/;
+const READ_OUT =
+  /^[LR] \d+\.\d [AP] \d+\.\d [SI] \d+\.\d · -?\d+(\.\d)? (HU|\(no unit stated\))( · \S.* · \d+\.\d mm)?$/;
 const LAYOUTS: Readonly<Record<string, readonly PaneName[]>> = {
   one: ['turning'],
   two: ['turning', 'straightened'],
@@ -63,7 +64,7 @@ test('a click in the turning view places the cross-hair in all views', async () 
 test('a click on a vessel shows its name, its value and the arc length', async () => {
   await viewer.reset();
   await viewer.click([0.5, 0.7]);
-  await expect(viewer.readOut).toHaveText(/ · 350 · trunk · \d+\.\d mm$/);
+  await expect(viewer.readOut).toHaveText(/ · 350 HU · trunk · \d+\.\d mm$/);
 });
 
 test('a click in a slice places the cross-hair there, but hovering does not', async () => {

@@ -162,7 +162,7 @@ test('notes about a mask are shown once', async () => {
 });
 
 test('finding all vessels is one undo step, and notes about the scan are shown once', async () => {
-  tracing.notes = ['vessels have about 330, 322 above their surroundings'];
+  tracing.notes = ['the lumen of the vessels has about 330'];
   expect(await findVessels()).toBe(true);
   expect(tracing.edits.at(-1)?.edit).toEqual({ kind: 'find_vessels', doubtful: false });
   expect(await findVessels()).toBe(true);

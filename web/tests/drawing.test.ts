@@ -1,6 +1,15 @@
 import { afterEach, beforeEach, describe, expect, test } from 'vitest';
+import { Failure } from '../src/core/failure';
 import type { Vector } from '../src/core/messages';
-import { acceptCandidate, endVessel, enter, leave, removeLast, setPoint } from '../src/edit/pointing';
+import {
+  acceptCandidate,
+  endVessel,
+  enter,
+  leave,
+  removeLast,
+  setPoint,
+  takeWhole,
+} from '../src/edit/pointing';
 import { followPointer } from '../src/edit/previews';
 import { anchor, candidate, coming, dragged, drawn, first, livePaths, target } from '../src/state/drawing';
 import { document_, undo } from '../src/state/history';
@@ -139,6 +148,35 @@ describe('points', () => {
     expect(anchor.value).toEqual(A);
     await setPoint(B);
     expect(clicks()).toEqual([[A, B]]);
+  });
+
+  describe('a bad first point', () => {
+    test('is the one that is refused, and the good second one takes its place', async () => {
+      const air: Vector = [9, 9, FLOOR - 1];
+      first.value = air;
+      await setPoint(A);
+      expect(clicks()).toEqual([]);
+      expect(anchor.value).toEqual(A);
+      expect(store.crossHair.value?.point).toEqual(A);
+      await setPoint(B);
+      expect(clicks()).toEqual([[A, B]]);
+    });
+
+    test('without a whole vessel gives way to the next one, though nothing blames it', async () => {
+      const edit = tracing.edit.bind(tracing);
+      tracing.edit = (request) =>
+        request.edit.kind === 'add_whole_vessel' || request.edit.kind === 'begin_vessel'
+          ? Promise.reject(new Failure('tracing', 'this point', 'no vessel', 'one', 'click a second point'))
+          : edit(request);
+      await setPoint(C);
+      expect(takeWhole()).toBe(true);
+      await idle();
+      expect(anchor.value, 'a second point could help').toEqual(C);
+      await setPoint(A);
+      expect(anchor.value).toEqual(A);
+      await setPoint(B);
+      expect(anchor.value, 'nothing is known against this one').toEqual(A);
+    });
   });
 
   test('after undo of a vessel, the next point begins another', async () => {

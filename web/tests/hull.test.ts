@@ -1,5 +1,5 @@
 import { expect, test } from 'vitest';
-import { type Disc, hullPath, thinned } from '../src/views/hull';
+import { around, type Disc, hullPath, thinned } from '../src/views/hull';
 
 const disc = (x: number, y: number, radius: number): Disc => ({ at: [x, y], radius });
 
@@ -8,6 +8,16 @@ function corners(part: string): readonly (readonly [number, number])[] {
   const ends = part.replaceAll(/A[\d.]+ [\d.]+ 0 1 1 /g, 'L');
   return [...ends.matchAll(/[ML](-?[\d.]+) (-?[\d.]+)/g)].map(([, x, y]) => [Number(x), Number(y)] as const);
 }
+
+test('the polygon around the corners of a projected scan is convex and holds all of them', () => {
+  const square = [
+    [0, 0],
+    [4, 0],
+    [4, 4],
+    [0, 4],
+  ] as const;
+  expect(around([[2, 2], ...square, [1, 3]])).toEqual(square);
+});
 
 /** Twice the signed area of a polygon. */
 function turned(points: readonly (readonly [number, number])[]): number {

@@ -181,7 +181,18 @@ describe('moving', () => {
 describe('confirming and removing', () => {
   test('all suggestions are confirmed at once', () => {
     const after = allConfirmed(profile, marks({}), SUGGESTED);
-    expect(after).toEqual(marks({ at: 30, references: [15, 45] }));
+    expect(after).toEqual(marks({ at: 30, references: [15, 45], confirmed: [30, 15, 45] }));
+  });
+
+  test('a confirmed suggestion is named so until it is moved', () => {
+    const after = allConfirmed(profile, marks({}), SUGGESTED);
+    expect(found(after).map(placeName)).toEqual([
+      'narrowest place (confirmed suggestion)',
+      'reference before (confirmed suggestion)',
+      'reference after (confirmed suggestion)',
+    ]);
+    const elsewhere = moved(profile, after, place(after, 'place'), 28);
+    expect(placeName(place(elsewhere, 'place'))).toBe('marked place');
   });
 
   test('a confirmed place stays where it was shown, even if both references lie on one side', () => {

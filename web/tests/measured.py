@@ -58,6 +58,8 @@ def numbers(profile: Profile) -> dict[str, Any]:
         "fwhm_source": profile.fwhm_source,
         "wall_source": profile.wall_source,
         "narrowest": None if narrowest is None else {"at": narrowest[0], "diameter": narrowest[1]},
+        # The phantoms have no narrower place that is not suggested.
+        "passed_over": None,
         "throat": None if profile.throat() is None else profile.throat()[0],
         "widest": None if widest is None else {"at": widest[0], "diameter": widest[1]},
         "not_suggested": list(profile.not_suggested()),

@@ -29,6 +29,7 @@ export function madeProfile(length = 60): Profile {
     wall_source: 'not separated, as requested',
     narrowest: { at: length / 2, diameter: 4 },
     throat: null,
+    passed_over: null,
     widest: { at: 10, diameter: 8.8 },
     not_suggested: [],
     not_measured: [],

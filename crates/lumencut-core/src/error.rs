@@ -48,6 +48,8 @@ pub struct ErrorPosition {
     pub point: DVec3,
     /// The value of the volume there; NaN outside the volume.
     pub value: f64,
+    /// The nearest suitable position (mm, LPS), if known.
+    pub nearest: Option<DVec3>,
 }
 
 /// The clicked points that an error is about; the error's subject names them in words.
@@ -131,7 +133,16 @@ impl Error {
     /// Adds the position (mm, LPS) that the error is about, and the value of the volume there.
     #[must_use]
     pub fn at(mut self, point: DVec3, value: f64) -> Self {
-        self.place = Some(Box::new(ErrorPosition { point, value }));
+        self.place = Some(Box::new(ErrorPosition { point, value, nearest: None }));
+        self
+    }
+
+    /// Adds the nearest suitable position (mm, LPS) to an error with a position.
+    #[must_use]
+    pub fn nearest(mut self, point: DVec3) -> Self {
+        if let Some(place) = &mut self.place {
+            place.nearest = Some(point);
+        }
         self
     }
 

@@ -74,7 +74,7 @@ pub struct Session {
 
 impl Session {
     fn least_format(&self) -> u32 {
-        let has_diameters = |marks: &Marks| !marks.diameters_mm.is_empty();
+        let has_diameters = |marks: &Marks| !(marks.diameters_mm.is_empty() && marks.confirmed_mm.is_empty());
         let marks = self.vessels.iter().filter_map(|vessel| vessel.marks.as_ref());
         FORMATS[usize::from(self.one_millimetre_assumed || marks.into_iter().any(has_diameters))]
     }
@@ -144,6 +144,10 @@ pub struct Marks {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     #[cfg_attr(feature = "types", ts(as = "Option<Vec<f64>>", optional))]
     pub diameters_mm: Vec<f64>,
+    /// Arc lengths of marks that confirm suggestions; exist since version 2.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[cfg_attr(feature = "types", ts(as = "Option<Vec<f64>>", optional))]
+    pub confirmed_mm: Vec<f64>,
 }
 
 /// A doubtful branch that was found from a seed.

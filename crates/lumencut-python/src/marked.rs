@@ -30,7 +30,14 @@ impl MarkedParts {
             comparison: self.comparison,
         };
         let group = territory.transpose().map_err(to_python)?;
-        Ok(Marked { at: self.at, method, compared, group, diameters: self.diameters.clone() })
+        Ok(Marked {
+            at: self.at,
+            method,
+            compared,
+            group,
+            diameters: self.diameters.clone(),
+            confirmed: Vec::new(),
+        })
     }
 }
 

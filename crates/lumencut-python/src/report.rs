@@ -16,6 +16,7 @@ fn marks(places: &[PlaceParts]) -> Vec<ReportMark> {
         name: name.clone(),
         at: *at,
         is_suggestion: *is_suggestion,
+        is_confirmed: false,
     };
     places.iter().map(mark).collect()
 }

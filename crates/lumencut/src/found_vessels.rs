@@ -8,7 +8,6 @@ use lumencut_core::volume::Volume;
 use lumencut_vessels::trace::clicks::doubts::{Doubt, Doubted};
 use lumencut_vessels::trace::find::found::{FoundVessel, Trees};
 use lumencut_vessels::trace::find::from_seed::find_from;
-use lumencut_vessels::trace::find::track::TrackDoubt;
 use lumencut_vessels::trace::find::{self, FindRequest, one_vessel, refusals};
 use lumencut_vessels::trace::lines::centerline::Centerline;
 use lumencut_vessels::voxels::Voxels;
@@ -97,16 +96,18 @@ fn found_in(volume: &Volume, trees: Trees) -> FoundTree {
 }
 
 fn found(trees: Trees, doubts_of: &(dyn Fn(&Centerline) -> Vec<Doubt> + Sync)) -> FoundTree {
-    let Trees { vessels, level, contrast, other, .. } = trees;
+    let Trees { vessels, level, contrast, other, is_hounsfield, .. } = trees;
     let (sure, doubtful): (Vec<FoundVessel>, _) =
         vessels.into_iter().partition(|vessel| vessel.doubt.is_none());
     let line = |FoundVessel { line, part, doubt, .. }: FoundVessel| {
         let places = if doubt.is_none() { doubts_of(&line) } else { Vec::new() };
-        FoundLine { line, doubt: doubt.map(TrackDoubt::words), places, part }
+        FoundLine { line, doubt: doubt.map(|doubt| doubt.words(is_hounsfield)), places, part }
     };
     let vessels: Vec<FoundLine> = sure.into_par_iter().chain(doubtful).map(line).collect();
     let [level, contrast] = [level, contrast].map(about);
-    let mut notes = vec![format!("vessels have about {level}, {contrast} above their surroundings")];
+    let mut notes = vec![format!(
+        "the lumen of the vessels has about {level}; its contrast to the surroundings is {contrast}"
+    )];
     notes.extend(other.map(|reading| {
         let [level, contrast] = reading.map(about);
         format!("other tubes have about {level}, {contrast} above theirs: the paler ones may be organs")
@@ -144,6 +145,7 @@ pub fn sure_parts(tree: &FoundTree) -> Vec<Vec<usize>> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use lumencut_vessels::trace::find::track::TrackDoubt;
 
     fn vessel(part: usize, doubt: Option<TrackDoubt>) -> FoundVessel {
         let line = Centerline {
@@ -152,6 +154,15 @@ mod tests {
             confidence: vec![0.8; 2],
         };
         FoundVessel { line, part, confidence: 0.8, doubt }
+    }
+
+    #[test]
+    fn a_found_vessel_has_the_doubts_of_a_traced_one() {
+        let doubt = Doubt { words: "Doubtful from 3 mm on.".to_owned(), at: Some(3.0) };
+        let vessels = vec![vessel(0, None), vessel(0, Some(TrackDoubt::Short))];
+        let tree = found(Trees { vessels, ..Trees::default() }, &|_| vec![doubt.clone()]);
+        assert_eq!(tree.vessels[0].doubts_of("Vessel 1"), ["Vessel 1: Doubtful from 3 mm on."]);
+        assert!(tree.vessels[1].places.is_empty(), "a doubtful vessel is doubtful as a whole");
     }
 
     #[test]
@@ -164,9 +175,12 @@ mod tests {
         assert_eq!(sure_parts(&tree), [vec![0, 1], vec![2]]);
         let parts: Vec<usize> = tree.vessels.iter().map(|vessel| vessel.part).collect();
         assert_eq!(parts, [0, 0, 2, 0, 1, 2]);
-        let short = format!("2 vessels doubtful: {}", TrackDoubt::Short.words());
-        let flat = format!("1 vessel doubtful: {}", TrackDoubt::Flat.words());
-        assert_eq!(tree.notes, ["vessels have about 330, 322 above their surroundings"]);
+        let short = format!("2 vessels doubtful: {}", TrackDoubt::Short.words(false));
+        let flat = format!("1 vessel doubtful: {}", TrackDoubt::Flat.words(false));
+        assert_eq!(
+            tree.notes,
+            ["the lumen of the vessels has about 330; its contrast to the surroundings is 322"]
+        );
         assert_eq!(tree.doubts, [short, flat]);
         let other = Some([29.0, 15.2]);
         let paler =

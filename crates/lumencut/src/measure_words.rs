@@ -4,6 +4,7 @@ use lumencut_core::named::Named;
 use lumencut_vessels::measure::profile::Profile;
 use lumencut_vessels::measure::profile::Source;
 use lumencut_vessels::measure::profile::stretch::CArm;
+use lumencut_vessels::measure::section::flags::LEFT_OUT;
 use lumencut_vessels::measure::stenosis::{Doubts, Method, Stenosis};
 use lumencut_vessels::measure::wall::{CT_WALL, WallSource};
 
@@ -30,13 +31,20 @@ pub fn of_stenosis(graded: &Stenosis) -> String {
         _ => ("reference", places(&graded.references)),
     };
     format!(
-        "{} % {what} ({method}): {} ± {} mm at {} mm, {against} {} mm{places}",
+        "{} % {what} ({method}{}): {} ± {} mm at {} mm, {against} {} mm{places}",
         of_percent(graded.percent, graded.percent_uncertainty),
+        of_left_out(graded.doubts.flags),
         fixed(graded.diameter, 2),
         fixed(graded.uncertainty, 2),
         fixed(graded.at, 1),
         fixed(graded.reference, 2),
     )
+}
+
+/// States, in the first line, that the percentage rests on a section that does not count.
+fn of_left_out(flags: u32) -> String {
+    let why = of_flags(flags & LEFT_OUT).join(", ");
+    if why.is_empty() { why } else { format!("; doubtful, as a section does not count: {why}") }
 }
 
 /// A percentage with its standard deviation. The deviation is rounded up, since no percentage is accurate to less than 1 %.

@@ -10,10 +10,11 @@ use crate::profile_marks::{main_place, offered_references};
 pub(crate) const HINDRANCES: [(u32, &str); 3] =
     [(CHANGE_OF_LUMEN, "change of lumen"), (FLAP, "flap"), (UNSURE, "unsure diameter")];
 
-/// Why no narrowest place or reference is suggested, a sentence each; `at` and `references` are marked places (mm).
+/// Why no narrowest place or reference is suggested, or a narrower place is not, a sentence each; `at` and `references` are marked places (mm).
 pub fn not_suggested(profile: &Profile, at: Option<f64>, references: &[f64]) -> Vec<String> {
     let throat = profile.throat().filter(|_| at.is_none()).map(no_clear_wall);
-    throat.into_iter().chain(no_place(profile, at, references)).collect()
+    let passed_over = profile.passed_over().filter(|_| at.is_none()).map(passed_over);
+    throat.into_iter().chain(passed_over).chain(no_place(profile, at, references)).collect()
 }
 
 fn no_place(profile: &Profile, at: Option<f64>, references: &[f64]) -> Vec<String> {
@@ -33,6 +34,14 @@ fn no_place(profile: &Profile, at: Option<f64>, references: &[f64]) -> Vec<Strin
 
 /// Only this many reasons are reported: those that apply to the most sections.
 const MAX_REASONS: usize = 3;
+
+fn passed_over((spot, hindrances): (Spot, u32)) -> String {
+    let bits = FLAGS.iter().map(|flag| (flag.bit, flag.word)).chain(HINDRANCES);
+    let words: Vec<&str> = bits.filter(|(bit, _)| hindrances & bit != 0).map(|(_, word)| word).collect();
+    let why =
+        if words.is_empty() { "the vessel tapers towards its end".to_owned() } else { words.join(", ") };
+    format!("Narrower, but not suggested: {:.2} mm at {:.1} mm ({why}). Check it.", spot.diameter, spot.at)
+}
 
 fn none_safe(profile: &Profile) -> String {
     let hindrances = profile.hindrances();

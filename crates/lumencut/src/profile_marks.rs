@@ -22,11 +22,14 @@ pub struct Marked {
     pub group: Option<Territory>,
     /// Arc lengths (mm) whose diameters are noted.
     pub diameters: Vec<f64>,
+    /// Arc lengths (mm) of marks that confirm suggestions.
+    pub confirmed: Vec<f64>,
 }
 
 pub(crate) const REFERENCE: &str = "reference";
 const NARROWEST: &str = "narrowest place";
 pub(crate) const NOTED: &str = "noted diameter";
+const MARKED: &str = "marked place";
 
 /// The result at a marked place.
 #[derive(Clone, Debug, PartialEq)]
@@ -132,6 +135,12 @@ impl Marked {
         let is_measured = |place: &f64| profile.diameter_at(*place).is_ok();
         let references: Vec<f64> = self.compared.reference.iter().copied().filter(is_measured).collect();
         let mut found = marks(profile, self.at.filter(is_measured), &references).unwrap_or_default();
+        for mark in &mut found {
+            mark.is_confirmed = !mark.is_suggestion && self.confirmed.contains(&mark.at);
+            if mark.is_confirmed && mark.name == MARKED {
+                mark.name = NARROWEST;
+            }
+        }
         found.extend(self.noted(profile));
         found
     }
@@ -184,16 +193,32 @@ pub struct Mark {
     pub words: String,
     /// Whether the place is suggested and not marked.
     pub is_suggestion: bool,
+    /// Whether the mark is a suggestion that a reader confirmed.
+    pub is_confirmed: bool,
 }
 
 impl Mark {
     fn measured(name: &'static str, at: f64, diameter: f64) -> Self {
-        Self { name, at, diameter, words: format!("{diameter:.2} mm"), is_suggestion: false }
+        Self {
+            name,
+            at,
+            diameter,
+            words: format!("{diameter:.2} mm"),
+            is_suggestion: false,
+            is_confirmed: false,
+        }
     }
 
     fn limited(throat: Spot) -> Self {
         let words = of_limit(throat.diameter);
-        Self { name: NARROWEST, at: throat.at, diameter: f64::NAN, words, is_suggestion: true }
+        Self {
+            name: NARROWEST,
+            at: throat.at,
+            diameter: f64::NAN,
+            words,
+            is_suggestion: true,
+            is_confirmed: false,
+        }
     }
 }
 
@@ -207,7 +232,7 @@ pub fn marks(profile: &Profile, at: Option<f64>, references: &[f64]) -> Result<V
         measured.map(|(diameter, _)| Mark { is_suggestion, ..Mark::measured(name, at, diameter) })
     };
     let main = match at {
-        Some(at) => Some(mark("marked place", at, false)?),
+        Some(at) => Some(mark(MARKED, at, false)?),
         None => match profile.throat() {
             Some(throat) => Some(Mark::limited(throat)),
             None => profile.narrowest().map(|spot| mark(NARROWEST, spot.at, true)).transpose()?,

@@ -15,6 +15,7 @@ mod edits;
 pub mod failure;
 pub mod held_volume;
 mod histogram;
+mod hung;
 mod labels;
 pub mod line_edits;
 mod line_facts;

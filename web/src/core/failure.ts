@@ -38,6 +38,8 @@ export interface More {
   /** Position in the volume that the error concerns (mm, LPS), and the value there. */
   readonly place?: Vector;
   readonly value?: number;
+  /** The nearest place that suits (mm, LPS). */
+  readonly nearest?: Vector;
 }
 
 /** The `kind` of a failure after a crash of the WebAssembly module, which then answers no more requests. */
@@ -50,6 +52,7 @@ export class Failure extends Error {
   readonly about: About | null;
   readonly place: Vector | null;
   readonly value: number | null;
+  readonly nearest: Vector | null;
 
   constructor(
     readonly kind: string,
@@ -58,7 +61,7 @@ export class Failure extends Error {
     readonly expected: string,
     /** Advice for the user, which has no button. */
     readonly advice = '',
-    { mends = [], series = [], about, place, value }: More = {},
+    { mends = [], series = [], about, place, value, nearest }: More = {},
   ) {
     const words = [`${subject}: found ${found}`, `expected ${expected}`, mending(advice, mends)];
     super(words.filter((part) => part !== '').join('; '));
@@ -68,6 +71,7 @@ export class Failure extends Error {
     this.about = about ?? null;
     this.place = place ?? null;
     this.value = value ?? null;
+    this.nearest = nearest ?? null;
   }
 
   /** Converts anything thrown: an error of the Rust code (JSON), an abort, a crash of the module, or another error. */
@@ -101,13 +105,14 @@ export class Failure extends Error {
   }
 
   get more(): More {
-    const { mends, series, about, place, value } = this;
+    const { mends, series, about, place, value, nearest } = this;
     return {
       mends,
       series,
       ...(about && { about }),
       ...(place && { place }),
       ...(value !== null && { value }),
+      ...(nearest && { nearest }),
     };
   }
 

@@ -1,7 +1,6 @@
 /** Adds many vessels at once: all of a scan, those connected to a seed, those of a mask or a centerline file. */
 
-import type { DocumentVessel, Edit, Edited, GivenFile, LineFacts, NamedLine, Vector } from '../core/messages';
-import { answered } from '../state/edit-queue';
+import type { DocumentVessel, Edit, Edited, GivenFile, NamedLine, Vector } from '../core/messages';
 import { flyToAnswer } from '../state/flight';
 import { document_ } from '../state/history';
 import { showFailure } from '../state/message';
@@ -32,11 +31,10 @@ export async function findVessels(doubtful = false): Promise<boolean> {
 
 const sure = () => document_.value.vessels.filter((vessel) => vessel.doubt === null);
 
-/** Picks the widest vessel, and turns the view so that most of it is visible. */
+/** Picks the root of the main tree, which the engine lists first, and turns the view so that most of it is visible. */
 async function showMain(): Promise<void> {
   try {
-    const main = widest(answered.value?.facts ?? []);
-    const vessel = sure().find(({ line }) => line === main?.line);
+    const [vessel] = sure();
     if (vessel && camera.value) {
       pickOnceShown(vessel.id);
       await flyToAnswer(engine.ask('best_view', { camera: camera.value, line: vessel.line }));
@@ -44,11 +42,6 @@ async function showMain(): Promise<void> {
   } catch (error) {
     showFailure(error);
   }
-}
-
-function widest(facts: readonly LineFacts[]): LineFacts | null {
-  const isLess = (a: LineFacts, b: LineFacts) => (a.calibre ?? 0) - (b.calibre ?? 0) || a.length - b.length;
-  return [...facts].sort(isLess).at(-1) ?? null;
 }
 
 export async function findAndList(doubtful = false): Promise<void> {

@@ -4,6 +4,7 @@ import { Failure } from '../core/failure';
 import type { Edited } from '../core/generated/questions';
 import type { AfterEdit, Pick, Vector } from '../core/messages';
 import { length, subtract } from '../core/vectors';
+import { jumpTo } from '../state/cross-hair';
 import {
   addComing,
   anchor,
@@ -20,7 +21,7 @@ import {
   setFirst,
   showWhole,
 } from '../state/drawing';
-import { editQueue } from '../state/edit-queue';
+import { editQueue, isGap } from '../state/edit-queue';
 import { document_ } from '../state/history';
 import { showMessage } from '../state/message';
 import { pickWhenShown } from '../state/shown';
@@ -91,9 +92,25 @@ async function begin(clicks: readonly [Vector, Vector]): Promise<AfterEdit | nul
   if (goesOn()) {
     beginning = null;
     // If the first point caused the error, it must be set again.
-    setFirst(begun === null && !isBlamed(first.value) ? first.value : null);
+    if (begun === null && isBad(clicks[0])) {
+      // The newer click takes the place of the bad one, so that the next click need not be a second try.
+      suspect = null;
+      jumpTo(clicks[1]);
+      setCheckedFirst(clicks[1]);
+      void checkFirst(clicks[1]);
+    } else {
+      setFirst(begun === null ? clicks[0] : null);
+    }
   }
   return begun;
+}
+
+/** A first point at which no whole vessel was found. */
+let suspect: Vector | null = null;
+
+/** Whether the first of two points caused the error: it is blamed, or no vessel was found there before. */
+function isBad(point: Vector): boolean {
+  return isBlamed(point) || (suspect === point && !isGap(editQueue.state.refusal?.failure));
 }
 
 /** Checks the first point, and previews the whole vessel there. Removes the point if no vessel can begin there. */
@@ -116,6 +133,13 @@ async function checkFirst(point: Vector): Promise<Pick | null> {
 function isBlamed(point: Vector | null): boolean {
   const place = editQueue.state.refusal?.failure.place;
   return Boolean(point && place && length(subtract(place, point)) < SAME_POINT_MM);
+}
+
+/** Sets the point at the nearest place that looks like lumen. */
+export function takeNearest(place: Vector): void {
+  editQueue.forgetRefusal();
+  jumpTo(place);
+  void setPoint(place);
 }
 
 /** Confirms the pending point from a projection. Returns whether there was one. */
@@ -190,6 +214,7 @@ export function takeWhole(): boolean {
     void commit({ kind: 'add_whole_vessel', click }, { then }).then((answer) => {
       const isLeft = answer === null && editQueue.state.refusal?.failure.advice !== '';
       if (isLeft && !isDrawing.value && tool.value === 'trace') {
+        suspect = click;
         setFirst(click);
       }
     });

@@ -41,7 +41,10 @@ export function LyingCpr({ x, lying, height }: LyingCprProps) {
         style={pixels(box)}
       />
       {Math.abs(lying.stretch - 1) > 0.01 && (
-        <span class="stretched">{`height × ${lying.stretch.toPrecision(2)}`}</span>
+        <span
+          class="stretched"
+          title="The picture is stretched across the vessel by this factor"
+        >{`height × ${lying.stretch.toPrecision(2)}`}</span>
       )}
       <CprControls />
     </div>

@@ -16,7 +16,11 @@ import { area, doubtWords, meanings, mm, NOTHING, placeName, spread, withKnownUn
 /** Kinds of places listed here; `StretchPart` lists the stretches. */
 const LISTED: readonly Kind[] = ['place', 'reference', 'diameter'];
 
-export function PlacesTable({ profile }: { readonly profile: Profile }) {
+interface ProfileProps {
+  readonly profile: Profile;
+}
+
+export function PlacesTable({ profile }: ProfileProps) {
   const marks = currentMarks.value;
   const places = currentPlaces.value.filter(({ kind }) => LISTED.includes(kind));
   const { widest } = profile;
@@ -37,16 +41,14 @@ export function PlacesTable({ profile }: { readonly profile: Profile }) {
           {doubts.length > 0 && <small title={meanings(profile, doubts)}>{doubts.join(', ')}</small>}
         </div>
       )}
-      {marks && marks.at === null && marks.references.length === 0 && (
-        <NotSuggested reasons={profile.not_suggested} />
-      )}
+      {marks && marks.at === null && marks.references.length === 0 && <NotSuggested profile={profile} />}
       <TurnButton />
     </section>
   );
 }
 
 /** Parts of the vessel that could not be measured, with a button to cut the vessel there. */
-function NotMeasured({ profile }: { readonly profile: Profile }) {
+function NotMeasured({ profile }: ProfileProps) {
   const id = document_.value.vessels.find(({ line }) => line === currentVessel.value?.line)?.id;
   return (
     <>
@@ -64,9 +66,17 @@ function NotMeasured({ profile }: { readonly profile: Profile }) {
   );
 }
 
-function NotSuggested({ reasons }: { readonly reasons: readonly string[] }) {
+/** Why no place, or a wider one, is suggested; a narrower place is one click away. */
+function NotSuggested({ profile: { not_suggested: reasons, passed_over: narrower } }: ProfileProps) {
   return reasons.length > 0 ? (
-    <p data-testid="not-suggested">{reasons.map(withKnownUnits).join(' ')}</p>
+    <p data-testid="not-suggested">
+      {reasons.map(withKnownUnits).join(' ')}{' '}
+      {narrower && (
+        <button type="button" class="small" onClick={() => moveTo(narrower.at)}>
+          {`Show ${mm(narrower.at, 1)}`}
+        </button>
+      )}
+    </p>
   ) : null;
 }
 
@@ -112,7 +122,7 @@ function PlaceRow({ place, profile }: { readonly place: VesselPlace; readonly pr
         <button
           type="button"
           class="small"
-          aria-label={`Remove the ${placeName(place)}`}
+          aria-label={`Remove the ${placeName({ ...place, isConfirmed: false })}`}
           onClick={() => remove(place)}
         >
           ×

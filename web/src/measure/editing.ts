@@ -65,7 +65,10 @@ export function move(to: number): void {
 
 export function endMove(): void {
   if (drag) {
-    endPreview(`move the ${placeName({ ...drag.place, isSuggestion: false })}`, drag.document);
+    endPreview(
+      `move the ${placeName({ ...drag.place, isSuggestion: false, isConfirmed: false })}`,
+      drag.document,
+    );
     drag = null;
   }
 }
@@ -138,5 +141,5 @@ export function confirmAll(): void {
 }
 
 export function remove(place: VesselPlace): void {
-  changeMarks(`remove the ${placeName(place)}`, (marks) => removed(marks, place));
+  changeMarks(`remove the ${placeName({ ...place, isConfirmed: false })}`, (marks) => removed(marks, place));
 }

@@ -14,6 +14,8 @@ export interface VesselPlace {
   readonly at: number;
   /** Whether Lumencut suggested the place, and the user has not marked it. */
   readonly isSuggestion: boolean;
+  /** Whether the mark is a suggestion that the user confirmed and has not moved since. */
+  readonly isConfirmed?: boolean;
   /** For a reference: whether it is shown as the one before the stenosis, also if both lie on one side. */
   readonly isBefore?: boolean;
 }
@@ -36,7 +38,11 @@ export function placesOf(profile: Profile, marks: VesselMarks, suggested: Sugges
   const references = main
     ? shownReferences(marks, main.at, suggested)
     : marks.references.map((at, slot): VesselPlace => ({ kind: 'reference', slot, at, isSuggestion: false }));
-  return [...(main ? [main] : []), ...references, ...stretchEnds(marks), ...noted(marks)];
+  const compared = [...(main ? [main] : []), ...references].map((place) => ({
+    ...place,
+    isConfirmed: !place.isSuggestion && marks.confirmed.includes(place.at),
+  }));
+  return [...compared, ...stretchEnds(marks), ...noted(marks)];
 }
 
 export interface ComparedPlaces {
@@ -174,9 +180,10 @@ export function withStretch(profile: Profile, marks: VesselMarks, one: number, o
 
 /** Marks a suggested place at its exact position. */
 export function taken(marks: VesselMarks, { kind, at }: VesselPlace): VesselMarks {
+  const confirmed = [...marks.confirmed.filter((one) => one !== at), at];
   return kind === 'place'
-    ? { ...marks, at }
-    : { ...marks, references: [...marks.references, at].sort((a, b) => a - b) };
+    ? { ...marks, at, confirmed }
+    : { ...marks, confirmed, references: [...marks.references, at].sort((a, b) => a - b) };
 }
 
 export function allConfirmed(profile: Profile, marks: VesselMarks, suggested: Suggested): VesselMarks {

@@ -39,16 +39,17 @@ export const stenosisWords = (stenosis: Stenosis): string => withKnownUnits(sten
 export const notGradedWords = ({ notGraded }: { readonly notGraded: string | null }): string =>
   notGraded === null ? 'Grading…' : `No percentage: ${withKnownUnits(notGraded)}`;
 
-export function placeName({ kind, slot, isSuggestion, isBefore }: VesselPlace): string {
+export function placeName({ kind, slot, isSuggestion, isConfirmed, isBefore }: VesselPlace): string {
   const end = slot === 0 ? 'start' : 'end';
   const names = {
-    place: isSuggestion ? 'narrowest place' : 'marked place',
+    place: isSuggestion || isConfirmed ? 'narrowest place' : 'marked place',
     reference: (isBefore ?? slot === 0) ? 'reference before' : 'reference after',
     stretch: `${end} of the stretch`,
     secondStretch: `${end} of the second stretch`,
     diameter: 'noted diameter',
   };
-  return `${names[kind]}${isSuggestion ? ' (suggestion)' : ''}`;
+  const origin = isSuggestion ? ' (suggestion)' : isConfirmed ? ' (confirmed suggestion)' : '';
+  return `${names[kind]}${origin}`;
 }
 
 /** Words for the doubts about a section: its flags, and the uncertainty due to calcium or metal. */

@@ -6,6 +6,7 @@ import { SECTION_PIXELS as SIDE } from '../core/generated/tables';
 import type {
   Cpr,
   LineId,
+  Pair,
   Picture,
   PictureLabels,
   Plane,
@@ -113,9 +114,11 @@ export async function sectionPair(
   context.lineWidth = 2.5;
   context.strokeStyle = profile.counts[number] ? CONTOUR.counts : CONTOUR.leftOut;
   context.stroke();
-  if (store.states.value.spacing) {
-    const { bar } = await engine.ask('labels', { ...plane, width: SIDE });
-    drawBar(context, bar);
+  const { bar, letters } = await engine.ask('labels', { ...plane, width: SIDE });
+  const { spacing: hasSpacing, orientation } = store.states.value;
+  for (const left of [0, SIDE]) {
+    drawBar(context, hasSpacing ? bar : null, left);
+    drawLetters(context, orientation ? letters : null, left);
   }
   return canvas;
 }
@@ -135,14 +138,39 @@ async function planeOf(
   };
 }
 
-function drawBar(context: CanvasRenderingContext2D, bar: PictureLabels['bar']): void {
-  if (!bar) {
-    return;
+function drawBar(context: CanvasRenderingContext2D, bar: PictureLabels['bar'], left: number): void {
+  if (bar) {
+    context.fillStyle = '#000000';
+    context.fillRect(left + 7, SIDE - 11, bar.pixels + 2, 4);
+    context.fillStyle = '#ffffff';
+    context.fillRect(left + 8, SIDE - 10, bar.pixels, 2);
+    write(context, bar.words, [left + 8, SIDE - 15]);
   }
-  context.fillStyle = '#ffffff';
+}
+
+type Letters = PictureLabels['letters'];
+
+function drawLetters(context: CanvasRenderingContext2D, letters: Letters | null, left: number): void {
+  if (letters) {
+    write(context, letters.top, [left + SIDE / 2, 14]);
+    write(context, letters.bottom, [left + SIDE / 2, SIDE - 6]);
+    write(context, letters.left, [left + 6, SIDE / 2]);
+    write(context, letters.right, [left + SIDE - 6, SIDE / 2], 'right');
+  }
+}
+
+/** White words with a black rim, which stay readable over bright tissue. */
+function write(
+  context: CanvasRenderingContext2D,
+  words: string,
+  [x, y]: Pair,
+  align: CanvasTextAlign = 'left',
+): void {
   context.font = '600 13px system-ui, sans-serif';
-  for (const left of [8, SIDE + 8]) {
-    context.fillRect(left, SIDE - 10, bar.pixels, 2);
-    context.fillText(bar.words, left, SIDE - 15);
-  }
+  context.textAlign = align;
+  context.lineWidth = 3;
+  context.strokeStyle = '#000000';
+  context.strokeText(words, x, y);
+  context.fillStyle = '#ffffff';
+  context.fillText(words, x, y);
 }

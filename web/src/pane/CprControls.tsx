@@ -20,6 +20,7 @@ export function CprControls() {
       <output>{isRolled ? '' : `${degrees}°`}</output>
       <select
         aria-label="What a pixel shows"
+        title="CPR: curved planar reformation. CFA: curvicircular feature aggregation, one value for each half circle around the vessel"
         value={store.cprFeature.value ?? store.cprRoll.value ?? ''}
         onChange={(event) => choose(event.currentTarget.value)}
       >

@@ -111,7 +111,11 @@ export function FlatPicture({
       tabIndex={0}
       onKeyDown={(event) => pressed(event, handlers, onArrow)}
     >
-      <canvas ref={canvas} class={isInverted.value ? 'flat inverted' : 'flat'} style={style} />
+      <canvas
+        ref={canvas}
+        class={`flat${isInverted.value ? ' inverted' : ''}${isLate ? ' late' : ''}`}
+        style={style}
+      />
       <div class="overlay">
         {!ask && empty && <p class="nothing-yet">{empty}</p>}
         {children}

@@ -105,7 +105,7 @@ export function choosePreset(number: number): void {
 }
 
 export function settingOf(name: string): SettingValue {
-  const chosen = store.settings.value[name];
+  const chosen = store.ownSettings.value[name];
   const row = store.started.value?.table.find((setting) => setting.name === name);
   return chosen === undefined ? (row?.default ?? null) : chosen;
 }

@@ -34,4 +34,5 @@ export const NO_MARKS: VesselMarks = {
   stretch: null,
   secondStretch: null,
   diameters: [],
+  confirmed: [],
 };

@@ -194,7 +194,7 @@ export class EditQueue {
 
 export const editQueue = new EditQueue();
 
-export const isGap = (failure: Failure): boolean => failure.isMendedBy('bridge');
+export const isGap = (failure?: Failure): boolean => failure?.isMendedBy('bridge') ?? false;
 
 /** Records the undo step; updates document and answer together. */
 function record({ words, after, answer, also }: Step<unknown>): void {

@@ -26,11 +26,18 @@ export interface OpenedStudy {
   readonly hair: store.CrossHair | null;
 }
 
+/** The name of files without a common folder. */
+const NO_NAME = 'files';
+
+/** Number and description of the series, such as `2, CTA 0.75`; empty if the scan has none. */
+export const seriesOf = ({ volume }: Report): string =>
+  /^series (?!,)([^;]+)/.exec(volume?.scan ?? '')?.[1] ?? '';
+
 export function takeOpened({ report, hair, ...opened }: OpenedStudy): void {
   batch(() => {
     store.report.value = report;
     store.notes.value = opened.notes;
-    store.studyName.value = opened.name;
+    store.studyName.value = (opened.name === NO_NAME && seriesOf(report)) || opened.name;
     store.scanStudy.value = opened.study;
     store.states.value = opened.states;
     store.histogram.value = opened.histogram;

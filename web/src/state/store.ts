@@ -93,8 +93,18 @@ export const hasTree = computed(() => (report.value?.vessels?.length ?? 0) > 0);
 export const pickedLine = (): LineId | null =>
   report.value?.vessels?.[pickedVessel.value ?? -1]?.line ?? null;
 
+/** Lines of more vessels than this crowd the view, so they are drawn only if the user chooses them. */
+const MOST_WITH_LINES = 40;
+
+/** The chosen settings, and those that depend on the scan. */
+export const ownSettings = computed<Settings>(() =>
+  (report.value?.vessels?.length ?? 0) > MOST_WITH_LINES
+    ? { silhouettes: false, ...settings.value }
+    : settings.value,
+);
+
 export const viewSettings = computed<Settings>(() => {
-  const chosen: Record<string, Settings[string]> = { ...settings.value };
+  const chosen: Record<string, Settings[string]> = { ...ownSettings.value };
   const windows = report.value?.windows;
   const context = 'context' in chosen ? chosen.context : 'mida';
   chosen.window = window_.value;

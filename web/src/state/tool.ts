@@ -10,6 +10,13 @@ export const active = signal<number | null>(null);
 
 export const chosenDoubt = signal<number | null>(null);
 
+/** Whether doubtful branches are listed and drawn; at first they are left out. */
+export const areDoubtfulShown = signal(false);
+
+export function showDoubtful(are: boolean): void {
+  areDoubtfulShown.value = are;
+}
+
 const TRACING: readonly Tool[] = ['trace', 'stopper', 'seed'];
 
 export const isTracing = (): boolean => TRACING.includes(tool.value);

@@ -99,6 +99,7 @@ function savedMarks(marks: VesselMarks | undefined): SavedMarks | null {
         stretch_mm: marks.stretch,
         second_stretch_mm: marks.secondStretch,
         ...(marks.diameters.length > 0 && { diameters_mm: marks.diameters }),
+        ...(marks.confirmed.length > 0 && { confirmed_mm: marks.confirmed }),
       }
     : null;
 }
@@ -143,6 +144,7 @@ function marksOf(saved: SavedMarks): VesselMarks {
     stretch: saved.stretch_mm,
     secondStretch: saved.second_stretch_mm,
     diameters: saved.diameters_mm ?? [],
+    confirmed: saved.confirmed_mm ?? [],
   };
 }
 

@@ -35,7 +35,7 @@ export function Divider({ words, between, place }: DividerProps) {
     // biome-ignore lint/a11y/useSemanticElements: an hr element cannot be moved by the user
     <div
       class={`divider ${between}`}
-      style={between === 'column' ? { left: at } : { top: at }}
+      style={between === 'column' ? { left: `var(--left, ${at})` } : { top: at }}
       role="separator"
       tabIndex={0}
       aria-label={words}

@@ -6,7 +6,7 @@ import { countedDoubts, reasonOf, showDoubt, stepDoubt } from '../edit/doubts';
 import { nameOf } from '../state/changes';
 import { lengthOf } from '../state/lines';
 import { hasMillimetres } from '../state/millimetres';
-import { chosenDoubt } from '../state/tool';
+import { areDoubtfulShown, chosenDoubt, showDoubtful } from '../state/tool';
 import { lighting } from './VesselRow';
 
 export function DoubtfulPart({ vessels }: { readonly vessels: readonly DocumentVessel[] }) {
@@ -16,8 +16,18 @@ export function DoubtfulPart({ vessels }: { readonly vessels: readonly DocumentV
   }
   return (
     <section class="doubtful-rows" aria-label="Doubtful branches">
-      <h3>{countedDoubts(vessels)}</h3>
+      <h3 title={countedDoubts(vessels)}>
+        {areDoubtfulShown.value ? countedDoubts(vessels) : `${ids.length} doubtful, left out`}
+      </h3>
       <div class="buttons">
+        <button
+          type="button"
+          aria-pressed={areDoubtfulShown.value}
+          title={`Lists and draws them: ${countedDoubts(vessels)}`}
+          onClick={() => showDoubtful(!areDoubtfulShown.value)}
+        >
+          Show them
+        </button>
         <button
           type="button"
           title="Shows each doubtful branch with its reason (.)"
@@ -32,11 +42,13 @@ export function DoubtfulPart({ vessels }: { readonly vessels: readonly DocumentV
           Leave all out
         </button>
       </div>
-      <ul class="vessel-rows">
-        {vessels.map((vessel) => (
-          <DoubtfulRow key={vessel.id} vessel={vessel} />
-        ))}
-      </ul>
+      {areDoubtfulShown.value && (
+        <ul class="vessel-rows">
+          {vessels.map((vessel) => (
+            <DoubtfulRow key={vessel.id} vessel={vessel} />
+          ))}
+        </ul>
+      )}
     </section>
   );
 }

@@ -3,10 +3,12 @@
 import { CRASH, type Failure } from '../core/failure';
 import { findAndList } from '../edit/branches';
 import { performAny } from '../edit/performing';
+import { takeNearest } from '../edit/pointing';
 import { saveSession } from '../output/save-actions';
 import { editQueue } from '../state/edit-queue';
 import { message, showFailure } from '../state/message';
 import { closeProblem, problem, progress } from '../state/store';
+import { isTracing } from '../state/tool';
 import { Mends } from './Mends';
 
 export function Messages() {
@@ -68,6 +70,7 @@ function Problem() {
       )}
       <Mends failure={failure} />
       <Bridging failure={failure} />
+      <Nearest failure={failure} />
       {failure.isMendedBy('doubtful') && <DoubtfulOnes />}
       {failure.kind === CRASH && (
         <button type="button" onClick={() => void saveSession().catch(showFailure)}>
@@ -93,6 +96,15 @@ function Bridging({ failure }: { readonly failure: Failure }) {
         Add a point between
       </button>
     </>
+  ) : null;
+}
+
+/** Button that takes the nearest place that looks like lumen, in place of a rejected click. */
+function Nearest({ failure: { nearest } }: { readonly failure: Failure }) {
+  return nearest && isTracing() ? (
+    <button type="button" onClick={() => takeNearest(nearest)}>
+      Take the nearest place
+    </button>
   ) : null;
 }
 

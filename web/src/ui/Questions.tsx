@@ -61,7 +61,7 @@ export function FileQuestion() {
         Use as a mask of vessels
       </button>
       <button type="button" onClick={() => answer(async () => undefined)}>
-        Neither
+        Cancel
       </button>
     </Question>
   );

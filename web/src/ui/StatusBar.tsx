@@ -6,6 +6,7 @@ import { hasMillimetres } from '../state/millimetres';
 import { openAgain } from '../state/opened';
 import { tree } from '../state/shown';
 import * as store from '../state/store';
+import { valueUnit } from '../state/value-unit';
 import { useClosing } from './closing-menu';
 
 export function StatusBar() {
@@ -48,7 +49,7 @@ function readOut(): string {
   }
   const parts = [positionText(hair.point, store.states.value.orientation)];
   if (hair.value !== null) {
-    parts.push(Number.isInteger(hair.value) ? `${hair.value}` : hair.value.toFixed(1));
+    parts.push(`${Number.isInteger(hair.value) ? hair.value : hair.value.toFixed(1)} ${valueUnit()}`);
   }
   if (hair.vessel !== null) {
     parts.push(vesselName(hair.vessel));

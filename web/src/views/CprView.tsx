@@ -11,6 +11,7 @@ import { placeAnswer } from '../state/cross-hair';
 import { toggleMaximised } from '../state/panels';
 import * as store from '../state/store';
 import { engine } from '../worker/engine';
+import { NamedScale } from './NamedScale';
 
 export function CprView() {
   const vessel = store.pickedVessel.value;
@@ -78,6 +79,7 @@ export function CprView() {
         onSize={setSize}
         style={{ margin: '0 auto' }}
       >
+        {cpr && size && spacing && <NamedScale size={size} spacing={spacing} />}
         {cpr && <div class="place-line" style={{ top: `${row}px` }} />}
         {size && spacing && <UprightPlaces size={size} spacing={spacing} />}
       </FlatPicture>

@@ -12,18 +12,25 @@ interface EdgeLabelsProps {
   readonly down: Vector;
   readonly size: Pair;
   readonly spacing: number;
+  readonly hasSides?: boolean;
 }
 
-export function EdgeLabels({ right, down, size, spacing }: EdgeLabelsProps) {
+export function EdgeLabels({ right, down, size, spacing, hasSides = true }: EdgeLabelsProps) {
   const labels = useLabels({ right, down, width: size[0], pixel_spacing: spacing });
-  const hasSides = states.value.orientation;
   return (
     <>
-      {labels && hasSides && <Sides letters={labels.letters} />}
-      {labels?.bar && hasMillimetres.value && <Bar bar={labels.bar} />}
+      {labels && hasSides && states.value.orientation && <Sides letters={labels.letters} />}
+      {labels?.bar && hasMillimetres.value && fits(labels.bar.pixels, size[0]) && <Bar bar={labels.bar} />}
     </>
   );
 }
+
+/** Width of the bar's label and of the bar's distance from the edge (CSS pixels). */
+const BAR_LABEL = 56;
+const BAR_EDGE = 8;
+
+/** Whether the bar and its label fit into a view without being cut off. */
+export const fits = (bar: number, width: number): boolean => 2 * BAR_EDGE + Math.max(bar, BAR_LABEL) <= width;
 
 function Sides({ letters }: Pick<PictureLabels, 'letters'>) {
   return (
@@ -37,10 +44,12 @@ function Sides({ letters }: Pick<PictureLabels, 'letters'>) {
 }
 
 function Bar({ bar: { words, pixels } }: { readonly bar: NonNullable<PictureLabels['bar']> }) {
+  // The middle of a longer label would begin left of the view.
+  const isShort = pixels < BAR_LABEL;
   return (
     <svg class="bar" width={pixels + 2} height="22" role="img" aria-label={`scale bar of ${words}`}>
       <path d={`M1 14v6h${pixels}v-6`} />
-      <text x={pixels / 2 + 1} y="12" text-anchor="middle">
+      <text x={isShort ? 0 : pixels / 2 + 1} y="12" text-anchor={isShort ? 'start' : 'middle'}>
         {words}
       </text>
     </svg>

@@ -6,6 +6,7 @@ import { pointed } from '../state/lumens';
 import { hasMillimetres } from '../state/millimetres';
 import { isInverted, type ViewName, window_ } from '../state/store';
 import { isTracing } from '../state/tool';
+import { valueUnit } from '../state/value-unit';
 import { engine } from '../worker/engine';
 
 /** Side of the picture, and its distance from the pointer (CSS pixels). */
@@ -35,7 +36,9 @@ export function LumenInset({ view, size }: { readonly view: ViewName; readonly s
         lumen, {lumen.diameter.toFixed(1)}
         {hasMillimetres.value && ' mm'}
       </span>
-      <span>value {Math.round(lumen.value)}</span>
+      <span title="The median near the centre of the lumen; the line at the bottom tells the value at the cross-hair">
+        median {Math.round(lumen.value)} {valueUnit()}
+      </span>
       {count > 1 && (
         <span>
           {now.number + 1} of {count} · Alt+wheel

@@ -4,9 +4,9 @@ import { nameOf } from '../state/changes';
 import { contents } from '../state/lines';
 import { placeTurn } from '../state/place-turn';
 import { tree } from '../state/shown';
-import { pickedVessel } from '../state/store';
+import { pickedVessel, report } from '../state/store';
 import { isTracing } from '../state/tool';
-import { type Disc, hullPath, thinned } from './hull';
+import { around, type Disc, hullPath, thinned } from './hull';
 import type { Projection } from './projection';
 
 /** Distance of the outline from the vessel wall (CSS pixels). */
@@ -22,13 +22,23 @@ export function PickedOutline({ projection }: { readonly projection: Projection 
   }
   const discs = thinned(discsOf(line, projection));
   const name = nameAt(discs, projection);
+  const scan = around((report.value?.volume?.corners ?? []).map((corner) => projection.pixel(corner)));
   return (
     <svg class="picked-outline" aria-hidden="true">
+      <clipPath id="in-the-scan">
+        <polygon points={scan.map(([x, y]) => `${x.toFixed(1)},${y.toFixed(1)}`).join(' ')} />
+      </clipPath>
       <mask id="outside-the-wall">
         <path d={hullPath(discs, GAP + WIDTH)} fill="#fff" />
         <path d={hullPath(discs, GAP)} fill="#000" />
       </mask>
-      <rect width="100%" height="100%" fill={vessel.color} mask="url(#outside-the-wall)" />
+      <rect
+        width="100%"
+        height="100%"
+        fill={vessel.color}
+        mask="url(#outside-the-wall)"
+        clip-path="url(#in-the-scan)"
+      />
       {name && (
         <text x={name.at[0] + name.radius + 8} y={name.at[1]}>
           {nameOf(vessel)}

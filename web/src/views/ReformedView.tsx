@@ -13,6 +13,7 @@ import { toggleMaximised } from '../state/panels';
 import { mapOf, reformationOf, reformationTitle, setUncurled, uncurled } from '../state/reformation';
 import * as store from '../state/store';
 import { engine } from '../worker/engine';
+import { NamedScale } from './NamedScale';
 import { HairLines } from './TurningOverlay';
 
 /** Empty picture, shown if the reformation failed. */
@@ -80,6 +81,9 @@ export function ReformedView({ kind }: { readonly kind: Reformation['kind'] }) {
                 {words}
               </b>
             ))}
+          {text && size && shown && (
+            <NamedScale size={size} spacing={shown.pixel_spacing} isNamed={kind !== 'untangled'} />
+          )}
           {text && hair && <HairLines at={[hair[0] + left + 0.5, hair[1] + top + 0.5]} />}
         </FlatPicture>
       </div>

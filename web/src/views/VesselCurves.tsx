@@ -8,7 +8,7 @@ import { contents } from '../state/lines';
 import { tree } from '../state/shown';
 import { pickedVessel } from '../state/store';
 import { highlighted, marked } from '../state/tidying';
-import { chosenDoubt, isTracing, tool } from '../state/tool';
+import { areDoubtfulShown, chosenDoubt, isTracing, tool } from '../state/tool';
 import { pathData } from './curves';
 import type { Projection } from './projection';
 
@@ -22,7 +22,9 @@ export function VesselCurves({ projection }: OverProps) {
   // Over the cut, curves would hide the vessels.
   const isSeen = (vessel: DocumentVessel) =>
     vessel.id === highlighted.value ||
+    vessel.id === chosenDoubt.value ||
     (!vessel.isHidden &&
+      (vessel.doubt === null || areDoubtfulShown.value) &&
       (isOn || !projection.isThrough || vessel.doubt !== null || marked.value.has(vessel.id)));
   return (
     <svg class="curves" aria-hidden="true">

@@ -29,6 +29,26 @@ export function hullPath(discs: readonly Disc[], wider: number): string {
   return [...larger.map(circle), ...between].join('');
 }
 
+/** The corners of the convex polygon around points, in order (monotone chain). */
+export function around(points: readonly Pair[]): readonly Pair[] {
+  const sorted = [...points].sort((a, b) => a[0] - b[0] || a[1] - b[1]);
+  return [...half(sorted), ...half(sorted.reverse())];
+}
+
+function half(points: readonly Pair[]): readonly Pair[] {
+  const kept: Pair[] = [];
+  for (const point of points) {
+    while (kept.length > 1 && turn(kept.at(-2) ?? point, kept.at(-1) ?? point, point) <= 0) {
+      kept.pop();
+    }
+    kept.push(point);
+  }
+  return kept.slice(0, -1);
+}
+
+const turn = (a: Pair, b: Pair, c: Pair): number =>
+  (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+
 const coordinates = (x: number, y: number): string => `${x.toFixed(1)} ${y.toFixed(1)}`;
 
 function circle({ at: [x, y], radius }: Disc): string {

@@ -98,7 +98,8 @@ fn an_assumed_millimetre_comes_back_and_is_of_format_2() {
 #[test]
 fn noted_diameters_come_back_and_are_of_format_2() {
     let mut file = sample();
-    file.session.vessels[0].marks = Some(Marks { diameters_mm: vec![3.5], ..Marks::default() });
+    file.session.vessels[0].marks =
+        Some(Marks { diameters_mm: vec![3.5], confirmed_mm: vec![2.5], ..Marks::default() });
     file.session.vessels[0].marks.as_mut().expect("marks").method = "nascet".to_owned();
     let text = written(&file);
     file.session.format = 2;

@@ -5,6 +5,7 @@
 pub(crate) mod all_sections;
 pub(crate) mod assumed_spread;
 pub(crate) mod calcified;
+pub(crate) mod contradicted;
 pub(crate) mod dim_plaque;
 pub(crate) mod levels;
 pub(crate) mod point_spread;

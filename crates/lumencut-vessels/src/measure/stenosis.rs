@@ -114,8 +114,12 @@ impl Profile {
             }
         };
         if reference < diameter {
+            let how = match method {
+                Method::Ecst => "as given".to_owned(),
+                _ => format!("the median within {REFERENCE_REACH} mm"),
+            };
             let found =
-                format!("{reference:.2} mm, but the stenosis at {at:.1} mm measures {diameter:.2} mm");
+                format!("{reference:.2} mm, {how}, but the stenosis at {at:.1} mm measures {diameter:.2} mm");
             let expected = "a diameter that is not below that of the stenosis";
             return Err(measuring("reference of the stenosis", found, expected));
         }

@@ -100,8 +100,9 @@ pub fn trees(voxels: &Voxels, seed: Option<DVec3>, request: &FindRequest) -> Res
     let links = links::between(&scan, &tracks, request.stop, stages)?;
     let vessels = whole_vessels::of(&scan, &tracks, &links, smallest_radius, (request.stop, stages))?;
     stages.end();
-    let Scan { level, contrast, noise, .. } = scan;
-    Ok(Trees { vessels, level, contrast, other, noise, is_angiography, smallest_radius, below: None })
+    let Scan { level, contrast, noise, is_hounsfield, .. } = scan;
+    let is = Trees { is_angiography, is_hounsfield, ..Trees::default() };
+    Ok(Trees { vessels, level, contrast, other, noise, smallest_radius, ..is })
 }
 
 #[cfg(test)]

@@ -67,13 +67,14 @@ pub(super) fn method_text(shown: &Shown, vessel: &VesselPage) -> String {
 fn settings(shown: &Shown) -> String {
     let asked = &shown.asked;
     let length = |mm: &f64| format!("{}{}", shortest(*mm), shown.stated.unit());
-    let lengths = |places: &Vec<f64>| places.iter().map(length).collect::<Vec<_>>().join(" and ");
+    let place = |mm: &f64| shown.stated.length(*mm, 1);
+    let lengths = |places: &Vec<f64>| places.iter().map(place).collect::<Vec<_>>().join(" and ");
     let [level, width] = shown.window.map(intensity);
     let named = [
         ("step", Some(length(&asked.step_mm))),
         ("FWHM", asked.fwhm_mm.as_ref().map(length)),
         ("window", Some(format!("W {width} L {level}"))),
-        ("at", asked.at_mm.as_ref().map(length)),
+        ("at", asked.at_mm.as_ref().map(place)),
         ("reference", asked.reference_mm.as_ref().map(lengths)),
         ("method", asked.method.as_deref().map(method_word)),
         ("original", asked.original_mm.as_ref().map(length)),
@@ -107,8 +108,9 @@ fn contrast(profile: &Profile) -> String {
     let Some(contrast) = median(&mut contrasts) else { return "No contrast is known.".to_owned() };
     let ratio = if profile.noise > 0.0 { contrast / profile.noise } else { f64::INFINITY };
     format!(
-        "Contrast to noise {}, contrast {} in the unit of the volume.",
+        "Contrast to noise {}, contrast {} {}.",
         fixed(ratio, 0),
-        rounded(contrast, 4)
+        rounded(contrast, 4),
+        if of_wall(&profile.wall_source).contains(" HU") { "HU" } else { "in the unit of the volume" }
     )
 }

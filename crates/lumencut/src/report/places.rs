@@ -23,11 +23,18 @@ pub struct ReportMark {
     pub at: f64,
     /// Whether the place is suggested, and was not marked by a reader.
     pub is_suggestion: bool,
+    /// Whether a reader confirmed the suggestion.
+    pub is_confirmed: bool,
 }
 
 impl From<&Mark> for ReportMark {
     fn from(mark: &Mark) -> Self {
-        Self { name: mark.name.to_owned(), at: mark.at, is_suggestion: mark.is_suggestion }
+        Self {
+            name: mark.name.to_owned(),
+            at: mark.at,
+            is_suggestion: mark.is_suggestion,
+            is_confirmed: mark.is_confirmed,
+        }
     }
 }
 
@@ -70,7 +77,11 @@ pub(super) fn places(marks: &[ReportMark]) -> Vec<ReportPlace> {
             Some(main) if is_reference => [" before", " after"][usize::from(mark.at >= main)],
             _ => "",
         };
-        let offered = if mark.is_suggestion { " (suggestion)" } else { "" };
+        let offered = match (mark.is_suggestion, mark.is_confirmed) {
+            (true, _) => " (suggestion)",
+            (_, true) => " (confirmed suggestion)",
+            _ => "",
+        };
         let name = format!("{}{side}{offered}", mark.name);
         ReportPlace { name, at: mark.at, is_suggestion: mark.is_suggestion, is_reference }
     };

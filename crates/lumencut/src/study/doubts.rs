@@ -3,7 +3,7 @@
 use lumencut_vessels::trace::find::track::TrackDoubt;
 use serde::Serialize;
 
-#[derive(Clone, Copy, Debug, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(ts_rs::TS))]
 pub(crate) struct DoubtRow {
     /// The reason as a phrase, for documents and session files.
@@ -12,12 +12,33 @@ pub(crate) struct DoubtRow {
 }
 
 pub(crate) fn doubt_rows() -> Vec<DoubtRow> {
-    TrackDoubt::ALL.iter().map(|doubt| DoubtRow { words: doubt.words(), short: doubt.short() }).collect()
+    let rows = |is_ct: bool| {
+        TrackDoubt::ALL.map(|doubt| DoubtRow { words: doubt.words(is_ct), short: doubt.short(is_ct) })
+    };
+    let mut all = rows(true).to_vec();
+    for row in rows(false) {
+        if !all.contains(&row) {
+            all.push(row);
+        }
+    }
+    all
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn words_of_other_scans_name_neither_bone_nor_contrast_medium() {
+        for doubt in TrackDoubt::ALL {
+            for words in [doubt.words(false), doubt.short(false)] {
+                assert!(
+                    !["bone", "marrow", "contrast medium", "agent"].iter().any(|ct| words.contains(ct)),
+                    "{words}"
+                );
+            }
+        }
+    }
 
     #[test]
     fn reasons_differ_and_are_shorter_in_a_word() {

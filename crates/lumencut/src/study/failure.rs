@@ -59,6 +59,9 @@ pub(crate) struct Seen {
     pub place: [f64; 3],
     /// The value of the volume at the place; `null` outside the volume.
     pub value: f64,
+    /// The nearest place (mm, LPS) that suits.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) nearest: Option<[f64; 3]>,
 }
 
 /// The result of the study's functions.
@@ -87,7 +90,11 @@ impl From<Error> for Failure {
         let more = More {
             mends: mended_by.into_iter().map(Mend::from).collect(),
             about: clicked.map(|clicked| About::from(*clicked)),
-            seen: place.map(|place| Seen { place: place.point.to_array(), value: place.value }),
+            seen: place.map(|place| Seen {
+                place: place.point.to_array(),
+                value: place.value,
+                nearest: place.nearest.map(|point| point.to_array()),
+            }),
         };
         Self { kind, subject, found, expected, mend, more: Box::new(more) }
     }

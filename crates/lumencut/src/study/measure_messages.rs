@@ -66,6 +66,8 @@ pub(crate) struct ProfileMessage {
     /// The expected level of the wall, or why walls were not separated.
     wall_source: String,
     narrowest: Option<SpotMessage>,
+    /// A narrower place that is not suggested, for the reason in `not_suggested`.
+    passed_over: Option<SpotMessage>,
     /// The place of a throat that must be narrower than all measured places (arc length, mm), else null.
     throat: Option<f64>,
     /// The largest diameter; none if an unusual outline or a branch may be its cause.
@@ -93,6 +95,7 @@ impl From<&Profile> for ProfileMessage {
             fwhm_source: of_source(&profile.fwhm_source),
             wall_source: of_wall(&profile.wall_source),
             narrowest: profile.narrowest().map(SpotMessage::from),
+            passed_over: profile.passed_over().map(|(spot, _)| spot.into()),
             throat: profile.throat().map(|spot| spot.at),
             widest: profile.offered_widest().map(SpotMessage::from),
             not_suggested: not_suggested(profile, None, &[]),
@@ -122,6 +125,9 @@ pub(crate) struct MarksMessage {
     second_stretch: Option<[f64; 2]>,
     #[serde(default)]
     diameters: Vec<f64>,
+    /// Arc lengths of marks that confirm suggestions.
+    #[serde(default)]
+    confirmed: Vec<f64>,
 }
 
 impl MarksMessage {
@@ -141,8 +147,8 @@ impl MarksMessage {
             original: self.original,
             comparison: self.comparison,
         };
-        let diameters = self.diameters.clone();
-        Ok(Marked { at: self.at, method, compared, group: territory.transpose()?, diameters })
+        let (diameters, confirmed) = (self.diameters.clone(), self.confirmed.clone());
+        Ok(Marked { at: self.at, method, compared, group: territory.transpose()?, diameters, confirmed })
     }
 
     /// The request with the fields of the command line; only the place if the stenosis is not graded.

@@ -19,6 +19,7 @@ use crate::study::content::{Content, Report};
 use crate::study::failure::{Failure, Result};
 use crate::study::held_volume::{HeldMask, no_volume};
 use crate::study::histogram::Histogram;
+use crate::study::hung::hung;
 use crate::study::lines::Lines;
 use crate::study::planes::Plane;
 use crate::study::profiles::Profiles;
@@ -100,7 +101,8 @@ impl Study {
         let line = self.content.named.as_ref().and_then(|named| named.lines.get(number));
         let profile = line.and_then(|line| self.profiles.any_of(*line));
         let place = section_place(vessel, at.clamp(0.0, length), profile)?;
-        Ok([place.origin, place.axes[0], place.axes[1]].map(|vector| vector.to_array()))
+        let [right, down] = hung(place.normal);
+        Ok([place.origin, right, down].map(|vector| vector.to_array()))
     }
 
     pub(crate) fn vessel(&self, number: usize) -> Result<&Vessel> {

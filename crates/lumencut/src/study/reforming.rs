@@ -24,6 +24,9 @@ use crate::study::reformations::{
 };
 use crate::value_colours::{Colours, coloured, scale_end};
 
+const MAP_BLACK: &str = " Black: openings of branches, no wall, or outside the scan.";
+const MAP_BRIGHT: &str = " A vein or bone that touches the wall looks like calcium.";
+
 impl Study {
     pub(crate) fn reformed(
         &mut self,
@@ -161,6 +164,10 @@ impl Study {
         let mut words = reformed.laid.axes().words();
         let is_length =
             matches!(reformed.message, ReformationMessage::Map { of: MapOf::Radius | MapOf::Thickness, .. });
+        if let ReformationMessage::Map { of, .. } = reformed.message {
+            words += MAP_BLACK;
+            words += if of == MapOf::Radius { "" } else { MAP_BRIGHT };
+        }
         let pixels = if is_length {
             let end = scale_end(&reformed.value);
             words += &format!(" Colours: from 0 (dark blue) to {end} mm (yellow).");

@@ -59,7 +59,9 @@ pub(crate) struct ReportMessage {
 impl ReportMessage {
     fn shown(&self, asked: Asked) -> Shown {
         let view = |one: &ReportVessel| ["view".to_owned(), method_word(&one.view.method).to_owned()];
-        let settings = self.settings.iter().map(|(name, value)| [name.replace('_', " "), words_of(value)]);
+        // Their names and values mean little on paper; the session file keeps them.
+        let changed = self.settings.len();
+        let settings = (changed > 0).then(|| ["changed view settings".to_owned(), changed.to_string()]);
         Shown {
             scan: self.scan.clone(),
             saved: Some(self.saved.clone()),
@@ -80,15 +82,6 @@ impl ReportMessage {
 fn lengths_of(vessel: &VesselMessage) -> Lengths {
     let marks = &vessel.marks;
     Lengths { stretches: marks.stretches(), diameters: marks.diameters().to_vec(), distances: Vec::new() }
-}
-
-fn words_of(value: &Json) -> String {
-    match value {
-        Json::Null => "none".to_owned(),
-        Json::String(text) => text.clone(),
-        Json::Array(values) => values.iter().map(words_of).collect::<Vec<_>>().join(" "),
-        other => other.to_string(),
-    }
 }
 
 impl Study {

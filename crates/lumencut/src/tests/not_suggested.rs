@@ -31,6 +31,23 @@ fn where_nothing_is_safe_the_hindrances_are_told() {
 }
 
 #[test]
+fn a_narrower_place_that_is_not_suggested_is_told_with_the_reason() {
+    let mut vessel = tube();
+    let suggested = vessel.narrowest().expect("a place");
+    let far = vessel.nearest_section(if suggested.at < 30.0 { 45.0 } else { 15.0 });
+    for n in far - 1..=far + 1 {
+        (vessel.area[n], vessel.flags[n]) = (std::f64::consts::PI, CALCIUM);
+    }
+    let at = vessel.arc_length[far];
+    let reasons = not_suggested(&vessel, None, &[]);
+    assert!(reasons[0].starts_with("Narrower, but not suggested: 2.00 mm at "), "{reasons:?}");
+    assert!(reasons[0].ends_with("(calcium). Check it."), "{reasons:?}");
+    let found = vessel.passed_over().expect("a place").0.at;
+    assert!((found - at).abs() <= 0.5, "{found}");
+    assert!(not_suggested(&vessel, Some(30.0), &[45.0]).is_empty(), "a marked place needs no suggestion");
+}
+
+#[test]
 fn of_many_reasons_those_of_the_most_sections_are_told() {
     let mut stent = tube();
     stent.flags.fill(METAL);

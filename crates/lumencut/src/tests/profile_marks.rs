@@ -32,8 +32,14 @@ fn beside_two_references_none_is_offered() {
 #[test]
 fn an_offered_reference_is_never_graded_with() {
     let compared = Compared { reference: vec![40.0], ..Compared::default() };
-    let marked =
-        Marked { at: Some(30.0), method: Method::Nascet, compared, group: None, diameters: Vec::new() };
+    let marked = Marked {
+        at: Some(30.0),
+        method: Method::Nascet,
+        compared,
+        group: None,
+        diameters: Vec::new(),
+        confirmed: Vec::new(),
+    };
     let grade = marked.grade(&tube()).expect("a marked place");
     let places: Vec<f64> =
         grade.stenosis().expect("a percentage").references.iter().map(|[at, _]| *at).collect();
@@ -44,8 +50,14 @@ fn an_offered_reference_is_never_graded_with() {
 #[test]
 fn noted_diameters_follow_the_other_places_and_grade_nothing() {
     let diameters = vec![40.0, 10.0];
-    let marked =
-        Marked { at: None, method: Method::Nascet, compared: Compared::default(), group: None, diameters };
+    let marked = Marked {
+        at: None,
+        method: Method::Nascet,
+        compared: Compared::default(),
+        group: None,
+        diameters,
+        confirmed: Vec::new(),
+    };
     let noted: Vec<f64> =
         marked.places(&tube()).iter().filter(|mark| mark.name == NOTED).map(|mark| mark.at).collect();
     assert_eq!(noted, [10.0, 40.0]);

@@ -127,7 +127,14 @@ fn the_record_of_a_line_is_graded_as_the_page_shows_it() {
         (31.0, vec![], Method::Nascet),
     ] {
         let compared = Compared { reference, original: Some(9.0), comparison: None };
-        let marked = Marked { at: Some(at), method, compared, group: None, diameters: vec![20.0] };
+        let marked = Marked {
+            at: Some(at),
+            method,
+            compared,
+            group: None,
+            diameters: vec![20.0],
+            confirmed: Vec::new(),
+        };
         assert!(marked.grade(profile).is_some());
         assert_eq!(marked.grade(&again), marked.grade(profile));
         assert_eq!(marked.places(&again), marked.places(profile));
@@ -217,7 +224,7 @@ fn a_contour_of_other_rays_and_too_many_sections_are_refused() {
 fn used(profile: &Profile, scan: &ScanDetails) {
     let compared = Compared { reference: vec![5.0], ..Compared::default() };
     let (method, diameters) = (Method::Nascet, vec![3.0]);
-    let marked = Marked { at: Some(10.0), method, compared, group: None, diameters };
+    let marked = Marked { at: Some(10.0), method, compared, group: None, diameters, confirmed: Vec::new() };
     let _ = (marked.grade(profile), marked.places(profile), not_measured(profile));
     let _ = (profile_csv(profile, scan), profile_json(profile, scan), plan(profile, &[], 64));
     let _ = (profile.c_arm([0.0, 5.0], None), profile.direction([0.0, 5.0]));

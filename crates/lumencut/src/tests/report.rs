@@ -12,7 +12,7 @@ use crate::tube::tube;
 
 fn marked(at: Option<f64>, reference: &[f64]) -> Marked {
     let compared = Compared { reference: reference.to_vec(), ..Compared::default() };
-    Marked { at, method: Method::Nascet, compared, group: None, diameters: Vec::new() }
+    Marked { at, method: Method::Nascet, compared, group: None, diameters: Vec::new(), confirmed: Vec::new() }
 }
 
 fn shown() -> Shown {
@@ -85,7 +85,7 @@ fn a_picture_that_is_not_base64_is_refused() {
 #[test]
 fn a_percentage_has_its_method_and_references_and_what_makes_it_doubtful() {
     let text = html_of(&shown(), &marked(Some(30.0), &[20.0, 55.0]));
-    assert!(text.contains("<p class=\"finding\">50 ± 2 % of the diameter (NASCET): 4.00 ± "));
+    assert!(text.contains("<p class=\"finding\">50 ± 2 % of the diameter (NASCET; doubtful, as a section does not count: branch): 4.00 ± "));
     let doubts = text.matches("<p class=\"doubt\">").count();
     assert_eq!(doubts, 2, "flags of the places, and a branch between");
     assert!(text.contains("marked place</td><td>30.0</td><td>4.00 ± 0.10</td><td>3.60</td>"));

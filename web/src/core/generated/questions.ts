@@ -361,6 +361,8 @@ export type Marks = {
   /** The ends of a second stretch, for the angle between both stretches. */
   readonly secondStretch: Pair | null;
   readonly diameters: ReadonlyArray<number>;
+  /** Arc lengths of marks that confirm suggestions. */
+  readonly confirmed: ReadonlyArray<number>;
 };
 
 export type MeasureLayout = {
@@ -533,6 +535,8 @@ export type Profile = {
   /** The expected level of the wall, or why walls were not separated. */
   readonly wall_source: string;
   readonly narrowest: Spot | null;
+  /** A narrower place that is not suggested, for the reason in `not_suggested`. */
+  readonly passed_over: Spot | null;
   /** The place of a throat that must be narrower than all measured places (arc length, mm), else null. */
   readonly throat: number | null;
   /** The largest diameter; none if an unusual outline or a branch may be its cause. */
@@ -707,6 +711,8 @@ export type SavedMarks = {
   readonly second_stretch_mm: Pair | null;
   /** Arc lengths of noted diameters; exist since version 2. */
   readonly diameters_mm?: ReadonlyArray<number>;
+  /** Arc lengths of marks that confirm suggestions; exist since version 2. */
+  readonly confirmed_mm?: ReadonlyArray<number>;
 };
 
 /** A place on a vessel. */

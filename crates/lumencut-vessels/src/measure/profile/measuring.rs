@@ -126,7 +126,9 @@ impl<'a, 'v> TreeMeasuring<'a, 'v> {
             let Some(wide) = self.prepared_or_none(n, request)? else { continue };
             match wide.point_spread(&self.voxels, request.stop)? {
                 SpreadEstimate::Width(found) => {
-                    let on = format!("{} of vessel {n} of the tree", found.on());
+                    // Neither numbers nor names are the same in all hosts.
+                    let length = request.tree[n].arc_length().last().copied().unwrap_or(0.0);
+                    let on = format!("{} of the vessel of {length:.0} mm", found.on());
                     return Ok(spread_of(&found, on));
                 }
                 SpreadEstimate::Nothing(TOO_NARROW) => {}

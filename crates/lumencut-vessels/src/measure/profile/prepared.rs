@@ -10,6 +10,7 @@ use super::request::MeasureRequest;
 use super::{Profile, TreeFindings};
 use crate::measure::along::assumed_spread::AssumedSpread;
 use crate::measure::along::calcified::settle;
+use crate::measure::along::contradicted::flag_contradicted;
 use crate::measure::along::dim_plaque::flag_dim_plaque;
 use crate::measure::along::point_spread::{MIN_WIDTH, SharpEdges, SpreadEstimate, estimated};
 use crate::measure::along::struts::flag_struts;
@@ -265,6 +266,7 @@ impl PreparedVessel {
         sharpen(&mut sections, &self.arc_lengths(), &variance);
         flag_sharp_turns(&self.places, &mut sections);
         settle(&self.places, &mut sections, bench.fwhm);
+        flag_contradicted(bench, &self.places, &mut sections);
         Throats { bench, places: &self.places, lumen: &read.lumen, noise }.limit(&mut sections);
         let wall_source = match by_others {
             _ if read.is_wall_hidden => WallSource::AsBright,

@@ -11,7 +11,7 @@ const BRIGHTER: f64 = 0.75;
 const MOST_OTHER: f64 = 0.12;
 
 /// Points within this many blur widths of the contour are not checked: blur mixes lumen and surroundings there.
-const BLURRED_WIDTHS: f64 = 0.75;
+pub(crate) const BLURRED_WIDTHS: f64 = 0.75;
 
 /// Every `CHECKED.0`-th ray is checked, at `CHECKED.1` points.
 const CHECKED: (usize, usize) = (2, 6);

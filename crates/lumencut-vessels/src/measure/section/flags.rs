@@ -24,4 +24,4 @@ pub const RESTLESS_LINE: u32 = 1 << 9;
 pub const PLAQUE: u32 = 1 << 10;
 
 /// Sections with any of these flags are ignored when the narrowest, widest or suggested sections are chosen.
-pub(crate) const LEFT_OUT: u32 = BRANCH | OUTSIDE | NO_EDGE | RECENTERED | RESTLESS_LINE;
+pub const LEFT_OUT: u32 = BRANCH | OUTSIDE | NO_EDGE | RECENTERED | RESTLESS_LINE;

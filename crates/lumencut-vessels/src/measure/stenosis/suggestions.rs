@@ -32,6 +32,9 @@ const NEIGHBOURS: (f64, usize, f64) = (2.5, 4, 0.1);
 /// nowhere 1.1 times as wide on the other side.
 const THIN_END: [f64; 2] = [1.25, 1.1];
 
+/// A place that is not suggested is told if it is narrower than this fraction of the suggested diameter.
+const NARROWER: f64 = 0.95;
+
 /// Number of sections on each side that enter a median width, because single sections may be outliers.
 const MEDIAN_SECTIONS: usize = 2;
 
@@ -72,14 +75,26 @@ impl Profile {
         narrowest.map(|(_, spot)| spot).filter(|_| self.narrowest_measured().is_none())
     }
 
+    /// The narrowest usable place, and its hindrances, if a wider place is suggested.
+    pub fn passed_over(&self) -> Option<(Spot, u32)> {
+        let least = NARROWER * self.narrowest()?.diameter;
+        let hindrances = self.hindrances();
+        let (n, spot) = self.spots(|_| true).into_iter().min_by(thinner)?;
+        (spot.diameter < least).then_some((spot, hindrances[n]))
+    }
+
     /// Usable sections without hindrances; the diameter is the median of three sections.
     fn safe_spots(&self) -> Vec<(usize, Spot)> {
         let hindrances = self.hindrances();
+        self.spots(|n| hindrances[n] == 0)
+    }
+
+    fn spots(&self, is_wanted: impl Fn(usize) -> bool) -> Vec<(usize, Spot)> {
         let spot = |n: usize| {
             let diameter = median(&mut self.widths(self.around(n, 1)))?;
             Some((n, Spot { at: self.arc_length[n], diameter }))
         };
-        (0..self.len()).filter(|n| self.counts(*n) && hindrances[*n] == 0).filter_map(spot).collect()
+        (0..self.len()).filter(|n| self.counts(*n) && is_wanted(*n)).filter_map(spot).collect()
     }
 
     /// Largest width before and after each section, from medians of five sections; 0 if no section there is usable.

@@ -19,6 +19,8 @@ pub struct Trees {
     pub noise: f64,
     /// Whether the scan looks like an angiography. If not, and without a seed, no vessel is sure.
     pub is_angiography: bool,
+    /// Whether the values are HU, so that the words are those of CT.
+    pub is_hounsfield: bool,
     /// The smallest radius (mm) by which these vessels were found.
     pub smallest_radius: f64,
     /// What a smaller radius finds, if no vessel is sure here.
@@ -82,15 +84,21 @@ impl TrackDoubt {
         Self::Scarce,
     ];
 
-    /// The reason as a phrase for sentences.
-    pub fn words(self) -> &'static str {
+    /// The reason as a phrase for sentences, with the words of CT or of other scans.
+    pub fn words(self, is_ct: bool) -> &'static str {
         match self {
-            Self::Scarce => {
+            Self::Scarce if is_ct => {
                 "hardly any vessel of the scan is long, round and bright: it may have no contrast medium"
             }
-            Self::BrightSides => "it is bright on most sides: bone?",
-            Self::Flat => "it is flat, like a plate of bone",
-            Self::Uneven => "it is uneven inside, like marrow",
+            Self::Scarce => {
+                "hardly any vessel of the scan is long, round and bright: it may be no angiography"
+            }
+            Self::BrightSides if is_ct => "it is bright on most sides: bone?",
+            Self::BrightSides => "it is bright on most sides: fat or skin?",
+            Self::Flat if is_ct => "it is flat, like a plate of bone",
+            Self::Flat => "it is flat, like a layer of tissue",
+            Self::Uneven if is_ct => "it is uneven inside, like marrow",
+            Self::Uneven => "it is uneven inside, like tissue",
             Self::PaleAndWide => "it is wide and paler than the vessels, like an organ",
             Self::Short => "it is short",
             Self::Rough => "its width changes from place to place",
@@ -101,12 +109,16 @@ impl TrackDoubt {
     }
 
     /// The reason in a word or two, for lists and counts.
-    pub fn short(self) -> &'static str {
+    pub fn short(self, is_ct: bool) -> &'static str {
         match self {
-            Self::Scarce => "no contrast agent?",
-            Self::BrightSides => "near bone",
-            Self::Flat => "flat, like bone",
-            Self::Uneven => "marrow-like",
+            Self::Scarce if is_ct => "no contrast agent?",
+            Self::Scarce => "no angiography?",
+            Self::BrightSides if is_ct => "near bone",
+            Self::BrightSides => "bright beside",
+            Self::Flat if is_ct => "flat, like bone",
+            Self::Flat => "flat",
+            Self::Uneven if is_ct => "marrow-like",
+            Self::Uneven => "uneven inside",
             Self::PaleAndWide => "wide and pale",
             Self::Short => "short",
             Self::Rough => "uneven width",

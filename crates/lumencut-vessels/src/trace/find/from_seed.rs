@@ -99,7 +99,7 @@ fn only(trees: Trees, part: usize) -> Trees {
 fn sure(trees: Trees) -> std::result::Result<Trees, &'static str> {
     let doubts: Vec<_> = trees.vessels.iter().map(|vessel| vessel.doubt).collect();
     match doubts.first() {
-        Some(Some(doubt)) if !doubts.contains(&None) => Err(doubt.words()),
+        Some(Some(doubt)) if !doubts.contains(&None) => Err(doubt.words(trees.is_hounsfield)),
         _ => Ok(trees),
     }
 }

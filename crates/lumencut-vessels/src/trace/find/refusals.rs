@@ -52,10 +52,9 @@ pub fn no_whole_vessel(click: DVec3, value: f64, reason: NoVessel) -> Error {
         NoVessel::NotHere(distance) if distance.is_infinite() => {
             ("no vessel in this scan".to_owned(), "a point within a vessel")
         }
-        NoVessel::NotHere(distance) => (
-            format!("none of the vessels found; the nearest one is {distance:.1} mm away"),
-            "a point within a vessel",
-        ),
+        NoVessel::NotHere(distance) => {
+            (format!("no vessel there; the nearest one is {distance:.1} mm away"), "a point within a vessel")
+        }
         NoVessel::Already => ("a vessel that is already traced".to_owned(), "one that is not"),
     };
     let error = Error::new(ErrorKind::Tracing, "this point", found, expected).at(click, value);

@@ -38,6 +38,11 @@ const SNAP: f64 = 2.0;
 /// Minimum fraction of the surroundings that must be darker than the lumen.
 const DARKER: f64 = 0.75;
 
+/// What a click hit that is far brighter, or no brighter, than the lumen. Bone and slow blood are dark in MR.
+const CT_MISTAKES: [&str; 2] = ["bone, metal or calcium", "tissue, or blood without contrast medium"];
+const OTHER_MISTAKES: [&str; 2] =
+    ["something far brighter than the lumen", "tissue, or blood without signal"];
+
 type Mistake = (&'static str, String);
 
 /// The values around the clicks, before any click is checked.
@@ -166,14 +171,16 @@ impl Surroundings {
 
     fn check(&self, voxels: &Voxels, click: DVec3, value: f64, mistake: Option<Mistake>) -> Result<()> {
         let Some((tissue, expected)) = mistake else { return Ok(()) };
-        let found = format!("{tissue}: the volume has {value:.0} there");
+        let found = format!("{tissue}, about {value:.0} around it");
         let error = Error::new(ErrorKind::Tracing, format!("point {}", in_words(click)), found, expected);
-        let error = error.about(Clicked::Single).at(click, value);
+        // The value that a viewer shows at this place.
+        let error = error.about(Clicked::Single).at(click, f64::from(voxels.at(click)));
         Err(match self.nearest_lumen(voxels, click) {
             Some(place) => {
                 let away = place.distance(click);
                 let nearest = in_words(place);
-                error.mend(format!("the nearest place that looks like lumen is {nearest}, {away:.1} mm away"))
+                let mend = format!("the nearest place that looks like lumen is {nearest}, {away:.1} mm away");
+                error.mend(mend).nearest(place)
             }
             None => error.mend("no place within 10 mm looks like lumen"),
         })
@@ -198,16 +205,13 @@ impl Surroundings {
     fn unlike(&self, hit: &Hit, usual: f64) -> Option<Mistake> {
         let contrast = usual - self.tissue;
         let least = self.tissue + (0.3 * contrast).max(1.5 * hit.noise);
+        let [bright, dark] = if self.is_hounsfield { CT_MISTAKES } else { OTHER_MISTAKES };
         if hit.lumen - self.tissue > MOST_TIMES * contrast && contrast > 0.0 {
-            return Some((
-                "bone, metal or calcium",
-                format!("lumen of about {usual:.0}, as at another point"),
-            ));
+            return Some((bright, format!("lumen of about {usual:.0}, as at another point")));
         }
         // False if the value is NaN.
         let is_bright = hit.lumen > least;
-        (!is_bright)
-            .then(|| ("tissue, or blood without contrast medium", format!("lumen, brighter than {least:.0}")))
+        (!is_bright).then(|| (dark, format!("lumen, brighter than {least:.0}")))
     }
 
     /// The nearest position within 10 mm that is surrounded by lumen values.

@@ -15,7 +15,7 @@ fn all_vessels_are_found_in_one_step_beside_those_that_there_are() {
     assert_eq!(found.words, "find all vessels");
     assert_eq!(called(&found.document)[..4], ["a", "b", "c", "Vessel 1"]);
     assert!(found.added.len() >= 2 && found.document.vessels.len() == 3 + found.added.len());
-    assert!(found.notes[0].starts_with("vessels have about 3"));
+    assert!(found.notes[0].starts_with("the lumen of the vessels has about 3"));
 }
 
 #[test]

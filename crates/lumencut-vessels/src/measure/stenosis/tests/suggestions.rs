@@ -20,6 +20,20 @@ fn a_fit_that_is_not_sure_is_not_suggested() {
 }
 
 #[test]
+fn a_narrower_place_that_is_passed_over_is_known_with_its_hindrances() {
+    let mut sections = vec![[12.0, 0.8]; 20];
+    sections[4..7].fill([10.0, 0.8]);
+    assert_eq!(profile(&sections).passed_over(), None);
+    let mut made = profile(&sections);
+    for n in 12..15 {
+        (made.area[n], made.flags[n]) = (16.0 * std::f64::consts::PI, METAL);
+    }
+    let (spot, hindrances) = made.passed_over().expect("a place");
+    assert_eq!((spot.at, hindrances & METAL), (6.0, METAL));
+    assert!((spot.diameter - 8.0).abs() < 1e-9 && made.narrowest().is_some_and(|spot| spot.diameter == 10.0));
+}
+
+#[test]
 fn a_narrow_lumen_that_is_sure_is_suggested() {
     let mut sections = vec![[6.0, 0.1]; 20];
     sections[12..15].fill([1.0, 0.1]);
