@@ -133,6 +133,7 @@ fn muscle_on_one_side_leaves_the_outer_wall_and_muscle_all_around_hides_it() {
     let error = around.outer_volume([2.0, 8.0]).expect_err("no volume");
     assert!(error.to_string().contains("none from 2.0 to 8.0 mm"), "{error}");
     assert_eq!(around.outer_stretch(), None);
+    assert!(around.outer_volume([2.0, 4.0]).is_err(), "a stretch shorter than the gaps allowed");
 }
 
 #[test]

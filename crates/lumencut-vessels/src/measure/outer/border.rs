@@ -17,7 +17,7 @@ use lumencut_core::math::statistics::median;
 
 /// Level of fat before it is read (HU), and the range in which it lies.
 const FAT: f64 = -95.0;
-const FAT_RANGE: [f64; 2] = [-150.0, -60.0];
+const FAT_RANGE: [f64; 2] = [-110.0, -60.0];
 
 /// The layer is not brighter than its level plus this fraction of the contrast between lumen and layer.
 const LAYER: f64 = 0.4;

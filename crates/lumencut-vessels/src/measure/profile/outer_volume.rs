@@ -38,7 +38,7 @@ impl Profile {
         let mut places = vec![ends[0]];
         places.extend(seen.iter().map(|n| self.arc_length[*n]));
         places.push(ends[1]);
-        if let Some(gap) = places.windows(2).find(|two| two[1] - two[0] > GAP_MM) {
+        if let Some(gap) = places.windows(2).find(|two| seen.is_empty() || two[1] - two[0] > GAP_MM) {
             let found = format!("none from {:.1} to {:.1} mm", gap[0], gap[1]);
             let expected = format!("one at least every {GAP_MM} mm, around thrombus or plaque");
             return Err(Error::new(ErrorKind::Measuring, "outer wall of the stretch", found, expected)
