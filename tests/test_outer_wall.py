@@ -57,7 +57,8 @@ def test_files_and_findings_state_the_outer_wall(profile, tmp_path):
     assert stretch["diameter_outer_mm"] == np.nanmax(profile.diameter_outer)
     vessel = Vessel(profile.center)
     lines = MeasuredVessel.of("0", vessel, profile, Marked()).lines
-    assert lines[0].startswith(f"Outer wall, around thrombus or plaque: up to {stretch['diameter_outer_mm']:.1f} ±")
+    widest = f"up to {stretch['diameter_outer_mm']:.1f} ±"
+    assert lines[0].startswith(f"Outer wall, around thrombus or plaque: {widest}")
     assert f"{volume_ / 1000:.1f} ± " in lines[0]
 
 

@@ -19,14 +19,12 @@ const FWHM: f64 = 1.0;
 const SIZE: [usize; 3] = [60, 60, 16];
 const MIDDLE: DVec2 = DVec2::new(23.7, 23.3);
 
-/// Levels (HU).
 const FAT: f64 = -95.0;
 const THROMBUS: f64 = 40.0;
 const MUSCLE: f64 = 55.0;
 const LUMEN: f64 = 320.0;
 const NOISE: f64 = 15.0;
 
-/// A disc of blurred values: 1 inside, 0 outside.
 fn disc(diameter: f64, center: DVec2) -> impl Fn(DVec2) -> f64 {
     let variance = variance_of(FWHM) + SIDE * SIDE / 12.0;
     let circle = Ellipse::circle(center, 0.5 * diameter);
