@@ -188,7 +188,6 @@ impl Profile {
         self.0.outer_stretch().map(|stretch| measure_words::of_outer_stretch(&stretch))
     }
 
-    /// The outer wall of section `n` in words; None if it is not seen.
     fn outer_at(&self, n: usize) -> Option<String> {
         measure_words::of_outer_at(&self.0, n)
     }

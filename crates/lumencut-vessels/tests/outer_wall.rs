@@ -7,7 +7,7 @@ use glam::{DAffine3, DMat2, DVec2, DVec3};
 use lumencut_core::vessel_tree::Vessel;
 use lumencut_core::volume::{Volume, Voxels};
 use lumencut_vessels::measure::model::ellipse::{Boundary, Ellipse, Whitening};
-use lumencut_vessels::measure::outer::OuterWall;
+use lumencut_vessels::measure::outer::found::OuterWall;
 use lumencut_vessels::measure::profile::Profile;
 use lumencut_vessels::measure::profile::measuring::measure;
 use lumencut_vessels::measure::profile::request::MeasureRequest;

@@ -1,7 +1,7 @@
 //! States measurements in words, which Python package and viewer share.
 
 use lumencut_core::named::Named;
-use lumencut_vessels::measure::outer::OuterWall;
+use lumencut_vessels::measure::outer::found::OuterWall;
 use lumencut_vessels::measure::profile::Profile;
 use lumencut_vessels::measure::profile::Source;
 use lumencut_vessels::measure::profile::outer_volume::OuterStretch;

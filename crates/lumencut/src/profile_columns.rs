@@ -1,7 +1,7 @@
 //! Converts the columns of a profile to and from plain numbers.
 
 use glam::DVec3;
-use lumencut_vessels::measure::outer::OuterWall;
+use lumencut_vessels::measure::outer::found::OuterWall;
 use lumencut_vessels::measure::profile::{Profile, Source};
 use lumencut_vessels::measure::uncertainty::Parts;
 use lumencut_vessels::measure::wall::WallSource;

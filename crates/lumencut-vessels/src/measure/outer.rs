@@ -3,6 +3,7 @@
 
 pub(crate) mod border;
 pub(crate) mod closed_path;
+pub mod found;
 pub(crate) mod outline;
 pub(crate) mod polar_map;
 
@@ -10,37 +11,13 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::measure::outer::border::{Layer, Levels};
+use crate::measure::outer::found::{Outer, OuterWall};
 use crate::measure::section::SectionPlane;
 use crate::measure::section::blur::Blur;
 use crate::voxels::Voxels;
 use lumencut_core::error::Result;
 use lumencut_core::math::statistics::median;
 use lumencut_core::stop::{Stop, go_on};
-
-/// Whether the outside of a thick wall is visible in a section, or why not.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum OuterWall {
-    /// It is visible.
-    Seen,
-    /// No thick layer surrounds the lumen.
-    Thin,
-    /// The lumen of this section does not count.
-    NotCounted,
-    /// Metal hides the layer.
-    Metal,
-    /// Tissue as bright as the layer touches too much of it.
-    Hidden,
-    /// It is not similar over [`LEAST_LENGTH_MM`].
-    Uneven,
-    /// Nothing says which values thrombus has.
-    NoLevel,
-}
-
-impl OuterWall {
-    /// All cases; their order is that of stored numbers.
-    pub const ALL: [Self; 7] =
-        [Self::Seen, Self::Thin, Self::NotCounted, Self::Metal, Self::Hidden, Self::Uneven, Self::NoLevel];
-}
 
 /// An outer wall is similar over at least this length (mm).
 const LEAST_LENGTH_MM: f64 = 5.0;
@@ -50,22 +27,6 @@ const GAP_MM: f64 = 2.0;
 
 /// Maximum relative difference of a diameter from the median within `LEAST_LENGTH_MM`.
 const SIMILAR: f64 = 0.1;
-
-/// The outer wall of one section.
-#[derive(Clone, Debug)]
-pub(crate) struct Outer {
-    pub found: OuterWall,
-    /// Points of the outer wall (mm, LPS), one per ray; empty if it is not seen.
-    pub contour: Vec<DVec3>,
-    /// Diameter of a circle of the area within the outer wall, and its standard deviation (mm).
-    pub diameter: [f64; 2],
-}
-
-impl Outer {
-    pub(crate) fn none(found: OuterWall) -> Self {
-        Self { found, contour: Vec::new(), diameter: [f64::NAN; 2] }
-    }
-}
 
 /// A section as the search for its outer wall needs it.
 pub(crate) struct Inner<'a> {

@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use lumencut_core::volume::{Volume, Voxels};
 use lumencut_phantom::Phantom;
-use lumencut_vessels::measure::outer::OuterWall;
+use lumencut_vessels::measure::outer::found::OuterWall;
 use lumencut_vessels::measure::profile::measuring::measure;
 use lumencut_vessels::measure::profile::request::MeasureRequest;
 use lumencut_vessels::measure::wall::WallRequest;

@@ -1,7 +1,7 @@
 //! The profile of a synthetic tube.
 
 use glam::DVec3;
-use lumencut_vessels::measure::outer::OuterWall;
+use lumencut_vessels::measure::outer::found::OuterWall;
 use lumencut_vessels::measure::profile::{Profile, Source};
 use lumencut_vessels::measure::section::flags::{BRANCH, CALCIUM};
 use lumencut_vessels::measure::uncertainty::Parts;

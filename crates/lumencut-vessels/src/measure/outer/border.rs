@@ -6,9 +6,9 @@ use std::f64::consts::PI;
 use glam::{DVec2, DVec3};
 
 use super::closed_path::closed_path;
+use super::found::{Outer, OuterWall};
 use super::outline::{area_and_middle, corners_at, exits, solidity};
 use super::polar_map::PolarMap;
-use super::{Outer, OuterWall};
 use crate::measure::section::SectionPlane;
 use crate::measure::section::blur::variance_of;
 use crate::measure::section::rays::{RAYS, direction};

@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use glam::DVec3;
 
 use super::Profile;
-use crate::measure::outer::OuterWall;
+use crate::measure::outer::found::OuterWall;
 use lumencut_core::error::{Error, ErrorKind, Result};
 use lumencut_core::math::same_place::REPEATED_POINT;
 

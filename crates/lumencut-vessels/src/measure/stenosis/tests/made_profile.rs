@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
-use crate::measure::outer::OuterWall;
+use crate::measure::outer::found::OuterWall;
 use crate::measure::profile::{Profile, Source};
 use crate::measure::uncertainty::Parts;
 use crate::measure::wall::WallSource;
