@@ -42,6 +42,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
         "measure::uncertainty",
         "measure::fit",
     ),
+    "measure::outer": ("voxels", "measure::section"),
     "measure::profile": (
         "voxels",
         "measure::section",
@@ -52,6 +53,7 @@ ROOMS: dict[str, tuple[str, ...]] = {
         "measure::fit",
         "measure::wall",
         "measure::along",
+        "measure::outer",
     ),
     "measure::stenosis": ("measure::section", "measure::uncertainty", "measure::profile"),
 }

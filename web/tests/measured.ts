@@ -33,6 +33,8 @@ export function madeProfile(length = 60): Profile {
     widest: { at: 10, diameter: 8.8 },
     not_suggested: [],
     not_measured: [],
+    outer_stretch: null,
+    outer: places.map(() => null),
   };
 }
 

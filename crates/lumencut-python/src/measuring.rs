@@ -5,12 +5,12 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use lumencut::flag_table::{FLAGS, FlagLook};
-use lumencut::measure::profile;
 use lumencut::measure::profile::cross_section::{CrossSection, section_place};
 use lumencut::measure::profile::measuring;
 use lumencut::measure::profile::radii;
 use lumencut::measure::profile::request::MeasureRequest;
 use lumencut::measure::profile::request::with_progress as counted;
+use lumencut::measure::profile::{self, CONTOUR_POINTS};
 use lumencut::measure::stenosis::groups::Territory;
 use lumencut::measure::stenosis::suggestions::Spot;
 use lumencut::measure::stenosis::{self, Compared, Method};
@@ -163,14 +163,33 @@ impl Profile {
     /// Wall points (mm, LPS), shape (n, rays, 3); NaN if missing.
     #[getter]
     fn contour<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
-        let rays = self.0.contour.iter().map(Vec::len).max().unwrap_or(0);
-        let none = [DVec3::NAN];
-        let of = |contour: &'_ Vec<DVec3>| -> Vec<f64> {
-            let points = if contour.is_empty() { none.repeat(rays) } else { contour.clone() };
-            points.iter().flat_map(DVec3::to_array).collect()
-        };
-        let flat: Vec<f64> = self.0.contour.iter().flat_map(of).collect();
-        PyArray1::from_vec(py, flat).reshape([self.0.contour.len(), rays, 3])
+        contours(py, &self.0.contour)
+    }
+
+    /// Points of the outer wall (mm, LPS), shape (n, rays, 3); NaN if not seen.
+    #[getter]
+    fn outer_contour<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray3<f64>>> {
+        contours(py, &self.0.outer_contour)
+    }
+
+    /// Whether the outside of a thick wall is seen, or why not, in words.
+    #[getter]
+    fn outer_wall(&self) -> Vec<&'static str> {
+        self.0.outer_wall.iter().map(|one| measure_words::of_outer_wall(*one)).collect()
+    }
+
+    /// Volume within the outer wall between two arc lengths, and its standard deviation (mm³).
+    fn outer_volume(&self, ends: [f64; 2]) -> PyResult<(f64, f64)> {
+        self.0.outer_volume(ends).map(|[volume, unsure]| (volume, unsure)).map_err(to_python)
+    }
+
+    /// The outer wall of the longest stretch that shows it, in words.
+    fn outer_stretch(&self) -> Option<String> {
+        self.0.outer_stretch().map(|stretch| measure_words::of_outer_stretch(&stretch))
+    }
+
+    fn outer_at(&self, n: usize) -> Option<String> {
+        measure_words::of_outer_at(&self.0, n)
     }
 
     /// Levels of lumen and background, shape (n, 2).
@@ -368,4 +387,14 @@ fn pair(spot: Spot) -> (f64, f64) {
 fn points<'py>(py: Python<'py>, points: &[DVec3]) -> PyResult<Bound<'py, PyArray2<f64>>> {
     let flat = points.iter().flat_map(DVec3::to_array).collect();
     PyArray1::from_vec(py, flat).reshape([points.len(), 3])
+}
+
+/// Contours (mm, LPS), shape (n, rays, 3); NaN if missing.
+fn contours<'py>(py: Python<'py>, all: &[Vec<DVec3>]) -> PyResult<Bound<'py, PyArray3<f64>>> {
+    let none = [DVec3::NAN].repeat(CONTOUR_POINTS);
+    let of = |contour: &Vec<DVec3>| -> Vec<f64> {
+        let points = if contour.is_empty() { &none } else { contour };
+        points.iter().flat_map(DVec3::to_array).collect()
+    };
+    PyArray1::from_vec(py, all.iter().flat_map(of).collect()).reshape([all.len(), CONTOUR_POINTS, 3])
 }

@@ -1,8 +1,10 @@
 //! States measurements in words, which Python package and viewer share.
 
 use lumencut_core::named::Named;
+use lumencut_vessels::measure::outer::found::OuterWall;
 use lumencut_vessels::measure::profile::Profile;
 use lumencut_vessels::measure::profile::Source;
+use lumencut_vessels::measure::profile::outer_volume::OuterStretch;
 use lumencut_vessels::measure::profile::stretch::CArm;
 use lumencut_vessels::measure::section::flags::LEFT_OUT;
 use lumencut_vessels::measure::stenosis::{Doubts, Method, Stenosis};
@@ -113,6 +115,40 @@ pub fn of_wall(source: &WallSource) -> String {
         WallSource::AsBright => "not separated: the surroundings are as bright".to_owned(),
         WallSource::OtherUnit => "not separated: nothing says that the values are HU".to_owned(),
     }
+}
+
+/// Whether the outside of a thick wall is visible, or why not.
+pub fn of_outer_wall(outer: OuterWall) -> &'static str {
+    match outer {
+        OuterWall::Seen => "seen",
+        OuterWall::Thin => "no thick layer around the lumen",
+        OuterWall::NotCounted => "the lumen does not count",
+        OuterWall::Metal => "metal hides it",
+        OuterWall::Hidden => "tissue as bright touches it",
+        OuterWall::Uneven => "not similar over 5 mm",
+        OuterWall::NoLevel => "the level of thrombus is unknown",
+    }
+}
+
+/// The outer wall of the longest stretch that shows it around thrombus or plaque, in one sentence.
+pub fn of_outer_stretch(stretch: &OuterStretch) -> String {
+    let ([from, to], [at, diameter, unsure]) = (stretch.ends, stretch.widest);
+    let [volume, doubt] = stretch.volume.map(|cubic_mm| fixed(cubic_mm / 1000.0, 1));
+    format!(
+        "Outer wall, around thrombus or plaque: up to {} ± {} mm wide at {} mm; {volume} ± {doubt} ml from {} to {} mm.",
+        fixed(diameter, 1),
+        fixed(unsure, 1),
+        fixed(at, 1),
+        fixed(from, 1),
+        fixed(to, 1),
+    )
+}
+
+/// The outer wall of section `n` if it is visible around thrombus or plaque, such as `outer wall 32.1 ± 0.4 mm`.
+pub fn of_outer_at(profile: &Profile, n: usize) -> Option<String> {
+    let [diameter, unsure] = profile.diameter_outer[n];
+    let is_seen = profile.outer_wall[n] == OuterWall::Seen;
+    is_seen.then(|| format!("outer wall {} ± {} mm", fixed(diameter, 1), fixed(unsure, 1)))
 }
 
 /// The diameter (mm) without and with adjacent calcium or metal; None if nothing there is brighter than the lumen.

@@ -1,6 +1,7 @@
 //! Converts the columns of a profile to and from plain numbers.
 
 use glam::DVec3;
+use lumencut_vessels::measure::outer::found::OuterWall;
 use lumencut_vessels::measure::profile::{Profile, Source};
 use lumencut_vessels::measure::uncertainty::Parts;
 use lumencut_vessels::measure::wall::WallSource;
@@ -13,10 +14,11 @@ pub(crate) enum Column<'a> {
     Points(&'a mut Vec<DVec3>),
     PointPairs(&'a mut Vec<[DVec3; 2]>),
     Contours(&'a mut Vec<Vec<DVec3>>),
+    OuterWalls(&'a mut Vec<OuterWall>),
 }
 
 /// The columns of a profile by name, except its flags.
-pub(crate) fn columns(profile: &mut Profile) -> [(&'static str, Column<'_>); 22] {
+pub(crate) fn columns(profile: &mut Profile) -> [(&'static str, Column<'_>); 24] {
     [
         ("arc_length", Column::Numbers(&mut profile.arc_length)),
         ("diameter_min", Column::Numbers(&mut profile.diameter_min)),
@@ -26,6 +28,8 @@ pub(crate) fn columns(profile: &mut Profile) -> [(&'static str, Column<'_>); 22]
         ("uncertainty_parts", Column::Parts(&mut profile.uncertainty_parts)),
         ("wall", Column::Pairs(&mut profile.wall)),
         ("diameter_outer", Column::Pairs(&mut profile.diameter_outer)),
+        ("outer_wall", Column::OuterWalls(&mut profile.outer_wall)),
+        ("outer_contour", Column::Contours(&mut profile.outer_contour)),
         ("bounds", Column::Pairs(&mut profile.bounds)),
         ("at_most", Column::Numbers(&mut profile.at_most)),
         ("center", Column::Points(&mut profile.center)),
@@ -52,6 +56,7 @@ impl Column<'_> {
             Self::Parts(parts) => parts.iter().flat_map(five).collect(),
             Self::Points(points) => flat(points),
             Self::PointPairs(pairs) => flat(pairs.as_flattened()),
+            Self::OuterWalls(all) => all.iter().map(|one| *one as usize as f64).collect(),
             Self::Contours(lists) => {
                 lists.iter().flat_map(|points| [vec![points.len() as f64], flat(points)].concat()).collect()
             }
@@ -70,6 +75,10 @@ impl Column<'_> {
             Self::Parts(parts) => *parts = groups::<_, 5>(numbers)?.iter().map(parts_of).collect(),
             Self::Points(points) => *points = points_of(numbers)?,
             Self::PointPairs(pairs) => *pairs = groups::<_, 2>(&points_of(numbers)?)?.to_vec(),
+            Self::OuterWalls(all) => {
+                let known = |number: &f64| OuterWall::ALL.get(whole(*number)?).copied();
+                *all = numbers.iter().map(known).collect::<Option<_>>()?;
+            }
             Self::Contours(lists) => *lists = lists_of(numbers)?,
         }
         Some(())
@@ -123,6 +132,8 @@ pub(crate) fn empty() -> Profile {
         uncertainty_parts: Vec::new(),
         wall: Vec::new(),
         diameter_outer: Vec::new(),
+        outer_wall: Vec::new(),
+        outer_contour: Vec::new(),
         bounds: Vec::new(),
         at_most: Vec::new(),
         flags: Vec::new(),
@@ -144,7 +155,7 @@ pub(crate) fn empty() -> Profile {
 }
 
 /// The numbers of sections of all columns, which are equal in a profile.
-pub(crate) fn lengths(profile: &Profile) -> [usize; 19] {
+pub(crate) fn lengths(profile: &Profile) -> [usize; 21] {
     [
         profile.arc_length.len(),
         profile.diameter_min.len(),
@@ -154,6 +165,8 @@ pub(crate) fn lengths(profile: &Profile) -> [usize; 19] {
         profile.uncertainty_parts.len(),
         profile.wall.len(),
         profile.diameter_outer.len(),
+        profile.outer_wall.len(),
+        profile.outer_contour.len(),
         profile.bounds.len(),
         profile.at_most.len(),
         profile.flags.len(),

@@ -2,12 +2,13 @@
 
 use lumencut_core::named::Named;
 use lumencut_vessels::measure::profile::Profile;
+use lumencut_vessels::measure::profile::outer_volume::OuterStretch;
 use lumencut_vessels::measure::stenosis::suggestions::Spot;
 use serde::Serialize;
 use serde::ser::{SerializeMap, Serializer};
 use serde_json::ser::PrettyFormatter;
 
-use crate::measure_words::{of_doubts, of_flags, of_source, of_wall};
+use crate::measure_words::{of_doubts, of_flags, of_outer_wall, of_source, of_wall};
 use crate::not_measured::{NotMeasured, not_measured};
 use crate::not_suggested::not_suggested;
 use crate::profile_marks::{Grade, Mark, Measured, REFERENCE, marks};
@@ -108,6 +109,7 @@ struct ProgramProfile {
     length_mm: f64,
     not_measured: Vec<NotMeasured>,
     longest_diameter: Option<Longest>,
+    outer_stretch: Option<OuterRecord>,
     suggestions: Suggestions,
     sections: Sections,
 }
@@ -125,6 +127,7 @@ impl ProgramProfile {
             length_mm: profile.length(),
             not_measured: not_measured(profile),
             longest_diameter: profile.offered_widest().map(longest),
+            outer_stretch: profile.outer_stretch().map(OuterRecord::from),
             suggestions: Suggestions::of(profile),
             sections: Sections::of(profile),
         }
@@ -135,6 +138,32 @@ impl ProgramProfile {
 struct Longest {
     arc_length_mm: f64,
     diameter_max_mm: f64,
+}
+
+/// The longest stretch that shows the outer wall around thrombus or plaque.
+#[derive(Serialize)]
+struct OuterRecord {
+    from_mm: f64,
+    to_mm: f64,
+    widest_at_mm: f64,
+    diameter_outer_mm: f64,
+    diameter_outer_uncertainty_mm: f64,
+    volume_mm3: f64,
+    volume_uncertainty_mm3: f64,
+}
+
+impl From<OuterStretch> for OuterRecord {
+    fn from(OuterStretch { ends, widest, volume }: OuterStretch) -> Self {
+        Self {
+            from_mm: ends[0],
+            to_mm: ends[1],
+            widest_at_mm: widest[0],
+            diameter_outer_mm: widest[1],
+            diameter_outer_uncertainty_mm: widest[2],
+            volume_mm3: volume[0],
+            volume_uncertainty_mm3: volume[1],
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -185,6 +214,7 @@ impl Suggestions {
 
 struct Sections {
     numbers: Vec<(&'static str, Vec<f64>)>,
+    outer_wall: Vec<&'static str>,
     counts: Vec<bool>,
     flags: Vec<Vec<String>>,
 }
@@ -193,6 +223,7 @@ impl Sections {
     fn of(profile: &Profile) -> Self {
         Self {
             numbers: columns(profile).into_iter().chain(axes(profile)).collect(),
+            outer_wall: profile.outer_wall.iter().map(|one| of_outer_wall(*one)).collect(),
             counts: (0..profile.len()).map(|n| profile.counts(n)).collect(),
             flags: profile.flags.iter().map(|flags| of_flags(*flags)).collect(),
         }
@@ -213,6 +244,7 @@ impl Serialize for Sections {
         for (name, values) in &self.numbers {
             map.serialize_entry(name, values)?;
         }
+        map.serialize_entry("outer_wall", &self.outer_wall)?;
         map.serialize_entry("counts", &self.counts)?;
         map.serialize_entry("flags", &self.flags)?;
         map.end()

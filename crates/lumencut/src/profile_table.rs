@@ -4,7 +4,7 @@ use lumencut_io::marked_cell;
 use lumencut_vessels::measure::profile::Profile;
 use lumencut_vessels::measure::uncertainty::Part;
 
-use crate::measure_words::{of_doubts, of_flags, of_source, of_stenosis, of_wall};
+use crate::measure_words::{of_doubts, of_flags, of_outer_wall, of_source, of_stenosis, of_wall};
 use crate::profile_marks::{Grade, Measured};
 use crate::scan_details::ScanDetails;
 use crate::text::rounded;
@@ -98,8 +98,16 @@ fn csv_text(blocks: &[Block]) -> String {
         let found = columns(profile);
         if number == 0 {
             let own = found.iter().map(|(name, _)| (*name).to_owned());
-            let last = ["counts", "flags", "fwhm_mm", "fwhm_uncertainty_mm", "fwhm_source", "wall_source"]
-                .map(str::to_owned);
+            let last = [
+                "outer_wall",
+                "counts",
+                "flags",
+                "fwhm_mm",
+                "fwhm_uncertainty_mm",
+                "fwhm_source",
+                "wall_source",
+            ]
+            .map(str::to_owned);
             let own = own.chain(last).chain(scan.columns().map(|(name, _)| name.to_owned()));
             write_line(&mut text, names(before).into_iter().chain(own).chain(names(behind)));
         }
@@ -112,9 +120,10 @@ fn csv_text(blocks: &[Block]) -> String {
     text
 }
 
-fn words(profile: &Profile, n: usize) -> [String; 6] {
+fn words(profile: &Profile, n: usize) -> [String; 7] {
     let counts = if profile.counts(n) { "yes" } else { "no" };
     [
+        of_outer_wall(profile.outer_wall[n]).to_owned(),
         counts.to_owned(),
         of_flags(profile.flags[n]).join("; "),
         rounded(profile.fwhm, DIGITS),

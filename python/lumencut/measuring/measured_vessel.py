@@ -125,7 +125,8 @@ class MeasuredVessel:
         lines = [] if self._grade is None else self._grade.lines
         if self.stenosis is None:
             lines = [*map(str, self.marks), *self._not_suggested, *lines]
-        return [*self.profile.not_measured(), *lines]
+        outer = self.profile._core.outer_stretch()
+        return [*self.profile.not_measured(), *([] if outer is None else [outer]), *lines]
 
 
 def vessels_csv(measured: Sequence[MeasuredVessel]) -> str:

@@ -191,6 +191,27 @@ class Profile(ProfileOutputs):
         place = None if at is None else number(MeasuringError, "place on the vessel", at)
         return tuple(_lumencut.not_suggested_places(self._core, place, []))
 
+    def outer_volume(self, start: float, end: float) -> tuple[float, float]:
+        """Return the volume within the outer wall around thrombus or plaque, and its standard deviation.
+
+        Parameters
+        ----------
+        start, end : float
+            The ends of the stretch (mm of arc length).
+
+        Returns
+        -------
+        tuple of float
+            The volume and its standard deviation (mm³).
+
+        Raises
+        ------
+        MeasuringError
+            If :attr:`outer_wall` is not seen over more than 5 mm, or for places beyond the vessel.
+        """
+        ends = [number(MeasuringError, "end of the stretch", end) for end in (start, end)]
+        return self._core.outer_volume((ends[0], ends[1]))
+
     def not_measured(self) -> tuple[str, ...]:
         """Return which stretches were not measured and why, a sentence each; mostly empty.
 

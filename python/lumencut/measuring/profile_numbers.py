@@ -36,6 +36,7 @@ class ProfileNumbers:
         self._center, self._normal = _locked(core.center), _locked(core.normal)
         self._axes = _locked(core.axes)
         self._contour, self._levels = _locked(core.contour), _locked(core.levels)
+        self._outer_contour = _locked(core.outer_contour)
 
     def __getstate__(self) -> dict[str, Any]:
         """Return the state to copy or pickle: plain values by stable names."""
@@ -189,6 +190,16 @@ class ProfileNumbers:
     def contour(self) -> _Floats:
         """The wall along 64 rays of each section, shape (n, 64, 3), mm, LPS."""
         return self._contour
+
+    @property
+    def outer_contour(self) -> _Floats:
+        """The outer wall around thrombus or plaque, shape (n, 64, 3), mm, LPS; NaN where it is not seen."""
+        return self._outer_contour
+
+    @property
+    def outer_wall(self) -> list[str]:
+        """For each section ``"seen"`` if :attr:`outer_contour` is, otherwise the reason why it is not."""
+        return self._core.outer_wall
 
     @property
     def levels(self) -> _Floats:

@@ -19,6 +19,7 @@ from lumencut.scene.window import Window
 
 #: Colours of contours: of sections that count, and of all others.
 _COUNTED, _LEFT_OUT = (64, 220, 255, 255), (255, 150, 40, 255)
+_OUTER = (255, 90, 208, 255)
 
 #: Contours are drawn this many times larger and then scaled down, for smooth edges.
 _FINER = 3
@@ -47,8 +48,8 @@ class SectionView:
     ) -> Picture:
         """Return one section (H, W, 4): the measured plane, the contour, numbers with units, a scale.
 
-        The contour is cyan if the section counts for narrowest and widest places, orange if flags exclude it.
-        leave it out. Without it there are neither words nor numbers. `words` stand above the numbers.
+        The contour is cyan if the section counts for narrowest and widest places, orange if flags exclude it;
+        a dashed pink one is the outer wall. Without contours there are no numbers. `words` stand above them.
         """
         profile, spacing = one.profile, _lumencut.section_spacing(one.profile._core, self.side)
         origin, across = profile.center[number], profile.axes[number]
@@ -62,6 +63,9 @@ class SectionView:
         if np.isfinite(contour).all():
             color = _COUNTED if counts(profile)[number] else _LEFT_OUT
             picture = _with_line(picture, contour, color)
+        outer = (profile.outer_contour[number] - origin) @ across.T / spacing + (self.side - 1) / 2
+        if np.isfinite(outer).all():
+            picture = _with_line(picture, outer, _OUTER, is_dashed=True)
         return _labelled(picture, profile, number, words, spacing)
 
 
@@ -109,14 +113,18 @@ def grey_picture(value: npt.NDArray[np.float32], window: Window) -> Picture:
     return np.stack([grey, grey, grey, np.full_like(grey, 255)], axis=-1)
 
 
-def _with_line(picture: Picture, points: npt.NDArray[np.float64], color: tuple[int, ...]) -> Picture:
+def _with_line(
+    picture: Picture, points: npt.NDArray[np.float64], color: tuple[int, ...], *, is_dashed: bool = False
+) -> Picture:
     """Return a picture with a closed line through points (column and row)."""
     from PIL import Image, ImageDraw
 
     height, width = picture.shape[:2]
     finer = Image.new("L", (width * _FINER, height * _FINER), 0)
     path = [tuple(point) for point in (points + 0.5) * _FINER - 0.5]
-    ImageDraw.Draw(finer).line([*path, *path[:2]], fill=255, width=_FINER + 1, joint="curve")
+    closed = [*path, *path[:2]]
+    for part in zip(path[::2], path[1::2], strict=True) if is_dashed else [closed]:
+        ImageDraw.Draw(finer).line(list(part), fill=255, width=_FINER + 1, joint="curve")
     drawn = np.asarray(finer.resize((width, height), Image.Resampling.BOX), np.float64)[..., None] / 255
     return (picture * (1 - drawn) + np.array(color) * drawn).round().astype(np.uint8)
 
@@ -130,6 +138,8 @@ def _labelled(picture: Picture, profile: Profile, number: int, words: str, spaci
         lines.append("no lumen found")
     else:
         lines += [f"{profile.diameter_equivalent[number]:.2f} mm ({short:.2f} to {long:.2f})"]
+    outer = profile._core.outer_at(number)
+    lines += [] if outer is None else [outer]
     lines += _wrapped(sheet, ", ".join(flag_words(int(profile.flags[number]))))
     for n, line in enumerate(lines):
         sheet.write(line, (sheet.margin, sheet.margin + n * sheet.line_height))

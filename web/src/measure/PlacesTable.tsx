@@ -47,11 +47,12 @@ export function PlacesTable({ profile }: ProfileProps) {
   );
 }
 
-/** Parts of the vessel that could not be measured, with a button to cut the vessel there. */
+/** The outer wall, and parts of the vessel that could not be measured, with a button to cut the vessel there. */
 function NotMeasured({ profile }: ProfileProps) {
   const id = document_.value.vessels.find(({ line }) => line === currentVessel.value?.line)?.id;
   return (
     <>
+      {profile.outer_stretch && <p data-testid="outer-wall">{withKnownUnits(profile.outer_stretch)}</p>}
       {profile.not_measured.map(({ cut_mm: at, words }) => (
         <p key={at} class="refused" data-testid="not-measured">
           {withKnownUnits(words)}{' '}

@@ -7,10 +7,10 @@ import { pickedPlace } from '../state/store';
 import { engine } from '../worker/engine';
 import { currentProfile, currentVessel } from './current';
 import { nearestSection, sectionNumbers } from './sections';
-import { area, doubtWords, meanings, mm, spread } from './words';
+import { area, doubtWords, meanings, mm, spread, withKnownUnits } from './words';
 
 /** Contour colours, as in the pictures of `lumencut measure`. */
-export const CONTOUR = { counts: '#00e5ff', leftOut: '#ff9f1a' } as const;
+export const CONTOUR = { counts: '#00e5ff', leftOut: '#ff9f1a', outer: '#ff5ad0' } as const;
 const AXES = { shortest: '#ffdc00', longest: '#ffffff' } as const;
 
 interface Found {
@@ -40,6 +40,7 @@ export function SectionMarks({ plane }: { readonly plane: Plane }) {
   const numbers = sectionNumbers(profile, at);
   // The section may have moved while its contour was requested.
   const isShown = found?.line === vessel?.line && found?.section.number === nearestSection(profile, at);
+  const outer = profile.outer[nearestSection(profile, at)];
   const section = isShown ? found?.section : null;
   const pixels = (points: readonly Vector[]): Pair[] => points.map((point) => pixelOn(plane, point));
   return (
@@ -50,6 +51,13 @@ export function SectionMarks({ plane }: { readonly plane: Plane }) {
             d={`M${pixels(section.contour).join('L')}Z`}
             stroke={numbers.counts ? CONTOUR.counts : CONTOUR.leftOut}
           />
+          {section.outer_contour.length > 0 && (
+            <path
+              d={`M${pixels(section.outer_contour).join('L')}Z`}
+              stroke={CONTOUR.outer}
+              stroke-dasharray="4 3"
+            />
+          )}
           {section.longest && <path d={`M${pixels(section.longest).join('L')}`} stroke={AXES.longest} />}
           {section.shortest && <path d={`M${pixels(section.shortest).join('L')}`} stroke={AXES.shortest} />}
         </svg>
@@ -60,6 +68,7 @@ export function SectionMarks({ plane }: { readonly plane: Plane }) {
         <div style={{ color: AXES.shortest }}>{`shortest ${mm(numbers.shortest)}`}</div>
         <div style={{ color: AXES.longest }}>{`longest ${mm(numbers.longest)}`}</div>
         <div>{`area ${area(numbers.area)}`}</div>
+        {outer && <div style={{ color: CONTOUR.outer }}>{withKnownUnits(outer)}</div>}
         {!numbers.counts && <div style={{ color: CONTOUR.leftOut }}>left out</div>}
         {numbers.flags.length > 0 && (
           <div title={meanings(profile, numbers.flags)}>{doubtWords(numbers).join(', ')}</div>

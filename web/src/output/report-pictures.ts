@@ -114,6 +114,17 @@ export async function sectionPair(
   context.lineWidth = 2.5;
   context.strokeStyle = profile.counts[number] ? CONTOUR.counts : CONTOUR.leftOut;
   context.stroke();
+  if (section.outer_contour.length > 0) {
+    context.beginPath();
+    for (const [x, y] of section.outer_contour.map((point) => pixelOn(plane, point))) {
+      context.lineTo(x + 0.5, y + 0.5);
+    }
+    context.closePath();
+    context.setLineDash([8, 6]);
+    context.strokeStyle = CONTOUR.outer;
+    context.stroke();
+    context.setLineDash([]);
+  }
   const { bar, letters } = await engine.ask('labels', { ...plane, width: SIDE });
   const { spacing: hasSpacing, orientation } = store.states.value;
   for (const left of [0, SIDE]) {

@@ -3,6 +3,7 @@
 pub mod cross_section;
 pub(crate) mod lung;
 pub mod measuring;
+pub mod outer_volume;
 pub(crate) mod prepared;
 pub mod radii;
 pub mod request;
@@ -17,6 +18,8 @@ use crate::measure::fit::sections::{Section, center};
 use crate::measure::model::contour::inscribed;
 use crate::measure::model::ellipse::Ellipse;
 use crate::measure::model::wall::Wall;
+use crate::measure::outer::Inner;
+use crate::measure::outer::found::{Outer, OuterWall};
 use crate::measure::section::SectionPlane;
 use crate::measure::section::flags::{CALCIUM, LEFT_OUT, METAL};
 use crate::measure::section::rays::RAYS;
@@ -77,6 +80,10 @@ pub struct Profile {
     pub wall: Vec<[f64; 2]>,
     /// Equivalent diameter of the outer wall and its standard deviation (mm); NaN if the wall is not visible.
     pub diameter_outer: Vec<[f64; 2]>,
+    /// Whether the outside of a wall that is thick because of thrombus or plaque is visible.
+    pub outer_wall: Vec<OuterWall>,
+    /// Points of that outer wall (mm, LPS), one per ray; empty if it is not visible.
+    pub outer_contour: Vec<Vec<DVec3>>,
     /// Equivalent diameter (mm) without, and with, the bright material at the wall; NaN if there is no such material.
     pub bounds: Vec<[f64; 2]>,
     /// Largest diameter (mm) that the values allow where the lumen of a tight stenosis is dim and does not count, else NaN.
@@ -143,6 +150,8 @@ impl Profile {
                 .collect(),
             wall: sections.iter().zip(&flags).map(wall).collect(),
             diameter_outer: sections.iter().zip(&flags).map(outer).collect(),
+            outer_wall: vec![OuterWall::NoLevel; places.len()],
+            outer_contour: vec![Vec::new(); places.len()],
             bounds: sections.iter().map(|section| section.bounds).collect(),
             at_most: sections.iter().map(|section| section.at_most).collect(),
             flags,
@@ -169,6 +178,34 @@ impl Profile {
             center,
             contour,
         }
+    }
+
+    /// Includes the outer walls of thick walls, which replace those of the fit.
+    pub(crate) fn with_outer(mut self, found: Vec<Outer>) -> Self {
+        for (n, one) in found.into_iter().enumerate() {
+            if one.found == OuterWall::Seen {
+                self.diameter_outer[n] = one.diameter;
+            }
+            self.outer_wall[n] = one.found;
+            self.outer_contour[n] = one.contour;
+        }
+        self
+    }
+
+    /// The sections as the search for outer walls needs them; `places` are theirs.
+    pub(crate) fn inner<'a>(&'a self, places: &'a [SectionPlane]) -> Vec<Inner<'a>> {
+        let none = |n: usize| {
+            let is_lumen = self.counts(n) && !self.contour[n].is_empty();
+            let metal = (self.flags[n] & METAL != 0).then_some(OuterWall::Metal);
+            if is_lumen { metal } else { Some(OuterWall::NotCounted) }
+        };
+        let one = |n: usize| Inner {
+            place: &places[n],
+            contour: &self.contour[n],
+            lumen: self.levels[n][0],
+            none: none(n),
+        };
+        (0..self.len()).map(one).collect()
     }
 
     /// Number of sections.

@@ -52,10 +52,15 @@ pub const SHEET_PIXELS: usize = 260;
 /// Side of section pictures in reports of the page (pixels).
 pub(crate) const PAGE_PIXELS: usize = 300;
 
+/// The side of a section picture as a multiple of the diameter of the outer wall, which may be much wider than the lumen.
+const OUTER_DIAMETERS: f64 = 1.2;
+
 /// The side of section pictures (mm) in which nearly all reliable sections fit.
 pub(crate) fn section_side(profile: &Profile) -> f64 {
     let mut diameters = longest_diameters(profile);
-    let fitting = quantile(&mut diameters, FITTING_QUANTILE).map(|wide| (SECTION_DIAMETERS * wide).ceil());
+    let outer = profile.outer_stretch().map_or(0.0, |stretch| OUTER_DIAMETERS * stretch.widest[1]);
+    let fitting =
+        quantile(&mut diameters, FITTING_QUANTILE).map(|wide| (SECTION_DIAMETERS * wide).max(outer).ceil());
     fitting.map_or(DEFAULT_SIDE_MM, |side| side.clamp(SECTION_SIDES_MM[0], SECTION_SIDES_MM[1]))
 }
 

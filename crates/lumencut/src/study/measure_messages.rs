@@ -1,7 +1,10 @@
 //! Messages about measurements between page and worker. The page's types are generated from these types.
 
 use crate::flag_table::{FLAGS, FlagLook};
-use crate::measure_words::{of_bounds_at, of_c_arm, of_doubts, of_flags, of_source, of_stenosis, of_wall};
+use crate::measure_words::{
+    of_bounds_at, of_c_arm, of_doubts, of_flags, of_outer_at, of_outer_stretch, of_source, of_stenosis,
+    of_wall,
+};
 use crate::not_measured::{NotMeasured, not_measured};
 use crate::not_suggested::not_suggested;
 use crate::profile_json::Asked;
@@ -75,6 +78,10 @@ pub(crate) struct ProfileMessage {
     /// Why no narrowest place or reference is suggested, one sentence each.
     not_suggested: Vec<String>,
     not_measured: Vec<NotMeasured>,
+    /// The outer wall around thrombus or plaque, in one sentence.
+    outer_stretch: Option<String>,
+    /// Diameter of each outer wall around thrombus or plaque, in words.
+    outer: Vec<Option<String>>,
 }
 
 impl From<&Profile> for ProfileMessage {
@@ -100,6 +107,8 @@ impl From<&Profile> for ProfileMessage {
             widest: profile.offered_widest().map(SpotMessage::from),
             not_suggested: not_suggested(profile, None, &[]),
             not_measured: not_measured(profile),
+            outer_stretch: profile.outer_stretch().map(|stretch| of_outer_stretch(&stretch)),
+            outer: (0..profile.len()).map(|n| of_outer_at(profile, n)).collect(),
         }
     }
 }
@@ -269,6 +278,8 @@ pub(crate) struct SectionMessage {
     number: usize,
     /// The contour of the wall; empty if none was found.
     contour: Vec<Vector>,
+    /// The outer wall around thrombus or plaque; empty if it is not seen.
+    outer_contour: Vec<Vector>,
     shortest: Option<[Vector; 2]>,
     longest: Option<[Vector; 2]>,
 }
@@ -281,7 +292,13 @@ impl SectionMessage {
         let ends =
             |axis: DVec3| axis.is_finite().then(|| [middle - axis, middle + axis].map(|p| p.to_array()));
         let [shortest, longest] = profile.half_axes[number].map(ends);
-        Self { number, contour: arrays(&profile.contour[number]), shortest, longest }
+        Self {
+            number,
+            contour: arrays(&profile.contour[number]),
+            outer_contour: arrays(&profile.outer_contour[number]),
+            shortest,
+            longest,
+        }
     }
 }
 

@@ -4,6 +4,7 @@ use std::sync::LazyLock;
 
 use lumencut_core::volume::{Volume, Voxels};
 use lumencut_phantom::Phantom;
+use lumencut_vessels::measure::outer::found::OuterWall;
 use lumencut_vessels::measure::profile::measuring::measure;
 use lumencut_vessels::measure::profile::request::MeasureRequest;
 use lumencut_vessels::measure::wall::WallRequest;
@@ -217,6 +218,8 @@ fn a_contour_of_other_rays_and_too_many_sections_are_refused() {
     many.axes.resize(count, [DVec3::X; 2]);
     many.half_axes.resize(count, [DVec3::X; 2]);
     many.contour.resize(count, Vec::new());
+    many.outer_wall.resize(count, OuterWall::Thin);
+    many.outer_contour.resize(count, Vec::new());
     assert_eq!(read(&text_of(&many)).expect_err("too many").found, "20001 sections, more than 20000");
 }
 

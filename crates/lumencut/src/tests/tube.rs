@@ -1,6 +1,7 @@
 //! The profile of a synthetic tube.
 
 use glam::DVec3;
+use lumencut_vessels::measure::outer::found::OuterWall;
 use lumencut_vessels::measure::profile::{Profile, Source};
 use lumencut_vessels::measure::section::flags::{BRANCH, CALCIUM};
 use lumencut_vessels::measure::uncertainty::Parts;
@@ -25,6 +26,8 @@ pub(crate) fn tube() -> Profile {
         uncertainty_parts: vec![Parts { noise: 0.1, ..Parts::default() }; count],
         wall: vec![[f64::NAN; 2]; count],
         diameter_outer: vec![[f64::NAN; 2]; count],
+        outer_wall: vec![OuterWall::Thin; count],
+        outer_contour: vec![Vec::new(); count],
         bounds: at.iter().map(|at| if *at == 20.0 { [7.0, 9.0] } else { [f64::NAN; 2] }).collect(),
         at_most: vec![f64::NAN; count],
         flags: at.iter().map(|at| flags(*at)).collect(),

@@ -389,6 +389,8 @@ export type MeasuredSection = {
   readonly number: number;
   /** The contour of the wall; empty if none was found. */
   readonly contour: ReadonlyArray<Vector>;
+  /** The outer wall around thrombus or plaque; empty if it is not seen. */
+  readonly outer_contour: ReadonlyArray<Vector>;
   readonly shortest: readonly [Vector, Vector] | null;
   readonly longest: readonly [Vector, Vector] | null;
 };
@@ -544,6 +546,10 @@ export type Profile = {
   /** Why no narrowest place or reference is suggested, one sentence each. */
   readonly not_suggested: ReadonlyArray<string>;
   readonly not_measured: ReadonlyArray<NotMeasured>;
+  /** The outer wall around thrombus or plaque, in one sentence. */
+  readonly outer_stretch: string | null;
+  /** Diameter of each outer wall around thrombus or plaque, in words. */
+  readonly outer: ReadonlyArray<string | null>;
 };
 
 export type Reformation = {

@@ -21,6 +21,7 @@ use crate::measure::estimation::Level;
 use crate::measure::fit::Fit;
 use crate::measure::fit::sections::{Bench, Known, center, noise};
 use crate::measure::model::wall::KnownWall;
+use crate::measure::outer::outer_walls;
 use crate::measure::section::blur::Blur;
 use crate::measure::section::flags::{BRANCH, NO_EDGE, OUTSIDE};
 use crate::measure::section::lumen_estimate::LumenEstimate;
@@ -275,6 +276,13 @@ impl PreparedVessel {
         };
         let noise = noise * self.scale.contrast.abs();
         let profile = Profile::new(&self.places, &sections, &self.scale, noise, spread, wall_source);
+        let is_ct = is_hounsfield(voxels, &self.scale);
+        let middle = self.wall.filter(|_| is_ct).map(|wall| {
+            let [level, deviation] = wall.level;
+            [self.scale.value(level), deviation * self.scale.contrast.abs()]
+        });
+        let found = outer_walls(voxels, (&profile.inner(&self.places), middle), &bench.blur, request.stop)?;
+        let profile = profile.with_outer(found);
         Ok(Profile { without_wall: self.part.left_out(&self.places), ..profile })
     }
 

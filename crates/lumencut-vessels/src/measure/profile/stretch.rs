@@ -85,7 +85,7 @@ impl Profile {
         point_at(&self.on_vessel, &self.arc_length, at)
     }
 
-    fn check_stretch(&self, ends: [f64; 2]) -> Result<()> {
+    pub(super) fn check_stretch(&self, ends: [f64; 2]) -> Result<()> {
         for end in ends {
             self.check_place("end of the stretch", end)?;
         }

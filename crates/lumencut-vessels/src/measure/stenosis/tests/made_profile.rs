@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use glam::DVec3;
 
+use crate::measure::outer::found::OuterWall;
 use crate::measure::profile::{Profile, Source};
 use crate::measure::uncertainty::Parts;
 use crate::measure::wall::WallSource;
@@ -25,6 +26,8 @@ pub fn profile(sections: &[[f64; 2]]) -> Profile {
             .collect(),
         wall: vec![[f64::NAN; 2]; count],
         diameter_outer: vec![[f64::NAN; 2]; count],
+        outer_wall: vec![OuterWall::Thin; count],
+        outer_contour: vec![Vec::new(); count],
         bounds: vec![[f64::NAN; 2]; count],
         at_most: vec![f64::NAN; count],
         flags: vec![0; count],
