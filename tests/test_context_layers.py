@@ -180,20 +180,26 @@ def test_behind_a_slab_rays_start_where_it_ends():
         assert (layer[:, 3] > 0).any()
 
 
-@pytest.mark.parametrize("size", [(36, 22), (37, 23), (1, 17), (1, 1)])
+@pytest.mark.parametrize("size", [(36, 24), (37, 23), (1, 17), (1, 1)])
 @pytest.mark.parametrize("mode", ["mida", "mip", "average"])
-def test_a_preview_traces_the_middle_of_each_square_of_four_pixels(mode, size):
+def test_a_preview_blends_rays_through_the_middles_of_squares(mode, size):
     volume = placed(noise(8), GRIDS["oblique"])
     camera = viewed(volume, "oblique", size)
     image = drawn(volume, camera, mode, step=STEP, preview=True)
-    width, height = size
-    x = (2 * np.arange((width + 1) // 2) + 1 - width / 2) * camera.pixel_spacing
-    y = (height / 2 - 2 * np.arange((height + 1) // 2) - 1) * camera.pixel_spacing
+    side, (width, height) = 6, size
+    columns, rows = -(-width // side), -(-height // side)
+    x = (side * np.arange(columns) + side / 2 - width / 2) * camera.pixel_spacing
+    y = (height / 2 - side * np.arange(rows) - side / 2) * camera.pixel_spacing
     q = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
     rays = reference_context.follow(volume, camera, mode, step=STEP, q=q)
-    layer = reference_context.gather(rays, mode, POINTS, WINDOW)
-    squares = layer.reshape(len(y), len(x), 4).repeat(2, axis=0).repeat(2, axis=1)[:height, :width]
-    assert_same(image, squares.reshape(-1, 4))
+    layer = reference_context.gather(rays, mode, POINTS, WINDOW).reshape(rows, columns, 4)
+    for axis, count, squares in ((0, height, rows), (1, width, columns)):
+        place = np.clip((np.arange(count) + 0.5) / side - 0.5, 0, squares - 1)
+        low = place.astype(int)
+        part = (place - low).reshape(-1, *[1] * (2 - axis))
+        near, far = (np.take(layer, np.minimum(low + step, squares - 1), axis) for step in (0, 1))
+        layer = near + part * (far - near)
+    assert_same(image, layer.reshape(-1, 4))
 
 
 def test_a_preview_of_layers_keeps_the_surface_as_it_is():

@@ -35,8 +35,8 @@ const WITHIN: f64 = 0.4;
 const LEAST_NOISE: f64 = 0.012;
 
 /// Minimum covariance between periods, and minimum variance, in variances of the noise.
-const REPEATS: f64 = 0.45;
-const UNEVEN: f64 = 1.2;
+const REPEATS: f64 = 0.75;
+const UNEVEN: f64 = 1.7;
 
 /// Larger values, in standard deviations of the noise, count as this one: a single calcification does not repeat.
 const LARGEST: f64 = 2.5;
