@@ -64,6 +64,9 @@ def numbers(profile: Profile) -> dict[str, Any]:
         "widest": None if widest is None else {"at": widest[0], "diameter": widest[1]},
         "not_suggested": list(profile.not_suggested()),
         "not_measured": [],
+        # No phantom has thrombus.
+        "outer_stretch": profile._core.outer_stretch(),
+        "outer": [None for _ in profile.arc_length],
     }
 
 
