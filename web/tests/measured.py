@@ -32,6 +32,14 @@ def bounds(profile: Profile) -> list[str | None]:
     ]
 
 
+def outer(profile: Profile) -> list[str | None]:
+    """The outer walls around plaque, in words."""
+    walls = zip(profile.outer_wall, profile.diameter_outer, profile.diameter_outer_uncertainty, strict=True)
+    return [
+        f"outer wall {mm:.1f} ± {unsure:.1f} mm" if wall == "seen" else None for wall, mm, unsure in walls
+    ]
+
+
 def numbers(profile: Profile) -> dict[str, Any]:
     """The numbers of a profile by the names that the page has for them."""
 
@@ -64,9 +72,8 @@ def numbers(profile: Profile) -> dict[str, Any]:
         "widest": None if widest is None else {"at": widest[0], "diameter": widest[1]},
         "not_suggested": list(profile.not_suggested()),
         "not_measured": [],
-        # No phantom has thrombus.
         "outer_stretch": profile._core.outer_stretch(),
-        "outer": [None for _ in profile.arc_length],
+        "outer": outer(profile),
     }
 
 
