@@ -99,19 +99,19 @@ class Sections:
     """Errors (mm), stated standard deviations (mm) and true diameters (mm), and which sections count."""
 
     error: Floats
-    told: Floats
+    stated: Floats
     true: Floats
     counts: Floats
 
     def row(self) -> list[str]:
         """Return the cells of the table: all but the first are of sections that count."""
         use = self.counts.astype(bool)
-        error, told, true = self.error[use], self.told[use], self.true[use]
+        error, stated, true = self.error[use], self.stated[use], self.true[use]
         if not use.any():
             return ["0 %", *["-"] * 4]
         wrong = np.abs(error) / true
         silent = (wrong > SILENT) & (np.abs(error) > SMALLEST)
-        within = "/".join(f"{100 * np.mean(np.abs(error) <= n * told):.0f}" for n in (1, 2, 3))
+        within = "/".join(f"{100 * np.mean(np.abs(error) <= n * stated):.0f}" for n in (1, 2, 3))
         return [
             f"{100 * use.mean():.0f} %",
             f"{100 * np.median(error / true):+.1f} %",
@@ -138,13 +138,13 @@ def sections_of(name: str, count: int) -> Sections:
 
 def table(count: int, names: list[str]) -> None:
     """Print the table, with a row for all scenes."""
-    print("| scenes | count | bias | within 1/2/3 told | 95 % of errors below | silent |")
+    print("| scenes | count | bias | within 1/2/3 stated | 95 % of errors below | silent |")
     print("|---|---|---|---|---|---|")
     every = []
     for name in names:
         every.append(sections_of(name, count))
         print(f"| {name} ({count}) | {' | '.join(every[-1].row())} |", flush=True)
-    columns = ("error", "told", "true", "counts")
+    columns = ("error", "stated", "true", "counts")
     joined = Sections(*(np.concatenate([getattr(one, name) for one in every]) for name in columns))
     print(f"| all | {' | '.join(joined.row())} |")
 

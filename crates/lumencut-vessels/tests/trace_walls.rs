@@ -1,4 +1,4 @@
-//! Tests that lines through the wall between two vessels are told, in a closed-form artery of 3 mm beside a vein of 5 mm
+//! Tests that lines through the wall between two vessels are reported, in a closed-form artery of 3 mm next to a vein of 5 mm
 //! with the same brightness.
 #![allow(clippy::unwrap_used)]
 

@@ -36,7 +36,7 @@ export function LumenInset({ view, size }: { readonly view: ViewName; readonly s
         lumen, {lumen.diameter.toFixed(1)}
         {hasMillimetres.value && ' mm'}
       </span>
-      <span title="The median near the centre of the lumen; the line at the bottom tells the value at the cross-hair">
+      <span title="The median near the centre of the lumen; the line at the bottom shows the value at the cross-hair">
         median {Math.round(lumen.value)} {valueUnit()}
       </span>
       {count > 1 && (

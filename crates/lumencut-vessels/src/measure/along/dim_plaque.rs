@@ -9,7 +9,8 @@ use lumencut_core::math::statistics::median;
 /// A lumen is dim below this fraction of the level along the vessel: 0 is the level of a wall.
 const DIM: f64 = 0.93;
 
-/// A section is narrow below this fraction of the diameter of the bright ones up to this distance (mm), at least so many.
+/// A section is narrow below this fraction of the median diameter of bright sections up to this distance (mm), of which
+/// there are at least this number.
 const NARROW: f64 = 0.97;
 const BESIDE_MM: f64 = 10.0;
 const LEAST_BESIDE: usize = 4;

@@ -9,10 +9,10 @@ use crate::measure::section::rays::{RAYS, Rays, direction};
 /// Values are read from this many blur widths outside of the lumen, where blur leaves little of it, and this far (mm).
 const BEHIND: (f64, f64) = (0.9, 1.0);
 
-/// What is brighter than this is no tissue: 0 is the level of a wall, 1 that of the lumen.
+/// Brighter values are not tissue: 0 is the level of a wall, 1 that of the lumen.
 const BRIGHT: f64 = 0.25;
 
-/// Every how many rays are read, and how many of them must be bright.
+/// One of this number of rays is read, and at least this number of them must be bright.
 const EVERY: usize = 2;
 const LEAST_RAYS: usize = 3;
 

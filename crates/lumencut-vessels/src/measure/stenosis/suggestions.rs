@@ -32,7 +32,7 @@ const NEIGHBOURS: (f64, usize, f64) = (2.5, 4, 0.1);
 /// nowhere 1.1 times as wide on the other side.
 const THIN_END: [f64; 2] = [1.25, 1.1];
 
-/// A place that is not suggested is told if it is narrower than this fraction of the suggested diameter.
+/// A place that is not suggested is reported if it is narrower than this fraction of the suggested diameter.
 const NARROWER: f64 = 0.95;
 
 /// Number of sections on each side that enter a median width, because single sections may be outliers.

@@ -143,12 +143,12 @@ impl Tracer {
                     let crossings = wall_crossings(search.voxels, &traced.line);
                     crossings.iter().any(|crossing| !traced.bridged[crossing.at])
                 };
-                let is_told = met.is_some() || level_change(search.voxels, &traced.line).is_some();
-                if !is_told && !crosses(&traced) {
+                let is_doubted = met.is_some() || level_change(search.voxels, &traced.line).is_some();
+                if !is_doubted && !crosses(&traced) {
                     return Ok(traced);
                 }
                 let second = flaps.line(clicks)?.filter(|second| {
-                    (met.is_none() || flaps.met(&second.line).is_none()) && (is_told || !crosses(second))
+                    (met.is_none() || flaps.met(&second.line).is_none()) && (is_doubted || !crosses(second))
                 });
                 Ok(second.unwrap_or_else(|| {
                     let met = met.unwrap_or_default();
