@@ -11,6 +11,7 @@ mod measure_disturbed;
 mod measure_stenoses;
 mod measure_surroundings;
 mod measure_tubes;
+mod measure_walls;
 mod outer_wall;
 mod scans;
 mod throats;

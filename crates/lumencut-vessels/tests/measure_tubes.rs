@@ -4,8 +4,11 @@
 use std::f64::consts::PI;
 
 use glam::{DMat3, DVec2, DVec3};
+use lumencut_core::vessel_tree::Vessel;
 use lumencut_vessels::measure::model::ellipse::Ellipse;
 use lumencut_vessels::measure::profile::cross_section::{CrossSection, section_place};
+use lumencut_vessels::measure::profile::measuring::measure;
+use lumencut_vessels::measure::profile::request::MeasureRequest;
 use lumencut_vessels::measure::profile::{Profile, Source};
 use lumencut_vessels::measure::section::flags::RECENTERED;
 use lumencut_vessels::measure::wall::WallRequest;
@@ -142,6 +145,31 @@ fn short_stretches_tell_no_point_spread() {
 }
 
 #[test]
+fn all_vessels_of_a_tree_are_measured_with_the_point_spread_of_its_wide_vessels() {
+    let [wide, narrow] = [UPRIGHT.disc(6.0, -4.8), UPRIGHT.disc(3.0, 5.6)];
+    let value = |place| TISSUE + (LUMEN - TISSUE) * (wide(place) + narrow(place));
+    let scan = Scan::new([60, 30, 60], even(0.4), NOISE, value);
+    let beside = |x: f64, first: usize| {
+        let points = UPRIGHT.line(20.0)[first..].iter().map(|point| *point + DVec3::X * x).collect();
+        Vessel::new(points, None).unwrap()
+    };
+    let wall = WallRequest::Automatic;
+    let of = |vessel: &Vessel, tree: &[Vessel]| {
+        let request = MeasureRequest { step: 0.5, fwhm: None, wall, tree, stop: &|| false };
+        measure(&scan.volume(), vessel, &request).unwrap()
+    };
+    let tree = [beside(-4.8, 0), beside(5.6, 0)];
+    let [first, second] = [&tree[0], &tree[1]].map(|vessel| of(vessel, &tree));
+    assert_eq!((first.fwhm, &first.fwhm_source), (second.fwhm, &second.fwhm_source));
+    assert!((first.fwhm / FWHM - 1.0).abs() < 0.1, "{}", first.fwhm);
+    assert!((mean(&second.diameter_equivalent()) / 3.0 - 1.0).abs() < 0.03);
+    // A tree of stubs tells nothing, not even of a longer vessel.
+    let stubs = [beside(-4.8, 39), beside(5.6, 39)];
+    assert!(matches!(of(&tree[0], &[]).fwhm_source, Source::Estimated { .. }));
+    assert_eq!(of(&tree[0], &stubs).fwhm, 0.85);
+}
+
+#[test]
 fn a_sharp_wall_does_not_pass_for_a_blurred_one() {
     for diameter in [4.0, 5.0, 6.0, 8.0, 10.0] {
         for noise in [0.0, 20.0] {
@@ -182,7 +210,7 @@ fn cross_sections_lie_across_the_vessel_with_the_left_of_the_patient_on_the_righ
     let tube = Tube { along: DVec3::new(0.0, 0.5, 1.0).normalize(), ..UPRIGHT };
     let share = tube.disc(5.0, 0.0);
     let scan = Scan::new([35, 60, 60], tube.sides, 0.0, |place| TISSUE + (LUMEN - TISSUE) * share(place));
-    let vessel = lumencut_core::vessel_tree::Vessel::new(tube.line(14.0), None).unwrap();
+    let vessel = Vessel::new(tube.line(14.0), None).unwrap();
     let place = section_place(&vessel, 7.0, None).unwrap();
     let section = CrossSection::new(&scan.volume(), place, 12.0, 0.2).unwrap();
     assert_eq!(section.pixels, 60);
