@@ -18,6 +18,7 @@ mod throats;
 mod trace_clicks;
 mod trace_flaps;
 mod trace_mask;
+mod trace_mask_tubes;
 mod trace_rooms;
 mod trace_tubes;
 mod trace_walls;
