@@ -321,7 +321,6 @@ fn presets_follow_the_context_window() {
 
 #[test]
 fn shading_is_that_of_the_direction_in_which_values_rise_at_the_place() {
-    // Values rise along the view on the left, and across it on the right.
     let size = [16, 12, 12];
     let value = |n: usize| (100 + 10 * if n % 16 < 8 { n / 16 % 12 } else { n / 192 }) as i16;
     let voxels: Vec<i16> = (0..size.iter().product()).map(value).collect();
