@@ -1,8 +1,10 @@
 //! Grades stenoses of known width, and suggests references.
 #![allow(clippy::unwrap_used)]
 
+use lumencut_core::error::ErrorKind;
 use lumencut_vessels::measure::profile::Profile;
-use lumencut_vessels::measure::stenosis::{Compared, Method};
+use lumencut_vessels::measure::stenosis::groups::Territory;
+use lumencut_vessels::measure::stenosis::{Compared, Method, Stenosis};
 use lumencut_vessels::measure::wall::WallRequest;
 
 use crate::scans::{FWHM, narrowed, profile};
@@ -56,4 +58,23 @@ fn nascet_is_refused_at_a_near_occlusion() {
     assert!(profile.stenosis(30.0, Method::Nascet, &compared(5.5)).unwrap().percent > 40.0);
     let error = profile.stenosis(30.0, Method::Nascet, &compared(6.0)).unwrap_err();
     assert!(error.to_string().contains("near-occlusion"), "{error}");
+}
+
+#[test]
+fn groups_change_where_whole_percentages_do() {
+    let graded = narrowed_by(40.0).stenosis(30.0, Method::Nascet, &beside(&[45.0])).unwrap();
+    for (percent, carotid, coronary) in [
+        (0.4, "below 50 %", "0 %: CAD-RADS 0"),
+        (24.4, "below 50 %", "1 to 24 %: CAD-RADS 1"),
+        (24.6, "below 50 %", "25 to 49 %: CAD-RADS 2"),
+        (49.6, "50 to 69 %", "50 to 69 %: CAD-RADS 3"),
+        (69.6, "70 to 99 %", "70 to 99 %: CAD-RADS 4"),
+        (99.6, "70 to 99 %", "100 %: CAD-RADS 5"),
+    ] {
+        let of = |territory| Stenosis { percent, ..graded.clone() }.group(territory).unwrap();
+        assert!(of(Territory::Carotid).starts_with(carotid), "{percent}");
+        assert!(of(Territory::Coronary).starts_with(coronary), "{percent}");
+    }
+    let by_area = Stenosis { method: Method::Area, ..graded };
+    assert_eq!(by_area.group(Territory::Carotid).unwrap_err().kind, ErrorKind::Measuring);
 }

@@ -124,6 +124,22 @@ fn vessels_that_meet_share_their_ends() {
 }
 
 #[test]
+fn vessels_lead_outwards_from_the_widest_free_end() {
+    let (trunk, fork) = ([20.0, 20.0, 2.0], [20.0, 20.0, 18.0]);
+    let arms = [[8.0, 20.0, 36.0], [32.0, 20.0, 36.0]];
+    let found =
+        Mask::cubes(&[(&[trunk, fork], 5.0), (&[arms[0], fork], 2.6), (&[fork, arms[1]], 2.6)]).traced();
+    let fork = DVec3::from(fork);
+    for vessel in &found.vessels {
+        let away = |n: usize| vessel.points[n].distance(fork);
+        let last = vessel.points.len() - 1;
+        let is_trunk = vessel.points[0].z.min(vessel.points[last].z) < 6.0;
+        assert_eq!(is_trunk, away(0) > away(last), "{} to {}", vessel.points[0], vessel.points[last]);
+    }
+    assert!(found.vessels.len() >= 3);
+}
+
+#[test]
 fn cavities_are_filled_and_counted() {
     let mut mask = Mask::cubes(&[(&[[5.0, 20.0, 20.0], [35.0, 20.0, 20.0]], 5.0)]);
     let solid = mask.traced();

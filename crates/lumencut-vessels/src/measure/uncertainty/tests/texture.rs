@@ -55,3 +55,70 @@ fn near_pairs_are_those_of_a_search_of_all() {
         assert_eq!(found, expected, "{extent:?}");
     }
 }
+
+#[test]
+fn pairs_are_summed_by_their_offsets_and_the_far_ones_together() {
+    let mut next = random(5);
+    let voxel: Vec<[[i16; 3]; FAN]> = (0..12_i16)
+        .map(|n| std::array::from_fn(|l| [n % 7, 2 * (l as i16 % 4), l as i16 / 4 + 4 * (n / 7)]))
+        .collect();
+    let missing: Vec<[f32; FAN]> =
+        (0..12).map(|_| std::array::from_fn(|_| next(1000) as f32 / 500.0 - 1.0)).collect();
+    let none = vec![[0.0; FAN]; 12];
+    let mut weight = vec![[1.0; FAN]; 12];
+    weight[3][1] = 0.0;
+    let samples = Samples { x: none.clone(), y: none.clone(), share: none, weight, voxel, count: 12 * FAN };
+    // Residuals beyond four times the noise of 0.2 do not count.
+    let pairs = Pairs::new(&samples, &missing, 0.2);
+    let kept: Vec<([i16; 3], f64)> = (0..12 * FAN)
+        .map(|n| (n / FAN, n % FAN))
+        .filter(|(n, l)| samples.weight[*n][*l] > 0.0 && missing[*n][*l].abs() < 0.8)
+        .map(|(n, l)| (samples.voxel[n][l], f64::from(missing[n][l])))
+        .collect();
+    assert!((100..12 * FAN - 10).contains(&kept.len()), "{}", kept.len());
+    let mut expected = Pairs { products: Default::default(), count: Default::default(), far: [0.0; 2] };
+    for (n, (voxel, a)) in kept.iter().enumerate() {
+        for (other, b) in &kept[n..] {
+            let (sum, count) = match apart(*voxel, *other) {
+                Some([i, j, k]) => (&mut expected.products[i][j][k], &mut expected.count[i][j][k]),
+                None => {
+                    let [sum, count] = &mut expected.far;
+                    (sum, count)
+                }
+            };
+            *sum += a * b;
+            *count += 1.0;
+        }
+    }
+    assert_eq!((pairs.count, pairs.far[1]), (expected.count, expected.far[1]));
+    let apart = |a: f64, b: f64| (a - b).abs() < 1e-9;
+    assert!(apart(pairs.far[0], expected.far[0]) && pairs.far[1] > 0.0);
+    let [found, expected] =
+        [pairs, expected].map(|pairs| pairs.products.as_flattened().as_flattened().to_vec());
+    assert!(found.into_iter().zip(expected).all(|(a, b)| apart(a, b)));
+}
+
+#[test]
+fn white_noise_is_correlated_with_itself_alone() {
+    let white = Texture::white().correlation;
+    assert_eq!(white[0][0][0], 1.0);
+    assert_eq!(white.as_flattened().as_flattened().iter().sum::<f32>(), 1.0);
+}
+
+#[test]
+fn correlation_inflates_variances_by_its_sum_over_the_blur() {
+    let sides = DMat3::from_cols_array_2d(&[[0.5, 0.0, 0.0], [0.1, 0.6, 0.0], [0.0, 0.2, 0.8]]);
+    assert_eq!(Texture::white().inflation(sides, 0.9), 1.0);
+    let even = Texture { correlation: [[[0.5; CORRELATED_VOXELS]; CORRELATED_VOXELS]; CORRELATED_VOXELS] };
+    let (offsets, mut expected) = (-4..=4, 0.0);
+    for i in offsets.clone() {
+        for j in offsets.clone() {
+            for k in offsets.clone() {
+                let apart = sides * DVec3::new(f64::from(i), f64::from(j), f64::from(k));
+                expected += 0.5 * (-0.5 * apart.length_squared() / (0.9 * 0.9)).exp();
+            }
+        }
+    }
+    let found = even.inflation(sides, 0.9);
+    assert!(expected > 2.0 && (found - expected).abs() < 1e-6, "{found} {expected}");
+}
