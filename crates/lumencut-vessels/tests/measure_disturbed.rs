@@ -12,7 +12,6 @@ use lumencut_vessels::measure::wall::WallRequest;
 
 use crate::scans::{FWHM, LUMEN, NOISE, Scan, TISSUE, Tube, UPRIGHT, even, mean, profile};
 
-/// A vessel of 20 mm with something more in its section, which is added to the values.
 fn with(diameter: f64, more: impl Fn(DVec3) -> f64) -> Profile {
     let share = UPRIGHT.disc(diameter, 0.0);
     let value = |place| TISSUE + (LUMEN - TISSUE) * share(place) + more(place);

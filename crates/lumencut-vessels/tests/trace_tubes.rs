@@ -39,7 +39,6 @@ fn away(place: DVec3) -> f64 {
     outwards.hypot(upwards)
 }
 
-/// The share of a structure within a signed distance (mm), with an edge as wide as in scans.
 fn share(depth: f64) -> f64 {
     1.0 / (1.0 + (-4.0 * depth).exp())
 }

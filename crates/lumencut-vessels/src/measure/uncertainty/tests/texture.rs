@@ -68,7 +68,6 @@ fn pairs_are_summed_by_their_offsets_and_the_far_ones_together() {
     let mut weight = vec![[1.0; FAN]; 12];
     weight[3][1] = 0.0;
     let samples = Samples { x: none.clone(), y: none.clone(), share: none, weight, voxel, count: 12 * FAN };
-    // Residuals beyond four times the noise of 0.2 do not count.
     let pairs = Pairs::new(&samples, &missing, 0.2);
     let kept: Vec<([i16; 3], f64)> = (0..12 * FAN)
         .map(|n| (n / FAN, n % FAN))
