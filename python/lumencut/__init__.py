@@ -79,6 +79,7 @@ if TYPE_CHECKING:
     from lumencut.tracing.centerline_comparison import CenterlineComparison, compare_centerlines
     from lumencut.tracing.mask_tracing import trace_mask
     from lumencut.tracing.seed_tracing import trace_from
+    from lumencut.tracing.suggested_names import SuggestedName, suggest_names
     from lumencut.tracing.tracer import Tracer, trace
     from lumencut.tracing.vessel_finding import find_vessels
 
@@ -149,6 +150,7 @@ _HOME = {
     "tracing.centerline_comparison": ("CenterlineComparison", "compare_centerlines"),
     "tracing.mask_tracing": ("trace_mask",),
     "tracing.seed_tracing": ("trace_from",),
+    "tracing.suggested_names": ("SuggestedName", "suggest_names"),
     "tracing.tracer": ("Tracer", "trace"),
     "tracing.vessel_finding": ("find_vessels",),
 }
@@ -197,6 +199,7 @@ __all__ = [
     "Stenosis",
     "StraightenedVolume",
     "StudyWarning",
+    "SuggestedName",
     "TangentialReformation",
     "Tracer",
     "TracingError",
@@ -235,6 +238,7 @@ __all__ = [
     "show",
     "spiral",
     "straightened_volume",
+    "suggest_names",
     "trace",
     "trace_from",
     "trace_mask",

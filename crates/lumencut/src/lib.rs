@@ -55,6 +55,7 @@ pub mod scan_details;
 pub mod spiral_lengths;
 pub mod straightened_sides;
 pub mod study;
+pub mod suggested_names;
 mod text;
 #[cfg(test)]
 #[path = "tests/tube.rs"]

@@ -140,7 +140,9 @@ fn head(shown: &Shown, vessel: &VesselPage) -> String {
     let scan = shown.scan.as_ref().map(|scan| format!("{scan} – ")).unwrap_or_default();
     let saved = shown.saved.as_ref().map(|words| paragraph("", &format!("Saved on {words}")));
     let head = format!("<h1>{}, {length}</h1>\n", escaped(&format!("{scan}{name}")));
-    head + &saved.unwrap_or_default() + &paragraph("notice", NOTICE)
+    let suggested = vessel.measured.suggested_name.as_ref();
+    let suggested = suggested.map(|name| paragraph("", &format!("Suggested name, not confirmed: {name}?")));
+    head + &suggested.unwrap_or_default() + &saved.unwrap_or_default() + &paragraph("notice", NOTICE)
 }
 
 fn top(shown: &Shown, vessel: &VesselPage) -> Result<String> {
