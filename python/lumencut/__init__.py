@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from lumencut.files.centerline_writers import write_centerlines
     from lumencut.files.centerlines import read_centerlines
     from lumencut.files.volumes import SeriesReport, list_series, read_volume
+    from lumencut.measuring.comparison import Change, Comparison, compare
     from lumencut.measuring.flags import Flag
     from lumencut.measuring.measurements import Measurements
     from lumencut.measuring.profile import Profile
@@ -112,6 +113,7 @@ _HOME = {
     "files.centerline_writers": ("write_centerlines",),
     "files.centerlines": ("read_centerlines",),
     "files.volumes": ("SeriesReport", "list_series", "read_volume"),
+    "measuring.comparison": ("Change", "Comparison", "compare"),
     "measuring.flags": ("Flag",),
     "measuring.measurements": ("Measurements",),
     "measuring.profile": ("Profile",),
@@ -162,6 +164,8 @@ __all__ = [
     "Camera",
     "CameraError",
     "CenterlineComparison",
+    "Change",
+    "Comparison",
     "CrossSection",
     "Device",
     "DeviceError",
@@ -216,6 +220,7 @@ __all__ = [
     "batch",
     "brightest",
     "cfa",
+    "compare",
     "compare_centerlines",
     "cpr",
     "cr",

@@ -7,6 +7,7 @@ pub mod axes_words;
 pub mod backend;
 mod choice;
 pub mod clicked_vessel;
+pub mod comparison;
 pub mod cut_at;
 pub mod cut_diameter;
 pub mod defaults;

@@ -54,7 +54,8 @@ pub fn vessels_json(asked: &Asked, vessels: &[Measured]) -> String {
     document(&Vessels { settings: asked, vessels: vessels.iter().map(VesselRecord::of).collect() })
 }
 
-fn document<T: Serialize>(content: &T) -> String {
+/// A JSON document with the version of the software and the notice.
+pub(crate) fn document<T: Serialize>(content: &T) -> String {
     #[derive(Serialize)]
     struct Document<'a, T> {
         software: String,

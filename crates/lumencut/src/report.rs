@@ -2,6 +2,7 @@
 //! caller passes its name. The caller supplies the pictures.
 
 pub mod chart;
+pub mod comparison;
 pub(crate) mod curves;
 mod findings;
 pub mod frame;

@@ -1,6 +1,7 @@
 //! Rules for veins and the heart: their brightness, compared with the aorta's, and their place.
 
 use glam::DVec3;
+use lumencut_core::math::arc_length::arc_lengths;
 use lumencut_core::math::statistics::median;
 use lumencut_core::volume::Volume;
 use lumencut_vessels::voxels::Voxels;
@@ -15,6 +16,8 @@ const LENGTH: f64 = 40.0;
 /// The contrast as a share of the aorta's. No artery is brighter than the aorta: contrast medium flows in, or through the lungs.
 const BRIGHT: f64 = 1.1;
 const PALE: [f64; 2] = [0.4, 0.7];
+/// A pale vein is at least this many diameters long; shorter tubes may be bone or an organ.
+const SLENDER: f64 = 6.0;
 /// A pale vessel nearer to the wall of the aorta may be a false lumen (mm).
 const BESIDE: f64 = 8.0;
 /// The aorta is read in as many parts: contrast medium fills true and false lumen differently.
@@ -61,6 +64,11 @@ impl<'a> Aorta<'a> {
     }
 
     fn is_pale(&self, tube: Tube) -> bool {
+        let length = arc_lengths(tube.0).last().copied().unwrap_or_default();
+        let diameter = 2.0 * usual(tube.1.iter().copied()).unwrap_or_default();
+        if length < SLENDER * diameter {
+            return false;
+        }
         let share = self.contrast([tube].into_iter()).map(|contrast| contrast / self.contrast[0]);
         share.is_some_and(|share| (PALE[0]..=PALE[1]).contains(&share)) && !self.is_beside(tube.0)
     }
