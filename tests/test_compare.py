@@ -7,9 +7,11 @@ import pytest
 from click.testing import CliRunner
 
 import lumencut
-from lumencut import Vessel, VesselTree, Volume, compare, measure
+from lumencut import Vessel, VesselTree, Volume, compare, measure, phantom
 from lumencut.cli import main
+from lumencut.scene.study import Study
 from measure_scenes import LUMEN, NOISE, PARTS, TISSUE, Grid
+from scene_files import write_volume_of
 
 #: Diameter of the vessel, and of its stenosis in the earlier and the later scan (mm).
 DIAMETER, BEFORE, AFTER = 6.0, 5.0, 3.5
@@ -107,7 +109,7 @@ def test_what_cannot_be_compared_is_refused(profiles):
     for pairs in ([(1.0, 2.0, 3.0)], [("a", 1)], [(1.0, 1e9)], [(float("nan"), 1.0)], [(5, 5), (10, 40)]):
         with pytest.raises(lumencut.MeasuringError):
             compare(profiles[0], profiles[1], pairs)
-    straight = lumencut.phantom.straight_tube()
+    straight = phantom.straight_tube()
     tube = measure(straight.volume, straight.tree[0])
     with pytest.raises(lumencut.MeasuringError, match="give a pair of places"):
         compare(tube, tube)
@@ -120,7 +122,7 @@ def test_scans_of_two_patients_or_modalities_are_stated(profiles):
     def of(profile, patient, modality):
         data = header()
         data.PatientID, data.Modality = patient, modality
-        study = lumencut.scene.study.Study(data)
+        study = Study(data)
         made = lumencut.Profile(profile._core, profile._vessel, replace(profile._origin, study=study))
         return made
 
@@ -136,7 +138,7 @@ def test_scans_of_two_patients_or_modalities_are_stated(profiles):
 def test_the_command_compares_vessels_by_their_names(scans, tmp_path):
     files = []
     for name, (volume, vessel) in zip(("before", "after"), scans, strict=False):
-        volume.save(tmp_path / f"{name}.nii.gz")
+        write_volume_of(volume, tmp_path / f"{name}.nii.gz")
         lumencut.write_centerlines(VesselTree([vessel]), tmp_path / f"{name}.vtp")
         files += [str(tmp_path / f"{name}.nii.gz"), str(tmp_path / f"{name}.vtp")]
     report = tmp_path / "change.html"
