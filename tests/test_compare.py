@@ -142,11 +142,18 @@ def test_the_command_compares_vessels_by_their_names(scans, tmp_path):
         lumencut.write_centerlines(VesselTree([vessel]), tmp_path / f"{name}.vtp")
         files += [str(tmp_path / f"{name}.nii.gz"), str(tmp_path / f"{name}.vtp")]
     report = tmp_path / "change.html"
-    done = CliRunner().invoke(main, ["compare", *files, "-o", str(report), "-o", str(tmp_path / "change.csv")])
+    done = CliRunner().invoke(
+        main, ["compare", *files, "-o", str(report), "-o", str(tmp_path / "change.csv")]
+    )
     assert done.exit_code == 0, done.output
     assert "ICA: Comparison(" in done.output and "narrower from" in done.output
     assert report.exists()
-    for more in (["--pair", "3"], ["--pair", "3,4"], ["--later-vessel", "ICA"], ["-o", str(tmp_path / "a.pdf")]):
+    for more in (
+        ["--pair", "3"],
+        ["--pair", "3,4"],
+        ["--later-vessel", "ICA"],
+        ["-o", str(tmp_path / "a.pdf")],
+    ):
         assert CliRunner().invoke(main, ["compare", *files, "-o", str(report), *more]).exit_code == 2
     bare = VesselTree([Vessel(scans[1][1].points, 3.0, "ECA")])
     lumencut.write_centerlines(bare, tmp_path / "after.vtp")
