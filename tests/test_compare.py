@@ -97,7 +97,9 @@ def test_tables_and_reports_state_the_change(profiles, tmp_path):
     assert len(rows) == len(found.arc_length) + 1
     assert sum(row.endswith(",1") for row in rows) > 5
     html = (tmp_path / "change.html").read_text()
-    assert "2026 &lt;b&gt;" in html and "Narrower from" in html and "<script" not in html
+    assert "2026 &lt;b&gt;" in html
+    assert "Narrower from" in html
+    assert "<script" not in html
     with pytest.raises(lumencut.FormatError):
         found.save(tmp_path / "change.png")
 
@@ -123,8 +125,7 @@ def test_scans_of_two_patients_or_modalities_are_stated(profiles):
         data = header()
         data.PatientID, data.Modality = patient, modality
         study = Study(data)
-        made = lumencut.Profile(profile._core, profile._vessel, replace(profile._origin, study=study))
-        return made
+        return lumencut.Profile(profile._core, profile._vessel, replace(profile._origin, study=study))
 
     first, second = of(profiles[0], "A1", "CT"), of(profiles[2], "B2", "CT")
     with pytest.raises(lumencut.MeasuringError, match="'A1' and PatientID 'B2'"):
@@ -146,7 +147,8 @@ def test_the_command_compares_vessels_by_their_names(scans, tmp_path):
         main, ["compare", *files, "-o", str(report), "-o", str(tmp_path / "change.csv")]
     )
     assert done.exit_code == 0, done.output
-    assert "ICA: Comparison(" in done.output and "narrower from" in done.output
+    assert "ICA: Comparison(" in done.output
+    assert "narrower from" in done.output
     assert report.exists()
     for more in (
         ["--pair", "3"],

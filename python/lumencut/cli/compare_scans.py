@@ -41,7 +41,8 @@ class _Side(NamedTuple):
     type=options.FILE,
     multiple=True,
     required=True,
-    help="The differences as a table (.csv) or JSON (.json) of one vessel, or a report of all (.html); may be repeated.",
+    help="The differences as a table (.csv) or JSON (.json) of one vessel, or a report of all (.html); "
+    "may be repeated.",
 )
 @click.option("--vessel", metavar="NAME|ID", help="Compare only this vessel of EARLIER_LINES.")
 @click.option(
@@ -52,7 +53,7 @@ class _Side(NamedTuple):
     type=PLACES,
     multiple=True,
     metavar=PLACES.name,
-    help="Places that belong together: arc lengths on the earlier and the later vessel (mm); may be repeated.",
+    help="Places that belong together: arc lengths on both vessels, the earlier first (mm); may be repeated.",
 )
 @click.option("--other-patient", is_flag=True, help="Accept scans of two patients.")
 @options.reading_options
@@ -137,7 +138,7 @@ def _vessels(sides: _Sides, chosen: dict[str, Any]) -> list[tuple[str, int, int]
 
 
 def _names(side: _Side) -> dict[str, int]:
-    """Return the ids of vessels by their names, or by their suggested names; without names that several have."""
+    """Return the ids of vessels by their names, given or suggested; without names that several have."""
     from lumencut.tracing.suggested_names import suggest_names
 
     suggested = suggest_names(side.tree)
@@ -161,13 +162,15 @@ def _compared(
     with bar("measuring", "vessel") as progress:
         for number, (name, *ids) in enumerate(pairs, 1):
             try:
-                both = [
+                first, second = (
                     measure(side.voxels, side.tree[n], tree=side.tree)
                     for side, n in zip(sides, ids, strict=True)
-                ]
+                )
                 scans = (sides.earlier.name, sides.later.name)
-                how = {"vessel": name, "scans": scans, "other_patient": other_patient}
-                found.append((name, compare(both[0], both[1], chosen["pair"], **how)))
+                made = compare(
+                    first, second, chosen["pair"], vessel=name, scans=scans, other_patient=other_patient
+                )
+                found.append((name, made))
             except MeasuringError as error:
                 if len(pairs) == 1 or error.subject == "scans to compare":
                     raise
