@@ -6,6 +6,7 @@ mod after_edit;
 pub mod asking;
 pub mod brightest;
 mod centerline_files;
+mod comparing;
 mod content;
 mod document;
 mod doubts;

@@ -52,6 +52,15 @@ export const sure = computed<readonly DocumentVessel[]>(() =>
 
 export const factsOf = ({ line }: DocumentVessel): LineFacts | undefined => facts.value.get(line);
 
+/** A name for the user to confirm, if the vessel has no name or only a number. */
+export const suggestedNameOf = (vessel: DocumentVessel): string | null =>
+  /[^\d]$/.test(vessel.name) ? null : (factsOf(vessel)?.suggested_name ?? null);
+
+/** The vessels that seem to be veins or parts of the heart, unless the user named them. */
+export const veinsAndHeart = computed<readonly DocumentVessel[]>(() =>
+  sure.value.filter((vessel) => factsOf(vessel)?.is_vein_or_heart && !/[^\d]$/.test(vessel.name)),
+);
+
 const latest = new Latest();
 
 /** Keeps lengths and diameters of the vessels up to date while the list is open. Returns a function that stops this. */

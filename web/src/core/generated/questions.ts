@@ -81,6 +81,29 @@ export type Compared = {
   readonly method: StenosisMethod;
 };
 
+export type Comparison = {
+  /** What changed, in sentences. */
+  readonly lines: ReadonlyArray<string>;
+  /** Arc length of each section (mm), and the arc length on the other vessel; null beyond its ends. */
+  readonly places: ReadonlyArray<readonly [number, number | null]>;
+  /** The report as HTML. */
+  readonly report: string;
+};
+
+export type ComparisonRequest = {
+  readonly line: number;
+  /** What the vessel is called. */
+  readonly vessel: string;
+  /** The record of the profile in the later scan. */
+  readonly later: string;
+  /** What the earlier and the later scan are called. */
+  readonly scans: readonly [string, string];
+  /** Places that belong together (arc lengths on both vessels, mm); none matches the vessels by shape. */
+  readonly pairs: ReadonlyArray<Pair>;
+  /** Doubts of the page about the scans. */
+  readonly doubts: ReadonlyArray<string>;
+};
+
 export type Cpr = {
   readonly vessel: number;
   /** Rotation about the axis of the vessel (radians). */
@@ -315,6 +338,10 @@ export type LineFacts = {
   readonly part: number;
   /** The line from which this line branches; null for the widest line of a part. */
   readonly parent: number | null;
+  /** The name that the rules suggest; null if they are not sure. */
+  readonly suggested_name: string | null;
+  /** Whether the line seems to be a vein or part of the heart. */
+  readonly is_vein_or_heart: boolean;
 };
 
 /** A line in a viewer's list. A hidden line is not drawn but is measured together with the others, so hiding changes no number. */
@@ -1290,6 +1317,11 @@ export type Questions = {
     };
     readonly answer: string;
   };
+  /** Compares a line of this scan with its profile in a later scan. */
+  readonly compared: {
+    readonly message: ComparisonRequest;
+    readonly answer: Comparison;
+  };
   /** The findings on vessels and the straight distances (mm), in the sentences of the report. */
   readonly findings: {
     readonly message: {
@@ -1419,6 +1451,7 @@ export const TURNS = {
   profiles_csv: { when: 'first', words: null },
   profiles_json: { when: 'first', words: null },
   profile_record: { when: 'first', words: null },
+  compared: { when: 'first', words: null },
   findings: { when: 'first', words: null },
   measure_layout: { when: 'first', words: null },
   report_plan: { when: 'first', words: null },
