@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import lumencut
-from lumencut import phantom, suggest_names
 from conftest import needs_shared_data
+from lumencut import phantom, suggest_names
 
 
 def named(tree, volume=None):
@@ -57,7 +57,11 @@ def test_a_suggestion_names_nothing_by_itself_and_anything_else_is_refused():
 @needs_shared_data
 def test_the_stent_graft_has_its_aorta_iliacs_and_mesenteric_artery(shared_data):
     tree = lumencut.read_centerlines(shared_data / "stent-cta" / "centerlines.vtp", coordinates="lps")
-    both = {f"{side} {kind} iliac artery" for side in ("Left", "Right") for kind in ("common", "internal", "external")}
+    both = {
+        f"{side} {kind} iliac artery"
+        for side in ("Left", "Right")
+        for kind in ("common", "internal", "external")
+    }
     # The lines lead to both external and internal iliac arteries and to the superior mesenteric artery.
     assert named(tree) == both | {"Abdominal aorta", "Superior mesenteric artery"}
     assert tree.bounds[1, 2] > 200

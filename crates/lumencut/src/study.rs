@@ -6,7 +6,6 @@ mod after_edit;
 pub mod asking;
 pub mod brightest;
 mod centerline_files;
-mod comparing;
 mod content;
 mod document;
 mod doubts;

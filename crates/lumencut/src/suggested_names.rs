@@ -15,8 +15,8 @@ use lumencut_core::volume::Volume;
 use crate::suggested_names::given::Given;
 pub use crate::suggested_names::given::NamedStretch;
 use crate::suggested_names::graph::{Graph, Tube};
+use crate::suggested_names::trunk::Bifurcation;
 use crate::suggested_names::veins::Aorta;
-use crate::vessel_names::vessel_named;
 
 /// A line has a suggested name if at least this share of it has one: a vessel is often traced on into its branches.
 const NAMED_SHARE: f64 = 0.35;
@@ -39,7 +39,7 @@ pub struct SuggestedName {
 
 /// Whether a name is offered to a reader: the vessel has no name, or only one with a number, such as `Vessel 3`.
 pub fn is_nameless(name: &str) -> bool {
-    name.is_empty() || name.ends_with(|last: char| last.is_ascii_digit()) && vessel_named(name).is_none()
+    name.chars().next_back().is_none_or(|last| last.is_ascii_digit())
 }
 
 /// Suggests names for lines with their radii (mm, LPS). Lines meet where one ends at a point of another. A line of unknown radius gets
@@ -48,8 +48,7 @@ pub fn suggested_names(lines: &[(&[DVec3], Option<&[f64]>)], volume: Option<&Vol
     let known = |line: &usize| lines[*line].1.is_some_and(|radius| radius.iter().any(|radius| *radius > 0.0));
     let numbers: Vec<usize> = (0..lines.len()).filter(known).collect();
     let tubes: Vec<Tube> = numbers.iter().map(|n| (lines[*n].0, lines[*n].1.unwrap_or_default())).collect();
-    let given = named(&tubes);
-    let stretches: Vec<Vec<NamedStretch>> = (0..tubes.len()).map(|tube| given.of_line(tube)).collect();
+    let stretches = named(&tubes);
     let is_vein = veins_and_heart(&tubes, &stretches, volume);
     let mut suggested = vec![SuggestedName::default(); lines.len()];
     for (((line, tube), stretches), is_vein) in numbers.into_iter().zip(&tubes).zip(stretches).zip(is_vein) {
@@ -59,13 +58,20 @@ pub fn suggested_names(lines: &[(&[DVec3], Option<&[f64]>)], volume: Option<&Vol
     suggested
 }
 
-fn named(tubes: &[Tube]) -> Given {
+/// The named stretches of each tube.
+fn named(tubes: &[Tube]) -> Vec<Vec<NamedStretch>> {
     let graph = Graph::of(tubes);
     let mut given = Given::default();
     // The pulmonary trunk and the inferior vena cava have similar shapes; the first with the branches of an aorta counts.
     trunk::arches(&graph).iter().any(|arch| neck::name_arch(&graph, arch, &mut given));
-    trunk::bifurcations(&graph).iter().any(|found| branches::name_abdominal(&graph, found, &mut given));
-    given
+    let mut found = trunk::bifurcations(&graph);
+    let width = |found: &Bifurcation| found.trunk.course.radius();
+    while let Some(widest) = (0..found.len()).max_by(|a, b| width(&found[*a]).total_cmp(&width(&found[*b]))) {
+        if branches::name_abdominal(&graph, &found.swap_remove(widest), &mut given) {
+            break;
+        }
+    }
+    (0..tubes.len()).map(|tube| given.of_line(&graph, tube)).collect()
 }
 
 fn veins_and_heart(tubes: &[Tube], stretches: &[Vec<NamedStretch>], volume: Option<&Volume>) -> Vec<bool> {

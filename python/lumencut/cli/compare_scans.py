@@ -44,7 +44,9 @@ class _Side(NamedTuple):
     help="The differences as a table (.csv) or JSON (.json) of one vessel, or a report of all (.html); may be repeated.",
 )
 @click.option("--vessel", metavar="NAME|ID", help="Compare only this vessel of EARLIER_LINES.")
-@click.option("--later-vessel", metavar="NAME|ID", help="The same vessel in LATER_LINES; default: by its name.")
+@click.option(
+    "--later-vessel", metavar="NAME|ID", help="The same vessel in LATER_LINES; default: by its name."
+)
 @click.option(
     "--pair",
     type=PLACES,
@@ -71,7 +73,9 @@ def compare_scans(output: tuple[Path, ...], other_patient: bool, **chosen: Any) 
 
     compared = _compared(sides, pairs, chosen, other_patient=other_patient)
     if not compared:
-        raise MeasuringError("vessels to compare", "none that can be compared", "one or more; see the warnings")
+        raise MeasuringError(
+            "vessels to compare", "none that can be compared", "one or more; see the warnings"
+        )
     for path in output:
         if path.suffix.lower() in _ENDINGS[:2] and len(compared) > 1:
             found = f"{path}: found {len(compared)} vessels; expected one, or a report (.html)"

@@ -184,7 +184,6 @@ def _measured(
     """Return the measured vessels, and warn of vessels that cannot be measured; fail if none can."""
     from lumencut.measuring.measured_vessel import MeasuredVessel
     from lumencut.measuring.sections import measure as library
-
     from lumencut.tracing.suggested_names import suggest_names
 
     found, marked = [], _marked(chosen)

@@ -95,7 +95,10 @@ class Comparison:
     @property
     def changes(self) -> tuple[Change, ...]:
         """Parts that differ by more than two standard deviations over at least 2 mm, in order."""
-        return tuple(Change(*(number for pair in parts for number in pair)) for parts in self._core.changes)
+        return tuple(
+            Change(*ends, *places, before, unsure, after, later_unsure, *difference)
+            for ends, places, (before, after), (unsure, later_unsure), difference in self._core.changes
+        )
 
     @property
     def typical_difference(self) -> float:

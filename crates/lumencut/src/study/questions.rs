@@ -8,7 +8,6 @@ use crate::straightened_sides::StraightenedSides;
 use crate::study::after_edit::{AfterEdit, FirstClick};
 use crate::study::asking::{Answer, Answering, Asking, Turn, WrittenFile, questions, read};
 use crate::study::centerline_files::{AskedMessage, OpenedLines};
-use crate::study::comparing::{ComparisonMessage, ComparisonRequest};
 use crate::study::content::Report;
 use crate::study::document::{Document, DocumentVessel};
 use crate::study::doubts::{DoubtRow, doubt_rows};
@@ -193,10 +192,6 @@ of_the_study {
 
     /// The record of a line's profile, for the width that was last requested. Python reads it as a `Profile`.
     [Turn::First] profile_record { line: usize } -> String = study.profile_record(line, asking.watch.stop)?;
-
-    /// Compares a line of this scan with its profile in a later scan.
-    [Turn::First] compared(request: ComparisonRequest) -> ComparisonMessage =
-        study.compared(&request, asking.watch.stop)?;
 
     /// The findings on vessels and the straight distances (mm), in the sentences of the report.
     [Turn::First] findings { vessels: Vec<VesselMessage>, distances: Vec<f64>, stated: Stated } -> Findings =

@@ -108,19 +108,16 @@ fn celiac_trunk<'a>(branches: &'a [Branch], mesenteric: &Branch) -> Option<&'a B
 /// The renal artery of a side, if it is clearly the widest branch there.
 fn renal<'a>(branches: &'a [Branch], side: Side, mesenteric: Option<&Branch>) -> Option<&'a Branch> {
     let aside = if side == Side::Left { 1.0 } else { -1.0 };
-    let mut sideways: Vec<&Branch> = branches
-        .iter()
-        .filter(|branch| {
-            is_in(OF_RENAL, branch.at)
-                && mesenteric.is_none_or(|other| is_in(AROUND_MESENTERIC, branch.at - other.at))
-                && branch.heading.x * aside >= SIDEWAYS
-                && branch.course.reach(80.0).x * aside >= ASIDE
-        })
-        .collect();
-    sideways.sort_by(|a, b| b.radius.total_cmp(&a.radius));
-    let widest = *sideways.first()?;
-    let is_clear = sideways.get(1).is_none_or(|next| next.radius <= CLEARLY_WIDER * widest.radius);
-    (is_clear && widest.radius >= RENAL_RADIUS).then_some(widest)
+    let is_sideways = |branch: &&Branch| {
+        is_in(OF_RENAL, branch.at)
+            && mesenteric.is_none_or(|other| is_in(AROUND_MESENTERIC, branch.at - other.at))
+            && branch.heading.x * aside >= SIDEWAYS
+            && branch.course.reach(80.0).x * aside >= ASIDE
+    };
+    let sideways = || branches.iter().filter(is_sideways);
+    let widest = sideways().max_by(|a, b| a.radius.total_cmp(&b.radius))?;
+    let as_wide = sideways().filter(|other| other.radius > CLEARLY_WIDER * widest.radius).count();
+    (as_wide == 1 && widest.radius >= RENAL_RADIUS).then_some(widest)
 }
 
 fn inferior_mesenteric(branches: &[Branch]) -> Option<&Branch> {

@@ -15,8 +15,8 @@ pub struct NamedStretch {
 /// The named stretches of each line.
 #[derive(Default)]
 pub(super) struct Given {
-    /// Line, stretch and piece.
-    stretches: Vec<(usize, usize, NamedStretch)>,
+    /// Numbers of pieces with their stretches.
+    stretches: Vec<(usize, NamedStretch)>,
 }
 
 impl Given {
@@ -25,23 +25,23 @@ impl Given {
         let name = offered_name(name, side);
         let mut left = length;
         for way in ways {
-            if left <= 0.0 || self.stretches.iter().any(|(_, piece, _)| *piece == way.piece) {
+            if left <= 0.0 || self.stretches.iter().any(|(piece, _)| *piece == way.piece) {
                 continue;
             }
             let piece = &graph.pieces[way.piece];
             let [from, to] = piece.range;
             let long = left.min(to - from);
             let range = if way.is_backward { [to - long, to] } else { [from, from + long] };
-            self.stretches.push((piece.line, way.piece, NamedStretch { name: name.clone(), range }));
+            self.stretches.push((way.piece, NamedStretch { name: name.clone(), range }));
             left -= to - from;
         }
     }
 
     /// The stretches of a line in order; neighbours with one name are one stretch.
-    pub(super) fn of_line(&self, line: usize) -> Vec<NamedStretch> {
-        let own = self.stretches.iter().filter(|(of, ..)| *of == line);
-        let mut own: Vec<NamedStretch> = own.map(|(_, _, stretch)| stretch.clone()).collect();
-        own.sort_by(|a, b| a.range[0].total_cmp(&b.range[0]));
+    pub(super) fn of_line(&self, graph: &Graph, line: usize) -> Vec<NamedStretch> {
+        let pieces = (0..graph.pieces.len()).filter(|piece| graph.pieces[*piece].line == line);
+        let of_piece = |piece| self.stretches.iter().find(|(named, _)| *named == piece);
+        let own = pieces.filter_map(of_piece).map(|(_, stretch)| stretch.clone());
         let mut joined: Vec<NamedStretch> = Vec::new();
         for stretch in own {
             match joined.last_mut() {

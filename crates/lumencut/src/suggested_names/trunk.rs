@@ -80,9 +80,9 @@ pub(super) struct Bifurcation {
     pub legs: [Way; 2],
 }
 
-/// All bifurcations that may be that of the aorta, the one with the widest trunk first. The inferior vena cava has one too.
+/// All bifurcations that may be that of the aorta. The inferior vena cava has one too.
 pub(super) fn bifurcations(graph: &Graph) -> Vec<Bifurcation> {
-    let mut found: Vec<(f64, Bifurcation)> = Vec::new();
+    let mut found = Vec::new();
     for up in graph.ways().filter(|way| (AORTA[0]..AORTA[1]).contains(&graph.radius(*way))) {
         let course = graph.course(up, 60.0);
         if course.reach(60.0).z < RISE {
@@ -91,11 +91,10 @@ pub(super) fn bifurcations(graph: &Graph) -> Vec<Bifurcation> {
         let radius = course.radius();
         if let Some(legs) = legs(graph, up, radius) {
             let trunk = Trunk::of(graph, graph.course(up, TRUNK));
-            found.push((radius, Bifurcation { trunk, legs }));
+            found.push(Bifurcation { trunk, legs });
         }
     }
-    found.sort_by(|a, b| b.0.total_cmp(&a.0));
-    found.into_iter().map(|(_, found)| found).collect()
+    found
 }
 
 /// The right and left vessel below a trunk.
@@ -106,13 +105,10 @@ fn legs(graph: &Graph, up: Way, trunk: f64) -> Option<[Way; 2]> {
         course.reach(LEGS).z <= -FALL && (LEG_SHARE[0]..LEG_SHARE[1]).contains(&share)
     };
     let below = graph.after(Graph::reversed(up));
-    let mut legs: Vec<(f64, Way)> =
-        below.into_iter().filter(falls).map(|way| (graph.course(way, LEGS).reach(LEGS).x, way)).collect();
-    legs.sort_by(|a, b| a.0.total_cmp(&b.0));
-    match legs[..] {
-        [(right, a), (left, b)] if left - right >= APART => Some([a, b]),
-        _ => None,
-    }
+    let legs: Vec<Way> = below.into_iter().filter(falls).collect();
+    let &[a, b] = &legs[..] else { return None };
+    let [first, second] = [a, b].map(|way| graph.course(way, LEGS).reach(LEGS).x);
+    ((first - second).abs() >= APART).then_some(if first < second { [a, b] } else { [b, a] })
 }
 
 /// All vessels that may be the aortic arch, from the ascending to the descending limb. The pulmonary trunk has a similar shape.

@@ -174,10 +174,10 @@ fn vessels_brighter_than_the_aorta_and_pale_ones_away_from_it_are_veins_or_heart
 
 #[test]
 fn only_vessels_that_a_reader_has_not_named_are_offered_a_name() {
-    for name in ["", "Vessel 3", "Branch 12", "left part 2"] {
+    for name in ["", "Vessel 3", "Branch 12", "LAD 2"] {
         assert!(is_nameless(name), "{name}");
     }
-    for name in ["LAD 2", "Aorta", "graft", "left renal artery 2"] {
+    for name in ["LAD", "Aorta", "graft"] {
         assert!(!is_nameless(name), "{name}");
     }
 }

@@ -81,29 +81,6 @@ export type Compared = {
   readonly method: StenosisMethod;
 };
 
-export type Comparison = {
-  /** What changed, in sentences. */
-  readonly lines: ReadonlyArray<string>;
-  /** Arc length of each section (mm), and the arc length on the other vessel; null beyond its ends. */
-  readonly places: ReadonlyArray<readonly [number, number | null]>;
-  /** The report as HTML. */
-  readonly report: string;
-};
-
-export type ComparisonRequest = {
-  readonly line: number;
-  /** What the vessel is called. */
-  readonly vessel: string;
-  /** The record of the profile in the later scan. */
-  readonly later: string;
-  /** What the earlier and the later scan are called. */
-  readonly scans: readonly [string, string];
-  /** Places that belong together (arc lengths on both vessels, mm); none matches the vessels by shape. */
-  readonly pairs: ReadonlyArray<Pair>;
-  /** Doubts of the page about the scans. */
-  readonly doubts: ReadonlyArray<string>;
-};
-
 export type Cpr = {
   readonly vessel: number;
   /** Rotation about the axis of the vessel (radians). */
@@ -1317,11 +1294,6 @@ export type Questions = {
     };
     readonly answer: string;
   };
-  /** Compares a line of this scan with its profile in a later scan. */
-  readonly compared: {
-    readonly message: ComparisonRequest;
-    readonly answer: Comparison;
-  };
   /** The findings on vessels and the straight distances (mm), in the sentences of the report. */
   readonly findings: {
     readonly message: {
@@ -1451,7 +1423,6 @@ export const TURNS = {
   profiles_csv: { when: 'first', words: null },
   profiles_json: { when: 'first', words: null },
   profile_record: { when: 'first', words: null },
-  compared: { when: 'first', words: null },
   findings: { when: 'first', words: null },
   measure_layout: { when: 'first', words: null },
   report_plan: { when: 'first', words: null },
