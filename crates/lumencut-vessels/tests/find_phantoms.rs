@@ -22,7 +22,6 @@ fn found(volume: &Volume) -> Trees {
     find_vessels(volume, &request(None)).unwrap()
 }
 
-/// The distance of a place from the nearest of some lines (mm).
 fn away<'a>(place: DVec3, lines: impl Iterator<Item = &'a [DVec3]>) -> f64 {
     let from_segment = |pair: &[DVec3]| {
         let way = pair[1] - pair[0];
@@ -91,7 +90,6 @@ fn a_fork_is_a_whole_vessel_from_its_root_and_a_branch_of_it() {
     for point in lines(&trees).flatten().filter(|point| point.z.abs() > 14.0) {
         assert!(away(*point, truth(&made)) < 5.0, "{point}");
     }
-    // Neither another unit of the values nor values that are no numbers change the vessels.
     let scaled: Vec<f64> = made.voxels.iter().map(|value| f64::from(*value) * 0.1 + 1000.0).collect();
     let mut holes: Vec<f32> = made.voxels.iter().map(|value| f32::from(*value)).collect();
     holes[..made.size[0] * made.size[1] * 4].fill(f32::NAN);
@@ -102,7 +100,6 @@ fn a_fork_is_a_whole_vessel_from_its_root_and_a_branch_of_it() {
         let inner = lines(&other).flatten().filter(|point| point.z > -22.0);
         assert!(inner.into_iter().all(|point| away(*point, lines(&trees)) < 0.3));
     }
-    // A smallest radius above that of the branches leaves one vessel.
     let widths = made.tree.vessels().iter().map(|vessel| median(vessel.radius().unwrap()));
     let mut widths: Vec<f64> = widths.collect();
     widths.sort_by(f64::total_cmp);
@@ -111,7 +108,6 @@ fn a_fork_is_a_whole_vessel_from_its_root_and_a_branch_of_it() {
     assert_eq!(wide.vessels.len(), 1);
 }
 
-/// A volume of cubes of 0.8 mm around the origin, with noise.
 fn made(size: [usize; 3], noisy: f64, value: impl Fn(DVec3) -> f64) -> Vec<f32> {
     let mut random = Random::new(3);
     let mut voxel = |n: usize| {
@@ -127,7 +123,6 @@ fn affine(size: [usize; 3]) -> DAffine3 {
     DAffine3::from_translation(middle) * DAffine3::from_scale(DVec3::splat(0.8))
 }
 
-/// The share of a structure at a depth below its surface (mm).
 fn share(depth: f64) -> f64 {
     (0.5 + depth / 0.8).clamp(0.0, 1.0)
 }

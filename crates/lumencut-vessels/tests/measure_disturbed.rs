@@ -24,7 +24,6 @@ fn bias(profile: &Profile, diameter: f64) -> f64 {
     100.0 * (mean(&profile.diameter_equivalent()) / diameter - 1.0)
 }
 
-/// The fraction of sections with one of these flags.
 fn flagged(profile: &Profile, flags: u32) -> f64 {
     profile.flags.iter().filter(|found| **found & flags != 0).count() as f64 / profile.len() as f64
 }
@@ -55,7 +54,6 @@ fn a_neighbour_at_a_millimetre_is_flagged_and_harms_little() {
     assert!(bias(&profile, 4.0).abs() < 5.0, "{}", bias(&profile, 4.0));
 }
 
-/// A scan of 8 bits of a vessel of 6 mm, with the level and blur of scans without HU.
 const OF_BYTES: Tube = Tube { sides: even(0.5), fwhm: 0.9, ..UPRIGHT };
 
 fn of_bytes(value: impl Fn(DVec3) -> f64) -> Profile {
@@ -65,7 +63,6 @@ fn of_bytes(value: impl Fn(DVec3) -> f64) -> Profile {
 
 #[test]
 fn what_is_brighter_than_lumen_by_more_than_its_noise_is_no_lumen() {
-    // Dense plaque over 6 mm: in the lumen at the wall, in the entire lumen, or across it.
     for (diameter, x, more) in [(1.4, 2.3, 44.0), (6.0, 0.0, 35.0), (4.0, -1.0, 35.0)] {
         let [lumen, plaque] = [OF_BYTES.disc(6.0, 0.0), OF_BYTES.disc(diameter, x)];
         let within = |place: DVec3| if place.z.abs() < 3.0 { more * plaque(place) } else { 0.0 };
@@ -126,7 +123,6 @@ fn a_line_that_leaves_its_vessel_is_measured_as_far_as_there_is_a_wall() {
             Scan::new([30, 30, 175], tube.sides, NOISE, |place| TISSUE + (LUMEN - TISSUE) * inside(place));
         profile(&scan.volume(), tube.line(130.0), Some(FWHM), WallRequest::Automatic).unwrap()
     };
-    // The lumen ends 55 mm from the start of the line.
     let cut = of(-10.0);
     let [[from, to]] = cut.without_wall[..] else { panic!("{:?}", cut.without_wall) };
     assert!((45.0..=56.0).contains(&from) && (to - 130.0).abs() < 1e-9, "{from} {to}");

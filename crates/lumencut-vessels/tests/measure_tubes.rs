@@ -15,7 +15,6 @@ use lumencut_vessels::measure::wall::WallRequest;
 
 use crate::scans::{FWHM, LUMEN, NOISE, Scan, TISSUE, Tube, UPRIGHT, even, mean, narrowed, profile};
 
-/// The profile of a round vessel of `length` mm.
 fn round(diameter: f64, length: f64, tube: Tube, fwhm: Option<f64>) -> Profile {
     let scan = scan(diameter, length, tube);
     profile(&scan.volume(), tube.line(length), fwhm, WallRequest::Automatic).unwrap()
@@ -163,7 +162,6 @@ fn all_vessels_of_a_tree_are_measured_with_the_point_spread_of_its_wide_vessels(
     assert_eq!((first.fwhm, &first.fwhm_source), (second.fwhm, &second.fwhm_source));
     assert!((first.fwhm / FWHM - 1.0).abs() < 0.1, "{}", first.fwhm);
     assert!((mean(&second.diameter_equivalent()) / 3.0 - 1.0).abs() < 0.03);
-    // A tree of stubs tells nothing, not even of a longer vessel.
     let stubs = [beside(-4.8, 39), beside(5.6, 39)];
     assert!(matches!(of(&tree[0], &[]).fwhm_source, Source::Estimated { .. }));
     assert_eq!(of(&tree[0], &stubs).fwhm, 0.85);
@@ -197,7 +195,6 @@ fn a_line_beside_the_middle_is_recentred_and_where_it_is_outside_that_is_said() 
     let beside = of(&|_| 1.2);
     assert!(bias(&beside, 4.0).abs() < 2.0);
     assert!((0..beside.len()).all(|n| beside.flags[n] == 0 && beside.center[n].x.abs() < 0.1));
-    // The line leaves the lumen 2 mm from its middle.
     let leaving = of(&|n| 2.8 * n as f64 / 40.0);
     let outside: Vec<usize> = (0..leaving.len()).filter(|n| leaving.flags[*n] & RECENTERED != 0).collect();
     assert!((leaving.arc_length[outside[0]] - 20.0 * 2.0 / 2.8).abs() < 1.5);
@@ -218,7 +215,6 @@ fn cross_sections_lie_across_the_vessel_with_the_left_of_the_patient_on_the_righ
     let positions = section.positions();
     assert!(positions.iter().all(|position| position.dot(tube.along).abs() < 1e-9));
     assert!(positions[59].x > positions[0].x && positions[59 * 60].y > positions[0].y);
-    // A threshold at half of the maximum errs by the blur.
     let inside = section.value.iter().filter(|value| f64::from(**value) > (LUMEN + TISSUE) / 2.0).count();
     assert!((inside as f64 * 0.04 / (PI * 2.5 * 2.5) - 1.0).abs() < 0.05);
 }

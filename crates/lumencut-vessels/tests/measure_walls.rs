@@ -19,10 +19,8 @@ struct Artery {
     diameter: f64,
     thickness: f64,
     wall: f64,
-    /// Levels (HU) for x below and above 0.
     around: [f64; 2],
     fwhm: f64,
-    /// Changes the values: factor and offset.
     unit: [f64; 2],
     calcium: f64,
 }
@@ -138,7 +136,6 @@ fn the_source_of_the_wall_is_that_of_the_request_and_the_unit() {
     assert!(profile.wall.iter().all(|wall| wall[0].is_nan()));
     let other = Artery { unit: [0.5, 500.0], ..ARTERY };
     assert_eq!(of(&other, WallRequest::Automatic).wall_source, WallSource::OtherUnit);
-    // A level in that unit gives the same lumen.
     let [one, two] = [of(&other, WallRequest::Level([522.5, 12.5])), ARTERY.automatic()];
     for (n, diameter) in one.diameter_equivalent().into_iter().enumerate() {
         assert!((diameter - two.diameter_equivalent()[n]).abs() < 0.01);

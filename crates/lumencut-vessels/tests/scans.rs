@@ -22,7 +22,6 @@ pub fn noise(random: &mut Random) -> f64 {
     (0..12).map(|_| random.number()).sum::<f64>() - 6.0
 }
 
-/// Voxels around the origin.
 pub struct Scan {
     size: [usize; 3],
     affine: DAffine3,
@@ -47,14 +46,12 @@ impl Scan {
         lumencut_scenes::volumes::volume(Voxels::F32(&self.values), self.size, self.affine)
     }
 
-    /// The same scan as whole numbers from 0 to 255.
     pub fn of_bytes<T>(&self, work: impl FnOnce(&Volume) -> T) -> T {
         let values: Vec<u8> = self.values.iter().map(|value| value.round() as u8).collect();
         work(&lumencut_scenes::volumes::volume(Voxels::U8(&values), self.size, self.affine))
     }
 }
 
-/// The profile along a line, with sections at most 0.5 mm apart.
 pub fn profile(volume: &Volume, line: Vec<DVec3>, fwhm: Option<f64>, wall: WallRequest) -> Result<Profile> {
     let request = MeasureRequest { step: 0.5, fwhm, wall, tree: &[], stop: &|| false };
     measure(volume, &Vessel::new(line, None)?, &request)
@@ -68,16 +65,13 @@ pub struct Tube {
     pub fwhm: f64,
 }
 
-/// A vessel along z in voxels of 0.4 mm.
 pub const UPRIGHT: Tube = Tube { along: DVec3::Z, sides: even(0.4), fwhm: FWHM };
 
-/// Sides (mm) of cubes.
 pub const fn even(side: f64) -> DMat3 {
     DMat3::from_diagonal(DVec3::splat(side))
 }
 
 impl Tube {
-    /// Unit vectors across the vessel.
     fn across(&self) -> [DVec3; 2] {
         let first = DVec3::Y.cross(self.along).normalize();
         [first, self.along.cross(first).normalize()]
@@ -95,12 +89,10 @@ impl Tube {
         move |place| boundary.value(inside(place))
     }
 
-    /// The share of a disc at x mm from the axis.
     pub fn disc(&self, diameter: f64, x: f64) -> impl Fn(DVec3) -> f64 + use<> {
         self.share(Ellipse::circle(DVec2::X * x, 0.5 * diameter))
     }
 
-    /// A line of this length in its middle.
     pub fn line(&self, length: f64) -> Vec<DVec3> {
         let count = (2.0 * length) as usize;
         let at = |n: usize| length * (n as f64 / count as f64 - 0.5);
@@ -108,7 +100,6 @@ impl Tube {
     }
 }
 
-/// The mean of numbers.
 pub fn mean(of: &[f64]) -> f64 {
     of.iter().sum::<f64>() / of.len() as f64
 }

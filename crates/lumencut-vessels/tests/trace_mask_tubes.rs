@@ -7,7 +7,6 @@ use lumencut_vessels::trace::mask::{MaskRequest, TracedMask, trace_mask};
 
 type Tubes<'a> = &'a [(&'a [[f64; 3]], f64)];
 
-/// A mask of lines of points (mm) with radii.
 struct Mask {
     size: [usize; 3],
     affine: DAffine3,
@@ -32,7 +31,6 @@ impl Mask {
         Self { size, affine, cells }
     }
 
-    /// 40 × 40 × 40 voxels of 1 mm.
     fn cubes(tubes: Tubes) -> Self {
         Self::new([40; 3], DAffine3::IDENTITY, tubes)
     }
@@ -149,7 +147,6 @@ fn a_flat_cut_leaves_no_fork() {
     assert!(vessel.radius.iter().all(|radius| (radius - 6.4).abs() < 0.25));
 }
 
-/// Five arms that meet at one point.
 fn star() -> Mask {
     let arm: &[[f64; 3]] = &[[20.0, 20.0, 20.0], [31.0, 27.0, 35.0]];
     Mask::cubes(&[(ACROSS[0], 2.6), (ACROSS[1], 2.6), (arm, 2.6)])
@@ -160,7 +157,6 @@ fn reversed_axes_and_the_number_of_threads_do_not_matter() {
     let star = star();
     let expected = star.traced();
     assert!(expected.vessels.len() >= 5);
-    // A reversed axis with the affine that keeps each voxel in its place.
     for axis in 0..3 {
         let stride = [1, 40, 1600][axis];
         let mirror = |n: usize| n + stride * 39 - 2 * stride * (n / stride % 40);

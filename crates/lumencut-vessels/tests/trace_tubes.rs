@@ -44,7 +44,6 @@ fn share(depth: f64) -> f64 {
     1.0 / (1.0 + (-4.0 * depth).exp())
 }
 
-/// A grid around the circle, and the values of its voxels.
 struct Scan {
     size: [usize; 3],
     affine: DAffine3,
@@ -83,7 +82,6 @@ fn even(side: f64) -> DMat3 {
     DMat3::from_diagonal(DVec3::splat(side))
 }
 
-/// A lumen of `radius` at an angle, from angle 0.2 to π - 0.2.
 fn lumen([angle, outwards, upwards]: [f64; 3], radius: f64) -> f64 {
     let end = BEND * (angle - 0.2).min(PI - 0.2 - angle);
     share((radius - outwards.hypot(upwards)).min(end))
@@ -91,13 +89,11 @@ fn lumen([angle, outwards, upwards]: [f64; 3], radius: f64) -> f64 {
 
 const ENDS: [f64; 2] = [0.3, PI - 0.3];
 
-/// Mean and largest distance of a line from the axis (mm).
 fn errors(line: &Traced) -> [f64; 2] {
     let off: Vec<f64> = line.line.points.iter().map(|point| away(*point)).collect();
     [off.iter().sum::<f64>() / off.len() as f64, off.into_iter().fold(0.0, f64::max)]
 }
 
-/// The radius of a vessel of 3 mm, whose diameter is reduced in the middle over 12 mm.
 fn narrowed(angle: f64, healthy: f64, percent: f64) -> f64 {
     let along = (BEND * (angle - PI / 2.0)).abs().min(6.0);
     healthy * (1.0 - percent / 100.0 * (0.5 + 0.5 * (PI * along / 6.0).cos()))
@@ -115,7 +111,6 @@ fn a_tube_with_a_stenosis_is_traced_within_a_twentieth_of_a_millimetre() {
     assert!((0..count).map(wrong).sum::<f64>() / (count as f64) < 0.05);
     assert!(line.line.confidence.iter().all(|confidence| *confidence > 0.8));
     assert!(!line.bridged.contains(&true));
-    // Clicks beside the middle move the line by less than a tenth of a millimetre.
     let moved = [on(0.3, 1.8, 0.6), on(1.5, -0.8, -0.6), on(PI - 0.3, -1.2, 1.2)];
     let line = scan.traced(&moved).unwrap();
     let count = line.line.points.len();
@@ -168,7 +163,6 @@ fn any_affine_grid_will_do_in_any_order_of_its_axes() {
     let other = lumencut_scenes::volumes::volume(Voxels::F32(&floats), scan.size, scan.affine);
     let clicks = Clicks { vessels: vec![clicks.to_vec()], ..Clicks::default() };
     assert_eq!(traced(&other, &clicks).unwrap(), first);
-    // The same voxels with i and k exchanged.
     let [ni, nj, nk] = scan.size;
     let exchanged = DMat3::from_cols(DVec3::Z, DVec3::Y, DVec3::X);
     let affine = scan.affine * DAffine3::from_mat3(exchanged);
