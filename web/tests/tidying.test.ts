@@ -117,18 +117,21 @@ afterEach(() => {
 test('short and thin vessels are marked while the limits change, and are removed in one step', async () => {
   expect(marked.value.size).toBe(0);
   shorterThan.value = 10;
-  expect([...marked.value]).toEqual([3, 5]);
+  expect([...marked.value], 'vessel 3 is short, but connects vessel 2 to the trunk').toEqual([5]);
+  shorterThan.value = 35;
+  expect([...marked.value], 'both are short').toEqual([2, 3, 5]);
+  shorterThan.value = 5;
   thinnerThan.value = 2;
-  expect([...marked.value]).toEqual([3, 4, 5]);
-  shorterThan.value = 9;
   expect([...marked.value], 'a limit itself is long enough; a radius that is not known is not thin').toEqual([
-    3, 4, 5,
+    4,
   ]);
+  shorterThan.value = 10;
   thinnerThan.value = 0;
   expect([...marked.value]).toEqual([5]);
   thinnerThan.value = 2;
+  expect([...marked.value]).toEqual([4, 5]);
   expect(await removeMarked()).toBe(true);
-  expect(ids()).toEqual([1, 2, 6, 7, 8]);
+  expect(ids()).toEqual([1, 2, 3, 6, 7, 8]);
   expect([shorterThan.value, thinnerThan.value]).toEqual([0, 0]);
   undo();
   expect(ids()).toEqual([1, 2, 3, 4, 5, 6, 7, 8]);

@@ -103,9 +103,18 @@ function isMarked(vessel: DocumentVessel): boolean {
   return length < shorterThan.value || (calibre !== null && calibre < thinnerThan.value);
 }
 
-export const marked = computed<ReadonlySet<number>>(
-  () => new Set(sure.value.filter(isMarked).map((vessel) => vessel.id)),
-);
+/** Short or thin vessels, but none that connects a longer and thicker vessel to its tree: nothing comes loose. */
+export const marked = computed<ReadonlySet<number>>(() => {
+  const marked = new Map(sure.value.filter(isMarked).map((vessel) => [vessel.line, vessel.id]));
+  for (const kept of sure.value.filter((vessel) => !isMarked(vessel))) {
+    for (let above = parentOf(kept.line); above !== null; above = parentOf(above)) {
+      marked.delete(above);
+    }
+  }
+  return new Set(marked.values());
+});
+
+const parentOf = (line: LineId): LineId | null => facts.value.get(line)?.parent ?? null;
 
 export const unconnected = computed<readonly number[]>(() => {
   const picked = sure.value.find((vessel) => vessel.id === pickedId());
