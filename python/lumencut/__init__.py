@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from lumencut.files.centerline_writers import write_centerlines
     from lumencut.files.centerlines import read_centerlines
     from lumencut.files.volumes import SeriesReport, list_series, read_volume
-    from lumencut.measuring.comparison import Change, Comparison, compare
+    from lumencut.measuring.comparison import Change, Comparison, compare_scans
     from lumencut.measuring.flags import Flag
     from lumencut.measuring.measurements import Measurements
     from lumencut.measuring.profile import Profile
@@ -113,7 +113,7 @@ _HOME = {
     "files.centerline_writers": ("write_centerlines",),
     "files.centerlines": ("read_centerlines",),
     "files.volumes": ("SeriesReport", "list_series", "read_volume"),
-    "measuring.comparison": ("Change", "Comparison", "compare"),
+    "measuring.comparison": ("Change", "Comparison", "compare_scans"),
     "measuring.flags": ("Flag",),
     "measuring.measurements": ("Measurements",),
     "measuring.profile": ("Profile",),
@@ -220,8 +220,8 @@ __all__ = [
     "batch",
     "brightest",
     "cfa",
-    "compare",
     "compare_centerlines",
+    "compare_scans",
     "cpr",
     "cr",
     "cross_section",

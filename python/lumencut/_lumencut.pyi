@@ -119,7 +119,7 @@ __all__ = [
     "check_vessel",
     "check_window",
     "coloured",
-    "compare",
+    "compare_scans",
     "comparison_report",
     "contains",
     "context_window",
@@ -767,7 +767,7 @@ def profile_json(profile: Profile) -> str: ...
 def profile_marks(profile: Profile, at: float | None, references: Sequence[float]) -> list[_MarkParts]: ...
 def read_session_file(content: bytes, name: str) -> str: ...
 def part_name(taken: list[str], whole: str) -> str: ...
-def compare(
+def compare_scans(
     profiles: tuple[Profile, Profile],
     pairs: Sequence[tuple[float, float]],
     vessel: str,

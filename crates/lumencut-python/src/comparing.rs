@@ -109,7 +109,7 @@ impl Comparison {
 /// Compares two profiles; `pairs` are arc lengths on both that belong together (mm).
 #[pyfunction]
 #[allow(clippy::needless_pass_by_value)]
-pub(crate) fn compare(
+pub(crate) fn compare_scans(
     py: Python<'_>,
     profiles: [Py<Profile>; 2],
     pairs: Vec<[f64; 2]>,

@@ -143,7 +143,7 @@ fn _lumencut(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(tree::path, module)?)?;
     module.add_function(wrap_pyfunction!(tree::parts, module)?)?;
     module.add_class::<comparing::Comparison>()?;
-    module.add_function(wrap_pyfunction!(comparing::compare, module)?)?;
+    module.add_function(wrap_pyfunction!(comparing::compare_scans, module)?)?;
     module.add_function(wrap_pyfunction!(comparing::comparison_report, module)?)?;
     module.add_function(wrap_pyfunction!(suggested_names::suggest_names, module)?)?;
     module.add_function(wrap_pyfunction!(suggested_names::suggested_for, module)?)?;

@@ -68,7 +68,7 @@ def main(ctx: click.Context) -> None:
         say(first_words())
 
 
-for _command in (
+ALL_COMMANDS = (
     view,
     render,
     turntable,
@@ -89,5 +89,6 @@ for _command in (
     settings,
     doctor,
     demo,
-):
+)
+for _command in ALL_COMMANDS:
     main.add_command(_command)

@@ -1,4 +1,4 @@
-"""``lumencut compare``: the lumen of the same vessels in two scans."""
+"""``lumencut compare-scans``: the lumen of the same vessels in two scans."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class _Side(NamedTuple):
     tree: VesselTree
 
 
-@click.command("compare", short_help="Compare the lumen of vessels in two scans.")
+@click.command("compare-scans", short_help="Compare the lumen of vessels in two scans.")
 @click.argument("earlier", type=options.FILE)
 @click.argument("earlier_lines", type=options.FILE)
 @click.argument("later", type=options.FILE)
@@ -65,7 +65,7 @@ def compare_scans(output: tuple[Path, ...], other_patient: bool, **chosen: Any) 
     belong together follow from the shape of the vessels, from branches, or from --pair.
 
     \b
-    lumencut compare before.nii.gz before.vtp after.nii.gz after.vtp -o change.html --vessel Aorta
+    lumencut compare-scans before.nii.gz before.vtp after.nii.gz after.vtp -o change.html --vessel Aorta
     """  # noqa: D301 - click needs the control character itself
     _check(output, chosen)
     sides = _Sides(*(_side(chosen, which) for which in ("earlier", "later")))
@@ -111,7 +111,7 @@ def _side(chosen: dict[str, Any], which: str) -> _Side:
     check_reading(one, [volume], has_centerlines=True)
     voxels, tree = read_files(files, one)
     if voxels is None or tree is None:
-        raise click.UsageError("lumencut compare needs two scans with centerlines")
+        raise click.UsageError("lumencut compare-scans needs two scans with centerlines")
     from lumencut.scene.placement import check_meeting
 
     check_meeting(voxels, tree)
@@ -155,7 +155,7 @@ def _listed(names: dict[str, int]) -> str:
 def _compared(
     sides: _Sides, pairs: list[tuple[str, int, int]], chosen: dict[str, Any], *, other_patient: bool
 ) -> list[Comparison]:
-    from lumencut.measuring.comparison import compare
+    from lumencut.measuring import comparison
     from lumencut.measuring.sections import measure
 
     found = []
@@ -167,7 +167,7 @@ def _compared(
                     for side, n in zip(sides, ids, strict=True)
                 )
                 scans = (sides.earlier.name, sides.later.name)
-                made = compare(
+                made = comparison.compare_scans(
                     first, second, chosen["pair"], vessel=name, scans=scans, other_patient=other_patient
                 )
                 found.append((name, made))

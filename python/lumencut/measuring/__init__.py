@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from lumencut.base.public_names import public_name
 
 if TYPE_CHECKING:
-    from lumencut.measuring.comparison import Change, Comparison, compare
+    from lumencut.measuring.comparison import Change, Comparison, compare_scans
     from lumencut.measuring.flags import Flag
     from lumencut.measuring.measurements import Measurements
     from lumencut.measuring.profile import Profile
@@ -25,7 +25,7 @@ __all__ = [
     "Measurements",
     "Profile",
     "Stenosis",
-    "compare",
+    "compare_scans",
     "cross_section",
     "measure",
 ]

@@ -51,7 +51,7 @@ class Change(NamedTuple):
 
 
 class Comparison:
-    """A vessel before and after; :func:`lumencut.compare` makes it.
+    """A vessel before and after; :func:`lumencut.compare_scans` makes it.
 
     Arrays have one row for each section of the earlier profile, n in all; what is not measured in both scans
     is NaN. Diameters are those of circles of the same area.
@@ -142,7 +142,7 @@ def save_all(compared: list[Comparison], path: str | os.PathLike[str]) -> None:
     write_text(checked, made[ending]() if ending in made else _lumencut.comparison_report(cores))
 
 
-def compare(
+def compare_scans(
     earlier: Profile,
     later: Profile,
     pairs: Iterable[tuple[float, float]] = (),
@@ -184,7 +184,7 @@ def compare(
     checked = [tuple(numbers(MeasuringError, "pair of places", pair, (2,)).tolist()) for pair in pairs]
     both = (earlier._core, later._core)
     doubts = _doubts(earlier, later, other_patient=other_patient)
-    return Comparison(_lumencut.compare(both, checked, vessel, scans, doubts))
+    return Comparison(_lumencut.compare_scans(both, checked, vessel, scans, doubts))
 
 
 def _doubts(earlier: Profile, later: Profile, *, other_patient: bool) -> list[str]:

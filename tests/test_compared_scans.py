@@ -7,7 +7,7 @@ import pytest
 from click.testing import CliRunner
 
 import lumencut
-from lumencut import Vessel, VesselTree, Volume, compare, measure, phantom
+from lumencut import Vessel, VesselTree, Volume, compare_scans, measure, phantom
 from lumencut.cli import main
 from lumencut.scene.study import Study
 from measure_scenes import LUMEN, NOISE, PARTS, TISSUE, Grid
@@ -67,7 +67,7 @@ def profiles(scans):
 
 
 def test_a_stenosis_that_grew_is_found_by_as_much_as_it_grew(scans, profiles):
-    found = compare(profiles[0], profiles[1])
+    found = compare_scans(profiles[0], profiles[1])
     (change,) = found.changes
     line = scans[0][1].points
     way = np.concatenate([[0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))])
@@ -84,13 +84,13 @@ def test_a_stenosis_that_grew_is_found_by_as_much_as_it_grew(scans, profiles):
 
 
 def test_a_moved_patient_is_no_change(profiles):
-    found = compare(profiles[0], profiles[2])
+    found = compare_scans(profiles[0], profiles[2])
     assert found.changes == ()
     assert "no change beyond 2 standard deviations" in str(found)
 
 
 def test_tables_and_reports_state_the_change(profiles, tmp_path):
-    found = compare(profiles[0], profiles[1], vessel="ICA", scans=("2024", "2026 <b>"))
+    found = compare_scans(profiles[0], profiles[1], vessel="ICA", scans=("2024", "2026 <b>"))
     for name in ("change.csv", "change.json", "change.html"):
         found.save(tmp_path / name)
     rows = (tmp_path / "change.csv").read_text().splitlines()
@@ -107,15 +107,15 @@ def test_tables_and_reports_state_the_change(profiles, tmp_path):
 def test_what_cannot_be_compared_is_refused(profiles):
     for earlier, later in ((None, profiles[0]), (profiles[0], "profile")):
         with pytest.raises(lumencut.MeasuringError, match="expected a Profile"):
-            compare(earlier, later)
+            compare_scans(earlier, later)
     for pairs in ([(1.0, 2.0, 3.0)], [("a", 1)], [(1.0, 1e9)], [(float("nan"), 1.0)], [(5, 5), (10, 40)]):
         with pytest.raises(lumencut.MeasuringError):
-            compare(profiles[0], profiles[1], pairs)
+            compare_scans(profiles[0], profiles[1], pairs)
     straight = phantom.straight_tube()
     tube = measure(straight.volume, straight.tree[0])
     with pytest.raises(lumencut.MeasuringError, match="give a pair of places"):
-        compare(tube, tube)
-    assert compare(tube, tube, [(30.0, 30.0)]).changes == ()
+        compare_scans(tube, tube)
+    assert compare_scans(tube, tube, [(30.0, 30.0)]).changes == ()
 
 
 def test_scans_of_two_patients_or_modalities_are_stated(profiles):
@@ -129,11 +129,13 @@ def test_scans_of_two_patients_or_modalities_are_stated(profiles):
 
     first, second = of(profiles[0], "A1", "CT"), of(profiles[2], "B2", "CT")
     with pytest.raises(lumencut.MeasuringError, match="'A1' and PatientID 'B2'"):
-        compare(first, second)
-    assert "PatientID 'B2'" in str(compare(first, second, other_patient=True))
-    assert "the earlier scan is CT, the later one MR" in str(compare(first, of(profiles[2], "A1", "MR")))
-    assert "patient" not in str(compare(first, of(profiles[2], "A1", "CT")))
-    assert "does not state its patient" in str(compare(first, profiles[2]))
+        compare_scans(first, second)
+    assert "PatientID 'B2'" in str(compare_scans(first, second, other_patient=True))
+    assert "the earlier scan is CT, the later one MR" in str(
+        compare_scans(first, of(profiles[2], "A1", "MR"))
+    )
+    assert "patient" not in str(compare_scans(first, of(profiles[2], "A1", "CT")))
+    assert "does not state its patient" in str(compare_scans(first, profiles[2]))
 
 
 def test_the_command_compares_vessels_by_their_names(scans, tmp_path):
@@ -144,7 +146,7 @@ def test_the_command_compares_vessels_by_their_names(scans, tmp_path):
         files += [str(tmp_path / f"{name}.nii.gz"), str(tmp_path / f"{name}.vtp")]
     report = tmp_path / "change.html"
     done = CliRunner().invoke(
-        main, ["compare", *files, "-o", str(report), "-o", str(tmp_path / "change.csv")]
+        main, ["compare-scans", *files, "-o", str(report), "-o", str(tmp_path / "change.csv")]
     )
     assert done.exit_code == 0, done.output
     assert "ICA: Comparison(" in done.output
@@ -156,9 +158,9 @@ def test_the_command_compares_vessels_by_their_names(scans, tmp_path):
         ["--later-vessel", "ICA"],
         ["-o", str(tmp_path / "a.pdf")],
     ):
-        assert CliRunner().invoke(main, ["compare", *files, "-o", str(report), *more]).exit_code == 2
+        assert CliRunner().invoke(main, ["compare-scans", *files, "-o", str(report), *more]).exit_code == 2
     bare = VesselTree([Vessel(scans[1][1].points, 3.0, "ECA")])
     lumencut.write_centerlines(bare, tmp_path / "after.vtp")
-    done = CliRunner().invoke(main, ["compare", *files, "-o", str(report)])
+    done = CliRunner().invoke(main, ["compare-scans", *files, "-o", str(report)])
     assert done.exit_code != 0
     assert "'ICA' in the earlier scan, 'ECA' in the later one" in done.output
