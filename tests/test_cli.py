@@ -15,7 +15,7 @@ from click.testing import CliRunner
 from PIL import Image
 
 from lumencut import VIEWS, Opacity, Renderer, Settings, Slab, TransferFunction, Window
-from lumencut.cli import main, options
+from lumencut.cli import ALL_COMMANDS, main, options
 from lumencut.cli.evaluate import evaluate
 from lumencut.cli.render import render
 from lumencut.cli.turntable import turntable
